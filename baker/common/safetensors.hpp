@@ -1,0 +1,36 @@
+// safetensors.hpp  Reader and writer of the safetensors container (little-endian u64 header length, JSON header, raw data).
+#pragma once
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace sinew::baker {
+
+enum class Dtype { kF32, kF64, kF16, kI32, kI64, kU8, kBool };
+
+struct Tensor {
+  Dtype dtype = Dtype::kF32;
+  std::vector<size_t> shape;
+  std::vector<unsigned char> bytes;  // row-major, as in the file
+  size_t count() const;
+  std::vector<float> as_f32() const;    // converts F16, F64, I32 ...; throws BadInput for what cannot be
+  std::vector<int32_t> as_i32() const;
+};
+
+struct Safetensors {
+  std::string path;  // for messages
+  std::map<std::string, std::string> metadata;
+  std::map<std::string, Tensor> tensors;
+  // The tensor, or BadInput naming the file, the tensor and the shape wanted; -1 in `shape` is any size.
+  const Tensor& need(const std::string& name, const std::vector<long>& shape) const;
+};
+
+Tensor tensor_f32(std::vector<size_t> shape, const std::vector<float>& values);
+Tensor tensor_i32(std::vector<size_t> shape, const std::vector<int32_t>& values);
+
+// Throws BadInput: unreadable, truncated, overlapping or out-of-range offsets, unknown dtype, header over 16 MiB.
+Safetensors read_safetensors(const std::string& path);
+void write_safetensors(const std::string& path, const Safetensors& file);  // atomic; data start 64-byte aligned
+
+}  // namespace sinew::baker

@@ -1,0 +1,14 @@
+// write_file.hpp  Files are written beside their place and renamed: a reader sees the old file or the whole new one.
+#pragma once
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace sinew::baker {
+
+// Throws BadInput naming the path when it cannot be written; nothing half-written is left behind.
+void write_file(const std::string& path, std::span<const std::byte> bytes);
+void write_file(const std::string& path, std::string_view text);
+
+}  // namespace sinew::baker

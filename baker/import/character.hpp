@@ -1,0 +1,76 @@
+// character.hpp  An imported character: what every room of the baker reads. Metres, Y up, right-handed.
+#pragma once
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace sinew::baker {
+
+using Matrix4 = Eigen::Matrix4d;
+using Vector3 = Eigen::Vector3d;
+
+inline constexpr int kInfluences = 8;
+
+struct Influences {
+  std::array<int, kInfluences> joint{};      // unused slots: joint 0, weight 0
+  std::array<double, kInfluences> weight{};  // descending, sum 1
+};
+
+struct Node {  // a node of the file's scene graph; parents come before children
+  std::string name;
+  int parent = -1;
+  bool has_matrix = false;  // matrix nodes are not animated; others use translation, rotation, scale
+  Matrix4 matrix = Matrix4::Identity();
+  Vector3 translation = Vector3::Zero();
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+  Vector3 scale = Vector3::Ones();
+};
+
+enum class Interpolation { kStep, kLinear, kCubicSpline };
+enum class Path { kTranslation, kRotation, kScale };
+
+struct Channel {
+  int node = 0;
+  Path path = Path::kTranslation;
+  Interpolation interpolation = Interpolation::kLinear;
+  std::vector<double> times_s;   // ascending
+  std::vector<double> values;    // 3 or 4 a key (rotation x y z w); cubic spline: in-tangent, value, out-tangent a key
+};
+
+struct Clip {
+  std::string name;
+  double duration_s = 0;
+  std::vector<Channel> channels;
+};
+
+struct Character {
+  std::string name;
+  std::vector<Node> nodes;
+  std::vector<int> joint_node;        // joint -> node; parents before children
+  std::vector<int> joint_parent;      // nearest ancestor that is a joint, -1 for none
+  std::vector<Matrix4> inverse_bind;  // joint-from-character in the bind pose
+  Matrix4 character_from_scene = Matrix4::Identity();  // unit and up-axis conversion, applied left of every node's global
+
+  // Vertices in file order, primitive after primitive, as the engine has them.
+  std::vector<Vector3> positions;  // bind pose
+  std::vector<Vector3> normals;    // unit; computed where the file has none
+  std::vector<Influences> skin;
+  std::vector<std::array<uint8_t, 4>> colors;  // material x vertex colour; for pictures
+  std::vector<double> stiffness;               // painted _STIFFNESS, 0 soft .. 1 rigid; empty: not painted
+  std::vector<std::array<int, 3>> triangles;
+
+  std::vector<int> welded;  // vertex -> first vertex at the same place with the same influences
+  std::vector<Clip> clips;
+  std::vector<std::string> notes;  // what was mended or dropped on import, one line each
+};
+
+// character-from-joint of every joint at t_s (clamped to the clip); clip null: the file's rest pose.
+std::vector<Matrix4> joint_matrices(const Character& character, const Clip* clip, double t_s);
+
+// Linear blend skinning in double: positions of all vertices under these joint matrices.
+std::vector<Vector3> skin_positions(const Character& character, const std::vector<Matrix4>& joints);
+
+}  // namespace sinew::baker

@@ -1,0 +1,18 @@
+// import_gltf.hpp  A skinned glTF 2.0 or VRM file made into a Character.
+#pragma once
+#include <string>
+
+#include "baker/import/character.hpp"
+
+namespace sinew::baker {
+
+struct ImportOptions {
+  double unit_m = 0;        // metres in one file unit; 0: guessed from the size (a character taller than 20 units is in centimetres)
+  char up = 'y';            // the file's up axis: 'y' (glTF's own) or 'z'
+  size_t max_vertices = 1'000'000;  // a larger character is refused before its buffers are copied
+};
+
+// Throws BadInput with one line (what, where, how to mend).
+Character import_gltf(const std::string& path, const ImportOptions& options = {});
+
+}  // namespace sinew::baker

@@ -1,0 +1,39 @@
+// tissue_layout.hpp  Which parts of a character are soft, and the control graph that stands for them.
+#pragma once
+#include <utility>
+#include <vector>
+
+#include "baker/import/character.hpp"
+#include "baker/mesh/recipe.hpp"
+
+namespace sinew::baker {
+
+struct ControlNode {
+  int vertex = 0;  // the (welded) surface vertex it stands on
+  int region = 0;
+  Vector3 position, normal;  // bind pose
+  double stiffness = 0;
+  Influences skin;
+};
+
+struct Region {
+  std::string name;
+  int frame_joint = 0;      // the joint with the most skin weight where the region meets rigid flesh
+  int first_node = 0, node_count = 0;
+  std::vector<int> vertices;             // ascending; all file vertices carried, duplicates at seams included
+  std::vector<std::vector<double>> carry;  // [node in region][vertex in region]; zero displacement at the rigid rim
+  Vector3 center = Vector3::Zero();
+  double radius_m = 0;
+};
+
+struct TissueLayout {
+  std::vector<double> stiffness;  // a vertex: painted, from the recipe, or by flesh thickness
+  std::vector<Region> regions;
+  std::vector<ControlNode> nodes;             // region after region
+  std::vector<std::pair<int, int>> edges;     // undirected, no self-loops, each region connected
+};
+
+// Throws BadInput: no soft vertex at all, a region smaller than four vertices is dropped with a note, a recipe's joint that does not exist (named).
+TissueLayout layout_tissue(Character& character, const Recipe& recipe);
+
+}  // namespace sinew::baker

@@ -1,0 +1,36 @@
+// pack_writer.hpp  Sections to a .sinew file. Byte-identical for equal input.
+#pragma once
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "pack/format.hpp"
+
+namespace sinew::baker {
+
+class PackWriter {
+ public:
+  explicit PackWriter(pack::FileKind kind) : kind_(kind) {}
+  template <class T>
+  void section(pack::SectionKind kind, const std::vector<T>& elements, size_t floats_an_element = 1);  // arrays of plain floats: 3, 12 ...
+  uint32_t string(const std::string& text);  // offset in kStrings; equal texts share one
+  std::vector<std::byte> finish() const;
+
+ private:
+  void add(pack::SectionKind kind, uint32_t element_bytes, const void* data, size_t bytes);
+  struct Section {
+    uint32_t element_bytes;
+    std::vector<std::byte> bytes;
+  };
+  pack::FileKind kind_;
+  std::map<uint32_t, Section> sections_;  // ascending by kind: the order in the file
+  std::string strings_;
+};
+
+template <class T>
+void PackWriter::section(pack::SectionKind kind, const std::vector<T>& elements, size_t per_element) {
+  add(kind, static_cast<uint32_t>(sizeof(T) * per_element), elements.data(), elements.size() * sizeof(T));
+}
+
+}  // namespace sinew::baker

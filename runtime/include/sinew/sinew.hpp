@@ -1,0 +1,6 @@
+// sinew.hpp  Everything public in one include.
+#pragma once
+#include "sinew/id.hpp"
+#include "sinew/status.hpp"
+#include "sinew/types.hpp"
+#include "sinew/world.hpp"

@@ -1,0 +1,75 @@
+// world.hpp  The world: assets, instances, the step, what is read back.
+//
+//   sinew::World world;
+//   sinew::Status status = sinew::World::create({}, &world);
+//   sinew::AssetId asset;
+//   status = world.load_asset_file("creature.sinew", &asset);
+//   sinew::InstanceId creature;
+//   status = world.create_instance({.asset = asset}, &creature);
+//   for (;;) {
+//     status = world.set_pose(creature, pose_from_the_engine);
+//     sinew::FrameReport report = world.step(1.0f / 60);
+//     status = world.read_positions(creature, {.out = vertices, .capacity = vertex_count});
+//   }
+//
+// Thread rule: one thread at a time calls a world's functions, except where a function says otherwise. Nothing here throws
+// or prints. step, set_pose, read_* and report never allocate or block; the others may allocate.
+#pragma once
+#include "sinew/types.hpp"
+
+namespace sinew {
+
+class World {
+ public:
+  World() noexcept = default;  // null until create
+  ~World();
+  World(World&& other) noexcept;
+  World& operator=(World&& other) noexcept;
+
+  // Takes the tables' memory. A field outside its range: kInvalidArgument, *out untouched.
+  static Status create(const WorldDef& def, World* out) noexcept;
+
+  // Checks the whole pack (O(bytes)), then uses it in place: bytes must outlive the asset and be 64-byte aligned.
+  // Never reads outside bytes; refuses with a cause; *out untouched on refusal.
+  Status load_asset(std::span<const std::byte> bytes, AssetId* out) noexcept;
+  // The same with the file memory-mapped for the asset's life.
+  Status load_asset_file(const char* path, AssetId* out) noexcept;
+  // kInvalidArgument while instances of it live.
+  Status unload_asset(AssetId asset) noexcept;
+  Status asset_info(AssetId asset, AssetInfo* out) const noexcept;
+
+  // One allocation for all of the instance's state. It starts at rest in its bind pose.
+  Status create_instance(const InstanceDef& def, InstanceId* out) noexcept;
+  Status destroy_instance(InstanceId instance) noexcept;
+
+  // The pose at the end of the coming step; ticks between two poses see them interpolated. Joints are copied.
+  // Wrong count: kInvalidArgument; NaN or infinity: kNotFinite; in both cases the last good pose stays and the
+  // refusal is counted in the report.
+  Status set_pose(InstanceId instance, const Pose& pose) noexcept;
+  Status set_importance(InstanceId instance, float importance) noexcept;
+  // Forgets motion: the tissue is at rest in the next pose that is set.
+  Status reset(InstanceId instance) noexcept;
+
+  // Microseconds a step may take; infinity (the default): no limit; 0: skinning for all; negative or NaN: kInvalidArgument.
+  Status set_budget_us(float budget_us) noexcept;
+
+  // Advances by dt_s >= 0 in fixed ticks of the assets' rate. NaN or negative counts as 0. Never fails.
+  FrameReport step(float dt_s) noexcept;
+
+  // Positions, at the time of the last step, of all of the asset's vertices. Cost O(vertices x influences).
+  Status read_positions(InstanceId instance, const ReadDef& def) const noexcept;
+  // Unit normals of the displaced surface (kCharacter or kWorld).
+  Status read_normals(InstanceId instance, const ReadDef& def) const noexcept;
+  Status report(InstanceId instance, InstanceReport* out) const noexcept;
+
+  // Rollback. state_bytes is fixed for an instance's life; restore of bytes of another asset or version: kCorrupt, untouched.
+  size_t state_bytes(InstanceId instance) const noexcept;
+  Status save_state(InstanceId instance, std::span<std::byte> out) const noexcept;
+  Status restore_state(InstanceId instance, std::span<const std::byte> bytes) noexcept;
+
+ private:
+  struct Impl;
+  Impl* impl_ = nullptr;
+};
+
+}  // namespace sinew

@@ -1,0 +1,209 @@
+// format.hpp  The .sinew baked file. This comment and these structs are the specification.
+//
+//   [FileHeader 64 bytes][SectionEntry x section_count][padding]...[section][padding][section]...
+//
+// Little-endian. The table starts at byte 64. Every section starts on a 64-byte boundary and is an array of `count` elements of
+// `element_bytes`; gaps hold zeros. A kind appears at most once. A reader maps the file and uses it in place: no fix-ups, no
+// copies. Everything that indexes something is checked once, on load (pack/reader); after that the runtime trusts it.
+//
+// A pack is a *model* (network sections only: what `sinew-bake check` runs) or a *character* (all of the sections).
+//
+// Version history. A version is never reused; a reader takes only its own and names the command that rebakes the others.
+//   1  first format
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+namespace sinew::pack {
+
+inline constexpr char kMagic[8] = {'S', 'I', 'N', 'E', 'W', 'P', 'K', '\0'};
+inline constexpr uint32_t kVersion = 1;
+inline constexpr size_t kSectionAlignment = 64;
+inline constexpr uint32_t kNoIndex = 0xffffffffu;
+
+enum class FileKind : uint32_t { kModel = 1, kCharacter = 2 };
+
+struct FileHeader {
+  char magic[8];
+  uint32_t version;
+  FileKind kind;
+  uint64_t file_bytes;      // whole file
+  uint32_t section_count;   // <= 64
+  uint32_t reserved0;       // 0
+  uint64_t table_checksum;  // core/hash of the section table
+  uint64_t reserved[3];     // 0
+};
+static_assert(sizeof(FileHeader) == 64, "the header is one cache line; a change is a new version");
+
+struct SectionEntry {
+  uint32_t kind;           // SectionKind; a reader passes over kinds it does not know
+  uint32_t element_bytes;  // must be the size this version states for the kind
+  uint64_t count;          // elements
+  uint64_t offset;         // from the start of the file, a multiple of 64
+  uint64_t checksum;       // core/hash of the section's bytes
+};
+static_assert(sizeof(SectionEntry) == 32, "a change is a new version");
+
+// Values are in files: never renumbered.
+enum class SectionKind : uint32_t {
+  kStrings = 1,   // char; zero-terminated UTF-8, named elsewhere by byte offset; the last byte is 0
+  kMetadata = 2,  // char; the weights file's __metadata__ as JSON, kept whole and shown by `info`
+
+  kNetwork = 10,        // NetworkRecord x 1
+  kLayers = 11,         // LayerRecord x layers
+  kInputs = 12,         // InputRecord x inputs; none: the paper's wiring
+  kWeights = 13,        // float; the layers' tensors, laid out as LayerRecord says
+
+  kCharacter = 20,      // CharacterRecord x 1
+  kJoints = 21,         // JointRecord x joints
+  kPositions = 22,      // float[3] x vertices, bind pose, metres
+  kNormals = 23,        // float[3] x vertices, unit
+  kTriangles = 24,      // uint32[3] x triangles
+  kSkin = 25,           // SkinRecord x vertices
+  kColors = 26,         // uint8[4] x vertices, sRGB and alpha; for pictures, the runtime never reads it
+  kWelded = 27,         // uint32 x vertices: the first vertex at the same place, so that normals are smooth across seams
+
+  kRegions = 30,        // RegionRecord x regions
+  kNodes = 31,          // NodeRecord x nodes: control nodes of all regions, region after region
+  kGraphRows = 32,      // uint32 x nodes + 1: CSR rows of P = D^-1/2 (A + I) D^-1/2
+  kGraphColumns = 33,   // uint32
+  kGraphValues = 34,    // float
+  kRegionVertices = 35, // uint32: the vertices a region carries, region after region, ascending in a region
+  kCarry = 36,          // float: weights from nodes to vertices, see RegionRecord
+
+  kClips = 40,          // ClipRecord x clips
+  kClipFrames = 41,     // float[12]: character-from-joint, [frame][joint], row-major 3x4
+
+  kTiers = 50,          // TierRecord x tiers
+};
+
+enum class ModelKind : uint32_t { kAltConvLstm = 1 };
+
+// Alt-ConvLSTM (arXiv 2006.07818 Eq. 5, 9-11) with the additions TRAINING needs; each addition is off in the paper's wiring.
+//   a   = (P x) W_x + x W_s + (P h) W_h + b                       gates i f c o, W_s only where the layer has it
+//   i,f = sigmoid(a_if + (P y) W_y_if)
+//   c   = clamp(f c + i tanh(a_c), +-state_clamp)
+//   y   = (1 - leak) y + c                     hidden layers: leak = hidden_leak
+//   y   = (1 - output_leak) y + output_scale c + carry     last layer; carry = X_t - X_{t-1} in the paper's wiring, else 0
+//   o   = sigmoid(a_o + (P y) W_y_o);  h = o tanh(c);  the next layer's x is c
+struct NetworkRecord {
+  ModelKind model;
+  uint32_t layer_count;   // 1..16
+  uint32_t input_width;   // floats a node is fed: 9 in the paper's wiring, else the sum of the inputs' widths
+  uint32_t max_channels;  // widest layer
+  float rate_hz;          // > 0
+  float output_scale;     // 1 in the paper's wiring
+  float output_leak;      // 0..1
+  float hidden_leak;      // 0..1
+  float state_clamp;      // bound on |c|; infinity: none
+  float length_unit_m;    // metres in one unit of y; 1 in the paper's wiring
+  uint32_t reserved[6];
+};
+static_assert(sizeof(NetworkRecord) == 64);
+
+// One tensor after the other in kWeights, each row-major and padded to whole rows of `padded` = channels rounded up to 16 in
+// each gate block, so that a row of all gates is gates x padded floats; padding is zero. Offsets count floats, each a multiple
+// of 16. x stands for the layer's input.
+struct LayerRecord {
+  uint32_t inputs;      // F_in
+  uint32_t channels;    // F
+  uint32_t padded;      // F rounded up to 16
+  uint32_t has_self;    // 1: W_s is there
+  uint64_t w_x;         // [F_in][4][padded]
+  uint64_t w_s;         // [F_in][4][padded], if has_self
+  uint64_t w_h;         // [F][4][padded]
+  uint64_t w_y;         // [F][3][padded], gates i f o
+  uint64_t bias;        // [4][padded]
+  uint64_t reserved;
+};
+static_assert(sizeof(LayerRecord) == 64);
+
+// What a node may be fed, in the order of the kInputs section. Vectors lie along the region frame's axes (tissue/drive.hpp).
+enum class InputKind : uint32_t {
+  kRestPosition = 1,              // 3: bind position less the region's centre, in region radii
+  kRestNormal = 2,                // 3: bind normal
+  kStiffness = 3,                 // 1: painted, 0 soft .. 1 rigid
+  kLinearAcceleration = 4,        // 3: -a of the frame's origin, m/s^2
+  kEulerAcceleration = 5,         // 3: -alpha x r
+  kCentrifugalAcceleration = 6,   // 3: -omega x (omega x r)
+  kArticulationAcceleration = 7,  // 3: less what skinning adds inside the frame (relative and Coriolis), m/s^2
+  kAngularAcceleration = 8,       // 3: alpha, rad/s^2
+  kAngularVelocity = 9,           // 3: omega, rad/s
+  kGravityChange = 10,            // 3: gravity less gravity in the bind pose, m/s^2
+  kDisplacement = 11,             // 3: u of the last tick, length units
+  kVelocity = 12,                 // 3: u of the last tick less the one before, length units a tick
+};
+
+struct InputRecord {
+  InputKind kind;
+  float scale;     // the network is fed value x scale
+  float envelope;  // |value x scale| beyond this is clamped and counted; infinity: not bounded
+  uint32_t reserved;
+};
+static_assert(sizeof(InputRecord) == 16);
+
+struct CharacterRecord {
+  uint32_t name;  // offset in kStrings
+  uint32_t vertex_count, triangle_count, joint_count, region_count, node_count, clip_count;
+  float height_m;
+  uint32_t reserved[8];
+};
+static_assert(sizeof(CharacterRecord) == 64);
+
+struct JointRecord {
+  uint32_t name;
+  uint32_t parent;         // kNoIndex for a root; always smaller than the joint's own index
+  float inverse_bind[12];  // joint-from-character in the bind pose, row-major 3x4
+  uint32_t reserved[2];
+};
+static_assert(sizeof(JointRecord) == 64);
+
+inline constexpr uint32_t kInfluences = 8;
+struct SkinRecord {
+  uint16_t joint[kInfluences];  // unused slots: joint 0, weight 0
+  float weight[kInfluences];    // >= 0, descending, sum 1 within 1e-5
+};
+static_assert(sizeof(SkinRecord) == 48);
+
+// A soft part simulated as one: its nodes are one connected block of the graph, and share one rigid frame, the rotation
+// and place of the frame joint's skin matrix (posed x inverse bind) with scale taken out. In the bind pose the frame's axes are the character's.
+struct RegionRecord {
+  uint32_t name;
+  uint32_t frame_joint;
+  uint32_t first_node, node_count;                // 1..64 nodes
+  uint32_t first_vertex, vertex_count;            // in kRegionVertices
+  uint64_t carry;                                 // float offset in kCarry of [node_count][padded_vertices]
+  uint32_t padded_vertices;                       // vertex_count rounded up to 16; padding is zero
+  float center_m[3];                              // mean of the nodes' bind positions
+  float radius_m;                                 // largest distance of a node from the centre, > 0
+  float displacement_limit_m;                     // guard: |u| of a node beyond this is clamped and its states reset, > 0
+  uint32_t reserved[2];
+};
+static_assert(sizeof(RegionRecord) == 64);
+
+struct NodeRecord {
+  float position_m[3];  // bind pose
+  float normal[3];      // unit
+  float stiffness;      // 0 soft .. 1 rigid
+  uint32_t region;
+  SkinRecord skin;
+};
+static_assert(sizeof(NodeRecord) == 80);
+
+struct ClipRecord {
+  uint32_t name;
+  uint32_t first_frame, frame_count;  // frame_count >= 1; the last frame is the clip's end
+  float rate_hz;
+  uint32_t reserved[4];
+};
+static_assert(sizeof(ClipRecord) == 32);
+
+struct TierRecord {
+  uint32_t tier;       // sinew::Tier
+  float cost_us;       // baked estimate a tick and instance on one core of the baking machine
+  float error_mm;      // mean against ground truth on held-out motion; NaN: not measured
+  float error_ratio;   // the same as a share of skinning's error; NaN: not measured
+};
+static_assert(sizeof(TierRecord) == 16);
+
+}  // namespace sinew::pack

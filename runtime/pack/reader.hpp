@@ -1,0 +1,43 @@
+// reader.hpp  Bytes to checked views. After open_pack returns ok, every index in the views is in range.
+#pragma once
+#include <cstddef>
+#include <span>
+
+#include "pack/format.hpp"
+#include "sinew/status.hpp"
+
+namespace sinew::pack {
+
+struct PackView {
+  FileKind kind{};
+  std::span<const char> strings, metadata;
+  const NetworkRecord* network = nullptr;
+  std::span<const LayerRecord> layers;
+  std::span<const InputRecord> inputs;
+  std::span<const float> weights;
+  // Character packs only; empty in a model.
+  const CharacterRecord* character = nullptr;
+  std::span<const JointRecord> joints;
+  std::span<const float> positions, normals;  // 3 a vertex
+  std::span<const uint32_t> triangles;        // 3 a triangle
+  std::span<const SkinRecord> skin;
+  std::span<const uint8_t> colors;            // 4 a vertex
+  std::span<const uint32_t> welded;
+  std::span<const RegionRecord> regions;
+  std::span<const NodeRecord> nodes;
+  std::span<const uint32_t> graph_rows, graph_columns;
+  std::span<const float> graph_values;
+  std::span<const uint32_t> region_vertices;
+  std::span<const float> carry;
+  std::span<const ClipRecord> clips;
+  std::span<const float> clip_frames;         // 12 a joint and frame
+  std::span<const TierRecord> tiers;
+};
+
+// Checks everything that is later trusted: magic, version, sizes, checksums, counts against each other, every index, offset and string, finite
+// numbers. O(bytes), allocates nothing. bytes must be 64-byte aligned and outlive the view. On refusal *out is untouched.
+Status open_pack(std::span<const std::byte> bytes, PackView* out) noexcept;
+
+const char* string_at(const PackView& pack, uint32_t offset) noexcept;
+
+}  // namespace sinew::pack
