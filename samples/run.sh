@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds, bakes the creature, runs the character loop headless; prints a table and writes pictures.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+scripts/install_packages.sh
+cmake --preset release >/dev/null
+cmake --build --preset release --target sinew-bake sinew-demo sinew-hello | grep -v '^ninja: no work' || true
+
+bin=build/release/bin
+out=out
+mkdir -p "$out"
+
+# newer TARGET SOURCE...: true when the target is there and no source is newer.
+newer() {
+  local target=$1 source
+  shift
+  [ -e "$target" ] || return 1
+  for source in "$@"; do [ "$source" -nt "$target" ] && return 1; done
+  return 0
+}
+
+creature=assets/creature/creature.json
+tissue=assets/creature/tissue.json
+weights=assets/weights/creature.safetensors
+newer "$out/creature.glb" "$bin/sinew-bake" "$creature" || "$bin/sinew-bake" creature "$creature" -o "$out/creature.glb"
+newer "$out/creature.sinew" "$out/creature.glb" "$tissue" "$weights" ||
+  "$bin/sinew-bake" character "$out/creature.glb" --recipe "$tissue" --tissue "$weights" -o "$out/creature.sinew"
+newer "$out/hop.truth.safetensors" "$out/creature.glb" "$tissue" || {
+  echo "Simulating the ground truth of the hop (once, about a minute)"
+  "$bin/sinew-bake" truth "$out/creature.glb" --recipe "$tissue" --motion clip:hop --seconds 3 --positions -o "$out/hop.truth.safetensors"
+}
+newer "$out/pictures/contact_sheet.png" "$out/creature.sinew" "$out/hop.truth.safetensors" "$bin/sinew-demo" ||
+  "$bin/sinew-demo" "$out/creature.sinew" --seconds 3 --truth "$out/hop.truth.safetensors" --frames "$out/pictures"
+
+echo
+echo "16 creatures, 10 seconds, 500 us a frame:"
+"$bin/sinew-demo" "$out/creature.sinew" --instances 16 --seconds 10 --budget-us 500 --report "$out/report.json"
+python=python3
+"$python" -c 'import matplotlib' 2>/dev/null || python=/usr/bin/python3
+"$python" samples/demo/plot_budget.py "$out/report.json" -o "$out/budget.png"
+echo
+echo "Pictures: $out/pictures/contact_sheet.png  $out/pictures (frames, animation)  $out/budget.png"

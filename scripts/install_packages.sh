@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# Installs the Debian packages Sinew is built, tested and shown with. Does nothing, in well under a second, when all are there.
+set -euo pipefail
+
+packages=(
+  g++ cmake ninja-build                                   # build
+  libeigen3-dev libhwy-dev                                # runtime
+  libtinygltf-dev nlohmann-json3-dev libcli11-dev libmeshoptimizer-dev libstb-dev # baker
+  libembree-dev ffmpeg                                    # samples
+  catch2                                                  # tests
+  python3-torch python3-numpy python3-matplotlib          # training and plots
+)
+
+missing=()
+for package in "${packages[@]}"; do
+  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q '^install ok installed' || missing+=("$package")
+done
+[ ${#missing[@]} -eq 0 ] && exit 0
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null || { echo "install_packages: need root or sudo to install: ${missing[*]}" >&2; exit 2; }
+  as_root=(sudo)
+fi
+echo "Installing: ${missing[*]}"
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive sh -c \
+  'apt-get update -qq && apt-get install -y -qq --no-install-recommends "$@"' install "${missing[@]}" >"$log" 2>&1 || {
+  tail -n 20 "$log" >&2
+  echo "install_packages: apt-get could not install: ${missing[*]}" >&2
+  exit 2
+}
