@@ -1,0 +1,21 @@
+# Configures, builds and runs tests/house/consumer. Arguments: HOW (find_package or add_subdirectory), SOURCE, BINARY, CONFIG.
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "${ARGN}\nended with ${result}:\n${output}")
+  endif()
+endfunction()
+
+set(work ${BINARY}/consumer_${HOW})
+file(REMOVE_RECURSE ${work})
+if(HOW STREQUAL "find_package")
+  run(${CMAKE_COMMAND} --install ${BINARY} --prefix ${work}/prefix)
+  set(arguments -DCMAKE_PREFIX_PATH=${work}/prefix)
+else()
+  set(arguments -DSINEW_SOURCE=${SOURCE})
+endif()
+run(${CMAKE_COMMAND} -S ${SOURCE}/tests/house/consumer -B ${work}/build -G Ninja -DCMAKE_BUILD_TYPE=${CONFIG}
+    -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_FLAGS=${FLAGS} ${arguments})
+run(${CMAKE_COMMAND} --build ${work}/build)
+run(${work}/build/consumer)
+file(REMOVE_RECURSE ${work})

@@ -1,0 +1,10 @@
+// main.cpp  Links the installed library: a world is made, stepped, and refuses a file that is not there.
+#include <sinew/sinew.hpp>
+
+int main() {
+  sinew::World world;
+  if (!sinew::World::create({}, &world).ok()) return 1;
+  sinew::AssetId asset;
+  if (world.load_asset_file("no such file", &asset).code != sinew::StatusCode::kUnreadable) return 1;
+  return world.step(1.0f / 60).instances_network == 0 ? 0 : 1;
+}
