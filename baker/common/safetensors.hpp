@@ -13,9 +13,10 @@ struct Tensor {
   Dtype dtype = Dtype::kF32;
   std::vector<size_t> shape;
   std::vector<unsigned char> bytes;  // row-major, as in the file
+  std::string where{};               // "file: tensor 'name'", for messages
   size_t count() const;
-  std::vector<float> as_f32() const;    // converts F16, F64, I32 ...; throws BadInput for what cannot be
-  std::vector<int32_t> as_i32() const;
+  std::vector<float> as_f32() const;    // any dtype, rounded; BadInput for an integer that a float cannot hold
+  std::vector<int32_t> as_i32() const;  // integers and booleans; BadInput for floats and for what is out of range
 };
 
 struct Safetensors {
@@ -29,7 +30,8 @@ struct Safetensors {
 Tensor tensor_f32(std::vector<size_t> shape, const std::vector<float>& values);
 Tensor tensor_i32(std::vector<size_t> shape, const std::vector<int32_t>& values);
 
-// Throws BadInput: unreadable, truncated, overlapping or out-of-range offsets, unknown dtype, header over 16 MiB.
+// Throws BadInput: unreadable, truncated, data that overlaps, leaves gaps or ends elsewhere than the file, unknown dtype,
+// shape and bytes that disagree, header over 16 MiB.
 Safetensors read_safetensors(const std::string& path);
 void write_safetensors(const std::string& path, const Safetensors& file);  // atomic; data start 64-byte aligned
 

@@ -1,0 +1,10 @@
+// status.hpp  Making a Status: one formatted line, no allocation.
+#pragma once
+#include "sinew/status.hpp"
+
+namespace sinew::core {
+
+// printf's format; a line longer than Status::message is cut.
+[[gnu::format(printf, 2, 3)]] Status make_status(StatusCode code, const char* format, ...) noexcept;
+
+}  // namespace sinew::core
