@@ -1,5 +1,5 @@
-// isa.hpp  Which instruction set the kernels use. Chosen once, at first use: the best the processor has, or what the environment variable
-// SINEW_ISA or force_isa names.
+// isa.hpp  Which instruction set the kernels use. Chosen once, at first use: the best the processor has, or
+// what the environment variable SINEW_ISA or force_isa names.
 #pragma once
 #include <span>
 
@@ -7,10 +7,12 @@
 
 namespace sinew::simd {
 
-// Names of the targets this build has and this processor runs, best first ("avx3", "avx2", "sse4", "ssse3", "sse2", "neon", "emu128" ...).
+// Names of the targets this build has and this processor runs, best first ("avx3", "avx2", "sse4", "ssse3",
+// "sse2", "neon", "emu128" ...).
 std::span<const char* const> available_isas() noexcept;
 const char* active_isa() noexcept;
-// Not thread-safe against running steps. An unknown or missing one: kUnsupported, listing the available; nothing changes.
+// Not thread-safe against running steps. An unknown or missing one: kUnsupported, listing the available;
+// nothing changes.
 Status force_isa(const char* name) noexcept;
 
 }  // namespace sinew::simd

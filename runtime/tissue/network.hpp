@@ -1,4 +1,5 @@
-// network.hpp  Alt-ConvLSTM on a graph: views of baked weights, state, one step. Equations: pack/format.hpp, NetworkRecord.
+// network.hpp  Alt-ConvLSTM on a graph: views of baked weights, state, one step. Equations: pack/format.hpp,
+// NetworkRecord.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -10,7 +11,7 @@ namespace sinew::tissue {
 
 struct Graph {  // P in CSR, nodes x nodes
   uint32_t node_count = 0;
-  const uint32_t* rows = nullptr;     // [node_count + 1]
+  const uint32_t* rows = nullptr;  // [node_count + 1]
   const uint32_t* columns = nullptr;
   const float* values = nullptr;
 };
@@ -22,8 +23,9 @@ struct Network {  // views into a pack; trivially copyable
   const float* weights = nullptr;
 };
 
-// Floats of state for node_count nodes: for each layer h, c, y as [node_count][padded]. 64-byte aligned, zero is the start
-// (the paper's wiring: y of the last layer starts at Y_0). Scratch is not state: nothing in it survives a step.
+// Floats of state for node_count nodes: for each layer h, c, y as [node_count][padded]. 64-byte aligned, zero
+// is the start (the paper's wiring: y of the last layer starts at Y_0). Scratch is not state: nothing in it
+// survives a step.
 size_t state_floats(const Network& network, uint32_t node_count) noexcept;
 size_t scratch_floats(const Network& network, uint32_t node_count) noexcept;
 
@@ -34,11 +36,11 @@ struct LayerState {
 };
 LayerState layer_state(const Network& network, uint32_t node_count, uint32_t layer, float* state) noexcept;
 
-// One step. z: [node_count][input_width rounded up to 16], padding zero. carry: [node_count][3] added to the last layer's
-// y, or null. After it the last layer's y (first 3 of each row of `padded`) is the output.
-// The same bits on every target with FMA; the sums run over k in order, whatever the vector width.
-void network_step(const Network& network, const Graph& graph, const float* z, const float* carry, float* state,
-                  float* scratch) noexcept;
+// One step. z: [node_count][input_width rounded up to 16], padding zero. carry: [node_count][3] added to the
+// last layer's y, or null. After it the last layer's y (first 3 of each row of `padded`) is the output. The
+// same bits on every target with FMA; the sums run over k in order, whatever the vector width.
+void network_step(const Network& network, const Graph& graph, const float* z, const float* carry,
+                  float* state, float* scratch) noexcept;
 
 // Largest |c| over all layers.
 float largest_cell(const Network& network, uint32_t node_count, const float* state) noexcept;

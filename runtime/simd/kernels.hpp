@@ -1,0 +1,89 @@
+// kernels.hpp  The vector kernels: one table of functions an instruction set, chosen once (simd/isa.hpp).
+//
+// Each kernel is written once over Highway's vectors. Every sum runs in one fixed order, lane by lane, with
+// fused multiply-adds, so that targets with FMA (avx3, avx2, neon) give the same bits whatever their vector
+// width; the others differ by rounding only. Kernels allocate nothing and do not branch on values. Pointers
+// marked [padded] are 64-byte aligned with rows of whole 16-float blocks; padding holds finite numbers.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+namespace sinew::simd {
+
+inline constexpr uint32_t kBlock = 16;    // floats a row is padded to: the widest vector
+inline constexpr uint32_t kTileRows = 6;  // nodes whose gates are worked on at a time
+inline constexpr uint32_t kInfluences = 8;
+
+constexpr size_t pad_to_block(size_t count) { return (count + kBlock - 1) / kBlock * kBlock; }
+
+// A sparse matrix P in CSR; square.
+struct SparseRows {
+  const uint32_t* rows;  // [nodes + 1]
+  const uint32_t* columns;
+  const float* values;
+};
+
+// One layer of an Alt-ConvLSTM at one step; equations in pack/format.hpp, NetworkRecord.
+struct LayerJob {
+  SparseRows graph;
+  uint32_t inputs, channels, padded;  // F_in, F, F rounded up to kBlock
+  const float* w_x;                   // [inputs][4][padded]
+  const float* w_s;                   // [inputs][4][padded] or null
+  const float* w_h;                   // [channels][4][padded]
+  const float* w_y;                   // [channels][3][padded]
+  const float* bias;                  // [4][padded]
+  const float* x;                     // [nodes][x_stride] padded
+  size_t x_stride;
+  float* h;              // [nodes][padded], of t-1; layer_output makes it t
+  float* c;              // [nodes][padded], of t-1; layer_cells makes it t
+  float* y;              // [nodes][padded], of t-1; layer_output makes it t
+  const float* carry;    // [nodes][3] added to y, or null
+  float y_keep, y_gain;  // y = y_keep y + y_gain c + carry
+  float clamp;           // bound on |c|; infinity: none
+  float* y_next;         // [nodes][padded], scratch between the two calls
+  float* output_gate;    // [nodes][padded], scratch between the two calls
+  float* tile;           // tile_floats(inputs, padded), scratch of one call
+};
+
+// Floats of LayerJob::tile.
+size_t tile_floats(uint32_t inputs, uint32_t padded) noexcept;
+
+// Points moved by up to eight joints each: out = sum_i weight[i] matrices[joint[i]] (point, 1). Strides in
+// bytes.
+struct SkinJob {
+  const float* points;  // x y z at each stride
+  size_t point_stride;
+  const uint16_t* joints;  // kInfluences at each stride
+  const float* weights;    // kInfluences at each stride, descending: a zero ends the list
+  size_t skin_stride;
+  const float* matrices;  // [joints][12], row-major 3x4: posed x inverse bind
+  float* out;             // x y z at each stride
+  size_t out_stride;
+  uint32_t count;
+};
+
+struct Kernels {
+  const char* name;  // the instruction set, lower case
+  int64_t target;    // Highway's bit
+  bool fused;        // has FMA: belongs to the targets that give the same bits
+
+  // out[i] = sum_e values[e] x[columns[e]], rows of `stride` floats [padded], nodes first..last.
+  void (*aggregate)(const SparseRows& graph, const float* x, size_t stride, uint32_t first, uint32_t last,
+                    float* out);
+  // Gates i f c, then c and y_next, of nodes first..last; needs the h and y of t-1 of all nodes.
+  void (*layer_cells)(const LayerJob& job, uint32_t first, uint32_t last);
+  // Gate o, then h and y, of nodes first..last; needs y_next of all nodes.
+  void (*layer_output)(const LayerJob& job, uint32_t first, uint32_t last);
+  // out[axis][v] = sum_n weights[n][v] displacement[n][axis]; weights [nodes][stride], out [3][stride]
+  // [padded]; v < stride, a multiple of kBlock. Reads each weight once; out is overwritten.
+  void (*carry)(const float* weights, uint32_t nodes, size_t stride, const float* displacement, float* out);
+  void (*skin)(const SkinJob& job);
+  // Of `count` floats, any count and alignment; NaN stays NaN. Maximum errors: simd/activation-inl.hpp.
+  void (*sigmoid)(const float* x, size_t count, float* out);
+  void (*tanh)(const float* x, size_t count, float* out);
+};
+
+// The table of the active instruction set. Thread-safe.
+const Kernels& kernels() noexcept;
+
+}  // namespace sinew::simd

@@ -1,0 +1,26 @@
+// inputs.hpp  What the nodes of a region are fed, in the order and units that the pack's input list states.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "pack/format.hpp"
+#include "tissue/network.hpp"
+
+namespace sinew::tissue {
+
+// Floats in a row of z: input_width rounded up to 16.
+size_t input_stride(const Network& network) noexcept;
+
+struct NodeSources {  // of one region; every array starts at the region's first node
+  const pack::RegionRecord* region;
+  const pack::NodeRecord* nodes;
+  const float* drive;                // [nodes][kDriveWidth], tissue/drive.hpp
+  const float* displacement;         // [nodes][3], metres: u of the last tick
+  const float* displacement_before;  // [nodes][3], metres: u of the tick before
+};
+
+// Fills z, [region nodes][input_stride], padding zero. Returns how many numbers lay outside their envelope
+// and were clamped to it; what is not finite counts too and becomes 0. network.inputs must not be empty.
+uint32_t assemble_inputs(const Network& network, const NodeSources& sources, float* z) noexcept;
+
+}  // namespace sinew::tissue
