@@ -3,24 +3,34 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "baker/import/character.hpp"
 
 namespace sinew::baker {
 
 struct WorldPose {
-  std::vector<Matrix4> joints;                    // character-from-joint
-  Matrix4 root = Matrix4::Identity();             // world-from-character, rigid
+  std::vector<Matrix4> joints;         // character-from-joint
+  Matrix4 root = Matrix4::Identity();  // world-from-character, rigid
 };
 
-// Pose at any time >= 0; smooth in time, so that truth may sample it between ticks. The first half second is at rest.
+// Pose at any time >= 0; its second derivative is continuous, so that truth may sample it between ticks. At
+// time 0 every motion is the file's rest pose at the origin, at rest. The same arguments give the same
+// motion.
 using Motion = std::function<WorldPose(double t_s)>;
 
-// The clip, looped, root at the origin.
-Motion clip_motion(const Character& character, const Clip& clip);
-// The built-in shake for characters without clips: the root moves and turns, the joints rest.
-Motion shake_motion(const Character& character);
-// Clips cross-faded at random, random band-limited joint noise, root translation and turns with stretches of stillness.
-Motion random_motion(const Character& character, uint64_t seed, double strength);
+// The clip, looped, the root at the origin; eased in from the rest pose over the first half second. strength:
+// amplitude about the rest pose. seed 0: the clip as it is; others: another speed (0.75 to 1.3) and start.
+Motion clip_motion(const Character& character, const Clip& clip, uint64_t seed = 0, double strength = 1);
+
+// The built-in shake for characters without clips: the root moves and turns, the joints rest; still for the
+// first half second and for the last of every four. seed: other frequencies and directions.
+Motion shake_motion(const Character& character, uint64_t seed = 0, double strength = 1);
+
+// Clips cross-faded at random, band-limited joint noise, root dashes, sways and turns, with stretches of
+// stillness in the rest pose; still for the first half second and after ten minutes. held_out: names of clips
+// it must not use.
+Motion random_motion(const Character& character, uint64_t seed, double strength,
+                     const std::vector<std::string>& held_out = {});
 
 }  // namespace sinew::baker

@@ -1,0 +1,287 @@
+// motion.cpp  What moves a character while the truth is simulated: a clip, and a root motion on top.
+#include "baker/truth/motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "baker/truth/local_pose.hpp"
+
+namespace sinew::baker {
+namespace {
+
+constexpr double kStill_s = 0.5;  // at rest at the start of every motion
+constexpr double kRamp_s = 0.35;  // from stillness to full motion and back
+constexpr double kCrossFade_s = 0.35;
+constexpr double kLength_s = 600;  // random motions stand still afterwards
+constexpr double kTau = 2 * std::numbers::pi;
+
+// SplitMix64 (Steele, Lea, Flood 2014). The standard library's distributions differ between implementations.
+class Random {
+ public:
+  explicit Random(uint64_t seed) : state_(seed * 0x9e3779b97f4a7c15u + 0x632be59bd9b4e019u) {}
+  uint64_t next() {
+    uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+  }
+  double uniform(double low, double high) {
+    return low + (high - low) * static_cast<double>(next() >> 11) * 0x1p-53;
+  }
+  bool chance(double probability) { return uniform(0, 1) < probability; }
+  size_t below(size_t count) { return static_cast<size_t>(uniform(0, static_cast<double>(count))); }
+  double sign() { return chance(0.5) ? 1 : -1; }
+  Vector3 direction() {
+    const double height = uniform(-1, 1), turn = uniform(0, kTau), around = std::sqrt(1 - height * height);
+    return {around * std::cos(turn), height, around * std::sin(turn)};
+  }
+
+ private:
+  uint64_t state_;
+};
+
+// A sum of sines along fixed directions, zero in value at time 0.
+struct Sway {
+  struct Wave {
+    Vector3 amplitude;
+    double radians_per_s, phase;
+  };
+  std::vector<Wave> waves;
+
+  Vector3 at(double t_s) const {
+    Vector3 sum = Vector3::Zero();
+    for (const Wave& w : waves)
+      sum += w.amplitude * (std::sin(w.radians_per_s * t_s + w.phase) - std::sin(w.phase));
+    return sum;
+  }
+};
+
+Sway::Wave wave_of_acceleration(Random& random, const Vector3& acceleration, double low_hz, double high_hz) {
+  const double w = kTau * low_hz * std::pow(high_hz / low_hz, random.uniform(0, 1));
+  return {acceleration / (w * w), w, random.uniform(0, kTau)};
+}
+
+// A smooth step of the root: `change` between `start_s` and `start_s + length_s`, taken back after `back_s`
+// where that is positive.
+struct Gesture {
+  double start_s, length_s, back_s;
+  Vector3 change;
+  double share(double t_s) const {
+    const double there = ease((t_s - start_s) / length_s);
+    return back_s > 0 ? there - ease((t_s - back_s) / length_s) : there;
+  }
+};
+
+Vector3 sum_of(const std::vector<Gesture>& gestures, double t_s) {
+  Vector3 sum = Vector3::Zero();
+  for (const Gesture& g : gestures) {
+    if (g.start_s > t_s) break;  // ascending
+    sum += g.share(t_s) * g.change;
+  }
+  return sum;
+}
+
+// An interval of motion between two of stillness.
+struct Bout {
+  double start_s, end_s;
+  double activity(double t_s) const {
+    return ease((t_s - start_s) / kRamp_s) - ease((t_s - end_s) / kRamp_s);
+  }
+};
+
+std::vector<Bout> draw_bouts(Random& random) {
+  std::vector<Bout> bouts;
+  for (double t = kStill_s; t < kLength_s;) {
+    const double end = t + random.uniform(1.5, 4.0);
+    bouts.push_back({t, end});
+    t = end + kRamp_s + random.uniform(0.2, 1.2);
+  }
+  return bouts;
+}
+
+struct RootTrack {
+  std::vector<Gesture> dashes;  // metres
+  std::vector<Gesture> turns;   // about Y, radians
+  std::vector<Gesture> tilts;   // rotation vectors
+  Sway sway, rock;
+
+  Matrix4 at(double t_s, double activity) const {
+    const Vector3 lean = sum_of(tilts, t_s) + activity * rock.at(t_s);
+    Matrix4 root = Matrix4::Identity();
+    root.topLeftCorner<3, 3>() =
+        (rotation_from_vector(sum_of(turns, t_s)) * rotation_from_vector(lean)).toRotationMatrix();
+    root.topRightCorner<3, 1>() = sum_of(dashes, t_s) + activity * sway.at(t_s);
+    return root;
+  }
+};
+
+constexpr double kEasePeak = 10 / std::numbers::sqrt3;  // largest second derivative of ease()
+
+void draw_gestures(Random& random, const Bout& bout, double strength, RootTrack* track) {
+  for (double t = bout.start_s + random.uniform(0, 0.4); t < bout.end_s; t += random.uniform(0.4, 1.5)) {
+    const double length = random.uniform(0.25, 0.7);
+    if (random.chance(0.55)) {
+      const double distance = random.uniform(3, 18) * strength * length * length / kEasePeak;
+      track->dashes.push_back({t, length, 0, distance * random.direction()});
+    }
+    if (random.chance(0.4)) {
+      const double angle = std::min(1.6, random.uniform(8, 50) * strength * length * length / kEasePeak);
+      track->turns.push_back({t, length, 0, Vector3(0, random.sign() * angle, 0)});
+    }
+    if (random.chance(0.3)) {
+      const double angle = std::min(0.9, random.uniform(5, 40) * strength * length * length / kEasePeak);
+      track->tilts.push_back({t, length, t + length + random.uniform(0, 1.0), angle * random.direction()});
+    }
+  }
+}
+
+RootTrack draw_root(Random& random, const std::vector<Bout>& bouts, double strength) {
+  RootTrack track;
+  for (int k = 0; k < 3; ++k) {
+    const Vector3 acceleration = strength * random.uniform(0.5, 3) * random.direction();
+    track.sway.waves.push_back(wave_of_acceleration(random, acceleration, 0.5, 3));
+    const Vector3 turning = strength * random.uniform(0.5, 4) * random.direction();
+    track.rock.waves.push_back(wave_of_acceleration(random, turning, 0.5, 3));
+  }
+  for (const Bout& bout : bouts) draw_gestures(random, bout, strength, &track);
+  return track;
+}
+
+// A stretch of one clip at one speed; the next fades in over its first kCrossFade_s.
+struct ClipStretch {
+  double start_s;
+  size_t clip;
+  double phase_s, speed;
+};
+
+std::vector<ClipStretch> draw_clips(Random& random, size_t clip_count) {
+  std::vector<ClipStretch> stretches;
+  for (double t = 0; clip_count > 0 && t < kLength_s; t += random.uniform(1.2, 3.5))
+    stretches.push_back({t, random.below(clip_count), random.uniform(0, 10), random.uniform(0.7, 1.4)});
+  return stretches;
+}
+
+std::vector<Sway> draw_joint_noise(Random& random, size_t joints, double strength) {
+  std::vector<Sway> noise(joints);
+  for (Sway& sway : noise) {
+    for (int k = 0; k < 3; ++k) {
+      const double hz = random.uniform(0.3, 3);
+      const double angle = strength * random.uniform(0.02, 0.14) / (1 + hz * hz / 2);
+      sway.waves.push_back({angle * random.direction(), kTau * hz, random.uniform(0, kTau)});
+    }
+  }
+  return noise;
+}
+
+struct RandomTrack {
+  Character character;
+  LocalPose rest;
+  std::vector<SmoothClip> clips;
+  std::vector<ClipStretch> stretches;
+  std::vector<Bout> bouts;
+  std::vector<Sway> noise;
+  RootTrack root;
+  double clip_share = 1;
+
+  LocalPose stretch_pose(const ClipStretch& s, double t_s) const {
+    return clips[s.clip].at(s.phase_s + s.speed * (t_s - s.start_s));
+  }
+
+  LocalPose clip_pose(double t_s) const {
+    const auto next = std::upper_bound(stretches.begin(), stretches.end(), t_s,
+                                       [](double t, const ClipStretch& s) { return t < s.start_s; });
+    if (next == stretches.begin()) return rest;
+    const ClipStretch& now = *(next - 1);
+    const double in = (t_s - now.start_s) / kCrossFade_s;
+    const LocalPose pose = stretch_pose(now, t_s);
+    if (in >= 1 || next - 1 == stretches.begin()) return pose;
+    return blend(stretch_pose(*(next - 2), t_s), pose, ease(in));
+  }
+
+  double activity(double t_s) const {
+    double sum = 0;
+    for (const Bout& bout : bouts) {
+      if (bout.start_s > t_s) break;
+      sum += bout.activity(t_s);
+    }
+    return sum;
+  }
+
+  WorldPose at(double t_s) const {
+    const double active = activity(t_s);
+    LocalPose pose = blend(rest, clip_pose(t_s), clip_share * active);
+    for (size_t j = 0; j < noise.size(); ++j)
+      pose.rotation[j] = pose.rotation[j] * rotation_from_vector(active * noise[j].at(t_s));
+    return {joint_matrices(character, pose), root.at(t_s, active)};
+  }
+};
+
+LocalPose rest_pose(const Character& character) {
+  return local_pose(character, joint_matrices(character, static_cast<const Clip*>(nullptr), 0));
+}
+
+// What posing needs of a character, without its mesh.
+Character skeleton_of(const Character& character) {
+  Character out;
+  out.nodes = character.nodes;
+  out.joint_node = character.joint_node;
+  out.joint_parent = character.joint_parent;
+  out.inverse_bind = character.inverse_bind;
+  out.character_from_scene = character.character_from_scene;
+  return out;
+}
+
+}  // namespace
+
+Motion clip_motion(const Character& character, const Clip& clip, uint64_t seed, double strength) {
+  Random random(seed);
+  const double phase = seed == 0 ? 0 : random.uniform(0, clip.duration_s);
+  const double speed = seed == 0 ? 1 : random.uniform(0.75, 1.3);
+  const auto skeleton = std::make_shared<const Character>(skeleton_of(character));
+  const auto smooth = std::make_shared<const SmoothClip>(*skeleton, clip);
+  return [=, rest = rest_pose(character)](double t_s) {
+    const LocalPose pose = blend(rest, smooth->at(phase + speed * t_s), strength * ease(t_s / kStill_s));
+    return WorldPose{joint_matrices(*skeleton, pose), Matrix4::Identity()};
+  };
+}
+
+Motion shake_motion(const Character& character, uint64_t seed, double strength) {
+  constexpr double kPeriod_s = 4, kMoving_s = 3;
+  Random random(seed);
+  double low = 1e30, high = -1e30;
+  for (const Vector3& p : character.positions) low = std::min(low, p.y()), high = std::max(high, p.y());
+  const double height = std::max(high - low, 1e-3);
+  Sway sway, turn;
+  for (int k = 0; k < 2; ++k) {
+    sway.waves.push_back(
+        {0.025 * height * strength * random.direction(), kTau * random.uniform(1.2, 2.6), 0});
+    turn.waves.push_back({0.12 * strength * random.direction(), kTau * random.uniform(0.8, 1.8), 0});
+  }
+  const std::vector<Matrix4> rest = joint_matrices(character, static_cast<const Clip*>(nullptr), 0);
+  return [=](double t_s) {
+    const double in = t_s - kPeriod_s * std::floor(t_s / kPeriod_s);
+    const double active = Bout{kStill_s, kMoving_s}.activity(in);
+    return WorldPose{rest, RootTrack{{}, {}, {}, sway, turn}.at(t_s, active)};
+  };
+}
+
+Motion random_motion(const Character& character, uint64_t seed, double strength,
+                     const std::vector<std::string>& held_out) {
+  Random random(seed);
+  const auto track = std::make_shared<RandomTrack>();
+  track->character = skeleton_of(character);
+  track->rest = rest_pose(character);
+  for (const Clip& clip : character.clips)
+    if (std::find(held_out.begin(), held_out.end(), clip.name) == held_out.end())
+      track->clips.emplace_back(character, clip);
+  track->stretches = draw_clips(random, track->clips.size());
+  track->bouts = draw_bouts(random);
+  track->noise = draw_joint_noise(random, track->rest.rotation.size(), strength);
+  track->root = draw_root(random, track->bouts, strength);
+  track->clip_share = std::min(strength, 1.0);
+  return [track](double t_s) { return track->at(t_s); };
+}
+
+}  // namespace sinew::baker
