@@ -3,10 +3,12 @@
 //   [FileHeader 64 bytes][SectionEntry x section_count][padding]...[section][padding][section]...
 //
 // Little-endian. The table starts at byte 64. Every section starts on a 64-byte boundary and is an array of `count` elements of
-// `element_bytes`; gaps hold zeros. A kind appears at most once. A reader maps the file and uses it in place: no fix-ups, no
-// copies. Everything that indexes something is checked once, on load (pack/reader); after that the runtime trusts it.
+// `element_bytes`. The table ascends by kind, so that a kind appears at most once; sections lie in the table's order, each at the next
+// multiple of 64 after the one before it, and the file ends at a multiple of 64. Gaps hold zeros. Thus equal content has equal
+// bytes, and no byte of a file is unchecked. A section without elements may be left out. A reader maps the file and uses it in place: no
+// fix-ups, no copies. Everything that indexes something is checked once, on load (pack/reader); after that the runtime trusts it.
 //
-// A pack is a *model* (network sections only: what `sinew-bake check` runs) or a *character* (all of the sections).
+// A pack is a *model* (kinds below 20 only: what `sinew-bake check` runs) or a *character* (all of the sections; its network has inputs).
 //
 // Version history. A version is never reused; a reader takes only its own and names the command that rebakes the others.
 //   1  first format
@@ -66,7 +68,7 @@ enum class SectionKind : uint32_t {
   kRegions = 30,        // RegionRecord x regions
   kNodes = 31,          // NodeRecord x nodes: control nodes of all regions, region after region
   kGraphRows = 32,      // uint32 x nodes + 1: CSR rows of P = D^-1/2 (A + I) D^-1/2
-  kGraphColumns = 33,   // uint32
+  kGraphColumns = 33,   // uint32, ascending in a row, nodes of the row's own region
   kGraphValues = 34,    // float
   kRegionVertices = 35, // uint32: the vertices a region carries, region after region, ascending in a region
   kCarry = 36,          // float: weights from nodes to vertices, see RegionRecord
@@ -88,7 +90,7 @@ enum class ModelKind : uint32_t { kAltConvLstm = 1 };
 //   o   = sigmoid(a_o + (P y) W_y_o);  h = o tanh(c);  the next layer's x is c
 struct NetworkRecord {
   ModelKind model;
-  uint32_t layer_count;   // 1..16
+  uint32_t layer_count;   // 1..16; the last layer has 3 channels
   uint32_t input_width;   // floats a node is fed: 9 in the paper's wiring, else the sum of the inputs' widths
   uint32_t max_channels;  // widest layer
   float rate_hz;          // > 0
@@ -101,16 +103,16 @@ struct NetworkRecord {
 };
 static_assert(sizeof(NetworkRecord) == 64);
 
-// One tensor after the other in kWeights, each row-major and padded to whole rows of `padded` = channels rounded up to 16 in
+// One tensor after the other in kWeights, layer after layer, without gaps, each row-major and padded to whole rows of `padded` = channels rounded up to 16 in
 // each gate block, so that a row of all gates is gates x padded floats; padding is zero. Offsets count floats, each a multiple
 // of 16. x stands for the layer's input.
 struct LayerRecord {
-  uint32_t inputs;      // F_in
-  uint32_t channels;    // F
+  uint32_t inputs;      // F_in: input_width, then the channels of the layer before
+  uint32_t channels;    // F, 1..1024
   uint32_t padded;      // F rounded up to 16
   uint32_t has_self;    // 1: W_s is there
   uint64_t w_x;         // [F_in][4][padded]
-  uint64_t w_s;         // [F_in][4][padded], if has_self
+  uint64_t w_s;         // [F_in][4][padded], if has_self; else 0
   uint64_t w_h;         // [F][4][padded]
   uint64_t w_y;         // [F][3][padded], gates i f o
   uint64_t bias;        // [4][padded]
@@ -135,7 +137,7 @@ enum class InputKind : uint32_t {
 };
 
 struct InputRecord {
-  InputKind kind;
+  InputKind kind;  // each at most once
   float scale;     // the network is fed value x scale
   float envelope;  // |value x scale| beyond this is clamped and counted; infinity: not bounded
   uint32_t reserved;
@@ -199,7 +201,7 @@ struct ClipRecord {
 static_assert(sizeof(ClipRecord) == 32);
 
 struct TierRecord {
-  uint32_t tier;       // sinew::Tier
+  uint32_t tier;       // sinew::Tier, ascending, each at most once; kSkinning and kNetwork are always there
   float cost_us;       // baked estimate a tick and instance on one core of the baking machine
   float error_mm;      // mean against ground truth on held-out motion; NaN: not measured
   float error_ratio;   // the same as a share of skinning's error; NaN: not measured

@@ -1,0 +1,144 @@
+// check_character.cpp  Joints, mesh, skin, clips and tiers agree with each other and with the character's
+// counts.
+#include <algorithm>
+#include <cmath>
+
+#include "core/status.hpp"
+#include "pack/checks.hpp"
+#include "sinew/types.hpp"
+
+namespace sinew::pack {
+namespace {
+
+constexpr uint32_t kMaxJoints = 65535;  // a skin's joints are 16 bits
+
+Status check_record(const PackView& pack) noexcept {
+  if (pack.character == nullptr) return corrupt("it has no character record, or more than one");
+  const CharacterRecord& record = *pack.character;
+  if (record.vertex_count == 0) return corrupt("the character has no vertices");
+  if (record.joint_count == 0 || record.joint_count > kMaxJoints)
+    return corrupt("the character has %u joints, outside 1..65535", record.joint_count);
+  if (!std::isfinite(record.height_m) || record.height_m < 0)
+    return corrupt("the character's height is %g m", double{record.height_m});
+  if (Status status = check_name(pack, record.name, "character", 0); !status.ok()) return status;
+  return check_zero(record.reserved, "character", 0);
+}
+
+Status check_inputs_there(const PackView& pack) noexcept {
+  if (!pack.inputs.empty()) return {};
+  return core::make_status(
+      StatusCode::kUnsupported,
+      "pack: its network has the paper's wiring, which characters do not run yet; bake with weights "
+      "whose metadata names 'inputs'");
+}
+
+Status check_counts(const PackView& pack) noexcept {
+  const CharacterRecord& record = *pack.character;
+  struct Count {
+    const char* section;
+    uint64_t there, stated;
+  };
+  const uint64_t vertices = record.vertex_count;
+  const Count counts[] = {{"joints", pack.joints.size(), record.joint_count},
+                          {"positions", pack.positions.size(), 3 * vertices},
+                          {"normals", pack.normals.size(), 3 * vertices},
+                          {"triangles", pack.triangles.size(), 3 * uint64_t{record.triangle_count}},
+                          {"skin", pack.skin.size(), vertices},
+                          {"colors", pack.colors.size(), 4 * vertices},
+                          {"welded", pack.welded.size(), vertices},
+                          {"regions", pack.regions.size(), record.region_count},
+                          {"nodes", pack.nodes.size(), record.node_count},
+                          {"graph rows", pack.graph_rows.size(), uint64_t{record.node_count} + 1},
+                          {"graph values", pack.graph_values.size(), pack.graph_columns.size()},
+                          {"clips", pack.clips.size(), record.clip_count}};
+  for (const Count& count : counts)
+    if (count.there != count.stated)
+      return corrupt("%s: %llu numbers there, %llu wanted by the character's counts", count.section,
+                     static_cast<unsigned long long>(count.there),
+                     static_cast<unsigned long long>(count.stated));
+  return {};
+}
+
+Status check_joints(const PackView& pack) noexcept {
+  for (size_t index = 0; index < pack.joints.size(); ++index) {
+    const JointRecord& joint = pack.joints[index];
+    if (Status status = check_name(pack, joint.name, "joint", index); !status.ok()) return status;
+    if (joint.parent != kNoIndex && joint.parent >= index)
+      return corrupt("joint %zu: parent %u does not come before it", index, joint.parent);
+    if (first_not_finite(joint.inverse_bind) != std::size(joint.inverse_bind))
+      return corrupt("joint %zu: inverse bind matrix is not finite", index);
+    if (Status status = check_zero(joint.reserved, "joint", index); !status.ok()) return status;
+  }
+  return {};
+}
+
+Status check_vertices(const PackView& pack) noexcept {
+  if (Status status = check_finite(pack.positions, "positions"); !status.ok()) return status;
+  for (size_t vertex = 0; vertex < pack.character->vertex_count; ++vertex) {
+    if (!is_unit(&pack.normals[3 * vertex]))
+      return corrupt("vertex %zu: normal is not a unit vector", vertex);
+    if (Status status = check_skin(pack.skin[vertex], pack.joints.size(), "vertex", vertex); !status.ok())
+      return status;
+    const uint32_t first = pack.welded[vertex];
+    if (first > vertex || pack.welded[first] != first)
+      return corrupt("vertex %zu: welded to %u, which is not the first of its place", vertex, first);
+  }
+  return {};
+}
+
+Status check_triangles(const PackView& pack) noexcept {
+  const uint32_t vertices = pack.character->vertex_count;
+  const auto found =
+      std::ranges::find_if(pack.triangles, [&](uint32_t vertex) { return vertex >= vertices; });
+  if (found == pack.triangles.end()) return {};
+  return corrupt("triangle %zu: vertex %u of %u", static_cast<size_t>(found - pack.triangles.begin()) / 3,
+                 *found, vertices);
+}
+
+Status check_clips(const PackView& pack) noexcept {
+  uint64_t frames = 0;
+  for (size_t index = 0; index < pack.clips.size(); ++index) {
+    const ClipRecord& clip = pack.clips[index];
+    if (Status status = check_name(pack, clip.name, "clip", index); !status.ok()) return status;
+    if (clip.first_frame != frames || clip.frame_count == 0)
+      return corrupt("clip %zu: frames do not follow the clip before it, or are none", index);
+    if (!is_positive(clip.rate_hz)) return corrupt("clip %zu: rate %g Hz", index, double{clip.rate_hz});
+    if (Status status = check_zero(clip.reserved, "clip", index); !status.ok()) return status;
+    frames += clip.frame_count;
+  }
+  const uint64_t floats_a_frame = 12 * pack.joints.size();
+  if (pack.clip_frames.size() % floats_a_frame != 0 || pack.clip_frames.size() / floats_a_frame != frames)
+    return corrupt("clip frames: not as many as the clips state");
+  return check_finite(pack.clip_frames, "clip frames");
+}
+
+bool is_error(float value) noexcept { return std::isnan(value) || (std::isfinite(value) && value >= 0); }
+
+Status check_tiers(const PackView& pack) noexcept {
+  constexpr uint32_t kTierCount = static_cast<uint32_t>(Tier::kNetwork) + 1;
+  uint32_t seen = 0, next = 0;
+  for (size_t index = 0; index < pack.tiers.size(); ++index) {
+    const TierRecord& record = pack.tiers[index];
+    if (record.tier < next || record.tier >= kTierCount)
+      return corrupt("tier %zu: %u is not known, or does not ascend", index, record.tier);
+    if (!std::isfinite(record.cost_us) || record.cost_us < 0)
+      return corrupt("tier %zu: cost %g us", index, double{record.cost_us});
+    if (!is_error(record.error_mm) || !is_error(record.error_ratio))
+      return corrupt("tier %zu: an error is negative or infinite", index);
+    next = record.tier + 1;
+    seen |= 1u << record.tier;
+  }
+  constexpr uint32_t kNeeded =
+      1u << static_cast<uint32_t>(Tier::kSkinning) | 1u << static_cast<uint32_t>(Tier::kNetwork);
+  return (seen & kNeeded) == kNeeded ? Status{} : corrupt("tiers: skinning or network is missing");
+}
+
+}  // namespace
+
+Status check_character(const PackView& pack) noexcept {
+  constexpr Check kChecks[] = {check_record,   check_inputs_there, check_counts, check_joints,
+                               check_vertices, check_triangles,    check_clips,  check_tiers};
+  return run_checks(kChecks, pack);
+}
+
+}  // namespace sinew::pack

@@ -1,0 +1,138 @@
+// check_network.cpp  Network records, layers, inputs and weights agree with each other.
+#include <algorithm>
+#include <cmath>
+
+#include "core/status.hpp"
+#include "pack/checks.hpp"
+
+namespace sinew::pack {
+namespace {
+
+constexpr uint32_t kMaxLayers = 16, kMaxChannels = 1024, kMaxInputWidth = 1024;
+constexpr uint32_t kPaperInputWidth = 9, kOutputChannels = 3;
+
+// Floats of one node's value; 0 for a kind that this version does not know.
+uint32_t input_width(InputKind kind) noexcept {
+  if (kind == InputKind::kStiffness) return 1;
+  return kind >= InputKind::kRestPosition && kind <= InputKind::kVelocity ? 3 : 0;
+}
+
+bool in_unit_range(float value) noexcept { return value >= 0 && value <= 1; }
+
+Status check_record(const PackView& pack) noexcept {
+  if (pack.network == nullptr) return corrupt("it has no network record, or more than one");
+  const NetworkRecord& record = *pack.network;
+  if (record.model != ModelKind::kAltConvLstm)
+    return core::make_status(StatusCode::kUnsupported,
+                             "pack: network model %u is not known to this build; update sinew",
+                             static_cast<uint32_t>(record.model));
+  if (record.layer_count < 1 || record.layer_count > kMaxLayers || record.layer_count != pack.layers.size())
+    return corrupt("network: %u layers stated, %zu there", record.layer_count, pack.layers.size());
+  if (record.input_width < 1 || record.input_width > kMaxInputWidth)
+    return corrupt("network: input width %u is outside 1..1024", record.input_width);
+  if (!is_positive(record.rate_hz)) return corrupt("network: rate %g Hz", double{record.rate_hz});
+  if (!std::isfinite(record.output_scale)) return corrupt("network: output scale is not finite");
+  if (!in_unit_range(record.output_leak) || !in_unit_range(record.hidden_leak))
+    return corrupt("network: a leak is outside 0..1");
+  if (!(record.state_clamp > 0)) return corrupt("network: state clamp %g", double{record.state_clamp});
+  if (!is_positive(record.length_unit_m))
+    return corrupt("network: length unit %g m", double{record.length_unit_m});
+  return check_zero(record.reserved, "network", 0);
+}
+
+Status check_inputs(const PackView& pack) noexcept {
+  uint32_t seen = 0, width = 0;
+  for (size_t index = 0; index < pack.inputs.size(); ++index) {
+    const InputRecord& input = pack.inputs[index];
+    if (input_width(input.kind) == 0)
+      return corrupt("input %zu: kind %u is not known", index, static_cast<uint32_t>(input.kind));
+    const uint32_t bit = 1u << static_cast<uint32_t>(input.kind);
+    if ((seen & bit) != 0) return corrupt("input %zu: its kind appears twice", index);
+    seen |= bit;
+    width += input_width(input.kind);
+    if (!std::isfinite(input.scale)) return corrupt("input %zu: scale is not finite", index);
+    if (!(input.envelope > 0)) return corrupt("input %zu: envelope %g", index, double{input.envelope});
+    if (input.reserved != 0) return corrupt("input %zu: reserved field is not zero", index);
+  }
+  const uint32_t expected = pack.inputs.empty() ? kPaperInputWidth : width;
+  return pack.network->input_width == expected
+             ? Status{}
+             : corrupt("network: input width %u, its inputs make %u", pack.network->input_width, expected);
+}
+
+Status check_layer_record(const LayerRecord& layer, uint32_t expected_inputs, size_t index) noexcept {
+  if (layer.inputs != expected_inputs)
+    return corrupt("layer %zu: %u inputs, wanted %u", index, layer.inputs, expected_inputs);
+  if (layer.channels < 1 || layer.channels > kMaxChannels)
+    return corrupt("layer %zu: %u channels, outside 1..1024", index, layer.channels);
+  if (layer.padded != round_up_16(layer.channels))
+    return corrupt("layer %zu: channels padded to %u", index, layer.padded);
+  if (layer.has_self > 1) return corrupt("layer %zu: has_self is neither 0 nor 1", index);
+  if (layer.reserved != 0) return corrupt("layer %zu: reserved field is not zero", index);
+  return {};
+}
+
+// One tensor [rows][gates][padded] that must start at *cursor; moves *cursor behind it.
+struct TensorPlace {
+  uint64_t offset;
+  uint32_t rows, gates;
+};
+
+Status check_tensor(const PackView& pack, const LayerRecord& layer, size_t index, TensorPlace tensor,
+                    uint64_t* cursor) noexcept {
+  const uint64_t blocks = uint64_t{tensor.rows} * tensor.gates, floats = blocks * layer.padded;
+  if (tensor.offset != *cursor || floats > pack.weights.size() - *cursor)
+    return corrupt("layer %zu: a tensor is not where the one before it ends, or reaches beyond the weights",
+                   index);
+  for (uint64_t block = 0; block < blocks; ++block) {
+    const auto padding =
+        pack.weights.subspan(*cursor + block * layer.padded + layer.channels, layer.padded - layer.channels);
+    if (std::ranges::any_of(padding, [](float v) { return v != 0; }))
+      return corrupt("layer %zu: padding of the weights is not zero", index);
+  }
+  *cursor += floats;
+  return {};
+}
+
+Status check_tensors(const PackView& pack, const LayerRecord& layer, size_t index,
+                     uint64_t* cursor) noexcept {
+  const TensorPlace tensors[] = {{layer.w_x, layer.inputs, 4},
+                                 {layer.w_s, layer.has_self != 0 ? layer.inputs : 0, 4},
+                                 {layer.w_h, layer.channels, 4},
+                                 {layer.w_y, layer.channels, 3},
+                                 {layer.bias, 1, 4}};
+  for (TensorPlace tensor : tensors) {
+    if (tensor.rows == 0 && tensor.offset != 0)
+      return corrupt("layer %zu: an offset of self weights that are not there", index);
+    if (tensor.rows == 0) continue;
+    if (Status status = check_tensor(pack, layer, index, tensor, cursor); !status.ok()) return status;
+  }
+  return {};
+}
+
+Status check_layers(const PackView& pack) noexcept {
+  uint64_t cursor = 0;
+  uint32_t inputs = pack.network->input_width, widest = 0;
+  for (size_t index = 0; index < pack.layers.size(); ++index) {
+    const LayerRecord& layer = pack.layers[index];
+    if (Status status = check_layer_record(layer, inputs, index); !status.ok()) return status;
+    if (Status status = check_tensors(pack, layer, index, &cursor); !status.ok()) return status;
+    inputs = layer.channels;
+    widest = std::max(widest, layer.channels);
+  }
+  if (inputs != kOutputChannels) return corrupt("the last layer has %u channels, not 3", inputs);
+  if (widest != pack.network->max_channels)
+    return corrupt("network: widest layer %u stated, %u there", pack.network->max_channels, widest);
+  return cursor == pack.weights.size() ? Status{} : corrupt("weights: numbers that no layer owns");
+}
+
+Status check_weights(const PackView& pack) noexcept { return check_finite(pack.weights, "weights"); }
+
+}  // namespace
+
+Status check_network(const PackView& pack) noexcept {
+  constexpr Check kChecks[] = {check_record, check_inputs, check_layers, check_weights};
+  return run_checks(kChecks, pack);
+}
+
+}  // namespace sinew::pack

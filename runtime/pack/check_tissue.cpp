@@ -1,0 +1,129 @@
+// check_tissue.cpp  Regions, control nodes, the graph between them and their carrying weights.
+#include <algorithm>
+
+#include "pack/checks.hpp"
+
+namespace sinew::pack {
+namespace {
+
+constexpr uint32_t kMaxNodes = 64;  // a region's; the runtime's scratch is sized by it
+
+Status check_record(const PackView& pack, const RegionRecord& region, size_t index) noexcept {
+  if (Status status = check_name(pack, region.name, "region", index); !status.ok()) return status;
+  if (region.frame_joint >= pack.joints.size())
+    return corrupt("region %zu: frame joint %u of %zu", index, region.frame_joint, pack.joints.size());
+  if (region.node_count < 1 || region.node_count > kMaxNodes)
+    return corrupt("region %zu: %u nodes, outside 1..64", index, region.node_count);
+  if (region.padded_vertices != round_up_16(region.vertex_count))
+    return corrupt("region %zu: vertices padded to %u", index, region.padded_vertices);
+  if (first_not_finite(region.center_m) != 3) return corrupt("region %zu: centre is not finite", index);
+  if (!is_positive(region.radius_m))
+    return corrupt("region %zu: radius %g m", index, double{region.radius_m});
+  if (!is_positive(region.displacement_limit_m))
+    return corrupt("region %zu: displacement limit %g m", index, double{region.displacement_limit_m});
+  return check_zero(region.reserved, "region", index);
+}
+
+Status check_vertices(const PackView& pack, const RegionRecord& region, size_t index) noexcept {
+  const auto vertices = pack.region_vertices.subspan(region.first_vertex, region.vertex_count);
+  uint64_t next = 0;
+  for (uint32_t vertex : vertices) {
+    if (vertex < next || vertex >= pack.character->vertex_count)
+      return corrupt("region %zu: vertex %u does not ascend or is not there", index, vertex);
+    next = uint64_t{vertex} + 1;
+  }
+  return {};
+}
+
+Status check_carry(const PackView& pack, const RegionRecord& region, size_t index) noexcept {
+  for (uint64_t node = 0; node < region.node_count; ++node) {
+    const auto row = pack.carry.subspan(region.carry + node * region.padded_vertices, region.padded_vertices);
+    if (first_not_finite(row) != row.size())
+      return corrupt("region %zu: a carrying weight is not finite", index);
+    if (std::ranges::any_of(row.subspan(region.vertex_count), [](float v) { return v != 0; }))
+      return corrupt("region %zu: padding of the carrying weights is not zero", index);
+  }
+  return {};
+}
+
+// Where the next region's parts must start.
+struct Cursor {
+  uint64_t node = 0, vertex = 0, carry = 0;
+};
+
+// Ranges first: after this the region's parts can be read.
+Status check_ranges(const PackView& pack, const RegionRecord& region, size_t index, Cursor* cursor) noexcept {
+  const uint64_t carry = uint64_t{region.node_count} * region.padded_vertices;
+  if (region.first_node != cursor->node || region.node_count > pack.nodes.size() - cursor->node)
+    return corrupt("region %zu: nodes do not follow the region before it", index);
+  if (region.first_vertex != cursor->vertex ||
+      region.vertex_count > pack.region_vertices.size() - cursor->vertex)
+    return corrupt("region %zu: vertices do not follow the region before it", index);
+  if (region.carry != cursor->carry || carry > pack.carry.size() - cursor->carry)
+    return corrupt("region %zu: carrying weights do not follow the region before it", index);
+  *cursor = {cursor->node + region.node_count, cursor->vertex + region.vertex_count, cursor->carry + carry};
+  return {};
+}
+
+Status check_regions(const PackView& pack) noexcept {
+  if (pack.regions.empty()) return corrupt("the character has no soft region");
+  Cursor cursor;
+  for (size_t index = 0; index < pack.regions.size(); ++index) {
+    const RegionRecord& region = pack.regions[index];
+    if (Status status = check_record(pack, region, index); !status.ok()) return status;
+    if (Status status = check_ranges(pack, region, index, &cursor); !status.ok()) return status;
+    if (Status status = check_vertices(pack, region, index); !status.ok()) return status;
+    if (Status status = check_carry(pack, region, index); !status.ok()) return status;
+  }
+  const bool whole = cursor.node == pack.nodes.size() && cursor.vertex == pack.region_vertices.size() &&
+                     cursor.carry == pack.carry.size();
+  return whole ? Status{} : corrupt("regions: nodes, vertices or carrying weights that no region owns");
+}
+
+Status check_nodes(const PackView& pack) noexcept {
+  for (size_t index = 0; index < pack.nodes.size(); ++index) {
+    const NodeRecord& node = pack.nodes[index];
+    if (first_not_finite(node.position_m) != 3) return corrupt("node %zu: position is not finite", index);
+    if (!is_unit(node.normal)) return corrupt("node %zu: normal is not a unit vector", index);
+    if (!(node.stiffness >= 0 && node.stiffness <= 1))
+      return corrupt("node %zu: stiffness %g, outside 0..1", index, double{node.stiffness});
+    if (node.region >= pack.regions.size())
+      return corrupt("node %zu: region %u of %zu", index, node.region, pack.regions.size());
+    const RegionRecord& region = pack.regions[node.region];
+    if (index < region.first_node || index - region.first_node >= region.node_count)
+      return corrupt("node %zu: not among the nodes of its region %u", index, node.region);
+    if (Status status = check_skin(node.skin, pack.joints.size(), "node", index); !status.ok()) return status;
+  }
+  return {};
+}
+
+Status check_graph_row(const PackView& pack, size_t node) noexcept {
+  const RegionRecord& region = pack.regions[pack.nodes[node].region];
+  uint64_t next = region.first_node;
+  for (uint32_t at = pack.graph_rows[node]; at < pack.graph_rows[node + 1]; ++at) {
+    const uint32_t column = pack.graph_columns[at];
+    if (column < next || column - region.first_node >= region.node_count)
+      return corrupt("graph row %zu: column %u does not ascend or is of another region", node, column);
+    next = uint64_t{column} + 1;
+  }
+  return {};
+}
+
+Status check_graph(const PackView& pack) noexcept {
+  const size_t nodes = pack.nodes.size();
+  if (pack.graph_rows[0] != 0 || pack.graph_rows[nodes] != pack.graph_columns.size())
+    return corrupt("graph rows: do not cover the columns");
+  if (!std::ranges::is_sorted(pack.graph_rows)) return corrupt("graph rows: not ascending");
+  for (size_t node = 0; node < nodes; ++node)
+    if (Status status = check_graph_row(pack, node); !status.ok()) return status;
+  return check_finite(pack.graph_values, "graph values");
+}
+
+}  // namespace
+
+Status check_tissue(const PackView& pack) noexcept {
+  constexpr Check kChecks[] = {check_regions, check_nodes, check_graph};
+  return run_checks(kChecks, pack);
+}
+
+}  // namespace sinew::pack

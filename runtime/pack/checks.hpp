@@ -1,0 +1,34 @@
+// checks.hpp  What the runtime later trusts about a pack's content. Every check reads inside the views only,
+// in O(their size).
+#pragma once
+#include "pack/reader.hpp"
+
+namespace sinew::pack {
+
+Status check_network(const PackView& pack) noexcept;    // network, layers, inputs, weights
+Status check_character(const PackView& pack) noexcept;  // joints, mesh, skin, clips, tiers
+Status check_tissue(const PackView& pack) noexcept;     // regions, nodes, graph, carry; after check_character
+
+// ---- shared by the three
+// ----------------------------------------------------------------------------------------------
+
+constexpr uint64_t round_up_16(uint64_t value) noexcept { return (value + 15) / 16 * 16; }
+
+// "pack: <what>; the file is damaged, bake it again"
+[[gnu::format(printf, 1, 2)]] Status corrupt(const char* format, ...) noexcept;
+
+// Index of the first NaN or infinity; values.size() if there is none.
+size_t first_not_finite(std::span<const float> values) noexcept;
+Status check_finite(std::span<const float> values, const char* section) noexcept;
+Status check_zero(std::span<const uint32_t> reserved, const char* section, size_t index) noexcept;
+bool is_unit(const float normal[3]) noexcept;  // within 1e-3: a float normal that was rounded, not one that
+                                               // was forgotten
+bool is_positive(float value) noexcept;        // finite and above 0
+Status check_name(const PackView& pack, uint32_t offset, const char* section, size_t index) noexcept;
+Status check_skin(const SkinRecord& skin, size_t joint_count, const char* section, size_t index) noexcept;
+
+using Check = Status (*)(const PackView&) noexcept;
+// The first failure of the checks, in order.
+Status run_checks(std::span<const Check> checks, const PackView& pack) noexcept;
+
+}  // namespace sinew::pack
