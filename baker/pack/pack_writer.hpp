@@ -13,9 +13,10 @@ class PackWriter {
  public:
   explicit PackWriter(pack::FileKind kind) : kind_(kind) {}
   template <class T>
-  void section(pack::SectionKind kind, const std::vector<T>& elements, size_t floats_an_element = 1);  // arrays of plain floats: 3, 12 ...
-  uint32_t string(const std::string& text);  // offset in kStrings; equal texts share one
-  std::vector<std::byte> finish() const;
+  void section(pack::SectionKind kind, const std::vector<T>& elements,
+               size_t floats_an_element = 1);  // arrays of plain floats: 3, 12 ...
+  uint32_t string(const std::string& text);    // offset in kStrings; equal texts share one
+  std::vector<std::byte> finish() const;       // a section without elements is left out
 
  private:
   void add(pack::SectionKind kind, uint32_t element_bytes, const void* data, size_t bytes);
