@@ -63,7 +63,6 @@ struct SkinJob {
 };
 
 struct Kernels {
-  const char* name;  // the instruction set, lower case
   int64_t target;    // Highway's bit
   bool fused;        // has FMA: belongs to the targets that give the same bits
 

@@ -1,0 +1,110 @@
+// isa.cpp  Chooses one kernel table.
+#include "simd/isa.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstdlib>
+#include <cstring>
+
+#include "core/status.hpp"
+#include "hwy/targets.h"
+#include "simd/kernel_tables.hpp"
+
+namespace sinew::simd {
+namespace {
+
+constexpr size_t kMaxTables = 18;  // Highway's dynamic targets and the fallback
+
+struct Available {
+  std::array<const Kernels*, kMaxTables> tables{};
+  std::array<std::array<char, 16>, kMaxTables> text{};
+  std::array<const char*, kMaxTables> names{};
+  size_t count = 0;
+};
+
+void add_table(const Kernels* table, Available* list) {
+  const auto end = list->tables.begin() + static_cast<std::ptrdiff_t>(list->count);
+  if (list->count == kMaxTables || std::find(list->tables.begin(), end, table) != end) return;
+  const char* name = hwy::TargetName(table->target);
+  auto& text = list->text[list->count];
+  for (size_t i = 0; name[i] && i + 1 < text.size(); ++i) {
+    text[i] = name[i] >= 'A' && name[i] <= 'Z' ? static_cast<char>(name[i] - 'A' + 'a') : name[i];
+  }
+  list->tables[list->count] = table;
+  list->names[list->count++] = text.data();
+}
+
+// The fallback runs everywhere, whatever the processor says of itself.
+void find_available(Available* list) {
+  const auto compiled = compiled_kernels();
+  for (const Kernels* table : compiled) {
+    if (table && (hwy::SupportedTargets() & table->target) != 0) add_table(table, list);
+  }
+  if (list->count == 0) add_table(compiled.back(), list);
+}
+
+const Available& available() {
+  static const Available& list = []() -> const Available& {
+    static Available made;
+    find_available(&made);
+    return made;
+  }();
+  return list;
+}
+
+size_t index_of(const char* name) {
+  const Available& list = available();
+  size_t i = 0;
+  while (i < list.count && std::strcmp(list.names[i], name) != 0) ++i;
+  return i;
+}
+
+std::atomic<const Kernels*> active_table{nullptr};
+
+const Kernels* choose_first() {
+  const char* wanted = std::getenv("SINEW_ISA");
+  const size_t index = wanted ? index_of(wanted) : 0;
+  return available().tables[index < available().count ? index : 0];
+}
+
+Status unknown_isa(const char* name) {
+  char list[128] = {};
+  for (size_t i = 0; i < available().count; ++i) {
+    if (i) std::strncat(list, ", ", sizeof(list) - std::strlen(list) - 1);
+    std::strncat(list, available().names[i], sizeof(list) - std::strlen(list) - 1);
+  }
+  return core::make_status(StatusCode::kUnsupported,
+                           "instruction set \"%.40s\" is not available; this processor and build have: %s",
+                           name ? name : "(null)", list);
+}
+
+}  // namespace
+
+std::span<const char* const> available_isas() noexcept {
+  return {available().names.data(), available().count};
+}
+
+const Kernels& kernels() noexcept {
+  const Kernels* table = active_table.load(std::memory_order_acquire);
+  if (!table) {
+    const Kernels* chosen = choose_first();
+    if (active_table.compare_exchange_strong(table, chosen)) table = chosen;
+  }
+  return *table;
+}
+
+const char* active_isa() noexcept {
+  const Available& list = available();
+  const auto found = std::find(list.tables.begin(), list.tables.end(), &kernels());
+  return list.names[static_cast<size_t>(found - list.tables.begin())];
+}
+
+Status force_isa(const char* name) noexcept {
+  const size_t index = name ? index_of(name) : available().count;
+  if (index == available().count) return unknown_isa(name);
+  active_table.store(available().tables[index], std::memory_order_release);
+  return {};
+}
+
+}  // namespace sinew::simd
