@@ -25,24 +25,24 @@ struct SparseRows {
 
 // One layer of an Alt-ConvLSTM at one step; equations in pack/format.hpp, NetworkRecord.
 struct LayerJob {
-  SparseRows graph;
-  uint32_t inputs, channels, padded;  // F_in, F, F rounded up to kBlock
-  const float* w_x;                   // [inputs][4][padded]
-  const float* w_s;                   // [inputs][4][padded] or null
-  const float* w_h;                   // [channels][4][padded]
-  const float* w_y;                   // [channels][3][padded]
-  const float* bias;                  // [4][padded]
-  const float* x;                     // [nodes][x_stride] padded
-  size_t x_stride;
-  float* h;              // [nodes][padded], of t-1; layer_output makes it t
-  float* c;              // [nodes][padded], of t-1; layer_cells makes it t
-  float* y;              // [nodes][padded], of t-1; layer_output makes it t
-  const float* carry;    // [nodes][3] added to y, or null
-  float y_keep, y_gain;  // y = y_keep y + y_gain c + carry
-  float clamp;           // bound on |c|; infinity: none
-  float* y_next;         // [nodes][padded], scratch between the two calls
-  float* output_gate;    // [nodes][padded], scratch between the two calls
-  float* tile;           // tile_floats(inputs, padded), scratch of one call
+  SparseRows graph{};
+  uint32_t inputs = 0, channels = 0, padded = 0;  // F_in, F, F rounded up to kBlock
+  const float* w_x = nullptr;                     // [inputs][4][padded]
+  const float* w_s = nullptr;                     // [inputs][4][padded] or null
+  const float* w_h = nullptr;                     // [channels][4][padded]
+  const float* w_y = nullptr;                     // [channels][3][padded]
+  const float* bias = nullptr;                    // [4][padded]
+  const float* x = nullptr;                       // [nodes][x_stride] padded
+  size_t x_stride = 0;
+  float* h = nullptr;            // [nodes][padded], of t-1; layer_output makes it t
+  float* c = nullptr;            // [nodes][padded], of t-1; layer_cells makes it t
+  float* y = nullptr;            // [nodes][padded], of t-1; layer_output makes it t
+  const float* carry = nullptr;  // [nodes][3] added to y, or null
+  float y_keep = 1, y_gain = 1;  // y = y_keep y + y_gain c + carry
+  float clamp = 0;               // bound on |c|; infinity: none
+  float* y_next = nullptr;       // [nodes][padded], scratch between the two calls
+  float* output_gate = nullptr;  // [nodes][padded], scratch between the two calls
+  float* tile = nullptr;         // tile_floats(inputs, padded), scratch of one call
 };
 
 // Floats of LayerJob::tile.
@@ -63,8 +63,8 @@ struct SkinJob {
 };
 
 struct Kernels {
-  int64_t target;    // Highway's bit
-  bool fused;        // has FMA: belongs to the targets that give the same bits
+  int64_t target;  // Highway's bit
+  bool fused;      // has FMA: belongs to the targets that give the same bits
 
   // out[i] = sum_e values[e] x[columns[e]], rows of `stride` floats [padded], nodes first..last.
   void (*aggregate)(const SparseRows& graph, const float* x, size_t stride, uint32_t first, uint32_t last,
