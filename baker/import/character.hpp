@@ -36,8 +36,9 @@ struct Channel {
   int node = 0;
   Path path = Path::kTranslation;
   Interpolation interpolation = Interpolation::kLinear;
-  std::vector<double> times_s;   // ascending
-  std::vector<double> values;    // 3 or 4 a key (rotation x y z w); cubic spline: in-tangent, value, out-tangent a key
+  std::vector<double> times_s;  // ascending
+  std::vector<double>
+      values;  // 3 or 4 a key (rotation x y z w); cubic spline: in-tangent, value, out-tangent a key
 };
 
 struct Clip {
@@ -52,7 +53,8 @@ struct Character {
   std::vector<int> joint_node;        // joint -> node; parents before children
   std::vector<int> joint_parent;      // nearest ancestor that is a joint, -1 for none
   std::vector<Matrix4> inverse_bind;  // joint-from-character in the bind pose
-  Matrix4 character_from_scene = Matrix4::Identity();  // unit and up-axis conversion, applied left of every node's global
+  Matrix4 character_from_scene =
+      Matrix4::Identity();  // unit and up-axis conversion, applied left of every node's global
 
   // Vertices in file order, primitive after primitive, as the engine has them.
   std::vector<Vector3> positions;  // bind pose

@@ -7,8 +7,9 @@
 namespace sinew::baker {
 
 struct ImportOptions {
-  double unit_m = 0;        // metres in one file unit; 0: guessed from the size (a character taller than 20 units is in centimetres)
-  char up = 'y';            // the file's up axis: 'y' (glTF's own) or 'z'
+  double unit_m = 0;  // metres in one file unit; 0: guessed from the size (a character taller than 20 units
+                      // is in centimetres)
+  char up = 'y';      // the file's up axis: 'y' (glTF's own) or 'z'
   size_t max_vertices = 1'000'000;  // a larger character is refused before its buffers are copied
 };
 

@@ -1,0 +1,200 @@
+// primitives.cpp  Vertices and triangles of every primitive.
+#include "baker/import/primitives.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "baker/import/skin_weights.hpp"
+#include "baker/import/surface_color.hpp"
+#include "baker/import/triangles.hpp"
+
+namespace sinew::baker {
+namespace {
+
+constexpr const char* kMend = "the file is damaged; export it again";
+constexpr size_t kMaxPrimitives = 65536;
+
+class MeshReader {
+ public:
+  MeshReader(const tinygltf::Model& model, const AccessorReader& accessors, const Joints& joints,
+             Source& source, Character& character)
+      : model_(model), accessors_(accessors), joints_(joints), source_(source), character_(character) {}
+
+  void append(const MeshInstance& instance) {
+    const tinygltf::Mesh& mesh = model_.meshes[static_cast<size_t>(instance.mesh)];
+    std::map<std::map<std::string, int>, size_t> shared;  // attributes -> first vertex
+    for (size_t p = 0; p < mesh.primitives.size(); ++p) {
+      const tinygltf::Primitive& primitive = mesh.primitives[p];
+      const std::string where = place(instance, p);
+      if (!usable(primitive, where)) continue;
+      const auto [found, fresh] = shared.try_emplace(primitive.attributes, character_.positions.size());
+      if (fresh) append_vertices(primitive, instance, where);
+      append_faces(primitive, instance, found->second, where);
+    }
+  }
+
+  void finish() {
+    if (!painted_) character_.stiffness.clear();
+    if (!has_normals_) source_.note("", "no normals in at least one primitive: computed, smooth");
+  }
+
+ private:
+  std::string place(const MeshInstance& instance, size_t primitive) const {
+    const std::string& name = model_.meshes[static_cast<size_t>(instance.mesh)].name;
+    return "mesh " + std::to_string(instance.mesh) + (name.empty() ? "" : " '" + name + "'") + " primitive " +
+           std::to_string(primitive);
+  }
+
+  bool usable(const tinygltf::Primitive& primitive, const std::string& where) {
+    if (!is_triangle_mode(primitive.mode)) return source_.note(where, "points or lines: left out"), false;
+    if (!primitive.attributes.contains("POSITION"))
+      return source_.note(where, "no POSITION: left out"), false;
+    if (primitive.extensions.contains("KHR_draco_mesh_compression"))
+      source_.refuse(where, "is compressed by KHR_draco_mesh_compression", "export without mesh compression");
+    if (!primitive.targets.empty())
+      source_.note(where, std::to_string(primitive.targets.size()) + " morph targets: ignored");
+    return true;
+  }
+
+  std::vector<double> attribute(const tinygltf::Primitive& primitive, const std::string& name, int width,
+                                size_t count, const std::string& where) const {
+    const auto found = primitive.attributes.find(name);
+    if (found == primitive.attributes.end()) return {};
+    const std::string place = where + " " + name;
+    if (accessors_.count(found->second, place) != count)
+      source_.refuse(place,
+                     "has " + std::to_string(accessors_.count(found->second, place)) + " elements for " +
+                         std::to_string(count) + " vertices",
+                     kMend);
+    return accessors_.numbers(found->second, width, place);
+  }
+
+  void append_vertices(const tinygltf::Primitive& primitive, const MeshInstance& instance,
+                       const std::string& where) {
+    const size_t count = accessors_.count(primitive.attributes.at("POSITION"), where + " POSITION");
+    append_positions(primitive, instance, count, where);
+    append_normals(primitive, instance, count, where);
+    const auto influences = read_influences(primitive, count, instance, joints_, accessors_, where, source_);
+    character_.skin.insert(character_.skin.end(), influences.begin(), influences.end());
+    append_stiffness(primitive, count, where);
+    const auto colors = read_vertex_colors(primitive, count, accessors_, where, source_);
+    vertex_colors_.insert(vertex_colors_.end(), colors.begin(), colors.end());
+    character_.colors.resize(character_.positions.size());
+  }
+
+  void append_positions(const tinygltf::Primitive& primitive, const MeshInstance& instance, size_t count,
+                        const std::string& where) {
+    const std::vector<double> values = attribute(primitive, "POSITION", 3, count, where);
+    for (size_t v = 0; v < count; ++v) {
+      const Vector3 file(values[3 * v], values[3 * v + 1], values[3 * v + 2]);
+      if (!file.allFinite())
+        source_.refuse(where + " POSITION", "vertex " + std::to_string(v) + " is NaN or infinite",
+                       "mend the mesh and export it again");
+      character_.positions.push_back((instance.bind_from_mesh * file.homogeneous()).head<3>());
+    }
+  }
+
+  // Normals that the file lacks or that are no directions stay zero; smooth ones take their place later.
+  void append_normals(const tinygltf::Primitive& primitive, const MeshInstance& instance, size_t count,
+                      const std::string& where) {
+    const std::vector<double> values = attribute(primitive, "NORMAL", 3, count, where);
+    has_normals_ = has_normals_ && !values.empty();
+    const Eigen::Matrix3d turn = instance.bind_from_mesh.topLeftCorner<3, 3>().inverse().transpose();
+    size_t unusable = 0;
+    for (size_t v = 0; v < count; ++v) {
+      Vector3 normal = Vector3::Zero();
+      if (!values.empty()) {
+        normal = turn * Vector3(values[3 * v], values[3 * v + 1], values[3 * v + 2]);
+        const bool direction = normal.allFinite() && normal.norm() > 0;
+        if (!direction) ++unusable;
+        normal = direction ? normal.normalized() : Vector3::Zero();
+      }
+      character_.normals.push_back(normal);
+    }
+    if (unusable > 0) source_.note(where, std::to_string(unusable) + " normals are zero or NaN: computed");
+  }
+
+  void append_stiffness(const tinygltf::Primitive& primitive, size_t count, const std::string& where) {
+    const std::vector<double> values = attribute(primitive, "_STIFFNESS", 1, count, where);
+    painted_ = painted_ || !values.empty();
+    size_t mended = 0;
+    for (size_t v = 0; v < count; ++v) {
+      const double value = values.empty() ? 1.0 : values[v];
+      const double usable = std::isfinite(value) ? std::clamp(value, 0.0, 1.0) : 1.0;
+      if (usable != value) ++mended;
+      character_.stiffness.push_back(usable);
+    }
+    if (mended > 0)
+      source_.note(where,
+                   std::to_string(mended) + " values of _STIFFNESS are outside 0..1: clamped, NaN is rigid");
+  }
+
+  void append_faces(const tinygltf::Primitive& primitive, const MeshInstance& instance, size_t first,
+                    const std::string& where) {
+    const size_t count = accessors_.count(primitive.attributes.at("POSITION"), where + " POSITION");
+    std::vector<std::array<int, 3>> faces = read_triangles(primitive, count, accessors_, where, source_);
+    const bool mirrored = instance.bind_from_mesh.topLeftCorner<3, 3>().determinant() < 0;
+    const LinearColor material = material_color(model_, primitive, where, source_);
+    for (auto& face : faces) {
+      if (mirrored) std::swap(face[1], face[2]);
+      for (int& corner : face) {
+        corner += static_cast<int>(first);
+        const auto vertex = static_cast<size_t>(corner);
+        character_.colors[vertex] = surface_color(material, vertex_colors_[vertex]);
+      }
+    }
+    character_.triangles.insert(character_.triangles.end(), faces.begin(), faces.end());
+  }
+
+  const tinygltf::Model& model_;
+  const AccessorReader& accessors_;
+  const Joints& joints_;
+  Source& source_;
+  Character& character_;
+  std::vector<LinearColor> vertex_colors_;  // of all vertices so far
+  bool painted_ = false, has_normals_ = true;
+};
+
+// Vertices and triangle corners that will be stored, counted from the accessors alone.
+void check_size(const tinygltf::Model& model, const AccessorReader& accessors,
+                const std::vector<MeshInstance>& instances, size_t max_vertices, const Source& source) {
+  size_t vertices = 0, corners = 0, primitives = 0;
+  for (const MeshInstance& instance : instances) {
+    const auto& list = model.meshes[static_cast<size_t>(instance.mesh)].primitives;
+    std::map<std::map<std::string, int>, bool> counted;
+    for (const tinygltf::Primitive& primitive : list) {
+      const std::string where = "mesh " + std::to_string(instance.mesh);
+      if (++primitives > kMaxPrimitives)
+        source.refuse("", "more than 65536 primitives", "join the character's meshes");
+      const auto position = primitive.attributes.find("POSITION");
+      if (position == primitive.attributes.end() || !is_triangle_mode(primitive.mode)) continue;
+      const size_t count = accessors.count(position->second, where + " POSITION");
+      corners += primitive.indices < 0 ? count : accessors.count(primitive.indices, where + " indices");
+      if (counted.try_emplace(primitive.attributes, true).second) vertices += count;
+      if (count > max_vertices || vertices > max_vertices)
+        source.refuse(where,
+                      "the character has more than " + std::to_string(max_vertices) + " vertices (" +
+                          std::to_string(vertices) + " up to here)",
+                      "reduce the mesh, a game character has fewer");
+      if (corners > 16 * max_vertices)
+        source.refuse(
+            where, "the character has more than " + std::to_string(16 * max_vertices) + " triangle corners",
+            "reduce the mesh");
+    }
+  }
+}
+
+}  // namespace
+
+void append_meshes(const tinygltf::Model& model, const AccessorReader& accessors, const Joints& joints,
+                   const std::vector<MeshInstance>& instances, size_t max_vertices, Source& source,
+                   Character& character) {
+  check_size(model, accessors, instances, max_vertices, source);
+  MeshReader reader(model, accessors, joints, source, character);
+  for (const MeshInstance& instance : instances) reader.append(instance);
+  reader.finish();
+}
+
+}  // namespace sinew::baker

@@ -1,0 +1,22 @@
+// surface_color.hpp  Material x vertex colour as sRGB bytes; for pictures only.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "baker/import/accessor.hpp"
+
+namespace sinew::baker {
+
+using LinearColor = std::array<double, 4>;
+
+// COLOR_0, linear; white where the primitive has none.
+std::vector<LinearColor> read_vertex_colors(const tinygltf::Primitive& primitive, size_t vertex_count,
+                                            const AccessorReader& accessors, const std::string& where,
+                                            const Source& source);
+// The base colour factor; a texture is not read, and that is noted.
+LinearColor material_color(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
+                           const std::string& where, Source& source);
+std::array<uint8_t, 4> surface_color(const LinearColor& material, const LinearColor& vertex);
+
+}  // namespace sinew::baker

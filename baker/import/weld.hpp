@@ -1,0 +1,15 @@
+// weld.hpp  Vertices that a seam has doubled found again, and what needs to know it.
+#pragma once
+#include "baker/import/character.hpp"
+#include "baker/import/source.hpp"
+
+namespace sinew::baker {
+
+// Fills character.welded: first vertex at the same place with the same influences.
+void weld_vertices(Character& character);
+// Triangles whose corners coincide or lie on a line.
+void drop_degenerate_triangles(Character& character, Source& source);
+// Smooth normals, weighted by area, where the character has zero ones.
+void compute_missing_normals(Character& character);
+
+}  // namespace sinew::baker
