@@ -1,4 +1,5 @@
-// safetensors.hpp  Reader and writer of the safetensors container (little-endian u64 header length, JSON header, raw data).
+// safetensors.hpp  Reader and writer of the safetensors container (little-endian u64 header length, JSON
+// header, raw data).
 #pragma once
 #include <cstdint>
 #include <map>
@@ -15,8 +16,10 @@ struct Tensor {
   std::vector<unsigned char> bytes;  // row-major, as in the file
   std::string where{};               // "file: tensor 'name'", for messages
   size_t count() const;
-  std::vector<float> as_f32() const;    // any dtype, rounded; BadInput for an integer that a float cannot hold
-  std::vector<int32_t> as_i32() const;  // integers and booleans; BadInput for floats and for what is out of range
+  // Any dtype, rounded; BadInput for an integer that a float cannot hold.
+  std::vector<float> as_f32() const;
+  // Integers and booleans; BadInput for floats and for what is out of range.
+  std::vector<int32_t> as_i32() const;
 };
 
 struct Safetensors {
@@ -30,9 +33,10 @@ struct Safetensors {
 Tensor tensor_f32(std::vector<size_t> shape, const std::vector<float>& values);
 Tensor tensor_i32(std::vector<size_t> shape, const std::vector<int32_t>& values);
 
-// Throws BadInput: unreadable, truncated, data that overlaps, leaves gaps or ends elsewhere than the file, unknown dtype,
-// shape and bytes that disagree, header over 16 MiB.
+// Throws BadInput: unreadable, truncated, data that overlaps, leaves gaps or ends elsewhere than the file,
+// unknown dtype, shape and bytes that disagree, header over 16 MiB.
 Safetensors read_safetensors(const std::string& path);
-void write_safetensors(const std::string& path, const Safetensors& file);  // atomic; data start 64-byte aligned
+// Atomic; the data start 64-byte aligned.
+void write_safetensors(const std::string& path, const Safetensors& file);
 
 }  // namespace sinew::baker

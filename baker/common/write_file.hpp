@@ -1,4 +1,5 @@
-// write_file.hpp  Files are written beside their place and renamed: a reader sees the old file or the whole new one.
+// write_file.hpp  Files are written beside their place and renamed: a reader sees the old file or the whole
+// new one.
 #pragma once
 #include <cstddef>
 #include <span>

@@ -254,7 +254,7 @@ float metadata_number(const Safetensors& weights, const std::string& key, float 
   return value;
 }
 
-void add_network(const Safetensors& weights, PackWriter& pack) {
+std::vector<pack::LayerRecord> add_network(const Safetensors& weights, PackWriter& pack) {
   check_model(weights);
   const std::vector<uint32_t> channels = parse_channels(weights);
   const std::vector<pack::InputRecord> inputs = parse_inputs(weights);
@@ -273,6 +273,7 @@ void add_network(const Safetensors& weights, PackWriter& pack) {
   pack.section(pack::SectionKind::kLayers, layers);
   pack.section(pack::SectionKind::kInputs, inputs);
   pack.section(pack::SectionKind::kWeights, layout.floats());
+  return layers;
 }
 
 }  // namespace sinew::baker

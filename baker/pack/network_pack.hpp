@@ -8,24 +8,25 @@
 namespace sinew::baker {
 
 // Metadata of a weights file beyond DESIGN.md section 5; absent: the paper's wiring.
-//   inputs         comma-separated names: rest_position rest_normal stiffness linear_acceleration
-//   euler_acceleration centrifugal_acceleration
-//                  articulation_acceleration angular_acceleration angular_velocity gravity_change
-//                  displacement velocity
-//   input_scales   one number an input        envelope   one number an input (scaled units), or absent:
-//   unbounded output_scale output_leak hidden_leak state_clamp length_unit_m displacement_limit   share of a
-//   region's radius (default 0.75)
+//   inputs         comma-separated names, in the order of the network's columns: rest_position rest_normal
+//                  stiffness linear_acceleration euler_acceleration centrifugal_acceleration
+//                  articulation_acceleration angular_acceleration angular_velocity gravity_change displacement
+//                  velocity
+//   input_scales   one number an input
+//   envelope       one number an input (scaled units); absent: unbounded
+//   output_scale output_leak hidden_leak state_clamp length_unit_m
+//   displacement_limit   share of a region's radius (default 0.75)
 // Tensors: layers.{l}.W_x (F_in,4F) W_h (F,4F) W_y (F,3F) b (4F), and optionally W_s (F_in,4F).
-// Throws BadInput naming file, tensor or key: missing, misshaped, NaN, unknown model or version, unknown
-// input.
-void add_network(const Safetensors& weights, PackWriter& pack);
+// Returns the layers as packed. Throws BadInput naming file, tensor or key: missing, misshaped, NaN, unknown
+// model or version, unknown input.
+std::vector<pack::LayerRecord> add_network(const Safetensors& weights, PackWriter& pack);
 
 // A number among the metadata; `fallback` where the key is absent. Throws BadInput naming file and key: not a
 // number, or outside low .. high.
 float metadata_number(const Safetensors& weights, const std::string& key, float fallback, float low,
                       float high);
 
-const char* input_name(
-    pack::InputKind kind);  // as in `inputs` above; "unknown" for what this version does not know
+// As in `inputs` above; "unknown" for what this version does not know.
+const char* input_name(pack::InputKind kind);
 
 }  // namespace sinew::baker

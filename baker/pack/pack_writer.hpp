@@ -12,11 +12,11 @@ namespace sinew::baker {
 class PackWriter {
  public:
   explicit PackWriter(pack::FileKind kind) : kind_(kind) {}
+  // Plain numbers make elements of `per_element` numbers: 3, 12 ...
   template <class T>
-  void section(pack::SectionKind kind, const std::vector<T>& elements,
-               size_t floats_an_element = 1);  // arrays of plain floats: 3, 12 ...
-  uint32_t string(const std::string& text);    // offset in kStrings; equal texts share one
-  std::vector<std::byte> finish() const;       // a section without elements is left out
+  void section(pack::SectionKind kind, const std::vector<T>& elements, size_t per_element = 1);
+  uint32_t string(const std::string& text);  // offset in kStrings; equal texts share one
+  std::vector<std::byte> finish() const;     // a section without elements is left out
 
  private:
   void add(pack::SectionKind kind, uint32_t element_bytes, const void* data, size_t bytes);

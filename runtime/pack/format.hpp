@@ -2,15 +2,19 @@
 //
 //   [FileHeader 64 bytes][SectionEntry x section_count][padding]...[section][padding][section]...
 //
-// Little-endian. The table starts at byte 64. Every section starts on a 64-byte boundary and is an array of `count` elements of
-// `element_bytes`. The table ascends by kind, so that a kind appears at most once; sections lie in the table's order, each at the next
-// multiple of 64 after the one before it, and the file ends at a multiple of 64. Gaps hold zeros. Thus equal content has equal
-// bytes, and no byte of a file is unchecked. A section without elements may be left out. A reader maps the file and uses it in place: no
-// fix-ups, no copies. Everything that indexes something is checked once, on load (pack/reader); after that the runtime trusts it.
+// Little-endian. The table starts at byte 64. Every section starts on a 64-byte boundary and is an array of
+// `count` elements of `element_bytes`. The table ascends by kind, so that a kind appears at most once;
+// sections lie in the table's order, each at the next multiple of 64 after the one before it, and the file
+// ends at a multiple of 64. Gaps hold zeros. Thus equal content has equal bytes, and no byte of a file is
+// unchecked. A section without elements may be left out. A reader maps the file and uses it in place: no
+// fix-ups, no copies. Everything that indexes something is checked once, on load (pack/reader); after that
+// the runtime trusts it.
 //
-// A pack is a *model* (kinds below 20 only: what `sinew-bake check` runs) or a *character* (all of the sections; its network has inputs).
+// A pack is a *model* (kinds below 20 only: what `sinew-bake check` runs) or a *character* (all of the
+// sections; its network has inputs).
 //
-// Version history. A version is never reused; a reader takes only its own and names the command that rebakes the others.
+// Version history. A version is never reused; a reader takes only its own and names the command that rebakes
+// the others.
 //   1  first format
 #pragma once
 #include <cstddef>
@@ -51,43 +55,46 @@ enum class SectionKind : uint32_t {
   kStrings = 1,   // char; zero-terminated UTF-8, named elsewhere by byte offset; the last byte is 0
   kMetadata = 2,  // char; the weights file's __metadata__ as JSON, kept whole and shown by `info`
 
-  kNetwork = 10,        // NetworkRecord x 1
-  kLayers = 11,         // LayerRecord x layers
-  kInputs = 12,         // InputRecord x inputs; none: the paper's wiring
-  kWeights = 13,        // float; the layers' tensors, laid out as LayerRecord says
+  kNetwork = 10,  // NetworkRecord x 1
+  kLayers = 11,   // LayerRecord x layers
+  kInputs = 12,   // InputRecord x inputs; none: the paper's wiring
+  kWeights = 13,  // float; the layers' tensors, laid out as LayerRecord says
 
-  kCharacter = 20,      // CharacterRecord x 1
-  kJoints = 21,         // JointRecord x joints
-  kPositions = 22,      // float[3] x vertices, bind pose, metres
-  kNormals = 23,        // float[3] x vertices, unit
-  kTriangles = 24,      // uint32[3] x triangles
-  kSkin = 25,           // SkinRecord x vertices
-  kColors = 26,         // uint8[4] x vertices, sRGB and alpha; for pictures, the runtime never reads it
-  kWelded = 27,         // uint32 x vertices: the first vertex at the same place, so that normals are smooth across seams
+  kCharacter = 20,  // CharacterRecord x 1
+  kJoints = 21,     // JointRecord x joints
+  kPositions = 22,  // float[3] x vertices, bind pose, metres
+  kNormals = 23,    // float[3] x vertices, unit
+  kTriangles = 24,  // uint32[3] x triangles
+  kSkin = 25,       // SkinRecord x vertices
+  kColors = 26,     // uint8[4] x vertices, sRGB and alpha; for pictures, the runtime never reads it
+  kWelded = 27,     // uint32 x vertices: the first vertex at the same place; normals are smooth across seams
 
-  kRegions = 30,        // RegionRecord x regions
-  kNodes = 31,          // NodeRecord x nodes: control nodes of all regions, region after region
-  kGraphRows = 32,      // uint32 x nodes + 1: CSR rows of P = D^-1/2 (A + I) D^-1/2
-  kGraphColumns = 33,   // uint32, ascending in a row, nodes of the row's own region
-  kGraphValues = 34,    // float
-  kRegionVertices = 35, // uint32: the vertices a region carries, region after region, ascending in a region
-  kCarry = 36,          // float: weights from nodes to vertices, see RegionRecord
+  kRegions = 30,         // RegionRecord x regions
+  kNodes = 31,           // NodeRecord x nodes: control nodes of all regions, region after region
+  kGraphRows = 32,       // uint32 x nodes + 1: CSR rows of P = D^-1/2 (A + I) D^-1/2
+  kGraphColumns = 33,    // uint32, ascending in a row, nodes of the row's own region
+  kGraphValues = 34,     // float
+  kRegionVertices = 35,  // uint32: the vertices a region carries, region after region, ascending in a region
+  kCarry = 36,           // float: weights from nodes to vertices, see RegionRecord
 
-  kClips = 40,          // ClipRecord x clips
-  kClipFrames = 41,     // float[12]: character-from-joint, [frame][joint], row-major 3x4
+  kClips = 40,       // ClipRecord x clips
+  kClipFrames = 41,  // float[12]: character-from-joint, [frame][joint], row-major 3x4
 
-  kTiers = 50,          // TierRecord x tiers
+  kTiers = 50,  // TierRecord x tiers
 };
 
 enum class ModelKind : uint32_t { kAltConvLstm = 1 };
 
-// Alt-ConvLSTM (arXiv 2006.07818 Eq. 5, 9-11) with the additions TRAINING needs; each addition is off in the paper's wiring.
-//   a   = (P x) W_x + x W_s + (P h) W_h + b                       gates i f c o, W_s only where the layer has it
+// Alt-ConvLSTM (arXiv 2006.07818 Eq. 5, 9-11) with additions that training needs; each is off in the paper's
+// wiring.
+//   a   = (P x) W_x + x W_s + (P h) W_h + b       gates i f c o; W_s only where the layer has it
 //   i,f = sigmoid(a_if + (P y) W_y_if)
 //   c   = clamp(f c + i tanh(a_c), +-state_clamp)
-//   y   = (1 - leak) y + c                     hidden layers: leak = hidden_leak
-//   y   = (1 - output_leak) y + output_scale c + carry     last layer; carry = X_t - X_{t-1} in the paper's wiring, else 0
-//   o   = sigmoid(a_o + (P y) W_y_o);  h = o tanh(c);  the next layer's x is c
+//   y   = (1 - leak) y + c                        hidden layers: leak = hidden_leak
+//   y   = (1 - output_leak) y + output_scale c + carry      last layer
+//   o   = sigmoid(a_o + (P y) W_y_o)
+//   h   = o tanh(c)                               the next layer's x is c
+// carry = X_t - X_{t-1} in the paper's wiring, else 0.
 struct NetworkRecord {
   ModelKind model;
   uint32_t layer_count;   // 1..16; the last layer has 3 channels
@@ -103,24 +110,26 @@ struct NetworkRecord {
 };
 static_assert(sizeof(NetworkRecord) == 64);
 
-// One tensor after the other in kWeights, layer after layer, without gaps, each row-major and padded to whole rows of `padded` = channels rounded up to 16 in
-// each gate block, so that a row of all gates is gates x padded floats; padding is zero. Offsets count floats, each a multiple
-// of 16. x stands for the layer's input.
+// One tensor after the other in kWeights, layer after layer, without gaps, each row-major and padded to whole
+// rows of `padded` = channels rounded up to 16 in each gate block, so that a row of all gates is gates x
+// padded floats; padding is zero. Offsets count floats, each a multiple of 16. x stands for the layer's
+// input.
 struct LayerRecord {
-  uint32_t inputs;      // F_in: input_width, then the channels of the layer before
-  uint32_t channels;    // F, 1..1024
-  uint32_t padded;      // F rounded up to 16
-  uint32_t has_self;    // 1: W_s is there
-  uint64_t w_x;         // [F_in][4][padded]
-  uint64_t w_s;         // [F_in][4][padded], if has_self; else 0
-  uint64_t w_h;         // [F][4][padded]
-  uint64_t w_y;         // [F][3][padded], gates i f o
-  uint64_t bias;        // [4][padded]
+  uint32_t inputs;    // F_in: input_width, then the channels of the layer before
+  uint32_t channels;  // F, 1..1024
+  uint32_t padded;    // F rounded up to 16
+  uint32_t has_self;  // 1: W_s is there
+  uint64_t w_x;       // [F_in][4][padded]
+  uint64_t w_s;       // [F_in][4][padded], if has_self; else 0
+  uint64_t w_h;       // [F][4][padded]
+  uint64_t w_y;       // [F][3][padded], gates i f o
+  uint64_t bias;      // [4][padded]
   uint64_t reserved;
 };
 static_assert(sizeof(LayerRecord) == 64);
 
-// What a node may be fed, in the order of the kInputs section. Vectors lie along the region frame's axes (tissue/drive.hpp).
+// What a node may be fed, in the order of the kInputs section. Vectors lie along the region frame's axes
+// (tissue/drive.hpp).
 enum class InputKind : uint32_t {
   kRestPosition = 1,              // 3: bind position less the region's centre, in region radii
   kRestNormal = 2,                // 3: bind normal
@@ -128,7 +137,7 @@ enum class InputKind : uint32_t {
   kLinearAcceleration = 4,        // 3: -a of the frame's origin, m/s^2
   kEulerAcceleration = 5,         // 3: -alpha x r
   kCentrifugalAcceleration = 6,   // 3: -omega x (omega x r)
-  kArticulationAcceleration = 7,  // 3: less what skinning adds inside the frame (relative and Coriolis), m/s^2
+  kArticulationAcceleration = 7,  // 3: less what skinning adds inside the frame, m/s^2
   kAngularAcceleration = 8,       // 3: alpha, rad/s^2
   kAngularVelocity = 9,           // 3: omega, rad/s
   kGravityChange = 10,            // 3: gravity less gravity in the bind pose, m/s^2
@@ -167,18 +176,19 @@ struct SkinRecord {
 };
 static_assert(sizeof(SkinRecord) == 48);
 
-// A soft part simulated as one: its nodes are one connected block of the graph, and share one rigid frame, the rotation
-// and place of the frame joint's skin matrix (posed x inverse bind) with scale taken out. In the bind pose the frame's axes are the character's.
+// A soft part simulated as one: its nodes are one connected block of the graph, and share one rigid frame,
+// the rotation and place of the frame joint's skin matrix (posed x inverse bind) with scale taken out. In the
+// bind pose the frame's axes are the character's.
 struct RegionRecord {
   uint32_t name;
   uint32_t frame_joint;
-  uint32_t first_node, node_count;                // 1..64 nodes
-  uint32_t first_vertex, vertex_count;            // in kRegionVertices
-  uint64_t carry;                                 // float offset in kCarry of [node_count][padded_vertices]
-  uint32_t padded_vertices;                       // vertex_count rounded up to 16; padding is zero
-  float center_m[3];                              // mean of the nodes' bind positions
-  float radius_m;                                 // largest distance of a node from the centre, > 0
-  float displacement_limit_m;                     // guard: |u| of a node beyond this is clamped and its states reset, > 0
+  uint32_t first_node, node_count;      // 1..64 nodes
+  uint32_t first_vertex, vertex_count;  // in kRegionVertices
+  uint64_t carry;                       // float offset in kCarry of [node_count][padded_vertices]
+  uint32_t padded_vertices;             // vertex_count rounded up to 16; padding is zero
+  float center_m[3];                    // mean of the nodes' bind positions
+  float radius_m;                       // largest distance of a node from the centre, > 0
+  float displacement_limit_m;  // guard: |u| of a node beyond this is clamped and its states reset, > 0
   uint32_t reserved[2];
 };
 static_assert(sizeof(RegionRecord) == 64);
@@ -201,10 +211,10 @@ struct ClipRecord {
 static_assert(sizeof(ClipRecord) == 32);
 
 struct TierRecord {
-  uint32_t tier;       // sinew::Tier, ascending, each at most once; kSkinning and kNetwork are always there
-  float cost_us;       // baked estimate a tick and instance on one core of the baking machine
-  float error_mm;      // mean against ground truth on held-out motion; NaN: not measured
-  float error_ratio;   // the same as a share of skinning's error; NaN: not measured
+  uint32_t tier;      // sinew::Tier, ascending, each at most once; kSkinning and kNetwork are always there
+  float cost_us;      // a tick and instance on one core, multiply-adds at 20 GFLOP/s; corrected online
+  float error_mm;     // mean against ground truth on held-out motion; NaN: not measured
+  float error_ratio;  // the same as a share of skinning's error; NaN: not measured
 };
 static_assert(sizeof(TierRecord) == 16);
 

@@ -21,7 +21,7 @@ struct PackView {
   std::span<const float> positions, normals;  // 3 a vertex
   std::span<const uint32_t> triangles;        // 3 a triangle
   std::span<const SkinRecord> skin;
-  std::span<const uint8_t> colors;            // 4 a vertex
+  std::span<const uint8_t> colors;  // 4 a vertex
   std::span<const uint32_t> welded;
   std::span<const RegionRecord> regions;
   std::span<const NodeRecord> nodes;
@@ -30,12 +30,13 @@ struct PackView {
   std::span<const uint32_t> region_vertices;
   std::span<const float> carry;
   std::span<const ClipRecord> clips;
-  std::span<const float> clip_frames;         // 12 a joint and frame
+  std::span<const float> clip_frames;  // 12 a joint and frame
   std::span<const TierRecord> tiers;
 };
 
-// Checks everything that is later trusted: magic, version, sizes, checksums, counts against each other, every index, offset and string, finite
-// numbers. O(bytes), allocates nothing. bytes must be 64-byte aligned and outlive the view. On refusal *out is untouched.
+// Checks everything that is later trusted: magic, version, sizes, checksums, counts against each other, every
+// index, offset and string, finite numbers. O(bytes), allocates nothing. bytes must be 64-byte aligned and
+// outlive the view. On refusal *out is untouched.
 Status open_pack(std::span<const std::byte> bytes, PackView* out) noexcept;
 
 const char* string_at(const PackView& pack, uint32_t offset) noexcept;

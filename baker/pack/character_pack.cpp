@@ -1,0 +1,243 @@
+// character_pack.cpp  A character, its tissue and its network to one .sinew file.
+#include "baker/pack/character_pack.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "baker/common/bad_input.hpp"
+#include "baker/pack/graph.hpp"
+#include "baker/pack/network_pack.hpp"
+#include "baker/pack/tier_pack.hpp"
+
+namespace sinew::baker {
+namespace {
+
+using pack::SectionKind;
+
+constexpr double kMaxClipSeconds = 600;
+constexpr float kDisplacementLimit = 0.75f;  // share of a region's radius, where the weights do not say
+
+template <class Size>
+uint32_t to_u32(Size value) {
+  return static_cast<uint32_t>(value);
+}
+
+void append(const Vector3& v, std::vector<float>* out) {
+  for (int axis = 0; axis < 3; ++axis) out->push_back(static_cast<float>(v[axis]));
+}
+
+// Row-major 3x4.
+void append_affine(const Matrix4& m, std::vector<float>* out) {
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 4; ++column) out->push_back(static_cast<float>(m(row, column)));
+}
+
+Vector3 unit_or_up(const Vector3& normal) {
+  const double length = normal.norm();
+  return length > 1e-12 && std::isfinite(length) ? Vector3(normal / length) : Vector3::UnitY();
+}
+
+pack::SkinRecord to_record(const Influences& influences) {
+  pack::SkinRecord record{};
+  for (size_t k = 0; k < pack::kInfluences; ++k) {
+    record.weight[k] = static_cast<float>(influences.weight[k]);
+    record.joint[k] = record.weight[k] > 0 ? static_cast<uint16_t>(influences.joint[k]) : uint16_t{0};
+  }
+  return record;
+}
+
+// ---- the character
+// ----------------------------------------------------------------------------------------------------
+
+double height_of(const Character& character) {
+  const auto [low, high] =
+      std::ranges::minmax_element(character.positions, {}, [](const Vector3& p) { return p.y(); });
+  return high->y() - low->y();
+}
+
+void add_record(const Character& character, const TissueLayout& layout, PackWriter& pack) {
+  pack::CharacterRecord record{};
+  record.name = pack.string(character.name);
+  record.vertex_count = to_u32(character.positions.size());
+  record.triangle_count = to_u32(character.triangles.size());
+  record.joint_count = to_u32(character.joint_node.size());
+  record.region_count = to_u32(layout.regions.size());
+  record.node_count = to_u32(layout.nodes.size());
+  record.clip_count = to_u32(character.clips.size());
+  record.height_m = static_cast<float>(height_of(character));
+  pack.section(SectionKind::kCharacter, std::vector{record});
+}
+
+void add_joints(const Character& character, PackWriter& pack) {
+  std::vector<pack::JointRecord> joints;
+  for (size_t j = 0; j < character.joint_node.size(); ++j) {
+    pack::JointRecord joint{};
+    joint.name = pack.string(character.nodes[static_cast<size_t>(character.joint_node[j])].name);
+    joint.parent = character.joint_parent[j] < 0 ? pack::kNoIndex : to_u32(character.joint_parent[j]);
+    std::vector<float> inverse_bind;
+    append_affine(character.inverse_bind[j], &inverse_bind);
+    std::ranges::copy(inverse_bind, joint.inverse_bind);
+    joints.push_back(joint);
+  }
+  pack.section(SectionKind::kJoints, joints);
+}
+
+void add_mesh(const Character& character, PackWriter& pack) {
+  std::vector<float> positions, normals;
+  std::vector<pack::SkinRecord> skin;
+  std::vector<uint8_t> colors;
+  for (size_t v = 0; v < character.positions.size(); ++v) {
+    append(character.positions[v], &positions);
+    append(unit_or_up(character.normals[v]), &normals);
+    skin.push_back(to_record(character.skin[v]));
+    colors.insert(colors.end(), character.colors[v].begin(), character.colors[v].end());
+  }
+  std::vector<uint32_t> triangles;
+  for (const std::array<int, 3>& triangle : character.triangles)
+    for (int vertex : triangle) triangles.push_back(to_u32(vertex));
+  pack.section(SectionKind::kPositions, positions, 3);
+  pack.section(SectionKind::kNormals, normals, 3);
+  pack.section(SectionKind::kTriangles, triangles, 3);
+  pack.section(SectionKind::kSkin, skin);
+  pack.section(SectionKind::kColors, colors, 4);
+  pack.section(SectionKind::kWelded, std::vector<uint32_t>(character.welded.begin(), character.welded.end()));
+}
+
+void check_duration(const Clip& clip) {
+  if (!(clip.duration_s <= kMaxClipSeconds))
+    throw BadInput("clip '" + clip.name + "' lasts " + std::to_string(clip.duration_s) +
+                   " s; at most 600 s are packed: cut it, or leave it to the engine");
+}
+
+void add_clips(const Character& character, PackWriter& pack) {
+  constexpr double kSlack = 1e-6;  // of a frame: a duration rounded to float must not add a frame
+  std::vector<pack::ClipRecord> clips;
+  std::vector<float> frames;
+  uint32_t first_frame = 0;
+  for (const Clip& clip : character.clips) {
+    check_duration(clip);
+    const auto intervals = to_u32(std::max(0.0, std::ceil(clip.duration_s * kClipRateHz - kSlack)));
+    for (uint32_t frame = 0; frame <= intervals; ++frame) {
+      const double t_s = std::min(frame / kClipRateHz, clip.duration_s);
+      for (const Matrix4& joint : joint_matrices(character, &clip, t_s)) append_affine(joint, &frames);
+    }
+    clips.push_back(
+        {pack.string(clip.name), first_frame, intervals + 1, static_cast<float>(kClipRateHz), {}});
+    first_frame += intervals + 1;
+  }
+  pack.section(SectionKind::kClips, clips);
+  pack.section(SectionKind::kClipFrames, frames, 12);
+}
+
+// ---- the tissue
+// -------------------------------------------------------------------------------------------------------
+
+void append_carry(const Region& region, uint32_t padded_vertices, std::vector<float>* carry) {
+  for (const std::vector<double>& row : region.carry) {
+    for (double weight : row) carry->push_back(static_cast<float>(weight));
+    carry->resize(carry->size() + padded_vertices - row.size(), 0.0f);
+  }
+}
+
+pack::RegionRecord to_record(const Region& region, float displacement_limit) {
+  pack::RegionRecord record{};
+  record.frame_joint = to_u32(region.frame_joint);
+  record.first_node = to_u32(region.first_node);
+  record.node_count = to_u32(region.node_count);
+  record.vertex_count = to_u32(region.vertices.size());
+  record.padded_vertices = (record.vertex_count + 15) / 16 * 16;
+  for (int axis = 0; axis < 3; ++axis) record.center_m[axis] = static_cast<float>(region.center[axis]);
+  record.radius_m = static_cast<float>(region.radius_m);
+  record.displacement_limit_m = displacement_limit * record.radius_m;
+  return record;
+}
+
+void add_regions(const TissueLayout& layout, float displacement_limit, PackWriter& pack) {
+  std::vector<pack::RegionRecord> regions;
+  std::vector<uint32_t> vertices;
+  std::vector<float> carry;
+  for (const Region& region : layout.regions) {
+    pack::RegionRecord record = to_record(region, displacement_limit);
+    record.name = pack.string(region.name);
+    record.first_vertex = to_u32(vertices.size());
+    record.carry = carry.size();
+    vertices.insert(vertices.end(), region.vertices.begin(), region.vertices.end());
+    append_carry(region, record.padded_vertices, &carry);
+    regions.push_back(record);
+  }
+  pack.section(SectionKind::kRegions, regions);
+  pack.section(SectionKind::kRegionVertices, vertices);
+  pack.section(SectionKind::kCarry, carry);
+}
+
+void add_nodes(const TissueLayout& layout, PackWriter& pack) {
+  std::vector<pack::NodeRecord> nodes;
+  for (const ControlNode& node : layout.nodes) {
+    pack::NodeRecord record{};
+    const Vector3 normal = unit_or_up(node.normal);
+    for (int axis = 0; axis < 3; ++axis) {
+      record.position_m[axis] = static_cast<float>(node.position[axis]);
+      record.normal[axis] = static_cast<float>(normal[axis]);
+    }
+    record.stiffness = static_cast<float>(std::clamp(node.stiffness, 0.0, 1.0));
+    record.region = to_u32(node.region);
+    record.skin = to_record(node.skin);
+    nodes.push_back(record);
+  }
+  pack.section(SectionKind::kNodes, nodes);
+}
+
+void add_graph(const GraphRows& graph, PackWriter& pack) {
+  pack.section(SectionKind::kGraphRows, graph.rows);
+  pack.section(SectionKind::kGraphColumns, graph.columns);
+  pack.section(SectionKind::kGraphValues, graph.values);
+}
+
+// ---- weights
+// ----------------------------------------------------------------------------------------------------------
+
+void check_inputs_stated(const Safetensors& weights) {
+  if (!weights.metadata.contains("inputs"))
+    throw BadInput(weights.path +
+                   ": metadata key 'inputs' is missing (the paper's wiring), which characters cannot run in "
+                   "this version; "
+                   "use weights from baker/train");
+}
+
+void check_joint_count(const Character& character) {
+  if (character.joint_node.size() > std::numeric_limits<uint16_t>::max())
+    throw BadInput(character.name + ": " + std::to_string(character.joint_node.size()) +
+                   " joints, of which a pack holds 65535; remove joints without skin weight");
+}
+
+void add_tiers(const Safetensors& weights, uint64_t multiply_adds, size_t nodes, PackWriter& pack) {
+  constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN(), kLargest = 1e6f;
+  const float error_mm = metadata_number(weights, "error_mm", kUnknown, 0, kLargest);
+  const float error_ratio = metadata_number(weights, "error_ratio", kUnknown, 0, kLargest);
+  pack.section(SectionKind::kTiers, make_tiers(multiply_adds, nodes, error_mm, error_ratio));
+}
+
+}  // namespace
+
+std::vector<std::byte> pack_character(const Character& character, const TissueLayout& layout,
+                                      const Safetensors& weights) {
+  check_inputs_stated(weights);
+  check_joint_count(character);
+  PackWriter pack(pack::FileKind::kCharacter);
+  const std::vector<pack::LayerRecord> layers = add_network(weights, pack);
+  add_record(character, layout, pack);
+  add_joints(character, pack);
+  add_mesh(character, pack);
+  add_clips(character, pack);
+  add_regions(layout, metadata_number(weights, "displacement_limit", kDisplacementLimit, 1e-3f, 100), pack);
+  add_nodes(layout, pack);
+  const GraphRows graph =
+      normalized_adjacency(layout.nodes.size(), layout.edges, character.name + ": control graph");
+  add_graph(graph, pack);
+  add_tiers(weights, multiply_adds(layers, layout.nodes.size(), graph.columns.size()), layout.nodes.size(),
+            pack);
+  return pack.finish();
+}
+
+}  // namespace sinew::baker

@@ -1,0 +1,42 @@
+// tier_pack.cpp  What a character's tiers cost and how far they are from the truth, as baked.
+#include "baker/pack/tier_pack.hpp"
+
+#include <limits>
+
+#include "sinew/types.hpp"
+
+namespace sinew::baker {
+namespace {
+
+constexpr float kNotMeasured = std::numeric_limits<float>::quiet_NaN();
+
+float cost_us(uint64_t multiply_adds) {
+  constexpr double kFlopsEach = 2;
+  return static_cast<float>(static_cast<double>(multiply_adds) * kFlopsEach / kBakedCostFlops * 1e6);
+}
+
+}  // namespace
+
+uint64_t multiply_adds(std::span<const pack::LayerRecord> layers, size_t nodes, size_t graph_entries) {
+  uint64_t total = 0;
+  for (const pack::LayerRecord& layer : layers) {
+    const uint64_t input_rows = uint64_t{layer.inputs} * (1 + layer.has_self);
+    const uint64_t products =
+        layer.padded * (4 * input_rows + 4 * uint64_t{layer.channels} + 3 * uint64_t{layer.channels});
+    const uint64_t aggregated = uint64_t{layer.inputs} + 2 * uint64_t{layer.channels};  // x, h and y
+    total += nodes * products + graph_entries * aggregated;
+  }
+  return total;
+}
+
+std::vector<pack::TierRecord> make_tiers(uint64_t network_multiply_adds, size_t nodes, float error_mm,
+                                         float error_ratio) {
+  constexpr uint64_t kExtrapolationOps = 3;  // one damped coordinate each
+  const float skinning_mm = error_ratio > 0 ? error_mm / error_ratio : kNotMeasured;
+  return {{static_cast<uint32_t>(Tier::kSkinning), 0, skinning_mm, 1},  // the ratio is 1 by definition
+          {static_cast<uint32_t>(Tier::kExtrapolate), cost_us(nodes * kExtrapolationOps), kNotMeasured,
+           kNotMeasured},
+          {static_cast<uint32_t>(Tier::kNetwork), cost_us(network_multiply_adds), error_mm, error_ratio}};
+}
+
+}  // namespace sinew::baker

@@ -1,0 +1,24 @@
+// tier_pack.hpp  What a character's tiers cost and how far they are from the truth, as baked.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "pack/format.hpp"
+
+namespace sinew::baker {
+
+// Baked costs must be the same on every machine, so they are not timed: multiply-adds at this rate on one
+// core. The runtime measures and corrects them.
+inline constexpr double kBakedCostFlops = 20e9;
+
+// Of one network step; graph_entries: non-zeros of the aggregation matrix. Padding that the kernels compute
+// counts.
+uint64_t multiply_adds(std::span<const pack::LayerRecord> layers, size_t nodes, size_t graph_entries);
+
+// Skinning, extrapolation and the network; the errors are the network's, NaN where not measured.
+std::vector<pack::TierRecord> make_tiers(uint64_t network_multiply_adds, size_t nodes, float error_mm,
+                                         float error_ratio);
+
+}  // namespace sinew::baker
