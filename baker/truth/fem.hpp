@@ -1,4 +1,10 @@
-// fem.hpp  Elastic bodies on tetrahedra: backward Euler by Newton, sparse Cholesky, Rayleigh damping.
+// fem.hpp  Elastic bodies on tetrahedra: backward Euler by Newton's method, sparse Cholesky, Rayleigh
+// damping.
+//
+// Damping C = alpha M + beta K: the stiffness part is the rest stiffness, acting on the rate of Green's
+// strain, so that no rotation is damped; the mass part acts on velocity. Both are taken relative to an
+// undisturbed motion when one is given. Backward Euler itself damps: a mode of w rad/s by a ratio of about w
+// dt / 2.
 #pragma once
 #include <Eigen/Core>
 #include <array>
@@ -13,32 +19,55 @@ enum class Elasticity { kLinear, kCorotational, kNeoHookean };  // stable neo-Ho
 
 struct FemMaterial {
   Elasticity elasticity = Elasticity::kNeoHookean;
-  std::vector<double> young_pa;  // a tetrahedron, or one for all
-  double poisson_ratio = 0.42;
-  double density_kg_m3 = 1000;
-  double rayleigh_mass_per_s = 0;  // alpha in C = alpha M + beta K
-  double rayleigh_stiffness_s = 0; // beta
+  std::vector<double> young_pa = {1e5};  // a tetrahedron, or one for all; > 0
+  double poisson_ratio = 0.42;           // 0 .. below 0.5
+  double density_kg_m3 = 1000;           // > 0
+  std::vector<double> fill = {
+      1};  // share of a tetrahedron that is matter, or one for all; scales its mass only
+  double rayleigh_mass_per_s = 0;   // alpha, >= 0
+  double rayleigh_stiffness_s = 0;  // beta, >= 0
+};
+
+// Where a body would be if nothing disturbed it, over one step.
+struct UndisturbedMotion {
+  Eigen::VectorXd before, after;      // 3 a node, at the step's two ends
+  std::vector<Eigen::Matrix3d> turn;  // a node: how its surroundings turn in between
 };
 
 class Fem {
  public:
-  Fem(std::vector<Vector3> rest, std::vector<std::array<int, 4>> tetrahedra, std::vector<bool> constrained, FemMaterial material);
+  // Throws BadInput: an index out of range, a flat or inverted tetrahedron, a free node in none, a material
+  // out of its range.
+  Fem(std::vector<Vector3> rest, std::vector<std::array<int, 4>> tetrahedra, std::vector<bool> constrained,
+      FemMaterial material);
   ~Fem();
   Fem(Fem&&) noexcept;
 
   Eigen::VectorXd positions, velocities;  // 3 a node; constrained entries are the caller's
   Eigen::VectorXd mass;                   // lumped, 1 a node
 
-  // One backward Euler step to Newton residual `tolerance` (share of the force scale). `target` gives the constrained nodes' new positions (3 a node; others ignored);
-  // `force` is added (3 a node). Returns the Newton iterations taken; throws std::runtime_error when it does not converge.
-  int step(double dt_s, const Eigen::VectorXd& target, const Eigen::VectorXd& force, double tolerance = 1e-6);
+  // At rest at these positions; forgets the past.
+  void reset(const Eigen::VectorXd& at);
+
+  // One backward Euler step until the gradient of the step's potential is below `tolerance` times the weight
+  // and `force` of each separate body. `target` gives the constrained nodes' new positions (3 a node; others
+  // ignored); `force` is added (3 a node). Returns the iterations taken, the most of any body; throws
+  // std::runtime_error when it does not converge.
+  int step(double dt_s, const Eigen::VectorXd& target, const Eigen::VectorXd& force, double tolerance = 1e-6,
+           const UndisturbedMotion* undisturbed = nullptr);
   // Static equilibrium under `force`.
   int settle(const Eigen::VectorXd& force, double tolerance = 1e-8);
 
-  Eigen::VectorXd elastic_force(const Eigen::VectorXd& positions) const;
+  // Sets alpha and beta of each separate body so that its first mode and three times that frequency are
+  // damped by this ratio.
+  void damp(double ratio);
+
+  Eigen::VectorXd elastic_force(const Eigen::VectorXd& at) const;  // 3 a node, constrained ones too
   double elastic_energy() const;
   double kinetic_energy() const;
   std::vector<double> frequencies_hz(int count) const;  // lowest free modes about the rest pose
+  int body_count() const;                               // separate sets of free nodes
+  long factorizations() const;                          // since the start
 
  private:
   struct Impl;

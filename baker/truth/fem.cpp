@@ -1,0 +1,309 @@
+// fem.cpp  Elastic bodies on tetrahedra: backward Euler over each separate body's component.
+#include "baker/truth/fem.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <map>
+#include <string>
+
+#include "baker/common/bad_input.hpp"
+#include "baker/truth/disjoint_sets.hpp"
+#include "baker/truth/fem_component.hpp"
+#include "baker/truth/modes.hpp"
+
+namespace sinew::baker {
+namespace {
+
+using Tetrahedra = std::vector<std::array<int, 4>>;
+
+[[noreturn]] void refuse(const std::string& what) { throw BadInput("fem: " + what); }
+
+double rest_volume(const std::vector<Vector3>& rest, const std::array<int, 4>& t) {
+  const auto at = [&](size_t a) { return rest[static_cast<size_t>(t[a])]; };
+  return (at(1) - at(0)).dot((at(2) - at(0)).cross(at(3) - at(0))) / 6;
+}
+
+void check_mesh(const std::vector<Vector3>& rest, const Tetrahedra& tetrahedra,
+                const std::vector<bool>& constrained) {
+  if (constrained.size() != rest.size())
+    refuse(std::to_string(constrained.size()) + " constraint flags for " + std::to_string(rest.size()) +
+           " nodes: give one a node");
+  for (size_t e = 0; e < tetrahedra.size(); ++e) {
+    for (const int node : tetrahedra[e])
+      if (node < 0 || static_cast<size_t>(node) >= rest.size())
+        refuse("tetrahedron " + std::to_string(e) + " names node " + std::to_string(node) + " of " +
+               std::to_string(rest.size()));
+    if (!(rest_volume(rest, tetrahedra[e]) > 0))
+      refuse("tetrahedron " + std::to_string(e) +
+             " is flat or inverted at rest: order its corners for a positive volume");
+  }
+}
+
+void check_share(const std::vector<double>& values, size_t tetrahedra, const char* name) {
+  if (values.size() != 1 && values.size() != tetrahedra)
+    refuse(std::to_string(values.size()) + " values of " + name + " for " + std::to_string(tetrahedra) +
+           " tetrahedra: give one, or one each");
+  for (size_t e = 0; e < values.size(); ++e)
+    if (!(values[e] > 0) || !std::isfinite(values[e]))
+      refuse(std::string(name) + " of tetrahedron " + std::to_string(e) + " is " + std::to_string(values[e]) +
+             ": give a number above 0");
+}
+
+void check_material(const FemMaterial& m, size_t tetrahedra) {
+  check_share(m.young_pa, tetrahedra, "young_pa");
+  check_share(m.fill, tetrahedra, "fill");
+  if (!(m.poisson_ratio >= 0 && m.poisson_ratio < 0.5))
+    refuse("poisson_ratio is " + std::to_string(m.poisson_ratio) + ": give 0 or more, less than 0.5");
+  if (!(m.density_kg_m3 > 0))
+    refuse("density_kg_m3 is " + std::to_string(m.density_kg_m3) + ": give a number above 0");
+  if (!(m.rayleigh_mass_per_s >= 0) || !(m.rayleigh_stiffness_s >= 0)) refuse("Rayleigh damping is below 0");
+}
+
+}  // namespace
+
+struct Fem::Impl {
+  std::vector<Vector3> rest;
+  Elasticity elasticity;
+  std::vector<bool> constrained;
+  std::deque<FemComponent> components;
+  std::vector<ElementBlock>
+      rigid_blocks;  // elements without a free node: they count in energy and force alone
+  Eigen::VectorXd
+      relative_velocity;  // against the undisturbed motion, in its turning axes: the next step's first guess
+
+  template <typename Visit>  // visit(block)
+  void each_block(const Visit& visit) const {
+    for (const FemComponent& component : components)
+      for (const ElementBlock& block : component.blocks()) visit(block);
+    for (const ElementBlock& block : rigid_blocks) visit(block);
+  }
+};
+
+namespace {
+
+struct Grouping {
+  std::map<size_t, std::vector<int>> nodes, elements;  // by component root
+  std::vector<int> rigid;
+};
+
+Grouping group(const Tetrahedra& tetrahedra, const std::vector<bool>& constrained) {
+  DisjointSets sets(constrained.size());
+  const auto first_free = [&](const std::array<int, 4>& t) {
+    return *std::find_if(t.begin(), t.end(), [&](int n) { return !constrained[static_cast<size_t>(n)]; });
+  };
+  const auto has_free = [&](const std::array<int, 4>& t) {
+    return std::any_of(t.begin(), t.end(), [&](int n) { return !constrained[static_cast<size_t>(n)]; });
+  };
+  for (const auto& t : tetrahedra)
+    for (const int node : t)
+      if (!constrained[static_cast<size_t>(node)])
+        sets.join(static_cast<size_t>(first_free(t)), static_cast<size_t>(node));
+  Grouping groups;
+  for (size_t e = 0; e < tetrahedra.size(); ++e) {
+    if (!has_free(tetrahedra[e]))
+      groups.rigid.push_back(static_cast<int>(e));
+    else
+      groups.elements[sets.find(static_cast<size_t>(first_free(tetrahedra[e])))].push_back(
+          static_cast<int>(e));
+  }
+  for (size_t i = 0; i < constrained.size(); ++i)
+    if (!constrained[i]) groups.nodes[sets.find(i)].push_back(static_cast<int>(i));
+  return groups;
+}
+
+Eigen::VectorXd lumped_mass(const std::vector<Vector3>& rest, const Tetrahedra& tetrahedra,
+                            const FemMaterial& material) {
+  Eigen::VectorXd mass = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rest.size()));
+  for (size_t e = 0; e < tetrahedra.size(); ++e) {
+    const double fill = material.fill.size() == 1 ? material.fill[0] : material.fill[e];
+    for (const int node : tetrahedra[e])
+      mass[node] += rest_volume(rest, tetrahedra[e]) * fill * material.density_kg_m3 / 4;
+  }
+  return mass;
+}
+
+}  // namespace
+
+Fem::Fem(std::vector<Vector3> rest, Tetrahedra tetrahedra, std::vector<bool> constrained,
+         FemMaterial material)
+    : impl_(std::make_unique<Impl>()) {
+  check_mesh(rest, tetrahedra, constrained);
+  check_material(material, tetrahedra.size());
+  mass = lumped_mass(rest, tetrahedra, material);
+  for (size_t i = 0; i < rest.size(); ++i)
+    if (!constrained[i] && mass[static_cast<Eigen::Index>(i)] == 0)
+      refuse("free node " + std::to_string(i) + " belongs to no tetrahedron: drop it or constrain it");
+  Grouping groups = group(tetrahedra, constrained);
+  for (auto& [root, nodes] : groups.nodes) {
+    impl_->components.emplace_back(std::move(nodes),
+                                   element_blocks(rest, tetrahedra, groups.elements[root], material),
+                                   material.elasticity, mass);
+    impl_->components.back().rayleigh_mass_per_s = material.rayleigh_mass_per_s;
+    impl_->components.back().rayleigh_stiffness_s = material.rayleigh_stiffness_s;
+  }
+  if (!groups.rigid.empty()) impl_->rigid_blocks = element_blocks(rest, tetrahedra, groups.rigid, material);
+  impl_->elasticity = material.elasticity;
+  impl_->constrained = std::move(constrained);
+  impl_->rest = std::move(rest);
+  reset(Eigen::Map<const Eigen::VectorXd>(impl_->rest.data()->data(), 3 * mass.size()));
+}
+
+Fem::~Fem() = default;
+Fem::Fem(Fem&&) noexcept = default;
+
+void Fem::reset(const Eigen::VectorXd& at) {
+  positions = at;
+  velocities = impl_->relative_velocity = Eigen::VectorXd::Zero(at.size());
+}
+
+namespace {
+
+// x_n carried along by the undisturbed motion: where mass damping wants each node.
+Eigen::VectorXd carried(const Eigen::VectorXd& x, const UndisturbedMotion* motion) {
+  if (!motion) return x;
+  Eigen::VectorXd to(x.size());
+  for (Eigen::Index i = 0; i < x.size(); i += 3)
+    to.segment<3>(i) = motion->after.segment<3>(i) + motion->turn[static_cast<size_t>(i / 3)] *
+                                                         (x.segment<3>(i) - motion->before.segment<3>(i));
+  return to;
+}
+
+std::vector<LaneStrain> damped_towards(const FemComponent& component, Elasticity elasticity,
+                                       const Eigen::VectorXd& x, const UndisturbedMotion* motion) {
+  std::vector<LaneStrain> strains;
+  strains.reserve(component.blocks().size());
+  for (const ElementBlock& block : component.blocks()) {
+    const auto at = [&](const Eigen::VectorXd& where) {
+      return strain(elasticity, deformation_gradient(block, where.data()));
+    };
+    strains.push_back(at(x));
+    if (!motion) continue;
+    const LaneStrain before = at(motion->before), after = at(motion->after);
+    for (size_t k = 0; k < 6; ++k) strains.back()[k] += after[k] - before[k];
+  }
+  return strains;
+}
+
+Potential step_potential(const FemComponent& component, Elasticity elasticity, double dt,
+                         const Eigen::VectorXd& x, const Eigen::VectorXd& v, const Eigen::VectorXd& carried_x,
+                         const UndisturbedMotion* motion) {
+  Potential p;
+  const double inertia = 1 / (dt * dt), drag = component.rayleigh_mass_per_s / dt;
+  p.inertia_per_s2 = inertia + drag;
+  p.anchor = (inertia * (x + dt * v) + drag * carried_x) / p.inertia_per_s2;
+  p.viscosity = component.rayleigh_stiffness_s / dt;
+  if (p.viscosity > 0) p.strain = damped_towards(component, elasticity, x, motion);
+  return p;
+}
+
+}  // namespace
+
+int Fem::step(double dt_s, const Eigen::VectorXd& target, const Eigen::VectorXd& force, double tolerance,
+              const UndisturbedMotion* undisturbed) {
+  if (!(dt_s > 0)) refuse("dt_s is " + std::to_string(dt_s) + ": give a number above 0");
+  if (target.size() != positions.size() || force.size() != positions.size())
+    refuse("target and force need 3 values for each of " + std::to_string(mass.size()) + " nodes");
+  constexpr int kPatience = 6;
+  const Eigen::VectorXd from = positions, along = carried(from, undisturbed);
+  Eigen::VectorXd& relative = impl_->relative_velocity;
+  for (Eigen::Index i = 0; i < mass.size(); ++i) {
+    if (undisturbed)
+      relative.segment<3>(3 * i) = undisturbed->turn[static_cast<size_t>(i)] * relative.segment<3>(3 * i);
+    else
+      relative.segment<3>(3 * i) = velocities.segment<3>(3 * i);
+    if (impl_->constrained[static_cast<size_t>(i)])
+      positions.segment<3>(3 * i) = target.segment<3>(3 * i);
+    else
+      positions.segment<3>(3 * i) = along.segment<3>(3 * i) + dt_s * relative.segment<3>(3 * i);
+  }
+  int most = 0;
+  for (FemComponent& component : impl_->components) {
+    Potential p = step_potential(component, impl_->elasticity, dt_s, from, velocities, along, undisturbed);
+    p.force = force;
+    most = std::max(most, component.minimize(p, tolerance, kPatience, positions));
+  }
+  velocities = (positions - from) / dt_s;
+  relative = (positions - along) / dt_s;
+  return most;
+}
+
+int Fem::settle(const Eigen::VectorXd& force, double tolerance) {
+  if (force.size() != positions.size())
+    refuse("force needs 3 values for each of " + std::to_string(mass.size()) + " nodes");
+  Potential p;
+  p.anchor = positions;
+  p.force = force;
+  int most = 0;
+  for (FemComponent& component : impl_->components) {
+    if (!component.supported())
+      refuse("a body without a constrained node has no static equilibrium: constrain some of its nodes");
+    most = std::max(most, component.minimize(p, tolerance, 0, positions));
+  }
+  velocities.setZero();
+  return most;
+}
+
+Eigen::VectorXd Fem::elastic_force(const Eigen::VectorXd& at) const {
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(at.size());
+  impl_->each_block([&](const ElementBlock& block) {
+    add_gradient(block, stress(impl_->elasticity, block, deformation_gradient(block, at.data())),
+                 gradient.data());
+  });
+  return -gradient;
+}
+
+double Fem::elastic_energy() const {
+  double sum = 0;
+  impl_->each_block([&](const ElementBlock& block) {
+    sum += (block.volume *
+            energy_density(impl_->elasticity, block, deformation_gradient(block, positions.data())))
+               .sum();
+  });
+  return sum;
+}
+
+double Fem::kinetic_energy() const {
+  double sum = 0;
+  for (Eigen::Index i = 0; i < mass.size(); ++i)
+    sum += 0.5 * mass[i] * velocities.segment<3>(3 * i).squaredNorm();
+  return sum;
+}
+
+std::vector<double> Fem::frequencies_hz(int count) const {
+  const Eigen::Map<const Eigen::VectorXd> rest(impl_->rest.data()->data(), 3 * mass.size());
+  std::vector<double> hz;
+  for (FemComponent& component : impl_->components) {
+    const Eigen::VectorXd squared = lowest_squared_frequencies(component.assemble(Potential{}, rest, false),
+                                                               component.free_mass(), count);
+    for (const double value : squared) hz.push_back(std::sqrt(value) / (2 * M_PI));
+  }
+  std::sort(hz.begin(), hz.end());
+  hz.resize(std::min(hz.size(), static_cast<size_t>(count)));
+  return hz;
+}
+
+void Fem::damp(double ratio) {
+  if (!(ratio >= 0)) refuse("the damping ratio is " + std::to_string(ratio) + ": give 0 or more");
+  const Eigen::Map<const Eigen::VectorXd> rest(impl_->rest.data()->data(), 3 * mass.size());
+  constexpr double kStill = 1e-2;  // rad/s: a free body's rigid motions are not modes
+  for (FemComponent& component : impl_->components) {
+    const Eigen::VectorXd squared =
+        lowest_squared_frequencies(component.assemble(Potential{}, rest, false), component.free_mass(), 7);
+    const double first = std::sqrt(
+        *std::find_if(squared.begin(), squared.end() - 1, [](double w2) { return w2 > kStill * kStill; }));
+    component.rayleigh_mass_per_s = 1.5 * ratio * first;  // ratio = alpha / (2 w) + beta w / 2 at w and 3 w
+    component.rayleigh_stiffness_s = 0.5 * ratio / first;
+  }
+}
+
+int Fem::body_count() const { return static_cast<int>(impl_->components.size()); }
+
+long Fem::factorizations() const {
+  long sum = 0;
+  for (const FemComponent& component : impl_->components) sum += component.factorizations();
+  return sum;
+}
+
+}  // namespace sinew::baker
