@@ -1,0 +1,94 @@
+// write_file.cpp  Whole files or none.
+#include "baker/common/write_file.hpp"
+
+#include <sys/resource.h>
+
+#include <catch2/catch.hpp>
+#include <csignal>
+
+#include "baker/common/bad_input.hpp"
+#include "baker/common/read_file.hpp"
+#include "tests/baker/common/temporary_folder.hpp"
+
+using namespace sinew::baker;
+using Catch::Contains;
+using sinew::test::TemporaryFolder;
+
+namespace {
+
+std::string refusal(const std::string& path, std::string_view text) {
+  try {
+    write_file(path, text);
+  } catch (const BadInput& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// Files of this process may not grow beyond `bytes` while it lives: what a full disk looks like to write().
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    rlimit limit = before_;
+    limit.rlim_cur = bytes;
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    handler_ = std::signal(SIGXFSZ, SIG_IGN);
+  }
+  ~FileSizeLimit() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int) = nullptr;
+};
+
+}  // namespace
+
+TEST_CASE("write_file_refuses_places_it_cannot_write_with_one_line") {
+  const TemporaryFolder folder;
+  CHECK_THAT(refusal(folder.file("no/such/folder/x"), "text"),
+             Contains("no/such/folder/x: cannot be written"));
+  CHECK_THAT(refusal(folder.path(), "text"), Contains("it is a directory"));
+  CHECK_THAT(refusal("", "text"), Contains("cannot be written"));
+  CHECK(folder.entries() == 0);
+}
+
+TEST_CASE("a_full_disk_leaves_the_old_file_and_nothing_half_written") {
+  const TemporaryFolder folder;
+  write_file(folder.file("pack"), std::string_view("old"));
+  const std::string big(1 << 20, 'x');
+  {
+    const FileSizeLimit limit(4096);
+    CHECK_THAT(refusal(folder.file("pack"), big), Contains("pack: cannot be written (File too large)"));
+    CHECK_THAT(refusal(folder.file("new"), big), Contains("cannot be written"));
+  }
+  CHECK(read_text(folder.file("pack")) == "old");
+  CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("write_file_replaces_a_file_whole_and_keeps_a_link_a_link") {
+  const TemporaryFolder folder;
+  write_file(folder.file("target"), std::string_view("first, and longer"));
+  std::filesystem::create_symlink(folder.file("target"), folder.file("link"));
+  write_file(folder.file("link"), std::string_view("second"));
+  CHECK(read_text(folder.file("target")) == "second");
+  CHECK(std::filesystem::is_symlink(folder.file("link")));
+  CHECK(folder.entries() == 2);
+}
+
+TEST_CASE("a_device_is_written_to_and_not_replaced") {
+  write_file("/dev/null", std::string_view("text"));
+  CHECK(std::filesystem::is_character_file("/dev/null"));
+}
+
+TEST_CASE("read_file_names_what_it_cannot_read") {
+  const TemporaryFolder folder;
+  CHECK_THROWS_WITH(read_file(folder.file("missing")),
+                    Contains("missing: cannot be read (No such file or directory)"));
+  CHECK_THROWS_WITH(read_file(folder.path()), Contains("it is a directory"));
+  write_file(folder.file("empty"), std::string_view(""));
+  CHECK(read_file(folder.file("empty")).empty());
+}
