@@ -1,4 +1,5 @@
-// creature_recipe.hpp  What the artist states about a creature. Metres, Y up, the creature looks along +Z, its left is +X.
+// creature_recipe.hpp  What the artist states about a creature. Metres, Y up, the creature looks along +Z,
+// its left is +X.
 #pragma once
 #include <Eigen/Core>
 #include <string>
@@ -43,7 +44,8 @@ struct ColorBand {
 struct DetailRecipe {  // a small closed surface of its own, moved rigidly by one joint
   std::string name, joint, material;
   Solid solid;
-  double share = 0.01;  // of the creature's vertices
+  double cap_deg = 180;  // less than 180: only the cap around the pole, with an inner face (an eyelid)
+  double share = 0.01;   // of the creature's vertices
   std::vector<ColorBand> bands;
 };
 
@@ -51,10 +53,11 @@ struct PaintLayer {  // a brush: full strength inside the solid, fading to nothi
   bool everywhere = false;
   Solid solid;
   double fade_m = 0.02, strength = 1;
-  Eigen::Vector3d facing = Eigen::Vector3d::Zero();  // zero: any normal; else only where the normal points this way
-  std::vector<std::string> joints;                   // empty: any; else only where these move the skin
-  Eigen::Vector3d color = Eigen::Vector3d::Ones();   // of a colour layer, sRGB
-  double stiffness = 1;                              // of a stiffness layer
+  Eigen::Vector3d facing =
+      Eigen::Vector3d::Zero();      // zero: any normal; else only where the normal points this way
+  std::vector<std::string> joints;  // empty: any; else only where these move the skin
+  Eigen::Vector3d color = Eigen::Vector3d::Ones();  // of a colour layer, sRGB
+  double stiffness = 1;                             // of a stiffness layer
 };
 
 struct MaterialRecipe {
@@ -68,10 +71,10 @@ enum class Axis { kMoveX, kMoveY, kMoveZ, kTurnX, kTurnY, kTurnZ };
 struct Track {  // adds to one axis of a row of joints, each later than the one before by `lag` of the clip
   std::vector<std::string> joints;
   Axis axis = Axis::kTurnX;
-  double lag = 0, gain = 1;                  // each joint's amplitude is the one before times gain
-  std::vector<Eigen::Vector2d> keys;         // share of the clip, metres or degrees; periodic
+  double lag = 0, gain = 1;                     // each joint's amplitude is the one before times gain
+  std::vector<Eigen::Vector2d> keys;            // share of the clip, metres or degrees; periodic
   double amplitude = 0, cycles = 1, phase = 0;  // amplitude sin(2 pi (cycles t + phase)), added to the keys
-  double fade_in = 0, fade_out = 1;          // shares of the clip between which the wave swells and dies away
+  double fade_in = 0, fade_out = 1;  // shares of the clip between which the wave swells and dies away
 };
 
 struct ClipRecipe {
