@@ -1,0 +1,33 @@
+// asset.hpp  A loaded character: checked views of its pack, shared by its instances.
+#pragma once
+#include <cstddef>
+#include <span>
+
+#include "frame/cost_model.hpp"
+#include "pack/mapped_file.hpp"
+#include "pack/reader.hpp"
+#include "sinew/types.hpp"
+#include "tissue/network.hpp"
+
+namespace sinew::world {
+
+struct Asset {
+  pack::MappedFile file;  // empty when the caller keeps the bytes
+  pack::PackView pack;
+  tissue::Network network;
+  tissue::Graph graph;
+  double tick_s = 0;
+  uint64_t fingerprint = 0;      // of all of the pack's bytes
+  uint32_t padded_vertices = 0;  // carried vertices of all regions, each region padded
+  uint32_t live_instances = 0;
+  frame::CostModel cost;
+
+  uint32_t node_count() const noexcept { return pack.character->node_count; }
+  uint32_t vertex_count() const noexcept { return pack.character->vertex_count; }
+};
+
+// On refusal *out is untouched.
+Status open_asset(std::span<const std::byte> bytes, Asset* out) noexcept;
+AssetInfo describe(const Asset& asset) noexcept;
+
+}  // namespace sinew::world

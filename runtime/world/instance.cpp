@@ -1,0 +1,131 @@
+// instance.cpp  One character in the world: memory and life cycle.
+#include "world/instance.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <new>
+#include <type_traits>
+
+#include "core/clock.hpp"
+#include "core/status.hpp"
+#include "frame/scheduler.hpp"
+#include "tissue/inputs.hpp"
+#include "tissue/network.hpp"
+#include "world/publish.hpp"
+
+namespace sinew::world {
+namespace {
+
+static_assert(std::is_trivially_copyable_v<InstanceState>, "saved as bytes");
+static_assert(sizeof(InstanceState) == 200, "no padding: equal states are equal bytes");
+
+void lay_out_state(const Asset& asset, core::Arena& arena, Instance& to) noexcept {
+  const uint32_t joints = asset.pack.character->joint_count;
+  const size_t vectors = size_t{3} * asset.node_count();
+  to.state = arena.take<InstanceState>(1);
+  to.joints = arena.take<Matrix34>(joints);
+  to.next_joints = arena.take<Matrix34>(joints);
+  to.motion = arena.take<tissue::RegionMotion>(asset.pack.regions.size());
+  for (float*& places : to.places) places = arena.take<float>(vectors);
+  to.network_state = arena.take<float>(tissue::state_floats(asset.network, asset.node_count()));
+  for (float*& simulated : to.simulated) simulated = arena.take<float>(vectors);
+  to.tail = arena.take<float>(vectors);
+  to.tail_velocity = arena.take<float>(vectors);
+  for (float*& shown : to.shown) shown = arena.take<float>(vectors);
+  to.state_bytes = arena.used_bytes();
+}
+
+void lay_out_scratch(const Asset& asset, core::Arena& arena, Instance& to) noexcept {
+  const uint32_t joints = asset.pack.character->joint_count;
+  const uint32_t nodes = asset.node_count();
+  to.parts = arena.take<JointParts>(joints);
+  to.next_parts = arena.take<JointParts>(joints);
+  to.tick_joints = arena.take<Matrix34>(joints);
+  to.skinned = arena.take<float>(size_t{3} * nodes);
+  to.drive = arena.take<float>(size_t{tissue::kDriveWidth} * nodes);
+  to.inputs = arena.take<float>(tissue::input_stride(asset.network) * nodes);
+  to.network_scratch = arena.take<float>(tissue::scratch_floats(asset.network, nodes));
+  to.skin = arena.take<float>(size_t{12} * joints);
+  to.delta = arena.take<float>(size_t{3} * nodes);
+  to.carried = arena.take<float>(size_t{3} * asset.padded_vertices);
+  to.surface = arena.take<float>(size_t{3} * asset.vertex_count());
+}
+
+void lay_out(const Asset& asset, core::Arena& arena, Instance& to) noexcept {
+  lay_out_state(asset, arena, to);
+  lay_out_scratch(asset, arena, to);
+}
+
+}  // namespace
+
+float Instance::network_share() const noexcept {
+  if (state->tier != Tier::kNetwork) return 0;
+  return static_cast<float>(state->blend_ticks) / kBlendInTicks;
+}
+
+float Instance::tail_share() const noexcept {
+  if (state->tail_ticks <= kCarryTicks) return 1;
+  const uint32_t faded = std::min(state->tail_ticks - kCarryTicks, kFadeTicks);
+  const float left = 1 - static_cast<float>(faded) / kFadeTicks;
+  return left * left * (3 - 2 * left);
+}
+
+size_t instance_bytes(const Asset& asset) noexcept {
+  core::Arena measure;
+  Instance unused;
+  lay_out(asset, measure, unused);
+  return measure.used_bytes();
+}
+
+Status make_instance(Asset& asset, AssetId asset_id, const RootTransform& root, float importance,
+                     Instance* out) noexcept {
+  const size_t bytes = instance_bytes(asset);
+  Instance made;
+  made.memory = core::AlignedBlock(bytes);
+  if (!made.memory.data()) {
+    return core::make_status(StatusCode::kOutOfCapacity, "create_instance: no memory for %zu bytes", bytes);
+  }
+  core::Arena arena(made.memory.data());
+  lay_out(asset, arena, made);
+  made.asset = &asset;
+  made.asset_id = asset_id;
+  new (made.state) InstanceState();
+  made.state->root = root;
+  made.state->importance = frame::sane_importance(importance);
+  bind_pose(asset.pack.joints, made.joints);
+  publish(made);
+  *out = std::move(made);
+  return {};
+}
+
+void forget_motion(Instance& instance) noexcept {
+  InstanceState& state = *instance.state;
+  const size_t bytes = sizeof(float) * 3 * instance.asset->node_count();
+  for (float* shown : instance.shown) std::memset(shown, 0, bytes);
+  std::memset(instance.tail, 0, bytes);
+  std::memset(instance.tail_velocity, 0, bytes);
+  state.at_start = 1;
+  state.motion_stale = 1;
+  state.restarting = 0;
+  state.tier = Tier::kSkinning;  // so that the network starts anew, from zero
+  state.tail_ticks = kCarryTicks + kFadeTicks;
+  state.clamped_ticks = 0;
+  state.render_fraction = 0;
+  std::fill_n(state.velocity_m_s, 3, 0.0);
+  std::fill_n(state.angular_velocity, 3, 0.0);
+}
+
+InstanceReport describe(const Instance& instance, InstanceId id) noexcept {
+  const InstanceState& state = *instance.state;
+  const float blend = instance.shown_share();
+  return {.instance = id,
+          .tier = state.tier == Tier::kNetwork || blend > 0 ? state.tier : Tier::kSkinning,
+          .blend = blend,
+          .ticks_since_network = state.ticks_since_network,
+          .input_clamps = state.input_clamps,
+          .displacement_clamps = state.displacement_clamps,
+          .restarts = state.restarts,
+          .cost_us = core::microseconds(instance.times.total_ns)};
+}
+
+}  // namespace sinew::world

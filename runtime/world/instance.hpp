@@ -1,0 +1,109 @@
+// instance.hpp  One character in the world: its state, which can be saved as bytes, and its scratch.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/aligned_block.hpp"
+#include "frame/tick_clock.hpp"
+#include "sinew/types.hpp"
+#include "tissue/drive.hpp"
+#include "world/asset.hpp"
+#include "world/pose.hpp"
+
+namespace sinew::world {
+
+// In ticks of the asset's rate; at 60 Hz 0.2 s, 0.3 s and 0.13 s.
+inline constexpr uint32_t kCarryTicks = 12;   // extrapolated before the fade begins
+inline constexpr uint32_t kFadeTicks = 18;    // from the extrapolated displacement to skinning
+inline constexpr uint32_t kBlendInTicks = 8;  // from that to the network, when it comes back
+// Share of its velocity that a tail keeps each tick. The run-out, 1 / (1 - 0.6) ticks of velocity, is about
+// the amplitude of a 4 Hz wobble.
+inline constexpr float kCarryDamping = 0.6f;
+// In a row; beyond it the state is taken for worthless and the instance restarts.
+inline constexpr uint32_t kMostClampedTicks = 60;
+
+// The part of the state that is not an array. Plain bytes: saved and restored as they are.
+struct InstanceState {
+  RootTransform root, next_root;    // at the end of the last step; of the pose set since
+  double remainder_s = 0;           // frame/tick_clock.hpp
+  double velocity_m_s[3] = {};      // of the root over the last step, world
+  double angular_velocity[3] = {};  // rad/s, character axes
+  float importance = 1;
+  float waited_s = 0, held_s = 0;  // frame/scheduler.hpp
+  float render_fraction = 0;       // remainder in ticks: how far the shown displacement is carried on
+  Tier tier = Tier::kSkinning;     // in the last step
+  uint32_t has_next = 0;           // set_pose since the last step
+  uint32_t at_start = 1;           // no pose yet: the first one is taken as having been held for ever
+  uint32_t motion_stale = 1;       // ticks were not followed: the motion history is rebuilt before use
+  uint32_t restarting = 0;         // fading out after a guard: not for the network until faded
+  uint32_t tail_ticks = kCarryTicks + kFadeTicks;  // since the tail began
+  uint32_t blend_ticks = 0;                        // since the network came back, at most kBlendInTicks
+  uint32_t clamped_ticks = 0;                      // in a row
+  uint32_t ticks_since_network = 0;
+  uint32_t input_clamps = 0, displacement_clamps = 0, restarts = 0;
+};
+
+// What the last step measured; not state.
+struct InstanceTimes {
+  uint64_t drive_ns = 0, tissue_ns = 0, publish_ns = 0, total_ns = 0;
+};
+
+// What a step will do with an instance; set before the tasks run.
+struct InstancePlan {
+  frame::TickPlan ticks;
+  double dt_s = 0;
+  Tier tier = Tier::kSkinning;
+};
+
+// Arrays are [nodes][3] in metres along the region frame's axes unless said otherwise. "Shown" is what is
+// published: shown = b network + (1 - b) tail, b rising from 0 to 1 in kBlendInTicks. The tail is the
+// displacement shown when the network was last left, carried on with damped velocity and then faded to zero.
+struct Instance {
+  core::AlignedBlock memory;
+  AssetId asset_id;
+  Asset* asset = nullptr;
+  InstancePlan plan;
+  InstanceTimes times;
+  bool cut = false, restarted = false;  // in the last step
+  bool parts_ready = false;             // in this step: parts and next_parts are filled in
+  bool displaced = false;               // published displacement is not zero everywhere
+
+  // State: one run of bytes from `state` on.
+  InstanceState* state = nullptr;
+  Matrix34 *joints = nullptr, *next_joints = nullptr;  // [joints]
+  tissue::RegionMotion* motion = nullptr;              // [regions]
+  float* places[3] = {};                               // r of the last three ticks, newest first
+  float* network_state = nullptr;
+  float* simulated[2] = {};                         // network's displacement, newest first
+  float *tail = nullptr, *tail_velocity = nullptr;  // velocity a tick
+  float* shown[2] = {};                             // newest first
+  size_t state_bytes = 0;
+
+  // Scratch of a step.
+  JointParts *parts = nullptr, *next_parts = nullptr;  // [joints]
+  Matrix34* tick_joints = nullptr;                     // [joints]
+  float *skinned = nullptr, *drive = nullptr, *inputs = nullptr, *network_scratch = nullptr;
+
+  // Published by a step, read by read_*.
+  float* skin = nullptr;     // [joints][12]
+  float* delta = nullptr;    // [nodes][3], character axes
+  float* carried = nullptr;  // a region after the other [3][padded_vertices], character axes
+  float* surface = nullptr;  // [vertices][3], scratch of read_normals
+
+  float network_share() const noexcept;  // b
+  float tail_share() const noexcept;     // 1 while carried, then falling smoothly to 0
+  float shown_share() const noexcept { return network_share() + (1 - network_share()) * tail_share(); }
+};
+
+size_t instance_bytes(const Asset& asset) noexcept;
+// In its bind pose, at rest. kOutOfCapacity when memory is short.
+Status make_instance(Asset& asset, AssetId asset_id, const RootTransform& root, float importance,
+                     Instance* out) noexcept;
+
+// Forgets motion and displacement; the next pose is taken as having been held for ever. Counters stay.
+void forget_motion(Instance& instance) noexcept;
+
+InstanceReport describe(const Instance& instance, InstanceId id) noexcept;
+
+}  // namespace sinew::world

@@ -1,0 +1,181 @@
+// motion.cpp  Poses at ticks, teleports, the history that accelerations are taken from.
+#include "world/motion.hpp"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "simd/kernels.hpp"
+
+namespace sinew::world {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using RowMatrix3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+
+// Below it, a difference of two poses over dt says more about rounding than about motion.
+constexpr double kShortestStep_s = 1e-4;
+// A step is extended backwards by at most so many times its own length when the history is rebuilt.
+constexpr double kFarthestBack = 16;
+
+Vector3d place_of(const RootTransform& root) noexcept { return Eigen::Map<const Vector3d>(root.position_m); }
+
+Quaterniond rotation_of(const RootTransform& root) noexcept {
+  return Eigen::Map<const Eigen::Quaternionf>(root.rotation_xyzw).cast<double>().normalized();
+}
+
+Quaterniond rotation_by(const Vector3d& turn) noexcept {
+  const double angle = turn.norm();
+  return angle > 0 ? Quaterniond(Eigen::AngleAxisd(angle, turn / angle)) : Quaterniond::Identity();
+}
+
+bool teleported(const Instance& instance, float distance_m) noexcept {
+  const InstanceState& state = *instance.state;
+  const Vector3d expected =
+      place_of(state.root) + instance.plan.dt_s * Eigen::Map<const Vector3d>(state.velocity_m_s);
+  return (place_of(state.next_root) - expected).norm() > static_cast<double>(distance_m);
+}
+
+// The root from which the last step's velocity leads to next_root in dt.
+RootTransform root_leading_to_next(const Instance& instance) noexcept {
+  const InstanceState& state = *instance.state;
+  const double dt_s = instance.plan.dt_s;
+  const Quaterniond next = rotation_of(state.next_root);
+  const Quaterniond turn = next * rotation_of(state.root).conjugate();
+  const Vector3d place =
+      place_of(state.next_root) - dt_s * (turn * Eigen::Map<const Vector3d>(state.velocity_m_s));
+  const Quaterniond rotation = next * rotation_by(-dt_s * Eigen::Map<const Vector3d>(state.angular_velocity));
+  RootTransform root;
+  Eigen::Map<Vector3d>(root.position_m) = place;
+  Eigen::Map<Eigen::Vector4f>(root.rotation_xyzw) = rotation.coeffs().cast<float>();
+  return root;
+}
+
+// Moves the past rigidly from state.root to `root`.
+void shift_past(Instance& instance, const RootTransform& root) noexcept {
+  InstanceState& state = *instance.state;
+  const Vector3d from = place_of(state.root), to = place_of(root);
+  const RowMatrix3d turn = (rotation_of(root) * rotation_of(state.root).conjugate()).toRotationMatrix();
+  for (size_t r = 0; r < instance.asset->pack.regions.size(); ++r) {
+    for (tissue::RegionFrame& frame : instance.motion[r].frame) {
+      Eigen::Map<Vector3d> place(frame.place_m);
+      Eigen::Map<RowMatrix3d> rotation(frame.rotation);
+      place = (turn * (place - from) + to).eval();
+      rotation = (turn * rotation).eval();
+    }
+  }
+  state.root = root;
+}
+
+void measure_velocity(Instance& instance) noexcept {
+  InstanceState& state = *instance.state;
+  const double dt_s = instance.plan.dt_s;
+  if (dt_s < kShortestStep_s) return;
+  const Eigen::AngleAxisd turn(rotation_of(state.root).conjugate() * rotation_of(state.next_root));
+  Eigen::Map<Vector3d>(state.velocity_m_s) = (place_of(state.next_root) - place_of(state.root)) / dt_s;
+  Eigen::Map<Vector3d>(state.angular_velocity) = turn.axis() * (turn.angle() / dt_s);
+}
+
+void copy_joints(const Instance& instance, const Matrix34* from, Matrix34* to) noexcept {
+  std::copy_n(from, instance.asset->pack.character->joint_count, to);
+}
+
+void split_poses(Instance& instance) noexcept {
+  if (std::exchange(instance.parts_ready, true)) return;
+  for (uint32_t j = 0; j < instance.asset->pack.character->joint_count; ++j) {
+    instance.parts[j] = split_joint(instance.joints[j]);
+    instance.next_parts[j] = split_joint(instance.next_joints[j]);
+  }
+}
+
+// Share of the way from the present pose to the next; the end of the step is met exactly.
+double share_at(const Instance& instance, double time_s) noexcept {
+  constexpr double kSame = 1e-5;
+  const double share = instance.plan.dt_s > 0 ? time_s / instance.plan.dt_s : 1;
+  return std::abs(share - 1) < kSame ? 1 : share;
+}
+
+const Matrix34* joints_at(Instance& instance, double share) noexcept {
+  if (share == 1) return instance.next_joints;
+  split_poses(instance);
+  for (uint32_t j = 0; j < instance.asset->pack.character->joint_count; ++j) {
+    instance.tick_joints[j] =
+        blend_joint(instance.parts[j], instance.next_parts[j], static_cast<float>(share));
+  }
+  return instance.tick_joints;
+}
+
+void skin_nodes(Instance& instance) noexcept {
+  const auto nodes = instance.asset->pack.nodes;
+  simd::kernels().skin({.points = nodes[0].position_m,
+                        .point_stride = sizeof(pack::NodeRecord),
+                        .joints = nodes[0].skin.joint,
+                        .weights = nodes[0].skin.weight,
+                        .skin_stride = sizeof(pack::NodeRecord),
+                        .matrices = instance.skin,
+                        .out = instance.skinned,
+                        .out_stride = 3 * sizeof(float),
+                        .count = static_cast<uint32_t>(nodes.size())});
+}
+
+// Shifts the history by one tick and puts the pose at `share` in front.
+void push_pose(Instance& instance, double share) noexcept {
+  const pack::PackView& pack = instance.asset->pack;
+  skin_matrices(pack.joints, joints_at(instance, share), instance.skin);
+  skin_nodes(instance);
+  const RootTransform root = blend_root(instance.state->root, instance.state->next_root, share);
+  const size_t bytes = sizeof(float) * 3 * pack.nodes.size();
+  std::memcpy(instance.places[2], instance.places[1], bytes);
+  std::memcpy(instance.places[1], instance.places[0], bytes);
+  for (size_t r = 0; r < pack.regions.size(); ++r) {
+    const pack::RegionRecord& region = pack.regions[r];
+    const float* skin = instance.skin + size_t{12} * region.frame_joint;
+    const size_t first = size_t{3} * region.first_node;
+    tissue::push_frame(&instance.motion[r],
+                       tissue::region_frame(skin, region.center_m, root.position_m, root.rotation_xyzw));
+    tissue::region_places(skin, region.center_m, instance.skinned + first, region.node_count,
+                          instance.places[0] + first);
+  }
+}
+
+}  // namespace
+
+void take_pose(Instance& instance, float teleport_distance_m) noexcept {
+  InstanceState& state = *instance.state;
+  instance.parts_ready = false;
+  if (!state.has_next) {
+    copy_joints(instance, instance.joints, instance.next_joints);
+    state.next_root = state.root;
+  } else if (state.at_start) {
+    copy_joints(instance, instance.next_joints, instance.joints);
+    state.root = state.next_root;
+    state.at_start = 0;
+    state.motion_stale = 1;
+  } else if (teleported(instance, teleport_distance_m)) {
+    shift_past(instance, root_leading_to_next(instance));
+  }
+  measure_velocity(instance);
+}
+
+void keep_pose(Instance& instance) noexcept {
+  copy_joints(instance, instance.next_joints, instance.joints);
+  instance.state->root = instance.state->next_root;
+  instance.state->has_next = 0;
+}
+
+void follow_motion(Instance& instance, double time_s) noexcept {
+  const double share = share_at(instance, time_s);
+  if (std::exchange(instance.state->motion_stale, 0u)) {
+    const double tick = instance.plan.dt_s > 0 ? instance.asset->tick_s / instance.plan.dt_s : 0;
+    const double back = tick <= kFarthestBack ? tick : 0;
+    push_pose(instance, share - 2 * back);
+    push_pose(instance, share - back);
+  }
+  push_pose(instance, share);
+}
+
+}  // namespace sinew::world

@@ -1,0 +1,152 @@
+// pose.cpp  Poses: checked on entry, interpolated at ticks, made into skin matrices.
+#include "world/pose.hpp"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "core/status.hpp"
+
+namespace sinew::world {
+namespace {
+
+using core::make_status;
+using RowMatrix3 = Eigen::Matrix<float, 3, 3, Eigen::RowMajor>;
+using RowMatrix34 = Eigen::Matrix<float, 3, 4, Eigen::RowMajor>;
+
+// Beyond these, products of two matrices or the spacing of doubles are no longer of use to anyone.
+constexpr float kLargestJointEntry = 1e6f;
+constexpr double kFarthestRoot_m = 1e12;
+
+Eigen::Map<const RowMatrix34> map(const Matrix34& m) noexcept {
+  return Eigen::Map<const RowMatrix34>(&m.m[0][0]);
+}
+
+Status check_joint(const Matrix34& joint, size_t index) noexcept {
+  float largest = 0;
+  for (const auto& row : joint.m) {
+    for (float value : row) {
+      if (!std::isfinite(value)) {
+        return make_status(StatusCode::kNotFinite,
+                           "pose: joint %zu holds NaN or infinity; the last good pose stays", index);
+      }
+      largest = std::max(largest, std::abs(value));
+    }
+  }
+  if (largest <= kLargestJointEntry) return {};
+  return make_status(StatusCode::kInvalidArgument,
+                     "pose: joint %zu holds %g, beyond +-%g; are the units metres?", index,
+                     static_cast<double>(largest), static_cast<double>(kLargestJointEntry));
+}
+
+// Gram-Schmidt on the columns; identity where the matrix has no three directions.
+RowMatrix3 rotation_of(const RowMatrix3& m) noexcept {
+  constexpr float kDegenerate = 1e-12f;
+  Eigen::Vector3f x = m.col(0);
+  if (x.norm() < kDegenerate) return RowMatrix3::Identity();
+  x.normalize();
+  Eigen::Vector3f y = m.col(1) - x * x.dot(m.col(1));
+  if (y.norm() < kDegenerate) return RowMatrix3::Identity();
+  y.normalize();
+  RowMatrix3 rotation;
+  rotation << x, y, x.cross(y);
+  return rotation;
+}
+
+}  // namespace
+
+Status check_root(const RootTransform& given, RootTransform* root) noexcept {
+  constexpr float kShortest = 1e-6f;
+  for (double place : given.position_m) {
+    if (!std::isfinite(place))
+      return make_status(StatusCode::kNotFinite, "root: position holds NaN or infinity");
+    if (std::abs(place) > kFarthestRoot_m) {
+      return make_status(StatusCode::kInvalidArgument, "root: position %g m lies beyond +-%g m", place,
+                         kFarthestRoot_m);
+    }
+  }
+  const Eigen::Vector4d q = Eigen::Map<const Eigen::Vector4f>(given.rotation_xyzw).cast<double>();
+  const double length = q.norm();
+  if (!std::isfinite(length))
+    return make_status(StatusCode::kNotFinite, "root: rotation holds NaN or infinity");
+  if (length < kShortest) {
+    return make_status(StatusCode::kInvalidArgument,
+                       "root: rotation has zero length; the identity is 0 0 0 1");
+  }
+  std::copy_n(given.position_m, 3, root->position_m);
+  Eigen::Map<Eigen::Vector4f>(root->rotation_xyzw) = (q / length).cast<float>();
+  return {};
+}
+
+Status check_pose(const Pose& pose, uint32_t joint_count, RootTransform* root) noexcept {
+  if (pose.joints.size() != joint_count) {
+    return make_status(StatusCode::kInvalidArgument, "pose: %zu joints given, the asset has %u",
+                       pose.joints.size(), joint_count);
+  }
+  if (!pose.joints.data()) return make_status(StatusCode::kInvalidArgument, "pose: joints is a null pointer");
+  for (size_t j = 0; j < pose.joints.size(); ++j) {
+    if (Status status = check_joint(pose.joints[j], j); !status.ok()) return status;
+  }
+  return check_root(pose.root, root);
+}
+
+JointParts split_joint(const Matrix34& joint) noexcept {
+  const RowMatrix3 linear = map(joint).leftCols<3>();
+  const RowMatrix3 rotation = rotation_of(linear);
+  JointParts parts;
+  Eigen::Map<Eigen::Vector4f>(parts.rotation_xyzw) = Eigen::Quaternionf(Eigen::Matrix3f(rotation)).coeffs();
+  Eigen::Map<RowMatrix3>(parts.stretch) = rotation.transpose() * linear;
+  Eigen::Map<Eigen::Vector3f>(parts.translation_m) = map(joint).col(3);
+  return parts;
+}
+
+Matrix34 blend_joint(const JointParts& a, const JointParts& b, float share) noexcept {
+  const Eigen::Map<const Eigen::Quaternionf> rotation_a(a.rotation_xyzw), rotation_b(b.rotation_xyzw);
+  const Eigen::Map<const RowMatrix3> stretch_a(a.stretch), stretch_b(b.stretch);
+  const Eigen::Map<const Eigen::Vector3f> place_a(a.translation_m), place_b(b.translation_m);
+  const Eigen::Matrix3f rotation = rotation_a.slerp(share, rotation_b).normalized().toRotationMatrix();
+  Matrix34 joint;
+  Eigen::Map<RowMatrix34> out(&joint.m[0][0]);
+  out.leftCols<3>() = rotation * (stretch_a + share * (stretch_b - stretch_a));
+  out.col(3) = place_a + share * (place_b - place_a);
+  return joint;
+}
+
+RootTransform blend_root(const RootTransform& a, const RootTransform& b, double share) noexcept {
+  const Eigen::Quaterniond rotation_a = Eigen::Map<const Eigen::Quaternionf>(a.rotation_xyzw).cast<double>();
+  const Eigen::Quaterniond rotation_b = Eigen::Map<const Eigen::Quaternionf>(b.rotation_xyzw).cast<double>();
+  RootTransform root;
+  Eigen::Map<Eigen::Vector4f>(root.rotation_xyzw) =
+      rotation_a.slerp(share, rotation_b).normalized().coeffs().cast<float>();
+  for (int k = 0; k < 3; ++k) {
+    root.position_m[k] = a.position_m[k] + share * (b.position_m[k] - a.position_m[k]);
+  }
+  return root;
+}
+
+void skin_matrices(std::span<const pack::JointRecord> records, const Matrix34* joints, float* skin) noexcept {
+  for (size_t j = 0; j < records.size(); ++j) {
+    const Eigen::Map<const RowMatrix34> inverse_bind(records[j].inverse_bind);
+    Eigen::Map<RowMatrix34> out(skin + 12 * j);
+    const auto joint = map(joints[j]);
+    out.leftCols<3>().noalias() = joint.leftCols<3>() * inverse_bind.leftCols<3>();
+    out.col(3) = joint.leftCols<3>() * inverse_bind.col(3) + joint.col(3);
+  }
+}
+
+void bind_pose(std::span<const pack::JointRecord> records, Matrix34* joints) noexcept {
+  for (size_t j = 0; j < records.size(); ++j) {
+    const Eigen::Map<const RowMatrix34> inverse_bind(records[j].inverse_bind);
+    Eigen::Matrix4d m = Eigen::Matrix4d::Identity();
+    m.topRows<3>() = inverse_bind.cast<double>();
+    Eigen::Matrix4d bind;
+    bool invertible = false;
+    m.computeInverseWithCheck(bind, invertible, 1e-20);
+    if (!invertible) bind.setIdentity();
+    Eigen::Map<RowMatrix34>(&joints[j].m[0][0]) = bind.topRows<3>().cast<float>();
+  }
+}
+
+}  // namespace sinew::world

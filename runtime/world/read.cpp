@@ -1,0 +1,192 @@
+// read.cpp  The published surface written into the caller's memory.
+#include "world/read.hpp"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "core/status.hpp"
+#include "simd/kernels.hpp"
+#include "simd/vertex_normals.hpp"
+
+namespace sinew::world {
+namespace {
+
+using core::make_status;
+using Eigen::Matrix3f;
+using Eigen::Vector3f;
+using RowMatrix34 = Eigen::Matrix<float, 3, 4, Eigen::RowMajor>;
+
+constexpr uint32_t kChunk =
+    256;  // vertices worked on at a time, on the stack: 3 KB, well inside the first cache
+
+struct Chunk {
+  uint32_t first, count;
+  float points[kChunk][3];
+};
+
+float* vertex_at(const ReadDef& def, size_t vertex) noexcept {
+  return reinterpret_cast<float*>(reinterpret_cast<std::byte*>(def.out) + vertex * def.stride_bytes);
+}
+
+void store(const ReadDef& def, size_t vertex, const Vector3f& value) noexcept {
+  std::memcpy(vertex_at(def, vertex), value.data(), 3 * sizeof(float));
+}
+
+void skin_chunk(const Instance& instance, Chunk& chunk) noexcept {
+  const pack::PackView& pack = instance.asset->pack;
+  simd::kernels().skin({.points = pack.positions.data() + size_t{3} * chunk.first,
+                        .point_stride = 3 * sizeof(float),
+                        .joints = pack.skin[chunk.first].joint,
+                        .weights = pack.skin[chunk.first].weight,
+                        .skin_stride = sizeof(pack::SkinRecord),
+                        .matrices = instance.skin,
+                        .out = chunk.points[0],
+                        .out_stride = 3 * sizeof(float),
+                        .count = chunk.count});
+}
+
+// Adds what the regions carry to the chunk's vertices, in character axes.
+void add_carried(const Instance& instance, Chunk& chunk) noexcept {
+  if (!instance.displaced) return;
+  const pack::PackView& pack = instance.asset->pack;
+  const float* carried = instance.carried;
+  for (const pack::RegionRecord& region : pack.regions) {
+    const uint32_t* begin = pack.region_vertices.data() + region.first_vertex;
+    const uint32_t* end = begin + region.vertex_count;
+    const size_t padded = region.padded_vertices;
+    const uint32_t* vertex = std::lower_bound(begin, end, chunk.first);
+    for (; vertex != end && *vertex < chunk.first + chunk.count; ++vertex) {
+      const float* delta = carried + (vertex - begin);
+      float* point = chunk.points[*vertex - chunk.first];
+      for (size_t k = 0; k < 3; ++k) point[k] += delta[k * padded];
+    }
+    carried += 3 * padded;
+  }
+}
+
+template <class Work>
+void for_each_chunk(const Instance& instance, Work work) noexcept {
+  Chunk chunk;
+  const uint32_t vertices = instance.asset->vertex_count();
+  for (chunk.first = 0; chunk.first < vertices; chunk.first += chunk.count) {
+    chunk.count = std::min(kChunk, vertices - chunk.first);
+    work(chunk);
+  }
+}
+
+struct Placement {
+  Matrix3f rotation = Matrix3f::Identity();
+  Vector3f offset = Vector3f::Zero();
+};
+
+Placement placement_of(const Instance& instance, const ReadDef& def) noexcept {
+  Placement placement;
+  if (def.space != Space::kWorld) return placement;
+  const RootTransform& root = instance.state->root;
+  placement.rotation = Eigen::Map<const Eigen::Quaternionf>(root.rotation_xyzw).toRotationMatrix();
+  for (int k = 0; k < 3; ++k) {
+    placement.offset[k] = static_cast<float>(root.position_m[k] - def.origin_m[k]);
+  }
+  return placement;
+}
+
+void write_places(const Instance& instance, const ReadDef& def) noexcept {
+  const Placement to = placement_of(instance, def);
+  for_each_chunk(instance, [&](Chunk& chunk) {
+    skin_chunk(instance, chunk);
+    add_carried(instance, chunk);
+    for (uint32_t i = 0; i < chunk.count; ++i) {
+      const Vector3f point(chunk.points[i]);
+      store(def, chunk.first + i, def.space == Space::kWorld ? to.rotation * point + to.offset : point);
+    }
+  });
+}
+
+Matrix3f blended_matrix(const Instance& instance, uint32_t vertex) noexcept {
+  const pack::SkinRecord& skin = instance.asset->pack.skin[vertex];
+  Matrix3f blended = Matrix3f::Zero();
+  for (uint32_t k = 0; k < pack::kInfluences && skin.weight[k] > 0; ++k) {
+    const Eigen::Map<const RowMatrix34> matrix(instance.skin + size_t{12} * skin.joint[k]);
+    blended += skin.weight[k] * matrix.leftCols<3>();
+  }
+  return blended;
+}
+
+// The bind-space delta d with (sum of weighted skin matrices) d = delta; zero where that sum has no inverse
+// (an elbow folded flat).
+Vector3f bind_delta(const Instance& instance, uint32_t vertex, const Vector3f& delta) noexcept {
+  constexpr float kSingular =
+      1e-6f;  // volume of the blended matrix: a thousandth of a percent of the bind pose's
+  if (delta.isZero(0)) return delta;
+  Matrix3f inverse;
+  bool invertible = false;
+  blended_matrix(instance, vertex).computeInverseWithCheck(inverse, invertible, kSingular);
+  return invertible ? Vector3f(inverse * delta) : Vector3f::Zero();
+}
+
+void write_bind_deltas(const Instance& instance, const ReadDef& def) noexcept {
+  for_each_chunk(instance, [&](Chunk& chunk) {
+    std::memset(chunk.points, 0, sizeof chunk.points);
+    add_carried(instance, chunk);
+    for (uint32_t i = 0; i < chunk.count; ++i) {
+      const uint32_t vertex = chunk.first + i;
+      store(def, vertex, bind_delta(instance, vertex, Vector3f(chunk.points[i])));
+    }
+  });
+}
+
+}  // namespace
+
+Status check_read(const ReadDef& def, uint32_t vertex_count, bool normals) noexcept {
+  constexpr size_t kSmallestStride = 3 * sizeof(float);
+  const auto invalid = [](auto... line) { return make_status(StatusCode::kInvalidArgument, line...); };
+  if (static_cast<uint32_t>(def.space) > static_cast<uint32_t>(Space::kBind)) {
+    return invalid("read: space %u does not exist", static_cast<uint32_t>(def.space));
+  }
+  if (normals && def.space == Space::kBind)
+    return invalid("read_normals: space must be kCharacter or kWorld");
+  if (!def.out) return invalid("read: out is a null pointer");
+  if (reinterpret_cast<uintptr_t>(def.out) % sizeof(float) != 0)
+    return invalid("read: out is not aligned to 4 bytes");
+  if (def.stride_bytes < kSmallestStride || def.stride_bytes % sizeof(float) != 0) {
+    return invalid("read: stride_bytes is %zu; it must be a multiple of 4, at least 12", def.stride_bytes);
+  }
+  if (def.capacity < vertex_count) {
+    return invalid("read: capacity is %zu, the asset has %u vertices", def.capacity, vertex_count);
+  }
+  for (double origin : def.origin_m) {
+    if (!std::isfinite(origin))
+      return make_status(StatusCode::kNotFinite, "read: origin_m holds NaN or infinity");
+  }
+  return {};
+}
+
+void read_positions(const Instance& instance, const ReadDef& def) noexcept {
+  if (def.space == Space::kBind)
+    write_bind_deltas(instance, def);
+  else
+    write_places(instance, def);
+}
+
+void read_normals(const Instance& instance, const ReadDef& def) noexcept {
+  const pack::PackView& pack = instance.asset->pack;
+  const uint32_t vertices = instance.asset->vertex_count();
+  write_places(instance, {.out = instance.surface, .capacity = vertices});
+  simd::vertex_normals({.positions = instance.surface,
+                        .position_stride = 3 * sizeof(float),
+                        .triangles = pack.triangles,
+                        .welded = pack.welded,
+                        .out = def.out,
+                        .out_stride = def.stride_bytes});
+  if (def.space != Space::kWorld) return;
+  const Matrix3f rotation = placement_of(instance, def).rotation;
+  for (uint32_t v = 0; v < vertices; ++v) {
+    store(def, v, rotation * Vector3f(vertex_at(def, v)));
+  }
+}
+
+}  // namespace sinew::world

@@ -1,0 +1,70 @@
+// snapshot.cpp  An instance's state as bytes, for rollback.
+#include "world/snapshot.hpp"
+
+#include <cstring>
+
+#include "core/hash.hpp"
+#include "core/status.hpp"
+#include "world/publish.hpp"
+
+namespace sinew::world {
+namespace {
+
+using core::make_status;
+
+constexpr uint64_t kMagic = 0x31544154534e5753;  // "SWNSTAT1", little-endian
+constexpr uint32_t kVersion = 1;                 // of InstanceState and the arrays after it
+
+struct Header {
+  uint64_t magic, fingerprint, payload_bytes, checksum;
+  uint32_t version, reserved;
+};
+static_assert(sizeof(Header) == 40);
+
+std::span<std::byte> payload_of(const Instance& instance) noexcept {
+  return {reinterpret_cast<std::byte*>(instance.state), instance.state_bytes};
+}
+
+Header header_of(const Instance& instance, std::span<const std::byte> payload) noexcept {
+  return {kMagic, instance.asset->fingerprint, payload.size(), core::hash64(payload), kVersion, 0};
+}
+
+Status corrupt(const char* why) noexcept {
+  return make_status(StatusCode::kCorrupt, "restore_state: %s", why);
+}
+
+}  // namespace
+
+size_t snapshot_bytes(const Instance& instance) noexcept { return sizeof(Header) + instance.state_bytes; }
+
+Status save(const Instance& instance, std::span<std::byte> out) noexcept {
+  if (out.size() < snapshot_bytes(instance)) {
+    return make_status(StatusCode::kInvalidArgument, "save_state: %zu bytes given, %zu needed (state_bytes)",
+                       out.size(), snapshot_bytes(instance));
+  }
+  const std::span<const std::byte> payload = payload_of(instance);
+  const Header header = header_of(instance, payload);
+  std::memcpy(out.data(), &header, sizeof header);
+  std::memcpy(out.data() + sizeof header, payload.data(), payload.size());
+  return {};
+}
+
+Status restore(Instance& instance, std::span<const std::byte> bytes) noexcept {
+  if (bytes.size() < snapshot_bytes(instance))
+    return corrupt("fewer bytes than state_bytes; another asset's, or cut");
+  Header given;
+  std::memcpy(&given, bytes.data(), sizeof given);
+  const std::span<const std::byte> payload = bytes.subspan(sizeof given, instance.state_bytes);
+  if (given.magic != kMagic) return corrupt("not a snapshot of an instance");
+  if (given.version != kVersion) return corrupt("saved by another version of the library");
+  if (given.fingerprint != instance.asset->fingerprint)
+    return corrupt("saved from an instance of another asset");
+  if (given.payload_bytes != payload.size() || given.checksum != core::hash64(payload)) {
+    return corrupt("the bytes changed since they were saved");
+  }
+  std::memcpy(instance.state, payload.data(), payload.size());
+  publish(instance);
+  return {};
+}
+
+}  // namespace sinew::world

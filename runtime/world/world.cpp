@@ -1,0 +1,276 @@
+// world.cpp  The public API: ids and arguments are checked here, work is done in the files beside.
+#include "sinew/world.hpp"
+
+#include <algorithm>
+#include <new>
+#include <utility>
+
+#include "core/assert_hook.hpp"
+#include "core/status.hpp"
+#include "world/pose.hpp"
+#include "world/read.hpp"
+#include "world/snapshot.hpp"
+#include "world/step.hpp"
+#include "world/world_state.hpp"
+
+namespace sinew {
+namespace {
+
+using core::make_status;
+using world::Asset;
+using world::Instance;
+using world::WorldState;
+
+Status invalid(const char* line) noexcept { return make_status(StatusCode::kInvalidArgument, "%s", line); }
+
+Status null_world() noexcept { return invalid("this World is null; make one with World::create"); }
+
+Status check_def(const WorldDef& def) noexcept {
+  constexpr uint32_t kMostAssets = 65535, kMostInstances = 100000, kMostTicks = 64;
+  if (def.max_assets < 1 || def.max_assets > kMostAssets)
+    return invalid("WorldDef: max_assets must be 1..65535");
+  if (def.max_instances < 1 || def.max_instances > kMostInstances) {
+    return invalid("WorldDef: max_instances must be 1..100000");
+  }
+  if (def.max_ticks_per_step < 1 || def.max_ticks_per_step > kMostTicks) {
+    return invalid("WorldDef: max_ticks_per_step must be 1..64");
+  }
+  if (!(def.teleport_distance_m > 0)) return invalid("WorldDef: teleport_distance_m must be > 0");
+  if (def.budget_mode != BudgetMode::kTime && def.budget_mode != BudgetMode::kWorkUnits) {
+    return invalid("WorldDef: budget_mode is neither kTime nor kWorkUnits");
+  }
+  if (def.tasks.enqueue && !def.tasks.finish)
+    return invalid("WorldDef: tasks.enqueue is set, tasks.finish is null");
+  return {};
+}
+
+// The object behind an id; else a programmer error at the hook, and a Status.
+template <class T, class Id>
+Status find(const core::SlotTable<T, Id>& table, Id id, const AssertHook& hook, const char* what,
+            T** out) noexcept {
+  *out = table.find(id);
+  if (*out) return {};
+  core::report_fault(hook, what);
+  return make_status(StatusCode::kStaleId, "%s (index %u, generation %u)", what, id.index1, id.generation);
+}
+
+Status find_asset(const WorldState* state, AssetId id, Asset** out) noexcept {
+  if (!state) return null_world();
+  return find(state->assets, id, state->def.assert_hook, "the asset's id is null or was unloaded", out);
+}
+
+Status find_instance(const WorldState* state, InstanceId id, Instance** out) noexcept {
+  if (!state) return null_world();
+  return find(state->instances, id, state->def.assert_hook, "the instance's id is null or was destroyed",
+              out);
+}
+
+// A world's objects may not be made or unmade, nor a step begun, while its tasks run.
+bool busy(const WorldState& state) noexcept {
+  if (state.stepping) core::report_fault(state.def.assert_hook, "the world is inside a step");
+  return state.stepping;
+}
+
+Status refuse_busy() noexcept { return invalid("the world is inside a step"); }
+
+}  // namespace
+
+struct World::Impl : WorldState {};
+
+World::~World() { delete impl_; }
+World::World(World&& other) noexcept : impl_(std::exchange(other.impl_, nullptr)) {}
+World& World::operator=(World&& other) noexcept {
+  World taken(std::move(other));
+  std::swap(impl_, taken.impl_);
+  return *this;
+}
+
+Status World::create(const WorldDef& def, World* out) noexcept {
+  if (!out) return invalid("World::create: out is a null pointer");
+  if (Status status = check_def(def); !status.ok()) return status;
+  World made;
+  made.impl_ = new (std::nothrow) Impl();
+  const bool complete = made.impl_ && made.impl_->assets.reserve(def.max_assets) &&
+                        made.impl_->instances.reserve(def.max_instances) &&
+                        (made.impl_->candidates.reset(new (std::nothrow) frame::Candidate[def.max_instances]),
+                         made.impl_->candidates != nullptr);
+  if (!complete) return make_status(StatusCode::kOutOfCapacity, "World::create: no memory for the tables");
+  made.impl_->def = def;
+  *out = std::move(made);
+  return {};
+}
+
+static Status add_asset(WorldState& state, Asset&& asset, AssetId* out) noexcept {
+  const AssetId id = state.assets.create(std::move(asset));
+  if (is_null(id)) {
+    return make_status(StatusCode::kOutOfCapacity, "load_asset: max_assets (%u) are loaded",
+                       state.assets.capacity());
+  }
+  *out = id;
+  return {};
+}
+
+Status World::load_asset(std::span<const std::byte> bytes, AssetId* out) noexcept {
+  if (!impl_) return null_world();
+  if (!out) return invalid("load_asset: out is a null pointer");
+  if (busy(*impl_)) return refuse_busy();
+  Asset asset;
+  if (Status status = world::open_asset(bytes, &asset); !status.ok()) return status;
+  return add_asset(*impl_, std::move(asset), out);
+}
+
+Status World::load_asset_file(const char* path, AssetId* out) noexcept {
+  if (!impl_) return null_world();
+  if (!path || !out) return invalid("load_asset_file: path or out is a null pointer");
+  if (busy(*impl_)) return refuse_busy();
+  pack::MappedFile file;
+  if (Status status = pack::MappedFile::open(path, &file); !status.ok()) return status;
+  Asset asset;
+  if (Status status = world::open_asset(file.bytes(), &asset); !status.ok()) return status;
+  asset.file = std::move(file);
+  return add_asset(*impl_, std::move(asset), out);
+}
+
+Status World::unload_asset(AssetId id) noexcept {
+  Asset* asset = nullptr;
+  if (Status status = find_asset(impl_, id, &asset); !status.ok()) return status;
+  if (busy(*impl_)) return refuse_busy();
+  if (asset->live_instances > 0) {
+    return make_status(StatusCode::kInvalidArgument, "unload_asset: %u instances of it live",
+                       asset->live_instances);
+  }
+  impl_->assets.destroy(id);
+  return {};
+}
+
+Status World::asset_info(AssetId id, AssetInfo* out) const noexcept {
+  Asset* asset = nullptr;
+  if (Status status = find_asset(impl_, id, &asset); !status.ok()) return status;
+  if (!out) return invalid("asset_info: out is a null pointer");
+  *out = world::describe(*asset);
+  return {};
+}
+
+Status World::create_instance(const InstanceDef& def, InstanceId* out) noexcept {
+  Asset* asset = nullptr;
+  if (Status status = find_asset(impl_, def.asset, &asset); !status.ok()) return status;
+  if (!out) return invalid("create_instance: out is a null pointer");
+  if (busy(*impl_)) return refuse_busy();
+  RootTransform root;
+  if (Status status = world::check_root(def.root, &root); !status.ok()) return status;
+  if (impl_->instances.count() == impl_->instances.capacity()) {
+    return make_status(StatusCode::kOutOfCapacity, "create_instance: max_instances (%u) live",
+                       impl_->instances.capacity());
+  }
+  Instance made;
+  if (Status status = world::make_instance(*asset, def.asset, root, def.importance, &made); !status.ok())
+    return status;
+  const InstanceId id = impl_->instances.create(std::move(made));
+  if (is_null(id))
+    return make_status(StatusCode::kOutOfCapacity, "create_instance: every slot's generations are used up");
+  ++asset->live_instances;
+  *out = id;
+  return {};
+}
+
+Status World::destroy_instance(InstanceId id) noexcept {
+  Instance* instance = nullptr;
+  if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
+  if (busy(*impl_)) return refuse_busy();
+  --instance->asset->live_instances;
+  impl_->instances.destroy(id);
+  return {};
+}
+
+Status World::set_pose(InstanceId id, const Pose& pose) noexcept {
+  Instance* instance = nullptr;
+  if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
+  if (busy(*impl_)) return refuse_busy();
+  RootTransform root;
+  if (Status status = world::check_pose(pose, instance->asset->pack.character->joint_count, &root);
+      !status.ok()) {
+    ++impl_->rejected_poses;
+    return status;
+  }
+  std::copy(pose.joints.begin(), pose.joints.end(), instance->next_joints);
+  instance->state->next_root = root;
+  instance->state->has_next = 1;
+  return {};
+}
+
+Status World::set_importance(InstanceId id, float importance) noexcept {
+  Instance* instance = nullptr;
+  if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
+  if (busy(*impl_)) return refuse_busy();
+  instance->state->importance = frame::sane_importance(importance);
+  return {};
+}
+
+Status World::reset(InstanceId id) noexcept {
+  Instance* instance = nullptr;
+  if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
+  if (busy(*impl_)) return refuse_busy();
+  world::forget_motion(*instance);
+  return {};
+}
+
+Status World::set_budget_us(float budget_us) noexcept {
+  if (!impl_) return null_world();
+  if (!(budget_us >= 0)) return invalid("set_budget_us: the budget must be >= 0 or infinity");
+  impl_->budget_us = budget_us;
+  return {};
+}
+
+FrameReport World::step(float dt_s) noexcept {
+  if (!impl_ || busy(*impl_)) return {};
+  impl_->stepping = true;
+  const FrameReport report = world::step(*impl_, dt_s);
+  impl_->stepping = false;
+  return report;
+}
+
+Status World::read_positions(InstanceId id, const ReadDef& def) const noexcept {
+  Instance* instance = nullptr;
+  if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
+  if (Status status = world::check_read(def, instance->asset->vertex_count(), false); !status.ok())
+    return status;
+  world::read_positions(*instance, def);
+  return {};
+}
+
+Status World::read_normals(InstanceId id, const ReadDef& def) const noexcept {
+  Instance* instance = nullptr;
+  if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
+  if (Status status = world::check_read(def, instance->asset->vertex_count(), true); !status.ok())
+    return status;
+  world::read_normals(*instance, def);
+  return {};
+}
+
+Status World::report(InstanceId id, InstanceReport* out) const noexcept {
+  Instance* instance = nullptr;
+  if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
+  if (!out) return invalid("report: out is a null pointer");
+  *out = world::describe(*instance, id);
+  return {};
+}
+
+size_t World::state_bytes(InstanceId id) const noexcept {
+  Instance* instance = nullptr;
+  return find_instance(impl_, id, &instance).ok() ? world::snapshot_bytes(*instance) : 0;
+}
+
+Status World::save_state(InstanceId id, std::span<std::byte> out) const noexcept {
+  Instance* instance = nullptr;
+  if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
+  return world::save(*instance, out);
+}
+
+Status World::restore_state(InstanceId id, std::span<const std::byte> bytes) noexcept {
+  Instance* instance = nullptr;
+  if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
+  if (busy(*impl_)) return refuse_busy();
+  return world::restore(*instance, bytes);
+}
+
+}  // namespace sinew
