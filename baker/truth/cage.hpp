@@ -1,4 +1,8 @@
 // cage.hpp  A uniform voxel-tetrahedral cage around a surface, and the surface's barycentric place in it.
+//
+// A voxel is copied for each separate piece of matter in it, and copies share nodes only where their matter
+// meets (Nesme et al. 2009): parts that lie close, or touch without being joined, are not glued. A voxel
+// weighs and resists by the share of it that is matter.
 #pragma once
 #include <array>
 #include <vector>
@@ -9,20 +13,24 @@
 namespace sinew::baker {
 
 struct Cage {
-  std::vector<Vector3> nodes;                 // bind pose
-  std::vector<std::array<int, 4>> tetrahedra; // positive volume
-  std::vector<double> young_pa;               // a tetrahedron
-  std::vector<Influences> skin;               // a node
-  std::vector<bool> constrained;              // a node: follows the skinning
+  std::vector<Vector3> nodes;                  // bind pose
+  std::vector<std::array<int, 4>> tetrahedra;  // positive volume
+  std::vector<double> young_pa;                // a tetrahedron; by stiffness and fill
+  std::vector<double> fill;                    // a tetrahedron: share that is matter, above 0
+  std::vector<Influences> skin;                // a node
+  std::vector<double> stiffness;               // a node, 0 soft .. 1 rigid
+  std::vector<bool> constrained;               // a node: follows the skinning
   double cell_m = 0;
 
   struct Place {
     int tetrahedron = 0;
-    std::array<double, 4> weight{};
+    std::array<double, 4> weight{};  // sum 1; slightly negative where the vertex lies just outside
   };
   std::vector<Place> surface;  // a vertex of the character
 };
 
+// Free are the nodes around soft regions that are neither as stiff as the recipe's rigid_stiffness nor in a
+// bone's core, and hang on constrained ones. Throws BadInput when none is free.
 Cage build_cage(const Character& character, const TissueLayout& layout, const Recipe& recipe);
 
 }  // namespace sinew::baker

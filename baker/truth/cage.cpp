@@ -1,0 +1,171 @@
+// cage.cpp  A uniform voxel-tetrahedral cage around a surface: material, skin, and what is held by bones.
+#include "baker/truth/cage.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "baker/common/bad_input.hpp"
+#include "baker/truth/cage_fields.hpp"
+#include "baker/truth/disjoint_sets.hpp"
+
+namespace sinew::baker {
+namespace {
+
+constexpr int kFinePerCell = 3, kFinePerCellManyVoxels = 2, kManyVoxels = 80;
+
+bool named(const std::vector<std::string>& patterns, const std::string& name) {
+  return std::any_of(patterns.begin(), patterns.end(), [&](const std::string& pattern) {
+    return !pattern.empty() && pattern.back() == '*' ? name.starts_with(pattern.substr(0, pattern.size() - 1))
+                                                     : name == pattern;
+  });
+}
+
+double longest_side(const Character& character) {
+  Eigen::AlignedBox3d box;
+  for (const Vector3& p : character.positions) box.extend(p);
+  return box.isEmpty() ? 0 : box.sizes().maxCoeff();
+}
+
+// A vertex in no region is rigid, whatever its paint.
+std::vector<double> effective_stiffness(const TissueLayout& layout) {
+  std::vector<double> stiffness(layout.stiffness.size(), 1);
+  for (const Region& region : layout.regions)
+    for (const int v : region.vertices)
+      stiffness[static_cast<size_t>(v)] = layout.stiffness[static_cast<size_t>(v)];
+  return stiffness;
+}
+
+struct Bone {
+  int joint = 0;
+  Vector3 from, to;
+  double distance(const Vector3& p) const {
+    const Vector3 along = to - from;
+    const double length2 = along.squaredNorm();
+    const double share = length2 > 0 ? std::clamp(along.dot(p - from) / length2, 0.0, 1.0) : 0;
+    return (p - from - share * along).norm();
+  }
+};
+
+// From every joint with a core to each of its children; a joint without children is a point.
+std::vector<Bone> bones(const Character& character, const Recipe& recipe) {
+  const auto place = [&](size_t j) -> Vector3 {
+    return character.inverse_bind[j].inverse().block<3, 1>(0, 3);
+  };
+  std::vector<Bone> all;
+  for (size_t j = 0; j < character.joint_node.size(); ++j) {
+    if (named(recipe.coreless_joints, character.nodes[static_cast<size_t>(character.joint_node[j])].name))
+      continue;
+    const size_t before = all.size();
+    for (size_t child = j + 1; child < character.joint_parent.size(); ++child)
+      if (character.joint_parent[child] == static_cast<int>(j))
+        all.push_back({static_cast<int>(j), place(j), place(child)});
+    if (all.size() == before) all.push_back({static_cast<int>(j), place(j), place(j)});
+  }
+  return all;
+}
+
+// Of the way from the nearest of its own bones to the skin, the share at which this place lies; 1 without
+// such a bone.
+double share_of_flesh(const std::vector<Bone>& bones, const Influences& skin, const Vector3& p,
+                      double to_surface) {
+  constexpr double kOwn = 0.1;  // least skin weight that makes a bone this place's own
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Bone& bone : bones)
+    for (size_t k = 0; k < kInfluences; ++k)
+      if (skin.joint[k] == bone.joint && skin.weight[k] >= kOwn)
+        nearest = std::min(nearest, bone.distance(p));
+  return std::isinf(nearest) ? 1 : nearest / std::max(nearest + to_surface, 1e-12);
+}
+
+std::vector<bool> held_by_bones(const Character& character, const Recipe& recipe, const Cage& cage,
+                                const std::vector<double>& to_surface) {
+  const std::vector<Bone> all = bones(character, recipe);
+  std::vector<bool> held(cage.nodes.size());
+  for (size_t i = 0; i < held.size(); ++i)
+    held[i] = cage.stiffness[i] >= recipe.rigid_stiffness ||
+              share_of_flesh(all, cage.skin[i], cage.nodes[i], to_surface[i]) < recipe.core_share;
+  return held;
+}
+
+// Free nodes stay free in connected bodies that carry a region's vertex and hang on a constrained node.
+void hold_useless_bodies(const TissueLayout& layout, Cage& cage) {
+  DisjointSets bodies(cage.nodes.size());
+  const auto free = [&](int node) { return !cage.constrained[static_cast<size_t>(node)]; };
+  for (const auto& t : cage.tetrahedra)
+    for (const int a : t)
+      for (const int b : t)
+        if (free(a) && free(b)) bodies.join(static_cast<size_t>(a), static_cast<size_t>(b));
+  std::vector<bool> supported(cage.nodes.size()), seen(cage.nodes.size());
+  const auto mark = [&](const std::array<int, 4>& t, std::vector<bool>& flags) {
+    for (const int node : t)
+      if (free(node)) flags[bodies.find(static_cast<size_t>(node))] = true;
+  };
+  for (const auto& t : cage.tetrahedra)
+    if (!std::all_of(t.begin(), t.end(), free)) mark(t, supported);
+  for (const Region& region : layout.regions)
+    for (const int v : region.vertices)
+      mark(cage.tetrahedra[static_cast<size_t>(cage.surface[static_cast<size_t>(v)].tetrahedron)], seen);
+  for (size_t i = 0; i < cage.nodes.size(); ++i) {
+    const size_t body = bodies.find(i);
+    if (!supported[body] || !seen[body]) cage.constrained[i] = true;
+  }
+}
+
+void set_material(const Recipe& recipe, Cage& cage) {
+  for (size_t e = 0; e < cage.tetrahedra.size(); ++e) {
+    double s = 0;
+    for (const int node : cage.tetrahedra[e]) s += 0.25 * cage.stiffness[static_cast<size_t>(node)];
+    cage.young_pa.push_back(cage.fill[e] * std::pow(recipe.young_soft_pa, 1 - s) *
+                            std::pow(recipe.young_stiff_pa, s));
+  }
+}
+
+std::vector<PlacedSample> placed_samples(const Character& character, const CageTopology& topology,
+                                         double spacing) {
+  std::vector<PlacedSample> placed;
+  for (const SurfaceSample& sample : sample_surface(character, spacing))
+    placed.push_back({sample, topology.place(sample.position, sample.inward)});
+  return placed;
+}
+
+void check(const Character& character, const TissueLayout& layout, const Recipe& recipe) {
+  if (character.triangles.empty() || !(longest_side(character) > 0))
+    throw BadInput("cage: " + character.name + " has no surface: a cage needs triangles of some extent");
+  if (layout.stiffness.size() != character.positions.size())
+    throw BadInput("cage: the layout has " + std::to_string(layout.stiffness.size()) +
+                   " vertices and the character " + std::to_string(character.positions.size()) +
+                   ": lay out the tissue of this character");
+  if (recipe.voxels_high < 1)
+    throw BadInput("cage: voxels_high is " + std::to_string(recipe.voxels_high) + ": give 8 to 200");
+}
+
+}  // namespace
+
+Cage build_cage(const Character& character, const TissueLayout& layout, const Recipe& recipe) {
+  check(character, layout, recipe);
+  Cage cage;
+  cage.cell_m = longest_side(character) / recipe.voxels_high;
+  const VoxelMatter matter(character, cage.cell_m,
+                           recipe.voxels_high > kManyVoxels ? kFinePerCellManyVoxels : kFinePerCell);
+  const CageTopology topology(matter);
+  const std::vector<PlacedSample> samples = placed_samples(character, topology, 0.5 * cage.cell_m);
+  CageFields fields = fit_fields(character, effective_stiffness(layout), topology, samples);
+  for (size_t v = 0; v < character.positions.size(); ++v)
+    cage.surface.push_back(topology.place(character.positions[v], -character.normals[v]));
+  cage.nodes = topology.nodes;
+  cage.tetrahedra = topology.tetrahedra;
+  cage.fill = topology.fill;
+  cage.skin = std::move(fields.skin);
+  cage.stiffness = std::move(fields.stiffness);
+  cage.constrained = held_by_bones(character, recipe, cage, surface_distance(topology, samples));
+  hold_useless_bodies(layout, cage);
+  set_material(recipe, cage);
+  if (std::all_of(cage.constrained.begin(), cage.constrained.end(), [](bool c) { return c; }))
+    throw BadInput("cage: " + character.name +
+                   " has no free node: paint softer, lower the recipe's core_share, or raise voxels_high");
+  return cage;
+}
+
+}  // namespace sinew::baker

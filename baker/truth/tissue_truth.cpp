@@ -1,0 +1,170 @@
+// tissue_truth.cpp  The ground truth of a skinned character's soft tissue: the cage's moving part on the
+// finite elements.
+#include "baker/truth/tissue_truth.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "baker/common/bad_input.hpp"
+#include "baker/truth/fem.hpp"
+#include "baker/truth/polar.hpp"
+
+namespace sinew::baker {
+namespace {
+
+constexpr double kTolerance =
+    1e-5;  // of a body's weight: below a thousandth of a millimetre at the frequencies of flesh
+const Vector3 kGravity(0, -9.80665, 0);
+
+// The tetrahedra with a free node, renumbered: the rest only follows.
+struct MovingPart {
+  std::vector<int> cage_node;     // a node here -> of the cage
+  std::vector<int> node_of_cage;  // -1: not here
+  std::vector<Vector3> rest;
+  std::vector<std::array<int, 4>> tetrahedra;
+  std::vector<bool> constrained;
+  FemMaterial material;
+};
+
+MovingPart moving_part(const Cage& cage, const Recipe& recipe) {
+  MovingPart part;
+  part.node_of_cage.assign(cage.nodes.size(), -1);
+  part.material.poisson_ratio = recipe.poisson_ratio;
+  part.material.density_kg_m3 = recipe.density_kg_m3;
+  part.material.young_pa.clear();
+  part.material.fill.clear();
+  for (size_t e = 0; e < cage.tetrahedra.size(); ++e) {
+    const auto& t = cage.tetrahedra[e];
+    if (std::all_of(t.begin(), t.end(), [&](int n) { return cage.constrained[static_cast<size_t>(n)]; }))
+      continue;
+    std::array<int, 4> here{};
+    for (size_t a = 0; a < 4; ++a) {
+      int& node = part.node_of_cage[static_cast<size_t>(t[a])];
+      if (node < 0) {
+        node = static_cast<int>(part.cage_node.size());
+        part.cage_node.push_back(t[a]);
+        part.rest.push_back(cage.nodes[static_cast<size_t>(t[a])]);
+        part.constrained.push_back(cage.constrained[static_cast<size_t>(t[a])]);
+      }
+      here[a] = node;
+    }
+    part.tetrahedra.push_back(here);
+    part.material.young_pa.push_back(cage.young_pa[e]);
+    part.material.fill.push_back(cage.fill[e]);
+  }
+  return part;
+}
+
+}  // namespace
+
+struct TissueTruth::Impl {
+  Character character;
+  Cage cage;
+  MovingPart part;
+  Fem fem;
+  Motion motion;
+  long ticks = 0;
+  double time_s = 0;
+  UndisturbedMotion skinned;
+  std::vector<Eigen::Matrix3d> rotation;  // a node of the moving part, world from bind
+
+  Impl(const Character& c, const TissueLayout& layout, const Recipe& recipe)
+      : character(c),
+        cage(build_cage(c, layout, recipe)),
+        part(moving_part(cage, recipe)),
+        fem(part.rest, part.tetrahedra, part.constrained, part.material) {
+    fem.damp(recipe.damping_ratio);
+    skinned.turn.resize(part.rest.size());
+  }
+
+  void skin_cage(const WorldPose& pose);
+  void substep(double dt_s);
+  TruthFrame frame() const;
+};
+
+TissueTruth::TissueTruth(const Character& character, const TissueLayout& layout, const Recipe& recipe)
+    : impl_(std::make_unique<Impl>(character, layout, recipe)) {}
+TissueTruth::~TissueTruth() = default;
+
+// The moving part's nodes under the pose: their places and rotations become the newest.
+void TissueTruth::Impl::skin_cage(const WorldPose& pose) {
+  std::vector<Matrix4> matrix(pose.joints.size());
+  for (size_t j = 0; j < matrix.size(); ++j)
+    matrix[j] = pose.root * pose.joints[j] * character.inverse_bind[j];
+  skinned.after.resize(3 * static_cast<Eigen::Index>(part.rest.size()));
+  rotation.resize(part.rest.size());
+  for (size_t i = 0; i < part.rest.size(); ++i) {
+    const Influences& skin = cage.skin[static_cast<size_t>(part.cage_node[i])];
+    Matrix4 blended = Matrix4::Zero();
+    for (size_t k = 0; k < kInfluences; ++k)
+      if (skin.weight[k] > 0) blended += skin.weight[k] * matrix[static_cast<size_t>(skin.joint[k])];
+    skinned.after.segment<3>(3 * static_cast<Eigen::Index>(i)) =
+        blended.block<3, 3>(0, 0) * part.rest[i] + blended.block<3, 1>(0, 3);
+    rotation[i] = nearest_rotation(blended.block<3, 3>(0, 0));
+  }
+}
+
+void TissueTruth::Impl::substep(double dt_s) {
+  const std::vector<Eigen::Matrix3d> before = rotation;
+  skinned.before = skinned.after;
+  skin_cage(motion(time_s));
+  Eigen::VectorXd force = -fem.elastic_force(skinned.after);
+  for (size_t i = 0; i < rotation.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    skinned.turn[i] = rotation[i] * before[i].transpose();
+    force.segment<3>(3 * at) += fem.mass[at] * (kGravity - rotation[i] * kGravity);
+  }
+  fem.step(dt_s, skinned.after, force, kTolerance, &skinned);
+}
+
+TruthFrame TissueTruth::Impl::frame() const {
+  TruthFrame frame;
+  frame.pose = motion(time_s);
+  frame.skinned = skin_positions(character, frame.pose.joints);
+  for (Vector3& p : frame.skinned)
+    p = frame.pose.root.block<3, 3>(0, 0) * p + frame.pose.root.block<3, 1>(0, 3);
+  frame.truth = frame.skinned;
+  for (size_t v = 0; v < frame.truth.size(); ++v) {
+    const Cage::Place& place = cage.surface[v];
+    for (size_t a = 0; a < 4; ++a) {
+      const int node =
+          part.node_of_cage[static_cast<size_t>(cage.tetrahedra[static_cast<size_t>(place.tetrahedron)][a])];
+      if (node >= 0) frame.truth[v] += place.weight[a] * (fem.positions - skinned.after).segment<3>(3 * node);
+    }
+  }
+  frame.elastic_energy_j = fem.elastic_energy();
+  for (size_t i = 0; i < part.rest.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    if (!part.constrained[i])
+      frame.kinetic_energy_j += 0.5 * fem.mass[at] * fem.velocities.segment<3>(3 * at).squaredNorm();
+  }
+  return frame;
+}
+
+TruthFrame TissueTruth::start(const Motion& motion) {
+  impl_->motion = motion;
+  impl_->ticks = 0;
+  impl_->time_s = 0;
+  impl_->skin_cage(motion(0));
+  impl_->fem.reset(impl_->skinned.after);
+  return impl_->frame();
+}
+
+TruthFrame TissueTruth::advance(double rate_hz, int substeps) {
+  if (!impl_->motion) throw BadInput("truth: advance before start: start a motion first");
+  if (!(rate_hz > 0) || substeps < 1)
+    throw BadInput("truth: rate_hz " + std::to_string(rate_hz) + " and substeps " + std::to_string(substeps) +
+                   ": give both above 0");
+  const double dt_s = 1 / (rate_hz * substeps), from = static_cast<double>(impl_->ticks) / rate_hz;
+  for (int s = 1; s <= substeps; ++s) {
+    impl_->time_s = from + s * dt_s;
+    impl_->substep(dt_s);
+  }
+  impl_->time_s = static_cast<double>(++impl_->ticks) / rate_hz;
+  return impl_->frame();
+}
+
+const Cage& TissueTruth::cage() const { return impl_->cage; }
+std::vector<double> TissueTruth::frequencies_hz(int count) const { return impl_->fem.frequencies_hz(count); }
+
+}  // namespace sinew::baker
