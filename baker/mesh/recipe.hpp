@@ -5,30 +5,34 @@
 
 namespace sinew::baker {
 
+// A soft part by its bones. Softness grows with the skin weight of these joints and with the flesh over their
+// bones (bones without a rigid core: with the weight alone). Where two regions meet, the skin between them
+// stays rigid.
 struct RegionRecipe {
   std::string name;
-  std::vector<std::string> joints;  // names or prefix*; softness falls off with skin weight and distance to these bones
+  std::vector<std::string> joints;  // names or prefix*
   double stiffness = 0.1;           // 0 soft .. 1 rigid at its softest point
 };
 
 struct Recipe {
   // Tissue material. Stiffness s maps to Young's modulus soft^(1-s) stiff^s.
-  double young_soft_pa = 6e3;      // > 0
-  double young_stiff_pa = 1e5;     // >= young_soft_pa
-  double poisson_ratio = 0.42;     // 0 .. 0.49
-  double density_kg_m3 = 1000;     // > 0
-  double damping_ratio = 0.1;      // 0 .. 1, Rayleigh, at the first and third mode's neighbourhood
-  int voxels_high = 36;            // 8 .. 200, cage cells along the character's longest side
-  double rigid_stiffness = 0.95;   // painted stiffness from here on is constrained to the skinning
-  double core_share = 0.45;        // 0 .. 1, share of the way from bone to skin that follows the bone rigidly
+  double young_soft_pa = 6e3;     // > 0
+  double young_stiff_pa = 1e5;    // >= young_soft_pa
+  double poisson_ratio = 0.42;    // 0 .. 0.49
+  double density_kg_m3 = 1000;    // > 0
+  double damping_ratio = 0.1;     // 0 .. 1, Rayleigh, at the first and third mode's neighbourhood
+  int voxels_high = 36;           // 8 .. 200, cage cells along the character's longest side
+  double rigid_stiffness = 0.95;  // painted stiffness from here on is constrained to the skinning
+  double core_share = 0.45;       // 0 .. 1, share of the way from bone to skin that follows the bone rigidly
   std::vector<std::string> coreless_joints;  // names or prefix*: bones without a rigid core (ears, tails)
 
   // Control graph.
-  int nodes_per_region = 40;       // 4 .. 64
-  int neighbours = 6;              // 2 .. 16
-  double unit_m = 0;               // see ImportOptions
+  int nodes_per_region = 40;  // 4 .. 64
+  int neighbours = 6;         // 2 .. 16
+  double unit_m = 0;          // see ImportOptions
   char up = 'y';
-  std::vector<RegionRecipe> regions;  // used where the file paints no _STIFFNESS; empty and unpainted: by flesh thickness
+  std::vector<RegionRecipe>
+      regions;  // used where the file paints no _STIFFNESS; empty and unpainted: by flesh thickness
 };
 
 // Throws BadInput: not JSON, an unknown key (named, with the nearest known one), a number outside its range.

@@ -18,10 +18,11 @@ struct ControlNode {
 
 struct Region {
   std::string name;
-  int frame_joint = 0;      // the joint with the most skin weight where the region meets rigid flesh
+  int frame_joint = 0;  // the joint with the most skin weight where the region meets rigid flesh
   int first_node = 0, node_count = 0;
-  std::vector<int> vertices;             // ascending; all file vertices carried, duplicates at seams included
-  std::vector<std::vector<double>> carry;  // [node in region][vertex in region]; zero displacement at the rigid rim
+  std::vector<int> vertices;  // ascending; all file vertices carried, duplicates at seams included
+  std::vector<std::vector<double>>
+      carry;  // [node in region][vertex in region]; zero displacement at the rigid rim
   Vector3 center = Vector3::Zero();
   double radius_m = 0;
 };
@@ -29,11 +30,12 @@ struct Region {
 struct TissueLayout {
   std::vector<double> stiffness;  // a vertex: painted, from the recipe, or by flesh thickness
   std::vector<Region> regions;
-  std::vector<ControlNode> nodes;             // region after region
-  std::vector<std::pair<int, int>> edges;     // undirected, no self-loops, each region connected
+  std::vector<ControlNode> nodes;          // region after region
+  std::vector<std::pair<int, int>> edges;  // undirected, no self-loops, each region connected
 };
 
-// Throws BadInput: no soft vertex at all, a region smaller than four vertices is dropped with a note, a recipe's joint that does not exist (named).
+// Throws BadInput: no soft vertex at all, a region smaller than four vertices is dropped with a note, a
+// recipe's joint that does not exist (named).
 TissueLayout layout_tissue(Character& character, const Recipe& recipe);
 
 }  // namespace sinew::baker

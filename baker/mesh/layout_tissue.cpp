@@ -1,0 +1,84 @@
+// layout_tissue.cpp  The steps from a character to its soft regions and their control graph.
+#include <algorithm>
+
+#include "baker/common/bad_input.hpp"
+#include "baker/mesh/carry.hpp"
+#include "baker/mesh/control_nodes.hpp"
+#include "baker/mesh/regions.hpp"
+#include "baker/mesh/stiffness.hpp"
+#include "baker/mesh/tissue_layout.hpp"
+
+namespace sinew::baker {
+namespace {
+
+constexpr int kRimAnchors = 120;  // they cost time in the baker only
+
+std::vector<Vector3> places(const Character& character, const std::vector<int>& vertices) {
+  std::vector<Vector3> result;
+  for (int v : vertices) result.push_back(character.positions[static_cast<size_t>(v)]);
+  return result;
+}
+
+// All of the file's vertices that are welded to one of the part.
+std::vector<int> carried_vertices(const Character& character, const SoftParts& parts, int id) {
+  std::vector<int> vertices;
+  for (size_t v = 0; v < character.welded.size(); ++v)
+    if (parts.part[static_cast<size_t>(character.welded[v])] == id) vertices.push_back(static_cast<int>(v));
+  return vertices;
+}
+
+void append_nodes(const Character& character, const std::vector<int>& nodes, int region,
+                  TissueLayout& layout) {
+  for (int v : nodes) {
+    const auto at = static_cast<size_t>(v);
+    layout.nodes.push_back({v, region, character.positions[at], character.normals[at], layout.stiffness[at],
+                            character.skin[at]});
+  }
+}
+
+void measure(const std::vector<Vector3>& nodes, Region& region) {
+  for (const Vector3& node : nodes) region.center += node / static_cast<double>(nodes.size());
+  for (const Vector3& node : nodes)
+    region.radius_m = std::max(region.radius_m, (node - region.center).norm());
+}
+
+void append_region(const Character& character, const Surface& surface, const Recipe& recipe,
+                   const SoftParts& parts, int id, TissueLayout& layout) {
+  const std::vector<int> vertices = part_vertices(parts, id), rim = rim_vertices(surface, parts, id);
+  const PartSurface part{character, surface, parts.part, id, vertices, rim};
+  const std::vector<int> nodes = sample_nodes(part, layout.stiffness, recipe.nodes_per_region);
+  std::vector<std::string> taken;
+  for (const Region& other : layout.regions) taken.push_back(other.name);
+
+  Region region;
+  region.name = region_name(character, recipe, layout.stiffness, vertices, taken);
+  region.frame_joint = frame_joint(character, rim, vertices);
+  region.first_node = static_cast<int>(layout.nodes.size());
+  region.node_count = static_cast<int>(nodes.size());
+  region.vertices = carried_vertices(character, parts, id);
+  const std::vector<Vector3> node_places = places(character, nodes);
+  measure(node_places, region);
+  region.carry = carry_weights(node_places, places(character, sample_rim(character, rim, kRimAnchors)),
+                               places(character, region.vertices));
+  for (const auto& [a, b] : connect_nodes(part, nodes, recipe.neighbours))
+    layout.edges.emplace_back(region.first_node + a, region.first_node + b);
+  append_nodes(character, nodes, static_cast<int>(layout.regions.size()), layout);
+  layout.regions.push_back(std::move(region));
+}
+
+}  // namespace
+
+TissueLayout layout_tissue(Character& character, const Recipe& recipe) {
+  const Surface surface = find_surface(character);
+  TissueLayout layout;
+  layout.stiffness = find_stiffness(character, surface, recipe);
+  const SoftParts parts = find_soft_parts(character, surface, recipe, layout.stiffness);
+  if (parts.count == 0)
+    throw BadInput(character.name + ": no part of the surface is soft (stiffness below " +
+                   std::to_string(recipe.rigid_stiffness) +
+                   "); paint _STIFFNESS, or name soft joints in the recipe's regions");
+  for (int id = 0; id < parts.count; ++id) append_region(character, surface, recipe, parts, id, layout);
+  return layout;
+}
+
+}  // namespace sinew::baker

@@ -1,0 +1,74 @@
+// recipe.cpp  The tissue recipe's JSON, every key checked.
+#include "baker/mesh/recipe.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "baker/common/bad_input.hpp"
+#include "baker/common/read_file.hpp"
+#include "baker/creature/json_section.hpp"
+
+namespace sinew::baker {
+namespace {
+
+int whole_number(JsonSection& section, const std::string& key, int otherwise, int low, int high) {
+  const double number = section.number(key, otherwise, low, high);
+  if (number != std::floor(number)) section.complain(key, "must be a whole number");
+  return static_cast<int>(number);
+}
+
+void read_material(JsonSection& section, Recipe& recipe) {
+  recipe.young_soft_pa = section.number("young_soft_pa", recipe.young_soft_pa, 1, 1e9);
+  recipe.young_stiff_pa =
+      section.number("young_stiff_pa", std::max(recipe.young_stiff_pa, recipe.young_soft_pa), 1, 1e9);
+  if (recipe.young_stiff_pa < recipe.young_soft_pa)
+    section.complain("young_stiff_pa", "is smaller than young_soft_pa");
+  recipe.poisson_ratio = section.number("poisson_ratio", recipe.poisson_ratio, 0, 0.49);
+  recipe.density_kg_m3 = section.number("density_kg_m3", recipe.density_kg_m3, 1, 1e5);
+  recipe.damping_ratio = section.number("damping_ratio", recipe.damping_ratio, 0, 1);
+  recipe.voxels_high = whole_number(section, "voxels_high", recipe.voxels_high, 8, 200);
+  recipe.rigid_stiffness = section.number("rigid_stiffness", recipe.rigid_stiffness, 0.01, 1);
+  recipe.core_share = section.number("core_share", recipe.core_share, 0, 1);
+  recipe.coreless_joints = section.texts("coreless_joints");
+}
+
+void read_graph(JsonSection& section, Recipe& recipe) {
+  recipe.nodes_per_region = whole_number(section, "nodes_per_region", recipe.nodes_per_region, 4, 64);
+  recipe.neighbours = whole_number(section, "neighbours", recipe.neighbours, 2, 16);
+  recipe.unit_m = section.number("unit_m", recipe.unit_m, 0, 1e6);
+  const std::string up = section.text("up", std::string(1, recipe.up));
+  if (up != "y" && up != "z") section.complain("up", "is \"" + up + "\"; it must be \"y\" or \"z\"");
+  recipe.up = up[0];
+}
+
+RegionRecipe read_region(JsonSection& section) {
+  RegionRecipe region;
+  region.name = section.text("name");
+  region.joints = section.texts("joints");
+  if (region.joints.empty()) section.complain("joints", "must name at least one joint, or a prefix*");
+  region.stiffness = section.number("stiffness", region.stiffness, 0, 1);
+  section.finish();
+  return region;
+}
+
+nlohmann::json parse(const std::string& path) {
+  nlohmann::json json = nlohmann::json::parse(read_text(path), nullptr, false, true);
+  if (json.is_discarded())
+    throw BadInput(path + ": this is not JSON; a recipe is an object { \"voxels_high\": 36, ... }");
+  return json;
+}
+
+}  // namespace
+
+Recipe read_recipe(const std::string& path) {
+  const nlohmann::json json = parse(path);
+  JsonSection section(json, path);
+  Recipe recipe;
+  read_material(section, recipe);
+  read_graph(section, recipe);
+  for (JsonSection& region : section.sections("regions")) recipe.regions.push_back(read_region(region));
+  section.finish();
+  return recipe;
+}
+
+}  // namespace sinew::baker

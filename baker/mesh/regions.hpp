@@ -1,0 +1,37 @@
+// regions.hpp  Soft parts of the surface: which vertices, whose frame, what name.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "baker/import/character.hpp"
+#include "baker/mesh/recipe.hpp"
+#include "baker/mesh/surface.hpp"
+
+namespace sinew::baker {
+
+struct SoftParts {
+  std::vector<int> part;  // welded vertex -> part, -1: rigid
+  int count = 0;
+};
+
+// Connected parts of vertices below recipe.rigid_stiffness. Parts of fewer than four welded vertices become
+// rigid (stiffness is changed), with a note.
+SoftParts find_soft_parts(Character& character, const Surface& surface, const Recipe& recipe,
+                          std::vector<double>& stiffness);
+
+// Welded vertices of a part, ascending.
+std::vector<int> part_vertices(const SoftParts& parts, int id);
+
+// Rigid vertices that the part touches, ascending.
+std::vector<int> rim_vertices(const Surface& surface, const SoftParts& parts, int id);
+
+// The joint with the most skin weight on the rim; of the whole part where it has no rim.
+int frame_joint(const Character& character, const std::vector<int>& rim, const std::vector<int>& vertices);
+
+// A recipe's region that has most of the part's weight, else the joint that has most of it where it is soft;
+// unlike those in `taken`.
+std::string region_name(const Character& character, const Recipe& recipe,
+                        const std::vector<double>& stiffness, const std::vector<int>& vertices,
+                        const std::vector<std::string>& taken);
+
+}  // namespace sinew::baker
