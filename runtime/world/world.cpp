@@ -151,6 +151,24 @@ Status World::asset_info(AssetId id, AssetInfo* out) const noexcept {
   return {};
 }
 
+const char* World::joint_name(AssetId id, uint32_t joint) const noexcept {
+  Asset* asset = nullptr;
+  if (!find_asset(impl_, id, &asset).ok() || joint >= asset->pack.joints.size()) return nullptr;
+  return pack::string_at(asset->pack, asset->pack.joints[joint].name);
+}
+
+Status World::bind_pose(AssetId id, std::span<Matrix34> out) const noexcept {
+  Asset* asset = nullptr;
+  if (Status status = find_asset(impl_, id, &asset); !status.ok()) return status;
+  if (out.size() != asset->pack.joints.size()) {
+    return make_status(StatusCode::kInvalidArgument,
+                       "bind_pose: out has room for %zu joints, the asset has %zu", out.size(),
+                       asset->pack.joints.size());
+  }
+  world::bind_pose(asset->pack.joints, out.data());
+  return {};
+}
+
 Status World::create_instance(const InstanceDef& def, InstanceId* out) noexcept {
   Asset* asset = nullptr;
   if (Status status = find_asset(impl_, def.asset, &asset); !status.ok()) return status;

@@ -12,8 +12,9 @@
 //     status = world.read_positions(creature, {.out = vertices, .capacity = vertex_count});
 //   }
 //
-// Thread rule: one thread at a time calls a world's functions, except where a function says otherwise. Nothing here throws
-// or prints. step, set_pose, read_* and report never allocate or block; the others may allocate.
+// Thread rule: one thread at a time calls a world's functions, except where a function says otherwise.
+// Nothing here throws or prints. step, set_pose, read_* and report never allocate or block; the others may
+// allocate.
 #pragma once
 #include "sinew/types.hpp"
 
@@ -29,28 +30,35 @@ class World {
   // Takes the tables' memory. A field outside its range: kInvalidArgument, *out untouched.
   static Status create(const WorldDef& def, World* out) noexcept;
 
-  // Checks the whole pack (O(bytes)), then uses it in place: bytes must outlive the asset and be 64-byte aligned.
-  // Never reads outside bytes; refuses with a cause; *out untouched on refusal.
+  // Checks the whole pack (O(bytes)), then uses it in place: bytes must outlive the asset and be 64-byte
+  // aligned. Never reads outside bytes; refuses with a cause; *out untouched on refusal.
   Status load_asset(std::span<const std::byte> bytes, AssetId* out) noexcept;
   // The same with the file memory-mapped for the asset's life.
   Status load_asset_file(const char* path, AssetId* out) noexcept;
   // kInvalidArgument while instances of it live.
   Status unload_asset(AssetId asset) noexcept;
   Status asset_info(AssetId asset, AssetInfo* out) const noexcept;
+  // The joint's name in the file it was baked from, so that an engine can map its skeleton; lives as long as
+  // the asset. Null for a stale id or joint >= joint_count.
+  const char* joint_name(AssetId asset, uint32_t joint) const noexcept;
+  // character-from-joint of the bind pose; out.size() must be joint_count, else kInvalidArgument and nothing
+  // is written.
+  Status bind_pose(AssetId asset, std::span<Matrix34> out) const noexcept;
 
   // One allocation for all of the instance's state. It starts at rest in its bind pose.
   Status create_instance(const InstanceDef& def, InstanceId* out) noexcept;
   Status destroy_instance(InstanceId instance) noexcept;
 
   // The pose at the end of the coming step; ticks between two poses see them interpolated. Joints are copied.
-  // Wrong count: kInvalidArgument; NaN or infinity: kNotFinite; in both cases the last good pose stays and the
-  // refusal is counted in the report.
+  // Wrong count: kInvalidArgument; NaN or infinity: kNotFinite; in both cases the last good pose stays and
+  // the refusal is counted in the report.
   Status set_pose(InstanceId instance, const Pose& pose) noexcept;
   Status set_importance(InstanceId instance, float importance) noexcept;
   // Forgets motion: the tissue is at rest in the next pose that is set.
   Status reset(InstanceId instance) noexcept;
 
-  // Microseconds a step may take; infinity (the default): no limit; 0: skinning for all; negative or NaN: kInvalidArgument.
+  // Microseconds a step may take; infinity (the default): no limit; 0: skinning for all; negative or NaN:
+  // kInvalidArgument.
   Status set_budget_us(float budget_us) noexcept;
 
   // Advances by dt_s >= 0 in fixed ticks of the assets' rate. NaN or negative counts as 0. Never fails.
@@ -62,7 +70,8 @@ class World {
   Status read_normals(InstanceId instance, const ReadDef& def) const noexcept;
   Status report(InstanceId instance, InstanceReport* out) const noexcept;
 
-  // Rollback. state_bytes is fixed for an instance's life; restore of bytes of another asset or version: kCorrupt, untouched.
+  // Rollback. state_bytes is fixed for an instance's life; restore of bytes of another asset or version:
+  // kCorrupt, untouched.
   size_t state_bytes(InstanceId instance) const noexcept;
   Status save_state(InstanceId instance, std::span<std::byte> out) const noexcept;
   Status restore_state(InstanceId instance, std::span<const std::byte> bytes) noexcept;
