@@ -1,0 +1,118 @@
+// test_inputs.cpp  Order, scales, units, the envelope and its count.
+#include "tissue/inputs.hpp"
+
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include "tests/tissue/reference_network.hpp"
+#include "tissue/drive.hpp"
+
+using namespace sinew;
+using pack::InputKind;
+
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr uint32_t kNodes = 3;
+
+struct Fixture {
+  explicit Fixture(std::vector<pack::InputRecord> inputs)
+      : packed(test::plain_record(), {{width_of(inputs),
+                                       3,
+                                       std::vector<float>(width_of(inputs) * 12),
+                                       {},
+                                       std::vector<float>(36),
+                                       std::vector<float>(27),
+                                       std::vector<float>(12)}}) {
+    packed.inputs = std::move(inputs);
+    packed.record().length_unit_m = 0.5f;
+    region.center_m[0] = 1;
+    region.center_m[1] = 2;
+    region.center_m[2] = 3;
+    region.radius_m = 2;
+    region.node_count = kNodes;
+    for (uint32_t n = 0; n < kNodes; ++n) {
+      nodes.push_back({{static_cast<float>(n), 4, 5},
+                       {0, static_cast<float>(n), 1},
+                       0.25f * static_cast<float>(n),
+                       0,
+                       {}});
+    }
+    for (size_t i = 0; i < drive.size(); ++i) drive[i] = static_cast<float>(i);
+    for (size_t i = 0; i < u.size(); ++i) {
+      u[i] = static_cast<float>(i);
+      u_before[i] = 1;
+    }
+  }
+  static size_t width_of(const std::vector<pack::InputRecord>& inputs) {
+    size_t width = 0;
+    for (const pack::InputRecord& input : inputs) width += input.kind == InputKind::kStiffness ? 1 : 3;
+    return width;
+  }
+  uint32_t assemble() {
+    const tissue::Network network = packed.view();
+    z = std::vector<float>(kNodes * tissue::input_stride(network), 99.0f);
+    return tissue::assemble_inputs(network, {&region, nodes.data(), drive.data(), u.data(), u_before.data()},
+                                   z.data());
+  }
+  test::PackedNetwork packed;
+  pack::RegionRecord region{};
+  std::vector<pack::NodeRecord> nodes;
+  std::vector<float> drive = std::vector<float>(kNodes * tissue::kDriveWidth);
+  std::vector<float> u = std::vector<float>(kNodes * 3), u_before = std::vector<float>(kNodes * 3);
+  std::vector<float> z;
+};
+
+std::vector<float> row(const Fixture& fixture, size_t node, size_t count) {
+  const size_t stride = fixture.z.size() / kNodes;
+  return {fixture.z.begin() + static_cast<long>(node * stride),
+          fixture.z.begin() + static_cast<long>(node * stride + count)};
+}
+
+}  // namespace
+
+TEST_CASE("assemble_inputs_counts_what_leaves_the_envelope_and_what_is_not_a_number") {
+  Fixture fixture(
+      {{InputKind::kLinearAcceleration, 0.1f, 1, 0}, {InputKind::kAngularVelocity, 1, kInfinity, 0}});
+  std::fill(fixture.drive.begin(), fixture.drive.end(), 0.0f);
+  fixture.drive[0] = 10;                           // exactly on the envelope: not beyond it
+  fixture.drive[1] = -10.5f;                       // beyond
+  fixture.drive[2] = kNan;                         // 0
+  fixture.drive[15] = 1e30f;                       // not bounded
+  fixture.drive[16] = -kInfinity;                  // 0
+  fixture.drive[2 * tissue::kDriveWidth] = 1e30f;  // another node
+  REQUIRE(fixture.assemble() == 4);
+  REQUIRE(row(fixture, 0, 6) == std::vector<float>{1, -1, 0, 1e30f, 0, 0});
+  REQUIRE(row(fixture, 2, 3) == std::vector<float>{1, 0, 0});
+}
+
+TEST_CASE("assemble_inputs_lays_them_out_in_the_packs_order_with_scale_and_zero_padding") {
+  Fixture fixture({{InputKind::kStiffness, 2, kInfinity, 0},
+                   {InputKind::kVelocity, 1, kInfinity, 0},
+                   {InputKind::kRestPosition, 1, kInfinity, 0},
+                   {InputKind::kDisplacement, 10, kInfinity, 0},
+                   {InputKind::kRestNormal, -1, kInfinity, 0}});
+  REQUIRE(fixture.assemble() == 0);
+  // Node 1: u = 3 4 5 m in units of 0.5 m, one metre less the tick before.
+  REQUIRE(row(fixture, 1, 16) == std::vector<float>{0.5f, 4, 6, 8, 0, 1, 1, 60, 80, 100, 0, -1, -1, 0, 0, 0});
+}
+
+TEST_CASE("assemble_inputs_reads_each_part_of_the_drive_from_its_place") {
+  const InputKind kinds[] = {InputKind::kLinearAcceleration,
+                             InputKind::kEulerAcceleration,
+                             InputKind::kCentrifugalAcceleration,
+                             InputKind::kArticulationAcceleration,
+                             InputKind::kAngularAcceleration,
+                             InputKind::kAngularVelocity,
+                             InputKind::kGravityChange};
+  std::vector<pack::InputRecord> inputs;
+  for (const InputKind kind : kinds) inputs.push_back({kind, 1, kInfinity, 0});
+  Fixture fixture(inputs);
+  REQUIRE(fixture.assemble() == 0);
+  for (size_t node = 0; node < kNodes; ++node) {
+    const std::vector<float> values = row(fixture, node, tissue::kDriveWidth);
+    for (size_t k = 0; k < values.size(); ++k)
+      REQUIRE(values[k] == static_cast<float>(node * tissue::kDriveWidth + k));
+  }
+}
