@@ -1,8 +1,19 @@
-// commands.hpp  The subcommands of sinew-bake, one file each. A command throws BadInput for unusable input (exit 2) and sets
-// *exit_code to 1 when a check failed.
+// commands.hpp  The subcommands of sinew-bake, one file each. A command throws BadInput for unusable input
+// (exit 2) and sets *exit_code to 1 when a check failed.
 #pragma once
 #include <CLI/CLI.hpp>
+#include <string>
 
 namespace sinew::baker {
+
+void add_creature_command(CLI::App& app, int* exit_code);
+void add_character_command(CLI::App& app, int* exit_code);
+void add_model_command(CLI::App& app, int* exit_code);
+void add_check_command(CLI::App& app, int* exit_code);
+void add_info_command(CLI::App& app, int* exit_code);
+void add_truth_command(CLI::App& app, int* exit_code);
+
+// Throws BadInput for a --precision that this version cannot bake or run.
+void check_precision(const std::string& precision);
 
 }  // namespace sinew::baker

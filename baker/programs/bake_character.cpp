@@ -1,0 +1,58 @@
+// bake_character.cpp  sinew-bake character: a skinned character and trained weights to one .sinew file.
+#include <cstdio>
+#include <memory>
+
+#include "baker/common/bad_input.hpp"
+#include "baker/common/write_file.hpp"
+#include "baker/import/import_gltf.hpp"
+#include "baker/mesh/tissue_layout.hpp"
+#include "baker/pack/character_pack.hpp"
+#include "baker/programs/commands.hpp"
+#include "baker/programs/describe.hpp"
+
+namespace sinew::baker {
+namespace {
+
+struct CharacterOptions {
+  std::string character, recipe, tissue, output;
+};
+
+Character import_character(const CharacterOptions& options, const Recipe& recipe) {
+  ImportOptions import;
+  import.unit_m = recipe.unit_m;
+  import.up = recipe.up;
+  return import_gltf(options.character, import);
+}
+
+void print_summary(const CharacterOptions& options, const Character& character, const LoadedPack& pack) {
+  for (const std::string& note : character.notes) std::printf("note: %s\n", note.c_str());
+  nlohmann::ordered_json description = describe_pack(pack);
+  for (const char* detail : {"network", "metadata"}) description.erase(detail);  // `info` shows them
+  std::printf("%s: %s", options.output.c_str(), format_description(description).c_str());
+}
+
+void run_character(const CharacterOptions& options) {
+  const Recipe recipe = options.recipe.empty() ? Recipe{} : read_recipe(options.recipe);
+  const Safetensors weights = read_safetensors(options.tissue);
+  Character character = import_character(options, recipe);
+  const TissueLayout layout = layout_tissue(character, recipe);
+  const std::vector<std::byte> bytes = pack_character(character, layout, weights);
+  const LoadedPack pack =
+      LoadedPack::from_bytes(bytes, options.character);  // what the runtime would refuse is not written
+  write_file(options.output, bytes);
+  print_summary(options, character, pack);
+}
+
+}  // namespace
+
+void add_character_command(CLI::App& app, int*) {
+  auto options = std::make_shared<CharacterOptions>();
+  CLI::App* command = app.add_subcommand("character", "Packs a skinned character with its tissue network");
+  command->add_option("character", options->character, "skinned glTF or VRM")->required();
+  command->add_option("--recipe", options->recipe, "JSON; see baker/mesh/recipe.hpp");
+  command->add_option("--tissue", options->tissue, "trained weights, safetensors")->required();
+  command->add_option("-o,--output", options->output, "C.sinew")->required();
+  command->callback([options] { run_character(*options); });
+}
+
+}  // namespace sinew::baker

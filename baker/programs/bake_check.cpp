@@ -1,0 +1,60 @@
+// bake_check.cpp  sinew-bake check: a network against reference vectors.
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "baker/common/bad_input.hpp"
+#include "baker/programs/commands.hpp"
+#include "baker/programs/loaded_pack.hpp"
+#include "baker/programs/roll_out.hpp"
+#include "simd/isa.hpp"
+
+namespace sinew::baker {
+namespace {
+
+struct CheckOptions {
+  std::string model, vectors, isa, precision = "fp32";
+  double tolerance = 1e-5;
+};
+
+void choose_isa(const std::string& name) {
+  if (name.empty()) return;
+  const Status status = simd::force_isa(name.c_str());
+  if (!status.ok()) throw BadInput("--isa " + name + ": " + status.message);
+}
+
+int run_check(const CheckOptions& options) {
+  check_precision(options.precision);
+  if (!(options.tolerance >= 0)) throw BadInput("--tolerance: must be a number from 0 up");
+  choose_isa(options.isa);
+  const LoadedPack model = LoadedPack::from_pack_or_weights(options.model);
+  const RollOutError error = roll_out(model.network(), read_safetensors(options.vectors));
+  const bool ok = error.max_abs_error <= options.tolerance;
+  const nlohmann::ordered_json report = {{"model", "alt_conv_lstm"},
+                                         {"isa", simd::active_isa()},
+                                         {"precision", options.precision},
+                                         {"steps", error.steps},
+                                         {"max_abs_error", error.max_abs_error},
+                                         {"mean_abs_error", error.mean_abs_error},
+                                         {"tolerance", options.tolerance},
+                                         {"ok", ok}};
+  std::printf("%s\n", report.dump().c_str());
+  return ok ? 0 : 1;
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app, int* exit_code) {
+  auto options = std::make_shared<CheckOptions>();
+  CLI::App* command = app.add_subcommand(
+      "check", "Runs a network on reference vectors, its own output fed back; exit 1 beyond the tolerance");
+  command->add_option("model", options->model, ".sinew or weights as .safetensors")->required();
+  command->add_option("vectors", options->vectors, "reference vectors as .safetensors")->required();
+  command->add_option("--precision", options->precision, "fp32");
+  command->add_option("--isa", options->isa, "an instruction set of this processor; the best by default");
+  command->add_option("--tolerance", options->tolerance, "largest absolute error (1e-5)");
+  command->callback([options, exit_code] { *exit_code = run_check(*options); });
+}
+
+}  // namespace sinew::baker

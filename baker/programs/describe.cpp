@@ -1,0 +1,122 @@
+// describe.cpp  What is inside a file, as JSON.
+#include "baker/programs/describe.hpp"
+
+#include "baker/pack/network_pack.hpp"
+#include "baker/pack/tier_pack.hpp"
+#include "sinew/types.hpp"
+
+namespace sinew::baker {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json describe_network(const pack::PackView& view) {
+  const pack::NetworkRecord& record = *view.network;
+  Json channels = Json::array(), inputs = Json::array();
+  size_t parameters = 0;
+  for (const pack::LayerRecord& layer : view.layers) {
+    channels.push_back(layer.channels);
+    parameters += size_t{layer.channels} * (4 * layer.inputs * (1 + layer.has_self) + 7 * layer.channels + 4);
+  }
+  for (const pack::InputRecord& input : view.inputs)
+    inputs.push_back(
+        {{"name", input_name(input.kind)}, {"scale", input.scale}, {"envelope", input.envelope}});
+  return {{"model", "alt_conv_lstm"},
+          {"rate_hz", record.rate_hz},
+          {"input_width", record.input_width},
+          {"channels", channels},
+          {"self_weights", view.layers.front().has_self != 0},
+          {"parameters", parameters},
+          {"output_scale", record.output_scale},
+          {"output_leak", record.output_leak},
+          {"hidden_leak", record.hidden_leak},
+          {"state_clamp", record.state_clamp},
+          {"length_unit_m", record.length_unit_m},
+          {"inputs", inputs}};
+}
+
+Json describe_character(const pack::PackView& view) {
+  const pack::CharacterRecord& record = *view.character;
+  return {{"name", string_at(view, record.name)},
+          {"height_m", record.height_m},
+          {"vertices", record.vertex_count},
+          {"triangles", record.triangle_count},
+          {"joints", record.joint_count},
+          {"nodes", record.node_count},
+          {"graph_entries", view.graph_columns.size()},
+          {"multiply_adds_a_tick", multiply_adds(view.layers, view.nodes.size(), view.graph_columns.size())}};
+}
+
+Json describe_regions(const pack::PackView& view) {
+  Json regions = Json::array();
+  for (const pack::RegionRecord& region : view.regions)
+    regions.push_back({{"name", string_at(view, region.name)},
+                       {"frame_joint", string_at(view, view.joints[region.frame_joint].name)},
+                       {"nodes", region.node_count},
+                       {"vertices", region.vertex_count},
+                       {"radius_m", region.radius_m},
+                       {"displacement_limit_m", region.displacement_limit_m}});
+  return regions;
+}
+
+Json describe_clips(const pack::PackView& view) {
+  Json clips = Json::array();
+  for (const pack::ClipRecord& clip : view.clips)
+    clips.push_back({{"name", string_at(view, clip.name)},
+                     {"frames", clip.frame_count},
+                     {"rate_hz", clip.rate_hz},
+                     {"seconds", (static_cast<float>(clip.frame_count) - 1) / clip.rate_hz}});
+  return clips;
+}
+
+Json describe_tiers(const pack::PackView& view) {
+  constexpr const char* kNames[] = {"skinning", "extrapolate", "network"};
+  Json tiers = Json::array();
+  for (const pack::TierRecord& tier : view.tiers)
+    tiers.push_back({{"tier", kNames[tier.tier]},
+                     {"cost_us", tier.cost_us},
+                     {"error_mm", tier.error_mm},
+                     {"error_ratio", tier.error_ratio}});
+  return tiers;
+}
+
+constexpr const char* dtype_name(Dtype dtype) {
+  constexpr const char* kNames[] = {"F32", "F64", "F16", "I32", "I64", "U8", "BOOL"};
+  return kNames[static_cast<size_t>(dtype)];
+}
+
+}  // namespace
+
+Json describe_pack(const LoadedPack& pack) {
+  const pack::PackView& view = pack.view();
+  const bool is_character = view.kind == pack::FileKind::kCharacter;
+  Json description = {
+      {"kind", is_character ? "character" : "model"}, {"version", pack::kVersion}, {"bytes", pack.bytes()}};
+  if (is_character) description["character"] = describe_character(view);
+  description["network"] = describe_network(view);
+  if (is_character) {
+    description["regions"] = describe_regions(view);
+    description["clips"] = describe_clips(view);
+    description["tiers"] = describe_tiers(view);
+  }
+  description["metadata"] = Json::parse(view.metadata.begin(), view.metadata.end(), nullptr, false);
+  if (!description["metadata"].is_object()) description["metadata"] = Json::object();
+  return description;
+}
+
+Json describe_safetensors(const Safetensors& file) {
+  Json tensors = Json::array();
+  size_t bytes = 0, numbers = 0;
+  for (const auto& [name, tensor] : file.tensors) {
+    tensors.push_back({{"name", name}, {"dtype", dtype_name(tensor.dtype)}, {"shape", tensor.shape}});
+    bytes += tensor.bytes.size();
+    numbers += tensor.count();
+  }
+  return {{"kind", "safetensors"},
+          {"bytes", bytes},
+          {"numbers", numbers},
+          {"tensors", tensors},
+          {"metadata", file.metadata}};
+}
+
+}  // namespace sinew::baker

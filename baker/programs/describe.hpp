@@ -1,0 +1,17 @@
+// describe.hpp  What is inside a file: as JSON for machines, as a table for people.
+#pragma once
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "baker/common/safetensors.hpp"
+#include "baker/programs/loaded_pack.hpp"
+
+namespace sinew::baker {
+
+nlohmann::ordered_json describe_pack(const LoadedPack& pack);
+nlohmann::ordered_json describe_safetensors(const Safetensors& file);
+
+// The table of either description.
+std::string format_description(const nlohmann::ordered_json& description);
+
+}  // namespace sinew::baker

@@ -1,0 +1,38 @@
+// loaded_pack.hpp  A pack in memory, checked, for the programs.
+#pragma once
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "core/aligned_block.hpp"
+#include "pack/mapped_file.hpp"
+#include "pack/reader.hpp"
+#include "tissue/network.hpp"
+
+namespace sinew::baker {
+
+class LoadedPack {
+ public:
+  // Throws BadInput with the reader's reason, opening with `path`.
+  static LoadedPack from_file(const std::string& path);
+  static LoadedPack from_bytes(std::span<const std::byte> bytes, const std::string& path);
+  // A baked file as it is, or trained weights packed on the fly: what is checked is what would be baked.
+  static LoadedPack from_pack_or_weights(const std::string& path);
+
+  const pack::PackView& view() const { return view_; }
+  size_t bytes() const { return bytes_; }
+  tissue::Network network() const;
+
+ private:
+  void open(std::span<const std::byte> bytes, const std::string& path);
+
+  pack::MappedFile file_;
+  core::AlignedBlock copy_;
+  pack::PackView view_;
+  size_t bytes_ = 0;
+};
+
+// By the first bytes, or by its name where they are missing or damaged.
+bool looks_like_pack(const std::string& path);
+
+}  // namespace sinew::baker

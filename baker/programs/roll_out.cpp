@@ -1,0 +1,221 @@
+// roll_out.cpp  A network run over reference vectors, its own output fed back.
+#include "baker/programs/roll_out.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "baker/common/bad_input.hpp"
+#include "baker/pack/graph.hpp"
+#include "baker/pack/network_pack.hpp"
+#include "core/aligned_block.hpp"
+#include "tissue/inputs.hpp"
+
+namespace sinew::baker {
+namespace {
+
+constexpr size_t kAxes = 3;
+
+// Zeroed floats on a cache line, as the kernels want them.
+class AlignedFloats {
+ public:
+  explicit AlignedFloats(size_t count)
+      : block_(count * sizeof(float)), data_(reinterpret_cast<float*>(block_.data())) {
+    if (data_ == nullptr) throw std::bad_alloc();
+  }
+  float* data() { return data_; }
+
+ private:
+  core::AlignedBlock block_;
+  float* data_;
+};
+
+class ErrorSum {
+ public:
+  void add(float value, float expected) {
+    double error = std::fabs(double{value} - double{expected});
+    if (!std::isfinite(error)) error = std::numeric_limits<double>::infinity();
+    largest_ = std::max(largest_, error);
+    sum_ += error;
+    ++count_;
+  }
+  RollOutError result(size_t steps) const {
+    return {steps, largest_, sum_ / static_cast<double>(std::max<size_t>(count_, 1))};
+  }
+
+ private:
+  double largest_ = 0, sum_ = 0;
+  size_t count_ = 0;
+};
+
+void check_kind(const Safetensors& vectors) {
+  const auto found = vectors.metadata.find("sinew.vectors");
+  if (found == vectors.metadata.end())
+    throw BadInput(vectors.path +
+                   ": metadata key 'sinew.vectors' is missing; is this a file of reference vectors?");
+  if (found->second != "alt_conv_lstm")
+    throw BadInput(vectors.path + ": vectors of '" + found->second +
+                   "', a model that this version does not run; only alt_conv_lstm");
+}
+
+std::vector<std::pair<int, int>> read_edges(const Safetensors& vectors) {
+  const std::vector<int32_t> ends = vectors.need("edges", {-1, 2}).as_i32();
+  std::vector<std::pair<int, int>> edges;
+  for (size_t k = 0; k < ends.size(); k += 2) edges.emplace_back(ends[k], ends[k + 1]);
+  return edges;
+}
+
+// What is needed to take steps, whatever feeds them.
+class Stepper {
+ public:
+  Stepper(const tissue::Network& network, const Safetensors& vectors)
+      : network_(network),
+        vectors_(vectors),
+        nodes_(vectors.need("y0", {-1, 3}).shape[0]),
+        steps_(vectors.need("y", {-1, static_cast<long>(nodes_), 3}).shape[0]),
+        rows_(normalized_adjacency(nodes_, read_edges(vectors), vectors.path + ": tensor 'edges'")),
+        y0_(vectors.tensors.at("y0").as_f32()),
+        expected_(vectors.tensors.at("y").as_f32()),
+        stride_(tissue::input_stride(network)),
+        z_(nodes_ * stride_),
+        state_(tissue::state_floats(network, count())),
+        scratch_(tissue::scratch_floats(network, count())) {
+    float* y = output_state();
+    for (size_t node = 0; node < nodes_; ++node)
+      std::copy_n(&y0_[node * kAxes], kAxes, y + node * last_padded());
+  }
+
+  size_t nodes() const { return nodes_; }
+  size_t steps() const { return steps_; }
+  float* input(size_t node) { return z_.data() + node * stride_; }
+  const std::vector<float>& start() const { return y0_; }
+
+  // carry: [nodes][3] or null. The output comes back as [nodes][3].
+  const std::vector<float>& step(size_t index, const float* carry) {
+    const tissue::Graph graph{count(), rows_.rows.data(), rows_.columns.data(), rows_.values.data()};
+    tissue::network_step(network_, graph, z_.data(), carry, state_.data(), scratch_.data());
+    output_.resize(nodes_ * kAxes);
+    for (size_t k = 0; k < output_.size(); ++k) {
+      output_[k] = output_state()[k / kAxes * last_padded() + k % kAxes];
+      error_.add(output_[k], expected_[index * output_.size() + k]);
+    }
+    return output_;
+  }
+
+  RollOutError finish() {
+    for (uint32_t l = 0; l < network_.layers.size(); ++l) {
+      const tissue::LayerState state = tissue::layer_state(network_, count(), l, state_.data());
+      const std::string prefix = "final." + std::to_string(l) + ".";
+      compare_state(prefix + "h", state.h, network_.layers[l]);
+      compare_state(prefix + "c", state.c, network_.layers[l]);
+      compare_state(prefix + "y", state.y, network_.layers[l]);
+    }
+    return error_.result(steps_);
+  }
+
+ private:
+  uint32_t count() const { return static_cast<uint32_t>(nodes_); }
+  uint32_t last_padded() const { return network_.layers.back().padded; }
+  float* output_state() {
+    const auto last = static_cast<uint32_t>(network_.layers.size() - 1);
+    return tissue::layer_state(network_, count(), last, state_.data()).y;
+  }
+
+  void compare_state(const std::string& name, const float* values, const pack::LayerRecord& layer) {
+    if (!vectors_.tensors.contains(name)) return;
+    const std::vector<float> expected =
+        vectors_.need(name, {static_cast<long>(nodes_), static_cast<long>(layer.channels)}).as_f32();
+    for (size_t k = 0; k < expected.size(); ++k)
+      error_.add(values[k / layer.channels * layer.padded + k % layer.channels], expected[k]);
+  }
+
+  const tissue::Network& network_;
+  const Safetensors& vectors_;
+  size_t nodes_, steps_;
+  GraphRows rows_;
+  std::vector<float> y0_, expected_, output_;
+  size_t stride_;
+  AlignedFloats z_, state_, scratch_;
+  ErrorSum error_;
+};
+
+// Input: X_t, X_t - X_{t-1}, Y_0 - X_0; the last layer carries X_t - X_{t-1} (arXiv 2006.07818 Eq. 9-11).
+RollOutError roll_out_paper(const tissue::Network& network, const Safetensors& vectors) {
+  Stepper stepper(network, vectors);
+  const size_t floats = stepper.nodes() * kAxes;
+  const std::vector<float> x =
+      vectors.need("x", {static_cast<long>(stepper.steps() + 1), static_cast<long>(stepper.nodes()), 3})
+          .as_f32();
+  std::vector<float> motion(floats);
+  for (size_t t = 1; t <= stepper.steps(); ++t) {
+    const float *now = &x[t * floats], *before = now - floats;
+    for (size_t k = 0; k < floats; ++k) {
+      motion[k] = now[k] - before[k];
+      float* z = stepper.input(k / kAxes) + k % kAxes;
+      z[0] = now[k];
+      z[kAxes] = motion[k];
+      z[2 * kAxes] = stepper.start()[k] - x[k];
+    }
+    stepper.step(t - 1, motion.data());
+  }
+  return stepper.finish();
+}
+
+// A fed-back input's first column and record; null if the network is not fed it.
+struct FeedBack {
+  size_t column = 0;
+  const pack::InputRecord* record = nullptr;
+};
+
+FeedBack find_feed_back(const tissue::Network& network, pack::InputKind kind) {
+  size_t column = 0;
+  for (const pack::InputRecord& input : network.inputs) {
+    if (input.kind == kind) return {column, &input};
+    column += input.kind == pack::InputKind::kStiffness ? 1 : kAxes;
+  }
+  return {};
+}
+
+void feed_back(const FeedBack& to, size_t k, float value, Stepper* stepper) {
+  if (to.record == nullptr) return;
+  const float scaled = std::clamp(value * to.record->scale, -to.record->envelope, to.record->envelope);
+  stepper->input(k / kAxes)[to.column + k % kAxes] = scaled;
+}
+
+RollOutError roll_out_inputs(const tissue::Network& network, const Safetensors& vectors) {
+  Stepper stepper(network, vectors);
+  const size_t width = network.record->input_width, nodes = stepper.nodes();
+  const std::vector<float> z =
+      vectors
+          .need("z", {static_cast<long>(stepper.steps()), static_cast<long>(nodes), static_cast<long>(width)})
+          .as_f32();
+  const FeedBack displacement = find_feed_back(network, pack::InputKind::kDisplacement);
+  const FeedBack velocity = find_feed_back(network, pack::InputKind::kVelocity);
+  std::vector<float> now = stepper.start(), before = now;
+  for (size_t t = 0; t < stepper.steps(); ++t) {
+    for (size_t node = 0; node < nodes; ++node)
+      std::copy_n(&z[(t * nodes + node) * width], width, stepper.input(node));
+    for (size_t k = 0; k < now.size(); ++k) {
+      feed_back(displacement, k, now[k], &stepper);
+      feed_back(velocity, k, now[k] - before[k], &stepper);
+    }
+    before = std::exchange(now, stepper.step(t, nullptr));
+  }
+  return stepper.finish();
+}
+
+}  // namespace
+
+RollOutError roll_out(const tissue::Network& network, const Safetensors& vectors) {
+  check_kind(vectors);
+  const bool paper = network.inputs.empty();
+  if (paper != vectors.tensors.contains("x"))
+    throw BadInput(vectors.path + ": these vectors are of " +
+                   (paper ? "stated inputs (z)" : "the paper's wiring (x)") +
+                   ", the network is of the other; check it with vectors that were written with it");
+  return paper ? roll_out_paper(network, vectors) : roll_out_inputs(network, vectors);
+}
+
+}  // namespace sinew::baker
