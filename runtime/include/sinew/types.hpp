@@ -23,8 +23,8 @@ struct RootTransform {
 // One pose of one character. joints: character-from-joint (before the inverse bind matrix), one for each of the
 // asset's joints, in the asset's order; fewer, more, or a NaN: refused, and the last good pose stays.
 struct Pose {
-  std::span<const Matrix34> joints;
-  RootTransform root;  // world-from-character
+  std::span<const Matrix34> joints = {};
+  RootTransform root = {};  // world-from-character
 };
 
 // Threads come from the caller. Contract: enqueue may run task(argument, index) for index 0..count-1 on any threads, in any
@@ -60,15 +60,15 @@ struct WorldDef {
   uint32_t max_ticks_per_step = 4;  // 1..64; a longer frame drops the excess time and reports it
   float teleport_distance_m = 2;  // > 0; a root that moves further between two ticks is a teleport: tissue keeps its shape
   BudgetMode budget_mode = BudgetMode::kTime;
-  TaskHook tasks;
-  ClockHook clock;
-  AssertHook assert_hook;
+  TaskHook tasks = {};
+  ClockHook clock = {};
+  AssertHook assert_hook = {};
 };
 
 struct InstanceDef {
-  AssetId asset;          // null or stale: refused
+  AssetId asset = {};          // null or stale: refused
   float importance = 1;   // >= 0, relative weight for the scheduler; NaN or negative counts as 0
-  RootTransform root;     // where it enters, in its bind pose, at rest
+  RootTransform root = {};     // where it enters, in its bind pose, at rest
 };
 
 // What an instance got in a frame. Values are baked into packs: never renumbered.
@@ -79,7 +79,7 @@ enum class Tier : uint32_t {
 };
 
 struct InstanceReport {
-  InstanceId instance;
+  InstanceId instance = {};
   Tier tier = Tier::kSkinning;
   float blend = 0;                   // 0..1, weight of the simulated displacement in what is read back
   uint32_t ticks_since_network = 0;  // 0: evaluated this frame
