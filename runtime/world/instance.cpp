@@ -17,12 +17,13 @@ namespace sinew::world {
 namespace {
 
 static_assert(std::is_trivially_copyable_v<InstanceState>, "saved as bytes");
-static_assert(sizeof(InstanceState) == 200, "no padding: equal states are equal bytes");
+static_assert(sizeof(InstanceState) == 208, "no padding: equal states are equal bytes");
 
 void lay_out_state(const Asset& asset, core::Arena& arena, Instance& to) noexcept {
   const uint32_t joints = asset.pack.character->joint_count;
   const size_t vectors = size_t{3} * asset.node_count();
   to.state = arena.take<InstanceState>(1);
+  to.joints_before = arena.take<Matrix34>(joints);
   to.joints = arena.take<Matrix34>(joints);
   to.next_joints = arena.take<Matrix34>(joints);
   to.motion = arena.take<tissue::RegionMotion>(asset.pack.regions.size());
@@ -38,6 +39,7 @@ void lay_out_state(const Asset& asset, core::Arena& arena, Instance& to) noexcep
 void lay_out_scratch(const Asset& asset, core::Arena& arena, Instance& to) noexcept {
   const uint32_t joints = asset.pack.character->joint_count;
   const uint32_t nodes = asset.node_count();
+  to.parts_before = arena.take<JointParts>(joints);
   to.parts = arena.take<JointParts>(joints);
   to.next_parts = arena.take<JointParts>(joints);
   to.tick_joints = arena.take<Matrix34>(joints);
@@ -93,6 +95,7 @@ Status make_instance(Asset& asset, AssetId asset_id, const RootTransform& root, 
   made.state->root = root;
   made.state->importance = frame::sane_importance(importance);
   bind_pose(asset.pack.joints, made.joints);
+  std::copy_n(made.joints, asset.pack.character->joint_count, made.joints_before);
   publish(made);
   *out = std::move(made);
   return {};
@@ -111,6 +114,7 @@ void forget_motion(Instance& instance) noexcept {
   state.tail_ticks = kCarryTicks + kFadeTicks;
   state.clamped_ticks = 0;
   state.render_fraction = 0;
+  state.dt_before_s = 0;
   std::fill_n(state.velocity_m_s, 3, 0.0);
   std::fill_n(state.angular_velocity, 3, 0.0);
 }

@@ -26,6 +26,7 @@ inline constexpr uint32_t kMostClampedTicks = 60;
 // The part of the state that is not an array. Plain bytes: saved and restored as they are.
 struct InstanceState {
   RootTransform root, next_root;    // at the end of the last step; of the pose set since
+  double dt_before_s = 0;           // of the last step; 0: none, or none to compare with
   double remainder_s = 0;           // frame/tick_clock.hpp
   double velocity_m_s[3] = {};      // of the root over the last step, world
   double angular_velocity[3] = {};  // rad/s, character axes
@@ -66,14 +67,14 @@ struct Instance {
   InstancePlan plan;
   InstanceTimes times;
   bool cut = false, restarted = false;  // in the last step
-  bool parts_ready = false;             // in this step: parts and next_parts are filled in
+  bool parts_ready = false;             // in this step: the parts are filled in
   bool displaced = false;               // published displacement is not zero everywhere
 
   // State: one run of bytes from `state` on.
   InstanceState* state = nullptr;
-  Matrix34 *joints = nullptr, *next_joints = nullptr;  // [joints]
-  tissue::RegionMotion* motion = nullptr;              // [regions]
-  float* places[3] = {};                               // r of the last three ticks, newest first
+  Matrix34 *joints_before = nullptr, *joints = nullptr, *next_joints = nullptr;  // [joints]
+  tissue::RegionMotion* motion = nullptr;                                        // [regions]
+  float* places[3] = {};  // r of the last three ticks, newest first
   float* network_state = nullptr;
   float* simulated[2] = {};                         // network's displacement, newest first
   float *tail = nullptr, *tail_velocity = nullptr;  // velocity a tick
@@ -81,8 +82,9 @@ struct Instance {
   size_t state_bytes = 0;
 
   // Scratch of a step.
-  JointParts *parts = nullptr, *next_parts = nullptr;  // [joints]
-  Matrix34* tick_joints = nullptr;                     // [joints]
+  JointParts *parts_before = nullptr, *parts = nullptr, *next_parts = nullptr;  // [joints]
+  RootStep root_step{};
+  Matrix34* tick_joints = nullptr;  // [joints]
   float *skinned = nullptr, *drive = nullptr, *inputs = nullptr, *network_scratch = nullptr;
 
   // Published by a step, read by read_*.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "simd/kernels.hpp"
+#include "world/rotation.hpp"
 
 namespace sinew::world {
 namespace {
@@ -24,14 +25,7 @@ constexpr double kFarthestBack = 16;
 
 Vector3d place_of(const RootTransform& root) noexcept { return Eigen::Map<const Vector3d>(root.position_m); }
 
-Quaterniond rotation_of(const RootTransform& root) noexcept {
-  return Eigen::Map<const Eigen::Quaternionf>(root.rotation_xyzw).cast<double>().normalized();
-}
-
-Quaterniond rotation_by(const Vector3d& turn) noexcept {
-  const double angle = turn.norm();
-  return angle > 0 ? Quaterniond(Eigen::AngleAxisd(angle, turn / angle)) : Quaterniond::Identity();
-}
+Quaterniond rotation_of(const RootTransform& root) noexcept { return quaternion(root.rotation_xyzw); }
 
 bool teleported(const Instance& instance, float distance_m) noexcept {
   const InstanceState& state = *instance.state;
@@ -44,11 +38,11 @@ bool teleported(const Instance& instance, float distance_m) noexcept {
 RootTransform root_leading_to_next(const Instance& instance) noexcept {
   const InstanceState& state = *instance.state;
   const double dt_s = instance.plan.dt_s;
-  const Quaterniond next = rotation_of(state.next_root);
-  const Quaterniond turn = next * rotation_of(state.root).conjugate();
+  const Quaterniond rotation =
+      rotation_of(state.next_root) * exponential(-dt_s * Eigen::Map<const Vector3d>(state.angular_velocity));
+  const Quaterniond turn = rotation * rotation_of(state.root).conjugate();
   const Vector3d place =
       place_of(state.next_root) - dt_s * (turn * Eigen::Map<const Vector3d>(state.velocity_m_s));
-  const Quaterniond rotation = next * rotation_by(-dt_s * Eigen::Map<const Vector3d>(state.angular_velocity));
   RootTransform root;
   Eigen::Map<Vector3d>(root.position_m) = place;
   Eigen::Map<Eigen::Vector4f>(root.rotation_xyzw) = rotation.coeffs().cast<float>();
@@ -60,6 +54,8 @@ void shift_past(Instance& instance, const RootTransform& root) noexcept {
   InstanceState& state = *instance.state;
   const Vector3d from = place_of(state.root), to = place_of(root);
   const RowMatrix3d turn = (rotation_of(root) * rotation_of(state.root).conjugate()).toRotationMatrix();
+  Eigen::Map<Vector3d> velocity(state.velocity_m_s);
+  velocity = (turn * velocity).eval();
   for (size_t r = 0; r < instance.asset->pack.regions.size(); ++r) {
     for (tissue::RegionFrame& frame : instance.motion[r].frame) {
       Eigen::Map<Vector3d> place(frame.place_m);
@@ -71,13 +67,22 @@ void shift_past(Instance& instance, const RootTransform& root) noexcept {
   state.root = root;
 }
 
+// The root's step before this one, along its present course.
+void remember_root_step(Instance& instance) noexcept {
+  const InstanceState& state = *instance.state;
+  for (int k = 0; k < 3; ++k) {
+    instance.root_step.place_m[k] = state.velocity_m_s[k] * state.dt_before_s;
+    instance.root_step.turn[k] = state.angular_velocity[k] * state.dt_before_s;
+  }
+}
+
 void measure_velocity(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   const double dt_s = instance.plan.dt_s;
   if (dt_s < kShortestStep_s) return;
-  const Eigen::AngleAxisd turn(rotation_of(state.root).conjugate() * rotation_of(state.next_root));
+  const Vector3d turn = logarithm(rotation_of(state.root).conjugate() * rotation_of(state.next_root));
   Eigen::Map<Vector3d>(state.velocity_m_s) = (place_of(state.next_root) - place_of(state.root)) / dt_s;
-  Eigen::Map<Vector3d>(state.angular_velocity) = turn.axis() * (turn.angle() / dt_s);
+  Eigen::Map<Vector3d>(state.angular_velocity) = turn / dt_s;
 }
 
 void copy_joints(const Instance& instance, const Matrix34* from, Matrix34* to) noexcept {
@@ -87,6 +92,7 @@ void copy_joints(const Instance& instance, const Matrix34* from, Matrix34* to) n
 void split_poses(Instance& instance) noexcept {
   if (std::exchange(instance.parts_ready, true)) return;
   for (uint32_t j = 0; j < instance.asset->pack.character->joint_count; ++j) {
+    instance.parts_before[j] = split_joint(instance.joints_before[j]);
     instance.parts[j] = split_joint(instance.joints[j]);
     instance.next_parts[j] = split_joint(instance.next_joints[j]);
   }
@@ -102,11 +108,19 @@ double share_at(const Instance& instance, double time_s) noexcept {
 const Matrix34* joints_at(Instance& instance, double share) noexcept {
   if (share == 1) return instance.next_joints;
   split_poses(instance);
+  const PathWeights weights = path_weights(share, instance.plan.dt_s, instance.state->dt_before_s);
   for (uint32_t j = 0; j < instance.asset->pack.character->joint_count; ++j) {
     instance.tick_joints[j] =
-        blend_joint(instance.parts[j], instance.next_parts[j], static_cast<float>(share));
+        joint_between(instance.parts_before[j], instance.parts[j], instance.next_parts[j], weights);
   }
   return instance.tick_joints;
+}
+
+RootTransform root_at(const Instance& instance, double share) noexcept {
+  const InstanceState& state = *instance.state;
+  if (share == 1) return state.next_root;
+  return root_between(instance.root_step, state.root, state.next_root,
+                      path_weights(share, instance.plan.dt_s, state.dt_before_s));
 }
 
 void skin_nodes(Instance& instance) noexcept {
@@ -127,7 +141,7 @@ void push_pose(Instance& instance, double share) noexcept {
   const pack::PackView& pack = instance.asset->pack;
   skin_matrices(pack.joints, joints_at(instance, share), instance.skin);
   skin_nodes(instance);
-  const RootTransform root = blend_root(instance.state->root, instance.state->next_root, share);
+  const RootTransform root = root_at(instance, share);
   const size_t bytes = sizeof(float) * 3 * pack.nodes.size();
   std::memcpy(instance.places[2], instance.places[1], bytes);
   std::memcpy(instance.places[1], instance.places[0], bytes);
@@ -152,17 +166,21 @@ void take_pose(Instance& instance, float teleport_distance_m) noexcept {
     state.next_root = state.root;
   } else if (state.at_start) {
     copy_joints(instance, instance.next_joints, instance.joints);
+    state.dt_before_s = 0;
     state.root = state.next_root;
     state.at_start = 0;
     state.motion_stale = 1;
   } else if (teleported(instance, teleport_distance_m)) {
     shift_past(instance, root_leading_to_next(instance));
   }
+  remember_root_step(instance);
   measure_velocity(instance);
 }
 
 void keep_pose(Instance& instance) noexcept {
+  copy_joints(instance, instance.joints, instance.joints_before);
   copy_joints(instance, instance.next_joints, instance.joints);
+  instance.state->dt_before_s = instance.plan.dt_s;
   instance.state->root = instance.state->next_root;
   instance.state->has_next = 0;
 }

@@ -8,11 +8,15 @@
 #include <cmath>
 
 #include "core/status.hpp"
+#include "world/rotation.hpp"
 
 namespace sinew::world {
 namespace {
 
 using core::make_status;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using Eigen::Vector3f;
 using RowMatrix3 = Eigen::Matrix<float, 3, 3, Eigen::RowMajor>;
 using RowMatrix34 = Eigen::Matrix<float, 3, 4, Eigen::RowMajor>;
 
@@ -44,10 +48,10 @@ Status check_joint(const Matrix34& joint, size_t index) noexcept {
 // Gram-Schmidt on the columns; identity where the matrix has no three directions.
 RowMatrix3 rotation_of(const RowMatrix3& m) noexcept {
   constexpr float kDegenerate = 1e-12f;
-  Eigen::Vector3f x = m.col(0);
+  Vector3f x = m.col(0);
   if (x.norm() < kDegenerate) return RowMatrix3::Identity();
   x.normalize();
-  Eigen::Vector3f y = m.col(1) - x * x.dot(m.col(1));
+  Vector3f y = m.col(1) - x * x.dot(m.col(1));
   if (y.norm() < kDegenerate) return RowMatrix3::Identity();
   y.normalize();
   RowMatrix3 rotation;
@@ -98,30 +102,52 @@ JointParts split_joint(const Matrix34& joint) noexcept {
   JointParts parts;
   Eigen::Map<Eigen::Vector4f>(parts.rotation_xyzw) = Eigen::Quaternionf(Eigen::Matrix3f(rotation)).coeffs();
   Eigen::Map<RowMatrix3>(parts.stretch) = rotation.transpose() * linear;
-  Eigen::Map<Eigen::Vector3f>(parts.translation_m) = map(joint).col(3);
+  Eigen::Map<Vector3f>(parts.translation_m) = map(joint).col(3);
   return parts;
 }
 
-Matrix34 blend_joint(const JointParts& a, const JointParts& b, float share) noexcept {
-  const Eigen::Map<const Eigen::Quaternionf> rotation_a(a.rotation_xyzw), rotation_b(b.rotation_xyzw);
-  const Eigen::Map<const RowMatrix3> stretch_a(a.stretch), stretch_b(b.stretch);
-  const Eigen::Map<const Eigen::Vector3f> place_a(a.translation_m), place_b(b.translation_m);
-  const Eigen::Matrix3f rotation = rotation_a.slerp(share, rotation_b).normalized().toRotationMatrix();
+PathWeights path_weights(double share, double dt_s, double dt_before_s) noexcept {
+  constexpr double kAlike = 4;  // frame times further apart than this factor say little about each other
+  constexpr double kFarthestBack = -1;  // the parabola is not followed beyond c
+  const bool alike = dt_before_s * kAlike >= dt_s && dt_s * kAlike >= dt_before_s && dt_before_s > 0;
+  if (!alike || share < kFarthestBack) return {share, 0};
+  const double ratio = dt_before_s / dt_s;
+  const double curve = share * (share - 1) / (1 + ratio);  // Newton's divided differences through c, a, b
+  return {share + curve, -curve / ratio};
+}
+
+Matrix34 joint_between(const JointParts& c, const JointParts& a, const JointParts& b,
+                       const PathWeights& weights) noexcept {
+  const auto next = static_cast<float>(weights.next), past = static_cast<float>(weights.past);
+  const auto along = [&](const auto& from_c, const auto& from_a, const auto& from_b) {
+    return (from_a + next * (from_b - from_a) + past * (from_a - from_c)).eval();
+  };
+  using MapMatrix = Eigen::Map<const RowMatrix3>;
+  using MapVector = Eigen::Map<const Vector3f>;
+  const Quaterniond rotation_c = quaternion(c.rotation_xyzw), rotation_a = quaternion(a.rotation_xyzw);
+  const Quaterniond rotation =
+      rotation_a *
+      exponential(weights.next * logarithm(rotation_a.conjugate() * quaternion(b.rotation_xyzw)) +
+                  weights.past * logarithm(rotation_c.conjugate() * rotation_a));
   Matrix34 joint;
   Eigen::Map<RowMatrix34> out(&joint.m[0][0]);
-  out.leftCols<3>() = rotation * (stretch_a + share * (stretch_b - stretch_a));
-  out.col(3) = place_a + share * (place_b - place_a);
+  out.leftCols<3>() = rotation.normalized().toRotationMatrix().cast<float>() *
+                      along(MapMatrix(c.stretch), MapMatrix(a.stretch), MapMatrix(b.stretch));
+  out.col(3) = along(MapVector(c.translation_m), MapVector(a.translation_m), MapVector(b.translation_m));
   return joint;
 }
 
-RootTransform blend_root(const RootTransform& a, const RootTransform& b, double share) noexcept {
-  const Eigen::Quaterniond rotation_a = Eigen::Map<const Eigen::Quaternionf>(a.rotation_xyzw).cast<double>();
-  const Eigen::Quaterniond rotation_b = Eigen::Map<const Eigen::Quaternionf>(b.rotation_xyzw).cast<double>();
+RootTransform root_between(const RootStep& before, const RootTransform& a, const RootTransform& b,
+                           const PathWeights& weights) noexcept {
+  const Quaterniond from = quaternion(a.rotation_xyzw);
+  const Vector3d turn = weights.next * logarithm(from.conjugate() * quaternion(b.rotation_xyzw)) +
+                        weights.past * Eigen::Map<const Vector3d>(before.turn);
   RootTransform root;
   Eigen::Map<Eigen::Vector4f>(root.rotation_xyzw) =
-      rotation_a.slerp(share, rotation_b).normalized().coeffs().cast<float>();
+      (from * exponential(turn)).normalized().coeffs().cast<float>();
   for (int k = 0; k < 3; ++k) {
-    root.position_m[k] = a.position_m[k] + share * (b.position_m[k] - a.position_m[k]);
+    root.position_m[k] = a.position_m[k] + weights.next * (b.position_m[k] - a.position_m[k]) +
+                         weights.past * before.place_m[k];
   }
   return root;
 }

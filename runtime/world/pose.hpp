@@ -22,9 +22,27 @@ struct JointParts {
 };
 
 JointParts split_joint(const Matrix34& joint) noexcept;
-// Rotation on the shorter arc, stretch and translation linear. share 0: a, 1: b; outside: extrapolated.
-Matrix34 blend_joint(const JointParts& a, const JointParts& b, float share) noexcept;
-RootTransform blend_root(const RootTransform& a, const RootTransform& b, double share) noexcept;
+
+// A place between two poses a and b, c the pose before a: a + next (b - a) + past (a - c), rotations through
+// their logarithms.
+struct PathWeights {
+  double next = 1, past = 0;
+};
+
+// share: 0 at a, 1 at b, which is met exactly. The path is the parabola through c, a and b where c is
+// dt_before_s old and frame times are alike, else the line from a to b. On the line all of a change of
+// velocity falls into one tick, and at 15 frames a second a 3 Hz motion keeps 88 % of its amplitude; on the
+// parabola 97 %.
+PathWeights path_weights(double share, double dt_s, double dt_before_s) noexcept;
+
+Matrix34 joint_between(const JointParts& c, const JointParts& a, const JointParts& b,
+                       const PathWeights& weights) noexcept;
+// The step before a as a displacement in the world and a rotation vector in a's axes.
+struct RootStep {
+  double place_m[3], turn[3];
+};
+RootTransform root_between(const RootStep& before, const RootTransform& a, const RootTransform& b,
+                           const PathWeights& weights) noexcept;
 
 // skin[j] = joints[j] x inverse bind[j], [joints][12].
 void skin_matrices(std::span<const pack::JointRecord> records, const Matrix34* joints, float* skin) noexcept;

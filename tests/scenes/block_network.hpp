@@ -1,0 +1,10 @@
+// block_network.hpp  The soft block's network: a damped spring a node, as a weights file in memory.
+#pragma once
+#include "baker/common/safetensors.hpp"
+#include "tests/scenes/soft_block.hpp"
+
+namespace sinew::scenes {
+
+baker::Safetensors block_network(const BlockOptions& options);
+
+}  // namespace sinew::scenes

@@ -1,0 +1,45 @@
+// soft_block.hpp  A synthetic character: a soft block on two joints, as a pack in memory.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "core/aligned_block.hpp"
+
+namespace sinew::scenes {
+
+// 0.3 m wide and 0.6 m high, standing on the ground; joint 0 at its foot, joint 1 half way up. Its upper part
+// is soft, in one region or in two (left and right of x = 0). Faces meet at seams: vertices there are doubled
+// and welded.
+//
+// Its network is a damped spring of about 3.5 Hz at each node, written as a two-layer Alt-ConvLSTM: layer 0
+// hands drive and displacement on, layer 1 keeps velocity in its cell state and displacement in its
+// accumulation state. All other weights are small random numbers, so that every term of the equations takes
+// part.
+struct BlockOptions {
+  std::string name = "soft_block";
+  int cells = 6;    // across; twice as many up: 462 vertices at 6
+  int regions = 2;  // 1 or 2
+  int nodes = 14;   // a region
+  double rate_hz = 60;
+  uint64_t seed = 1;
+  double displacement_limit = 0.75;  // share of a region's radius
+  // Two weights whose products overflow to +infinity and -infinity once a node is accelerated by more than
+  // some 25 m/s^2: a state that turns NaN under strong motion and is sound at rest.
+  bool overflows = false;
+};
+
+class PackBytes {  // 64-byte aligned, as load_asset wants them
+ public:
+  PackBytes(const std::byte* data, size_t size);
+  std::span<const std::byte> bytes() const { return {memory_.data(), size_}; }
+
+ private:
+  core::AlignedBlock memory_;
+  size_t size_;
+};
+
+PackBytes soft_block(const BlockOptions& options = {});
+
+}  // namespace sinew::scenes
