@@ -1,8 +1,8 @@
 // carry-inl.hpp  Displacements of control nodes carried to the vertices of a region.
 //
 //   out[axis][v] = sum_n weights[n][v] displacement[n][axis],  n in order
-//   weights [nodes][stride]   displacement [nodes][3]   out [3][stride]   stride a multiple of kBlock,
-//   64-byte aligned
+//   weights [nodes][stride]   displacement [nodes][3]   out [3][stride]
+//   stride a multiple of kBlock; weights and out 64-byte aligned
 //
 // Every weight is read once for its three uses: 40 nodes x 2,000 vertices are 320 KB, so the kernel runs at
 // the speed of L2.

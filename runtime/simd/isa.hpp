@@ -1,5 +1,7 @@
-// isa.hpp  Which instruction set the kernels use. Chosen once, at first use: the best the processor has, or
-// what the environment variable SINEW_ISA or force_isa names.
+// isa.hpp  Which instruction set the kernels use.
+//
+// Chosen once, at first use: the one that the environment variable SINEW_ISA names, or the best the processor
+// has when it names none or one that is not available; active_isa tells. force_isa changes it.
 #pragma once
 #include <span>
 
@@ -8,7 +10,7 @@
 namespace sinew::simd {
 
 // Names of the targets this build has and this processor runs, best first ("avx3", "avx2", "sse4", "ssse3",
-// "sse2", "neon", "emu128" ...).
+// "neon", "emu128", "scalar").
 std::span<const char* const> available_isas() noexcept;
 const char* active_isa() noexcept;
 // Not thread-safe against running steps. An unknown or missing one: kUnsupported, listing the available;

@@ -1,5 +1,4 @@
-// kernel_tables.hpp  Every table this build has, between kernels.cpp, which makes them, and isa.cpp, which
-// chooses.
+// kernel_tables.hpp  Every table this build has: kernels.cpp makes them, isa.cpp chooses.
 #pragma once
 #include <span>
 

@@ -2,8 +2,8 @@
 //
 // Each kernel is written once over Highway's vectors. Every sum runs in one fixed order, lane by lane, with
 // fused multiply-adds, so that targets with FMA (avx3, avx2, neon) give the same bits whatever their vector
-// width; the others differ by rounding only. Kernels allocate nothing and do not branch on values. Pointers
-// marked [padded] are 64-byte aligned with rows of whole 16-float blocks; padding holds finite numbers.
+// width; the others differ by rounding only. Kernels allocate nothing. Pointers marked [padded] are 64-byte
+// aligned, with rows of whole 16-float blocks; padding holds finite numbers.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -48,8 +48,8 @@ struct LayerJob {
 // Floats of LayerJob::tile.
 size_t tile_floats(uint32_t inputs, uint32_t padded) noexcept;
 
-// Points moved by up to eight joints each: out = sum_i weight[i] matrices[joint[i]] (point, 1). Strides in
-// bytes.
+// Points moved by up to eight joints each: out = sum_i weight[i] matrices[joint[i]] (point, 1).
+// Strides in bytes.
 struct SkinJob {
   const float* points;  // x y z at each stride
   size_t point_stride;

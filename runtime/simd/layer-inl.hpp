@@ -4,8 +4,7 @@
 //   i, f    = sigmoid(a_if + (P y) W_y_if)
 //   c       = clamp(f c + i tanh(a_c))
 //   y_next  = y_keep y + y_gain c + carry                              (Eq. 10, 11)
-//   o       = sigmoid(a_o + (P y_next) W_y_o);  h = o tanh(c)          second pass: needs y_next of the
-//   neighbours
+//   o       = sigmoid(a_o + (P y_next) W_y_o);  h = o tanh(c)          second pass, for it needs all y_next
 //
 // Shapes: kernels.hpp, LayerJob. A tile's sums (kTileRows x 4 padded) and its aggregated rows stay in L1; a
 // tile that is not full computes rows of zeros and does not store them. Between the passes a_o waits in

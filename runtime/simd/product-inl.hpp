@@ -1,8 +1,8 @@
 // product-inl.hpp  A tile of rows times a matrix, added to what is there.
 //
 //   out[r][j] += sum_k x[r][k] w[k][j],  k = 0 .. depth - 1 in order, r < kTileRows, j < columns
-//   x [kTileRows][x_stride]   w [depth][w_stride]   out [kTileRows][out_stride]   columns a multiple of
-//   kBlock, 64-byte aligned
+//   x [kTileRows][x_stride]   w [depth][w_stride]   out [kTileRows][out_stride]
+//   columns a multiple of kBlock; w and out 64-byte aligned
 //
 // kTileRows x kWide sums live in registers: 24 (AVX-512, NEON) or 12 (AVX2) independent chains, where two FMA
 // ports of four cycles latency need eight. Each k costs kWide + kTileRows loads for kTileRows * kWide FMA, so

@@ -1,5 +1,6 @@
-// vectors-inl.hpp  The vectors that every kernel is written in. Included once a target by kernels.cpp, as all
-// of *-inl.hpp.
+// vectors-inl.hpp  The vectors that every kernel is written in.
+//
+// As all of *-inl.hpp, included by kernels.cpp alone, once a target: no include guard.
 HWY_BEFORE_NAMESPACE();
 namespace sinew::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;

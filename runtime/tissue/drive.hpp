@@ -4,22 +4,22 @@
 // taken out (Gram-Schmidt on the columns), and p = root S c, the place of the region's bind centre c. r = R^T
 // (X - p), X a node's skinned place. With ticks h apart, backward differences (the future is not known at run
 // time):
-//   a     = R_t^T (p_t - 2 p_{t-1} + p_{t-2}) / h^2
-//   omega = log(R_{t-1}^T R_t) / h          alpha = (omega_t - omega_{t-1}) / h
-//   articulation = what skinning adds inside the frame, relative and Coriolis, exactly zero while r stands
-//   still:
-//                  R_t^T (R_{t-2} (r_{t-2} - r_t) - 2 R_{t-1} (r_{t-1} - r_t)) / h^2
-// As a passenger feels them: -a, -alpha x r, -omega x (omega x r) and less the articulation; with gravity,
-// all that moves tissue. The trainer's data sets are written through this same code, so network and runtime
-// cannot disagree on an input.
+//   a            = R_t^T (p_t - 2 p_{t-1} + p_{t-2}) / h^2
+//   omega        = log(R_{t-1}^T R_t) / h
+//   alpha        = (omega_t - omega_{t-1}) / h
+//   articulation = R_t^T (R_{t-2} (r_{t-2} - r_t) - 2 R_{t-1} (r_{t-1} - r_t)) / h^2
+// Articulation is what skinning adds inside the frame, relative and Coriolis; it is exactly zero while r
+// stands still. Tissue feels the other sign of each: -a, -alpha x r, -omega x (omega x r), -articulation. The
+// trainer's data sets are written through this same code, so network and runtime cannot disagree on an input.
 #pragma once
 #include <cstdint>
 #include <span>
 
 namespace sinew::tissue {
 
-inline constexpr int kDriveWidth =
-    21;  // linear, Euler, centrifugal, articulation, angular acceleration, angular velocity, gravity change
+// Three numbers each: linear, Euler, centrifugal, articulation (felt accelerations, m/s^2), angular
+// acceleration (rad/s^2), angular velocity (rad/s), gravity change (m/s^2).
+inline constexpr int kDriveWidth = 21;
 
 // A region's frame at one tick, in double: the world may be far from the origin.
 struct RegionFrame {

@@ -1,5 +1,4 @@
-// guard.hpp  What stands between a network's output and the character: after a step, before anything is
-// shown.
+// guard.hpp  What stands between a network's output and the character, after a step.
 #pragma once
 #include <cstdint>
 #include <span>

@@ -1,5 +1,6 @@
-// network.hpp  Alt-ConvLSTM on a graph: views of baked weights, state, one step. Equations: pack/format.hpp,
-// NetworkRecord.
+// network.hpp  Alt-ConvLSTM on a graph: views of baked weights, state, one step.
+//
+// Equations: pack/format.hpp, NetworkRecord.
 #pragma once
 #include <cstddef>
 #include <cstdint>

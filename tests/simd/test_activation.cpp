@@ -76,12 +76,13 @@ TEST_CASE("activations_keep_nan_and_reach_their_limits") {
   const std::vector<float> x = {nan, -nan, kInfinity, -kInfinity, 0.0f, -0.0f, 1e30f, -1e30f};
   test::for_every_isa([&](const char*, const simd::Kernels& kernels) {
     const std::vector<float> t = mapped(kernels.tanh, x), s = mapped(kernels.sigmoid, x);
-    for (size_t i : {0, 1}) REQUIRE((std::isnan(t[i]) && std::isnan(s[i])));
-    for (size_t i : {2, 6})
+    for (const size_t i : {0u, 1u}) REQUIRE((std::isnan(t[i]) && std::isnan(s[i])));
+    for (const size_t i : {2u, 6u})
       REQUIRE((t[i] == Approx(1).epsilon(kTanhRelative) && s[i] == Approx(1).epsilon(kTanhRelative)));
-    for (size_t i : {3, 7})
+    for (const size_t i : {3u, 7u})
       REQUIRE((t[i] == Approx(-1).epsilon(kTanhRelative) && std::fabs(s[i]) <= kSigmoidAbsolute));
-    for (size_t i : {4, 5}) REQUIRE((t[i] == 0 && s[i] == 0.5f && std::signbit(t[i]) == std::signbit(x[i])));
+    for (const size_t i : {4u, 5u})
+      REQUIRE((t[i] == 0 && s[i] == 0.5f && std::signbit(t[i]) == std::signbit(x[i])));
   });
 }
 

@@ -15,7 +15,7 @@ TEST_CASE("aggregate_is_the_sparse_product_and_touches_only_its_nodes") {
   test::for_every_isa([&](const char*, const simd::Kernels& kernels) {
     for (const uint32_t nodes : {2u, 5u, 42u}) {
       const test::TestGraph graph = test::ring_with_chords(nodes);
-      for (const size_t stride : {16, 32, 48, 64, 112, 128}) {
+      for (const size_t stride : {16u, 32u, 48u, 64u, 112u, 128u}) {
         std::mt19937 random(nodes);
         test::Floats x = test::random_rows(random, nodes, stride, stride, 1), out(nodes * stride, kUntouched);
         kernels.aggregate(graph.view(), x.data(), stride, 1, nodes, out.data());

@@ -32,7 +32,7 @@ std::vector<float> carried(const simd::Kernels& kernels, CarryCase& c) {
 TEST_CASE("carry_is_the_weighted_sum_of_the_nodes_displacements") {
   test::for_every_isa([&](const char*, const simd::Kernels& kernels) {
     for (const uint32_t nodes : {0u, 1u, 2u, 40u, 64u}) {
-      for (const size_t stride : {16, 32, 48, 64, 80, 176}) {
+      for (const size_t stride : {16u, 32u, 48u, 64u, 80u, 176u}) {
         CarryCase c = carry_case(nodes, stride);
         const std::vector<float> out = carried(kernels, c);
         for (size_t i = 0; i < out.size(); ++i) {

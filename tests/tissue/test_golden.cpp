@@ -1,5 +1,4 @@
-// test_golden.cpp  The paper's wiring over whole roll-outs, its own output fed back, against float64 PyTorch
-// vectors.
+// test_golden.cpp  The paper's wiring over whole roll-outs, against float64 PyTorch.
 #include <algorithm>
 #include <filesystem>
 

@@ -119,7 +119,7 @@ TEST_CASE("network_step_matches_the_equations_in_double_for_every_wiring") {
 TEST_CASE("network_step_matches_the_equations_for_partial_tiles_and_blocks") {
   test::for_every_isa([&](const char*, const simd::Kernels&) {
     for (uint32_t nodes = 2; nodes <= 14; ++nodes) {
-      for (const size_t width : {1, 15, 16, 17, 48, 64, 80}) {
+      for (const size_t width : {1u, 15u, 16u, 17u, 48u, 64u, 80u}) {
         Twins twins(kWirings[4], nodes, {width, width, 3});
         for (int step = 0; step < 2; ++step) twins.step();
         CHECK(twins.difference() <= kRollOut);
