@@ -92,13 +92,16 @@ class JointList {
 std::vector<int> skin_nodes(const tinygltf::Model& model, const SceneGraph& graph, int skin,
                             const Source& source) {
   std::vector<int> nodes;
+  std::vector<bool> seen(graph.nodes.size(), false);
   for (int joint : model.skins[static_cast<size_t>(skin)].joints) {
+    const std::string name = "names node " + std::to_string(joint);
     if (joint < 0 || static_cast<size_t>(joint) >= graph.nodes.size())
-      source.refuse(
-          skin_name(model, skin),
-          "names node " + std::to_string(joint) + ", the file has " + std::to_string(graph.nodes.size()),
-          kMend);
-    nodes.push_back(graph.node_of_file[static_cast<size_t>(joint)]);
+      source.refuse(skin_name(model, skin), name + ", the file has " + std::to_string(graph.nodes.size()),
+                    kMend);
+    const int node = graph.node_of_file[static_cast<size_t>(joint)];
+    if (seen[static_cast<size_t>(node)]) source.refuse(skin_name(model, skin), name + " twice", kMend);
+    seen[static_cast<size_t>(node)] = true;
+    nodes.push_back(node);
   }
   if (nodes.empty())
     source.refuse(skin_name(model, skin), "has no joints", "bind the mesh to a skeleton and export again");
