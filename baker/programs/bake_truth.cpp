@@ -122,7 +122,8 @@ void add_truth_command(CLI::App& app, int*) {
   command->add_option("character", options->input, "skinned glTF or VRM")->required();
   command->add_option("--recipe", options->recipe, "JSON; see baker/mesh/recipe.hpp");
   command->add_option("--motion", options->motion, "clip:NAME, shake or random")->required();
-  command->add_option("--hold-out", options->held_out, "a clip that random motion must not use; repeatable");
+  command->add_option("--hold-out", options->held_out, "a clip that random motion must not use; repeatable")
+      ->allow_extra_args(false);
   command->add_option("--seed", options->seed, "variant of the motion; a clip's seed 0 is the clip as it is");
   command->add_option("--strength", options->strength, "amplitude of the motion");
   command->add_option("--seconds", options->seconds, "simulated time");

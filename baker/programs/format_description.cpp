@@ -1,5 +1,6 @@
 // format_description.cpp  A description as a table for people.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "baker/programs/describe.hpp"
@@ -11,6 +12,7 @@ using Json = nlohmann::ordered_json;
 
 std::string text_of(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
+  if (value.is_number_float() && std::isnan(value.get<double>())) return "-";  // not measured
   if (value.is_number_float()) {
     char text[32];
     std::snprintf(text, sizeof text, "%.4g", value.get<double>());

@@ -136,8 +136,8 @@ Status check_tiers(const PackView& pack) noexcept {
 }  // namespace
 
 Status check_character(const PackView& pack) noexcept {
-  constexpr Check kChecks[] = {check_record,   check_inputs_there, check_counts, check_joints,
-                               check_vertices, check_triangles,    check_clips,  check_tiers};
+  constexpr Check kChecks[] = {check_inputs_there, check_record,    check_counts, check_joints,
+                               check_vertices,     check_triangles, check_clips,  check_tiers};
   return run_checks(kChecks, pack);
 }
 

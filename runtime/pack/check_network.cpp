@@ -28,6 +28,8 @@ Status check_record(const PackView& pack) noexcept {
                              static_cast<uint32_t>(record.model));
   if (record.layer_count < 1 || record.layer_count > kMaxLayers || record.layer_count != pack.layers.size())
     return corrupt("network: %u layers stated, %zu there", record.layer_count, pack.layers.size());
+  if (pack.layers.back().channels != kOutputChannels)
+    return corrupt("the last layer has %u channels, not 3", pack.layers.back().channels);
   if (record.input_width < 1 || record.input_width > kMaxInputWidth)
     return corrupt("network: input width %u is outside 1..1024", record.input_width);
   if (!is_positive(record.rate_hz)) return corrupt("network: rate %g Hz", double{record.rate_hz});
@@ -120,7 +122,6 @@ Status check_layers(const PackView& pack) noexcept {
     inputs = layer.channels;
     widest = std::max(widest, layer.channels);
   }
-  if (inputs != kOutputChannels) return corrupt("the last layer has %u channels, not 3", inputs);
   if (widest != pack.network->max_channels)
     return corrupt("network: widest layer %u stated, %u there", pack.network->max_channels, widest);
   return cursor == pack.weights.size() ? Status{} : corrupt("weights: numbers that no layer owns");

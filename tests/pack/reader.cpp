@@ -1,0 +1,275 @@
+// reader.cpp  What the reader refuses, why, and that it takes nothing and touches nothing while it does.
+#include "pack/reader.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "baker/pack/network_pack.hpp"
+#include "tests/pack/count_allocations.hpp"
+#include "tests/pack/pack_editor.hpp"
+#include "tests/pack/small_pack.hpp"
+
+using namespace sinew;
+using namespace sinew::pack;
+using Catch::Contains;
+using test::PackEditor;
+
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+const std::vector<std::byte>& character_pack() {
+  static const std::vector<std::byte> bytes = test::small_character_pack();
+  return bytes;
+}
+
+// A change that makes a good pack bad, and a word of the message that names it.
+struct Damage {
+  const char* word;
+  std::function<void(PackEditor&)> apply;
+  StatusCode code = StatusCode::kCorrupt;
+};
+
+// The change of one element.
+template <class T, class Change>
+std::function<void(PackEditor&)> change(SectionKind kind, size_t index, Change apply) {
+  return [=](PackEditor& editor) { apply(editor.section<T>(kind)[index]); };
+}
+
+template <class T>
+std::function<void(PackEditor&)> set(SectionKind kind, size_t index, T value) {
+  return change<T>(kind, index, [=](T& element) { element = value; });
+}
+
+void check_refused(std::span<const std::byte> good, const std::vector<Damage>& damages) {
+  for (const Damage& damage : damages) {
+    PackEditor editor(good);
+    damage.apply(editor);
+    editor.seal();
+    const Status status = editor.open();
+    INFO("wanted: " << damage.word << ", message: " << status.message);
+    CHECK(status.code == damage.code);
+    CHECK_THAT(status.message, Contains(damage.word));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("what_is_not_a_whole_pack_of_this_version_is_refused_with_its_cause") {
+  PackView view;
+  CHECK(open_pack({}, &view).code == StatusCode::kNotAPack);
+
+  PackEditor editor(character_pack());
+  CHECK(open_pack(editor.bytes().subspan(1), &view).code == StatusCode::kInvalidArgument);
+  CHECK(open_pack(editor.bytes().first(5), &view).code == StatusCode::kNotAPack);
+  CHECK(open_pack(editor.bytes().first(63), &view).code == StatusCode::kTruncated);
+  CHECK(open_pack(editor.bytes().first(editor.bytes().size() - 1), &view).code == StatusCode::kTruncated);
+
+  editor.header().magic[0] = 'X';
+  CHECK(editor.open(&view).code == StatusCode::kNotAPack);
+  CHECK(view.network == nullptr);
+}
+
+TEST_CASE("another_version_names_the_command_that_rebakes_it") {
+  PackEditor character(character_pack()), model(test::small_model());
+  character.header().version = 0;
+  model.header().version = 2;
+  CHECK(character.open().code == StatusCode::kWrongVersion);
+  CHECK_THAT(character.open().message,
+             Contains("version 0") && Contains("sinew-bake character IN.glb --tissue"));
+  CHECK_THAT(model.open().message,
+             Contains("version 2") && Contains("sinew-bake model W.safetensors -o M.sinew"));
+}
+
+TEST_CASE("header_and_table_faults_are_refused_by_name") {
+  const auto entry = [](auto apply) { return [=](PackEditor& e) { apply(e.table()[1]); }; };
+  const Damage damages[] = {
+      {"neither model nor character", [](PackEditor& e) { e.header().kind = FileKind{7}; }},
+      {"reserved", [](PackEditor& e) { e.header().reserved[2] = 1; }},
+      {"reserved", [](PackEditor& e) { e.header().reserved0 = 1; }},
+      {"more than 64", [](PackEditor& e) { e.header().section_count = 65; }},
+      {"ascend", [](PackEditor& e) { e.table()[1].kind = e.table()[0].kind; }},
+      {"wrong size", entry([](SectionEntry& s) { s.element_bytes = 2; })},
+      {"not where", entry([](SectionEntry& s) { s.offset += 64; })},
+      {"not where", entry([](SectionEntry& s) { s.offset -= 1; })},
+      {"beyond the end", entry([](SectionEntry& s) { s.count = uint64_t{1} << 62; })},
+      {"beyond the end", entry([](SectionEntry& s) { s.count = ~uint64_t{0}; })},
+      {"does not belong into a model", [](PackEditor& e) { e.header().kind = FileKind::kModel; }},
+      {"checksum", entry([](SectionEntry& s) { s.checksum ^= 1; })},
+  };
+  for (const Damage& damage : damages) {
+    PackEditor editor(character_pack());
+    damage.apply(editor);
+    if (editor.header().section_count <= 64) editor.seal_table();
+    INFO("wanted: " << damage.word << ", message: " << editor.open().message);
+    CHECK(editor.open().code == StatusCode::kCorrupt);
+    CHECK_THAT(editor.open().message, Contains(damage.word));
+  }
+}
+
+TEST_CASE("network_faults_are_refused_by_name") {
+  using enum SectionKind;
+  const auto network = [](auto apply) { return change<NetworkRecord>(kNetwork, 0, apply); };
+  const auto input = [](auto apply) { return change<InputRecord>(kInputs, 1, apply); };
+  const auto layer = [](auto apply) { return change<LayerRecord>(kLayers, 1, apply); };
+  check_refused(
+      character_pack(),
+      {{"model 9 is not known", network([](auto& n) { n.model = ModelKind{9}; }), StatusCode::kUnsupported},
+       {"layers stated", network([](auto& n) { n.layer_count = 3; })},
+       {"input width", network([](auto& n) { n.input_width = 35; })},
+       {"outside 1..1024", network([](auto& n) { n.input_width = 0; })},
+       {"widest layer", network([](auto& n) { n.max_channels = 6; })},
+       {"rate", network([](auto& n) { n.rate_hz = 0; })},
+       {"rate", network([](auto& n) { n.rate_hz = kNan; })},
+       {"output scale", network([](auto& n) { n.output_scale = kInfinity; })},
+       {"leak", network([](auto& n) { n.output_leak = 1.5f; })},
+       {"leak", network([](auto& n) { n.hidden_leak = kNan; })},
+       {"state clamp", network([](auto& n) { n.state_clamp = 0; })},
+       {"length unit", network([](auto& n) { n.length_unit_m = -1; })},
+       {"reserved", network([](auto& n) { n.reserved[5] = 1; })},
+       {"input 1: kind 13", input([](auto& i) { i.kind = InputKind{13}; })},
+       {"input 1: its kind appears twice", input([](auto& i) { i.kind = InputKind::kRestPosition; })},
+       {"input 1: scale", input([](auto& i) { i.scale = kNan; })},
+       {"input 1: envelope", input([](auto& i) { i.envelope = 0; })},
+       {"input 1: reserved", input([](auto& i) { i.reserved = 1; })},
+       {"layer 1: 6 inputs", layer([](auto& l) { l.inputs = 6; })},
+       {"layer 1: 0 channels", layer([](auto& l) { l.channels = 0; })},
+       {"layer 1: 4000 channels", layer([](auto& l) { l.channels = 4000; })},
+       {"layer 1: channels padded", layer([](auto& l) { l.padded = 32; })},
+       {"not 3", layer([](auto& l) { l.channels = 4; })},
+       {"layer 1: has_self", layer([](auto& l) { l.has_self = 2; })},
+       {"layer 1: an offset of self weights", layer([](auto& l) { l.has_self = 0; })},
+       {"layer 1: a tensor is not where", layer([](auto& l) { l.w_h += 16; })},
+       {"layer 1: a tensor is not where", layer([](auto& l) { l.bias = ~uint64_t{0}; })},
+       {"layer 1: reserved", layer([](auto& l) { l.reserved = 1; })},
+       {"layer 0: padding", set<float>(kWeights, 5, 1.0f)},
+       {"number 0 is not finite", set<float>(kWeights, 0, kNan)}});
+}
+
+TEST_CASE("character_faults_are_refused_by_name") {
+  using enum SectionKind;
+  const auto record = [](auto apply) { return change<CharacterRecord>(kCharacter, 0, apply); };
+  const auto joint = [](auto apply) { return change<JointRecord>(kJoints, 1, apply); };
+  const auto skin = [](auto apply) { return change<SkinRecord>(kSkin, 3, apply); };
+  const auto clip = [](auto apply) { return change<ClipRecord>(kClips, 0, apply); };
+  const auto tier = [](auto apply) { return change<TierRecord>(kTiers, 2, apply); };
+  check_refused(character_pack(),
+                {{"no vertices", record([](auto& c) { c.vertex_count = 0; })},
+                 {"positions", record([](auto& c) { c.vertex_count = 13; })},
+                 {"positions", record([](auto& c) { c.vertex_count = 0xffffffff; })},
+                 {"triangles", record([](auto& c) { c.triangle_count += 1; })},
+                 {"joints", record([](auto& c) { c.joint_count = 65536; })},
+                 {"joints", record([](auto& c) { c.joint_count = 2; })},
+                 {"regions", record([](auto& c) { c.region_count = 1; })},
+                 {"nodes", record([](auto& c) { c.node_count = 4; })},
+                 {"clips", record([](auto& c) { c.clip_count = 0; })},
+                 {"height", record([](auto& c) { c.height_m = kNan; })},
+                 {"name lies outside", record([](auto& c) { c.name = 100000; })},
+                 {"character 0: reserved", record([](auto& c) { c.reserved[0] = 1; })},
+                 {"joint 1: its name", joint([](auto& j) { j.name = kNoIndex; })},
+                 {"joint 1: parent 1", joint([](auto& j) { j.parent = 1; })},
+                 {"joint 1: inverse bind", joint([](auto& j) { j.inverse_bind[7] = kInfinity; })},
+                 {"positions: number 4", set<float>(kPositions, 4, kNan)},
+                 {"vertex 2: normal", set<float>(kNormals, 7, 1.5f)},
+                 {"triangle 1: vertex 12 of 12", set<uint32_t>(kTriangles, 5, 12u)},
+                 {"vertex 3: skinned to joint 3", skin([](auto& s) { s.joint[1] = 3; })},
+                 {"vertex 3: skin weights sum", skin([](auto& s) { s.weight[0] = 0.8f; })},
+                 {"vertex 3: skin weights are not descending", skin([](auto& s) { s.weight[0] = 0.1f; })},
+                 {"vertex 3: skin weights are not descending", skin([](auto& s) { s.weight[1] = kNan; })},
+                 {"vertex 3: skin weights are not descending", skin([](auto& s) { s.weight[7] = -0.5f; })},
+                 {"vertex 3: a joint without", skin([](auto& s) { s.joint[7] = 1; })},
+                 {"vertex 5: welded to 6", set<uint32_t>(kWelded, 5, 6u)},
+                 {"clip 0: frames", clip([](auto& c) { c.first_frame = 1; })},
+                 {"clip 0: frames", clip([](auto& c) { c.frame_count = 0; })},
+                 {"clip frames", clip([](auto& c) { c.frame_count = 0xffffffff; })},
+                 {"clip 0: rate", clip([](auto& c) { c.rate_hz = -60; })},
+                 {"clip frames: number 30", set<float>(kClipFrames, 30, kNan)},
+                 {"tier 2: 3 is not known", tier([](auto& t) { t.tier = 3; })},
+                 {"tier 2: 1 is not known, or does not ascend", tier([](auto& t) { t.tier = 1; })},
+                 {"tier 2: cost", tier([](auto& t) { t.cost_us = kNan; })},
+                 {"tier 2: an error", tier([](auto& t) { t.error_mm = -1; })},
+                 {"strings", [](PackEditor& e) { e.section<char>(kStrings).back() = 'x'; }}});
+}
+
+TEST_CASE("tissue_faults_are_refused_by_name") {
+  using enum SectionKind;
+  const auto region = [](auto apply) { return change<RegionRecord>(kRegions, 1, apply); };
+  const auto node = [](auto apply) { return change<NodeRecord>(kNodes, 4, apply); };
+  check_refused(
+      character_pack(),
+      {{"region 1: its name", region([](auto& r) { r.name = 100000; })},
+       {"region 1: frame joint 3", region([](auto& r) { r.frame_joint = 3; })},
+       {"region 1: 65 nodes", region([](auto& r) { r.node_count = 65; })},
+       {"region 1: 0 nodes", region([](auto& r) { r.node_count = 0; })},
+       {"region 1: nodes do not follow", region([](auto& r) { r.first_node = 2; })},
+       {"region 1: nodes do not follow", region([](auto& r) { r.node_count = 3; })},
+       {"region 1: vertices do not follow", region([](auto& r) { r.first_vertex = 3; })},
+       {"region 1: vertices do not follow", region([](auto& r) { r.vertex_count = 5; })},
+       {"region 1: vertices padded", region([](auto& r) { r.padded_vertices = 8; })},
+       {"region 1: carrying weights do not", region([](auto& r) { r.carry = ~uint64_t{0}; })},
+       {"region 1: centre", region([](auto& r) { r.center_m[1] = kNan; })},
+       {"region 1: radius", region([](auto& r) { r.radius_m = 0; })},
+       {"region 1: displacement limit", region([](auto& r) { r.displacement_limit_m = kInfinity; })},
+       {"that no region owns", region([](auto& r) { r.node_count = 1; })},
+       {"region 0: vertex 4 does not ascend", set<uint32_t>(kRegionVertices, 1, 4u)},
+       {"region 1: vertex 12", set<uint32_t>(kRegionVertices, 7, 12u)},
+       {"region 0: a carrying weight", set<float>(kCarry, 2, kNan)},
+       {"region 0: padding", set<float>(kCarry, 4, 1.0f)},
+       {"node 4: position", node([](auto& n) { n.position_m[0] = kNan; })},
+       {"node 4: normal", node([](auto& n) { n.normal[0] = 5; })},
+       {"node 4: stiffness", node([](auto& n) { n.stiffness = 1.1f; })},
+       {"node 4: region 2", node([](auto& n) { n.region = 2; })},
+       {"node 4: not among", node([](auto& n) { n.region = 0; })},
+       {"node 4: skinned to joint 9", node([](auto& n) { n.skin.joint[0] = 9; })},
+       {"graph rows: do not cover", set<uint32_t>(kGraphRows, 0, 1u)},
+       {"graph rows: do not cover", set<uint32_t>(kGraphRows, 5, 0u)},
+       {"graph rows: not ascending", set<uint32_t>(kGraphRows, 2, 0xffffffffu)},
+       {"graph row 2: column 3", set<uint32_t>(kGraphColumns, 6, 3u)},
+       {"graph row 0: column 0", set<uint32_t>(kGraphColumns, 1, 0u)},
+       {"graph values: number 3", set<float>(kGraphValues, 3, kNan)}});
+}
+
+TEST_CASE("a_character_whose_network_has_no_inputs_is_unsupported") {
+  baker::PackWriter writer(FileKind::kCharacter);
+  baker::add_network(test::small_paper_weights(), writer);
+  const Status status = PackEditor(writer.finish()).open();
+  CHECK(status.code == StatusCode::kUnsupported);
+  CHECK_THAT(status.message, Contains("bake with weights whose metadata names 'inputs'"));
+}
+
+TEST_CASE("the_allocation_count_sees_an_allocation") {
+  const size_t before = test::allocation_count();
+  delete test::keep(new int(3));
+  CHECK(test::allocation_count() == before + 1);
+}
+
+TEST_CASE("a_good_pack_is_taken_without_an_allocation") {
+  PackEditor character(character_pack()), model(test::small_model());
+  PackView view, model_view;
+  const size_t before = test::allocation_count();
+  const Status status = character.open(&view);
+  const Status model_status = model.open(&model_view);
+  CHECK(test::allocation_count() == before);
+  INFO(status.message << model_status.message);
+  REQUIRE(status.ok());
+  REQUIRE(model_status.ok());
+  CHECK(view.kind == FileKind::kCharacter);
+  CHECK(view.character->node_count == 5);
+  CHECK(std::string(string_at(view, view.regions[1].name)) == "tip");
+  CHECK(std::string(string_at(view, kNoIndex)).empty());
+  CHECK(model_view.inputs.empty());
+  CHECK(model_view.network->input_width == 9);
+}
+
+TEST_CASE("a_refused_pack_is_not_allocated_for_either") {
+  PackEditor editor(character_pack());
+  editor.section<float>(SectionKind::kWeights)[0] = kNan;
+  editor.seal();
+  const size_t before = test::allocation_count();
+  const Status status = editor.open();
+  CHECK(test::allocation_count() == before);
+  CHECK_FALSE(status.ok());
+}

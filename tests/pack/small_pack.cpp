@@ -1,0 +1,168 @@
+// small_pack.cpp  The smallest packs that have everything.
+#include "tests/pack/small_pack.hpp"
+
+#include <random>
+
+#include "baker/pack/character_pack.hpp"
+#include "baker/pack/network_pack.hpp"
+
+namespace sinew::test {
+namespace {
+
+using baker::Vector3;
+
+// Layers of 5 and 3 channels that read `inputs` numbers a node.
+baker::Safetensors make_weights(size_t inputs, bool self_weights) {
+  std::mt19937 random(3);
+  baker::Safetensors weights;
+  weights.path = "small.safetensors";
+  const auto add = [&](const std::string& name, std::vector<size_t> shape) {
+    std::vector<float> values(shape.size() == 1 ? shape[0] : shape[0] * shape[1]);
+    for (float& value : values) value = static_cast<float>(random() % 2001) / 1000 - 1;
+    weights.tensors[name] = baker::tensor_f32(std::move(shape), values);
+  };
+  const size_t channels[] = {5, 3};
+  for (size_t l = 0; l < 2; ++l) {
+    const std::string prefix = "layers." + std::to_string(l) + ".";
+    const size_t f = channels[l], f_in = l == 0 ? inputs : channels[0];
+    add(prefix + "W_x", {f_in, 4 * f});
+    if (self_weights) add(prefix + "W_s", {f_in, 4 * f});
+    add(prefix + "W_h", {f, 4 * f});
+    add(prefix + "W_y", {f, 3 * f});
+    add(prefix + "b", {4 * f});
+  }
+  weights.metadata = {
+      {"sinew.model", "alt_conv_lstm"}, {"sinew.version", "1"}, {"channels", "5,3"}, {"rate_hz", "60"}};
+  return weights;
+}
+
+Eigen::Matrix4d translation(const Vector3& offset) {
+  Eigen::Matrix4d m = Eigen::Matrix4d::Identity();
+  m.topRightCorner<3, 1>() = offset;
+  return m;
+}
+
+void add_joint(const std::string& name, int parent, const Vector3& offset, baker::Character* character) {
+  baker::Node node;
+  node.name = name;
+  node.parent = parent;
+  node.translation = offset;
+  const Vector3 before =
+      parent < 0 ? Vector3(0, 0, 0) : Vector3(-character->inverse_bind.back().topRightCorner<3, 1>());
+  character->joint_node.push_back(static_cast<int>(character->nodes.size()));
+  character->joint_parent.push_back(parent);
+  character->nodes.push_back(node);
+  character->inverse_bind.push_back(translation(-(before + offset)));
+}
+
+// Vertex v of the bar: four a ring, three rings along Y.
+void add_vertex(int v, baker::Character* character) {
+  const double angle = 1.5707963267948966 * (v % 4);
+  const Vector3 around(std::cos(angle), 0, std::sin(angle));
+  baker::Influences skin;
+  skin.joint = {v / 4, v / 4 == 0 ? 1 : 0};
+  skin.weight = {0.75, 0.25};
+  character->positions.push_back(0.1 * around + Vector3(0, 0.25 * (v / 4), 0));
+  character->normals.push_back(around);
+  character->skin.push_back(skin);
+  character->colors.push_back({200, 150, 100, 255});
+  character->stiffness.push_back(0.1 * (v % 4));
+  character->welded.push_back(v);
+}
+
+baker::Clip swing() {
+  baker::Channel channel;
+  channel.node = 1;
+  channel.path = baker::Path::kRotation;
+  channel.times_s = {0, 0.1};
+  channel.values = {0, 0, 0, 1, 0, 0, std::sqrt(0.5), std::sqrt(0.5)};
+  return {"swing", 0.1, {channel}};
+}
+
+baker::ControlNode make_node(const baker::Character& character, int vertex, int region) {
+  const auto v = static_cast<size_t>(vertex);
+  return {vertex,           region, character.positions[v], character.normals[v], character.stiffness[v],
+          character.skin[v]};
+}
+
+baker::Region make_region(const std::string& name, int first_node, std::vector<baker::ControlNode> nodes,
+                          std::vector<int> vertices) {
+  baker::Region region;
+  region.name = name;
+  region.frame_joint = first_node == 0 ? 1 : 2;
+  region.first_node = first_node;
+  region.node_count = static_cast<int>(nodes.size());
+  region.vertices = std::move(vertices);
+  for (const baker::ControlNode& node : nodes)
+    region.center += node.position / static_cast<double>(nodes.size());
+  for (const baker::ControlNode& node : nodes) {
+    region.radius_m = std::max(region.radius_m, (node.position - region.center).norm());
+    region.carry.emplace_back(region.vertices.size(), 1.0 / static_cast<double>(nodes.size()));
+  }
+  return region;
+}
+
+}  // namespace
+
+baker::Safetensors small_weights() {
+  baker::Safetensors weights = make_weights(34, true);
+  const char* const inputs =
+      "rest_position,rest_normal,stiffness,linear_acceleration,euler_acceleration,centrifugal_acceleration,"
+      "articulation_acceleration,angular_acceleration,angular_velocity,gravity_change,displacement,velocity";
+  weights.metadata.insert({{"inputs", inputs},
+                           {"input_scales", "1,1,1,0.1,0.1,0.1,0.1,0.01,0.1,0.1,1,10"},
+                           {"envelope", "2,2,2,8,8,8,8,8,8,8,8,8"},
+                           {"length_unit_m", "0.01"},
+                           {"output_scale", "0.5"},
+                           {"output_leak", "0.1"},
+                           {"hidden_leak", "0.2"},
+                           {"state_clamp", "8"},
+                           {"error_mm", "0.5"},
+                           {"error_ratio", "0.25"},
+                           {"made_by", "a key that nobody knows"}});
+  return weights;
+}
+
+baker::Safetensors small_paper_weights() { return make_weights(9, false); }
+
+baker::Character small_character() {
+  baker::Character character;
+  character.name = "bar";
+  add_joint("root", -1, {0, 0, 0}, &character);
+  add_joint("middle", 0, {0, 0.25, 0}, &character);
+  add_joint("tip", 1, {0, 0.25, 0}, &character);
+  for (int v = 0; v < 12; ++v) add_vertex(v, &character);
+  for (int v = 0; v < 8; ++v) {
+    const int next = v / 4 * 4 + (v + 1) % 4;
+    character.triangles.push_back({v, v + 4, next});
+    character.triangles.push_back({next, v + 4, next + 4});
+  }
+  character.clips.push_back(swing());
+  return character;
+}
+
+baker::TissueLayout small_layout(const baker::Character& character) {
+  baker::TissueLayout layout;
+  layout.stiffness = character.stiffness;
+  for (int vertex : {4, 5, 6}) layout.nodes.push_back(make_node(character, vertex, 0));
+  for (int vertex : {8, 10}) layout.nodes.push_back(make_node(character, vertex, 1));
+  layout.regions.push_back(
+      make_region("belly", 0, {layout.nodes.begin(), layout.nodes.begin() + 3}, {4, 5, 6, 7}));
+  layout.regions.push_back(
+      make_region("tip", 3, {layout.nodes.begin() + 3, layout.nodes.end()}, {8, 9, 10, 11}));
+  layout.edges = {{0, 1}, {1, 2}, {3, 4}};
+  return layout;
+}
+
+std::vector<std::byte> small_model() {
+  baker::PackWriter writer(pack::FileKind::kModel);
+  baker::add_network(small_paper_weights(), writer);
+  return writer.finish();
+}
+
+std::vector<std::byte> small_character_pack() {
+  const baker::Character character = small_character();
+  return baker::pack_character(character, small_layout(character), small_weights());
+}
+
+}  // namespace sinew::test

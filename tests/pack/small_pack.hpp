@@ -1,0 +1,21 @@
+// small_pack.hpp  The smallest packs that have everything: two regions, a chain of joints, a clip, every
+// input.
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "baker/common/safetensors.hpp"
+#include "baker/import/character.hpp"
+#include "baker/mesh/tissue_layout.hpp"
+
+namespace sinew::test {
+
+baker::Safetensors small_weights();        // 34 -> 5 3, self weights, every input
+baker::Safetensors small_paper_weights();  // 9 -> 5 3, the paper's wiring
+baker::Character small_character();        // a bar of 12 vertices on three joints, one clip
+baker::TissueLayout small_layout(const baker::Character& character);  // two regions of 3 and 2 nodes
+
+std::vector<std::byte> small_model();
+std::vector<std::byte> small_character_pack();
+
+}  // namespace sinew::test
