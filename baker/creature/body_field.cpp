@@ -9,17 +9,6 @@ namespace {
 
 constexpr int kConesPerSpan = 5;
 
-Eigen::Vector4d catmull_rom(const std::vector<Eigen::Vector4d>& points, size_t span, double t) {
-  const size_t last = points.size() - 1;
-  const Eigen::Vector4d& a = points[span];
-  const Eigen::Vector4d& b = points[span + 1];
-  const Eigen::Vector4d tangent_a = (b - points[span == 0 ? 0 : span - 1]) * (span == 0 ? 1.0 : 0.5);
-  const Eigen::Vector4d tangent_b = (points[std::min(span + 2, last)] - a) * (span + 1 == last ? 1.0 : 0.5);
-  const double t2 = t * t, t3 = t2 * t;
-  return (2 * t3 - 3 * t2 + 1) * a + (t3 - 2 * t2 + t) * tangent_a + (3 * t2 - 2 * t3) * b +
-         (t3 - t2) * tangent_b;
-}
-
 // Quadratic smooth minimum; its gradient is exactly the mix of the gradients.
 FieldSample smooth_union(const FieldSample& a, const FieldSample& b, double width) {
   if (width <= 0) return a.distance < b.distance ? a : b;
@@ -38,6 +27,17 @@ FieldSample inverted(FieldSample sample) {
 }
 
 }  // namespace
+
+Eigen::Vector4d tube_point(const std::vector<Eigen::Vector4d>& points, size_t span, double t) {
+  const size_t last = points.size() - 1;
+  const Eigen::Vector4d& a = points[span];
+  const Eigen::Vector4d& b = points[span + 1];
+  const Eigen::Vector4d tangent_a = (b - points[span == 0 ? 0 : span - 1]) * (span == 0 ? 1.0 : 0.5);
+  const Eigen::Vector4d tangent_b = (points[std::min(span + 2, last)] - a) * (span + 1 == last ? 1.0 : 0.5);
+  const double t2 = t * t, t3 = t2 * t;
+  return (2 * t3 - 3 * t2 + 1) * a + (t3 - 2 * t2 + t) * tangent_a + (3 * t2 - 2 * t3) * b +
+         (t3 - t2) * tangent_b;
+}
 
 Eigen::Matrix3d rotation_from_degrees(const Eigen::Vector3d& turn_deg) {
   const Eigen::Vector3d angle = turn_deg * (M_PI / 180);
@@ -59,7 +59,7 @@ SolidField::SolidField(const Solid& solid)
   std::vector<Eigen::Vector4d> rings;
   for (size_t span = 0; span + 1 < solid.points.size(); ++span)
     for (int i = 0; i < kConesPerSpan; ++i)
-      rings.push_back(catmull_rom(solid.points, span, static_cast<double>(i) / kConesPerSpan));
+      rings.push_back(tube_point(solid.points, span, static_cast<double>(i) / kConesPerSpan));
   rings.push_back(solid.points.back());
   for (const Eigen::Vector4d& ring : rings) box.extend(Eigen::Vector3d(ring.head<3>()));
   center_ = box.center();

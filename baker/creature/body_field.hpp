@@ -56,6 +56,9 @@ class BodyField {
   Eigen::AlignedBox3d bounds_;
 };
 
+// Place and radius at t within the span from points[span] to the next (Catmull-Rom).
+Eigen::Vector4d tube_point(const std::vector<Eigen::Vector4d>& points, size_t span, double t);
+
 Eigen::Matrix3d rotation_from_degrees(const Eigen::Vector3d& turn_deg);  // about Z, then X, then Y
 
 }  // namespace sinew::baker

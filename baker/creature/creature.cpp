@@ -61,8 +61,7 @@ Surface mesh_body(const CreatureRecipe& recipe, const BodyField& field, size_t v
   return remesh(field, std::move(surface), vertices);
 }
 
-Primitive make_body(const CreatureRecipe& recipe, size_t vertices) {
-  const BodyField field(recipe.body);
+Primitive make_body(const CreatureRecipe& recipe, const BodyField& field, size_t vertices) {
   const Surface surface = mesh_body(recipe, field, vertices);
   const std::vector<SkinWeights> skin = skin_body(recipe, surface);
   std::vector<PaintSpot> spots;
@@ -77,7 +76,10 @@ Primitive make_body(const CreatureRecipe& recipe, size_t vertices) {
   return body;
 }
 
-Primitive make_detail_primitive(const CreatureRecipe& recipe, const DetailRecipe& detail, size_t vertices) {
+Primitive make_detail_primitive(const CreatureRecipe& recipe, const BodyField& field, DetailRecipe detail,
+                                size_t vertices) {
+  if (detail.snap)
+    for (Eigen::Vector4d& point : detail.solid.points) point.head<3>() = field.project(point.head<3>());
   const DetailSurface made = make_detail(detail, vertices);
   SkinWeights skin;
   skin.joint[0] = joint_index(recipe, detail.joint);
@@ -109,15 +111,16 @@ void merge_same_material(std::vector<Primitive>& primitives, Primitive added) {
 }
 
 std::vector<Primitive> make_primitives(const CreatureRecipe& recipe, size_t vertices) {
+  const BodyField field(recipe.body);
   std::vector<Primitive> primitives(1);
   size_t in_details = 0;
   for (const DetailRecipe& detail : recipe.details) {
     const double wanted = detail.share * static_cast<double>(vertices);
-    Primitive made = make_detail_primitive(recipe, detail, static_cast<size_t>(wanted));
+    Primitive made = make_detail_primitive(recipe, field, detail, static_cast<size_t>(wanted));
     in_details += made.positions.size() / 3;
     merge_same_material(primitives, std::move(made));
   }
-  primitives[0] = make_body(recipe, vertices - std::min(in_details, vertices / 2));
+  primitives[0] = make_body(recipe, field, vertices - std::min(in_details, vertices / 2));
   return primitives;
 }
 

@@ -43,7 +43,8 @@ struct ColorBand {
 
 struct DetailRecipe {  // a small closed surface of its own, moved rigidly by one joint
   std::string name, joint, material;
-  Solid solid;
+  Solid solid;           // an ellipsoid, or a tube
+  bool snap = false;     // the points of a tube are moved onto the body's surface
   double cap_deg = 180;  // less than 180: only the cap around the pole, with an inner face (an eyelid)
   double share = 0.01;   // of the creature's vertices
   std::vector<ColorBand> bands;

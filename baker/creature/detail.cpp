@@ -19,29 +19,32 @@ struct Ring {
 
 constexpr double kCapInnerScale = 0.93;
 
-std::vector<double> ring_angles(size_t count, double end_deg, const std::vector<ColorBand>& bands) {
-  constexpr double kFrontDenser = 1.25, kBorder_deg = 1.0;
-  std::vector<double> angles;
-  for (size_t i = 0; i < count; ++i)
-    angles.push_back(end_deg *
-                     std::pow(static_cast<double>(i + 1) / static_cast<double>(count + 1), kFrontDenser));
-  size_t next = 0;
+// A pair of rings at every change of colour, the others where the gaps are widest; the side that looks out is denser.
+std::vector<double> ring_angles(size_t count, const std::vector<ColorBand>& bands) {
+  constexpr double kBorder_deg = 0.8, kBackSparser = 2.5;
+  std::vector<double> angles = {0, 180};
   for (const ColorBand& band : bands) {
-    if (band.to_deg >= end_deg || count < 3 + 3 * bands.size()) continue;
-    while (next < count && angles[next] < band.to_deg) ++next;
-    if (next == 0 || next >= count) continue;
-    angles[next - 1] = band.to_deg - kBorder_deg;
-    angles[next] = band.to_deg + kBorder_deg;
-    ++next;
+    if (band.to_deg >= 180 || 2 * bands.size() > count) continue;
+    angles.push_back(band.to_deg - kBorder_deg);
+    angles.push_back(band.to_deg + kBorder_deg);
   }
   std::sort(angles.begin(), angles.end());
-  return angles;
+  while (angles.size() < count + 2) {
+    size_t widest = 0;
+    double width = 0;
+    for (size_t i = 0; i + 1 < angles.size(); ++i) {
+      const double gap = (angles[i + 1] - angles[i]) / (angles[i] < 90 ? 1 : kBackSparser);
+      if (gap > width) width = gap, widest = i;
+    }
+    angles.insert(angles.begin() + static_cast<long>(widest) + 1, 0.5 * (angles[widest] + angles[widest + 1]));
+  }
+  return {angles.begin() + 1, angles.end() - 1};
 }
 
 std::vector<Ring> profile(const DetailRecipe& recipe, size_t rings) {
   std::vector<Ring> profile;
   if (recipe.cap_deg >= 180) {
-    for (double angle : ring_angles(rings, 180, recipe.bands)) profile.push_back({angle, 1});
+    for (double angle : ring_angles(rings, recipe.bands)) profile.push_back({angle, 1});
     return profile;
   }
   const size_t each_face = std::max<size_t>(1, rings / 2);
@@ -51,6 +54,23 @@ std::vector<Ring> profile(const DetailRecipe& recipe, size_t rings) {
     profile.push_back(
         {recipe.cap_deg * static_cast<double>(i) / static_cast<double>(each_face), kCapInnerScale});
   return profile;
+}
+
+// A pole, rings of `segments` vertices, the other pole; the rings run counter-clockwise seen against the way
+// to the other pole.
+void add_ring_triangles(Surface& surface, size_t rings, size_t segments) {
+  const auto corner = [&](size_t ring, size_t s) {
+    return static_cast<int>(1 + ring * segments + s % segments);
+  };
+  const int last = static_cast<int>(1 + rings * segments);
+  for (size_t s = 0; s < segments; ++s) {
+    surface.triangles.push_back({0, corner(0, s), corner(0, s + 1)});
+    for (size_t r = 0; r + 1 < rings; ++r) {
+      surface.triangles.push_back({corner(r, s), corner(r + 1, s), corner(r + 1, s + 1)});
+      surface.triangles.push_back({corner(r, s), corner(r + 1, s + 1), corner(r, s + 1)});
+    }
+    surface.triangles.push_back({last, corner(rings - 1, s + 1), corner(rings - 1, s)});
+  }
 }
 
 class Lathe {
@@ -67,7 +87,7 @@ class Lathe {
       for (size_t s = 0; s < segments_; ++s)
         add_vertex(ring, 2 * M_PI * static_cast<double>(s) / static_cast<double>(segments_));
     add_vertex(recipe_.cap_deg >= 180 ? Ring{180, 1} : Ring{0, kCapInnerScale}, 0);
-    add_triangles();
+    add_ring_triangles(out_.surface, rings_.size(), segments_);
     return std::move(out_);
   }
 
@@ -89,23 +109,6 @@ class Lathe {
     return recipe_.bands.back().color;
   }
 
-  int corner(size_t ring, size_t segment) const {
-    return static_cast<int>(1 + ring * segments_ + segment % segments_);
-  }
-
-  void add_triangles() {
-    auto& triangles = out_.surface.triangles;
-    const int last = static_cast<int>(1 + rings_.size() * segments_);
-    for (size_t s = 0; s < segments_; ++s) {
-      triangles.push_back({0, corner(0, s), corner(0, s + 1)});
-      for (size_t r = 0; r + 1 < rings_.size(); ++r) {
-        triangles.push_back({corner(r, s), corner(r + 1, s), corner(r + 1, s + 1)});
-        triangles.push_back({corner(r, s), corner(r + 1, s + 1), corner(r, s + 1)});
-      }
-      triangles.push_back({last, corner(rings_.size() - 1, s + 1), corner(rings_.size() - 1, s)});
-    }
-  }
-
   const DetailRecipe& recipe_;
   std::vector<Ring> rings_;
   size_t segments_;
@@ -113,11 +116,67 @@ class Lathe {
   DetailSurface out_;
 };
 
+// Rings across the tube, carried along it without twisting.
+class Sweep {
+ public:
+  Sweep(const DetailRecipe& recipe, size_t rings, size_t segments) : segments_(segments) {
+    color_ = linear_from_srgb(recipe.bands[0].color);
+    const auto& points = recipe.solid.points;
+    const size_t spans = points.size() - 1;
+    for (size_t i = 0; i < rings; ++i) {
+      const double along = static_cast<double>(i * spans) / static_cast<double>(rings - 1);
+      const size_t span = std::min(static_cast<size_t>(along), spans - 1);
+      path_.push_back(tube_point(points, span, along - static_cast<double>(span)));
+    }
+  }
+
+  DetailSurface run() {
+    Vector3d side = tangent(0).unitOrthogonal();
+    add_vertex(path_[0].head<3>() - path_[0].w() * tangent(0), -tangent(0));
+    for (size_t i = 0; i < path_.size(); ++i) {
+      side = (side - tangent(i) * tangent(i).dot(side)).normalized();
+      add_ring(path_[i], side, side.cross(tangent(i)));
+    }
+    const size_t end = path_.size() - 1;
+    add_vertex(path_[end].head<3>() + path_[end].w() * tangent(end), tangent(end));
+    add_ring_triangles(out_.surface, path_.size(), segments_);
+    return std::move(out_);
+  }
+
+ private:
+  Vector3d tangent(size_t i) const {
+    return (path_[std::min(i + 1, path_.size() - 1)] - path_[i == 0 ? 0 : i - 1]).head<3>().normalized();
+  }
+
+  void add_ring(const Eigen::Vector4d& center, const Vector3d& side, const Vector3d& up) {
+    for (size_t s = 0; s < segments_; ++s) {
+      const double around = 2 * M_PI * static_cast<double>(s) / static_cast<double>(segments_);
+      const Vector3d out = std::cos(around) * side + std::sin(around) * up;
+      add_vertex(center.head<3>() + center.w() * out, out);
+    }
+  }
+
+  void add_vertex(const Vector3d& position, const Vector3d& normal) {
+    out_.surface.positions.push_back(position);
+    out_.normals.push_back(normal);
+    out_.colors.push_back(color_);
+  }
+
+  size_t segments_;
+  Vector3d color_;
+  std::vector<Eigen::Vector4d> path_;
+  DetailSurface out_;
+};
+
 }  // namespace
 
 DetailSurface make_detail(const DetailRecipe& recipe, size_t vertices) {
   const double count = static_cast<double>(std::max(vertices, kFewestDetailVertices) - 2);
-  const size_t segments = std::max<size_t>(5, static_cast<size_t>(std::sqrt(1.6 * count)));
+  if (!recipe.solid.points.empty()) {
+    const size_t segments = count < 60 ? 3 : 6;
+    return Sweep(recipe, std::max<size_t>(2, static_cast<size_t>(count) / segments), segments).run();
+  }
+  const size_t segments = std::max<size_t>(5, static_cast<size_t>(std::sqrt(2.2 * count)));
   const size_t rings = std::max<size_t>(2, static_cast<size_t>(count) / segments);
   return Lathe(recipe, profile(recipe, rings), segments).run();
 }

@@ -217,8 +217,7 @@ class RecipeReader {
                      [&](const MaterialRecipe& m) { return m.name == detail.material; }))
       json.complain("material", "names \"" + detail.material + "\", which is not in \"materials\"");
     detail.solid = read_solid(json);
-    if (!detail.solid.points.empty())
-      json.complain("tube", "cannot shape a detail; give \"at\" and \"radii\"");
+    detail.snap = json.flag("snap", false);
     detail.share = json.number("share", 0.01, 0, 0.02);
     detail.cap_deg = json.number("cap_deg", 180, 10, 180);
     read_bands(json, detail);

@@ -127,12 +127,18 @@ class Remesher {
     const auto [left, c] = left_of(a, b);
     const auto [right, d] = left_of(b, a);
     const int middle = static_cast<int>(positions_.size());
-    positions_.push_back(field_.project(0.5 * (at(a) + at(b))));
+    positions_.push_back(place_between(a, b));
     edge_scale_.push_back(field_.sample(positions_.back()).edge_scale);
     faces_.emplace_back();
     ++vertices_;
     split_face(left, b, middle, c, {middle, b, c});
     split_face(right, b, middle, d, {b, middle, d});
+  }
+
+  // On the surface, but never so far off the edge that what is split grows.
+  Vector3d place_between(int a, int b) const {
+    const Vector3d middle = 0.5 * (at(a) + at(b)), place = field_.project(middle);
+    return (place - middle).norm() < 0.3 * length(a, b) ? place : middle;
   }
 
   void split_face(int t, int moved, int middle, int opposite, const Triangle& added) {
@@ -163,7 +169,7 @@ class Remesher {
     if (shared.size() != 2) return;  // the link condition: else a tunnel would close
     for (int v : shared)
       if (faces_of(v).size() <= 3) return;
-    const Vector3d place = field_.project(0.5 * (at(a) + at(b)));
+    const Vector3d place = place_between(a, b);
     constexpr double kStillShort = 1.3;
     for (const auto& [center, around] : {std::pair{a, &around_a}, std::pair{b, &around_b}})
       for (int v : *around)
@@ -252,7 +258,7 @@ class Remesher {
       Vector3d move = center / weight - at(v);
       move -= normal * normal.dot(move);
       const Vector3d place = field_.project(at(v) + 0.6 * move);
-      if (!folds(v, place, -1)) at(v) = place;
+      if ((place - at(v)).norm() < edge_m_ && !folds(v, place, -1)) at(v) = place;
     }
   }
 
