@@ -115,6 +115,9 @@ TEST_CASE("network_faults_are_refused_by_name") {
   const auto network = [](auto apply) { return change<NetworkRecord>(kNetwork, 0, apply); };
   const auto input = [](auto apply) { return change<InputRecord>(kInputs, 1, apply); };
   const auto layer = [](auto apply) { return change<LayerRecord>(kLayers, 1, apply); };
+  const auto set_channels = [](uint32_t channels) {
+    return change<LayerRecord>(kLayers, 0, [=](LayerRecord& l) { l.channels = channels; });
+  };
   check_refused(
       character_pack(),
       {{"model 9 is not known", network([](auto& n) { n.model = ModelKind{9}; }), StatusCode::kUnsupported},
@@ -136,8 +139,8 @@ TEST_CASE("network_faults_are_refused_by_name") {
        {"input 1: envelope", input([](auto& i) { i.envelope = 0; })},
        {"input 1: reserved", input([](auto& i) { i.reserved = 1; })},
        {"layer 1: 6 inputs", layer([](auto& l) { l.inputs = 6; })},
-       {"layer 1: 0 channels", layer([](auto& l) { l.channels = 0; })},
-       {"layer 1: 4000 channels", layer([](auto& l) { l.channels = 4000; })},
+       {"layer 0: 0 channels", set_channels(0)},
+       {"layer 0: 4000 channels", set_channels(4000)},
        {"layer 1: channels padded", layer([](auto& l) { l.padded = 32; })},
        {"not 3", layer([](auto& l) { l.channels = 4; })},
        {"layer 1: has_self", layer([](auto& l) { l.has_self = 2; })},

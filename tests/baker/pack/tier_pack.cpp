@@ -1,0 +1,47 @@
+// tier_pack.cpp  Baked costs and errors.
+#include "baker/pack/tier_pack.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+#include "sinew/types.hpp"
+
+using namespace sinew;
+using namespace sinew::baker;
+
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+pack::LayerRecord layer(uint32_t inputs, uint32_t channels, uint32_t has_self) {
+  pack::LayerRecord record{};
+  record.inputs = inputs;
+  record.channels = channels;
+  record.padded = (channels + 15) / 16 * 16;
+  record.has_self = has_self;
+  return record;
+}
+
+}  // namespace
+
+TEST_CASE("multiply_adds_count_padded_products_and_aggregation") {
+  const pack::LayerRecord plain = layer(9, 16, 0), with_self = layer(9, 3, 1);
+  // 16 (4 9 + 7 16) products a node; x, h and y of 9 + 2 16 numbers an entry.
+  CHECK(multiply_adds({&plain, 1}, 2, 4) == 2 * 16 * (4 * 9 + 7 * 16) + 4 * (9 + 2 * 16));
+  CHECK(multiply_adds({&with_self, 1}, 2, 4) == 2 * 16 * (8 * 9 + 7 * 3) + 4 * (9 + 2 * 3));
+}
+
+TEST_CASE("tiers_ascend_and_errors_that_were_not_measured_stay_nan") {
+  const std::vector<pack::TierRecord> tiers = make_tiers(1000000, 40, 0.5f, 0.25f);
+  REQUIRE(tiers.size() == 3);
+  CHECK(tiers[0].tier == static_cast<uint32_t>(Tier::kSkinning));
+  CHECK(tiers[0].cost_us == 0);
+  CHECK(tiers[0].error_mm == 2.0f);
+  CHECK(tiers[0].error_ratio == 1.0f);
+  CHECK(std::isnan(tiers[1].error_mm));
+  CHECK(tiers[2].cost_us == Approx(100));  // 2e6 operations at 20 GFLOP/s
+  CHECK(tiers[2].error_ratio == 0.25f);
+  CHECK(std::isnan(make_tiers(1, 1, kNan, kNan)[0].error_mm));
+  CHECK(std::isnan(make_tiers(1, 1, kNan, kNan)[2].error_ratio));
+}
