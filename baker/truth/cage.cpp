@@ -7,6 +7,8 @@
 #include <string>
 
 #include "baker/common/bad_input.hpp"
+#include "baker/mesh/bones.hpp"
+#include "baker/mesh/joint_names.hpp"
 #include "baker/truth/cage_fields.hpp"
 #include "baker/truth/disjoint_sets.hpp"
 
@@ -14,13 +16,6 @@ namespace sinew::baker {
 namespace {
 
 constexpr int kFinePerCell = 3, kFinePerCellManyVoxels = 2, kManyVoxels = 80;
-
-bool named(const std::vector<std::string>& patterns, const std::string& name) {
-  return std::any_of(patterns.begin(), patterns.end(), [&](const std::string& pattern) {
-    return !pattern.empty() && pattern.back() == '*' ? name.starts_with(pattern.substr(0, pattern.size() - 1))
-                                                     : name == pattern;
-  });
-}
 
 double longest_side(const Character& character) {
   Eigen::AlignedBox3d box;
@@ -37,55 +32,37 @@ std::vector<double> effective_stiffness(const TissueLayout& layout) {
   return stiffness;
 }
 
-struct Bone {
-  int joint = 0;
-  Vector3 from, to;
-  double distance(const Vector3& p) const {
-    const Vector3 along = to - from;
-    const double length2 = along.squaredNorm();
-    const double share = length2 > 0 ? std::clamp(along.dot(p - from) / length2, 0.0, 1.0) : 0;
-    return (p - from - share * along).norm();
-  }
-};
-
-// From every joint with a core to each of its children; a joint without children is a point.
-std::vector<Bone> bones(const Character& character, const Recipe& recipe) {
-  const auto place = [&](size_t j) -> Vector3 {
-    return character.inverse_bind[j].inverse().block<3, 1>(0, 3);
-  };
-  std::vector<Bone> all;
-  for (size_t j = 0; j < character.joint_node.size(); ++j) {
-    if (named(recipe.coreless_joints, character.nodes[static_cast<size_t>(character.joint_node[j])].name))
-      continue;
-    const size_t before = all.size();
-    for (size_t child = j + 1; child < character.joint_parent.size(); ++child)
-      if (character.joint_parent[child] == static_cast<int>(j))
-        all.push_back({static_cast<int>(j), place(j), place(child)});
-    if (all.size() == before) all.push_back({static_cast<int>(j), place(j), place(j)});
-  }
-  return all;
+double distance_to_segment(const Vector3& p, const Vector3& from, const Vector3& to) {
+  const Vector3 along = to - from;
+  const double length2 = along.squaredNorm();
+  const double share = length2 > 0 ? std::clamp(along.dot(p - from) / length2, 0.0, 1.0) : 0;
+  return (p - from - share * along).norm();
 }
 
-// Of the way from the nearest of its own bones to the skin, the share at which this place lies; 1 without
-// such a bone.
-double share_of_flesh(const std::vector<Bone>& bones, const Influences& skin, const Vector3& p,
-                      double to_surface) {
-  constexpr double kOwn = 0.1;  // least skin weight that makes a bone this place's own
+// Metres to the nearest bone that moves this place and has a core; infinity without one.
+double distance_to_core(const Bones& bones, const std::vector<bool>& coreless, const Influences& skin,
+                        const Vector3& p) {
+  constexpr double kMoves = 0.1;  // least share of skin weight
   double nearest = std::numeric_limits<double>::infinity();
-  for (const Bone& bone : bones)
-    for (size_t k = 0; k < kInfluences; ++k)
-      if (skin.joint[k] == bone.joint && skin.weight[k] >= kOwn)
-        nearest = std::min(nearest, bone.distance(p));
-  return std::isinf(nearest) ? 1 : nearest / std::max(nearest + to_surface, 1e-12);
+  for (size_t k = 0; k < kInfluences; ++k) {
+    const auto joint = static_cast<size_t>(skin.joint[k]);
+    if (skin.weight[k] < kMoves || coreless[joint]) continue;
+    nearest = std::min(nearest, distance_to_segment(p, bones.head[joint], bones.tail[joint]));
+  }
+  return nearest;
 }
 
 std::vector<bool> held_by_bones(const Character& character, const Recipe& recipe, const Cage& cage,
                                 const std::vector<double>& to_surface) {
-  const std::vector<Bone> all = bones(character, recipe);
+  const Bones bones = find_bones(character);
+  const std::vector<bool> coreless =
+      match_joints(character, recipe.coreless_joints, "recipe: coreless_joints");
   std::vector<bool> held(cage.nodes.size());
-  for (size_t i = 0; i < held.size(); ++i)
-    held[i] = cage.stiffness[i] >= recipe.rigid_stiffness ||
-              share_of_flesh(all, cage.skin[i], cage.nodes[i], to_surface[i]) < recipe.core_share;
+  for (size_t i = 0; i < held.size(); ++i) {
+    const double to_bone = distance_to_core(bones, coreless, cage.skin[i], cage.nodes[i]);
+    const bool core = to_bone < recipe.core_share * (to_bone + to_surface[i]);
+    held[i] = core || cage.stiffness[i] >= recipe.rigid_stiffness;
+  }
   return held;
 }
 
