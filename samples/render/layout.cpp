@@ -49,6 +49,21 @@ Image side_by_side(std::span<const Panel> panels, int gap_px) {
   return out;
 }
 
+Image stack(std::span<const Image> rows, int gap_px) {
+  int width = 0, height = -gap_px;
+  for (const Image& row : rows) {
+    width = std::max(width, row.width);
+    height += row.height + gap_px;
+  }
+  Image out(width, std::max(height, 0));
+  int top = 0;
+  for (const Image& row : rows) {
+    paste(row, 0, top, out);
+    top += row.height + gap_px;
+  }
+  return out;
+}
+
 Image contact_sheet(std::span<const Cell> cells, int columns, const std::string& title) {
   const int count = static_cast<int>(cells.size());
   if (columns < 1) columns = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count))));

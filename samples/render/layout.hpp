@@ -16,6 +16,9 @@ struct Panel {
 // Same heights are not needed; tops align.
 Image side_by_side(std::span<const Panel> panels, int gap_px = 4);
 
+// Below each other; left edges align.
+Image stack(std::span<const Image> rows, int gap_px = 4);
+
 struct Cell {
   Image image;
   std::string caption;  // under the picture
@@ -25,9 +28,9 @@ struct Cell {
 Image contact_sheet(std::span<const Cell> cells, int columns, const std::string& title = {});
 
 struct Legend {
-  std::string title;  // with its unit: "error (mm)"
+  std::string title{};  // with its unit: "error (mm)"
   double low = 0, high = 1;
-  std::string low_text, high_text;  // empty: the numbers
+  std::string low_text{}, high_text{};  // empty: the numbers
 };
 
 // A colour bar in the lower right corner.

@@ -6,17 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include "samples/render/lines.hpp"
 #include "samples/render/stroke_font.hpp"
 
 namespace sinew::render {
 namespace {
-
-float distance_to_segment(const Eigen::Vector2f& p, const Eigen::Vector2f& a, const Eigen::Vector2f& b) {
-  const Eigen::Vector2f side = b - a;
-  const float length2 = side.squaredNorm();
-  const float t = length2 > 0 ? std::clamp((p - a).dot(side) / length2, 0.0f, 1.0f) : 0.0f;
-  return (p - a - t * side).norm();
-}
 
 struct Pen {
   Image& image;

@@ -1,0 +1,10 @@
+// crowd_picture.hpp  All instances on the floor, tinted by what each got in the last frame.
+#pragma once
+#include "samples/demo/simulate.hpp"
+#include "samples/render/image.hpp"
+
+namespace sinew::demo {
+
+render::Image crowd_picture(const CharacterFile& character, const Run& run, const Options& options);
+
+}  // namespace sinew::demo

@@ -1,0 +1,58 @@
+// main.cpp  sinew-demo: characters in a frame loop without a window; see README.md.
+#include <cstdio>
+#include <exception>
+
+#include "baker/common/bad_input.hpp"
+#include "samples/demo/options.hpp"
+#include "samples/demo/pictures.hpp"
+#include "samples/demo/summary.hpp"
+
+namespace {
+
+using namespace sinew;
+using namespace sinew::demo;
+
+// What was not asked for follows from the truth, or is the usual.
+Options completed(Options options, const Trajectory* truth) {
+  if (options.fps == 0) options.fps = truth != nullptr ? truth->rate_hz() : 60;
+  if (options.seconds == 0) options.seconds = truth != nullptr ? truth->seconds() : 4;
+  if (truth != nullptr && options.seconds > truth->seconds()) {
+    std::fprintf(stderr, "sinew-demo: %s lasts %.2f s; playing that\n", options.truth.c_str(),
+                 truth->seconds());
+    options.seconds = truth->seconds();
+  }
+  return options;
+}
+
+void run(const Options& asked) {
+  const CharacterFile character = open_character(asked.pack);
+  const std::unique_ptr<Motion> motion = make_motion(character, asked.clip);
+  const auto truth = asked.truth.empty() ? nullptr : std::make_unique<Trajectory>(asked.truth, character);
+  const Options options = completed(asked, truth.get());
+  if (!options.frames.empty()) make_folder(options.frames);
+  const Run result = simulate(character, *motion, truth.get(), options);
+  const Summary summary = summarise(result, character);
+  print_table(summary, result, character, options);
+  if (!options.report.empty()) write_report(options.report, summary, result, character, options);
+  if (!options.frames.empty()) make_pictures(result, character, options);
+}
+
+int refuse(std::string message) {
+  for (char& c : message) c = c == '\n' ? ' ' : c;
+  std::fprintf(stderr, "sinew-demo: %s\n", message.c_str());
+  return 2;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    Options options;
+    if (parse_options(argc, argv, &options)) run(options);
+    return 0;
+  } catch (const std::bad_alloc&) {
+    return refuse("out of memory; ask for fewer --instances, --seconds or pictures");
+  } catch (const std::exception& problem) {
+    return refuse(problem.what());
+  }
+}

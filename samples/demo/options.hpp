@@ -1,0 +1,26 @@
+// options.hpp  What the demo was asked to do.
+#pragma once
+#include <limits>
+#include <string>
+
+namespace sinew::demo {
+
+struct Options {
+  std::string pack;
+  int instances = 1;
+  double seconds = 0;  // 0: the truth's length, else four
+  double fps = 0;      // 0: the truth's rate, else 60
+  double budget_us = std::numeric_limits<double>::infinity();
+  int threads = 1;
+  std::string clip;    // empty: one clip after the other
+  std::string truth;   // a trajectory with positions, see `sinew-bake truth --positions`
+  std::string report;  // JSON
+  std::string frames;  // folder of pictures
+  int width = 400, height = 440, samples = 8;  // of each panel
+  double picture_fps = 30;
+};
+
+// False: help was printed, there is nothing to do. Throws baker::BadInput with one line.
+bool parse_options(int argc, char** argv, Options* out);
+
+}  // namespace sinew::demo

@@ -1,0 +1,93 @@
+// print_table.cpp  The run's summary for a person; see summary.hpp.
+#include <cinttypes>
+#include <cmath>
+#include <cstdio>
+
+#include "samples/demo/summary.hpp"
+
+namespace sinew::demo {
+namespace {
+
+void print_head(const Run& run, const CharacterFile& character, const Options& options) {
+  std::printf("%s: %u vertices, %u soft regions, %u control nodes, tissue at %g Hz\n",
+              character.name().c_str(), run.asset.vertex_count, run.asset.region_count, run.asset.node_count,
+              static_cast<double>(run.asset.tick_hz));
+  std::printf("%d instance%s, %zu frames of %.2f ms, %d thread%s, ", run.instances,
+              run.instances == 1 ? "" : "s", run.frames.size(), 1e3 / run.fps, options.threads,
+              options.threads == 1 ? "" : "s");
+  if (std::isfinite(options.budget_us)) {
+    std::printf("budget %g us a frame\n\n", options.budget_us);
+  } else {
+    std::printf("no budget\n\n");
+  }
+}
+
+void print_stage(const StageTime& stage) {
+  std::printf("  %-16s %10.1f %10.1f %10.1f\n", stage.name.c_str(), stage.us.median, stage.us.p99,
+              stage.us.max);
+}
+
+void print_known(double value, const char* format) {
+  if (std::isnan(value)) {
+    std::printf("%18s", "not measured");
+  } else {
+    std::printf(format, value);
+  }
+}
+
+void print_tiers(const Summary& summary) {
+  std::printf("\n  %-16s %10s %18s %18s\n", "tier", "share", "baked cost, us", "baked error, mm");
+  for (const TierShare& tier : summary.tiers) {
+    std::printf("  %-16s %8.1f %% ", tier.name.c_str(), 100 * tier.share);
+    print_known(tier.baked_cost_us, "%18.1f");
+    std::printf(" ");
+    print_known(tier.baked_error_mm, "%18.2f");
+    std::printf("\n");
+  }
+  std::printf("  %-16s %29s ", "as used", "");
+  print_known(summary.expected_error_mm, "%18.2f");
+  std::printf("\n");
+}
+
+void print_budget(const Summary& summary, const Run& run, const Options& options) {
+  std::printf("\n  ");
+  if (std::isfinite(options.budget_us)) {
+    std::printf("over budget in %" PRIu64 " of %zu frames (worst %.0f us), ", summary.over_budget,
+                run.frames.size(), summary.step.back().us.max);
+  }
+  std::printf("instances cut short %" PRIu64 ", restarts %" PRIu64 "\n", summary.cut, summary.restarts);
+  std::printf("  inputs clamped %" PRIu64 ", displacements clamped %" PRIu64, summary.input_clamps,
+              summary.displacement_clamps);
+  if (summary.dropped_s > 0)
+    std::printf(", time dropped %.3f s (frames longer than the world's cap of ticks)", summary.dropped_s);
+  std::printf("\n");
+}
+
+void print_error(const char* name, const Spread& error, double of_skinning) {
+  std::printf("  %-16s %10.2f %10.2f %10.2f", name, error.mean, error.p99, error.max);
+  if (of_skinning > 0) std::printf(" %13.0f %%", 100 * error.mean / of_skinning);
+  std::printf("\n");
+}
+
+void print_errors(const Summary& summary) {
+  std::printf("\n  %-16s %10s %10s %10s %15s\n", "against truth", "mean, mm", "p99", "worst",
+              "of skinning's");
+  print_error("skinning alone", summary.skinning_error_mm, 0);
+  print_error("Sinew", summary.sinew_error_mm, summary.skinning_error_mm.mean);
+}
+
+}  // namespace
+
+void print_table(const Summary& summary, const Run& run, const CharacterFile& character,
+                 const Options& options) {
+  print_head(run, character, options);
+  std::printf("  %-16s %10s %10s %10s\n", "stage, us", "median", "p99", "worst");
+  for (const StageTime& stage : summary.step) print_stage(stage);
+  std::printf("  around it:\n");
+  for (const StageTime& stage : summary.engine) print_stage(stage);
+  print_tiers(summary);
+  print_budget(summary, run, options);
+  if (!options.truth.empty()) print_errors(summary);
+}
+
+}  // namespace sinew::demo

@@ -1,0 +1,211 @@
+// simulate.cpp  see simulate.hpp.
+#include "samples/demo/simulate.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "baker/common/bad_input.hpp"
+#include "baker/common/progress.hpp"
+#include "samples/demo/thread_pool.hpp"
+
+namespace sinew::demo {
+namespace {
+
+constexpr size_t kLargestCrowd = 100;  // in the picture
+constexpr double kPhase_s = 0.37;      // between neighbours, so that no two move alike
+
+using Positions = std::vector<Eigen::Vector3f>;
+using Clock = std::chrono::steady_clock;
+
+float microseconds_since(Clock::time_point start) {
+  return std::chrono::duration<float, std::micro>(Clock::now() - start).count();
+}
+
+void require(const Status& status) {
+  if (!status.ok()) throw baker::BadInput(status.message);
+}
+
+ReadDef read_into(Positions& positions, Space space) {
+  return {.space = space,
+          .out = positions.data()->data(),
+          .stride_bytes = sizeof(Eigen::Vector3f),
+          .capacity = positions.size()};
+}
+
+// A world, its asset and its instances, moved together.
+class Stage {
+ public:
+  Stage(const CharacterFile& character, const WorldDef& def, double budget_us)
+      : joints_(character.view.joints.size()) {
+    require(World::create(def, &world_));
+    require(world_.load_asset_file(character.path.c_str(), &asset_));
+    require(world_.asset_info(asset_, &info_));
+    require(world_.set_budget_us(static_cast<float>(budget_us)));
+  }
+
+  // Nearer instances (those added first) matter more.
+  void add(const RootTransform& place, float importance) {
+    InstanceId id;
+    require(world_.create_instance({.asset = asset_, .importance = importance, .root = place}, &id));
+    instances_.push_back(id);
+    places_.push_back(place);
+  }
+
+  // The motion happens at the instance's place on the floor.
+  void pose(size_t instance, const Motion& motion, double t_s) {
+    RootTransform root;
+    motion.pose_at(t_s, joints_, &root);
+    for (int i = 0; i < 3; ++i) root.position_m[i] += places_[instance].position_m[i];
+    require(world_.set_pose(instances_[instance], {.joints = joints_, .root = root}));
+  }
+
+  void read(size_t instance, Space space, Positions& out) const {
+    require(world_.read_positions(instances_[instance], read_into(out, space)));
+  }
+
+  InstanceReport report(size_t instance) const {
+    InstanceReport out;
+    require(world_.report(instances_[instance], &out));
+    return out;
+  }
+
+  FrameReport step(double dt_s) { return world_.step(static_cast<float>(dt_s)); }
+  size_t size() const { return instances_.size(); }
+  const AssetInfo& info() const { return info_; }
+
+ private:
+  World world_;
+  AssetId asset_;
+  AssetInfo info_;
+  std::vector<InstanceId> instances_;
+  std::vector<RootTransform> places_;
+  std::vector<Matrix34> joints_;
+};
+
+// A square grid, first row in front (+Z towards the viewer), the first instance at the origin.
+RootTransform place_on_floor(int index, int count, double spacing_m) {
+  const int columns = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count))));
+  const int row = index / columns, column = index % columns;
+  const double side = (column + 1) / 2 * (column % 2 == 0 ? 1.0 : -1.0);
+  return {.position_m = {side * spacing_m, 0, -row * spacing_m}};
+}
+
+double spacing_of(const CharacterFile& character) {
+  const render::Mesh mesh = bind_mesh(character);
+  const Eigen::Vector3f size = render::bounding_box(mesh.positions).sizes();
+  return 1.25 * static_cast<double>(std::max({size.x(), size.z(), 0.3f * size.y()}));
+}
+
+void fill_stage(Stage& stage, int count, double spacing_m) {
+  const int columns = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count))));
+  for (int i = 0; i < count; ++i)
+    stage.add(place_on_floor(i, count, spacing_m), 1.0f / static_cast<float>(1 + i / columns));
+}
+
+float mean_distance_mm(const Positions& a, const Positions& b, std::span<const uint32_t> vertices) {
+  double sum = 0;
+  for (const uint32_t v : vertices) sum += static_cast<double>((a[v] - b[v]).norm());
+  return vertices.empty() ? 0 : static_cast<float>(1000 * sum / static_cast<double>(vertices.size()));
+}
+
+// The second world: the same character under a budget of nothing, which is skinning alone.
+class Witness {
+ public:
+  Witness(const CharacterFile& character, const Motion& motion, const Trajectory* truth)
+      : stage_(character, {.max_assets = 1, .max_instances = 1}, 0),
+        motion_(motion),
+        truth_(truth),
+        soft_(soft_vertices(character)) {
+    stage_.add({}, 1);
+  }
+
+  Snapshot look(double t_s, double dt_s, const Positions& sinew) {
+    Snapshot out{.time_s = t_s, .motion = motion_.name_at(t_s), .sinew = sinew};
+    std::vector<Matrix34> joints(stage_.info().joint_count);
+    motion_.pose_at(t_s, joints, &out.root);
+    stage_.pose(0, motion_, t_s);
+    stage_.step(dt_s);
+    out.skinned.resize(sinew.size());
+    stage_.read(0, Space::kCharacter, out.skinned);
+    if (truth_ == nullptr) return out;
+    out.truth.resize(sinew.size());
+    truth_->positions_at(t_s, out.truth);
+    out.error = {mean_distance_mm(out.skinned, out.truth, soft_), mean_distance_mm(sinew, out.truth, soft_)};
+    return out;
+  }
+
+ private:
+  Stage stage_;
+  const Motion& motion_;
+  const Trajectory* truth_;
+  std::vector<uint32_t> soft_;
+};
+
+FrameRecord run_frame(Stage& stage, const Motion& first, const Motion& others, double t_s, double dt_s,
+                      Positions& positions) {
+  FrameRecord record{.time_s = t_s};
+  const Clock::time_point before_poses = Clock::now();
+  for (size_t i = 0; i < stage.size(); ++i)
+    stage.pose(i, i == 0 ? first : others, t_s + kPhase_s * static_cast<double>(i));
+  record.poses_us = microseconds_since(before_poses);
+  record.step = stage.step(dt_s);
+  const Clock::time_point before_reads = Clock::now();
+  for (size_t i = stage.size(); i-- > 0;) stage.read(i, Space::kCharacter, positions);  // ends with the first
+  record.read_us = microseconds_since(before_reads);
+  return record;
+}
+
+void count_guards(const Stage& stage, Run& run) {
+  for (size_t i = 0; i < stage.size(); ++i) {
+    const InstanceReport report = stage.report(i);
+    run.input_clamps += report.input_clamps;
+    run.displacement_clamps += report.displacement_clamps;
+    run.restarts += report.restarts;
+  }
+}
+
+std::vector<CrowdMember> look_at_crowd(const Stage& stage) {
+  std::vector<CrowdMember> crowd(std::min(stage.size(), kLargestCrowd));
+  for (size_t i = 0; i < crowd.size(); ++i) {
+    crowd[i] = {stage.report(i).tier, Positions(stage.info().vertex_count)};
+    stage.read(i, Space::kWorld, crowd[i].positions);
+  }
+  return crowd;
+}
+
+}  // namespace
+
+Run simulate(const CharacterFile& character, const Motion& motion, const Trajectory* truth,
+             const Options& options) {
+  ThreadPool pool(options.threads);
+  const auto count = static_cast<uint32_t>(options.instances);
+  Stage stage(character, {.max_assets = 1, .max_instances = count, .tasks = pool.hook()}, options.budget_us);
+  fill_stage(stage, options.instances, spacing_of(character));
+  const Motion& first = truth != nullptr ? *truth : motion;
+  Witness witness(character, first, truth);
+  const bool pictures = !options.frames.empty();
+  const auto every = static_cast<size_t>(std::max(1.0, std::round(options.fps / options.picture_fps)));
+  const auto frames = static_cast<size_t>(std::llround(options.seconds * options.fps)) + 1;
+
+  Run run{.asset = stage.info(), .instances = options.instances, .fps = options.fps};
+  run.frames.reserve(frames);
+  Positions positions(stage.info().vertex_count);
+  baker::Progress progress("simulating", frames);
+  for (size_t frame = 0; frame < frames; ++frame) {
+    const double dt_s = 1 / options.fps, t_s = static_cast<double>(frame) / options.fps;
+    run.frames.push_back(run_frame(stage, first, motion, t_s, dt_s, positions));
+    const bool picture = pictures && frame % every == 0;
+    if (picture || truth != nullptr) {
+      Snapshot snapshot = witness.look(t_s, dt_s, positions);
+      run.frames.back().error = snapshot.error;
+      if (picture) run.snapshots.push_back(std::move(snapshot));
+    }
+    progress.update(frame + 1);
+  }
+  count_guards(stage, run);
+  if (pictures && stage.size() > 1) run.crowd = look_at_crowd(stage);
+  return run;
+}
+
+}  // namespace sinew::demo

@@ -1,0 +1,62 @@
+// summary.cpp  see summary.hpp.
+#include "samples/demo/summary.hpp"
+
+#include <limits>
+
+namespace sinew::demo {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+template <class Get>
+StageTime stage(const Run& run, const char* name, const Get& get) {
+  return {name, spread_of(column(run.frames, get))};
+}
+
+TierShare tier_share(const Run& run, const CharacterFile& character, Tier tier, const char* name,
+                     uint32_t FrameReport::*instances) {
+  double sum = 0;
+  for (const FrameRecord& frame : run.frames) sum += frame.step.*instances;
+  TierShare out{name, sum / (run.instances * static_cast<double>(run.frames.size())), kUnknown, kUnknown};
+  for (const pack::TierRecord& record : character.view.tiers) {
+    if (record.tier != static_cast<uint32_t>(tier)) continue;
+    out.baked_cost_us = static_cast<double>(record.cost_us);
+    out.baked_error_mm = static_cast<double>(record.error_mm);
+  }
+  return out;
+}
+
+}  // namespace
+
+Summary summarise(const Run& run, const CharacterFile& character) {
+  Summary out;
+  out.step = {stage(run, "schedule", [](const FrameRecord& f) { return f.step.schedule_us; }),
+              stage(run, "drive", [](const FrameRecord& f) { return f.step.drive_us; }),
+              stage(run, "tissue", [](const FrameRecord& f) { return f.step.tissue_us; }),
+              stage(run, "publish", [](const FrameRecord& f) { return f.step.publish_us; }),
+              stage(run, "whole step", [](const FrameRecord& f) { return f.step.total_us; })};
+  out.engine = {stage(run, "set poses", [](const FrameRecord& f) { return f.poses_us; }),
+                stage(run, "read positions", [](const FrameRecord& f) { return f.read_us; })};
+  out.tiers = {
+      tier_share(run, character, Tier::kNetwork, "network", &FrameReport::instances_network),
+      tier_share(run, character, Tier::kExtrapolate, "extrapolated", &FrameReport::instances_extrapolated),
+      tier_share(run, character, Tier::kSkinning, "skinning", &FrameReport::instances_skinned)};
+  for (const TierShare& tier : out.tiers) {
+    if (tier.share > 0) out.expected_error_mm += tier.share * tier.baked_error_mm;
+  }
+  for (const FrameRecord& frame : run.frames) {
+    out.over_budget += frame.step.over_budget;
+    out.cut += frame.step.instances_cut;
+    out.rejected_poses += frame.step.rejected_poses;
+    out.dropped_s += static_cast<double>(frame.step.dropped_s);
+  }
+  out.restarts = run.restarts;
+  out.input_clamps = run.input_clamps;
+  out.displacement_clamps = run.displacement_clamps;
+  out.skinning_error_mm =
+      spread_of(column(run.frames, [](const FrameRecord& f) { return f.error.skinning_mm; }));
+  out.sinew_error_mm = spread_of(column(run.frames, [](const FrameRecord& f) { return f.error.sinew_mm; }));
+  return out;
+}
+
+}  // namespace sinew::demo

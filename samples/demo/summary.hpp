@@ -1,0 +1,42 @@
+// summary.hpp  A run in numbers: what the table prints and the report begins with.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "samples/demo/simulate.hpp"
+#include "samples/demo/statistics.hpp"
+
+namespace sinew::demo {
+
+struct StageTime {
+  std::string name;
+  Spread us;
+};
+
+struct TierShare {
+  std::string name;
+  double share = 0;                              // of instances x frames
+  double baked_cost_us = 0, baked_error_mm = 0;  // NaN: not in the pack, or not measured
+};
+
+struct Summary {
+  std::vector<StageTime> step;    // the step's stages, then the whole step
+  std::vector<StageTime> engine;  // what the engine does around it
+  std::vector<TierShare> tiers;
+  uint64_t over_budget = 0, cut = 0, restarts = 0, input_clamps = 0, displacement_clamps = 0,
+           rejected_poses = 0;
+  double dropped_s = 0;
+  double expected_error_mm = 0;              // mean of the tiers' baked errors by share; NaN: not measured
+  Spread skinning_error_mm, sinew_error_mm;  // over frames; of the first instance
+};
+
+Summary summarise(const Run& run, const CharacterFile& character);
+
+void print_table(const Summary& summary, const Run& run, const CharacterFile& character,
+                 const Options& options);
+
+// Throws baker::BadInput when the path cannot be written.
+void write_report(const std::string& path, const Summary& summary, const Run& run,
+                  const CharacterFile& character, const Options& options);
+
+}  // namespace sinew::demo
