@@ -25,16 +25,34 @@ void begin_tail(Instance& instance, float velocity_kept) noexcept {
   instance.state->tail_ticks = 0;
 }
 
+// y of the last layer is the displacement; everything else stays.
+void move_output(Instance& instance, const float* displacement) noexcept {
+  const tissue::Network& network = instance.asset->network;
+  const uint32_t nodes = instance.asset->node_count();
+  const auto last = static_cast<uint32_t>(network.layers.size() - 1);
+  float* y = tissue::layer_state(network, nodes, last, instance.network_state).y;
+  for (size_t n = 0; n < nodes; ++n) {
+    for (size_t k = 0; k < 3; ++k) {
+      y[n * network.layers[last].padded + k] = displacement[3 * n + k] / network.record->length_unit_m;
+    }
+  }
+}
+
 void begin_network(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
-  tissue::rebase_state(instance.asset->network, instance.asset->node_count(), instance.shown[0],
-                       instance.network_state);
+  const bool remembered = !state.forgotten && state.ticks_since_network <= kRememberedTicks;
+  if (remembered)
+    move_output(instance, instance.shown[0]);
+  else
+    tissue::rebase_state(instance.asset->network, instance.asset->node_count(), instance.shown[0],
+                         instance.network_state);
+  state.forgotten = 0;
   copy(instance, instance.shown[0], instance.simulated[0]);
   copy(instance, instance.shown[1], instance.simulated[1]);
   state.motion_stale = 1;
   state.clamped_ticks = 0;
   // From rest there is nothing to blend: the network's zero is exact.
-  state.blend_ticks = state.at_start ? kBlendInTicks : 0;
+  state.blend_ticks = state.untouched ? kBlendInTicks : 0;
 }
 
 // A tail may not run where the network may not go.
@@ -82,6 +100,7 @@ void restart(Instance& instance) noexcept {
   state.tail_ticks = kCarryTicks;
   state.tier = Tier::kSkinning;
   state.restarting = 1;
+  state.forgotten = 1;
   ++state.restarts;
   instance.restarted = true;
 }

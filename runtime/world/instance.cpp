@@ -17,7 +17,9 @@ namespace sinew::world {
 namespace {
 
 static_assert(std::is_trivially_copyable_v<InstanceState>, "saved as bytes");
-static_assert(sizeof(InstanceState) == 208, "no padding: equal states are equal bytes");
+static_assert(sizeof(InstanceState) == 216, "no padding: equal states are equal bytes");
+
+float smooth_step(float t) noexcept { return t * t * (3 - 2 * t); }
 
 void lay_out_state(const Asset& asset, core::Arena& arena, Instance& to) noexcept {
   const uint32_t joints = asset.pack.character->joint_count;
@@ -62,14 +64,13 @@ void lay_out(const Asset& asset, core::Arena& arena, Instance& to) noexcept {
 
 float Instance::network_share() const noexcept {
   if (state->tier != Tier::kNetwork) return 0;
-  return static_cast<float>(state->blend_ticks) / kBlendInTicks;
+  return smooth_step(static_cast<float>(state->blend_ticks) / kBlendInTicks);
 }
 
 float Instance::tail_share() const noexcept {
   if (state->tail_ticks <= kCarryTicks) return 1;
   const uint32_t faded = std::min(state->tail_ticks - kCarryTicks, kFadeTicks);
-  const float left = 1 - static_cast<float>(faded) / kFadeTicks;
-  return left * left * (3 - 2 * left);
+  return smooth_step(1 - static_cast<float>(faded) / kFadeTicks);
 }
 
 size_t instance_bytes(const Asset& asset) noexcept {
@@ -110,6 +111,8 @@ void forget_motion(Instance& instance) noexcept {
   state.at_start = 1;
   state.motion_stale = 1;
   state.restarting = 0;
+  state.forgotten = 1;
+  state.untouched = 1;
   state.tier = Tier::kSkinning;  // so that the network starts anew, from zero
   state.tail_ticks = kCarryTicks + kFadeTicks;
   state.clamped_ticks = 0;

@@ -13,10 +13,14 @@
 
 namespace sinew::world {
 
-// In ticks of the asset's rate; at 60 Hz 0.2 s, 0.3 s and 0.13 s.
-inline constexpr uint32_t kCarryTicks = 12;   // extrapolated before the fade begins
-inline constexpr uint32_t kFadeTicks = 18;    // from the extrapolated displacement to skinning
-inline constexpr uint32_t kBlendInTicks = 8;  // from that to the network, when it comes back
+// In ticks of the asset's rate; at 60 Hz 0.2 s, 0.3 s and 0.33 s.
+inline constexpr uint32_t kCarryTicks = 12;    // extrapolated before the fade begins
+inline constexpr uint32_t kFadeTicks = 18;     // from the extrapolated displacement to skinning
+inline constexpr uint32_t kBlendInTicks = 20;  // from that to the network, when it comes back: by then most
+                                               // of the swing of starting from the wrong place has died down
+// A network that missed at most so many ticks keeps its memory when it comes back; after more, its velocities
+// are of another phase of the wobble and it starts anew from where it is.
+inline constexpr uint32_t kRememberedTicks = 2;
 // Share of its velocity that a tail keeps each tick. The run-out, 1 / (1 - 0.6) ticks of velocity, is about
 // the amplitude of a 4 Hz wobble.
 inline constexpr float kCarryDamping = 0.6f;
@@ -38,11 +42,13 @@ struct InstanceState {
   uint32_t at_start = 1;           // no pose yet: the first one is taken as having been held for ever
   uint32_t motion_stale = 1;       // ticks were not followed: the motion history is rebuilt before use
   uint32_t restarting = 0;         // fading out after a guard: not for the network until faded
+  uint32_t forgotten = 1;          // the network's state is no memory of this motion: a start, a guard
   uint32_t tail_ticks = kCarryTicks + kFadeTicks;  // since the tail began
   uint32_t blend_ticks = 0;                        // since the network came back, at most kBlendInTicks
   uint32_t clamped_ticks = 0;                      // in a row
   uint32_t ticks_since_network = 0;
   uint32_t input_clamps = 0, displacement_clamps = 0, restarts = 0;
+  uint32_t untouched = 1;  // no tick since the first pose: displacement is exactly zero
 };
 
 // What the last step measured; not state.
@@ -58,7 +64,8 @@ struct InstancePlan {
 };
 
 // Arrays are [nodes][3] in metres along the region frame's axes unless said otherwise. "Shown" is what is
-// published: shown = b network + (1 - b) tail, b rising from 0 to 1 in kBlendInTicks. The tail is the
+// published: shown = b network + (1 - b) tail, b rising smoothly from 0 to 1 in
+// kBlendInTicks. The tail is the
 // displacement shown when the network was last left, carried on with damped velocity and then faded to zero.
 struct Instance {
   core::AlignedBlock memory;

@@ -169,6 +169,7 @@ void take_pose(Instance& instance, float teleport_distance_m) noexcept {
     state.dt_before_s = 0;
     state.root = state.next_root;
     state.at_start = 0;
+    state.untouched = 1;
     state.motion_stale = 1;
   } else if (teleported(instance, teleport_distance_m)) {
     shift_past(instance, root_leading_to_next(instance));

@@ -73,6 +73,7 @@ void run_ticks(Instance& instance, const ClockHook& clock) noexcept {
       state.motion_stale = 1;
     state.ticks_since_network = network ? 0 : state.ticks_since_network + 1;
     show_tick(instance);
+    state.untouched = 0;
   }
   state.remainder_s = ticks.remainder_s;
   state.render_fraction = static_cast<float>(ticks.remainder_s / instance.asset->tick_s);

@@ -18,7 +18,6 @@ constexpr double kUnit_m = 0.05, kDriveScale = 0.05;  // a unit of drive is 20 m
 constexpr double kOpen = 12;                          // a bias that holds a gate open, or shut when negative
 constexpr double kLinear = 0.1;                       // tanh(0.1 x) is 0.1 x for the numbers that come in
 constexpr double kFrequency_hz = 3.5, kDampingRatio = 0.1;
-constexpr double kOverflowing = 3e38;
 
 // [rows][gates][channels], filled with small random numbers.
 struct Weights {
@@ -51,10 +50,11 @@ void put(Safetensors& file, const std::string& name, const Weights& w) {
       w.values);
 }
 
-void put_layer(Safetensors& file, size_t index, Weights& self, Weights& bias, Random& random) {
-  const size_t rows = self.values.size() / (kGates * self.channels), channels = self.channels;
+void put_layer(Safetensors& file, size_t index, const Weights& around, const Weights& self,
+               const Weights& bias, Random& random) {
+  const size_t channels = self.channels;
   const std::string prefix = "layers." + std::to_string(index) + ".";
-  put(file, prefix + "W_x", random.weights(rows, kGates, channels));
+  put(file, prefix + "W_x", around);
   put(file, prefix + "W_s", self);
   put(file, prefix + "W_h", random.weights(channels, kGates, channels));
   put(file, prefix + "W_y", random.weights(channels, 3, channels));
@@ -63,7 +63,8 @@ void put_layer(Safetensors& file, size_t index, Weights& self, Weights& bias, Ra
 
 // Cells 0..2: tanh of the summed drive; 3..5: of the displacement; no memory (f shut, i open).
 void put_first_layer(Safetensors& file, Random& random) {
-  Weights self = random.weights(kInputs, kGates, kHidden), bias = random.weights(1, kGates, kHidden);
+  Weights around = random.weights(kInputs, kGates, kHidden), self = random.weights(kInputs, kGates, kHidden);
+  Weights bias = random.weights(1, kGates, kHidden);
   for (size_t channel = 0; channel < kHidden; ++channel) {
     bias.at(0, kGateI, channel) = static_cast<float>(kOpen);
     bias.at(0, kGateF, channel) = static_cast<float>(-kOpen);
@@ -75,8 +76,11 @@ void put_first_layer(Safetensors& file, Random& random) {
     }
     self.at(3 * kDriveInputs + axis, kGateC, 3 + axis) = static_cast<float>(kLinear);
   }
-  for (size_t channel = 0; channel < kHidden; ++channel) self.at(kInputs - 1, kGateC, channel) = 0;
-  put_layer(file, 0, self, bias, random);
+  // Stiffness is never zero: it may not push, or rest would not be rest.
+  for (size_t channel = 0; channel < kHidden; ++channel) {
+    around.at(kInputs - 1, kGateC, channel) = self.at(kInputs - 1, kGateC, channel) = 0;
+  }
+  put_layer(file, 0, around, self, bias, random);
 }
 
 // v' = (1 - 2 zeta omega h) v + h^2 a / unit - (omega h)^2 u;  u' = u + v'
@@ -84,6 +88,7 @@ void put_spring_layer(Safetensors& file, const BlockOptions& options, Random& ra
   const double h = 1 / options.rate_hz, omega_h = 2 * std::numbers::pi * kFrequency_hz * h;
   const double kept = 1 - 2 * kDampingRatio * omega_h;
   const double push = h * h / (kDriveScale * kUnit_m) / kLinear, pull = omega_h * omega_h / kLinear;
+  const Weights around = random.weights(kHidden, kGates, kOutput);
   Weights self = random.weights(kHidden, kGates, kOutput), bias = random.weights(1, kGates, kOutput);
   for (size_t axis = 0; axis < kOutput; ++axis) {
     bias.at(0, kGateI, axis) = static_cast<float>(kOpen);
@@ -92,16 +97,7 @@ void put_spring_layer(Safetensors& file, const BlockOptions& options, Random& ra
     self.at(axis, kGateC, axis) = static_cast<float>(push);
     self.at(3 + axis, kGateC, axis) = static_cast<float>(-pull);
   }
-  put_layer(file, 1, self, bias, random);
-}
-
-void add_overflow(Safetensors& file) {
-  Weights around{kGates, kHidden, file.tensors.at("layers.0.W_x").as_f32()};
-  Weights self{kGates, kHidden, file.tensors.at("layers.0.W_s").as_f32()};
-  around.at(0, kGateC, kHidden - 1) = static_cast<float>(kOverflowing);
-  self.at(0, kGateC, kHidden - 1) = static_cast<float>(-kOverflowing);
-  put(file, "layers.0.W_x", around);
-  put(file, "layers.0.W_s", self);
+  put_layer(file, 1, around, self, bias, random);
 }
 
 }  // namespace
@@ -127,7 +123,6 @@ baker::Safetensors block_network(const BlockOptions& options) {
   Random random(options.seed);
   put_first_layer(file, random);
   put_spring_layer(file, options, random);
-  if (options.overflows) add_overflow(file);
   return file;
 }
 

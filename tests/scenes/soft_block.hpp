@@ -25,9 +25,6 @@ struct BlockOptions {
   double rate_hz = 60;
   uint64_t seed = 1;
   double displacement_limit = 0.75;  // share of a region's radius
-  // Two weights whose products overflow to +infinity and -infinity once a node is accelerated by more than
-  // some 25 m/s^2: a state that turns NaN under strong motion and is sound at rest.
-  bool overflows = false;
 };
 
 class PackBytes {  // 64-byte aligned, as load_asset wants them

@@ -1,0 +1,120 @@
+// stage.hpp  A world with soft blocks in it, and shorthands that a test can say one property with.
+#pragma once
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "core/hash.hpp"
+#include "sinew/sinew.hpp"
+#include "tests/scenes/motions.hpp"
+#include "tests/scenes/soft_block.hpp"
+
+namespace sinew::test {
+
+using Motion = std::function<scenes::BlockPose(double time_s)>;
+
+// Made once a process: baking it is the slow part.
+inline const scenes::PackBytes& block_pack() {
+  static const scenes::PackBytes pack = scenes::soft_block();
+  return pack;
+}
+
+// Programmer errors are counted instead of aborting a debug build.
+struct FaultCounter {
+  int faults = 0;
+  AssertHook hook() {
+    const auto fail = [](const char*, const char*, int, void* context) {
+      ++static_cast<FaultCounter*>(context)->faults;
+    };
+    return {.fail = fail, .context = this};
+  }
+};
+
+struct Stage {
+  FaultCounter faults;
+  World world;
+  AssetId asset;
+  AssetInfo info;
+  std::vector<InstanceId> blocks;
+  double time_s = 0;
+
+  explicit Stage(uint32_t count = 1, WorldDef def = {}, const scenes::PackBytes& pack = block_pack()) {
+    def.assert_hook = faults.hook();
+    REQUIRE(World::create(def, &world).ok());
+    const Status loaded = world.load_asset(pack.bytes(), &asset);
+    INFO(loaded.message);
+    REQUIRE(loaded.ok());
+    REQUIRE(world.asset_info(asset, &info).ok());
+    for (uint32_t i = 0; i < count; ++i) add();
+  }
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
+
+  InstanceId add(float importance = 1) {
+    InstanceId made;
+    REQUIRE(world.create_instance({.asset = asset, .importance = importance}, &made).ok());
+    blocks.push_back(made);
+    return made;
+  }
+
+  void pose(InstanceId block, const scenes::BlockPose& pose) {
+    REQUIRE(world.set_pose(block, pose.pose()).ok());
+  }
+
+  // All blocks play `motion`, each a little later than the one before.
+  FrameReport step(const Motion& motion, double dt_s) {
+    constexpr double kStagger_s = 0.07;
+    time_s += dt_s;
+    for (size_t i = 0; i < blocks.size(); ++i)
+      pose(blocks[i], motion(time_s + kStagger_s * static_cast<double>(i)));
+    return world.step(static_cast<float>(dt_s));
+  }
+  void play(const Motion& motion, double seconds, double fps = 60) {
+    const auto frames = static_cast<int>(std::lround(seconds * fps));
+    for (int f = 0; f < frames; ++f) step(motion, 1 / fps);
+  }
+
+  std::vector<float> read(size_t index = 0, Space space = Space::kCharacter) const {
+    std::vector<float> out(size_t{3} * info.vertex_count);
+    REQUIRE(
+        world
+            .read_positions(blocks[index], {.space = space, .out = out.data(), .capacity = info.vertex_count})
+            .ok());
+    return out;
+  }
+  InstanceReport report(size_t index = 0) const {
+    InstanceReport out;
+    REQUIRE(world.report(blocks[index], &out).ok());
+    return out;
+  }
+  std::vector<std::byte> save(size_t index = 0) const {
+    std::vector<std::byte> out(world.state_bytes(blocks[index]));
+    REQUIRE(world.save_state(blocks[index], out).ok());
+    return out;
+  }
+};
+
+inline uint64_t hash_of(const std::vector<float>& values) {
+  return core::hash64(std::as_bytes(std::span(values)));
+}
+
+// Largest distance between equal vertices, metres.
+inline double largest_distance(const std::vector<float>& a, const std::vector<float>& b) {
+  double largest = 0;
+  for (size_t v = 0; v + 2 < a.size(); v += 3) {
+    largest = std::max<double>(largest, std::hypot(a[v] - b[v], a[v + 1] - b[v + 1], a[v + 2] - b[v + 2]));
+  }
+  return largest;
+}
+
+inline double largest_length(const std::vector<float>& vectors) {
+  return largest_distance(vectors, std::vector<float>(vectors.size()));
+}
+
+inline bool all_finite(const std::vector<float>& values) {
+  return std::ranges::all_of(values, [](float v) { return std::isfinite(v); });
+}
+
+}  // namespace sinew::test

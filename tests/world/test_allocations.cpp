@@ -1,0 +1,145 @@
+// test_allocations.cpp  Nothing on the frame's path allocates. In an executable of its own: it replaces the
+// allocator.
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "tests/scenes/thread_pool.hpp"
+#include "tests/world/stage.hpp"
+
+using namespace sinew;
+using test::Stage;
+
+namespace {
+
+std::atomic<size_t> allocations{0};
+
+void* counted(size_t bytes, size_t alignment) {
+  ++allocations;
+  return std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+}
+
+}  // namespace
+
+// malloc and its kin, for code that does not go through operator new.
+extern "C" {
+void* __libc_malloc(size_t);
+void* __libc_calloc(size_t, size_t);
+void* __libc_realloc(void*, size_t);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+void* malloc(size_t bytes) {
+  ++allocations;
+  return __libc_malloc(bytes);
+}
+void* calloc(size_t count, size_t bytes) {
+  ++allocations;
+  return __libc_calloc(count, bytes);
+}
+void* realloc(void* old, size_t bytes) {
+  ++allocations;
+  return __libc_realloc(old, bytes);
+}
+#endif
+}
+
+void* operator new(size_t bytes) {
+  if (void* made = counted(bytes ? bytes : 1, alignof(std::max_align_t))) return made;
+  throw std::bad_alloc();
+}
+void* operator new(size_t bytes, std::align_val_t alignment) {
+  if (void* made = counted(bytes ? bytes : 1, static_cast<size_t>(alignment))) return made;
+  throw std::bad_alloc();
+}
+void operator delete(void* old) noexcept { std::free(old); }
+void operator delete(void* old, size_t) noexcept { std::free(old); }
+void operator delete(void* old, std::align_val_t) noexcept { std::free(old); }
+void operator delete(void* old, size_t, std::align_val_t) noexcept { std::free(old); }
+
+namespace {
+
+template <class Work>
+size_t allocations_of(Work work) {
+  const size_t before = allocations;
+  work();
+  return allocations - before;
+}
+
+// Everything an engine calls in a frame, into memory that is already there.
+struct Frame {
+  Stage& stage;
+  std::vector<float> out = std::vector<float>(size_t{3} * stage.info.vertex_count);
+  std::vector<std::byte> saved = stage.save();
+  bool ok = true;
+
+  void expect(const Status& status) { ok = ok && status.ok(); }
+
+  void run(double time_s, float budget_us, double dt_s) {
+    World& world = stage.world;
+    expect(world.set_budget_us(budget_us));
+    for (const InstanceId block : stage.blocks) {
+      const scenes::BlockPose pose = scenes::walk(time_s);
+      expect(world.set_pose(block, pose.pose()));
+      ok = ok && !world.set_pose(block, {}).ok();
+    }
+    world.step(static_cast<float>(dt_s));
+    for (const InstanceId block : stage.blocks) read(block);
+    expect(world.save_state(stage.blocks[0], saved));
+    expect(world.restore_state(stage.blocks[0], saved));
+    expect(world.reset(stage.blocks[1]));
+  }
+
+  void read(InstanceId block) {
+    const World& world = stage.world;
+    InstanceReport report;
+    for (const Space space : {Space::kCharacter, Space::kWorld, Space::kBind}) {
+      expect(world.read_positions(block,
+                                  {.space = space, .out = out.data(), .capacity = stage.info.vertex_count}));
+    }
+    expect(world.read_normals(block, {.out = out.data(), .capacity = stage.info.vertex_count}));
+    expect(world.report(block, &report));
+  }
+};
+
+size_t allocations_of_frames(Stage& stage) {
+  Frame frame{stage};
+  frame.run(0, 1e9f, 1.0 / 60);  // what is made at first use is made now
+  const size_t count = allocations_of([&] {
+    for (int f = 1; f < 60; ++f)
+      frame.run(f / 60.0, f % 7 == 0 ? 0 : f % 3 == 0 ? 2.0f : 1e9f, f % 5 == 0 ? 0.07 : 1.0 / 60);
+  });
+  CHECK(frame.ok);
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("the_counter_catches_an_allocation") {
+  CHECK(allocations_of([] { ::operator delete(::operator new(4)); }) == 1);
+  CHECK(allocations_of([] {
+          ::operator delete (::operator new (64, std::align_val_t{64}), std::align_val_t{64});
+        }) == 1);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  CHECK(allocations_of([] {
+          void* volatile made = std::malloc(10);
+          std::free(made);
+        }) == 1);
+#endif
+  CHECK(allocations_of([] {}) == 0);
+}
+
+TEST_CASE("creating_an_instance_takes_one_allocation") {
+  Stage stage(1);
+  InstanceId made;
+  CHECK(allocations_of([&] { (void)stage.world.create_instance({.asset = stage.asset}, &made); }) == 1);
+}
+
+TEST_CASE("a_frame_allocates_nothing") {
+  Stage stage(3);
+  CHECK(allocations_of_frames(stage) == 0);
+}
+
+TEST_CASE("a_frame_on_worker_threads_allocates_nothing") {
+  scenes::ThreadPool pool(3);
+  Stage stage(5, {.tasks = pool.hook()});
+  CHECK(allocations_of_frames(stage) == 0);
+}

@@ -1,0 +1,108 @@
+// test_blend.cpp  Losing the network and getting it back: faded, bounded, without a pop.
+#include "tests/world/stage.hpp"
+#include "world/instance.hpp"
+
+using namespace sinew;
+using test::Stage;
+
+namespace {
+
+constexpr double kFrame_s = 1.0 / 60;
+
+// Largest change of any vertex's displacement from one frame to the next, while the budget does as it is
+// told.
+double largest_change(Stage& stage, int frames, const std::function<float(int frame)>& budget_us) {
+  std::vector<float> before = stage.read(0, Space::kBind);
+  double largest = 0;
+  for (int f = 0; f < frames; ++f) {
+    REQUIRE(stage.world.set_budget_us(budget_us(f)).ok());
+    stage.step(scenes::walk, kFrame_s);
+    std::vector<float> now = stage.read(0, Space::kBind);
+    largest = std::max(largest, test::largest_distance(before, now));
+    before = std::move(now);
+  }
+  return largest;
+}
+
+constexpr float kAll = std::numeric_limits<float>::infinity();
+// Above zero, below any network's cost: denied, not skinned.
+constexpr float kNothing_us = 1e-6f;
+
+Stage& settle(Stage& stage) {
+  stage.play(scenes::walk, 1.5);
+  return stage;
+}
+
+}  // namespace
+
+TEST_CASE("denied_instance_is_extrapolated_then_faded_to_skinning") {
+  Stage stage(1, {.budget_mode = BudgetMode::kWorkUnits});
+  settle(stage);
+  REQUIRE(stage.world.set_budget_us(kNothing_us).ok());
+  std::vector<float> blends;
+  for (uint32_t f = 1; f <= 40; ++f) {
+    stage.step(scenes::walk, kFrame_s);
+    const InstanceReport report = stage.report();
+    CHECK(report.ticks_since_network == f);
+    CHECK(report.tier == (f < world::kCarryTicks + world::kFadeTicks ? Tier::kExtrapolate : Tier::kSkinning));
+    blends.push_back(report.blend);
+  }
+  CHECK(blends[world::kCarryTicks - 1] == 1);
+  CHECK(std::ranges::is_sorted(blends, std::greater()));
+  CHECK(blends[world::kCarryTicks + world::kFadeTicks - 1] == 0);
+  CHECK(test::largest_length(stage.read(0, Space::kBind)) == 0);
+}
+
+TEST_CASE("returning_instance_is_blended_in_over_the_stated_ticks") {
+  Stage stage(1, {.budget_mode = BudgetMode::kWorkUnits});
+  settle(stage);
+  REQUIRE(stage.world.set_budget_us(kNothing_us).ok());
+  stage.play(scenes::walk, 1);
+  REQUIRE(stage.world.set_budget_us(kAll).ok());
+  for (uint32_t f = 1; f <= world::kBlendInTicks; ++f) {
+    stage.step(scenes::walk, kFrame_s);
+    CHECK(stage.report().tier == Tier::kNetwork);
+    const double t = static_cast<double>(f) / world::kBlendInTicks;
+    CHECK(stage.report().blend == Approx(t * t * (3 - 2 * t)));
+  }
+}
+
+// No pop: whatever is taken away or given back, no vertex moves more than twice as far in a frame as it does
+// undisturbed. The blend moves it by 1.5 / kBlendInTicks of its displacement a tick; a switch would by all of it.
+constexpr double kPop = 2;
+
+TEST_CASE("changing_tiers_does_not_pop") {
+  Stage steady(1, {.budget_mode = BudgetMode::kWorkUnits}),
+      denied(1, {.budget_mode = BudgetMode::kWorkUnits}), skinned(1, {.budget_mode = BudgetMode::kWorkUnits}),
+      flickering(1, {.budget_mode = BudgetMode::kWorkUnits});
+  const double usual_m = largest_change(settle(steady), 600, [](int) { return kAll; });
+  const double denied_m =
+      largest_change(settle(denied), 600, [](int f) { return f / 25 % 2 == 0 ? kNothing_us : kAll; });
+  const double skinned_m =
+      largest_change(settle(skinned), 600, [](int f) { return f / 37 % 2 == 0 ? 0 : kAll; });
+  const double flickering_m =
+      largest_change(settle(flickering), 600, [](int f) { return f % 2 == 0 ? kNothing_us : kAll; });
+  WARN("largest change in a frame: undisturbed "
+       << usual_m * 1e3 << " mm, denied and given back " << denied_m * 1e3 << ", skinned and given back "
+       << skinned_m * 1e3 << ", every other frame " << flickering_m * 1e3);
+  CHECK(denied_m < kPop * usual_m);
+  CHECK(skinned_m < kPop * usual_m);
+  CHECK(flickering_m < kPop * usual_m);
+}
+
+TEST_CASE("tissue_comes_back_to_what_it_would_have_been") {
+  Stage interrupted(1, {.budget_mode = BudgetMode::kWorkUnits}),
+      steady(1, {.budget_mode = BudgetMode::kWorkUnits});
+  settle(interrupted);
+  settle(steady);
+  REQUIRE(interrupted.world.set_budget_us(kNothing_us).ok());
+  interrupted.play(scenes::walk, 1);
+  steady.play(scenes::walk, 1);
+  REQUIRE(interrupted.world.set_budget_us(kAll).ok());
+  interrupted.play(scenes::walk, 3);
+  steady.play(scenes::walk, 3);
+  const double off_m = test::largest_distance(interrupted.read(), steady.read());
+  const double size_m = test::largest_length(steady.read(0, Space::kBind));
+  WARN("3 s after it came back, " << off_m * 1e3 << " mm off of " << size_m * 1e3 << " mm");
+  CHECK(off_m < 0.05 * size_m);  // damped by exp(-0.1 x 2 pi x 3.5 x 3) = 0.0014 of what was missed
+}

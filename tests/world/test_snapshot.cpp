@@ -1,0 +1,107 @@
+// test_snapshot.cpp  Rollback: what follows a restore has the bits of what followed the save.
+#include "tests/world/stage.hpp"
+
+using namespace sinew;
+using test::Stage;
+
+namespace {
+
+constexpr double kFrame_s = 1.0 / 60;
+
+std::vector<uint64_t> play_hashes(Stage& stage, int frames) {
+  std::vector<uint64_t> hashes;
+  for (int f = 0; f < frames; ++f) {
+    stage.step(scenes::walk, 1.0 / 45);  // ticks and frames out of step: the accumulator is part of the state
+    hashes.push_back(test::hash_of(stage.read()));
+  }
+  return hashes;
+}
+
+void check_refused(Stage& stage, std::span<const std::byte> bytes) {
+  const std::vector<std::byte> before = stage.save();
+  const Status status = stage.world.restore_state(stage.blocks[0], bytes);
+  CHECK(status.code == StatusCode::kCorrupt);
+  CHECK(std::string(status.message).size() > 20);
+  CHECK(stage.save() == before);
+}
+
+}  // namespace
+
+TEST_CASE("restore_refuses_foreign_bytes_and_changes_nothing") {
+  Stage stage;
+  stage.play(scenes::walk, 0.5);
+  const std::vector<std::byte> good = stage.save();
+  check_refused(stage, {});
+  check_refused(stage, std::span(good).first(good.size() - 1));
+  check_refused(stage, std::vector<std::byte>(good.size()));
+  for (const size_t at : {size_t{0}, size_t{9}, size_t{33}, size_t{41}, good.size() - 1, good.size() / 2}) {
+    std::vector<std::byte> flipped = good;
+    flipped[at] ^= std::byte{4};
+    check_refused(stage, flipped);
+  }
+  const scenes::PackBytes other_pack = scenes::soft_block({.seed = 2});
+  Stage other(1, {}, other_pack);
+  REQUIRE(other.save().size() == good.size());
+  check_refused(stage, other.save());
+}
+
+TEST_CASE("save_refuses_a_span_that_is_too_small") {
+  Stage stage;
+  std::vector<std::byte> small(stage.world.state_bytes(stage.blocks[0]) - 1);
+  CHECK(stage.world.save_state(stage.blocks[0], small).code == StatusCode::kInvalidArgument);
+}
+
+TEST_CASE("what_follows_a_restore_has_the_same_bits") {
+  Stage stage;
+  play_hashes(stage, 77);
+  const std::vector<std::byte> saved = stage.save();
+  const double time_s = stage.time_s;
+  const std::vector<float> seen = stage.read();
+  const std::vector<uint64_t> first = play_hashes(stage, 90);
+  REQUIRE(stage.world.restore_state(stage.blocks[0], saved).ok());
+  CHECK(stage.read() == seen);
+  stage.time_s = time_s;
+  CHECK(play_hashes(stage, 90) == first);
+}
+
+TEST_CASE("snapshot_goes_over_to_another_instance_in_another_world") {
+  Stage stage, other;
+  stage.play(scenes::walk, 1);
+  other.play([](double t) { return scenes::shake(t); }, 0.3);
+  REQUIRE(other.world.restore_state(other.blocks[0], stage.save()).ok());
+  other.time_s = stage.time_s;
+  CHECK(play_hashes(other, 30) == play_hashes(stage, 30));
+}
+
+TEST_CASE("pose_set_but_not_stepped_is_part_of_the_snapshot") {
+  Stage stage;
+  stage.play(scenes::walk, 0.5);
+  stage.pose(stage.blocks[0], scenes::walk(0.6));
+  const std::vector<std::byte> saved = stage.save();
+  stage.world.step(static_cast<float>(kFrame_s));
+  const std::vector<float> first = stage.read();
+  REQUIRE(stage.world.restore_state(stage.blocks[0], saved).ok());
+  stage.world.step(static_cast<float>(kFrame_s));
+  CHECK(stage.read() == first);
+}
+
+TEST_CASE("rollback_while_fading_and_blending_keeps_bits") {
+  Stage stage(1, {.budget_mode = BudgetMode::kWorkUnits});
+  stage.play(scenes::walk, 1);
+  const auto interrupted = [&] {
+    std::vector<uint64_t> hashes;
+    for (int f = 0; f < 60; ++f) {
+      REQUIRE(stage.world.set_budget_us(f % 30 < 20 ? 1e-6f : std::numeric_limits<float>::infinity()).ok());
+      stage.step(scenes::walk, kFrame_s);
+      hashes.push_back(test::hash_of(stage.read()));
+    }
+    return hashes;
+  };
+  interrupted();
+  const std::vector<std::byte> saved = stage.save();
+  const double time_s = stage.time_s;
+  const std::vector<uint64_t> first = interrupted();
+  REQUIRE(stage.world.restore_state(stage.blocks[0], saved).ok());
+  stage.time_s = time_s;
+  CHECK(interrupted() == first);
+}

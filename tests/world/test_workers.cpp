@@ -1,0 +1,46 @@
+// test_workers.cpp  The number of threads changes when things are done, never what comes out.
+#include "tests/scenes/thread_pool.hpp"
+#include "tests/world/stage.hpp"
+
+using namespace sinew;
+using test::Stage;
+
+namespace {
+
+constexpr size_t kBlocks = 11;
+
+uint64_t hash_of_run(const TaskHook& tasks) {
+  Stage stage(kBlocks, {.budget_mode = BudgetMode::kWorkUnits, .tasks = tasks});
+  std::vector<float> seen;
+  for (int f = 0; f < 40; ++f) {
+    // Generous, then short: some instances change tiers, some are denied.
+    REQUIRE(stage.world.set_budget_us(f % 20 < 10 ? 1e9f : 4).ok());
+    stage.step(scenes::walk, 1.0 / 50);
+    for (size_t i = 0; i < kBlocks; ++i) {
+      const std::vector<float> places = stage.read(i);
+      seen.insert(seen.end(), places.begin(), places.end());
+    }
+  }
+  return test::hash_of(seen);
+}
+
+}  // namespace
+
+TEST_CASE("same_bits_for_one_to_eight_workers") {
+  const uint64_t serial = hash_of_run({});
+  for (uint32_t workers = 1; workers <= 8; ++workers) {
+    INFO(workers << " workers");
+    scenes::ThreadPool pool(workers);
+    CHECK(hash_of_run(pool.hook()) == serial);
+  }
+}
+
+// The order in which indices run must not matter either.
+TEST_CASE("same_bits_when_tasks_run_backwards") {
+  const auto enqueue = [](TaskHook::Task task, void* argument, uint32_t count, void*) -> void* {
+    for (uint32_t i = count; i > 0; --i) task(argument, i - 1);
+    return nullptr;
+  };
+  const TaskHook backwards{.enqueue = enqueue, .finish = [](void*, void*) {}};
+  CHECK(hash_of_run(backwards) == hash_of_run({}));
+}
