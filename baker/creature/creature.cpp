@@ -114,8 +114,10 @@ std::vector<Primitive> make_primitives(const CreatureRecipe& recipe, size_t vert
   const BodyField field(recipe.body);
   std::vector<Primitive> primitives(1);
   size_t in_details = 0;
+  constexpr double kTooSmallToSee = 4;  // vertices; a coarse creature goes without glints and lips
   for (const DetailRecipe& detail : recipe.details) {
     const double wanted = detail.share * static_cast<double>(vertices);
+    if (wanted < kTooSmallToSee) continue;
     Primitive made = make_detail_primitive(recipe, field, detail, static_cast<size_t>(wanted));
     in_details += made.positions.size() / 3;
     merge_same_material(primitives, std::move(made));

@@ -113,32 +113,37 @@ class Remesher {
   }
 
   void split_long_edges() {
-    constexpr double kTooLong = 4.0 / 3;
-    for (int t = 0; t < static_cast<int>(triangles_.size()); ++t) {
-      if (triangle(t)[0] < 0) continue;
-      for (size_t i = 0; i < 3; ++i) {
-        const int a = triangle(t)[i], b = triangle(t)[(i + 1) % 3];
-        if (length(a, b) > kTooLong * wanted(a, b)) split(a, b);
-      }
+    constexpr int kRounds = 3;  // bounded: slivers could be split for ever
+    for (int round = 0; round < kRounds; ++round) {
+      const int count = static_cast<int>(triangles_.size());
+      for (int t = 0; t < count; ++t)
+        if (triangle(t)[0] >= 0) split_longest_edge(t);
     }
+  }
+
+  void split_longest_edge(int t) {
+    constexpr double kTooLong = 4.0 / 3;
+    const Triangle corners = triangle(t);
+    double longest = kTooLong;
+    std::pair<int, int> edge = {-1, -1};
+    for (size_t i = 0; i < 3; ++i) {
+      const int a = corners[i], b = corners[(i + 1) % 3];
+      const double ratio = length(a, b) / wanted(a, b);
+      if (ratio > longest) longest = ratio, edge = {a, b};
+    }
+    if (edge.first >= 0) split(edge.first, edge.second);
   }
 
   void split(int a, int b) {
     const auto [left, c] = left_of(a, b);
     const auto [right, d] = left_of(b, a);
     const int middle = static_cast<int>(positions_.size());
-    positions_.push_back(place_between(a, b));
+    positions_.push_back(0.5 * (at(a) + at(b)));
     edge_scale_.push_back(field_.sample(positions_.back()).edge_scale);
     faces_.emplace_back();
     ++vertices_;
     split_face(left, b, middle, c, {middle, b, c});
     split_face(right, b, middle, d, {b, middle, d});
-  }
-
-  // On the surface, but never so far off the edge that what is split grows.
-  Vector3d place_between(int a, int b) const {
-    const Vector3d middle = 0.5 * (at(a) + at(b)), place = field_.project(middle);
-    return (place - middle).norm() < 0.3 * length(a, b) ? place : middle;
   }
 
   void split_face(int t, int moved, int middle, int opposite, const Triangle& added) {
@@ -169,29 +174,50 @@ class Remesher {
     if (shared.size() != 2) return;  // the link condition: else a tunnel would close
     for (int v : shared)
       if (faces_of(v).size() <= 3) return;
-    const Vector3d place = place_between(a, b);
+    const Vector3d place = field_.project(0.5 * (at(a) + at(b)));
     constexpr double kStillShort = 1.3;
     for (const auto& [center, around] : {std::pair{a, &around_a}, std::pair{b, &around_b}})
       for (int v : *around)
         if (v != a && v != b && (at(v) - place).norm() > kStillShort * wanted(center, v)) return;
-    if (folds(a, place, b) || folds(b, place, a)) return;
+    if (folds(a, place, b) || folds(b, place, a) || cuts_through(a, place, b) || cuts_through(b, place, a)) return;
     merge(a, b, place);
   }
 
-  // Whether moving v to `place` turns one of its triangles, other than those it shares with `except`, away
-  // from the surface.
+  // Whether moving v to `place` turns one of its triangles, other than those it shares with `except`, over or away from the
+  // surface.
   bool folds(int v, const Vector3d& place, int except) const {
-    constexpr double kMostTurn = 0.35;  // cosine
+    constexpr double kMostTurn = 0.35, kMostLean = 0.2;  // cosines
+    const Vector3d outward = field_.sample(place).gradient.normalized();
     for (int t : faces_of(v)) {
-      Triangle moved = triangle(t);
-      if (std::find(moved.begin(), moved.end(), except) != moved.end()) continue;
+      const Triangle& corners = triangle(t);
+      if (std::find(corners.begin(), corners.end(), except) != corners.end()) continue;
       std::array<Vector3d, 3> corner;
-      for (size_t i = 0; i < 3; ++i) corner[i] = moved[i] == v ? place : at(moved[i]);
-      const Vector3d after = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
-      const Vector3d before = area_vector(moved);
-      if (after.dot(before) <= kMostTurn * after.norm() * before.norm()) return true;
+      for (size_t i = 0; i < 3; ++i) corner[i] = corners[i] == v ? place : at(corners[i]);
+      const Vector3d after = (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
+      const Vector3d before = area_vector(corners).normalized();
+      if (after.dot(before) <= kMostTurn) return true;
+      if (after.dot(outward) < std::min(kMostLean, before.dot(outward))) return true;
     }
     return false;
+  }
+
+  // Whether moving v to `place` makes a triangle, other than those it shares with `except`, leave the surface: the start of
+  // eating a thin ear away.
+  bool cuts_through(int v, const Vector3d& place, int except) const {
+    for (int t : faces_of(v)) {
+      const Triangle& corners = triangle(t);
+      if (std::find(corners.begin(), corners.end(), except) != corners.end()) continue;
+      Vector3d center = Vector3d::Zero();
+      for (int corner : corners) center += (corner == v ? place : at(corner)) / 3;
+      if (strays(center)) return true;
+    }
+    return false;
+  }
+
+  bool strays(const Vector3d& center) const {
+    constexpr double kMostOff = 0.2;  // of the edge length
+    const FieldSample here = field_.sample(center);
+    return std::abs(here.distance) > kMostOff * edge_m_ * here.edge_scale;
   }
 
   void merge(int a, int b, const Vector3d& place) {
@@ -233,8 +259,10 @@ class Remesher {
     const Triangle first = {a, d, c}, second = {d, b, c};
     const Vector3d old = area_vector(triangle(left)).normalized() + area_vector(triangle(right)).normalized();
     constexpr double kMostTurn = 0.5;
-    for (const Triangle& fresh : {first, second})
+    for (const Triangle& fresh : {first, second}) {
       if (area_vector(fresh).normalized().dot(old.normalized()) < kMostTurn) return;
+      if (strays((at(fresh[0]) + at(fresh[1]) + at(fresh[2])) / 3)) return;
+    }
     forget_face(b, left);
     forget_face(a, right);
     faces_of(d).push_back(left);
