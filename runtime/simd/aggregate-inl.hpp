@@ -27,8 +27,9 @@ HWY_INLINE void aggregate_columns(const SparseRows& graph, uint32_t node, const 
 
 HWY_INLINE void aggregate_row(const SparseRows& graph, uint32_t node, const float* x, size_t stride,
                               float* out) {
-  for_columns(stride, [&]<size_t kVectors>(size_t j)
-                          HWY_ATTR { aggregate_columns<kVectors>(graph, node, x + j, stride, out + j); });
+  const auto body = [&]<size_t kVectors>(size_t j)
+                        HWY_ATTR { aggregate_columns<kVectors>(graph, node, x + j, stride, out + j); };
+  for_columns(stride, body);
 }
 
 void aggregate(const SparseRows& graph, const float* x, size_t stride, uint32_t first, uint32_t last,

@@ -37,9 +37,10 @@ HWY_INLINE void carry_columns(const float* weights, uint32_t nodes, size_t strid
 }
 
 void carry(const float* weights, uint32_t nodes, size_t stride, const float* displacement, float* out) {
-  for_columns(stride, [&]<size_t kVectors>(size_t j) HWY_ATTR {
+  const auto body = [&]<size_t kVectors>(size_t j) HWY_ATTR {
     carry_columns<kVectors>(weights + j, nodes, stride, displacement, out + j);
-  });
+  };
+  for_columns(stride, body);
 }
 
 }  // namespace sinew::simd::HWY_NAMESPACE

@@ -31,29 +31,33 @@ HWY_INLINE void copy_floats(const float* from, size_t count, float* out) {
   for (size_t j = 0; j < count; j += kLanes) hn::Store(hn::Load(Floats(), from + j), Floats(), out + j);
 }
 
-// gates += (P x) w, or x w when graph is null, over the first `columns` of the gates.
-HWY_INLINE void add_term(const Tile& tile, const SparseRows* graph, const float* x, size_t stride,
-                         uint32_t depth, const float* w, size_t w_stride, size_t columns,
-                         size_t gates_stride) {
+// tile.rows = P x of the tile's nodes; rows beyond them zero.
+HWY_INLINE void aggregate_tile(const Tile& tile, const SparseRows& graph, const float* x, size_t stride) {
   for (uint32_t r = 0; r < tile.count; ++r) {
-    float* row = tile.rows + r * stride;
-    if (graph) {
-      aggregate_row(*graph, tile.first + r, x, stride, row);
-    } else {
-      copy_floats(x + (tile.first + r) * stride, stride, row);
-    }
+    aggregate_row(graph, tile.first + r, x, stride, tile.rows + r * stride);
   }
   zero_floats(tile.rows + tile.count * stride, (kTileRows - tile.count) * stride);
-  add_product({tile.rows, stride, depth, w, w_stride, tile.gates, gates_stride}, columns);
+}
+
+// tile.rows = x of the tile's nodes; rows beyond them zero.
+HWY_INLINE void copy_tile(const Tile& tile, const float* x, size_t stride) {
+  copy_floats(x + tile.first * stride, tile.count * stride, tile.rows);
+  zero_floats(tile.rows + tile.count * stride, (kTileRows - tile.count) * stride);
 }
 
 HWY_INLINE void sum_gates(const LayerJob& job, const Tile& tile) {
-  const size_t p = job.padded;
-  for (uint32_t r = 0; r < kTileRows; ++r) copy_floats(job.bias, 4 * p, tile.gates + r * 4 * p);
-  add_term(tile, &job.graph, job.x, job.x_stride, job.inputs, job.w_x, 4 * p, 4 * p, 4 * p);
-  if (job.w_s) add_term(tile, nullptr, job.x, job.x_stride, job.inputs, job.w_s, 4 * p, 4 * p, 4 * p);
-  add_term(tile, &job.graph, job.h, p, job.channels, job.w_h, 4 * p, 4 * p, 4 * p);
-  add_term(tile, &job.graph, job.y, p, job.channels, job.w_y, 3 * p, 2 * p, 4 * p);
+  const size_t p = job.padded, all = 4 * p;
+  for (uint32_t r = 0; r < kTileRows; ++r) copy_floats(job.bias, all, tile.gates + r * all);
+  aggregate_tile(tile, job.graph, job.x, job.x_stride);
+  add_product({tile.rows, job.x_stride, job.inputs, job.w_x, all, tile.gates, all}, all);
+  if (job.w_s) {
+    copy_tile(tile, job.x, job.x_stride);
+    add_product({tile.rows, job.x_stride, job.inputs, job.w_s, all, tile.gates, all}, all);
+  }
+  aggregate_tile(tile, job.graph, job.h, p);
+  add_product({tile.rows, p, job.channels, job.w_h, all, tile.gates, all}, all);
+  aggregate_tile(tile, job.graph, job.y, p);
+  add_product({tile.rows, p, job.channels, job.w_y, 3 * p, tile.gates, all}, 2 * p);
 }
 
 HWY_INLINE void update_cells(const LayerJob& job, const float* gates, uint32_t node) {
@@ -100,7 +104,8 @@ void layer_output(const LayerJob& job, uint32_t first, uint32_t last) {
     const Tile tile = tile_at(job, node, last);
     copy_floats(job.output_gate + node * p, tile.count * p, tile.gates);
     zero_floats(tile.gates + tile.count * p, (kTileRows - tile.count) * p);
-    add_term(tile, &job.graph, job.y_next, p, job.channels, job.w_y + 2 * p, 3 * p, p, p);
+    aggregate_tile(tile, job.graph, job.y_next, p);
+    add_product({tile.rows, p, job.channels, job.w_y + 2 * p, 3 * p, tile.gates, p}, p);
     for (uint32_t r = 0; r < tile.count; ++r) update_output(job, tile.gates + r * p, node + r);
   }
 }

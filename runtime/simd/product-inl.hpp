@@ -51,7 +51,8 @@ HWY_INLINE void multiply_columns(const Product& job, size_t column) {
 }
 
 HWY_INLINE void add_product(const Product& job, size_t columns) {
-  for_columns(columns, [&]<size_t kVectors>(size_t j) HWY_ATTR { multiply_columns<kVectors>(job, j); });
+  const auto body = [&]<size_t kVectors>(size_t j) HWY_ATTR { multiply_columns<kVectors>(job, j); };
+  for_columns(columns, body);
 }
 
 }  // namespace sinew::simd::HWY_NAMESPACE
