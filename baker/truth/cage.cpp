@@ -54,7 +54,7 @@ double distance_to_core(const Bones& bones, const std::vector<bool>& coreless, c
 
 std::vector<bool> held_by_bones(const Character& character, const Recipe& recipe, const Cage& cage,
                                 const std::vector<double>& to_surface) {
-  const Bones bones = find_bones(character);
+  const Bones bones = find_bones(character, {});
   const std::vector<bool> coreless =
       match_joints(character, recipe.coreless_joints, "recipe: coreless_joints");
   std::vector<bool> held(cage.nodes.size());

@@ -64,7 +64,7 @@ void check_material(const FemMaterial& m, size_t tetrahedra) {
 }  // namespace
 
 struct Fem::Impl {
-  std::vector<Vector3> rest;
+  Eigen::VectorXd unstressed;
   Elasticity elasticity;
   std::vector<bool> constrained;
   std::deque<FemComponent> components;
@@ -146,8 +146,8 @@ Fem::Fem(std::vector<Vector3> rest, Tetrahedra tetrahedra, std::vector<bool> con
   if (!groups.rigid.empty()) impl_->rigid_blocks = element_blocks(rest, tetrahedra, groups.rigid, material);
   impl_->elasticity = material.elasticity;
   impl_->constrained = std::move(constrained);
-  impl_->rest = std::move(rest);
-  reset(Eigen::Map<const Eigen::VectorXd>(impl_->rest.data()->data(), 3 * mass.size()));
+  impl_->unstressed = Eigen::Map<const Eigen::VectorXd>(rest.data()->data(), 3 * mass.size());
+  reset(impl_->unstressed);
 }
 
 Fem::~Fem() = default;
@@ -156,6 +156,12 @@ Fem::Fem(Fem&&) noexcept = default;
 void Fem::reset(const Eigen::VectorXd& at) {
   positions = at;
   velocities = impl_->relative_velocity = Eigen::VectorXd::Zero(at.size());
+}
+
+void Fem::reshape(const Eigen::VectorXd& unstressed) {
+  impl_->unstressed = unstressed;
+  for (FemComponent& component : impl_->components) component.reshape(unstressed);
+  for (ElementBlock& block : impl_->rigid_blocks) sinew::baker::reshape(block, unstressed.data());
 }
 
 namespace {
@@ -170,31 +176,27 @@ Eigen::VectorXd carried(const Eigen::VectorXd& x, const UndisturbedMotion* motio
   return to;
 }
 
-std::vector<LaneStrain> damped_towards(const FemComponent& component, Elasticity elasticity,
-                                       const Eigen::VectorXd& x, const UndisturbedMotion* motion) {
-  std::vector<LaneStrain> strains;
-  strains.reserve(component.blocks().size());
-  for (const ElementBlock& block : component.blocks()) {
-    const auto at = [&](const Eigen::VectorXd& where) {
-      return strain(elasticity, deformation_gradient(block, where.data()));
-    };
-    strains.push_back(at(x));
-    if (!motion) continue;
-    const LaneStrain before = at(motion->before), after = at(motion->after);
-    for (size_t k = 0; k < 6; ++k) strains.back()[k] += after[k] - before[k];
+// target += sign x strain at x, block by block.
+void add_strain(const FemComponent& component, Elasticity elasticity, const Eigen::VectorXd& x, double sign,
+                std::vector<LaneStrain>& target) {
+  if (target.empty()) {
+    LaneStrain none;
+    none.fill(Lanes::Zero());
+    target.assign(component.blocks().size(), none);
   }
-  return strains;
+  for (size_t b = 0; b < target.size(); ++b) {
+    const LaneStrain e = strain(elasticity, deformation_gradient(component.blocks()[b], x.data()));
+    for (size_t k = 0; k < 6; ++k) target[b][k] += sign * e[k];
+  }
 }
 
-Potential step_potential(const FemComponent& component, Elasticity elasticity, double dt,
-                         const Eigen::VectorXd& x, const Eigen::VectorXd& v, const Eigen::VectorXd& carried_x,
-                         const UndisturbedMotion* motion) {
+Potential step_potential(const FemComponent& component, double dt, const Eigen::VectorXd& x,
+                         const Eigen::VectorXd& v, const Eigen::VectorXd& carried_x) {
   Potential p;
   const double inertia = 1 / (dt * dt), drag = component.rayleigh_mass_per_s / dt;
   p.inertia_per_s2 = inertia + drag;
   p.anchor = (inertia * (x + dt * v) + drag * carried_x) / p.inertia_per_s2;
   p.viscosity = component.rayleigh_stiffness_s / dt;
-  if (p.viscosity > 0) p.strain = damped_towards(component, elasticity, x, motion);
   return p;
 }
 
@@ -218,11 +220,28 @@ int Fem::step(double dt_s, const Eigen::VectorXd& target, const Eigen::VectorXd&
     else
       positions.segment<3>(3 * i) = along.segment<3>(3 * i) + dt_s * relative.segment<3>(3 * i);
   }
+  // Strains so far are measured against the old unstressed shape and new ones against the new: what the
+  // motion itself strains is not damped.
+  std::vector<std::vector<LaneStrain>> strains(impl_->components.size());
+  const auto add_strains = [&](const Eigen::VectorXd& x, double sign) {
+    for (size_t c = 0; c < strains.size(); ++c)
+      if (impl_->components[c].rayleigh_stiffness_s > 0)
+        add_strain(impl_->components[c], impl_->elasticity, x, sign, strains[c]);
+  };
+  add_strains(from, 1);
+  Eigen::VectorXd pull = force;
+  if (undisturbed) {
+    add_strains(undisturbed->before, -1);
+    reshape(undisturbed->after);
+    add_strains(undisturbed->after, 1);
+    pull -= elastic_force(undisturbed->after);  // of tetrahedra whose unstressed shape had to be bounded
+  }
   int most = 0;
-  for (FemComponent& component : impl_->components) {
-    Potential p = step_potential(component, impl_->elasticity, dt_s, from, velocities, along, undisturbed);
-    p.force = force;
-    most = std::max(most, component.minimize(p, tolerance, kPatience, positions));
+  for (size_t c = 0; c < strains.size(); ++c) {
+    Potential p = step_potential(impl_->components[c], dt_s, from, velocities, along);
+    p.force = pull;
+    p.strain = std::move(strains[c]);
+    most = std::max(most, impl_->components[c].minimize(p, tolerance, kPatience, positions));
   }
   velocities = (positions - from) / dt_s;
   relative = (positions - along) / dt_s;
@@ -272,11 +291,10 @@ double Fem::kinetic_energy() const {
 }
 
 std::vector<double> Fem::frequencies_hz(int count) const {
-  const Eigen::Map<const Eigen::VectorXd> rest(impl_->rest.data()->data(), 3 * mass.size());
   std::vector<double> hz;
   for (FemComponent& component : impl_->components) {
-    const Eigen::VectorXd squared = lowest_squared_frequencies(component.assemble(Potential{}, rest, false),
-                                                               component.free_mass(), count);
+    const Eigen::VectorXd squared = lowest_squared_frequencies(
+        component.assemble(Potential{}, impl_->unstressed, false), component.free_mass(), count);
     for (const double value : squared) hz.push_back(std::sqrt(value) / (2 * M_PI));
   }
   std::sort(hz.begin(), hz.end());
@@ -286,11 +304,10 @@ std::vector<double> Fem::frequencies_hz(int count) const {
 
 void Fem::damp(double ratio) {
   if (!(ratio >= 0)) refuse("the damping ratio is " + std::to_string(ratio) + ": give 0 or more");
-  const Eigen::Map<const Eigen::VectorXd> rest(impl_->rest.data()->data(), 3 * mass.size());
   constexpr double kStill = 1e-2;  // rad/s: a free body's rigid motions are not modes
   for (FemComponent& component : impl_->components) {
-    const Eigen::VectorXd squared =
-        lowest_squared_frequencies(component.assemble(Potential{}, rest, false), component.free_mass(), 7);
+    const Eigen::VectorXd squared = lowest_squared_frequencies(
+        component.assemble(Potential{}, impl_->unstressed, false), component.free_mass(), 7);
     const double first = std::sqrt(
         *std::find_if(squared.begin(), squared.end() - 1, [](double w2) { return w2 > kStill * kStill; }));
     component.rayleigh_mass_per_s = 1.5 * ratio * first;  // ratio = alpha / (2 w) + beta w / 2 at w and 3 w

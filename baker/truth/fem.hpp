@@ -1,10 +1,10 @@
-// fem.hpp  Elastic bodies on tetrahedra: backward Euler by Newton's method, sparse Cholesky, Rayleigh
-// damping.
+// fem.hpp  Elastic bodies on tetrahedra: backward Euler, sparse Cholesky, Rayleigh damping.
 //
 // Damping C = alpha M + beta K: the stiffness part is the rest stiffness, acting on the rate of Green's
-// strain, so that no rotation is damped; the mass part acts on velocity. Both are taken relative to an
-// undisturbed motion when one is given. Backward Euler itself damps: a mode of w rad/s by a ratio of about w
-// dt / 2.
+// strain, so that no rotation is damped; the mass part acts on velocity. Backward Euler itself damps: a mode
+// of w rad/s by a ratio of about w dt / 2.
+// A body may be given the motion that it has when nothing disturbs it (a skinned character's). Its unstressed
+// shape then follows that motion step by step, and damping acts on what departs from it.
 #pragma once
 #include <Eigen/Core>
 #include <array>
@@ -22,13 +22,13 @@ struct FemMaterial {
   std::vector<double> young_pa = {1e5};  // a tetrahedron, or one for all; > 0
   double poisson_ratio = 0.42;           // 0 .. below 0.5
   double density_kg_m3 = 1000;           // > 0
-  std::vector<double> fill = {
-      1};  // share of a tetrahedron that is matter, or one for all; scales its mass only
-  double rayleigh_mass_per_s = 0;   // alpha, >= 0
-  double rayleigh_stiffness_s = 0;  // beta, >= 0
+  std::vector<double> fill = {1};        // share of matter in it, or one for all; scales its mass only
+  double rayleigh_mass_per_s = 0;        // alpha, >= 0
+  double rayleigh_stiffness_s = 0;       // beta, >= 0
 };
 
-// Where a body would be if nothing disturbed it, over one step.
+// Where a body would be if nothing disturbed it, over one step. `before` is the last step's `after`, or what
+// the body was reshaped to.
 struct UndisturbedMotion {
   Eigen::VectorXd before, after;      // 3 a node, at the step's two ends
   std::vector<Eigen::Matrix3d> turn;  // a node: how its surroundings turn in between
@@ -48,6 +48,9 @@ class Fem {
 
   // At rest at these positions; forgets the past.
   void reset(const Eigen::VectorXd& at);
+  // These positions become the unstressed shape; mass stays. Tetrahedra that they distort too far keep a
+  // bounded one (fem_elements.hpp).
+  void reshape(const Eigen::VectorXd& unstressed);
 
   // One backward Euler step until the gradient of the step's potential is below `tolerance` times the weight
   // and `force` of each separate body. `target` gives the constrained nodes' new positions (3 a node; others
@@ -65,7 +68,7 @@ class Fem {
   Eigen::VectorXd elastic_force(const Eigen::VectorXd& at) const;  // 3 a node, constrained ones too
   double elastic_energy() const;
   double kinetic_energy() const;
-  std::vector<double> frequencies_hz(int count) const;  // lowest free modes about the rest pose
+  std::vector<double> frequencies_hz(int count) const;  // lowest free modes about the unstressed shape
   int body_count() const;                               // separate sets of free nodes
   long factorizations() const;                          // since the start
 

@@ -71,6 +71,10 @@ void FemComponent::scatter(const Eigen::VectorXd& free, Eigen::VectorXd& x) cons
     x.segment<3>(3 * nodes_[i]) = free.segment<3>(3 * static_cast<Eigen::Index>(i));
 }
 
+void FemComponent::reshape(const Eigen::VectorXd& unstressed) {
+  for (ElementBlock& block : blocks_) sinew::baker::reshape(block, unstressed.data());
+}
+
 double FemComponent::energy(const Potential& potential, const Eigen::VectorXd& x) const {
   double sum = 0;
   for (size_t b = 0; b < blocks_.size(); ++b) {

@@ -28,6 +28,7 @@ class FemComponent {
 
   const std::vector<int>& nodes() const { return nodes_; }
   const std::vector<ElementBlock>& blocks() const { return blocks_; }
+  void reshape(const Eigen::VectorXd& unstressed);
   bool supported() const { return supported_; }  // some element reaches a constrained node
 
   // Moves the free entries of x to the minimum; returns the iterations taken. `patience`: poor iterations

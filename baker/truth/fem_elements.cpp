@@ -155,17 +155,20 @@ std::vector<ElementBlock> element_blocks(const std::vector<Vector3>& rest,
     const Matrix3 inverse = edges.inverse();
     for (int a = 0; a < 3; ++a)
       for (int j = 0; j < 3; ++j)
-        block.gradient[static_cast<size_t>(a)][static_cast<size_t>(j)][lane] = inverse(a, j);
+        block.bind_gradient[static_cast<size_t>(a)][static_cast<size_t>(j)][lane] = inverse(a, j);
     const double young = material.young_pa.size() == 1 ? material.young_pa[0] : material.young_pa[e];
     const double nu = material.poisson_ratio;
     block.volume[lane] = slot < elements.size() ? edges.determinant() / 6 : 0;
     block.mu[lane] = young / (2 * (1 + nu));
     block.lambda[lane] = young * nu / ((1 + nu) * (1 - 2 * nu));
   }
+  for (ElementBlock& block : blocks) block.gradient = block.bind_gradient;
   return blocks;
 }
 
-LaneMatrix deformation_gradient(const ElementBlock& block, const double* positions) {
+namespace {
+
+LaneMatrix edges(const ElementBlock& block, const double* positions) {
   LaneMatrix edge;  // [i][a]
   for (size_t lane = 0; lane < kLanes; ++lane) {
     const double* x0 = positions + 3 * block.node[lane][0];
@@ -174,7 +177,39 @@ LaneMatrix deformation_gradient(const ElementBlock& block, const double* positio
       for (size_t i = 0; i < 3; ++i) edge[i][a][static_cast<Eigen::Index>(lane)] = x[i] - x0[i];
     }
   }
-  return product(edge, block.gradient);
+  return edge;
+}
+
+Matrix3 inverse_of_bounded_stretch(const Matrix3& f) {
+  const Eigen::JacobiSVD<Matrix3> svd(f, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Vector3 stretch = svd.singularValues();
+  if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0) stretch[2] = -stretch[2];
+  const Vector3 sign(1, 1, stretch[2] < 0 ? -1 : 1);
+  const Vector3 bounded = stretch.cwiseMax(kLeastStretch).cwiseMin(kMostStretch);
+  return svd.matrixV() * sign.cwiseQuotient(bounded).asDiagonal() * svd.matrixU().transpose();
+}
+
+}  // namespace
+
+void reshape(ElementBlock& block, const double* unstressed) {
+  const LaneMatrix f = product(edges(block, unstressed), block.bind_gradient), c = cofactor(f);
+  const Lanes volume = determinant(f, c), size2 = squared_norm(f);
+  LaneMatrix inverse;
+  for (size_t i = 0; i < 3; ++i)
+    for (size_t j = 0; j < 3; ++j) inverse[i][j] = c[j][i] / volume;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    // The least singular value is volume / (product of the others), which is at most size2 / 2.
+    if (2 * volume[lane] >= kLeastStretch * size2[lane] && size2[lane] <= kMostStretch * kMostStretch)
+      continue;
+    const Matrix3 one = inverse_of_bounded_stretch(lane_of(f, lane));
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) inverse[static_cast<size_t>(i)][static_cast<size_t>(j)][lane] = one(i, j);
+  }
+  block.gradient = product(block.bind_gradient, inverse);
+}
+
+LaneMatrix deformation_gradient(const ElementBlock& block, const double* positions) {
+  return product(edges(block, positions), block.gradient);
 }
 
 LaneStrain strain(Elasticity elasticity, const LaneMatrix& f) {

@@ -19,14 +19,21 @@ using LaneStrain = std::array<Lanes, 6>;  // xx yy zz xy yz zx
 
 struct ElementBlock {
   std::array<std::array<int, 4>, kLanes> node;  // a short block repeats its last element with volume 0
-  LaneMatrix gradient;                          // [a][j]: gradient of the shape function of corner a + 1
-  Lanes volume, mu, lambda;                     // Lame
+  LaneMatrix gradient;       // [a][j]: gradient of the shape function of corner a + 1 in the unstressed shape
+  LaneMatrix bind_gradient;  // the same in the shape that gave volume and mass
+  Lanes volume, mu, lambda;  // Lame
 };
 
 // Blocks of the listed elements. Throws nothing: the caller has checked volumes and materials.
 std::vector<ElementBlock> element_blocks(const std::vector<Vector3>& rest,
                                          const std::vector<std::array<int, 4>>& tetrahedra,
                                          const std::vector<int>& elements, const FemMaterial& material);
+
+// Makes this shape the unstressed one. Volume and mass stay. A tetrahedron that the shape squeezes below
+// kLeastStretch of its bind size along some axis, turns inside out, or draws beyond kMostStretch is
+// unstressed at that stretch only.
+inline constexpr double kLeastStretch = 0.3, kMostStretch = 3;
+void reshape(ElementBlock& block, const double* unstressed);
 
 LaneMatrix deformation_gradient(const ElementBlock& block, const double* positions);
 

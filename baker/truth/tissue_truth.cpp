@@ -108,11 +108,11 @@ void TissueTruth::Impl::substep(double dt_s) {
   const std::vector<Eigen::Matrix3d> before = rotation;
   skinned.before = skinned.after;
   skin_cage(motion(time_s));
-  Eigen::VectorXd force = -fem.elastic_force(skinned.after);
+  Eigen::VectorXd force(skinned.after.size());
   for (size_t i = 0; i < rotation.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
     skinned.turn[i] = rotation[i] * before[i].transpose();
-    force.segment<3>(3 * at) += fem.mass[at] * (kGravity - rotation[i] * kGravity);
+    force.segment<3>(3 * at) = fem.mass[at] * (kGravity - rotation[i] * kGravity);
   }
   fem.step(dt_s, skinned.after, force, kTolerance, &skinned);
 }
@@ -146,6 +146,7 @@ TruthFrame TissueTruth::start(const Motion& motion) {
   impl_->ticks = 0;
   impl_->time_s = 0;
   impl_->skin_cage(motion(0));
+  impl_->fem.reshape(impl_->skinned.after);
   impl_->fem.reset(impl_->skinned.after);
   return impl_->frame();
 }

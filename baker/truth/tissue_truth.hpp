@@ -1,14 +1,19 @@
 // tissue_truth.hpp  The ground truth of a skinned character's soft tissue.
 //
-// The posed, standing character is its own rest state: f = f_el(x) - f_el(x_skinned) + m (g - R_skin g), so
-// that tissue departs from the artist's pose only by inertia and by turning against gravity; R_skin is the
-// rotation of a node's blended skin matrix, world from bind. Free nodes start on the skinning. Damping acts
-// on motion relative to the skinning: the mass part on the displacement's rate in axes that turn with R_skin,
-// the stiffness part on strain's rate less the skinning's own. A body that moves rigidly is not damped
-// against the world. Stable neo-Hookean tetrahedra; each separate body's first mode and three times it are
-// damped by the recipe's ratio, and backward Euler adds about pi f dt of its own: 0.05 at 4 Hz with 4
-// substeps a tick of 60 Hz. A vertex is displaced by what the cage's nodes around it are: x = x_skinned + sum
-// w u. The rigid surface is exactly the skinning.
+// The posed, standing character is its own rest state: the unstressed shape of every tetrahedron is the
+// skinned one, and the force on a node is f_el(x) + m (g - R_skin g), R_skin the rotation of its blended skin
+// matrix, world from bind. Tissue so departs from the artist's pose only by inertia and by turning against
+// gravity. (Taking f_el(x) - f_el(x_skinned) about the bind shape instead leaves the stress of the skinning's
+// own distortions in place as dead loads, under which a bent tail or ear buckles.) Tetrahedra that skinning
+// nearly collapses are unstressed at a bounded stretch, and only their remaining f_el(x_skinned) is
+// subtracted. Free nodes start on the skinning.
+// Damping acts on motion relative to the skinning: the mass part on the displacement's rate in axes that turn
+// with R_skin, the stiffness part on strain's rate less the skinning's own. A body that moves rigidly is not
+// damped against the world.
+// Stable neo-Hookean tetrahedra; each separate body's first mode and three times it are damped by the
+// recipe's ratio, and backward Euler adds about pi f dt of its own: 0.05 at 4 Hz, 4 substeps a tick of 60 Hz.
+// A vertex is displaced by what the cage's nodes around it are: x = x_skinned + sum w u. The rigid surface is
+// exactly the skinning.
 #pragma once
 #include <memory>
 
@@ -21,7 +26,7 @@ struct TruthFrame {
   WorldPose pose;
   std::vector<Vector3> skinned;  // world, a vertex
   std::vector<Vector3> truth;    // world, a vertex
-  double elastic_energy_j = 0;   // of the tetrahedra around free nodes, above the bind shape
+  double elastic_energy_j = 0;   // of the tetrahedra around free nodes, above the skinned shape
   double kinetic_energy_j = 0;   // of the free nodes, in the world
 };
 
