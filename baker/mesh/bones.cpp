@@ -25,12 +25,13 @@ Vector3 direction(const Vector3& from, const Vector3& to) {
 
 // The child that lies straightest ahead and carries most of what follows: the spine goes on to the neck, not
 // to an arm.
-std::vector<int> find_main_children(const Character& character, const std::vector<Vector3>& head) {
+std::vector<int> find_main_children(const Character& character, const std::vector<Vector3>& head,
+                                    const std::vector<bool>& helper) {
   const std::vector<int> size = subtree_sizes(character);
   std::vector<int> child(head.size(), -1);
   std::vector<double> best(head.size(), -std::numeric_limits<double>::infinity());
   for (size_t j = 0; j < head.size(); ++j) {
-    if (character.joint_parent[j] < 0) continue;
+    if (character.joint_parent[j] < 0 || helper[j]) continue;
     const auto up = static_cast<size_t>(character.joint_parent[j]);
     const int above = character.joint_parent[up];
     const Vector3 ahead =
@@ -50,14 +51,22 @@ double distance_to_segment(const Vector3& point, const Vector3& a, const Vector3
 
 }  // namespace
 
-Bones find_bones(const Character& character) {
+Bones find_bones(const Character& character, const std::vector<bool>& helpers) {
   Bones bones;
+  bones.helper = helpers;
+  bones.helper.resize(character.inverse_bind.size(), false);
   for (const Matrix4& bind : character.inverse_bind)
     bones.head.push_back(bind.inverse().topRightCorner<3, 1>());
-  bones.main_child = find_main_children(character, bones.head);
+  bones.main_child = find_main_children(character, bones.head, bones.helper);
   bones.tail = bones.head;
   for (size_t j = 0; j < bones.head.size(); ++j) {
     const int up = character.joint_parent[j];
+    if (up < 0) bones.helper[j] = false;
+    if (bones.helper[j]) {
+      bones.head[j] = bones.head[static_cast<size_t>(up)];
+      bones.tail[j] = bones.tail[static_cast<size_t>(up)];
+      continue;
+    }
     if (bones.main_child[j] >= 0)
       bones.tail[j] = bones.head[static_cast<size_t>(bones.main_child[j])];
     else if (up >= 0)
@@ -87,11 +96,11 @@ std::vector<int> limb_segments(const Character& character, const Bones& bones, d
   std::vector<double> length(bones.head.size(), 0);
   int count = 0;
   for (size_t j = 0; j < segment.size(); ++j) {
-    const double own = (bones.tail[j] - bones.head[j]).norm();
     const int up = character.joint_parent[j];
+    const double own = bones.helper[j] ? 0 : (bones.tail[j] - bones.head[j]).norm();
     const bool goes_on = up >= 0 && bones.main_child[static_cast<size_t>(up)] == static_cast<int>(j) &&
                          length[static_cast<size_t>(up)] + own <= max_length_m;
-    segment[j] = goes_on ? segment[static_cast<size_t>(up)] : count++;
+    segment[j] = bones.helper[j] ? -1 : goes_on ? segment[static_cast<size_t>(up)] : count++;
     length[j] = goes_on ? length[static_cast<size_t>(up)] + own : own;
   }
   return segment;

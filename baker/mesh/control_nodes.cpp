@@ -58,17 +58,20 @@ void join_apart(const std::vector<std::vector<double>>& way, std::set<Edge>& edg
 }  // namespace
 
 std::vector<int> sample_nodes(const PartSurface& part, const std::vector<double>& stiffness, int count) {
-  const auto softer = [&](int a, int b) {
-    return stiffness[static_cast<size_t>(a)] < stiffness[static_cast<size_t>(b)];
-  };
-  std::vector<int> nodes = {*std::min_element(part.vertices.begin(), part.vertices.end(), softer)};
   const auto along = [&](const std::vector<int>& sources) {
     return distances_along(part.character, part.surface, part.part, part.id, sources);
   };
+  const std::vector<double> from_rim = along(part.rim);
+  const auto before = [&](int a, int b) {  // softer, and of equals the one deeper inside
+    const auto at = static_cast<size_t>(a), other = static_cast<size_t>(b);
+    return stiffness[at] != stiffness[other] ? stiffness[at] < stiffness[other]
+                                             : from_rim[at] > from_rim[other];
+  };
+  std::vector<int> nodes = {*std::min_element(part.vertices.begin(), part.vertices.end(), before)};
   std::vector<double> distance = along(nodes);
   double extent = 0;
   for (int v : part.vertices) extent = std::max(extent, distance[static_cast<size_t>(v)]);
-  take_minimum(distance, along(part.rim));
+  take_minimum(distance, from_rim);
   while (static_cast<int>(nodes.size()) < count) {
     const int next = farthest(part.vertices, distance);
     if (!(distance[static_cast<size_t>(next)] > kSamePlace * extent)) break;

@@ -47,11 +47,9 @@ void append_region(const Character& character, const Surface& surface, const Rec
   const std::vector<int> vertices = part_vertices(parts, id), rim = rim_vertices(surface, parts, id);
   const PartSurface part{character, surface, parts.part, id, vertices, rim};
   const std::vector<int> nodes = sample_nodes(part, layout.stiffness, recipe.nodes_per_region);
-  std::vector<std::string> taken;
-  for (const Region& other : layout.regions) taken.push_back(other.name);
 
   Region region;
-  region.name = region_name(character, recipe, layout.stiffness, vertices, taken);
+  region.name = region_name(character, recipe, layout.stiffness, vertices);
   region.frame_joint = frame_joint(character, rim, vertices);
   region.first_node = static_cast<int>(layout.nodes.size());
   region.node_count = static_cast<int>(nodes.size());
@@ -78,6 +76,7 @@ TissueLayout layout_tissue(Character& character, const Recipe& recipe) {
                    std::to_string(recipe.rigid_stiffness) +
                    "); paint _STIFFNESS, or name soft joints in the recipe's regions");
   for (int id = 0; id < parts.count; ++id) append_region(character, surface, recipe, parts, id, layout);
+  distinguish_names(layout.regions);
   return layout;
 }
 

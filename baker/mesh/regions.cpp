@@ -2,6 +2,7 @@
 #include "baker/mesh/regions.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "baker/mesh/joint_names.hpp"
@@ -92,17 +93,22 @@ int frame_joint(const Character& character, const std::vector<int>& rim, const s
 }
 
 std::string region_name(const Character& character, const Recipe& recipe,
-                        const std::vector<double>& stiffness, const std::vector<int>& vertices,
-                        const std::vector<std::string>& taken) {
+                        const std::vector<double>& stiffness, const std::vector<int>& vertices) {
   std::vector<double> softness;
   for (int v : vertices) softness.push_back(1 - stiffness[static_cast<size_t>(v)]);
   const std::vector<double> weight = weight_a_joint(character, vertices, softness);
-  std::string base = stated_name(character, recipe, weight);
-  if (base.empty()) base = joint_name(character, static_cast<size_t>(largest(weight)));
-  std::string name = base;
-  for (int i = 2; std::find(taken.begin(), taken.end(), name) != taken.end(); ++i)
-    name = base + "_" + std::to_string(i);
-  return name;
+  const std::string name = stated_name(character, recipe, weight);
+  return name.empty() ? joint_name(character, static_cast<size_t>(largest(weight))) : name;
+}
+
+void distinguish_names(std::vector<Region>& regions) {
+  std::map<std::string, std::vector<Region*>> same;
+  for (Region& region : regions) same[region.name].push_back(&region);
+  for (auto& [name, list] : same) {
+    const bool pair = list.size() == 2 && list[0]->center.x() * list[1]->center.x() < 0;
+    for (size_t i = 0; i < list.size() && list.size() > 1; ++i)
+      list[i]->name += pair ? (list[i]->center.x() > 0 ? "_l" : "_r") : "_" + std::to_string(i + 1);
+  }
 }
 
 }  // namespace sinew::baker

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <map>
 
 #include "baker/mesh/bones.hpp"
 #include "baker/mesh/joint_names.hpp"
@@ -19,8 +20,12 @@ constexpr double kThinFlesh = 0.04, kThickFlesh = 0.09, kSoftest = 0.1;
 constexpr double kSegmentLength = 0.3;  // of the height: a thigh, or the spine from the pelvis to the chest
 constexpr double kOneSegmentFrom = 0.6,
                  kOneSegmentTo = 0.9;  // skin weight of one segment: less is a joint, which stays rigid
-constexpr std::array<const char*, 9> kBony = {"head",   "skull", "hand", "foot", "toe",
-                                              "finger", "thumb", "eye",  "teeth"};
+constexpr std::array kBony = {"head", "skull", "hand", "foot", "toe", "finger", "thumb", "eye", "teeth"};
+// Joints that riggers add to move flesh: what they move is soft, and goes with the bone that they hang on.
+constexpr std::array kFleshy = {"breast", "bust",  "boob",  "belly", "stomach",
+                                "butt",   "glute", "cheek", "jiggle"};
+constexpr double kWorthwhileSize = 0.08,
+                 kWorthwhileStiffness = 0.6;  // a smaller (of the height) or stiffer part would not be seen
 
 double smooth_step(double low, double high, double value) {
   const double t = std::clamp((value - low) / (high - low), 0.0, 1.0);
@@ -35,13 +40,15 @@ double weight_of(const Influences& skin, const std::vector<bool>& joints) {
 }
 
 // Between vertices that belong to different parts the skin is held: each part moves in its own bone's frame.
+// -1 belongs to all.
 void hold_seams(const Surface& surface, const std::vector<int>& owner, std::vector<double>& softness) {
   std::vector<double> held = softness;
   for (size_t v = 0; v < owner.size(); ++v)
-    for (int next : surface.neighbours[v])
-      if (softness[v] > 0 && softness[static_cast<size_t>(next)] > 0 &&
-          owner[static_cast<size_t>(next)] != owner[v])
-        held[v] = 0;
+    for (int other : surface.neighbours[v]) {
+      const auto next = static_cast<size_t>(other);
+      const bool both = softness[v] > 0 && softness[next] > 0 && owner[v] >= 0 && owner[next] >= 0;
+      if (both && owner[v] != owner[next]) held[v] = 0;
+    }
   softness = std::move(held);
 }
 
@@ -49,7 +56,7 @@ class StatedRegions {
  public:
   StatedRegions(const Character& character, const Recipe& recipe)
       : character_(character),
-        thickness_(flesh_thickness(character, find_bones(character))),
+        thickness_(flesh_thickness(character, find_bones(character, {}))),
         coreless_(match_joints(character, recipe.coreless_joints, "recipe: coreless_joints")) {}
 
   std::vector<double> softness(const RegionRecipe& region) const {
@@ -92,47 +99,78 @@ std::vector<double> stated_stiffness(const Character& character, const Surface& 
   return stiffness;
 }
 
-std::vector<bool> bony_joints(const Character& character) {
-  std::vector<bool> bony(character.joint_node.size(), false);
-  for (size_t j = 0; j < bony.size(); ++j) {
+template <size_t N>
+std::vector<bool> joints_called(const Character& character, const std::array<const char*, N>& words) {
+  std::vector<bool> called(character.joint_node.size(), false);
+  for (size_t j = 0; j < called.size(); ++j) {
     std::string name = joint_name(character, j);
     std::transform(name.begin(), name.end(), name.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    bony[j] = std::any_of(kBony.begin(), kBony.end(),
-                          [&](const char* word) { return name.find(word) != std::string::npos; });
+    called[j] = std::any_of(words.begin(), words.end(),
+                            [&](const char* word) { return name.find(word) != std::string::npos; });
   }
-  return bony;
+  return called;
 }
 
-// The limb segment that moves a vertex most, and its share.
+// The limb segment that moves a vertex most, and its share among segments; -1 where only helper joints move
+// it.
 std::pair<int, double> main_segment(const Influences& skin, const std::vector<int>& segment) {
-  std::pair<int, double> best{-1, -1};
+  std::map<int, double> shares;
+  double all = 0;
   for (size_t k = 0; k < kInfluences && skin.weight[k] > 0; ++k) {
     const int own = segment[static_cast<size_t>(skin.joint[k])];
-    double share = 0;
-    for (size_t other = 0; other < kInfluences; ++other)
-      if (segment[static_cast<size_t>(skin.joint[other])] == own) share += skin.weight[other];
-    if (share > best.second) best = {own, share};
+    if (own >= 0) shares[own] += skin.weight[k], all += skin.weight[k];
   }
+  std::pair<int, double> best{-1, 1};
+  for (const auto& [own, share] : shares)
+    if (best.first < 0 || share / all > best.second) best = {own, share / all};
   return best;
 }
 
-std::vector<double> guessed_stiffness(const Character& character, const Surface& surface) {
-  const Bones bones = find_bones(character);
+void hold_small_parts(const Character& character, const Surface& surface, double height,
+                      double rigid_stiffness, std::vector<double>& softness) {
+  std::vector<bool> soft(softness.size());
+  for (size_t v = 0; v < soft.size(); ++v) soft[v] = 1 - (1 - kSoftest) * softness[v] < rigid_stiffness;
+  const std::vector<int> part = connected_parts(surface, soft);
+  std::vector<Eigen::AlignedBox3d> box;
+  std::vector<double> softest;
+  for (size_t v = 0; v < part.size(); ++v) {
+    if (part[v] < 0) continue;
+    const auto id = static_cast<size_t>(part[v]);
+    box.resize(std::max(box.size(), id + 1));
+    softest.resize(box.size(), 0);
+    box[id].extend(character.positions[v]);
+    softest[id] = std::max(softest[id], softness[v]);
+  }
+  for (size_t v = 0; v < part.size(); ++v) {
+    if (part[v] < 0) continue;
+    const auto id = static_cast<size_t>(part[v]);
+    if (box[id].diagonal().norm() < 2 * kWorthwhileSize * height ||
+        1 - (1 - kSoftest) * softest[id] > kWorthwhileStiffness)
+      softness[v] = 0;
+  }
+}
+
+std::vector<double> guessed_stiffness(const Character& character, const Surface& surface,
+                                      double rigid_stiffness) {
+  const std::vector<bool> fleshy = joints_called(character, kFleshy), bony = joints_called(character, kBony);
+  const Bones bones = find_bones(character, fleshy);
   const double height = bind_height(character);
   const std::vector<double> thickness = flesh_thickness(character, bones);
   const std::vector<int> segment = limb_segments(character, bones, kSegmentLength * height);
-  const std::vector<bool> bony = bony_joints(character);
   std::vector<double> softness;
   std::vector<int> owner;
   for (size_t v = 0; v < thickness.size(); ++v) {
-    const auto [own, share] = main_segment(character.skin[v], segment);
+    const Influences& skin = character.skin[v];
+    const auto [own, share] = main_segment(skin, segment);
     owner.push_back(own);
-    softness.push_back(smooth_step(kThinFlesh * height, kThickFlesh * height, thickness[v]) *
-                       smooth_step(kOneSegmentFrom, kOneSegmentTo, share) *
-                       (1 - weight_of(character.skin[v], bony)));
+    const double flesh =
+        smooth_step(kThinFlesh * height, kThickFlesh * height, thickness[v]) * (1 - weight_of(skin, bony));
+    const double added = smooth_step(kWeightFrom, kWeightTo, weight_of(skin, fleshy));
+    softness.push_back(std::max(flesh, added) * smooth_step(kOneSegmentFrom, kOneSegmentTo, share));
   }
   hold_seams(surface, owner, softness);
+  hold_small_parts(character, surface, height, rigid_stiffness, softness);
   for (double& value : softness) value = 1 - (1 - kSoftest) * value;
   return softness;
 }
@@ -145,7 +183,7 @@ std::vector<double> find_stiffness(Character& character, const Surface& surface,
     character.notes.push_back("the file paints _STIFFNESS: the recipe's regions only give names");
   if (stiffness.empty() && !recipe.regions.empty()) stiffness = stated_stiffness(character, surface, recipe);
   if (stiffness.empty()) {
-    stiffness = guessed_stiffness(character, surface);
+    stiffness = guessed_stiffness(character, surface, recipe.rigid_stiffness);
     character.notes.push_back(
         "no _STIFFNESS and no recipe regions: stiffness guessed from the flesh over the bones");
   }

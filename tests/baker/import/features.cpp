@@ -122,9 +122,9 @@ TEST_CASE("normalised_integers_and_strides_decode") {
       {255, 0, 0, 0, 255, 0, 0, 0, 51, 204, 0, 0, 102, 153, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0}, "VEC4", 5121,
       true);
   file.attribute("COLOR_0") = file.add<uint16_t>(std::vector<uint16_t>(24, 65535), "VEC4", 5123, true);
-  // Normals of six bytes in rows of eight.
-  std::vector<int8_t> rows;
-  for (int v = 0; v < 6; ++v) rows.insert(rows.end(), {0, 0, -127, 99});
+  // Normals of three bytes in rows of four.
+  std::vector<int8_t> rows(24, 0);
+  for (size_t v = 0; v < 6; ++v) rows[4 * v + 2] = -127, rows[4 * v + 3] = 99;
   file.attribute("NORMAL") = file.add(rows, "VEC4", 5120, true);
   file.json["accessors"].back()["type"] = "VEC3";
   file.json["bufferViews"].back()["byteStride"] = 4;

@@ -1,0 +1,97 @@
+// recipe.cpp  A tissue recipe is read as it is written, and every slip in it is named.
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+
+#include "baker/common/bad_input.hpp"
+#include "baker/mesh/recipe.hpp"
+
+using namespace sinew::baker;
+
+namespace {
+
+std::string write(const std::string& text) {
+  const auto path =
+      std::filesystem::temp_directory_path() / ("sinew_recipe_" + std::to_string(getpid()) + ".json");
+  std::ofstream(path) << text;
+  return path.string();
+}
+
+std::string refusal(const std::string& text) {
+  const std::string path = write(text);
+  try {
+    read_recipe(path);
+  } catch (const BadInput& error) {
+    const std::string line = error.what();
+    CHECK(line.find('\n') == std::string::npos);
+    CHECK(line.find(path) == 0);
+    return line;
+  }
+  return "read";
+}
+
+}  // namespace
+
+TEST_CASE("wrong_recipes_are_refused_by_key") {
+  const std::vector<std::pair<const char*, const char*>> faults = {
+      {"hello", "not JSON"},
+      {"[1, 2]", "object"},
+      {R"({"young_soft": 1})", "young_soft_pa"},
+      {R"({"neighbors": 6})", "neighbours"},
+      {R"({"young_soft_pa": 0})", "young_soft_pa"},
+      {R"({"young_soft_pa": "soft"})", "young_soft_pa"},
+      {R"({"young_soft_pa": 2000, "young_stiff_pa": 1000})", "smaller than young_soft_pa"},
+      {R"({"poisson_ratio": 0.5})", "poisson_ratio"},
+      {R"({"density_kg_m3": -3})", "density_kg_m3"},
+      {R"({"damping_ratio": 1.5})", "damping_ratio"},
+      {R"({"voxels_high": 7})", "voxels_high"},
+      {R"({"voxels_high": 36.5})", "whole number"},
+      {R"({"rigid_stiffness": 2})", "rigid_stiffness"},
+      {R"({"core_share": -0.1})", "core_share"},
+      {R"({"coreless_joints": "ear_*"})", "coreless_joints"},
+      {R"({"nodes_per_region": 65})", "nodes_per_region"},
+      {R"({"neighbours": 1})", "neighbours"},
+      {R"({"unit_m": -1})", "unit_m"},
+      {R"({"up": "x"})", "\"up\""},
+      {R"({"regions": [{"name": "belly"}]})", "joints"},
+      {R"({"regions": [{"joints": ["spine"]}]})", "name"},
+      {R"({"regions": [{"name": "belly", "joints": ["spine"], "stiffness": 2}]})", "stiffness"},
+      {R"({"regions": [{"name": "belly", "joints": ["spine"], "softness": 1}]})", "softness"},
+  };
+  for (const auto& [text, says] : faults) {
+    const std::string line = refusal(text);
+    INFO(text << ": " << line);
+    CHECK(line != "read");
+    CHECK(line.find(says) != std::string::npos);
+  }
+  CHECK_THROWS_AS(read_recipe("/nowhere/recipe.json"), BadInput);
+}
+
+TEST_CASE("every_key_of_a_recipe_is_read_and_absent_ones_keep_their_default") {
+  const Recipe plain = read_recipe(write("{}"));
+  CHECK(plain.voxels_high == Recipe().voxels_high);
+  CHECK(plain.regions.empty());
+  const Recipe recipe = read_recipe(write(R"({
+    "young_soft_pa": 1000, "young_stiff_pa": 2000, "poisson_ratio": 0.3, "density_kg_m3": 900, "damping_ratio": 0.2,
+    "voxels_high": 20, "rigid_stiffness": 0.5, "core_share": 0.25, "coreless_joints": ["ear_*"], "nodes_per_region": 12,
+    "neighbours": 4, "unit_m": 0.01, "up": "z", "regions": [{"name": "belly", "joints": ["spine_*", "pelvis"], "stiffness": 0.3}]})"));
+  CHECK(recipe.young_soft_pa == 1000);
+  CHECK(recipe.young_stiff_pa == 2000);
+  CHECK(recipe.poisson_ratio == 0.3);
+  CHECK(recipe.density_kg_m3 == 900);
+  CHECK(recipe.damping_ratio == 0.2);
+  CHECK(recipe.voxels_high == 20);
+  CHECK(recipe.rigid_stiffness == 0.5);
+  CHECK(recipe.core_share == 0.25);
+  CHECK(recipe.coreless_joints == std::vector<std::string>{"ear_*"});
+  CHECK(recipe.nodes_per_region == 12);
+  CHECK(recipe.neighbours == 4);
+  CHECK(recipe.unit_m == 0.01);
+  CHECK(recipe.up == 'z');
+  REQUIRE(recipe.regions.size() == 1);
+  CHECK(recipe.regions[0].name == "belly");
+  CHECK(recipe.regions[0].joints == std::vector<std::string>{"spine_*", "pelvis"});
+  CHECK(recipe.regions[0].stiffness == 0.3);
+}
