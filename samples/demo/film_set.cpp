@@ -109,7 +109,7 @@ render::Image FilmSet::distances(const Snapshot& snapshot, const Positions& posi
   render::RenderOptions options = options_;
   options.width = size.width;
   options.height = size.height;
-  options.samples = size.samples;
+  options.samples = std::max(1, size.samples / 2);  // colour is data here, shading only shows the shape
   options.gloss = 0.2f;
   render::Image image = render::render(mesh, camera_, options);
   render::draw_legend(image, {.title = title, .high = highest_mm_});

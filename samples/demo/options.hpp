@@ -16,7 +16,7 @@ struct Options {
   std::string truth;   // a trajectory with positions, see `sinew-bake truth --positions`
   std::string report;  // JSON
   std::string frames;  // folder of pictures
-  int width = 400, height = 440, samples = 8;  // of each panel
+  int width = 360, height = 400, samples = 8;  // of each panel
   double picture_fps = 30;
 };
 

@@ -111,7 +111,7 @@ void make_pictures(const Run& run, const CharacterFile& character, const Options
   }
   render::write_png(folder / "contact_sheet.png",
                     sheet.image(character.name() + ": " + run.snapshots.back().motion));
-  const PanelSize large{options.width * 3 / 2, options.height * 3 / 2, 8 * options.samples};
+  const PanelSize large{options.width * 3 / 2, options.height * 3 / 2, 4 * options.samples};
   render::write_png(folder / "still.png", compose(set.panels(run.snapshots[set.liveliest()], large)));
   if (!run.crowd.empty()) render::write_png(folder / "crowd.png", crowd_picture(character, run, options));
   const auto every = std::max(1.0, std::round(options.fps / options.picture_fps));
