@@ -4,7 +4,8 @@
 
 namespace sinew {
 
-// Programmer errors go to the assert hook (see types.hpp); being over budget is a result in FrameReport. A Status
+// Programmer errors go to the assert hook (see types.hpp); being over budget is a result in FrameReport. A
+// Status
 // is for everything that comes from outside: files, poses, definitions.
 enum class StatusCode : uint32_t {
   kOk = 0,

@@ -14,51 +14,65 @@ struct Matrix34 {
   float m[3][4];
 };
 
-// A double-precision place and a unit quaternion (x y z w), so that a character far from the origin loses nothing.
+// A double-precision place and a unit quaternion (x y z w), so that a character far from the origin loses
+// nothing.
 struct RootTransform {
-  double position_m[3] = {0, 0, 0};
-  float rotation_xyzw[4] = {0, 0, 0, 1};  // normalised on entry; zero length or NaN: set_pose refuses the pose
+  double position_m[3] = {0, 0, 0};       // within +-1e12
+  float rotation_xyzw[4] = {0, 0, 0, 1};  // normalised on entry; zero length or NaN: refused
 };
 
-// One pose of one character. joints: character-from-joint (before the inverse bind matrix), one for each of the
-// asset's joints, in the asset's order; fewer, more, or a NaN: refused, and the last good pose stays.
+// One pose of one character. What set_pose refuses leaves the last good pose in place.
 struct Pose {
+  // Character-from-joint (before the inverse bind matrix), one for each of the asset's joints, in the asset's
+  // order. Any affine matrix: scale, shear and mirroring are kept. Fewer or more, NaN or infinity, an entry
+  // beyond +-1e6: refused.
   std::span<const Matrix34> joints = {};
   RootTransform root = {};  // world-from-character
 };
 
-// Threads come from the caller. Contract: enqueue may run task(argument, index) for index 0..count-1 on any threads, in any
-// order, each exactly once, and may return at once; finish returns when all of that call's indices have run.
-// Both are called from the thread that calls step(). Null enqueue: serial, on that thread.
+// Threads come from the caller. Contract: enqueue may run task(argument, index) for index 0..count-1 on any
+// threads, in any order, each exactly once, and may return at once; finish returns when all of that call's
+// indices have run. Both are called from the thread that calls step(), at most once a step. One index touches
+// one instance, and the results have the same bits for any number of threads and any order. Null enqueue:
+// serial, on the stepping thread; enqueue without finish: World::create refuses.
 struct TaskHook {
   using Task = void (*)(void* argument, uint32_t index);
-  void* (*enqueue)(Task task, void* argument, uint32_t count, void* context) = nullptr;  // returns a ticket for finish
+  // Returns a ticket for finish.
+  void* (*enqueue)(Task task, void* argument, uint32_t count, void* context) = nullptr;
   void (*finish)(void* ticket, void* context) = nullptr;
   void* context = nullptr;
 };
 
-// Monotonic nanoseconds. Null: the steady clock.
+// Monotonic nanoseconds; called on every thread that runs tasks. Null: the steady clock.
 struct ClockHook {
   uint64_t (*now_ns)(void* context) = nullptr;
   void* context = nullptr;
 };
 
-// Called for programmer errors (a stale id, a second step inside a step). Null: abort in debug builds, ignore in release.
+// Called for programmer errors (a stale id, a second step inside a step), on the thread that made them; the
+// call then answers with a Status as well, and nothing has changed. Null: abort in debug builds, ignore in
+// release.
 struct AssertHook {
   void (*fail)(const char* condition, const char* file, int line, void* context) = nullptr;
   void* context = nullptr;
 };
 
 enum class BudgetMode : uint32_t {
-  kTime = 0,       // budget_us is microseconds of the stepping thread's clock; costs are corrected online
-  kWorkUnits = 1,  // budget_us is baked microseconds: the same inputs give the same tiers and bits on any machine
+  // The budget is microseconds of the world's clock from the start of step(). Costs are corrected online; an
+  // instance whose turn comes after the deadline is cut: extrapolated, and counted.
+  kTime = 0,
+  // The budget is baked microseconds: the same inputs give the same tiers and bits whatever the clock says.
+  kWorkUnits = 1,
 };
 
+// A field outside its range: World::create refuses.
 struct WorldDef {
-  uint32_t max_assets = 16;       // 1..65535; one more load is refused with kOutOfCapacity
-  uint32_t max_instances = 64;    // 1..100000; one more create is refused with kOutOfCapacity
-  uint32_t max_ticks_per_step = 4;  // 1..64; a longer frame drops the excess time and reports it
-  float teleport_distance_m = 2;  // > 0; a root that moves further between two ticks is a teleport: tissue keeps its shape
+  uint32_t max_assets = 16;         // 1..65535; one more load is refused with kOutOfCapacity
+  uint32_t max_instances = 64;      // 1..100000; one more create is refused with kOutOfCapacity
+  uint32_t max_ticks_per_step = 4;  // 1..64; a longer frame drops the excess at its start and reports it
+  // > 0; infinity: never. A root set further than this from where its velocity of the last step would have
+  // brought it is a teleport, at any frame rate: tissue keeps its shape and feels nothing of the jump.
+  float teleport_distance_m = 2;
   BudgetMode budget_mode = BudgetMode::kTime;
   TaskHook tasks = {};
   ClockHook clock = {};
@@ -66,63 +80,75 @@ struct WorldDef {
 };
 
 struct InstanceDef {
-  AssetId asset = {};          // null or stale: refused
-  float importance = 1;   // >= 0, relative weight for the scheduler; NaN or negative counts as 0
-  RootTransform root = {};     // where it enters, in its bind pose, at rest
+  AssetId asset = {};  // null or stale: refused
+  // >= 0, relative weight for the scheduler. 0: gets what the others leave; NaN or negative counts as 0. The
+  // rule, and the longest wait of an instance with importance above 0: runtime/frame/scheduler.hpp.
+  float importance = 1;
+  RootTransform root = {};  // where it enters, in its bind pose, at rest; refused as in a pose
 };
 
 // What an instance got in a frame. Values are baked into packs: never renumbered.
 enum class Tier : uint32_t {
-  kSkinning = 0,     // displacement faded to zero
-  kExtrapolate = 1,  // the last displacement carried on, damped
-  kNetwork = 2,      // the asset's network
+  kSkinning = 0,     // displacement is zero, or fading to it (18 ticks, 0.3 s at 60 Hz)
+  kExtrapolate = 1,  // the last displacement carried on with damped velocity (12 ticks), then faded
+  kNetwork = 2,      // the asset's network; blended in over 20 ticks when it comes back
 };
 
 struct InstanceReport {
   InstanceId instance = {};
   Tier tier = Tier::kSkinning;
   float blend = 0;                   // 0..1, weight of the simulated displacement in what is read back
-  uint32_t ticks_since_network = 0;  // 0: evaluated this frame
-  uint32_t input_clamps = 0;         // network inputs outside the baked envelope, since creation
-  uint32_t displacement_clamps = 0;  // nodes held at the baked displacement bound, since creation
-  uint32_t restarts = 0;             // times the state was faded to skinning and restarted (NaN, envelope), since creation
-  float cost_us = 0;                 // what this instance took in this frame
+  uint32_t ticks_since_network = 0;  // 0: its last tick was the network's
+  // Counters since creation.
+  uint32_t input_clamps = 0;         // network inputs outside the baked envelope
+  uint32_t displacement_clamps = 0;  // nodes held at the baked displacement bound
+  // The state was given up, faded to skinning and restarted: NaN or infinity in it, or nodes held at their
+  // bound in more than 60 ticks in a row.
+  uint32_t restarts = 0;
+  float cost_us = 0;  // what this instance took in the last step, on its thread
 };
 
 // Filled by step(). All times in microseconds of the world's clock.
 struct FrameReport {
-  uint64_t frame = 0;
-  uint32_t ticks = 0;         // fixed ticks simulated
-  float dropped_s = 0;        // time beyond max_ticks_per_step, not simulated
-  float budget_us = 0;        // as set; infinity: no limit
-  float total_us = 0;         // the whole step
+  uint64_t frame = 0;   // steps before this one
+  uint32_t ticks = 0;   // fixed ticks simulated; the most of any instance
+  float dropped_s = 0;  // time beyond max_ticks_per_step, not simulated; the most of any instance
+  float budget_us = 0;  // as set; infinity: no limit
+  float total_us = 0;   // the whole step
+  // Stages: choosing tiers; poses, skinned nodes and network inputs; network and guards; displacement brought
+  // to the render time and the surface. The last three are summed over the instances: on several threads they
+  // may exceed total_us.
   float schedule_us = 0, drive_us = 0, tissue_us = 0, publish_us = 0;
+  // Each instance once; one whose extrapolation has faded away counts as skinned.
   uint32_t instances_network = 0, instances_extrapolated = 0, instances_skinned = 0;
-  uint32_t instances_cut = 0;    // scheduled for the network, but the deadline came first: extrapolated instead
-  uint32_t restarts = 0;         // instances restarted in this frame
-  uint32_t rejected_poses = 0;   // set_pose calls refused since the last step
-  bool over_budget = false;      // total_us > budget_us
+  uint32_t instances_cut = 0;  // scheduled for the network, but the deadline came first: extrapolated instead
+  uint32_t restarts = 0;       // instances restarted in this frame
+  uint32_t rejected_poses = 0;  // set_pose calls refused since the last step
+  bool over_budget = false;     // kTime: total_us > budget_us; kWorkUnits: the baked cost of what ran is
 };
 
 // Where positions are written and in which space.
 enum class Space : uint32_t {
   kCharacter = 0,  // the pose's character space
   kWorld = 1,      // root applied, relative to origin_m below
-  kBind = 2,       // bind-space displacement (a delta, not a place): add it to the bind position before GPU skinning
+  // Bind-space displacement (a delta, not a place): add it to the bind position before GPU skinning. Zero
+  // where nothing is carried, and where the vertex's blended skin matrix has no inverse.
+  kBind = 2,
 };
 
 struct ReadDef {
   Space space = Space::kCharacter;
-  double origin_m[3] = {0, 0, 0};  // kWorld: subtracted in double before rounding to float
-  float* out = nullptr;            // first vertex's x; y and z follow it
-  size_t stride_bytes = 12;        // >= 12, a multiple of 4
-  size_t capacity = 0;             // vertices that fit; fewer than the asset's vertex_count: refused, nothing written
+  double origin_m[3] = {0, 0, 0};  // kWorld: subtracted in double before rounding to float; NaN: refused
+  float* out = nullptr;            // first vertex's x; y and z follow it; aligned to 4 bytes; null: refused
+  size_t stride_bytes = 12;  // >= 12, a multiple of 4, else refused; bytes between vertices are left alone
+  size_t capacity = 0;  // vertices that fit; fewer than the asset's vertex_count: refused, nothing written
 };
 
 struct AssetInfo {
-  uint32_t vertex_count = 0, triangle_count = 0, joint_count = 0, region_count = 0, node_count = 0, clip_count = 0;
+  uint32_t vertex_count = 0, triangle_count = 0, joint_count = 0, region_count = 0, node_count = 0,
+           clip_count = 0;
   float tick_hz = 0;
-  float height_m = 0;  // extent of the bind pose along Y
+  float height_m = 0;           // extent of the bind pose along Y
   uint64_t instance_bytes = 0;  // memory one instance takes
 };
 

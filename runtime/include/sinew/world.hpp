@@ -13,8 +13,12 @@
 //   }
 //
 // Thread rule: one thread at a time calls a world's functions, except where a function says otherwise.
-// Nothing here throws or prints. step, set_pose, read_* and report never allocate or block; the others may
-// allocate.
+// Nothing here throws or prints. step, set_pose, set_importance, set_budget_us, reset, read_*, report,
+// save_state and restore_state never allocate or block; the others may allocate.
+//
+// Every function answers kInvalidArgument on a null world or for a null out, and kStaleId for an id that is
+// null or whose object is gone (a programmer error: the assert hook hears of it). After a refusal nothing has
+// changed.
 #pragma once
 #include "sinew/types.hpp"
 
@@ -27,13 +31,17 @@ class World {
   World(World&& other) noexcept;
   World& operator=(World&& other) noexcept;
 
-  // Takes the tables' memory. A field outside its range: kInvalidArgument, *out untouched.
+  // Takes the tables' memory. A field outside its range: kInvalidArgument; no memory: kOutOfCapacity;
+  // *out untouched.
   static Status create(const WorldDef& def, World* out) noexcept;
 
   // Checks the whole pack (O(bytes)), then uses it in place: bytes must outlive the asset and be 64-byte
-  // aligned. Never reads outside bytes; refuses with a cause; *out untouched on refusal.
+  // aligned. Never reads outside bytes; refuses with a cause. A pack without a character, or with a
+  // network in the paper's wiring: kUnsupported; max_assets loaded: kOutOfCapacity; *out untouched on
+  // refusal.
   Status load_asset(std::span<const std::byte> bytes, AssetId* out) noexcept;
-  // The same with the file memory-mapped for the asset's life.
+  // The same with the file memory-mapped for the asset's life; it must not be changed in place
+  // meanwhile.
   Status load_asset_file(const char* path, AssetId* out) noexcept;
   // kInvalidArgument while instances of it live.
   Status unload_asset(AssetId asset) noexcept;
@@ -45,33 +53,46 @@ class World {
   // is written.
   Status bind_pose(AssetId asset, std::span<Matrix34> out) const noexcept;
 
-  // One allocation for all of the instance's state. It starts at rest in its bind pose.
+  // One allocation for all of the instance's state. It starts at rest in its bind pose; the first pose
+  // that is set counts as having been held for ever. max_instances live, or no memory: kOutOfCapacity.
   Status create_instance(const InstanceDef& def, InstanceId* out) noexcept;
   Status destroy_instance(InstanceId instance) noexcept;
 
-  // The pose at the end of the coming step; ticks between two poses see them interpolated. Joints are copied.
-  // Wrong count: kInvalidArgument; NaN or infinity: kNotFinite; in both cases the last good pose stays and
+  // The pose at the end of the coming step; ticks between two poses see them interpolated. Joints are
+  // copied. The last pose set before a step counts; without one the character stands still. Wrong count
+  // or range: kInvalidArgument; NaN or infinity: kNotFinite; in both cases the last good pose stays and
   // the refusal is counted in the report.
   Status set_pose(InstanceId instance, const Pose& pose) noexcept;
+  // Mended as in InstanceDef.
   Status set_importance(InstanceId instance, float importance) noexcept;
-  // Forgets motion: the tissue is at rest in the next pose that is set.
+  // Forgets motion: the tissue is at rest in the next pose that is set. What is read back changes with
+  // the next step.
   Status reset(InstanceId instance) noexcept;
 
-  // Microseconds a step may take; infinity (the default): no limit; 0: skinning for all; negative or NaN:
-  // kInvalidArgument.
+  // Microseconds a step may take (BudgetMode). Infinity, the default: the network for all; 0: skinning
+  // for all; negative or NaN: kInvalidArgument. Reading back is not part of it.
   Status set_budget_us(float budget_us) noexcept;
 
-  // Advances by dt_s >= 0 in fixed ticks of the assets' rate. NaN or negative counts as 0. Never fails.
+  // Advances by dt_s >= 0 in fixed ticks of the assets' rate; the float nearest to 1/n s counts as
+  // exactly that. NaN or negative counts as 0 (a pause: the pose moves, the tissue does not), more than
+  // 1e6 s as 1e6 s. Never fails.
   FrameReport step(float dt_s) noexcept;
 
-  // Positions, at the time of the last step, of all of the asset's vertices. Cost O(vertices x influences).
+  // Positions, at the time of the last step, of all of the asset's vertices. Cost O(vertices x
+  // influences). Between ticks the displacement is carried on at its last velocity. From any number of
+  // threads at a time while no function that is not const runs.
   Status read_positions(InstanceId instance, const ReadDef& def) const noexcept;
-  // Unit normals of the displaced surface (kCharacter or kWorld).
+  // Unit normals of the displaced surface (kCharacter or kWorld), smooth across seams; zero where no
+  // triangle has area. Cost as read_positions and O(triangles). From several threads at a time for
+  // different instances; for one instance, one thread at a time.
   Status read_normals(InstanceId instance, const ReadDef& def) const noexcept;
+  // From any number of threads at a time, as read_positions.
   Status report(InstanceId instance, InstanceReport* out) const noexcept;
 
-  // Rollback. state_bytes is fixed for an instance's life; restore of bytes of another asset or version:
-  // kCorrupt, untouched.
+  // Rollback. state_bytes is fixed for an instance's life, 0 for a stale id; a smaller span: save_state
+  // refuses. Bytes of another asset or version, or changed ones: kCorrupt, the instance untouched. After
+  // a restore the same poses, steps and tiers give the same bits; importance and waiting time are part
+  // of the state.
   size_t state_bytes(InstanceId instance) const noexcept;
   Status save_state(InstanceId instance, std::span<std::byte> out) const noexcept;
   Status restore_state(InstanceId instance, std::span<const std::byte> bytes) noexcept;
