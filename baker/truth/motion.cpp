@@ -11,8 +11,9 @@
 namespace sinew::baker {
 namespace {
 
-constexpr double kStill_s = 0.5;  // at rest at the start of every motion
-constexpr double kRamp_s = 0.35;  // from stillness to full motion and back
+constexpr double kStill_s = 0.1;   // at rest at the start of random and shaken motions
+constexpr double kEaseIn_s = 0.5;  // from the rest pose into a clip
+constexpr double kRamp_s = 0.35;   // from stillness to full motion and back
 constexpr double kCrossFade_s = 0.35;
 constexpr double kLength_s = 600;  // random motions stand still afterwards
 constexpr double kTau = 2 * std::numbers::pi;
@@ -96,7 +97,7 @@ std::vector<Bout> draw_bouts(Random& random) {
   for (double t = kStill_s; t < kLength_s;) {
     const double end = t + random.uniform(1.5, 4.0);
     bouts.push_back({t, end});
-    t = end + kRamp_s + random.uniform(0.2, 1.2);
+    t = end + kRamp_s + (random.chance(0.25) ? random.uniform(1.5, 2.5) : random.uniform(0.2, 1.0));
   }
   return bouts;
 }
@@ -242,7 +243,7 @@ Motion clip_motion(const Character& character, const Clip& clip, uint64_t seed, 
   const auto skeleton = std::make_shared<const Character>(skeleton_of(character));
   const auto smooth = std::make_shared<const SmoothClip>(*skeleton, clip);
   return [=, rest = rest_pose(character)](double t_s) {
-    const LocalPose pose = blend(rest, smooth->at(phase + speed * t_s), strength * ease(t_s / kStill_s));
+    const LocalPose pose = blend(rest, smooth->at(phase + speed * t_s), strength * ease(t_s / kEaseIn_s));
     return WorldPose{joint_matrices(*skeleton, pose), Matrix4::Identity()};
   };
 }

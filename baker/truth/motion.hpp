@@ -24,11 +24,11 @@ using Motion = std::function<WorldPose(double t_s)>;
 Motion clip_motion(const Character& character, const Clip& clip, uint64_t seed = 0, double strength = 1);
 
 // The built-in shake for characters without clips: the root moves and turns, the joints rest; still for the
-// first half second and for the last of every four. seed: other frequencies and directions.
+// first tenth of a second and for the last of every four. seed: other frequencies and directions.
 Motion shake_motion(const Character& character, uint64_t seed = 0, double strength = 1);
 
 // Clips cross-faded at random, band-limited joint noise, root dashes, sways and turns, with stretches of
-// stillness in the rest pose; still for the first half second and after ten minutes. held_out: names of clips
+// stillness in the rest pose; still for the first tenth of a second and after ten minutes. held_out: names of clips
 // it must not use.
 Motion random_motion(const Character& character, uint64_t seed, double strength,
                      const std::vector<std::string>& held_out = {});

@@ -1,0 +1,109 @@
+"""The trainer's commands."""
+import argparse
+import dataclasses
+import json
+import os
+import sys
+
+from .safetensors import BadData
+
+
+def _add_fields(parser, options, skip=()):
+    """One option a dataclass field, its default shown."""
+    for f in dataclasses.fields(options):
+        if f.name in skip:
+            continue
+        kind = (lambda text: tuple(int(c) for c in text.split(","))) if isinstance(f.default, tuple) else type(f.default)
+        kind = (lambda text: text not in ("0", "false", "no")) if isinstance(f.default, bool) else kind
+        parser.add_argument("--" + f.name.replace("_", "-"), type=kind, default=f.default, help=f"default {f.default}")
+
+
+def _from_fields(options, arguments):
+    return options(**{f.name: getattr(arguments, f.name) for f in dataclasses.fields(options) if hasattr(arguments, f.name)})
+
+
+def _generate(a):
+    from .generate import Plan, generate
+    sheet = generate(a.bake, a.character, a.recipe, a.out, _from_fields(Plan, a), a.processes)
+    print(f"{a.out}: {len(sheet['sequences'])} sequences, {sheet['seconds_simulated']:.0f} s simulated, {len(sheet['failed'])} failed")
+
+
+def _train(a):
+    import torch
+    from .train import train
+    from .train_options import TrainOptions
+    torch.set_num_threads(a.threads)
+    options = _from_fields(TrainOptions, a)
+    if options.device == "auto":
+        options.device = "cuda" if torch.cuda.is_available() else "cpu"
+    train(a.data, a.out, options)
+
+
+def _evaluate(a):
+    from .evaluate import evaluate, table
+    metrics, judged = evaluate(os.path.join(a.run, "weights.safetensors"), a.data, a.run)
+    curve = os.path.join(a.run, "curve.json")
+    if os.path.exists(curve):
+        from .plot import draw
+        draw(metrics, judged, curve, os.path.join(a.run, "curves.png"))
+    print(table(metrics))
+
+
+def _export(a):
+    from .export import export
+    export(os.path.join(a.run, "weights.safetensors"), a.run, a.data, a.out, a.name)
+
+
+def _best(a):
+    """The run whose validation roll-outs were best."""
+    def score(run):
+        with open(os.path.join(run, "curve.json")) as file:
+            return json.load(file)["best"]
+    print(min(a.runs, key=score))
+
+
+def _parser():
+    from .generate import Plan
+    parser = argparse.ArgumentParser(prog="baker/train", description="Trains tissue networks from ground truth.")
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+
+    def command(name, run, text):
+        p = commands.add_parser(name, help=text, description=text)
+        p.set_defaults(run_command=run)
+        return p
+
+    p = command("generate", _generate, "Simulates a data set with sinew-bake truth.")
+    p.add_argument("character", help="skinned .glb")
+    p.add_argument("--bake", required=True, help="path of sinew-bake")
+    p.add_argument("--recipe", help="tissue recipe, JSON")
+    p.add_argument("--out", required=True, help="folder of the data set")
+    p.add_argument("--processes", type=int, default=2)
+    _add_fields(p, Plan)
+    p = command("train", _train, "Trains one network.")
+    p.add_argument("data", help="folder of the data set")
+    p.add_argument("--out", required=True, help="folder of the run; a run that was cut goes on")
+    p.add_argument("--threads", type=int, default=1)
+    from .train_options import TrainOptions
+    _add_fields(p, TrainOptions)
+    p = command("evaluate", _evaluate, "Judges a run on held-out motions: metrics.json, curves.png.")
+    p.add_argument("data")
+    p.add_argument("--run", required=True)
+    p = command("export", _export, "Writes weights, metrics, curves and check vectors of a judged run.")
+    p.add_argument("data")
+    p.add_argument("--run", required=True)
+    p.add_argument("--out", required=True)
+    p.add_argument("--name", required=True)
+    p = command("best", _best, "Prints the run that validated best.")
+    p.add_argument("runs", nargs="+")
+    return parser
+
+
+def main(arguments=None):
+    """Exit codes: 0 good, 2 unusable input (one line says what, where, how to mend)."""
+    a = _parser().parse_args(arguments)
+    try:
+        a.run_command(a)
+    except BadData as error:
+        print(f"baker/train: {error}", file=sys.stderr)
+        return 2
+    return 0

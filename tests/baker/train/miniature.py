@@ -1,0 +1,65 @@
+"""The whole path in two minutes: a coarse creature, a few simulated seconds, half a minute of training, export, bake, check."""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+import support
+
+support.leave_without_torch()
+from train.cli import main as trainer  # noqa: E402
+
+CHECK_TOLERANCE = "1e-4"  # length units of a centimetre: a micrometre, float32 against float64 over 120 ticks
+
+
+def run(*command):
+    """Runs a program and returns what it printed; a failure ends the test with its own words."""
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode:
+        sys.exit(f"{' '.join(command)}: exit {done.returncode}\n{done.stdout}{done.stderr}")
+    return done.stdout
+
+
+def train_step(*arguments):
+    if trainer(list(arguments)):
+        sys.exit(f"baker/train {' '.join(arguments)}: failed")
+
+
+def coarse_recipe(folder):
+    """The creature's tissue on a coarse cage and few control nodes."""
+    with open(support.ROOT / "assets/creature/tissue.json") as file:
+        recipe = json.load(file)
+    recipe.update(voxels_high=16, nodes_per_region=10)
+    path = os.path.join(folder, "tissue.json")
+    with open(path, "w") as file:
+        json.dump(recipe, file)
+    return path
+
+
+def main(bake):
+    with tempfile.TemporaryDirectory() as folder:
+        place = lambda name: os.path.join(folder, name)
+        recipe = coarse_recipe(folder)
+        run(bake, "creature", str(support.ROOT / "assets/creature/creature.json"), "--vertices", "500", "-o", place("c.glb"))
+        amount = dict(train_random=3, train_clips=0, validation_random=1, test_random=0, test_clips=1, long_sequences=0, substeps=2, seconds=2)
+        options = [text for k, v in amount.items() for text in ("--" + k.replace("_", "-"), str(v))]
+        train_step("generate", place("c.glb"), "--bake", bake, "--recipe", recipe, "--out", place("data"), *options)
+        train_step("train", place("data"), "--out", place("run"), "--minutes", "0.5", "--channels", "16,3", "--batch", "3")
+        train_step("evaluate", place("data"), "--run", place("run"))
+        train_step("export", place("data"), "--run", place("run"), "--out", place("weights"), "--name", "mini")
+        run(bake, "model", place("weights/mini.safetensors"), "-o", place("mini.sinew"))
+        for network in ("mini.sinew", "weights/mini.safetensors"):
+            report = json.loads(run(bake, "check", place(network), place("weights/mini.vectors.safetensors"), "--tolerance", CHECK_TOLERANCE))
+            assert report["ok"] and report["steps"] > 50, report
+        run(bake, "character", place("c.glb"), "--recipe", recipe, "--tissue", place("weights/mini.safetensors"), "-o", place("c.sinew"))
+        told = json.loads(run(bake, "info", place("c.sinew"), "--json"))
+        with open(place("weights/mini.metrics.json")) as file:
+            metrics = json.load(file)
+        ratio = metrics["roll_out"]["100"]["network"]["ratio"]
+        print(f"held-out error after 100 ticks: {ratio} of skinning's; a pack with {len(told)} entries")
+        assert ratio < 1, "half a minute of training does not beat skinning alone"
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])
