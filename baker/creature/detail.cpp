@@ -19,7 +19,8 @@ struct Ring {
 
 constexpr double kCapInnerScale = 0.93;
 
-// A pair of rings at every change of colour, the others where the gaps are widest; the side that looks out is denser.
+// A pair of rings at every change of colour, the others where the gaps are widest; the side that looks out is
+// denser.
 std::vector<double> ring_angles(size_t count, const std::vector<ColorBand>& bands) {
   constexpr double kBorder_deg = 0.8, kBackSparser = 2.5;
   std::vector<double> angles = {0, 180};
@@ -36,7 +37,8 @@ std::vector<double> ring_angles(size_t count, const std::vector<ColorBand>& band
       const double gap = (angles[i + 1] - angles[i]) / (angles[i] < 90 ? 1 : kBackSparser);
       if (gap > width) width = gap, widest = i;
     }
-    angles.insert(angles.begin() + static_cast<long>(widest) + 1, 0.5 * (angles[widest] + angles[widest + 1]));
+    angles.insert(angles.begin() + static_cast<long>(widest) + 1,
+                  0.5 * (angles[widest] + angles[widest + 1]));
   }
   return {angles.begin() + 1, angles.end() - 1};
 }

@@ -179,14 +179,16 @@ class Remesher {
     for (const auto& [center, around] : {std::pair{a, &around_a}, std::pair{b, &around_b}})
       for (int v : *around)
         if (v != a && v != b && (at(v) - place).norm() > kStillShort * wanted(center, v)) return;
-    if (folds(a, place, b) || folds(b, place, a) || cuts_through(a, place, b) || cuts_through(b, place, a)) return;
+    if (folds(a, place, b) || folds(b, place, a) || cuts_through(a, place, b) || cuts_through(b, place, a))
+      return;
     merge(a, b, place);
   }
 
-  // Whether moving v to `place` turns one of its triangles, other than those it shares with `except`, over or away from the
-  // surface.
+  // Whether moving v to `place` turns one of its triangles, other than those it shares with `except`, over or
+  // away from the surface.
   bool folds(int v, const Vector3d& place, int except) const {
     constexpr double kMostTurn = 0.35, kMostLean = 0.2;  // cosines
+    constexpr double kSliver = 0.1;                      // area
     const Vector3d outward = field_.sample(place).gradient.normalized();
     for (int t : faces_of(v)) {
       const Triangle& corners = triangle(t);
@@ -194,15 +196,17 @@ class Remesher {
       std::array<Vector3d, 3> corner;
       for (size_t i = 0; i < 3; ++i) corner[i] = corners[i] == v ? place : at(corners[i]);
       const Vector3d after = (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
-      const Vector3d before = area_vector(corners).normalized();
-      if (after.dot(before) <= kMostTurn) return true;
-      if (after.dot(outward) < std::min(kMostLean, before.dot(outward))) return true;
+      const Vector3d before = area_vector(corners);
+      const bool sliver = before.norm() < kSliver * edge_m_ * edge_m_;  // its normal says nothing
+      const double lean = before.normalized().dot(outward);
+      if (!sliver && after.dot(before) <= kMostTurn * before.norm()) return true;
+      if (after.dot(outward) < (sliver ? kMostLean : std::min(kMostLean, lean))) return true;
     }
     return false;
   }
 
-  // Whether moving v to `place` makes a triangle, other than those it shares with `except`, leave the surface: the start of
-  // eating a thin ear away.
+  // Whether moving v to `place` makes a triangle, other than those it shares with `except`, leave the
+  // surface: the start of eating a thin ear away.
   bool cuts_through(int v, const Vector3d& place, int except) const {
     for (int t : faces_of(v)) {
       const Triangle& corners = triangle(t);
