@@ -273,11 +273,10 @@ Eigen::VectorXd Fem::elastic_force(const Eigen::VectorXd& at) const {
   return -gradient;
 }
 
-double Fem::elastic_energy() const {
+double Fem::elastic_energy(const Eigen::VectorXd& at) const {
   double sum = 0;
   impl_->each_block([&](const ElementBlock& block) {
-    sum += (block.volume *
-            energy_density(impl_->elasticity, block, deformation_gradient(block, positions.data())))
+    sum += (block.volume * energy_density(impl_->elasticity, block, deformation_gradient(block, at.data())))
                .sum();
   });
   return sum;

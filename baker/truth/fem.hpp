@@ -66,7 +66,8 @@ class Fem {
   void damp(double ratio);
 
   Eigen::VectorXd elastic_force(const Eigen::VectorXd& at) const;  // 3 a node, constrained ones too
-  double elastic_energy() const;
+  double elastic_energy(const Eigen::VectorXd& at) const;
+  double elastic_energy() const { return elastic_energy(positions); }
   double kinetic_energy() const;
   std::vector<double> frequencies_hz(int count) const;  // lowest free modes about the unstressed shape
   int body_count() const;                               // separate sets of free nodes

@@ -123,16 +123,18 @@ TruthFrame TissueTruth::Impl::frame() const {
   frame.skinned = skin_positions(character, frame.pose.joints);
   for (Vector3& p : frame.skinned)
     p = frame.pose.root.block<3, 3>(0, 0) * p + frame.pose.root.block<3, 1>(0, 3);
+  const Eigen::VectorXd displacement = fem.positions - skinned.after;
   frame.truth = frame.skinned;
   for (size_t v = 0; v < frame.truth.size(); ++v) {
     const Cage::Place& place = cage.surface[v];
     for (size_t a = 0; a < 4; ++a) {
       const int node =
           part.node_of_cage[static_cast<size_t>(cage.tetrahedra[static_cast<size_t>(place.tetrahedron)][a])];
-      if (node >= 0) frame.truth[v] += place.weight[a] * (fem.positions - skinned.after).segment<3>(3 * node);
+      if (node >= 0) frame.truth[v] += place.weight[a] * displacement.segment<3>(3 * node);
     }
   }
-  frame.elastic_energy_j = fem.elastic_energy();
+  frame.elastic_energy_j = fem.elastic_energy() - fem.elastic_energy(skinned.after) +
+                           fem.elastic_force(skinned.after).dot(displacement);
   for (size_t i = 0; i < part.rest.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
     if (!part.constrained[i])
