@@ -68,7 +68,8 @@ TEST_CASE("returning_instance_is_blended_in_over_the_stated_ticks") {
 }
 
 // No pop: whatever is taken away or given back, no vertex moves more than twice as far in a frame as it does
-// undisturbed. The blend moves it by 1.5 / kBlendInTicks of its displacement a tick; a switch would by all of it.
+// undisturbed. The blend moves it by 1.5 / kBlendInTicks of its displacement a tick; a switch would by all of
+// it.
 constexpr double kPop = 2;
 
 TEST_CASE("changing_tiers_does_not_pop") {

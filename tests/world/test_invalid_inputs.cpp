@@ -1,4 +1,5 @@
 // test_invalid_inputs.cpp  Each call refuses what it cannot use, says why, and leaves everything as it was.
+#include <array>
 #include <limits>
 #include <string>
 
@@ -196,6 +197,18 @@ TEST_CASE("reads_refuse_bad_definitions_and_write_nothing") {
                                          {.space = Space::kBind, .out = out.data(), .capacity = count}),
                 StatusCode::kInvalidArgument);
   CHECK(std::ranges::all_of(out, [](float v) { return v == -7; }));
+}
+
+TEST_CASE("joint_name_and_bind_pose_refuse_bad_ids_joints_and_sizes") {
+  Stage stage(0);
+  std::array<Matrix34, 3> joints{};
+  CHECK(stage.world.joint_name({}, 0) == nullptr);
+  CHECK(stage.world.joint_name(stage.asset, 2) == nullptr);
+  check_refused(stage.world.bind_pose({}, std::span(joints).first(2)), StatusCode::kStaleId);
+  check_refused(stage.world.bind_pose(stage.asset, joints), StatusCode::kInvalidArgument);
+  check_refused(stage.world.bind_pose(stage.asset, std::span(joints).first(1)), StatusCode::kInvalidArgument);
+  CHECK(joints[0].m[0][0] == 0);
+  CHECK(World().joint_name(stage.asset, 0) == nullptr);
 }
 
 TEST_CASE("null_outputs_are_refused") {

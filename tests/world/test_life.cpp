@@ -1,4 +1,5 @@
 // test_life.cpp  Coming and going of worlds, assets and instances.
+#include <array>
 #include <cstdio>
 #include <fstream>
 
@@ -47,6 +48,19 @@ TEST_CASE("asset_info_states_the_counts") {
   CHECK(stage.info.tick_hz == 60);
   CHECK(stage.info.height_m == Approx(0.6));
   CHECK(stage.info.instance_bytes > 10000);
+}
+
+TEST_CASE("joints_have_the_names_and_the_bind_pose_of_the_file") {
+  Stage stage(0);
+  std::array<Matrix34, 2> joints;
+  REQUIRE(stage.world.bind_pose(stage.asset, joints).ok());
+  CHECK(stage.world.joint_name(stage.asset, 0) == std::string("foot"));
+  CHECK(stage.world.joint_name(stage.asset, 1) == std::string("waist"));
+  const scenes::BlockPose expected = scenes::bind_pose();
+  for (size_t j = 0; j < joints.size(); ++j) {
+    for (int i = 0; i < 12; ++i)
+      CHECK(joints[j].m[i / 4][i % 4] == Approx(expected.joints[j].m[i / 4][i % 4]));
+  }
 }
 
 // Slots are used again and again while others live on undisturbed.

@@ -5,8 +5,7 @@
 namespace sinew {
 
 // Programmer errors go to the assert hook (see types.hpp); being over budget is a result in FrameReport. A
-// Status
-// is for everything that comes from outside: files, poses, definitions.
+// Status is for everything that comes from outside: files, poses, definitions.
 enum class StatusCode : uint32_t {
   kOk = 0,
   kInvalidArgument = 1,  // a definition, span or number is outside its stated range
