@@ -117,7 +117,6 @@ void forget_motion(Instance& instance) noexcept {
   state.tail_ticks = kCarryTicks + kFadeTicks;
   state.clamped_ticks = 0;
   state.render_fraction = 0;
-  state.dt_before_s = 0;
   std::fill_n(state.velocity_m_s, 3, 0.0);
   std::fill_n(state.angular_velocity, 3, 0.0);
 }

@@ -163,7 +163,7 @@ TEST_CASE("a_million_metres_away_is_like_the_origin") {
 TEST_CASE("world_positions_far_away_are_relative_to_the_origin_asked_for") {
   Stage stage;
   scenes::BlockPose pose = scenes::bind_pose();
-  pose.root.position_m[0] = 1e6 + 0.125;
+  pose.root.position_m[0] = 1e6 + 0.0137;
   stage.pose(stage.blocks[0], pose);
   stage.world.step(static_cast<float>(kFrame_s));
   std::vector<float> out(size_t{3} * stage.info.vertex_count);
@@ -171,7 +171,7 @@ TEST_CASE("world_positions_far_away_are_relative_to_the_origin_asked_for") {
   def.origin_m[0] = 1e6;
   REQUIRE(stage.world.read_positions(stage.blocks[0], def).ok());
   const std::vector<float> character = stage.read();
-  for (size_t i = 0; i < out.size(); i += 3) CHECK(out[i] == Approx(character[i] + 0.125).margin(1e-6));
+  for (size_t i = 0; i < out.size(); i += 3) CHECK(out[i] == Approx(character[i] + 0.0137).margin(1e-6));
 }
 
 // The jump goes to another place and heading; the walk goes on as if nothing had happened, and so does the
