@@ -5,9 +5,9 @@
 
 namespace sinew::core {
 
-void report_fault(const AssertHook& hook, const char* condition, std::source_location where) noexcept {
+void report_fault(const AssertHook& hook, const char* condition, const char* file, int line) noexcept {
   if (hook.fail) {
-    hook.fail(condition, where.file_name(), static_cast<int>(where.line()), hook.context);
+    hook.fail(condition, file, line, hook.context);
     return;
   }
 #ifndef NDEBUG

@@ -143,20 +143,22 @@ void write_bind_deltas(const Instance& instance, const ReadDef& def) noexcept {
 
 Status check_read(const ReadDef& def, uint32_t vertex_count, bool normals) noexcept {
   constexpr size_t kSmallestStride = 3 * sizeof(float);
-  const auto invalid = [](auto... line) { return make_status(StatusCode::kInvalidArgument, line...); };
+  constexpr StatusCode kInvalid = StatusCode::kInvalidArgument;
   if (static_cast<uint32_t>(def.space) > static_cast<uint32_t>(Space::kBind)) {
-    return invalid("read: space %u does not exist", static_cast<uint32_t>(def.space));
+    return make_status(kInvalid, "read: space %u does not exist", static_cast<uint32_t>(def.space));
   }
   if (normals && def.space == Space::kBind)
-    return invalid("read_normals: space must be kCharacter or kWorld");
-  if (!def.out) return invalid("read: out is a null pointer");
+    return make_status(kInvalid, "read_normals: space must be kCharacter or kWorld");
+  if (!def.out) return make_status(kInvalid, "read: out is a null pointer");
   if (reinterpret_cast<uintptr_t>(def.out) % sizeof(float) != 0)
-    return invalid("read: out is not aligned to 4 bytes");
+    return make_status(kInvalid, "read: out is not aligned to 4 bytes");
   if (def.stride_bytes < kSmallestStride || def.stride_bytes % sizeof(float) != 0) {
-    return invalid("read: stride_bytes is %zu; it must be a multiple of 4, at least 12", def.stride_bytes);
+    return make_status(kInvalid, "read: stride_bytes is %zu; it must be a multiple of 4, at least 12",
+                       def.stride_bytes);
   }
   if (def.capacity < vertex_count) {
-    return invalid("read: capacity is %zu, the asset has %u vertices", def.capacity, vertex_count);
+    return make_status(kInvalid, "read: capacity is %zu, the asset has %u vertices", def.capacity,
+                       vertex_count);
   }
   for (double origin : def.origin_m) {
     if (!std::isfinite(origin))
