@@ -13,7 +13,8 @@ from .trajectory import read_trajectory
 
 SHEET = "data_sheet.json"
 LENGTH_UNIT_M = 0.01
-ENVELOPE_MARGIN = 1.2  # of the largest input seen in training
+ENVELOPE_MARGIN = 1.2  # of the largest input and displacement seen in training
+LEAST_LIMIT = 0.75     # share of a region's radius
 
 
 class Group:
@@ -56,6 +57,10 @@ class Group:
         t = starts[None] + torch.arange(ticks + 1, device=self.device)[:, None]
         pick = lambda a: self.unflatten(a[sequences[None], t].permute(0, 2, 1, 3))
         return pick(self.drive), pick(self.displacement)
+
+    def radius_m(self):
+        """(N,) of each node's region."""
+        return torch.as_tensor(np.array(self.body.radius_m)[self.body.region], device=self.device)
 
     def unflatten(self, a):
         """(T, N, B, w) -> (T, R, n, B, w), zero where there is no node."""
@@ -104,7 +109,9 @@ def measure_scaling(groups):
     scale.update({k: _round(0.5 / rms) if rms > 1e-6 else 1.0 for k, (rms, _) in measured.items()})
     largest = {k: max(float(g.static[k].abs().max()) for g in groups) for k in STATIC}
     largest.update({k: top * scale[k] for k, (_, top) in measured.items()})
-    return Scaling(scale, LENGTH_UNIT_M, {k: max(1e-3, _round(ENVELOPE_MARGIN * v, 4)) for k, v in largest.items()})
+    reach = max(float((g.displacement.norm(dim=-1).amax((0, 1)) / g.radius_m()).max()) for g in groups)
+    return Scaling(scale, LENGTH_UNIT_M, {k: max(1e-3, _round(ENVELOPE_MARGIN * v, 4)) for k, v in largest.items()},
+                   max(LEAST_LIMIT, _round(ENVELOPE_MARGIN * reach)))
 
 
 def _check_sheet(folder):

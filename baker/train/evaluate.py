@@ -10,7 +10,7 @@ from . import dataset
 from .baselines import fit_springs
 from .rollout import roll_out, truth
 from .safetensors import BadData
-from .weights import DISPLACEMENT_LIMIT, read_weights
+from .weights import read_weights
 
 TICKS = (10, 20, 30, 40, 50, 100, 200, 600, 3600)
 METHODS = ("network", "spring", "two_springs", "skinning")
@@ -73,10 +73,10 @@ def stability(model, scaling, group, gain):
     drive = torch.cat([drive, torch.zeros_like(drive[:1]).expand(600, *drive.shape[1:])])
     watch = {}
     y = 1e3 * roll_out(model, scaling, group, drive=_cut(drive, gain, driven + 1), sequences=s, watch=watch).norm(dim=-1)
-    radius = torch.as_tensor(np.array(group.body.radius_m)[group.body.region]) * 1e3
+    radius = group.radius_m() * 1e3
     return {"gain": gain, "largest_mm": round(float(y.max()), 2), "residue_mean_mm": round(float(y[-1].mean()), 4),
             "residue_largest_mm": round(float(y[-1].max()), 4), "largest_cell": round(watch["cell"], 2),
-            "largest_share_of_radius": round(float((y / radius[None, :, None]).max()), 3), "limit_share_of_radius": DISPLACEMENT_LIMIT}
+            "largest_share_of_radius": round(float((y / radius[None, :, None]).max()), 3), "limit_share_of_radius": scaling.displacement_limit}
 
 
 def surface_error(group, methods):

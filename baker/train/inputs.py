@@ -26,3 +26,4 @@ class Scaling:
     scale: dict           # name -> number
     length_unit_m: float
     envelope: dict        # name -> largest |value x scale| let through
+    displacement_limit: float  # share of a region's radius at which the runtime holds a node

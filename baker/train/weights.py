@@ -6,8 +6,6 @@ from .inputs import INPUT_WIDTH, ORDER, Scaling
 from .model import AltConvLSTM, ModelOptions
 from .safetensors import BadData, load, save
 
-DISPLACEMENT_LIMIT = 0.75  # share of a region's radius at which the runtime holds a node
-
 
 def _join(numbers):
     return ",".join(f"{float(n):.9g}" for n in numbers)
@@ -22,7 +20,7 @@ def weights_metadata(options, scaling, rate_hz, extra):
         "envelope": _join(scaling.envelope[k] for k in ORDER), "frame": "region",
         "length_unit_m": f"{scaling.length_unit_m:.9g}", "output_scale": f"{options.output_scale:.9g}",
         "output_leak": f"{options.output_leak:.9g}", "hidden_leak": f"{options.hidden_leak:.9g}",
-        "state_clamp": f"{options.state_clamp:.9g}", "displacement_limit": f"{DISPLACEMENT_LIMIT:g}", **extra,
+        "state_clamp": f"{options.state_clamp:.9g}", "displacement_limit": f"{scaling.displacement_limit:g}", **extra,
     }
 
 
@@ -43,7 +41,8 @@ def _read_scaling(path, metadata):
         raise BadData(f"{path}: metadata inputs: this trainer feeds {','.join(ORDER)}; train again")
     numbers = {k: [float(v) for v in metadata[k].split(",")] for k in ("input_scales", "envelope")}
     named = {k: dict(zip(ORDER, v)) for k, v in numbers.items()}
-    return Scaling(named["input_scales"], _number(path, metadata, "length_unit_m", 1), named["envelope"])
+    return Scaling(named["input_scales"], _number(path, metadata, "length_unit_m", 1), named["envelope"],
+                   _number(path, metadata, "displacement_limit", 0.75))
 
 
 def read_weights(path, device="cpu"):

@@ -1,0 +1,39 @@
+#!/bin/sh
+# retrain.sh  Makes the shipped weights again: creature, data set, two networks, the better one judged and exported.
+#
+#   baker/train/retrain.sh [BUILD_DIR] [WORK_DIR]
+#
+# BUILD_DIR holds bin/sinew-bake (default: build/release). WORK_DIR takes the data set and the runs (default: BUILD_DIR/train);
+# a second call goes on where the first was cut. MINUTES (15), SEEDS ("0 1"), PROCESSES (2) and PYTHON (/usr/bin/python3) may be set.
+set -eu
+root=$(cd "$(dirname "$0")/../.." && pwd)
+build=${1:-$root/build/release}
+work=${2:-$build/train}
+python=${PYTHON:-/usr/bin/python3}
+minutes=${MINUTES:-15}
+seeds=${SEEDS:-"0 1"}
+bake=$build/bin/sinew-bake
+
+[ -x "$bake" ] || { echo "retrain.sh: no $bake; build the project first, or name its build folder" >&2; exit 2; }
+"$python" -c 'import torch' 2>/dev/null || { echo "retrain.sh: $python has no PyTorch; apt-get install python3-torch" >&2; exit 2; }
+
+mkdir -p "$work"
+"$bake" creature "$root/assets/creature/creature.json" -o "$work/creature.glb"
+"$python" "$root/baker/train" generate "$work/creature.glb" --bake "$bake" --recipe "$root/assets/creature/tissue.json" \
+  --out "$work/data" --processes "${PROCESSES:-2}"
+
+runs=
+for seed in $seeds; do
+  "$python" "$root/baker/train" train "$work/data" --out "$work/run$seed" --seed "$seed" --minutes "$minutes" --device auto \
+    > "$work/run$seed.log" 2>&1 &
+  runs="$runs $work/run$seed"
+  pids="${pids:-} $!"
+done
+for pid in $pids; do
+  wait "$pid" || { tail -n 3 "$work"/run*.log >&2; exit 2; }
+done
+
+best=$("$python" "$root/baker/train" best $runs)
+"$python" "$root/baker/train" evaluate "$work/data" --run "$best"
+"$python" "$root/baker/train" export "$work/data" --run "$best" --out "$root/assets/weights" --name creature
+"$bake" check "$root/assets/weights/creature.safetensors" "$root/assets/weights/creature.vectors.safetensors" --tolerance 1e-4
