@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace sinew::baker {
@@ -68,7 +69,25 @@ int VoxelMatter::home(const Vector3& surface, const Vector3& inward) const {
     const int fine = fine_of(surface + depth * fine_m_ * inward);
     if (matter_[static_cast<size_t>(fine)]) return fine;
   }
-  return fine_of(surface + 0.5 * fine_m_ * inward);
+  return matter_beside(surface + 0.5 * fine_m_ * inward);
+}
+
+// Of the cell that holds p and the 26 around it, the matter whose centre is nearest; the cell itself where
+// none is.
+int VoxelMatter::matter_beside(const Vector3& p) const {
+  const int middle = fine_of(p);
+  int best = middle;
+  double nearest = std::numeric_limits<double>::max();
+  for (int i = 0; i < 27; ++i) {
+    const int fine = fine_of(p + fine_m_ * Vector3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
+    const auto at = fine_place(fine);
+    const double distance =
+        (origin_ + fine_m_ * Vector3(at[0] + 0.5, at[1] + 0.5, at[2] + 0.5) - p).squaredNorm();
+    if (!matter_[static_cast<size_t>(fine)] || distance >= nearest) continue;
+    nearest = distance;
+    best = fine;
+  }
+  return best;
 }
 
 Vector3 VoxelMatter::corner(int i, int j, int k) const { return origin_ + cell_m_ * Vector3(i, j, k); }

@@ -33,7 +33,8 @@ class VoxelMatter {
   double cell_m() const { return cell_m_; }
 
   int fine_of(const Vector3& p) const;  // clamped to the grid
-  // The matter under a place on the surface: the first such fine cell on the way in, or half a fine cell in.
+  // The matter under a place on the surface: the first such fine cell on the way in, else the nearest beside
+  // it, else the cell half a fine cell in.
   int home(const Vector3& surface, const Vector3& inward) const;
   std::array<int, 3> fine_place(int fine) const;
   int coarse_of(int fine) const;
@@ -44,6 +45,7 @@ class VoxelMatter {
   int coarse_count() const { return cells_[0] * cells_[1] * cells_[2]; }
 
  private:
+  int matter_beside(const Vector3& p) const;
   void cast_rays(const Character& character, int axis);
   void cast_ray(const std::vector<std::pair<double, int>>& crossings, int axis, int start);
   void fill_from_outside(const std::vector<SurfaceSample>& samples);
