@@ -89,8 +89,7 @@ Influences normalised(Pairs& pairs, int fallback, Mended& mended) {
   return influences;
 }
 
-void note_mended(const Mended& mended, const std::string& where, const std::string& fallback,
-                 Source& source) {
+void note_mended(const Mended& mended, const std::string& where, int fallback, Source& source) {
   const auto note = [&](size_t count, const std::string& what) {
     if (count > 0) source.note(where, std::to_string(count) + what);
   };
@@ -98,7 +97,7 @@ void note_mended(const Mended& mended, const std::string& where, const std::stri
   note(mended.negative, " weights are negative: taken as zero");
   note(mended.unnormalised, " vertices have weights that do not sum to one: normalised");
   note(mended.cut, " vertices have more than eight joints: the eight strongest are kept");
-  note(mended.without, " vertices have no weight: bound to joint '" + fallback + "'");
+  note(mended.without, " vertices have no weight: bound to joint " + std::to_string(fallback));
 }
 
 int joint_at(const WeightSet& set, size_t slot, const std::vector<int>& of_skin, const std::string& where,
@@ -137,7 +136,7 @@ std::vector<Influences> read_influences(const tinygltf::Primitive& primitive, si
       }
     result[v] = normalised(pairs, instance.joint, mended);
   }
-  note_mended(mended, where, "#" + std::to_string(instance.joint), source);
+  note_mended(mended, where, instance.joint, source);
   return result;
 }
 

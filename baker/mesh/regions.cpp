@@ -105,9 +105,10 @@ void distinguish_names(std::vector<Region>& regions) {
   std::map<std::string, std::vector<Region*>> same;
   for (Region& region : regions) same[region.name].push_back(&region);
   for (auto& [name, list] : same) {
+    if (list.size() < 2) continue;
     const bool pair = list.size() == 2 && list[0]->center.x() * list[1]->center.x() < 0;
-    for (size_t i = 0; i < list.size() && list.size() > 1; ++i)
-      list[i]->name += pair ? (list[i]->center.x() > 0 ? "_l" : "_r") : "_" + std::to_string(i + 1);
+    for (size_t i = 0; i < list.size(); ++i)
+      list[i]->name.append("_").append(!pair ? std::to_string(i + 1) : list[i]->center.x() > 0 ? "l" : "r");
   }
 }
 
