@@ -42,8 +42,7 @@ bool run_network(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   tissue::network_step(asset.network, asset.graph, instance.inputs, nullptr, instance.network_state,
                        instance.network_scratch);
-  float* oldest = instance.simulated[1];
-  std::copy_n(instance.simulated[0], size_t{3} * asset.node_count(), oldest);
+  std::copy_n(instance.simulated[0], size_t{3} * asset.node_count(), instance.simulated[1]);
   const tissue::GuardResult guard = tissue::guard_step(asset.network, asset.pack.regions, asset.node_count(),
                                                        instance.network_state, instance.simulated[0]);
   state.displacement_clamps += guard.displacement_clamps;
