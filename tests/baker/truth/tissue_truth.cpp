@@ -192,6 +192,33 @@ TEST_CASE("a_folded_joint_stays_bounded") {
   CHECK(most < 0.5);
 }
 
+TEST_CASE("soft_arms_of_a_real_character_survive_a_sharp_elbow") {
+  const std::string file = SINEW_SHARED_DIR "/characters/mh_heavy_male/file.glb";
+  if (!std::filesystem::exists(file)) {
+    WARN("skipped: " << file << " is not there (SINEW_SHARED_DIR)");
+    return;
+  }
+  Character character = import_gltf(file);
+  Recipe recipe;
+  recipe.voxels_high = 44;
+  recipe.regions = {{"arm", {"upperarm_l", "lowerarm_l"}, 0.1}};
+  const TissueLayout layout = layout_tissue(character, recipe);
+  TissueTruth truth(character, layout, recipe);
+  const LocalPose rest = local_pose(character, joint_matrices(character, nullptr, 0));
+  size_t elbow = 0;
+  while (character.nodes[static_cast<size_t>(character.joint_node[elbow])].name != "lowerarm_l") ++elbow;
+  truth.start([&](double t) {
+    LocalPose pose = rest;
+    pose.rotation[elbow] = rest.rotation[elbow] * rotation_from_vector({0, 0, 2.4 * ease(2 * t)});
+    return WorldPose{joint_matrices(character, pose), Matrix4::Identity()};
+  });
+  constexpr double kArmThickness_m = 0.12;
+  double most = 0;
+  for (int i = 0; i < 45; ++i) most = std::max(most, largest(displacement(truth.advance(kRate_hz, 4))));
+  CHECK(most > 1e-3);
+  CHECK(most < kArmThickness_m);
+}
+
 TEST_CASE("more_substeps_converge") {
   const Bar bar;
   const auto run = [&](int substeps) {
