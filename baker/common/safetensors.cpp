@@ -57,8 +57,7 @@ std::string describe_shape(const std::vector<long>& shape) {
   return text + ")";
 }
 
-// ---- numbers
-// ----------------------------------------------------------------------------------------------------------
+// ---- numbers ----
 
 template <class To, class From>
 To convert_one(From value, const std::string& where) {
@@ -82,8 +81,7 @@ std::vector<To> convert(const Tensor& tensor) {
   return values;
 }
 
-// ---- reading
-// ----------------------------------------------------------------------------------------------------------
+// ---- reading ----
 
 // A file being read: what goes wrong is told with its path.
 class Parser {

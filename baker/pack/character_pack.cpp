@@ -47,8 +47,7 @@ pack::SkinRecord to_record(const Influences& influences) {
   return record;
 }
 
-// ---- the character
-// ----------------------------------------------------------------------------------------------------
+// ---- the character ----
 
 double height_of(const Character& character) {
   const auto [low, high] =
@@ -130,8 +129,7 @@ void add_clips(const Character& character, PackWriter& pack) {
   pack.section(SectionKind::kClipFrames, frames, 12);
 }
 
-// ---- the tissue
-// -------------------------------------------------------------------------------------------------------
+// ---- the tissue ----
 
 void append_carry(const Region& region, uint32_t padded_vertices, std::vector<float>* carry) {
   for (const std::vector<double>& row : region.carry) {
@@ -194,8 +192,7 @@ void add_graph(const GraphRows& graph, PackWriter& pack) {
   pack.section(SectionKind::kGraphValues, graph.values);
 }
 
-// ---- weights
-// ----------------------------------------------------------------------------------------------------------
+// ---- weights ----
 
 void check_inputs_stated(const Safetensors& weights) {
   if (!weights.metadata.contains("inputs"))

@@ -39,8 +39,7 @@ constexpr InputName kInputNames[] = {{InputKind::kRestPosition, "rest_position",
                                      {InputKind::kDisplacement, "displacement", 3},
                                      {InputKind::kVelocity, "velocity", 3}};
 
-// ---- metadata
-// ---------------------------------------------------------------------------------------------------------
+// ---- metadata ----
 
 [[noreturn]] void refuse_key(const Safetensors& weights, const std::string& key, const std::string& what) {
   throw BadInput(weights.path + ": metadata key '" + key + "' " + what);
@@ -109,8 +108,7 @@ std::vector<uint32_t> parse_channels(const Safetensors& weights) {
   return channels;
 }
 
-// ---- inputs
-// -----------------------------------------------------------------------------------------------------------
+// ---- inputs ----
 
 const InputName* find_input(const std::string& name) {
   const auto* found =
@@ -153,8 +151,7 @@ uint32_t total_width(const std::vector<pack::InputRecord>& inputs) {
   return inputs.empty() ? kPaperInputWidth : width;
 }
 
-// ---- tensors
-// ----------------------------------------------------------------------------------------------------------
+// ---- tensors ----
 
 std::vector<float> finite_values(const Safetensors& weights, const std::string& name,
                                  const std::vector<long>& shape) {

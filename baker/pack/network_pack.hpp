@@ -10,8 +10,8 @@ namespace sinew::baker {
 // Metadata of a weights file beyond DESIGN.md section 5; absent: the paper's wiring.
 //   inputs         comma-separated names, in the order of the network's columns: rest_position rest_normal
 //                  stiffness linear_acceleration euler_acceleration centrifugal_acceleration
-//                  articulation_acceleration angular_acceleration angular_velocity gravity_change displacement
-//                  velocity
+//                  articulation_acceleration angular_acceleration angular_velocity gravity_change
+//                  displacement velocity
 //   input_scales   one number an input
 //   envelope       one number an input (scaled units); absent: unbounded
 //   output_scale output_leak hidden_leak state_clamp length_unit_m

@@ -7,10 +7,9 @@
 
 namespace sinew::baker {
 
-struct RollOutError {
+struct RollOutError {  // over every output and, where the vectors have them, final states
   size_t steps = 0;
-  double max_abs_error = 0,
-         mean_abs_error = 0;  // over every output and, where the vectors have them, final states
+  double max_abs_error = 0, mean_abs_error = 0;
 };
 
 // Vectors of the paper's wiring: edges (m,2), x (T+1,n,3), y0 (n,3), y (T,n,3), final.{l}.{h,c,y} (n,F).

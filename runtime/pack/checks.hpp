@@ -9,8 +9,7 @@ Status check_network(const PackView& pack) noexcept;    // network, layers, inpu
 Status check_character(const PackView& pack) noexcept;  // joints, mesh, skin, clips, tiers
 Status check_tissue(const PackView& pack) noexcept;     // regions, nodes, graph, carry; after check_character
 
-// ---- shared by the three
-// ----------------------------------------------------------------------------------------------
+// ---- shared by the three ----
 
 constexpr uint64_t round_up_16(uint64_t value) noexcept { return (value + 15) / 16 * 16; }
 
@@ -21,8 +20,7 @@ constexpr uint64_t round_up_16(uint64_t value) noexcept { return (value + 15) / 
 size_t first_not_finite(std::span<const float> values) noexcept;
 Status check_finite(std::span<const float> values, const char* section) noexcept;
 Status check_zero(std::span<const uint32_t> reserved, const char* section, size_t index) noexcept;
-bool is_unit(const float normal[3]) noexcept;  // within 1e-3: a float normal that was rounded, not one that
-                                               // was forgotten
+bool is_unit(const float normal[3]) noexcept;  // within 1e-3
 bool is_positive(float value) noexcept;        // finite and above 0
 Status check_name(const PackView& pack, uint32_t offset, const char* section, size_t index) noexcept;
 Status check_skin(const SkinRecord& skin, size_t joint_count, const char* section, size_t index) noexcept;

@@ -1,0 +1,45 @@
+// arguments.cpp  Every command refuses unusable arguments with one line and exit code 2.
+#include "tests/baker/common/temporary_folder.hpp"
+#include "tests/baker/programs/bake.hpp"
+
+using namespace sinew::test;
+
+TEST_CASE("commands_and_options_that_do_not_exist_are_refused") {
+  check_refused({}, {"subcommand is required"});
+  check_refused({"bakery"}, {"no command 'bakery'"});
+  check_refused({"info"}, {"file is required"});
+  check_refused({"info", "a", "--xml"}, {"--xml"});
+  check_refused({"model", "w.safetensors"}, {"--output"});
+  check_refused({"check", "m.sinew"}, {"vectors"});
+  check_refused({"check", "m", "v", "--tolerance", "small"}, {"--tolerance"});
+  check_refused({"check", "m", "v", "--tolerance", "-1"}, {"--tolerance"});
+  check_refused({"check", "m", "v", "--precision", "int8"}, {"--precision int8", "use fp32"});
+  check_refused({"check", "m", "v", "--isa", "abacus"}, {"--isa abacus", "abacus"});
+  check_refused({"model", "w", "-o", "m", "--precision", "int4"}, {"--precision int4"});
+  check_refused({"creature", "r.json", "-o", "c.glb", "--vertices", "499"},
+                {"--vertices 499", "500 to 50000"});
+  check_refused({"creature", "r.json", "-o", "c.glb", "--vertices", "50001"}, {"--vertices 50001"});
+  check_refused({"creature", "r.json", "-o", "c.glb", "--vertices", "-3"}, {"--vertices"});
+}
+
+TEST_CASE("paths_that_do_not_exist_are_named") {
+  const TemporaryFolder folder;
+  const std::string missing = folder.file("missing"), output = folder.file("out");
+  check_refused({"info", missing}, {missing, "No such file"});
+  check_refused({"info", missing + ".sinew"}, {missing + ".sinew", "No such file"});
+  check_refused({"info", folder.path()}, {folder.path()});
+  check_refused({"model", missing, "-o", output}, {missing, "No such file"});
+  check_refused({"check", missing, missing}, {missing, "No such file"});
+  check_refused({"creature", missing, "-o", output}, {missing});
+  check_refused({"character", missing, "--tissue", missing, "-o", output}, {missing});
+  check_refused({"character", missing, "--recipe", missing, "--tissue", missing, "-o", output}, {missing});
+  CHECK(folder.entries() == 0);
+}
+
+TEST_CASE("help_goes_to_stdout_and_names_every_command") {
+  const ProgramResult help = bake({"--help"});
+  CHECK(help.exit_code == 0);
+  CHECK(help.error.empty());
+  for (const char* command : {"creature", "character", "model", "check", "info", "truth"})
+    CHECK_THAT(help.out, Catch::Contains(command));
+}

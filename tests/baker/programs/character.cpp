@@ -1,0 +1,62 @@
+// character.cpp  From a recipe to a packed character through the programs alone.
+#include <nlohmann/json.hpp>
+
+#include "baker/common/read_file.hpp"
+#include "baker/common/write_file.hpp"
+#include "tests/baker/common/temporary_folder.hpp"
+#include "tests/baker/programs/bake.hpp"
+#include "tests/pack/small_pack.hpp"
+
+using namespace sinew::baker;
+using namespace sinew::test;
+
+namespace {
+
+const std::string kAssets = std::string(SINEW_SOURCE_DIR) + "/assets/creature/";
+
+struct Creature {
+  TemporaryFolder folder;
+  std::string glb = folder.file("creature.glb"), weights = folder.file("w.safetensors"),
+              pack = folder.file("c.sinew");
+  Creature() {
+    REQUIRE(bake({"creature", kAssets + "creature.json", "-o", glb, "--vertices", "800"}).exit_code == 0);
+    write_safetensors(weights, small_weights());
+  }
+  std::vector<std::string> bake_arguments(const std::string& output) const {
+    return {"character", glb, "--recipe", kAssets + "tissue.json", "--tissue", weights, "-o", output};
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the_creature_bakes_to_a_character_with_clips_regions_and_the_same_bytes_twice") {
+  const Creature creature;
+  const ProgramResult result = bake(creature.bake_arguments(creature.pack));
+  INFO(result.error);
+  REQUIRE(result.exit_code == 0);
+  CHECK_THAT(result.out, Catch::Contains("regions") && Catch::Contains("idle"));
+  const auto description = nlohmann::json::parse(bake({"info", "--json", creature.pack}).out);
+  CHECK(description["clips"].size() >= 4);
+  CHECK(description["regions"].size() >= 3);
+  CHECK(description["character"]["joints"].get<int>() >= 20);
+  REQUIRE(bake(creature.bake_arguments(creature.folder.file("again"))).exit_code == 0);
+  CHECK(read_text(creature.pack) == read_text(creature.folder.file("again")));
+}
+
+TEST_CASE("characters_and_weights_that_do_not_fit_leave_no_file") {
+  const Creature creature;
+  const size_t entries = creature.folder.entries();
+  Safetensors paper = small_paper_weights();
+  write_safetensors(creature.weights, paper);
+  check_refused(creature.bake_arguments(creature.pack),
+                {creature.weights, "'inputs' is missing", "paper's wiring"});
+  Safetensors broken = small_weights();
+  broken.tensors["layers.0.b"] =
+      tensor_f32({20}, std::vector<float>(20, std::numeric_limits<float>::quiet_NaN()));
+  write_safetensors(creature.weights, broken);
+  check_refused(creature.bake_arguments(creature.pack), {"tensor 'layers.0.b' holds NaN"});
+  write_file(creature.glb, std::string_view("glTF, but not really"));
+  write_safetensors(creature.weights, small_weights());
+  check_refused(creature.bake_arguments(creature.pack), {creature.glb});
+  CHECK(creature.folder.entries() == entries);
+}

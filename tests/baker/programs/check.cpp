@@ -1,0 +1,209 @@
+// check.cpp  `sinew-bake check` on reference vectors: within 1e-5 on every instruction set, and honest about
+// what is beyond.
+#include <nlohmann/json.hpp>
+
+#include "baker/common/read_file.hpp"
+#include "baker/common/safetensors.hpp"
+#include "baker/common/write_file.hpp"
+#include "simd/isa.hpp"
+#include "tests/baker/common/temporary_folder.hpp"
+#include "tests/baker/programs/bake.hpp"
+#include "tests/pack/small_pack.hpp"
+
+using namespace sinew;
+using namespace sinew::baker;
+using namespace sinew::test;
+
+namespace {
+
+// Vectors with the right shapes for small_weights or small_paper_weights, all numbers zero.
+Safetensors zero_vectors(bool paper) {
+  constexpr size_t kNodes = 4, kSteps = 3;
+  const auto zeros = [](std::vector<size_t> shape) {
+    size_t count = 1;
+    for (size_t size : shape) count *= size;
+    return tensor_f32(shape, std::vector<float>(count));
+  };
+  Safetensors vectors;
+  vectors.metadata = {{"sinew.vectors", "alt_conv_lstm"}};
+  vectors.tensors["edges"] = tensor_i32({2, 2}, {0, 1, 1, 2});
+  vectors.tensors["y0"] = zeros({kNodes, 3});
+  vectors.tensors["y"] = zeros({kSteps, kNodes, 3});
+  if (paper)
+    vectors.tensors["x"] = zeros({kSteps + 1, kNodes, 3});
+  else
+    vectors.tensors["z"] = zeros({kSteps, kNodes, 34});
+  return vectors;
+}
+
+struct Files {
+  TemporaryFolder folder;
+  std::string weights = folder.file("w.safetensors"), vectors = folder.file("v.safetensors");
+  void write(const Safetensors& w, const Safetensors& v) const {
+    write_safetensors(weights, w);
+    write_safetensors(vectors, v);
+  }
+};
+
+nlohmann::json report_of(const ProgramResult& result) {
+  INFO(result.out << result.error);
+  CHECK(result.out.find('\n') == result.out.size() - 1);
+  return nlohmann::json::parse(result.out);
+}
+
+}  // namespace
+
+TEST_CASE("vectors_that_do_not_fit_are_refused_by_tensor") {
+  const Files files;
+  const auto refuse = [&](bool paper, auto damage, const std::vector<std::string>& words) {
+    Safetensors vectors = zero_vectors(paper);
+    damage(vectors);
+    files.write(paper ? small_paper_weights() : small_weights(), vectors);
+    check_refused({"check", files.weights, files.vectors}, words);
+  };
+  refuse(true, [](Safetensors& v) { v.metadata.clear(); }, {"'sinew.vectors' is missing"});
+  refuse(true, [](Safetensors& v) { v.metadata["sinew.vectors"] = "coping_net"; },
+         {"'coping_net'", "does not run"});
+  refuse(true, [](Safetensors& v) { v.tensors.erase("edges"); }, {"tensor 'edges' is missing"});
+  refuse(true,
+         [](Safetensors& v) {
+           v.tensors["edges"] = tensor_i32({1, 2}, {0, 4});
+         },
+         {"'edges'", "(0, 4)"});
+  refuse(true,
+         [](Safetensors& v) {
+           v.tensors["edges"] = tensor_f32({1, 2}, {0, 1});
+         },
+         {"'edges'", "floats"});
+  refuse(true, [](Safetensors& v) { v.tensors.erase("y"); }, {"tensor 'y' is missing"});
+  refuse(true,
+         [](Safetensors& v) {
+           v.tensors["y0"] = tensor_f32({4}, {0, 0, 0, 0});
+         },
+         {"tensor 'y0' has shape (4)"});
+  refuse(true, [](Safetensors& v) { v.tensors["x"] = v.tensors["y"]; },
+         {"tensor 'x' has shape (3, 4, 3), wanted (4, 4, 3)"});
+  refuse(true, [](Safetensors& v) { v.tensors.erase("x"); }, {"stated inputs", "the other"});
+  refuse(true, [](Safetensors& v) { v.tensors["final.1.c"] = v.tensors["x"]; }, {"'final.1.c' has shape"});
+  refuse(false, [](Safetensors& v) { v.tensors["z"] = v.tensors["y"]; },
+         {"tensor 'z' has shape (3, 4, 3), wanted (3, 4, 34)"});
+  refuse(false, [](Safetensors& v) { v.tensors["x"] = v.tensors["y"]; }, {"the paper's wiring", "the other"});
+}
+
+TEST_CASE("models_that_are_not_built_yet_are_refused_with_one_line") {
+  const std::string weights = golden("deep_emulator/small.weights.safetensors");
+  if (weights.empty()) return;
+  const std::string tiny = golden("alt_conv_lstm/tiny.weights.safetensors");
+  check_refused({"check", weights, golden("deep_emulator/small.vectors.safetensors")},
+                {"'deep_emulator'", "alt_conv_lstm only"});
+  check_refused({"check", tiny, golden("deep_emulator/small.vectors.safetensors")},
+                {"'deep_emulator'", "does not run"});
+  check_refused({"check", tiny, golden("coping_net/one_rod.vectors.safetensors")},
+                {"'coping_net'", "does not run"});
+}
+
+TEST_CASE("golden_vectors_are_reproduced_on_every_instruction_set") {
+  constexpr double kTolerance = 1e-5;  // of the contract: float32 over the longest roll-out
+  for (const char* name : {"tiny", "small", "paper"}) {
+    const std::string stem = std::string("alt_conv_lstm/") + name;
+    const std::string weights = golden(stem + ".weights.safetensors"),
+                      vectors = golden(stem + ".vectors.safetensors");
+    if (weights.empty()) return;
+    for (const char* isa : simd::available_isas()) {
+      const ProgramResult result = bake({"check", weights, vectors, "--isa", isa});
+      CHECK(result.exit_code == 0);
+      const nlohmann::json report = report_of(result);
+      INFO(report.dump());
+      CHECK(report["model"] == "alt_conv_lstm");
+      CHECK(report["isa"] == isa);
+      CHECK(report["precision"] == "fp32");
+      CHECK(report["steps"] == read_safetensors(vectors).tensors.at("y").shape[0]);
+      CHECK(report["max_abs_error"].get<double>() < kTolerance);
+      CHECK(report["mean_abs_error"] <= report["max_abs_error"]);
+      CHECK(report["tolerance"] == kTolerance);
+      CHECK(report["ok"] == true);
+    }
+  }
+}
+
+TEST_CASE("a_baked_model_gives_the_same_numbers_as_its_weights") {
+  const std::string weights = golden("alt_conv_lstm/small.weights.safetensors");
+  if (weights.empty()) return;
+  const TemporaryFolder folder;
+  const std::string vectors = golden("alt_conv_lstm/small.vectors.safetensors"),
+                    pack = folder.file("m.sinew");
+  REQUIRE(bake({"model", weights, "-o", pack}).exit_code == 0);
+  CHECK(bake({"check", pack, vectors}).out == bake({"check", weights, vectors}).out);
+  REQUIRE(bake({"model", weights, "-o", folder.file("again.sinew")}).exit_code == 0);
+  CHECK(read_text(pack) == read_text(folder.file("again.sinew")));
+}
+
+TEST_CASE("an_output_or_a_final_state_beyond_the_tolerance_fails_the_check") {
+  const std::string weights = golden("alt_conv_lstm/tiny.weights.safetensors");
+  if (weights.empty()) return;
+  const TemporaryFolder folder;
+  for (const char* name : {"y", "final.1.h"}) {
+    Safetensors vectors = read_safetensors(golden("alt_conv_lstm/tiny.vectors.safetensors"));
+    Tensor& tensor = vectors.tensors.at(name);
+    std::vector<float> values = tensor.as_f32();
+    values.back() += 1e-3f;
+    tensor = tensor_f32(tensor.shape, values);
+    write_safetensors(folder.file("v"), vectors);
+    const ProgramResult result = bake({"check", weights, folder.file("v")});
+    CHECK(result.exit_code == 1);
+    CHECK(report_of(result)["ok"] == false);
+    CHECK(report_of(result)["max_abs_error"].get<double>() == Approx(1e-3).epsilon(0.01));
+    CHECK(bake({"check", weights, folder.file("v"), "--tolerance", "0.01"}).exit_code == 0);
+  }
+}
+
+TEST_CASE("a_result_that_is_not_finite_is_never_within_tolerance") {
+  const Files files;
+  Safetensors vectors = zero_vectors(true);
+  vectors.tensors["y"] =
+      tensor_f32({3, 4, 3}, std::vector<float>(36, std::numeric_limits<float>::quiet_NaN()));
+  files.write(small_paper_weights(), vectors);
+  CHECK(bake({"check", files.weights, files.vectors, "--tolerance", "1e30"}).exit_code == 1);
+}
+
+// A network whose output is a sum that can be followed by hand: every weight is zero but the output layer's
+// bias, so
+//   i = f = sigmoid(0) = 1/2, g = tanh(b), c_t = c_{t-1} / 2 + g / 2, y_t = (1 - leak) y_{t-1} + scale c_t.
+TEST_CASE("stated_inputs_start_at_y0_and_are_fed_back") {
+  Safetensors weights = small_weights();
+  for (auto& [name, tensor] : weights.tensors)
+    tensor = tensor_f32(tensor.shape, std::vector<float>(tensor.count()));
+  std::vector<float> bias(12);
+  bias[6] = 1;  // the cell gate of x
+  weights.tensors["layers.1.b"] = tensor_f32({12}, bias);
+  Safetensors vectors = zero_vectors(false);
+  std::vector<float> expected;
+  double c = 0, y = 0.25;
+  for (int t = 0; t < 3; ++t) {
+    c = c / 2 + std::tanh(1.0) / 2;
+    y = 0.9 * y + 0.5 * c;
+    for (int node = 0; node < 4; ++node) expected.insert(expected.end(), {static_cast<float>(y), 0, 0});
+  }
+  vectors.tensors["y0"] = tensor_f32({4, 3}, {0.25f, 0, 0, 0.25f, 0, 0, 0.25f, 0, 0, 0.25f, 0, 0});
+  vectors.tensors["y"] = tensor_f32({3, 4, 3}, expected);
+  const Files files;
+  files.write(weights, vectors);
+  CHECK(bake({"check", files.weights, files.vectors}).exit_code == 0);
+
+  // Displacement is column 28: through the first layer's self weights it must change the result from the
+  // first step on, which starts at y0, and an input of the file in that column must not be read.
+  std::vector<float> self(34 * 20);
+  self[28 * 20 + 10] = 1;
+  weights.tensors["layers.0.W_s"] = tensor_f32({34, 20}, self);
+  std::vector<float> inward(5 * 12);
+  inward[7] = 1;
+  weights.tensors["layers.1.W_s"] = tensor_f32({5, 12}, inward);
+  files.write(weights, vectors);
+  const ProgramResult fed = bake({"check", files.weights, files.vectors});
+  CHECK(fed.exit_code == 1);
+  std::vector<float> z(3 * 4 * 34);
+  for (size_t row = 0; row < 12; ++row) z[row * 34 + 28] = 100;
+  vectors.tensors["z"] = tensor_f32({3, 4, 34}, z);
+  files.write(weights, vectors);
+  CHECK(bake({"check", files.weights, files.vectors}).out == fed.out);
+}

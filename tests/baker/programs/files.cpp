@@ -1,0 +1,97 @@
+// files.cpp  What the programs write is whole, shown by `info`, and absent after a refusal.
+#include <nlohmann/json.hpp>
+
+#include "baker/common/read_file.hpp"
+#include "baker/common/write_file.hpp"
+#include "tests/baker/common/temporary_folder.hpp"
+#include "tests/baker/programs/bake.hpp"
+#include "tests/pack/small_pack.hpp"
+
+using namespace sinew::baker;
+using namespace sinew::test;
+
+namespace {
+
+// A small packed character and the weights that it was made with.
+struct Files {
+  TemporaryFolder folder;
+  std::string weights = folder.file("w.safetensors"), pack = folder.file("c.sinew");
+  Files() {
+    write_safetensors(weights, small_weights());
+    write_file(pack, small_character_pack());
+  }
+};
+
+}  // namespace
+
+TEST_CASE("damaged_packs_are_refused_by_every_command_that_reads_one") {
+  const Files files;
+  const std::string good = read_text(files.pack), bad = files.folder.file("bad.sinew");
+  const auto refuse = [&](const std::string& bytes, const std::string& word) {
+    write_file(bad, bytes);
+    check_refused({"info", bad}, {bad, word});
+    check_refused({"check", bad, files.weights}, {bad, word});
+  };
+  refuse("", "the pack is empty");
+  refuse(good.substr(0, 40), "ends inside its header");
+  refuse(good.substr(0, good.size() / 2), "truncated");
+  std::string flipped = good;
+  flipped[good.size() / 2] = static_cast<char>(flipped[good.size() / 2] ^ 4);
+  refuse(flipped, "damaged");
+  std::string older = good;
+  older[8] = 0;
+  refuse(older, "sinew-bake character IN.glb --tissue");
+  refuse("GIF89a, and more", "not a .sinew pack");
+}
+
+TEST_CASE("info_shows_a_character_to_people_and_to_machines") {
+  const Files files;
+  const ProgramResult table = bake({"info", files.pack}), json = bake({"info", "--json", files.pack});
+  CHECK(table.exit_code == 0);
+  for (const char* word :
+       {"character", "belly", "swing", "linear_acceleration", "made_by", "a key that nobody knows"})
+    CHECK_THAT(table.out, Catch::Contains(word));
+  const auto description = nlohmann::json::parse(json.out);
+  CHECK(description["kind"] == "character");
+  CHECK(description["character"]["vertices"] == 12);
+  CHECK(description["network"]["channels"] == std::vector<int>{5, 3});
+  CHECK(description["regions"][1]["name"] == "tip");
+  CHECK(description["clips"][0]["seconds"].get<double>() == Approx(0.1));
+  CHECK(description["tiers"][1]["error_mm"].is_null());
+  CHECK(description["metadata"]["made_by"] == "a key that nobody knows");
+}
+
+TEST_CASE("info_shows_a_weights_file_with_its_unknown_keys") {
+  const Files files;
+  const ProgramResult table = bake({"info", files.weights}), json = bake({"info", "--json", files.weights});
+  CHECK_THAT(table.out, Catch::Contains("layers.1.W_y") && Catch::Contains("a key that nobody knows"));
+  const auto description = nlohmann::json::parse(json.out);
+  CHECK(description["kind"] == "safetensors");
+  CHECK(description["tensors"].size() == 10);
+  CHECK(description["metadata"]["made_by"] == "a key that nobody knows");
+}
+
+TEST_CASE("a_refused_bake_leaves_the_old_file_as_it_was") {
+  const Files files;
+  const std::string output = files.folder.file("m.sinew");
+  write_file(output, std::string_view("old"));
+  Safetensors broken = small_weights();
+  broken.tensors.erase("layers.1.W_h");
+  write_safetensors(files.folder.file("broken"), broken);
+  const size_t entries = files.folder.entries();
+  check_refused({"model", files.folder.file("broken"), "-o", output},
+                {"broken", "tensor 'layers.1.W_h' is missing"});
+  check_refused({"model", files.pack, "-o", output}, {files.pack, "not a safetensors file"});
+  CHECK(read_text(output) == "old");
+  CHECK(files.folder.entries() == entries);
+  check_refused({"model", files.weights, "-o", files.folder.file("no/folder/m.sinew")},
+                {"cannot be written"});
+}
+
+TEST_CASE("the_paper_s_network_is_packed_as_a_model") {
+  const Files files;
+  const std::string paper = files.folder.file("paper"), output = files.folder.file("m.sinew");
+  write_safetensors(paper, small_paper_weights());
+  CHECK(bake({"model", paper, "-o", output}).exit_code == 0);
+  CHECK(nlohmann::json::parse(bake({"info", "--json", output}).out)["kind"] == "model");
+}
