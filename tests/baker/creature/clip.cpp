@@ -75,6 +75,17 @@ TEST_CASE("planted_feet_stay_where_they_are_while_the_body_moves") {
   CHECK(swayed_m > 0.01);
 }
 
+TEST_CASE("toes_do_not_sink_into_the_ground") {
+  const baker::CreatureRecipe& recipe = test::shipped_recipe();
+  const size_t toe = static_cast<size_t>(baker::joint_index(recipe, "toe_l"));
+  constexpr double kSinks_m = 0.01;
+  for (const baker::ClipRecipe& clip : recipe.clips) {
+    const baker::ClipKeys keys = baker::key_clip(recipe, clip);
+    for (size_t k = 0; k < keys.times_s.size(); ++k)
+      CHECK(places(recipe, keys, k)[toe].y() > recipe.joints[toe].at.y() - kSinks_m);
+  }
+}
+
 TEST_CASE("hop_leaves_the_ground_and_lands_hard") {
   const baker::CreatureRecipe& recipe = test::shipped_recipe();
   const auto hop =
