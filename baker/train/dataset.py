@@ -13,6 +13,7 @@ from .trajectory import read_trajectory
 
 SHEET = "data_sheet.json"
 LENGTH_UNIT_M = 0.01
+SCALED_SIZE = 0.3      # mean size of a scaled input
 ENVELOPE_MARGIN = 1.2  # of the largest input and displacement seen in training
 LEAST_LIMIT = 0.75     # share of a region's radius
 
@@ -96,17 +97,16 @@ def _round(value, digits=2):
 
 
 def measure_scaling(groups):
-    """Scales from the root mean square of the training data, envelopes from its largest values."""
-    def both(pick):  # root mean square and largest
-        parts = [pick(g) for g in groups]
-        square = sum(float(p.double().square().sum()) for p in parts) / sum(p.numel() for p in parts)
-        return square ** 0.5, max(float(p.abs().max()) for p in parts)
+    """Scales from the mean size of the training data (a few violent motions would rule a mean square), envelopes from its largest values."""
+    def both(pick):  # mean size and largest
+        parts = [pick(g).abs() for g in groups]
+        return sum(float(p.double().sum()) for p in parts) / sum(p.numel() for p in parts), max(float(p.max()) for p in parts)
 
     measured = {k: both(lambda g, c=c: g.drive[..., c]) for k, c in DRIVE.items()}
     measured["displacement"] = both(lambda g: g.displacement / LENGTH_UNIT_M)
     measured["velocity"] = both(lambda g: (g.displacement[:, 1:] - g.displacement[:, :-1]) / LENGTH_UNIT_M)
     scale = {k: 1.0 for k in STATIC}
-    scale.update({k: _round(0.5 / rms) if rms > 1e-6 else 1.0 for k, (rms, _) in measured.items()})
+    scale.update({k: _round(SCALED_SIZE / size) if size > 1e-6 else 1.0 for k, (size, _) in measured.items()})
     largest = {k: max(float(g.static[k].abs().max()) for g in groups) for k in STATIC}
     largest.update({k: top * scale[k] for k, (_, top) in measured.items()})
     reach = max(float((g.displacement.norm(dim=-1).amax((0, 1)) / g.radius_m()).max()) for g in groups)

@@ -7,6 +7,9 @@ from dataclasses import asdict, dataclass
 import torch
 
 
+FIRST_OUTPUT = 0.06  # share of a usual output layer that training starts from: a loud start ends in a silent network
+
+
 @dataclass
 class ModelOptions:
     """channels: of every layer, the last is 3. The rest as in NetworkRecord; the defaults are the paper's wiring."""
@@ -81,7 +84,7 @@ class AltConvLSTM(torch.nn.Module):
                 layer.b[f:2 * f] += 2 if last else -1
             for w in (layer.W_x, layer.W_s, layer.W_h):
                 if w is not None:
-                    w.mul_(0.3)
+                    w.mul_(FIRST_OUTPUT / self.options.output_scale)
         return self
 
     def zero_state(self, regions, nodes, batch):

@@ -13,7 +13,7 @@ class TrainOptions:
     learning_rate: float = 1e-2
     output_leak: float = 0.02
     hidden_leak: float = 0.2
-    output_scale: float = 0.0  # 0: root mean square speed of the liveliest region, so that cells stay near 1
+    output_scale: float = 0.0  # 0: by the speed of the liveliest region, so that cells stay near 1
     state_clamp: float = 8.0
     noise: float = 0.1        # displacement noise at a window's start, share of the region's root mean square
     overdrive: float = 0.15   # share of a batch driven up to three times too hard, then left in stillness; no truth, bounded only
