@@ -158,14 +158,14 @@ void check_container(const Source& source, std::vector<unsigned char>& bytes) {
 tinygltf::Model read_gltf_file(Source& source) {
   std::vector<unsigned char> bytes;
   std::string error, warning;
-  if (!read_regular_file(source.path, &bytes, &error))
+  if (!read_regular_file(source.path(), &bytes, &error))
     source.refuse("", error, "give the path of a .glb, .gltf or .vrm");
   check_container(source, bytes);
 
   tinygltf::Model model;
   bool loaded = false;
   try {
-    loaded = load(&model, bytes, base_folder(source.path), &error, &warning);
+    loaded = load(&model, bytes, base_folder(source.path()), &error, &warning);
   } catch (const std::exception& exception) {
     error += exception.what();
   }

@@ -85,7 +85,7 @@ Character import_file(Source& source, const ImportOptions& options) {
   Joints joints = read_joints(model, graph, accessors, source, instances);
 
   Character character;
-  character.name = std::filesystem::path(source.path).stem().string();
+  character.name = std::filesystem::path(source.path()).stem().string();
   append_meshes(model, accessors, joints, instances, options.max_vertices, source, character);
   if (character.positions.empty() || character.triangles.empty())
     source.refuse("", "no mesh of this file has triangles", "export the character's mesh as triangles");
@@ -104,10 +104,10 @@ Character import_file(Source& source, const ImportOptions& options) {
 }  // namespace
 
 Character import_gltf(const std::string& path, const ImportOptions& options) {
-  Source source{path, {}};
+  Source source(path);
   try {
     Character character = import_file(source, options);
-    character.notes = std::move(source.notes);
+    character.notes = source.notes();
     return character;
   } catch (const std::bad_alloc&) {
     source.refuse("", "needs more memory than there is", "reduce the file");

@@ -10,6 +10,7 @@ namespace sinew::baker {
 namespace {
 
 constexpr const char* kMend = "the file is damaged; export it again";
+constexpr size_t kMaxSkins = 1024;
 constexpr size_t kMaxJoints = 65535;  // a vertex names its joints in 16 bits
 constexpr double kSingular = 1e-12;   // relative determinant of a matrix that flattens space
 constexpr double kSameBind = 1e-9;
@@ -229,6 +230,9 @@ std::vector<MeshInstance> find_meshes(const tinygltf::Model& model, const SceneG
 
 Joints read_joints(const tinygltf::Model& model, const SceneGraph& graph, const AccessorReader& accessors,
                    Source& source, std::vector<MeshInstance>& instances) {
+  if (model.skins.size() > kMaxSkins)
+    source.refuse("", "has " + std::to_string(model.skins.size()) + " skins, at most 1024 are possible",
+                  "join the character's meshes");
   JointList list(graph);
   std::vector<std::vector<int>> of_skin(model.skins.size());
   std::vector<Matrix4> bind_from_mesh(model.skins.size(), Matrix4::Identity());

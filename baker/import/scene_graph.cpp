@@ -11,6 +11,7 @@ namespace sinew::baker {
 namespace {
 
 constexpr const char* kMend = "the file is damaged; export it again";
+constexpr size_t kMaxNodes = 65536;      // far above any character; bounds the walks up the tree
 constexpr double kUnitTolerance = 1e-2;  // quaternions off by more were not written as rotations
 
 std::string node_name(const tinygltf::Model& model, size_t index) {
@@ -123,6 +124,9 @@ std::vector<int> parents_first(const std::vector<int>& parent) {
 }
 
 SceneGraph read_scene_graph(const tinygltf::Model& model, Source& source) {
+  if (model.nodes.size() > kMaxNodes)
+    source.refuse("", "has " + std::to_string(model.nodes.size()) + " nodes, at most 65536 are possible",
+                  "export the character alone");
   const std::vector<int> parent = read_parents(model, source);
   const std::vector<int> order = parents_first(parent);
   SceneGraph graph;

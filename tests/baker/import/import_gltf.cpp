@@ -160,6 +160,16 @@ TEST_CASE("faulty_files_are_refused_by_name_and_place") {
          f.json["extras"] = deep;
        },
        "nested deeper than 200"},
+      {"many_nodes",
+       [](TinyFile& f) {
+         for (int i = 0; i < 65536; ++i) f.json["nodes"].push_back(nlohmann::json::object());
+       },
+       "65539 nodes"},
+      {"many_skins",
+       [](TinyFile& f) {
+         for (int i = 0; i < 1024; ++i) f.json["skins"].push_back(f.json["skins"][0]);
+       },
+       "1025 skins"},
       {"version_1", [](TinyFile& f) { f.json.erase("asset"); }, "asset"},
   };
   for (const Fault& fault : faults) {
@@ -222,6 +232,15 @@ TEST_CASE("weights_that_cannot_be_right_are_mended_and_noted") {
   }
   CHECK(character.skin[4].joint[0] == 0);  // no weights: the skin's first joint, the mesh node hangs on none
   CHECK(character.skin[2].joint[0] == 1);
+}
+
+TEST_CASE("the_same_note_of_several_places_is_one_line") {
+  TinyFile file = bar();
+  auto& primitives = file.json["meshes"][0]["primitives"];
+  for (int i = 0; i < 3; ++i) primitives.push_back({{"attributes", {{"POSITION", 0}}}, {"mode", 1}});
+  const Character character = import_gltf(file.write("notes"));
+  CHECK(std::count(character.notes.begin(), character.notes.end(),
+                   "mesh 0 'bar' primitive 1 and 2 more: points or lines: left out") == 1);
 }
 
 TEST_CASE("bytes_flipped_anywhere_never_crash_the_importer") {
