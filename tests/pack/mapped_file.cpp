@@ -38,6 +38,7 @@ TEST_CASE("a_refused_file_leaves_the_mapping_as_it_was") {
   MappedFile file;
   REQUIRE(MappedFile::open(folder.file("a").c_str(), &file).ok());
   CHECK_FALSE(MappedFile::open(folder.file("b").c_str(), &file).ok());
+  CHECK_FALSE(MappedFile::open(folder.path().c_str(), &file).ok());
   REQUIRE(file.bytes().size() == 7);
   CHECK(file.bytes()[6] == std::byte{'t'});
 }
