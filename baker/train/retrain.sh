@@ -4,13 +4,13 @@
 #   baker/train/retrain.sh [BUILD_DIR] [WORK_DIR]
 #
 # BUILD_DIR holds bin/sinew-bake (default: build/release). WORK_DIR takes the data set and the runs (default: BUILD_DIR/train);
-# a second call goes on where the first was cut. MINUTES (15), SEEDS ("0 1"), PROCESSES (2) and PYTHON (/usr/bin/python3) may be set.
+# a second call goes on where the first was cut. MINUTES (20), SEEDS ("0 1"), PROCESSES (2) and PYTHON (/usr/bin/python3) may be set.
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 build=${1:-$root/build/release}
 work=${2:-$build/train}
 python=${PYTHON:-/usr/bin/python3}
-minutes=${MINUTES:-15}
+minutes=${MINUTES:-20}
 seeds=${SEEDS:-"0 1"}
 bake=$build/bin/sinew-bake
 
