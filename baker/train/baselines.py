@@ -1,17 +1,25 @@
-"""What a network has to beat: one or two damped springs for each node and axis, fitted on the training roll-outs."""
+"""What a network has to beat: one or two damped springs for each node and axis, fitted on the training
+roll-outs."""
 import math
 
 import torch
 
 from .inputs import DRIVE
 
-FORCE_PARTS = ("linear_acceleration", "euler_acceleration", "centrifugal_acceleration", "articulation_acceleration", "gravity_change")
+FORCE_PARTS = (
+    "linear_acceleration",
+    "euler_acceleration",
+    "centrifugal_acceleration",
+    "articulation_acceleration",
+    "gravity_change",
+)
 ROTATION_PARTS = ("euler_acceleration", "centrifugal_acceleration")
 
 
 def forces(drive, split):
-    """Raw drive (T+1, N, B, 21) to the accelerations of each spring, (springs, T+1, N, B, 3) m/s^2, looked half a tick ahead:
-    1.5 f_t - 0.5 f_{t-1} is the middle of the tick to come. split: rotation drives a spring of its own."""
+    """Raw drive (T+1, N, B, 21) to the accelerations of each spring, (springs, T+1, N, B, 3) m/s^2, looked
+    half a tick ahead: 1.5 f_t - 0.5 f_{t-1} is the middle of the tick to come. split: rotation drives a
+    spring of its own."""
     total = sum(drive[..., DRIVE[k]] for k in FORCE_PARTS)
     turning = sum(drive[..., DRIVE[k]] for k in ROTATION_PARTS)
     f = torch.stack([total - turning, turning] if split else [total])
@@ -20,7 +28,8 @@ def forces(drive, split):
 
 
 class Springs:
-    """u'' = gain f - w^2 u - 2 zeta w u', solved exactly for a force that is constant over a tick. Parameters (springs, N, 1, 3)."""
+    """u'' = gain f - w^2 u - 2 zeta w u', solved exactly for a force that is constant over a tick.
+    Parameters (springs, N, 1, 3)."""
 
     def __init__(self, group, split):
         self.split, self.tick_s = split, 1 / group.trajectories[0].rate_hz
@@ -31,10 +40,20 @@ class Springs:
 
     def _transition(self):
         """(a, b, c, d, 1/w^2): u' = a u + b v, v' = c u + d v about the equilibrium."""
-        w, zeta, h = self.log_w.exp(), torch.sigmoid(self.logit_zeta), self.tick_s  # 0 < zeta < 1: stable whatever the fit
+        w, zeta, h = (
+            self.log_w.exp(),
+            torch.sigmoid(self.logit_zeta),
+            self.tick_s,
+        )  # 0 < zeta < 1: stable whatever the fit
         wd = w * (1 - zeta * zeta).clamp(min=1e-4).sqrt()
         e, cos, sin = torch.exp(-zeta * w * h), torch.cos(wd * h), torch.sin(wd * h)
-        return e * (cos + zeta * w / wd * sin), e * sin / wd, -e * w * w / wd * sin, e * (cos - zeta * w / wd * sin), 1 / (w * w)
+        return (
+            e * (cos + zeta * w / wd * sin),
+            e * sin / wd,
+            -e * w * w / wd * sin,
+            e * (cos - zeta * w / wd * sin),
+            1 / (w * w),
+        )
 
     def roll_out(self, force):
         """force (springs, T+1, N, B, 3) -> displacement (T+1, N, B, 3) metres, from rest."""
@@ -51,11 +70,20 @@ class Springs:
     def fit(self, group, iterations=150, batch=8, ticks=150, rate=0.05):
         ticks, optimizer = min(ticks, group.ticks), torch.optim.Adam(self.parameters, rate)
         for i in range(iterations):
-            optimizer.param_groups[0]["lr"] = rate * (0.05 + 0.95 * 0.5 * (1 + math.cos(math.pi * i / iterations)))
+            optimizer.param_groups[0]["lr"] = rate * (
+                0.05 + 0.95 * 0.5 * (1 + math.cos(math.pi * i / iterations))
+            )
             s = torch.randperm(group.count)[:batch]
-            drive = group.drive[s, :ticks + 1].permute(1, 2, 0, 3)
-            true = group.displacement[s, :ticks + 1].permute(1, 2, 0, 3)
-            error = (self.roll_out(forces(drive, self.split)) - true).square().sum(-1).add(1e-12).sqrt().mean((0, 2))
+            drive = group.drive[s, : ticks + 1].permute(1, 2, 0, 3)
+            true = group.displacement[s, : ticks + 1].permute(1, 2, 0, 3)
+            error = (
+                (self.roll_out(forces(drive, self.split)) - true)
+                .square()
+                .sum(-1)
+                .add(1e-12)
+                .sqrt()
+                .mean((0, 2))
+            )
             loss = (error / true.norm(dim=-1).mean((0, 2)).clamp(min=1e-6)).mean()
             optimizer.zero_grad()
             loss.backward()

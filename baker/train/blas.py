@@ -1,4 +1,5 @@
-"""Chooses the linear algebra kernels. Has to run before numpy or torch is imported: the package does it first of all."""
+"""Chooses the linear algebra kernels. Has to run before numpy or torch is imported: the package does it
+first of all."""
 import os
 
 _AVX512 = {"avx512f", "avx512bw", "avx512cd", "avx512dq", "avx512vl"}
@@ -14,7 +15,8 @@ def processor_flags(path="/proc/cpuinfo"):
 
 
 def choose(environment=os.environ, flags=None):
-    """OpenBLAS falls back to its oldest kernels on a processor it does not know; its SkylakeX kernels run wherever AVX-512 does.
+    """OpenBLAS falls back to its oldest kernels on a processor it does not know; its SkylakeX kernels run
+    wherever AVX-512 does.
 
     One thread unless the caller says otherwise: two processes on two cores beat one process on both."""
     if _AVX512 <= (processor_flags() if flags is None else flags):

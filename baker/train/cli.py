@@ -13,25 +13,42 @@ def _add_fields(parser, options, skip=()):
     for f in dataclasses.fields(options):
         if f.name in skip:
             continue
-        kind = (lambda text: tuple(int(c) for c in text.split(","))) if isinstance(f.default, tuple) else type(f.default)
+        kind = (
+            (lambda text: tuple(int(c) for c in text.split(",")))
+            if isinstance(f.default, tuple)
+            else type(f.default)
+        )
         kind = (lambda text: text not in ("0", "false", "no")) if isinstance(f.default, bool) else kind
-        parser.add_argument("--" + f.name.replace("_", "-"), type=kind, default=f.default, help=f"default {f.default}")
+        parser.add_argument(
+            "--" + f.name.replace("_", "-"), type=kind, default=f.default, help=f"default {f.default}"
+        )
 
 
 def _from_fields(options, arguments):
-    return options(**{f.name: getattr(arguments, f.name) for f in dataclasses.fields(options) if hasattr(arguments, f.name)})
+    return options(
+        **{
+            f.name: getattr(arguments, f.name)
+            for f in dataclasses.fields(options)
+            if hasattr(arguments, f.name)
+        }
+    )
 
 
 def _generate(a):
     from .generate import Plan, generate
+
     sheet = generate(a.bake, a.character, a.recipe, a.out, _from_fields(Plan, a), a.processes)
-    print(f"{a.out}: {len(sheet['sequences'])} sequences, {sheet['seconds_simulated']:.0f} s simulated, {len(sheet['failed'])} failed")
+    print(
+        f"{a.out}: {len(sheet['sequences'])} sequences, {sheet['seconds_simulated']:.0f} s simulated, "
+        f"{len(sheet['failed'])} failed"
+    )
 
 
 def _train(a):
     import torch
     from .train import train
     from .train_options import TrainOptions
+
     torch.set_num_threads(a.threads)
     options = _from_fields(TrainOptions, a)
     if options.device == "auto":
@@ -41,30 +58,38 @@ def _train(a):
 
 def _evaluate(a):
     from .evaluate import evaluate, table
+
     metrics, judged = evaluate(os.path.join(a.run, "weights.safetensors"), a.data, a.run)
     curve = os.path.join(a.run, "curve.json")
     if os.path.exists(curve):
         from .plot import draw
+
         draw(metrics, judged, curve, os.path.join(a.run, "curves.png"))
     print(table(metrics))
 
 
 def _export(a):
     from .export import export
+
     export(os.path.join(a.run, "weights.safetensors"), a.run, a.data, a.out, a.name)
 
 
 def _best(a):
     """The run whose validation roll-outs were best."""
+
     def score(run):
         with open(os.path.join(run, "curve.json")) as file:
             return json.load(file)["best"]
+
     print(min(a.runs, key=score))
 
 
 def _parser():
     from .generate import Plan
-    parser = argparse.ArgumentParser(prog="baker/train", description="Trains tissue networks from ground truth.")
+
+    parser = argparse.ArgumentParser(
+        prog="baker/train", description="Trains tissue networks from ground truth."
+    )
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
 
     def command(name, run, text):
@@ -84,6 +109,7 @@ def _parser():
     p.add_argument("--out", required=True, help="folder of the run; a run that was cut goes on")
     p.add_argument("--threads", type=int, default=1)
     from .train_options import TrainOptions
+
     _add_fields(p, TrainOptions)
     p = command("evaluate", _evaluate, "Judges a run on held-out motions: metrics.json, curves.png.")
     p.add_argument("data")

@@ -36,8 +36,11 @@ class Tally:
         out = {}
         for (method, k), (n, e, square, size) in sorted(self.sums.items(), key=lambda item: item[0][1]):
             mean = e / n
-            out.setdefault(str(k), {})[method] = {"mean_mm": round(mean, 4), "sd_mm": round(math.sqrt(max(0, square / n - mean * mean)), 4),
-                                                  "ratio": round(e / size, 4) if size > 0 else None}
+            out.setdefault(str(k), {})[method] = {
+                "mean_mm": round(mean, 4),
+                "sd_mm": round(math.sqrt(max(0, square / n - mean * mean)), 4),
+                "ratio": round(e / size, 4) if size > 0 else None,
+            }
         return out
 
 
@@ -51,7 +54,8 @@ def predictions(model, scaling, springs, group):
 
 
 def single_step(model, scaling, group):
-    """Error of one tick from the true state, as a share of skinning's, beside holding the displacement and keeping its velocity."""
+    """Error of one tick from the true state, as a share of skinning's, beside holding the displacement and
+    keeping its velocity."""
     u, size = truth(group), truth(group)[2:].norm(dim=-1).mean()
     share = lambda p: round(float((p - u[2:]).norm(dim=-1).mean() / size), 4)
     return {"hold": share(u[1:-1]), "constant_velocity": share(2 * u[1:-1] - u[:-2])}
@@ -60,28 +64,38 @@ def single_step(model, scaling, group):
 def _cut(drive, gain, silent_from):
     """Drive times gain (angular velocity by its root, as its square drives), then none."""
     out = drive * gain
-    out[..., 15:18] = drive[..., 15:18] * gain ** 0.5
+    out[..., 15:18] = drive[..., 15:18] * gain**0.5
     out[silent_from:] = 0
     return out
 
 
 def stability(model, scaling, group, gain):
-    """Driven for 200 ticks at `gain`, then left alone for 600: largest displacement and what is left, mm; largest |c|."""
+    """Driven for 200 ticks at `gain`, then left alone for 600: largest displacement and what is left, mm;
+    largest |c|."""
     s = torch.arange(min(8, group.count))
     driven = min(200, group.ticks)
     drive = group.window(s, torch.zeros(len(s), dtype=torch.long), driven)[0]
     drive = torch.cat([drive, torch.zeros_like(drive[:1]).expand(600, *drive.shape[1:])])
     watch = {}
-    y = 1e3 * roll_out(model, scaling, group, drive=_cut(drive, gain, driven + 1), sequences=s, watch=watch).norm(dim=-1)
+    y = 1e3 * roll_out(
+        model, scaling, group, drive=_cut(drive, gain, driven + 1), sequences=s, watch=watch
+    ).norm(dim=-1)
     radius = group.radius_m() * 1e3
-    return {"gain": gain, "largest_mm": round(float(y.max()), 2), "residue_mean_mm": round(float(y[-1].mean()), 4),
-            "residue_largest_mm": round(float(y[-1].max()), 4), "largest_cell": round(watch["cell"], 2),
-            "largest_share_of_radius": round(float((y / radius[None, :, None]).max()), 3), "limit_share_of_radius": scaling.displacement_limit}
+    return {
+        "gain": gain,
+        "largest_mm": round(float(y.max()), 2),
+        "residue_mean_mm": round(float(y[-1].mean()), 4),
+        "residue_largest_mm": round(float(y[-1].max()), 4),
+        "largest_cell": round(watch["cell"], 2),
+        "largest_share_of_radius": round(float((y / radius[None, :, None]).max()), 3),
+        "limit_share_of_radius": scaling.displacement_limit,
+    }
 
 
 def surface_error(group, methods):
-    """Mean error over all carried vertices in mm and as a share of skinning's; `carried_truth`: the nodes' true displacement carried, the
-    best that any method on these nodes can do. None where the trajectories hold no surface."""
+    """Mean error over all carried vertices in mm and as a share of skinning's; `carried_truth`: the nodes'
+    true displacement carried, the best that any method on these nodes can do. None where the trajectories
+    hold no surface."""
     if any("surface" not in t.tensors for t in group.trajectories):
         return None
     sums = {}
@@ -90,12 +104,15 @@ def surface_error(group, methods):
         for r, count in enumerate(t.tensors["region.vertex_count"]):
             carry = np.asarray(t.tensors[f"carry.{r}"])
             nodes = np.asarray(group.body.region) == r
-            u = true[1:, at:at + count]
+            u = true[1:, at : at + count]
             at += count
             for name, p in {**methods, "carried_truth": truth(group)}.items():
                 e = np.linalg.norm(np.einsum("nv,tnd->tvd", carry, p[1:, nodes, i].numpy()) - u, axis=-1)
                 sums[name] = sums.get(name, 0) + np.array([e.size, e.sum()])
-    return {k: {"mean_mm": round(1e3 * e / n, 4), "ratio": round(e / sums["skinning"][1], 4)} for k, (n, e) in sums.items()}
+    return {
+        k: {"mean_mm": round(1e3 * e / n, 4), "ratio": round(e / sums["skinning"][1], 4)}
+        for k, (n, e) in sums.items()
+    }
 
 
 def by_region(group, methods):
@@ -106,8 +123,13 @@ def by_region(group, methods):
         size = u[1:, nodes].norm(dim=-1).mean()
         name = group.body.region_names[r] if r < len(group.body.region_names) else str(r)
         out[name] = {"mean_displacement_mm": round(float(size) * 1e3, 3)}
-        out[name].update({m: round(float((p[1:, nodes] - u[1:, nodes]).norm(dim=-1).mean() / size), 4)
-                          for m, p in methods.items() if m != "skinning"})
+        out[name].update(
+            {
+                m: round(float((p[1:, nodes] - u[1:, nodes]).norm(dim=-1).mean() / size), 4)
+                for m, p in methods.items()
+                if m != "skinning"
+            }
+        )
     return out
 
 
@@ -118,8 +140,11 @@ def by_motion(groups_and_methods):
         u = truth(g)
         for i, t in enumerate(g.trajectories):
             size = u[1:, :, i].norm(dim=-1).mean()
-            out[f"{t.name} {g.ticks} ticks"] = {m: round(float((p[1:, :, i] - u[1:, :, i]).norm(dim=-1).mean() / size), 4)
-                                               for m, p in methods.items() if m != "skinning"}
+            out[f"{t.name} {g.ticks} ticks"] = {
+                m: round(float((p[1:, :, i] - u[1:, :, i]).norm(dim=-1).mean() / size), 4)
+                for m, p in methods.items()
+                if m != "skinning"
+            }
     return out
 
 
@@ -145,8 +170,13 @@ def evaluate(weights, data, out=None):
             tally.add(name, p, truth(g))
     first, methods = judged[0]
     metrics = {
-        "model": {"parameters": sum(p.numel() for p in model.parameters()), "channels": list(model.options.channels),
-                  "seed": metadata.get("seed"), "trained_minutes": metadata.get("trained_minutes"), "recipe": json.loads(metadata.get("recipe", "{}"))},
+        "model": {
+            "parameters": sum(p.numel() for p in model.parameters()),
+            "channels": list(model.options.channels),
+            "seed": metadata.get("seed"),
+            "trained_minutes": metadata.get("trained_minutes"),
+            "recipe": json.loads(metadata.get("recipe", "{}")),
+        },
         "held_out": [t.name for g in groups for t in g.trajectories],
         "roll_out": tally.figures(),
         "single_step": single_step(model, scaling, first),
@@ -166,9 +196,16 @@ def table(metrics):
     """The roll-out figures as text a person reads."""
     lines = [f"{'ticks':>6}" + "".join(f"{m:>26}" for m in METHODS)]
     for k, row in metrics["roll_out"].items():
-        cell = lambda m: f"{row[m]['mean_mm']:.2f} +- {row[m]['sd_mm']:.2f} mm {row[m]['ratio']:.3f}" if m in row else ""
+        cell = (
+            lambda m: f"{row[m]['mean_mm']:.2f} +- {row[m]['sd_mm']:.2f} mm {row[m]['ratio']:.3f}"
+            if m in row
+            else ""
+        )
         lines.append(f"{k:>6}" + "".join(f"{cell(m):>26}" for m in METHODS))
     rest, over = metrics["rest"], metrics["overdrive"]
-    lines.append(f"at rest: {rest['residue_mean_mm']} mm left (largest {rest['residue_largest_mm']}); driven x3: largest {over['largest_mm']} mm, "
-                 f"{over['largest_share_of_radius']} of a radius, {over['residue_mean_mm']} mm left; largest |c| {over['largest_cell']}")
+    lines.append(
+        f"at rest: {rest['residue_mean_mm']} mm left (largest {rest['residue_largest_mm']}); driven x3: "
+        f"largest {over['largest_mm']} mm, {over['largest_share_of_radius']} of a radius, "
+        f"{over['residue_mean_mm']} mm left; largest |c| {over['largest_cell']}"
+    )
     return "\n".join(lines)

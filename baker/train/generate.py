@@ -1,4 +1,5 @@
-"""Makes a data set: runs `sinew-bake truth` over a list of motions. Goes on where it was cut; files appear whole or not at all."""
+"""Makes a data set: runs `sinew-bake truth` over a list of motions. Goes on where it was cut; files appear
+whole or not at all."""
 import concurrent.futures
 import hashlib
 import json
@@ -19,16 +20,17 @@ MOST_FAILURES = 0.1  # of a data set; a truth that fails more often is broken
 @dataclass
 class Plan:
     """How much of what. Held out of training and of choosing: one clip, and all seeds of test and long."""
+
     train_random: int = 56
-    train_clips: int = 6          # variants of each clip that is not held out
+    train_clips: int = 6  # variants of each clip that is not held out
     validation_random: int = 6
     test_random: int = 5
-    test_clips: int = 3           # variants of the held-out clip
-    long_sequences: int = 2       # one random, one of the held-out clip
+    test_clips: int = 3  # variants of the held-out clip
+    long_sequences: int = 2  # one random, one of the held-out clip
     seconds: float = 4.5
     long_seconds: float = 60.0
     substeps: int = 4
-    held_out_clip: str = ""       # empty: 'hop', or else the last clip
+    held_out_clip: str = ""  # empty: 'hop', or else the last clip
 
 
 @dataclass
@@ -61,17 +63,34 @@ def jobs_of(plan, clips):
     """The list of simulations, the long ones first so that they do not end alone."""
     held_out = plan.held_out_clip or ("hop" if "hop" in clips else clips[-1] if clips else "")
     if held_out and held_out not in clips:
-        raise BadData(f"held-out clip '{held_out}' is not in the character; it has {', '.join(clips) or 'no clips'}")
+        raise BadData(
+            f"held-out clip '{held_out}' is not in the character; it has {', '.join(clips) or 'no clips'}"
+        )
     away = ["--hold-out", held_out] if held_out else []
     strength = lambda i: STRENGTHS[i % len(STRENGTHS)]
     spare = f"clip:{held_out}" if held_out else "shake"
-    jobs = [Job("long", ("random", spare)[i % 2], 4000 + i, 1.0, plan.long_seconds) for i in range(plan.long_sequences)]
-    jobs += [Job("test", spare, i, (1.0, 0.8, 1.2)[i % 3], plan.seconds, ["--surface"]) for i in range(plan.test_clips)]
-    jobs += [Job("test", "random", 3000 + i, strength(i), plan.seconds, ["--surface"]) for i in range(plan.test_random)]
-    jobs += [Job("validation", "random", 2000 + i, strength(i), plan.seconds, away) for i in range(plan.validation_random)]
+    jobs = [
+        Job("long", ("random", spare)[i % 2], 4000 + i, 1.0, plan.long_seconds)
+        for i in range(plan.long_sequences)
+    ]
+    jobs += [
+        Job("test", spare, i, (1.0, 0.8, 1.2)[i % 3], plan.seconds, ["--surface"])
+        for i in range(plan.test_clips)
+    ]
+    jobs += [
+        Job("test", "random", 3000 + i, strength(i), plan.seconds, ["--surface"])
+        for i in range(plan.test_random)
+    ]
+    jobs += [
+        Job("validation", "random", 2000 + i, strength(i), plan.seconds, away)
+        for i in range(plan.validation_random)
+    ]
     jobs += [Job("train", "random", 1 + i, strength(i), plan.seconds, away) for i in range(plan.train_random)]
     for clip in [c for c in clips if c != held_out]:
-        jobs += [Job("train", f"clip:{clip}", i, (1.0, 0.7, 1.25)[i % 3], plan.seconds) for i in range(plan.train_clips)]
+        jobs += [
+            Job("train", f"clip:{clip}", i, (1.0, 0.7, 1.25)[i % 3], plan.seconds)
+            for i in range(plan.train_clips)
+        ]
     if not clips:
         jobs += [Job("train", "shake", 1 + i, strength(i), plan.seconds) for i in range(plan.train_clips)]
     return jobs
@@ -93,16 +112,42 @@ def _is_done(path, job, plan):
         have = read_trajectory(path).metadata
     except BadData:
         return False
-    want = {"motion": job.motion, "seed": job.seed, "strength": job.strength, "seconds": job.seconds, "substeps": plan.substeps}
+    want = {
+        "motion": job.motion,
+        "seed": job.seed,
+        "strength": job.strength,
+        "seconds": job.seconds,
+        "substeps": plan.substeps,
+    }
     return all(str(have.get(k)) == (f"{v:g}" if isinstance(v, float) else str(v)) for k, v in want.items())
 
 
 def _simulate(bake, character, recipe, job, plan, path):
     """None, or why there is no file."""
-    command = [bake, "truth", character, "--motion", job.motion, "--seed", str(job.seed), "--strength", f"{job.strength:g}",
-               "--seconds", f"{job.seconds:g}", "--substeps", str(plan.substeps), *job.flags, "-o", path]
+    command = [
+        bake,
+        "truth",
+        character,
+        "--motion",
+        job.motion,
+        "--seed",
+        str(job.seed),
+        "--strength",
+        f"{job.strength:g}",
+        "--seconds",
+        f"{job.seconds:g}",
+        "--substeps",
+        str(plan.substeps),
+        *job.flags,
+        "-o",
+        path,
+    ]
     done = subprocess.run(command + (["--recipe", recipe] if recipe else []), capture_output=True, text=True)
-    return None if done.returncode == 0 else (done.stderr.strip().splitlines() or [f"exit code {done.returncode}"])[-1]
+    return (
+        None
+        if done.returncode == 0
+        else (done.stderr.strip().splitlines() or [f"exit code {done.returncode}"])[-1]
+    )
 
 
 def _prepare(out, digest):
@@ -110,19 +155,40 @@ def _prepare(out, digest):
     os.makedirs(out, exist_ok=True)
     stamp = os.path.join(out, "made_from")
     if os.path.exists(stamp) and open(stamp).read() != digest:
-        raise BadData(f"{out}: holds sequences of another character, recipe or sinew-bake; delete it or give another folder")
+        raise BadData(
+            f"{out}: holds sequences of another character, recipe or sinew-bake; "
+            "delete it or give another folder"
+        )
     with open(stamp, "w") as file:
         file.write(digest)
 
 
 def _sheet(character, recipe, plan, digest, finished, failed):
     first = read_trajectory(finished[0][1])
-    return {"character": os.path.basename(character), "recipe": os.path.basename(recipe) if recipe else None, "made_from": digest,
-            "plan": vars(plan), "regions": list(first.body.region_names), "nodes": len(first.body.region),
-            "counts": {s: sum(j.split == s for j, _ in finished) for s in ("train", "validation", "test", "long")},
-            "seconds_simulated": sum(j.seconds for j, _ in finished), "failed": failed,
-            "sequences": [{"file": j.file, "split": j.split, "motion": j.motion, "seed": j.seed, "strength": j.strength,
-                           "seconds": j.seconds} for j, _ in finished]}
+    return {
+        "character": os.path.basename(character),
+        "recipe": os.path.basename(recipe) if recipe else None,
+        "made_from": digest,
+        "plan": vars(plan),
+        "regions": list(first.body.region_names),
+        "nodes": len(first.body.region),
+        "counts": {
+            s: sum(j.split == s for j, _ in finished) for s in ("train", "validation", "test", "long")
+        },
+        "seconds_simulated": sum(j.seconds for j, _ in finished),
+        "failed": failed,
+        "sequences": [
+            {
+                "file": j.file,
+                "split": j.split,
+                "motion": j.motion,
+                "seed": j.seed,
+                "strength": j.strength,
+                "seconds": j.seconds,
+            }
+            for j, _ in finished
+        ],
+    }
 
 
 def generate(bake, character, recipe, out, plan, processes=2, progress=sys.stderr):

@@ -16,14 +16,15 @@ FEEDBACK = ("displacement", "velocity")
 ORDER = tuple(STATIC) + tuple(DRIVE) + FEEDBACK
 WIDTH = {**STATIC, **{name: 3 for name in DRIVE}, **{name: 3 for name in FEEDBACK}}
 INPUT_WIDTH = sum(WIDTH.values())
-DRIVE_START = sum(STATIC.values())          # columns of z: statics, drive, displacement and velocity
+DRIVE_START = sum(STATIC.values())  # columns of z: statics, drive, displacement and velocity
 FEEDBACK_START = DRIVE_START + 3 * len(DRIVE)
 
 
 @dataclass
 class Scaling:
     """The network is fed value x scale; y is in length units."""
-    scale: dict           # name -> number
+
+    scale: dict  # name -> number
     length_unit_m: float
-    envelope: dict        # name -> largest |value x scale| let through
+    envelope: dict  # name -> largest |value x scale| let through
     displacement_limit: float  # share of a region's radius at which the runtime holds a node

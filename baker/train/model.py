@@ -1,18 +1,24 @@
-"""Alt-ConvLSTM on control graphs: the equations of runtime/pack/format.hpp (NetworkRecord), for batches of sequences.
+"""Alt-ConvLSTM on control graphs: the equations of runtime/pack/format.hpp (NetworkRecord), for batches of
+sequences.
 
-Shapes: R regions of n nodes (shorter ones padded with isolated, unread nodes), B sequences, F channels. A batch is (R, n, B, F), so that
-P, one dense (n, n) block a region, and the weights each act by one matrix product."""
+Shapes: R regions of n nodes (shorter ones padded with isolated, unread nodes), B sequences, F channels. A
+batch is (R, n, B, F), so that P, one dense (n, n) block a region, and the weights each act by one matrix
+product."""
 from dataclasses import asdict, dataclass
 
 import torch
 
 
-FIRST_OUTPUT = 0.06  # share of a usual output layer that training starts from: a loud start ends in a silent network
+FIRST_OUTPUT = (
+    0.06  # share of a usual output layer that training starts from: a loud start ends in a silent network
+)
 
 
 @dataclass
 class ModelOptions:
-    """channels: of every layer, the last is 3. The rest as in NetworkRecord; the defaults are the paper's wiring."""
+    """channels: of every layer, the last is 3. The rest as in NetworkRecord; the defaults are the paper's
+    wiring."""
+
     input_width: int = 9
     channels: tuple = (32, 64, 128, 64, 32, 3)
     self_weights: bool = False
@@ -58,30 +64,38 @@ class Layer(torch.nn.Module):
         return self.b.numel() // 4
 
     def packed(self):
-        """(rows of x's aggregate, x itself, P h and P y stacked to one matrix (., 4F), W_y of the output gate)."""
+        """(rows of x's aggregate, x itself, P h and P y stacked to one matrix (., 4F), W_y of the output
+        gate)."""
         f = self.channels
-        peephole = torch.cat([self.W_y[:, :2 * f], self.W_y.new_zeros(f, 2 * f)], 1)
-        rows = [self.W_x, self.W_s, self.W_h, peephole] if self.W_s is not None else [self.W_x, self.W_h, peephole]
-        return torch.cat(rows), self.W_y[:, 2 * f:]
+        peephole = torch.cat([self.W_y[:, : 2 * f], self.W_y.new_zeros(f, 2 * f)], 1)
+        rows = (
+            [self.W_x, self.W_s, self.W_h, peephole]
+            if self.W_s is not None
+            else [self.W_x, self.W_h, peephole]
+        )
+        return torch.cat(rows), self.W_y[:, 2 * f :]
 
 
 class AltConvLSTM(torch.nn.Module):
-    """step() is pure: state in, state out. A layer's state is (P h, c, P y); the last layer's y is the caller's to keep, and
-    may be replaced between steps (scheduled sampling)."""
+    """step() is pure: state in, state out. A layer's state is (P h, c, P y); the last layer's y is the
+    caller's to keep, and may be replaced between steps (scheduled sampling)."""
 
     def __init__(self, options):
         super().__init__()
         self.options = options
         widths = (options.input_width,) + tuple(options.channels)
-        self.layers = torch.nn.ModuleList(Layer(a, b, options.self_weights) for a, b in zip(widths, widths[1:]))
+        self.layers = torch.nn.ModuleList(
+            Layer(a, b, options.self_weights) for a, b in zip(widths, widths[1:])
+        )
 
     def start_for_training(self):
-        """Biases that trained: open input gates, short memory in hidden layers, long at the output; a small output layer."""
+        """Biases that trained: open input gates, short memory in hidden layers, long at the output; a small
+        output layer."""
         with torch.no_grad():
             for l, layer in enumerate(self.layers):
                 f, last = layer.channels, l == len(self.layers) - 1
                 layer.b[:f] += 1
-                layer.b[f:2 * f] += 2 if last else -1
+                layer.b[f : 2 * f] += 2 if last else -1
             for w in (layer.W_x, layer.W_s, layer.W_h):
                 if w is not None:
                     w.mul_(FIRST_OUTPUT / self.options.output_scale)
@@ -97,7 +111,8 @@ class AltConvLSTM(torch.nn.Module):
         return [layer.packed() + (layer.b,) for layer in self.layers]
 
     def step(self, packed, P, z, state, y, carry=None):
-        """One tick. P (R, n, n); z (R, n, B, input_width); y (R, n, B, 3) of the last tick. Returns y and state of this tick."""
+        """One tick. P (R, n, n); z (R, n, B, input_width); y (R, n, B, 3) of the last tick. Returns y and
+        state of this tick."""
         aggregate = lambda x: torch.bmm(P, x.reshape(x.shape[0], x.shape[1], -1)).view(x.shape)
         o, out = self.options, []
         x, px = z, aggregate(z)
@@ -106,8 +121,8 @@ class AltConvLSTM(torch.nn.Module):
             if last:
                 py = aggregate(y)
             a = torch.cat([px, x, ph, py] if o.self_weights else [px, ph, py], -1) @ weights + b
-            gates = torch.sigmoid(a[..., :2 * f])
-            c = gates[..., f:] * c + gates[..., :f] * fast_tanh(a[..., 2 * f:3 * f])
+            gates = torch.sigmoid(a[..., : 2 * f])
+            c = gates[..., f:] * c + gates[..., :f] * fast_tanh(a[..., 2 * f : 3 * f])
             if o.state_clamp != float("inf"):
                 c = c.clamp(-o.state_clamp, o.state_clamp)
             if last:
@@ -117,7 +132,7 @@ class AltConvLSTM(torch.nn.Module):
             else:
                 x, px = c, aggregate(c)
                 py = py * (1 - o.hidden_leak) + px  # P y_t = (1 - leak) P y_{t-1} + P c_t
-            h = torch.sigmoid(a[..., 3 * f:] + py @ w_yo) * fast_tanh(c)
+            h = torch.sigmoid(a[..., 3 * f :] + py @ w_yo) * fast_tanh(c)
             out.append((aggregate(h), c, py))
         return y, out
 

@@ -6,7 +6,12 @@ import torch
 from .rollout import truth
 
 COLOURS = {"network": "#c2410c", "spring": "#2563eb", "two_springs": "#0f766e", "skinning": "#6b7280"}
-LABELS = {"network": "network", "spring": "damped spring", "two_springs": "two damped springs", "skinning": "skinning alone"}
+LABELS = {
+    "network": "network",
+    "spring": "damped spring",
+    "two_springs": "two damped springs",
+    "skinning": "skinning alone",
+}
 
 
 def _ratios(axes, metrics):
@@ -30,7 +35,13 @@ def _trace(axes, judged):
     axes.plot(seconds, 1e3 * u[:, node, axis], color="black", linewidth=2, label="ground truth")
     for method in ("network", "spring"):
         if method in methods:
-            axes.plot(seconds, 1e3 * methods[method][:, node, 0, axis], color=COLOURS[method], linewidth=1.2, label=LABELS[method])
+            axes.plot(
+                seconds,
+                1e3 * methods[method][:, node, 0, axis],
+                color=COLOURS[method],
+                linewidth=1.2,
+                label=LABELS[method],
+            )
     axes.set_xlabel("time (s)")
     axes.set_ylabel(f"displacement along {'xyz'[axis]} (mm)")
     axes.set_title(f"One node, {group.trajectories[0].name}")
@@ -52,8 +63,10 @@ def _training(axes, curve):
 def draw(metrics, judged, curve_file, out):
     """out: a .png or .svg."""
     import matplotlib
+
     matplotlib.use("Agg")
     from matplotlib import pyplot
+
     with open(curve_file) as file:
         curve = json.load(file)["curve"]
     figure, axes = pyplot.subplots(1, 3, figsize=(13, 3.8))

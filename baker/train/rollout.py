@@ -8,7 +8,8 @@ from .model import largest_cell
 def roll_out(model, scaling, group, ticks=None, drive=None, sequences=None, watch=None):
     """Displacement (T+1, N, B, 3) metres of a group's sequences from rest.
 
-    drive: raw, (T+1, R, n, B, 21), in place of the group's. watch: a dict that receives the largest |c| as 'cell'."""
+    drive: raw, (T+1, R, n, B, 21), in place of the group's. watch: a dict that receives the largest |c| as
+    'cell'."""
     s = torch.arange(group.count, device=group.device) if sequences is None else torch.as_tensor(sequences)
     ticks = ticks or (group.ticks if drive is None else len(drive) - 1)
     chunk, out, top = 200, [], 0.0
@@ -19,8 +20,11 @@ def roll_out(model, scaling, group, ticks=None, drive=None, sequences=None, watc
         out.append(group.flatten(y))
         for first in range(0, ticks, chunk):
             n = min(chunk, ticks - first)
-            raw = group.window(s, torch.full((len(s),), first, device=group.device), n)[0] if drive is None else \
-                drive[first:first + n + 1]
+            raw = (
+                group.window(s, torch.full((len(s),), first, device=group.device), n)[0]
+                if drive is None
+                else drive[first : first + n + 1]
+            )
             scaled = drive_columns(raw, scaling)
             for t in range(1, n + 1):
                 z = input_columns(static, scaled[t], y, y_before, scaling)
@@ -41,5 +45,5 @@ def truth(group, sequences=None):
 
 def error_ratio(predicted, true, ticks):
     """Mean distance over ticks 1..ticks as a share of the mean displacement: 1 is skinning alone."""
-    p, u = predicted[1:ticks + 1], true[1:ticks + 1]
+    p, u = predicted[1 : ticks + 1], true[1 : ticks + 1]
     return float((p - u).norm(dim=-1).mean() / u.norm(dim=-1).mean())

@@ -5,8 +5,16 @@ import struct
 
 import numpy as np
 
-_TYPES = {"F64": np.float64, "F32": np.float32, "F16": np.float16, "I64": np.int64, "I32": np.int32, "I8": np.int8,
-          "U8": np.uint8, "BOOL": np.bool_}
+_TYPES = {
+    "F64": np.float64,
+    "F32": np.float32,
+    "F16": np.float16,
+    "I64": np.int64,
+    "I32": np.int32,
+    "I8": np.int8,
+    "U8": np.uint8,
+    "BOOL": np.bool_,
+}
 _CODES = {np.dtype(v): k for k, v in _TYPES.items()}
 _LARGEST_HEADER = 16 << 20
 
@@ -16,7 +24,7 @@ class BadData(Exception):
 
 
 def _header(path, file, size):
-    length, = struct.unpack("<Q", file.read(8)) if size >= 8 else (0,)
+    (length,) = struct.unpack("<Q", file.read(8)) if size >= 8 else (0,)
     if not 2 <= length <= min(_LARGEST_HEADER, size - 8):
         raise BadData(f"{path}: not a safetensors file, or cut short in its header; make it again")
     try:
@@ -43,20 +51,28 @@ def load(path):
         begin, end = entry["data_offsets"]
         count = int(np.prod(entry["shape"], dtype=np.int64))
         if entry["dtype"] not in _TYPES or end - begin != count * np.dtype(_TYPES[entry["dtype"]]).itemsize:
-            raise BadData(f"{path}: tensor {name}: its type, shape and size do not agree; make the file again")
+            raise BadData(
+                f"{path}: tensor {name}: its type, shape and size do not agree; make the file again"
+            )
         if end > data.size:
-            raise BadData(f"{path}: cut short: tensor {name} ends at byte {end} of {data.size}; make the file again")
+            raise BadData(
+                f"{path}: cut short: tensor {name} ends at byte {end} of {data.size}; make the file again"
+            )
         tensors[name] = data[begin:end].view(_TYPES[entry["dtype"]]).reshape(entry["shape"])
     return tensors, metadata
 
 
 def save(path, tensors, metadata):
-    """tensors: name -> array; metadata: name -> value, written as text. Beside its place first, then renamed; data start is
-    64-byte aligned by padding the header."""
+    """tensors: name -> array; metadata: name -> value, written as text. Beside its place first, then
+    renamed; data start is 64-byte aligned by padding the header."""
     header, offset = {"__metadata__": {k: str(v) for k, v in metadata.items()}}, 0
     arrays = {k: np.ascontiguousarray(v) for k, v in tensors.items()}
     for name, a in arrays.items():
-        header[name] = {"dtype": _CODES[a.dtype], "shape": list(a.shape), "data_offsets": [offset, offset + a.nbytes]}
+        header[name] = {
+            "dtype": _CODES[a.dtype],
+            "shape": list(a.shape),
+            "data_offsets": [offset, offset + a.nbytes],
+        }
         offset += a.nbytes
     text = json.dumps(header).encode()
     text += b" " * (-(8 + len(text)) % 64)

@@ -7,70 +7,14 @@ import time
 import torch
 
 from . import dataset
-from .dataset import drive_columns, input_columns
+from .dataset import input_columns
+from .episode import Episode
 from .inputs import INPUT_WIDTH
 from .model import AltConvLSTM, ModelOptions
 from .rollout import error_ratio, roll_out, truth
 from .weights import save_weights
 
 VALIDATED_TICKS = (50, 150)  # and the whole sequence
-SILENT_FROM = 0.35           # of an episode: overdriven sequences are left in stillness from here on
-SETTLED_TICKS = 100          # after which they should have come to rest
-
-
-class Episode:
-    """A batch of sequences from some tick to their end, window by window, with the network's state carried along."""
-
-    def __init__(self, group, scaling, options):
-        g, b, device = group, min(options.batch, group.count), group.device
-        self.group, self.scaling, self.options, self.size = group, scaling, options, b
-        self.sequences = torch.randperm(g.count, device=device)[:b]
-        late = torch.rand(b, device=device) < 0.4
-        latest = max(1, g.ticks // 4)  # the batch ends with its latest
-        self.starts = torch.where(late, torch.randint(1, latest + 1, (b,), device=device), torch.zeros(b, dtype=torch.long, device=device))
-        self.free = torch.rand(b, device=device) < options.overdrive  # driven beyond the data: no truth
-        still = ~self.free & (torch.rand(b, device=device) < options.stillness)
-        self.gain = torch.where(self.free, 1 + 2 * torch.rand(b, device=device), (~still).float())
-        self.starts = torch.where(still, torch.zeros_like(self.starts), self.starts)
-        self.sign = self._mirror_signs(torch.rand(b, device=device) < 0.5 * options.mirror)
-        self.static = self._static()
-        self.done = 0
-        self.state = None
-
-    def _mirror_signs(self, mirrored):
-        """(B, 34): left to right flips x of vectors, and y and z of rotation vectors."""
-        polar, axial = [-1.0, 1, 1], [1.0, -1, -1]
-        flip = torch.tensor(polar * 2 + [1.0] + polar * 4 + axial * 2 + polar * 3, device=mirrored.device)
-        return torch.where(mirrored[:, None], flip, torch.ones_like(flip))
-
-    def _static(self):
-        return self.group.static_columns(self.scaling, self.size) * self.sign[:, :7]
-
-    def ticks_left(self):
-        return int(self.group.ticks - self.starts.max()) - self.done
-
-    def _silent_ticks(self):
-        """Ticks since the drive of overdriven sequences went silent."""
-        return self.done - SILENT_FROM * (self.group.ticks - int(self.starts.max()))
-
-    def _overdrive(self, drive):
-        """Stronger, and silent late in the episode; angular velocity by the root, as its square drives."""
-        g = self.gain[:, None].expand(-1, 21).clone()
-        g[:, 15:18] = g[:, 15:18].sqrt()
-        return drive * torch.where(self.free[:, None] & (self._silent_ticks() > 0), torch.zeros_like(g), g)
-
-    def known(self):
-        """(B,) whether there is truth: not for the overdriven, until they have had time to come to rest, which is zero."""
-        return ~self.free | (self._silent_ticks() > SETTLED_TICKS)
-
-    def next_window(self):
-        """Scaled drive (W+1, R, n, B, 21) and truth (W+1, R, n, B, 3) in length units; the first is the tick before the window."""
-        ticks = min(self.options.window, self.ticks_left())
-        drive, u = self.group.window(self.sequences, self.starts + self.done, ticks)
-        drive = drive_columns(self._overdrive(drive) * self.sign[:, 7:28], self.scaling)
-        u = u / self.scaling.length_unit_m * self.sign[:, 28:31] * (self.gain * ~self.free)[:, None].clamp(max=1)
-        self.done += ticks
-        return drive, u
 
 
 class Trainer:
@@ -79,17 +23,35 @@ class Trainer:
         torch.manual_seed(options.seed)
         self.scaling = dataset.measure_scaling(train_groups)
         self.rate_hz = train_groups[0].trajectories[0].rate_hz
-        self.model = AltConvLSTM(ModelOptions(
-            INPUT_WIDTH, tuple(options.channels), True, options.output_scale or self._liveliest_speed(), options.output_leak,
-            options.hidden_leak, options.state_clamp)).start_for_training().to(options.device)
+        self.model = (
+            AltConvLSTM(
+                ModelOptions(
+                    INPUT_WIDTH,
+                    tuple(options.channels),
+                    True,
+                    options.output_scale or self._liveliest_speed(),
+                    options.output_leak,
+                    options.hidden_leak,
+                    options.state_clamp,
+                )
+            )
+            .start_for_training()
+            .to(options.device)
+        )
         self.optimizer = torch.optim.Adam(self.model.parameters(), options.learning_rate)
         self.weight, self.rms, self.bound = zip(*(self._region_figures(g) for g in train_groups))
         self.elapsed_s, self.updates, self.best, self.best_model, self.curve = 0.0, 0, float("inf"), None, []
 
     def _liveliest_speed(self):
         """Mean speed of the region that moves most, doubled; length units a tick, two digits."""
-        speed = [(g.displacement[:, 1:] - g.displacement[:, :-1]).norm(dim=-1).mean((0, 1)) for g in self.groups]
-        top = max(float(s[torch.as_tensor(g.body.region == r)].mean()) for g, s in zip(self.groups, speed) for r in range(g.regions))
+        speed = [
+            (g.displacement[:, 1:] - g.displacement[:, :-1]).norm(dim=-1).mean((0, 1)) for g in self.groups
+        ]
+        top = max(
+            float(s[torch.as_tensor(g.body.region == r)].mean())
+            for g, s in zip(self.groups, speed)
+            for r in range(g.regions)
+        )
         return float(f"{2 * top / self.scaling.length_unit_m:.1e}")
 
     def _region_figures(self, g):
@@ -108,24 +70,33 @@ class Trainer:
         return self.elapsed_s / (60 * self.options.minutes)
 
     def _set_rate(self):
-        warm, cosine = min(1.0, self.updates / 30 + 0.1), 0.5 * (1 + math.cos(math.pi * min(1.0, self.fraction())))
+        warm, cosine = min(1.0, self.updates / 30 + 0.1), 0.5 * (
+            1 + math.cos(math.pi * min(1.0, self.fraction()))
+        )
         for group in self.optimizer.param_groups:
             group["lr"] = self.options.learning_rate * warm * (0.97 * cosine + 0.03)
 
     def _start_of_window(self, episode, u, rms):
-        """Own output of the last window, here and there replaced by truth, always a little disturbed. u (R, n, B, 3): truth there."""
+        """Own output of the last window, here and there replaced by truth, always a little disturbed. u (R,
+        n, B, 3): truth there."""
         if episode.state is None:
             episode.state = self.model.zero_state(*u.shape[:3])
             episode.y = u
             episode.y_before = u
         y, y_before = episode.y.detach(), episode.y_before.detach()
-        lost = (~torch.isfinite(y)).any(-1).any(1).any(0) | ((y - u).norm(dim=-1) > 4 * self.bound[episode.index]).any(1).any(0) & ~episode.free
+        lost = (~torch.isfinite(y)).any(-1).any(1).any(0) | (
+            (y - u).norm(dim=-1) > 4 * self.bound[episode.index]
+        ).any(1).any(0) & ~episode.free
         help_out = torch.rand(u.shape[2], device=u.device) < max(0.02, 0.5 * (1 - 3 * self.fraction()))
         replaced = (lost | (help_out & ~episode.free))[None, None, :, None]
-        episode.state = [tuple(torch.where(lost[None, None, :, None], torch.zeros_like(s), s.detach()) for s in layer)
-                         for layer in episode.state]
+        episode.state = [
+            tuple(torch.where(lost[None, None, :, None], torch.zeros_like(s), s.detach()) for s in layer)
+            for layer in episode.state
+        ]
         y, y_before = torch.where(replaced, u, y), torch.where(replaced, u, y_before)
-        kick = torch.randn(u.shape[0], 1, u.shape[2], 3, device=u.device) * torch.rand(1, 1, u.shape[2], 1, device=u.device)
+        kick = torch.randn(u.shape[0], 1, u.shape[2], 3, device=u.device) * torch.rand(
+            1, 1, u.shape[2], 1, device=u.device
+        )
         return y + self.options.noise * rms[..., None] * kick, y_before
 
     def _tick_loss(self, episode, y, u):
@@ -146,7 +117,9 @@ class Trainer:
             y, state = self.model.step(packed, episode.group.P, z, state, y)
             loss = loss + self._tick_loss(episode, y, u[t])
             if truth_share > 0:
-                m = ((torch.rand(u.shape[3], device=u.device) < truth_share) & ~episode.free)[None, None, :, None]
+                m = ((torch.rand(u.shape[3], device=u.device) < truth_share) & ~episode.free)[
+                    None, None, :, None
+                ]
                 y, y_before = torch.where(m, u[t], y), torch.where(m, u[t - 1], y_before)
         episode.y, episode.y_before, episode.state = y, y_before, state
         return loss / (len(u) - 1)
@@ -183,16 +156,32 @@ class Trainer:
         score = sum(ratios.values()) / len(ratios)
         if math.isfinite(score) and score < self.best:
             self.best, self.best_model = score, {k: v.clone() for k, v in self.model.state_dict().items()}
-        self.curve.append({"minutes": round(self.elapsed_s / 60, 3), "updates": self.updates,
-                           "loss": round(sum(losses) / max(1, len(losses)), 5),
-                           **{f"ratio_{k}": round(v, 4) for k, v in ratios.items()}})
-        self.log(f"{self.elapsed_s / 60:6.2f} min  {self.updates:5d} updates  loss {self.curve[-1]['loss']:.4f}  validation ratio "
-                 + "  ".join(f"{k}: {v:.3f}" for k, v in ratios.items()), flush=True)
+        self.curve.append(
+            {
+                "minutes": round(self.elapsed_s / 60, 3),
+                "updates": self.updates,
+                "loss": round(sum(losses) / max(1, len(losses)), 5),
+                **{f"ratio_{k}": round(v, 4) for k, v in ratios.items()},
+            }
+        )
+        self.log(
+            f"{self.elapsed_s / 60:6.2f} min  {self.updates:5d} updates  loss {self.curve[-1]['loss']:.4f}  "
+            "validation ratio " + "  ".join(f"{k}: {v:.3f}" for k, v in ratios.items()),
+            flush=True,
+        )
 
     def checkpoint(self):
-        return {"model": self.model.state_dict(), "optimizer": self.optimizer.state_dict(), "best": self.best,
-                "best_model": self.best_model, "elapsed_s": self.elapsed_s, "updates": self.updates, "curve": self.curve,
-                "random": torch.get_rng_state(), "options": vars(self.options)}
+        return {
+            "model": self.model.state_dict(),
+            "optimizer": self.optimizer.state_dict(),
+            "best": self.best,
+            "best_model": self.best_model,
+            "elapsed_s": self.elapsed_s,
+            "updates": self.updates,
+            "curve": self.curve,
+            "random": torch.get_rng_state(),
+            "options": vars(self.options),
+        }
 
     def resume(self, saved):
         self.model.load_state_dict(saved["model"])
@@ -203,7 +192,9 @@ class Trainer:
 
     def run(self, save_checkpoint):
         """To the end of the time; save_checkpoint() is called after every validation."""
-        clock = time.thread_time if self.options.device == "cpu" else time.monotonic  # a busy machine must not make a worse network
+        clock = (
+            time.thread_time if self.options.device == "cpu" else time.monotonic
+        )  # a busy machine must not make a worse network
         last, losses, episode = clock(), [], None
         next_s = self.elapsed_s + min(15.0, 6 * self.options.minutes)
         while self.fraction() < 1:
@@ -234,9 +225,12 @@ def _same_run(saved, options):
 
 
 def train(data, out, options, log=print):
-    """Writes out/weights.safetensors, out/curve.json and out/checkpoint.pt; goes on from the checkpoint of a run that was cut."""
+    """Writes out/weights.safetensors, out/curve.json and out/checkpoint.pt; goes on from the checkpoint of a
+    run that was cut."""
     train_set, validation_set = dataset.read_split(data, "train"), dataset.read_split(data, "validation")
-    trainer = Trainer(dataset.group(train_set, options.device), dataset.group(validation_set, options.device), options, log)
+    trainer = Trainer(
+        dataset.group(train_set, options.device), dataset.group(validation_set, options.device), options, log
+    )
     os.makedirs(out, exist_ok=True)
     checkpoint = os.path.join(out, "checkpoint.pt")
     if os.path.exists(checkpoint):
@@ -245,12 +239,35 @@ def train(data, out, options, log=print):
             trainer.resume(saved)
             log(f"goes on from {checkpoint} at {trainer.elapsed_s / 60:.1f} minutes")
     parameters = sum(p.numel() for p in trainer.model.parameters())
-    log(f"{len(train_set)} training and {len(validation_set)} validation sequences, {parameters} parameters, seed {options.seed}", flush=True)
+    log(
+        f"{len(train_set)} training and {len(validation_set)} validation sequences, {parameters} parameters, "
+        f"seed {options.seed}",
+        flush=True,
+    )
     trainer.run(lambda: _save_checkpoint(checkpoint, trainer))
     _save_checkpoint(checkpoint, trainer)
     with open(os.path.join(out, "curve.json"), "w") as file:
-        json.dump({"options": vars(options), "parameters": parameters, "best": trainer.best, "curve": trainer.curve}, file, indent=1)
-    save_weights(os.path.join(out, "weights.safetensors"), trainer.model, trainer.scaling, trainer.rate_hz,
-                 {"seed": options.seed, "recipe": json.dumps(vars(options)), "trained_minutes": f"{trainer.elapsed_s / 60:.2f}",
-                  "updates": trainer.updates, "validation_ratio": f"{trainer.best:.4f}"})
+        json.dump(
+            {
+                "options": vars(options),
+                "parameters": parameters,
+                "best": trainer.best,
+                "curve": trainer.curve,
+            },
+            file,
+            indent=1,
+        )
+    save_weights(
+        os.path.join(out, "weights.safetensors"),
+        trainer.model,
+        trainer.scaling,
+        trainer.rate_hz,
+        {
+            "seed": options.seed,
+            "recipe": json.dumps(vars(options)),
+            "trained_minutes": f"{trainer.elapsed_s / 60:.2f}",
+            "updates": trainer.updates,
+            "validation_ratio": f"{trainer.best:.4f}",
+        },
+    )
     return trainer

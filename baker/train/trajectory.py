@@ -13,12 +13,13 @@ _STILL = 1e-9  # metres: a displacement nowhere larger than this is no motion
 @dataclass
 class Body:
     """What does not change in time. N nodes of R regions, region after region."""
+
     rest_position: np.ndarray  # (N, 3) bind position less the region's centre, in region radii
-    rest_normal: np.ndarray    # (N, 3)
-    stiffness: np.ndarray      # (N, 1) 0 soft .. 1 rigid
-    region: np.ndarray         # (N,) ascending
-    edges: np.ndarray          # (m, 2)
-    radius_m: np.ndarray       # (R,)
+    rest_normal: np.ndarray  # (N, 3)
+    stiffness: np.ndarray  # (N, 1) 0 soft .. 1 rigid
+    region: np.ndarray  # (N,) ascending
+    edges: np.ndarray  # (m, 2)
+    radius_m: np.ndarray  # (R,)
     region_names: tuple
 
     def same_as(self, other):
@@ -29,12 +30,13 @@ class Body:
 @dataclass
 class Trajectory:
     """T ticks after a start at rest."""
+
     path: str
     body: Body
-    drive: np.ndarray         # (T+1, N, 21) m/s^2, rad/s^2, rad/s
+    drive: np.ndarray  # (T+1, N, 21) m/s^2, rad/s^2, rad/s
     displacement: np.ndarray  # (T+1, N, 3) metres, region-frame axes
     metadata: dict
-    tensors: dict             # everything the file holds
+    tensors: dict  # everything the file holds
 
     @property
     def rate_hz(self):
@@ -54,18 +56,34 @@ def _need(path, tensors, name, shape):
         raise BadData(f"{path}: tensor {name} is {a.shape}, not {tuple(shape)}; make the file again")
     if a.dtype.kind == "f" and not np.isfinite(a).all():
         first = tuple(int(i) for i in np.argwhere(~np.isfinite(a))[0])
-        raise BadData(f"{path}: tensor {name}{list(first)} is not a number; delete the file and make it again")
+        raise BadData(
+            f"{path}: tensor {name}{list(first)} is not a number; delete the file and make it again"
+        )
     return a
 
 
 def _read_body(path, tensors, metadata):
-    nodes, regions = len(_need(path, tensors, "node.region", (-1,))), len(_need(path, tensors, "region.radius_m", (-1,)))
-    body = Body(_need(path, tensors, "node.rest_position", (nodes, 3)), _need(path, tensors, "node.rest_normal", (nodes, 3)),
-                _need(path, tensors, "node.stiffness", (nodes, 1)), tensors["node.region"],
-                _need(path, tensors, "edges", (-1, 2)), tensors["region.radius_m"],
-                tuple(metadata.get("regions", "").split(",")))
-    if nodes == 0 or body.region.min() < 0 or body.region.max() >= regions or (np.diff(body.region) < 0).any():
-        raise BadData(f"{path}: tensor node.region: not the numbers of {regions} regions in order; make the file again")
+    nodes, regions = len(_need(path, tensors, "node.region", (-1,))), len(
+        _need(path, tensors, "region.radius_m", (-1,))
+    )
+    body = Body(
+        _need(path, tensors, "node.rest_position", (nodes, 3)),
+        _need(path, tensors, "node.rest_normal", (nodes, 3)),
+        _need(path, tensors, "node.stiffness", (nodes, 1)),
+        tensors["node.region"],
+        _need(path, tensors, "edges", (-1, 2)),
+        tensors["region.radius_m"],
+        tuple(metadata.get("regions", "").split(",")),
+    )
+    if (
+        nodes == 0
+        or body.region.min() < 0
+        or body.region.max() >= regions
+        or (np.diff(body.region) < 0).any()
+    ):
+        raise BadData(
+            f"{path}: tensor node.region: not the numbers of {regions} regions in order; make the file again"
+        )
     if len(body.edges) and (body.edges.min() < 0 or body.edges.max() >= nodes):
         raise BadData(f"{path}: tensor edges: names a node beyond {nodes}; make the file again")
     return body
@@ -76,7 +94,10 @@ def read_trajectory(path):
     tensors, metadata = load(path)
     version = metadata.get("sinew.trajectory")
     if version != VERSION:
-        raise BadData(f"{path}: trajectory version {version}, this trainer reads {VERSION}; make it again with sinew-bake truth")
+        raise BadData(
+            f"{path}: trajectory version {version}, this trainer reads {VERSION}; "
+            "make it again with sinew-bake truth"
+        )
     body = _read_body(path, tensors, metadata)
     nodes = len(body.region)
     drive = _need(path, tensors, "drive", (-1, nodes, DRIVE_WIDTH))

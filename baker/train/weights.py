@@ -14,13 +14,21 @@ def _join(numbers):
 def weights_metadata(options, scaling, rate_hz, extra):
     """extra: name -> value, kept and shown by `sinew-bake info`."""
     return {
-        "sinew.model": "alt_conv_lstm", "sinew.version": "1",
-        "channels": ",".join(map(str, options.channels)), "rate_hz": f"{rate_hz:g}",
-        "inputs": ",".join(ORDER), "input_scales": _join(scaling.scale[k] for k in ORDER),
-        "envelope": _join(scaling.envelope[k] for k in ORDER), "frame": "region",
-        "length_unit_m": f"{scaling.length_unit_m:.9g}", "output_scale": f"{options.output_scale:.9g}",
-        "output_leak": f"{options.output_leak:.9g}", "hidden_leak": f"{options.hidden_leak:.9g}",
-        "state_clamp": f"{options.state_clamp:.9g}", "displacement_limit": f"{scaling.displacement_limit:g}", **extra,
+        "sinew.model": "alt_conv_lstm",
+        "sinew.version": "1",
+        "channels": ",".join(map(str, options.channels)),
+        "rate_hz": f"{rate_hz:g}",
+        "inputs": ",".join(ORDER),
+        "input_scales": _join(scaling.scale[k] for k in ORDER),
+        "envelope": _join(scaling.envelope[k] for k in ORDER),
+        "frame": "region",
+        "length_unit_m": f"{scaling.length_unit_m:.9g}",
+        "output_scale": f"{options.output_scale:.9g}",
+        "output_leak": f"{options.output_leak:.9g}",
+        "hidden_leak": f"{options.hidden_leak:.9g}",
+        "state_clamp": f"{options.state_clamp:.9g}",
+        "displacement_limit": f"{scaling.displacement_limit:g}",
+        **extra,
     }
 
 
@@ -33,7 +41,9 @@ def _number(path, metadata, key, fallback):
     try:
         return float(metadata.get(key, fallback))
     except ValueError:
-        raise BadData(f"{path}: metadata {key} is '{metadata[key]}', not a number; export the weights again") from None
+        raise BadData(
+            f"{path}: metadata {key} is '{metadata[key]}', not a number; export the weights again"
+        ) from None
 
 
 def _read_scaling(path, metadata):
@@ -41,24 +51,38 @@ def _read_scaling(path, metadata):
         raise BadData(f"{path}: metadata inputs: this trainer feeds {','.join(ORDER)}; train again")
     numbers = {k: [float(v) for v in metadata[k].split(",")] for k in ("input_scales", "envelope")}
     named = {k: dict(zip(ORDER, v)) for k, v in numbers.items()}
-    return Scaling(named["input_scales"], _number(path, metadata, "length_unit_m", 1), named["envelope"],
-                   _number(path, metadata, "displacement_limit", 0.75))
+    return Scaling(
+        named["input_scales"],
+        _number(path, metadata, "length_unit_m", 1),
+        named["envelope"],
+        _number(path, metadata, "displacement_limit", 0.75),
+    )
 
 
 def read_weights(path, device="cpu"):
-    """(model, scaling or None for the paper's wiring, metadata). Throws BadData naming a missing or misshaped tensor."""
+    """(model, scaling or None for the paper's wiring, metadata). Throws BadData naming a missing or
+    misshaped tensor."""
     tensors, metadata = load(path)
     if metadata.get("sinew.model") != "alt_conv_lstm":
         raise BadData(f"{path}: holds {metadata.get('sinew.model', 'no model')}, not alt_conv_lstm weights")
     scaling = _read_scaling(path, metadata) if "inputs" in metadata else None
-    model = AltConvLSTM(ModelOptions(
-        INPUT_WIDTH if scaling else 9, tuple(int(c) for c in metadata["channels"].split(",")),
-        "layers.0.W_s" in tensors, _number(path, metadata, "output_scale", 1), _number(path, metadata, "output_leak", 0),
-        _number(path, metadata, "hidden_leak", 0), _number(path, metadata, "state_clamp", "inf")))
+    model = AltConvLSTM(
+        ModelOptions(
+            INPUT_WIDTH if scaling else 9,
+            tuple(int(c) for c in metadata["channels"].split(",")),
+            "layers.0.W_s" in tensors,
+            _number(path, metadata, "output_scale", 1),
+            _number(path, metadata, "output_leak", 0),
+            _number(path, metadata, "hidden_leak", 0),
+            _number(path, metadata, "state_clamp", "inf"),
+        )
+    )
     for name, parameter in model.state_dict().items():
         if name not in tensors or tuple(tensors[name].shape) != tuple(parameter.shape):
             have = tensors[name].shape if name in tensors else "missing"
-            raise BadData(f"{path}: tensor {name} is {have}, not {tuple(parameter.shape)}; export the weights again")
+            raise BadData(
+                f"{path}: tensor {name} is {have}, not {tuple(parameter.shape)}; export the weights again"
+            )
         if not np.isfinite(tensors[name]).all():
             raise BadData(f"{path}: tensor {name} holds a NaN; export the weights again")
         parameter.copy_(torch.as_tensor(np.array(tensors[name], np.float32)))

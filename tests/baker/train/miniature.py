@@ -1,4 +1,5 @@
-"""The whole path in two minutes: a coarse creature, a few simulated seconds, a third of a minute of training, export, bake, check."""
+"""The whole path in two minutes: a coarse creature, a few simulated seconds, a third of a minute of
+training, export, bake, check."""
 import json
 import os
 import subprocess
@@ -41,23 +42,76 @@ def main(bake):
     with tempfile.TemporaryDirectory() as folder:
         place = lambda name: os.path.join(folder, name)
         recipe = coarse_recipe(folder)
-        run(bake, "creature", str(support.ROOT / "assets/creature/creature.json"), "--vertices", "500", "-o", place("c.glb"))
-        amount = dict(train_random=3, train_clips=0, validation_random=1, test_random=0, test_clips=1, long_sequences=0, substeps=2, seconds=2)
+        run(
+            bake,
+            "creature",
+            str(support.ROOT / "assets/creature/creature.json"),
+            "--vertices",
+            "500",
+            "-o",
+            place("c.glb"),
+        )
+        amount = dict(
+            train_random=3,
+            train_clips=0,
+            validation_random=1,
+            test_random=0,
+            test_clips=1,
+            long_sequences=0,
+            substeps=2,
+            seconds=2,
+        )
         options = [text for k, v in amount.items() for text in ("--" + k.replace("_", "-"), str(v))]
-        train_step("generate", place("c.glb"), "--bake", bake, "--recipe", recipe, "--out", place("data"), *options)
-        train_step("train", place("data"), "--out", place("run"), "--minutes", "0.3", "--channels", "16,3", "--batch", "3")
+        train_step(
+            "generate", place("c.glb"), "--bake", bake, "--recipe", recipe, "--out", place("data"), *options
+        )
+        train_step(
+            "train",
+            place("data"),
+            "--out",
+            place("run"),
+            "--minutes",
+            "0.3",
+            "--channels",
+            "16,3",
+            "--batch",
+            "3",
+        )
         train_step("evaluate", place("data"), "--run", place("run"))
-        train_step("export", place("data"), "--run", place("run"), "--out", place("weights"), "--name", "mini")
+        train_step(
+            "export", place("data"), "--run", place("run"), "--out", place("weights"), "--name", "mini"
+        )
         run(bake, "model", place("weights/mini.safetensors"), "-o", place("mini.sinew"))
         for network in ("mini.sinew", "weights/mini.safetensors"):
-            report = json.loads(run(bake, "check", place(network), place("weights/mini.vectors.safetensors"), "--tolerance", CHECK_TOLERANCE))
+            report = json.loads(
+                run(
+                    bake,
+                    "check",
+                    place(network),
+                    place("weights/mini.vectors.safetensors"),
+                    "--tolerance",
+                    CHECK_TOLERANCE,
+                )
+            )
             assert report["ok"] and report["steps"] > 50, report
-        run(bake, "character", place("c.glb"), "--recipe", recipe, "--tissue", place("weights/mini.safetensors"), "-o", place("c.sinew"))
+        run(
+            bake,
+            "character",
+            place("c.glb"),
+            "--recipe",
+            recipe,
+            "--tissue",
+            place("weights/mini.safetensors"),
+            "-o",
+            place("c.sinew"),
+        )
         told = json.loads(run(bake, "info", place("c.sinew"), "--json"))
         with open(place("weights/mini.metrics.json")) as file:
             metrics = json.load(file)
         ratio = metrics["roll_out"]["100"]["network"]["ratio"]
-        print(f"held-out error after 100 ticks: {ratio} of skinning's; baked for {len(told['regions'])} regions")
+        print(
+            f"held-out error after 100 ticks: {ratio} of skinning's; baked for {len(told['regions'])} regions"
+        )
         assert ratio < 1, "so little training does not beat skinning alone"
 
 

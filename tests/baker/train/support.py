@@ -9,9 +9,10 @@ SHARED = os.environ.get("SINEW_SHARED_DIR", "")
 sys.path.insert(0, str(ROOT / "baker"))
 
 try:
-    import train  # noqa: F401  the trainer's package: chooses the linear algebra kernels before torch is loaded
+    import train  # noqa: F401  first: it chooses the linear algebra kernels before torch is loaded
     import numpy  # noqa: F401
     import torch
+
     MISSING = None
 except ImportError as error:
     torch, MISSING = None, f"SKIPPED: {error}; install python3-torch to test the trainer"
@@ -28,6 +29,7 @@ def write_data_set(folder, train_count=6, validation=2, test=2, ticks=90):
     """A data set of the synthetic body."""
     import synthetic
     from train.safetensors import save
+
     sheet, seed = [], 0
     for split, count in (("train", train_count), ("validation", validation), ("test", test)):
         for _ in range(count):

@@ -1,5 +1,5 @@
-"""Trajectories of a made-up body, in the format of `sinew-bake truth`: masses on springs in a moving frame. Quick, and enough like flesh
-to tell whether training works."""
+"""Trajectories of a made-up body, in the format of `sinew-bake truth`: masses on springs in a moving frame.
+Quick, and enough like flesh to tell whether training works."""
 import numpy as np
 
 H = 1 / 60
@@ -22,8 +22,16 @@ def _motion(rng, ticks, strength):
     """Frame acceleration, alpha, omega (T+1, 3): sums of sines after ten still ticks."""
     t = np.arange(ticks + 1) * H
     ramp = np.clip((t - 10 * H) / 0.3, 0, 1)[:, None]
-    wave = lambda size: sum(np.sin(2 * np.pi * rng.uniform(0.4, 3) * t + rng.uniform(0, 6.28))[:, None] * rng.normal(size=3) * size
-                            for _ in range(3)) * ramp * strength
+    wave = (
+        lambda size: sum(
+            np.sin(2 * np.pi * rng.uniform(0.4, 3) * t + rng.uniform(0, 6.28))[:, None]
+            * rng.normal(size=3)
+            * size
+            for _ in range(3)
+        )
+        * ramp
+        * strength
+    )
     omega = wave(0.5)
     alpha = np.vstack([np.zeros(3), np.diff(omega, axis=0)]) / H
     return wave(1.5), alpha, omega
@@ -35,7 +43,9 @@ def _drive(a, alpha, omega, r, gravity):
     ra = np.broadcast_to(r, (len(a), len(r), 3))
     euler = -np.cross(wide(alpha), ra)
     centrifugal = -np.cross(wide(omega), np.cross(wide(omega), ra))
-    return np.concatenate([wide(-a), euler, centrifugal, np.zeros_like(ra), wide(alpha), wide(omega), wide(gravity)], -1)
+    return np.concatenate(
+        [wide(-a), euler, centrifugal, np.zeros_like(ra), wide(alpha), wide(omega), wide(gravity)], -1
+    )
 
 
 def trajectory(seed, ticks=120, strength=1.0, body_seed=0):
@@ -59,10 +69,26 @@ def trajectory(seed, ticks=120, strength=1.0, body_seed=0):
             v += H / 4 * (force[t] - k @ u - 5 * v)
             u += H / 4 * v
         out[t] = u
-    tensors = {"drive": drive.astype(np.float32), "displacement": out.astype(np.float32),
-               "node.rest_position": rest.astype(np.float32), "node.rest_normal": normal.astype(np.float32),
-               "node.stiffness": np.full((n, 1), 0.2, np.float32), "node.region": region.astype(np.int32),
-               "edges": edges.astype(np.int32), "region.radius_m": np.full(2, radius, np.float32)}
-    metadata = {"sinew.trajectory": 1, "character": "synthetic", "motion": "random", "seed": seed, "rate_hz": 60, "substeps": 4,
-                "seconds": ticks / 60, "height_m": 1, "strength": strength, "regions": "left,right"}
+    tensors = {
+        "drive": drive.astype(np.float32),
+        "displacement": out.astype(np.float32),
+        "node.rest_position": rest.astype(np.float32),
+        "node.rest_normal": normal.astype(np.float32),
+        "node.stiffness": np.full((n, 1), 0.2, np.float32),
+        "node.region": region.astype(np.int32),
+        "edges": edges.astype(np.int32),
+        "region.radius_m": np.full(2, radius, np.float32),
+    }
+    metadata = {
+        "sinew.trajectory": 1,
+        "character": "synthetic",
+        "motion": "random",
+        "seed": seed,
+        "rate_hz": 60,
+        "substeps": 4,
+        "seconds": ticks / 60,
+        "height_m": 1,
+        "strength": strength,
+        "regions": "left,right",
+    }
     return tensors, metadata

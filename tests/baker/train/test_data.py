@@ -112,7 +112,7 @@ class Groups(unittest.TestCase):
         self.folder = tempfile.TemporaryDirectory()
         support.write_data_set(self.folder.name, 3, 1, 1, 40)
         self.trajectories = dataset.read_split(self.folder.name, "train")
-        self.group, = dataset.group(self.trajectories)
+        (self.group,) = dataset.group(self.trajectories)
 
     def tearDown(self):
         self.folder.cleanup()
@@ -122,7 +122,7 @@ class Groups(unittest.TestCase):
         drive, u = self.group.window(sequences, starts, 7)
         flat = self.group.flatten(u)
         for b, (s, start) in enumerate(zip(sequences, starts)):
-            want = self.trajectories[s].displacement[start:start + 8]
+            want = self.trajectories[s].displacement[start : start + 8]
             np.testing.assert_array_equal(flat[:, :, b].numpy(), want)
         self.assertEqual(tuple(drive.shape), (8, 2, 12, 2, 21))
 
@@ -134,11 +134,16 @@ class Groups(unittest.TestCase):
         body.edges = edges[(edges < 17).all(1)]
         for name in ("rest_position", "rest_normal", "stiffness", "region"):
             setattr(body, name, getattr(body, name)[keep])
-        trajectory.drive, trajectory.displacement = trajectory.drive[:, keep], trajectory.displacement[:, keep]
-        group, = dataset.group([trajectory])
+        trajectory.drive, trajectory.displacement = (
+            trajectory.drive[:, keep],
+            trajectory.displacement[:, keep],
+        )
+        (group,) = dataset.group([trajectory])
         self.assertEqual(group.mask.sum(1).tolist(), [12, 5])
         second = body.edges[(body.edges >= 12).all(1)] - 12
-        np.testing.assert_allclose(group.P[1, :5, :5].numpy(), normalized_adjacency(5, second).numpy(), atol=1e-6)
+        np.testing.assert_allclose(
+            group.P[1, :5, :5].numpy(), normalized_adjacency(5, second).numpy(), atol=1e-6
+        )
         self.assertEqual(float(group.P[1, 5:].abs().max()), 0)
 
     def test_bodies_that_differ_get_groups_of_their_own(self):
@@ -151,9 +156,11 @@ class Groups(unittest.TestCase):
         scaling = dataset.measure_scaling([self.group])
         drive, _ = self.group.window(torch.tensor([0]), torch.tensor([20]), 1)
         y = torch.full((2, 12, 1, 3), 1e6)
-        z = dataset.input_columns(self.group.static_columns(scaling, 1), dataset.drive_columns(drive[1], scaling), y, y * 0, scaling)
+        z = dataset.input_columns(
+            self.group.static_columns(scaling, 1), dataset.drive_columns(drive[1], scaling), y, y * 0, scaling
+        )
         self.assertEqual(z.shape[-1], INPUT_WIDTH)
-        self.assertEqual(float(z[..., -6]. max()), np.float32(scaling.envelope["displacement"]))
+        self.assertEqual(float(z[..., -6].max()), np.float32(scaling.envelope["displacement"]))
         want = drive[1][..., DRIVE["angular_velocity"]] * scaling.scale["angular_velocity"]
         np.testing.assert_allclose(z[..., 22:25].numpy(), want.numpy(), rtol=1e-6)
         self.assertEqual(list(ORDER)[8], "angular_velocity")

@@ -12,7 +12,7 @@ from train.model import AltConvLSTM, ModelOptions, normalized_adjacency  # noqa:
 from train.safetensors import load  # noqa: E402
 from train.weights import read_weights  # noqa: E402
 
-PAPER_TOLERANCE = 1e-5   # float32 against float64 over the golden's steps
+PAPER_TOLERANCE = 1e-5  # float32 against float64 over the golden's steps
 EQUATION_TOLERANCE = 1e-10  # double against double, two orders of summation
 
 
@@ -31,7 +31,8 @@ def _sigmoid(x):
 
 
 def _literal_step(model, P, z, states):
-    """The equations of pack/format.hpp, one layer after the other; states: [h, c, y] a layer, updated in place."""
+    """The equations of pack/format.hpp, one layer after the other; states: [h, c, y] a layer, updated in
+    place."""
     o, x = model.options, z
     for l, (layer, s) in enumerate(zip(model.layers, states)):
         h, c, y = s
@@ -39,10 +40,12 @@ def _literal_step(model, P, z, states):
         a = (P @ x) @ layer.W_x + (P @ h) @ layer.W_h + layer.b
         if layer.W_s is not None:
             a = a + x @ layer.W_s
-        gate = _sigmoid(a[:, :2 * f] + (P @ y) @ layer.W_y[:, :2 * f])
-        c = (gate[:, f:] * c + gate[:, :f] * torch.tanh(a[:, 2 * f:3 * f])).clamp(-o.state_clamp, o.state_clamp)
+        gate = _sigmoid(a[:, : 2 * f] + (P @ y) @ layer.W_y[:, : 2 * f])
+        c = (gate[:, f:] * c + gate[:, :f] * torch.tanh(a[:, 2 * f : 3 * f])).clamp(
+            -o.state_clamp, o.state_clamp
+        )
         y = (1 - o.output_leak) * y + o.output_scale * c if last else (1 - o.hidden_leak) * y + c
-        h = _sigmoid(a[:, 3 * f:] + (P @ y) @ layer.W_y[:, 2 * f:]) * torch.tanh(c)
+        h = _sigmoid(a[:, 3 * f :] + (P @ y) @ layer.W_y[:, 2 * f :]) * torch.tanh(c)
         s[:] = [h, c, y]
         x = c
     return states[-1][2]
@@ -57,7 +60,11 @@ class Model(unittest.TestCase):
             model, scaling, _ = read_weights(os.path.join(folder, f"{name}.weights.safetensors"))
             self.assertIsNone(scaling)
             v, _ = load(os.path.join(folder, f"{name}.vectors.safetensors"))
-            self.assertLess(self._golden_error(model, {k: torch.tensor(a.copy()) for k, a in v.items()}), PAPER_TOLERANCE, name)
+            self.assertLess(
+                self._golden_error(model, {k: torch.tensor(a.copy()) for k, a in v.items()}),
+                PAPER_TOLERANCE,
+                name,
+            )
 
     def _golden_error(self, model, v):
         n, x, y = v["x"].shape[1], v["x"], v["y0"][None, :, None]
@@ -79,13 +86,23 @@ class Model(unittest.TestCase):
         ours = AltConvLSTM(ModelOptions(9, (8, 4, 3))).double()
         ours.load_state_dict(theirs.state_dict())
         n, edges = 7, [(i, i + 1) for i in range(6)]
-        P, x = reference.normalized_adjacency(n, edges, torch.float64), torch.randn(6, n, 3, dtype=torch.float64) * 0.1
+        P, x = (
+            reference.normalized_adjacency(n, edges, torch.float64),
+            torch.randn(6, n, 3, dtype=torch.float64) * 0.1,
+        )
         s, y, state = theirs.initial_state(n, x[0]), x[0][None, :, None], ours.zero_state(1, n, 1)
         s = [[v.double() for v in layer] for layer in s]
         for t in range(1, 6):
             want = theirs.step(P, s, x[t], x[t - 1], x[0] * 0)
             z = torch.cat([x[t], x[t] - x[t - 1], x[0] * 0], 1)[None, :, None]
-            y, state = ours.step(ours.packed(), normalized_adjacency(n, edges)[None], z, state, y, (x[t] - x[t - 1])[None, :, None])
+            y, state = ours.step(
+                ours.packed(),
+                normalized_adjacency(n, edges)[None],
+                z,
+                state,
+                y,
+                (x[t] - x[t - 1])[None, :, None],
+            )
             self.assertLess(float((y[0, :, 0] - want).abs().max()), EQUATION_TOLERANCE)
 
     def test_follows_the_equations_with_every_addition_on(self):
@@ -95,8 +112,14 @@ class Model(unittest.TestCase):
         P = torch.stack([normalized_adjacency(n, [(i, (i + k) % n) for i in range(n)]) for k in (1, 2)])
         z = torch.randn(9, regions, n, batch, 5, dtype=torch.float64) * 2
         y, state = torch.zeros(regions, n, batch, 3, dtype=torch.float64), model.zero_state(regions, n, batch)
-        literal = {(r, b): [[torch.zeros(n, layer.channels, dtype=torch.float64) for _ in range(3)] for layer in model.layers]
-                   for r in range(regions) for b in range(batch)}
+        literal = {
+            (r, b): [
+                [torch.zeros(n, layer.channels, dtype=torch.float64) for _ in range(3)]
+                for layer in model.layers
+            ]
+            for r in range(regions)
+            for b in range(batch)
+        }
         with torch.no_grad():
             for step in z:
                 y, state = model.step(model.packed(), P, step, state, y)
@@ -111,7 +134,9 @@ class Model(unittest.TestCase):
         P = torch.zeros(1, n + 2, n + 2)
         P[0, :n, :n] = normalized_adjacency(n, [(0, 1), (1, 2), (2, 3)]).float()
         z = torch.randn(1, n + 2, 1, 4)
-        run = lambda k: model.step(model.packed(), P[:, :k, :k], z[:, :k], model.zero_state(1, k, 1), torch.zeros(1, k, 1, 3))[0]
+        run = lambda k: model.step(
+            model.packed(), P[:, :k, :k], z[:, :k], model.zero_state(1, k, 1), torch.zeros(1, k, 1, 3)
+        )[0]
         with torch.no_grad():
             self.assertLess(float((run(n + 2)[:, :n] - run(n)).abs().max()), 1e-6)
 

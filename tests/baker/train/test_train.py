@@ -30,7 +30,12 @@ class Training(unittest.TestCase):
         cls.run_folder = os.path.join(cls.folder.name, "run")
         cls.log = []
         torch.set_num_threads(1)
-        train(cls.folder.name, cls.run_folder, TrainOptions(minutes=0.15, **SMALL), lambda text, **k: cls.log.append(text))
+        train(
+            cls.folder.name,
+            cls.run_folder,
+            TrainOptions(minutes=0.15, **SMALL),
+            lambda text, **k: cls.log.append(text),
+        )
 
     @classmethod
     def tearDownClass(cls):
@@ -43,7 +48,12 @@ class Training(unittest.TestCase):
 
     def test_a_finished_run_is_not_trained_again(self):
         log = []
-        train(self.folder.name, self.run_folder, TrainOptions(minutes=0.15, **SMALL), lambda text, **k: log.append(text))
+        train(
+            self.folder.name,
+            self.run_folder,
+            TrainOptions(minutes=0.15, **SMALL),
+            lambda text, **k: log.append(text),
+        )
         self.assertIn("goes on from", log[0])
         self.assertLessEqual(len(log), 3)
 
@@ -65,7 +75,7 @@ class Training(unittest.TestCase):
     def test_weights_come_back_from_their_file_and_predict_the_same(self):
         model, scaling, metadata = read_weights(os.path.join(self.run_folder, "weights.safetensors"))
         self.assertEqual(metadata["seed"], "0")
-        group, = dataset.group(dataset.read_split(self.folder.name, "validation"))
+        (group,) = dataset.group(dataset.read_split(self.folder.name, "validation"))
         ratio = error_ratio(roll_out(model, scaling, group), truth(group), 50)
         line = [text for text in self.log if "validation ratio" in text]
         self.assertTrue(any(f"50: {ratio:.3f}" in text for text in line))
@@ -75,7 +85,7 @@ class Training(unittest.TestCase):
         trajectory = dataset.read_split(self.folder.name, "validation")[0]
         vectors = check_vectors(path, trajectory, 30)
         model, scaling, _ = read_weights(path)
-        group, = dataset.group([trajectory])
+        (group,) = dataset.group([trajectory])
         y = roll_out(model, scaling, group, 30)[1:, :12, 0] / scaling.length_unit_m
         self.assertEqual(vectors["z"].shape, (30, 12, 34))
         self.assertFalse(vectors["z"][..., 28:].any())
@@ -100,7 +110,7 @@ class SpringFit(unittest.TestCase):
     def test_recovers_the_spring_that_made_the_data(self):
         with tempfile.TemporaryDirectory() as folder:
             support.write_data_set(folder)
-            group, = dataset.group(dataset.read_split(folder, "train"))
+            (group,) = dataset.group(dataset.read_split(folder, "train"))
         made = Springs(group, False)
         made.log_w.data.fill_(math.log(2 * math.pi * 2.5))
         made.logit_zeta.data.fill_(-1.5)
@@ -112,12 +122,16 @@ class SpringFit(unittest.TestCase):
     def test_is_stable_whatever_its_parameters(self):
         with tempfile.TemporaryDirectory() as folder:
             support.write_data_set(folder, 1, 1, 1)
-            group, = dataset.group(dataset.read_split(folder, "train"))
+            (group,) = dataset.group(dataset.read_split(folder, "train"))
         springs = Springs(group, True)
         for p in springs.parameters:
             p.data.normal_(0, 6)
         a, b, c, d, _ = springs._transition()
-        radius = torch.linalg.eigvals(torch.stack([torch.stack([a, b], -1), torch.stack([c, d], -1)], -2).detach()).abs().max()
+        radius = (
+            torch.linalg.eigvals(torch.stack([torch.stack([a, b], -1), torch.stack([c, d], -1)], -2).detach())
+            .abs()
+            .max()
+        )
         self.assertLessEqual(float(radius), 1 + 1e-5)
 
     def test_a_constant_force_is_not_extrapolated_away(self):
