@@ -4,7 +4,8 @@
 #   baker/train/retrain.sh [BUILD_DIR] [WORK_DIR]
 #
 # BUILD_DIR holds bin/sinew-bake (default: build/release). WORK_DIR takes the data set and the runs (default: BUILD_DIR/train);
-# a second call goes on where the first was cut. MINUTES (20), SEEDS ("0 1"), PROCESSES (2) and PYTHON (/usr/bin/python3) may be set.
+# a second call goes on where the first was cut. In the environment, if wanted: MINUTES (20) a network, SEEDS ("0 1"), PROCESSES (2),
+# GENERATE and TRAIN (further options of those commands), OUT (assets/weights) and PYTHON (/usr/bin/python3).
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 build=${1:-$root/build/release}
@@ -12,6 +13,7 @@ work=${2:-$build/train}
 python=${PYTHON:-/usr/bin/python3}
 minutes=${MINUTES:-20}
 seeds=${SEEDS:-"0 1"}
+out=${OUT:-$root/assets/weights}
 bake=$build/bin/sinew-bake
 
 [ -x "$bake" ] || { echo "retrain.sh: no $bake; build the project first, or name its build folder" >&2; exit 2; }
@@ -20,11 +22,11 @@ bake=$build/bin/sinew-bake
 mkdir -p "$work"
 "$bake" creature "$root/assets/creature/creature.json" -o "$work/creature.glb"
 "$python" "$root/baker/train" generate "$work/creature.glb" --bake "$bake" --recipe "$root/assets/creature/tissue.json" \
-  --out "$work/data" --processes "${PROCESSES:-2}"
+  --out "$work/data" --processes "${PROCESSES:-2}" ${GENERATE:-}
 
 runs=
 for seed in $seeds; do
-  "$python" "$root/baker/train" train "$work/data" --out "$work/run$seed" --seed "$seed" --minutes "$minutes" --device auto \
+  "$python" "$root/baker/train" train "$work/data" --out "$work/run$seed" --seed "$seed" --minutes "$minutes" --device auto ${TRAIN:-} \
     > "$work/run$seed.log" 2>&1 &
   runs="$runs $work/run$seed"
   pids="${pids:-} $!"
@@ -35,5 +37,5 @@ done
 
 best=$("$python" "$root/baker/train" best $runs)
 "$python" "$root/baker/train" evaluate "$work/data" --run "$best"
-"$python" "$root/baker/train" export "$work/data" --run "$best" --out "$root/assets/weights" --name creature
-"$bake" check "$root/assets/weights/creature.safetensors" "$root/assets/weights/creature.vectors.safetensors" --tolerance 1e-4
+"$python" "$root/baker/train" export "$work/data" --run "$best" --out "$out" --name creature
+"$bake" check "$out/creature.safetensors" "$out/creature.vectors.safetensors" --tolerance 1e-4
