@@ -19,16 +19,28 @@ std::array<int, 3> coarse_place(const VoxelMatter& matter, int coarse) {
   return {coarse % cells[0], coarse / cells[0] % cells[1], coarse / cells[0] / cells[1]};
 }
 
-// visit(fine, neighbour, axis) for all connected pairs of matter cells.
+// visit(fine, other) for all pairs of matter cells that hang together.
 template <typename Visit>
 void each_joint(const VoxelMatter& matter, const Visit& visit) {
   for (int fine = 0; fine < matter.fine_count(); ++fine) {
     if (!matter.matter(fine)) continue;
     for (int axis = 0; axis < 3; ++axis) {
       const int next = matter.neighbour(fine, axis);
-      if (next >= 0 && matter.matter(next) && matter.connected(fine, axis)) visit(fine, next, axis);
+      if (next >= 0 && matter.matter(next) && matter.connected(fine, axis)) visit(fine, next);
     }
   }
+  for (const auto& [fine, other] : matter.links()) visit(fine, other);
+}
+
+// The corner of a voxel at `b` that lies where corner `corner` of a voxel at `a` does, -1 for none.
+int same_corner(const std::array<int, 3>& a, const std::array<int, 3>& b, size_t corner) {
+  int other = 0;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const int bit = static_cast<int>(corner >> axis & 1) + a[axis] - b[axis];
+    if (bit < 0 || bit > 1) return -1;
+    other |= bit << axis;
+  }
+  return other;
 }
 
 Eigen::Vector4d barycentric(const std::vector<Vector3>& nodes, const std::array<int, 4>& t,
@@ -50,7 +62,7 @@ CageTopology::CageTopology(const VoxelMatter& matter) : matter_(matter) {
 
 void CageTopology::copy_voxels() {
   DisjointSets pieces(static_cast<size_t>(matter_.fine_count()));
-  each_joint(matter_, [&](int fine, int next, int) {
+  each_joint(matter_, [&](int fine, int next) {
     if (matter_.coarse_of(fine) == matter_.coarse_of(next))
       pieces.join(static_cast<size_t>(fine), static_cast<size_t>(next));
   });
@@ -69,12 +81,16 @@ void CageTopology::copy_voxels() {
 
 void CageTopology::share_nodes() {
   DisjointSets corners(copies_.size() * 8);
-  each_joint(matter_, [&](int fine, int next, int axis) {
+  each_joint(matter_, [&](int fine, int next) {
     const auto a = static_cast<size_t>(copy_of_fine_[static_cast<size_t>(fine)]);
     const auto b = static_cast<size_t>(copy_of_fine_[static_cast<size_t>(next)]);
     if (a == b) return;
-    for (size_t corner = 0; corner < 8; ++corner)
-      if (corner >> axis & 1) corners.join(8 * a + corner, 8 * b + (corner ^ (size_t{1} << axis)));
+    const auto at_a = coarse_place(matter_, copies_[a].coarse),
+               at_b = coarse_place(matter_, copies_[b].coarse);
+    for (size_t corner = 0; corner < 8; ++corner) {
+      const int other = same_corner(at_a, at_b, corner);
+      if (other >= 0) corners.join(8 * a + corner, 8 * b + static_cast<size_t>(other));
+    }
   });
   std::vector<int> number(copies_.size() * 8, -1);
   for (size_t slot = 0; slot < number.size(); ++slot) {

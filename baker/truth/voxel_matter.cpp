@@ -60,8 +60,40 @@ VoxelMatter::VoxelMatter(const Character& character, double cell_m, int fine_per
   for (int axis = 0; axis < 3; ++axis) cast_rays(character, axis);
   const std::vector<SurfaceSample> samples = sample_surface(character, 0.5 * fine_m_);
   fill_from_outside(samples);
+  const std::vector<bool> enclosed = matter_;
   for (const SurfaceSample& sample : samples)
     matter_[static_cast<size_t>(home(sample.position, sample.inward))] = true;
+  link_along_surface(character, samples, enclosed);
+}
+
+// From sample to sample along each triangle's rows, from row to row, and around every vertex; only where
+// matter is thin, for in a cell that two touching parts share, a sample may find the other part.
+void VoxelMatter::link_along_surface(const Character& character, const std::vector<SurfaceSample>& samples,
+                                     const std::vector<bool>& enclosed) {
+  std::vector<int> at_vertex(character.positions.size(), -1);
+  const auto link = [&](int a, int b) {
+    const bool thin = !enclosed[static_cast<size_t>(a)] || !enclosed[static_cast<size_t>(b)];
+    if (a != b && thin) links_.emplace_back(std::min(a, b), std::max(a, b));
+  };
+  int last = -1, row = -1;  // homes of the sample before, and of the row's first
+  for (size_t s = 0; s < samples.size(); ++s) {
+    const SurfaceSample& sample = samples[s];
+    const int here = home(sample.position, sample.inward);
+    const bool same_triangle = s > 0 && samples[s - 1].triangle == sample.triangle;
+    const bool starts_row = sample.weight[2] == 0;
+    if (same_triangle) link(starts_row ? row : last, here);
+    if (starts_row || !same_triangle) row = here;
+    last = here;
+    for (size_t c = 0; c < 3; ++c) {
+      if (sample.weight[c] != 1) continue;
+      const auto vertex = static_cast<size_t>(character.triangles[static_cast<size_t>(sample.triangle)][c]);
+      int& first = at_vertex[static_cast<size_t>(character.welded[vertex])];
+      if (first < 0) first = here;
+      link(first, here);
+    }
+  }
+  std::sort(links_.begin(), links_.end());
+  links_.erase(std::unique(links_.begin(), links_.end()), links_.end());
 }
 
 int VoxelMatter::home(const Vector3& surface, const Vector3& inward) const {

@@ -8,6 +8,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "baker/import/character.hpp"
@@ -20,7 +21,8 @@ struct SurfaceSample {
   Vector3 position, inward;        // inward: against the outward unit normal
 };
 
-// Points no further apart than `spacing` on every triangle of positive area, corners included.
+// Points no further apart than `spacing` on every triangle of positive area, triangle after triangle, corners
+// included; those of one triangle lie row by row.
 std::vector<SurfaceSample> sample_surface(const Character& character, double spacing);
 
 class VoxelMatter {
@@ -40,11 +42,16 @@ class VoxelMatter {
   int coarse_of(int fine) const;
   bool matter(int fine) const { return matter_[static_cast<size_t>(fine)]; }
   bool connected(int fine, int axis) const;  // with the next fine cell along the axis
-  int neighbour(int fine, int axis) const;   // the next along the axis, -1 at the border
+  // Further pairs that hang together although their cells share no face: neighbours along the surface. They
+  // join what is thinner than a fine cell and lies aslant.
+  const std::vector<std::pair<int, int>>& links() const { return links_; }
+  int neighbour(int fine, int axis) const;  // the next along the axis, -1 at the border
   int fine_count() const { return fine_[0] * fine_[1] * fine_[2]; }
   int coarse_count() const { return cells_[0] * cells_[1] * cells_[2]; }
 
  private:
+  void link_along_surface(const Character& character, const std::vector<SurfaceSample>& samples,
+                          const std::vector<bool>& enclosed);
   int matter_beside(const Vector3& p) const;
   void cast_rays(const Character& character, int axis);
   void cast_ray(const std::vector<std::pair<double, int>>& crossings, int axis, int start);
@@ -57,6 +64,7 @@ class VoxelMatter {
   std::vector<uint8_t> votes_;  // axes that found the centre inside
   std::vector<uint8_t> cut_;    // a bit an axis: the ray leaves matter between this cell and the next
   std::vector<bool> matter_;
+  std::vector<std::pair<int, int>> links_;
 };
 
 }  // namespace sinew::baker

@@ -239,6 +239,37 @@ TEST_CASE("a_body_that_follows_a_turning_motion_is_not_damped_against_the_world"
   CHECK(largest < 1e-9);
 }
 
+TEST_CASE("a_reshaped_body_is_unstressed_in_its_new_shape") {
+  const auto distorted = [](const Fem& fem, double squeeze) {
+    Eigen::VectorXd x = fem.positions;
+    for (Eigen::Index i = 0; i < x.size(); i += 3) {
+      const Vector3 p = x.segment<3>(i);
+      x.segment<3>(i) = Vector3(1.3 * p.x(), squeeze * p.y() + 2 * p.x() * p.x(), p.z() + 0.4 * p.y());
+    }
+    return x;
+  };
+  Fem fem = beam(rubber());
+  const Eigen::VectorXd bent = distorted(fem, 0.8), flattened = distorted(fem, 0);
+  CHECK(fem.elastic_force(bent).norm() > 1);
+  fem.reshape(bent);
+  CHECK(fem.elastic_force(bent).norm() < 1e-9);
+  CHECK(std::abs(fem.elastic_energy(bent)) < 1e-9);
+  CHECK(fem.frequencies_hz(1)[0] > 0);
+  fem.reshape(flattened);
+  CHECK(std::isfinite(fem.elastic_force(flattened).norm()));
+  CHECK(fem.elastic_force(flattened).norm() > 1);  // unstressed at a bounded squeeze, not at none
+}
+
+TEST_CASE("the_unstressed_shape_follows_the_undisturbed_motion") {
+  Fem fem = beam(rubber());
+  const Eigen::VectorXd rest = fem.positions, none = Eigen::VectorXd::Zero(rest.size());
+  UndisturbedMotion motion{rest, 1.2 * rest, {}};
+  motion.turn.assign(static_cast<size_t>(fem.mass.size()), Eigen::Matrix3d::Identity());
+  fem.step(1e-3, motion.after, none, 1e-9, &motion);
+  CHECK(fem.elastic_force(motion.after).norm() < 1e-9);
+  CHECK(fem.elastic_force(rest).norm() > 1);
+}
+
 TEST_CASE("kept_factorisations_do_not_change_the_result") {
   // The same steps, once with every step's factorisation made anew (another dt in between asks for one).
   Fem kept = beam(rubber()), anew = beam(rubber());

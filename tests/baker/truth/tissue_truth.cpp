@@ -1,6 +1,7 @@
 // tissue_truth.cpp  The truth departs from skinning by inertia and turning gravity alone.
 #include "baker/truth/tissue_truth.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
@@ -217,6 +218,22 @@ TEST_CASE("soft_arms_of_a_real_character_survive_a_sharp_elbow") {
   for (int i = 0; i < 45; ++i) most = std::max(most, largest(displacement(truth.advance(kRate_hz, 4))));
   CHECK(most > 1e-3);
   CHECK(most < kArmThickness_m);
+}
+
+TEST_CASE("the_motion_is_sampled_at_every_substep") {
+  const Bar bar;
+  std::vector<double> times;
+  TissueTruth truth = bar.truth();
+  truth.start([&](double t) {
+    times.push_back(t);
+    return bar.bind();
+  });
+  times.clear();
+  truth.advance(kRate_hz, 4);
+  truth.advance(kRate_hz, 2);
+  const double tick = 1 / kRate_hz;
+  for (const double t : {0.25 * tick, 0.5 * tick, 0.75 * tick, tick, 1.5 * tick, 2 * tick})
+    CHECK(std::any_of(times.begin(), times.end(), [&](double s) { return std::abs(s - t) < 1e-12; }));
 }
 
 TEST_CASE("more_substeps_converge") {
