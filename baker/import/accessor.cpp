@@ -166,8 +166,13 @@ std::vector<double> AccessorReader::numbers(int index, int components, const std
   return values;
 }
 
+bool AccessorReader::holds_indices(int index, const std::string& where) const {
+  const tinygltf::Accessor& accessor = at(index, where);
+  return is_index_type(accessor.componentType) && !accessor.normalized;
+}
+
 std::vector<uint32_t> AccessorReader::indices(int index, const std::string& where) const {
-  if (!is_index_type(at(index, where).componentType))
+  if (!holds_indices(index, where))
     source_.refuse(where, "accessor " + std::to_string(index) + " does not hold unsigned integers", kMend);
   const std::vector<double> values = numbers(index, 1, where);
   return {values.begin(), values.end()};

@@ -26,6 +26,8 @@ std::vector<double> read_set(const tinygltf::Primitive& primitive, const std::st
   const auto found = primitive.attributes.find(name);
   if (found == primitive.attributes.end()) return {};
   const std::string place = where + " " + name;
+  if (name.starts_with("JOINTS") && !accessors.holds_indices(found->second, place))
+    source.refuse(place, "does not hold unsigned integers", kMend);
   if (accessors.count(found->second, place) != vertex_count)
     source.refuse(place,
                   "has " + std::to_string(accessors.count(found->second, place)) + " elements for " +

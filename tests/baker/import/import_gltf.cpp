@@ -104,6 +104,8 @@ TEST_CASE("faulty_files_are_refused_by_name_and_place") {
       {"weights_count", [](TinyFile& f) { f.json["accessors"][2]["count"] = 5; },
        "WEIGHTS_0: has 5 elements for 6 vertices"},
       {"joint_index", [](TinyFile& f) { f.bytes[72] = 2; }, "vertex 0 is weighted to joint 2 of a skin of 2"},
+      {"joint_floats", [](TinyFile& f) { f.attribute("JOINTS_0") = 2; },
+       "JOINTS_0: does not hold unsigned integers"},
       {"index_range", [](TinyFile& f) { f.bytes[192] = 6; }, "index 0 is 6, there are 6 vertices"},
       {"index_floats", [](TinyFile& f) { f.json["meshes"][0]["primitives"][0]["indices"] = 2; },
        "does not hold unsigned integers"},
