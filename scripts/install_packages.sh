@@ -8,7 +8,7 @@ packages=(
   libtinygltf-dev nlohmann-json3-dev libcli11-dev libmeshoptimizer-dev libstb-dev # baker
   libembree-dev ffmpeg                                    # samples
   catch2                                                  # tests
-  python3-torch python3-numpy python3-matplotlib          # training and plots
+  python3-torch python3-numpy python3-matplotlib libopenblas0-pthread # training and plots
 )
 
 missing=()

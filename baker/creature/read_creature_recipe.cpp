@@ -6,7 +6,7 @@
 #include "baker/common/read_file.hpp"
 #include "baker/creature/clip.hpp"
 #include "baker/creature/creature.hpp"
-#include "baker/creature/json_section.hpp"
+#include "baker/common/json_section.hpp"
 #include "baker/creature/skin.hpp"
 
 namespace sinew::baker {

@@ -6,7 +6,7 @@
 
 #include "baker/common/bad_input.hpp"
 #include "baker/common/read_file.hpp"
-#include "baker/creature/json_section.hpp"
+#include "baker/common/json_section.hpp"
 
 namespace sinew::baker {
 namespace {

@@ -2,6 +2,7 @@
 #include "baker/common/progress.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -21,10 +22,15 @@ std::string captured(int descriptor, int other_end, Work work) {
   work();
   ::dup2(before, STDERR_FILENO);
   ::close(before);
-  ::fcntl(other_end, F_SETFL, O_NONBLOCK);
-  std::string text(4096, '\0');
-  const ssize_t got = ::read(other_end, text.data(), text.size());
-  text.resize(got > 0 ? static_cast<size_t>(got) : 0);
+  // A terminal hands bytes over a little later than a pipe: read until nothing has come for a while.
+  constexpr int kQuiet_ms = 200;
+  std::string text;
+  char bytes[256];
+  for (pollfd wait{other_end, POLLIN, 0}; ::poll(&wait, 1, kQuiet_ms) > 0 && (wait.revents & POLLIN);) {
+    const ssize_t got = ::read(other_end, bytes, sizeof bytes);
+    if (got <= 0) break;
+    text.append(bytes, static_cast<size_t>(got));
+  }
   return text;
 }
 

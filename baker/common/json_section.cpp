@@ -1,5 +1,5 @@
 // json_section.cpp  Checked access to a JSON object.
-#include "baker/creature/json_section.hpp"
+#include "baker/common/json_section.hpp"
 
 #include <algorithm>
 #include <cmath>
