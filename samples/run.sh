@@ -34,8 +34,8 @@ newer "$out/pictures/contact_sheet.png" "$out/creature.sinew" "$out/hop.truth.sa
   "$bin/sinew-demo" "$out/creature.sinew" --seconds 3 --truth "$out/hop.truth.safetensors" --frames "$out/pictures"
 
 echo
-echo "16 creatures, 10 seconds, 500 us a frame:"
-"$bin/sinew-demo" "$out/creature.sinew" --instances 16 --seconds 10 --budget-us 500 --report "$out/report.json"
+echo "16 creatures, 10 seconds, 1500 us a frame:"
+"$bin/sinew-demo" "$out/creature.sinew" --instances 16 --seconds 10 --budget-us 1500 --report "$out/report.json"
 python=python3
 "$python" -c 'import matplotlib' 2>/dev/null || python=/usr/bin/python3
 "$python" samples/demo/plot_budget.py "$out/report.json" -o "$out/budget.png"

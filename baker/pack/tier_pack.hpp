@@ -11,7 +11,7 @@ namespace sinew::baker {
 
 // Baked costs must be the same on every machine, so they are not timed: multiply-adds at this rate on one
 // core. The runtime measures and corrects them.
-inline constexpr double kBakedCostFlops = 20e9;
+inline constexpr double kBakedCostFlops = 60e9;
 
 // Of one network step; graph_entries: non-zeros of the aggregation matrix. Padding that the kernels compute
 // counts.
