@@ -94,11 +94,22 @@ def draw_tiers(axes, report):
     axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.05), frameon=False)
 
 
+def shade_tiers(axes, frames, seconds):
+    """Behind the errors: when the measured instance was not on the network."""
+    step = seconds[1] - seconds[0] if len(seconds) > 1 else 0
+    for key, name, color in TIERS[1:]:
+        here = np.array([frame["first"]["tier"] == key for frame in frames])
+        if here.any():
+            axes.fill_between(seconds + step / 2, 0, 1, where=here, transform=axes.get_xaxis_transform(), step="mid",
+                              color=color, alpha=0.35, linewidth=0, label=f"then {name}")
+
+
 def draw_errors(axes, report):
     frames = report["frames"]
     seconds = column(frames, "time_s")
     for key, name, color in (("skinning", "skinning alone", "#c45428"), ("sinew", "Sinew", "#1c68a8")):
         axes.plot(seconds, [frame["error_mm"][key] for frame in frames], color=color, linewidth=1.4, label=name)
+    shade_tiers(axes, frames, seconds)
     axes.set_ylim(bottom=0)
     axes.set_ylabel("mean error (mm)")
     axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.05), frameon=False)

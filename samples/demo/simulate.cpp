@@ -150,6 +150,7 @@ FrameRecord run_frame(Stage& stage, const Motion& first, const Motion& others, d
     stage.pose(i, i == 0 ? first : others, t_s + kPhase_s * static_cast<double>(i));
   record.poses_us = microseconds_since(before_poses);
   record.step = stage.step(dt_s);
+  record.first = stage.report(0);
   const Clock::time_point before_reads = Clock::now();
   for (size_t i = stage.size(); i-- > 0;) stage.read(i, Space::kCharacter, positions);  // ends with the first
   record.read_us = microseconds_since(before_reads);

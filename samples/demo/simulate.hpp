@@ -21,6 +21,7 @@ struct FrameRecord {
   double time_s = 0;
   FrameReport step{};
   float poses_us = 0, read_us = 0;  // the engine's side: set_pose and read_positions of all instances
+  InstanceReport first{};           // the instance that is filmed and measured
   Error error{};                    // of the first instance, with a truth
 };
 

@@ -50,6 +50,10 @@ Json summary_json(const Summary& s, bool truth) {
   return out;
 }
 
+const char* name_of(Tier tier) {
+  return tier == Tier::kNetwork ? "network" : tier == Tier::kExtrapolate ? "extrapolated" : "skinning";
+}
+
 Json frame_json(const FrameRecord& frame, bool truth) {
   const FrameReport& r = frame.step;
   Json out = {{"time_s", frame.time_s},
@@ -67,7 +71,8 @@ Json frame_json(const FrameRecord& frame, bool truth) {
               {"skinning", r.instances_skinned},
               {"cut", r.instances_cut},
               {"restarts", r.restarts},
-              {"over_budget", r.over_budget}};
+              {"over_budget", r.over_budget},
+              {"first", {{"tier", name_of(frame.first.tier)}, {"blend", frame.first.blend}}}};
   if (truth) out["error_mm"] = {{"skinning", frame.error.skinning_mm}, {"sinew", frame.error.sinew_mm}};
   return out;
 }

@@ -13,7 +13,8 @@ PNG_START = b"\x89PNG\r\n\x1a\n"
 
 def frame(index, over=False):
     return {"time_s": index / 60, "total_us": 5000 if over else 480 + index, "schedule_us": 2, "drive_us": 90,
-            "tissue_us": 700, "publish_us": 60, "network": 3, "extrapolated": 1, "skinning": 0, "cut": int(over)}
+            "tissue_us": 700, "publish_us": 60, "network": 3, "extrapolated": 1, "skinning": 0, "cut": int(over),
+            "first": {"tier": "extrapolated" if index > 40 else "network", "blend": 1.0}}
 
 
 def report(**changes):
@@ -63,10 +64,11 @@ class PlotBudget(unittest.TestCase):
             self.assertIn(word, text)
 
     def test_report_without_budget_and_with_errors_is_plotted(self):
-        frames = [{**frame(i), "error_mm": {"skinning": 8.0, "sinew": 2.0}} for i in range(30)]
+        frames = [{**frame(i), "error_mm": {"skinning": 8.0, "sinew": 2.0}} for i in range(60)]
         self.input.write_text(json.dumps(report(budget_us=None, frames=frames)))
         self.assertEqual(self.plot(self.input, "-o", self.output).returncode, 0)
-        self.assertIn("mean error (mm)", self.svg_text())
+        for word in ("mean error (mm)", "then extrapolated"):
+            self.assertIn(word, self.svg_text())
         self.assertNotIn("budget", self.svg_text())
 
     def test_same_report_gives_the_same_bytes(self):

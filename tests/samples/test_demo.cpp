@@ -167,6 +167,7 @@ TEST_CASE("demo_report_holds_every_frame") {
     CHECK(frame["ticks"].get<int>() <= 4);
     CHECK(frame["network"].get<int>() + frame["extrapolated"].get<int>() + frame["skinning"].get<int>() == 2);
     CHECK(frame["total_us"].get<double>() > 0);
+    CHECK(frame["first"]["tier"] == "network");
   }
 }
 
