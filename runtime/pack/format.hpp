@@ -212,7 +212,7 @@ static_assert(sizeof(ClipRecord) == 32);
 
 struct TierRecord {
   uint32_t tier;      // sinew::Tier, ascending, each at most once; kSkinning and kNetwork are always there
-  float cost_us;      // a tick and instance on one core, multiply-adds at 20 GFLOP/s; corrected online
+  float cost_us;      // a tick and instance on one core, its operations at 60 GFLOP/s; corrected online
   float error_mm;     // mean against ground truth on held-out motion; NaN: not measured
   float error_ratio;  // the same as a share of skinning's error; NaN: not measured
 };
