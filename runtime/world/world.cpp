@@ -126,7 +126,9 @@ Status World::load_asset_file(const char* path, AssetId* out) noexcept {
   pack::MappedFile file;
   if (Status status = pack::MappedFile::open(path, &file); !status.ok()) return status;
   Asset asset;
-  if (Status status = world::open_asset(file.bytes(), &asset); !status.ok()) return status;
+  if (Status status = world::open_asset(file.bytes(), &asset); !status.ok()) {
+    return make_status(status.code, "%s: %s", path, status.message);
+  }
   asset.file = std::move(file);
   return add_asset(*impl_, std::move(asset), out);
 }
