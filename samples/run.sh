@@ -5,7 +5,7 @@ cd "$(dirname "$0")/.."
 
 scripts/install_packages.sh
 cmake --preset release >/dev/null
-cmake --build --preset release --target sinew-bake sinew-demo sinew-hello | grep -v '^ninja: no work' || true
+cmake --build --preset release --target sinew-bake sinew-demo sinew-hello | { grep -v '^ninja: no work' || true; }
 
 bin=build/release/bin
 out=out

@@ -83,6 +83,9 @@ class Stepper {
         state_(tissue::state_floats(network, count())),
         scratch_(tissue::scratch_floats(network, count())) {
     float* y = output_state();
+    if (nodes_ == 0 || steps_ == 0)
+      throw BadInput(vectors.path + ": holds " + std::to_string(nodes_) + " nodes and " +
+                     std::to_string(steps_) + " steps, nothing to check; write the vectors again");
     for (size_t node = 0; node < nodes_; ++node)
       std::copy_n(&y0_[node * kAxes], kAxes, y + node * last_padded());
   }

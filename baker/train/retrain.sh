@@ -1,5 +1,5 @@
 #!/bin/sh
-# retrain.sh  Makes the shipped weights again: creature, data set, two networks, the better one judged and exported.
+# retrain.sh  Makes weights as the shipped ones were made: creature, data set, two networks, the better one judged and exported.
 #
 #   baker/train/retrain.sh [BUILD_DIR] [WORK_DIR]
 #

@@ -65,7 +65,7 @@ void TrajectoryRecorder::add_region(size_t index, const TruthFrame& frame) {
 
   if (ticks_ == 0) {  // at rest: the history is the present
     motions_[index].frame[0] = motions_[index].frame[1] = motions_[index].frame[2] = now;
-    for (size_t k : {1, 2})
+    for (const size_t k : {size_t{1}, size_t{2}})
       places_[k].insert(places_[k].end(), places_[0].end() - static_cast<long>(3 * count), places_[0].end());
   } else {
     tissue::push_frame(&motions_[index], now);

@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "core/flush_denormals.hpp"
 #include "core/hash.hpp"
 #include "core/status.hpp"
 #include "world/publish.hpp"
@@ -63,6 +64,7 @@ Status restore(Instance& instance, std::span<const std::byte> bytes) noexcept {
     return corrupt("the bytes changed since they were saved");
   }
   std::memcpy(instance.state, payload.data(), payload.size());
+  const core::FlushDenormals flush;  // as in a step: the same bits are shown
   publish(instance);
   return {};
 }

@@ -7,6 +7,7 @@
 
 #include "core/assert_hook.hpp"
 #include "core/status.hpp"
+#include "simd/kernels.hpp"
 #include "world/pose.hpp"
 #include "world/read.hpp"
 #include "world/snapshot.hpp"
@@ -96,6 +97,7 @@ Status World::create(const WorldDef& def, World* out) noexcept {
                          made.impl_->candidates != nullptr);
   if (!complete) return make_status(StatusCode::kOutOfCapacity, "World::create: no memory for the tables");
   made.impl_->def = def;
+  (void)simd::kernels();  // the instruction set is chosen here, not inside the first step
   *out = std::move(made);
   return {};
 }
@@ -127,7 +129,7 @@ Status World::load_asset_file(const char* path, AssetId* out) noexcept {
   if (Status status = pack::MappedFile::open(path, &file); !status.ok()) return status;
   Asset asset;
   if (Status status = world::open_asset(file.bytes(), &asset); !status.ok()) {
-    return make_status(status.code, "%s: %s", path, status.message);
+    return make_status(status.code, "%.100s: %s", path, status.message);
   }
   asset.file = std::move(file);
   return add_asset(*impl_, std::move(asset), out);

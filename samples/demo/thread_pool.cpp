@@ -20,10 +20,13 @@ TaskHook ThreadPool::hook() {
 
 void* ThreadPool::enqueue(TaskHook::Task task, void* argument, uint32_t count, void* context) {
   ThreadPool& pool = *static_cast<ThreadPool*>(context);
+  // No share can be claimed until all is set: a worker late from the last round meets an index beyond every
+  // count.
+  pool.claimed_.store(UINT32_MAX, std::memory_order_relaxed);
   pool.task_ = task;
   pool.argument_ = argument;
   pool.done_.store(0, std::memory_order_relaxed);
-  pool.count_.store(count, std::memory_order_relaxed);
+  pool.count_.store(count, std::memory_order_release);
   const uint32_t generation = pool.generation_.load(std::memory_order_relaxed) + 1;
   pool.claimed_.store(uint64_t{generation} << 32, std::memory_order_release);
   pool.generation_.store(generation, std::memory_order_release);
@@ -42,7 +45,7 @@ bool ThreadPool::claim(uint32_t* index) {
   uint64_t seen = claimed_.load(std::memory_order_acquire);
   do {
     *index = static_cast<uint32_t>(seen);
-    if (*index >= count_.load(std::memory_order_relaxed)) return false;
+    if (*index >= count_.load(std::memory_order_acquire)) return false;
   } while (!claimed_.compare_exchange_weak(seen, seen + 1, std::memory_order_acquire));
   return true;
 }

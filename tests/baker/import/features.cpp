@@ -128,7 +128,9 @@ TEST_CASE("normalised_integers_and_strides_decode") {
   file.attribute("NORMAL") = file.add(rows, "VEC4", 5120, true);
   file.json["accessors"].back()["type"] = "VEC3";
   file.json["bufferViews"].back()["byteStride"] = 4;
+  file.attribute("_STIFFNESS") = file.add<uint8_t>({51, 51, 51, 51, 51, 51}, "SCALAR", 5121, true);
   const Character character = import_file(file, "normalised");
+  CHECK(character.stiffness[0] == Approx(0.2).margin(kRounding));
   CHECK(character.skin[2].joint[0] == 1);
   CHECK(character.skin[2].weight[0] == Approx(0.8).margin(kRounding));
   CHECK(character.normals[3] == Vector3(0, 0, -1));

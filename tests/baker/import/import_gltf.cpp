@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <random>
@@ -13,6 +14,7 @@
 #include "tiny_file.hpp"
 
 using namespace sinew::baker;
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -206,6 +208,14 @@ TEST_CASE("a_missing_buffer_file_is_named_and_the_working_directory_is_not_searc
   file.json["buffers"] = {{{"byteLength", file.bytes.size()}, {"uri", "away.bin"}}};
   const std::string path = write_bytes("external.gltf", file.json.dump());
   CHECK(refusal(path).find("away.bin") != std::string::npos);
+
+  const fs::path before = fs::current_path(), elsewhere = fs::path(path).parent_path() / "elsewhere";
+  fs::create_directory(elsewhere);
+  fs::rename(write_bytes("away.bin", file.bytes), elsewhere / "away.bin");
+  fs::current_path(elsewhere);
+  CHECK(refusal(path).find("away.bin") != std::string::npos);
+  fs::current_path(before);
+
   write_bytes("away.bin", file.bytes);
   CHECK(import_gltf(path).positions.size() == 6);
 }

@@ -126,6 +126,18 @@ TEST_CASE("golden_vectors_are_reproduced_on_every_instruction_set") {
   }
 }
 
+// The trainer's own roll-out of the weights that are shipped, in double precision.
+TEST_CASE("the_shipped_weights_are_reproduced_on_every_instruction_set") {
+  const std::string stem = std::string(SINEW_SOURCE_DIR) + "/assets/weights/creature";
+  for (const char* isa : simd::available_isas()) {
+    const ProgramResult result =
+        bake({"check", stem + ".safetensors", stem + ".vectors.safetensors", "--isa", isa});
+    INFO(result.out << result.error);
+    CHECK(result.exit_code == 0);
+    CHECK(report_of(result)["isa"] == isa);
+  }
+}
+
 TEST_CASE("a_baked_model_gives_the_same_numbers_as_its_weights") {
   const std::string weights = golden("alt_conv_lstm/small.weights.safetensors");
   if (weights.empty()) return;
