@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <memory>
+#include <thread>
 
 #include "samples/demo/simulate.hpp"
 #include "samples/demo/statistics.hpp"
@@ -19,7 +20,10 @@ namespace {
 struct Counters {
   std::vector<std::atomic<int>> runs;
   explicit Counters(size_t count) : runs(count) {}
-  static void count(void* argument, uint32_t index) { ++static_cast<Counters*>(argument)->runs[index]; }
+  static void count(void* argument, uint32_t index) {
+    ++static_cast<Counters*>(argument)->runs[index];
+    std::this_thread::yield();  // threads meet at the next claim
+  }
 };
 
 Run run_block(const sinew::test::TemporaryFolder& folder, int instances, int threads, double fps) {
