@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kColumns = 3;        // of panels in a frame
 constexpr size_t kSheetTimes = 8;  // columns of the contact sheet
-constexpr int kGifWidth = 720;
+constexpr int kGifWidth = 540;
 
 // Rows of three.
 render::Image compose(const std::vector<render::Panel>& panels) {
