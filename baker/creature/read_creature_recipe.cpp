@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "baker/common/bad_input.hpp"
+#include "baker/common/json_section.hpp"
 #include "baker/common/read_file.hpp"
 #include "baker/creature/clip.hpp"
 #include "baker/creature/creature.hpp"
-#include "baker/common/json_section.hpp"
 #include "baker/creature/skin.hpp"
 
 namespace sinew::baker {

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/common/read_file.hpp"
 #include "baker/common/json_section.hpp"
+#include "baker/common/read_file.hpp"
 
 namespace sinew::baker {
 namespace {

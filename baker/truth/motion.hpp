@@ -28,8 +28,8 @@ Motion clip_motion(const Character& character, const Clip& clip, uint64_t seed =
 Motion shake_motion(const Character& character, uint64_t seed = 0, double strength = 1);
 
 // Clips cross-faded at random, band-limited joint noise, root dashes, sways and turns, with stretches of
-// stillness in the rest pose; still for the first tenth of a second and after ten minutes. held_out: names of clips
-// it must not use.
+// stillness in the rest pose; still for the first tenth of a second and after ten minutes. held_out: names of
+// clips it must not use.
 Motion random_motion(const Character& character, uint64_t seed, double strength,
                      const std::vector<std::string>& held_out = {});
 

@@ -1,4 +1,5 @@
-// hello.cpp  The README's program: one creature, thrown up and down by its root, its surface read back each frame.
+// hello.cpp  The README's program: one creature, thrown up and down by its root, its surface read back each
+// frame.
 #include <sinew/sinew.hpp>
 
 #include <cmath>

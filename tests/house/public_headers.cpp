@@ -1,4 +1,5 @@
-// public_headers.cpp  Each public header is included first in a file of its own (see CMakeLists.txt); this one has them all.
+// public_headers.cpp  Each public header is included first in a file of its own (see CMakeLists.txt); this
+// one has them all.
 #include <catch2/catch.hpp>
 
 #include "sinew/sinew.hpp"
