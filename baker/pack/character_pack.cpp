@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "baker/common/bad_input.hpp"
+#include "baker/mesh/node_record.hpp"
 #include "baker/pack/graph.hpp"
 #include "baker/pack/network_pack.hpp"
 #include "baker/pack/tier_pack.hpp"
@@ -31,20 +32,6 @@ void append(const Vector3& v, std::vector<float>* out) {
 void append_affine(const Matrix4& m, std::vector<float>* out) {
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 4; ++column) out->push_back(static_cast<float>(m(row, column)));
-}
-
-Vector3 unit_or_up(const Vector3& normal) {
-  const double length = normal.norm();
-  return length > 1e-12 && std::isfinite(length) ? Vector3(normal / length) : Vector3::UnitY();
-}
-
-pack::SkinRecord to_record(const Influences& influences) {
-  pack::SkinRecord record{};
-  for (size_t k = 0; k < pack::kInfluences; ++k) {
-    record.weight[k] = static_cast<float>(influences.weight[k]);
-    record.joint[k] = record.weight[k] > 0 ? static_cast<uint16_t>(influences.joint[k]) : uint16_t{0};
-  }
-  return record;
 }
 
 // ---- the character ----
@@ -89,7 +76,7 @@ void add_mesh(const Character& character, PackWriter& pack) {
   for (size_t v = 0; v < character.positions.size(); ++v) {
     append(character.positions[v], &positions);
     append(unit_or_up(character.normals[v]), &normals);
-    skin.push_back(to_record(character.skin[v]));
+    skin.push_back(skin_record(character.skin[v]));
     colors.insert(colors.end(), character.colors[v].begin(), character.colors[v].end());
   }
   std::vector<uint32_t> triangles;
@@ -171,18 +158,7 @@ void add_regions(const TissueLayout& layout, float displacement_limit, PackWrite
 
 void add_nodes(const TissueLayout& layout, PackWriter& pack) {
   std::vector<pack::NodeRecord> nodes;
-  for (const ControlNode& node : layout.nodes) {
-    pack::NodeRecord record{};
-    const Vector3 normal = unit_or_up(node.normal);
-    for (int axis = 0; axis < 3; ++axis) {
-      record.position_m[axis] = static_cast<float>(node.position[axis]);
-      record.normal[axis] = static_cast<float>(normal[axis]);
-    }
-    record.stiffness = static_cast<float>(std::clamp(node.stiffness, 0.0, 1.0));
-    record.region = to_u32(node.region);
-    record.skin = to_record(node.skin);
-    nodes.push_back(record);
-  }
+  for (const ControlNode& node : layout.nodes) nodes.push_back(node_record(node));
   pack.section(SectionKind::kNodes, nodes);
 }
 

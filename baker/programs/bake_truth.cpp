@@ -103,7 +103,8 @@ void run_truth(const TruthOptions& options) {
   const Motion motion = make_motion(character, options);
 
   TissueTruth truth(character, layout, recipe);
-  TrajectoryRecorder recorder(character, layout, {options.rate_hz, options.surface, options.positions});
+  TrajectoryRecorder recorder(character, layout, {options.rate_hz, options.surface, options.positions},
+                              truth.modal_bases(layout, kMostModes));
   const auto ticks = static_cast<size_t>(std::lround(options.seconds * options.rate_hz));
   Progress progress("truth " + options.motion, ticks);
   recorder.add(truth.start(motion));

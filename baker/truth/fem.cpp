@@ -292,9 +292,9 @@ double Fem::kinetic_energy() const {
 std::vector<double> Fem::frequencies_hz(int count) const {
   std::vector<double> hz;
   for (FemComponent& component : impl_->components) {
-    const Eigen::VectorXd squared = lowest_squared_frequencies(
-        component.assemble(Potential{}, impl_->unstressed, false), component.free_mass(), count);
-    for (const double value : squared) hz.push_back(std::sqrt(value) / (2 * M_PI));
+    const Eigenmodes modes =
+        lowest_modes(component.assemble(Potential{}, impl_->unstressed, false), component.free_mass(), count);
+    for (const double value : modes.squared_rad_per_s) hz.push_back(std::sqrt(value) / (2 * M_PI));
   }
   std::sort(hz.begin(), hz.end());
   hz.resize(std::min(hz.size(), static_cast<size_t>(count)));
@@ -305,13 +305,22 @@ void Fem::damp(double ratio) {
   if (!(ratio >= 0)) refuse("the damping ratio is " + std::to_string(ratio) + ": give 0 or more");
   constexpr double kStill = 1e-2;  // rad/s: a free body's rigid motions are not modes
   for (FemComponent& component : impl_->components) {
-    const Eigen::VectorXd squared = lowest_squared_frequencies(
-        component.assemble(Potential{}, impl_->unstressed, false), component.free_mass(), 7);
+    const Eigen::VectorXd squared =
+        lowest_modes(component.assemble(Potential{}, impl_->unstressed, false), component.free_mass(), 7)
+            .squared_rad_per_s;
     const double first = std::sqrt(
         *std::find_if(squared.begin(), squared.end() - 1, [](double w2) { return w2 > kStill * kStill; }));
     component.rayleigh_mass_per_s = 1.5 * ratio * first;  // ratio = alpha / (2 w) + beta w / 2 at w and 3 w
     component.rayleigh_stiffness_s = 0.5 * ratio / first;
   }
+}
+
+std::vector<FemLinear> Fem::linear() {
+  std::vector<FemLinear> bodies;
+  for (FemComponent& component : impl_->components)
+    bodies.push_back({component.nodes(), component.assemble(Potential{}, impl_->unstressed, false),
+                      component.free_mass(), component.rayleigh_mass_per_s, component.rayleigh_stiffness_s});
+  return bodies;
 }
 
 int Fem::body_count() const { return static_cast<int>(impl_->components.size()); }

@@ -7,6 +7,7 @@
 // shape then follows that motion step by step, and damping acts on what departs from it.
 #pragma once
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <array>
 #include <memory>
 #include <vector>
@@ -32,6 +33,14 @@ struct FemMaterial {
 struct UndisturbedMotion {
   Eigen::VectorXd before, after;      // 3 a node, at the step's two ends
   std::vector<Eigen::Matrix3d> turn;  // a node: how its surroundings turn in between
+};
+
+// One separate body about its unstressed shape: M u'' + (alpha M + beta K) u' + K u = f over its free nodes.
+struct FemLinear {
+  std::vector<int> nodes;                 // free ones; row 3 i + axis below is node i's
+  Eigen::SparseMatrix<double> stiffness;  // both triangles
+  Eigen::VectorXd mass;                   // diagonal, 3 a node
+  double rayleigh_mass_per_s = 0, rayleigh_stiffness_s = 0;
 };
 
 class Fem {
@@ -70,6 +79,7 @@ class Fem {
   double elastic_energy() const { return elastic_energy(positions); }
   double kinetic_energy() const;
   std::vector<double> frequencies_hz(int count) const;  // lowest free modes about the unstressed shape
+  std::vector<FemLinear> linear();                      // one a separate body
   int body_count() const;                               // separate sets of free nodes
   long factorizations() const;                          // since the start
 

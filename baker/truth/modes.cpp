@@ -18,8 +18,8 @@ Eigen::MatrixXd start_vectors(Eigen::Index rows, Eigen::Index columns) {
 
 }  // namespace
 
-Eigen::VectorXd lowest_squared_frequencies(const Eigen::SparseMatrix<double>& stiffness,
-                                           const Eigen::VectorXd& mass, int count) {
+Eigenmodes lowest_modes(const Eigen::SparseMatrix<double>& stiffness, const Eigen::VectorXd& mass,
+                        int count) {
   constexpr double kShift = 1e-6, kConverged = 1e-9;
   constexpr int kMaxIterations = 300;
   const Eigen::Index wanted = std::min<Eigen::Index>(count, mass.size());
@@ -40,7 +40,13 @@ Eigen::VectorXd lowest_squared_frequencies(const Eigen::SparseMatrix<double>& st
     values = ritz.eigenvalues();
     if ((change.array() <= kConverged * values.head(wanted).array()).all()) break;
   }
-  return (values.head(wanted).array() - shift).cwiseMax(0);
+  Eigenmodes modes{(values.head(wanted).array() - shift).cwiseMax(0), x.leftCols(wanted)};
+  for (Eigen::Index k = 0; k < wanted; ++k) {
+    Eigen::Index largest = 0;
+    modes.shape.col(k).cwiseAbs().maxCoeff(&largest);
+    if (modes.shape(largest, k) < 0) modes.shape.col(k) *= -1;
+  }
+  return modes;
 }
 
 }  // namespace sinew::baker

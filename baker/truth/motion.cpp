@@ -123,9 +123,11 @@ constexpr double kEasePeak = 10 / std::numbers::sqrt3;  // largest second deriva
 void draw_gestures(Random& random, const Bout& bout, double strength, RootTrack* track) {
   for (double t = bout.start_s + random.uniform(0, 0.4); t < bout.end_s; t += random.uniform(0.4, 1.5)) {
     const double length = random.uniform(0.25, 0.7);
-    if (random.chance(0.55)) {
-      const double distance = random.uniform(3, 18) * strength * length * length / kEasePeak;
-      track->dashes.push_back({t, length, 0, distance * random.direction()});
+    if (random.chance(0.6)) {  // a step, or a hop that comes back
+      const double acceleration = 3 * std::pow(10, random.uniform(0, 1)) * strength;
+      const double distance = acceleration * length * length / kEasePeak;
+      const Vector3 direction = random.chance(0.5) ? random.direction() : Vector3(0, random.sign(), 0);
+      track->dashes.push_back({t, length, random.chance(0.5) ? t + length : 0, distance * direction});
     }
     if (random.chance(0.4)) {
       const double angle = std::min(1.6, random.uniform(8, 50) * strength * length * length / kEasePeak);
@@ -141,7 +143,7 @@ void draw_gestures(Random& random, const Bout& bout, double strength, RootTrack*
 RootTrack draw_root(Random& random, const std::vector<Bout>& bouts, double strength) {
   RootTrack track;
   for (int k = 0; k < 3; ++k) {
-    const Vector3 acceleration = strength * random.uniform(0.5, 3) * random.direction();
+    const Vector3 acceleration = strength * random.uniform(0.5, 6) * random.direction();
     track.sway.waves.push_back(wave_of_acceleration(random, acceleration, 0.5, 3));
     const Vector3 turning = strength * random.uniform(0.5, 4) * random.direction();
     track.rock.waves.push_back(wave_of_acceleration(random, turning, 0.5, 3));

@@ -18,6 +18,7 @@
 #include <memory>
 
 #include "baker/truth/cage.hpp"
+#include "baker/truth/modal_basis.hpp"
 #include "baker/truth/motion.hpp"
 
 namespace sinew::baker {
@@ -42,6 +43,8 @@ class TissueTruth {
   TruthFrame advance(double rate_hz, int substeps);
   const Cage& cage() const;
   std::vector<double> frequencies_hz(int count) const;
+  // A basis a region of the layout, about the shape that was last simulated: the bind pose before start().
+  std::vector<ModalBasis> modal_bases(const TissueLayout& layout, int count);
 
  private:
   struct Impl;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "baker/mesh/node_record.hpp"
+
 namespace sinew::baker {
 namespace {
 
@@ -22,68 +24,81 @@ Tensor tensor_of(Dtype dtype, std::vector<size_t> shape, const std::vector<T>& v
 }  // namespace
 
 TrajectoryRecorder::TrajectoryRecorder(const Character& character, const TissueLayout& layout,
-                                       const TrajectoryOptions& options)
-    : character_(character),
-      layout_(layout),
-      options_(options),
-      motions_(layout.regions.size()),
-      places_(3) {}
+                                       const TrajectoryOptions& options, std::vector<ModalBasis> modes)
+    : character_(character), layout_(layout), options_(options), modes_(std::move(modes)) {
+  for (const ControlNode& node : layout.nodes) nodes_.push_back(node_record(node));
+  for (size_t r = 0; r < layout.regions.size() && options.surface; ++r)
+    for (const int vertex : layout.regions[r].vertices) {
+      const auto v = static_cast<size_t>(vertex);
+      carried_.push_back(node_record({vertex, static_cast<int>(r), character.positions[v],
+                                      character.normals[v], 0, character.skin[v]}));
+    }
+}
 
-tissue::RegionFrame TrajectoryRecorder::frame_of(const Region& region, const WorldPose& pose) const {
-  const auto joint = static_cast<size_t>(region.frame_joint);
-  const Matrix4 skin = pose.joints[joint] * character_.inverse_bind[joint];
-  const Eigen::Matrix<float, 3, 4, Eigen::RowMajor> skin_rows = skin.topRows<3>().cast<float>();
-  const Eigen::Vector3f center = region.center.cast<float>();
-  const Vector3 place = pose.root.topRightCorner<3, 1>();
+std::vector<tissue::NodePose> TrajectoryRecorder::poses_of(const std::vector<pack::NodeRecord>& points,
+                                                           const WorldPose& pose) const {
+  std::vector<float> skin;
+  for (size_t j = 0; j < pose.joints.size(); ++j) {
+    const Matrix4 matrix = pose.joints[j] * character_.inverse_bind[j];
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 4; ++column) skin.push_back(static_cast<float>(matrix(row, column)));
+  }
   const Eigen::Quaternionf turn(Eigen::Quaterniond(pose.root.topLeftCorner<3, 3>()).cast<float>());
-  return tissue::region_frame(skin_rows.data(), center.data(), place.data(), turn.coeffs().data());
+  std::vector<tissue::NodePose> poses(points.size());
+  tissue::pose_nodes(points, skin.data(), turn.coeffs().data(), poses.data());
+  return poses;
 }
 
 void TrajectoryRecorder::add(const TruthFrame& frame) {
-  std::rotate(places_.begin(), places_.end() - 1, places_.end());
-  places_[0].clear();
-  for (size_t region = 0; region < layout_.regions.size(); ++region) add_region(region, frame);
+  add_nodes(frame);
+  if (options_.surface) add_surface(frame);
   add_pose(frame);
   energy_.push_back(frame.elastic_energy_j);
   energy_.push_back(frame.kinetic_energy_j);
   ++ticks_;
 }
 
-void TrajectoryRecorder::add_region(size_t index, const TruthFrame& frame) {
-  const Region& region = layout_.regions[index];
-  const tissue::RegionFrame now = frame_of(region, frame.pose);
-  const Eigen::Matrix3d axes = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(now.rotation);
-  const Vector3 origin = Eigen::Map<const Vector3>(now.place_m);
-  const Eigen::Matrix3d region_from_world = axes.transpose();
+namespace {
 
-  const auto first = static_cast<size_t>(region.first_node), count = static_cast<size_t>(region.node_count);
-  for (size_t n = first; n < first + count; ++n) {
-    const auto vertex = static_cast<size_t>(layout_.nodes[n].vertex);
-    push(&places_[0], region_from_world * (frame.skinned[vertex] - origin));
-    push(&displacement_, region_from_world * (frame.truth[vertex] - frame.skinned[vertex]));
-  }
-
-  if (ticks_ == 0) {  // at rest: the history is the present
-    motions_[index].frame[0] = motions_[index].frame[1] = motions_[index].frame[2] = now;
-    for (const size_t k : {size_t{1}, size_t{2}})
-      places_[k].insert(places_[k].end(), places_[0].end() - static_cast<long>(3 * count), places_[0].end());
-  } else {
-    tissue::push_frame(&motions_[index], now);
-  }
-  drive_.resize(drive_.size() + count * tissue::kDriveWidth);
-  tissue::compute_drive(motions_[index], static_cast<float>(1 / options_.rate_hz), &places_[0][3 * first],
-                        &places_[1][3 * first], &places_[2][3 * first], static_cast<uint32_t>(count),
-                        &drive_[drive_.size() - count * tissue::kDriveWidth]);
-  if (options_.surface) add_surface(region_from_world, region, frame);
+// The truth less the skinning, along the axes of a point's own frame.
+Vector3 displacement_of(const TruthFrame& frame, int vertex, const tissue::NodePose& pose) {
+  const auto v = static_cast<size_t>(vertex);
+  const Eigen::Map<const Eigen::Matrix<float, 3, 3, Eigen::RowMajor>> axes(pose.rotation);
+  return axes.cast<double>().transpose() * (frame.truth[v] - frame.skinned[v]);
 }
 
-void TrajectoryRecorder::add_surface(const Eigen::Matrix3d& region_from_world, const Region& region,
-                                     const TruthFrame& frame) {
-  for (int v : region.vertices) {
-    const auto vertex = static_cast<size_t>(v);
-    const Vector3 u = region_from_world * (frame.truth[vertex] - frame.skinned[vertex]);
-    for (int k = 0; k < 3; ++k) surface_.push_back(Eigen::half(static_cast<float>(u[k])));
+}  // namespace
+
+void TrajectoryRecorder::add_nodes(const TruthFrame& frame) {
+  constexpr size_t kTicks = 3;
+  poses_.insert(poses_.begin(), poses_of(nodes_, frame.pose));
+  roots_.insert(roots_.begin(), frame.pose.root.topRightCorner<3, 1>());
+  while (poses_.size() < kTicks) poses_.push_back(poses_.back()), roots_.push_back(roots_.back());
+  poses_.resize(kTicks), roots_.resize(kTicks);
+
+  tissue::NodeMotion motion;
+  for (size_t tick = 0; tick < kTicks; ++tick) {
+    motion.pose[tick] = poses_[tick].data();
+    for (int k = 0; k < 3; ++k) motion.root_position_m[tick][k] = roots_[tick][k];
   }
+  drive_.resize(drive_.size() + nodes_.size() * tissue::kNodeDriveWidth);
+  tissue::compute_node_drive(motion, static_cast<float>(1 / options_.rate_hz),
+                             static_cast<uint32_t>(nodes_.size()),
+                             &drive_[drive_.size() - nodes_.size() * tissue::kNodeDriveWidth]);
+  for (size_t n = 0; n < nodes_.size(); ++n) {
+    rotation_.insert(rotation_.end(), poses_[0][n].rotation, poses_[0][n].rotation + 9);
+    push(&displacement_, displacement_of(frame, layout_.nodes[n].vertex, poses_[0][n]));
+  }
+}
+
+void TrajectoryRecorder::add_surface(const TruthFrame& frame) {
+  const std::vector<tissue::NodePose> poses = poses_of(carried_, frame.pose);
+  size_t next = 0;
+  for (const Region& region : layout_.regions)
+    for (const int vertex : region.vertices) {
+      const Vector3 u = displacement_of(frame, vertex, poses[next++]);
+      for (int k = 0; k < 3; ++k) surface_.push_back(Eigen::half(static_cast<float>(u[k])));
+    }
 }
 
 void TrajectoryRecorder::add_pose(const TruthFrame& frame) {
@@ -101,7 +116,7 @@ void TrajectoryRecorder::add_pose(const TruthFrame& frame) {
 
 void TrajectoryRecorder::add_statics(Safetensors* file) const {
   std::vector<float> position, normal, stiffness, radius;
-  std::vector<int32_t> node_region, edges, vertices, vertex_count;
+  std::vector<int32_t> node_region, edges;
   for (const ControlNode& node : layout_.nodes) {
     const Region& region = layout_.regions[static_cast<size_t>(node.region)];
     push(&position, (node.position - region.center) / region.radius_m);
@@ -110,11 +125,7 @@ void TrajectoryRecorder::add_statics(Safetensors* file) const {
     node_region.push_back(node.region);
   }
   for (const auto& [a, b] : layout_.edges) edges.insert(edges.end(), {a, b});
-  for (const Region& region : layout_.regions) {
-    radius.push_back(static_cast<float>(region.radius_m));
-    vertices.insert(vertices.end(), region.vertices.begin(), region.vertices.end());
-    vertex_count.push_back(static_cast<int32_t>(region.vertices.size()));
-  }
+  for (const Region& region : layout_.regions) radius.push_back(static_cast<float>(region.radius_m));
   const size_t nodes = layout_.nodes.size(), regions = layout_.regions.size();
   file->tensors["node.rest_position"] = tensor_f32({nodes, 3}, position);
   file->tensors["node.rest_normal"] = tensor_f32({nodes, 3}, normal);
@@ -122,7 +133,15 @@ void TrajectoryRecorder::add_statics(Safetensors* file) const {
   file->tensors["node.region"] = tensor_i32({nodes}, node_region);
   file->tensors["edges"] = tensor_i32({layout_.edges.size(), 2}, edges);
   file->tensors["region.radius_m"] = tensor_f32({regions}, radius);
-  if (!options_.surface) return;
+}
+
+void TrajectoryRecorder::add_carry(Safetensors* file) const {
+  std::vector<int32_t> vertices, vertex_count;
+  for (const Region& region : layout_.regions) {
+    vertices.insert(vertices.end(), region.vertices.begin(), region.vertices.end());
+    vertex_count.push_back(static_cast<int32_t>(region.vertices.size()));
+  }
+  const size_t regions = layout_.regions.size();
   file->tensors["region.vertices"] = tensor_i32({vertices.size()}, vertices);
   file->tensors["region.vertex_count"] = tensor_i32({regions}, vertex_count);
   for (size_t r = 0; r < regions; ++r) {
@@ -134,12 +153,30 @@ void TrajectoryRecorder::add_statics(Safetensors* file) const {
   }
 }
 
+void TrajectoryRecorder::add_modes(Safetensors* file) const {
+  const auto rows = [](const Eigen::MatrixXd& m) {
+    std::vector<float> out;
+    for (Eigen::Index r = 0; r < m.rows(); ++r)
+      for (Eigen::Index c = 0; c < m.cols(); ++c) out.push_back(static_cast<float>(m(r, c)));
+    return tensor_f32({static_cast<size_t>(m.rows()), static_cast<size_t>(m.cols())}, out);
+  };
+  for (size_t r = 0; r < modes_.size(); ++r) {
+    const std::string name = "modes." + std::to_string(r);
+    file->tensors[name + ".rad_per_s"] = rows(modes_[r].rad_per_s.transpose());
+    file->tensors[name + ".damping_ratio"] = rows(modes_[r].damping_ratio.transpose());
+    file->tensors[name + ".shape"] = rows(modes_[r].shape);
+    file->tensors[name + ".turn"] = rows(modes_[r].turn);
+    file->tensors[name + ".force"] = rows(modes_[r].force);
+  }
+}
+
 Safetensors TrajectoryRecorder::finish(std::map<std::string, std::string> metadata) const {
   Safetensors file;
   const size_t nodes = layout_.nodes.size();
   file.metadata = std::move(metadata);
-  file.metadata["sinew.trajectory"] = "1";
-  file.tensors["drive"] = tensor_f32({ticks_, nodes, tissue::kDriveWidth}, drive_);
+  file.metadata["sinew.trajectory"] = "2";
+  file.tensors["drive"] = tensor_f32({ticks_, nodes, tissue::kNodeDriveWidth}, drive_);
+  file.tensors["rotation"] = tensor_f32({ticks_, nodes, 9}, rotation_);
   file.tensors["displacement"] = tensor_f32({ticks_, nodes, 3}, displacement_);
   file.tensors["joints"] = tensor_f32({ticks_, character_.joint_node.size(), 12}, joints_);
   file.tensors["root"] = tensor_of(Dtype::kF64, {ticks_, 7}, root_);
@@ -149,6 +186,8 @@ Safetensors TrajectoryRecorder::finish(std::map<std::string, std::string> metada
   if (options_.positions)
     file.tensors["positions"] = tensor_f32({ticks_, character_.positions.size(), 3}, positions_);
   add_statics(&file);
+  if (options_.surface) add_carry(&file);
+  add_modes(&file);
   return file;
 }
 

@@ -1,14 +1,18 @@
 // trajectory.hpp  A simulated motion as the file the trainer and the demo read.
 //
-// T ticks after the start, N nodes, V vertices, J joints; region-frame axes (tissue/drive.hpp), metres:
-//   drive (T+1,N,21) f32   displacement (T+1,N,3) f32   joints (T+1,J,12) f32 character-from-joint
-//   root (T+1,7) f64 place and quaternion xyzw   energy (T+1,2) f64 elastic and kinetic, joules
+// T ticks after the start, N nodes, R regions, V vertices, J joints; metres:
+//   drive (T+1,N,12) f32 of tissue/node_drive.hpp   rotation (T+1,N,9) f32 node frames, world from bind axes
+//   displacement (T+1,N,3) f32 along the node's own axes (tissue/node_pose.hpp)
+//   joints (T+1,J,12) f32 character-from-joint   root (T+1,7) f64 place and quaternion xyzw
+//   energy (T+1,2) f64 elastic and kinetic, joules
 //   node.rest_position (N,3) less the region's centre, in radii   node.rest_normal (N,3)   node.stiffness
-//   (N,1)   node.region (N) i32 edges (m,2) i32   region.radius_m (R) with `surface`: surface (T+1,Vr,3) f16
-//   true displacement of the carried vertices, region after region;
-//     region.vertices (Vr) i32, region.vertex_count (R) i32, carry.{r} (nodes, vertices of region r)
-//   with `positions`: positions (T+1,V,3) f32 truth relative to the root
-// Metadata: sinew.trajectory = 1 and the caller's.
+//   (N,1)   node.region (N) i32   edges (m,2) i32   region.radius_m (R)
+//   modes.{r}.rad_per_s, .damping_ratio (1,K)   .shape, .turn (3n,K)   .force (K,3n)   of modal_basis.hpp
+// with `surface`: surface (T+1,Vr,3) f16 true displacement of the carried vertices, each along the axes of
+//   its own skin, region after region; region.vertices (Vr) i32, region.vertex_count (R) i32,
+//   carry.{r} (nodes, vertices of region r)
+// with `positions`: positions (T+1,V,3) f32 truth relative to the root
+// Metadata: sinew.trajectory = 2 and the caller's.
 #pragma once
 #include <Eigen/Core>
 #include <map>
@@ -17,7 +21,7 @@
 
 #include "baker/common/safetensors.hpp"
 #include "baker/truth/tissue_truth.hpp"
-#include "tissue/drive.hpp"
+#include "tissue/node_drive.hpp"
 
 namespace sinew::baker {
 
@@ -26,29 +30,34 @@ struct TrajectoryOptions {
   bool surface = false, positions = false;
 };
 
-// Takes the start, then one tick after the other. Drives come from runtime/tissue, so that network and
-// runtime cannot disagree.
+// Takes the start, then one tick after the other. Frames and drives come from runtime/tissue, so that network
+// and runtime cannot disagree.
 class TrajectoryRecorder {
  public:
   TrajectoryRecorder(const Character& character, const TissueLayout& layout,
-                     const TrajectoryOptions& options);
+                     const TrajectoryOptions& options, std::vector<ModalBasis> modes);
 
   void add(const TruthFrame& frame);
   Safetensors finish(std::map<std::string, std::string> metadata) const;
 
  private:
-  void add_region(size_t region, const TruthFrame& frame);
-  void add_surface(const Eigen::Matrix3d& region_from_world, const Region& region, const TruthFrame& frame);
+  void add_nodes(const TruthFrame& frame);
+  void add_surface(const TruthFrame& frame);
   void add_pose(const TruthFrame& frame);
   void add_statics(Safetensors* file) const;
-  tissue::RegionFrame frame_of(const Region& region, const WorldPose& pose) const;
+  void add_carry(Safetensors* file) const;
+  void add_modes(Safetensors* file) const;
+  std::vector<tissue::NodePose> poses_of(const std::vector<pack::NodeRecord>& points,
+                                         const WorldPose& pose) const;
 
   const Character& character_;
   const TissueLayout& layout_;
   TrajectoryOptions options_;
-  std::vector<tissue::RegionMotion> motions_;
-  std::vector<std::vector<float>> places_;  // region-frame places of all nodes, newest tick first
-  std::vector<float> drive_, displacement_, joints_, positions_;
+  std::vector<ModalBasis> modes_;
+  std::vector<pack::NodeRecord> nodes_, carried_;      // carried_: a vertex of each region, as if it were a node
+  std::vector<std::vector<tissue::NodePose>> poses_;   // of the last three ticks, newest first
+  std::vector<Vector3> roots_;                         // likewise
+  std::vector<float> drive_, rotation_, displacement_, joints_, positions_;
   std::vector<Eigen::half> surface_;
   std::vector<double> root_, energy_;
   size_t ticks_ = 0;

@@ -1,0 +1,30 @@
+// modal_basis.hpp  A region's lowest modes, from the cage's eigenproblem, as its control nodes see them.
+//
+// About the unstressed shape, in axes that turn with the flesh, tissue driven by a felt acceleration f obeys
+//   q_k'' + 2 zeta_k w_k q_k' + w_k^2 q_k = sum_i force(k, i) . f_i,   u_i = sum_k shape(i, k) q_k
+// with f_i at the control nodes: between them it is interpolated through the flesh (carry.hpp). Other regions
+// hold still. No simulated sequence is needed.
+#pragma once
+#include "baker/mesh/tissue_layout.hpp"
+#include "baker/truth/cage.hpp"
+#include "baker/truth/fem.hpp"
+
+namespace sinew::baker {
+
+inline constexpr int kMostModes = 64;  // a region
+
+struct ModalBasis {
+  Eigen::VectorXd rad_per_s;      // w, ascending
+  Eigen::VectorXd damping_ratio;  // zeta, of the Rayleigh damping
+  Eigen::MatrixXd shape;          // (3 nodes, modes), bind-pose axes; each column's root mean square over nodes is 1 / sqrt(3)
+  Eigen::MatrixXd turn;           // (3 nodes, modes), rotation vectors: half the curl of shape through the flesh
+  Eigen::MatrixXd force;          // (modes, 3 nodes)
+};
+
+// cage_node: a node of `bodies` -> of the cage. One basis a region; fewer than `count` modes where a region
+// has fewer, or fewer below 30 Hz.
+std::vector<ModalBasis> modal_bases(const TissueLayout& layout, const Cage& cage,
+                                    const std::vector<FemLinear>& bodies, const std::vector<int>& cage_node,
+                                    int count);
+
+}  // namespace sinew::baker

@@ -1,0 +1,31 @@
+// node_drive.hpp  What moves a control node, as it feels it: along the axes of its own frame (tissue/node_pose.hpp).
+//
+// With x its skinned place in the world, R its frame, g gravity, and ticks h apart, backward differences (the
+// future is not known at run time):
+//   felt acceleration  f     = R_t^T (g - (x_t - 2 x_{t-1} + x_{t-2}) / h^2) - g
+//   gravity change           = R_t^T g - g
+//   angular velocity   omega = vee((A - A^T) / 2) / h,  A = R_{t-1}^T R_t     the sine of a tick's turn
+//   angular acceleration     = (omega_t - omega_{t-1}) / h
+// All are zero for a character that stands still in its bind pose. The trainer's data sets are written through
+// this same code, so network and runtime cannot disagree on an input.
+#pragma once
+#include <cstdint>
+
+#include "tissue/node_pose.hpp"
+
+namespace sinew::tissue {
+
+// Three numbers each: felt acceleration and gravity change (m/s^2), angular velocity (rad/s), angular
+// acceleration (rad/s^2).
+inline constexpr int kNodeDriveWidth = 12;
+
+// The last three ticks, newest first; a character at rest holds three equal ones. Views.
+struct NodeMotion {
+  double root_position_m[3][3];  // [tick]
+  const NodePose* pose[3];       // [tick][node]
+};
+
+// out: [count][kNodeDriveWidth].
+void compute_node_drive(const NodeMotion& motion, float tick_s, uint32_t count, float* out) noexcept;
+
+}  // namespace sinew::tissue
