@@ -34,13 +34,20 @@ def _from_fields(options, arguments):
     )
 
 
-def _generate(a):
-    from .generate import Plan, generate
+def _character(text):
+    name, _, path = text.partition("=")
+    if not (name and path):
+        raise argparse.ArgumentTypeError(f"'{text}' is not NAME=PATH")
+    return name, path
 
-    sheet = generate(a.bake, a.character, a.recipe, a.out, _from_fields(Plan, a), a.processes)
+
+def _generate(a):
+    from .generate import generate
+
+    sheet = generate(a.bake, a.plan, a.out, dict(a.character), a.processes)
     print(
-        f"{a.out}: {len(sheet['sequences'])} sequences, {sheet['seconds_simulated']:.0f} s simulated, "
-        f"{len(sheet['failed'])} failed"
+        f"{a.out}: {len(sheet['sequences'])} sequences of {len(sheet['bodies'])} bodies, "
+        f"{sheet['seconds_simulated']:.0f} s simulated, {len(sheet['failed'])} failed"
     )
 
 
@@ -85,8 +92,6 @@ def _best(a):
 
 
 def _parser():
-    from .generate import Plan
-
     parser = argparse.ArgumentParser(
         prog="baker/train", description="Trains tissue networks from ground truth."
     )
@@ -98,12 +103,18 @@ def _parser():
         return p
 
     p = command("generate", _generate, "Simulates a data set with sinew-bake truth.")
-    p.add_argument("character", help="skinned .glb")
     p.add_argument("--bake", required=True, help="path of sinew-bake")
-    p.add_argument("--recipe", help="tissue recipe, JSON")
-    p.add_argument("--out", required=True, help="folder of the data set")
+    p.add_argument("--plan", required=True, help="plan, JSON; the body files lie beside it")
+    p.add_argument("--out", required=True, help="folder of the data set; one that was cut goes on")
     p.add_argument("--processes", type=int, default=2)
-    _add_fields(p, Plan)
+    p.add_argument(
+        "--character",
+        type=_character,
+        action="append",
+        default=[],
+        metavar="NAME=PATH",
+        help="a further body, tested on: a skinned .glb; repeatable",
+    )
     p = command("train", _train, "Trains one network.")
     p.add_argument("data", help="folder of the data set")
     p.add_argument("--out", required=True, help="folder of the run; a run that was cut goes on")

@@ -1,219 +1,210 @@
-"""Makes a data set: runs `sinew-bake truth` over a list of motions. Goes on where it was cut; files appear
-whole or not at all."""
+"""Makes a data set: runs `sinew-bake truth` over a plan of bodies and motions. Goes on where it was cut; files
+appear whole or not at all.
+
+    DATA/<body>/{body.glb,creature.json,tissue.json,made_from,<split>-<motion>-<seed>.safetensors}
+    DATA/data_sheet.json
+"""
 import concurrent.futures
-import hashlib
 import json
 import os
-import struct
+import shutil
 import subprocess
 import sys
-from dataclasses import dataclass, field
 
+from .data_sheet import SPLITS, statistics
 from .dataset import SHEET
+from .plan import clip_names, jobs_of, read_bodies, read_plan
 from .safetensors import BadData
 from .trajectory import read_trajectory
 
-STRENGTHS = (0.5, 0.8, 1.0, 1.25)
 MOST_FAILURES = 0.1  # of a data set; a truth that fails more often is broken
+STAMP = "made_from"
 
 
-@dataclass
-class Plan:
-    """How much of what. Held out of training and of choosing: one clip, and all seeds of test and long."""
-
-    train_random: int = 56
-    train_clips: int = 6  # variants of each clip that is not held out
-    validation_random: int = 6
-    test_random: int = 5
-    test_clips: int = 3  # variants of the held-out clip
-    long_sequences: int = 2  # one random, one of the held-out clip
-    seconds: float = 4.5
-    long_seconds: float = 60.0
-    substeps: int = 4
-    held_out_clip: str = ""  # empty: 'hop', or else the last clip
+def _write_json(path, value):
+    with open(f"{path}.part", "w") as file:
+        json.dump(value, file, indent=1)
+    os.replace(f"{path}.part", path)
 
 
-@dataclass
-class Job:
-    split: str
-    motion: str
-    seed: int
-    strength: float
-    seconds: float
-    flags: list = field(default_factory=list)
-
-    @property
-    def file(self):
-        return f"{self.split}-{self.motion.replace(':', '-')}-{self.seed}.safetensors"
-
-
-def clip_names(path):
-    """Names of a binary glTF's clips, from its JSON chunk."""
+def _run(command):
+    """None, or the last line of what went wrong."""
     try:
-        with open(path, "rb") as file:
-            magic, _, _, length, kind = struct.unpack("<5I", file.read(20))
-            if magic != 0x46546C67 or kind != 0x4E4F534A:
-                raise ValueError("not a binary glTF")
-            return [a.get("name", "") for a in json.loads(file.read(length)).get("animations", [])]
-    except (OSError, ValueError, struct.error) as error:
-        raise BadData(f"{path}: {error}; give a .glb") from None
+        done = subprocess.run(command, capture_output=True, text=True)
+    except OSError as error:
+        raise BadData(f"{command[0]}: {error.strerror}; give the path of sinew-bake") from None
+    if done.returncode:
+        return (done.stderr.strip().splitlines() or [f"exit code {done.returncode}"])[-1]
+    return None
 
 
-def jobs_of(plan, clips):
-    """The list of simulations, the long ones first so that they do not end alone."""
-    held_out = plan.held_out_clip or ("hop" if "hop" in clips else clips[-1] if clips else "")
-    if held_out and held_out not in clips:
+def _check_folder(folder, body):
+    """Sequences of another body are not mixed in."""
+    stamp = os.path.join(folder, STAMP)
+    if os.path.exists(stamp):
+        with open(stamp) as file:
+            same = file.read() == body.stamp()
+    else:
+        same = not os.path.isdir(folder) or not any(f.endswith(".safetensors") for f in os.listdir(folder))
+    if not same:
         raise BadData(
-            f"held-out clip '{held_out}' is not in the character; it has {', '.join(clips) or 'no clips'}"
+            f"{folder}: holds sequences of another recipe of {body.name}; delete it or give another folder"
         )
-    away = ["--hold-out", held_out] if held_out else []
-    strength = lambda i: STRENGTHS[i % len(STRENGTHS)]
-    spare = f"clip:{held_out}" if held_out else "shake"
-    jobs = [
-        Job("long", ("random", spare)[i % 2], 4000 + i, 1.0, plan.long_seconds)
-        for i in range(plan.long_sequences)
-    ]
-    jobs += [
-        Job("test", spare, i, (1.0, 0.8, 1.2)[i % 3], plan.seconds, ["--surface"])
-        for i in range(plan.test_clips)
-    ]
-    jobs += [
-        Job("test", "random", 3000 + i, strength(i), plan.seconds, ["--surface"])
-        for i in range(plan.test_random)
-    ]
-    jobs += [
-        Job("validation", "random", 2000 + i, strength(i), plan.seconds, away)
-        for i in range(plan.validation_random)
-    ]
-    jobs += [Job("train", "random", 1 + i, strength(i), plan.seconds, away) for i in range(plan.train_random)]
-    for clip in [c for c in clips if c != held_out]:
-        jobs += [
-            Job("train", f"clip:{clip}", i, (1.0, 0.7, 1.25)[i % 3], plan.seconds)
-            for i in range(plan.train_clips)
-        ]
-    if not clips:
-        jobs += [Job("train", "shake", 1 + i, strength(i), plan.seconds) for i in range(plan.train_clips)]
-    return jobs
 
 
-def _digest(*paths):
-    h = hashlib.sha256()
-    for path in filter(None, paths):
-        with open(path, "rb") as file:
-            h.update(file.read())
-    return h.hexdigest()[:16]
+def _prepare(bake, folder, body):
+    """The body's folder with everything a simulation needs."""
+    glb, recipe = os.path.join(folder, "body.glb"), os.path.join(folder, "creature.json")
+    if os.path.exists(os.path.join(folder, STAMP)) and os.path.exists(glb):
+        return
+    os.makedirs(folder, exist_ok=True)
+    _write_json(os.path.join(folder, "tissue.json"), body.tissue)
+    if body.creature:
+        _write_json(recipe, body.creature)
+        why = _run([bake, "creature", recipe, "-o", glb])
+        if why:
+            raise BadData(f"body '{body.name}' cannot be made: {why}")
+    else:
+        shutil.copyfile(body.character, f"{glb}.part")
+        os.replace(f"{glb}.part", glb)
+    with open(os.path.join(folder, STAMP), "w") as file:
+        file.write(body.stamp())
 
 
-def _is_done(path, job, plan):
-    """A finished file of this very job."""
+def _is_done(path, job):
+    """A finished file of this very job and of this version of trajectories."""
     if not os.path.exists(path):
         return False
     try:
-        have = read_trajectory(path).metadata
+        have = read_trajectory(path)
     except BadData:
         return False
-    want = {
-        "motion": job.motion,
-        "seed": job.seed,
-        "strength": job.strength,
-        "seconds": job.seconds,
-        "substeps": plan.substeps,
-    }
-    return all(str(have.get(k)) == (f"{v:g}" if isinstance(v, float) else str(v)) for k, v in want.items())
-
-
-def _simulate(bake, character, recipe, job, plan, path):
-    """None, or why there is no file."""
-    command = [
-        bake,
-        "truth",
-        character,
-        "--motion",
-        job.motion,
-        "--seed",
-        str(job.seed),
-        "--strength",
-        f"{job.strength:g}",
-        "--seconds",
-        f"{job.seconds:g}",
-        "--substeps",
-        str(plan.substeps),
-        *job.flags,
-        "-o",
-        path,
-    ]
-    done = subprocess.run(command + (["--recipe", recipe] if recipe else []), capture_output=True, text=True)
+    numbers = {"seed": job.seed, "strength": job.strength, "seconds": job.seconds, "substeps": job.substeps}
+    texts = {"motion": job.motion, "held_out": job.held_out}
     return (
-        None
-        if done.returncode == 0
-        else (done.stderr.strip().splitlines() or [f"exit code {done.returncode}"])[-1]
+        all(have.metadata.get(k) == f"{v:g}" for k, v in numbers.items())
+        and all(have.metadata.get(k, "") == v for k, v in texts.items())
+        and (not job.surface or "surface" in have.tensors)
     )
 
 
-def _prepare(out, digest):
-    """An empty folder, or one of the same character: files of another are not mixed in."""
-    os.makedirs(out, exist_ok=True)
-    stamp = os.path.join(out, "made_from")
-    if os.path.exists(stamp) and open(stamp).read() != digest:
-        raise BadData(
-            f"{out}: holds sequences of another character, recipe or sinew-bake; "
-            "delete it or give another folder"
-        )
-    with open(stamp, "w") as file:
-        file.write(digest)
+def _simulate(bake, out, job):
+    """None, or why there is no file."""
+    folder = os.path.join(out, job.body)
+    command = [bake, "truth", os.path.join(folder, "body.glb"), "-o", os.path.join(out, job.file)]
+    options = {
+        "recipe": os.path.join(folder, "tissue.json"),
+        "motion": job.motion,
+        "seed": job.seed,
+        "strength": f"{job.strength:g}",
+        "seconds": f"{job.seconds:g}",
+        "substeps": job.substeps,
+    }
+    command += [text for key, value in options.items() for text in (f"--{key}", str(value))]
+    command += ["--hold-out", job.held_out] if job.held_out else []
+    why = _run(command + (["--surface"] if job.surface else []))
+    if why is None:
+        try:
+            read_trajectory(os.path.join(out, job.file))
+        except BadData as error:
+            return str(error)
+    return why
 
 
-def _sheet(character, recipe, plan, digest, finished, failed):
-    first = read_trajectory(finished[0][1])
+class _Progress:
+    """One line on a terminal: sequences and simulated seconds done."""
+
+    def __init__(self, todo, stream):
+        self.todo, self.stream, self.done = todo, stream, []
+
+    def update(self, job):
+        self.done.append(job)
+        if self.stream.isatty():
+            seconds = [sum(j.seconds for j in jobs) for jobs in (self.done, self.todo)]
+            print(
+                f"\rtruth {len(self.done)} of {len(self.todo)} sequences, "
+                f"{seconds[0]:.0f} of {seconds[1]:.0f} s",
+                end="\n" if len(self.done) == len(self.todo) else "",
+                file=self.stream,
+                flush=True,
+            )
+
+
+def _sheet(plan, bodies, finished, failed, left):
     return {
-        "character": os.path.basename(character),
-        "recipe": os.path.basename(recipe) if recipe else None,
-        "made_from": digest,
-        "plan": vars(plan),
-        "regions": list(first.body.region_names),
-        "nodes": len(first.body.region),
-        "counts": {
-            s: sum(j.split == s for j, _ in finished) for s in ("train", "validation", "test", "long")
-        },
-        "seconds_simulated": sum(j.seconds for j, _ in finished),
+        "plan": plan,
+        "made_from": {name: body.stamp() for name, body in bodies.items()},
+        "counts": {s: sum(j.split == s for j in finished) for s in SPLITS},
+        "seconds_simulated": sum(j.seconds for j in finished),
+        "left": left,
         "failed": failed,
         "sequences": [
             {
                 "file": j.file,
+                "body": j.body,
                 "split": j.split,
                 "motion": j.motion,
                 "seed": j.seed,
                 "strength": j.strength,
                 "seconds": j.seconds,
             }
-            for j, _ in finished
+            for j in finished
         ],
     }
 
 
-def generate(bake, character, recipe, out, plan, processes=2, progress=sys.stderr):
-    """Writes the trajectories and data_sheet.json; returns the sheet."""
-    digest = _digest(character, recipe, bake)
-    _prepare(out, digest)
-    jobs = [(j, os.path.join(out, j.file)) for j in jobs_of(plan, clip_names(character))]
-    todo = [(j, p) for j, p in jobs if not _is_done(p, j, plan)]
-    failed, done = {}, 0
-    with concurrent.futures.ThreadPoolExecutor(processes) as pool:
-        running = {pool.submit(_simulate, bake, character, recipe, j, plan, p): (j, p) for j, p in todo}
-        for future in concurrent.futures.as_completed(running):
-            done += 1
-            if future.result() is not None:
-                failed[running[future][0].file] = future.result()
-            if progress.isatty():
-                print(f"\rtruth {done} of {len(todo)} sequences", end="", file=progress, flush=True)
-    if progress.isatty() and todo:
-        print(file=progress)
+def _check_failures(out, failed, jobs):
     if len(failed) > MOST_FAILURES * len(jobs):
         name, why = next(iter(failed.items()))
         raise BadData(f"{out}: {len(failed)} of {len(jobs)} simulations failed; {name}: {why}")
-    sheet = _sheet(character, recipe, plan, digest, [(j, p) for j, p in jobs if j.file not in failed], failed)
-    path = os.path.join(out, SHEET)
-    with open(f"{path}.part", "w") as file:
-        json.dump(sheet, file, indent=1)
-    os.replace(f"{path}.part", path)
-    return sheet
+
+
+def _run_all(bake, out, todo, processes, report):
+    """Calls report(job, why it failed or None) as simulations end; what waits is dropped on an interrupt."""
+    pool = concurrent.futures.ThreadPoolExecutor(processes)
+    try:
+        running = {pool.submit(_simulate, bake, out, job): job for job in todo}
+        for future in concurrent.futures.as_completed(running):
+            report(running[future], future.result())
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def generate(bake, plan_path, out, characters=None, processes=2, progress=sys.stderr):
+    """Writes the bodies, their trajectories and data_sheet.json; returns the sheet. characters: name -> path
+    of those the plan leaves open. The sheet is there, without figures, as soon as all sequences of a body's
+    split are: training can begin while the long ones run. Throws BadData: before simulating where plan or
+    bodies are unusable, during it where too many simulations failed."""
+    plan = read_plan(plan_path)
+    bodies = read_bodies(plan_path, plan, characters or {})
+    clips = {
+        n: [c["name"] for c in b.creature.get("clips", [])] if b.creature else clip_names(b.character)
+        for n, b in bodies.items()
+    }
+    jobs = jobs_of(plan_path, plan, clips)
+    for body in bodies.values():
+        _check_folder(os.path.join(out, body.name), body)
+    for body in bodies.values():
+        _prepare(bake, os.path.join(out, body.name), body)
+
+    finished = {j for j in jobs if _is_done(os.path.join(out, j.file), j)}
+    todo, failed = [j for j in jobs if j not in finished], {}
+    waiting, bar = set(todo), _Progress(todo, progress)
+
+    def write_sheet(figures):
+        ordered = [j for j in jobs if j in finished]
+        sheet = {**_sheet(plan, bodies, ordered, failed, len(waiting)), **figures}
+        _write_json(os.path.join(out, SHEET), sheet)
+        return sheet
+
+    def report(job, why):
+        waiting.discard(job)
+        bar.update(job)
+        failed.update({job.file: why} if why else {})
+        _check_failures(out, failed, jobs)
+        finished.update([] if why else [job])
+        if not any((j.body, j.split) == (job.body, job.split) for j in waiting):
+            write_sheet({})
+
+    _run_all(bake, out, todo, processes, report)
+    return write_sheet({"bodies": statistics(out, [j for j in jobs if j in finished])})
