@@ -3,6 +3,7 @@ import copy
 import hashlib
 import json
 import os
+import re
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -13,6 +14,22 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 KEYS = ("creature", "vertices", "proportions", "radii", "tissue_recipe", "tissue")
 SMALLEST, LARGEST = 0.1, 10.0  # factor of a proportion or radius
 FEWEST_VERTICES, MOST_VERTICES = 500, 50000  # of sinew-bake creature
+TISSUE_KEYS = (  # of a tissue recipe, see baker/mesh/recipe.hpp
+    "young_soft_pa",
+    "young_stiff_pa",
+    "poisson_ratio",
+    "density_kg_m3",
+    "damping_ratio",
+    "voxels_high",
+    "rigid_stiffness",
+    "core_share",
+    "coreless_joints",
+    "nodes_per_region",
+    "neighbours",
+    "unit_m",
+    "up",
+    "regions",
+)
 _MOVES = {"move_x": 0, "move_y": 1, "move_z": 2}
 
 
@@ -59,6 +76,13 @@ def known_keys(where, value, keys):
     for key in value:
         if key not in keys:
             raise BadData(f"{where}: unknown key '{key}'; it may hold {', '.join(keys)}")
+
+
+def checked_name(where, name):
+    """A body's name is a folder's too. Throws BadData."""
+    if not re.fullmatch("[A-Za-z0-9_-]+", name):
+        raise BadData(f"{where}: '{name}' is no name of a body; use letters, digits, _ and -")
+    return name
 
 
 def _turned_scale(proportions, turn_deg):
@@ -134,9 +158,12 @@ def _checked(path, body):
     if not (isinstance(proportions, list) and len(proportions) == 3 and all(map(factor, proportions))):
         raise BadData(f"{path}: proportions must be three factors from {SMALLEST:g} to {LARGEST:g}")
     if not (isinstance(radii, dict) and all(map(factor, radii.values()))):
-        raise BadData(f"{path}: radii must be factors from {SMALLEST:g} to {LARGEST:g}, by names of body parts")
+        raise BadData(f"{path}: radii must be factors from {SMALLEST:g} to {LARGEST:g}, by names of parts")
     if not is_number(body.get("vertices", FEWEST_VERTICES), FEWEST_VERTICES, MOST_VERTICES):
         raise BadData(f"{path}: vertices must be a number from {FEWEST_VERTICES} to {MOST_VERTICES}")
+    for key in ("creature", "tissue_recipe"):
+        if not isinstance(body.get(key, ""), str):
+            raise BadData(f"{path}: {key} must be a path from the repository's root")
     if "creature" not in body and set(body) & {"vertices", "proportions", "radii"}:
         raise BadData(f"{path}: only a creature can be changed; name its recipe as \"creature\"")
     return body, proportions, radii
@@ -145,29 +172,29 @@ def _checked(path, body):
 def _creature(path, name, body, proportions, radii):
     file = os.path.join(ROOT, body["creature"])
     recipe = copy.deepcopy(read_json(file))
-    parts = [p.get("name") for p in recipe.get("body", [])]
-    for part in radii:
-        if part not in parts:
-            raise BadData(f"{path}: radii: no body part '{part}'; {file} has {', '.join(filter(None, parts))}")
     try:
+        parts = [p.get("name") for p in recipe["body"]]
         recipe = thicken(stretch(recipe, proportions), radii)
     except (KeyError, TypeError, ValueError, AttributeError) as error:
         raise BadData(f"{file}: not a creature recipe ({error!r}); see assets/creature/README.md") from None
+    for part in radii:
+        if part not in parts:
+            known = ", ".join(filter(None, parts))
+            raise BadData(f"{path}: radii: no body part '{part}'; {file} has {known}")
     recipe["name"] = name
     recipe["vertices"] = body.get("vertices", recipe.get("vertices", 7000))
     return recipe
 
 
 def _tissue(path, body):
-    if not isinstance(body.get("tissue", {}), dict):
-        raise BadData(f"{path}: tissue must be an object of tissue recipe keys")
+    known_keys(f"{path}: tissue", body.get("tissue", {}), TISSUE_KEYS)
     base = read_json(os.path.join(ROOT, body["tissue_recipe"])) if "tissue_recipe" in body else {}
     return {**base, **body.get("tissue", {})}
 
 
 def read_body(path, character=None):
     """A body file; `character` is the path of a body that has no creature recipe. Throws BadData."""
-    name = os.path.splitext(os.path.basename(path))[0]
+    name = checked_name(path, os.path.splitext(os.path.basename(path))[0])
     body, proportions, radii = _checked(path, read_json(path))
     if ("creature" in body) == (character is not None):
         raise BadData(
@@ -183,5 +210,6 @@ def read_character(folder, name, path):
     """A character file, with the tissue of folder/NAME.json where there is one. Throws BadData."""
     if not os.path.isfile(path):
         raise BadData(f"--character {name}={path}: no such file")
+    checked_name("--character", name)
     beside = os.path.join(folder, f"{name}.json")
     return read_body(beside, path) if os.path.exists(beside) else Body(name, character=path)

@@ -1,5 +1,5 @@
-"""Makes a data set: runs `sinew-bake truth` over a plan of bodies and motions. Goes on where it was cut; files
-appear whole or not at all.
+"""Makes a data set: runs `sinew-bake truth` over a plan of bodies and motions. Goes on where it was cut;
+files appear whole or not at all.
 
     DATA/<body>/{body.glb,creature.json,tissue.json,made_from,<split>-<motion>-<seed>.safetensors}
     DATA/data_sheet.json

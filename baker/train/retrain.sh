@@ -1,5 +1,5 @@
 #!/bin/sh
-# retrain.sh  Makes weights as the shipped ones were made: creature, data set, two networks, the better one judged and exported.
+# retrain.sh  Makes weights as the shipped ones were made: bodies, data set, two networks, the better one judged and exported.
 #
 #   baker/train/retrain.sh [BUILD_DIR] [WORK_DIR]
 #
@@ -20,9 +20,7 @@ bake=$build/bin/sinew-bake
 "$python" -c 'import torch' 2>/dev/null || { echo "retrain.sh: $python has no PyTorch; apt-get install python3-torch" >&2; exit 2; }
 
 mkdir -p "$work"
-"$bake" creature "$root/assets/creature/creature.json" -o "$work/creature.glb"
-"$python" "$root/baker/train" generate "$work/creature.glb" --bake "$bake" --recipe "$root/assets/creature/tissue.json" \
-  --out "$work/data" --processes "${PROCESSES:-2}" ${GENERATE:-}
+"$python" "$root/baker/train" generate --plan "$root/assets/bodies/plan.json" --bake "$bake" --out "$work/data" --processes "${PROCESSES:-2}" ${GENERATE:-}
 
 runs=
 for seed in $seeds; do

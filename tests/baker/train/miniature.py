@@ -27,44 +27,31 @@ def train_step(*arguments):
         sys.exit(f"baker/train {' '.join(arguments)}: failed")
 
 
-def coarse_recipe(folder):
-    """The creature's tissue on a coarse cage and few control nodes."""
-    with open(support.ROOT / "assets/creature/tissue.json") as file:
-        recipe = json.load(file)
-    recipe.update(voxels_high=16, nodes_per_region=10)
-    path = os.path.join(folder, "tissue.json")
-    with open(path, "w") as file:
-        json.dump(recipe, file)
-    return path
+def small_plan(folder):
+    """The creature with few vertices, on a coarse cage with few control nodes, and a few seconds of motion."""
+    body = {
+        "creature": "assets/creature/creature.json",
+        "tissue_recipe": "assets/creature/tissue.json",
+        "vertices": 500,
+        "tissue": {"voxels_high": 16, "nodes_per_region": 10},
+    }
+    line = {"body": "mini", "seconds": 2, "random": 1}
+    sequences = [
+        {**line, "split": "train", "random": 3},
+        {**line, "split": "validation", "first_seed": 2000},
+        {**line, "split": "test", "random": 0, "held_out": 1, "surface": True},
+    ]
+    plan = {"substeps": 2, "held_out_clip": "hop", "sequences": sequences}
+    for name, value in (("mini", body), ("plan", plan)):
+        with open(os.path.join(folder, f"{name}.json"), "w") as file:
+            json.dump(value, file)
+    return os.path.join(folder, "plan.json")
 
 
 def main(bake):
     with tempfile.TemporaryDirectory() as folder:
         place = lambda name: os.path.join(folder, name)
-        recipe = coarse_recipe(folder)
-        run(
-            bake,
-            "creature",
-            str(support.ROOT / "assets/creature/creature.json"),
-            "--vertices",
-            "500",
-            "-o",
-            place("c.glb"),
-        )
-        amount = dict(
-            train_random=3,
-            train_clips=0,
-            validation_random=1,
-            test_random=0,
-            test_clips=1,
-            long_sequences=0,
-            substeps=2,
-            seconds=2,
-        )
-        options = [text for k, v in amount.items() for text in ("--" + k.replace("_", "-"), str(v))]
-        train_step(
-            "generate", place("c.glb"), "--bake", bake, "--recipe", recipe, "--out", place("data"), *options
-        )
+        train_step("generate", "--plan", small_plan(folder), "--bake", bake, "--out", place("data"))
         train_step(
             "train",
             place("data"),
@@ -97,9 +84,9 @@ def main(bake):
         run(
             bake,
             "character",
-            place("c.glb"),
+            place("data/mini/body.glb"),
             "--recipe",
-            recipe,
+            place("data/mini/tissue.json"),
             "--tissue",
             place("weights/mini.safetensors"),
             "-o",

@@ -1,0 +1,67 @@
+"""Stands in for `sinew-bake creature` and `sinew-bake truth` where a test is about who calls them and when:
+notes every call in the file of SINEW_PRETEND_LOG, fails for outputs and motions that SINEW_PRETEND_FAIL names."""
+import argparse
+import json
+import os
+import sys
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "baker"))
+from train.safetensors import save  # noqa: E402
+from train.trajectory import BASIS, DRIVE_WIDTH, VERSION  # noqa: E402
+
+NODES, RATE_HZ = 4, 60
+TENSORS_BEYOND = {"surface": np.zeros((1, 1, 3), np.float16)}
+
+
+def truth(a):
+    ticks = round(a.seconds * RATE_HZ)
+    t = np.arange(ticks + 1)[:, None, None] / RATE_HZ
+    shapes = dict(zip(BASIS, ((1, 2), (1, 2), (3 * NODES, 2), (3 * NODES, 2), (2, 3 * NODES))))
+    tensors = {
+        "drive": np.full((ticks + 1, NODES, DRIVE_WIDTH), a.strength),
+        "rotation": np.tile(np.eye(3).ravel(), (ticks + 1, NODES, 1)),
+        "displacement": 0.01 * a.strength * np.sin(2 * np.pi * 3 * t) * np.ones((1, NODES, 3)),
+        "node.rest_position": np.ones((NODES, 3)),
+        "node.rest_normal": np.ones((NODES, 3)),
+        "node.stiffness": np.zeros((NODES, 1)),
+        "region.radius_m": np.array([0.1]),
+        **{f"modes.0.{k}": np.full(shape, 10 * np.pi) for k, shape in shapes.items()},
+        **(TENSORS_BEYOND if a.surface else {}),
+    }
+    tensors = {k: v if v.dtype == np.float16 else v.astype(np.float32) for k, v in tensors.items()}
+    tensors["node.region"] = np.zeros(NODES, np.int32)
+    tensors["edges"] = np.array([[0, 1]], np.int32)
+    metadata = {"sinew.trajectory": VERSION, "rate_hz": RATE_HZ, "regions": "flesh", "held_out": a.hold_out}
+    for key in ("motion", "seed", "substeps"):
+        metadata[key] = getattr(a, key)
+    metadata.update(strength=f"{a.strength:.9g}", seconds=f"{a.seconds:.9g}")
+    save(a.output, tensors, metadata)
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("command")
+    parser.add_argument("input")
+    parser.add_argument("-o", dest="output")
+    for option, kind in (("seed", int), ("strength", float), ("seconds", float), ("substeps", int)):
+        parser.add_argument(f"--{option}", type=kind)
+    for option in ("recipe", "motion", "hold-out"):
+        parser.add_argument(f"--{option}", default="")
+    parser.add_argument("--surface", action="store_true")
+    a = parser.parse_args()
+    with open(os.environ["SINEW_PRETEND_LOG"], "a") as log:
+        print(a.command, a.output, file=log)
+    fails = os.environ.get("SINEW_PRETEND_FAIL", "none")
+    if fails in a.output or fails == a.motion:
+        sys.exit("sinew-bake: it is said to fail")
+    if a.command == "truth":
+        return truth(a)
+    with open(a.input) as recipe, open(a.output, "w") as out:
+        out.write(json.load(recipe)["name"])
+
+
+if __name__ == "__main__":
+    main()
