@@ -146,8 +146,11 @@ class Bodies(Folder):
     def test_recipes_that_are_not_right_are_refused_by_name(self):
         path = self.write("one.json", {**self.body, "creature": self.place("none.json")})
         self.refused(lambda: bodies.read_body(path), self.place("none.json"))
-        path = self.write("one.json", {**self.body, "creature": self.write("c.json", {"body": [5]})})
-        self.refused(lambda: bodies.read_body(path), self.place("c.json"))
+        for parts in (5, [5], [{"tube": 3}], [{"at": ["left", 0, 0]}]):
+            path = self.write("one.json", {**self.body, "creature": self.write("c.json", {"body": parts})})
+            self.refused(lambda: bodies.read_body(path), self.place("c.json"), "not a creature recipe")
+        path = self.write("one.json", {**self.body, "creature": self.write("c.json", {})})
+        self.refused(lambda: bodies.read_body(path), self.place("c.json"), "not a creature recipe")
 
     def test_a_characters_tissue_lies_beside_the_plan(self):
         file = self.write("c.glb", "any")
