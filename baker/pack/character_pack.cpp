@@ -8,6 +8,7 @@
 #include "baker/common/bad_input.hpp"
 #include "baker/mesh/node_record.hpp"
 #include "baker/pack/graph.hpp"
+#include "baker/pack/modes_pack.hpp"
 #include "baker/pack/network_pack.hpp"
 #include "baker/pack/tier_pack.hpp"
 
@@ -17,7 +18,8 @@ namespace {
 using pack::SectionKind;
 
 constexpr double kMaxClipSeconds = 600;
-constexpr float kDisplacementLimit = 0.75f;  // share of a region's radius, where the weights do not say
+constexpr float kDisplacementLimit = 0.75f;    // share of a region's radius, where the weights do not say
+constexpr float kRate_hz = 60, kSubsteps = 4;  // likewise
 
 template <class Size>
 uint32_t to_u32(Size value) {
@@ -127,7 +129,6 @@ void append_carry(const Region& region, uint32_t padded_vertices, std::vector<fl
 
 pack::RegionRecord to_record(const Region& region, float displacement_limit) {
   pack::RegionRecord record{};
-  record.frame_joint = to_u32(region.frame_joint);
   record.first_node = to_u32(region.first_node);
   record.node_count = to_u32(region.node_count);
   record.vertex_count = to_u32(region.vertices.size());
@@ -170,12 +171,17 @@ void add_graph(const GraphRows& graph, PackWriter& pack) {
 
 // ---- weights ----
 
-void check_inputs_stated(const Safetensors& weights) {
+void check_wiring(const Safetensors& weights) {
   if (!weights.metadata.contains("inputs"))
     throw BadInput(weights.path +
                    ": metadata key 'inputs' is missing (the paper's wiring), which characters cannot run in "
-                   "this version; "
-                   "use weights from baker/train");
+                   "this version; use weights from baker/train");
+  for (const auto& [key, wanted] : {std::pair{"frame", "node"}, std::pair{"base", "modal"}}) {
+    const auto found = weights.metadata.find(key);
+    if (found == weights.metadata.end() || found->second != wanted)
+      throw BadInput(weights.path + ": metadata key '" + key + "' is not '" + wanted +
+                     "': these weights were trained for another version's tissue; train again");
+  }
 }
 
 void check_joint_count(const Character& character) {
@@ -184,31 +190,54 @@ void check_joint_count(const Character& character) {
                    " joints, of which a pack holds 65535; remove joints without skin weight");
 }
 
-void add_tiers(const Safetensors& weights, uint64_t multiply_adds, size_t nodes, PackWriter& pack) {
+// A number of the weights' metadata; `fallback` also where there are no weights.
+float number_of(const Safetensors* weights, const std::string& key, float fallback, float low, float high) {
+  return weights == nullptr ? fallback : metadata_number(*weights, key, fallback, low, high);
+}
+
+void add_tiers(const Safetensors* weights, const TierWork& work, PackWriter& pack) {
   constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN(), kLargest = 1e6f;
-  const float error_mm = metadata_number(weights, "error_mm", kUnknown, 0, kLargest);
-  const float error_ratio = metadata_number(weights, "error_ratio", kUnknown, 0, kLargest);
-  pack.section(SectionKind::kTiers, make_tiers(multiply_adds, nodes, error_mm, error_ratio));
+  const float error_mm = number_of(weights, "error_mm", kUnknown, 0, kLargest);
+  const float error_ratio = number_of(weights, "error_ratio", kUnknown, 0, kLargest);
+  pack.section(SectionKind::kTiers, make_tiers(work, error_mm, error_ratio));
+}
+
+// rate_hz alone.
+std::vector<pack::LayerRecord> add_no_network(PackWriter& pack) {
+  pack::NetworkRecord record{};
+  record.model = pack::ModelKind::kNone;
+  record.rate_hz = kRate_hz;
+  pack.section(SectionKind::kNetwork, std::vector{record});
+  return {};
 }
 
 }  // namespace
 
 std::vector<std::byte> pack_character(const Character& character, const TissueLayout& layout,
-                                      const Safetensors& weights) {
-  check_inputs_stated(weights);
+                                      const std::vector<ModalBasis>& modes, const Safetensors* weights) {
+  if (weights != nullptr) check_wiring(*weights);
   check_joint_count(character);
   PackWriter pack(pack::FileKind::kCharacter);
-  const std::vector<pack::LayerRecord> layers = add_network(weights, pack);
+  const std::vector<pack::LayerRecord> layers =
+      weights != nullptr ? add_network(*weights, pack) : add_no_network(pack);
   add_record(character, layout, pack);
   add_joints(character, pack);
   add_mesh(character, pack);
   add_clips(character, pack);
-  add_regions(layout, metadata_number(weights, "displacement_limit", kDisplacementLimit, 1e-3f, 100), pack);
+  add_regions(layout, number_of(weights, "displacement_limit", kDisplacementLimit, 1e-3f, 100), pack);
   add_nodes(layout, pack);
   const GraphRows graph =
       normalized_adjacency(layout.nodes.size(), layout.edges, character.name + ": control graph");
   add_graph(graph, pack);
-  add_tiers(weights, multiply_adds(layers, layout.nodes.size(), graph.columns.size()), layout.nodes.size(),
+  const uint64_t mode_floats =
+      add_modes(layout, modes,
+                {.rate_hz = number_of(weights, "rate_hz", kRate_hz, 1, 1000),
+                 .substeps = static_cast<int>(number_of(weights, "base_substeps", kSubsteps, 1, 64))},
+                pack);
+  add_tiers(weights,
+            {.nodes = layout.nodes.size(),
+             .mode_floats = mode_floats,
+             .network_multiply_adds = multiply_adds(layers, layout.nodes.size(), graph.columns.size())},
             pack);
   return pack.finish();
 }

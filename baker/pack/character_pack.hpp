@@ -6,14 +6,21 @@
 #include "baker/common/safetensors.hpp"
 #include "baker/import/character.hpp"
 #include "baker/mesh/tissue_layout.hpp"
+#include "baker/truth/modal_basis.hpp"
 
 namespace sinew::baker {
 
 inline constexpr double kClipRateHz = 60;
-// The whole file. Beyond network_pack's keys, reads from the weights' metadata: error_mm, error_ratio (of the
-// network on held-out motion; absent: not measured). Throws BadInput: weights without `inputs`, more than
-// 65,535 joints, a clip of more than ten minutes, and what add_network refuses.
+// The whole file; `modes`: one basis a region. Without weights (null) it has the tiers modal and spring, at
+// 60 Hz. Beyond network_pack's keys, reads from the weights' metadata:
+//   frame, base          must be "node" and "modal": what the network was trained on
+//   base_substeps        of the truth that it was trained on (default 4)
+//   displacement_limit   share of a region's radius (default 0.75)
+//   error_mm, error_ratio   of the network on held-out motion; absent: not measured
+// Throws BadInput: weights without `inputs`, or of another frame or base; more than 65,535 joints, a clip of
+// more than ten minutes, a basis that does not fit its region, and what add_network refuses.
 std::vector<std::byte> pack_character(const Character& character, const TissueLayout& layout,
-                                      const Safetensors& weights);
+                                      const std::vector<ModalBasis>& modes,
+                                      const Safetensors* weights = nullptr);
 
 }  // namespace sinew::baker

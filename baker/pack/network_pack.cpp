@@ -29,15 +29,15 @@ struct InputName {
 constexpr InputName kInputNames[] = {{InputKind::kRestPosition, "rest_position", 3},
                                      {InputKind::kRestNormal, "rest_normal", 3},
                                      {InputKind::kStiffness, "stiffness", 1},
-                                     {InputKind::kLinearAcceleration, "linear_acceleration", 3},
-                                     {InputKind::kEulerAcceleration, "euler_acceleration", 3},
-                                     {InputKind::kCentrifugalAcceleration, "centrifugal_acceleration", 3},
-                                     {InputKind::kArticulationAcceleration, "articulation_acceleration", 3},
                                      {InputKind::kAngularAcceleration, "angular_acceleration", 3},
                                      {InputKind::kAngularVelocity, "angular_velocity", 3},
                                      {InputKind::kGravityChange, "gravity_change", 3},
                                      {InputKind::kDisplacement, "displacement", 3},
-                                     {InputKind::kVelocity, "velocity", 3}};
+                                     {InputKind::kVelocity, "velocity", 3},
+                                     {InputKind::kFeltStep, "felt_step", 3},
+                                     {InputKind::kBaseStep, "base_step", 3},
+                                     {InputKind::kTurn, "turn", 3},
+                                     {InputKind::kFrequency, "frequency", 1}};
 
 // ---- metadata ----
 
@@ -147,7 +147,7 @@ std::vector<pack::InputRecord> parse_inputs(const Safetensors& weights) {
 
 uint32_t total_width(const std::vector<pack::InputRecord>& inputs) {
   uint32_t width = 0;
-  for (const pack::InputRecord& input : inputs) width += find_input(input_name(input.kind))->width;
+  for (const pack::InputRecord& input : inputs) width += input_width(input.kind);
   return inputs.empty() ? kPaperInputWidth : width;
 }
 
@@ -229,7 +229,7 @@ pack::NetworkRecord make_record(const Safetensors& weights, const std::vector<ui
   record.output_leak = metadata_number(weights, "output_leak", 0, 0, 1);
   record.hidden_leak = metadata_number(weights, "hidden_leak", 0, 0, 1);
   record.state_clamp = metadata_number(weights, "state_clamp", kInfinity, kSmallest, kInfinity);
-  record.length_unit_m = metadata_number(weights, "length_unit_m", 1, kSmallest, kLargest);
+  record.length_unit = metadata_number(weights, "length_unit", 1, kSmallest, kLargest);
   return record;
 }
 
@@ -239,6 +239,11 @@ const char* input_name(InputKind kind) {
   for (const InputName& input : kInputNames)
     if (input.kind == kind) return input.name;
   return "unknown";
+}
+
+uint32_t input_width(InputKind kind) {
+  const InputName* input = find_input(input_name(kind));
+  return input != nullptr ? input->width : 0;
 }
 
 float metadata_number(const Safetensors& weights, const std::string& key, float fallback, float low,

@@ -9,13 +9,12 @@ namespace sinew::baker {
 
 // Metadata of a weights file beyond DESIGN.md section 5; absent: the paper's wiring.
 //   inputs         comma-separated names, in the order of the network's columns: rest_position rest_normal
-//                  stiffness linear_acceleration euler_acceleration centrifugal_acceleration
-//                  articulation_acceleration angular_acceleration angular_velocity gravity_change
-//                  displacement velocity
+//                  stiffness angular_acceleration angular_velocity gravity_change displacement velocity
+//                  felt_step base_step turn frequency
 //   input_scales   one number an input
 //   envelope       one number an input (scaled units); absent: unbounded
-//   output_scale output_leak hidden_leak state_clamp length_unit_m
-//   displacement_limit   share of a region's radius (default 0.75)
+//   output_scale output_leak hidden_leak state_clamp
+//   length_unit    of the output; in a character a share of each region's radius
 // Tensors: layers.{l}.W_x (F_in,4F) W_h (F,4F) W_y (F,3F) b (4F), and optionally W_s (F_in,4F).
 // Returns the layers as packed. Throws BadInput naming file, tensor or key: missing, misshaped, NaN, unknown
 // model or version, unknown input.
@@ -28,5 +27,6 @@ float metadata_number(const Safetensors& weights, const std::string& key, float 
 
 // As in `inputs` above; "unknown" for what this version does not know.
 const char* input_name(pack::InputKind kind);
+uint32_t input_width(pack::InputKind kind);  // floats a node; 0 for what this version does not know
 
 }  // namespace sinew::baker

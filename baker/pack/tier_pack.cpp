@@ -29,14 +29,22 @@ uint64_t multiply_adds(std::span<const pack::LayerRecord> layers, size_t nodes, 
   return total;
 }
 
-std::vector<pack::TierRecord> make_tiers(uint64_t network_multiply_adds, size_t nodes, float error_mm,
-                                         float error_ratio) {
-  constexpr uint64_t kExtrapolationOps = 3;  // one damped coordinate each
+std::vector<pack::TierRecord> make_tiers(const TierWork& work, float error_mm, float error_ratio) {
+  // A node's share, by count: its damped coordinates; its frame, drive and spring; its terms and warp.
+  constexpr uint64_t kExtrapolationOps = 3, kSpringOps = 250, kModalOps = 150;
+  const uint64_t spring = work.nodes * kSpringOps;
+  const uint64_t modal = spring + work.nodes * kModalOps + work.mode_floats;
   const float skinning_mm = error_ratio > 0 ? error_mm / error_ratio : kNotMeasured;
-  return {{static_cast<uint32_t>(Tier::kSkinning), 0, skinning_mm, 1},  // the ratio is 1 by definition
-          {static_cast<uint32_t>(Tier::kExtrapolate), cost_us(nodes * kExtrapolationOps), kNotMeasured,
-           kNotMeasured},
-          {static_cast<uint32_t>(Tier::kNetwork), cost_us(network_multiply_adds), error_mm, error_ratio}};
+  const auto record = [](Tier tier, uint64_t ops, float mm = kNotMeasured, float ratio = kNotMeasured) {
+    return pack::TierRecord{static_cast<uint32_t>(tier), cost_us(ops), mm, ratio};
+  };
+  std::vector<pack::TierRecord> tiers = {record(Tier::kSkinning, 0, skinning_mm, 1),  // 1 by definition
+                                         record(Tier::kExtrapolate, work.nodes * kExtrapolationOps)};
+  if (work.network_multiply_adds > 0)
+    tiers.push_back(record(Tier::kNetwork, modal + work.network_multiply_adds, error_mm, error_ratio));
+  tiers.push_back(record(Tier::kSpring, spring));
+  tiers.push_back(record(Tier::kModal, modal));
+  return tiers;
 }
 
 }  // namespace sinew::baker

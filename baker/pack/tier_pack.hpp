@@ -17,8 +17,13 @@ inline constexpr double kBakedCostFlops = 60e9;
 // counts.
 uint64_t multiply_adds(std::span<const pack::LayerRecord> layers, size_t nodes, size_t graph_entries);
 
-// Skinning, extrapolation and the network; the errors are the network's, NaN where not measured.
-std::vector<pack::TierRecord> make_tiers(uint64_t network_multiply_adds, size_t nodes, float error_mm,
-                                         float error_ratio);
+struct TierWork {
+  size_t nodes = 0;
+  uint64_t mode_floats = 0;            // of the modal bases' matrices
+  uint64_t network_multiply_adds = 0;  // 0: no network
+};
+
+// Every tier that the work allows; the errors are the network's, NaN where not measured.
+std::vector<pack::TierRecord> make_tiers(const TierWork& work, float error_mm, float error_ratio);
 
 }  // namespace sinew::baker

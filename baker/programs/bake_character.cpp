@@ -1,6 +1,8 @@
-// bake_character.cpp  sinew-bake character: a skinned character and trained weights to one .sinew file.
+// bake_character.cpp  sinew-bake character: a skinned character, its modes and trained weights to one .sinew
+// file.
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "baker/common/bad_input.hpp"
 #include "baker/common/write_file.hpp"
@@ -9,6 +11,7 @@
 #include "baker/pack/character_pack.hpp"
 #include "baker/programs/commands.hpp"
 #include "baker/programs/describe.hpp"
+#include "baker/truth/tissue_truth.hpp"
 
 namespace sinew::baker {
 namespace {
@@ -33,10 +36,14 @@ void print_summary(const CharacterOptions& options, const Character& character, 
 
 void run_character(const CharacterOptions& options) {
   const Recipe recipe = options.recipe.empty() ? Recipe{} : read_recipe(options.recipe);
-  const Safetensors weights = read_safetensors(options.tissue);
+  std::optional<Safetensors> weights;
+  if (!options.tissue.empty()) weights = read_safetensors(options.tissue);
   Character character = import_character(options, recipe);
   const TissueLayout layout = layout_tissue(character, recipe);
-  const std::vector<std::byte> bytes = pack_character(character, layout, weights);
+  const std::vector<ModalBasis> modes =
+      TissueTruth(character, layout, recipe).modal_bases(layout, kMostModes);
+  const std::vector<std::byte> bytes =
+      pack_character(character, layout, modes, weights ? &*weights : nullptr);
   const LoadedPack pack =
       LoadedPack::from_bytes(bytes, options.character);  // what the runtime would refuse is not written
   write_file(options.output, bytes);
@@ -47,10 +54,12 @@ void run_character(const CharacterOptions& options) {
 
 void add_character_command(CLI::App& app, int*) {
   auto options = std::make_shared<CharacterOptions>();
-  CLI::App* command = app.add_subcommand("character", "Packs a skinned character with its tissue network");
+  CLI::App* command =
+      app.add_subcommand("character", "Packs a skinned character with its tissue's modes and network");
   command->add_option("character", options->character, "skinned glTF or VRM")->required();
   command->add_option("--recipe", options->recipe, "JSON; see baker/mesh/recipe.hpp");
-  command->add_option("--tissue", options->tissue, "trained weights, safetensors")->required();
+  command->add_option("--tissue", options->tissue,
+                      "trained weights, safetensors; without: tiers modal and spring only");
   command->add_option("-o,--output", options->output, "C.sinew")->required();
   command->callback([options] { run_character(*options); });
 }

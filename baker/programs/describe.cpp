@@ -1,6 +1,8 @@
 // describe.cpp  What is inside a file, as JSON.
 #include "baker/programs/describe.hpp"
 
+#include <numbers>
+
 #include "baker/pack/network_pack.hpp"
 #include "baker/pack/tier_pack.hpp"
 #include "sinew/types.hpp"
@@ -11,6 +13,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json describe_network(const pack::PackView& view) {
+  if (!has_network(view))
+    return {{"model", "none"}, {"rate_hz", view.network->rate_hz}, {"inputs", Json::array()}};
   const pack::NetworkRecord& record = *view.network;
   Json channels = Json::array(), inputs = Json::array();
   size_t parameters = 0;
@@ -31,7 +35,7 @@ Json describe_network(const pack::PackView& view) {
           {"output_leak", record.output_leak},
           {"hidden_leak", record.hidden_leak},
           {"state_clamp", record.state_clamp},
-          {"length_unit_m", record.length_unit_m},
+          {"length_unit", record.length_unit},
           {"inputs", inputs}};
 }
 
@@ -49,13 +53,17 @@ Json describe_character(const pack::PackView& view) {
 
 Json describe_regions(const pack::PackView& view) {
   Json regions = Json::array();
-  for (const pack::RegionRecord& region : view.regions)
+  for (size_t r = 0; r < view.regions.size(); ++r) {
+    const pack::RegionRecord& region = view.regions[r];
+    const pack::RegionModesRecord& modes = view.region_modes[r];
     regions.push_back({{"name", string_at(view, region.name)},
-                       {"frame_joint", string_at(view, view.joints[region.frame_joint].name)},
                        {"nodes", region.node_count},
                        {"vertices", region.vertex_count},
+                       {"modes", modes.mode_count},
+                       {"first_hz", modes.first_rad_per_s / (2 * std::numbers::pi_v<float>)},
                        {"radius_m", region.radius_m},
                        {"displacement_limit_m", region.displacement_limit_m}});
+  }
   return regions;
 }
 
@@ -70,7 +78,7 @@ Json describe_clips(const pack::PackView& view) {
 }
 
 Json describe_tiers(const pack::PackView& view) {
-  constexpr const char* kNames[] = {"skinning", "extrapolate", "network"};
+  constexpr const char* kNames[] = {"skinning", "extrapolate", "network", "spring", "modal"};
   Json tiers = Json::array();
   for (const pack::TierRecord& tier : view.tiers)
     tiers.push_back({{"tier", kNames[tier.tier]},

@@ -176,7 +176,7 @@ FeedBack find_feed_back(const tissue::Network& network, pack::InputKind kind) {
   size_t column = 0;
   for (const pack::InputRecord& input : network.inputs) {
     if (input.kind == kind) return {column, &input};
-    column += input.kind == pack::InputKind::kStiffness ? 1 : kAxes;
+    column += input_width(input.kind);
   }
   return {};
 }
@@ -194,6 +194,11 @@ RollOutError roll_out_inputs(const tissue::Network& network, const Safetensors& 
       vectors
           .need("z", {static_cast<long>(stepper.steps()), static_cast<long>(nodes), static_cast<long>(width)})
           .as_f32();
+  const bool based = vectors.tensors.contains("carry");
+  const std::vector<float> carry =
+      based
+          ? vectors.need("carry", {static_cast<long>(stepper.steps()), static_cast<long>(nodes), 3}).as_f32()
+          : std::vector<float>();
   const FeedBack displacement = find_feed_back(network, pack::InputKind::kDisplacement);
   const FeedBack velocity = find_feed_back(network, pack::InputKind::kVelocity);
   std::vector<float> now = stepper.start(), before = now;
@@ -204,7 +209,7 @@ RollOutError roll_out_inputs(const tissue::Network& network, const Safetensors& 
       feed_back(displacement, k, now[k], &stepper);
       feed_back(velocity, k, now[k] - before[k], &stepper);
     }
-    before = std::exchange(now, stepper.step(t, nullptr));
+    before = std::exchange(now, stepper.step(t, based ? &carry[t * now.size()] : nullptr));
   }
   return stepper.finish();
 }

@@ -14,9 +14,9 @@ struct RollOutError {  // over every output and, where the vectors have them, fi
 
 // Vectors of the paper's wiring: edges (m,2), x (T+1,n,3), y0 (n,3), y (T,n,3), final.{l}.{h,c,y} (n,F).
 // Vectors of stated inputs: edges (m,2), z (T,n,input_width) with the columns of displacement and velocity
-// zero, y0 (n,3), y (T,n,3) in length units. Displacement of step t is y_{t-1}, velocity y_{t-1} - y_{t-2},
-// y_{-1} = y_0. A result that is not finite is an infinite error. Throws BadInput: vectors of another model,
-// wiring or shape.
+// zero, y0 (n,3), y (T,n,3) in length units, and of a network closed on the modal base carry (T,n,3), what
+// the base adds to y. Displacement of step t is y_{t-1}, velocity y_{t-1} - y_{t-2}, y_{-1} = y_0. A result
+// that is not finite is an infinite error. Throws BadInput: vectors of another model, wiring or shape.
 RollOutError roll_out(const tissue::Network& network, const Safetensors& vectors);
 
 }  // namespace sinew::baker

@@ -2,6 +2,8 @@
 #pragma once
 #include <cstdint>
 
+#include "sinew/types.hpp"
+
 namespace sinew::frame {
 
 // A running estimate that one preempted measurement cannot move far: a sample counts as at most twice and at
@@ -22,8 +24,8 @@ class CostEstimate {
   bool observed_ = false;
 };
 
-struct CostModel {    // of one asset
-  CostEstimate tick;  // network: drive, inputs, network, guard
+struct CostModel {                // of one asset
+  CostEstimate tick[kTierCount];  // by Tier; of the simulated ones: poses, drive, tissue, guard
   CostEstimate base;  // what each instance takes in a step whatever its tier: pose, extrapolation, publishing
 };
 

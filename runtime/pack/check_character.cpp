@@ -25,7 +25,7 @@ Status check_record(const PackView& pack) noexcept {
 }
 
 Status check_inputs_there(const PackView& pack) noexcept {
-  if (!pack.inputs.empty()) return {};
+  if (!has_network(pack) || !pack.inputs.empty()) return {};
   return core::make_status(
       StatusCode::kUnsupported,
       "pack: its network has the paper's wiring, which characters do not run yet; bake with weights "
@@ -50,6 +50,9 @@ Status check_counts(const PackView& pack) noexcept {
                           {"nodes", pack.nodes.size(), record.node_count},
                           {"graph rows", pack.graph_rows.size(), uint64_t{record.node_count} + 1},
                           {"graph values", pack.graph_values.size(), pack.graph_columns.size()},
+                          {"region modes", pack.region_modes.size(), record.region_count},
+                          {"compliance", pack.compliance.size(), 9 * uint64_t{record.node_count}},
+                          {"springs", pack.springs.size(), record.region_count},
                           {"clips", pack.clips.size(), record.clip_count}};
   for (const Count& count : counts)
     if (count.there != count.stated)
@@ -115,7 +118,6 @@ Status check_clips(const PackView& pack) noexcept {
 bool is_error(float value) noexcept { return std::isnan(value) || (std::isfinite(value) && value >= 0); }
 
 Status check_tiers(const PackView& pack) noexcept {
-  constexpr uint32_t kTierCount = static_cast<uint32_t>(Tier::kNetwork) + 1;
   uint32_t seen = 0, next = 0;
   for (size_t index = 0; index < pack.tiers.size(); ++index) {
     const TierRecord& record = pack.tiers[index];
@@ -128,9 +130,9 @@ Status check_tiers(const PackView& pack) noexcept {
     next = record.tier + 1;
     seen |= 1u << record.tier;
   }
-  constexpr uint32_t kNeeded =
-      1u << static_cast<uint32_t>(Tier::kSkinning) | 1u << static_cast<uint32_t>(Tier::kNetwork);
-  return (seen & kNeeded) == kNeeded ? Status{} : corrupt("tiers: skinning or network is missing");
+  constexpr uint32_t kAll = (1u << kTierCount) - 1, kNetworkBit = 1u << static_cast<uint32_t>(Tier::kNetwork);
+  const uint32_t needed = has_network(pack) ? kAll : kAll & ~kNetworkBit;
+  return seen == needed ? Status{} : corrupt("tiers: not those that the character has");
 }
 
 }  // namespace

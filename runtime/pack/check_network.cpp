@@ -13,14 +13,30 @@ constexpr uint32_t kPaperInputWidth = 9, kOutputChannels = 3;
 
 // Floats of one node's value; 0 for a kind that this version does not know.
 uint32_t input_width(InputKind kind) noexcept {
-  if (kind == InputKind::kStiffness) return 1;
-  return kind >= InputKind::kRestPosition && kind <= InputKind::kVelocity ? 3 : 0;
+  using enum InputKind;
+  if (kind == kStiffness || kind == kFrequency) return 1;
+  const bool known =
+      kind == kRestPosition || kind == kRestNormal || (kind >= kAngularAcceleration && kind <= kTurn);
+  return known ? 3 : 0;
 }
 
 bool in_unit_range(float value) noexcept { return value >= 0 && value <= 1; }
 
+// A character may have no network.
+Status check_nothing(const PackView& pack) noexcept {
+  const NetworkRecord& record = *pack.network;
+  if (pack.kind == FileKind::kModel) return corrupt("a model without a network");
+  const bool empty = record.layer_count == 0 && record.input_width == 0 && record.max_channels == 0 &&
+                     record.output_scale == 0 && record.output_leak == 0 && record.hidden_leak == 0 &&
+                     record.state_clamp == 0 && record.length_unit == 0;
+  if (!empty) return corrupt("network: fields of a network that is not there");
+  if (!pack.layers.empty() || !pack.inputs.empty() || !pack.weights.empty())
+    return corrupt("network: layers, inputs or weights of a network that is not there");
+  if (!is_positive(record.rate_hz)) return corrupt("network: rate %g Hz", double{record.rate_hz});
+  return check_zero(record.reserved, "network", 0);
+}
+
 Status check_record(const PackView& pack) noexcept {
-  if (pack.network == nullptr) return corrupt("it has no network record, or more than one");
   const NetworkRecord& record = *pack.network;
   if (record.model != ModelKind::kAltConvLstm)
     return core::make_status(StatusCode::kUnsupported,
@@ -37,8 +53,7 @@ Status check_record(const PackView& pack) noexcept {
   if (!in_unit_range(record.output_leak) || !in_unit_range(record.hidden_leak))
     return corrupt("network: a leak is outside 0..1");
   if (!(record.state_clamp > 0)) return corrupt("network: state clamp %g", double{record.state_clamp});
-  if (!is_positive(record.length_unit_m))
-    return corrupt("network: length unit %g m", double{record.length_unit_m});
+  if (!is_positive(record.length_unit)) return corrupt("network: length unit %g", double{record.length_unit});
   return check_zero(record.reserved, "network", 0);
 }
 
@@ -132,6 +147,8 @@ Status check_weights(const PackView& pack) noexcept { return check_finite(pack.w
 }  // namespace
 
 Status check_network(const PackView& pack) noexcept {
+  if (pack.network == nullptr) return corrupt("it has no network record, or more than one");
+  if (!has_network(pack)) return check_nothing(pack);
   constexpr Check kChecks[] = {check_record, check_inputs, check_layers, check_weights};
   return run_checks(kChecks, pack);
 }

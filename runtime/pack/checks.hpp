@@ -8,8 +8,9 @@ namespace sinew::pack {
 Status check_network(const PackView& pack) noexcept;    // network, layers, inputs, weights
 Status check_character(const PackView& pack) noexcept;  // joints, mesh, skin, clips, tiers
 Status check_tissue(const PackView& pack) noexcept;     // regions, nodes, graph, carry; after check_character
+Status check_modes(const PackView& pack) noexcept;  // modal bases, compliance, springs; after check_tissue
 
-// ---- shared by the three ----
+// ---- shared by the four ----
 
 constexpr uint64_t round_up_16(uint64_t value) noexcept { return (value + 15) / 16 * 16; }
 

@@ -11,11 +11,12 @@
 // the runtime trusts it.
 //
 // A pack is a *model* (kinds below 20 only: what `sinew-bake check` runs) or a *character* (all of the
-// sections; its network has inputs).
+// sections; its network, if it has one, has inputs).
 //
 // Version history. A version is never reused; a reader takes only its own and names the command that rebakes
 // the others.
 //   1  first format
+//   2  tissue lives in node frames on a modal base; tiers modal and spring; a character may have no network
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -23,7 +24,7 @@
 namespace sinew::pack {
 
 inline constexpr char kMagic[8] = {'S', 'I', 'N', 'E', 'W', 'P', 'K', '\0'};
-inline constexpr uint32_t kVersion = 1;
+inline constexpr uint32_t kVersion = 2;
 inline constexpr size_t kSectionAlignment = 64;
 inline constexpr uint32_t kNoIndex = 0xffffffffu;
 
@@ -57,7 +58,7 @@ enum class SectionKind : uint32_t {
 
   kNetwork = 10,  // NetworkRecord x 1
   kLayers = 11,   // LayerRecord x layers
-  kInputs = 12,   // InputRecord x inputs; none: the paper's wiring
+  kInputs = 12,   // InputRecord x inputs; a model without: the paper's wiring
   kWeights = 13,  // float; the layers' tensors, laid out as LayerRecord says
 
   kCharacter = 20,  // CharacterRecord x 1
@@ -76,14 +77,22 @@ enum class SectionKind : uint32_t {
   kGraphValues = 34,     // float
   kRegionVertices = 35,  // uint32: the vertices a region carries, region after region, ascending in a region
   kCarry = 36,           // float: weights from nodes to vertices, see RegionRecord
+  kRegionModes = 37,     // RegionModesRecord x regions
+  kModes = 38,           // ModeRecord x modes: of all regions, region after region
+  kModeMatrices = 39,    // float: see RegionModesRecord
 
   kClips = 40,       // ClipRecord x clips
   kClipFrames = 41,  // float[12]: character-from-joint, [frame][joint], row-major 3x4
 
+  kCompliance = 45,  // float[9] x nodes: C, row-major 3x3, s^2 (metres of displacement a felt m/s^2)
+  kSprings = 46,     // SpringRecord x regions
+
   kTiers = 50,  // TierRecord x tiers
 };
 
-enum class ModelKind : uint32_t { kAltConvLstm = 1 };
+// kNone: a character of modes and springs alone; no layers, inputs or weights, and of the record only rate_hz
+// counts, all else is zero.
+enum class ModelKind : uint32_t { kNone = 0, kAltConvLstm = 1 };
 
 // Alt-ConvLSTM (arXiv 2006.07818 Eq. 5, 9-11) with additions that training needs; each is off in the paper's
 // wiring.
@@ -94,7 +103,8 @@ enum class ModelKind : uint32_t { kAltConvLstm = 1 };
 //   y   = (1 - output_leak) y + output_scale c + carry      last layer
 //   o   = sigmoid(a_o + (P y) W_y_o)
 //   h   = o tanh(c)                               the next layer's x is c
-// carry = X_t - X_{t-1} in the paper's wiring, else 0.
+// carry = X_t - X_{t-1} in the paper's wiring. In a character the network is closed on the modal base:
+// y = l, carry = l^ - l_{t-1}, both in length units (tissue/modal_base.hpp).
 struct NetworkRecord {
   ModelKind model;
   uint32_t layer_count;   // 1..16; the last layer has 3 channels
@@ -105,7 +115,8 @@ struct NetworkRecord {
   float output_leak;      // 0..1
   float hidden_leak;      // 0..1
   float state_clamp;      // bound on |c|; infinity: none
-  float length_unit_m;    // metres in one unit of y; 1 in the paper's wiring
+  float length_unit;      // of y: in a character a share of each region's radius, else metres; 1 in the
+                          // paper's wiring
   uint32_t reserved[6];
 };
 static_assert(sizeof(NetworkRecord) == 64);
@@ -128,21 +139,22 @@ struct LayerRecord {
 };
 static_assert(sizeof(LayerRecord) == 64);
 
-// What a node may be fed, in the order of the kInputs section. Vectors lie along the region frame's axes
-// (tissue/drive.hpp).
+// What a node may be fed, in the order of the kInputs section. Vectors lie along the axes of the node's own
+// frame (tissue/node_pose.hpp, node_drive.hpp); l, l^, theta, f and phi as in tissue/modal_base.hpp; w1 is
+// first_rad_per_s of the region, a length unit length_unit x radius_m. Numbers 4 to 7 were version 1's.
 enum class InputKind : uint32_t {
-  kRestPosition = 1,              // 3: bind position less the region's centre, in region radii
-  kRestNormal = 2,                // 3: bind normal
-  kStiffness = 3,                 // 1: painted, 0 soft .. 1 rigid
-  kLinearAcceleration = 4,        // 3: -a of the frame's origin, m/s^2
-  kEulerAcceleration = 5,         // 3: -alpha x r
-  kCentrifugalAcceleration = 6,   // 3: -omega x (omega x r)
-  kArticulationAcceleration = 7,  // 3: less what skinning adds inside the frame, m/s^2
-  kAngularAcceleration = 8,       // 3: alpha, rad/s^2
-  kAngularVelocity = 9,           // 3: omega, rad/s
-  kGravityChange = 10,            // 3: gravity less gravity in the bind pose, m/s^2
-  kDisplacement = 11,             // 3: u of the last tick, length units
-  kVelocity = 12,                 // 3: u of the last tick less the one before, length units a tick
+  kRestPosition = 1,         // 3: bind position less the region's centre, in region radii
+  kRestNormal = 2,           // 3: bind normal
+  kStiffness = 3,            // 1: painted, 0 soft .. 1 rigid
+  kAngularAcceleration = 8,  // 3: of the node's frame, rad/s^2
+  kAngularVelocity = 9,      // 3: rad/s
+  kGravityChange = 10,       // 3: gravity less gravity in the bind pose, m/s^2
+  kDisplacement = 11,        // 3: l of the last tick, length units
+  kVelocity = 12,            // 3: l of the last tick less the one before, length units a tick
+  kFeltStep = 13,            // 3: (f + phi) / w1^2, length units
+  kBaseStep = 14,            // 3: l^ - l of the last tick, length units
+  kTurn = 15,                // 3: theta of the last tick, rad
+  kFrequency = 16,           // 1: w1 x tick, rad
 };
 
 struct InputRecord {
@@ -176,19 +188,17 @@ struct SkinRecord {
 };
 static_assert(sizeof(SkinRecord) == 48);
 
-// A soft part simulated as one: its nodes are one connected block of the graph, and share one rigid frame,
-// the rotation and place of the frame joint's skin matrix (posed x inverse bind) with scale taken out. In the
-// bind pose the frame's axes are the character's.
+// A soft part simulated as one: its nodes are one connected block of the graph and share one set of modes.
 struct RegionRecord {
   uint32_t name;
-  uint32_t frame_joint;
-  uint32_t first_node, node_count;      // 1..64 nodes
+  uint32_t reserved0;
+  uint32_t first_node, node_count;      // 1..4096 nodes
   uint32_t first_vertex, vertex_count;  // in kRegionVertices
   uint64_t carry;                       // float offset in kCarry of [node_count][padded_vertices]
   uint32_t padded_vertices;             // vertex_count rounded up to 16; padding is zero
   float center_m[3];                    // mean of the nodes' bind positions
   float radius_m;                       // largest distance of a node from the centre, > 0
-  float displacement_limit_m;  // guard: |u| of a node beyond this is clamped and its states reset, > 0
+  float displacement_limit_m;  // guard: |l| of a node beyond this is held and the states behind it reset, > 0
   uint32_t reserved[2];
 };
 static_assert(sizeof(RegionRecord) == 64);
@@ -202,6 +212,36 @@ struct NodeRecord {
 };
 static_assert(sizeof(NodeRecord) == 80);
 
+// A region's modal base (tissue/modal_base.hpp): q_t = a1 q_{t-1} + a2 q_{t-2} + gain force e, l = shape q.
+// At `matrices`, one after the other without gaps, each [mode_count][padded] with x y z of the region's nodes
+// in a row and zeros behind them: shape, turn (rotation vectors a unit of q), force, project (the
+// pseudo-inverse of shape: q from l).
+struct RegionModesRecord {
+  uint32_t first_mode, mode_count;  // in kModes; 0..64
+  uint64_t matrices;                // float offset in kModeMatrices
+  uint32_t padded;                  // 3 node_count rounded up to 16
+  float first_rad_per_s;            // w1, > 0; a region without modes has one too, for its length of time
+  uint32_t reserved[10];
+};
+static_assert(sizeof(RegionModesRecord) == 64);
+
+// a1, a2, gain are for a tick of rate_hz and stable: |a1| < 1 - a2, a2 > -1.
+struct ModeRecord {
+  float rad_per_s;      // w, > 0
+  float damping_ratio;  // zeta, >= 0
+  float a1, a2, gain;   // gain = (1 - a1 - a2) / w^2
+  uint32_t reserved[3];
+};
+static_assert(sizeof(ModeRecord) == 32);
+
+// The spring tier of a region: u_t = a1 u_{t-1} + a2 u_{t-2} + gain C f, the recurrence of its first mode.
+struct SpringRecord {
+  float a1, a2;  // stable, as a mode's
+  float gain;    // 1 - a1 - a2
+  uint32_t reserved;
+};
+static_assert(sizeof(SpringRecord) == 16);
+
 struct ClipRecord {
   uint32_t name;
   uint32_t first_frame, frame_count;  // frame_count >= 1; the last frame is the clip's end
@@ -211,7 +251,7 @@ struct ClipRecord {
 static_assert(sizeof(ClipRecord) == 32);
 
 struct TierRecord {
-  uint32_t tier;      // sinew::Tier, ascending, each at most once; kSkinning and kNetwork are always there
+  uint32_t tier;      // sinew::Tier, ascending, each at most once; kNetwork as the pack has one, all others
   float cost_us;      // a tick and instance on one core, its operations at 60 GFLOP/s; corrected online
   float error_mm;     // mean against ground truth on held-out motion; NaN: not measured
   float error_ratio;  // the same as a share of skinning's error; NaN: not measured

@@ -36,6 +36,11 @@ PackView view_sections(const SectionTable& table) noexcept {
           .graph_values = table.get<float>(kGraphValues),
           .region_vertices = table.get<uint32_t>(kRegionVertices),
           .carry = table.get<float>(kCarry),
+          .region_modes = table.get<RegionModesRecord>(kRegionModes),
+          .modes = table.get<ModeRecord>(kModes),
+          .mode_matrices = table.get<float>(kModeMatrices),
+          .compliance = table.get<float>(kCompliance),
+          .springs = table.get<SpringRecord>(kSprings),
           .clips = table.get<ClipRecord>(kClips),
           .clip_frames = table.get<float>(kClipFrames),
           .tiers = table.get<TierRecord>(kTiers)};
@@ -53,7 +58,8 @@ Status open_pack(std::span<const std::byte> bytes, PackView* out) noexcept {
   if (Status status = read_section_table(bytes, &table); !status.ok()) return status;
   const PackView view = view_sections(table);
   constexpr Check kModelChecks[] = {check_strings, check_network};
-  constexpr Check kCharacterChecks[] = {check_strings, check_network, check_character, check_tissue};
+  constexpr Check kCharacterChecks[] = {check_strings, check_network, check_character, check_tissue,
+                                        check_modes};
   const bool is_model = view.kind == FileKind::kModel;
   const std::span<const Check> checks = is_model ? std::span<const Check>(kModelChecks) : kCharacterChecks;
   if (Status status = run_checks(checks, view); !status.ok()) return status;

@@ -29,10 +29,17 @@ struct PackView {
   std::span<const float> graph_values;
   std::span<const uint32_t> region_vertices;
   std::span<const float> carry;
+  std::span<const RegionModesRecord> region_modes;
+  std::span<const ModeRecord> modes;
+  std::span<const float> mode_matrices;
+  std::span<const float> compliance;  // 9 a node
+  std::span<const SpringRecord> springs;
   std::span<const ClipRecord> clips;
   std::span<const float> clip_frames;  // 12 a joint and frame
   std::span<const TierRecord> tiers;
 };
+
+inline bool has_network(const PackView& pack) noexcept { return pack.network->model != ModelKind::kNone; }
 
 // Checks everything that is later trusted: magic, version, sizes, checksums, counts against each other, every
 // index, offset and string, finite numbers. O(bytes), allocates nothing. bytes must be 64-byte aligned and

@@ -37,7 +37,7 @@ Status check_magic(std::span<const std::byte> bytes) noexcept {
 Status wrong_version(const FileHeader& header) noexcept {
   const char* command = header.kind == FileKind::kModel
                             ? "sinew-bake model W.safetensors -o M.sinew"
-                            : "sinew-bake character IN.glb --tissue W.safetensors -o C.sinew";
+                            : "sinew-bake character IN.glb --recipe R.json --tissue W.safetensors -o C.sinew";
   return make_status(StatusCode::kWrongVersion,
                      "the pack has format version %u and this build reads version %u; bake it again: %s",
                      header.version, kVersion, command);

@@ -39,8 +39,13 @@ inline constexpr SectionRule kSectionRules[] = {
     {SectionKind::kGraphValues, sizeof(float), "graph values"},
     {SectionKind::kRegionVertices, sizeof(uint32_t), "region vertices"},
     {SectionKind::kCarry, sizeof(float), "carry"},
+    {SectionKind::kRegionModes, sizeof(RegionModesRecord), "region modes"},
+    {SectionKind::kModes, sizeof(ModeRecord), "modes"},
+    {SectionKind::kModeMatrices, sizeof(float), "mode matrices"},
     {SectionKind::kClips, sizeof(ClipRecord), "clips"},
     {SectionKind::kClipFrames, 12 * sizeof(float), "clip frames"},
+    {SectionKind::kCompliance, 9 * sizeof(float), "compliance"},
+    {SectionKind::kSprings, sizeof(SpringRecord), "springs"},
     {SectionKind::kTiers, sizeof(TierRecord), "tiers"},
 };
 

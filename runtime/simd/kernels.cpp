@@ -28,6 +28,7 @@
 #include "simd/product-inl.hpp"
 #include "simd/layer-inl.hpp"
 #include "simd/carry-inl.hpp"
+#include "simd/rows-inl.hpp"
 #include "simd/skin-inl.hpp"
 // clang-format on
 
@@ -40,6 +41,8 @@ constexpr Kernels kKernels = {
     .layer_cells = layer_cells,
     .layer_output = layer_output,
     .carry = carry,
+    .dot_rows = dot_rows,
+    .add_rows = add_rows,
     .skin = skin,
     .sigmoid = sigmoid,
     .tanh = tanh,

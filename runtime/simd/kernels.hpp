@@ -76,6 +76,10 @@ struct Kernels {
   // out[axis][v] = sum_n weights[n][v] displacement[n][axis]; weights [nodes][stride], out [3][stride]
   // [padded]; v < stride, a multiple of kBlock. Reads each weight once; out is overwritten.
   void (*carry)(const float* weights, uint32_t nodes, size_t stride, const float* displacement, float* out);
+  // out[k] = sum_i rows[k][i] x[i], rows [count][stride] [padded], x [stride] [padded].
+  void (*dot_rows)(const float* rows, uint32_t count, size_t stride, const float* x, float* out);
+  // out[i] = sum_k weights[k] rows[k][i], i < stride; rows and out [padded].
+  void (*add_rows)(const float* rows, uint32_t count, size_t stride, const float* weights, float* out);
   void (*skin)(const SkinJob& job);
   // Of `count` floats, any count and alignment; NaN stays NaN. Maximum errors: simd/activation-inl.hpp.
   void (*sigmoid)(const float* x, size_t count, float* out);

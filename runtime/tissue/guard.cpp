@@ -1,8 +1,11 @@
-// guard.cpp  Looks at y, brings nodes back to their limit, and forgets what pushed them there.
+// guard.cpp  Looks for what is not finite, brings nodes back to their limit, and forgets what pushed them
+// there.
 #include "tissue/guard.hpp"
 
 #include <algorithm>
 #include <cmath>
+
+#include "tissue/inputs.hpp"
 
 namespace sinew::tissue {
 namespace {
@@ -14,72 +17,89 @@ struct OutputRows {
   float* of(uint32_t node) const { return y + node * stride; }
 };
 
-OutputRows output_rows(const Network& network, uint32_t node_count, float* state) {
+OutputRows output_rows(const Network& network, uint32_t node_count, const float* state) {
   const auto last = static_cast<uint32_t>(network.layers.size() - 1);
-  return {layer_state(network, node_count, last, state).y, network.layers[last].padded};
+  return {layer_state(network, node_count, last, const_cast<float*>(state)).y, network.layers[last].padded};
 }
 
-bool all_finite(const OutputRows& rows, uint32_t node_count) {
-  float sum = 0;  // of zeros, or NaN
-  for (uint32_t node = 0; node < node_count; ++node) {
-    const float* y = rows.of(node);
-    sum += y[0] * 0 + y[1] * 0 + y[2] * 0;
-  }
-  return sum == 0;
-}
-
-void forget_node(const Network& network, uint32_t node_count, uint32_t node, float* state) {
-  for (uint32_t l = 0; l < network.layers.size(); ++l) {
-    const size_t padded = network.layers[l].padded;
-    const LayerState layer = layer_state(network, node_count, l, state);
+void forget_node(const NodeMemory& memory, uint32_t node) {
+  for (uint32_t l = 0; l < memory.network->layers.size(); ++l) {
+    const size_t padded = memory.network->layers[l].padded;
+    const LayerState layer = layer_state(*memory.network, memory.node_count, l, memory.state);
     for (float* values : {layer.h, layer.c, layer.y}) std::fill_n(values + node * padded, padded, 0.0f);
   }
 }
 
 // Length by hypot: the square of a wild displacement may overflow.
-bool hold_at_limit(float limit_m, float* u) {
-  const float length = std::hypot(u[0], u[1], u[2]);
+bool scale_to(float limit_m, float* l) {
+  const float length = std::hypot(l[0], l[1], l[2]);
   if (length <= limit_m) return false;
   const float scale = limit_m / length;
-  for (int axis = 0; axis < 3; ++axis) u[axis] *= scale;
+  for (int axis = 0; axis < 3; ++axis) l[axis] *= scale;
   return true;
+}
+
+void write_node(const OutputRows& rows, uint32_t node, float unit_m, const float* l) {
+  for (int axis = 0; axis < 3; ++axis) rows.of(node)[axis] = l[axis] / unit_m;
 }
 
 }  // namespace
 
-GuardResult guard_step(const Network& network, std::span<const pack::RegionRecord> regions,
-                       uint32_t node_count, float* state, float* displacement) noexcept {
-  GuardResult result;
-  const OutputRows rows = output_rows(network, node_count, state);
-  const float unit_m = network.record->length_unit_m;
-  result.restart =
-      !all_finite(rows, node_count) ||
-      (std::isinf(network.record->state_clamp) && !std::isfinite(largest_cell(network, node_count, state)));
-  if (result.restart) return result;
-  for (const pack::RegionRecord& region : regions) {
-    for (uint32_t node = region.first_node; node < region.first_node + region.node_count; ++node) {
-      float* u = displacement + size_t{node} * 3;
-      float* y = rows.of(node);
-      for (int axis = 0; axis < 3; ++axis) u[axis] = y[axis] * unit_m;
-      if (!hold_at_limit(region.displacement_limit_m, u)) continue;
-      ++result.displacement_clamps;
-      forget_node(network, node_count, node, state);
-      for (int axis = 0; axis < 3; ++axis) y[axis] = u[axis] / unit_m;
-    }
-  }
-  return result;
+bool all_finite(const float* values, size_t count) noexcept {
+  float sum = 0;  // of zeros, or NaN
+  for (size_t i = 0; i < count; ++i) sum += values[i] * 0;
+  return sum == 0;
 }
 
-void rebase_state(const Network& network, uint32_t node_count, const float* displacement,
-                  float* state) noexcept {
-  std::fill_n(state, state_floats(network, node_count), 0.0f);
+bool network_is_finite(const Network& network, uint32_t node_count, const float* state) noexcept {
   const OutputRows rows = output_rows(network, node_count, state);
   for (uint32_t node = 0; node < node_count; ++node) {
-    for (int axis = 0; axis < 3; ++axis) {
-      rows.of(node)[axis] =
-          displacement[size_t{node} * 3 + static_cast<size_t>(axis)] / network.record->length_unit_m;
+    if (!all_finite(rows.of(node), 3)) return false;
+  }
+  return !std::isinf(network.record->state_clamp) || std::isfinite(largest_cell(network, node_count, state));
+}
+
+uint32_t hold_at_limit(const pack::RegionRecord& region, const NodeMemory& memory, float* l,
+                       float* l_before) noexcept {
+  uint32_t held = 0;
+  for (uint32_t i = 0; i < region.node_count; ++i, l += 3, l_before += 3) {
+    if (!scale_to(region.displacement_limit_m, l)) continue;
+    ++held;
+    std::copy_n(l, 3, l_before);
+    if (memory.network == nullptr) continue;
+    const uint32_t node = region.first_node + i;
+    forget_node(memory, node);
+    write_node(output_rows(*memory.network, memory.node_count, memory.state), node,
+               length_unit_m(*memory.network, region), l);
+  }
+  return held;
+}
+
+void read_output(const Network& network, std::span<const pack::RegionRecord> regions, uint32_t node_count,
+                 const float* state, float* l) noexcept {
+  const OutputRows rows = output_rows(network, node_count, state);
+  for (const pack::RegionRecord& region : regions) {
+    const float unit_m = length_unit_m(network, region);
+    for (uint32_t node = region.first_node; node < region.first_node + region.node_count; ++node) {
+      for (int axis = 0; axis < 3; ++axis) *l++ = rows.of(node)[axis] * unit_m;
     }
   }
+}
+
+void write_output(const Network& network, std::span<const pack::RegionRecord> regions, uint32_t node_count,
+                  const float* l, float* state) noexcept {
+  const OutputRows rows = output_rows(network, node_count, state);
+  for (const pack::RegionRecord& region : regions) {
+    const float unit_m = length_unit_m(network, region);
+    for (uint32_t node = region.first_node; node < region.first_node + region.node_count; ++node, l += 3)
+      write_node(rows, node, unit_m, l);
+  }
+}
+
+void rebase_state(const Network& network, std::span<const pack::RegionRecord> regions, uint32_t node_count,
+                  const float* l, float* state) noexcept {
+  std::fill_n(state, state_floats(network, node_count), 0.0f);
+  write_output(network, regions, node_count, l, state);
 }
 
 }  // namespace sinew::tissue

@@ -1,5 +1,6 @@
-// guard.hpp  What stands between a network's output and the character, after a step.
+// guard.hpp  What stands between the tissue's numbers and the character, after a step.
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -8,22 +9,33 @@
 
 namespace sinew::tissue {
 
-struct GuardResult {
-  uint32_t displacement_clamps = 0;  // nodes held at their region's limit in this step
-  bool restart = false;              // NaN or infinity: `displacement` is not written, the state is worthless
+bool all_finite(const float* values, size_t count) noexcept;
+
+// NaN in any state reaches y of the last layer in the step it arises in, so y is what is looked at; with an
+// unbounded cell state (state_clamp infinite) every c is looked at as well.
+bool network_is_finite(const Network& network, uint32_t node_count, const float* state) noexcept;
+
+// A network's memory of nodes; none: nothing but l is held.
+struct NodeMemory {
+  const Network* network = nullptr;
+  uint32_t node_count = 0;  // of the whole character
+  float* state = nullptr;
 };
 
-// displacement ([node_count][3], metres, region axes) = y of the last layer x length unit. A node beyond its
-// region's limit is brought back to it along its own direction, in y too, and its other states in every layer
-// are set to zero: a clamp alone would leave the states behind it pushing. NaN in any state reaches y in the
-// step it arises in, so y is what is looked at; with an unbounded cell state (state_clamp infinite) every c
-// is looked at as well.
-GuardResult guard_step(const Network& network, std::span<const pack::RegionRecord> regions,
-                       uint32_t node_count, float* state, float* displacement) noexcept;
+// l beyond its region's limit is brought back along its own direction, and l_before with it, so that it has
+// no velocity: a clamp alone would leave the states behind it pushing. The node's states in every layer
+// become zero and its y what l is. l, l_before: [region nodes][3], metres. Returns the nodes held.
+uint32_t hold_at_limit(const pack::RegionRecord& region, const NodeMemory& memory, float* l,
+                       float* l_before) noexcept;
 
-// The state of a network that stands at `displacement` ([node_count][3], metres) with no memory: y of the
-// last layer is that, everything else zero. For a start, a resume after extrapolation, or a restart.
-void rebase_state(const Network& network, uint32_t node_count, const float* displacement,
-                  float* state) noexcept;
+// l ([node_count][3], metres) of y and back.
+void read_output(const Network& network, std::span<const pack::RegionRecord> regions, uint32_t node_count,
+                 const float* state, float* l) noexcept;
+void write_output(const Network& network, std::span<const pack::RegionRecord> regions, uint32_t node_count,
+                  const float* l, float* state) noexcept;
+
+// The state of a network that stands at l with no memory: y of the last layer is that, everything else zero.
+void rebase_state(const Network& network, std::span<const pack::RegionRecord> regions, uint32_t node_count,
+                  const float* l, float* state) noexcept;
 
 }  // namespace sinew::tissue

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "simd/kernels.hpp"
-#include "tissue/drive.hpp"
+#include "tissue/node_drive.hpp"
 
 namespace sinew::tissue {
 namespace {
@@ -28,15 +28,16 @@ Value rest_position(const NodeSources& sources, uint32_t node) {
           3};
 }
 
-Value in_length_units(const float* metres, const float* less, float unit_m) {
-  Value value{{}, 3};
-  for (int axis = 0; axis < 3; ++axis) value.v[axis] = (metres[axis] - (less ? less[axis] : 0)) / unit_m;
-  return value;
+Value scaled_by(float scale, const float* v) { return {{v[0] * scale, v[1] * scale, v[2] * scale}, 3}; }
+
+Value difference(float scale, const float* v, const float* less) {
+  return {{(v[0] - less[0]) * scale, (v[1] - less[1]) * scale, (v[2] - less[2]) * scale}, 3};
 }
 
 Value value_of(InputKind kind, const NodeSources& sources, uint32_t node, float unit_m) {
-  const float* drive = sources.drive + size_t{node} * kDriveWidth;
-  const float* u = sources.displacement + size_t{node} * 3;
+  const float* drive = sources.drive + size_t{node} * kNodeDriveWidth;
+  const size_t at = size_t{node} * 3;
+  const float w1 = sources.first_rad_per_s;
   switch (kind) {
     case InputKind::kRestPosition:
       return rest_position(sources, node);
@@ -44,24 +45,24 @@ Value value_of(InputKind kind, const NodeSources& sources, uint32_t node, float 
       return from_floats(sources.nodes[node].normal);
     case InputKind::kStiffness:
       return {{sources.nodes[node].stiffness}, 1};
-    case InputKind::kLinearAcceleration:
-      return from_floats(drive);
-    case InputKind::kEulerAcceleration:
-      return from_floats(drive + 3);
-    case InputKind::kCentrifugalAcceleration:
-      return from_floats(drive + 6);
-    case InputKind::kArticulationAcceleration:
-      return from_floats(drive + 9);
-    case InputKind::kAngularAcceleration:
-      return from_floats(drive + 12);
-    case InputKind::kAngularVelocity:
-      return from_floats(drive + 15);
     case InputKind::kGravityChange:
-      return from_floats(drive + 18);
+      return from_floats(drive + 3);
+    case InputKind::kAngularVelocity:
+      return from_floats(drive + 6);
+    case InputKind::kAngularAcceleration:
+      return from_floats(drive + 9);
     case InputKind::kDisplacement:
-      return in_length_units(u, nullptr, unit_m);
+      return scaled_by(1 / unit_m, sources.l + at);
     case InputKind::kVelocity:
-      return in_length_units(u, sources.displacement_before + size_t{node} * 3, unit_m);
+      return difference(1 / unit_m, sources.l + at, sources.l_before + at);
+    case InputKind::kFeltStep:
+      return scaled_by(1 / (w1 * w1 * unit_m), sources.felt + at);
+    case InputKind::kBaseStep:
+      return difference(1 / unit_m, sources.l_hat + at, sources.l + at);
+    case InputKind::kTurn:
+      return from_floats(sources.theta + at);
+    case InputKind::kFrequency:
+      return {{w1 * sources.tick_s}, 1};
   }
   return {};
 }
@@ -79,10 +80,11 @@ uint32_t put_scaled(const Value& value, const pack::InputRecord& input, float* o
 }
 
 uint32_t fill_row(const Network& network, const NodeSources& sources, uint32_t node, float* row) {
+  const float unit_m = length_unit_m(network, *sources.region);
   uint32_t clamps = 0;
   float* out = row;
   for (const pack::InputRecord& input : network.inputs) {
-    const Value value = value_of(input.kind, sources, node, network.record->length_unit_m);
+    const Value value = value_of(input.kind, sources, node, unit_m);
     clamps += put_scaled(value, input, out);
     out += value.width;
   }
@@ -94,6 +96,10 @@ uint32_t fill_row(const Network& network, const NodeSources& sources, uint32_t n
 
 size_t input_stride(const Network& network) noexcept {
   return simd::pad_to_block(network.record->input_width);
+}
+
+float length_unit_m(const Network& network, const pack::RegionRecord& region) noexcept {
+  return network.record->length_unit * region.radius_m;
 }
 
 uint32_t assemble_inputs(const Network& network, const NodeSources& sources, float* z) noexcept {

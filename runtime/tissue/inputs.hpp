@@ -14,10 +14,18 @@ size_t input_stride(const Network& network) noexcept;
 struct NodeSources {  // of one region; every array starts at the region's first node
   const pack::RegionRecord* region;
   const pack::NodeRecord* nodes;
-  const float* drive;                // [nodes][kDriveWidth], tissue/drive.hpp
-  const float* displacement;         // [nodes][3], metres: u of the last tick
-  const float* displacement_before;  // [nodes][3], metres: u of the tick before
+  const float* drive;     // [nodes][kNodeDriveWidth], tissue/node_drive.hpp
+  const float* felt;      // [nodes][3], m/s^2: f + phi, tissue/modal_base.hpp
+  const float* l;         // [nodes][3], metres, of the last tick
+  const float* l_before;  // [nodes][3], metres, of the tick before
+  const float* l_hat;     // [nodes][3], metres: what the modal base says of this tick
+  const float* theta;     // [nodes][3], rad, of the last tick
+  float first_rad_per_s;  // w1
+  float tick_s;
 };
+
+// Metres of a length unit in the region.
+float length_unit_m(const Network& network, const pack::RegionRecord& region) noexcept;
 
 // Fills z, [region nodes][input_stride], padding zero. Returns how many numbers lay outside their envelope
 // and were clamped to it; what is not finite counts too and becomes 0. network.inputs must not be empty.

@@ -1,6 +1,7 @@
 // asset.cpp  A loaded character: checked views of its pack.
 #include "world/asset.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 #include "core/status.hpp"
@@ -11,31 +12,15 @@ namespace {
 
 using core::make_status;
 
-float baked_cost_us(const pack::PackView& pack, Tier tier) noexcept {
+frame::CostModel baked_costs(const pack::PackView& pack) noexcept {
+  frame::CostModel cost;
   for (const pack::TierRecord& record : pack.tiers) {
-    if (record.tier == static_cast<uint32_t>(tier)) return record.cost_us;
+    if (record.tier == static_cast<uint32_t>(Tier::kSkinning))
+      cost.base = frame::CostEstimate(record.cost_us);
+    else
+      cost.tick[record.tier] = frame::CostEstimate(record.cost_us);
   }
-  return -1;
-}
-
-// Of one tick where the pack says nothing: multiplications at a rate any processor of the last ten years
-// reaches.
-float counted_cost_us(const Asset& asset) noexcept {
-  constexpr double kFlopPerMicrosecond = 10e3, kGates = 4, kPeepholes = 3;
-  double multiplications = 0;
-  for (const pack::LayerRecord& layer : asset.network.layers) {
-    const double rows =
-        kGates * (layer.inputs * (layer.has_self ? 2.0 : 1.0) + layer.channels) + kPeepholes * layer.channels;
-    multiplications += asset.node_count() * rows * layer.padded;
-  }
-  return static_cast<float>(2 * multiplications / kFlopPerMicrosecond);
-}
-
-frame::CostModel baked_costs(const Asset& asset) noexcept {
-  const float tick_us = baked_cost_us(asset.pack, Tier::kNetwork);
-  const float base_us = baked_cost_us(asset.pack, Tier::kSkinning);
-  return {.tick = frame::CostEstimate(tick_us > 0 ? tick_us : counted_cost_us(asset)),
-          .base = frame::CostEstimate(base_us > 0 ? base_us : 0)};
+  return cost;
 }
 
 // The section table holds every section's checksum, so its own checksum stands for the whole file.
@@ -49,11 +34,6 @@ Status check_runnable(const pack::PackView& pack) noexcept {
   if (pack.kind != pack::FileKind::kCharacter) {
     return make_status(StatusCode::kUnsupported,
                        "asset: this pack is a model without a character; bake one with sinew-bake character");
-  }
-  if (pack.inputs.empty()) {
-    return make_status(StatusCode::kUnsupported,
-                       "asset: the network lists no inputs (the paper's wiring), which only sinew-bake check "
-                       "runs; train with inputs");
   }
   return {};
 }
@@ -73,7 +53,10 @@ Status open_asset(std::span<const std::byte> bytes, Asset* out) noexcept {
   asset.fingerprint = fingerprint_of(bytes);
   asset.padded_vertices = 0;
   for (const pack::RegionRecord& region : view.regions) asset.padded_vertices += region.padded_vertices;
-  asset.cost = baked_costs(asset);
+  asset.widest_region = 0;
+  for (const pack::RegionModesRecord& modes : view.region_modes)
+    asset.widest_region = std::max(asset.widest_region, modes.padded);
+  asset.cost = baked_costs(view);
   return {};
 }
 

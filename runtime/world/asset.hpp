@@ -14,15 +14,18 @@ namespace sinew::world {
 struct Asset {
   pack::MappedFile file;  // empty when the caller keeps the bytes
   pack::PackView pack;
-  tissue::Network network;
+  tissue::Network network;  // without layers where the character has none
   tissue::Graph graph;
   double tick_s = 0;
   uint64_t fingerprint = 0;      // of all of the pack's bytes
   uint32_t padded_vertices = 0;  // carried vertices of all regions, each region padded
+  uint32_t widest_region = 0;    // floats of its nodes' x y z, padded
   uint32_t live_instances = 0;
   frame::CostModel cost;
 
   uint32_t node_count() const noexcept { return pack.character->node_count; }
+  uint32_t mode_count() const noexcept { return static_cast<uint32_t>(pack.modes.size()); }
+  Tier best() const noexcept { return pack::has_network(pack) ? Tier::kNetwork : Tier::kModal; }
   uint32_t vertex_count() const noexcept { return pack.character->vertex_count; }
 };
 

@@ -1,12 +1,14 @@
-// blend.cpp  The network's displacement, its continuation without the network, and the way between them.
+// blend.cpp  Simulated displacement, its continuation without simulation, and the way between them.
 #include "world/blend.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
+#include "frame/scheduler.hpp"
 #include "tissue/guard.hpp"
 #include "tissue/network.hpp"
+#include "world/simulate.hpp"
 
 namespace sinew::world {
 namespace {
@@ -25,35 +27,28 @@ void begin_tail(Instance& instance, float velocity_kept) noexcept {
   instance.state->tail_ticks = 0;
 }
 
-// y of the last layer is the displacement; everything else stays.
-void move_output(Instance& instance, const float* displacement) noexcept {
-  const tissue::Network& network = instance.asset->network;
-  const uint32_t nodes = instance.asset->node_count();
-  const auto last = static_cast<uint32_t>(network.layers.size() - 1);
-  float* y = tissue::layer_state(network, nodes, last, instance.network_state).y;
-  for (size_t n = 0; n < nodes; ++n) {
-    for (size_t k = 0; k < 3; ++k) {
-      y[n * network.layers[last].padded + k] = displacement[3 * n + k] / network.record->length_unit_m;
-    }
-  }
-}
-
-void begin_network(Instance& instance) noexcept {
+// From what is shown. What was not simulated for a while is blended in; from rest there is nothing to blend:
+// zero is exact.
+void begin_simulation(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
-  const bool remembered = !state.forgotten && state.ticks_since_network <= kRememberedTicks;
-  if (remembered)
-    move_output(instance, instance.shown[0]);
-  else
-    tissue::rebase_state(instance.asset->network, instance.asset->node_count(), instance.shown[0],
-                         instance.network_state);
-  state.forgotten = 0;
-  copy(instance, instance.shown[0], instance.simulated[0]);
-  copy(instance, instance.shown[1], instance.simulated[1]);
+  for (int tick = 0; tick < 2; ++tick) copy(instance, instance.shown[tick], instance.u[tick]);
   state.motion_stale = 1;
   state.clamped_ticks = 0;
-  // From rest there is nothing to blend: the network's zero is exact.
   state.blend_ticks = state.untouched ? kBlendInTicks : 0;
 }
+
+// A network that missed a moment keeps its memory, of everything but where the tissue is.
+void begin_network(Instance& instance) noexcept {
+  InstanceState& state = *instance.state;
+  const Asset& asset = *instance.asset;
+  const bool remembered = !state.forgotten && state.ticks_since_network <= kRememberedTicks;
+  const auto take_place = remembered ? tissue::write_output : tissue::rebase_state;
+  take_place(asset.network, asset.pack.regions, asset.node_count(), instance.l[0], instance.network_state);
+  state.forgotten = 0;
+  state.clamped_ticks = 0;
+}
+
+bool has_base(Tier tier) noexcept { return tier == Tier::kModal || tier == Tier::kNetwork; }
 
 // A tail may not run where the network may not go.
 void hold_at_limit(float* u, float* velocity, float limit_m) noexcept {
@@ -86,8 +81,11 @@ void advance_tail(Instance& instance) noexcept {
 
 void enter_tier(Instance& instance, Tier tier) noexcept {
   InstanceState& state = *instance.state;
+  const bool simulated = frame::is_simulated(tier), was_simulated = frame::is_simulated(state.tier);
+  if (simulated && !was_simulated) begin_simulation(instance);
+  if (!simulated && was_simulated) begin_tail(instance, 1);
+  if (has_base(tier) && !has_base(state.tier)) lift_displacement(instance);
   if (tier == Tier::kNetwork && state.tier != Tier::kNetwork) begin_network(instance);
-  if (tier != Tier::kNetwork && state.tier == Tier::kNetwork) begin_tail(instance, 1);
   if (tier == Tier::kSkinning) state.tail_ticks = std::max(state.tail_ticks, kCarryTicks);
   state.tier = tier;
 }
@@ -95,8 +93,8 @@ void enter_tier(Instance& instance, Tier tier) noexcept {
 void restart(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   begin_tail(instance, 0);
-  const size_t state_floats = tissue::state_floats(instance.asset->network, instance.asset->node_count());
-  std::memset(instance.network_state, 0, sizeof(float) * state_floats);
+  // Before they are used again they are filled anew, but zero times NaN would be shown.
+  for (float* u : instance.u) std::memset(u, 0, sizeof(float) * floats_of(instance));
   state.tail_ticks = kCarryTicks;
   state.tier = Tier::kSkinning;
   state.restarting = 1;
@@ -108,13 +106,13 @@ void restart(Instance& instance) noexcept {
 void show_tick(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   advance_tail(instance);
-  if (state.tier == Tier::kNetwork && state.blend_ticks < kBlendInTicks) ++state.blend_ticks;
-  const float network = instance.network_share();
-  const float tail = (1 - network) * instance.tail_share();
+  if (frame::is_simulated(state.tier) && state.blend_ticks < kBlendInTicks) ++state.blend_ticks;
+  const float simulated = instance.simulated_share();
+  const float tail = (1 - simulated) * instance.tail_share();
   copy(instance, instance.shown[0], instance.shown[1]);
-  if (network == 1) return copy(instance, instance.simulated[0], instance.shown[0]);
+  if (simulated == 1) return copy(instance, instance.u[0], instance.shown[0]);
   for (size_t i = 0; i < floats_of(instance); ++i) {
-    instance.shown[0][i] = network * instance.simulated[0][i] + tail * instance.tail[i];
+    instance.shown[0][i] = simulated * instance.u[0][i] + tail * instance.tail[i];
   }
 }
 

@@ -11,13 +11,14 @@
 #include "frame/scheduler.hpp"
 #include "tissue/inputs.hpp"
 #include "tissue/network.hpp"
+#include "tissue/node_drive.hpp"
 #include "world/publish.hpp"
 
 namespace sinew::world {
 namespace {
 
 static_assert(std::is_trivially_copyable_v<InstanceState>, "saved as bytes");
-static_assert(sizeof(InstanceState) == 216, "no padding: equal states are equal bytes");
+static_assert(sizeof(InstanceState) == 296, "no padding: equal states are equal bytes");
 
 float smooth_step(float t) noexcept { return t * t * (3 - 2 * t); }
 
@@ -28,10 +29,12 @@ void lay_out_state(const Asset& asset, core::Arena& arena, Instance& to) noexcep
   to.joints_before = arena.take<Matrix34>(joints);
   to.joints = arena.take<Matrix34>(joints);
   to.next_joints = arena.take<Matrix34>(joints);
-  to.motion = arena.take<tissue::RegionMotion>(asset.pack.regions.size());
-  for (float*& places : to.places) places = arena.take<float>(vectors);
+  for (tissue::NodePose*& pose : to.poses) pose = arena.take<tissue::NodePose>(asset.node_count());
   to.network_state = arena.take<float>(tissue::state_floats(asset.network, asset.node_count()));
-  for (float*& simulated : to.simulated) simulated = arena.take<float>(vectors);
+  for (float*& u : to.u) u = arena.take<float>(vectors);
+  for (float*& l : to.l) l = arena.take<float>(vectors);
+  to.theta = arena.take<float>(vectors);
+  for (float*& q : to.q) q = arena.take<float>(asset.mode_count());
   to.tail = arena.take<float>(vectors);
   to.tail_velocity = arena.take<float>(vectors);
   for (float*& shown : to.shown) shown = arena.take<float>(vectors);
@@ -45,8 +48,10 @@ void lay_out_scratch(const Asset& asset, core::Arena& arena, Instance& to) noexc
   to.parts = arena.take<JointParts>(joints);
   to.next_parts = arena.take<JointParts>(joints);
   to.tick_joints = arena.take<Matrix34>(joints);
-  to.skinned = arena.take<float>(size_t{3} * nodes);
-  to.drive = arena.take<float>(size_t{tissue::kDriveWidth} * nodes);
+  to.drive = arena.take<float>(size_t{tissue::kNodeDriveWidth} * nodes);
+  for (float** vectors : {&to.felt, &to.l_hat, &to.carry}) *vectors = arena.take<float>(size_t{3} * nodes);
+  to.q_hat = arena.take<float>(asset.mode_count());
+  for (float*& region : to.region) region = arena.take<float>(asset.widest_region);
   to.inputs = arena.take<float>(tissue::input_stride(asset.network) * nodes);
   to.network_scratch = arena.take<float>(tissue::scratch_floats(asset.network, nodes));
   to.skin = arena.take<float>(size_t{12} * joints);
@@ -62,8 +67,8 @@ void lay_out(const Asset& asset, core::Arena& arena, Instance& to) noexcept {
 
 }  // namespace
 
-float Instance::network_share() const noexcept {
-  if (state->tier != Tier::kNetwork) return 0;
+float Instance::simulated_share() const noexcept {
+  if (!frame::is_simulated(state->tier)) return 0;
   return smooth_step(static_cast<float>(state->blend_ticks) / kBlendInTicks);
 }
 
@@ -113,7 +118,8 @@ void forget_motion(Instance& instance) noexcept {
   state.restarting = 0;
   state.forgotten = 1;
   state.untouched = 1;
-  state.tier = Tier::kSkinning;  // so that the network starts anew, from zero
+  state.tier = Tier::kSkinning;  // so that simulation starts anew, from zero
+  state.fallback_ticks = 0;
   state.tail_ticks = kCarryTicks + kFadeTicks;
   state.clamped_ticks = 0;
   state.render_fraction = 0;
@@ -125,11 +131,12 @@ InstanceReport describe(const Instance& instance, InstanceId id) noexcept {
   const InstanceState& state = *instance.state;
   const float blend = instance.shown_share();
   return {.instance = id,
-          .tier = state.tier == Tier::kNetwork || blend > 0 ? state.tier : Tier::kSkinning,
+          .tier = frame::is_simulated(state.tier) || blend > 0 ? state.tier : Tier::kSkinning,
           .blend = blend,
           .ticks_since_network = state.ticks_since_network,
           .input_clamps = state.input_clamps,
           .displacement_clamps = state.displacement_clamps,
+          .fallbacks = state.fallbacks,
           .restarts = state.restarts,
           .cost_us = core::microseconds(instance.times.total_ns)};
 }

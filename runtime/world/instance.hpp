@@ -7,7 +7,7 @@
 #include "core/aligned_block.hpp"
 #include "frame/tick_clock.hpp"
 #include "sinew/types.hpp"
-#include "tissue/drive.hpp"
+#include "tissue/node_pose.hpp"
 #include "world/asset.hpp"
 #include "world/pose.hpp"
 
@@ -16,7 +16,7 @@ namespace sinew::world {
 // In ticks of the asset's rate; at 60 Hz 0.2 s, 0.3 s and 0.33 s.
 inline constexpr uint32_t kCarryTicks = 12;    // extrapolated before the fade begins
 inline constexpr uint32_t kFadeTicks = 18;     // from the extrapolated displacement to skinning
-inline constexpr uint32_t kBlendInTicks = 20;  // from that to the network, when it comes back: by then most
+inline constexpr uint32_t kBlendInTicks = 20;  // from that to simulation, when it comes back: by then most
                                                // of the swing of starting from the wrong place has died down
 // A network that missed at most so many ticks keeps its memory when it comes back; after more, its velocities
 // are of another phase of the wobble and it starts anew from where it is.
@@ -24,8 +24,9 @@ inline constexpr uint32_t kRememberedTicks = 2;
 // Share of its velocity that a tail keeps each tick. The run-out, 1 / (1 - 0.6) ticks of velocity, is about
 // the amplitude of a 4 Hz wobble.
 inline constexpr float kCarryDamping = 0.6f;
-// In a row; beyond it the state is taken for worthless and the instance restarts.
+// In a row; beyond it the network's state is taken for worthless.
 inline constexpr uint32_t kMostClampedTicks = 60;
+inline constexpr uint32_t kFallbackTicks = 60;  // on the modal base, after a network's state was given up
 
 // The part of the state that is not an array. Plain bytes: saved and restored as they are.
 struct InstanceState {
@@ -34,6 +35,7 @@ struct InstanceState {
   double remainder_s = 0;           // frame/tick_clock.hpp
   double velocity_m_s[3] = {};      // of the root over the last step, world
   double angular_velocity[3] = {};  // rad/s, character axes
+  double tick_root_m[3][3] = {};    // of the last three ticks, newest first
   float importance = 1;
   float waited_s = 0, held_s = 0;  // frame/scheduler.hpp
   float render_fraction = 0;       // remainder in ticks: how far the shown displacement is carried on
@@ -41,13 +43,14 @@ struct InstanceState {
   uint32_t has_next = 0;           // set_pose since the last step
   uint32_t at_start = 1;           // no pose yet: the first one is taken as having been held for ever
   uint32_t motion_stale = 1;       // ticks were not followed: the motion history is rebuilt before use
-  uint32_t restarting = 0;         // fading out after a guard: not for the network until faded
+  uint32_t restarting = 0;         // fading out after a guard: not simulated until faded
   uint32_t forgotten = 1;          // the network's state is no memory of this motion: a start, a guard
+  uint32_t fallback_ticks = 0;     // left until the network may be tried again
   uint32_t tail_ticks = kCarryTicks + kFadeTicks;  // since the tail began
-  uint32_t blend_ticks = 0;                        // since the network came back, at most kBlendInTicks
+  uint32_t blend_ticks = 0;                        // since simulation came back, at most kBlendInTicks
   uint32_t clamped_ticks = 0;                      // in a row
   uint32_t ticks_since_network = 0;
-  uint32_t input_clamps = 0, displacement_clamps = 0, restarts = 0;
+  uint32_t input_clamps = 0, displacement_clamps = 0, fallbacks = 0, restarts = 0;
   uint32_t untouched = 1;  // no tick since the first pose: displacement is exactly zero
 };
 
@@ -63,27 +66,27 @@ struct InstancePlan {
   Tier tier = Tier::kSkinning;
 };
 
-// Arrays are [nodes][3] in metres along the region frame's axes unless said otherwise. "Shown" is what is
-// published: shown = b network + (1 - b) tail, b rising smoothly from 0 to 1 in
-// kBlendInTicks. The tail is the
-// displacement shown when the network was last left, carried on with damped velocity and then faded to zero.
+// Arrays are [nodes][3] in metres along the axes of each node's own frame unless said otherwise; l, theta and
+// q as in tissue/modal_base.hpp, stale on springs. "Shown" is what is published: shown = b u + (1 - b) tail,
+// b rising smoothly from 0 to 1 in kBlendInTicks. The tail is the displacement shown when simulation was last
+// left, carried on with damped velocity and then faded to zero.
 struct Instance {
   core::AlignedBlock memory;
   AssetId asset_id;
   Asset* asset = nullptr;
   InstancePlan plan;
   InstanceTimes times;
-  bool cut = false, restarted = false;  // in the last step
-  bool parts_ready = false;             // in this step: the parts are filled in
-  bool displaced = false;               // published displacement is not zero everywhere
+  bool cut = false, restarted = false, fell_back = false;  // in the last step
+  bool parts_ready = false;                                // in this step: the parts are filled in
+  bool displaced = false;                                  // published displacement is not zero everywhere
 
   // State: one run of bytes from `state` on.
   InstanceState* state = nullptr;
   Matrix34 *joints_before = nullptr, *joints = nullptr, *next_joints = nullptr;  // [joints]
-  tissue::RegionMotion* motion = nullptr;                                        // [regions]
-  float* places[3] = {};  // r of the last three ticks, newest first
+  tissue::NodePose* poses[3] = {};  // [nodes] of the last three ticks, newest first
   float* network_state = nullptr;
-  float* simulated[2] = {};                         // network's displacement, newest first
+  float *u[2] = {}, *l[2] = {}, *theta = nullptr;   // newest first
+  float* q[2] = {};                                 // [modes of all regions], newest first
   float *tail = nullptr, *tail_velocity = nullptr;  // velocity a tick
   float* shown[2] = {};                             // newest first
   size_t state_bytes = 0;
@@ -92,17 +95,20 @@ struct Instance {
   JointParts *parts_before = nullptr, *parts = nullptr, *next_parts = nullptr;  // [joints]
   RootStep root_step{};
   Matrix34* tick_joints = nullptr;  // [joints]
-  float *skinned = nullptr, *drive = nullptr, *inputs = nullptr, *network_scratch = nullptr;
+  float* drive = nullptr;           // [nodes][kNodeDriveWidth]
+  float *felt = nullptr, *l_hat = nullptr, *q_hat = nullptr, *carry = nullptr;
+  float *inputs = nullptr, *network_scratch = nullptr;
+  float* region[2] = {};  // one region's x y z, padded
 
   // Published by a step, read by read_*.
   float* skin = nullptr;     // [joints][12]
-  float* delta = nullptr;    // [nodes][3], character axes
-  float* carried = nullptr;  // a region after the other [3][padded_vertices], character axes
+  float* delta = nullptr;    // [nodes][3], bind-pose axes
+  float* carried = nullptr;  // a region after the other [3][padded_vertices], bind-pose axes
   float* surface = nullptr;  // [vertices][3], scratch of read_normals
 
-  float network_share() const noexcept;  // b
-  float tail_share() const noexcept;     // 1 while carried, then falling smoothly to 0
-  float shown_share() const noexcept { return network_share() + (1 - network_share()) * tail_share(); }
+  float simulated_share() const noexcept;  // b
+  float tail_share() const noexcept;       // 1 while carried, then falling smoothly to 0
+  float shown_share() const noexcept { return simulated_share() + (1 - simulated_share()) * tail_share(); }
 };
 
 size_t instance_bytes(const Asset& asset) noexcept;

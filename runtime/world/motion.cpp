@@ -8,7 +8,6 @@
 #include <cstring>
 #include <utility>
 
-#include "simd/kernels.hpp"
 #include "world/rotation.hpp"
 
 namespace sinew::world {
@@ -17,6 +16,7 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using RowMatrix3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+using RowMatrix3f = Eigen::Matrix<float, 3, 3, Eigen::RowMajor>;
 
 // Below it, a difference of two poses over dt says more about rounding than about motion.
 constexpr double kShortestStep_s = 1e-4;
@@ -49,6 +49,15 @@ RootTransform root_leading_to_next(const Instance& instance) noexcept {
   return root;
 }
 
+void turn_poses(const RowMatrix3f& turn, uint32_t count, tissue::NodePose* poses) noexcept {
+  for (uint32_t i = 0; i < count; ++i) {
+    Eigen::Map<Eigen::Vector3f> place(poses[i].place_m);
+    Eigen::Map<RowMatrix3f> rotation(poses[i].rotation);
+    place = (turn * place).eval();
+    rotation = (turn * rotation).eval();
+  }
+}
+
 // Moves the past rigidly from state.root to `root`.
 void shift_past(Instance& instance, const RootTransform& root) noexcept {
   InstanceState& state = *instance.state;
@@ -56,14 +65,12 @@ void shift_past(Instance& instance, const RootTransform& root) noexcept {
   const RowMatrix3d turn = (rotation_of(root) * rotation_of(state.root).conjugate()).toRotationMatrix();
   Eigen::Map<Vector3d> velocity(state.velocity_m_s);
   velocity = (turn * velocity).eval();
-  for (size_t r = 0; r < instance.asset->pack.regions.size(); ++r) {
-    for (tissue::RegionFrame& frame : instance.motion[r].frame) {
-      Eigen::Map<Vector3d> place(frame.place_m);
-      Eigen::Map<RowMatrix3d> rotation(frame.rotation);
-      place = (turn * (place - from) + to).eval();
-      rotation = (turn * rotation).eval();
-    }
+  for (double* tick_root : state.tick_root_m) {
+    Eigen::Map<Vector3d> place(tick_root);
+    place = (turn * (place - from) + to).eval();
   }
+  for (tissue::NodePose* poses : instance.poses)
+    turn_poses(turn.cast<float>(), instance.asset->node_count(), poses);
   state.root = root;
 }
 
@@ -123,37 +130,19 @@ RootTransform root_at(const Instance& instance, double share) noexcept {
                       path_weights(share, instance.plan.dt_s, state.dt_before_s));
 }
 
-void skin_nodes(Instance& instance) noexcept {
-  const auto nodes = instance.asset->pack.nodes;
-  simd::kernels().skin({.points = nodes[0].position_m,
-                        .point_stride = sizeof(pack::NodeRecord),
-                        .joints = nodes[0].skin.joint,
-                        .weights = nodes[0].skin.weight,
-                        .skin_stride = sizeof(pack::NodeRecord),
-                        .matrices = instance.skin,
-                        .out = instance.skinned,
-                        .out_stride = 3 * sizeof(float),
-                        .count = static_cast<uint32_t>(nodes.size())});
-}
-
 // Shifts the history by one tick and puts the pose at `share` in front.
 void push_pose(Instance& instance, double share) noexcept {
   const pack::PackView& pack = instance.asset->pack;
-  skin_matrices(pack.joints, joints_at(instance, share), instance.skin);
-  skin_nodes(instance);
-  const RootTransform root = root_at(instance, share);
-  const size_t bytes = sizeof(float) * 3 * pack.nodes.size();
-  std::memcpy(instance.places[2], instance.places[1], bytes);
-  std::memcpy(instance.places[1], instance.places[0], bytes);
-  for (size_t r = 0; r < pack.regions.size(); ++r) {
-    const pack::RegionRecord& region = pack.regions[r];
-    const float* skin = instance.skin + size_t{12} * region.frame_joint;
-    const size_t first = size_t{3} * region.first_node;
-    tissue::push_frame(&instance.motion[r],
-                       tissue::region_frame(skin, region.center_m, root.position_m, root.rotation_xyzw));
-    tissue::region_places(skin, region.center_m, instance.skinned + first, region.node_count,
-                          instance.places[0] + first);
+  auto& roots = instance.state->tick_root_m;
+  const size_t bytes = sizeof(tissue::NodePose) * pack.nodes.size();
+  for (int back = 2; back > 0; --back) {
+    std::memcpy(instance.poses[back], instance.poses[back - 1], bytes);
+    std::copy_n(roots[back - 1], 3, roots[back]);
   }
+  const RootTransform root = root_at(instance, share);
+  skin_matrices(pack.joints, joints_at(instance, share), instance.skin);
+  tissue::pose_nodes(pack.nodes, instance.skin, root.rotation_xyzw, instance.poses[0]);
+  std::copy_n(root.position_m, 3, roots[0]);
 }
 
 }  // namespace

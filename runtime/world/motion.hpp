@@ -15,7 +15,7 @@ void take_pose(Instance& instance, float teleport_distance_m) noexcept;
 // End of a step: the pose that was set is the present one.
 void keep_pose(Instance& instance) noexcept;
 
-// Brings skin, skinned, motion and places to `time_s` after the step's start. Where ticks were not followed
+// Brings skin, poses and tick_root_m to `time_s` after the step's start. Where ticks were not followed
 // (motion_stale), the two before are first rebuilt on the line between the two poses: no acceleration, no
 // spike.
 void follow_motion(Instance& instance, double time_s) noexcept;

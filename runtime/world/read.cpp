@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -18,7 +17,6 @@ namespace {
 using core::make_status;
 using Eigen::Matrix3f;
 using Eigen::Vector3f;
-using RowMatrix34 = Eigen::Matrix<float, 3, 4, Eigen::RowMajor>;
 
 constexpr uint32_t kChunk =
     256;  // vertices worked on at a time, on the stack: 3 KB, well inside the first cache
@@ -36,9 +34,14 @@ void store(const ReadDef& def, size_t vertex, const Vector3f& value) noexcept {
   std::memcpy(vertex_at(def, vertex), value.data(), 3 * sizeof(float));
 }
 
+void bind_chunk(const Instance& instance, Chunk& chunk) noexcept {
+  const float* positions = instance.asset->pack.positions.data() + size_t{3} * chunk.first;
+  std::memcpy(chunk.points, positions, sizeof(float) * 3 * chunk.count);
+}
+
 void skin_chunk(const Instance& instance, Chunk& chunk) noexcept {
   const pack::PackView& pack = instance.asset->pack;
-  simd::kernels().skin({.points = pack.positions.data() + size_t{3} * chunk.first,
+  simd::kernels().skin({.points = chunk.points[0],
                         .point_stride = 3 * sizeof(float),
                         .joints = pack.skin[chunk.first].joint,
                         .weights = pack.skin[chunk.first].weight,
@@ -49,7 +52,7 @@ void skin_chunk(const Instance& instance, Chunk& chunk) noexcept {
                         .count = chunk.count});
 }
 
-// Adds what the regions carry to the chunk's vertices, in character axes.
+// Adds what the regions carry to the chunk's vertices, in bind-pose axes.
 void add_carried(const Instance& instance, Chunk& chunk) noexcept {
   if (!instance.displaced) return;
   const pack::PackView& pack = instance.asset->pack;
@@ -97,8 +100,9 @@ Placement placement_of(const Instance& instance, const ReadDef& def) noexcept {
 void write_places(const Instance& instance, const ReadDef& def) noexcept {
   const Placement to = placement_of(instance, def);
   for_each_chunk(instance, [&](Chunk& chunk) {
-    skin_chunk(instance, chunk);
+    bind_chunk(instance, chunk);
     add_carried(instance, chunk);
+    skin_chunk(instance, chunk);
     for (uint32_t i = 0; i < chunk.count; ++i) {
       const Vector3f point(chunk.points[i]);
       store(def, chunk.first + i, def.space == Space::kWorld ? to.rotation * point + to.offset : point);
@@ -106,36 +110,11 @@ void write_places(const Instance& instance, const ReadDef& def) noexcept {
   });
 }
 
-Matrix3f blended_matrix(const Instance& instance, uint32_t vertex) noexcept {
-  const pack::SkinRecord& skin = instance.asset->pack.skin[vertex];
-  Matrix3f blended = Matrix3f::Zero();
-  for (uint32_t k = 0; k < pack::kInfluences && skin.weight[k] > 0; ++k) {
-    const Eigen::Map<const RowMatrix34> matrix(instance.skin + size_t{12} * skin.joint[k]);
-    blended += skin.weight[k] * matrix.leftCols<3>();
-  }
-  return blended;
-}
-
-// The bind-space delta d with (sum of weighted skin matrices) d = delta; zero where that sum has no inverse
-// (an elbow folded flat).
-Vector3f bind_delta(const Instance& instance, uint32_t vertex, const Vector3f& delta) noexcept {
-  constexpr float kSingular =
-      1e-6f;  // volume of the blended matrix: a thousandth of a percent of the bind pose's
-  if (delta.isZero(0)) return delta;
-  Matrix3f inverse;
-  bool invertible = false;
-  blended_matrix(instance, vertex).computeInverseWithCheck(inverse, invertible, kSingular);
-  return invertible ? Vector3f(inverse * delta) : Vector3f::Zero();
-}
-
 void write_bind_deltas(const Instance& instance, const ReadDef& def) noexcept {
   for_each_chunk(instance, [&](Chunk& chunk) {
     std::memset(chunk.points, 0, sizeof chunk.points);
     add_carried(instance, chunk);
-    for (uint32_t i = 0; i < chunk.count; ++i) {
-      const uint32_t vertex = chunk.first + i;
-      store(def, vertex, bind_delta(instance, vertex, Vector3f(chunk.points[i])));
-    }
+    for (uint32_t i = 0; i < chunk.count; ++i) store(def, chunk.first + i, Vector3f(chunk.points[i]));
   });
 }
 

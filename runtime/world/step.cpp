@@ -33,16 +33,20 @@ Candidate plan_instance(const WorldState& world, Instance& instance, uint32_t sl
       .ticks = frame::plan_ticks(state.remainder_s, dt_s, asset.tick_s, world.def.max_ticks_per_step),
       .dt_s = dt_s};
   const uint32_t ticks = instance.plan.ticks.ticks;
-  return {.slot = slot,
-          .importance = state.importance,
-          .waited_s = state.waited_s,
-          .held_s = state.held_s,
-          .cost_us = static_cast<float>(ticks) * cost_us(world, asset.cost.tick),
-          .base_us = cost_us(world, asset.cost.base),
-          .on_network = state.tier == Tier::kNetwork,
-          .eligible = state.restarting == 0,
-          .keeps_tier = ticks == 0,
-          .tier = state.tier};
+  Candidate candidate{.slot = slot,
+                      .importance = state.importance,
+                      .waited_s = state.waited_s,
+                      .held_s = state.held_s,
+                      .base_us = cost_us(world, asset.cost.base),
+                      .best = asset.best(),
+                      .on_best = state.tier == asset.best(),
+                      .has_best = asset.best() != Tier::kNetwork || state.fallback_ticks == 0,
+                      .eligible = state.restarting == 0,
+                      .keeps_tier = ticks == 0,
+                      .tier = state.tier};
+  for (size_t tier = 0; tier < kTierCount; ++tier)
+    candidate.cost_us[tier] = static_cast<float>(ticks) * cost_us(world, asset.cost.tick[tier]);
+  return candidate;
 }
 
 std::span<Candidate> plan_instances(WorldState& world, double dt_s) noexcept {
@@ -54,7 +58,7 @@ std::span<Candidate> plan_instances(WorldState& world, double dt_s) noexcept {
   return {world.candidates.get(), count};
 }
 
-// True when the budget denied the network to an instance.
+// True when the budget denied its best tier to an instance.
 bool schedule_instances(WorldState& world, std::span<Candidate> candidates) noexcept {
   const float scale = costs_are_measured(world) ? world.capacity.scale() : 1;
   const bool denied = frame::schedule(candidates, world.budget_us * scale);
@@ -65,7 +69,10 @@ bool schedule_instances(WorldState& world, std::span<Candidate> candidates) noex
 // Work units are spent when they are planned; time is spent when the clock says so.
 float planned_us(std::span<const Candidate> candidates) noexcept {
   float sum = 0;
-  for (const Candidate& c : candidates) sum += c.base_us + (c.tier == Tier::kNetwork ? c.cost_us : 0);
+  for (const Candidate& c : candidates) {
+    const bool ticks = frame::is_simulated(c.tier) && !c.keeps_tier;
+    sum += c.base_us + (ticks ? c.cost_us[static_cast<size_t>(c.tier)] : 0);
+  }
   return sum;
 }
 
@@ -83,10 +90,10 @@ void run_one(void* argument, uint32_t index) {
 
 void age(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
-  const bool network = state.tier == Tier::kNetwork;
+  const bool seated = state.tier == instance.asset->best();
   const float dt_s = static_cast<float>(instance.plan.dt_s);
-  state.waited_s = network ? 0 : state.waited_s + dt_s;
-  state.held_s = network ? state.held_s + dt_s : 0;
+  state.waited_s = seated ? 0 : state.waited_s + dt_s;
+  state.held_s = seated ? state.held_s + dt_s : 0;
 }
 
 void correct_costs(Instance& instance) noexcept {
@@ -94,20 +101,24 @@ void correct_costs(Instance& instance) noexcept {
   const InstanceTimes& times = instance.times;
   const uint64_t ticked_ns = times.drive_ns + times.tissue_ns;
   cost.base.observe(core::microseconds(times.total_ns - ticked_ns));
-  if (instance.state->tier == Tier::kNetwork && instance.plan.ticks.ticks > 0) {
-    cost.tick.observe(core::microseconds(ticked_ns) / static_cast<float>(instance.plan.ticks.ticks));
-  }
+  const Tier tier = instance.state->tier;
+  const auto ticks = static_cast<float>(instance.plan.ticks.ticks);
+  const bool told = frame::is_simulated(tier) && tier == instance.plan.tier && ticks > 0;  // no guard fired
+  if (told) cost.tick[static_cast<size_t>(tier)].observe(core::microseconds(ticked_ns) / ticks);
 }
 
 void relax_costs(WorldState& world) noexcept {
   for (uint32_t slot = 0; slot < world.assets.end(); ++slot) {
-    if (Asset* asset = world.assets.at(slot)) asset->cost.tick.relax();
+    if (Asset* asset = world.assets.at(slot))
+      std::ranges::for_each(asset->cost.tick, &frame::CostEstimate::relax);
   }
 }
 
 void count_tier(const Instance& instance, FrameReport& report) noexcept {
   const Tier tier = describe(instance, {}).tier;
   report.instances_network += tier == Tier::kNetwork;
+  report.instances_modal += tier == Tier::kModal;
+  report.instances_spring += tier == Tier::kSpring;
   report.instances_extrapolated += tier == Tier::kExtrapolate;
   report.instances_skinned += tier == Tier::kSkinning;
 }
@@ -121,6 +132,7 @@ void add_to_report(const Instance& instance, FrameReport& report) noexcept {
   report.publish_us += core::microseconds(instance.times.publish_ns);
   report.instances_cut += instance.cut;
   report.restarts += instance.restarted;
+  report.fallbacks += instance.fell_back;
   count_tier(instance, report);
 }
 

@@ -8,7 +8,7 @@ namespace sinew::world {
 
 struct TickContext {
   ClockHook clock;
-  uint64_t deadline_ns = UINT64_MAX;  // a network task that would begin later is cut: extrapolated instead
+  uint64_t deadline_ns = UINT64_MAX;  // a simulated task that would begin later is cut: extrapolated instead
   float teleport_distance_m = 2;
 };
 

@@ -19,10 +19,12 @@ struct TierLook {
   RgbBytes ink;  // of its line in the picture
 };
 
-// The network's instances keep their own colours.
+// By Tier. The network's instances keep their own colours.
 constexpr TierLook kLooks[] = {{"skinning", {128, 138, 152}, 0.75f, {96, 104, 118}},
                                {"extrapolated", {236, 190, 60}, 0.6f, {150, 104, 0}},
-                               {"network", {0, 0, 0}, 0, {38, 44, 54}}};
+                               {"network", {0, 0, 0}, 0, {38, 44, 54}},
+                               {"spring", {196, 84, 40}, 0.5f, {150, 60, 24}},
+                               {"modal", {44, 111, 187}, 0.45f, {24, 84, 150}}};
 
 const TierLook& look_of(Tier tier) { return kLooks[static_cast<size_t>(tier)]; }
 
@@ -45,7 +47,7 @@ void draw_counts(render::Image& image, const Run& run, const Options& options) {
     title += ", " + std::to_string(std::lround(options.budget_us)) + " us a frame";
   render::draw_text(image, 18, 34, title, {.size_px = 16, .weight = 1.4f});
   int line = 0;
-  for (const Tier tier : {Tier::kNetwork, Tier::kExtrapolate, Tier::kSkinning}) {
+  for (const Tier tier : {Tier::kNetwork, Tier::kModal, Tier::kSpring, Tier::kExtrapolate, Tier::kSkinning}) {
     size_t count = 0;
     for (const CrowdMember& member : run.crowd) count += member.tier == tier;
     const TierLook& look = look_of(tier);

@@ -31,6 +31,8 @@ double rate_of(const baker::Safetensors& file) {
         file.path +
         ": is not a trajectory; make one with: sinew-bake truth IN.glb --positions -o T.safetensors");
   }
+  if (file.metadata.at("sinew.trajectory") != "2")
+    throw baker::BadInput(file.path + ": is a trajectory of another version; simulate it again");
   const auto rate = file.metadata.find("rate_hz");
   const double rate_hz = rate == file.metadata.end() ? 0 : std::strtod(rate->second.c_str(), nullptr);
   if (!(rate_hz > 0 && rate_hz < 1e5))

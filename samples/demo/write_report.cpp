@@ -51,7 +51,8 @@ Json summary_json(const Summary& s, bool truth) {
 }
 
 const char* name_of(Tier tier) {
-  return tier == Tier::kNetwork ? "network" : tier == Tier::kExtrapolate ? "extrapolated" : "skinning";
+  constexpr const char* kNames[kTierCount] = {"skinning", "extrapolated", "network", "spring", "modal"};
+  return kNames[static_cast<size_t>(tier)];
 }
 
 Json frame_json(const FrameRecord& frame, bool truth) {
@@ -67,6 +68,8 @@ Json frame_json(const FrameRecord& frame, bool truth) {
               {"poses_us", frame.poses_us},
               {"read_us", frame.read_us},
               {"network", r.instances_network},
+              {"modal", r.instances_modal},
+              {"spring", r.instances_spring},
               {"extrapolated", r.instances_extrapolated},
               {"skinning", r.instances_skinned},
               {"cut", r.instances_cut},

@@ -24,7 +24,7 @@ BAKER = {
     "creature": set(),
     "mesh": {"import"},
     "truth": {"import", "mesh"},
-    "pack": {"import", "mesh"},
+    "pack": {"import", "mesh", "truth"},
     "programs": {"import", "mesh", "truth", "pack", "creature"},
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)

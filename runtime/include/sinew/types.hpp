@@ -87,23 +87,29 @@ struct InstanceDef {
   RootTransform root = {};  // where it enters, in its bind pose, at rest; refused as in a pose
 };
 
-// What an instance got in a frame. Values are baked into packs: never renumbered.
+// What an instance got in a frame. In rising quality: skinning, extrapolate, spring, modal, network; the last
+// three are simulated. Values are baked into packs: never renumbered.
 enum class Tier : uint32_t {
   kSkinning = 0,     // displacement is zero, or fading to it (18 ticks, 0.3 s at 60 Hz)
   kExtrapolate = 1,  // the last displacement carried on with damped velocity (12 ticks), then faded
-  kNetwork = 2,      // the asset's network; blended in over 20 ticks when it comes back
+  kNetwork = 2,      // the modal base, corrected by the asset's network
+  kSpring = 3,       // a damped spring at each control node
+  kModal = 4,        // the modes of each soft part, from its flesh: no training
 };
+inline constexpr uint32_t kTierCount = 5;
 
 struct InstanceReport {
   InstanceId instance = {};
   Tier tier = Tier::kSkinning;
   float blend = 0;                   // 0..1, weight of the simulated displacement in what is read back
-  uint32_t ticks_since_network = 0;  // 0: its last tick was the network's
+  uint32_t ticks_since_network = 0;  // 0: its last tick was the network's; counts on where the asset has none
   // Counters since creation.
   uint32_t input_clamps = 0;         // network inputs outside the baked envelope
   uint32_t displacement_clamps = 0;  // nodes held at the baked displacement bound
-  // The state was given up, faded to skinning and restarted: NaN or infinity in it, or nodes held at their
-  // bound in more than 60 ticks in a row.
+  // The network's state was given up: NaN or infinity in it, or nodes held at their bound in more than 60
+  // ticks in a row. The modal base takes over for 60 ticks, then the network starts anew.
+  uint32_t fallbacks = 0;
+  // All state was given up, faded to skinning and restarted: NaN or infinity in the base under the network.
   uint32_t restarts = 0;
   float cost_us = 0;  // what this instance took in the last step, on its thread
 };
@@ -115,24 +121,25 @@ struct FrameReport {
   float dropped_s = 0;  // time beyond max_ticks_per_step, not simulated; the most of any instance
   float budget_us = 0;  // as set; infinity: no limit
   float total_us = 0;   // the whole step
-  // Stages: choosing tiers; poses, skinned nodes and network inputs; network and guards; displacement brought
-  // to the render time and the surface. The last three are summed over the instances: on several threads they
-  // may exceed total_us.
+  // Stages: choosing tiers; poses, node frames and drive; modes, springs, network and guards; displacement
+  // brought to the render time and the surface. The last three are summed over the instances: on several
+  // threads they may exceed total_us.
   float schedule_us = 0, drive_us = 0, tissue_us = 0, publish_us = 0;
   // Each instance once; one whose extrapolation has faded away counts as skinned.
-  uint32_t instances_network = 0, instances_extrapolated = 0, instances_skinned = 0;
-  uint32_t instances_cut = 0;  // scheduled for the network, but the deadline came first: extrapolated instead
-  uint32_t restarts = 0;       // instances restarted in this frame
-  uint32_t rejected_poses = 0;  // set_pose calls refused since the last step
-  bool over_budget = false;     // kTime: total_us > budget_us; kWorkUnits: the baked cost of what ran is
+  uint32_t instances_network = 0, instances_modal = 0, instances_spring = 0, instances_extrapolated = 0,
+           instances_skinned = 0;
+  uint32_t instances_cut = 0;            // to be simulated, but the deadline came first: extrapolated instead
+  uint32_t restarts = 0, fallbacks = 0;  // instances in this frame
+  uint32_t rejected_poses = 0;           // set_pose calls refused since the last step
+  bool over_budget = false;  // kTime: total_us > budget_us; kWorkUnits: the baked cost of what ran is
 };
 
 // Where positions are written and in which space.
 enum class Space : uint32_t {
   kCharacter = 0,  // the pose's character space
   kWorld = 1,      // root applied, relative to origin_m below
-  // Bind-space displacement (a delta, not a place): add it to the bind position before GPU skinning. Zero
-  // where nothing is carried, and where the vertex's blended skin matrix has no inverse.
+  // Bind-space displacement (a delta, not a place): add it to the bind position before GPU skinning, and the
+  // result is kCharacter's. Zero where nothing is carried.
   kBind = 2,
 };
 

@@ -1,0 +1,123 @@
+// modes_pack.cpp  Modal bases to the sections that the tiers modal and spring run on.
+#include "baker/pack/modes_pack.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <cmath>
+
+#include "baker/common/bad_input.hpp"
+
+namespace sinew::baker {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using pack::SectionKind;
+
+// Of a region without modes: the length of time that its inputs are told in; nothing of it moves.
+constexpr double kUsual_rad_per_s = 2 * M_PI * 4, kUsualDampingRatio = 0.1;
+
+void check_basis(const Region& region, const ModalBasis& basis) {
+  const Index rows = 3 * region.node_count, modes = basis.rad_per_s.size();
+  const bool fits = basis.damping_ratio.size() == modes && basis.shape.rows() == rows &&
+                    basis.shape.cols() == modes && basis.turn.rows() == rows && basis.turn.cols() == modes &&
+                    basis.force.rows() == modes && basis.force.cols() == rows;
+  if (!fits || modes > kMostModes)
+    throw BadInput("region '" + region.name + "': a modal basis of another shape, or of more than " +
+                   std::to_string(kMostModes) + " modes");
+  const bool good = basis.shape.allFinite() && basis.turn.allFinite() && basis.force.allFinite() &&
+                    (basis.rad_per_s.array() > 0).all() && basis.rad_per_s.allFinite() &&
+                    (basis.damping_ratio.array() >= 0).all() && basis.damping_ratio.allFinite();
+  if (!good)
+    throw BadInput("region '" + region.name +
+                   "': its modes hold numbers that are not finite; is the mesh damaged there?");
+}
+
+// Rows of one mode each, padded.
+void append_rows(const MatrixXd& rows, uint32_t padded, std::vector<float>* out) {
+  for (Index k = 0; k < rows.rows(); ++k) {
+    for (Index i = 0; i < rows.cols(); ++i) out->push_back(static_cast<float>(rows(k, i)));
+    out->resize(out->size() + padded - static_cast<size_t>(rows.cols()), 0.0f);
+  }
+}
+
+void append_matrices(const ModalBasis& basis, uint32_t padded, std::vector<float>* out) {
+  if (basis.rad_per_s.size() == 0) return;
+  append_rows(basis.shape.transpose(), padded, out);
+  append_rows(basis.turn.transpose(), padded, out);
+  append_rows(basis.force, padded, out);
+  append_rows(basis.shape.completeOrthogonalDecomposition().pseudoInverse(), padded, out);
+}
+
+// C_i: the static displacement of each node under a uniform felt acceleration, row-major 3x3.
+void append_compliance(const ModalBasis& basis, int nodes, std::vector<float>* out) {
+  MatrixXd uniform = MatrixXd::Zero(basis.force.rows(), 3);
+  for (int n = 0; n < nodes; ++n) uniform += basis.force.middleCols(3 * n, 3);
+  const MatrixXd compliance = basis.shape * basis.rad_per_s.cwiseAbs2().cwiseInverse().asDiagonal() * uniform;
+  for (Index row = 0; row < 3 * nodes; ++row)
+    for (Index column = 0; column < 3; ++column) out->push_back(static_cast<float>(compliance(row, column)));
+}
+
+pack::ModeRecord mode_record(double rad_per_s, double damping_ratio, const TickGrid& grid) {
+  const Recurrence r = modal_recurrence(rad_per_s, damping_ratio, grid);
+  return {static_cast<float>(rad_per_s), static_cast<float>(damping_ratio), r.a1, r.a2, r.gain, {}};
+}
+
+struct Sections {
+  std::vector<pack::RegionModesRecord> regions;
+  std::vector<pack::ModeRecord> modes;
+  std::vector<float> matrices, compliance;
+  std::vector<pack::SpringRecord> springs;
+};
+
+void append_region(const Region& region, const ModalBasis& basis, const TickGrid& grid, Sections* to) {
+  check_basis(region, basis);
+  const bool moves = basis.rad_per_s.size() > 0;
+  const double first = moves ? basis.rad_per_s[0] : kUsual_rad_per_s;
+  pack::RegionModesRecord record{};
+  record.first_mode = static_cast<uint32_t>(to->modes.size());
+  record.mode_count = static_cast<uint32_t>(basis.rad_per_s.size());
+  record.matrices = to->matrices.size();
+  record.padded = static_cast<uint32_t>((3 * region.node_count + 15) / 16 * 16);
+  record.first_rad_per_s = static_cast<float>(first);
+  to->regions.push_back(record);
+  for (Index k = 0; k < basis.rad_per_s.size(); ++k)
+    to->modes.push_back(mode_record(basis.rad_per_s[k], basis.damping_ratio[k], grid));
+  append_matrices(basis, record.padded, &to->matrices);
+  append_compliance(basis, region.node_count, &to->compliance);
+  const Recurrence spring =
+      modal_recurrence(first, moves ? basis.damping_ratio[0] : kUsualDampingRatio, grid);
+  to->springs.push_back({spring.a1, spring.a2, 1 - spring.a1 - spring.a2, 0});
+}
+
+}  // namespace
+
+Recurrence modal_recurrence(double rad_per_s, double damping_ratio, const TickGrid& grid) {
+  const double h = 1 / (grid.rate_hz * grid.substeps), w2 = rad_per_s * rad_per_s;
+  const double d = 1 + 2 * damping_ratio * rad_per_s * h + w2 * h * h;
+  Eigen::Matrix2d substep, tick = Eigen::Matrix2d::Identity();
+  substep << 1 - h * h * w2 / d, h / d, -h * w2 / d, 1 / d;
+  for (int s = 0; s < grid.substeps; ++s) tick = substep * tick;
+  Recurrence r;
+  r.a1 = static_cast<float>(tick.trace());
+  r.a2 = static_cast<float>(-tick.determinant());
+  r.gain = static_cast<float>((1 - double{r.a1} - double{r.a2}) / w2);
+  return r;
+}
+
+uint64_t add_modes(const TissueLayout& layout, const std::vector<ModalBasis>& modes, const TickGrid& grid,
+                   PackWriter& pack) {
+  if (modes.size() != layout.regions.size())
+    throw BadInput("modal bases: " + std::to_string(modes.size()) + " for " +
+                   std::to_string(layout.regions.size()) + " regions");
+  Sections sections;
+  for (size_t r = 0; r < modes.size(); ++r) append_region(layout.regions[r], modes[r], grid, &sections);
+  pack.section(SectionKind::kRegionModes, sections.regions);
+  pack.section(SectionKind::kModes, sections.modes);
+  pack.section(SectionKind::kModeMatrices, sections.matrices);
+  pack.section(SectionKind::kCompliance, sections.compliance, 9);
+  pack.section(SectionKind::kSprings, sections.springs);
+  return sections.matrices.size();
+}
+
+}  // namespace sinew::baker

@@ -1,0 +1,90 @@
+// check_modes.cpp  Modal bases, compliances and springs agree with the regions, and none of them can grow.
+#include <algorithm>
+#include <cmath>
+
+#include "pack/checks.hpp"
+
+namespace sinew::pack {
+namespace {
+
+constexpr uint32_t kMaxModes = 64;  // a region's
+constexpr uint64_t kMatrices = 4;   // shape, turn, force, project
+
+// Both roots of z^2 = a1 z + a2 lie inside the unit circle (Jury). False for NaN.
+bool is_stable(float a1, float a2) noexcept { return a2 > -1 && std::fabs(a1) < 1 - a2; }
+
+Status check_mode(const ModeRecord& mode, size_t index) noexcept {
+  if (!is_positive(mode.rad_per_s)) return corrupt("mode %zu: %g rad/s", index, double{mode.rad_per_s});
+  if (!std::isfinite(mode.damping_ratio) || mode.damping_ratio < 0)
+    return corrupt("mode %zu: damping ratio %g", index, double{mode.damping_ratio});
+  if (!is_stable(mode.a1, mode.a2))
+    return corrupt("mode %zu: its recurrence %g, %g grows", index, double{mode.a1}, double{mode.a2});
+  if (!std::isfinite(mode.gain)) return corrupt("mode %zu: gain is not finite", index);
+  return check_zero(mode.reserved, "mode", index);
+}
+
+Status check_record(const PackView& pack, const RegionModesRecord& modes, size_t index) noexcept {
+  if (modes.mode_count > kMaxModes)
+    return corrupt("region modes %zu: %u modes, outside 0..64", index, modes.mode_count);
+  if (modes.padded != round_up_16(uint64_t{3} * pack.regions[index].node_count))
+    return corrupt("region modes %zu: nodes padded to %u", index, modes.padded);
+  if (!is_positive(modes.first_rad_per_s))
+    return corrupt("region modes %zu: first mode at %g rad/s", index, double{modes.first_rad_per_s});
+  return check_zero(modes.reserved, "region modes", index);
+}
+
+Status check_matrices(const PackView& pack, const RegionModesRecord& modes, size_t index) noexcept {
+  const size_t used = size_t{3} * pack.regions[index].node_count;
+  for (uint64_t row = 0; row < kMatrices * modes.mode_count; ++row) {
+    const auto values = pack.mode_matrices.subspan(modes.matrices + row * modes.padded, modes.padded);
+    if (first_not_finite(values) != values.size())
+      return corrupt("region modes %zu: a number of a matrix is not finite", index);
+    if (std::ranges::any_of(values.subspan(used), [](float v) { return v != 0; }))
+      return corrupt("region modes %zu: padding of a matrix is not zero", index);
+  }
+  return {};
+}
+
+Status check_regions(const PackView& pack) noexcept {
+  uint64_t mode = 0, matrices = 0;
+  for (size_t index = 0; index < pack.region_modes.size(); ++index) {
+    const RegionModesRecord& modes = pack.region_modes[index];
+    if (Status status = check_record(pack, modes, index); !status.ok()) return status;
+    const uint64_t floats = kMatrices * modes.mode_count * modes.padded;
+    if (modes.first_mode != mode || modes.mode_count > pack.modes.size() - mode)
+      return corrupt("region modes %zu: modes do not follow the region before it", index);
+    if (modes.matrices != matrices || floats > pack.mode_matrices.size() - matrices)
+      return corrupt("region modes %zu: matrices do not follow the region before it", index);
+    if (Status status = check_matrices(pack, modes, index); !status.ok()) return status;
+    mode += modes.mode_count;
+    matrices += floats;
+  }
+  const bool whole = mode == pack.modes.size() && matrices == pack.mode_matrices.size();
+  return whole ? Status{} : corrupt("region modes: modes or matrices that no region owns");
+}
+
+Status check_each_mode(const PackView& pack) noexcept {
+  for (size_t index = 0; index < pack.modes.size(); ++index)
+    if (Status status = check_mode(pack.modes[index], index); !status.ok()) return status;
+  return {};
+}
+
+Status check_springs(const PackView& pack) noexcept {
+  for (size_t index = 0; index < pack.springs.size(); ++index) {
+    const SpringRecord& spring = pack.springs[index];
+    if (!is_stable(spring.a1, spring.a2))
+      return corrupt("spring %zu: its recurrence %g, %g grows", index, double{spring.a1}, double{spring.a2});
+    if (!std::isfinite(spring.gain)) return corrupt("spring %zu: gain is not finite", index);
+    if (spring.reserved != 0) return corrupt("spring %zu: reserved field is not zero", index);
+  }
+  return check_finite(pack.compliance, "compliance");
+}
+
+}  // namespace
+
+Status check_modes(const PackView& pack) noexcept {
+  constexpr Check kChecks[] = {check_each_mode, check_regions, check_springs};
+  return run_checks(kChecks, pack);
+}
+
+}  // namespace sinew::pack

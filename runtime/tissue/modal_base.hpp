@@ -1,0 +1,54 @@
+// modal_base.hpp  A soft part as a few damped modes, in axes that turn with its flesh.
+//
+// For control node i: u displacement along its own frame R (tissue/node_pose.hpp), l the same before warping,
+// theta how its flesh has turned against its frame, f the felt acceleration (tissue/node_drive.hpp); q modal
+// coordinates. One tick, h long, from t-1 to t:
+//   phi   = [R_t^T (2 R_{t-1} u_{t-1} - R_{t-2} u_{t-2}) - (2 u_{t-1} - u_{t-2})] / h^2
+//   e     = exp([theta_{t-1}]x)^T (f + phi)
+//   q^    = a1 q_{t-1} + a2 q_{t-2} + gain force e,   l^ = shape q^
+//   theta = turn q_t, |theta| held at 2 rad,          u_t = W(theta) l_t
+// phi is what a frame that turns does to what moves in it (Coriolis, centrifugal and Euler, exact for the
+// differences taken here). W(theta), the mean of the rotations from 0 to theta, is modal warping (Choi & Ko
+// 2005): a bent tail stays as long as it was. On the modal base alone l = l^ and q = q^; a network corrects
+// l^ to l, and q_t = project l_t. No simulated sequence enters: modes, shapes and forces are the flesh's own.
+#pragma once
+#include <cstdint>
+#include <span>
+
+#include "pack/reader.hpp"
+#include "tissue/node_pose.hpp"
+
+namespace sinew::tissue {
+
+inline constexpr float kLargestTurn_rad = 2;
+
+// A region's modes: views into its pack. Rows are of one mode, x y z of the region's nodes, zeros behind.
+struct ModalBase {
+  std::span<const pack::ModeRecord> modes;
+  uint32_t node_count = 0;
+  uint32_t padded = 0;  // floats in a row
+  const float *shape = nullptr, *turn = nullptr, *force = nullptr, *project = nullptr;
+};
+ModalBase modal_base(const pack::PackView& pack, size_t region) noexcept;
+
+// phi of `count` nodes, m/s^2. pose, u, u_before: of these nodes; pose[0] is t, u is of t-1. Exactly zero
+// while the frames do not turn.
+void frame_term(const NodePose* const pose[3], const float* u, const float* u_before, float tick_s,
+                uint32_t count, float* phi) noexcept;
+
+// Of one node. theta within kLargestTurn_rad; polynomials in |theta|^2, exact to float and the same bits
+// everywhere.
+void turn_back(const float theta[3], const float felt[3], float out[3]) noexcept;  // exp([theta]x)^T felt
+void warp(const float theta[3], const float l[3], float out[3]) noexcept;          // W(theta) l
+
+// In the calls below q, q_before and q_hat are [modes]; felt and theta [node_count][3]; e, l_hat, l and
+// turned [padded], 64-byte aligned, zero behind the nodes. e and turned are scratch. q_hat = q^ and l_hat =
+// shape q^, felt = f + phi, theta of t-1.
+void modal_step(const ModalBase& base, const float* felt, const float* theta, const float* q,
+                const float* q_before, float* e, float* q_hat, float* l_hat) noexcept;
+// q = project l.
+void modal_project(const ModalBase& base, const float* l, float* q) noexcept;
+// theta = turn q, held.
+void modal_turn(const ModalBase& base, const float* q, float* turned, float* theta) noexcept;
+
+}  // namespace sinew::tissue

@@ -1,0 +1,204 @@
+// simulate.cpp  One tick of springs, of modes, or of modes under a network.
+#include "world/simulate.hpp"
+
+#include <algorithm>
+
+#include "tissue/guard.hpp"
+#include "tissue/inputs.hpp"
+#include "tissue/modal_base.hpp"
+#include "tissue/network.hpp"
+#include "tissue/node_drive.hpp"
+#include "tissue/spring.hpp"
+
+namespace sinew::world {
+namespace {
+
+// A region and where its numbers begin.
+struct Part {
+  const pack::RegionRecord& record;
+  tissue::ModalBase base;
+  size_t index, node, vector, mode;
+};
+
+template <class Work>
+void for_each_part(const Instance& instance, Work work) noexcept {
+  const pack::PackView& pack = instance.asset->pack;
+  for (size_t r = 0; r < pack.regions.size(); ++r) {
+    const size_t node = pack.regions[r].first_node;
+    work(Part{pack.regions[r], tissue::modal_base(pack, r), r, node, 3 * node,
+              pack.region_modes[r].first_mode});
+  }
+}
+
+size_t floats_of(const Instance& instance) noexcept { return size_t{3} * instance.asset->node_count(); }
+
+void count_clamps(Instance& instance, uint32_t held) noexcept {
+  InstanceState& state = *instance.state;
+  state.displacement_clamps += held;
+  state.clamped_ticks = held > 0 ? state.clamped_ticks + 1 : 0;
+}
+
+// ---- springs ----
+
+bool spring_tick(Instance& instance) noexcept {
+  const pack::PackView& pack = instance.asset->pack;
+  for_each_part(instance, [&](const Part& part) {
+    tissue::spring_step(pack.springs[part.index], pack.compliance.data() + 9 * part.node,
+                        instance.drive + tissue::kNodeDriveWidth * part.node, tissue::kNodeDriveWidth,
+                        part.record.node_count, instance.u[0] + part.vector, instance.u[1] + part.vector);
+  });
+  if (!tissue::all_finite(instance.u[0], floats_of(instance))) return false;
+  uint32_t held = 0;
+  for_each_part(instance, [&](const Part& part) {
+    held += tissue::hold_at_limit(part.record, {}, instance.u[0] + part.vector, instance.u[1] + part.vector);
+  });
+  count_clamps(instance, held);
+  return true;
+}
+
+// ---- modes ----
+
+// felt = f + phi, then q_hat and l_hat. False where they are not finite.
+bool base_step(Instance& instance) noexcept {
+  const Asset& asset = *instance.asset;
+  const tissue::NodePose* const poses[3] = {instance.poses[0], instance.poses[1], instance.poses[2]};
+  tissue::frame_term(poses, instance.u[0], instance.u[1], static_cast<float>(asset.tick_s),
+                     asset.node_count(), instance.felt);
+  for (size_t n = 0; n < asset.node_count(); ++n) {
+    for (size_t k = 0; k < 3; ++k)
+      instance.felt[3 * n + k] += instance.drive[tissue::kNodeDriveWidth * n + k];
+  }
+  for_each_part(instance, [&](const Part& part) {
+    tissue::modal_step(part.base, instance.felt + part.vector, instance.theta + part.vector,
+                       instance.q[0] + part.mode, instance.q[1] + part.mode, instance.region[0],
+                       instance.q_hat + part.mode, instance.region[1]);
+    std::copy_n(instance.region[1], 3 * part.record.node_count, instance.l_hat + part.vector);
+  });
+  return tissue::all_finite(instance.l_hat, floats_of(instance)) &&
+         tissue::all_finite(instance.q_hat, asset.mode_count());
+}
+
+void project(Instance& instance, const Part& part, const float* l, float* q) noexcept {
+  float* padded = instance.region[0];
+  const size_t floats = size_t{3} * part.record.node_count;
+  std::copy_n(l + part.vector, floats, padded);
+  std::fill(padded + floats, padded + part.base.padded, 0.0f);
+  tissue::modal_project(part.base, padded, q + part.mode);
+}
+
+void turn_and_warp(Instance& instance, const Part& part) noexcept {
+  tissue::modal_turn(part.base, instance.q[0] + part.mode, instance.region[0], instance.theta + part.vector);
+  for (size_t i = part.vector; i < part.vector + 3 * part.record.node_count; i += 3)
+    tissue::warp(instance.theta + i, instance.l[0] + i, instance.u[0] + i);
+}
+
+void shift_back(Instance& instance) noexcept {
+  const size_t floats = floats_of(instance);
+  std::copy_n(instance.u[0], floats, instance.u[1]);
+  std::copy_n(instance.l[0], floats, instance.l[1]);
+  std::copy_n(instance.q[0], instance.asset->mode_count(), instance.q[1]);
+}
+
+// l of this tick is there; q, theta and u follow.
+void settle(Instance& instance, bool corrected) noexcept {
+  const Asset& asset = *instance.asset;
+  tissue::NodeMemory memory;
+  if (corrected) memory = {&asset.network, asset.node_count(), instance.network_state};
+  uint32_t held = 0;
+  for_each_part(instance, [&](const Part& part) {
+    float *now = instance.l[0] + part.vector, *before = instance.l[1] + part.vector;
+    const uint32_t here = tissue::hold_at_limit(part.record, memory, now, before);
+    if (here > 0 || corrected) project(instance, part, instance.l[0], instance.q[0]);
+    if (here > 0) project(instance, part, instance.l[1], instance.q[1]);
+    turn_and_warp(instance, part);
+    held += here;
+  });
+  count_clamps(instance, held);
+}
+
+// ---- the network ----
+
+void assemble(Instance& instance) noexcept {
+  const Asset& asset = *instance.asset;
+  const size_t stride = tissue::input_stride(asset.network);
+  for_each_part(instance, [&](const Part& part) {
+    const tissue::NodeSources sources{.region = &part.record,
+                                      .nodes = asset.pack.nodes.data() + part.node,
+                                      .drive = instance.drive + tissue::kNodeDriveWidth * part.node,
+                                      .felt = instance.felt + part.vector,
+                                      .l = instance.l[0] + part.vector,
+                                      .l_before = instance.l[1] + part.vector,
+                                      .l_hat = instance.l_hat + part.vector,
+                                      .theta = instance.theta + part.vector,
+                                      .first_rad_per_s = asset.pack.region_modes[part.index].first_rad_per_s,
+                                      .tick_s = static_cast<float>(asset.tick_s)};
+    instance.state->input_clamps +=
+        tissue::assemble_inputs(asset.network, sources, instance.inputs + stride * part.node);
+    const float unit_m = tissue::length_unit_m(asset.network, part.record);
+    for (size_t i = part.vector; i < part.vector + 3 * part.record.node_count; ++i)
+      instance.carry[i] = (instance.l_hat[i] - instance.l[0][i]) / unit_m;
+  });
+}
+
+void give_up_network(Instance& instance) noexcept {
+  InstanceState& state = *instance.state;
+  state.tier = Tier::kModal;
+  state.fallback_ticks = kFallbackTicks;
+  state.forgotten = 1;
+  state.clamped_ticks = 0;
+  ++state.fallbacks;
+  instance.fell_back = true;
+}
+
+// True when the network's state is sound after its step.
+bool network_step(Instance& instance) noexcept {
+  const Asset& asset = *instance.asset;
+  assemble(instance);
+  tissue::network_step(asset.network, asset.graph, instance.inputs, instance.carry, instance.network_state,
+                       instance.network_scratch);
+  if (instance.state->clamped_ticks <= kMostClampedTicks &&
+      tissue::network_is_finite(asset.network, asset.node_count(), instance.network_state))
+    return true;
+  give_up_network(instance);
+  return false;
+}
+
+}  // namespace
+
+void drive_nodes(Instance& instance) noexcept {
+  tissue::NodeMotion motion;
+  for (int tick = 0; tick < 3; ++tick) {
+    motion.pose[tick] = instance.poses[tick];
+    std::copy_n(instance.state->tick_root_m[tick], 3, motion.root_position_m[tick]);
+  }
+  tissue::compute_node_drive(motion, static_cast<float>(instance.asset->tick_s), instance.asset->node_count(),
+                             instance.drive);
+}
+
+bool simulate_tick(Instance& instance) noexcept {
+  const Asset& asset = *instance.asset;
+  if (instance.state->tier == Tier::kSpring) return spring_tick(instance);
+  if (!base_step(instance)) return false;
+  const bool corrected = instance.state->tier == Tier::kNetwork && network_step(instance);
+  shift_back(instance);
+  if (corrected)
+    tissue::read_output(asset.network, asset.pack.regions, asset.node_count(), instance.network_state,
+                        instance.l[0]);
+  else
+    std::copy_n(instance.l_hat, floats_of(instance), instance.l[0]);
+  std::copy_n(instance.q_hat, asset.mode_count(), instance.q[0]);
+  settle(instance, corrected);
+  return true;
+}
+
+void lift_displacement(Instance& instance) noexcept {
+  for (int tick = 0; tick < 2; ++tick) std::copy_n(instance.u[tick], floats_of(instance), instance.l[tick]);
+  for_each_part(instance, [&](const Part& part) {
+    project(instance, part, instance.l[0], instance.q[0]);
+    project(instance, part, instance.l[1], instance.q[1]);
+    tissue::modal_turn(part.base, instance.q[0] + part.mode, instance.region[0],
+                       instance.theta + part.vector);
+  });
+}
+
+}  // namespace sinew::world

@@ -1,0 +1,18 @@
+// simulate.hpp  One tick of springs, of modes, or of modes under a network: from drive to u.
+#pragma once
+#include "world/instance.hpp"
+
+namespace sinew::world {
+
+// drive of this tick, from the poses.
+void drive_nodes(Instance& instance) noexcept;
+
+// u of this tick, and l, theta and q where the tier has a modal base. A network whose state is given up
+// leaves the tick, and the tier, to the base (see kFallbackTicks). False: the base's own numbers are not
+// finite, and nothing of the state is of use any more.
+bool simulate_tick(Instance& instance) noexcept;
+
+// l, theta and q of a displacement that did not come from them: u is taken for l, at both ticks.
+void lift_displacement(Instance& instance) noexcept;
+
+}  // namespace sinew::world
