@@ -1,103 +1,164 @@
-"""What a network has to beat: one or two damped springs for each node and axis, fitted on the training
-roll-outs."""
+"""What a network has to beat: plain models, fitted on the training roll-outs of the body they are judged on.
+
+All are stable whatever the fit: frequencies and damping ratios are positive by construction, and the
+recurrence is that of backward Euler steps (modal_base.recurrence)."""
+import copy
 import math
 
+import numpy as np
 import torch
 
-from .inputs import DRIVE
+from .inputs import FELT
+from .modal_base import recurrence
+from .rollout import roll_out, start, tick, truth
 
-FORCE_PARTS = (
-    "linear_acceleration",
-    "euler_acceleration",
-    "centrifugal_acceleration",
-    "articulation_acceleration",
-    "gravity_change",
-)
-ROTATION_PARTS = ("euler_acceleration", "centrifugal_acceleration")
+ANGULAR_ACCELERATION = slice(9, 12)  # of a trajectory's drive
+FIT_TICKS = 100
+FIRST_SHARE = 0.4  # of an oscillator on its own: what a node moves for each unit of its region
 
 
-def forces(drive, split):
-    """Raw drive (T+1, N, B, 21) to the accelerations of each spring, (springs, T+1, N, B, 3) m/s^2, looked
-    half a tick ahead: 1.5 f_t - 0.5 f_{t-1} is the middle of the tick to come. split: rotation drives a
-    spring of its own."""
-    total = sum(drive[..., DRIVE[k]] for k in FORCE_PARTS)
-    turning = sum(drive[..., DRIVE[k]] for k in ROTATION_PARTS)
-    f = torch.stack([total - turning, turning] if split else [total])
-    before = torch.cat([f[:, :1], f[:, :-1]], 1)
-    return 1.5 * f - 0.5 * before
+def _fit(parameters, loss_of, iterations, rate):
+    optimizer = torch.optim.Adam(parameters, rate)
+    for i in range(iterations):
+        optimizer.param_groups[0]["lr"] = rate * (0.05 + 0.475 * (1 + math.cos(math.pi * i / iterations)))
+        loss = loss_of()
+        optimizer.zero_grad()
+        loss.backward()
+        torch.nn.utils.clip_grad_norm_(parameters, 1.0)
+        optimizer.step()
 
 
 class Springs:
-    """u'' = gain f - w^2 u - 2 zeta w u', solved exactly for a force that is constant over a tick.
-    Parameters (springs, N, 1, 3)."""
+    """u'' + 2 zeta w u' + w^2 u = w^2 (G f + H alpha) at each node: f felt, alpha angular acceleration.
 
-    def __init__(self, group, split):
-        self.split, self.tick_s = split, 1 / group.trajectories[0].rate_hz
-        n = len(group.body.region)
-        new = lambda value: torch.full((1 + split, n, 1, 3), value, device=group.device, requires_grad=True)
-        self.log_w, self.logit_zeta, self.log_gain = new(math.log(2 * math.pi * 4)), new(-2.0), new(0.0)
-        self.parameters = [self.log_w, self.logit_zeta, self.log_gain]
+    each_node: a frequency, a damping ratio and two 3 x 3 matrices a node; else one frequency, damping ratio
+    and factor a region, alpha left out."""
 
-    def _transition(self):
-        """(a, b, c, d, 1/w^2): u' = a u + b v, v' = c u + d v about the equilibrium."""
-        w, zeta, h = (
-            self.log_w.exp(),
-            torch.sigmoid(self.logit_zeta),
-            self.tick_s,
-        )  # 0 < zeta < 1: stable whatever the fit
-        wd = w * (1 - zeta * zeta).clamp(min=1e-4).sqrt()
-        e, cos, sin = torch.exp(-zeta * w * h), torch.cos(wd * h), torch.sin(wd * h)
-        return (
-            e * (cos + zeta * w / wd * sin),
-            e * sin / wd,
-            -e * w * w / wd * sin,
-            e * (cos - zeta * w / wd * sin),
-            1 / (w * w),
-        )
+    def __init__(self, group, each_node):
+        self.each_node, g = each_node, group
+        self.tick_s, self.substeps = g.base.tick_s, g.base.substeps
+        self.region = torch.as_tensor(np.array(g.body.region)).long()
+        n = len(self.region) if each_node else g.regions
+        w = g.base.first[self.region] if each_node else g.base.first
+        self.log_w = w.log().clone()
+        self.log_zeta = torch.full((n,), math.log(0.1))
+        self.unit = 1 / (w * w)  # s^2: the answer of an oscillator to a steady 1 m/s^2
+        self.felt = (torch.eye(3) * FIRST_SHARE).repeat(n, 1, 1) if each_node else torch.full((n,), FIRST_SHARE)
+        self.turning = torch.zeros(n, 3, 3) if each_node else None
+        self.parameters = [self.log_w, self.log_zeta, self.felt] + ([self.turning] if each_node else [])
+        for p in self.parameters:
+            p.requires_grad_()
 
-    def roll_out(self, force):
-        """force (springs, T+1, N, B, 3) -> displacement (T+1, N, B, 3) metres, from rest."""
-        a, b, c, d, give = self._transition()
-        rest = force * (self.log_gain.exp() * give)[:, None]
-        u, v = torch.zeros_like(rest[:, 0]), torch.zeros_like(rest[:, 0])
-        out = [u.sum(0)]
-        for t in range(1, rest.shape[1]):
-            q = u - rest[:, t]
-            u, v = rest[:, t] + a * q + b * v, c * q + d * v
-            out.append(u.sum(0))
+    def _goal(self, drive):
+        """Where each node is pulled to, (T, N, B, 3) metres; drive (T, N, B, 12)."""
+        f = drive[..., FELT]
+        if not self.each_node:
+            return f * (self.felt * self.unit)[self.region][None, :, None, None]
+        pulled = torch.einsum("nij,tnbj->tnbi", self.felt, f)
+        pulled = pulled + torch.einsum("nij,tnbj->tnbi", self.turning, drive[..., ANGULAR_ACCELERATION])
+        return pulled * self.unit[:, None, None]
+
+    def roll_out(self, drive):
+        """drive (T+1, N, B, 12), the first at rest -> (T+1, N, B, 3) metres."""
+        a1, a2, _ = recurrence(self.log_w.exp(), self.log_zeta.exp(), self.tick_s, self.substeps)
+        if not self.each_node:
+            a1, a2 = a1[self.region], a2[self.region]
+        a1, a2 = a1[:, None, None], a2[:, None, None]
+        goal = self._goal(drive) * (1 - a1 - a2)
+        u = u_before = torch.zeros_like(goal[0])
+        out = [u]
+        for g in goal[1:]:
+            u, u_before = a1 * u + a2 * u_before + g, u
+            out.append(u)
         return torch.stack(out)
 
-    def fit(self, group, iterations=150, batch=8, ticks=150, rate=0.05):
-        ticks, optimizer = min(ticks, group.ticks), torch.optim.Adam(self.parameters, rate)
-        for i in range(iterations):
-            optimizer.param_groups[0]["lr"] = rate * (
-                0.05 + 0.95 * 0.5 * (1 + math.cos(math.pi * i / iterations))
-            )
+    def fit(self, group, iterations=120, batch=6):
+        ticks = min(FIT_TICKS, group.ticks)
+
+        def loss():
             s = torch.randperm(group.count)[:batch]
             drive = group.drive[s, : ticks + 1].permute(1, 2, 0, 3)
             true = group.displacement[s, : ticks + 1].permute(1, 2, 0, 3)
-            error = (
-                (self.roll_out(forces(drive, self.split)) - true)
-                .square()
-                .sum(-1)
-                .add(1e-12)
-                .sqrt()
-                .mean((0, 2))
-            )
-            loss = (error / true.norm(dim=-1).mean((0, 2)).clamp(min=1e-6)).mean()
-            optimizer.zero_grad()
-            loss.backward()
-            optimizer.step()
+            error = ((self.roll_out(drive) - true).square().sum(-1) + 1e-12).sqrt().mean((0, 2))
+            return (error / true.norm(dim=-1).mean((0, 2)).clamp(min=1e-5)).mean()
+
+        _fit(self.parameters, loss, iterations, 0.03)
         return self
 
-    def predict(self, group, sequences=None, ticks=None):
+    def predict(self, group):
         """(T+1, N, B, 3) metres."""
-        s = slice(None) if sequences is None else sequences
-        end = None if ticks is None else ticks + 1
         with torch.no_grad():
-            return self.roll_out(forces(group.drive[s, :end].permute(1, 2, 0, 3), self.split))
+            return self.roll_out(group.drive.permute(1, 2, 0, 3))
 
 
-def fit_springs(group, split, seed=0):
-    torch.manual_seed(seed)
-    return Springs(group, split).fit(group)
+class Modal:
+    """The modes of the cage's eigenproblem. warped: as the networks' base, bent with the flesh and with the
+    frames' exact terms; else linear and driven by the felt acceleration alone. fit() moves every mode's
+    frequency, damping and drive."""
+
+    def __init__(self, group, warped):
+        self.base = copy.copy(group.base)
+        self.base.frame_terms = self.base.warping = warped
+        self.fitted = None
+
+    def _use(self):
+        b = self.base
+        w, zeta, drive = (p.exp() for p in self.fitted)
+        a1, a2, gain = recurrence(b.rad_per_s * w, b.damping_ratio * zeta, b.tick_s, b.substeps)
+        b.a1, b.a2, b.gain = a1[..., None], a2[..., None], (gain * drive)[..., None]
+
+    def _run(self, group, sequences, ticks):
+        """Mean error of each region over a window from rest, as a share of its displacement."""
+        felt, drive, turn, true = group.window(sequences, torch.zeros_like(sequences), ticks)
+        state, error = start(None, group, len(sequences)), 0.0
+        for t in range(ticks):
+            state = tick(None, None, group, None, None, state, felt[t], drive[t], (turn[0][t], turn[1][t]))
+            error = error + ((state.base.u - true[t]).square().sum(-1) + 1e-12).sqrt().mean((1, 2)) / ticks
+        return (error / true.norm(dim=-1).mean((0, 2, 3)).clamp(min=1e-5)).mean()
+
+    def fit(self, group, iterations=40, batch=6):
+        self.fitted = [torch.zeros_like(self.base.rad_per_s).requires_grad_() for _ in range(3)]
+        ticks, kept = min(FIT_TICKS, group.ticks), group.base
+
+        def loss():
+            self._use()
+            return self._run(group, torch.randperm(group.count)[:batch], ticks)
+
+        group.base = self.base
+        try:
+            _fit(self.fitted, loss, iterations, 0.02)
+            with torch.no_grad():
+                self._use()
+        finally:
+            group.base = kept
+        return self
+
+    def predict(self, group):
+        """(T+1, N, B, 3) metres."""
+        kept, group.base = group.base, self.base
+        try:
+            return roll_out(None, None, group)
+        finally:
+            group.base = kept
+
+
+def plain_models(group, fit_on):
+    """name -> model, of the body of `group`; those that need data are fitted on fit_on, a Group of the same
+    body, and left out where that is None."""
+    models = {"modal_linear": Modal(group, False), "modal_warped": Modal(group, True)}
+    if fit_on is not None:
+        torch.manual_seed(0)
+        models["spring"] = Springs(fit_on, False).fit(fit_on)
+        models["node_springs"] = Springs(fit_on, True).fit(fit_on)
+        models["modal_linear_fitted"] = Modal(fit_on, False).fit(fit_on)
+        models["modal_warped_fitted"] = Modal(fit_on, True).fit(fit_on)
+    return models
+
+
+def single_step(group):
+    """Error of one tick from the true state, as a share of skinning's: the displacement held, and its velocity
+    kept."""
+    u = truth(group)
+    size = u[2:].norm(dim=-1).mean()
+    share = lambda p: round(float((p - u[2:]).norm(dim=-1).mean() / size), 4)
+    return {"hold": share(u[1:-1]), "constant_velocity": share(2 * u[1:-1] - u[:-2])}

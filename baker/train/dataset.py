@@ -1,29 +1,26 @@
 """Trajectories grouped into batches: control graphs padded to one size, sequences stacked."""
-import glob
 import json
 import os
 
 import numpy as np
 import torch
 
-from .inputs import DRIVE, DRIVE_START, FEEDBACK_START, STATIC, Scaling
+from .inputs import FELT
+from .modal_base import ModalBase
 from .model import normalized_adjacency
 from .safetensors import BadData
 from .trajectory import read_trajectory
 
 SHEET = "data_sheet.json"
-LENGTH_UNIT_M = 0.01
-SCALED_SIZE = 0.3  # mean size of a scaled input
-ENVELOPE_MARGIN = 1.2  # of the largest input and displacement seen in training
-LEAST_LIMIT = 0.75  # share of a region's radius
+SPLITS = ("train", "validation", "test", "long")
 
 
 class Group:
     """Sequences of one body and one length. R regions, n nodes in the largest, S sequences, T ticks."""
 
-    def __init__(self, trajectories, device="cpu"):
+    def __init__(self, trajectories, name="", device="cpu"):
         body = trajectories[0].body
-        self.body, self.trajectories, self.device = body, trajectories, device
+        self.body, self.trajectories, self.name, self.device = body, trajectories, name, device
         counts = np.bincount(body.region, minlength=len(body.radius_m))
         self.regions, self.nodes = len(counts), int(counts.max())
         first = np.concatenate([[0], np.cumsum(counts)[:-1]])
@@ -33,12 +30,17 @@ class Group:
         )  # (R, n)
         self.mask = torch.as_tensor(place, device=device)  # (R, n) real nodes
         self.P = self._graph(body, counts, first).to(device)
+        tick_s = 1 / trajectories[0].rate_hz
+        self.base = ModalBase(body.bases, counts, tick_s, trajectories[0].substeps, device)
+        self.radius = torch.as_tensor(np.array(body.radius_m, np.float32), device=device)[:, None, None, None]
         self.static = {
             "rest_position": self._pad(body.rest_position),
             "rest_normal": self._pad(body.rest_normal),
             "stiffness": self._pad(body.stiffness),
+            "frequency": (self.base.first * tick_s)[:, None, None] * self.mask[..., None],
         }
-        self.drive = self._stack([t.drive for t in trajectories])  # (S, T+1, N, 21)
+        self.drive = self._stack([t.drive for t in trajectories])  # (S, T+1, N, 12)
+        self.rotation = self._stack([t.rotation for t in trajectories])  # (S, T+1, N, 9)
         self.displacement = self._stack([t.displacement for t in trajectories])  # (S, T+1, N, 3) metres
         self.count, self.ticks = self.drive.shape[0], self.drive.shape[1] - 1
 
@@ -58,11 +60,15 @@ class Group:
         return P
 
     def window(self, sequences, starts, ticks):
-        """Ticks starts..starts+ticks of some sequences: drive (ticks+1, R, n, B, 21), displacement (ticks+1,
-        R, n, B, 3) metres. sequences, starts (B,)."""
-        t = starts[None] + torch.arange(ticks + 1, device=self.device)[:, None]
-        pick = lambda a: self.unflatten(a[sequences[None], t].permute(0, 2, 1, 3))
-        return pick(self.drive), pick(self.displacement)
+        """Ticks starts+1 .. starts+ticks of some sequences (B,): felt acceleration and the rest of the drive,
+        each (ticks, R, n, B, .); R_t^T R_{t-1} and R_t^T R_{t-2}, each (ticks, R, n, B, 3, 3); displacement
+        (ticks, R, n, B, 3) metres. What lies before a sequence is its first tick."""
+        t = starts[None] + torch.arange(-1, ticks + 1, device=self.device)[:, None]
+        pick = lambda a, t: self.unflatten(a[sequences[None], t.clamp(min=0)].permute(0, 2, 1, 3))
+        drive, u = pick(self.drive, t[2:]), pick(self.displacement, t[2:])
+        r = pick(self.rotation, t).unflatten(-1, (3, 3))
+        turn = lambda before: torch.matmul(r[2:].transpose(-1, -2), before)
+        return drive[..., FELT], drive, (turn(r[1:-1]), turn(r[:-2])), u
 
     def radius_m(self):
         """(N,) of each node's region."""
@@ -76,97 +82,75 @@ class Group:
         """(..., R, n, B, w) -> (..., N, B, w)."""
         return a[..., self.mask, :, :]
 
-    def static_columns(self, scaling, batch):
-        """(R, n, B, 7), scaled and held in the envelope."""
-        parts = [bounded(self.static[k], k, scaling) for k in STATIC]
-        return torch.cat(parts, -1)[:, :, None].expand(-1, -1, batch, -1)
+
+class Union:
+    """Several bodies side by side along R, so that one batch moves them all: a Group to whoever rolls it out.
+    Sequences are (groups, B)."""
+
+    def __init__(self, groups):
+        self.groups, self.device = groups, groups[0].device
+        self.nodes, self.regions = max(g.nodes for g in groups), sum(g.regions for g in groups)
+        self.ticks = min(g.ticks for g in groups)
+        self.mask = torch.cat([self._wide(g.mask, 1) for g in groups])
+        self.P = torch.cat([self._wide(self._wide(g.P, 1), 2) for g in groups])
+        self.radius = torch.cat([g.radius for g in groups])
+        self.static = {k: torch.cat([self._wide(g.static[k], 1) for g in groups]) for k in groups[0].static}
+        self.base = ModalBase.union([g.base for g in groups])
+
+    def _wide(self, a, axis):
+        """Zeros at the end of an axis, up to the largest region's nodes."""
+        missing = list(a.shape)
+        missing[axis] = self.nodes - a.shape[axis]
+        return torch.cat([a, a.new_zeros(missing)], axis) if missing[axis] else a
+
+    def draw(self, batch):
+        """Random sequences of each body, (groups, B)."""
+        pick = lambda g: torch.cat([torch.randperm(g.count) for _ in range(-(-batch // g.count))])[:batch]
+        return torch.stack([pick(g) for g in self.groups]).to(self.device)
+
+    def window(self, sequences, starts, ticks):
+        parts = [g.window(s, starts, ticks) for g, s in zip(self.groups, sequences)]
+        join = lambda values: torch.cat([self._wide(v, 2) for v in values], 1)
+        felt, drive, turn, u = zip(*parts)
+        return join(felt), join(drive), tuple(join(t) for t in zip(*turn)), join(u)
 
 
-def bounded(values, name, scaling):
-    """value x scale, clamped as the runtime clamps it."""
-    return (values * scaling.scale[name]).clamp(-scaling.envelope[name], scaling.envelope[name])
-
-
-def drive_columns(drive, scaling):
-    """(..., 21) raw -> (..., 21) scaled and held in the envelope."""
-    return torch.cat([bounded(drive[..., columns], k, scaling) for k, columns in DRIVE.items()], -1)
-
-
-def input_columns(static, drive, y, y_before, scaling):
-    """One tick's z (R, n, B, 34): statics, scaled drive, then y and its change (length units), scaled and
-    bounded."""
-    return torch.cat(
-        [static, drive, bounded(y, "displacement", scaling), bounded(y - y_before, "velocity", scaling)], -1
-    )
-
-
-def _round(value, digits=2):
-    return float(f"{value:.{digits - 1}e}")
-
-
-def measure_scaling(groups):
-    """Scales from the mean size of the training data (a few violent motions would rule a mean square),
-    envelopes from its largest values."""
-
-    def both(pick):  # mean size and largest
-        parts = [pick(g).abs() for g in groups]
-        return sum(float(p.double().sum()) for p in parts) / sum(p.numel() for p in parts), max(
-            float(p.max()) for p in parts
-        )
-
-    measured = {k: both(lambda g, c=c: g.drive[..., c]) for k, c in DRIVE.items()}
-    measured["displacement"] = both(lambda g: g.displacement / LENGTH_UNIT_M)
-    measured["velocity"] = both(lambda g: (g.displacement[:, 1:] - g.displacement[:, :-1]) / LENGTH_UNIT_M)
-    scale = {k: 1.0 for k in STATIC}
-    scale.update({k: _round(SCALED_SIZE / size) if size > 1e-6 else 1.0 for k, (size, _) in measured.items()})
-    largest = {k: max(float(g.static[k].abs().max()) for g in groups) for k in STATIC}
-    largest.update({k: top * scale[k] for k, (_, top) in measured.items()})
-    reach = max(float((g.displacement.norm(dim=-1).amax((0, 1)) / g.radius_m()).max()) for g in groups)
-    return Scaling(
-        scale,
-        LENGTH_UNIT_M,
-        {k: max(1e-3, _round(ENVELOPE_MARGIN * v, 4)) for k, v in largest.items()},
-        max(LEAST_LIMIT, _round(ENVELOPE_MARGIN * reach)),
-    )
-
-
-def _check_sheet(folder):
+def _read_sheet(folder):
     path = os.path.join(folder, SHEET)
     try:
         with open(path) as file:
-            sheet = json.load(file)
-        return {
-            split: [os.path.join(folder, e["file"]) for e in sheet["sequences"] if e["split"] == split]
-            for split in ("train", "validation", "test", "long")
-        }
+            entries = json.load(file)["sequences"]
+        return [(e["split"], e.get("body", ""), os.path.join(folder, e["file"])) for e in entries]
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise BadData(f"{path}: unusable data sheet ({error}); run `baker/train generate` again") from None
 
 
-def read_split(folder, split):
-    """Trajectories of a split, all checked; throws BadData naming the first unusable file."""
-    paths = _check_sheet(folder)[split]
-    if not paths:
+def read_split(folder, split, body=None):
+    """(body's name, trajectory) of a split's sequences, of one body if it is named, all checked; throws
+    BadData naming the first unusable file."""
+    found = [(b, p) for s, b, p in _read_sheet(folder) if s == split and body in (None, b)]
+    if not found:
         raise BadData(
             f"{os.path.join(folder, SHEET)}: no {split} sequences; run `baker/train generate` again"
         )
-    out = [read_trajectory(p) for p in paths]
-    rates = {t.rate_hz for t in out}
+    out = [(b, read_trajectory(p)) for b, p in found]
+    rates = {t.rate_hz for _, t in out}
     if len(rates) > 1:
         raise BadData(f"{folder}: sequences of several rates ({sorted(rates)} Hz); one data set has one rate")
     return out
 
 
-def group(trajectories, device="cpu"):
-    """One Group for each body and length."""
+def group(named, device="cpu"):
+    """One Group for each body and length of (body's name, trajectory) pairs."""
     groups = []
-    for t in trajectories:
+    for name, t in named:
         mates = next(
-            (g for g in groups if len(g[0].drive) == len(t.drive) and g[0].body.same_as(t.body)), None
+            (
+                g
+                for g in groups
+                if g[0][0] == name and len(g[0][1].drive) == len(t.drive) and g[0][1].body.same_as(t.body)
+            ),
+            None,
         )
-        mates.append(t) if mates else groups.append([t])
-    return [Group(g, device) for g in groups]
-
-
-def find_trajectories(folder):
-    return sorted(glob.glob(os.path.join(folder, "*.safetensors")))
+        mates.append((name, t)) if mates else groups.append([(name, t)])
+    return [Group([t for _, t in g], g[0][0], device) for g in groups]

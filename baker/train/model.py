@@ -9,9 +9,8 @@ from dataclasses import asdict, dataclass
 import torch
 
 
-FIRST_OUTPUT = (
-    0.06  # share of a usual output layer that training starts from: a loud start ends in a silent network
-)
+FIRST_OUTPUT = 0.06  # share of a usual output layer to start from: a loud start ends in a silent network
+OUTPUT_FORGET = 0.0  # bias
 
 
 @dataclass
@@ -89,16 +88,15 @@ class AltConvLSTM(torch.nn.Module):
         )
 
     def start_for_training(self):
-        """Biases that trained: open input gates, short memory in hidden layers, long at the output; a small
-        output layer."""
+        """Biases that trained: open input gates, short memory; a small output layer."""
         with torch.no_grad():
             for l, layer in enumerate(self.layers):
                 f, last = layer.channels, l == len(self.layers) - 1
                 layer.b[:f] += 1
-                layer.b[f : 2 * f] += 2 if last else -1
+                layer.b[f : 2 * f] += OUTPUT_FORGET if last else -1
             for w in (layer.W_x, layer.W_s, layer.W_h):
                 if w is not None:
-                    w.mul_(FIRST_OUTPUT / self.options.output_scale)
+                    w.mul_(FIRST_OUTPUT)
         return self
 
     def zero_state(self, regions, nodes, batch):

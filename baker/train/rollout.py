@@ -1,40 +1,129 @@
-"""Runs a network on its own output, from rest, as the runtime does."""
+"""One tick of a network closed on its modal base, and whole roll-outs from rest, as the runtime runs them.
+
+l_t = (what the modes make of l_{t-1}) + output_scale c_t: Alt-ConvLSTM's own Y_t = Y_{t-1} + C_t + (its
+carry), with the modal base in the place of the skinning's motion."""
+from dataclasses import dataclass
+
 import torch
 
-from .dataset import drive_columns, input_columns
+from .inputs import AXIAL, DRIVE, INPUT_WIDTH, ORDER, STATIC, STATIC_WIDTH, WIDTH, columns
+from .modal_base import BaseState
 from .model import largest_cell
 
 
-def roll_out(model, scaling, group, ticks=None, drive=None, sequences=None, watch=None):
+@dataclass
+class State:
+    base: BaseState
+    l_before: torch.Tensor  # (R, n, B, 3) metres
+    memory: list  # of the network
+
+
+def bounded(values, name, scaling):
+    """value x scale, clamped as the runtime clamps it."""
+    return (values * scaling.scale[name]).clamp(-scaling.envelope[name], scaling.envelope[name])
+
+
+def static_columns(group, scaling, batch):
+    """(R, n, B, 8), scaled and held in the envelope."""
+    parts = [bounded(group.static[k], k, scaling) for k in STATIC]
+    return torch.cat(parts, -1)[:, :, None].expand(-1, -1, batch, -1)
+
+
+def mirror_signs(device="cpu"):
+    """(INPUT_WIDTH,): left to right flips x of vectors, and y and z of rotation vectors."""
+    flip = torch.ones(INPUT_WIDTH, device=device)
+    for name in ORDER:
+        if WIDTH[name] == 3:
+            flip[columns(name)] = torch.tensor([1.0, -1, -1] if name in AXIAL else [-1.0, 1, 1], device=device)
+    return flip
+
+
+def raw_inputs(group, scaling, base, l_before, drive, predicted_l, felt):
+    """name -> value of what changes from tick to tick, before its scale; lengths in length units."""
+    unit = scaling.length_unit * group.radius
+    first = group.base.first[:, None, None, None]
+    return {
+        **{k: drive[..., c] for k, c in DRIVE.items()},
+        "felt_step": felt / (first * first) / unit,
+        "base_step": (predicted_l - base.l) / unit,
+        "turn": base.theta,
+        "displacement": base.l / unit,
+        "velocity": (base.l - l_before) / unit,
+    }
+
+
+def tick(model, packed, group, scaling, static, state, felt, drive, turn_now, mirror=None):
+    """The state one tick on. model None: the modal base alone. mirror: (B, INPUT_WIDTH) signs, the network
+    sees those sequences mirrored. felt, drive, turn_now: as Group.window gives them, of this tick."""
+    base = state.base
+    q, l, force = group.base.predict(base, felt, turn_now)
+    if model is None:
+        return State(group.base.arrive(base, l, q), base.l, state.memory)
+    unit = scaling.length_unit * group.radius
+    raw = raw_inputs(group, scaling, base, state.l_before, drive, l, force)
+    z = torch.cat([static] + [bounded(raw[k], k, scaling) for k in ORDER if k in raw], -1)
+    y, carry = base.l / unit, (l - base.l) / unit
+    if mirror is None:
+        y, memory = model.step(packed, group.P, z, state.memory, y, carry)
+    else:
+        flip = mirror[:, columns("displacement")]
+        y, memory = model.step(packed, group.P, z * mirror, state.memory, y * flip, carry * flip)
+        y = y * flip
+    return State(group.base.arrive(base, y * unit * group.mask[..., None, None]), base.l, memory)
+
+
+def start(model, group, batch):
+    base = group.base.start(batch)
+    return State(base, base.l, None if model is None else model.zero_state(group.regions, group.nodes, batch))
+
+
+def roll_out(model, scaling, group, ticks=None, sequences=None, gain=1.0, still_after=None, watch=None):
     """Displacement (T+1, N, B, 3) metres of a group's sequences from rest.
 
-    drive: raw, (T+1, R, n, B, 21), in place of the group's. watch: a dict that receives the largest |c| as
-    'cell'."""
+    gain: factor on what drives the tissue. still_after: the character stands still from this tick on, for as
+    long as `ticks` says. watch: a dict that receives the largest |c| as 'cell'."""
     s = torch.arange(group.count, device=group.device) if sequences is None else torch.as_tensor(sequences)
-    ticks = ticks or (group.ticks if drive is None else len(drive) - 1)
-    chunk, out, top = 200, [], 0.0
+    ticks, chunk, top = ticks or group.ticks, 100, 0.0
+    moving = min(ticks, group.ticks, still_after or ticks)
     with torch.no_grad():
-        packed, static = model.packed(), group.static_columns(scaling, len(s))
-        state = model.zero_state(group.regions, group.nodes, len(s))
-        y = y_before = torch.zeros(group.regions, group.nodes, len(s), 3, device=group.device)
-        out.append(group.flatten(y))
+        packed, static = (None, None) if model is None else (
+            model.packed(), static_columns(group, scaling, len(s))
+        )
+        state = start(model, group, len(s))
+        out = [group.flatten(state.base.u)]
         for first in range(0, ticks, chunk):
             n = min(chunk, ticks - first)
-            raw = (
-                group.window(s, torch.full((len(s),), first, device=group.device), n)[0]
-                if drive is None
-                else drive[first : first + n + 1]
-            )
-            scaled = drive_columns(raw, scaling)
-            for t in range(1, n + 1):
-                z = input_columns(static, scaled[t], y, y_before, scaling)
-                y_before = y
-                y, state = model.step(packed, group.P, z, state, y)
-                out.append(group.flatten(y))
-                top = max(top, largest_cell(state)) if watch is not None else top
+            felt, drive, turn, _ = _driven(group, s, first, n, moving)
+            for t in range(n):
+                state = tick(
+                    model, packed, group, scaling, static, state, gain * felt[t], drive[t], (turn[0][t], turn[1][t])
+                )
+                out.append(group.flatten(state.base.u))
+                top = max(top, largest_cell(state.memory)) if watch is not None and model else top
     if watch is not None:
         watch["cell"] = top
-    return torch.stack(out) * scaling.length_unit_m
+    return torch.stack(out)
+
+
+def _driven(group, s, first, n, moving):
+    """A window of ticks, of which those after `moving` are still."""
+    there = max(0, min(n, moving - first))
+    window = group.window(s, torch.full((len(s),), first, device=group.device), there) if there else None
+    if there == n:
+        return window
+    still = _still(group, len(s), n - there)
+    if not there:
+        return still
+    join = lambda a, b: tuple(join(x, y) for x, y in zip(a, b)) if isinstance(a, tuple) else torch.cat([a, b])
+    return join(window, still)
+
+
+def _still(group, batch, ticks):
+    """What a character at rest in its bind pose feels."""
+    shape = (ticks, group.regions, group.nodes, batch)
+    zero = lambda width: torch.zeros(*shape, width, device=group.device)
+    eye = torch.eye(3, device=group.device).expand(*shape, 3, 3)
+    return zero(3), zero(group.drive.shape[-1]), (eye, eye), zero(3)
 
 
 def truth(group, sequences=None):

@@ -3,15 +3,17 @@ import json
 import math
 import os
 import time
+from dataclasses import replace
 
 import torch
 
 from . import dataset
-from .dataset import input_columns
+from .dataset import Union
 from .episode import Episode
 from .inputs import INPUT_WIDTH
 from .model import AltConvLSTM, ModelOptions
-from .rollout import error_ratio, roll_out, truth
+from .rollout import State, error_ratio, roll_out, tick, truth
+from .scaling import measure_scaling
 from .weights import save_weights
 
 VALIDATED_TICKS = (50, 150)  # and the whole sequence
@@ -19,9 +21,10 @@ VALIDATED_TICKS = (50, 150)  # and the whole sequence
 
 class Trainer:
     def __init__(self, train_groups, validation_groups, options, log=print):
-        self.options, self.groups, self.validation, self.log = options, train_groups, validation_groups, log
+        self.options, self.validation, self.log = options, validation_groups, log
+        self.bodies = Union(train_groups)
         torch.manual_seed(options.seed)
-        self.scaling = dataset.measure_scaling(train_groups)
+        self.scaling = measure_scaling(train_groups)
         self.rate_hz = train_groups[0].trajectories[0].rate_hz
         self.model = (
             AltConvLSTM(
@@ -29,8 +32,8 @@ class Trainer:
                     INPUT_WIDTH,
                     tuple(options.channels),
                     True,
-                    options.output_scale or self._liveliest_speed(),
-                    options.output_leak,
+                    options.output_scale,
+                    0.0,
                     options.hidden_leak,
                     options.state_clamp,
                 )
@@ -39,32 +42,24 @@ class Trainer:
             .to(options.device)
         )
         self.optimizer = torch.optim.Adam(self.model.parameters(), options.learning_rate)
-        self.weight, self.rms, self.bound = zip(*(self._region_figures(g) for g in train_groups))
+        self.weight, self.bound = (
+            torch.cat(values) for values in zip(*(self._region_figures(g) for g in train_groups))
+        )
         self.elapsed_s, self.updates, self.best, self.best_model, self.curve = 0.0, 0, float("inf"), None, []
 
-    def _liveliest_speed(self):
-        """Mean speed of the region that moves most, doubled; length units a tick, two digits."""
-        speed = [
-            (g.displacement[:, 1:] - g.displacement[:, :-1]).norm(dim=-1).mean((0, 1)) for g in self.groups
-        ]
-        top = max(
-            float(s[torch.as_tensor(g.body.region == r)].mean())
-            for g, s in zip(self.groups, speed)
-            for r in range(g.regions)
-        )
-        return float(f"{2 * top / self.scaling.length_unit_m:.1e}")
-
     def _region_figures(self, g):
-        """For each region (R, 1, 1): loss weight, root mean square and bound of |u| in length units.
+        """For each region (R, 1, 1): loss weight and bound of |u| in metres.
 
         Errors count by the root of the region's amplitude: between millimetres alike and shares alike."""
-        u = (g.displacement[:, ::2] / self.scaling.length_unit_m).norm(dim=-1)
+        u = g.displacement[:, ::2].norm(dim=-1)
         shape = lambda values: torch.stack(values)[:, None, None]
         of = [u[..., torch.as_tensor(g.body.region == r)] for r in range(g.regions)]
-        rms = shape([x.square().mean().sqrt().clamp(min=1e-4) for x in of])
+        rms = shape([x.square().mean().sqrt().clamp(min=1e-5) for x in of])
         weight = rms.rsqrt()
-        weight = weight / (weight * g.mask[:, :, None]).sum() * g.mask[:, :, None]
-        return weight, rms, 1.2 * shape([x.max() for x in of])
+        share = (weight * rms * g.mask[:, :, None]).sum()  # skinning alone costs 1
+        nodes = self.bodies.mask[: g.regions, :, None].new_zeros(g.regions, self.bodies.nodes, 1).float()
+        nodes[:, : g.nodes, 0] = g.mask.float()
+        return weight / share * nodes * g.count**0.5, 1.2 * shape([x.max() for x in of])
 
     def fraction(self):
         return self.elapsed_s / (60 * self.options.minutes)
@@ -76,53 +71,46 @@ class Trainer:
         for group in self.optimizer.param_groups:
             group["lr"] = self.options.learning_rate * warm * (0.97 * cosine + 0.03)
 
-    def _start_of_window(self, episode, u, rms):
-        """Own output of the last window, here and there replaced by truth, always a little disturbed. u (R,
-        n, B, 3): truth there."""
-        if episode.state is None:
-            episode.state = self.model.zero_state(*u.shape[:3])
-            episode.y = u
-            episode.y_before = u
-        y, y_before = episode.y.detach(), episode.y_before.detach()
-        lost = (~torch.isfinite(y)).any(-1).any(1).any(0) | (
-            (y - u).norm(dim=-1) > 4 * self.bound[episode.index]
-        ).any(1).any(0) & ~episode.free
-        help_out = torch.rand(u.shape[2], device=u.device) < max(0.02, 0.5 * (1 - 3 * self.fraction()))
-        replaced = (lost | (help_out & ~episode.free))[None, None, :, None]
-        episode.state = [
-            tuple(torch.where(lost[None, None, :, None], torch.zeros_like(s), s.detach()) for s in layer)
-            for layer in episode.state
-        ]
-        y, y_before = torch.where(replaced, u, y), torch.where(replaced, u, y_before)
-        kick = torch.randn(u.shape[0], 1, u.shape[2], 3, device=u.device) * torch.rand(
-            1, 1, u.shape[2], 1, device=u.device
-        )
-        return y + self.options.noise * rms[..., None] * kick, y_before
+    def _start_of_window(self, episode):
+        """The last window's end without its gradients; what has left all bounds starts anew; here and there a
+        little disturbed."""
+        g, state = episode.group, episode.state
+        base = state.base.map(torch.Tensor.detach)
+        memory = [tuple(x.detach() for x in layer) for layer in state.memory]
+        reach = 4 * self.bound * episode.gain.clamp(min=1)
+        fine = ((base.u.norm(dim=-1) < reach) | ~g.mask[..., None]).all(1).all(0)  # false where not a number
+        if not bool(fine.all()):
+            base = base.where(fine, g.base.start(episode.size))
+            keep = fine[:, None]
+            memory = [tuple(torch.where(keep, x, torch.zeros_like(x)) for x in layer) for layer in memory]
+        l_before = torch.where(fine[:, None], state.l_before.detach(), torch.zeros_like(base.l))
+        if self.options.disturbance and float(torch.rand(())) < 0.3:
+            unit = self.scaling.length_unit * g.radius * self.options.disturbance
+            kick = torch.randn(g.regions, g.base.modes, episode.size, device=base.q.device)
+            kick = kick / (1 + torch.arange(g.base.modes, device=kick.device))[None, :, None] * unit[..., 0]
+            disturbed = replace(base, q=base.q + kick)
+            base = replace(g.base.arrive(base, g.base._apply(g.base.shape, disturbed.q), disturbed.q),
+                           u_before=base.u_before, q_before=base.q_before)
+        return State(base, l_before, memory)
 
-    def _tick_loss(self, episode, y, u):
-        """Weighted distance to truth; where there is none, what exceeds the bound. y, u (R, n, B, 3)."""
-        distance = ((y - u).square().sum(-1) + 1e-8).sqrt()
-        excess = (y.square().sum(-1) + 1e-8).sqrt() - self.bound[episode.index] * episode.gain
+    def _tick_loss(self, episode, u, true):
+        """Weighted distance to truth; where there is none, what exceeds the bound. u, true (R, n, B, 3)."""
+        distance = ((u - true).square().sum(-1) + 1e-12).sqrt()
+        excess = (u.square().sum(-1) + 1e-12).sqrt() - self.bound * episode.gain.clamp(min=1)
         loss = torch.where(episode.known(), distance, excess.clamp(min=0))
-        return (loss * self.weight[episode.index]).sum() / y.shape[2]
+        return (loss * self.weight).sum() / u.shape[2]
 
     def _run_window(self, episode):
-        drive, u = episode.next_window()
-        truth_share = max(0.0, 1 - self.fraction() / 0.35)  # scheduled sampling
-        y, y_before = self._start_of_window(episode, u[0], self.rms[episode.index])
-        packed, state, loss = self.model.packed(), episode.state, 0.0
-        for t in range(1, len(u)):
-            z = input_columns(episode.static, drive[t], y, y_before, self.scaling)
-            y_before = y
-            y, state = self.model.step(packed, episode.group.P, z, state, y)
-            loss = loss + self._tick_loss(episode, y, u[t])
-            if truth_share > 0:
-                m = ((torch.rand(u.shape[3], device=u.device) < truth_share) & ~episode.free)[
-                    None, None, :, None
-                ]
-                y, y_before = torch.where(m, u[t], y), torch.where(m, u[t - 1], y_before)
-        episode.y, episode.y_before, episode.state = y, y_before, state
-        return loss / (len(u) - 1)
+        felt, drive, turn, true = episode.next_window()
+        state, packed, loss = self._start_of_window(episode), self.model.packed(), 0.0
+        for t in range(len(felt)):
+            state = tick(
+                self.model, packed, episode.group, self.scaling, episode.static, state, felt[t], drive[t],
+                (turn[0][t], turn[1][t]), episode.mirror,
+            )
+            loss = loss + self._tick_loss(episode, state.base.u, true[t])
+        episode.state = state
+        return loss / len(felt)
 
     def update(self, episode):
         self._set_rate()
@@ -136,14 +124,10 @@ class Trainer:
         return float(loss)
 
     def new_episode(self):
-        ticks = torch.tensor([float(g.count * g.ticks) for g in self.groups])
-        index = int(torch.multinomial(ticks, 1))
-        episode = Episode(self.groups[index], self.scaling, self.options)
-        episode.index = index
-        return episode
+        return Episode(self.bodies, self.scaling, self.options, self.model)
 
     def validate(self):
-        """Ratios to skinning, by ticks, of roll-outs from rest; averaged over the groups."""
+        """Ratios to skinning, by ticks, of roll-outs from rest; averaged over the bodies."""
         ratios = {}
         for g in self.validation:
             y, u = roll_out(self.model, self.scaling, g), truth(g)

@@ -6,18 +6,17 @@ from dataclasses import dataclass
 class TrainOptions:
     """Defaults are the recipe of the shipped weights."""
 
-    channels: tuple = (32, 32, 3)
-    minutes: float = 20.0  # of one core's time, or of the clock's on a GPU
+    channels: tuple = (16, 16, 3)
+    minutes: float = 25.0  # of one core's time, or of the clock's on a GPU
     seed: int = 0
-    batch: int = 8  # sequences, all regions of each
+    batch: int = 4  # sequences of every body, all regions of each
     window: int = 20  # ticks of truncated back-propagation
-    learning_rate: float = 1e-2
-    output_leak: float = 0.02
+    learning_rate: float = 5e-3
     hidden_leak: float = 0.2
-    output_scale: float = 0.0  # 0: by the speed of the liveliest region, so that cells stay near 1
+    output_scale: float = 0.05  # length units a tick for a cell of 1
     state_clamp: float = 8.0
-    noise: float = 0.1  # displacement noise at a window's start, share of the region's root mean square
     overdrive: float = 0.15  # share of a batch driven up to three times too hard, then left in stillness
     stillness: float = 0.08  # share of a batch that is not driven at all: truth is zero
-    mirror: bool = True  # half of the sequences mirrored left to right
+    mirror: bool = True  # half of the sequences seen mirrored left to right
+    disturbance: float = 0.05  # displacement noise at some windows' start, length units
     device: str = "cpu"

@@ -5,8 +5,9 @@ import numpy as np
 
 from .safetensors import BadData, load
 
-VERSION = "1"
-DRIVE_WIDTH = 21
+VERSION = "2"
+DRIVE_WIDTH = 12
+BASIS = ("rad_per_s", "damping_ratio", "shape", "turn", "force")
 _STILL = 1e-9  # metres: a displacement nowhere larger than this is no motion
 
 
@@ -21,6 +22,7 @@ class Body:
     edges: np.ndarray  # (m, 2)
     radius_m: np.ndarray  # (R,)
     region_names: tuple
+    bases: list  # a region: rad_per_s (K,), damping_ratio (K,), shape and turn (3n, K), force (K, 3n)
 
     def same_as(self, other):
         arrays = lambda b: (b.rest_position, b.rest_normal, b.stiffness, b.region, b.edges, b.radius_m)
@@ -33,14 +35,19 @@ class Trajectory:
 
     path: str
     body: Body
-    drive: np.ndarray  # (T+1, N, 21) m/s^2, rad/s^2, rad/s
-    displacement: np.ndarray  # (T+1, N, 3) metres, region-frame axes
+    drive: np.ndarray  # (T+1, N, 12) m/s^2, rad/s, rad/s^2
+    rotation: np.ndarray  # (T+1, N, 9) node frames, world from bind axes
+    displacement: np.ndarray  # (T+1, N, 3) metres, along the node's own axes
     metadata: dict
     tensors: dict  # everything the file holds
 
     @property
     def rate_hz(self):
         return float(self.metadata["rate_hz"])
+
+    @property
+    def substeps(self):
+        return int(self.metadata["substeps"])
 
     @property
     def name(self):
@@ -62,6 +69,19 @@ def _need(path, tensors, name, shape):
     return a
 
 
+def _read_bases(path, tensors, region, regions):
+    bases = []
+    for r in range(regions):
+        n, name = 3 * int((region == r).sum()), f"modes.{r}."
+        w = _need(path, tensors, name + "rad_per_s", (1, -1))[0]
+        if not len(w) or not (w > 0).all():
+            raise BadData(f"{path}: tensor {name}rad_per_s: no mode above 0 rad/s; make the file again")
+        shapes = ((1, len(w)), (n, len(w)), (n, len(w)), (len(w), n))
+        values = [_need(path, tensors, name + k, shape) for k, shape in zip(BASIS[1:], shapes)]
+        bases.append(dict(zip(BASIS, [w, values[0][0], *values[1:]])))
+    return bases
+
+
 def _read_body(path, tensors, metadata):
     nodes, regions = len(_need(path, tensors, "node.region", (-1,))), len(
         _need(path, tensors, "region.radius_m", (-1,))
@@ -74,6 +94,7 @@ def _read_body(path, tensors, metadata):
         _need(path, tensors, "edges", (-1, 2)),
         tensors["region.radius_m"],
         tuple(metadata.get("regions", "").split(",")),
+        [],
     )
     if (
         nodes == 0
@@ -86,6 +107,7 @@ def _read_body(path, tensors, metadata):
         )
     if len(body.edges) and (body.edges.min() < 0 or body.edges.max() >= nodes):
         raise BadData(f"{path}: tensor edges: names a node beyond {nodes}; make the file again")
+    body.bases = _read_bases(path, tensors, body.region, regions)
     return body
 
 
@@ -101,7 +123,8 @@ def read_trajectory(path):
     body = _read_body(path, tensors, metadata)
     nodes = len(body.region)
     drive = _need(path, tensors, "drive", (-1, nodes, DRIVE_WIDTH))
+    rotation = _need(path, tensors, "rotation", (len(drive), nodes, 9))
     displacement = _need(path, tensors, "displacement", (len(drive), nodes, 3))
     if len(drive) < 2 or np.abs(displacement).max() <= _STILL or not np.abs(drive).max() > 0:
         raise BadData(f"{path}: holds no motion; make it again with another --motion or a larger --strength")
-    return Trajectory(path, body, drive, displacement, metadata, tensors)
+    return Trajectory(path, body, drive, rotation, displacement, metadata, tensors)

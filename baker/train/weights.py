@@ -21,8 +21,9 @@ def weights_metadata(options, scaling, rate_hz, extra):
         "inputs": ",".join(ORDER),
         "input_scales": _join(scaling.scale[k] for k in ORDER),
         "envelope": _join(scaling.envelope[k] for k in ORDER),
-        "frame": "region",
-        "length_unit_m": f"{scaling.length_unit_m:.9g}",
+        "frame": "node",
+        "base": "modal",
+        "length_unit": f"{scaling.length_unit:.9g}",
         "output_scale": f"{options.output_scale:.9g}",
         "output_leak": f"{options.output_leak:.9g}",
         "hidden_leak": f"{options.hidden_leak:.9g}",
@@ -53,7 +54,7 @@ def _read_scaling(path, metadata):
     named = {k: dict(zip(ORDER, v)) for k, v in numbers.items()}
     return Scaling(
         named["input_scales"],
-        _number(path, metadata, "length_unit_m", 1),
+        _number(path, metadata, "length_unit", 1),
         named["envelope"],
         _number(path, metadata, "displacement_limit", 0.75),
     )
