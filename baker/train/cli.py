@@ -14,7 +14,7 @@ def _add_fields(parser, options, skip=()):
         if f.name in skip:
             continue
         kind = (
-            (lambda text: tuple(int(c) for c in text.split(",")))
+            (lambda text: tuple(int(c) if c.isdigit() else c for c in text.split(",") if c))
             if isinstance(f.default, tuple)
             else type(f.default)
         )
@@ -63,22 +63,34 @@ def _train(a):
     train(a.data, a.out, options)
 
 
+def _named(pairs):
+    """NAME=FOLDER arguments as a dict, in order."""
+    for text in pairs:
+        if "=" not in text:
+            raise BadData(f"--run {text}: give NAME=FOLDER")
+    return dict(text.split("=", 1) for text in pairs)
+
+
 def _evaluate(a):
+    import torch
     from .evaluate import evaluate, table
+    from .page import write_page
 
-    metrics, judged = evaluate(os.path.join(a.run, "weights.safetensors"), a.data, a.run)
-    curve = os.path.join(a.run, "curve.json")
-    if os.path.exists(curve):
-        from .plot import draw
-
-        draw(metrics, judged, curve, os.path.join(a.run, "curves.png"))
-    print(table(metrics))
+    torch.set_num_threads(a.threads)
+    runs = _named(a.run)
+    enduring = (next(iter(runs)), "modal_warped", *a.enduring)
+    metrics, judged = evaluate(runs, a.data, a.bodies or None, enduring)
+    write_page(metrics, judged, runs, a.out)
+    for body in metrics["bodies"]:
+        print(table(metrics, body))
 
 
 def _export(a):
     from .export import export
 
-    export(os.path.join(a.run, "weights.safetensors"), a.run, a.data, a.out, a.name)
+    with open(os.path.join(a.page, "metrics.json")) as file:
+        metrics = json.load(file)
+    export(a.run, a.data, metrics, a.out, a.name, a.model, a.body)
 
 
 def _best(a):
@@ -122,12 +134,19 @@ def _parser():
     from .train_options import TrainOptions
 
     _add_fields(p, TrainOptions)
-    p = command("evaluate", _evaluate, "Judges a run on held-out motions: metrics.json, curves.png.")
+    p = command("evaluate", _evaluate, "Judges runs on held-out motions and bodies: the evaluation page.")
+    p.add_argument("data")
+    p.add_argument("--run", action="append", required=True, help="NAME=FOLDER; repeatable, the shipped one first")
+    p.add_argument("--bodies", nargs="+", help="default: all with test sequences")
+    p.add_argument("--enduring", nargs="*", default=[], help="further models for the longest roll-outs")
+    p.add_argument("--threads", type=int, default=1)
+    p.add_argument("--out", required=True, help="folder of the page")
+    p = command("export", _export, "Writes weights with their errors stated, and check vectors, of a judged run.")
     p.add_argument("data")
     p.add_argument("--run", required=True)
-    p = command("export", _export, "Writes weights, metrics, curves and check vectors of a judged run.")
-    p.add_argument("data")
-    p.add_argument("--run", required=True)
+    p.add_argument("--page", required=True, help="folder of the evaluation page")
+    p.add_argument("--model", required=True, help="the run's name on that page")
+    p.add_argument("--body", required=True, help="body whose error is stated in the weights")
     p.add_argument("--out", required=True)
     p.add_argument("--name", required=True)
     p = command("best", _best, "Prints the run that validated best.")

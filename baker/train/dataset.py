@@ -70,6 +70,12 @@ class Group:
         turn = lambda before: torch.matmul(r[2:].transpose(-1, -2), before)
         return drive[..., FELT], drive, (turn(r[1:-1]), turn(r[:-2])), u
 
+    def amplitude_m(self):
+        """(R, S): root mean square of |u| in each region and sequence."""
+        u = self.displacement[:, ::2].square().sum(-1)  # (S, T/2, N)
+        of = lambda r: u[..., torch.as_tensor(np.array(self.body.region) == r, device=self.device)].mean((1, 2))
+        return torch.stack([of(r) for r in range(self.regions)]).sqrt().clamp(min=1e-5)
+
     def radius_m(self):
         """(N,) of each node's region."""
         return torch.as_tensor(np.array(self.body.radius_m)[self.body.region], device=self.device)
@@ -125,10 +131,15 @@ def _read_sheet(folder):
         raise BadData(f"{path}: unusable data sheet ({error}); run `baker/train generate` again") from None
 
 
+def list_split(folder, split):
+    """(body's name, path) of a split's sequences."""
+    return [(b, p) for s, b, p in _read_sheet(folder) if s == split]
+
+
 def read_split(folder, split, body=None):
     """(body's name, trajectory) of a split's sequences, of one body if it is named, all checked; throws
     BadData naming the first unusable file."""
-    found = [(b, p) for s, b, p in _read_sheet(folder) if s == split and body in (None, b)]
+    found = [(b, p) for b, p in list_split(folder, split) if body in (None, b)]
     if not found:
         raise BadData(
             f"{os.path.join(folder, SHEET)}: no {split} sequences; run `baker/train generate` again"

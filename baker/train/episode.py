@@ -10,9 +10,9 @@ SETTLED_TICKS = 100  # after which they should have come to rest
 
 class Episode:
     """A batch of sequences of every body from rest to their end, window by window, with the state carried
-    along. group: a Union."""
+    along. group: a Union; amplitudes: (R, S) of each of its bodies."""
 
-    def __init__(self, group, scaling, options, model):
+    def __init__(self, group, scaling, options, model, amplitudes):
         g, b, device = group, options.batch, group.device
         self.group, self.scaling, self.options, self.size = group, scaling, options, b
         self.sequences = g.draw(b)
@@ -23,8 +23,15 @@ class Episode:
         ones = torch.ones(INPUT_WIDTH, device=device)
         self.mirror = torch.where(mirrored[:, None], mirror_signs(device), ones)
         self.static = static_columns(g, scaling, b)
+        self.weight = self._weights(amplitudes)
         self.state = start(model, g, b)
         self.done = 0
+
+    def _weights(self, amplitudes):
+        """(R, 1, B): errors in gentle sequences count for more, by the root of their amplitude."""
+        share = lambda a, s: a.square().mean(1, keepdim=True).sqrt() / a[:, s]
+        shares = torch.cat([share(a, s) for a, s in zip(amplitudes, self.sequences)])
+        return shares.sqrt().clamp(0.3, 4)[:, None]
 
     def ticks_left(self):
         return self.group.ticks - self.done

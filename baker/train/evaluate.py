@@ -1,19 +1,22 @@
-"""Judges a network on held-out motions, beside springs and skinning alone."""
+"""Judges networks on held-out motions and bodies, beside plain models and skinning alone."""
 import json
 import math
 import os
+import time
 
 import numpy as np
 import torch
 
 from . import dataset
-from .baselines import fit_springs
-from .rollout import roll_out, truth
+from .baselines import plain_models, single_step
+from .rollout import roll_out, single_steps, truth
 from .safetensors import BadData
 from .weights import read_weights
 
-TICKS = (10, 20, 30, 40, 50, 100, 200, 600, 3600)
-METHODS = ("network", "spring", "two_springs", "skinning")
+TICKS = (10, 20, 30, 40, 50, 100, 200, 600, 3600, 36000)
+SKINNING = "skinning"
+STILL_TICKS = 3600  # a minute
+ENDURANCE_TICKS = 3600  # roll-outs from here on are left to the models named in `enduring`
 
 
 class Tally:
@@ -29,12 +32,12 @@ class Tally:
         for k in [k for k in TICKS if k <= len(error)]:
             e, s = error[:k], size[:k]
             add = np.array([e.numel(), float(e.sum()), float(e.square().sum()), float(s.sum())])
-            self.sums[method, k] = self.sums.get((method, k), 0) + add
+            self.sums[k, method] = self.sums.get((k, method), 0) + add
 
     def figures(self):
         """ticks -> method -> mean and standard deviation in mm, ratio to skinning alone."""
         out = {}
-        for (method, k), (n, e, square, size) in sorted(self.sums.items(), key=lambda item: item[0][1]):
+        for (k, method), (n, e, square, size) in sorted(self.sums.items(), key=lambda item: item[0][0]):
             mean = e / n
             out.setdefault(str(k), {})[method] = {
                 "mean_mm": round(mean, 4),
@@ -44,51 +47,40 @@ class Tally:
         return out
 
 
-def predictions(model, scaling, springs, group):
-    """method -> displacement (T+1, N, B, 3) metres."""
-    out = {"network": roll_out(model, scaling, group)}
-    if group.body.same_as(springs[0]):
-        out.update(spring=springs[1].predict(group), two_springs=springs[2].predict(group))
-    out["skinning"] = torch.zeros_like(truth(group))
+class Network:
+    """A trained network as a model of baselines.py."""
+
+    def __init__(self, path):
+        self.model, self.scaling, self.metadata = read_weights(path)
+        self.parameters = sum(p.numel() for p in self.model.parameters())
+
+    def predict(self, group):
+        return roll_out(self.model, self.scaling, group)
+
+
+def ratio(p, u):
+    """Mean distance after the start as a share of the mean displacement, four digits."""
+    return round(float((p[1:] - u[1:]).norm(dim=-1).mean() / u[1:].norm(dim=-1).mean()), 4)
+
+
+def by_region(group, methods):
+    """region -> method -> ratio over whole sequences, and the mean displacement in mm."""
+    u, out = truth(group), {}
+    for r, name in enumerate(group.body.region_names):
+        nodes = torch.as_tensor(np.asarray(group.body.region) == r)
+        out[name] = {"mean_displacement_mm": round(float(u[1:, nodes].norm(dim=-1).mean()) * 1e3, 3)}
+        out[name].update({m: ratio(p[:, nodes], u[:, nodes]) for m, p in methods.items() if m != SKINNING})
     return out
 
 
-def single_step(model, scaling, group):
-    """Error of one tick from the true state, as a share of skinning's, beside holding the displacement and
-    keeping its velocity."""
-    u, size = truth(group), truth(group)[2:].norm(dim=-1).mean()
-    share = lambda p: round(float((p - u[2:]).norm(dim=-1).mean() / size), 4)
-    return {"hold": share(u[1:-1]), "constant_velocity": share(2 * u[1:-1] - u[:-2])}
-
-
-def _cut(drive, gain, silent_from):
-    """Drive times gain (angular velocity by its root, as its square drives), then none."""
-    out = drive * gain
-    out[..., 15:18] = drive[..., 15:18] * gain**0.5
-    out[silent_from:] = 0
-    return out
-
-
-def stability(model, scaling, group, gain):
-    """Driven for 200 ticks at `gain`, then left alone for 600: largest displacement and what is left, mm;
-    largest |c|."""
-    s = torch.arange(min(8, group.count))
-    driven = min(200, group.ticks)
-    drive = group.window(s, torch.zeros(len(s), dtype=torch.long), driven)[0]
-    drive = torch.cat([drive, torch.zeros_like(drive[:1]).expand(600, *drive.shape[1:])])
-    watch = {}
-    y = 1e3 * roll_out(
-        model, scaling, group, drive=_cut(drive, gain, driven + 1), sequences=s, watch=watch
-    ).norm(dim=-1)
-    radius = group.radius_m() * 1e3
+def by_motion(group, methods):
+    """motion#seed -> method -> ratio over the whole sequence."""
+    u = truth(group)
     return {
-        "gain": gain,
-        "largest_mm": round(float(y.max()), 2),
-        "residue_mean_mm": round(float(y[-1].mean()), 4),
-        "residue_largest_mm": round(float(y[-1].max()), 4),
-        "largest_cell": round(watch["cell"], 2),
-        "largest_share_of_radius": round(float((y / radius[None, :, None]).max()), 3),
-        "limit_share_of_radius": scaling.displacement_limit,
+        f"{t.name} {group.ticks} ticks": {
+            m: ratio(p[:, :, i], u[:, :, i]) for m, p in methods.items() if m != SKINNING
+        }
+        for i, t in enumerate(group.trajectories)
     }
 
 
@@ -107,105 +99,149 @@ def surface_error(group, methods):
             u = true[1:, at : at + count]
             at += count
             for name, p in {**methods, "carried_truth": truth(group)}.items():
-                e = np.linalg.norm(np.einsum("nv,tnd->tvd", carry, p[1:, nodes, i].numpy()) - u, axis=-1)
+                e = np.linalg.norm(np.einsum("nv,tnd->tvd", carry, p[1:, nodes, i].numpy(), optimize=True) - u, axis=-1)
                 sums[name] = sums.get(name, 0) + np.array([e.size, e.sum()])
     return {
-        k: {"mean_mm": round(1e3 * e / n, 4), "ratio": round(e / sums["skinning"][1], 4)}
+        k: {"mean_mm": round(1e3 * e / n, 4), "ratio": round(e / sums[SKINNING][1], 4)}
         for k, (n, e) in sums.items()
     }
 
 
-def by_region(group, methods):
-    """region -> method -> ratio over whole sequences, and the mean displacement in mm."""
-    u, out = truth(group), {}
-    for r in range(group.regions):
-        nodes = torch.as_tensor(np.asarray(group.body.region) == r)
-        size = u[1:, nodes].norm(dim=-1).mean()
-        name = group.body.region_names[r] if r < len(group.body.region_names) else str(r)
-        out[name] = {"mean_displacement_mm": round(float(size) * 1e3, 3)}
-        out[name].update(
-            {
-                m: round(float((p[1:, nodes] - u[1:, nodes]).norm(dim=-1).mean() / size), 4)
-                for m, p in methods.items()
-                if m != "skinning"
-            }
-        )
-    return out
+def energy(group, methods):
+    """Elastic energy in the modes, of unit modal mass: smallest, mean and largest of a method's roll-outs as
+    shares of the truth's mean."""
+    def of(p):
+        u = group.unflatten(p)
+        q = torch.stack([group.base.unwarped(step)[1] for step in u[1::4]])
+        return (0.5 * (group.base.rad_per_s[None, :, :, None] * q).square()).sum((1, 2))
+
+    with torch.no_grad():
+        true = of(truth(group))
+        mean = float(true.mean())
+        row = lambda e: {k: round(float(getattr(e, k)()) / mean, 4) for k in ("min", "mean", "max")}
+        return {"truth": row(true), **{m: row(of(p)) for m, p in methods.items() if m != SKINNING}}
 
 
-def by_motion(groups_and_methods):
-    """motion#seed -> method -> ratio over the whole sequence."""
-    out = {}
-    for g, methods in groups_and_methods:
-        u = truth(g)
-        for i, t in enumerate(g.trajectories):
-            size = u[1:, :, i].norm(dim=-1).mean()
-            out[f"{t.name} {g.ticks} ticks"] = {
-                m: round(float((p[1:, :, i] - u[1:, :, i]).norm(dim=-1).mean() / size), 4)
-                for m, p in methods.items()
-                if m != "skinning"
-            }
-    return out
+def stability(network, group, gain):
+    """Driven for 200 ticks at `gain`, then left alone for a minute: largest displacement and what is left.
+    The largest |c|; the largest displacement as a share of its limit (the guard fires above 1)."""
+    s, watch, driven = torch.arange(min(8, group.count)), {}, min(200, group.ticks)
+    u = roll_out(
+        network.model, network.scaling, group, driven + STILL_TICKS, s, gain, still_after=driven, watch=watch
+    ).norm(dim=-1)
+    height_m = float(group.trajectories[0].metadata["height_m"])
+    share = u / group.radius_m()[None, :, None] / network.scaling.displacement_limit
+    return {
+        "gain": gain,
+        "largest_mm": round(1e3 * float(u.max()), 2),
+        "residue_mean_mm": round(1e3 * float(u[-1].mean()), 5),
+        "residue_largest_mm": round(1e3 * float(u[-1].max()), 5),
+        "residue_share_of_height": float(f"{float(u[-1].max()) / height_m:.2e}"),
+        "largest_share_of_limit": round(float(share.max()), 3),
+        "largest_cell": round(watch.get("cell", 0.0), 2),
+    }
 
 
-def _read(data, split, needed=True):
+def operations(network, group):
+    """Millions of floating-point operations a tick for the whole body, multiply and add counted apart: the
+    network, its graph and its modal base."""
+    nodes = len(group.body.region)
+    edges = nodes + 2 * len(group.body.edges)
+    multiply_adds = 0
+    if network is not None:
+        multiply_adds += nodes * network.parameters
+        widths = [network.model.options.input_width, *network.model.options.channels]
+        multiply_adds += edges * (sum(widths[:-1]) + 2 * sum(widths[1:]))
+    for r, b in enumerate(group.body.bases):
+        multiply_adds += 4 * 3 * int((group.body.region == r).sum()) * len(b["rad_per_s"])
+    return round(2e-6 * multiply_adds, 3)
+
+
+def _read(data, split, body=None, needed=True):
     try:
-        return dataset.group(dataset.read_split(data, split))
+        return dataset.group(dataset.read_split(data, split, body))
     except BadData as error:
         if needed or "no " + split not in str(error):
             raise
         return []
 
 
-def evaluate(weights, data, out=None):
-    """The metrics as a dict, written to out/metrics.json; and what plot.py draws."""
-    model, scaling, metadata = read_weights(weights)
-    train_groups = _read(data, "train")
-    springs = (train_groups[0].body, fit_springs(train_groups[0], False), fit_springs(train_groups[0], True))
-    groups = _read(data, "test") + _read(data, "long", needed=False)
-    judged = [(g, predictions(model, scaling, springs, g)) for g in groups]
-    tally = Tally()
-    for g, methods in judged:
+def judge_body(data, body, networks, enduring, log):
+    """Figures of one body's test and long sequences, and what plot.py draws: [(group, method -> roll-out)]."""
+    fit_on = next(iter(_read(data, "train", body, needed=False)), None)
+    groups = _read(data, "test", body) + _read(data, "long", body, needed=False)
+    plain = plain_models(groups[0], fit_on)
+    tally, judged = Tally(), []
+    for g in groups:
+        started = time.monotonic()
+        models = {**networks, **plain}
+        if g.ticks > ENDURANCE_TICKS:
+            models = {k: m for k, m in models.items() if k in enduring}
+        methods = {k: m.predict(g) for k, m in models.items()}
+        methods[SKINNING] = torch.zeros_like(truth(g))
         for name, p in methods.items():
             tally.add(name, p, truth(g))
+        judged.append((g, methods))
+        log(f"{body}: {g.count} sequences of {g.ticks} ticks judged in {time.monotonic() - started:.0f} s", flush=True)
     first, methods = judged[0]
-    metrics = {
-        "model": {
-            "parameters": sum(p.numel() for p in model.parameters()),
-            "channels": list(model.options.channels),
-            "seed": metadata.get("seed"),
-            "trained_minutes": metadata.get("trained_minutes"),
-            "recipe": json.loads(metadata.get("recipe", "{}")),
-        },
+    steps = {k: ratio(single_steps(n.model, n.scaling, first), truth(first)) for k, n in networks.items()}
+    steps["modal_warped"] = ratio(single_steps(None, None, first), truth(first))
+    figures = {
+        "seen_in_training": fit_on is not None,
         "held_out": [t.name for g in groups for t in g.trajectories],
         "roll_out": tally.figures(),
-        "single_step": single_step(model, scaling, first),
-        "rest": stability(model, scaling, first, 1.0),
-        "overdrive": stability(model, scaling, first, 3.0),
+        "single_step": {**single_step(first), **steps},
         "regions": by_region(first, methods),
-        "motions": by_motion(judged),
+        "motions": {k: v for g, m in judged for k, v in by_motion(g, m).items()},
         "surface": surface_error(first, methods),
+        "energy": energy(first, methods),
+        "operations_mflop": {k: operations(n, first) for k, n in networks.items()},
     }
-    if out:
-        with open(os.path.join(out, "metrics.json"), "w") as file:
-            json.dump(metrics, file, indent=1)
+    figures["operations_mflop"]["modal_warped"] = operations(None, first)
+    return figures, judged
+
+
+def known_motions(data, body, networks):
+    """Ratios on the training motions of a body, over whole sequences: what the held-out figures stand beside."""
+    group = _read(data, "train", body)[0]
+    u = truth(group)
+    out = {k: ratio(n.predict(group), u) for k, n in networks.items()}
+    return {**out, "modal_warped": ratio(roll_out(None, None, group), u)}
+
+
+def evaluate(runs, data, bodies=None, enduring=(), log=print):
+    """runs: name -> folder of a run; the first is the one that is shipped. bodies: those to judge, default all
+    with test sequences. Returns the metrics and, a body, what plot.py draws."""
+    networks = {name: Network(os.path.join(run, "weights.safetensors")) for name, run in runs.items()}
+    named = bodies or list(dict.fromkeys(b for b, _ in dataset.list_split(data, "test")))
+    metrics = {"models": {}, "bodies": {}}
+    for name, network in networks.items():
+        m = network.metadata
+        metrics["models"][name] = {
+            "parameters": network.parameters,
+            "channels": list(network.model.options.channels),
+            "seed": m.get("seed"),
+            "trained_minutes": m.get("trained_minutes"),
+            "validation_ratio": m.get("validation_ratio"),
+            "recipe": json.loads(m.get("recipe", "{}")),
+        }
+    judged = {}
+    for body in named:
+        metrics["bodies"][body], judged[body] = judge_body(data, body, networks, enduring, log)
+    first, shipped = judged[named[0]][0][0], next(iter(networks.values()))
+    if metrics["bodies"][named[0]]["seen_in_training"]:
+        metrics["known_motions"] = known_motions(data, named[0], networks)
+    metrics["rest"] = stability(shipped, first, 1.0)
+    metrics["overdrive"] = stability(shipped, first, 3.0)
     return metrics, judged
 
 
-def table(metrics):
-    """The roll-out figures as text a person reads."""
-    lines = [f"{'ticks':>6}" + "".join(f"{m:>26}" for m in METHODS)]
-    for k, row in metrics["roll_out"].items():
-        cell = (
-            lambda m: f"{row[m]['mean_mm']:.2f} +- {row[m]['sd_mm']:.2f} mm {row[m]['ratio']:.3f}"
-            if m in row
-            else ""
-        )
-        lines.append(f"{k:>6}" + "".join(f"{cell(m):>26}" for m in METHODS))
-    rest, over = metrics["rest"], metrics["overdrive"]
-    lines.append(
-        f"at rest: {rest['residue_mean_mm']} mm left (largest {rest['residue_largest_mm']}); driven x3: "
-        f"largest {over['largest_mm']} mm, {over['largest_share_of_radius']} of a radius, "
-        f"{over['residue_mean_mm']} mm left; largest |c| {over['largest_cell']}"
-    )
+def table(metrics, body):
+    """A body's roll-out figures as text a person reads."""
+    rows = metrics["bodies"][body]["roll_out"]
+    methods = list(dict.fromkeys(m for row in rows.values() for m in row))
+    lines = [f"{body:>12}" + "".join(f"{m:>22}" for m in methods)]
+    for k, row in rows.items():
+        cell = lambda m: f"{row[m]['mean_mm']:.2f} mm {row[m]['ratio']:.3f}" if m in row else ""
+        lines.append(f"{k:>12}" + "".join(f"{cell(m):>22}" for m in methods))
     return "\n".join(lines)

@@ -1,81 +1,129 @@
-"""Pictures of a network's errors and of its training."""
+"""Pictures of the evaluation page."""
 import json
+import os
 
 import torch
 
+from .evaluate import SKINNING
 from .rollout import truth
 
-COLOURS = {"network": "#c2410c", "spring": "#2563eb", "two_springs": "#0f766e", "skinning": "#6b7280"}
+COLOURS = ["#c2410c", "#db2777", "#7c3aed", "#0f766e", "#2563eb", "#65a30d", "#a16207", "#0891b2", "#4b5563"]
 LABELS = {
-    "network": "network",
-    "spring": "damped spring",
-    "two_springs": "two damped springs",
-    "skinning": "skinning alone",
+    "modal_linear": "modal, linear",
+    "modal_linear_fitted": "modal, linear, fitted",
+    "modal_warped": "modal, warped",
+    "modal_warped_fitted": "modal, warped, fitted",
+    "node_springs": "spring a node, fitted",
+    "spring": "spring a region, fitted",
+    SKINNING: "skinning alone",
 }
 
 
-def _ratios(axes, metrics):
-    for method in COLOURS:
-        points = [(int(k), row[method]["ratio"]) for k, row in metrics["roll_out"].items() if method in row]
-        axes.plot(*zip(*points), "o-", color=COLOURS[method], label=LABELS[method], markersize=3.5)
-    axes.set_xscale("log")
-    axes.set_ylim(0, 1.15)
-    axes.set_xlabel("ticks from rest (60 a second)")
-    axes.set_ylabel("error / error of skinning alone")
-    axes.set_title("Roll-outs on held-out motions")
-    axes.legend(frameon=False, fontsize=8)
+def label_of(method):
+    return LABELS.get(method, method.replace("_", " "))
 
 
-def _trace(axes, judged):
-    """The liveliest node of the first held-out sequence, along its liveliest axis."""
-    group, methods = judged[0]
-    u = truth(group)[:, :, 0]
-    node, axis = divmod(int(u.square().mean(0).argmax()), 3)
-    seconds = torch.arange(len(u)) / group.trajectories[0].rate_hz
-    axes.plot(seconds, 1e3 * u[:, node, axis], color="black", linewidth=2, label="ground truth")
-    for method in ("network", "spring"):
-        if method in methods:
-            axes.plot(
-                seconds,
-                1e3 * methods[method][:, node, 0, axis],
-                color=COLOURS[method],
-                linewidth=1.2,
-                label=LABELS[method],
-            )
-    axes.set_xlabel("time (s)")
-    axes.set_ylabel(f"displacement along {'xyz'[axis]} (mm)")
-    axes.set_title(f"One node, {group.trajectories[0].name}")
-    axes.legend(frameon=False, fontsize=8)
-
-
-def _training(axes, curve):
-    minutes = [p["minutes"] for p in curve]
-    for key, colour in (("ratio_50", "#c2410c"), ("ratio_150", "#2563eb"), ("ratio_all", "#0f766e")):
-        if key in curve[0]:
-            axes.plot(minutes, [p[key] for p in curve], color=colour, label=key.replace("ratio_", "ticks: "))
-    axes.set_ylim(0, 1.15)
-    axes.set_xlabel("training (minutes)")
-    axes.set_ylabel("validation error / skinning alone")
-    axes.set_title("Training")
-    axes.legend(frameon=False, fontsize=8)
-
-
-def draw(metrics, judged, curve_file, out):
-    """out: a .png or .svg."""
+def _pyplot():
     import matplotlib
 
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
-    with open(curve_file) as file:
-        curve = json.load(file)["curve"]
-    figure, axes = pyplot.subplots(1, 3, figsize=(13, 3.8))
-    _ratios(axes[0], metrics)
-    _trace(axes[1], judged)
-    _training(axes[2], curve)
+    return pyplot
+
+
+def _finish(figure, axes, path):
     for a in axes:
         a.grid(alpha=0.25)
         a.spines[["top", "right"]].set_visible(False)
     figure.tight_layout()
-    figure.savefig(out, dpi=100)
-    pyplot.close(figure)
+    figure.savefig(path, dpi=100)
+    _pyplot().close(figure)
+
+
+def colours_of(methods):
+    return {m: COLOURS[i % len(COLOURS)] for i, m in enumerate(m for m in methods if m != SKINNING)}
+
+
+def roll_outs(metrics, path):
+    """Error against roll-out length, a panel a body."""
+    bodies = list(metrics["bodies"])
+    figure, axes = _pyplot().subplots(1, len(bodies), figsize=(4.6 * len(bodies), 4.2), sharey=True, squeeze=False)
+    for a, body in zip(axes[0], bodies):
+        rows = metrics["bodies"][body]["roll_out"]
+        colours = colours_of(dict.fromkeys(m for row in rows.values() for m in row))
+        for method, colour in colours.items():
+            points = [(int(k), row[method]["ratio"]) for k, row in rows.items() if method in row]
+            a.plot(*zip(*points), "o-", color=colour, label=label_of(method), markersize=3, linewidth=1.3)
+        a.axhline(1, color="#6b7280", linewidth=1, linestyle="--")
+        a.set_xscale("log"), a.set_yscale("log"), a.set_ylim(0.02, 1.6)
+        a.set_xlabel("ticks from rest (60 a second)")
+        a.set_title(body + ("" if metrics["bodies"][body]["seen_in_training"] else ", never trained on"), fontsize=10)
+    axes[0][0].set_ylabel("error / error of skinning alone")
+    axes[0][0].legend(frameon=False, fontsize=7)
+    _finish(figure, axes[0], path)
+
+
+def trace(judged, methods, path):
+    """The liveliest node of the first held-out sequence, along its liveliest axis."""
+    group, predicted = judged[0]
+    u = truth(group)[:, :, 0]
+    node, axis = divmod(int(u.square().mean(0).argmax()), 3)
+    seconds = torch.arange(len(u)) / group.trajectories[0].rate_hz
+    figure, a = _pyplot().subplots(figsize=(9, 3.6))
+    a.plot(seconds, 1e3 * u[:, node, axis], color="black", linewidth=2.4, label="ground truth")
+    for method, colour in colours_of(m for m in methods if m in predicted).items():
+        a.plot(seconds, 1e3 * predicted[method][:, node, 0, axis], color=colour, linewidth=1.2, label=label_of(method))
+    a.set_xlabel("time (s)")
+    a.set_ylabel(f"displacement along {'xyz'[axis]} (mm)")
+    a.set_title(f"One node of {group.name}, {group.trajectories[0].name}: its own output fed back all the way", fontsize=10)
+    a.legend(frameon=False, fontsize=8)
+    _finish(figure, [a], path)
+
+
+def cost(metrics, body, ticks, path):
+    """Error against operations a tick, for the models whose operations are known."""
+    figure, a = _pyplot().subplots(figsize=(5.6, 4))
+    figures = metrics["bodies"][body]
+    row, operations = figures["roll_out"][str(ticks)], figures["operations_mflop"]
+    for method, colour in colours_of(m for m in row if m in operations).items():
+        a.plot(operations[method], row[method]["ratio"], "o", color=colour)
+        a.annotate(label_of(method), (operations[method], row[method]["ratio"]), fontsize=8, xytext=(5, 4), textcoords="offset points")
+    a.set_xscale("log")
+    a.set_ylim(0, None)
+    a.margins(x=0.3)
+    a.set_xlabel("million operations a tick, whole body")
+    a.set_ylabel(f"error / skinning alone, {ticks} ticks")
+    _finish(figure, [a], path)
+
+
+def regions(metrics, body, path):
+    """Ratio of each method in each soft region."""
+    figure, a = _pyplot().subplots(figsize=(9, 3.6))
+    rows = metrics["bodies"][body]["regions"]
+    methods = [m for m in next(iter(rows.values())) if m != "mean_displacement_mm"]
+    width = 0.8 / len(methods)
+    for i, (method, colour) in enumerate(colours_of(methods).items()):
+        a.bar([x + i * width for x in range(len(rows))], [r[method] for r in rows.values()], width, color=colour, label=label_of(method))
+    names = [f"{k}\n{r['mean_displacement_mm']:.1f} mm" for k, r in rows.items()]
+    a.set_xticks([x + 0.4 - width / 2 for x in range(len(rows))], names, fontsize=8)
+    a.set_ylabel("error / skinning alone")
+    a.set_ylim(0, 1)
+    a.legend(frameon=False, fontsize=7, ncol=3)
+    _finish(figure, [a], path)
+
+
+def training(runs, path):
+    """Validation errors of the runs while they trained. runs: name -> folder."""
+    figure, a = _pyplot().subplots(figsize=(6, 3.6))
+    for (name, run), colour in zip(runs.items(), COLOURS):
+        curve = os.path.join(run, "curve.json")
+        if not os.path.exists(curve):
+            continue
+        with open(curve) as file:
+            points = json.load(file)["curve"]
+        a.plot([p["minutes"] for p in points], [p["ratio_all"] for p in points], color=colour, label=label_of(name))
+    a.set_xlabel("training (minutes of one core)")
+    a.set_ylabel("validation error / skinning alone")
+    a.legend(frameon=False, fontsize=8)
+    _finish(figure, [a], path)

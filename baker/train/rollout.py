@@ -20,6 +20,8 @@ class State:
 
 def bounded(values, name, scaling):
     """value x scale, clamped as the runtime clamps it."""
+    if name in scaling.without:
+        return torch.zeros_like(values)
     return (values * scaling.scale[name]).clamp(-scaling.envelope[name], scaling.envelope[name])
 
 
@@ -56,7 +58,8 @@ def tick(model, packed, group, scaling, static, state, felt, drive, turn_now, mi
     """The state one tick on. model None: the modal base alone. mirror: (B, INPUT_WIDTH) signs, the network
     sees those sequences mirrored. felt, drive, turn_now: as Group.window gives them, of this tick."""
     base = state.base
-    q, l, force = group.base.predict(base, felt, turn_now)
+    alone = model is not None and "base" in scaling.without
+    q, l, force = (None, base.l, felt) if alone else group.base.predict(base, felt, turn_now)
     if model is None:
         return State(group.base.arrive(base, l, q), base.l, state.memory)
     unit = scaling.length_unit * group.radius
@@ -69,12 +72,33 @@ def tick(model, packed, group, scaling, static, state, felt, drive, turn_now, mi
         flip = mirror[:, columns("displacement")]
         y, memory = model.step(packed, group.P, z * mirror, state.memory, y * flip, carry * flip)
         y = y * flip
-    return State(group.base.arrive(base, y * unit * group.mask[..., None, None]), base.l, memory)
+    y = y * unit * group.mask[..., None, None]
+    if alone:
+        return State(BaseState(y, y, base.u, base.q, base.q, base.theta), base.l, memory)
+    return State(group.base.arrive(base, l, q, y - l), base.l, memory)
 
 
 def start(model, group, batch):
     base = group.base.start(batch)
     return State(base, base.l, None if model is None else model.zero_state(group.regions, group.nodes, batch))
+
+
+def single_steps(model, scaling, group):
+    """As roll_out, but every tick starts from the true displacement; the network's memory is its own."""
+    s = torch.arange(group.count, device=group.device)
+    with torch.no_grad():
+        packed, static = (None, None) if model is None else (
+            model.packed(), static_columns(group, scaling, len(s))
+        )
+        felt, drive, turn, u = group.window(s, torch.zeros_like(s), group.ticks)
+        state = start(model, group, len(s))
+        out = [group.flatten(state.base.u)]
+        for t in range(group.ticks):
+            state = tick(model, packed, group, scaling, static, state, felt[t], drive[t], (turn[0][t], turn[1][t]))
+            out.append(group.flatten(state.base.u))
+            true = group.base.stand_at(u[t], u[t - 1] if t else torch.zeros_like(u[t]))
+            state = State(true[0], true[1], state.memory)
+    return torch.stack(out)
 
 
 def roll_out(model, scaling, group, ticks=None, sequences=None, gain=1.0, still_after=None, watch=None):

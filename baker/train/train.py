@@ -24,7 +24,7 @@ class Trainer:
         self.options, self.validation, self.log = options, validation_groups, log
         self.bodies = Union(train_groups)
         torch.manual_seed(options.seed)
-        self.scaling = measure_scaling(train_groups)
+        self.scaling = replace(measure_scaling(train_groups), without=tuple(options.without))
         self.rate_hz = train_groups[0].trajectories[0].rate_hz
         self.model = (
             AltConvLSTM(
@@ -42,6 +42,7 @@ class Trainer:
             .to(options.device)
         )
         self.optimizer = torch.optim.Adam(self.model.parameters(), options.learning_rate)
+        self.amplitudes = [g.amplitude_m() for g in train_groups]
         self.weight, self.bound = (
             torch.cat(values) for values in zip(*(self._region_figures(g) for g in train_groups))
         )
@@ -98,7 +99,7 @@ class Trainer:
         distance = ((u - true).square().sum(-1) + 1e-12).sqrt()
         excess = (u.square().sum(-1) + 1e-12).sqrt() - self.bound * episode.gain.clamp(min=1)
         loss = torch.where(episode.known(), distance, excess.clamp(min=0))
-        return (loss * self.weight).sum() / u.shape[2]
+        return (loss * self.weight * episode.weight).sum() / u.shape[2]
 
     def _run_window(self, episode):
         felt, drive, turn, true = episode.next_window()
@@ -124,7 +125,7 @@ class Trainer:
         return float(loss)
 
     def new_episode(self):
-        return Episode(self.bodies, self.scaling, self.options, self.model)
+        return Episode(self.bodies, self.scaling, self.options, self.model, self.amplitudes)
 
     def validate(self):
         """Ratios to skinning, by ticks, of roll-outs from rest; averaged over the bodies."""

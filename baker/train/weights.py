@@ -22,7 +22,8 @@ def weights_metadata(options, scaling, rate_hz, extra):
         "input_scales": _join(scaling.scale[k] for k in ORDER),
         "envelope": _join(scaling.envelope[k] for k in ORDER),
         "frame": "node",
-        "base": "modal",
+        "base": "none" if "base" in scaling.without else "modal",
+        **({"without": ",".join(scaling.without)} if scaling.without else {}),
         "length_unit": f"{scaling.length_unit:.9g}",
         "output_scale": f"{options.output_scale:.9g}",
         "output_leak": f"{options.output_leak:.9g}",
@@ -57,6 +58,7 @@ def _read_scaling(path, metadata):
         _number(path, metadata, "length_unit", 1),
         named["envelope"],
         _number(path, metadata, "displacement_limit", 0.75),
+        tuple(k for k in metadata.get("without", "").split(",") if k),
     )
 
 

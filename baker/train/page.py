@@ -1,0 +1,116 @@
+"""The evaluation page: tables and pictures of one evaluation, as Markdown."""
+import json
+import os
+
+from . import plot
+from .evaluate import SKINNING
+
+PAPER = {10: (2.32, 0.12), 20: (3.4, 0.17), 30: (5.18, 0.27), 50: (7.9, 0.40)}  # Deng, Mu, Hu 2020, D-FAUST: mm, ratio
+TRACED = 3  # methods drawn beside the truth
+
+
+def _row(cells):
+    return "| " + " | ".join(str(c) for c in cells) + " |"
+
+
+def _table(head, rows):
+    return "\n".join([_row(head), _row("---" for _ in head)] + [_row(r) for r in rows])
+
+
+def _methods(rows):
+    return list(dict.fromkeys(m for row in rows.values() for m in row))
+
+
+def roll_out_table(figures):
+    """Mean and standard deviation in mm and the ratio to skinning alone, by ticks and method."""
+    rows = figures["roll_out"]
+    cell = lambda c: f"{c['mean_mm']:.2f} ± {c['sd_mm']:.2f} ({c['ratio']:.3f})" if c else ""
+    methods = _methods(rows)
+    body = [[plot.label_of(m)] + [cell(row.get(m)) for row in rows.values()] for m in methods]
+    return _table(["error, mm (ratio)"] + [f"{int(k):,}" for k in rows], body)
+
+
+def single_step_table(figures):
+    names = {"hold": "displacement held", "constant_velocity": "velocity kept"}
+    rows = [[names.get(k, plot.label_of(k)), f"{v:.3f}"] for k, v in figures["single_step"].items()]
+    return _table(["one tick from the true state", "ratio to skinning alone"], rows)
+
+
+def motion_table(figures):
+    rows, first = figures["motions"], next(iter(figures["motions"].values()))
+    methods = list(first)
+    body = [[k] + [f"{row[m]:.3f}" if m in row else "" for m in methods] for k, row in rows.items()]
+    return _table(["motion"] + [plot.label_of(m) for m in methods], body)
+
+
+def energy_table(figures):
+    rows = [[plot.label_of(k)] + [f"{v[c]:.2f}" for c in ("min", "mean", "max")] for k, v in figures["energy"].items()]
+    return _table(["elastic energy in the modes, truth's mean = 1", "least", "mean", "largest"], rows)
+
+
+def surface_line(figures):
+    if not figures["surface"]:
+        return ""
+    parts = [f"{plot.label_of(k)} {v['mean_mm']:.2f} mm ({v['ratio']:.3f})" for k, v in figures["surface"].items()]
+    return "On the whole carried surface: " + "; ".join(parts) + ".\n"
+
+
+def model_table(metrics, body):
+    operations = metrics["bodies"][body]["operations_mflop"]
+    rows = [
+        [k, f"{m['parameters']:,}", ", ".join(map(str, m["channels"])), operations.get(k, ""), m["trained_minutes"], m["validation_ratio"], m["seed"]]
+        for k, m in metrics["models"].items()
+    ]
+    return _table(["network", "parameters", "channels", f"MFLOP a tick, {body}", "minutes of one core", "validation", "seed"], rows)
+
+
+def stability_table(metrics):
+    rows = [
+        [f"x {m['gain']:g}", m["largest_mm"], m["largest_share_of_limit"], m["largest_cell"], m["residue_mean_mm"], m["residue_largest_mm"], f"{100 * m['residue_share_of_height']:.4f} %"]
+        for m in (metrics["rest"], metrics["overdrive"])
+    ]
+    return _table(["drive", "largest, mm", "share of its limit", "largest cell", "left after a minute, mean mm", "largest mm", "share of height"], rows)
+
+
+def body_section(metrics, body, folder):
+    figures = metrics["bodies"][body]
+    seen = "trained on, other motions" if figures["seen_in_training"] else "never trained on"
+    plot.regions(metrics, body, os.path.join(folder, f"regions_{body}.png"))
+    return (
+        f"## {body} ({seen})\n\n{roll_out_table(figures)}\n\n{surface_line(figures)}\n{single_step_table(figures)}\n\n"
+        f"![error in each region](regions_{body}.png)\n\n{motion_table(figures)}\n\n{energy_table(figures)}\n"
+    )
+
+
+def write_page(metrics, judged, runs, folder):
+    """folder/README.md, its pictures, and metrics.json."""
+    os.makedirs(folder, exist_ok=True)
+    bodies = list(metrics["bodies"])
+    rows = metrics["bodies"][bodies[0]]["roll_out"]
+    longest = max((int(k) for k in rows if len(rows[k]) > 3), default=50)
+    plot.roll_outs(metrics, os.path.join(folder, "roll_outs.png"))
+    shown = [next(iter(metrics["models"])), "modal_warped", "node_springs"][:TRACED]
+    plot.trace(judged[bodies[0]], shown, os.path.join(folder, "trace.png"))
+    plot.cost(metrics, bodies[0], min(longest, 600), os.path.join(folder, "cost.png"))
+    plot.training(runs, os.path.join(folder, "training.png"))
+    known = metrics.get("known_motions", {})
+    parts = [
+        "# How far the tissue is from the truth\n",
+        "Made by `baker/train evaluate`; figures in `metrics.json`. Errors are distances between control nodes and the "
+        "finite-element truth, mean ± standard deviation over nodes, ticks and sequences; a ratio is to the error of skinning "
+        "alone. Every roll-out starts at rest and feeds on its own output. Test motions and bodies were seen neither by training "
+        "nor by choosing; plain models are fitted on the training motions of the body they are judged on.\n",
+        "![error against roll-out length](roll_outs.png)\n",
+        model_table(metrics, bodies[0]) + "\n",
+        f"![a node](trace.png)\n\n![error against cost](cost.png) ![training](training.png)\n",
+        "Whole training motions, for comparison: " + ", ".join(f"{plot.label_of(k)} {v:.3f}" for k, v in known.items()) + ".\n" if known else "",
+        "The paper's own figures, on captured bodies that are not available here (Deng, Mu, Hu 2020): "
+        + ", ".join(f"{k} steps {mm} mm ({r})" for k, (mm, r) in PAPER.items()) + ".\n",
+        f"## Driven, then left alone for a minute\n\n{stability_table(metrics)}\n",
+    ]
+    parts += [body_section(metrics, b, folder) for b in bodies]
+    with open(os.path.join(folder, "README.md"), "w") as file:
+        file.write("\n".join(p for p in parts if p))
+    with open(os.path.join(folder, "metrics.json"), "w") as file:
+        json.dump(metrics, file, indent=1)
+        file.write("\n")
