@@ -4,9 +4,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
+#include <string>
 
+#include "baker/common/bad_input.hpp"
 #include "baker/mesh/carry.hpp"
 #include "baker/truth/modes.hpp"
 
@@ -44,18 +45,20 @@ std::map<int, std::vector<size_t>> split_by_region(const FemLinear& body, const 
   const std::vector<int> near = control_nodes_of(body, layout, cage, cage_node);
   std::map<int, std::vector<size_t>> parts;
   for (size_t i = 0; i < body.nodes.size() && !near.empty(); ++i) {
-    const Vector3& place =
-        cage.nodes[static_cast<size_t>(cage_node[static_cast<size_t>(body.nodes[i])])];
-    const auto distance = [&](int n) { return (layout.nodes[static_cast<size_t>(n)].position - place).squaredNorm(); };
-    const int nearest = *std::min_element(near.begin(), near.end(),
-                                          [&](int a, int b) { return distance(a) < distance(b); });
+    const Vector3& place = cage.nodes[static_cast<size_t>(cage_node[static_cast<size_t>(body.nodes[i])])];
+    const auto distance = [&](int n) {
+      return (layout.nodes[static_cast<size_t>(n)].position - place).squaredNorm();
+    };
+    const int nearest =
+        *std::min_element(near.begin(), near.end(), [&](int a, int b) { return distance(a) < distance(b); });
     parts[layout.nodes[static_cast<size_t>(nearest)].region].push_back(i);
   }
   return parts;
 }
 
 // Rows and columns of some nodes.
-Eigen::SparseMatrix<double> block_of(const Eigen::SparseMatrix<double>& whole, const std::vector<size_t>& nodes) {
+Eigen::SparseMatrix<double> block_of(const Eigen::SparseMatrix<double>& whole,
+                                     const std::vector<size_t>& nodes) {
   std::vector<Index> to(static_cast<size_t>(whole.rows()), -1);
   for (size_t i = 0; i < nodes.size(); ++i)
     for (Index axis = 0; axis < 3; ++axis)
@@ -95,108 +98,121 @@ Part solve_part(const FemLinear& body, const std::vector<size_t>& nodes, const s
   return part;
 }
 
-// Mode k of a part at the region's control nodes.
-VectorXd shape_at_nodes(const Part& part, Index k, const TissueLayout& layout, const Region& region,
-                        const Cage& cage) {
-  std::map<int, Index> row;
-  for (size_t i = 0; i < part.cage_node.size(); ++i) row[part.cage_node[i]] = row_of(i);
-  VectorXd shape = VectorXd::Zero(3 * region.node_count);
-  for (int n = 0; n < region.node_count; ++n) {
-    const ControlNode& node = layout.nodes[static_cast<size_t>(region.first_node + n)];
-    const Cage::Place& place = cage.surface[static_cast<size_t>(node.vertex)];
-    for (size_t a = 0; a < 4; ++a) {
-      const auto found = row.find(cage.tetrahedra[static_cast<size_t>(place.tetrahedron)][a]);
-      if (found != row.end())
-        shape.segment<3>(3 * n) += place.weight[a] * part.modes.shape.col(k).segment<3>(found->second);
-    }
-  }
+// The part's modes at every node of the cage: (3 cage nodes, modes), zero where the part is not.
+MatrixXd shape_in_cage(const Part& part, const Cage& cage) {
+  MatrixXd shape = MatrixXd::Zero(row_of(cage.nodes.size()), part.modes.shape.cols());
+  for (size_t i = 0; i < part.cage_node.size(); ++i)
+    shape.middleRows<3>(row_of(static_cast<size_t>(part.cage_node[i]))) =
+        part.modes.shape.middleRows<3>(row_of(i));
   return shape;
 }
 
-// Half the curl of mode k at the region's control nodes: how flesh turns, for small q. Averaged over the
-// tetrahedra around the cage's nodes, by volume, and read off at the node's place.
-struct Curl {
-  std::vector<Vector3> sum;
-  std::vector<double> volume;
+struct Tetrahedron {
+  double volume;                         // sixfold
+  Eigen::Matrix<double, 3, 4> gradient;  // of each corner's share
 };
 
-VectorXd turn_at_nodes(const Part& part, Index k, const TissueLayout& layout, const Region& region,
-                       const Cage& cage) {
-  std::map<int, Index> row;
-  for (size_t i = 0; i < part.cage_node.size(); ++i) row[part.cage_node[i]] = row_of(i);
-  Curl curl{std::vector<Vector3>(cage.nodes.size(), Vector3::Zero()), std::vector<double>(cage.nodes.size())};
-  for (const auto& t : cage.tetrahedra) {
-    if (std::none_of(t.begin(), t.end(), [&](int n) { return row.count(n) > 0; })) continue;
-    Eigen::Matrix3d edges, moved;
-    const auto shape = [&](int n) -> Vector3 {
-      const auto found = row.find(n);
-      return found == row.end() ? Vector3(Vector3::Zero()) : Vector3(part.modes.shape.col(k).segment<3>(found->second));
-    };
-    for (int a = 0; a < 3; ++a) {
-      edges.col(a) = cage.nodes[static_cast<size_t>(t[static_cast<size_t>(a) + 1])] - cage.nodes[static_cast<size_t>(t[0])];
-      moved.col(a) = shape(t[static_cast<size_t>(a) + 1]) - shape(t[0]);
-    }
-    const Eigen::Matrix3d gradient = moved * edges.inverse();
-    const double volume = edges.determinant();
-    const Vector3 turn = 0.5 * Vector3(gradient(2, 1) - gradient(1, 2), gradient(0, 2) - gradient(2, 0),
-                                       gradient(1, 0) - gradient(0, 1));
-    for (const int n : t) {
-      curl.sum[static_cast<size_t>(n)] += volume * turn;
-      curl.volume[static_cast<size_t>(n)] += volume;
-    }
+Tetrahedron tetrahedron_of(const Cage& cage, const std::array<int, 4>& corners) {
+  Eigen::Matrix3d edges;
+  for (size_t a = 1; a < 4; ++a)
+    edges.col(static_cast<Index>(a) - 1) =
+        cage.nodes[static_cast<size_t>(corners[a])] - cage.nodes[static_cast<size_t>(corners[0])];
+  Tetrahedron out{edges.determinant(), {}};
+  out.gradient.rightCols<3>() = edges.inverse().transpose();
+  out.gradient.col(0) = -out.gradient.rightCols<3>().rowwise().sum();
+  return out;
+}
+
+Eigen::Matrix3d cross_matrix(const Vector3& v) {
+  return Eigen::Matrix3d{{0, -v.z(), v.y()}, {v.z(), 0, -v.x()}, {-v.y(), v.x(), 0}};
+}
+
+// Half the curl of the modes, how flesh turns for small q: in the mean, by volume, over the tetrahedra of the
+// part around each node of the cage.
+MatrixXd turn_in_cage(const MatrixXd& shape, const Part& part, const Cage& cage) {
+  std::vector<bool> in_part(cage.nodes.size(), false);
+  for (const int node : part.cage_node) in_part[static_cast<size_t>(node)] = true;
+  MatrixXd turn = MatrixXd::Zero(shape.rows(), shape.cols());
+  VectorXd volume = VectorXd::Zero(static_cast<Index>(cage.nodes.size()));
+  for (const auto& corners : cage.tetrahedra) {
+    if (std::none_of(corners.begin(), corners.end(), [&](int n) { return in_part[static_cast<size_t>(n)]; }))
+      continue;
+    const Tetrahedron t = tetrahedron_of(cage, corners);
+    MatrixXd curl = MatrixXd::Zero(3, shape.cols());
+    for (size_t a = 0; a < 4; ++a)
+      curl += cross_matrix(t.gradient.col(static_cast<Index>(a))) * shape.middleRows<3>(3 * corners[a]);
+    for (const int n : corners) turn.middleRows<3>(3 * n) += 0.5 * t.volume * curl, volume[n] += t.volume;
   }
-  VectorXd turn = VectorXd::Zero(3 * region.node_count);
-  for (int n = 0; n < region.node_count; ++n) {
-    const ControlNode& node = layout.nodes[static_cast<size_t>(region.first_node + n)];
-    const Cage::Place& place = cage.surface[static_cast<size_t>(node.vertex)];
-    for (size_t a = 0; a < 4; ++a) {
-      const auto corner = static_cast<size_t>(cage.tetrahedra[static_cast<size_t>(place.tetrahedron)][a]);
-      if (curl.volume[corner] > 0)
-        turn.segment<3>(3 * n) += place.weight[a] * curl.sum[corner] / curl.volume[corner];
-    }
-  }
+  for (Index n = 0; n < volume.size(); ++n)
+    if (volume[n] > 0) turn.middleRows<3>(3 * n) /= volume[n];
   return turn;
 }
 
-// Generalised forces of mode k: felt accelerations at the control nodes, carried through the flesh.
-VectorXd force_from_nodes(const Part& part, Index k, const std::vector<std::vector<double>>& carry) {
-  VectorXd force = VectorXd::Zero(3 * static_cast<Index>(carry.size()));
-  for (size_t n = 0; n < carry.size(); ++n)
-    for (size_t c = 0; c < part.cage_node.size(); ++c)
-      force.segment<3>(row_of(n)) += carry[n][c] * part.mass[static_cast<Index>(c)] *
-                                     part.modes.shape.col(k).segment<3>(row_of(c));
-  return force;
+// (3 cage nodes, modes) -> (3 control nodes of the region, modes).
+MatrixXd at_control_nodes(const MatrixXd& in_cage, const TissueLayout& layout, const Region& region,
+                          const Cage& cage) {
+  MatrixXd out = MatrixXd::Zero(3 * region.node_count, in_cage.cols());
+  for (int n = 0; n < region.node_count; ++n) {
+    const ControlNode& node = layout.nodes[static_cast<size_t>(region.first_node + n)];
+    const Cage::Place& place = cage.surface[static_cast<size_t>(node.vertex)];
+    const auto& corners = cage.tetrahedra[static_cast<size_t>(place.tetrahedron)];
+    for (size_t a = 0; a < 4; ++a)
+      out.middleRows<3>(3 * n) += place.weight[a] * in_cage.middleRows<3>(3 * corners[a]);
+  }
+  return out;
 }
 
-struct Mode {
-  double rad_per_s, damping_ratio;
-  VectorXd shape, turn, force;
-};
-
-void append_modes(const Part& part, const TissueLayout& layout, const Region& region, const Cage& cage,
-                  std::vector<Mode>* modes) {
+// Generalised forces (modes, 3 control nodes): felt accelerations at the nodes, carried through the flesh.
+MatrixXd force_from_nodes(const Part& part, const TissueLayout& layout, const Region& region,
+                          const Cage& cage) {
   std::vector<Vector3> nodes, flesh;
   for (int n = 0; n < region.node_count; ++n)
     nodes.push_back(layout.nodes[static_cast<size_t>(region.first_node + n)].position);
   for (const int node : part.cage_node) flesh.push_back(cage.nodes[static_cast<size_t>(node)]);
   const std::vector<std::vector<double>> carry = carry_weights(nodes, {}, flesh);
-  for (Index k = 0; k < part.modes.squared_rad_per_s.size(); ++k) {
+  MatrixXd force = MatrixXd::Zero(part.modes.shape.cols(), 3 * region.node_count);
+  for (size_t n = 0; n < nodes.size(); ++n)
+    for (size_t c = 0; c < flesh.size(); ++c)
+      force.middleCols<3>(row_of(n)) += carry[n][c] * part.mass[static_cast<Index>(c)] *
+                                        part.modes.shape.middleRows<3>(row_of(c)).transpose();
+  return force;
+}
+
+struct Mode {
+  double rad_per_s, damping_ratio;
+  VectorXd shape, turn;
+  Eigen::RowVectorXd force;
+};
+
+void append_modes(const Part& part, const TissueLayout& layout, const Region& region, const Cage& cage,
+                  std::vector<Mode>* modes) {
+  const MatrixXd in_cage = shape_in_cage(part, cage);
+  const MatrixXd shape = at_control_nodes(in_cage, layout, region, cage);
+  const MatrixXd turn = at_control_nodes(turn_in_cage(in_cage, part, cage), layout, region, cage);
+  const MatrixXd force = force_from_nodes(part, layout, region, cage);
+  for (Index k = 0; k < shape.cols(); ++k) {
     const double w = std::sqrt(part.modes.squared_rad_per_s[k]);
-    const VectorXd shape = shape_at_nodes(part, k, layout, region, cage);
-    const double size = shape.norm() / std::sqrt(static_cast<double>(region.node_count));
+    const double size = shape.col(k).norm() / std::sqrt(static_cast<double>(region.node_count));
     if (!(w > 0) || !(size > 0)) continue;
-    if (w > kHighest_rad_per_s && modes->size() >= kFewest) break;
-    modes->push_back({w, 0.5 * (part.rayleigh_mass_per_s / w + part.rayleigh_stiffness_s * w), shape / size,
-                      turn_at_nodes(part, k, layout, region, cage) / size, force_from_nodes(part, k, carry) * size});
+    modes->push_back({w, 0.5 * (part.rayleigh_mass_per_s / w + part.rayleigh_stiffness_s * w),
+                      shape.col(k) / size, turn.col(k) / size, force.row(k) * size});
   }
 }
 
-ModalBasis basis_of(std::vector<Mode> modes, int nodes, int count) {
-  std::stable_sort(modes.begin(), modes.end(),
+// The lowest ones.
+void sort_and_cut(int count, std::vector<Mode>* modes) {
+  std::stable_sort(modes->begin(), modes->end(),
                    [](const Mode& a, const Mode& b) { return a.rad_per_s < b.rad_per_s; });
-  modes.resize(std::min(modes.size(), static_cast<size_t>(count)));
+  const auto high = std::find_if(modes->begin(), modes->end(),
+                                 [](const Mode& mode) { return mode.rad_per_s > kHighest_rad_per_s; });
+  const auto below = static_cast<size_t>(high - modes->begin());
+  modes->resize(std::min({modes->size(), static_cast<size_t>(count), std::max(below, kFewest)}));
+}
+
+ModalBasis basis_of(const std::vector<Mode>& modes, int nodes) {
   const auto kept = static_cast<Index>(modes.size());
-  ModalBasis basis{VectorXd(kept), VectorXd(kept), MatrixXd(3 * nodes, kept), MatrixXd(3 * nodes, kept), MatrixXd(kept, 3 * nodes)};
+  ModalBasis basis{VectorXd(kept), VectorXd(kept), MatrixXd(3 * nodes, kept), MatrixXd(3 * nodes, kept),
+                   MatrixXd(kept, 3 * nodes)};
   for (Index k = 0; k < kept; ++k) {
     const Mode& mode = modes[static_cast<size_t>(k)];
     basis.rad_per_s[k] = mode.rad_per_s;
@@ -213,14 +229,17 @@ ModalBasis basis_of(std::vector<Mode> modes, int nodes, int count) {
 std::vector<ModalBasis> modal_bases(const TissueLayout& layout, const Cage& cage,
                                     const std::vector<FemLinear>& bodies, const std::vector<int>& cage_node,
                                     int count) {
+  if (count < 1) throw BadInput("modal basis: " + std::to_string(count) + " modes: ask for 1 or more");
   std::vector<std::vector<Mode>> modes(layout.regions.size());
   for (const FemLinear& body : bodies)
     for (const auto& [region, nodes] : split_by_region(body, layout, cage, cage_node))
       append_modes(solve_part(body, nodes, cage_node, count), layout,
                    layout.regions[static_cast<size_t>(region)], cage, &modes[static_cast<size_t>(region)]);
   std::vector<ModalBasis> bases;
-  for (size_t r = 0; r < layout.regions.size(); ++r)
-    bases.push_back(basis_of(std::move(modes[r]), layout.regions[r].node_count, count));
+  for (size_t r = 0; r < layout.regions.size(); ++r) {
+    sort_and_cut(count, &modes[r]);
+    bases.push_back(basis_of(modes[r], layout.regions[r].node_count));
+  }
   return bases;
 }
 

@@ -16,13 +16,14 @@ inline constexpr int kMostModes = 64;  // a region
 struct ModalBasis {
   Eigen::VectorXd rad_per_s;      // w, ascending
   Eigen::VectorXd damping_ratio;  // zeta, of the Rayleigh damping
-  Eigen::MatrixXd shape;          // (3 nodes, modes), bind-pose axes; each column's root mean square over nodes is 1 / sqrt(3)
-  Eigen::MatrixXd turn;           // (3 nodes, modes), rotation vectors: half the curl of shape through the flesh
-  Eigen::MatrixXd force;          // (modes, 3 nodes)
+  Eigen::MatrixXd shape;          // (3 nodes, modes), bind-pose axes; the nodes' root mean square is 1
+  Eigen::MatrixXd turn;   // (3 nodes, modes), rotation vectors: half the curl of shape through the flesh
+  Eigen::MatrixXd force;  // (modes, 3 nodes)
 };
 
 // cage_node: a node of `bodies` -> of the cage. One basis a region; fewer than `count` modes where a region
-// has fewer, or fewer below 30 Hz.
+// has fewer (none: nothing of it is free to move) or, beyond the first six, fewer below 30 Hz. Throws
+// BadInput: count below 1.
 std::vector<ModalBasis> modal_bases(const TissueLayout& layout, const Cage& cage,
                                     const std::vector<FemLinear>& bodies, const std::vector<int>& cage_node,
                                     int count);

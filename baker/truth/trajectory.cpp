@@ -30,8 +30,8 @@ TrajectoryRecorder::TrajectoryRecorder(const Character& character, const TissueL
   for (size_t r = 0; r < layout.regions.size() && options.surface; ++r)
     for (const int vertex : layout.regions[r].vertices) {
       const auto v = static_cast<size_t>(vertex);
-      carried_.push_back(node_record({vertex, static_cast<int>(r), character.positions[v],
-                                      character.normals[v], 0, character.skin[v]}));
+      carried_.push_back(node_record(
+          {vertex, static_cast<int>(r), character.positions[v], character.normals[v], 0, character.skin[v]}));
     }
 }
 

@@ -34,8 +34,8 @@ struct TrajectoryOptions {
 // and runtime cannot disagree.
 class TrajectoryRecorder {
  public:
-  TrajectoryRecorder(const Character& character, const TissueLayout& layout,
-                     const TrajectoryOptions& options, std::vector<ModalBasis> modes);
+  TrajectoryRecorder(const Character& character, const TissueLayout& layout, const TrajectoryOptions& options,
+                     std::vector<ModalBasis> modes);
 
   void add(const TruthFrame& frame);
   Safetensors finish(std::map<std::string, std::string> metadata) const;
@@ -54,9 +54,9 @@ class TrajectoryRecorder {
   const TissueLayout& layout_;
   TrajectoryOptions options_;
   std::vector<ModalBasis> modes_;
-  std::vector<pack::NodeRecord> nodes_, carried_;      // carried_: a vertex of each region, as if it were a node
-  std::vector<std::vector<tissue::NodePose>> poses_;   // of the last three ticks, newest first
-  std::vector<Vector3> roots_;                         // likewise
+  std::vector<pack::NodeRecord> nodes_, carried_;  // carried_: a vertex of each region, as if it were a node
+  std::vector<std::vector<tissue::NodePose>> poses_;  // of the last three ticks, newest first
+  std::vector<Vector3> roots_;                        // likewise
   std::vector<float> drive_, rotation_, displacement_, joints_, positions_;
   std::vector<Eigen::half> surface_;
   std::vector<double> root_, energy_;
