@@ -5,6 +5,7 @@ import json
 import os
 import sys
 
+from .data_sheet import SPLITS
 from .safetensors import BadData
 
 
@@ -44,7 +45,7 @@ def _character(text):
 def _generate(a):
     from .generate import generate
 
-    sheet = generate(a.bake, a.plan, a.out, dict(a.character), a.processes)
+    sheet = generate(a.bake, a.plan, a.out, dict(a.character), a.processes, splits=a.splits)
     print(
         f"{a.out}: {len(sheet['sequences'])} sequences of {len(sheet['bodies'])} bodies, "
         f"{sheet['seconds_simulated']:.0f} s simulated, {len(sheet['failed'])} failed"
@@ -83,6 +84,14 @@ def _evaluate(a):
     write_page(metrics, judged, runs, a.out)
     for body in metrics["bodies"]:
         print(table(metrics, body))
+
+
+def _ablate(a):
+    import torch
+    from .ablate import ablate
+
+    torch.set_num_threads(1)
+    ablate(a.data, a.body, a.work, a.out, a.minutes, a.processes)
 
 
 def _export(a):
@@ -127,6 +136,7 @@ def _parser():
         metavar="NAME=PATH",
         help="a further body, tested on: a skinned .glb; repeatable",
     )
+    p.add_argument("--splits", nargs="+", default=SPLITS, choices=SPLITS, help="simulate these now; default all")
     p = command("train", _train, "Trains one network.")
     p.add_argument("data", help="folder of the data set")
     p.add_argument("--out", required=True, help="folder of the run; a run that was cut goes on")
@@ -141,6 +151,13 @@ def _parser():
     p.add_argument("--enduring", nargs="*", default=[], help="further models for the longest roll-outs")
     p.add_argument("--threads", type=int, default=1)
     p.add_argument("--out", required=True, help="folder of the page")
+    p = command("ablate", _ablate, "Trains small variants of the recipe on one body and compares them.")
+    p.add_argument("data")
+    p.add_argument("--body", required=True)
+    p.add_argument("--minutes", type=float, default=4.0, help="of one core, a variant; default 4")
+    p.add_argument("--processes", type=int, default=2)
+    p.add_argument("--work", required=True, help="folder of the runs; a second call goes on")
+    p.add_argument("--out", required=True, help="folder of the evaluation page")
     p = command("export", _export, "Writes weights with their errors stated, and check vectors, of a judged run.")
     p.add_argument("data")
     p.add_argument("--run", required=True)

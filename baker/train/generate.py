@@ -170,9 +170,9 @@ def _run_all(bake, out, todo, processes, report):
         pool.shutdown(cancel_futures=True)
 
 
-def generate(bake, plan_path, out, characters=None, processes=2, progress=sys.stderr):
+def generate(bake, plan_path, out, characters=None, processes=2, progress=sys.stderr, splits=SPLITS):
     """Writes the bodies, their trajectories and data_sheet.json; returns the sheet. characters: name -> path
-    of those the plan leaves open. The sheet is there, without figures, as soon as all sequences of a body's
+    of those the plan leaves open. splits: those to simulate now; what is there of others stays in the sheet. The sheet is there, without figures, as soon as all sequences of a body's
     split are: training can begin while the long ones run. Throws BadData: before simulating where plan or
     bodies are unusable, during it where too many simulations failed."""
     plan = read_plan(plan_path)
@@ -188,7 +188,7 @@ def generate(bake, plan_path, out, characters=None, processes=2, progress=sys.st
         _prepare(bake, os.path.join(out, body.name), body)
 
     finished = {j for j in jobs if _is_done(os.path.join(out, j.file), j)}
-    todo, failed = [j for j in jobs if j not in finished], {}
+    todo, failed = [j for j in jobs if j not in finished and j.split in splits], {}
     waiting, bar = set(todo), _Progress(todo, progress)
 
     def write_sheet(figures):

@@ -209,10 +209,16 @@ def _same_run(saved, options):
     return plain(saved["options"]) == plain(vars(options))
 
 
+def _read(data, split, bodies):
+    if not bodies:
+        return dataset.read_split(data, split)
+    return [pair for body in bodies for pair in dataset.read_split(data, split, body)]
+
+
 def train(data, out, options, log=print):
     """Writes out/weights.safetensors, out/curve.json and out/checkpoint.pt; goes on from the checkpoint of a
     run that was cut."""
-    train_set, validation_set = dataset.read_split(data, "train"), dataset.read_split(data, "validation")
+    train_set, validation_set = (_read(data, split, options.bodies) for split in ("train", "validation"))
     trainer = Trainer(
         dataset.group(train_set, options.device), dataset.group(validation_set, options.device), options, log
     )

@@ -19,5 +19,6 @@ class TrainOptions:
     stillness: float = 0.08  # share of a batch that is not driven at all: truth is zero
     mirror: bool = True  # half of the sequences seen mirrored left to right
     disturbance: float = 0.05  # displacement noise at some windows' start, length units
+    bodies: tuple = ()  # train on these only; empty: all that have training sequences
     without: tuple = ()  # ablations: names of inputs that are fed zero; "base": no modal base
     device: str = "cpu"
