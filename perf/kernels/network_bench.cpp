@@ -73,7 +73,7 @@ struct RandomNetwork {
     record.output_leak = 0.02f;
     record.hidden_leak = 0.2f;
     record.state_clamp = 8;
-    record.length_unit_m = 1;
+    record.length_unit = 1;
   }
 
   tissue::Network view() { return {&record, layers, {}, weights.data()}; }

@@ -76,12 +76,12 @@ TEST_CASE("what_is_not_a_whole_pack_of_this_version_is_refused_with_its_cause") 
 TEST_CASE("another_version_names_the_command_that_rebakes_it") {
   PackEditor character(character_pack()), model(test::small_model());
   character.header().version = 0;
-  model.header().version = 2;
+  model.header().version = 1;
   CHECK(character.open().code == StatusCode::kWrongVersion);
   CHECK_THAT(character.open().message,
-             Contains("version 0") && Contains("sinew-bake character IN.glb --tissue"));
+             Contains("version 0") && Contains("sinew-bake character IN.glb --recipe R.json --tissue"));
   CHECK_THAT(model.open().message,
-             Contains("version 2") && Contains("sinew-bake model W.safetensors -o M.sinew"));
+             Contains("version 1 ") && Contains("sinew-bake model W.safetensors -o M.sinew"));
 }
 
 TEST_CASE("header_and_table_faults_are_refused_by_name") {
@@ -122,7 +122,7 @@ TEST_CASE("network_faults_are_refused_by_name") {
       character_pack(),
       {{"model 9 is not known", network([](auto& n) { n.model = ModelKind{9}; }), StatusCode::kUnsupported},
        {"layers stated", network([](auto& n) { n.layer_count = 3; })},
-       {"input width", network([](auto& n) { n.input_width = 35; })},
+       {"input width", network([](auto& n) { n.input_width = 33; })},
        {"outside 1..1024", network([](auto& n) { n.input_width = 0; })},
        {"widest layer", network([](auto& n) { n.max_channels = 6; })},
        {"rate", network([](auto& n) { n.rate_hz = 0; })},
@@ -131,9 +131,10 @@ TEST_CASE("network_faults_are_refused_by_name") {
        {"leak", network([](auto& n) { n.output_leak = 1.5f; })},
        {"leak", network([](auto& n) { n.hidden_leak = kNan; })},
        {"state clamp", network([](auto& n) { n.state_clamp = 0; })},
-       {"length unit", network([](auto& n) { n.length_unit_m = -1; })},
+       {"length unit", network([](auto& n) { n.length_unit = -1; })},
        {"reserved", network([](auto& n) { n.reserved[5] = 1; })},
-       {"input 1: kind 13", input([](auto& i) { i.kind = InputKind{13}; })},
+       {"input 1: kind 17", input([](auto& i) { i.kind = InputKind{17}; })},
+       {"input 1: kind 4", input([](auto& i) { i.kind = InputKind{4}; })},
        {"input 1: its kind appears twice", input([](auto& i) { i.kind = InputKind::kRestPosition; })},
        {"input 1: scale", input([](auto& i) { i.scale = kNan; })},
        {"input 1: envelope", input([](auto& i) { i.envelope = 0; })},
@@ -159,42 +160,44 @@ TEST_CASE("character_faults_are_refused_by_name") {
   const auto skin = [](auto apply) { return change<SkinRecord>(kSkin, 3, apply); };
   const auto clip = [](auto apply) { return change<ClipRecord>(kClips, 0, apply); };
   const auto tier = [](auto apply) { return change<TierRecord>(kTiers, 2, apply); };
-  check_refused(character_pack(),
-                {{"no vertices", record([](auto& c) { c.vertex_count = 0; })},
-                 {"positions", record([](auto& c) { c.vertex_count = 13; })},
-                 {"positions", record([](auto& c) { c.vertex_count = 0xffffffff; })},
-                 {"triangles", record([](auto& c) { c.triangle_count += 1; })},
-                 {"joints", record([](auto& c) { c.joint_count = 65536; })},
-                 {"joints", record([](auto& c) { c.joint_count = 2; })},
-                 {"regions", record([](auto& c) { c.region_count = 1; })},
-                 {"nodes", record([](auto& c) { c.node_count = 4; })},
-                 {"clips", record([](auto& c) { c.clip_count = 0; })},
-                 {"height", record([](auto& c) { c.height_m = kNan; })},
-                 {"name lies outside", record([](auto& c) { c.name = 100000; })},
-                 {"character 0: reserved", record([](auto& c) { c.reserved[0] = 1; })},
-                 {"joint 1: its name", joint([](auto& j) { j.name = kNoIndex; })},
-                 {"joint 1: parent 1", joint([](auto& j) { j.parent = 1; })},
-                 {"joint 1: inverse bind", joint([](auto& j) { j.inverse_bind[7] = kInfinity; })},
-                 {"positions: number 4", set<float>(kPositions, 4, kNan)},
-                 {"vertex 2: normal", set<float>(kNormals, 7, 1.5f)},
-                 {"triangle 1: vertex 12 of 12", set<uint32_t>(kTriangles, 5, 12u)},
-                 {"vertex 3: skinned to joint 3", skin([](auto& s) { s.joint[1] = 3; })},
-                 {"vertex 3: skin weights sum", skin([](auto& s) { s.weight[0] = 0.8f; })},
-                 {"vertex 3: skin weights are not descending", skin([](auto& s) { s.weight[0] = 0.1f; })},
-                 {"vertex 3: skin weights are not descending", skin([](auto& s) { s.weight[1] = kNan; })},
-                 {"vertex 3: skin weights are not descending", skin([](auto& s) { s.weight[7] = -0.5f; })},
-                 {"vertex 3: a joint without", skin([](auto& s) { s.joint[7] = 1; })},
-                 {"vertex 5: welded to 6", set<uint32_t>(kWelded, 5, 6u)},
-                 {"clip 0: frames", clip([](auto& c) { c.first_frame = 1; })},
-                 {"clip 0: frames", clip([](auto& c) { c.frame_count = 0; })},
-                 {"clip frames", clip([](auto& c) { c.frame_count = 0xffffffff; })},
-                 {"clip 0: rate", clip([](auto& c) { c.rate_hz = -60; })},
-                 {"clip frames: number 30", set<float>(kClipFrames, 30, kNan)},
-                 {"tier 2: 3 is not known", tier([](auto& t) { t.tier = 3; })},
-                 {"tier 2: 1 is not known, or does not ascend", tier([](auto& t) { t.tier = 1; })},
-                 {"tier 2: cost", tier([](auto& t) { t.cost_us = kNan; })},
-                 {"tier 2: an error", tier([](auto& t) { t.error_mm = -1; })},
-                 {"strings", [](PackEditor& e) { e.section<char>(kStrings).back() = 'x'; }}});
+  check_refused(
+      character_pack(),
+      {{"no vertices", record([](auto& c) { c.vertex_count = 0; })},
+       {"positions", record([](auto& c) { c.vertex_count = 13; })},
+       {"positions", record([](auto& c) { c.vertex_count = 0xffffffff; })},
+       {"triangles", record([](auto& c) { c.triangle_count += 1; })},
+       {"joints", record([](auto& c) { c.joint_count = 65536; })},
+       {"joints", record([](auto& c) { c.joint_count = 2; })},
+       {"regions", record([](auto& c) { c.region_count = 1; })},
+       {"nodes", record([](auto& c) { c.node_count = 4; })},
+       {"clips", record([](auto& c) { c.clip_count = 0; })},
+       {"height", record([](auto& c) { c.height_m = kNan; })},
+       {"name lies outside", record([](auto& c) { c.name = 100000; })},
+       {"character 0: reserved", record([](auto& c) { c.reserved[0] = 1; })},
+       {"joint 1: its name", joint([](auto& j) { j.name = kNoIndex; })},
+       {"joint 1: parent 1", joint([](auto& j) { j.parent = 1; })},
+       {"joint 1: inverse bind", joint([](auto& j) { j.inverse_bind[7] = kInfinity; })},
+       {"positions: number 4", set<float>(kPositions, 4, kNan)},
+       {"vertex 2: normal", set<float>(kNormals, 7, 1.5f)},
+       {"triangle 1: vertex 12 of 12", set<uint32_t>(kTriangles, 5, 12u)},
+       {"vertex 3: skinned to joint 3", skin([](auto& s) { s.joint[1] = 3; })},
+       {"vertex 3: skin weights sum", skin([](auto& s) { s.weight[0] = 0.8f; })},
+       {"vertex 3: skin weights are not descending", skin([](auto& s) { s.weight[0] = 0.1f; })},
+       {"vertex 3: skin weights are not descending", skin([](auto& s) { s.weight[1] = kNan; })},
+       {"vertex 3: skin weights are not descending", skin([](auto& s) { s.weight[7] = -0.5f; })},
+       {"vertex 3: a joint without", skin([](auto& s) { s.joint[7] = 1; })},
+       {"vertex 5: welded to 6", set<uint32_t>(kWelded, 5, 6u)},
+       {"clip 0: frames", clip([](auto& c) { c.first_frame = 1; })},
+       {"clip 0: frames", clip([](auto& c) { c.frame_count = 0; })},
+       {"clip frames", clip([](auto& c) { c.frame_count = 0xffffffff; })},
+       {"clip 0: rate", clip([](auto& c) { c.rate_hz = -60; })},
+       {"clip frames: number 30", set<float>(kClipFrames, 30, kNan)},
+       {"tier 2: 5 is not known", tier([](auto& t) { t.tier = 5; })},
+       {"tier 2: 1 is not known, or does not ascend", tier([](auto& t) { t.tier = 1; })},
+       {"tier 4: 3 is not known, or does not", change<TierRecord>(kTiers, 4, [](auto& t) { t.tier = 3; })},
+       {"tier 2: cost", tier([](auto& t) { t.cost_us = kNan; })},
+       {"tier 2: an error", tier([](auto& t) { t.error_mm = -1; })},
+       {"strings", [](PackEditor& e) { e.section<char>(kStrings).back() = 'x'; }}});
 }
 
 TEST_CASE("tissue_faults_are_refused_by_name") {
@@ -204,8 +207,8 @@ TEST_CASE("tissue_faults_are_refused_by_name") {
   check_refused(
       character_pack(),
       {{"region 1: its name", region([](auto& r) { r.name = 100000; })},
-       {"region 1: frame joint 3", region([](auto& r) { r.frame_joint = 3; })},
-       {"region 1: 65 nodes", region([](auto& r) { r.node_count = 65; })},
+       {"region 1: reserved", region([](auto& r) { r.reserved0 = 3; })},
+       {"region 1: 4097 nodes", region([](auto& r) { r.node_count = 4097; })},
        {"region 1: 0 nodes", region([](auto& r) { r.node_count = 0; })},
        {"region 1: nodes do not follow", region([](auto& r) { r.first_node = 2; })},
        {"region 1: nodes do not follow", region([](auto& r) { r.node_count = 3; })},
@@ -233,6 +236,60 @@ TEST_CASE("tissue_faults_are_refused_by_name") {
        {"graph row 2: column 3", set<uint32_t>(kGraphColumns, 6, 3u)},
        {"graph row 0: column 0", set<uint32_t>(kGraphColumns, 1, 0u)},
        {"graph values: number 3", set<float>(kGraphValues, 3, kNan)}});
+}
+
+TEST_CASE("mode_faults_are_refused_by_name") {
+  using enum SectionKind;
+  const auto region = [](auto apply) { return change<RegionModesRecord>(kRegionModes, 1, apply); };
+  const auto mode = [](auto apply) { return change<ModeRecord>(kModes, 4, apply); };
+  const auto spring = [](auto apply) { return change<SpringRecord>(kSprings, 1, apply); };
+  check_refused(
+      character_pack(),
+      {{"region modes 1: 65 modes", region([](auto& r) { r.mode_count = 65; })},
+       {"region modes 1: nodes padded to 32", region([](auto& r) { r.padded = 32; })},
+       {"region modes 1: first mode at 0", region([](auto& r) { r.first_rad_per_s = 0; })},
+       {"region modes 1: first mode at nan", region([](auto& r) { r.first_rad_per_s = kNan; })},
+       {"region modes 1: modes do not follow", region([](auto& r) { r.first_mode = 2; })},
+       {"region modes 1: modes do not follow", region([](auto& r) { r.mode_count = 3; })},
+       {"region modes 1: matrices do not follow", region([](auto& r) { r.matrices += 16; })},
+       {"region modes 1: matrices do not follow", region([](auto& r) { r.matrices = ~uint64_t{0}; })},
+       {"region modes 1: reserved", region([](auto& r) { r.reserved[9] = 1; })},
+       {"that no region owns", region([](auto& r) { r.mode_count = 1; })},
+       {"region modes 0: a number of a matrix", set<float>(kModeMatrices, 3 * 3 * 16 + 2, kNan)},
+       {"region modes 0: padding", set<float>(kModeMatrices, 15, 1.0f)},
+       {"mode 4: 0 rad/s", mode([](auto& m) { m.rad_per_s = 0; })},
+       {"mode 4: damping ratio -1", mode([](auto& m) { m.damping_ratio = -1; })},
+       {"mode 4: its recurrence", mode([](auto& m) { m.a2 = -1; })},
+       {"mode 4: its recurrence", mode([](auto& m) { m.a1 = 1 - m.a2; })},
+       {"mode 4: its recurrence", mode([](auto& m) { m.a1 = m.a2 - 1; })},
+       {"mode 4: its recurrence", mode([](auto& m) { m.a1 = kNan; })},
+       {"mode 4: gain", mode([](auto& m) { m.gain = kInfinity; })},
+       {"mode 4: reserved", mode([](auto& m) { m.reserved[2] = 1; })},
+       {"spring 1: its recurrence", spring([](auto& s) { s.a1 = 2.5f; })},
+       {"spring 1: gain", spring([](auto& s) { s.gain = kNan; })},
+       {"spring 1: reserved", spring([](auto& s) { s.reserved = 1; })},
+       {"compliance: number 7", set<float>(kCompliance, 7, kInfinity)}});
+}
+
+TEST_CASE("a_character_without_a_network_is_taken_and_must_be_without_all_of_it") {
+  const std::vector<std::byte> bytes = test::small_weightless_pack();
+  PackView view;
+  PackEditor good(bytes);
+  const Status taken = good.open(&view);
+  INFO(taken.message);
+  REQUIRE(taken.ok());
+  CHECK_FALSE(has_network(view));
+  CHECK(view.network->rate_hz == 60);
+  CHECK(view.tiers.size() == 4);
+
+  using enum SectionKind;
+  const auto network = [](auto apply) { return change<NetworkRecord>(kNetwork, 0, apply); };
+  check_refused(bytes, {{"network that is not there", network([](auto& n) { n.layer_count = 1; })},
+                        {"network that is not there", network([](auto& n) { n.length_unit = 1; })},
+                        {"rate", network([](auto& n) { n.rate_hz = 0; })},
+                        {"reserved", network([](auto& n) { n.reserved[0] = 1; })},
+                        {"tiers: not those", change<TierRecord>(kTiers, 2, [](auto& t) { t.tier = 2; })}});
+  check_refused(character_pack(), {{"not there", network([](auto& n) { n.model = ModelKind::kNone; })}});
 }
 
 TEST_CASE("a_character_whose_network_has_no_inputs_is_unsupported") {

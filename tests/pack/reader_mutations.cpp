@@ -54,6 +54,19 @@ double read_regions(const PackView& view) {
   return sum;
 }
 
+double read_modes(const PackView& view) {
+  double sum = 0;
+  for (size_t r = 0; r < view.regions.size(); ++r) {
+    const RegionModesRecord& modes = view.region_modes[r];
+    const uint64_t floats = uint64_t{4} * modes.mode_count * modes.padded;
+    if (floats > 0) sum += view.mode_matrices[modes.matrices + floats - 1];
+    for (uint32_t k = 0; k < modes.mode_count; ++k) sum += view.modes[modes.first_mode + k].gain;
+    sum += view.springs[r].gain;
+  }
+  for (size_t node = 0; node < view.nodes.size(); ++node) sum += view.compliance[9 * node + 8];
+  return sum;
+}
+
 double read_network(const PackView& view) {
   double sum = 0;
   for (const LayerRecord& layer : view.layers) {
@@ -66,7 +79,7 @@ double read_network(const PackView& view) {
 
 // Reads everything that indexes something, as the runtime would. Spans are not checked: the sanitizers are.
 double read_all(const PackView& view) {
-  return read_strings(view) + read_mesh(view) + read_regions(view) + read_network(view);
+  return read_strings(view) + read_mesh(view) + read_regions(view) + read_modes(view) + read_network(view);
 }
 
 // Whether the damaged pack is taken; one that is must be safe to read.

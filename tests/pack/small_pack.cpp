@@ -89,7 +89,6 @@ baker::Region make_region(const std::string& name, int first_node, std::vector<b
                           std::vector<int> vertices) {
   baker::Region region;
   region.name = name;
-  region.frame_joint = first_node == 0 ? 1 : 2;
   region.first_node = first_node;
   region.node_count = static_cast<int>(nodes.size());
   region.vertices = std::move(vertices);
@@ -105,14 +104,16 @@ baker::Region make_region(const std::string& name, int first_node, std::vector<b
 }  // namespace
 
 baker::Safetensors small_weights() {
-  baker::Safetensors weights = make_weights(34, true);
+  baker::Safetensors weights = make_weights(32, true);
   const char* const inputs =
-      "rest_position,rest_normal,stiffness,linear_acceleration,euler_acceleration,centrifugal_acceleration,"
-      "articulation_acceleration,angular_acceleration,angular_velocity,gravity_change,displacement,velocity";
+      "rest_position,rest_normal,stiffness,angular_acceleration,angular_velocity,gravity_change,displacement,"
+      "velocity,felt_step,base_step,turn,frequency";
   weights.metadata.insert({{"inputs", inputs},
-                           {"input_scales", "1,1,1,0.1,0.1,0.1,0.1,0.01,0.1,0.1,1,10"},
+                           {"frame", "node"},
+                           {"base", "modal"},
+                           {"input_scales", "1,1,1,0.01,0.1,0.1,1,10,1,10,1,1"},
                            {"envelope", "2,2,2,8,8,8,8,8,8,8,8,8"},
-                           {"length_unit_m", "0.01"},
+                           {"length_unit", "0.01"},
                            {"output_scale", "0.5"},
                            {"output_leak", "0.1"},
                            {"hidden_leak", "0.2"},
@@ -154,15 +155,39 @@ baker::TissueLayout small_layout(const baker::Character& character) {
   return layout;
 }
 
+std::vector<baker::ModalBasis> small_modes(const baker::TissueLayout& layout) {
+  std::mt19937 random(4);
+  const auto numbers = [&](Eigen::Index rows, Eigen::Index columns) {
+    Eigen::MatrixXd out(rows, columns);
+    for (double& value : out.reshaped()) value = static_cast<double>(random() % 2001) / 1000 - 1;
+    return out;
+  };
+  std::vector<baker::ModalBasis> modes;
+  for (const baker::Region& region : layout.regions) {
+    const Eigen::Index rows = 3 * region.node_count, count = modes.empty() ? 3 : 2;
+    modes.push_back({Eigen::VectorXd::LinSpaced(count, 20, 60), Eigen::VectorXd::Constant(count, 0.1),
+                     numbers(rows, count), numbers(rows, count), numbers(count, rows)});
+  }
+  return modes;
+}
+
 std::vector<std::byte> small_model() {
   baker::PackWriter writer(pack::FileKind::kModel);
   baker::add_network(small_paper_weights(), writer);
   return writer.finish();
 }
 
+std::vector<std::byte> small_weightless_pack() {
+  const baker::Character character = small_character();
+  const baker::TissueLayout layout = small_layout(character);
+  return baker::pack_character(character, layout, small_modes(layout));
+}
+
 std::vector<std::byte> small_character_pack() {
   const baker::Character character = small_character();
-  return baker::pack_character(character, small_layout(character), small_weights());
+  const baker::TissueLayout layout = small_layout(character);
+  const baker::Safetensors weights = small_weights();
+  return baker::pack_character(character, layout, small_modes(layout), &weights);
 }
 
 }  // namespace sinew::test

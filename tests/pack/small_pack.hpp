@@ -7,15 +7,19 @@
 #include "baker/common/safetensors.hpp"
 #include "baker/import/character.hpp"
 #include "baker/mesh/tissue_layout.hpp"
+#include "baker/truth/modal_basis.hpp"
 
 namespace sinew::test {
 
-baker::Safetensors small_weights();        // 34 -> 5 3, self weights, every input
+baker::Safetensors small_weights();        // 32 -> 5 3, self weights, every input
 baker::Safetensors small_paper_weights();  // 9 -> 5 3, the paper's wiring
 baker::Character small_character();        // a bar of 12 vertices on three joints, one clip
 baker::TissueLayout small_layout(const baker::Character& character);  // two regions of 3 and 2 nodes
 
+std::vector<baker::ModalBasis> small_modes(const baker::TissueLayout& layout);  // three and two
+
 std::vector<std::byte> small_model();
 std::vector<std::byte> small_character_pack();
+std::vector<std::byte> small_weightless_pack();
 
 }  // namespace sinew::test

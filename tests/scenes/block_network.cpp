@@ -1,8 +1,7 @@
-// block_network.cpp  The soft block's network: a damped spring a node, as a weights file in memory.
+// block_network.cpp  The soft block's network: a correction of its modes, as a weights file in memory.
 #include "tests/scenes/block_network.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <random>
 
 namespace sinew::scenes {
@@ -10,14 +9,16 @@ namespace {
 
 using baker::Safetensors;
 
-constexpr size_t kDriveInputs = 5,
-                 kInputs = 3 * kDriveInputs + 3 + 1;  // accelerations, displacement, stiffness
+// felt_step, base_step, gravity_change, angular velocity and acceleration, displacement, velocity, turn; then
+// stiffness and frequency, which are never zero.
+constexpr size_t kVectors = 8, kScalars = 2, kInputs = 3 * kVectors + kScalars;
+constexpr size_t kFeltStep = 0, kDisplacement = 5;  // among the vectors
 constexpr size_t kHidden = 8, kOutput = 3;
 constexpr size_t kGateI = 0, kGateF = 1, kGateC = 2, kGates = 4;
-constexpr double kUnit_m = 0.05, kDriveScale = 0.05;  // a unit of drive is 20 m/s^2
-constexpr double kOpen = 12;                          // a bias that holds a gate open, or shut when negative
-constexpr double kLinear = 0.1;                       // tanh(0.1 x) is 0.1 x for the numbers that come in
-constexpr double kFrequency_hz = 3.5, kDampingRatio = 0.1;
+constexpr double kOpen = 12;     // a bias that holds a gate open, or shut when negative
+constexpr double kLinear = 0.1;  // tanh(0.1 x) is 0.1 x for the numbers that come in
+// c' = kKept c + kPull (felt_step - displacement); y gains c. The base pulls by (w h)^2 = 0.13.
+constexpr double kKept = 0.5, kPull = 0.03;
 
 // [rows][gates][channels], filled with small random numbers.
 struct Weights {
@@ -61,7 +62,7 @@ void put_layer(Safetensors& file, size_t index, const Weights& around, const Wei
   put(file, prefix + "b", bias);
 }
 
-// Cells 0..2: tanh of the summed drive; 3..5: of the displacement; no memory (f shut, i open).
+// Cells 0..2: tanh of the felt step; 3..5: of the displacement; no memory (f shut, i open).
 void put_first_layer(Safetensors& file, Random& random) {
   Weights around = random.weights(kInputs, kGates, kHidden), self = random.weights(kInputs, kGates, kHidden);
   Weights bias = random.weights(1, kGates, kHidden);
@@ -71,31 +72,26 @@ void put_first_layer(Safetensors& file, Random& random) {
     bias.at(0, kGateC, channel) = 0;
   }
   for (size_t axis = 0; axis < 3; ++axis) {
-    for (size_t drive = 0; drive < kDriveInputs; ++drive) {
-      self.at(3 * drive + axis, kGateC, axis) = static_cast<float>(kLinear);
-    }
-    self.at(3 * kDriveInputs + axis, kGateC, 3 + axis) = static_cast<float>(kLinear);
+    self.at(3 * kFeltStep + axis, kGateC, axis) = static_cast<float>(kLinear);
+    self.at(3 * kDisplacement + axis, kGateC, 3 + axis) = static_cast<float>(kLinear);
   }
-  // Stiffness is never zero: it may not push, or rest would not be rest.
-  for (size_t channel = 0; channel < kHidden; ++channel) {
-    around.at(kInputs - 1, kGateC, channel) = self.at(kInputs - 1, kGateC, channel) = 0;
+  // What is never zero may not push, or rest would not be rest.
+  for (size_t scalar = kInputs - kScalars; scalar < kInputs; ++scalar) {
+    for (size_t channel = 0; channel < kHidden; ++channel)
+      around.at(scalar, kGateC, channel) = self.at(scalar, kGateC, channel) = 0;
   }
   put_layer(file, 0, around, self, bias, random);
 }
 
-// v' = (1 - 2 zeta omega h) v + h^2 a / unit - (omega h)^2 u;  u' = u + v'
-void put_spring_layer(Safetensors& file, const BlockOptions& options, Random& random) {
-  const double h = 1 / options.rate_hz, omega_h = 2 * std::numbers::pi * kFrequency_hz * h;
-  const double kept = 1 - 2 * kDampingRatio * omega_h;
-  const double push = h * h / (kDriveScale * kUnit_m) / kLinear, pull = omega_h * omega_h / kLinear;
+void put_last_layer(Safetensors& file, Random& random) {
   const Weights around = random.weights(kHidden, kGates, kOutput);
   Weights self = random.weights(kHidden, kGates, kOutput), bias = random.weights(1, kGates, kOutput);
   for (size_t axis = 0; axis < kOutput; ++axis) {
     bias.at(0, kGateI, axis) = static_cast<float>(kOpen);
-    bias.at(0, kGateF, axis) = static_cast<float>(std::log(kept / (1 - kept)));
+    bias.at(0, kGateF, axis) = static_cast<float>(std::log(kKept / (1 - kKept)));
     bias.at(0, kGateC, axis) = 0;
-    self.at(axis, kGateC, axis) = static_cast<float>(push);
-    self.at(3 + axis, kGateC, axis) = static_cast<float>(-pull);
+    self.at(axis, kGateC, axis) = static_cast<float>(kPull / kLinear);
+    self.at(3 + axis, kGateC, axis) = static_cast<float>(-kPull / kLinear);
   }
   put_layer(file, 1, around, self, bias, random);
 }
@@ -110,19 +106,20 @@ baker::Safetensors block_network(const BlockOptions& options) {
       {"sinew.version", "1"},
       {"channels", "8,3"},
       {"rate_hz", std::to_string(options.rate_hz)},
+      {"frame", "node"},
+      {"base", "modal"},
       {"inputs",
-       "linear_acceleration,euler_acceleration,centrifugal_acceleration,articulation_acceleration,"
-       "gravity_change,displacement,stiffness"},
-      {"input_scales", "0.05,0.05,0.05,0.05,0.05,1,1"},
-      {"envelope", "5,5,5,5,5,20,1"},
+       "felt_step,base_step,gravity_change,angular_velocity,angular_acceleration,displacement,velocity,turn,"
+       "stiffness,frequency"},
+      {"input_scales", "1,4,0.05,0.2,0.02,1,4,1,1,1"},
+      {"envelope", "5,5,5,5,5,20,20,5,1,1"},
       {"hidden_leak", "0.2"},
-      {"output_leak", "0.002"},
       {"state_clamp", "8"},
-      {"length_unit_m", std::to_string(kUnit_m)},
+      {"length_unit", "0.25"},
       {"displacement_limit", std::to_string(options.displacement_limit)}};
   Random random(options.seed);
   put_first_layer(file, random);
-  put_spring_layer(file, options, random);
+  put_last_layer(file, random);
   return file;
 }
 

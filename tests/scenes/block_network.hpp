@@ -1,4 +1,4 @@
-// block_network.hpp  The soft block's network: a damped spring a node, as a weights file in memory.
+// block_network.hpp  The soft block's network: a correction of its modes, as a weights file in memory.
 #pragma once
 #include "baker/common/safetensors.hpp"
 #include "tests/scenes/soft_block.hpp"

@@ -10,6 +10,7 @@
 #include "baker/import/character.hpp"
 #include "baker/mesh/tissue_layout.hpp"
 #include "baker/pack/character_pack.hpp"
+#include "tests/scenes/block_modes.hpp"
 #include "tests/scenes/block_network.hpp"
 
 namespace sinew::scenes {
@@ -20,8 +21,8 @@ using baker::Matrix4;
 using baker::TissueLayout;
 using baker::Vector3;
 
-constexpr double kWidth_m = 0.3, kHeight_m = 0.6, kJointHeight_m = 0.3;
-constexpr double kSoftFrom_m = 0.25, kFullySoftFrom_m = 0.4;
+constexpr double kWidth_m = 0.3, kHeight_m = kBlockHeight_m, kJointHeight_m = 0.3;
+constexpr double kSoftFrom_m = kBlockSoftFrom_m, kFullySoftFrom_m = 0.4;
 constexpr size_t kNeighbours = 4;
 
 double smooth_step(double from, double to, double x) {
@@ -179,7 +180,6 @@ void connect(const TissueLayout& layout, const baker::Region& region, std::set<s
 void add_region(const Character& character, const BlockOptions& options, int index, TissueLayout& layout) {
   baker::Region region;
   region.name = index == 0 ? "left" : "right";
-  region.frame_joint = 1;
   region.first_node = static_cast<int>(layout.nodes.size());
   region.node_count = options.nodes;
   region.vertices = soft_vertices(character, index, options.regions);
@@ -221,8 +221,10 @@ PackBytes::PackBytes(const std::byte* data, size_t size) : memory_(size), size_(
 
 PackBytes soft_block(const BlockOptions& options) {
   const Character character = block_character(options);
+  const TissueLayout layout = block_tissue(character, options);
+  const baker::Safetensors weights = block_network(options);
   const std::vector<std::byte> bytes =
-      baker::pack_character(character, block_tissue(character, options), block_network(options));
+      baker::pack_character(character, layout, block_modes(layout), options.network ? &weights : nullptr);
   return PackBytes(bytes.data(), bytes.size());
 }
 

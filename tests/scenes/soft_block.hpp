@@ -13,10 +13,10 @@ namespace sinew::scenes {
 // is soft, in one region or in two (left and right of x = 0). Faces meet at seams: vertices there are doubled
 // and welded.
 //
-// Its network is a damped spring of about 3.5 Hz at each node, written as a two-layer Alt-ConvLSTM: layer 0
-// hands drive and displacement on, layer 1 keeps velocity in its cell state and displacement in its
-// accumulation state. All other weights are small random numbers, so that every term of the equations takes
-// part.
+// Its modes are block_modes.hpp's, of 3.5 Hz and above. Its network is a two-layer Alt-ConvLSTM that corrects
+// them a little: it pulls the displacement towards what the felt acceleration would do to a node alone. Layer
+// 0 hands drive and displacement on, layer 1 adds their difference to the base. All other weights are small
+// random numbers, so that every term of the equations takes part.
 struct BlockOptions {
   std::string name = "soft_block";
   int cells = 6;    // across; twice as many up: 462 vertices at 6
@@ -25,6 +25,7 @@ struct BlockOptions {
   double rate_hz = 60;
   uint64_t seed = 1;
   double displacement_limit = 0.75;  // share of a region's radius
+  bool network = true;               // false: modes and springs alone
 };
 
 class PackBytes {  // 64-byte aligned, as load_asset wants them

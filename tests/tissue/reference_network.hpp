@@ -163,7 +163,7 @@ inline pack::NetworkRecord plain_record() {
   record.rate_hz = 60;
   record.output_scale = 1;
   record.state_clamp = std::numeric_limits<float>::infinity();
-  record.length_unit_m = 1;
+  record.length_unit = 1;
   return record;
 }
 

@@ -5,9 +5,11 @@
 
 #include "tests/simd/every_isa.hpp"
 #include "tests/tissue/reference_network.hpp"
-#include "tissue/drive.hpp"
 #include "tissue/guard.hpp"
 #include "tissue/inputs.hpp"
+#include "tissue/modal_base.hpp"
+#include "tissue/node_drive.hpp"
+#include "tissue/spring.hpp"
 
 using namespace sinew;
 
@@ -37,31 +39,53 @@ void operator delete[](void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
 
-TEST_CASE("a_tick_of_drive_inputs_network_and_guard_allocates_nothing") {
-  constexpr uint32_t kNodes = 11;
+TEST_CASE("a_tick_of_drive_base_inputs_network_and_guard_allocates_nothing") {
+  constexpr uint32_t kNodes = 11, kPadded = 48;
   std::mt19937 random(2);
   const test::TestGraph graph = test::ring_with_chords(kNodes);
   test::PackedNetwork packed(test::plain_record(), {test::random_layer(random, 3, 20, true),
                                                     test::random_layer(random, 20, 3, true)});
-  packed.inputs = {{pack::InputKind::kLinearAcceleration, 0.1f, 1, 0}};
+  packed.inputs = {{pack::InputKind::kFeltStep, 0.1f, 1, 0}};
   const tissue::Network network = packed.view();
   const tissue::Graph graph_view{kNodes, graph.rows.data(), graph.columns.data(), graph.values.data()};
   pack::RegionRecord region{};
   region.node_count = kNodes;
+  region.radius_m = 1;
   region.displacement_limit_m = 0.01f;
-  const std::vector<pack::NodeRecord> nodes(kNodes);
-  const tissue::RegionFrame frame{{0, 0, 0}, {1, 0, 0, 0, 1, 0, 0, 0, 1}};
-  const tissue::RegionMotion motion{{frame, frame, frame}};
+  std::vector<pack::NodeRecord> nodes(kNodes);
+  for (pack::NodeRecord& node : nodes) node.skin.weight[0] = 1;
+  const float skin[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}, upright[4] = {0, 0, 0, 1};
+  std::vector<tissue::NodePose> poses(kNodes);
+  const tissue::NodeMotion motion{{}, {poses.data(), poses.data(), poses.data()}};
+  const tissue::NodePose* const history[3] = {poses.data(), poses.data(), poses.data()};
+  const pack::ModeRecord modes[2] = {{20, 0, 1.8f, -0.9f, 1e-3f, {}}, {30, 0, 1.7f, -0.9f, 1e-3f, {}}};
+  test::Floats matrix = test::random_rows(random, 2, 33, kPadded, 1), e(kPadded), l(kPadded);
+  const tissue::ModalBase base{modes,         kNodes,        kPadded,      matrix.data(),
+                               matrix.data(), matrix.data(), matrix.data()};
+  const pack::SpringRecord spring{1.8f, -0.9f, 0.1f, 0};
+  const std::vector<float> compliance(9 * kNodes);
   test::Floats state(tissue::state_floats(network, kNodes)), z(kNodes * tissue::input_stride(network));
   test::Floats scratch(tissue::scratch_floats(network, kNodes));
-  std::vector<float> r(kNodes * 3), u(kNodes * 3), u_before(kNodes * 3), drive(kNodes * tissue::kDriveWidth);
+  std::vector<float> u(kNodes * 3), u_before(u), theta(u), felt(u), q(2), q_before(2), q_hat(2);
+  std::vector<float> drive(kNodes * tissue::kNodeDriveWidth);
   const auto tick = [&] {
-    tissue::compute_drive(motion, 1.0f / 60, r.data(), r.data(), r.data(), kNodes, drive.data());
-    tissue::assemble_inputs(network, {&region, nodes.data(), drive.data(), u.data(), u_before.data()},
+    tissue::pose_nodes(nodes, skin, upright, poses.data());
+    tissue::compute_node_drive(motion, 1.0f / 60, kNodes, drive.data());
+    tissue::frame_term(history, u.data(), u_before.data(), 1.0f / 60, kNodes, felt.data());
+    tissue::modal_step(base, felt.data(), theta.data(), q.data(), q_before.data(), e.data(), q_hat.data(),
+                       l.data());
+    tissue::assemble_inputs(network,
+                            {&region, nodes.data(), drive.data(), felt.data(), u.data(), u_before.data(),
+                             l.data(), theta.data(), 20, 1.0f / 60},
                             z.data());
-    tissue::network_step(network, graph_view, z.data(), nullptr, state.data(), scratch.data());
-    tissue::guard_step(network, {&region, 1}, kNodes, state.data(), u.data());
-    tissue::rebase_state(network, kNodes, u.data(), state.data());
+    tissue::network_step(network, graph_view, z.data(), u.data(), state.data(), scratch.data());
+    tissue::read_output(network, {&region, 1}, kNodes, state.data(), u.data());
+    tissue::hold_at_limit(region, {&network, kNodes, state.data()}, u.data(), u_before.data());
+    tissue::modal_project(base, l.data(), q.data());
+    tissue::modal_turn(base, q.data(), e.data(), theta.data());
+    tissue::spring_step(spring, compliance.data(), drive.data(), tissue::kNodeDriveWidth, kNodes, u.data(),
+                        u_before.data());
+    tissue::rebase_state(network, {&region, 1}, kNodes, u.data(), state.data());
   };
   tick();
   // The counter sees what there is to see; a new-expression could be optimised away.

@@ -16,50 +16,75 @@ constexpr uint32_t kNodes = 7;
 constexpr float kUnit = 0.1f, kLimit = 0.05f;
 constexpr float kRounding = 1e-7f;  // of 0.05 m through one division and one product
 
-// Two regions of 3 and 4 nodes, the second with twice the limit; states are filled with ones.
+// Two regions of 3 and 4 nodes, the second with twice the limit and half the radius; states are filled with
+// ones, l with 0.01 0 -0.01 m.
 struct Fixture {
   Fixture()
       : random(5),
         packed(test::plain_record(),
                {test::random_layer(random, 9, 20, false), test::random_layer(random, 20, 3, false)}),
-        state(tissue::state_floats(packed.view(), kNodes), 1),
-        u(kNodes * 3, 99.0f) {
-    packed.record().length_unit_m = kUnit;
+        network(packed.view()),
+        state(tissue::state_floats(network, kNodes), 1) {
+    packed.record().length_unit = kUnit;
     packed.record().state_clamp = 8;
     regions[0].node_count = 3;
+    regions[0].radius_m = 1;
     regions[0].displacement_limit_m = kLimit;
     regions[1].first_node = 3;
     regions[1].node_count = 4;
+    regions[1].radius_m = 0.5f;
     regions[1].displacement_limit_m = 2 * kLimit;
-    for (uint32_t node = 0; node < kNodes; ++node) set_y(node, 0.1f, 0, -0.1f);
+    for (uint32_t node = 0; node < kNodes; ++node) set_l(node, 0.01f, 0, -0.01f);
   }
-  tissue::LayerState layer(uint32_t l) { return tissue::layer_state(packed.view(), kNodes, l, state.data()); }
+  tissue::LayerState layer(uint32_t at) { return tissue::layer_state(network, kNodes, at, state.data()); }
   float* y(uint32_t node) { return layer(1).y + node * 16; }
-  void set_y(uint32_t node, float a, float b, float c) {
-    y(node)[0] = a;
-    y(node)[1] = b;
-    y(node)[2] = c;
+  void set_l(uint32_t node, float a, float b, float c) {
+    l[node * 3] = a;
+    l[node * 3 + 1] = b;
+    l[node * 3 + 2] = c;
   }
-  tissue::GuardResult guard() {
-    return tissue::guard_step(packed.view(), regions, kNodes, state.data(), u.data());
+  uint32_t hold(bool with_network = true) {
+    tissue::NodeMemory memory;
+    if (with_network) memory = {&network, kNodes, state.data()};
+    uint32_t held = 0;
+    for (const pack::RegionRecord& region : regions) {
+      const size_t at = size_t{3} * region.first_node;
+      held += tissue::hold_at_limit(region, memory, l.data() + at, l_before.data() + at);
+    }
+    return held;
   }
+  bool finite() { return tissue::network_is_finite(network, kNodes, state.data()); }
 
   std::mt19937 random;
   test::PackedNetwork packed;
+  tissue::Network network;
   test::Floats state;
-  std::vector<float> u;
+  std::vector<float> l = std::vector<float>(kNodes * 3), l_before = std::vector<float>(kNodes * 3, 0.5f);
   pack::RegionRecord regions[2]{};
 };
 
 }  // namespace
 
-TEST_CASE("guard_asks_for_a_restart_on_nan_and_infinity_and_writes_no_displacement") {
+TEST_CASE("one_number_that_is_not_finite_is_seen") {
+  std::vector<float> values(37, 1e38f);
+  CHECK(tissue::all_finite(values.data(), values.size()));
+  CHECK(tissue::all_finite(values.data(), 0));
+  for (const float bad : {kNan, kInfinity, -kInfinity}) {
+    for (const size_t at : {0u, 17u, 36u}) {
+      std::vector<float> damaged = values;
+      damaged[at] = bad;
+      CHECK_FALSE(tissue::all_finite(damaged.data(), damaged.size()));
+    }
+  }
+}
+
+TEST_CASE("a_network_whose_output_is_not_finite_is_seen") {
   for (const float bad : {kNan, kInfinity, -kInfinity}) {
     for (size_t axis = 0; axis < 3; ++axis) {
       Fixture fixture;
+      CHECK(fixture.finite());
       fixture.y(6)[axis] = bad;
-      REQUIRE(fixture.guard().restart);
-      for (const float value : fixture.u) REQUIRE(value == 99.0f);
+      CHECK_FALSE(fixture.finite());
     }
   }
 }
@@ -67,60 +92,77 @@ TEST_CASE("guard_asks_for_a_restart_on_nan_and_infinity_and_writes_no_displaceme
 TEST_CASE("guard_looks_at_every_cell_when_cells_are_not_bounded") {
   Fixture fixture;
   fixture.packed.record().state_clamp = kInfinity;
-  REQUIRE(!fixture.guard().restart);
+  REQUIRE(fixture.finite());
   fixture.layer(0).c[4 * 32 + 19] = kInfinity;
-  REQUIRE(fixture.guard().restart);
+  REQUIRE_FALSE(fixture.finite());
 }
 
-TEST_CASE("guard_converts_to_metres_and_leaves_what_is_within_the_limit_alone") {
+TEST_CASE("what_is_within_the_limit_is_left_alone") {
   Fixture fixture;
-  const std::vector<float> before = fixture.state.copy();
-  const tissue::GuardResult result = fixture.guard();
-  REQUIRE((result.displacement_clamps == 0 && !result.restart));
-  for (uint32_t node = 0; node < kNodes; ++node) {
-    REQUIRE(fixture.u[node * 3] == Approx(0.01f));
-    REQUIRE(fixture.u[node * 3 + 2] == Approx(-0.01f));
-  }
-  REQUIRE(fixture.state.copy() == before);
+  const std::vector<float> state = fixture.state.copy(), l = fixture.l, before = fixture.l_before;
+  CHECK(fixture.hold() == 0);
+  CHECK(fixture.state.copy() == state);
+  CHECK(fixture.l == l);
+  CHECK(fixture.l_before == before);
 }
 
 TEST_CASE("guard_holds_a_node_at_its_regions_limit_and_forgets_what_pushed_it") {
   Fixture fixture;
-  fixture.set_y(1, 0, 3, 4);         // 0.5 m: ten times the limit
-  fixture.set_y(5, 0, 0.45f, 0.6f);  // 0.075 m: beyond the first region's limit, within its own
-  const tissue::GuardResult result = fixture.guard();
-  REQUIRE((result.displacement_clamps == 1 && !result.restart));
-  REQUIRE(fixture.u[3] == 0);
-  REQUIRE(fixture.u[4] == Approx(0.6f * kLimit).margin(kRounding));
-  REQUIRE(fixture.u[5] == Approx(0.8f * kLimit).margin(kRounding));
-  REQUIRE(fixture.u[16] == Approx(0.045f).margin(kRounding));
-  for (int axis = 0; axis < 3; ++axis)
-    REQUIRE(fixture.y(1)[axis] * kUnit == Approx(fixture.u[3 + static_cast<size_t>(axis)]));
-  for (uint32_t l = 0; l < 2; ++l) {
-    const uint32_t padded = l == 0 ? 32 : 16;
-    const tissue::LayerState layer = fixture.layer(l);
+  fixture.set_l(1, 0, 0.3f, 0.4f);     // ten times the limit
+  fixture.set_l(5, 0, 0.045f, 0.06f);  // beyond the first region's limit, within its own
+  CHECK(fixture.hold() == 1);
+  CHECK(fixture.l[3] == 0);
+  CHECK(fixture.l[4] == Approx(0.6f * kLimit).margin(kRounding));
+  CHECK(fixture.l[5] == Approx(0.8f * kLimit).margin(kRounding));
+  CHECK(fixture.l[16] == 0.045f);
+  for (size_t axis = 0; axis < 3; ++axis) {
+    CHECK(fixture.l_before[3 + axis] == fixture.l[3 + axis]);  // no velocity
+    CHECK(fixture.l_before[axis] == 0.5f);
+    CHECK(fixture.y(1)[axis] * kUnit == Approx(fixture.l[3 + axis]));
+  }
+  for (uint32_t at = 0; at < 2; ++at) {
+    const uint32_t padded = at == 0 ? 32 : 16;
+    const tissue::LayerState layer = fixture.layer(at);
     for (uint32_t i = 0; i < kNodes * padded; ++i) {
       const float want = i / padded == 1 ? 0.0f : 1.0f;
       REQUIRE((layer.h[i] == want && layer.c[i] == want));
-      if (l == 0) REQUIRE(layer.y[i] == want);
+      if (at == 0) REQUIRE(layer.y[i] == want);
     }
   }
 }
 
-TEST_CASE("guard_holds_a_node_whose_square_overflows") {
+TEST_CASE("without_a_network_a_node_is_held_all_the_same") {
   Fixture fixture;
-  fixture.set_y(0, 1e30f, 0, 0);
-  REQUIRE(fixture.guard().displacement_clamps == 1);
-  REQUIRE(fixture.u[0] == Approx(kLimit).margin(kRounding));
+  fixture.set_l(4, 1, 0, 0);
+  const std::vector<float> state = fixture.state.copy();
+  CHECK(fixture.hold(false) == 1);
+  CHECK(fixture.l[12] == Approx(2 * kLimit).margin(kRounding));
+  CHECK(fixture.state.copy() == state);
 }
 
-TEST_CASE("rebase_state_stands_at_the_displacement_with_no_memory") {
+TEST_CASE("guard_holds_a_node_whose_square_overflows") {
   Fixture fixture;
-  std::vector<float> wanted(kNodes * 3);
+  fixture.set_l(0, 1e30f, 0, 0);
+  CHECK(fixture.hold() == 1);
+  CHECK(fixture.l[0] == Approx(kLimit).margin(kRounding));
+}
+
+TEST_CASE("output_is_told_in_shares_of_each_region_s_radius") {
+  Fixture fixture;
+  std::vector<float> wanted(kNodes * 3), read(kNodes * 3);
   for (size_t i = 0; i < wanted.size(); ++i) wanted[i] = 0.001f * static_cast<float>(i);
-  tissue::rebase_state(fixture.packed.view(), kNodes, wanted.data(), fixture.state.data());
-  REQUIRE(fixture.guard().displacement_clamps == 0);
-  for (size_t i = 0; i < wanted.size(); ++i) REQUIRE(fixture.u[i] == Approx(wanted[i]).margin(kRounding));
+  tissue::rebase_state(fixture.network, fixture.regions, kNodes, wanted.data(), fixture.state.data());
+  CHECK(fixture.y(1)[0] == Approx(wanted[3] / kUnit));
+  CHECK(fixture.y(4)[0] == Approx(wanted[12] / (0.5f * kUnit)));
+  tissue::read_output(fixture.network, fixture.regions, kNodes, fixture.state.data(), read.data());
+  for (size_t i = 0; i < wanted.size(); ++i) CHECK(read[i] == Approx(wanted[i]).margin(kRounding));
+}
+
+TEST_CASE("rebase_state_keeps_no_memory_and_write_output_all_of_it") {
+  Fixture fixture;
+  tissue::write_output(fixture.network, fixture.regions, kNodes, fixture.l.data(), fixture.state.data());
+  CHECK(fixture.layer(0).h[3] == 1);
+  tissue::rebase_state(fixture.network, fixture.regions, kNodes, fixture.l.data(), fixture.state.data());
   for (uint32_t node = 0; node < kNodes; ++node) std::fill_n(fixture.y(node), 3, 0.0f);
   for (const float value : fixture.state.copy()) REQUIRE(value == 0);
 }

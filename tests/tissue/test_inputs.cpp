@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "tests/tissue/reference_network.hpp"
-#include "tissue/drive.hpp"
+#include "tissue/node_drive.hpp"
 
 using namespace sinew;
 using pack::InputKind;
@@ -26,7 +26,7 @@ struct Fixture {
                                        std::vector<float>(27),
                                        std::vector<float>(12)}}) {
     packed.inputs = std::move(inputs);
-    packed.record().length_unit_m = 0.5f;
+    packed.record().length_unit = 0.25f;  // half a metre, at this radius
     region.center_m[0] = 1;
     region.center_m[1] = 2;
     region.center_m[2] = 3;
@@ -40,27 +40,43 @@ struct Fixture {
                        {}});
     }
     for (size_t i = 0; i < drive.size(); ++i) drive[i] = static_cast<float>(i);
-    for (size_t i = 0; i < u.size(); ++i) {
-      u[i] = static_cast<float>(i);
-      u_before[i] = 1;
+    for (size_t i = 0; i < l.size(); ++i) {
+      l[i] = static_cast<float>(i);
+      l_before[i] = 1;
+      l_hat[i] = 2 * l[i];
+      felt[i] = 100 * l[i];
+      theta[i] = -l[i];
     }
   }
   static size_t width_of(const std::vector<pack::InputRecord>& inputs) {
     size_t width = 0;
-    for (const pack::InputRecord& input : inputs) width += input.kind == InputKind::kStiffness ? 1 : 3;
+    for (const pack::InputRecord& input : inputs) {
+      const bool scalar = input.kind == InputKind::kStiffness || input.kind == InputKind::kFrequency;
+      width += scalar ? 1 : 3;
+    }
     return width;
   }
   uint32_t assemble() {
     const tissue::Network network = packed.view();
     z = std::vector<float>(kNodes * tissue::input_stride(network), 99.0f);
-    return tissue::assemble_inputs(network, {&region, nodes.data(), drive.data(), u.data(), u_before.data()},
+    return tissue::assemble_inputs(network,
+                                   {.region = &region,
+                                    .nodes = nodes.data(),
+                                    .drive = drive.data(),
+                                    .felt = felt.data(),
+                                    .l = l.data(),
+                                    .l_before = l_before.data(),
+                                    .l_hat = l_hat.data(),
+                                    .theta = theta.data(),
+                                    .first_rad_per_s = 20,
+                                    .tick_s = 0.0625f},
                                    z.data());
   }
   test::PackedNetwork packed;
   pack::RegionRecord region{};
   std::vector<pack::NodeRecord> nodes;
-  std::vector<float> drive = std::vector<float>(kNodes * tissue::kDriveWidth);
-  std::vector<float> u = std::vector<float>(kNodes * 3), u_before = std::vector<float>(kNodes * 3);
+  std::vector<float> drive = std::vector<float>(kNodes * tissue::kNodeDriveWidth);
+  std::vector<float> l = std::vector<float>(kNodes * 3), l_before = l, l_hat = l, felt = l, theta = l;
   std::vector<float> z;
 };
 
@@ -73,15 +89,14 @@ std::vector<float> row(const Fixture& fixture, size_t node, size_t count) {
 }  // namespace
 
 TEST_CASE("assemble_inputs_counts_what_leaves_the_envelope_and_what_is_not_a_number") {
-  Fixture fixture(
-      {{InputKind::kLinearAcceleration, 0.1f, 1, 0}, {InputKind::kAngularVelocity, 1, kInfinity, 0}});
+  Fixture fixture({{InputKind::kGravityChange, 0.1f, 1, 0}, {InputKind::kAngularVelocity, 1, kInfinity, 0}});
   std::fill(fixture.drive.begin(), fixture.drive.end(), 0.0f);
-  fixture.drive[0] = 10;                           // exactly on the envelope: not beyond it
-  fixture.drive[1] = -10.5f;                       // beyond
-  fixture.drive[2] = kNan;                         // 0
-  fixture.drive[15] = 1e30f;                       // not bounded
-  fixture.drive[16] = -kInfinity;                  // 0
-  fixture.drive[2 * tissue::kDriveWidth] = 1e30f;  // another node
+  fixture.drive[3] = 10;                                   // exactly on the envelope: not beyond it
+  fixture.drive[4] = -10.5f;                               // beyond
+  fixture.drive[5] = kNan;                                 // 0
+  fixture.drive[6] = 1e30f;                                // not bounded
+  fixture.drive[7] = -kInfinity;                           // 0
+  fixture.drive[2 * tissue::kNodeDriveWidth + 3] = 1e30f;  // another node
   REQUIRE(fixture.assemble() == 4);
   REQUIRE(row(fixture, 0, 6) == std::vector<float>{1, -1, 0, 1e30f, 0, 0});
   REQUIRE(row(fixture, 2, 3) == std::vector<float>{1, 0, 0});
@@ -94,25 +109,30 @@ TEST_CASE("assemble_inputs_lays_them_out_in_the_packs_order_with_scale_and_zero_
                    {InputKind::kDisplacement, 10, kInfinity, 0},
                    {InputKind::kRestNormal, -1, kInfinity, 0}});
   REQUIRE(fixture.assemble() == 0);
-  // Node 1: u = 3 4 5 m in units of 0.5 m, one metre less the tick before.
+  // Node 1: l = 3 4 5 m in units of 0.5 m, one metre less the tick before.
   REQUIRE(row(fixture, 1, 16) == std::vector<float>{0.5f, 4, 6, 8, 0, 1, 1, 60, 80, 100, 0, -1, -1, 0, 0, 0});
 }
 
 TEST_CASE("assemble_inputs_reads_each_part_of_the_drive_from_its_place") {
-  const InputKind kinds[] = {InputKind::kLinearAcceleration,
-                             InputKind::kEulerAcceleration,
-                             InputKind::kCentrifugalAcceleration,
-                             InputKind::kArticulationAcceleration,
-                             InputKind::kAngularAcceleration,
-                             InputKind::kAngularVelocity,
-                             InputKind::kGravityChange};
-  std::vector<pack::InputRecord> inputs;
-  for (const InputKind kind : kinds) inputs.push_back({kind, 1, kInfinity, 0});
-  Fixture fixture(inputs);
+  Fixture fixture({{InputKind::kGravityChange, 1, kInfinity, 0},
+                   {InputKind::kAngularVelocity, 1, kInfinity, 0},
+                   {InputKind::kAngularAcceleration, 1, kInfinity, 0}});
   REQUIRE(fixture.assemble() == 0);
   for (size_t node = 0; node < kNodes; ++node) {
-    const std::vector<float> values = row(fixture, node, tissue::kDriveWidth);
+    const std::vector<float> values = row(fixture, node, 9);
     for (size_t k = 0; k < values.size(); ++k)
-      REQUIRE(values[k] == static_cast<float>(node * tissue::kDriveWidth + k));
+      REQUIRE(values[k] == static_cast<float>(node * tissue::kNodeDriveWidth + 3 + k));
   }
+}
+
+// Node 1: felt 300 400 500 m/s^2 over (20 rad/s)^2 in units of half a metre; l_hat twice l = 3 4 5 m; a
+// sixteenth of a second at 20 rad/s.
+TEST_CASE("assemble_inputs_tells_the_base_s_terms_in_length_units_and_radians") {
+  Fixture fixture({{InputKind::kFeltStep, 1, kInfinity, 0},
+                   {InputKind::kBaseStep, 1, kInfinity, 0},
+                   {InputKind::kTurn, 1, kInfinity, 0},
+                   {InputKind::kFrequency, 1, kInfinity, 0}});
+  REQUIRE(fixture.assemble() == 0);
+  const std::vector<float> values = row(fixture, 1, 10), want = {1.5f, 2, 2.5f, 6, 8, 10, -3, -4, -5, 1.25f};
+  for (size_t k = 0; k < want.size(); ++k) CHECK(values[k] == Approx(want[k]).epsilon(1e-6));
 }

@@ -15,10 +15,15 @@ namespace {
 
 constexpr float kFloatRounding = 1e-6f;  // doubles of order 1 stored as floats
 
+std::vector<std::byte> pack_small(const Character& character, const TissueLayout& layout,
+                                  const Safetensors& weights = test::small_weights()) {
+  return pack_character(character, layout, test::small_modes(layout), &weights);
+}
+
 struct Packed {
   Character character = test::small_character();
   TissueLayout layout = test::small_layout(character);
-  test::PackEditor editor{pack_character(character, layout, test::small_weights())};
+  test::PackEditor editor{pack_small(character, layout)};
   pack::PackView view;
   Packed() { REQUIRE(editor.open(&view).ok()); }
 };
@@ -28,26 +33,34 @@ struct Packed {
 TEST_CASE("characters_that_cannot_be_packed_are_refused_with_the_reason") {
   Character character = test::small_character();
   const TissueLayout layout = test::small_layout(character);
-  CHECK_THROWS_WITH(pack_character(character, layout, test::small_paper_weights()),
+  CHECK_THROWS_WITH(pack_small(character, layout, test::small_paper_weights()),
                     Contains("small.safetensors: metadata key 'inputs' is missing (the paper's wiring)"));
+  for (const char* key : {"frame", "base"}) {
+    Safetensors old = test::small_weights();
+    old.metadata.erase(key);
+    CHECK_THROWS_WITH(pack_small(character, layout, old), Contains(key) && Contains("train again"));
+    old.metadata[key] = "region";
+    CHECK_THROWS_WITH(pack_small(character, layout, old), Contains("train again"));
+  }
 
   TissueLayout repeated = layout;
   repeated.edges.emplace_back(1, 0);
-  CHECK_THROWS_WITH(pack_character(character, repeated, test::small_weights()),
-                    Contains("bar: control graph"));
+  CHECK_THROWS_WITH(pack_small(character, repeated), Contains("bar: control graph"));
 
   Safetensors weights = test::small_weights();
   weights.metadata["displacement_limit"] = "0";
-  CHECK_THROWS_WITH(pack_character(character, layout, weights), Contains("'displacement_limit' holds 0"));
+  CHECK_THROWS_WITH(pack_small(character, layout, weights), Contains("'displacement_limit' holds 0"));
   weights.metadata["displacement_limit"] = "1";
   weights.metadata["error_mm"] = "-1";
-  CHECK_THROWS_WITH(pack_character(character, layout, weights), Contains("'error_mm' holds -1"));
+  CHECK_THROWS_WITH(pack_small(character, layout, weights), Contains("'error_mm' holds -1"));
+  weights.metadata["error_mm"] = "1";
+  weights.metadata["base_substeps"] = "0";
+  CHECK_THROWS_WITH(pack_small(character, layout, weights), Contains("'base_substeps' holds 0"));
 
   character.clips[0].duration_s = 601;
-  CHECK_THROWS_WITH(pack_character(character, layout, test::small_weights()),
-                    Contains("clip 'swing' lasts 601"));
+  CHECK_THROWS_WITH(pack_small(character, layout), Contains("clip 'swing' lasts 601"));
   character.joint_node.resize(65536);
-  CHECK_THROWS_WITH(pack_character(character, layout, test::small_weights()), Contains("65536 joints"));
+  CHECK_THROWS_WITH(pack_small(character, layout), Contains("65536 joints"));
 }
 
 TEST_CASE("packing_twice_gives_the_same_bytes") {
@@ -99,7 +112,7 @@ TEST_CASE("a_clip_that_ends_between_two_samples_keeps_its_end_pose") {
   const TissueLayout layout = test::small_layout(character);
   character.clips[0].duration_s = 0.05 + 1e-3;
   character.clips.push_back({"still", 0, {}});
-  test::PackEditor editor(pack_character(character, layout, test::small_weights()));
+  test::PackEditor editor(pack_small(character, layout));
   pack::PackView view;
   REQUIRE(editor.open(&view).ok());
   REQUIRE(view.clips[0].frame_count == 5);
@@ -114,7 +127,6 @@ TEST_CASE("regions_keep_nodes_graph_and_carrying_weights") {
   const pack::RegionRecord& tip = packed.view.regions[1];
   CHECK(std::string(string_at(packed.view, tip.name)) == "tip");
   CHECK(tip.first_node == 3);
-  CHECK(tip.frame_joint == 2);
   CHECK(packed.view.region_vertices[tip.first_vertex + 3] == 11);
   CHECK(tip.displacement_limit_m == Approx(0.75 * tip.radius_m));
   CHECK(tip.padded_vertices == 16);
@@ -131,7 +143,7 @@ TEST_CASE("a_normal_without_length_is_packed_as_up") {
   const TissueLayout layout = test::small_layout(character);
   character.normals[0] = {0, 0, 0};
   character.normals[1] *= 7;
-  test::PackEditor editor(pack_character(character, layout, test::small_weights()));
+  test::PackEditor editor(pack_small(character, layout));
   pack::PackView view;
   REQUIRE(editor.open(&view).ok());
   CHECK(view.normals[1] == 1.0f);

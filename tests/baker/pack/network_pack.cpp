@@ -76,14 +76,15 @@ TEST_CASE("weights_with_bad_metadata_are_refused_by_key") {
   CHECK_THAT(refusal_with_key("output_leak", "1.5"),
              Contains("'output_leak' holds 1.5, which is out of range"));
   CHECK_THAT(refusal_with_key("state_clamp", "0"), Contains("'state_clamp'"));
-  CHECK_THAT(refusal_with_key("length_unit_m", "-1"), Contains("'length_unit_m'"));
+  CHECK_THAT(refusal_with_key("length_unit", "-1"), Contains("'length_unit'"));
   CHECK_THAT(refusal_with_key("inputs", "displacement,speed"),
              Contains("'input_scales' holds 12 numbers for 2 inputs"));
   CHECK_THAT(refusal_with_key("input_scales", "1,2"),
              Contains("'input_scales' holds 2 numbers for 12 inputs"));
   CHECK_THAT(refusal_with_key("input_scales", "1,1,1,1,1,1,1,1,1,1,1,inf"),
-             Contains("not finite for 'velocity'"));
-  CHECK_THAT(refusal_with_key("envelope", "1,1,1,1,1,1,1,1,1,1,1,0"), Contains("not above 0 for 'velocity'"));
+             Contains("not finite for 'frequency'"));
+  CHECK_THAT(refusal_with_key("envelope", "1,1,1,1,1,1,1,1,1,1,1,0"),
+             Contains("not above 0 for 'frequency'"));
 }
 
 TEST_CASE("unknown_and_repeated_inputs_are_refused_by_name") {
@@ -148,16 +149,16 @@ TEST_CASE("metadata_become_the_record_and_unknown_keys_are_kept") {
   test::PackEditor editor = packed(small_weights());
   pack::PackView view;
   REQUIRE(editor.open(&view).ok());
-  CHECK(view.network->input_width == 34);
+  CHECK(view.network->input_width == 32);
   CHECK(view.network->rate_hz == 60.0f);
   CHECK(view.network->output_scale == 0.5f);
   CHECK(view.network->output_leak == 0.1f);
   CHECK(view.network->hidden_leak == 0.2f);
   CHECK(view.network->state_clamp == 8.0f);
-  CHECK(view.network->length_unit_m == 0.01f);
+  CHECK(view.network->length_unit == 0.01f);
   REQUIRE(view.inputs.size() == 12);
-  CHECK(std::string(input_name(view.inputs[3].kind)) == "linear_acceleration");
-  CHECK(view.inputs[3].scale == 0.1f);
+  CHECK(std::string(input_name(view.inputs[3].kind)) == "angular_acceleration");
+  CHECK(view.inputs[3].scale == 0.01f);
   CHECK(view.inputs[3].envelope == 8.0f);
   const auto metadata = nlohmann::json::parse(view.metadata.begin(), view.metadata.end());
   CHECK(metadata == nlohmann::json(small_weights().metadata));

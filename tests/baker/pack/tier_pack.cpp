@@ -33,15 +33,26 @@ TEST_CASE("multiply_adds_count_padded_products_and_aggregation") {
 }
 
 TEST_CASE("tiers_ascend_and_errors_that_were_not_measured_stay_nan") {
-  const std::vector<pack::TierRecord> tiers = make_tiers(1000000, 40, 0.5f, 0.25f);
-  REQUIRE(tiers.size() == 3);
+  const TierWork work{.nodes = 40, .mode_floats = 5000, .network_multiply_adds = 1000000};
+  const std::vector<pack::TierRecord> tiers = make_tiers(work, 0.5f, 0.25f);
+  REQUIRE(tiers.size() == kTierCount);
+  for (uint32_t tier = 0; tier < kTierCount; ++tier) CHECK(tiers[tier].tier == tier);
   CHECK(tiers[0].tier == static_cast<uint32_t>(Tier::kSkinning));
   CHECK(tiers[0].cost_us == 0);
   CHECK(tiers[0].error_mm == 2.0f);
   CHECK(tiers[0].error_ratio == 1.0f);
   CHECK(std::isnan(tiers[1].error_mm));
-  CHECK(tiers[2].cost_us == Approx(100.0 / 3));  // 2e6 operations at 60 GFLOP/s
+  // 2e6 operations at 60 GFLOP/s on top of the modes under the network.
+  CHECK(tiers[2].cost_us - tiers[4].cost_us == Approx(100.0 / 3));
+  CHECK(tiers[4].cost_us > tiers[3].cost_us);
+  CHECK(tiers[3].cost_us > tiers[1].cost_us);
   CHECK(tiers[2].error_ratio == 0.25f);
-  CHECK(std::isnan(make_tiers(1, 1, kNan, kNan)[0].error_mm));
-  CHECK(std::isnan(make_tiers(1, 1, kNan, kNan)[2].error_ratio));
+  CHECK(std::isnan(make_tiers(work, kNan, kNan)[0].error_mm));
+  CHECK(std::isnan(make_tiers(work, kNan, kNan)[2].error_ratio));
+}
+
+TEST_CASE("without_a_network_there_is_no_tier_of_it") {
+  const std::vector<pack::TierRecord> tiers = make_tiers({.nodes = 40, .mode_floats = 5000}, kNan, kNan);
+  REQUIRE(tiers.size() == kTierCount - 1);
+  for (const pack::TierRecord& tier : tiers) CHECK(tier.tier != static_cast<uint32_t>(Tier::kNetwork));
 }

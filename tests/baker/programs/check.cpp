@@ -32,7 +32,7 @@ Safetensors zero_vectors(bool paper) {
   if (paper)
     vectors.tensors["x"] = zeros({kSteps + 1, kNodes, 3});
   else
-    vectors.tensors["z"] = zeros({kSteps, kNodes, 34});
+    vectors.tensors["z"] = zeros({kSteps, kNodes, 32});
   return vectors;
 }
 
@@ -86,8 +86,10 @@ TEST_CASE("vectors_that_do_not_fit_are_refused_by_tensor") {
   refuse(true, [](Safetensors& v) { v.tensors.erase("x"); }, {"stated inputs", "the other"});
   refuse(true, [](Safetensors& v) { v.tensors["final.1.c"] = v.tensors["x"]; }, {"'final.1.c' has shape"});
   refuse(false, [](Safetensors& v) { v.tensors["z"] = v.tensors["y"]; },
-         {"tensor 'z' has shape (3, 4, 3), wanted (3, 4, 34)"});
+         {"tensor 'z' has shape (3, 4, 3), wanted (3, 4, 32)"});
   refuse(false, [](Safetensors& v) { v.tensors["x"] = v.tensors["y"]; }, {"the paper's wiring", "the other"});
+  refuse(false, [](Safetensors& v) { v.tensors["carry"] = v.tensors["y0"]; },
+         {"tensor 'carry' has shape (4, 3), wanted (3, 4, 3)"});
 }
 
 TEST_CASE("models_that_are_not_built_yet_are_refused_with_one_line") {
@@ -202,20 +204,42 @@ TEST_CASE("stated_inputs_start_at_y0_and_are_fed_back") {
   files.write(weights, vectors);
   CHECK(bake({"check", files.weights, files.vectors}).exit_code == 0);
 
-  // Displacement is column 28: through the first layer's self weights it must change the result from the
+  // Displacement is column 16: through the first layer's self weights it must change the result from the
   // first step on, which starts at y0, and an input of the file in that column must not be read.
-  std::vector<float> self(34 * 20);
-  self[28 * 20 + 10] = 1;
-  weights.tensors["layers.0.W_s"] = tensor_f32({34, 20}, self);
+  std::vector<float> self(32 * 20);
+  self[16 * 20 + 10] = 1;
+  weights.tensors["layers.0.W_s"] = tensor_f32({32, 20}, self);
   std::vector<float> inward(5 * 12);
   inward[7] = 1;
   weights.tensors["layers.1.W_s"] = tensor_f32({5, 12}, inward);
   files.write(weights, vectors);
   const ProgramResult fed = bake({"check", files.weights, files.vectors});
   CHECK(fed.exit_code == 1);
-  std::vector<float> z(3 * 4 * 34);
-  for (size_t row = 0; row < 12; ++row) z[row * 34 + 28] = 100;
-  vectors.tensors["z"] = tensor_f32({3, 4, 34}, z);
+  std::vector<float> z(3 * 4 * 32);
+  for (size_t row = 0; row < 12; ++row) z[row * 32 + 16] = 100;
+  vectors.tensors["z"] = tensor_f32({3, 4, 32}, z);
   files.write(weights, vectors);
   CHECK(bake({"check", files.weights, files.vectors}).out == fed.out);
+}
+
+// With every weight zero y is y0 and the sum of what the base carried.
+TEST_CASE("a_network_on_the_modal_base_is_carried_by_it") {
+  Safetensors weights = small_weights();
+  for (auto& [name, tensor] : weights.tensors)
+    tensor = tensor_f32(tensor.shape, std::vector<float>(tensor.count()));
+  weights.metadata["output_leak"] = "0";
+  Safetensors vectors = zero_vectors(false);
+  std::vector<float> carry(3 * 4 * 3), y(carry.size());
+  for (size_t k = 0; k < carry.size(); ++k) {
+    carry[k] = static_cast<float>(k % 7) - 3;
+    y[k] = carry[k] + (k < 12 ? 0 : y[k - 12]);
+  }
+  vectors.tensors["carry"] = tensor_f32({3, 4, 3}, carry);
+  vectors.tensors["y"] = tensor_f32({3, 4, 3}, y);
+  const Files files;
+  files.write(weights, vectors);
+  CHECK(bake({"check", files.weights, files.vectors}).exit_code == 0);
+  vectors.tensors.erase("carry");
+  files.write(weights, vectors);
+  CHECK(bake({"check", files.weights, files.vectors}).exit_code == 1);
 }

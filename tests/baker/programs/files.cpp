@@ -40,7 +40,7 @@ TEST_CASE("damaged_packs_are_refused_by_every_command_that_reads_one") {
   refuse(flipped, "damaged");
   std::string older = good;
   older[8] = 0;
-  refuse(older, "sinew-bake character IN.glb --tissue");
+  refuse(older, "sinew-bake character IN.glb --recipe R.json --tissue");
   refuse("GIF89a, and more", "not a .sinew pack");
 }
 
@@ -48,8 +48,8 @@ TEST_CASE("info_shows_a_character_to_people_and_to_machines") {
   const Files files;
   const ProgramResult table = bake({"info", files.pack}), json = bake({"info", "--json", files.pack});
   CHECK(table.exit_code == 0);
-  for (const char* word :
-       {"character", "belly", "swing", "linear_acceleration", "made_by", "a key that nobody knows"})
+  for (const char* word : {"character", "belly", "swing", "felt_step", "modal", "first_hz", "made_by",
+                           "a key that nobody knows"})
     CHECK_THAT(table.out, Catch::Contains(word));
   const auto description = nlohmann::json::parse(json.out);
   CHECK(description["kind"] == "character");

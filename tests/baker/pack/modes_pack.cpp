@@ -1,0 +1,152 @@
+// modes_pack.cpp  Modal bases go into the file as recurrences and matrices that say the same.
+#include "baker/pack/modes_pack.hpp"
+
+#include <Eigen/LU>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+#include "baker/common/bad_input.hpp"
+#include "baker/pack/character_pack.hpp"
+#include "tests/pack/pack_editor.hpp"
+#include "tests/pack/small_pack.hpp"
+
+using namespace sinew;
+using namespace sinew::baker;
+using Catch::Contains;
+
+namespace {
+
+constexpr TickGrid kGrid{60, 4};
+
+// q'' + 2 zeta w q' + w^2 q = p by backward Euler, substep by substep; the positions at the ticks.
+std::vector<double> backward_euler(double w, double zeta, double q, double v, double p, int ticks) {
+  const double h = 1 / (kGrid.rate_hz * kGrid.substeps);
+  std::vector<double> out{q};
+  for (int t = 0; t < ticks; ++t) {
+    for (int s = 0; s < kGrid.substeps; ++s) {
+      v = (v + h * (p - w * w * q)) / (1 + 2 * zeta * w * h + w * w * h * h);
+      q += h * v;
+    }
+    out.push_back(q);
+  }
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("bases_that_do_not_fit_are_refused_by_region") {
+  const Character character = test::small_character();
+  const TissueLayout layout = test::small_layout(character);
+  const auto refusal = [&](auto damage) {
+    std::vector<ModalBasis> modes = test::small_modes(layout);
+    damage(modes);
+    try {
+      pack_character(character, layout, modes);
+    } catch (const BadInput& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THAT(refusal([](auto& m) { m.pop_back(); }), Contains("1 for 2 regions"));
+  CHECK_THAT(refusal([](auto& m) { m[1].shape.conservativeResize(3, 2); }),
+             Contains("'tip': a modal basis of"));
+  CHECK_THAT(refusal([](auto& m) { m[1].force.conservativeResize(1, 6); }),
+             Contains("'tip': a modal basis of"));
+  CHECK_THAT(refusal([](auto& m) { m[1].damping_ratio.conservativeResize(1); }), Contains("'tip'"));
+  CHECK_THAT(refusal([](auto& m) { m[0].rad_per_s[0] = 0; }), Contains("'belly': its modes hold"));
+  CHECK_THAT(refusal([](auto& m) { m[0].rad_per_s[2] = kNan; }), Contains("'belly': its modes hold"));
+  CHECK_THAT(refusal([](auto& m) { m[0].damping_ratio[2] = -1; }), Contains("'belly': its modes hold"));
+  CHECK_THAT(refusal([](auto& m) { m[0].turn(1, 1) = kNan; }), Contains("'belly': its modes hold"));
+  const auto too_many = [](auto& m) {
+    m[0] = {Eigen::VectorXd::Ones(65), Eigen::VectorXd::Ones(65), Eigen::MatrixXd::Ones(9, 65),
+            Eigen::MatrixXd::Ones(9, 65), Eigen::MatrixXd::Ones(65, 9)};
+  };
+  CHECK_THAT(refusal(too_many), Contains("'belly': a modal basis of"));
+}
+
+// Rounding a1 and a2 to float shifts a frequency by 2^-24 / (w h)^2: 1e-5 at the lowest, over 60 ticks.
+TEST_CASE("the_recurrence_is_backward_euler_s_at_the_ticks") {
+  for (const double w : {6.0, 25.0, 60.0, 180.0}) {
+    INFO(w << " rad/s");
+    const Recurrence r = modal_recurrence(w, 0.08, kGrid);
+    const std::vector<double> want = backward_euler(w, 0.08, 0.03, -0.4, 7, 60);
+    double q = want[1], before = want[0];
+    for (size_t t = 2; t < want.size(); ++t) {
+      const double next = double{r.a1} * q + double{r.a2} * before + double{r.gain} * 7;
+      before = q;
+      q = next;
+      CHECK(q == Approx(want[t]).margin(1e-4 * 0.05));
+    }
+  }
+}
+
+TEST_CASE("the_recurrence_rests_where_the_spring_does") {
+  for (const double w : {0.5, 6.0, 60.0, 600.0}) {
+    const Recurrence r = modal_recurrence(w, 0.1, kGrid);
+    CHECK(double{r.gain} / (1 - double{r.a1} - double{r.a2}) == Approx(1 / (w * w)).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("matrices_lie_where_the_format_says_and_projection_undoes_shape") {
+  const Character character = test::small_character();
+  const TissueLayout layout = test::small_layout(character);
+  const std::vector<ModalBasis> modes = test::small_modes(layout);
+  test::PackEditor editor(pack_character(character, layout, modes));
+  pack::PackView view;
+  REQUIRE(editor.open(&view).ok());
+  for (size_t r = 0; r < modes.size(); ++r) {
+    const pack::RegionModesRecord& record = view.region_modes[r];
+    const Eigen::Index count = modes[r].rad_per_s.size(), rows = modes[r].shape.rows();
+    REQUIRE(record.mode_count == count);
+    CHECK(record.first_rad_per_s == 20);
+    using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    const float* at = view.mode_matrices.data() + record.matrices;
+    const auto matrix = [&] {
+      const Rows all = Eigen::Map<const Rows>(at, count, record.padded);
+      at += count * record.padded;
+      return Eigen::MatrixXd(all.leftCols(rows).cast<double>());
+    };
+    const Eigen::MatrixXd shape = matrix(), turn = matrix(), force = matrix(), project = matrix();
+    constexpr double kFloatRounding = 1e-6;  // of numbers up to 1
+    CHECK((shape.transpose() - modes[r].shape).cwiseAbs().maxCoeff() < kFloatRounding);
+    CHECK((turn.transpose() - modes[r].turn).cwiseAbs().maxCoeff() < kFloatRounding);
+    CHECK((force - modes[r].force).cwiseAbs().maxCoeff() < kFloatRounding);
+    CHECK((project * shape.transpose() - Eigen::MatrixXd::Identity(count, count)).cwiseAbs().maxCoeff() <
+          1e-5);
+  }
+}
+
+// What the modes settle to under one felt acceleration everywhere.
+TEST_CASE("compliance_is_the_modes_static_answer") {
+  const Character character = test::small_character();
+  const TissueLayout layout = test::small_layout(character);
+  const std::vector<ModalBasis> modes = test::small_modes(layout);
+  test::PackEditor editor(pack_character(character, layout, modes));
+  pack::PackView view;
+  REQUIRE(editor.open(&view).ok());
+  const Eigen::Vector3d felt(1, -2, 0.5);
+  const Eigen::VectorXd forces = modes[0].force * felt.replicate(3, 1);
+  const Eigen::VectorXd u = modes[0].shape * forces.cwiseQuotient(modes[0].rad_per_s.cwiseAbs2());
+  for (int row = 0; row < 9; ++row) {
+    const float* c = view.compliance.data() + 3 * row;
+    CHECK(c[0] * felt[0] + c[1] * felt[1] + c[2] * felt[2] == Approx(u[row]).margin(1e-8));
+  }
+}
+
+TEST_CASE("a_region_without_modes_is_packed_and_stands_still") {
+  const Character character = test::small_character();
+  const TissueLayout layout = test::small_layout(character);
+  std::vector<ModalBasis> modes = test::small_modes(layout);
+  modes[0] = {Eigen::VectorXd(0), Eigen::VectorXd(0), Eigen::MatrixXd(9, 0), Eigen::MatrixXd(9, 0),
+              Eigen::MatrixXd(0, 9)};
+  test::PackEditor editor(pack_character(character, layout, modes));
+  pack::PackView view;
+  const Status status = editor.open(&view);
+  INFO(status.message);
+  REQUIRE(status.ok());
+  CHECK(view.region_modes[0].mode_count == 0);
+  CHECK(view.compliance[4] == 0);
+  CHECK(view.modes.size() == 2);
+}

@@ -1,0 +1,14 @@
+// block_modes.hpp  The soft block's modes: a few shapes in closed form instead of an eigenproblem.
+#pragma once
+#include "baker/mesh/tissue_layout.hpp"
+#include "baker/truth/modal_basis.hpp"
+
+namespace sinew::scenes {
+
+inline constexpr double kBlockSoftFrom_m = 0.25, kBlockHeight_m = 0.6;
+
+// Six modes a region: the block above kBlockSoftFrom_m bends along x and z and stretches along y, each as a
+// whole and with a node in between. 3.5 Hz for the first, 12 Hz for the last, damped by a tenth.
+std::vector<baker::ModalBasis> block_modes(const baker::TissueLayout& layout);
+
+}  // namespace sinew::scenes

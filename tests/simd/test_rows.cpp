@@ -1,0 +1,78 @@
+// test_rows.cpp  Rows against a vector, against plain sums in double.
+#include "tests/simd/every_isa.hpp"
+#include "tests/simd/test_data.hpp"
+
+using namespace sinew;
+
+namespace {
+
+constexpr double kEpsilon = 6e-8;  // half a unit in the last place of numbers below 1, a rounding a term
+
+struct RowsCase {
+  uint32_t count;
+  size_t stride;
+  test::Floats rows, x, weights;
+};
+
+RowsCase rows_case(uint32_t count, size_t stride) {
+  std::mt19937 random(count * 1000 + static_cast<uint32_t>(stride));
+  return {count, stride, test::random_rows(random, count, stride, stride, 1),
+          test::random_rows(random, 1, stride, stride, 1), test::random_rows(random, 1, count, count, 1)};
+}
+
+std::vector<float> dotted(const simd::Kernels& kernels, RowsCase& c) {
+  std::vector<float> out(c.count, 99);
+  kernels.dot_rows(c.rows.data(), c.count, c.stride, c.x.data(), out.data());
+  return out;
+}
+
+std::vector<float> added(const simd::Kernels& kernels, RowsCase& c) {
+  test::Floats out(c.stride, 99);
+  kernels.add_rows(c.rows.data(), c.count, c.stride, c.weights.data(), out.data());
+  return out.copy();
+}
+
+template <class Check>
+void for_every_size(const Check& check) {
+  test::for_every_isa([&](const char*, const simd::Kernels& kernels) {
+    for (const uint32_t count : {0u, 1u, 7u, 64u}) {
+      for (const size_t stride : {16u, 32u, 48u, 128u, 12288u}) {
+        RowsCase c = rows_case(count, stride);
+        check(kernels, c);
+      }
+    }
+  });
+}
+
+}  // namespace
+
+TEST_CASE("dot_rows_are_the_rows_inner_products") {
+  for_every_size([](const simd::Kernels& kernels, RowsCase& c) {
+    const std::vector<float> out = dotted(kernels, c);
+    for (size_t k = 0; k < c.count; ++k) {
+      double exact = 0;
+      for (size_t i = 0; i < c.stride; ++i)
+        exact += static_cast<double>(c.rows[k * c.stride + i]) * static_cast<double>(c.x[i]);
+      REQUIRE(std::fabs(static_cast<double>(out[k]) - exact) <=
+              kEpsilon * static_cast<double>(c.stride) + 1e-6);
+    }
+  });
+}
+
+TEST_CASE("add_rows_is_the_rows_weighted_sum") {
+  for_every_size([](const simd::Kernels& kernels, RowsCase& c) {
+    const std::vector<float> out = added(kernels, c);
+    for (size_t i = 0; i < c.stride; ++i) {
+      double exact = 0;
+      for (size_t k = 0; k < c.count; ++k)
+        exact += static_cast<double>(c.weights[k]) * static_cast<double>(c.rows[k * c.stride + i]);
+      REQUIRE(std::fabs(static_cast<double>(out[i]) - exact) <= 8 * kEpsilon * (c.count + 1));
+    }
+  });
+}
+
+TEST_CASE("rows_have_the_same_bits_on_all_targets_with_fma") {
+  RowsCase c = rows_case(64, 176);
+  test::require_same_bits_where_fused([&](const simd::Kernels& kernels) { return dotted(kernels, c); });
+  test::require_same_bits_where_fused([&](const simd::Kernels& kernels) { return added(kernels, c); });
+}
