@@ -75,6 +75,22 @@ uint32_t hold_at_limit(const pack::RegionRecord& region, const NodeMemory& memor
   return held;
 }
 
+uint32_t hold_base_at_limit(const pack::RegionRecord& region, uint32_t modes, float* l, float* q,
+                            float* q_before) noexcept {
+  uint32_t beyond = 0;
+  float largest_m = 0;
+  for (uint32_t i = 0; i < region.node_count; ++i) {
+    const float length = std::hypot(l[3 * i], l[3 * i + 1], l[3 * i + 2]);
+    beyond += length > region.displacement_limit_m;
+    largest_m = std::max(largest_m, length);
+  }
+  if (beyond == 0) return 0;
+  const float scale = region.displacement_limit_m / largest_m;
+  for (uint32_t i = 0; i < 3 * region.node_count; ++i) l[i] *= scale;
+  for (uint32_t k = 0; k < modes; ++k) q_before[k] = q[k] *= scale;
+  return beyond;
+}
+
 void read_output(const Network& network, std::span<const pack::RegionRecord> regions, uint32_t node_count,
                  const float* state, float* l) noexcept {
   const OutputRows rows = output_rows(network, node_count, state);

@@ -78,6 +78,17 @@ bool base_step(Instance& instance) noexcept {
          tissue::all_finite(instance.q_hat, asset.mode_count());
 }
 
+// What is the last tick's now, and this tick's before, in q: overwritten where a region is stopped.
+uint32_t hold_base(Instance& instance) noexcept {
+  uint32_t held = 0;
+  for_each_part(instance, [&](const Part& part) {
+    held += tissue::hold_base_at_limit(part.record, static_cast<uint32_t>(part.base.modes.size()),
+                                       instance.l_hat + part.vector, instance.q_hat + part.mode,
+                                       instance.q[0] + part.mode);
+  });
+  return held;
+}
+
 void project(Instance& instance, const Part& part, const float* l, float* q) noexcept {
   float* padded = instance.region[0];
   const size_t floats = size_t{3} * part.record.node_count;
@@ -99,21 +110,11 @@ void shift_back(Instance& instance) noexcept {
   std::copy_n(instance.q[0], instance.asset->mode_count(), instance.q[1]);
 }
 
-// l of this tick is there; q, theta and u follow.
-void settle(Instance& instance, bool corrected) noexcept {
-  const Asset& asset = *instance.asset;
-  tissue::NodeMemory memory;
-  if (corrected) memory = {&asset.network, asset.node_count(), instance.network_state};
-  uint32_t held = 0;
-  for_each_part(instance, [&](const Part& part) {
-    float *now = instance.l[0] + part.vector, *before = instance.l[1] + part.vector;
-    const uint32_t here = tissue::hold_at_limit(part.record, memory, now, before);
-    if (here > 0 || corrected) project(instance, part, instance.l[0], instance.q[0]);
-    if (here > 0) project(instance, part, instance.l[1], instance.q[1]);
-    turn_and_warp(instance, part);
-    held += here;
-  });
-  count_clamps(instance, held);
+// l of this tick is the base's; q, theta and u follow.
+void settle_on_base(Instance& instance) noexcept {
+  std::copy_n(instance.l_hat, floats_of(instance), instance.l[0]);
+  std::copy_n(instance.q_hat, instance.asset->mode_count(), instance.q[0]);
+  for_each_part(instance, [&](const Part& part) { turn_and_warp(instance, part); });
 }
 
 // ---- the network ----
@@ -150,6 +151,24 @@ void give_up_network(Instance& instance) noexcept {
   instance.fell_back = true;
 }
 
+// l of this tick is the network's; q, theta and u follow. Returns the nodes held.
+uint32_t settle_on_network(Instance& instance) noexcept {
+  const Asset& asset = *instance.asset;
+  const tissue::NodeMemory memory{&asset.network, asset.node_count(), instance.network_state};
+  tissue::read_output(asset.network, asset.pack.regions, asset.node_count(), instance.network_state,
+                      instance.l[0]);
+  uint32_t held = 0;
+  for_each_part(instance, [&](const Part& part) {
+    float *now = instance.l[0] + part.vector, *before = instance.l[1] + part.vector;
+    const uint32_t here = tissue::hold_at_limit(part.record, memory, now, before);
+    project(instance, part, instance.l[0], instance.q[0]);
+    if (here > 0) project(instance, part, instance.l[1], instance.q[1]);
+    turn_and_warp(instance, part);
+    held += here;
+  });
+  return held;
+}
+
 // True when the network's state is sound after its step.
 bool network_step(Instance& instance) noexcept {
   const Asset& asset = *instance.asset;
@@ -176,18 +195,16 @@ void drive_nodes(Instance& instance) noexcept {
 }
 
 bool simulate_tick(Instance& instance) noexcept {
-  const Asset& asset = *instance.asset;
   if (instance.state->tier == Tier::kSpring) return spring_tick(instance);
   if (!base_step(instance)) return false;
+  uint32_t held = hold_base(instance);
   const bool corrected = instance.state->tier == Tier::kNetwork && network_step(instance);
   shift_back(instance);
   if (corrected)
-    tissue::read_output(asset.network, asset.pack.regions, asset.node_count(), instance.network_state,
-                        instance.l[0]);
+    held += settle_on_network(instance);
   else
-    std::copy_n(instance.l_hat, floats_of(instance), instance.l[0]);
-  std::copy_n(instance.q_hat, asset.mode_count(), instance.q[0]);
-  settle(instance, corrected);
+    settle_on_base(instance);
+  count_clamps(instance, held);
   return true;
 }
 

@@ -140,6 +140,20 @@ TEST_CASE("without_a_network_a_node_is_held_all_the_same") {
   CHECK(fixture.state.copy() == state);
 }
 
+TEST_CASE("a_base_beyond_the_limit_is_scaled_as_a_whole_and_stops") {
+  Fixture fixture;
+  fixture.set_l(4, 0.06f, 0, 0.08f);  // 0.1 m, the limit of the second region
+  float q[2] = {1, -2}, q_before[2] = {5, 6};
+  CHECK(tissue::hold_base_at_limit(fixture.regions[1], 2, fixture.l.data() + 9, q, q_before) == 0);
+  CHECK((q[0] == 1 && q_before[0] == 5));
+  fixture.set_l(4, 0.12f, 0, 0.16f);
+  CHECK(tissue::hold_base_at_limit(fixture.regions[1], 2, fixture.l.data() + 9, q, q_before) == 1);
+  CHECK(fixture.l[12] == Approx(0.06f));
+  CHECK(fixture.l[9] == Approx(0.005f));
+  CHECK((q[0] == Approx(0.5f) && q[1] == Approx(-1)));
+  CHECK((q_before[0] == q[0] && q_before[1] == q[1]));
+}
+
 TEST_CASE("guard_holds_a_node_whose_square_overflows") {
   Fixture fixture;
   fixture.set_l(0, 1e30f, 0, 0);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/hash.hpp"
+#include "pack/reader.hpp"
 #include "sinew/sinew.hpp"
 #include "tests/scenes/motions.hpp"
 #include "tests/scenes/soft_block.hpp"
@@ -19,6 +20,23 @@ using Motion = std::function<scenes::BlockPose(double time_s)>;
 inline const scenes::PackBytes& block_pack() {
   static const scenes::PackBytes pack = scenes::soft_block();
   return pack;
+}
+
+// The same without a network.
+inline const scenes::PackBytes& weightless_pack() {
+  static const scenes::PackBytes pack = scenes::soft_block({.network = false});
+  return pack;
+}
+
+// Baked, of a tick of one block: a budget in work units that pays for this tier and for none above.
+inline float tier_cost_us(Tier tier) {
+  pack::PackView view;
+  REQUIRE(pack::open_pack(block_pack().bytes(), &view).ok());
+  for (const pack::TierRecord& record : view.tiers) {
+    if (record.tier == static_cast<uint32_t>(tier)) return record.cost_us;
+  }
+  FAIL("no such tier");
+  return 0;
 }
 
 // Programmer errors are counted instead of aborting a debug build.

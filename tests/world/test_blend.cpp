@@ -91,6 +91,64 @@ TEST_CASE("changing_tiers_does_not_pop") {
   CHECK(flickering_m < kPop * usual_m);
 }
 
+// Springs, modes and network hand displacement and velocity on without a blend. A spring's place need not be
+// a shape of the modes: what is left out is what a switch may move.
+TEST_CASE("tier_switches_are_continuous") {
+  constexpr double kMost_mm = 6;  // in a frame, beyond what the motion itself does; it displaces by up to 56 mm
+  const auto budget = [](Tier tier) {
+    return tier == Tier::kNetwork ? kAll : test::tier_cost_us(tier) * 1.01f;
+  };
+  const auto switched = [&](Tier a, Tier b) {
+    Stage stage(1, {.budget_mode = BudgetMode::kWorkUnits});
+    std::vector<Tier> seen;
+    const double change_m = largest_change(settle(stage), 600, [&](int f) {
+      seen.push_back(stage.report().tier);
+      return budget(f / 37 % 2 == 0 ? a : b);
+    });
+    CHECK(std::ranges::count(seen, a) > 250);
+    CHECK(std::ranges::count(seen, b) > 250);
+    return change_m * 1e3;
+  };
+  const auto steady = [&](Tier tier) {
+    Stage stage(1, {.budget_mode = BudgetMode::kWorkUnits});
+    return 1e3 * largest_change(settle(stage), 600, [&](int) { return budget(tier); });
+  };
+  const double network_mm = steady(Tier::kNetwork), modal_mm = steady(Tier::kModal),
+               spring_mm = steady(Tier::kSpring);
+  const double network_modal_mm = switched(Tier::kNetwork, Tier::kModal);
+  const double modal_spring_mm = switched(Tier::kModal, Tier::kSpring);
+  const double network_spring_mm = switched(Tier::kNetwork, Tier::kSpring);
+  WARN("largest change in a frame: network " << network_mm << " mm, modal " << modal_mm << ", spring "
+                                             << spring_mm << "; network-modal " << network_modal_mm
+                                             << ", modal-spring " << modal_spring_mm << ", network-spring "
+                                             << network_spring_mm);
+  CHECK(network_modal_mm < std::max(network_mm, modal_mm) + kMost_mm);
+  CHECK(modal_spring_mm < std::max(modal_mm, spring_mm) + kMost_mm);
+  CHECK(network_spring_mm < std::max(network_mm, spring_mm) + kMost_mm);
+}
+
+TEST_CASE("modes_go_on_where_the_network_left_them") {
+  Stage stage(1, {.budget_mode = BudgetMode::kWorkUnits});
+  settle(stage);
+  REQUIRE(stage.world.set_budget_us(test::tier_cost_us(Tier::kModal) * 1.01f).ok());
+  for (uint32_t f = 1; f <= 30; ++f) {
+    stage.step(scenes::walk, kFrame_s);
+    CHECK(stage.report().tier == Tier::kModal);
+    CHECK(stage.report().blend == 1);
+    CHECK(stage.report().ticks_since_network == f);
+  }
+}
+
+TEST_CASE("a_character_without_a_network_runs_on_its_modes") {
+  Stage stage(2, {}, test::weightless_pack());
+  const FrameReport report = stage.step(scenes::walk, kFrame_s);
+  CHECK(report.instances_modal == 2);
+  CHECK(report.instances_network == 0);
+  stage.play(scenes::walk, 2);
+  CHECK(stage.report().tier == Tier::kModal);
+  CHECK(test::largest_length(stage.read(0, Space::kBind)) > 0.005);
+}
+
 TEST_CASE("tissue_comes_back_to_what_it_would_have_been") {
   Stage interrupted(1, {.budget_mode = BudgetMode::kWorkUnits}),
       steady(1, {.budget_mode = BudgetMode::kWorkUnits});

@@ -102,7 +102,9 @@ TEST_CASE("report_counts_every_instance_once_and_measures_its_stages") {
   for (int f = 0; f < 60; ++f) {
     const FrameReport report = stage.step(scenes::walk, 1.0 / 60);
     CHECK(report.frame == static_cast<uint64_t>(f));
-    CHECK(report.instances_network + report.instances_extrapolated + report.instances_skinned == 6);
+    CHECK(report.instances_network + report.instances_modal + report.instances_spring +
+              report.instances_extrapolated + report.instances_skinned ==
+          6);
     const float stages_us = report.schedule_us + report.drive_us + report.tissue_us + report.publish_us;
     CHECK(stages_us > 0);
     CHECK(stages_us < report.total_us);

@@ -17,23 +17,57 @@ scenes::BlockPose strong_shake(double t) { return scenes::shake(t, 12); }
 // Bytes of a snapshot's header and its checksum's place; world/snapshot.cpp.
 constexpr size_t kHeaderBytes = 40, kChecksumAt = 24;
 
-// A NaN at `share` of the network's state, smuggled in through a snapshot whose checksum is right.
-void poison(Stage& stage, double share) {
+// A NaN in the state, at the place that `where` points to in a twin, smuggled in through a snapshot whose
+// checksum is right.
+template <class Where>
+void poison(Stage& stage, const Where& where) {
   world::Asset asset;
   world::Instance twin;
   REQUIRE(world::open_asset(test::block_pack().bytes(), &asset).ok());
   REQUIRE(world::make_instance(asset, {}, {}, 1, &twin).ok());
-  const size_t floats = tissue::state_floats(asset.network, asset.node_count());
-  const auto start = static_cast<size_t>(reinterpret_cast<std::byte*>(twin.network_state) -
-                                         reinterpret_cast<std::byte*>(twin.state));
+  const auto at = static_cast<size_t>(reinterpret_cast<std::byte*>(where(twin)) -
+                                      reinterpret_cast<std::byte*>(twin.state));
   std::vector<std::byte> bytes = stage.save();
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  // The first channel of a node's row: the others may be padding, which nothing reads.
-  const size_t at = static_cast<size_t>(share * static_cast<double>(floats)) / 16 * 16;
-  std::memcpy(bytes.data() + kHeaderBytes + start + sizeof(float) * at, &nan, sizeof nan);
+  std::memcpy(bytes.data() + kHeaderBytes + at, &nan, sizeof nan);
   const uint64_t checksum = core::hash64(std::span(bytes).subspan(kHeaderBytes));
   std::memcpy(bytes.data() + kChecksumAt, &checksum, sizeof checksum);
   REQUIRE(stage.world.restore_state(stage.blocks[0], bytes).ok());
+}
+
+// The first channel of a node's row: the others may be padding, which nothing reads.
+auto in_network(double share) {
+  return [share](const world::Instance& twin) {
+    const size_t floats = tissue::state_floats(twin.asset->network, twin.asset->node_count());
+    return twin.network_state + static_cast<size_t>(share * static_cast<double>(floats)) / 16 * 16;
+  };
+}
+
+struct Place {
+  const char* name;
+  float* (*of)(const world::Instance& twin);
+};
+constexpr Place kBasePlaces[] = {{"u", [](const world::Instance& t) { return t.u[0] + 20; }},
+                                 {"u before", [](const world::Instance& t) { return t.u[1] + 20; }},
+                                 {"theta", [](const world::Instance& t) { return t.theta + 50; }},
+                                 {"q", [](const world::Instance& t) { return t.q[0] + 2; }},
+                                 {"q before", [](const world::Instance& t) { return t.q[1] + 3; }},
+                                 {"a frame", [](const world::Instance& t) { return t.poses[0][3].rotation; }},
+                                 {"a place", [](const world::Instance& t) { return t.poses[1][9].place_m; }}};
+
+// Largest change of any vertex from one frame to the next, while something happens every 101 frames.
+template <class Event>
+double largest_change(Stage& stage, const Event& event) {
+  double worst_m = 0;
+  std::vector<float> before = stage.read(0, Space::kBind);
+  for (int f = 0; f < 600; ++f) {
+    if (f % 101 == 0) event();
+    stage.step(scenes::walk, kFrame_s);
+    std::vector<float> now = stage.read(0, Space::kBind);
+    worst_m = std::max(worst_m, test::largest_distance(now, before));
+    before = std::move(now);
+  }
+  return worst_m;
 }
 
 }  // namespace
@@ -60,23 +94,48 @@ TEST_CASE("displacement_beyond_the_limit_is_held_and_counted") {
   CHECK(largest_m > 0.02);
 }
 
-TEST_CASE("instance_that_stays_at_its_limit_is_restarted") {
+TEST_CASE("network_that_stays_at_its_limit_gives_way_to_the_modal_base") {
   const scenes::PackBytes tiny = scenes::soft_block({.displacement_limit = 0.003});
   Stage stage(1, {}, tiny);
-  uint32_t restarts = 0;
-  for (int f = 0; f < 300; ++f)
-    restarts += stage.step([](double t) { return scenes::shake(t, 2); }, kFrame_s).restarts;
-  CHECK(restarts >= 1);
-  CHECK(stage.report().restarts == restarts);
+  uint32_t fallbacks = 0, restarts = 0;
+  for (int f = 0; f < 300; ++f) {
+    const FrameReport report = stage.step([](double t) { return scenes::shake(t, 2); }, kFrame_s);
+    fallbacks += report.fallbacks;
+    restarts += report.restarts;
+  }
+  CHECK(fallbacks >= 1);
+  CHECK(stage.report().fallbacks == fallbacks);
+  CHECK(restarts == 0);
 }
 
-// NaN anywhere in the state: faded to skinning, restarted, counted; the neighbour does not notice.
-TEST_CASE("nan_in_the_state_fades_to_skinning_and_restarts") {
+// NaN anywhere in the network's state: the modal base shows this very tick, and sixty more.
+TEST_CASE("nan_in_the_network_falls_back_to_the_modal_base") {
   for (const double share : {0.0, 0.1, 0.3, 0.5, 0.7, 0.95}) {
     INFO("NaN at " << share << " of the network's state");
     Stage stage(2);
     stage.play(scenes::walk, 1);
-    poison(stage, share);
+    poison(stage, in_network(share));
+    for (uint32_t f = 0; f <= world::kFallbackTicks + 1; ++f) {
+      const FrameReport report = stage.step(scenes::walk, kFrame_s);
+      CHECK(report.fallbacks == (f == 0 ? 1 : 0));
+      CHECK(report.restarts == 0);
+      CHECK(stage.report(0).tier == (f <= world::kFallbackTicks ? Tier::kModal : Tier::kNetwork));
+      CHECK(stage.report(0).blend == 1);
+      CHECK(stage.report(1).tier == Tier::kNetwork);
+      REQUIRE(test::all_finite(stage.read()));
+    }
+    CHECK(stage.report(0).fallbacks == 1);
+    CHECK(stage.report(1).fallbacks == 0);
+  }
+}
+
+// NaN anywhere under the network: faded to skinning, restarted, counted; the neighbour does not notice.
+TEST_CASE("nan_in_the_base_fades_to_skinning_and_restarts") {
+  for (const Place& place : kBasePlaces) {
+    INFO("NaN in " << place.name);
+    Stage stage(2);
+    stage.play(scenes::walk, 1);
+    poison(stage, place.of);
     uint32_t restarts = 0;
     bool finite = true;
     float least_blend = 1;
@@ -95,25 +154,54 @@ TEST_CASE("nan_in_the_state_fades_to_skinning_and_restarts") {
   }
 }
 
-TEST_CASE("restart_does_not_pop") {
-  constexpr double kPop = 2;  // as in test_blend
-  Stage stage, sound;
-  stage.play(scenes::walk, 1.5);
-  sound.play(scenes::walk, 1.5);
-  double worst_m = 0, usual_m = 0;
-  std::vector<float> before = stage.read(0, Space::kBind), sound_before = before;
-  for (int f = 0; f < 600; ++f) {
-    if (f % 101 == 0) poison(stage, 0.3);
-    stage.step(scenes::walk, kFrame_s);
-    sound.step(scenes::walk, kFrame_s);
-    const std::vector<float> now = stage.read(0, Space::kBind), sound_now = sound.read(0, Space::kBind);
-    worst_m = std::max(worst_m, test::largest_distance(now, before));
-    usual_m = std::max(usual_m, test::largest_distance(sound_now, sound_before));
-    before = now;
-    sound_before = sound_now;
+TEST_CASE("nan_on_springs_fades_to_skinning_and_restarts") {
+  Stage stage(1, {.budget_mode = BudgetMode::kWorkUnits});
+  REQUIRE(stage.world.set_budget_us(test::tier_cost_us(Tier::kSpring) * 1.01f).ok());
+  stage.play(scenes::walk, 1);
+  REQUIRE(stage.report().tier == Tier::kSpring);
+  poison(stage, kBasePlaces[0].of);
+  uint32_t restarts = 0;
+  for (int f = 0; f < 90; ++f) {
+    restarts += stage.step(scenes::walk, kFrame_s).restarts;
+    REQUIRE(test::all_finite(stage.read()));
   }
-  REQUIRE(stage.report().restarts == 6);
-  WARN("largest change in a frame with six restarts " << worst_m * 1e3 << " mm, of the sound twin "
+  CHECK(restarts == 1);
+  CHECK(stage.report().tier == Tier::kSpring);
+}
+
+TEST_CASE("restarts_and_fallbacks_do_not_pop") {
+  constexpr double kPop = 2;  // as in test_blend
+  Stage restarted, fallen, sound;
+  for (Stage* stage : {&restarted, &fallen, &sound}) stage->play(scenes::walk, 1.5);
+  const double usual_m = largest_change(sound, [] {});
+  const double restart_m = largest_change(restarted, [&] { poison(restarted, kBasePlaces[0].of); });
+  const double fallback_m = largest_change(fallen, [&] { poison(fallen, in_network(0.3)); });
+  REQUIRE(restarted.report().restarts == 6);
+  REQUIRE(fallen.report().fallbacks == 6);
+  WARN("largest change in a frame with six restarts " << restart_m * 1e3 << " mm, with six fallbacks "
+                                                      << fallback_m * 1e3 << " mm, of the sound twin "
                                                       << usual_m * 1e3 << " mm");
-  CHECK(worst_m < kPop * usual_m);
+  CHECK(restart_m < kPop * usual_m);
+  CHECK(fallback_m < kPop * usual_m);
+}
+
+// Three times what the tissue is made for, for two seconds, in every simulated tier: held, finite, and at
+// rest again when the motion is. A mode of 3.5 Hz damped by 0.1 falls to exp(-0.1 2 pi 3.5 5) = 2e-5 in five
+// seconds.
+TEST_CASE("overdriven_x3_returns_to_rest") {
+  for (const Tier tier : {Tier::kNetwork, Tier::kModal, Tier::kSpring}) {
+    INFO("tier " << static_cast<uint32_t>(tier));
+    Stage stage(1, {.budget_mode = BudgetMode::kWorkUnits});
+    REQUIRE(stage.world.set_budget_us(test::tier_cost_us(tier) * 1.01f).ok());
+    double largest_m = 0;
+    for (int f = 0; f < 120; ++f) {
+      stage.step([](double t) { return scenes::shake(t, 3 * 4); }, kFrame_s);
+      largest_m = std::max(largest_m, test::largest_length(stage.read(0, Space::kBind)));
+    }
+    CHECK(stage.report().displacement_clamps > 0);
+    CHECK(largest_m < 0.25);
+    stage.play([](double) { return scenes::bind_pose(); }, 5);
+    CHECK(test::largest_length(stage.read(0, Space::kBind)) < 1e-4);
+    CHECK(stage.report().restarts == 0);
+  }
 }

@@ -68,17 +68,20 @@ TEST_CASE("bind_deltas_skinned_give_the_character_positions") {
   CHECK(worst_m < kRounding_m);
 }
 
-TEST_CASE("bind_delta_is_zero_where_skinning_is_singular") {
-  Stage stage;
+// Deltas live in the bind pose: a pose that folds the surface flat cannot change what they are.
+TEST_CASE("bind_deltas_do_not_feel_a_singular_pose") {
+  Stage stage, flattened;
   stage.play(scenes::walk, 1);
+  flattened.play(scenes::walk, 1);
   scenes::BlockPose flat = scenes::walk(1);
   for (Matrix34& joint : flat.joints) {
     for (auto& row : joint.m) row[0] = 0;
   }
-  stage.pose(stage.blocks[0], flat);
-  stage.world.step(1.0f / 60);
-  CHECK(test::largest_length(stage.read(0, Space::kBind)) == 0);
-  CHECK(test::all_finite(stage.read()));
+  flattened.pose(flattened.blocks[0], flat);
+  flattened.world.step(0);
+  stage.world.step(0);
+  CHECK(flattened.read(0, Space::kBind) == stage.read(0, Space::kBind));
+  CHECK(test::all_finite(flattened.read()));
 }
 
 TEST_CASE("world_positions_are_the_root_applied_to_character_positions") {
