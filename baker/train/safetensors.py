@@ -29,9 +29,22 @@ def _header(path, file, size):
         raise BadData(f"{path}: not a safetensors file, or cut short in its header; make it again")
     try:
         header = json.loads(file.read(length))
-        return header.pop("__metadata__", {}), header
-    except (ValueError, AttributeError):
+        return dict(header.pop("__metadata__", {})), header
+    except (ValueError, AttributeError, TypeError):
         raise BadData(f"{path}: its header is not JSON; make it again") from None
+
+
+def _entry(path, name, entry):
+    """(type, shape, first byte, end) of a tensor."""
+    try:
+        kind, shape = _TYPES[entry["dtype"]], [int(n) for n in entry["shape"]]
+        begin, end = map(int, entry["data_offsets"])
+        size = int(np.prod(shape, dtype=np.int64)) * np.dtype(kind).itemsize
+        if min(shape, default=0) >= 0 and 0 <= begin and end - begin == size:
+            return kind, shape, begin, end
+    except (KeyError, TypeError, ValueError):
+        pass
+    raise BadData(f"{path}: tensor {name}: its type, shape and size do not agree; make the file again")
 
 
 def load(path):
@@ -48,17 +61,12 @@ def load(path):
     data = np.memmap(path, np.uint8, "r", start)
     tensors = {}
     for name, entry in header.items():
-        begin, end = entry["data_offsets"]
-        count = int(np.prod(entry["shape"], dtype=np.int64))
-        if entry["dtype"] not in _TYPES or end - begin != count * np.dtype(_TYPES[entry["dtype"]]).itemsize:
-            raise BadData(
-                f"{path}: tensor {name}: its type, shape and size do not agree; make the file again"
-            )
+        kind, shape, begin, end = _entry(path, name, entry)
         if end > data.size:
             raise BadData(
                 f"{path}: cut short: tensor {name} ends at byte {end} of {data.size}; make the file again"
             )
-        tensors[name] = data[begin:end].view(_TYPES[entry["dtype"]]).reshape(entry["shape"])
+        tensors[name] = data[begin:end].view(kind).reshape(shape)
     return tensors, metadata
 
 

@@ -69,57 +69,72 @@ def _need(path, tensors, name, shape):
     return a
 
 
-def _read_bases(path, tensors, region, regions):
+def _checked(path, name, good, what):
+    if not good:
+        raise BadData(f"{path}: tensor {name}: {what}; make the file again")
+
+
+def _read_bases(path, tensors, nodes_of_region):
     bases = []
-    for r in range(regions):
-        n, name = 3 * int((region == r).sum()), f"modes.{r}."
+    for r, nodes in enumerate(nodes_of_region):
+        n, name = 3 * int(nodes), f"modes.{r}."
         w = _need(path, tensors, name + "rad_per_s", (1, -1))[0]
-        if not len(w) or not (w > 0).all():
-            raise BadData(f"{path}: tensor {name}rad_per_s: no mode above 0 rad/s; make the file again")
+        _checked(path, name + "rad_per_s", len(w) and (w > 0).all(), "no modes, or not all above 0 rad/s")
         shapes = ((1, len(w)), (n, len(w)), (n, len(w)), (len(w), n))
         values = [_need(path, tensors, name + k, shape) for k, shape in zip(BASIS[1:], shapes)]
+        _checked(path, name + "damping_ratio", (values[0] >= 0).all(), "below 0")
         bases.append(dict(zip(BASIS, [w, values[0][0], *values[1:]])))
     return bases
 
 
+def _read_nodes(path, tensors):
+    """node.region, region.radius_m and edges, after what they say of each other."""
+    region, radius = _need(path, tensors, "node.region", (-1,)), _need(path, tensors, "region.radius_m", (-1,))
+    edges, regions = _need(path, tensors, "edges", (-1, 2)), np.arange(len(radius))
+    in_order = region.dtype.kind == "i" and (np.diff(region) >= 0).all()
+    in_order = in_order and len(region) and np.array_equal(np.unique(region), regions)
+    _checked(path, "node.region", in_order, f"not the numbers of {len(radius)} regions in order")
+    _checked(path, "region.radius_m", (radius > 0).all(), "not above 0")
+    inside = edges.dtype.kind == "i" and ((edges >= 0) & (edges < len(region))).all()
+    _checked(path, "edges", inside, f"names a node beyond {len(region)}")
+    return region, radius, edges
+
+
 def _read_body(path, tensors, metadata):
-    nodes, regions = len(_need(path, tensors, "node.region", (-1,))), len(
-        _need(path, tensors, "region.radius_m", (-1,))
-    )
-    body = Body(
+    region, radius, edges = _read_nodes(path, tensors)
+    nodes = len(region)
+    return Body(
         _need(path, tensors, "node.rest_position", (nodes, 3)),
         _need(path, tensors, "node.rest_normal", (nodes, 3)),
         _need(path, tensors, "node.stiffness", (nodes, 1)),
-        tensors["node.region"],
-        _need(path, tensors, "edges", (-1, 2)),
-        tensors["region.radius_m"],
+        region,
+        edges,
+        radius,
         tuple(metadata.get("regions", "").split(",")),
-        [],
+        _read_bases(path, tensors, np.bincount(region)),
     )
-    if (
-        nodes == 0
-        or body.region.min() < 0
-        or body.region.max() >= regions
-        or (np.diff(body.region) < 0).any()
-    ):
-        raise BadData(
-            f"{path}: tensor node.region: not the numbers of {regions} regions in order; make the file again"
-        )
-    if len(body.edges) and (body.edges.min() < 0 or body.edges.max() >= nodes):
-        raise BadData(f"{path}: tensor edges: names a node beyond {nodes}; make the file again")
-    body.bases = _read_bases(path, tensors, body.region, regions)
-    return body
 
 
-def read_trajectory(path):
-    """Throws BadData: cut short, another version, a missing or misshaped tensor, NaN, no motion."""
-    tensors, metadata = load(path)
+def _check_metadata(path, metadata):
     version = metadata.get("sinew.trajectory")
     if version != VERSION:
         raise BadData(
             f"{path}: trajectory version {version}, this trainer reads {VERSION}; "
             "make it again with sinew-bake truth"
         )
+    for key, kind in (("rate_hz", float), ("substeps", int)):
+        try:
+            good = 0 < kind(metadata[key]) < float("inf")
+        except (KeyError, ValueError):
+            good = False
+        if not good:
+            raise BadData(f"{path}: metadata {key} is {metadata.get(key)}: not a number above 0; make the file again")
+
+
+def read_trajectory(path):
+    """Throws BadData: cut short, another version, a missing or misshaped tensor, NaN, no motion."""
+    tensors, metadata = load(path)
+    _check_metadata(path, metadata)
     body = _read_body(path, tensors, metadata)
     nodes = len(body.region)
     drive = _need(path, tensors, "drive", (-1, nodes, DRIVE_WIDTH))

@@ -2,6 +2,7 @@
 import json
 import os
 import sys
+import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -25,17 +26,43 @@ def leave_without_torch():
         sys.exit(0)
 
 
-def write_data_set(folder, train_count=6, validation=2, test=2, ticks=90):
-    """A data set of the synthetic body."""
+BODY = "made_up"
+
+
+def write_trajectory(path, seed=0, **how):
+    """One trajectory of the synthetic body; its path."""
     import synthetic
     from train.safetensors import save
 
+    save(path, *synthetic.trajectory(seed, **how))
+    return path
+
+
+def write_data_set(folder, train_count=6, validation=2, test=2, ticks=90, **how):
+    """A data set of the synthetic body."""
     sheet, seed = [], 0
     for split, count in (("train", train_count), ("validation", validation), ("test", test)):
         for _ in range(count):
-            tensors, metadata = synthetic.trajectory(seed, ticks)
-            save(os.path.join(folder, f"{seed}.safetensors"), tensors, metadata)
-            sheet.append({"file": f"{seed}.safetensors", "split": split})
+            write_trajectory(os.path.join(folder, f"{seed}.safetensors"), seed, ticks=ticks, **how)
+            sheet.append({"file": f"{seed}.safetensors", "split": split, "body": BODY})
             seed += 1
     with open(os.path.join(folder, "data_sheet.json"), "w") as file:
         json.dump({"sequences": sheet}, file)
+
+
+def synthetic_group(seeds=(0, 1), change=None, **how):
+    """A Group of the synthetic body's trajectories. change: tensors -> tensors, before they are written."""
+    import synthetic
+    from train import dataset
+    from train.safetensors import save
+    from train.trajectory import read_trajectory
+
+    with tempfile.TemporaryDirectory() as folder:
+        named = []
+        for seed in seeds:
+            tensors, metadata = synthetic.trajectory(seed, **how)
+            path = os.path.join(folder, f"{seed}.safetensors")
+            save(path, change(tensors) if change else tensors, metadata)
+            named.append((BODY, read_trajectory(path)))
+        (group,) = dataset.group(named)
+    return group

@@ -1,6 +1,7 @@
 """Broken data is refused by name before training starts; good data comes out as it went in."""
 import json
 import os
+import struct
 import tempfile
 import unittest
 
@@ -12,22 +13,31 @@ import torch  # noqa: E402
 
 import synthetic  # noqa: E402
 from train import dataset  # noqa: E402
-from train.inputs import DRIVE, INPUT_WIDTH, ORDER  # noqa: E402
+from train.dataset import Union  # noqa: E402
+from train.inputs import FELT  # noqa: E402
 from train.model import normalized_adjacency  # noqa: E402
 from train.safetensors import BadData, load, save  # noqa: E402
 from train.train import train  # noqa: E402
 from train.train_options import TrainOptions  # noqa: E402
 from train.trajectory import read_trajectory  # noqa: E402
 
+TICKS = 40
 
-class Refusals(unittest.TestCase):
+
+class Folder(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
-        self.path = os.path.join(self.folder.name, "one.safetensors")
-        self.tensors, self.metadata = synthetic.trajectory(1, 40)
+        self.addCleanup(self.folder.cleanup)
 
-    def tearDown(self):
-        self.folder.cleanup()
+    def place(self, name):
+        return os.path.join(self.folder.name, name)
+
+
+class Refusals(Folder):
+    def setUp(self):
+        super().setUp()
+        self.path = self.place("one.safetensors")
+        self.tensors, self.metadata = synthetic.trajectory(1, TICKS)
 
     def refused(self, *words):
         """The file is refused in one line that names it and says these words."""
@@ -40,6 +50,16 @@ class Refusals(unittest.TestCase):
 
     def write(self, **changes):
         save(self.path, {**self.tensors, **changes}, self.metadata)
+
+    def changed(self, name, place, value):
+        a = self.tensors[name].copy()
+        a[place] = value
+        self.write(**{name: a})
+
+    def write_header(self, header):
+        text = json.dumps(header).encode()
+        with open(self.path, "wb") as file:
+            file.write(struct.pack("<Q", len(text)) + text + bytes(64))
 
     def test_a_missing_file(self):
         self.refused("No such file")
@@ -57,116 +77,215 @@ class Refusals(unittest.TestCase):
                 file.write(whole[:length])
             self.refused("make")
 
-    def test_a_number_that_is_none(self):
-        displacement = self.tensors["displacement"].copy()
-        displacement[7, 3, 1] = np.nan
-        self.write(displacement=displacement)
-        self.refused("displacement[7, 3, 1]")
+    def test_headers_that_are_none(self):
+        entry = {"dtype": "F32", "shape": [4], "data_offsets": [0, 16]}
+        for header in (["drive"], 77, {"drive": entry, "__metadata__": 7}):
+            self.write_header(header)
+            self.refused("its header is not JSON")
+        broken = [
+            3,
+            {"dtype": "F32"},
+            {**entry, "data_offsets": [0]},
+            {**entry, "data_offsets": ["a", "b"]},
+            {**entry, "data_offsets": [-16, 0]},
+            {**entry, "shape": [-4], "data_offsets": [16, 0]},
+            {**entry, "shape": 4},
+            {**entry, "shape": [5]},
+            {**entry, "dtype": "F7"},
+        ]
+        for drive in broken:
+            with self.subTest(drive=drive):
+                self.write_header({"drive": drive})
+                self.refused("tensor drive: its type, shape and size do not agree")
 
-    def test_another_version(self):
-        self.metadata["sinew.trajectory"] = 2
+    def test_numbers_that_are_none(self):
+        for name in ("drive", "rotation", "displacement"):
+            self.changed(name, (7, 3, 1), np.nan)
+            self.refused(f"{name}[7, 3, 1]")
+        self.changed("modes.1.turn", (4, 2), np.inf)
+        self.refused("modes.1.turn[4, 2]")
+
+    def test_other_versions(self):
+        for version in ("1", "3", ""):
+            self.metadata["sinew.trajectory"] = version
+            self.write()
+            self.refused(f"version {version}", "reads 2")
+        del self.metadata["sinew.trajectory"]
         self.write()
-        self.refused("version 2")
+        self.refused("version None")
+
+    def test_rates_and_substeps_that_are_none(self):
+        for name in ("rate_hz", "substeps"):
+            for value in (None, "fast", "0", "-4", "nan"):
+                with self.subTest(name=name, value=value):
+                    _, self.metadata = synthetic.trajectory(1, TICKS)
+                    self.metadata[name] = value
+                    if value is None:
+                        del self.metadata[name]
+                    self.write()
+                    self.refused(name)
 
     def test_no_motion(self):
         self.write(displacement=np.zeros_like(self.tensors["displacement"]))
         self.refused("no motion")
+        self.write(drive=np.zeros_like(self.tensors["drive"]))
+        self.refused("no motion")
+        self.write(**{k: self.tensors[k][:1] for k in ("drive", "rotation", "displacement")})
+        self.refused("no motion")
 
-    def test_a_missing_tensor(self):
-        del self.tensors["drive"]
-        self.write()
-        self.refused("no tensor drive")
+    def test_missing_tensors(self):
+        for name in self.tensors:
+            with self.subTest(name=name):
+                save(self.path, {k: v for k, v in self.tensors.items() if k != name}, self.metadata)
+                self.refused("no tensor " + name)
 
-    def test_a_misshaped_tensor(self):
-        self.write(drive=self.tensors["drive"][:, :, :20])
+    def test_misshaped_tensors(self):
+        for name, a in self.tensors.items():
+            if name in ("drive", "node.region", "region.radius_m", "edges"):  # these rule how long others are
+                continue
+            with self.subTest(name=name):
+                self.write(**{name: a[:-1]})
+                self.refused("tensor " + (name if len(a) > 1 or "rad" not in name else ""))
+                self.write(**{name: a.ravel()})
+                self.refused("tensor " + name)
+        self.write(drive=self.tensors["drive"][:, :, :9])
         self.refused("tensor drive is")
 
-    def test_an_edge_to_a_node_that_is_not_there(self):
-        self.write(edges=np.array([[0, 99]], np.int32))
-        self.refused("tensor edges")
+    def test_edges_to_nodes_that_are_not_there(self):
+        for edge in ((0, 99), (-1, 2)):
+            self.write(edges=np.array([edge], np.int32))
+            self.refused("tensor edges")
+
+    def test_nodes_of_regions_that_are_not_there(self):
+        region = self.tensors["node.region"]
+        for broken in (region[::-1], region + 1, region - 1, region * 0, region * 0.5):
+            self.write(**{"node.region": broken})
+            self.refused("tensor node.region")
+
+    def test_regions_without_size(self):
+        for radius in (0, -1):
+            self.write(**{"region.radius_m": np.array([0.1, radius], np.float32)})
+            self.refused("tensor region.radius_m")
+
+    def test_modes_that_are_none(self):
+        for name, value in (("rad_per_s", 0), ("rad_per_s", -3), ("damping_ratio", -0.1)):
+            self.changed(f"modes.1.{name}", (0, 2), value)
+            self.refused(f"modes.1.{name}")
+        self.write(**{"modes.0.rad_per_s": np.zeros((1, 0), np.float32)})
+        self.refused("modes.0.rad_per_s")
 
     def test_one_broken_file_stops_training_before_it_starts(self):
-        folder = self.folder.name
-        support.write_data_set(folder, 2, 1, 1, 40)
-        path = os.path.join(folder, "1.safetensors")
+        support.write_data_set(self.folder.name, 2, 1, 1, TICKS)
+        path = self.place("1.safetensors")
         with open(path, "r+b") as file:
             file.truncate(os.path.getsize(path) - 8)
-        out = os.path.join(folder, "run")
         with self.assertRaisesRegex(BadData, "1.safetensors"):
-            train(folder, out, TrainOptions(minutes=1), log=lambda *a, **k: None)
-        self.assertFalse(os.path.exists(out))
+            train(self.folder.name, self.place("run"), TrainOptions(minutes=1), log=lambda *a, **k: None)
+        self.assertFalse(os.path.exists(self.place("run")))
 
-    def test_a_sheet_without_training_sequences(self):
-        with open(os.path.join(self.folder.name, dataset.SHEET), "w") as file:
-            json.dump({"sequences": []}, file)
-        with self.assertRaisesRegex(BadData, "no train sequences"):
+
+class Sheets(Folder):
+    def refused(self, words, **sheet):
+        with open(self.place(dataset.SHEET), "w") as file:
+            json.dump(sheet, file)
+        with self.assertRaisesRegex(BadData, words):
             dataset.read_split(self.folder.name, "train")
 
     def test_no_sheet_at_all(self):
         with self.assertRaisesRegex(BadData, "data_sheet.json"):
             dataset.read_split(self.folder.name, "train")
 
+    def test_a_sheet_without_training_sequences(self):
+        self.refused("no train sequences", sequences=[])
 
-class Groups(unittest.TestCase):
+    def test_sheets_that_are_none(self):
+        self.refused("unusable data sheet", sequences=[{"split": "train"}])
+        self.refused("unusable data sheet", sequences=3)
+        self.refused("unusable data sheet", bodies=[])
+
+    def test_sequences_of_several_rates(self):
+        sequences = []
+        for rate in (60, 30):
+            tensors, metadata = synthetic.trajectory(1, TICKS)
+            save(self.place(f"{rate}.safetensors"), tensors, {**metadata, "rate_hz": rate})
+            sequences.append({"file": f"{rate}.safetensors", "split": "train"})
+        self.refused("several rates", sequences=sequences)
+
+    def test_one_body_may_be_asked_for(self):
+        support.write_data_set(self.folder.name, 2, 1, 1, TICKS)
+        self.assertEqual(len(dataset.read_split(self.folder.name, "train", support.BODY)), 2)
+        with self.assertRaisesRegex(BadData, "no train sequences"):
+            dataset.read_split(self.folder.name, "train", "another")
+
+
+class Groups(Folder):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        support.write_data_set(self.folder.name, 3, 1, 1, 40)
-        self.trajectories = dataset.read_split(self.folder.name, "train")
-        (self.group,) = dataset.group(self.trajectories)
-
-    def tearDown(self):
-        self.folder.cleanup()
+        super().setUp()
+        support.write_data_set(self.folder.name, 3, 1, 1, TICKS)
+        self.named = dataset.read_split(self.folder.name, "train")
+        (self.group,) = dataset.group(self.named)
 
     def test_a_window_holds_what_the_files_hold(self):
         sequences, starts = torch.tensor([2, 0]), torch.tensor([5, 11])
-        drive, u = self.group.window(sequences, starts, 7)
-        flat = self.group.flatten(u)
-        for b, (s, start) in enumerate(zip(sequences, starts)):
-            want = self.trajectories[s].displacement[start : start + 8]
-            np.testing.assert_array_equal(flat[:, :, b].numpy(), want)
-        self.assertEqual(tuple(drive.shape), (8, 2, 12, 2, 21))
+        felt, drive, turn, u = self.group.window(sequences, starts, 7)
+        for b, (s, start) in enumerate(zip(sequences.tolist(), starts.tolist())):
+            t = self.named[s][1]
+            ticks = slice(start + 1, start + 8)
+            np.testing.assert_array_equal(self.group.flatten(u)[:, :, b].numpy(), t.displacement[ticks])
+            np.testing.assert_array_equal(self.group.flatten(drive)[:, :, b].numpy(), t.drive[ticks])
+            np.testing.assert_array_equal(self.group.flatten(felt)[:, :, b].numpy(), t.drive[ticks, :, FELT])
+            frames = np.asarray(t.rotation).reshape(-1, 16, 3, 3)
+            for back, found in ((1, turn[0]), (2, turn[1])):
+                want = frames[ticks].swapaxes(-1, -2) @ frames[start + 1 - back : start + 8 - back]
+                flat = self.group.flatten(found.flatten(-2))[:, :, b].unflatten(-1, (3, 3))
+                np.testing.assert_allclose(flat.numpy(), want, atol=1e-6)  # order of three products
+
+    def test_what_lies_before_a_sequence_is_its_first_tick(self):
+        frames = self.group.rotation
+        frames[:, 0] = torch.tensor([0.0, -1, 0, 1, 0, 0, 0, 0, 1])
+        _, _, turn, _ = self.group.window(torch.tensor([0]), torch.tensor([0]), 2)
+        self.assertTrue(torch.equal(turn[0][0], turn[1][0]))
 
     def test_regions_of_different_sizes_are_padded_apart(self):
-        trajectory = self.trajectories[0]
-        keep = np.r_[0:12, 12:17]  # the second region loses seven nodes
-        edges = trajectory.body.edges
-        body = trajectory.body
-        body.edges = edges[(edges < 17).all(1)]
-        for name in ("rest_position", "rest_normal", "stiffness", "region"):
-            setattr(body, name, getattr(body, name)[keep])
-        trajectory.drive, trajectory.displacement = (
-            trajectory.drive[:, keep],
-            trajectory.displacement[:, keep],
-        )
-        (group,) = dataset.group([trajectory])
-        self.assertEqual(group.mask.sum(1).tolist(), [12, 5])
-        second = body.edges[(body.edges >= 12).all(1)] - 12
-        np.testing.assert_allclose(
-            group.P[1, :5, :5].numpy(), normalized_adjacency(5, second).numpy(), atol=1e-6
-        )
-        self.assertEqual(float(group.P[1, 5:].abs().max()), 0)
+        group, (first, second) = self.group, synthetic.SIZES
+        self.assertEqual(group.mask.sum(1).tolist(), [first, second])
+        edges = np.array(self.named[0][1].body.edges)
+        inside = edges[(edges >= first).all(1)] - first
+        want = normalized_adjacency(second, inside).numpy()
+        np.testing.assert_allclose(group.P[1, :second, :second].numpy(), want, atol=1e-6)
+        self.assertEqual(float(group.P[1, second:].abs().max()), 0)
+        _, drive, turn, u = group.window(torch.tensor([0]), torch.tensor([20]), 3)
+        for a in (drive, turn[0].flatten(-2), u, *(v[None, :, :, None] for v in group.static.values())):
+            self.assertEqual(float(a[:, 1, second:].abs().max()), 0)
 
-    def test_bodies_that_differ_get_groups_of_their_own(self):
-        tensors, metadata = synthetic.trajectory(5, 40, body_seed=9)
-        path = os.path.join(self.folder.name, "other.safetensors")
-        save(path, tensors, metadata)
-        self.assertEqual(len(dataset.group(self.trajectories + [read_trajectory(path)])), 2)
+    def test_flatten_takes_back_what_unflatten_did(self):
+        a = torch.randn(4, sum(synthetic.SIZES), 2, 5)
+        self.assertTrue(torch.equal(self.group.flatten(self.group.unflatten(a)), a))
 
-    def test_inputs_are_scaled_in_order_and_held_in_the_envelope(self):
-        scaling = dataset.measure_scaling([self.group])
-        drive, _ = self.group.window(torch.tensor([0]), torch.tensor([20]), 1)
-        y = torch.full((2, 12, 1, 3), 1e6)
-        z = dataset.input_columns(
-            self.group.static_columns(scaling, 1), dataset.drive_columns(drive[1], scaling), y, y * 0, scaling
-        )
-        self.assertEqual(z.shape[-1], INPUT_WIDTH)
-        self.assertEqual(float(z[..., -6].max()), np.float32(scaling.envelope["displacement"]))
-        want = drive[1][..., DRIVE["angular_velocity"]] * scaling.scale["angular_velocity"]
-        np.testing.assert_allclose(z[..., 22:25].numpy(), want.numpy(), rtol=1e-6)
-        self.assertEqual(list(ORDER)[8], "angular_velocity")
+    def test_bodies_names_and_lengths_that_differ_get_groups_of_their_own(self):
+        other = read_trajectory(support.write_trajectory(self.place("a"), 5, ticks=TICKS, body_seed=9))
+        longer = read_trajectory(support.write_trajectory(self.place("b"), 6, ticks=TICKS + 1))
+        name, same = self.named[0]
+        named = self.named + [(name, other), (name, longer), ("twin", same)]
+        self.assertEqual([g.count for g in dataset.group(named)], [3, 1, 1, 1])
+
+    def test_a_union_holds_its_bodies_side_by_side(self):
+        other = support.synthetic_group((7, 8), ticks=TICKS + 5, body_seed=3)
+        union = Union([self.group, other])
+        sequences, starts = torch.tensor([[2, 0], [1, 1]]), torch.tensor([3, 9])
+        parts = [g.window(s, starts, 4) for g, s in zip(union.groups, sequences)]
+        whole = union.window(sequences, starts, 4)
+        for k in (0, 1, 3):
+            self.assertTrue(torch.equal(whole[k], torch.cat([p[k] for p in parts], 1)))
+        for k in (0, 1):
+            self.assertTrue(torch.equal(whole[2][k], torch.cat([p[2][k] for p in parts], 1)))
+        self.assertEqual(union.ticks, TICKS)
+        drawn = union.draw(5)
+        self.assertEqual(tuple(drawn.shape), (2, 5))
+        self.assertTrue((drawn < torch.tensor([[3], [2]])).all())
 
     def test_a_container_comes_back_as_it_was_written(self):
-        path = os.path.join(self.folder.name, "any.safetensors")
+        path = self.place("any.safetensors")
         a = {"x": np.arange(6, dtype=np.float16).reshape(2, 3), "y": np.array([[1, -2]], np.int32)}
         save(path, a, {"k": 3})
         b, metadata = load(path)
