@@ -58,7 +58,7 @@ baker::Safetensors flat_truth() {
     root.insert(root.end(), pose.root.rotation_xyzw, pose.root.rotation_xyzw + 4);
   }
   baker::Safetensors file;
-  file.metadata = {{"sinew.trajectory", "1"}, {"rate_hz", "60"}, {"motion", "walk"}};
+  file.metadata = {{"sinew.trajectory", "2"}, {"rate_hz", "60"}, {"motion", "walk"}};
   file.tensors["joints"] = baker::tensor_f32({kRows, 2, 12}, joints);
   file.tensors["root"] = baker::tensor_f32({kRows, 7}, root);
   file.tensors["positions"] = baker::tensor_f32({kRows, kBlockVertices, 3}, positions);
@@ -119,6 +119,10 @@ TEST_CASE("demo_refuses_a_truth_that_does_not_fit") {
   baker::write_safetensors(path, file);
   check_refused({block, "--truth", path}, {"not a trajectory"});
   file = flat_truth();
+  file.metadata["sinew.trajectory"] = "1";
+  baker::write_safetensors(path, file);
+  check_refused({block, "--truth", path}, {"another version", "simulate it again"});
+  file = flat_truth();
   file.tensors.erase("positions");
   baker::write_safetensors(path, file);
   check_refused({block, "--truth", path}, {"--positions"});
@@ -165,7 +169,9 @@ TEST_CASE("demo_report_holds_every_frame") {
   REQUIRE(report["frames"].size() == 16);
   for (const auto& frame : report["frames"]) {
     CHECK(frame["ticks"].get<int>() <= 4);
-    CHECK(frame["network"].get<int>() + frame["extrapolated"].get<int>() + frame["skinning"].get<int>() == 2);
+    CHECK(frame["network"].get<int>() + frame["modal"].get<int>() + frame["spring"].get<int>() +
+              frame["extrapolated"].get<int>() + frame["skinning"].get<int>() ==
+          2);
     CHECK(frame["total_us"].get<double>() > 0);
     CHECK(frame["first"]["tier"] == "network");
   }

@@ -43,6 +43,32 @@ TEST_CASE("the_creature_bakes_to_a_character_with_clips_regions_and_the_same_byt
   CHECK(read_text(creature.pack) == read_text(creature.folder.file("again")));
 }
 
+TEST_CASE("without_weights_a_character_is_packed_with_its_modes") {
+  const Creature creature;
+  const ProgramResult result =
+      bake({"character", creature.glb, "--recipe", kAssets + "tissue.json", "-o", creature.pack});
+  INFO(result.error);
+  REQUIRE(result.exit_code == 0);
+  const auto description = nlohmann::json::parse(bake({"info", "--json", creature.pack}).out);
+  CHECK(description["network"]["model"] == "none");
+  std::vector<std::string> tiers;
+  for (const auto& tier : description["tiers"]) tiers.push_back(tier["tier"]);
+  CHECK(tiers == std::vector<std::string>{"skinning", "extrapolate", "spring", "modal"});
+  for (const auto& region : description["regions"]) {
+    CHECK(region["modes"].get<int>() >= 6);
+    CHECK(region["first_hz"].get<double>() > 1);
+    CHECK(region["first_hz"].get<double>() < 30);
+  }
+}
+
+TEST_CASE("weights_of_the_first_version_are_refused_for_characters") {
+  const Creature creature;
+  Safetensors old = small_weights();
+  old.metadata.erase("base");
+  write_safetensors(creature.weights, old);
+  check_refused(creature.bake_arguments(creature.pack), {creature.weights, "'base'", "train again"});
+}
+
 TEST_CASE("characters_and_weights_that_do_not_fit_leave_no_file") {
   const Creature creature;
   const size_t entries = creature.folder.entries();

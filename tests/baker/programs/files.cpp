@@ -56,6 +56,8 @@ TEST_CASE("info_shows_a_character_to_people_and_to_machines") {
   CHECK(description["character"]["vertices"] == 12);
   CHECK(description["network"]["channels"] == std::vector<int>{5, 3});
   CHECK(description["regions"][1]["name"] == "tip");
+  CHECK(description["regions"][1]["modes"] == 2);
+  CHECK(description["regions"][1]["first_hz"].get<double>() == Approx(20 / (2 * 3.14159265)));
   CHECK(description["clips"][0]["seconds"].get<double>() == Approx(0.1));
   CHECK(description["tiers"][1]["error_mm"].is_null());
   CHECK(description["metadata"]["made_by"] == "a key that nobody knows");
