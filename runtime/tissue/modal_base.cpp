@@ -40,9 +40,10 @@ TurnSeries turn_series(float s) {
 
 // By compare, so that NaN stays NaN.
 void hold_turn(float theta[3]) {
-  const float length = std::sqrt(theta[0] * theta[0] + theta[1] * theta[1] + theta[2] * theta[2]);
-  if (!(length > kLargestTurn_rad)) return;
-  for (int k = 0; k < 3; ++k) theta[k] *= kLargestTurn_rad / length;
+  const float squared = theta[0] * theta[0] + theta[1] * theta[1] + theta[2] * theta[2];
+  if (!(squared > kLargestTurn_rad * kLargestTurn_rad)) return;
+  const float scale = kLargestTurn_rad / std::sqrt(squared);
+  for (int k = 0; k < 3; ++k) theta[k] *= scale;
 }
 
 void clear_padding(const ModalBase& base, float* x) {

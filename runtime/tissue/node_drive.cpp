@@ -1,53 +1,74 @@
 // node_drive.cpp  Differences of the last three ticks, turned into each node's own axes.
 #include "tissue/node_drive.hpp"
 
-#include <Eigen/Core>
-
 namespace sinew::tissue {
 namespace {
 
-using Eigen::Matrix3f;
-using Eigen::Vector3f;
-using Rows33 = Eigen::Matrix<float, 3, 3, Eigen::RowMajor>;
-
 constexpr float kGravity = 9.80665f;  // m/s^2, along -Y
 
-Vector3f place_of(const NodePose& pose) { return Eigen::Map<const Vector3f>(pose.place_m); }
-Matrix3f rotation_of(const NodePose& pose) { return Eigen::Map<const Rows33>(pose.rotation); }
+struct Vector {
+  float x, y, z;
+};
+
+Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+Vector operator*(float s, const Vector& v) { return {s * v.x, s * v.y, s * v.z}; }
+Vector vector_at(const float* v) { return {v[0], v[1], v[2]}; }
+
+void put(const Vector& v, float*& out) {
+  *out++ = v.x;
+  *out++ = v.y;
+  *out++ = v.z;
+}
+
+// R^T v, rows of R weighted by v.
+Vector into_axes(const NodePose& pose, const Vector& v) {
+  const float* r = pose.rotation;
+  return {r[0] * v.x + r[3] * v.y + r[6] * v.z, r[1] * v.x + r[4] * v.y + r[7] * v.z,
+          r[2] * v.x + r[5] * v.y + r[8] * v.z};
+}
 
 // Second difference of the root's place: in double first, since places may be millions of metres from the
 // origin.
-Vector3f root_step_change(const NodeMotion& motion) {
-  Vector3f change;
+Vector root_step_change(const NodeMotion& motion) {
+  float change[3];
   for (int k = 0; k < 3; ++k) {
     const double step = motion.root_position_m[0][k] - motion.root_position_m[1][k];
     const double before = motion.root_position_m[1][k] - motion.root_position_m[2][k];
     change[k] = static_cast<float>(step - before);
   }
-  return change;
+  return vector_at(change);
 }
 
-Vector3f turn_a_tick(const Matrix3f& before, const Matrix3f& now) {
-  const Matrix3f a = before.transpose() * now;
-  return 0.5f * Vector3f(a(2, 1) - a(1, 2), a(0, 2) - a(2, 0), a(1, 0) - a(0, 1));
+// vee((A - A^T) / 2) of A = B^T R: half the sum of cross products of the rows of B and of R.
+Vector turn_a_tick(const NodePose& before, const NodePose& now) {
+  Vector sum{0, 0, 0};
+  for (int row = 0; row < 3; ++row) {
+    const Vector b = vector_at(before.rotation + 3 * row), r = vector_at(now.rotation + 3 * row);
+    sum.x += b.z * r.y - b.y * r.z;
+    sum.y += b.x * r.z - b.z * r.x;
+    sum.z += b.y * r.x - b.x * r.y;
+  }
+  return 0.5f * sum;
 }
 
 }  // namespace
 
 void compute_node_drive(const NodeMotion& motion, float tick_s, uint32_t count, float* out) noexcept {
-  const Vector3f gravity(0, -kGravity, 0), root = root_step_change(motion);
+  const Vector root = root_step_change(motion);
+  const float rate = 1 / tick_s, rate2 = rate * rate;
   for (uint32_t i = 0; i < count; ++i) {
     const NodePose &now = motion.pose[0][i], &before = motion.pose[1][i], &before2 = motion.pose[2][i];
-    const Matrix3f r = rotation_of(now), r_before = rotation_of(before);
-    const Vector3f steps = (place_of(now) - place_of(before)) - (place_of(before) - place_of(before2));
-    const Vector3f omega = turn_a_tick(r_before, r) / tick_s;
-    const Vector3f omega_before = turn_a_tick(rotation_of(before2), r_before) / tick_s;
-    const Vector3f parts[kNodeDriveWidth / 3] = {
-        r.transpose() * (gravity - (steps + root) / (tick_s * tick_s)) - gravity,
-        r.transpose() * gravity - gravity, omega, (omega - omega_before) / tick_s};
-    for (const Vector3f& part : parts) {
-      for (int axis = 0; axis < 3; ++axis) *out++ = part[axis];
-    }
+    const Vector step = vector_at(now.place_m) - vector_at(before.place_m);
+    const Vector step_before = vector_at(before.place_m) - vector_at(before2.place_m);
+    const Vector change = step - step_before;
+    const Vector push{-rate2 * (change.x + root.x), -rate2 * (change.y + root.y) - kGravity,
+                      -rate2 * (change.z + root.z)};
+    const Vector gravity{0, -kGravity, 0};
+    const Vector omega = rate * turn_a_tick(before, now), omega_before = rate * turn_a_tick(before2, before);
+    put(into_axes(now, push) - gravity, out);
+    put(into_axes(now, gravity) - gravity, out);
+    put(omega, out);
+    put(rate * (omega - omega_before), out);
   }
 }
 
