@@ -66,3 +66,19 @@ def synthetic_group(seeds=(0, 1), change=None, **how):
             named.append((BODY, read_trajectory(path)))
         (group,) = dataset.group(named)
     return group
+
+
+def base_states(group, model, scaling, sequences, ticks, mirror=None):
+    """The modal base's state after every tick of a roll-out from rest."""
+    from train.rollout import start, static_columns, tick
+
+    batch = sequences.shape[-1]
+    felt, drive, turn, _ = group.window(sequences, torch.zeros(batch, dtype=torch.long), ticks)
+    static, state, out = static_columns(group, scaling, batch), start(model, group, batch), []
+    packed = None if model is None else model.packed()
+    with torch.no_grad():
+        for t in range(ticks):
+            now = (turn[0][t], turn[1][t])
+            state = tick(model, packed, group, scaling, static, state, felt[t], drive[t], now, mirror)
+            out.append(state.base)
+    return out

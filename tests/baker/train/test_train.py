@@ -1,5 +1,5 @@
-"""Training learns, goes on after it was cut, and is judged against springs that are what they claim to be."""
-import math
+"""Training learns what the modal base does not know, goes on after it was cut, and feeds what the runtime feeds."""
+import json
 import os
 import tempfile
 import unittest
@@ -7,136 +7,246 @@ import unittest
 import support
 
 support.leave_without_torch()
+import numpy as np  # noqa: E402
 import torch  # noqa: E402
 
+import synthetic  # noqa: E402
 from train import blas, dataset  # noqa: E402
-from train.baselines import Springs, fit_springs, forces  # noqa: E402
-from train.evaluate import evaluate  # noqa: E402
+from train.dataset import Union  # noqa: E402
+from train.episode import SETTLED_TICKS, SILENT_FROM, Episode  # noqa: E402
 from train.export import check_vectors  # noqa: E402
-from train.rollout import error_ratio, roll_out, truth  # noqa: E402
+from train.inputs import FEEDBACK, INPUT_WIDTH, ORDER, columns  # noqa: E402
+from train.rollout import bounded, error_ratio, roll_out, truth  # noqa: E402
+from train.scaling import ENVELOPE_MARGIN, LEAST_LIMIT, SCALED_SIZE, measure_scaling  # noqa: E402
 from train.train import Trainer, train  # noqa: E402
 from train.train_options import TrainOptions  # noqa: E402
 from train.weights import read_weights  # noqa: E402
 
 QUIET = lambda *a, **k: None
 SMALL = dict(channels=(16, 3), batch=6, window=15)
+MINUTES = 0.06
+
+
+class Killed(Exception):
+    pass
 
 
 class Training(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
+        torch.set_num_threads(1)
         cls.folder = tempfile.TemporaryDirectory()
         support.write_data_set(cls.folder.name)
-        cls.run_folder = os.path.join(cls.folder.name, "run")
-        cls.log = []
-        torch.set_num_threads(1)
-        train(
-            cls.folder.name,
-            cls.run_folder,
-            TrainOptions(minutes=0.15, **SMALL),
-            lambda text, **k: cls.log.append(text),
-        )
+        cls.run_folder, cls.log = os.path.join(cls.folder.name, "run"), []
+        cls.train(cls.run_folder, cls.log)
+        cls.groups = [dataset.group(dataset.read_split(cls.folder.name, s)) for s in ("train", "validation")]
 
     @classmethod
     def tearDownClass(cls):
         cls.folder.cleanup()
 
-    def test_a_few_seconds_already_beat_skinning_alone(self):
-        metrics, _ = evaluate(os.path.join(self.run_folder, "weights.safetensors"), self.folder.name)
-        self.assertLess(metrics["roll_out"]["50"]["network"]["ratio"], 0.9)
-        self.assertEqual(metrics["roll_out"]["50"]["skinning"]["ratio"], 1)
+    @classmethod
+    def train(cls, out, log):
+        options = TrainOptions(minutes=MINUTES, **SMALL)
+        return train(cls.folder.name, out, options, lambda text, **k: log.append(text))
+
+    def trainer(self, **options):
+        return Trainer(*self.groups, TrainOptions(minutes=1, **{**SMALL, **options}), QUIET)
+
+    def same_weights(self, a, b):
+        return all(torch.equal(x, y) for x, y in zip(a.model.parameters(), b.model.parameters()))
+
+    def test_a_few_seconds_already_beat_the_modal_base(self):
+        model, scaling, _ = read_weights(os.path.join(self.run_folder, "weights.safetensors"))
+        (group,) = self.groups[1]
+        base = error_ratio(roll_out(None, None, group), truth(group), group.ticks)
+        self.assertGreater(base, 0.2)  # there is something to learn
+        self.assertLess(error_ratio(roll_out(model, scaling, group), truth(group), group.ticks), 0.7 * base)
+
+    def test_an_untrained_network_is_nearly_the_modal_base(self):
+        trainer, (group,) = self.trainer(), self.groups[1]
+        base, ours = roll_out(None, None, group), roll_out(trainer.model, trainer.scaling, group)
+        self.assertLess(float((ours - base).norm(dim=-1).mean() / base.norm(dim=-1).mean()), 0.3)
+
+    def test_the_same_seed_trains_the_same_network_and_another_another(self):
+        trainers = [self.trainer(seed=seed) for seed in (3, 3, 4)]
+        losses = []
+        for trainer, seed in zip(trainers, (3, 3, 4)):
+            torch.manual_seed(seed)
+            episode = trainer.new_episode()
+            losses.append([trainer.update(episode) for _ in range(3)])
+        self.assertEqual(losses[0], losses[1])
+        self.assertTrue(self.same_weights(*trainers[:2]))
+        self.assertFalse(self.same_weights(*trainers[1:]))
+
+    def test_a_cut_run_goes_on_with_the_same_weights_moments_and_draws(self):
+        """From a checkpoint on, a new episode's updates are the uninterrupted run's. (An episode that a kill
+        cuts is not gone on with, and the rate follows the clock.)"""
+        first, second = self.trainer(), self.trainer()
+        first.update(first.new_episode())
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "checkpoint.pt")
+            torch.save(first.checkpoint(), path)
+            losses = [first.update(first.new_episode())]
+            second.resume(torch.load(path))
+        losses.append(second.update(second.new_episode()))
+        self.assertEqual(*losses)
+        self.assertTrue(self.same_weights(first, second))
+
+    def test_a_killed_run_is_gone_on_with_where_it_was_last_judged(self):
+        out, judged, options = os.path.join(self.folder.name, "killed"), [], TrainOptions(minutes=0.02, **SMALL)
+
+        def kill(text, **k):
+            judged.append(text)
+            if sum("validation ratio" in line for line in judged) == 2:
+                raise Killed
+
+        with self.assertRaises(Killed):
+            train(self.folder.name, out, options, kill)
+        self.assertFalse(os.path.exists(os.path.join(out, "weights.safetensors")))
+        kept, log = torch.load(os.path.join(out, "checkpoint.pt")), []
+        done = train(self.folder.name, out, options, lambda text, **k: log.append(text))
+        self.assertIn("goes on from", log[0])
+        self.assertGreater(done.updates, kept["updates"])
+        self.assertEqual(done.curve[: len(kept["curve"])], kept["curve"])
+        self.assertTrue(os.path.exists(os.path.join(out, "weights.safetensors")))
 
     def test_a_finished_run_is_not_trained_again(self):
         log = []
-        train(
-            self.folder.name,
-            self.run_folder,
-            TrainOptions(minutes=0.15, **SMALL),
-            lambda text, **k: log.append(text),
-        )
+        updates = self.train(self.run_folder, log).updates
         self.assertIn("goes on from", log[0])
-        self.assertLessEqual(len(log), 3)
+        with open(os.path.join(self.run_folder, "curve.json")) as file:
+            self.assertEqual(json.load(file)["curve"][-1]["updates"], updates)
 
-    def test_a_cut_run_goes_on_with_the_same_weights_and_moments(self):
-        groups = [dataset.group(dataset.read_split(self.folder.name, s)) for s in ("train", "validation")]
-        options = TrainOptions(minutes=1, **SMALL)
-        first = Trainer(*groups, options, QUIET)
-        first.update(first.new_episode())
-        saved = first.checkpoint()
-        second = Trainer(*groups, options, QUIET)
-        second.resume(saved)
-        losses = [trainer.update(trainer.new_episode()) for trainer in (second,)]
-        torch.set_rng_state(saved["random"])
-        losses += [first.update(first.new_episode())]
-        self.assertEqual(*losses)
-        for a, b in zip(first.model.parameters(), second.model.parameters()):
-            self.assertTrue(torch.equal(a, b))
+    def test_a_run_of_another_recipe_starts_anew(self):
+        trainer, log = self.trainer(), []
+        out = os.path.join(self.folder.name, "other")
+        os.makedirs(out)
+        torch.save(trainer.checkpoint(), os.path.join(out, "checkpoint.pt"))
+        train(self.folder.name, out, TrainOptions(minutes=0.005, **SMALL), lambda t, **k: log.append(t))
+        self.assertFalse(any("goes on from" in text for text in log))
+
+    def test_a_sequence_that_is_lost_starts_anew(self):
+        trainer = self.trainer(disturbance=0.0)
+        episode = trainer.new_episode()
+        trainer.update(episode)
+        episode.state.base.u[:, :, 2] = float("nan")
+        episode.state.base.q[:, :, 2] = float("nan")
+        episode.state.base.u[:, :, 4] = 1e3
+        state = trainer._start_of_window(episode)
+        for b in (2, 4):
+            self.assertEqual(float(state.base.u[:, :, b].abs().max() + state.base.q[:, :, b].abs().max()), 0)
+        self.assertGreater(float(state.base.u[:, :, 1].abs().max()), 0)
+        self.assertTrue(np.isfinite(trainer.update(episode)))
 
     def test_weights_come_back_from_their_file_and_predict_the_same(self):
         model, scaling, metadata = read_weights(os.path.join(self.run_folder, "weights.safetensors"))
-        self.assertEqual(metadata["seed"], "0")
-        (group,) = dataset.group(dataset.read_split(self.folder.name, "validation"))
+        self.assertEqual((metadata["seed"], metadata["base"], metadata["frame"]), ("0", "modal", "node"))
+        (group,) = self.groups[1]
         ratio = error_ratio(roll_out(model, scaling, group), truth(group), 50)
-        line = [text for text in self.log if "validation ratio" in text]
-        self.assertTrue(any(f"50: {ratio:.3f}" in text for text in line))
+        judged = [text for text in self.log if "validation ratio" in text]
+        self.assertTrue(any(f"50: {ratio:.3f}" in text for text in judged), (ratio, judged))
 
     def test_check_vectors_are_the_networks_own_roll_out(self):
         path = os.path.join(self.run_folder, "weights.safetensors")
-        trajectory = dataset.read_split(self.folder.name, "validation")[0]
+        _, trajectory = dataset.read_split(self.folder.name, "validation")[0]
         vectors = check_vectors(path, trajectory, 30)
         model, scaling, _ = read_weights(path)
-        (group,) = dataset.group([trajectory])
-        y = roll_out(model, scaling, group, 30)[1:, :12, 0] / scaling.length_unit_m
-        self.assertEqual(vectors["z"].shape, (30, 12, 34))
-        self.assertFalse(vectors["z"][..., 28:].any())
-        self.assertLess(float((y - torch.tensor(vectors["y"])).abs().max()), 1e-4)
-
-    def test_mirrored_sequences_are_mirror_images(self):
-        groups = [dataset.group(dataset.read_split(self.folder.name, s)) for s in ("train", "validation")]
-        trainer = Trainer(*groups, TrainOptions(overdrive=0, stillness=0, **SMALL), QUIET)
-        episode = trainer.new_episode()
-        episode.sign = episode._mirror_signs(torch.tensor([True, False] * 3))
-        episode.sequences[:] = 0
-        episode.starts[:] = 20
-        drive, u = episode.next_window()
-        flip = torch.tensor([-1.0, 1, 1])
-        self.assertTrue(torch.equal(u[:, :, :, 0], u[:, :, :, 1] * flip))
-        self.assertTrue(torch.equal(drive[..., 0, 12:15], -drive[..., 1, 12:15] * flip))  # a rotation vector
-        # the force of the turn, -alpha x r, must be the mirror image of itself
-        self.assertTrue(torch.equal(drive[..., 0, 3:6], drive[..., 1, 3:6] * flip))
+        (group,) = dataset.group([("", trajectory)])
+        n, unit = synthetic.SIZES[0], scaling.length_unit * synthetic.RADIUS_M
+        states = support.base_states(group, model, scaling, torch.tensor([0]), 30)
+        y = torch.stack([base.l[0, :, 0] for base in states]) / unit
+        self.assertLess(float((y - torch.tensor(vectors["y"])).abs().max()), 1e-4)  # double against float
+        self.assertGreater(float(y.abs().max()), 0.3)
+        self.assertEqual(vectors["z"].shape, (30, n, INPUT_WIDTH))
+        for name in FEEDBACK:
+            self.assertFalse(vectors["z"][..., columns(name)].any())
+        self.assertEqual(vectors["carry"].shape, (30, n, 3))
+        self.assertTrue((vectors["edges"] < n).all())
 
 
-class SpringFit(unittest.TestCase):
-    def test_recovers_the_spring_that_made_the_data(self):
-        with tempfile.TemporaryDirectory() as folder:
-            support.write_data_set(folder)
-            (group,) = dataset.group(dataset.read_split(folder, "train"))
-        made = Springs(group, False)
-        made.log_w.data.fill_(math.log(2 * math.pi * 2.5))
-        made.logit_zeta.data.fill_(-1.5)
-        group.displacement = made.predict(group).permute(2, 0, 1, 3).contiguous()
-        fitted = fit_springs(group, False)
-        self.assertLess(error_ratio(fitted.predict(group), truth(group), group.ticks), 0.05)
-        self.assertLess(float((fitted.log_w - made.log_w).abs().median()), 0.02)
+class Scales(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.group = support.synthetic_group((0, 1), ticks=60)
+        cls.scaling = measure_scaling([cls.group])
 
-    def test_is_stable_whatever_its_parameters(self):
-        with tempfile.TemporaryDirectory() as folder:
-            support.write_data_set(folder, 1, 1, 1)
-            (group,) = dataset.group(dataset.read_split(folder, "train"))
-        springs = Springs(group, True)
-        for p in springs.parameters:
-            p.data.normal_(0, 6)
-        a, b, c, d, _ = springs._transition()
-        radius = (
-            torch.linalg.eigvals(torch.stack([torch.stack([a, b], -1), torch.stack([c, d], -1)], -2).detach())
-            .abs()
-            .max()
+    def test_a_scaled_input_is_of_even_size_and_fits_its_envelope(self):
+        name, (_, drive, _, _) = "angular_velocity", self.group.window(*[torch.tensor([0, 1]) * k for k in (1, 0)], 60)
+        raw = drive[..., 6:9][:, self.group.mask]
+        scaled = bounded(raw, name, self.scaling)
+        self.assertAlmostEqual(float(scaled.abs().mean()), SCALED_SIZE, delta=0.05 * SCALED_SIZE)  # two digits
+        self.assertTrue(torch.equal(scaled, raw * self.scaling.scale[name]))
+        self.assertAlmostEqual(
+            float(scaled.abs().max()) * ENVELOPE_MARGIN, self.scaling.envelope[name], places=3
         )
-        self.assertLessEqual(float(radius), 1 + 1e-5)
 
-    def test_a_constant_force_is_not_extrapolated_away(self):
-        drive = torch.ones(5, 2, 1, 21)
-        self.assertTrue(torch.equal(forces(drive, False), torch.full((1, 5, 2, 1, 3), 5.0)))
+    def test_what_leaves_the_envelope_is_held_at_it(self):
+        for name in ORDER:
+            most = np.float32(self.scaling.envelope[name])
+            self.assertEqual(bounded(torch.tensor([1e9, -1e9]), name, self.scaling).tolist(), [most, -most])
+
+    def test_the_displacement_limit_holds_what_was_seen(self):
+        reach = float(self.group.displacement.norm(dim=-1).max()) / synthetic.RADIUS_M
+        self.assertGreaterEqual(self.scaling.displacement_limit, max(LEAST_LIMIT, reach))
+
+
+class Episodes(unittest.TestCase):
+    def setUp(self):
+        torch.manual_seed(0)
+        self.group = support.synthetic_group((0, 1), ticks=500)
+        self.scaling = measure_scaling([self.group])
+        self.bodies = Union([self.group])
+
+    def episode(self, **options):
+        trained = TrainOptions(batch=2, window=20, **options)
+        return Episode(self.bodies, self.scaling, trained, None, [torch.tensor([[1.0, 4], [2, 2]])])
+
+    def windows(self, episode):
+        """(silent, known, window) of every one to the end."""
+        while episode.ticks_left() > 0:
+            silent = episode.done >= SILENT_FROM * self.bodies.ticks
+            window = episode.next_window()
+            yield silent, episode.known(), window
+
+    def test_plain_sequences_are_the_data(self):
+        episode = self.episode(overdrive=0, stillness=0)
+        felt, drive, turn, u = episode.next_window()
+        want = self.bodies.window(episode.sequences, torch.zeros(2, dtype=torch.long), 20)
+        self.assertTrue(torch.equal(felt, want[0]) and torch.equal(drive, want[1]) and torch.equal(u, want[3]))
+        self.assertTrue(torch.equal(turn[0], want[2][0]) and torch.equal(turn[1], want[2][1]))
+        self.assertTrue(bool(episode.known().all()))
+
+    def test_gentle_sequences_count_by_the_root_of_their_amplitude(self):
+        episode = self.episode(overdrive=0, stillness=0)
+        gentle, wild = (episode.weight[:, 0, episode.sequences[0] == s] for s in (0, 1))
+        self.assertAlmostEqual(float(gentle[0] / wild[0]), 2, places=5)
+        self.assertAlmostEqual(float(gentle[1] / wild[1]), 1, places=5)
+
+    def test_windows_follow_each_other_to_the_end(self):
+        episode = self.episode(overdrive=0, stillness=0)
+        felt = torch.cat([w[0] for _, _, w in self.windows(episode)])
+        want = self.bodies.window(episode.sequences, torch.zeros(2, dtype=torch.long), self.bodies.ticks)[0]
+        self.assertTrue(torch.equal(felt, want))
+
+    def test_still_sequences_feel_nothing_and_rest(self):
+        for _, known, (felt, drive, turn, u) in self.windows(self.episode(overdrive=0, stillness=1)):
+            self.assertEqual(float(felt.abs().max() + drive.abs().max() + u.abs().max()), 0)
+            self.assertTrue(torch.equal(turn[0], torch.eye(3).expand_as(turn[0])))
+            self.assertTrue(bool(known.all()))
+
+    def test_overdriven_sequences_have_no_truth_until_they_must_have_settled(self):
+        episode = self.episode(overdrive=1)
+        self.assertTrue(bool(((episode.gain >= 1) & (episode.gain <= 3)).all()))
+        plain = self.bodies.window(episode.sequences, torch.zeros(2, dtype=torch.long), 500)[0]
+        for silent, known, (felt, drive, _, u) in self.windows(episode):
+            at = slice(episode.done - len(felt), episode.done)
+            want = torch.zeros_like(felt) if silent else plain[at] * episode.gain[:, None]
+            self.assertTrue(torch.equal(felt, want))
+            self.assertEqual(silent, float(drive.abs().max()) == 0)
+            self.assertEqual(float(u.abs().max()), 0)
+            settled = episode.done - SILENT_FROM * self.bodies.ticks > SETTLED_TICKS
+            self.assertEqual(known.tolist(), [settled] * 2)
 
 
 class Kernels(unittest.TestCase):
