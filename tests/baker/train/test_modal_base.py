@@ -1,0 +1,253 @@
+"""The modal base follows its equations: against closed forms, against steps written out, and in a mirror."""
+import copy
+import unittest
+
+import support
+
+support.leave_without_torch()
+import numpy as np  # noqa: E402
+import torch  # noqa: E402
+
+import synthetic  # noqa: E402
+from train import modal_base  # noqa: E402
+from train.dataset import Union  # noqa: E402
+from train.inputs import AXIAL, INPUT_WIDTH, ORDER, WIDTH, columns  # noqa: E402
+from train.modal_base import ModalBase, recurrence, turned, warped  # noqa: E402
+from train.model import AltConvLSTM, ModelOptions  # noqa: E402
+from train.rollout import error_ratio, mirror_signs, roll_out, truth  # noqa: E402
+from train.scaling import measure_scaling  # noqa: E402
+
+TICK_S = 1 / 60
+DOUBLE = dict(dtype=torch.float64)
+SERIES = 1e-5  # rad of a unit vector: a hundredth of a millimetre on a decimetre
+FLOAT_ROLL_OUT = 1e-5  # of the displacement: frame terms take 1e-7 of it 3600 times, and a tick squared is small
+POLAR, AXIAL_SIGNS = torch.tensor([-1.0, 1, 1]), torch.tensor([1.0, -1, -1])
+
+
+def without_ridge(base):
+    """A base whose modal coordinates are exact for what its modes can do."""
+    base = copy.copy(base)
+    base.project = torch.linalg.pinv(base.shape)
+    return base
+
+
+def substeps_of(w, zeta, q, v, p, count):
+    """One tick of q'' + 2 zeta w q' + w^2 q = p by backward Euler."""
+    h = TICK_S / count
+    for _ in range(count):
+        v = (v + h * (p - w * w * q)) / (1 + 2 * zeta * w * h + (w * h) ** 2)
+        q = q + h * v
+    return q, v
+
+
+class Recurrence(unittest.TestCase):
+    def setUp(self):
+        generator = np.random.default_rng(0)
+        self.w, self.zeta = generator.uniform(1, 200, 40), generator.uniform(0, 1.5, 40)
+
+    def of(self, substeps):
+        values = recurrence(torch.tensor(self.w), torch.tensor(self.zeta), TICK_S, substeps)
+        return [v.numpy() for v in values]
+
+    def test_is_what_backward_euler_substeps_make_of_a_free_oscillator(self):
+        for substeps in (1, 3, 4):
+            a1, a2, _ = self.of(substeps)
+            q, v, was = np.ones(40), np.full(40, 3.0), None
+            for _ in range(30):
+                before, was = was, q
+                q, v = substeps_of(self.w, self.zeta, q, v, 0, substeps)
+                if before is not None:
+                    np.testing.assert_allclose(q, a1 * was + a2 * before, atol=1e-10)
+
+    def test_comes_to_rest_at_the_static_answer(self):
+        a1, a2, gain = self.of(4)
+        q = before = np.zeros(40)
+        for _ in range(3000):
+            q, before = a1 * q + a2 * before + gain, q
+        damped = self.zeta * self.w > 1
+        np.testing.assert_allclose(q[damped], 1 / self.w[damped] ** 2, rtol=1e-9)
+        np.testing.assert_allclose(gain / (1 - a1 - a2), 1 / self.w**2, rtol=1e-9)
+
+    def test_answers_as_a_free_mass_where_the_spring_is_weak(self):
+        values = recurrence(*(torch.tensor([x], **DOUBLE) for x in (1e-3, 0.0)), TICK_S, 4)
+        np.testing.assert_allclose(torch.cat(values).numpy(), [2, -1, TICK_S**2], rtol=1e-5)
+
+    def test_never_gains_energy(self):
+        for substeps in (1, 4):
+            q, v = np.ones(40), np.zeros(40)
+            a1, a2, _ = self.of(substeps)
+            q, was = substeps_of(self.w, self.zeta, q, v, 0, substeps)[0], q
+            # Velocity at each tick's start from the two places around it, by the tick's own matrix.
+            qq, _ = substeps_of(self.w, self.zeta, 1.0, 0.0, 0, substeps)
+            qv, _ = substeps_of(self.w, self.zeta, 0.0, 1.0, 0, substeps)
+            energies = []
+            for _ in range(60):
+                v = (q - qq * was) / qv
+                energies.append(0.5 * v * v + 0.5 * (self.w * was) ** 2)
+                q, was = a1 * q + a2 * was, q
+            slow = self.w < 60  # of others nothing is left after a few ticks but rounding
+            self.assertTrue((np.diff(energies, axis=0)[:, slow] <= 1e-9 * energies[0][slow]).all())
+
+    def test_leaves_out_modes_that_are_not_there(self):
+        for value in recurrence(torch.zeros(2), torch.zeros(2), TICK_S, 4):
+            self.assertEqual(value.tolist(), [0, 0])
+
+
+class Warping(unittest.TestCase):
+    def setUp(self):
+        torch.manual_seed(0)
+        theta = torch.randn(300, 3, **DOUBLE)
+        self.theta = theta / theta.norm(dim=-1, keepdim=True) * torch.linspace(0, 2, 300, **DOUBLE)[:, None]
+        self.v = torch.nn.functional.normalize(torch.randn(300, 3, **DOUBLE), dim=-1)
+        self.generator = torch.tensor(synthetic.skew(self.theta.numpy()))
+
+    def largest(self, found, matrix):
+        return float((found - (matrix @ self.v[..., None])[..., 0]).norm(dim=-1).max())
+
+    def test_turns_by_the_exponential_up_to_two_radians(self):
+        turn = torch.matrix_exp(self.generator)
+        self.assertLess(self.largest(turned(self.theta, self.v), turn), SERIES)
+        self.assertLess(self.largest(turned(self.theta, self.v, transposed=True), turn.transpose(-1, -2)), SERIES)
+
+    def test_warps_by_the_mean_of_the_turns_on_the_way(self):
+        block = torch.zeros(300, 6, 6, **DOUBLE)  # exp [[A, 1], [0, 0]] holds the integral of exp (s A)
+        block[:, :3, :3], block[:, :3, 3:] = self.generator, torch.eye(3, **DOUBLE)
+        self.assertLess(self.largest(warped(self.theta, self.v), torch.matrix_exp(block)[:, :3, 3:]), SERIES)
+
+    def test_holds_the_turn_at_two_radians(self):
+        long = modal_base.held(self.theta * 3)
+        self.assertAlmostEqual(float(long.norm(dim=-1).max()), modal_base.LARGEST_TURN, places=6)
+        self.assertLess(float(torch.cross(long, self.theta, dim=-1).norm(dim=-1).max()), 1e-12)
+        self.assertTrue(torch.equal(modal_base.held(self.theta * 0.9), self.theta * 0.9))
+
+    def test_unwarping_undoes_it(self):
+        bases = support.synthetic_group((0,)).body.bases
+        base = without_ridge(ModalBase(bases, synthetic.SIZES, TICK_S, 4, **DOUBLE))
+        q = 0.01 * torch.randn(2, synthetic.MODES, 5, **DOUBLE)
+        state = base.arrive(base.start(5), base._apply(base.shape, q), q)
+        self.assertGreater(float(state.theta.norm(dim=-1).max()), 0.1)
+        l, found = base.unwarped(state.u)
+        self.assertLess(float((l - state.l).abs().max()), 1e-6)
+        self.assertLess(float((found - q).abs().max()), 1e-6)
+
+
+class Base(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.exact = support.synthetic_group((0, 1), ticks=60, hardening=0)
+        cls.group = support.synthetic_group((0, 1), ticks=60)
+        cls.scaling = measure_scaling([cls.group])
+
+    def setUp(self):
+        """An untrained network, loud enough to be seen."""
+        torch.manual_seed(0)
+        self.model = AltConvLSTM(ModelOptions(INPUT_WIDTH, (6, 3), True, 0.3, 0.0, 0.2, 8.0)).eval()
+
+    def test_follows_its_equations_written_out_in_double_precision(self):
+        u, y = truth(self.exact), roll_out(None, None, self.exact)
+        self.assertGreater(float(u.norm(dim=-1).max()), 0.03)
+        self.assertLess(float((y - u).norm(dim=-1).max() / u.norm(dim=-1).max()), FLOAT_ROLL_OUT)
+
+    def test_follows_them_without_warping_and_frame_terms(self):
+        linear = support.synthetic_group((0,), ticks=60, hardening=0, linear=True)
+        linear.base.warping = linear.base.frame_terms = False
+        self.assertLess(error_ratio(roll_out(None, None, linear), truth(linear), 60), FLOAT_ROLL_OUT)
+
+    def test_a_free_node_flies_straight_however_its_frame_turns(self):
+        """Without a spring, frame terms alone must keep R u on a straight line in the world."""
+        n, ticks = 2, 30
+        basis = dict(rad_per_s=np.full(3 * n, 1e-4), damping_ratio=np.zeros(3 * n), shape=np.eye(3 * n),
+                     turn=np.zeros((3 * n, 3 * n)), force=np.eye(3 * n))
+        base = ModalBase([basis], [n], TICK_S, 4, **DOUBLE)
+        generator = np.random.default_rng(1)
+        frame, _ = synthetic.turn_and_mean(np.cumsum(generator.normal(size=(ticks, n, 3)) * 0.1, 0))
+        frame[1] = frame[0]
+        begin, step = generator.normal(size=(2, n, 3))
+        world = begin + step * TICK_S * np.arange(ticks)[:, None, None]
+        local = torch.tensor((frame.swapaxes(-1, -2) @ world[..., None])[..., 0])[:, None, :, None]
+        frame = torch.tensor(frame)
+        state = base.start(1)
+        for t in (0, 1):
+            q = base._gather(base.force, local[t])
+            state = base.arrive(state, local[t], q)
+        for t in range(2, ticks):
+            now = [(frame[t].transpose(-1, -2) @ frame[t - k])[None, :, None] for k in (1, 2)]
+            q, l, _ = base.predict(state, torch.zeros(1, n, 1, 3, **DOUBLE), now)
+            state = base.arrive(state, l, q)
+            self.assertLess(float((state.u - local[t]).abs().max()), 1e-6)  # what is left of the spring
+
+    def test_a_union_moves_as_each_of_its_bodies_alone(self):
+        other = support.synthetic_group((5, 6), ticks=60, body_seed=4)
+        union = Union([self.group, other])
+        for net in (None, self.model):
+            whole = self._run(union, net, self.scaling, torch.tensor([[0, 1], [1, 0]]), 40)
+            first = self._run(self.group, net, self.scaling, torch.tensor([0, 1]), 40)
+            second = self._run(other, net, self.scaling, torch.tensor([1, 0]), 40)
+            for part, rows in ((first, slice(0, 2)), (second, slice(2, 4))):
+                found = whole[:, rows, : part.shape[2]]
+                self.assertLess(float((found - part).abs().max()), 1e-6 * float(part.abs().max()) + 1e-8)
+
+    def _run(self, *roll_out):
+        """(40, R, n, B, 3)"""
+        return torch.stack([base.u for base in support.base_states(*roll_out)])
+
+    def test_mirror_signs_undo_themselves_and_know_rotations(self):
+        flip = mirror_signs()
+        self.assertTrue(torch.equal(flip * flip, torch.ones(INPUT_WIDTH)))
+        for name in ORDER:
+            want = {1: torch.ones(1), 3: AXIAL_SIGNS if name in AXIAL else POLAR}[WIDTH[name]]
+            self.assertTrue(torch.equal(flip[columns(name)], want), name)
+
+    def test_a_mirrored_body_moves_as_the_bodys_mirror_image(self):
+        mirrored = support.synthetic_group((0, 1), synthetic.mirrored, ticks=60)
+        ours, theirs = roll_out(None, None, self.group), roll_out(None, None, mirrored)
+        self.assertLess(float((ours * POLAR - theirs).abs().max()), 1e-5 * float(ours.abs().max()))
+
+    def test_a_mirrored_network_sees_the_mirrored_body(self):
+        mirrored = support.synthetic_group((0, 1), synthetic.mirrored, ticks=60)
+        s, signs = torch.tensor([0, 1]), mirror_signs().expand(2, -1)
+        plain = self._run(self.group, self.model, self.scaling, s, 40)
+        ours = self._run(self.group, self.model, self.scaling, s, 40, signs)
+        theirs = self._run(mirrored, self.model, self.scaling, s, 40)
+        size = float(plain.abs().max())
+        self.assertLess(float((ours * POLAR - theirs).abs().max()), 1e-4 * size)  # fed back forty times
+        self.assertGreater(float((ours - plain).abs().max()), 1e-2 * size)  # left and right are not alike to it
+
+    def test_driven_three_times_too_hard_it_stays_bounded_and_comes_to_rest(self):
+        driven = roll_out(None, None, self.group, 600, gain=3.0, still_after=60)
+        plain = roll_out(None, None, self.group)
+        self.assertTrue(bool(torch.isfinite(driven).all()))
+        times = float(driven.abs().max() / plain.abs().max())
+        self.assertTrue(2 < times < 10, times)
+        self.assertLess(float(driven[-1].abs().max()), 1e-4 * float(driven.abs().max()))
+
+    def test_a_correction_within_the_modes_is_one_of_their_coordinates(self):
+        base = without_ridge(self.group.base)
+        state = support.base_states(self.group, None, self.scaling, torch.tensor([0, 1]), 30)[-1]
+        change = 0.01 * torch.randn(2, synthetic.MODES, 2)
+        found = base.arrive(state, state.l, state.q, base._apply(base.shape, change))
+        want = base.arrive(state, base._apply(base.shape, state.q + change), state.q + change)
+        for name in ("l", "u", "q", "theta"):
+            a, b = getattr(found, name), getattr(want, name)
+            self.assertLess(float((a - b).abs().max()), 1e-5 * float(b.abs().max()), name)
+
+    def test_a_silent_network_is_the_modal_base(self):
+        for p in self.model.parameters():
+            p.data.zero_()
+        found, want = roll_out(self.model, self.scaling, self.group), roll_out(None, None, self.group)
+        self.assertLess(float((found - want).abs().max()), 1e-4 * float(want.abs().max()))  # fed back sixty times
+
+    def test_a_standing_character_stays_exactly_at_rest(self):
+        self.assertEqual(float(roll_out(None, None, self.group, 30, still_after=1).abs().max()), 0)
+
+    def test_standing_at_the_truth_it_goes_on_as_the_truth(self):
+        base, s, t = without_ridge(self.exact.base), torch.tensor([0, 1]), 30
+        felt, _, turn, u = self.exact.window(s, s * 0, 60)
+        state, _ = base.stand_at(u[t - 1], u[t - 2])
+        q, l, _ = base.predict(state, felt[t], (turn[0][t], turn[1][t]))
+        found = base.arrive(state, l, q).u
+        self.assertLess(float((found - u[t]).abs().max()), 1e-3 * float(u[t].abs().max()))
+
+
+if __name__ == "__main__":
+    unittest.main()
