@@ -33,7 +33,7 @@ void read_material(JsonSection& section, Recipe& recipe) {
 }
 
 void read_graph(JsonSection& section, Recipe& recipe) {
-  recipe.nodes_per_region = whole_number(section, "nodes_per_region", recipe.nodes_per_region, 4, 64);
+  recipe.nodes_per_region = whole_number(section, "nodes_per_region", recipe.nodes_per_region, 4, 4096);
   recipe.neighbours = whole_number(section, "neighbours", recipe.neighbours, 2, 16);
   recipe.unit_m = section.number("unit_m", recipe.unit_m, 0, 1e6);
   const std::string up = section.text("up", std::string(1, recipe.up));

@@ -27,7 +27,7 @@ struct Recipe {
   std::vector<std::string> coreless_joints;  // names or prefix*: bones without a rigid core (ears, tails)
 
   // Control graph.
-  int nodes_per_region = 40;  // 4 .. 64
+  int nodes_per_region = 40;  // 4 .. 4096; more than a region has vertices: a node on each
   int neighbours = 6;         // 2 .. 16
   double unit_m = 0;          // see ImportOptions
   char up = 'y';

@@ -112,7 +112,7 @@ def energy(group, methods):
     shares of the truth's mean."""
     def of(p):
         u = group.unflatten(p)
-        q = torch.stack([group.base.unwarped(step)[1] for step in u[1::4]])
+        q = torch.stack([group.base.unwarped(step, torch.zeros_like(step))[1] for step in u[1::4]])
         return (0.5 * (group.base.rad_per_s[None, :, :, None] * q).square()).sum((1, 2))
 
     with torch.no_grad():

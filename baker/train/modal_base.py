@@ -66,7 +66,8 @@ def held(theta):
 
 @dataclass
 class BaseState:
-    """Of the last two ticks: u (R, n, B, 3), q (R, K, B); of the last: l, theta."""
+    """Of the last two ticks: u (R, n, B, 3), q (R, K, B), and what the modes left out add to l, rest (R, n, B,
+    3); of the last: l, theta."""
 
     l: torch.Tensor
     u: torch.Tensor
@@ -74,6 +75,8 @@ class BaseState:
     q: torch.Tensor
     q_before: torch.Tensor
     theta: torch.Tensor
+    rest: torch.Tensor
+    rest_before: torch.Tensor
 
     def map(self, change):
         return BaseState(*(change(getattr(self, f)) for f in self.__dataclass_fields__))
@@ -90,7 +93,7 @@ class BaseState:
 
 
 class ModalBase:
-    """Of one body's regions. `bases`: a dict of rad_per_s, damping_ratio, shape, turn, force a region."""
+    """Of one body's regions. `bases`: for each a dict of what trajectory.BASIS names."""
 
     def __init__(self, bases, regions_nodes, tick_s, substeps, device="cpu", dtype=torch.float32):
         R, n = len(bases), max(regions_nodes)
@@ -101,7 +104,7 @@ class ModalBase:
         self.rad_per_s, self.damping_ratio = zeros(R, K), zeros(R, K)
         self.shape, self.turn = zeros(R, 3 * n, K), zeros(R, 3 * n, K)
         self.force, self.project = zeros(R, K, 3 * n), zeros(R, K, 3 * n)
-        self.first = zeros(R)
+        self.rest, self.first, oscillator = zeros(R, 3 * n, 3 * n), zeros(R), zeros(R, 2)
         for r, b in enumerate(bases):
             k, m = len(b["rad_per_s"]), 3 * regions_nodes[r]
             put = lambda to, a: to.copy_(torch.as_tensor(np.array(a)))
@@ -110,6 +113,8 @@ class ModalBase:
             put(self.shape[r, :m, :k], b["shape"])
             put(self.turn[r, :m, :k], TURN_SHARE * np.asarray(b["turn"]))
             put(self.force[r, :k, :m], b["force"])
+            put(self.rest[r, :m, :m], b["rest"])
+            put(oscillator[r], b["rest_oscillator"])
             put(
                 self.project[r, :k, :m],
                 projection(np.asarray(b["shape"], float), np.asarray(b["rad_per_s"], float)),
@@ -117,6 +122,8 @@ class ModalBase:
             self.first[r] = float(b["rad_per_s"][0])
         values = recurrence(self.rad_per_s.double(), self.damping_ratio.double(), tick_s, substeps)
         self.a1, self.a2, self.gain = (v.to(dtype)[..., None] for v in values)
+        values = recurrence(oscillator[:, 0].double(), oscillator[:, 1].double(), tick_s, substeps)
+        self.rest_a1, self.rest_a2 = (v.to(dtype)[:, None, None, None] for v in values[:2])
         for name, value in list(vars(self).items()):
             if torch.is_tensor(value):
                 setattr(self, name, value.to(device))
@@ -132,6 +139,7 @@ class ModalBase:
         )
         tall, wide, one = (3 * out.nodes, out.modes), (out.modes, 3 * out.nodes), (out.modes, 1)
         size = dict(first=(), a1=one, a2=one, gain=one, shape=tall, turn=tall, force=wide, project=wide)
+        size.update(rest=(tall[0], tall[0]), rest_a1=(1, 1, 1), rest_a2=(1, 1, 1))
         for name, shape in size.items():
             to = bases[0].shape.new_zeros((out.regions,) + shape)
             first = 0
@@ -153,11 +161,11 @@ class ModalBase:
     def start(self, batch):
         zero = self.shape.new_zeros(self.regions, self.nodes, batch, 3)
         q = self.shape.new_zeros(self.regions, self.modes, batch)
-        return BaseState(zero, zero, zero, q, q, zero)
+        return BaseState(zero, zero, zero, q, q, zero, zero, zero)
 
     def predict(self, state, felt, turn_now):
-        """What the modes alone do in a tick: q and l of the next one, and the force in flesh axes that drove
-        them. felt (R, n, B, 3) m/s^2. turn_now: R_t^T R_{t-1} and R_t^T R_{t-2}, each (R, n, B, 3, 3)."""
+        """What the modes alone do in a tick: q, what the modes left out add, and l of the next one, and the
+        force in flesh axes that drove them. felt (R, n, B, 3) m/s^2. turn_now: R_t^T R_{t-1} and R_t^T R_{t-2}, each (R, n, B, 3, 3)."""
         if not self.frame_terms:
             f = turned(state.theta, felt, transposed=True) if self.warping else felt
             return self._drive(state, f)
@@ -171,28 +179,33 @@ class ModalBase:
 
     def _drive(self, state, f):
         q = self.a1 * state.q + self.a2 * state.q_before + self.gain * self._gather(self.force, f)
-        return q, self._apply(self.shape, q), f
+        goal = self._apply(self.rest, f.transpose(2, 3).reshape(self.regions, 3 * self.nodes, -1))
+        swing = self.rest_a1 * state.rest + self.rest_a2 * state.rest_before
+        rest = swing + (1 - self.rest_a1 - self.rest_a2) * goal
+        return (q, rest), self._apply(self.shape, q) + rest, f
 
-    def unwarped(self, u):
+    def unwarped(self, u, rest):
         """l and q with warped(theta(q), l) = u, by a fixed point; good where turns stay below about 1 rad."""
         l = u
         for _ in range(12 if self.warping else 0):
-            theta = held(self._apply(self.turn, self._gather(self.project, l)))
+            theta = held(self._apply(self.turn, self._gather(self.project, l - rest)))
             l = l + 0.8 * (u - warped(theta, l))
-        return l, self._gather(self.project, l)
+        return l, self._gather(self.project, l - rest)
 
-    def stand_at(self, u, u_before):
-        """The state of tissue that is at u and was at u_before a tick ago, and its l of then."""
-        l, q = self.unwarped(u)
-        l_before, q_before = self.unwarped(u_before)
+    def stand_at(self, u, u_before, state):
+        """The state of tissue that is at u and was at u_before a tick ago, and its l of then; what the modes
+        left out add is taken from `state`."""
+        l, q = self.unwarped(u, state.rest)
+        l_before, q_before = self.unwarped(u_before, state.rest_before)
         theta = held(self._apply(self.turn, q)) if self.warping else torch.zeros_like(u)
-        return BaseState(l, u, u_before, q, q_before, theta), l_before
+        return BaseState(l, u, u_before, q, q_before, theta, state.rest, state.rest_before), l_before
 
-    def arrive(self, state, l, q, correction=None):
-        """The state after a tick: the modes' own l and q, and what a network adds to that l."""
+    def arrive(self, state, l, answer, correction=None):
+        """The state after a tick: l and the answer (q, rest) of predict(), and what a network adds to that l."""
+        q, rest = answer
         if correction is not None:
             l, q = l + correction, q + self._gather(self.project, correction)
         if not self.warping:
-            return BaseState(l, l, state.u, q, state.q, torch.zeros_like(l))
+            return BaseState(l, l, state.u, q, state.q, torch.zeros_like(l), rest, state.rest)
         theta = held(self._apply(self.turn, q))
-        return BaseState(l, warped(theta, l), state.u, q, state.q, theta)
+        return BaseState(l, warped(theta, l), state.u, q, state.q, theta, rest, state.rest)

@@ -2,7 +2,7 @@
 
 l_t = (what the modes make of l_{t-1}) + output_scale c_t: Alt-ConvLSTM's own Y_t = Y_{t-1} + C_t + (its
 carry), with the modal base in the place of the skinning's motion."""
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import torch
 
@@ -59,9 +59,9 @@ def tick(model, packed, group, scaling, static, state, felt, drive, turn_now, mi
     sees those sequences mirrored. felt, drive, turn_now: as Group.window gives them, of this tick."""
     base = state.base
     alone = model is not None and "base" in scaling.without
-    q, l, force = (None, base.l, felt) if alone else group.base.predict(base, felt, turn_now)
+    answer, l, force = (None, base.l, felt) if alone else group.base.predict(base, felt, turn_now)
     if model is None:
-        return State(group.base.arrive(base, l, q), base.l, state.memory)
+        return State(group.base.arrive(base, l, answer), base.l, state.memory)
     unit = scaling.length_unit * group.radius
     raw = raw_inputs(group, scaling, base, state.l_before, drive, l, force)
     z = torch.cat([static] + [bounded(raw[k], k, scaling) for k in ORDER if k in raw], -1)
@@ -74,8 +74,8 @@ def tick(model, packed, group, scaling, static, state, felt, drive, turn_now, mi
         y = y * flip
     y = y * unit * group.mask[..., None, None]
     if alone:
-        return State(BaseState(y, y, base.u, base.q, base.q, base.theta), base.l, memory)
-    return State(group.base.arrive(base, l, q, y - l), base.l, memory)
+        return State(replace(base, l=y, u=y, u_before=base.u), base.l, memory)
+    return State(group.base.arrive(base, l, answer, y - l), base.l, memory)
 
 
 def start(model, group, batch):
@@ -96,7 +96,7 @@ def single_steps(model, scaling, group):
         for t in range(group.ticks):
             state = tick(model, packed, group, scaling, static, state, felt[t], drive[t], (turn[0][t], turn[1][t]))
             out.append(group.flatten(state.base.u))
-            true = group.base.stand_at(u[t], u[t - 1] if t else torch.zeros_like(u[t]))
+            true = group.base.stand_at(u[t], u[t - 1] if t else torch.zeros_like(u[t]), state.base)
             state = State(true[0], true[1], state.memory)
     return torch.stack(out)
 

@@ -43,7 +43,7 @@ def _run_base(group, sizes):
             felt, drive, turn, _ = group.window(s, torch.full_like(s, first), n)
             for t in range(n):
                 now = (turn[0][t], turn[1][t])
-                q, l, force = group.base.predict(state.base, felt[t], now)
+                _, l, force = group.base.predict(state.base, felt[t], now)
                 for k, v in raw_inputs(group, plain, state.base, state.l_before, drive[t], l, force).items():
                     sizes.add(k, v[mask])
                 state = tick(None, None, group, plain, None, state, felt[t], drive[t], now)

@@ -89,9 +89,8 @@ class Trainer:
             unit = self.scaling.length_unit * g.radius * self.options.disturbance
             kick = torch.randn(g.regions, g.base.modes, episode.size, device=base.q.device)
             kick = kick / (1 + torch.arange(g.base.modes, device=kick.device))[None, :, None] * unit[..., 0]
-            disturbed = replace(base, q=base.q + kick)
-            base = replace(g.base.arrive(base, g.base._apply(g.base.shape, disturbed.q), disturbed.q),
-                           u_before=base.u_before, q_before=base.q_before)
+            moved = g.base.arrive(base, base.l, (base.q, base.rest), g.base._apply(g.base.shape, kick))
+            base = replace(base, l=moved.l, u=moved.u, q=moved.q, theta=moved.theta)
         return State(base, l_before, memory)
 
     def _tick_loss(self, episode, u, true):

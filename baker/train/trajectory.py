@@ -7,7 +7,7 @@ from .safetensors import BadData, load
 
 VERSION = "2"
 DRIVE_WIDTH = 12
-BASIS = ("rad_per_s", "damping_ratio", "shape", "turn", "force")
+BASIS = ("rad_per_s", "damping_ratio", "shape", "turn", "force", "rest", "rest_oscillator")
 _STILL = 1e-9  # metres: a displacement nowhere larger than this is no motion
 
 
@@ -22,7 +22,8 @@ class Body:
     edges: np.ndarray  # (m, 2)
     radius_m: np.ndarray  # (R,)
     region_names: tuple
-    bases: list  # a region: rad_per_s (K,), damping_ratio (K,), shape and turn (3n, K), force (K, 3n)
+    bases: list  # a region: rad_per_s (K,), damping_ratio (K,), shape and turn (3n, K), force (K, 3n),
+    # rest (3n, 3n), rest_oscillator (2,)
 
     def same_as(self, other):
         arrays = lambda b: (b.rest_position, b.rest_normal, b.stiffness, b.region, b.edges, b.radius_m)
@@ -80,10 +81,10 @@ def _read_bases(path, tensors, nodes_of_region):
         n, name = 3 * int(nodes), f"modes.{r}."
         w = _need(path, tensors, name + "rad_per_s", (1, -1))[0]
         _checked(path, name + "rad_per_s", len(w) and (w > 0).all(), "no modes, or not all above 0 rad/s")
-        shapes = ((1, len(w)), (n, len(w)), (n, len(w)), (len(w), n))
+        shapes = ((1, len(w)), (n, len(w)), (n, len(w)), (len(w), n), (n, n), (1, 2))
         values = [_need(path, tensors, name + k, shape) for k, shape in zip(BASIS[1:], shapes)]
         _checked(path, name + "damping_ratio", (values[0] >= 0).all(), "below 0")
-        bases.append(dict(zip(BASIS, [w, values[0][0], *values[1:]])))
+        bases.append(dict(zip(BASIS, [w, values[0][0], *values[1:-1], values[-1][0]])))
     return bases
 
 

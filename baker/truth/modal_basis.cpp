@@ -2,6 +2,7 @@
 #include "baker/truth/modal_basis.hpp"
 
 #include <Eigen/LU>
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -77,6 +78,7 @@ Eigen::SparseMatrix<double> block_of(const Eigen::SparseMatrix<double>& whole,
 // One body's share of a region.
 struct Part {
   std::vector<int> cage_node;
+  Eigen::SparseMatrix<double> stiffness;
   Eigenmodes modes;
   VectorXd mass;  // a node
   double rayleigh_mass_per_s = 0, rayleigh_stiffness_s = 0;
@@ -94,17 +96,17 @@ Part solve_part(const FemLinear& body, const std::vector<size_t>& nodes, const s
     mass.segment<3>(row_of(i)) = body.mass.segment<3>(row_of(nodes[i]));
     part.mass[static_cast<Index>(i)] = body.mass[row_of(nodes[i])];
   }
-  part.modes = lowest_modes(block_of(body.stiffness, nodes), mass, count);
+  part.stiffness = block_of(body.stiffness, nodes);
+  part.modes = lowest_modes(part.stiffness, mass, count);
   return part;
 }
 
-// The part's modes at every node of the cage: (3 cage nodes, modes), zero where the part is not.
-MatrixXd shape_in_cage(const Part& part, const Cage& cage) {
-  MatrixXd shape = MatrixXd::Zero(row_of(cage.nodes.size()), part.modes.shape.cols());
+// Displacements of the part, a column each, at every node of the cage; zero where the part is not.
+MatrixXd in_cage(const Part& part, const MatrixXd& columns, const Cage& cage) {
+  MatrixXd out = MatrixXd::Zero(row_of(cage.nodes.size()), columns.cols());
   for (size_t i = 0; i < part.cage_node.size(); ++i)
-    shape.middleRows<3>(row_of(static_cast<size_t>(part.cage_node[i]))) =
-        part.modes.shape.middleRows<3>(row_of(i));
-  return shape;
+    out.middleRows<3>(row_of(static_cast<size_t>(part.cage_node[i]))) = columns.middleRows<3>(row_of(i));
+  return out;
 }
 
 struct Tetrahedron {
@@ -162,20 +164,21 @@ MatrixXd at_control_nodes(const MatrixXd& in_cage, const TissueLayout& layout, c
   return out;
 }
 
-// Generalised forces (modes, 3 control nodes): felt accelerations at the nodes, carried through the flesh.
-MatrixXd force_from_nodes(const Part& part, const TissueLayout& layout, const Region& region,
+// Inertial forces on the part (3 part nodes, 3 control nodes) of felt accelerations at the control nodes,
+// carried through the flesh.
+MatrixXd loads_from_nodes(const Part& part, const TissueLayout& layout, const Region& region,
                           const Cage& cage) {
   std::vector<Vector3> nodes, flesh;
   for (int n = 0; n < region.node_count; ++n)
     nodes.push_back(layout.nodes[static_cast<size_t>(region.first_node + n)].position);
   for (const int node : part.cage_node) flesh.push_back(cage.nodes[static_cast<size_t>(node)]);
   const std::vector<std::vector<double>> carry = carry_weights(nodes, {}, flesh);
-  MatrixXd force = MatrixXd::Zero(part.modes.shape.cols(), 3 * region.node_count);
+  MatrixXd loads = MatrixXd::Zero(row_of(flesh.size()), 3 * region.node_count);
   for (size_t n = 0; n < nodes.size(); ++n)
     for (size_t c = 0; c < flesh.size(); ++c)
-      force.middleCols<3>(row_of(n)) += carry[n][c] * part.mass[static_cast<Index>(c)] *
-                                        part.modes.shape.middleRows<3>(row_of(c)).transpose();
-  return force;
+      loads.block<3, 3>(row_of(c), row_of(n)).diagonal().setConstant(carry[n][c] *
+                                                                     part.mass[static_cast<Index>(c)]);
+  return loads;
 }
 
 struct Mode {
@@ -184,12 +187,18 @@ struct Mode {
   Eigen::RowVectorXd force;
 };
 
-void append_modes(const Part& part, const TissueLayout& layout, const Region& region, const Cage& cage,
-                  std::vector<Mode>* modes) {
-  const MatrixXd in_cage = shape_in_cage(part, cage);
-  const MatrixXd shape = at_control_nodes(in_cage, layout, region, cage);
-  const MatrixXd turn = at_control_nodes(turn_in_cage(in_cage, part, cage), layout, region, cage);
-  const MatrixXd force = force_from_nodes(part, layout, region, cage);
+// What a region gathers from the bodies it has a share of.
+struct Gathered {
+  std::vector<Mode> modes;
+  MatrixXd compliance;  // (3 nodes, 3 nodes), s^2: the answer to a steady felt acceleration
+};
+
+void append_modes(const Part& part, const MatrixXd& loads, const TissueLayout& layout, const Region& region,
+                  const Cage& cage, std::vector<Mode>* modes) {
+  const MatrixXd everywhere = in_cage(part, part.modes.shape, cage);
+  const MatrixXd shape = at_control_nodes(everywhere, layout, region, cage);
+  const MatrixXd turn = at_control_nodes(turn_in_cage(everywhere, part, cage), layout, region, cage);
+  const MatrixXd force = part.modes.shape.transpose() * loads;
   for (Index k = 0; k < shape.cols(); ++k) {
     const double w = std::sqrt(part.modes.squared_rad_per_s[k]);
     const double size = shape.col(k).norm() / std::sqrt(static_cast<double>(region.node_count));
@@ -199,20 +208,28 @@ void append_modes(const Part& part, const TissueLayout& layout, const Region& re
   }
 }
 
-// The lowest ones.
-void sort_and_cut(int count, std::vector<Mode>* modes) {
-  std::stable_sort(modes->begin(), modes->end(),
-                   [](const Mode& a, const Mode& b) { return a.rad_per_s < b.rad_per_s; });
-  const auto high = std::find_if(modes->begin(), modes->end(),
-                                 [](const Mode& mode) { return mode.rad_per_s > kHighest_rad_per_s; });
-  const auto below = static_cast<size_t>(high - modes->begin());
-  modes->resize(std::min({modes->size(), static_cast<size_t>(count), std::max(below, kFewest)}));
+void gather(const Part& part, const TissueLayout& layout, const Region& region, const Cage& cage,
+            Gathered* to) {
+  const MatrixXd loads = loads_from_nodes(part, layout, region, cage);
+  append_modes(part, loads, layout, region, cage, &to->modes);
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> cholesky(part.stiffness);
+  to->compliance += at_control_nodes(in_cage(part, cholesky.solve(loads), cage), layout, region, cage);
 }
 
-ModalBasis basis_of(const std::vector<Mode>& modes, int nodes) {
-  const auto kept = static_cast<Index>(modes.size());
+size_t kept_modes(const std::vector<Mode>& ascending, int count) {
+  const auto high = std::find_if(ascending.begin(), ascending.end(),
+                                 [](const Mode& mode) { return mode.rad_per_s > kHighest_rad_per_s; });
+  const auto below = static_cast<size_t>(high - ascending.begin());
+  return std::min({ascending.size(), static_cast<size_t>(count), std::max(below, kFewest)});
+}
+
+ModalBasis basis_of(Gathered gathered, int nodes, int count) {
+  std::vector<Mode>& modes = gathered.modes;
+  std::stable_sort(modes.begin(), modes.end(),
+                   [](const Mode& a, const Mode& b) { return a.rad_per_s < b.rad_per_s; });
+  const auto kept = static_cast<Index>(kept_modes(modes, count));
   ModalBasis basis{VectorXd(kept), VectorXd(kept), MatrixXd(3 * nodes, kept), MatrixXd(3 * nodes, kept),
-                   MatrixXd(kept, 3 * nodes)};
+                   MatrixXd(kept, 3 * nodes), std::move(gathered.compliance)};
   for (Index k = 0; k < kept; ++k) {
     const Mode& mode = modes[static_cast<size_t>(k)];
     basis.rad_per_s[k] = mode.rad_per_s;
@@ -220,6 +237,12 @@ ModalBasis basis_of(const std::vector<Mode>& modes, int nodes) {
     basis.shape.col(k) = mode.shape;
     basis.turn.col(k) = mode.turn;
     basis.force.row(k) = mode.force;
+    basis.rest -= mode.shape * mode.force / (mode.rad_per_s * mode.rad_per_s);
+  }
+  if (kept > 0) {
+    const Mode& next = modes[std::min(modes.size() - 1, static_cast<size_t>(kept))];
+    basis.rest_rad_per_s = next.rad_per_s;
+    basis.rest_damping_ratio = next.damping_ratio;
   }
   return basis;
 }
@@ -230,16 +253,16 @@ std::vector<ModalBasis> modal_bases(const TissueLayout& layout, const Cage& cage
                                     const std::vector<FemLinear>& bodies, const std::vector<int>& cage_node,
                                     int count) {
   if (count < 1) throw BadInput("modal basis: " + std::to_string(count) + " modes: ask for 1 or more");
-  std::vector<std::vector<Mode>> modes(layout.regions.size());
+  std::vector<Gathered> gathered;
+  for (const Region& region : layout.regions)
+    gathered.push_back({{}, MatrixXd::Zero(3 * region.node_count, 3 * region.node_count)});
   for (const FemLinear& body : bodies)
     for (const auto& [region, nodes] : split_by_region(body, layout, cage, cage_node))
-      append_modes(solve_part(body, nodes, cage_node, count), layout,
-                   layout.regions[static_cast<size_t>(region)], cage, &modes[static_cast<size_t>(region)]);
+      gather(solve_part(body, nodes, cage_node, count + 1), layout,
+             layout.regions[static_cast<size_t>(region)], cage, &gathered[static_cast<size_t>(region)]);
   std::vector<ModalBasis> bases;
-  for (size_t r = 0; r < layout.regions.size(); ++r) {
-    sort_and_cut(count, &modes[r]);
-    bases.push_back(basis_of(modes[r], layout.regions[r].node_count));
-  }
+  for (size_t r = 0; r < layout.regions.size(); ++r)
+    bases.push_back(basis_of(std::move(gathered[r]), layout.regions[r].node_count, count));
   return bases;
 }
 

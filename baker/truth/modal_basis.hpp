@@ -1,7 +1,10 @@
 // modal_basis.hpp  A region's lowest modes, from the cage's eigenproblem, as its control nodes see them.
 //
 // About the unstressed shape, in axes that turn with the flesh, tissue driven by a felt acceleration f obeys
-//   q_k'' + 2 zeta_k w_k q_k' + w_k^2 q_k = sum_i force(k, i) . f_i,   u_i = sum_k shape(i, k) q_k
+//   q_k'' + 2 zeta_k w_k q_k' + w_k^2 q_k = sum_i force(k, i) . f_i,   u_i = sum_k shape(i, k) q_k + r_i
+// where r is what the modes left out would add. They answer together, as one oscillator at the frequency of
+// the first of them that is exact at rest (residual flexibility; MacNeal 1971):
+//   r'' + 2 zeta w r' + w^2 r = w^2 rest f
 // with f_i at the control nodes: between them it is interpolated through the flesh (carry.hpp). Other regions
 // hold still. No simulated sequence is needed.
 #pragma once
@@ -11,7 +14,7 @@
 
 namespace sinew::baker {
 
-inline constexpr int kMostModes = 64;  // a region
+inline constexpr int kMostModes = 32;  // a region
 
 struct ModalBasis {
   Eigen::VectorXd rad_per_s;      // w, ascending
@@ -19,6 +22,8 @@ struct ModalBasis {
   Eigen::MatrixXd shape;          // (3 nodes, modes), bind-pose axes; the nodes' root mean square is 1
   Eigen::MatrixXd turn;   // (3 nodes, modes), rotation vectors: half the curl of shape through the flesh
   Eigen::MatrixXd force;  // (modes, 3 nodes)
+  Eigen::MatrixXd rest;   // (3 nodes, 3 nodes), s^2: the answer of the modes left out to a steady felt acceleration
+  double rest_rad_per_s = 0, rest_damping_ratio = 0;
 };
 
 // cage_node: a node of `bodies` -> of the cage. One basis a region; fewer than `count` modes where a region

@@ -167,6 +167,9 @@ void TrajectoryRecorder::add_modes(Safetensors* file) const {
     file->tensors[name + ".shape"] = rows(modes_[r].shape);
     file->tensors[name + ".turn"] = rows(modes_[r].turn);
     file->tensors[name + ".force"] = rows(modes_[r].force);
+    file->tensors[name + ".rest"] = rows(modes_[r].rest);
+    file->tensors[name + ".rest_oscillator"] =
+        rows(Eigen::RowVector2d(modes_[r].rest_rad_per_s, modes_[r].rest_damping_ratio));
   }
 }
 

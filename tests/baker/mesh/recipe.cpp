@@ -51,7 +51,7 @@ TEST_CASE("wrong_recipes_are_refused_by_key") {
       {R"({"rigid_stiffness": 2})", "rigid_stiffness"},
       {R"({"core_share": -0.1})", "core_share"},
       {R"({"coreless_joints": "ear_*"})", "coreless_joints"},
-      {R"({"nodes_per_region": 65})", "nodes_per_region"},
+      {R"({"nodes_per_region": 4097})", "nodes_per_region"},
       {R"({"neighbours": 1})", "neighbours"},
       {R"({"unit_m": -1})", "unit_m"},
       {R"({"up": "x"})", "\"up\""},
