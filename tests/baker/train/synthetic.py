@@ -59,14 +59,22 @@ def _basis(rng, rest, edges):
     uneven = rng.normal(size=(3 * n, 3 * n)) / n
     stiffness = np.kron(0.6 * np.eye(n) + 0.3 * laplacian, np.eye(3)) + 0.2 * uneven @ uneven.T
     squared, phi = np.linalg.eigh((2 * np.pi * 4) ** 2 * stiffness)
-    w, phi = np.sqrt(squared[:MODES]), phi[:, :MODES]
+    compliance = (phi / squared) @ phi.T
+    next_w, w, phi = np.sqrt(squared[MODES]), np.sqrt(squared[:MODES]), phi[:, :MODES]
     arm = rest * RADIUS_M
     turning = np.zeros((3 * n, 3 * n))
     for i, m in enumerate(skew(0.5 * arm / (arm * arm).sum(-1, keepdims=True))):
         turning[3 * i : 3 * i + 3, 3 * i : 3 * i + 3] = m
-    shape = phi * np.sqrt(n)
-    damping = 0.05 * (w[0] / w + w / w[0])
-    return dict(rad_per_s=w, damping_ratio=damping, shape=shape, turn=turning @ shape, force=phi.T / np.sqrt(n))
+    shape, damping = phi * np.sqrt(n), lambda v: 0.05 * (w[0] / v + v / w[0])
+    return dict(
+        rad_per_s=w,
+        damping_ratio=damping(w),
+        shape=shape,
+        turn=turning @ shape,
+        force=phi.T / np.sqrt(n),
+        rest=compliance - (phi / w**2) @ phi.T,
+        rest_oscillator=np.array([next_w, damping(next_w)]),
+    )
 
 
 def _body(rng):
@@ -123,9 +131,10 @@ def simulate(basis, felt, frame, hardening=HARDENING, linear=False):
     """(T+1, n, 3) of one region from rest, along the nodes' own axes. linear: neither warped nor aware of how
     the frames turn."""
     n, (a1, a2, gain) = felt.shape[1], recurrence(basis["rad_per_s"], basis["damping_ratio"])
+    rest_a1, rest_a2, _ = recurrence(*basis["rest_oscillator"])
     apply = lambda m, v: (m @ v[..., None])[..., 0]
     q = q_before = np.zeros(len(a1))
-    u = u_before = l = theta = np.zeros((n, 3))
+    u = u_before = l = theta = rest = rest_before = np.zeros((n, 3))
     out = [u]
     for t in range(1, len(felt)):
         force = felt[t]
@@ -136,7 +145,9 @@ def simulate(basis, felt, frame, hardening=HARDENING, linear=False):
             force = apply(np.swapaxes(turn_and_mean(theta)[0], -1, -2), force)
         force = force - hardening * (l * l).sum(-1, keepdims=True) * l
         q, q_before = a1 * q + a2 * q_before + gain * (basis["force"] @ force.ravel()), q
-        l = (basis["shape"] @ q).reshape(n, 3)
+        goal = (1 - rest_a1 - rest_a2) * (basis["rest"] @ force.ravel()).reshape(n, 3)
+        rest, rest_before = rest_a1 * rest + rest_a2 * rest_before + goal, rest
+        l = (basis["shape"] @ q).reshape(n, 3) + rest
         theta = TURN_SHARE * (basis["turn"] @ q).reshape(n, 3)
         theta = theta / np.maximum(1, np.linalg.norm(theta, axis=-1, keepdims=True) / LARGEST_TURN)
         u, u_before = (l if linear else apply(turn_and_mean(theta)[1], l)), u
@@ -201,4 +212,6 @@ def mirrored(tensors):
             out[name] = a * np.tile(flip, len(a) // 3)[:, None]
         elif name.endswith(".force"):
             out[name] = a * np.tile(polar, a.shape[1] // 3)
+        elif name.endswith(".rest"):
+            out[name] = a * np.tile(polar, len(a) // 3) * np.tile(polar, len(a) // 3)[:, None]
     return out

@@ -124,9 +124,10 @@ class Warping(unittest.TestCase):
         bases = support.synthetic_group((0,)).body.bases
         base = without_ridge(ModalBase(bases, synthetic.SIZES, TICK_S, 4, **DOUBLE))
         q = 0.01 * torch.randn(2, synthetic.MODES, 5, **DOUBLE)
-        state = base.arrive(base.start(5), base._apply(base.shape, q), q)
+        rest = 1e-3 * torch.randn(2, synthetic.SIZES[0], 5, 3, **DOUBLE)
+        state = base.arrive(base.start(5), base._apply(base.shape, q) + rest, (q, rest))
         self.assertGreater(float(state.theta.norm(dim=-1).max()), 0.1)
-        l, found = base.unwarped(state.u)
+        l, found = base.unwarped(state.u, rest)
         self.assertLess(float((l - state.l).abs().max()), 1e-6)
         self.assertLess(float((found - q).abs().max()), 1e-6)
 
@@ -153,11 +154,27 @@ class Base(unittest.TestCase):
         linear.base.warping = linear.base.frame_terms = False
         self.assertLess(error_ratio(roll_out(None, None, linear), truth(linear), 60), FLOAT_ROLL_OUT)
 
+    def test_what_the_modes_leave_out_makes_the_static_answer_whole(self):
+        """A steady pull ends where all modes of the eigenproblem would end, not only those that are kept."""
+        pull = torch.tensor([0.3, -1, 0.5], **DOUBLE)
+        bases = self.exact.body.bases
+        base = ModalBase(bases, synthetic.SIZES, TICK_S, 4, **DOUBLE)
+        base.warping = base.frame_terms = False
+        state, felt = base.start(1), base.start(1).u + pull
+        for _ in range(2000):
+            answer, l, _ = base.predict(state, felt, None)
+            state = base.arrive(state, l, answer)
+        for r, (b, n) in enumerate(zip(bases, synthetic.SIZES)):
+            whole = b["rest"] + (b["shape"] / b["rad_per_s"] ** 2) @ b["force"]
+            want = (whole.astype(float) @ np.tile(pull.numpy(), n)).reshape(n, 3)
+            np.testing.assert_allclose(state.u[r, :n, 0].numpy(), want, atol=1e-6 * np.abs(want).max())
+
     def test_a_free_node_flies_straight_however_its_frame_turns(self):
         """Without a spring, frame terms alone must keep R u on a straight line in the world."""
         n, ticks = 2, 30
-        basis = dict(rad_per_s=np.full(3 * n, 1e-4), damping_ratio=np.zeros(3 * n), shape=np.eye(3 * n),
-                     turn=np.zeros((3 * n, 3 * n)), force=np.eye(3 * n))
+        one, none = np.eye(3 * n), np.zeros((3 * n, 3 * n))
+        basis = dict(rad_per_s=np.full(3 * n, 1e-4), damping_ratio=np.zeros(3 * n), shape=one, turn=none)
+        basis.update(force=one, rest=none, rest_oscillator=np.ones(2))
         base = ModalBase([basis], [n], TICK_S, 4, **DOUBLE)
         generator = np.random.default_rng(1)
         frame, _ = synthetic.turn_and_mean(np.cumsum(generator.normal(size=(ticks, n, 3)) * 0.1, 0))
@@ -169,11 +186,11 @@ class Base(unittest.TestCase):
         state = base.start(1)
         for t in (0, 1):
             q = base._gather(base.force, local[t])
-            state = base.arrive(state, local[t], q)
+            state = base.arrive(state, local[t], (q, state.rest))
         for t in range(2, ticks):
             now = [(frame[t].transpose(-1, -2) @ frame[t - k])[None, :, None] for k in (1, 2)]
-            q, l, _ = base.predict(state, torch.zeros(1, n, 1, 3, **DOUBLE), now)
-            state = base.arrive(state, l, q)
+            answer, l, _ = base.predict(state, torch.zeros(1, n, 1, 3, **DOUBLE), now)
+            state = base.arrive(state, l, answer)
             self.assertLess(float((state.u - local[t]).abs().max()), 1e-6)  # what is left of the spring
 
     def test_a_union_moves_as_each_of_its_bodies_alone(self):
@@ -225,8 +242,9 @@ class Base(unittest.TestCase):
         base = without_ridge(self.group.base)
         state = support.base_states(self.group, None, self.scaling, torch.tensor([0, 1]), 30)[-1]
         change = 0.01 * torch.randn(2, synthetic.MODES, 2)
-        found = base.arrive(state, state.l, state.q, base._apply(base.shape, change))
-        want = base.arrive(state, base._apply(base.shape, state.q + change), state.q + change)
+        found = base.arrive(state, state.l, (state.q, state.rest), base._apply(base.shape, change))
+        l = base._apply(base.shape, state.q + change) + state.rest
+        want = base.arrive(state, l, (state.q + change, state.rest))
         for name in ("l", "u", "q", "theta"):
             a, b = getattr(found, name), getattr(want, name)
             self.assertLess(float((a - b).abs().max()), 1e-5 * float(b.abs().max()), name)
@@ -243,9 +261,10 @@ class Base(unittest.TestCase):
     def test_standing_at_the_truth_it_goes_on_as_the_truth(self):
         base, s, t = without_ridge(self.exact.base), torch.tensor([0, 1]), 30
         felt, _, turn, u = self.exact.window(s, s * 0, 60)
-        state, _ = base.stand_at(u[t - 1], u[t - 2])
-        q, l, _ = base.predict(state, felt[t], (turn[0][t], turn[1][t]))
-        found = base.arrive(state, l, q).u
+        there = support.base_states(self.exact, None, self.scaling, s, t)[-1]
+        state, _ = base.stand_at(u[t - 1], u[t - 2], there)
+        answer, l, _ = base.predict(state, felt[t], (turn[0][t], turn[1][t]))
+        found = base.arrive(state, l, answer).u
         self.assertLess(float((found - u[t]).abs().max()), 1e-3 * float(u[t].abs().max()))
 
 
