@@ -28,10 +28,10 @@ class Episode:
         self.done = 0
 
     def _weights(self, amplitudes):
-        """(R, 1, B): errors count as shares of what a sequence moves."""
+        """(R, 1, B): errors in gentle sequences count for more, by the root of their amplitude."""
         share = lambda a, s: a.square().mean(1, keepdim=True).sqrt() / a[:, s]
         shares = torch.cat([share(a, s) for a, s in zip(amplitudes, self.sequences)])
-        return shares.clamp(0.3, 5)[:, None]
+        return shares.sqrt().clamp(0.3, 4)[:, None]
 
     def ticks_left(self):
         return self.group.ticks - self.done
