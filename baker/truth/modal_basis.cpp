@@ -176,8 +176,9 @@ MatrixXd loads_from_nodes(const Part& part, const TissueLayout& layout, const Re
   MatrixXd loads = MatrixXd::Zero(row_of(flesh.size()), 3 * region.node_count);
   for (size_t n = 0; n < nodes.size(); ++n)
     for (size_t c = 0; c < flesh.size(); ++c)
-      loads.block<3, 3>(row_of(c), row_of(n)).diagonal().setConstant(carry[n][c] *
-                                                                     part.mass[static_cast<Index>(c)]);
+      loads.block<3, 3>(row_of(c), row_of(n))
+          .diagonal()
+          .setConstant(carry[n][c] * part.mass[static_cast<Index>(c)]);
   return loads;
 }
 
@@ -228,8 +229,12 @@ ModalBasis basis_of(Gathered gathered, int nodes, int count) {
   std::stable_sort(modes.begin(), modes.end(),
                    [](const Mode& a, const Mode& b) { return a.rad_per_s < b.rad_per_s; });
   const auto kept = static_cast<Index>(kept_modes(modes, count));
-  ModalBasis basis{VectorXd(kept), VectorXd(kept), MatrixXd(3 * nodes, kept), MatrixXd(3 * nodes, kept),
-                   MatrixXd(kept, 3 * nodes), std::move(gathered.compliance)};
+  ModalBasis basis{VectorXd(kept),
+                   VectorXd(kept),
+                   MatrixXd(3 * nodes, kept),
+                   MatrixXd(3 * nodes, kept),
+                   MatrixXd(kept, 3 * nodes),
+                   std::move(gathered.compliance)};
   for (Index k = 0; k < kept; ++k) {
     const Mode& mode = modes[static_cast<size_t>(k)];
     basis.rad_per_s[k] = mode.rad_per_s;

@@ -22,7 +22,8 @@ struct ModalBasis {
   Eigen::MatrixXd shape;          // (3 nodes, modes), bind-pose axes; the nodes' root mean square is 1
   Eigen::MatrixXd turn;   // (3 nodes, modes), rotation vectors: half the curl of shape through the flesh
   Eigen::MatrixXd force;  // (modes, 3 nodes)
-  Eigen::MatrixXd rest;   // (3 nodes, 3 nodes), s^2: the answer of the modes left out to a steady felt acceleration
+  Eigen::MatrixXd rest;   // (3 nodes, 3 nodes), s^2: what the modes left out answer to a steady felt
+                          // acceleration
   double rest_rad_per_s = 0, rest_damping_ratio = 0;
 };
 

@@ -19,7 +19,8 @@ TENSORS_BEYOND = {"surface": np.zeros((1, 1, 3), np.float16)}
 def truth(a):
     ticks = round(a.seconds * RATE_HZ)
     t = np.arange(ticks + 1)[:, None, None] / RATE_HZ
-    shapes = dict(zip(BASIS, ((1, 2), (1, 2), (3 * NODES, 2), (3 * NODES, 2), (2, 3 * NODES))))
+    n = 3 * NODES
+    shapes = dict(zip(BASIS, ((1, 2), (1, 2), (n, 2), (n, 2), (2, n), (n, n), (1, 2))))
     tensors = {
         "drive": np.full((ticks + 1, NODES, DRIVE_WIDTH), a.strength),
         "rotation": np.tile(np.eye(3).ravel(), (ticks + 1, NODES, 1)),

@@ -70,6 +70,10 @@ ModalBasis one_mode() {
   basis.shape = Eigen::VectorXd::LinSpaced(6, 1, 6);
   basis.turn = 2 * basis.shape;
   basis.force = 3 * basis.shape.transpose();
+  basis.rest = Eigen::MatrixXd::Identity(6, 6);
+  basis.rest(0, 5) = 7;
+  basis.rest_rad_per_s = 40;
+  basis.rest_damping_ratio = 0.5;
   return basis;
 }
 
@@ -193,6 +197,8 @@ TEST_CASE("the_modes_are_written_region_by_region") {
   CHECK(file.need("modes.0.shape", {6, 1}).as_f32() == Values{1, 2, 3, 4, 5, 6});
   CHECK(file.need("modes.0.turn", {6, 1}).as_f32() == Values{2, 4, 6, 8, 10, 12});
   CHECK(file.need("modes.0.force", {1, 6}).as_f32() == Values{3, 6, 9, 12, 15, 18});
+  CHECK(file.need("modes.0.rest", {6, 6}).as_f32()[5] == 7);
+  CHECK(file.need("modes.0.rest_oscillator", {1, 2}).as_f32() == Values{40, 0.5f});
 }
 
 TEST_CASE("statics_pose_and_optional_tensors_are_there") {
