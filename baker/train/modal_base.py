@@ -8,8 +8,8 @@ import numpy as np
 import torch
 
 LARGEST_TURN = 2.0  # rad: beyond it a linear turn means nothing
-# Of the modes' own turn: a cantilever bent evenly leaves its straight path by 2/3 of its tip's turn; this share
-# validated best.
+# Of the modes' own turn: a cantilever bent evenly leaves its straight path by 2/3 of its tip's turn; this
+# share validated best.
 TURN_SHARE = 0.75
 PROJECTION_RIDGE = 1e-3  # shapes of one region are far from independent at few nodes
 
@@ -92,62 +92,50 @@ class BaseState:
         )
 
 
+def _of_region(basis, tick_s, substeps):
+    """name -> tensor in double precision, of one region."""
+    b = {k: torch.as_tensor(np.array(v, float)) for k, v in basis.items()}
+    w = b["rad_per_s"]
+    a1, a2, gain = (v[:, None] for v in recurrence(w, b["damping_ratio"], tick_s, substeps))
+    rest_a1, rest_a2, _ = (v.view(1, 1, 1) for v in recurrence(*b["rest_oscillator"], tick_s, substeps))
+    return {
+        **dict(first=w[0], rad_per_s=w, damping_ratio=b["damping_ratio"], a1=a1, a2=a2, gain=gain),
+        **dict(shape=b["shape"], turn=TURN_SHARE * b["turn"], force=b["force"]),
+        "project": torch.as_tensor(projection(b["shape"].numpy(), w.numpy())),
+        **dict(rest=b["rest"], rest_a1=rest_a1, rest_a2=rest_a2),
+    }
+
+
+def _side_by_side(rows):
+    """Tensors of several regions as one (R, ...): zeros where one has fewer nodes or modes."""
+    out = rows[0].new_zeros([len(rows)] + [max(sizes) for sizes in zip(*(r.shape for r in rows))])
+    for to, row in zip(out, rows):
+        to[tuple(slice(n) for n in row.shape)] = row
+    return out
+
+
 class ModalBase:
     """Of one body's regions. `bases`: for each a dict of what trajectory.BASIS names."""
 
     def __init__(self, bases, regions_nodes, tick_s, substeps, device="cpu", dtype=torch.float32):
-        R, n = len(bases), max(regions_nodes)
-        K = max(len(b["rad_per_s"]) for b in bases)
-        zeros = lambda *shape: torch.zeros(*shape, dtype=dtype)
         self.tick_s, self.substeps = tick_s, substeps
         self.frame_terms = self.warping = True  # off: the plain models of baselines.py
-        self.rad_per_s, self.damping_ratio = zeros(R, K), zeros(R, K)
-        self.shape, self.turn = zeros(R, 3 * n, K), zeros(R, 3 * n, K)
-        self.force, self.project = zeros(R, K, 3 * n), zeros(R, K, 3 * n)
-        self.rest, self.first, oscillator = zeros(R, 3 * n, 3 * n), zeros(R), zeros(R, 2)
-        for r, b in enumerate(bases):
-            k, m = len(b["rad_per_s"]), 3 * regions_nodes[r]
-            put = lambda to, a: to.copy_(torch.as_tensor(np.array(a)))
-            put(self.rad_per_s[r, :k], b["rad_per_s"])
-            put(self.damping_ratio[r, :k], b["damping_ratio"])
-            put(self.shape[r, :m, :k], b["shape"])
-            put(self.turn[r, :m, :k], TURN_SHARE * np.asarray(b["turn"]))
-            put(self.force[r, :k, :m], b["force"])
-            put(self.rest[r, :m, :m], b["rest"])
-            put(oscillator[r], b["rest_oscillator"])
-            put(
-                self.project[r, :k, :m],
-                projection(np.asarray(b["shape"], float), np.asarray(b["rad_per_s"], float)),
-            )
-            self.first[r] = float(b["rad_per_s"][0])
-        values = recurrence(self.rad_per_s.double(), self.damping_ratio.double(), tick_s, substeps)
-        self.a1, self.a2, self.gain = (v.to(dtype)[..., None] for v in values)
-        values = recurrence(oscillator[:, 0].double(), oscillator[:, 1].double(), tick_s, substeps)
-        self.rest_a1, self.rest_a2 = (v.to(dtype)[:, None, None, None] for v in values[:2])
-        for name, value in list(vars(self).items()):
-            if torch.is_tensor(value):
-                setattr(self, name, value.to(device))
-        self.regions, self.nodes, self.modes = R, n, K
+        self.regions, self.nodes = len(bases), max(regions_nodes)
+        self.modes = max(len(b["rad_per_s"]) for b in bases)
+        regions = [_of_region(b, tick_s, substeps) for b in bases]
+        for name in regions[0]:
+            setattr(self, name, _side_by_side([r[name] for r in regions]).to(device, dtype))
 
     @classmethod
     def union(cls, bases):
-        """Regions of several bodies, one after the other, padded with nodes and modes that do nothing."""
+        """Regions of several bodies, one after the other."""
         out = cls.__new__(cls)
-        out.tick_s, out.frame_terms, out.warping = bases[0].tick_s, True, True
-        out.regions, out.nodes, out.modes = (
-            sum(b.regions for b in bases), max(b.nodes for b in bases), max(b.modes for b in bases)
-        )
-        tall, wide, one = (3 * out.nodes, out.modes), (out.modes, 3 * out.nodes), (out.modes, 1)
-        size = dict(first=(), a1=one, a2=one, gain=one, shape=tall, turn=tall, force=wide, project=wide)
-        size.update(rest=(tall[0], tall[0]), rest_a1=(1, 1, 1), rest_a2=(1, 1, 1))
-        for name, shape in size.items():
-            to = bases[0].shape.new_zeros((out.regions,) + shape)
-            first = 0
-            for b in bases:
-                a = getattr(b, name)
-                to[(slice(first, first + b.regions),) + tuple(slice(0, n) for n in a.shape[1:])] = a
-                first += b.regions
-            setattr(out, name, to)
+        out.tick_s, out.substeps = bases[0].tick_s, bases[0].substeps
+        out.frame_terms = out.warping = True
+        out.regions = sum(b.regions for b in bases)
+        out.nodes, out.modes = max(b.nodes for b in bases), max(b.modes for b in bases)
+        for name in [k for k, v in vars(bases[0]).items() if torch.is_tensor(v)]:
+            setattr(out, name, _side_by_side([row for b in bases for row in getattr(b, name)]))
         return out
 
     def _apply(self, matrix, q):
@@ -164,25 +152,23 @@ class ModalBase:
         return BaseState(zero, zero, zero, q, q, zero, zero, zero)
 
     def predict(self, state, felt, turn_now):
-        """What the modes alone do in a tick: q, what the modes left out add, and l of the next one, and the
-        force in flesh axes that drove them. felt (R, n, B, 3) m/s^2. turn_now: R_t^T R_{t-1} and R_t^T R_{t-2}, each (R, n, B, 3, 3)."""
-        if not self.frame_terms:
-            f = turned(state.theta, felt, transposed=True) if self.warping else felt
-            return self._drive(state, f)
-        carried = sum(
-            sign * (m * u[..., None, :]).sum(-1)
-            for sign, m, u in ((2, turn_now[0], state.u), (-1, turn_now[1], state.u_before))
-        )
-        frame_term = (carried - (2 * state.u - state.u_before)) / self.tick_s**2
-        f = felt + frame_term
-        return self._drive(state, turned(state.theta, f, transposed=True) if self.warping else f)
-
-    def _drive(self, state, f):
+        """What the modes alone do in a tick: (q, what the modes left out add to l), l, and the force in flesh
+        axes that drove them. felt (R, n, B, 3) m/s^2. turn_now: R_t^T R_{t-1} and R_t^T R_{t-2}, each
+        (R, n, B, 3, 3)."""
+        f = felt + self._frame_term(state, turn_now) if self.frame_terms else felt
+        if self.warping:
+            f = turned(state.theta, f, transposed=True)
         q = self.a1 * state.q + self.a2 * state.q_before + self.gain * self._gather(self.force, f)
         goal = self._apply(self.rest, f.transpose(2, 3).reshape(self.regions, 3 * self.nodes, -1))
         swing = self.rest_a1 * state.rest + self.rest_a2 * state.rest_before
         rest = swing + (1 - self.rest_a1 - self.rest_a2) * goal
         return (q, rest), self._apply(self.shape, q) + rest, f
+
+    def _frame_term(self, state, turn_now):
+        """What a node feels of its frame's turning since u was there, m/s^2: exact for these ticks."""
+        apply = lambda m, u: (m * u[..., None, :]).sum(-1)
+        carried = 2 * apply(turn_now[0], state.u) - apply(turn_now[1], state.u_before)
+        return (carried - (2 * state.u - state.u_before)) / self.tick_s**2
 
     def unwarped(self, u, rest):
         """l and q with warped(theta(q), l) = u, by a fixed point; good where turns stay below about 1 rad."""

@@ -83,17 +83,19 @@ def _read_bases(path, tensors, nodes_of_region):
         _checked(path, name + "rad_per_s", len(w) and (w > 0).all(), "no modes, or not all above 0 rad/s")
         shapes = ((1, len(w)), (n, len(w)), (n, len(w)), (len(w), n), (n, n), (1, 2))
         values = [_need(path, tensors, name + k, shape) for k, shape in zip(BASIS[1:], shapes)]
-        _checked(path, name + "damping_ratio", (values[0] >= 0).all(), "below 0")
+        for k, value in (("damping_ratio", values[0]), ("rest_oscillator", values[-1])):
+            _checked(path, name + k, (value >= 0).all(), "below 0")
         bases.append(dict(zip(BASIS, [w, values[0][0], *values[1:-1], values[-1][0]])))
     return bases
 
 
 def _read_nodes(path, tensors):
     """node.region, region.radius_m and edges, after what they say of each other."""
-    region, radius = _need(path, tensors, "node.region", (-1,)), _need(path, tensors, "region.radius_m", (-1,))
-    edges, regions = _need(path, tensors, "edges", (-1, 2)), np.arange(len(radius))
-    in_order = region.dtype.kind == "i" and (np.diff(region) >= 0).all()
-    in_order = in_order and len(region) and np.array_equal(np.unique(region), regions)
+    region = _need(path, tensors, "node.region", (-1,))
+    radius = _need(path, tensors, "region.radius_m", (-1,))
+    edges = _need(path, tensors, "edges", (-1, 2))
+    in_order = len(region) and region.dtype.kind == "i" and (np.diff(region) >= 0).all()
+    in_order = in_order and np.array_equal(np.unique(region), np.arange(len(radius)))
     _checked(path, "node.region", in_order, f"not the numbers of {len(radius)} regions in order")
     _checked(path, "region.radius_m", (radius > 0).all(), "not above 0")
     inside = edges.dtype.kind == "i" and ((edges >= 0) & (edges < len(region))).all()
@@ -129,7 +131,9 @@ def _check_metadata(path, metadata):
         except (KeyError, ValueError):
             good = False
         if not good:
-            raise BadData(f"{path}: metadata {key} is {metadata.get(key)}: not a number above 0; make the file again")
+            raise BadData(
+                f"{path}: metadata {key} is {metadata.get(key)}: not a number above 0; make the file again"
+            )
 
 
 def read_trajectory(path):

@@ -168,8 +168,9 @@ class Refusals(Folder):
             self.refused("tensor region.radius_m")
 
     def test_modes_that_are_none(self):
-        for name, value in (("rad_per_s", 0), ("rad_per_s", -3), ("damping_ratio", -0.1)):
-            self.changed(f"modes.1.{name}", (0, 2), value)
+        broken = (("rad_per_s", 2, 0), ("rad_per_s", 2, -3), ("damping_ratio", 2, -0.1), ("rest_oscillator", 1, -1))
+        for name, place, value in broken:
+            self.changed(f"modes.1.{name}", (0, place), value)
             self.refused(f"modes.1.{name}")
         self.write(**{"modes.0.rad_per_s": np.zeros((1, 0), np.float32)})
         self.refused("modes.0.rad_per_s")
