@@ -43,7 +43,8 @@ class Springs:
         self.log_w = w.log().clone()
         self.log_zeta = torch.full((n,), math.log(0.1))
         self.unit = 1 / (w * w)  # s^2: the answer of an oscillator to a steady 1 m/s^2
-        self.felt = (torch.eye(3) * FIRST_SHARE).repeat(n, 1, 1) if each_node else torch.full((n,), FIRST_SHARE)
+        each = torch.full((n,), FIRST_SHARE)
+        self.felt = each[:, None, None] * torch.eye(3) if each_node else each
         self.turning = torch.zeros(n, 3, 3) if each_node else None
         self.parameters = [self.log_w, self.log_zeta, self.felt] + ([self.turning] if each_node else [])
         for p in self.parameters:
@@ -162,8 +163,8 @@ def plain_models(group, fit_on):
 
 
 def single_step(group):
-    """Error of one tick from the true state, as a share of skinning's: the displacement held, and its velocity
-    kept."""
+    """Error of one tick from the true state, as a share of skinning's: the displacement held, and its
+    velocity kept."""
     u = truth(group)
     size = u[2:].norm(dim=-1).mean()
     share = lambda p: round(float((p - u[2:]).norm(dim=-1).mean() / size), 4)

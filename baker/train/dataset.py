@@ -151,17 +151,16 @@ def read_split(folder, split, body=None):
     return out
 
 
+def _alike(one, other):
+    """Whether two (body's name, trajectory) can share a Group."""
+    (name, a), (other_name, b) = one, other
+    return name == other_name and len(a.drive) == len(b.drive) and a.body.same_as(b.body)
+
+
 def group(named, device="cpu"):
     """One Group for each body and length of (body's name, trajectory) pairs."""
     groups = []
     for name, t in named:
-        mates = next(
-            (
-                g
-                for g in groups
-                if g[0][0] == name and len(g[0][1].drive) == len(t.drive) and g[0][1].body.same_as(t.body)
-            ),
-            None,
-        )
+        mates = next((g for g in groups if _alike(g[0], (name, t))), None)
         mates.append((name, t)) if mates else groups.append([(name, t)])
     return [Group([t for _, t in g], g[0][0], device) for g in groups]

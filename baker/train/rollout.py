@@ -36,7 +36,8 @@ def mirror_signs(device="cpu"):
     flip = torch.ones(INPUT_WIDTH, device=device)
     for name in ORDER:
         if WIDTH[name] == 3:
-            flip[columns(name)] = torch.tensor([1.0, -1, -1] if name in AXIAL else [-1.0, 1, 1], device=device)
+            signs = [1.0, -1, -1] if name in AXIAL else [-1.0, 1, 1]
+            flip[columns(name)] = torch.tensor(signs, device=device)
     return flip
 
 
@@ -83,18 +84,24 @@ def start(model, group, batch):
     return State(base, base.l, None if model is None else model.zero_state(group.regions, group.nodes, batch))
 
 
+def _prepared(model, scaling, group, batch):
+    """Packed weights and static columns, None for the modal base alone, and the state at rest."""
+    state = start(model, group, batch)
+    if model is None:
+        return None, None, state
+    return model.packed(), static_columns(group, scaling, batch), state
+
+
 def single_steps(model, scaling, group):
     """As roll_out, but every tick starts from the true displacement; the network's memory is its own."""
     s = torch.arange(group.count, device=group.device)
     with torch.no_grad():
-        packed, static = (None, None) if model is None else (
-            model.packed(), static_columns(group, scaling, len(s))
-        )
+        packed, static, state = _prepared(model, scaling, group, len(s))
         felt, drive, turn, u = group.window(s, torch.zeros_like(s), group.ticks)
-        state = start(model, group, len(s))
         out = [group.flatten(state.base.u)]
         for t in range(group.ticks):
-            state = tick(model, packed, group, scaling, static, state, felt[t], drive[t], (turn[0][t], turn[1][t]))
+            now = (turn[0][t], turn[1][t])
+            state = tick(model, packed, group, scaling, static, state, felt[t], drive[t], now)
             out.append(group.flatten(state.base.u))
             true = group.base.stand_at(u[t], u[t - 1] if t else torch.zeros_like(u[t]), state.base)
             state = State(true[0], true[1], state.memory)
@@ -110,18 +117,14 @@ def roll_out(model, scaling, group, ticks=None, sequences=None, gain=1.0, still_
     ticks, chunk, top = ticks or group.ticks, 100, 0.0
     moving = min(ticks, group.ticks, still_after or ticks)
     with torch.no_grad():
-        packed, static = (None, None) if model is None else (
-            model.packed(), static_columns(group, scaling, len(s))
-        )
-        state = start(model, group, len(s))
+        packed, static, state = _prepared(model, scaling, group, len(s))
         out = [group.flatten(state.base.u)]
         for first in range(0, ticks, chunk):
             n = min(chunk, ticks - first)
             felt, drive, turn, _ = _driven(group, s, first, n, moving)
             for t in range(n):
-                state = tick(
-                    model, packed, group, scaling, static, state, gain * felt[t], drive[t], (turn[0][t], turn[1][t])
-                )
+                now = (turn[0][t], turn[1][t])
+                state = tick(model, packed, group, scaling, static, state, gain * felt[t], drive[t], now)
                 out.append(group.flatten(state.base.u))
                 top = max(top, largest_cell(state.memory)) if watch is not None and model else top
     if watch is not None:

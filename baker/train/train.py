@@ -19,6 +19,12 @@ from .weights import save_weights
 VALIDATED_TICKS = (50, 150)  # and the whole sequence
 
 
+def _new_model(o):
+    wiring = dict(output_scale=o.output_scale, hidden_leak=o.hidden_leak, state_clamp=o.state_clamp)
+    model = AltConvLSTM(ModelOptions(INPUT_WIDTH, tuple(o.channels), self_weights=True, **wiring))
+    return model.start_for_training().to(o.device)
+
+
 class Trainer:
     def __init__(self, train_groups, validation_groups, options, log=print):
         self.options, self.validation, self.log = options, validation_groups, log
@@ -26,21 +32,7 @@ class Trainer:
         torch.manual_seed(options.seed)
         self.scaling = replace(measure_scaling(train_groups), without=tuple(options.without))
         self.rate_hz = train_groups[0].trajectories[0].rate_hz
-        self.model = (
-            AltConvLSTM(
-                ModelOptions(
-                    INPUT_WIDTH,
-                    tuple(options.channels),
-                    True,
-                    options.output_scale,
-                    0.0,
-                    options.hidden_leak,
-                    options.state_clamp,
-                )
-            )
-            .start_for_training()
-            .to(options.device)
-        )
+        self.model = _new_model(options)
         self.optimizer = torch.optim.Adam(self.model.parameters(), options.learning_rate)
         self.amplitudes = [g.amplitude_m() for g in train_groups]
         self.weight, self.bound = (
@@ -66,15 +58,20 @@ class Trainer:
         return self.elapsed_s / (60 * self.options.minutes)
 
     def _set_rate(self):
-        warm, cosine = min(1.0, self.updates / 30 + 0.1), 0.5 * (
-            1 + math.cos(math.pi * min(1.0, self.fraction()))
-        )
+        warm = min(1.0, self.updates / 30 + 0.1)
+        cosine = 0.5 * (1 + math.cos(math.pi * min(1.0, self.fraction())))
         for group in self.optimizer.param_groups:
             group["lr"] = self.options.learning_rate * warm * (0.97 * cosine + 0.03)
 
     def _start_of_window(self, episode):
         """The last window's end without its gradients; what has left all bounds starts anew; here and there a
         little disturbed."""
+        state = self._without_the_lost(episode)
+        if self.options.disturbance and float(torch.rand(())) < 0.3:
+            state = replace(state, base=self._disturbed(episode.group, state.base))
+        return state
+
+    def _without_the_lost(self, episode):
         g, state = episode.group, episode.state
         base = state.base.map(torch.Tensor.detach)
         memory = [tuple(x.detach() for x in layer) for layer in state.memory]
@@ -85,13 +82,15 @@ class Trainer:
             keep = fine[:, None]
             memory = [tuple(torch.where(keep, x, torch.zeros_like(x)) for x in layer) for layer in memory]
         l_before = torch.where(fine[:, None], state.l_before.detach(), torch.zeros_like(base.l))
-        if self.options.disturbance and float(torch.rand(())) < 0.3:
-            unit = self.scaling.length_unit * g.radius * self.options.disturbance
-            kick = torch.randn(g.regions, g.base.modes, episode.size, device=base.q.device)
-            kick = kick / (1 + torch.arange(g.base.modes, device=kick.device))[None, :, None] * unit[..., 0]
-            moved = g.base.arrive(base, base.l, (base.q, base.rest), g.base._apply(g.base.shape, kick))
-            base = replace(base, l=moved.l, u=moved.u, q=moved.q, theta=moved.theta)
         return State(base, l_before, memory)
+
+    def _disturbed(self, g, base):
+        """Modes kicked, the lower the harder; what was before stays."""
+        unit = self.scaling.length_unit * g.radius * self.options.disturbance
+        lower = 1 / (1 + torch.arange(g.base.modes, device=base.q.device))[:, None]
+        kick = torch.randn_like(base.q) * lower * unit[..., 0]
+        moved = g.base.arrive(base, base.l, (base.q, base.rest), g.base._apply(g.base.shape, kick))
+        return replace(base, l=moved.l, u=moved.u, q=moved.q, theta=moved.theta)
 
     def _tick_loss(self, episode, u, true):
         """Weighted distance to truth; where there is none, what exceeds the bound. u, true (R, n, B, 3)."""
@@ -104,10 +103,9 @@ class Trainer:
         felt, drive, turn, true = episode.next_window()
         state, packed, loss = self._start_of_window(episode), self.model.packed(), 0.0
         for t in range(len(felt)):
-            state = tick(
-                self.model, packed, episode.group, self.scaling, episode.static, state, felt[t], drive[t],
-                (turn[0][t], turn[1][t]), episode.mirror,
-            )
+            now = (turn[0][t], turn[1][t])
+            fixed = (self.model, packed, episode.group, self.scaling, episode.static)
+            state = tick(*fixed, state, felt[t], drive[t], now, episode.mirror)
             loss = loss + self._tick_loss(episode, state.base.u, true[t])
         episode.state = state
         return loss / len(felt)

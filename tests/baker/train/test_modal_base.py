@@ -135,7 +135,7 @@ class Warping(unittest.TestCase):
 class Base(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.exact = support.synthetic_group((0, 1), ticks=60, hardening=0)
+        cls.exact = support.synthetic_group((0, 1), ticks=120, hardening=0)
         cls.group = support.synthetic_group((0, 1), ticks=60)
         cls.scaling = measure_scaling([cls.group])
 
@@ -260,7 +260,7 @@ class Base(unittest.TestCase):
 
     def test_standing_at_the_truth_it_goes_on_as_the_truth(self):
         base, s, t = without_ridge(self.exact.base), torch.tensor([0, 1]), 30
-        felt, _, turn, u = self.exact.window(s, s * 0, 60)
+        felt, _, turn, u = self.exact.window(s, s * 0, t + 1)
         there = support.base_states(self.exact, None, self.scaling, s, t)[-1]
         state, _ = base.stand_at(u[t - 1], u[t - 2], there)
         answer, l, _ = base.predict(state, felt[t], (turn[0][t], turn[1][t]))
