@@ -73,7 +73,8 @@ class Group:
     def amplitude_m(self):
         """(R, S): root mean square of |u| in each region and sequence."""
         u = self.displacement[:, ::2].square().sum(-1)  # (S, T/2, N)
-        of = lambda r: u[..., torch.as_tensor(np.array(self.body.region) == r, device=self.device)].mean((1, 2))
+        nodes = lambda r: torch.as_tensor(np.array(self.body.region) == r, device=self.device)
+        of = lambda r: u[..., nodes(r)].mean((1, 2))
         return torch.stack([of(r) for r in range(self.regions)]).sqrt().clamp(min=1e-5)
 
     def radius_m(self):
@@ -145,9 +146,10 @@ def read_split(folder, split, body=None):
             f"{os.path.join(folder, SHEET)}: no {split} sequences; run `baker/train generate` again"
         )
     out = [(b, read_trajectory(p)) for b, p in found]
-    rates = {t.rate_hz for _, t in out}
-    if len(rates) > 1:
-        raise BadData(f"{folder}: sequences of several rates ({sorted(rates)} Hz); one data set has one rate")
+    for what in ("rate_hz", "substeps"):
+        values = {getattr(t, what) for _, t in out}
+        if len(values) > 1:
+            raise BadData(f"{folder}: sequences of several {what} ({sorted(values)}); one data set has one")
     return out
 
 

@@ -66,8 +66,8 @@ def held(theta):
 
 @dataclass
 class BaseState:
-    """Of the last two ticks: u (R, n, B, 3), q (R, K, B), and what the modes left out add to l, rest (R, n, B,
-    3); of the last: l, theta."""
+    """Of the last two ticks: u (R, n, B, 3), q (R, K, B), and rest (R, n, B, 3), what the modes left out add to
+    l; of the last: l, theta."""
 
     l: torch.Tensor
     u: torch.Tensor
@@ -187,7 +187,7 @@ class ModalBase:
         return BaseState(l, u, u_before, q, q_before, theta, state.rest, state.rest_before), l_before
 
     def arrive(self, state, l, answer, correction=None):
-        """The state after a tick: l and the answer (q, rest) of predict(), and what a network adds to that l."""
+        """The state after a tick: the l and (q, rest) of predict(), and what a network adds to that l."""
         q, rest = answer
         if correction is not None:
             l, q = l + correction, q + self._gather(self.project, correction)

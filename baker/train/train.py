@@ -31,7 +31,8 @@ class Trainer:
         self.bodies = Union(train_groups)
         torch.manual_seed(options.seed)
         self.scaling = replace(measure_scaling(train_groups), without=tuple(options.without))
-        self.rate_hz = train_groups[0].trajectories[0].rate_hz
+        first = train_groups[0].trajectories[0]
+        self.rate_hz, self.substeps = first.rate_hz, first.substeps
         self.model = _new_model(options)
         self.optimizer = torch.optim.Adam(self.model.parameters(), options.learning_rate)
         self.amplitudes = [g.amplitude_m() for g in train_groups]
@@ -251,6 +252,7 @@ def train(data, out, options, log=print):
         trainer.scaling,
         trainer.rate_hz,
         {
+            "base_substeps": trainer.substeps,
             "seed": options.seed,
             "recipe": json.dumps(vars(options)),
             "trained_minutes": f"{trainer.elapsed_s / 60:.2f}",

@@ -1,5 +1,6 @@
 """Stands in for `sinew-bake creature` and `sinew-bake truth` where a test is about who calls them and when:
-notes every call in the file of SINEW_PRETEND_LOG, fails for outputs and motions that SINEW_PRETEND_FAIL names."""
+notes every call in the file of SINEW_PRETEND_LOG, fails for outputs and motions that SINEW_PRETEND_FAIL
+names."""
 import argparse
 import json
 import os

@@ -1,6 +1,6 @@
 """Trajectories of a made-up body, in the format of `sinew-bake truth`: modes in node frames, written out in
-double precision tick by tick as the equations stand, with a spring on top that hardens. Quick, and enough like
-flesh to tell whether training works."""
+double precision tick by tick as the equations stand, with a spring on top that hardens. Quick, and enough
+like flesh to tell whether training works."""
 import numpy as np
 
 from train.modal_base import LARGEST_TURN, TURN_SHARE
@@ -22,7 +22,7 @@ def skew(v):
 
 
 def turn_and_mean(theta):
-    """exp([theta]x) and the mean of exp(s [theta]x) over s in 0..1, by Rodrigues' formula; (..., 3, 3) both."""
+    """exp([theta]x) and the mean of exp(s [theta]x) over s in 0..1, by Rodrigues' formula; (..., 3, 3)."""
     a = np.maximum(np.linalg.norm(theta, axis=-1), 1e-9)[..., None, None]
     k = skew(theta) / a
     turn = np.eye(3) + np.sin(a) * k + (1 - np.cos(a)) * k @ k
@@ -30,7 +30,8 @@ def turn_and_mean(theta):
 
 
 def recurrence(w, zeta, substeps=SUBSTEPS):
-    """a1, a2, gain of each mode, by stepping an oscillator from two starts and at rest under a force."""
+    """a1, a2, gain of each mode, by stepping an oscillator from two starts."""
+
     def tick(q, v, p):
         h = H / substeps
         for _ in range(substeps):
@@ -119,7 +120,8 @@ def drive_of(place, frame):
     apply = lambda m, v: (m @ v[..., None])[..., 0]
     acceleration = (place - 2 * before(place) + before(before(place))) / H**2
     a_tick = before(back) @ frame
-    omega = np.stack([a_tick[..., i, j] - a_tick[..., j, i] for i, j in ((2, 1), (0, 2), (1, 0))], -1) / (2 * H)
+    odd = [a_tick[..., i, j] - a_tick[..., j, i] for i, j in ((2, 1), (0, 2), (1, 0))]
+    omega = np.stack(odd, -1) / (2 * H)
     gravity = np.broadcast_to(GRAVITY, place.shape)
     alpha = (omega - before(omega)) / H
     return np.concatenate(

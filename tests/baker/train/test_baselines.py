@@ -134,7 +134,8 @@ class All(unittest.TestCase):
         group = support.synthetic_group((0,), ticks=50)
         t = torch.arange(51.0)[:, None, None]
         group.displacement = (t * 1e-3).expand_as(group.displacement)
-        self.assertEqual(single_step(group), {"hold": round(1 / 26, 4), "constant_velocity": 0})  # of 2 to 50: 26
+        mean = 26  # of 2 .. 50
+        self.assertEqual(single_step(group), {"hold": round(1 / mean, 4), "constant_velocity": 0})
 
 
 if __name__ == "__main__":

@@ -168,9 +168,9 @@ class Refusals(Folder):
             self.refused("tensor region.radius_m")
 
     def test_modes_that_are_none(self):
-        broken = (("rad_per_s", 2, 0), ("rad_per_s", 2, -3), ("damping_ratio", 2, -0.1), ("rest_oscillator", 1, -1))
-        for name, place, value in broken:
-            self.changed(f"modes.1.{name}", (0, place), value)
+        broken = (("rad_per_s", 0), ("rad_per_s", -3), ("damping_ratio", -1), ("rest_oscillator", -1))
+        for name, value in broken:
+            self.changed(f"modes.1.{name}", (0, 1), value)
             self.refused(f"modes.1.{name}")
         self.write(**{"modes.0.rad_per_s": np.zeros((1, 0), np.float32)})
         self.refused("modes.0.rad_per_s")
@@ -204,13 +204,14 @@ class Sheets(Folder):
         self.refused("unusable data sheet", sequences=3)
         self.refused("unusable data sheet", bodies=[])
 
-    def test_sequences_of_several_rates(self):
-        sequences = []
-        for rate in (60, 30):
-            tensors, metadata = synthetic.trajectory(1, TICKS)
-            save(self.place(f"{rate}.safetensors"), tensors, {**metadata, "rate_hz": rate})
-            sequences.append({"file": f"{rate}.safetensors", "split": "train"})
-        self.refused("several rates", sequences=sequences)
+    def test_sequences_of_several_rates_or_substeps(self):
+        tensors, metadata = synthetic.trajectory(1, TICKS)
+        for name in ("rate_hz", "substeps"):
+            sequences = []
+            for value in (4, 60):
+                save(self.place(f"{value}.safetensors"), tensors, {**metadata, name: value})
+                sequences.append({"file": f"{value}.safetensors", "split": "train"})
+            self.refused(f"several {name}", sequences=sequences)
 
     def test_one_body_may_be_asked_for(self):
         support.write_data_set(self.folder.name, 2, 1, 1, TICKS)
