@@ -1,8 +1,8 @@
 // modes_pack.cpp  Modal bases to the sections that the tiers modal and spring run on.
 #include "baker/pack/modes_pack.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <cmath>
 
 #include "baker/common/bad_input.hpp"
@@ -21,13 +21,17 @@ void check_basis(const Region& region, const ModalBasis& basis) {
   const Index rows = 3 * region.node_count, modes = basis.rad_per_s.size();
   const bool fits = basis.damping_ratio.size() == modes && basis.shape.rows() == rows &&
                     basis.shape.cols() == modes && basis.turn.rows() == rows && basis.turn.cols() == modes &&
-                    basis.force.rows() == modes && basis.force.cols() == rows;
+                    basis.force.rows() == modes && basis.force.cols() == rows && basis.rest.rows() == rows &&
+                    basis.rest.cols() == rows;
   if (!fits || modes > kMostModes)
     throw BadInput("region '" + region.name + "': a modal basis of another shape, or of more than " +
                    std::to_string(kMostModes) + " modes");
   const bool good = basis.shape.allFinite() && basis.turn.allFinite() && basis.force.allFinite() &&
                     (basis.rad_per_s.array() > 0).all() && basis.rad_per_s.allFinite() &&
-                    (basis.damping_ratio.array() >= 0).all() && basis.damping_ratio.allFinite();
+                    (basis.damping_ratio.array() >= 0).all() && basis.damping_ratio.allFinite() &&
+                    basis.rest.allFinite() && basis.rest_rad_per_s >= 0 &&
+                    std::isfinite(basis.rest_rad_per_s) && basis.rest_damping_ratio >= 0 &&
+                    std::isfinite(basis.rest_damping_ratio);
   if (!good)
     throw BadInput("region '" + region.name +
                    "': its modes hold numbers that are not finite; is the mesh damaged there?");
@@ -41,19 +45,28 @@ void append_rows(const MatrixXd& rows, uint32_t padded, std::vector<float>* out)
   }
 }
 
+MatrixXd projection(const ModalBasis& basis) {
+  if (basis.rad_per_s.size() == 0) return basis.shape.transpose();
+  const double nodes = static_cast<double>(basis.shape.rows()) / 3;
+  MatrixXd square = basis.shape.transpose() * basis.shape;
+  square.diagonal() += kRidge * nodes * (basis.rad_per_s / basis.rad_per_s[0]).cwiseAbs2();
+  return square.ldlt().solve(basis.shape.transpose());
+}
+
 void append_matrices(const ModalBasis& basis, uint32_t padded, std::vector<float>* out) {
-  if (basis.rad_per_s.size() == 0) return;
   append_rows(basis.shape.transpose(), padded, out);
-  append_rows(basis.turn.transpose(), padded, out);
+  append_rows(kTurnShare * basis.turn.transpose(), padded, out);
   append_rows(basis.force, padded, out);
-  append_rows(basis.shape.completeOrthogonalDecomposition().pseudoInverse(), padded, out);
+  append_rows(projection(basis), padded, out);
+  append_rows(basis.rest, padded, out);
 }
 
 // C_i: the static displacement of each node under a uniform felt acceleration, row-major 3x3.
 void append_compliance(const ModalBasis& basis, int nodes, std::vector<float>* out) {
   MatrixXd uniform = MatrixXd::Zero(basis.force.rows(), 3);
   for (int n = 0; n < nodes; ++n) uniform += basis.force.middleCols(3 * n, 3);
-  const MatrixXd compliance = basis.shape * basis.rad_per_s.cwiseAbs2().cwiseInverse().asDiagonal() * uniform;
+  MatrixXd compliance = basis.shape * basis.rad_per_s.cwiseAbs2().cwiseInverse().asDiagonal() * uniform;
+  for (int n = 0; n < nodes; ++n) compliance += basis.rest.middleCols(3 * n, 3);
   for (Index row = 0; row < 3 * nodes; ++row)
     for (Index column = 0; column < 3; ++column) out->push_back(static_cast<float>(compliance(row, column)));
 }
@@ -80,6 +93,10 @@ void append_region(const Region& region, const ModalBasis& basis, const TickGrid
   record.matrices = to->matrices.size();
   record.padded = static_cast<uint32_t>((3 * region.node_count + 15) / 16 * 16);
   record.first_rad_per_s = static_cast<float>(first);
+  const Recurrence rest = modal_recurrence(basis.rest_rad_per_s, basis.rest_damping_ratio, grid);
+  record.rest_a1 = rest.a1;
+  record.rest_a2 = rest.a2;
+  record.rest_gain = 1 - rest.a1 - rest.a2;
   to->regions.push_back(record);
   for (Index k = 0; k < basis.rad_per_s.size(); ++k)
     to->modes.push_back(mode_record(basis.rad_per_s[k], basis.damping_ratio[k], grid));
@@ -93,6 +110,7 @@ void append_region(const Region& region, const ModalBasis& basis, const TickGrid
 }  // namespace
 
 Recurrence modal_recurrence(double rad_per_s, double damping_ratio, const TickGrid& grid) {
+  if (rad_per_s == 0) return {};
   const double h = 1 / (grid.rate_hz * grid.substeps), w2 = rad_per_s * rad_per_s;
   const double d = 1 + 2 * damping_ratio * rad_per_s * h + w2 * h * h;
   Eigen::Matrix2d substep, tick = Eigen::Matrix2d::Identity();

@@ -8,7 +8,6 @@ namespace sinew::pack {
 namespace {
 
 constexpr uint32_t kMaxModes = 64;  // a region's
-constexpr uint64_t kMatrices = 4;   // shape, turn, force, project
 
 // Both roots of z^2 = a1 z + a2 lie inside the unit circle (Jury). False for NaN.
 bool is_stable(float a1, float a2) noexcept { return a2 > -1 && std::fabs(a1) < 1 - a2; }
@@ -30,12 +29,21 @@ Status check_record(const PackView& pack, const RegionModesRecord& modes, size_t
     return corrupt("region modes %zu: nodes padded to %u", index, modes.padded);
   if (!is_positive(modes.first_rad_per_s))
     return corrupt("region modes %zu: first mode at %g rad/s", index, double{modes.first_rad_per_s});
+  if (!is_stable(modes.rest_a1, modes.rest_a2))
+    return corrupt("region modes %zu: the rest's recurrence %g, %g grows", index, double{modes.rest_a1},
+                   double{modes.rest_a2});
+  if (!std::isfinite(modes.rest_gain)) return corrupt("region modes %zu: rest_gain is not finite", index);
   return check_zero(modes.reserved, "region modes", index);
+}
+
+// shape, turn, force and project, then rest.
+uint64_t rows_of(const PackView& pack, const RegionModesRecord& modes, size_t index) noexcept {
+  return uint64_t{4} * modes.mode_count + uint64_t{3} * pack.regions[index].node_count;
 }
 
 Status check_matrices(const PackView& pack, const RegionModesRecord& modes, size_t index) noexcept {
   const size_t used = size_t{3} * pack.regions[index].node_count;
-  for (uint64_t row = 0; row < kMatrices * modes.mode_count; ++row) {
+  for (uint64_t row = 0; row < rows_of(pack, modes, index); ++row) {
     const auto values = pack.mode_matrices.subspan(modes.matrices + row * modes.padded, modes.padded);
     if (first_not_finite(values) != values.size())
       return corrupt("region modes %zu: a number of a matrix is not finite", index);
@@ -50,7 +58,7 @@ Status check_regions(const PackView& pack) noexcept {
   for (size_t index = 0; index < pack.region_modes.size(); ++index) {
     const RegionModesRecord& modes = pack.region_modes[index];
     if (Status status = check_record(pack, modes, index); !status.ok()) return status;
-    const uint64_t floats = kMatrices * modes.mode_count * modes.padded;
+    const uint64_t floats = rows_of(pack, modes, index) * modes.padded;
     if (modes.first_mode != mode || modes.mode_count > pack.modes.size() - mode)
       return corrupt("region modes %zu: modes do not follow the region before it", index);
     if (modes.matrices != matrices || floats > pack.mode_matrices.size() - matrices)

@@ -140,7 +140,7 @@ struct LayerRecord {
 static_assert(sizeof(LayerRecord) == 64);
 
 // What a node may be fed, in the order of the kInputs section. Vectors lie along the axes of the node's own
-// frame (tissue/node_pose.hpp, node_drive.hpp); l, l^, theta, f and phi as in tissue/modal_base.hpp; w1 is
+// frame (tissue/node_pose.hpp, node_drive.hpp); l, l^, theta and e as in tissue/modal_base.hpp; w1 is
 // first_rad_per_s of the region, a length unit length_unit x radius_m. Numbers 4 to 7 were version 1's.
 enum class InputKind : uint32_t {
   kRestPosition = 1,         // 3: bind position less the region's centre, in region radii
@@ -151,7 +151,7 @@ enum class InputKind : uint32_t {
   kGravityChange = 10,       // 3: gravity less gravity in the bind pose, m/s^2
   kDisplacement = 11,        // 3: l of the last tick, length units
   kVelocity = 12,            // 3: l of the last tick less the one before, length units a tick
-  kFeltStep = 13,            // 3: (f + phi) / w1^2, length units
+  kFeltStep = 13,            // 3: e / w1^2, length units
   kBaseStep = 14,            // 3: l^ - l of the last tick, length units
   kTurn = 15,                // 3: theta of the last tick, rad
   kFrequency = 16,           // 1: w1 x tick, rad
@@ -212,16 +212,19 @@ struct NodeRecord {
 };
 static_assert(sizeof(NodeRecord) == 80);
 
-// A region's modal base (tissue/modal_base.hpp): q_t = a1 q_{t-1} + a2 q_{t-2} + gain force e, l = shape q.
-// At `matrices`, one after the other without gaps, each [mode_count][padded] with x y z of the region's nodes
-// in a row and zeros behind them: shape, turn (rotation vectors a unit of q), force, project (the
-// pseudo-inverse of shape: q from l).
+// A region's modal base (tissue/modal_base.hpp): q_t = a1 q_{t-1} + a2 q_{t-2} + gain force e, and the modes
+// left out as one oscillator, r_t = rest_a1 r_{t-1} + rest_a2 r_{t-2} + rest_gain rest e; l = shape q + r. At
+// `matrices`, one after the other without gaps, with x y z of the region's nodes in a row and zeros behind
+// them: shape, turn (rotation vectors a unit of q), force, project (q from l), each [mode_count][padded], and
+// rest, [3 node_count][padded], s^2.
 struct RegionModesRecord {
   uint32_t first_mode, mode_count;  // in kModes; 0..64
   uint64_t matrices;                // float offset in kModeMatrices
   uint32_t padded;                  // 3 node_count rounded up to 16
   float first_rad_per_s;            // w1, > 0; a region without modes has one too, for its length of time
-  uint32_t reserved[10];
+  float rest_a1, rest_a2;           // stable, as a mode's
+  float rest_gain;                  // 1 - rest_a1 - rest_a2
+  uint32_t reserved[7];
 };
 static_assert(sizeof(RegionModesRecord) == 64);
 

@@ -75,19 +75,21 @@ uint32_t hold_at_limit(const pack::RegionRecord& region, const NodeMemory& memor
   return held;
 }
 
-uint32_t hold_base_at_limit(const pack::RegionRecord& region, uint32_t modes, float* l, float* q,
-                            float* q_before) noexcept {
+uint32_t hold_base_at_limit(const pack::RegionRecord& region, uint32_t modes, float* l, const TwoTicks& q,
+                            const TwoTicks& r) noexcept {
+  const uint32_t floats = 3 * region.node_count;
   uint32_t beyond = 0;
   float largest_m = 0;
-  for (uint32_t i = 0; i < region.node_count; ++i) {
-    const float length = std::hypot(l[3 * i], l[3 * i + 1], l[3 * i + 2]);
+  for (uint32_t i = 0; i < floats; i += 3) {
+    const float length = std::hypot(l[i], l[i + 1], l[i + 2]);
     beyond += length > region.displacement_limit_m;
     largest_m = std::max(largest_m, length);
   }
   if (beyond == 0) return 0;
   const float scale = region.displacement_limit_m / largest_m;
-  for (uint32_t i = 0; i < 3 * region.node_count; ++i) l[i] *= scale;
-  for (uint32_t k = 0; k < modes; ++k) q_before[k] = q[k] *= scale;
+  for (uint32_t i = 0; i < floats; ++i) l[i] *= scale;
+  for (uint32_t i = 0; i < floats; ++i) r.before[i] = r.now[i] *= scale;
+  for (uint32_t k = 0; k < modes; ++k) q.before[k] = q.now[k] *= scale;
   return beyond;
 }
 

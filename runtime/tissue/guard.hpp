@@ -28,11 +28,15 @@ struct NodeMemory {
 uint32_t hold_at_limit(const pack::RegionRecord& region, const NodeMemory& memory, float* l,
                        float* l_before) noexcept;
 
-// A modal base that brings a node beyond the region's limit is scaled as a whole, l and q alike, and stops:
-// q_before becomes q. Holding single nodes and projecting would push stiff modes with what was cut off.
-// l: [region nodes][3], metres; q, q_before: [modes]. Returns the nodes that were beyond.
-uint32_t hold_base_at_limit(const pack::RegionRecord& region, uint32_t modes, float* l, float* q,
-                            float* q_before) noexcept;
+struct TwoTicks {
+  float *now, *before;
+};
+
+// A modal base that brings a node beyond the region's limit is scaled as a whole, l, q and r alike, and
+// stops: what was before becomes what is now. Holding single nodes and projecting would push stiff modes with
+// what was cut off. l, r: [region nodes][3], metres; q: [modes]. Returns the nodes that were beyond.
+uint32_t hold_base_at_limit(const pack::RegionRecord& region, uint32_t modes, float* l, const TwoTicks& q,
+                            const TwoTicks& r) noexcept;
 
 // l ([node_count][3], metres) of y and back.
 void read_output(const Network& network, std::span<const pack::RegionRecord> regions, uint32_t node_count,

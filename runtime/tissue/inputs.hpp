@@ -15,7 +15,7 @@ struct NodeSources {  // of one region; every array starts at the region's first
   const pack::RegionRecord* region;
   const pack::NodeRecord* nodes;
   const float* drive;     // [nodes][kNodeDriveWidth], tissue/node_drive.hpp
-  const float* felt;      // [nodes][3], m/s^2: f + phi, tissue/modal_base.hpp
+  const float* felt;      // [nodes][3], m/s^2: e, tissue/modal_base.hpp
   const float* l;         // [nodes][3], metres, of the last tick
   const float* l_before;  // [nodes][3], metres, of the tick before
   const float* l_hat;     // [nodes][3], metres: what the modal base says of this tick

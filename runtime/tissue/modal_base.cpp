@@ -62,7 +62,11 @@ ModalBase modal_base(const pack::PackView& pack, size_t region) noexcept {
           .shape = matrices,
           .turn = matrices + plane,
           .force = matrices + 2 * plane,
-          .project = matrices + 3 * plane};
+          .project = matrices + 3 * plane,
+          .rest = matrices + 4 * plane,
+          .rest_a1 = record.rest_a1,
+          .rest_a2 = record.rest_a2,
+          .rest_gain = record.rest_gain};
 }
 
 // R_t^T (2 (R_{t-1} - R_t) u_{t-1} - (R_{t-2} - R_t) u_{t-2}) / h^2: differences of frames first, so that
@@ -93,22 +97,32 @@ void warp(const float theta[3], const float l[3], float out[3]) noexcept {
   Eigen::Map<Vector3f>{out} = v + series.c * turned + series.d * t.cross(turned);
 }
 
-void modal_step(const ModalBase& base, const float* felt, const float* theta, const float* q,
-                const float* q_before, float* e, float* q_hat, float* l_hat) noexcept {
+void modal_step(const ModalBase& base, const float* felt, const ModalState& state, float* e,
+                const ModalAnswer& answer) noexcept {
   const simd::Kernels& kernels = simd::kernels();
   const auto modes = static_cast<uint32_t>(base.modes.size());
-  for (uint32_t i = 0; i < base.node_count; ++i) turn_back(theta + 3 * i, felt + 3 * i, e + 3 * i);
+  const uint32_t floats = 3 * base.node_count;
+  for (uint32_t i = 0; i < floats; i += 3) turn_back(state.theta + i, felt + i, e + i);
   clear_padding(base, e);
-  kernels.dot_rows(base.force, modes, base.padded, e, q_hat);
+  kernels.dot_rows(base.force, modes, base.padded, e, answer.q);
   for (uint32_t k = 0; k < modes; ++k) {
     const pack::ModeRecord& mode = base.modes[k];
-    q_hat[k] = mode.a1 * q[k] + mode.a2 * q_before[k] + mode.gain * q_hat[k];
+    answer.q[k] = mode.a1 * state.q[k] + mode.a2 * state.q_before[k] + mode.gain * answer.q[k];
   }
-  kernels.add_rows(base.shape, modes, base.padded, q_hat, l_hat);
+  kernels.add_rows(base.shape, modes, base.padded, answer.q, answer.l);
+  kernels.dot_rows(base.rest, floats, base.padded, e, answer.r);
+  for (uint32_t i = 0; i < floats; ++i) {
+    answer.r[i] = base.rest_a1 * state.r[i] + base.rest_a2 * state.r_before[i] + base.rest_gain * answer.r[i];
+    answer.l[i] += answer.r[i];
+  }
 }
 
 void modal_project(const ModalBase& base, const float* l, float* q) noexcept {
-  simd::kernels().dot_rows(base.project, static_cast<uint32_t>(base.modes.size()), base.padded, l, q);
+  constexpr uint32_t kMostModes = 64;  // of a region, by the format
+  float add[kMostModes];
+  const auto modes = static_cast<uint32_t>(base.modes.size());
+  simd::kernels().dot_rows(base.project, modes, base.padded, l, add);
+  for (uint32_t k = 0; k < modes; ++k) q[k] += add[k];
 }
 
 void modal_turn(const ModalBase& base, const float* q, float* turned, float* theta) noexcept {

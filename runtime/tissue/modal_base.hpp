@@ -5,12 +5,14 @@
 // coordinates. One tick, h long, from t-1 to t:
 //   phi   = [R_t^T (2 R_{t-1} u_{t-1} - R_{t-2} u_{t-2}) - (2 u_{t-1} - u_{t-2})] / h^2
 //   e     = exp([theta_{t-1}]x)^T (f + phi)
-//   q^    = a1 q_{t-1} + a2 q_{t-2} + gain force e,   l^ = shape q^
+//   q^    = a1 q_{t-1} + a2 q_{t-2} + gain force e
+//   r     = rest_a1 r_{t-1} + rest_a2 r_{t-2} + rest_gain rest e,   l^ = shape q^ + r
 //   theta = turn q_t, |theta| held at 2 rad,          u_t = W(theta) l_t
 // phi is what a frame that turns does to what moves in it (Coriolis, centrifugal and Euler, exact for the
 // differences taken here). W(theta), the mean of the rotations from 0 to theta, is modal warping (Choi & Ko
-// 2005): a bent tail stays as long as it was. On the modal base alone l = l^ and q = q^; a network corrects
-// l^ to l, and q_t = project l_t. No simulated sequence enters: modes, shapes and forces are the flesh's own.
+// 2005): a bent tail stays as long as it was. r is the answer of the modes left out, exact at rest (residual
+// flexibility; MacNeal 1971). On the modal base alone l = l^ and q = q^; a network corrects l^ to l, and
+// q_t = q^ + project (l_t - l^). No simulated sequence enters: modes, shapes and forces are the flesh's own.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -27,7 +29,8 @@ struct ModalBase {
   std::span<const pack::ModeRecord> modes;
   uint32_t node_count = 0;
   uint32_t padded = 0;  // floats in a row
-  const float *shape = nullptr, *turn = nullptr, *force = nullptr, *project = nullptr;
+  const float *shape = nullptr, *turn = nullptr, *force = nullptr, *project = nullptr, *rest = nullptr;
+  float rest_a1 = 0, rest_a2 = 0, rest_gain = 0;
 };
 ModalBase modal_base(const pack::PackView& pack, size_t region) noexcept;
 
@@ -41,12 +44,21 @@ void frame_term(const NodePose* const pose[3], const float* u, const float* u_be
 void turn_back(const float theta[3], const float felt[3], float out[3]) noexcept;  // exp([theta]x)^T felt
 void warp(const float theta[3], const float l[3], float out[3]) noexcept;          // W(theta) l
 
-// In the calls below q, q_before and q_hat are [modes]; felt and theta [node_count][3]; e, l_hat, l and
-// turned [padded], 64-byte aligned, zero behind the nodes. e and turned are scratch. q_hat = q^ and l_hat =
-// shape q^, felt = f + phi, theta of t-1.
-void modal_step(const ModalBase& base, const float* felt, const float* theta, const float* q,
-                const float* q_before, float* e, float* q_hat, float* l_hat) noexcept;
-// q = project l.
+// What a tick goes on from: q [modes] and r [node_count][3] of the last two, theta [node_count][3] of the
+// last.
+struct ModalState {
+  const float *q, *q_before, *r, *r_before, *theta;
+};
+// Where it leads: q^ [modes], r [node_count][3], l^ [padded].
+struct ModalAnswer {
+  float *q, *r, *l;
+};
+
+// In the calls below e, l, l^ and turned are [padded], 64-byte aligned, zero behind the nodes; turned is
+// scratch. felt [node_count][3] = f + phi; e comes out as above.
+void modal_step(const ModalBase& base, const float* felt, const ModalState& state, float* e,
+                const ModalAnswer& answer) noexcept;
+// q += project l.
 void modal_project(const ModalBase& base, const float* l, float* q) noexcept;
 // theta = turn q, held.
 void modal_turn(const ModalBase& base, const float* q, float* turned, float* theta) noexcept;

@@ -35,6 +35,7 @@ void lay_out_state(const Asset& asset, core::Arena& arena, Instance& to) noexcep
   for (float*& l : to.l) l = arena.take<float>(vectors);
   to.theta = arena.take<float>(vectors);
   for (float*& q : to.q) q = arena.take<float>(asset.mode_count());
+  for (float*& r : to.r) r = arena.take<float>(vectors);
   to.tail = arena.take<float>(vectors);
   to.tail_velocity = arena.take<float>(vectors);
   for (float*& shown : to.shown) shown = arena.take<float>(vectors);
@@ -49,7 +50,8 @@ void lay_out_scratch(const Asset& asset, core::Arena& arena, Instance& to) noexc
   to.next_parts = arena.take<JointParts>(joints);
   to.tick_joints = arena.take<Matrix34>(joints);
   to.drive = arena.take<float>(size_t{tissue::kNodeDriveWidth} * nodes);
-  for (float** vectors : {&to.felt, &to.l_hat, &to.carry}) *vectors = arena.take<float>(size_t{3} * nodes);
+  for (float** vectors : {&to.felt, &to.l_hat, &to.r_hat, &to.carry})
+    *vectors = arena.take<float>(size_t{3} * nodes);
   to.q_hat = arena.take<float>(asset.mode_count());
   for (float*& region : to.region) region = arena.take<float>(asset.widest_region);
   to.inputs = arena.take<float>(tissue::input_stride(asset.network) * nodes);

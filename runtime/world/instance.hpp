@@ -86,7 +86,7 @@ struct Instance {
   tissue::NodePose* poses[3] = {};  // [nodes] of the last three ticks, newest first
   float* network_state = nullptr;
   float *u[2] = {}, *l[2] = {}, *theta = nullptr;   // newest first
-  float* q[2] = {};                                 // [modes of all regions], newest first
+  float *q[2] = {}, *r[2] = {};                     // q: [modes of all regions]
   float *tail = nullptr, *tail_velocity = nullptr;  // velocity a tick
   float* shown[2] = {};                             // newest first
   size_t state_bytes = 0;
@@ -96,7 +96,7 @@ struct Instance {
   RootStep root_step{};
   Matrix34* tick_joints = nullptr;  // [joints]
   float* drive = nullptr;           // [nodes][kNodeDriveWidth]
-  float *felt = nullptr, *l_hat = nullptr, *q_hat = nullptr, *carry = nullptr;
+  float *felt = nullptr, *l_hat = nullptr, *r_hat = nullptr, *q_hat = nullptr, *carry = nullptr;
   float *inputs = nullptr, *network_scratch = nullptr;
   float* region[2] = {};  // one region's x y z, padded
 

@@ -58,7 +58,7 @@ bool spring_tick(Instance& instance) noexcept {
 
 // ---- modes ----
 
-// felt = f + phi, then q_hat and l_hat. False where they are not finite.
+// felt = f + phi, then e; q_hat, r_hat and l_hat. False where they are not finite.
 bool base_step(Instance& instance) noexcept {
   const Asset& asset = *instance.asset;
   const tissue::NodePose* const poses[3] = {instance.poses[0], instance.poses[1], instance.poses[2]};
@@ -69,30 +69,39 @@ bool base_step(Instance& instance) noexcept {
       instance.felt[3 * n + k] += instance.drive[tissue::kNodeDriveWidth * n + k];
   }
   for_each_part(instance, [&](const Part& part) {
-    tissue::modal_step(part.base, instance.felt + part.vector, instance.theta + part.vector,
-                       instance.q[0] + part.mode, instance.q[1] + part.mode, instance.region[0],
-                       instance.q_hat + part.mode, instance.region[1]);
+    const tissue::ModalState state{.q = instance.q[0] + part.mode,
+                                   .q_before = instance.q[1] + part.mode,
+                                   .r = instance.r[0] + part.vector,
+                                   .r_before = instance.r[1] + part.vector,
+                                   .theta = instance.theta + part.vector};
+    tissue::modal_step(
+        part.base, instance.felt + part.vector, state, instance.region[0],
+        {.q = instance.q_hat + part.mode, .r = instance.r_hat + part.vector, .l = instance.region[1]});
+    std::copy_n(instance.region[0], 3 * part.record.node_count, instance.felt + part.vector);
     std::copy_n(instance.region[1], 3 * part.record.node_count, instance.l_hat + part.vector);
   });
   return tissue::all_finite(instance.l_hat, floats_of(instance)) &&
          tissue::all_finite(instance.q_hat, asset.mode_count());
 }
 
-// What is the last tick's now, and this tick's before, in q: overwritten where a region is stopped.
+// What is the last tick's now, and this tick's before, in q and r: overwritten where a region is stopped.
 uint32_t hold_base(Instance& instance) noexcept {
   uint32_t held = 0;
   for_each_part(instance, [&](const Part& part) {
     held += tissue::hold_base_at_limit(part.record, static_cast<uint32_t>(part.base.modes.size()),
-                                       instance.l_hat + part.vector, instance.q_hat + part.mode,
-                                       instance.q[0] + part.mode);
+                                       instance.l_hat + part.vector,
+                                       {instance.q_hat + part.mode, instance.q[0] + part.mode},
+                                       {instance.r_hat + part.vector, instance.r[0] + part.vector});
   });
   return held;
 }
 
-void project(Instance& instance, const Part& part, const float* l, float* q) noexcept {
+// q += project (l - from).
+void project_change(Instance& instance, const Part& part, const float* l, const float* from,
+                    float* q) noexcept {
   float* padded = instance.region[0];
   const size_t floats = size_t{3} * part.record.node_count;
-  std::copy_n(l + part.vector, floats, padded);
+  for (size_t i = 0; i < floats; ++i) padded[i] = l[part.vector + i] - from[part.vector + i];
   std::fill(padded + floats, padded + part.base.padded, 0.0f);
   tissue::modal_project(part.base, padded, q + part.mode);
 }
@@ -107,13 +116,19 @@ void shift_back(Instance& instance) noexcept {
   const size_t floats = floats_of(instance);
   std::copy_n(instance.u[0], floats, instance.u[1]);
   std::copy_n(instance.l[0], floats, instance.l[1]);
+  std::copy_n(instance.r[0], floats, instance.r[1]);
   std::copy_n(instance.q[0], instance.asset->mode_count(), instance.q[1]);
 }
 
-// l of this tick is the base's; q, theta and u follow.
+// q and r of this tick are the base's.
+void take_base_answer(Instance& instance) noexcept {
+  std::copy_n(instance.r_hat, floats_of(instance), instance.r[0]);
+  std::copy_n(instance.q_hat, instance.asset->mode_count(), instance.q[0]);
+}
+
+// l of this tick is the base's; theta and u follow.
 void settle_on_base(Instance& instance) noexcept {
   std::copy_n(instance.l_hat, floats_of(instance), instance.l[0]);
-  std::copy_n(instance.q_hat, instance.asset->mode_count(), instance.q[0]);
   for_each_part(instance, [&](const Part& part) { turn_and_warp(instance, part); });
 }
 
@@ -161,8 +176,8 @@ uint32_t settle_on_network(Instance& instance) noexcept {
   for_each_part(instance, [&](const Part& part) {
     float *now = instance.l[0] + part.vector, *before = instance.l[1] + part.vector;
     const uint32_t here = tissue::hold_at_limit(part.record, memory, now, before);
-    project(instance, part, instance.l[0], instance.q[0]);
-    if (here > 0) project(instance, part, instance.l[1], instance.q[1]);
+    project_change(instance, part, instance.l[0], instance.l_hat, instance.q[0]);
+    if (here > 0) std::copy_n(instance.q[0] + part.mode, part.base.modes.size(), instance.q[1] + part.mode);
     turn_and_warp(instance, part);
     held += here;
   });
@@ -200,6 +215,7 @@ bool simulate_tick(Instance& instance) noexcept {
   uint32_t held = hold_base(instance);
   const bool corrected = instance.state->tier == Tier::kNetwork && network_step(instance);
   shift_back(instance);
+  take_base_answer(instance);
   if (corrected)
     held += settle_on_network(instance);
   else
@@ -209,10 +225,14 @@ bool simulate_tick(Instance& instance) noexcept {
 }
 
 void lift_displacement(Instance& instance) noexcept {
-  for (int tick = 0; tick < 2; ++tick) std::copy_n(instance.u[tick], floats_of(instance), instance.l[tick]);
+  for (int tick = 0; tick < 2; ++tick) {
+    std::copy_n(instance.u[tick], floats_of(instance), instance.l[tick]);
+    std::fill_n(instance.r[tick], floats_of(instance), 0.0f);
+    std::fill_n(instance.q[tick], instance.asset->mode_count(), 0.0f);
+  }
   for_each_part(instance, [&](const Part& part) {
-    project(instance, part, instance.l[0], instance.q[0]);
-    project(instance, part, instance.l[1], instance.q[1]);
+    for (int tick = 0; tick < 2; ++tick)  // r is zero: nothing to take away
+      project_change(instance, part, instance.l[tick], instance.r[tick], instance.q[tick]);
     tissue::modal_turn(part.base, instance.q[0] + part.mode, instance.region[0],
                        instance.theta + part.vector);
   });

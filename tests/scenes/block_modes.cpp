@@ -18,7 +18,7 @@ struct BlockMode {
 };
 constexpr BlockMode kModes[] = {{3.5, 0, true}, {3.8, 2, true},  {6, 1, true},
                                 {9, 0, false},  {9.5, 2, false}, {12, 1, false}};
-constexpr double kDampingRatio = 0.1;
+constexpr double kDampingRatio = 0.1, kRest_s2 = 2e-5, kRest_hz = 15;
 
 // A cantilever's first bend, and one that turns over on the way up.
 double profile(double y_m, bool whole) {
@@ -39,9 +39,14 @@ Vector3 half_curl(double slope, int axis) {
 ModalBasis region_modes(const baker::TissueLayout& layout, const baker::Region& region) {
   const auto count = static_cast<Eigen::Index>(std::size(kModes));
   const Eigen::Index rows = 3 * region.node_count;
-  ModalBasis basis{Eigen::VectorXd(count), Eigen::VectorXd::Constant(count, kDampingRatio),
-                   Eigen::MatrixXd::Zero(rows, count), Eigen::MatrixXd::Zero(rows, count),
-                   Eigen::MatrixXd(count, rows)};
+  ModalBasis basis{Eigen::VectorXd(count),
+                   Eigen::VectorXd::Constant(count, kDampingRatio),
+                   Eigen::MatrixXd::Zero(rows, count),
+                   Eigen::MatrixXd::Zero(rows, count),
+                   Eigen::MatrixXd(count, rows),
+                   kRest_s2 * Eigen::MatrixXd::Identity(rows, rows),
+                   2 * std::numbers::pi * kRest_hz,
+                   kDampingRatio};
   for (Eigen::Index k = 0; k < count; ++k) {
     const BlockMode& mode = kModes[k];
     basis.rad_per_s[k] = 2 * std::numbers::pi * mode.frequency_hz;

@@ -60,20 +60,23 @@ TEST_CASE("a_tick_of_drive_base_inputs_network_and_guard_allocates_nothing") {
   const tissue::NodePose* const history[3] = {poses.data(), poses.data(), poses.data()};
   const pack::ModeRecord modes[2] = {{20, 0, 1.8f, -0.9f, 1e-3f, {}}, {30, 0, 1.7f, -0.9f, 1e-3f, {}}};
   test::Floats matrix = test::random_rows(random, 2, 33, kPadded, 1), e(kPadded), l(kPadded);
-  const tissue::ModalBase base{modes,         kNodes,        kPadded,      matrix.data(),
-                               matrix.data(), matrix.data(), matrix.data()};
+  test::Floats rest = test::random_rows(random, 33, 33, kPadded, 1e-4f);
+  const tissue::ModalBase base{
+      modes, kNodes, kPadded, matrix.data(), matrix.data(), matrix.data(), matrix.data(), rest.data(),
+      0,     0,      1};
   const pack::SpringRecord spring{1.8f, -0.9f, 0.1f, 0};
   const std::vector<float> compliance(9 * kNodes);
   test::Floats state(tissue::state_floats(network, kNodes)), z(kNodes * tissue::input_stride(network));
   test::Floats scratch(tissue::scratch_floats(network, kNodes));
-  std::vector<float> u(kNodes * 3), u_before(u), theta(u), felt(u), q(2), q_before(2), q_hat(2);
+  std::vector<float> u(kNodes * 3), u_before(u), theta(u), felt(u), r(u), r_hat(u), q(2), q_before(2),
+      q_hat(2);
   std::vector<float> drive(kNodes * tissue::kNodeDriveWidth);
   const auto tick = [&] {
     tissue::pose_nodes(nodes, skin, upright, poses.data());
     tissue::compute_node_drive(motion, 1.0f / 60, kNodes, drive.data());
     tissue::frame_term(history, u.data(), u_before.data(), 1.0f / 60, kNodes, felt.data());
-    tissue::modal_step(base, felt.data(), theta.data(), q.data(), q_before.data(), e.data(), q_hat.data(),
-                       l.data());
+    tissue::modal_step(base, felt.data(), {q.data(), q_before.data(), r.data(), r.data(), theta.data()},
+                       e.data(), {q_hat.data(), r_hat.data(), l.data()});
     tissue::assemble_inputs(network,
                             {&region, nodes.data(), drive.data(), felt.data(), u.data(), u_before.data(),
                              l.data(), theta.data(), 20, 1.0f / 60},

@@ -144,14 +144,20 @@ TEST_CASE("a_base_beyond_the_limit_is_scaled_as_a_whole_and_stops") {
   Fixture fixture;
   fixture.set_l(4, 0.06f, 0, 0.08f);  // 0.1 m, the limit of the second region
   float q[2] = {1, -2}, q_before[2] = {5, 6};
-  CHECK(tissue::hold_base_at_limit(fixture.regions[1], 2, fixture.l.data() + 9, q, q_before) == 0);
+  std::vector<float> r(12, 0.02f), r_before(12, 1.0f);
+  const auto hold = [&] {
+    return tissue::hold_base_at_limit(fixture.regions[1], 2, fixture.l.data() + 9, {q, q_before},
+                                      {r.data(), r_before.data()});
+  };
+  CHECK(hold() == 0);
   CHECK((q[0] == 1 && q_before[0] == 5));
   fixture.set_l(4, 0.12f, 0, 0.16f);
-  CHECK(tissue::hold_base_at_limit(fixture.regions[1], 2, fixture.l.data() + 9, q, q_before) == 1);
+  CHECK(hold() == 1);
   CHECK(fixture.l[12] == Approx(0.06f));
   CHECK(fixture.l[9] == Approx(0.005f));
   CHECK((q[0] == Approx(0.5f) && q[1] == Approx(-1)));
   CHECK((q_before[0] == q[0] && q_before[1] == q[1]));
+  for (size_t i = 0; i < 12; ++i) CHECK((r[i] == Approx(0.01f) && r_before[i] == r[i]));
 }
 
 TEST_CASE("guard_holds_a_node_whose_square_overflows") {

@@ -59,9 +59,20 @@ TEST_CASE("bases_that_do_not_fit_are_refused_by_region") {
   CHECK_THAT(refusal([](auto& m) { m[0].rad_per_s[2] = kNan; }), Contains("'belly': its modes hold"));
   CHECK_THAT(refusal([](auto& m) { m[0].damping_ratio[2] = -1; }), Contains("'belly': its modes hold"));
   CHECK_THAT(refusal([](auto& m) { m[0].turn(1, 1) = kNan; }), Contains("'belly': its modes hold"));
+  CHECK_THAT(refusal([](auto& m) { m[1].rest.conservativeResize(6, 5); }),
+             Contains("'tip': a modal basis of"));
+  CHECK_THAT(refusal([](auto& m) { m[0].rest(3, 3) = kNan; }), Contains("'belly': its modes hold"));
+  CHECK_THAT(refusal([](auto& m) { m[0].rest_rad_per_s = kNan; }), Contains("'belly': its modes hold"));
+  CHECK_THAT(refusal([](auto& m) { m[0].rest_damping_ratio = -1; }), Contains("'belly': its modes hold"));
   const auto too_many = [](auto& m) {
-    m[0] = {Eigen::VectorXd::Ones(65), Eigen::VectorXd::Ones(65), Eigen::MatrixXd::Ones(9, 65),
-            Eigen::MatrixXd::Ones(9, 65), Eigen::MatrixXd::Ones(65, 9)};
+    m[0] = {Eigen::VectorXd::Ones(65),
+            Eigen::VectorXd::Ones(65),
+            Eigen::MatrixXd::Ones(9, 65),
+            Eigen::MatrixXd::Ones(9, 65),
+            Eigen::MatrixXd::Ones(65, 9),
+            Eigen::MatrixXd::Ones(9, 9),
+            50,
+            0.1};
   };
   CHECK_THAT(refusal(too_many), Contains("'belly': a modal basis of"));
 }
@@ -89,7 +100,7 @@ TEST_CASE("the_recurrence_rests_where_the_spring_does") {
   }
 }
 
-TEST_CASE("matrices_lie_where_the_format_says_and_projection_undoes_shape") {
+TEST_CASE("matrices_lie_where_the_format_says") {
   const Character character = test::small_character();
   const TissueLayout layout = test::small_layout(character);
   const std::vector<ModalBasis> modes = test::small_modes(layout);
@@ -98,27 +109,52 @@ TEST_CASE("matrices_lie_where_the_format_says_and_projection_undoes_shape") {
   REQUIRE(editor.open(&view).ok());
   for (size_t r = 0; r < modes.size(); ++r) {
     const pack::RegionModesRecord& record = view.region_modes[r];
-    const Eigen::Index count = modes[r].rad_per_s.size(), rows = modes[r].shape.rows();
+    const Eigen::Index count = modes[r].rad_per_s.size(), floats = modes[r].shape.rows();
     REQUIRE(record.mode_count == count);
     CHECK(record.first_rad_per_s == 20);
     using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     const float* at = view.mode_matrices.data() + record.matrices;
-    const auto matrix = [&] {
-      const Rows all = Eigen::Map<const Rows>(at, count, record.padded);
-      at += count * record.padded;
-      return Eigen::MatrixXd(all.leftCols(rows).cast<double>());
+    const auto matrix = [&](Eigen::Index rows) {
+      const Rows all = Eigen::Map<const Rows>(at, rows, record.padded);
+      at += rows * record.padded;
+      return Eigen::MatrixXd(all.leftCols(floats).cast<double>());
     };
-    const Eigen::MatrixXd shape = matrix(), turn = matrix(), force = matrix(), project = matrix();
-    constexpr double kFloatRounding = 1e-6;  // of numbers up to 1
-    CHECK((shape.transpose() - modes[r].shape).cwiseAbs().maxCoeff() < kFloatRounding);
-    CHECK((turn.transpose() - modes[r].turn).cwiseAbs().maxCoeff() < kFloatRounding);
-    CHECK((force - modes[r].force).cwiseAbs().maxCoeff() < kFloatRounding);
+    const auto same = [](const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+      constexpr double kFloatRounding = 1e-6;  // of numbers up to 1
+      return (a - b).cwiseAbs().maxCoeff() < kFloatRounding;
+    };
+    const Eigen::MatrixXd shape = matrix(count), turn = matrix(count), force = matrix(count),
+                          project = matrix(count);
+    CHECK(same(shape.transpose(), modes[r].shape));
+    CHECK(same(turn.transpose(), kTurnShare * modes[r].turn));
+    CHECK(same(force, modes[r].force));
+    CHECK(same(matrix(floats), modes[r].rest));
+    // Within a hundredth, stiff modes as the ridge has it.
     CHECK((project * shape.transpose() - Eigen::MatrixXd::Identity(count, count)).cwiseAbs().maxCoeff() <
-          1e-5);
+          0.1);
+    CHECK((project.row(0) * shape.transpose())[0] == Approx(1).epsilon(0.02));
   }
 }
 
-// What the modes settle to under one felt acceleration everywhere.
+// Two shapes that the nodes cannot tell apart: the softer one takes the displacement.
+TEST_CASE("a_displacement_that_two_modes_explain_goes_to_the_softer") {
+  const Character character = test::small_character();
+  const TissueLayout layout = test::small_layout(character);
+  std::vector<ModalBasis> modes = test::small_modes(layout);
+  modes[1].shape.col(1) = modes[1].shape.col(0);
+  test::PackEditor editor(pack_character(character, layout, modes));
+  pack::PackView view;
+  REQUIRE(editor.open(&view).ok());
+  const pack::RegionModesRecord& record = view.region_modes[1];
+  const float* project = view.mode_matrices.data() + record.matrices + 3 * 2 * record.padded;
+  double q[2] = {0, 0};
+  for (int k = 0; k < 2; ++k)
+    for (int i = 0; i < 6; ++i) q[k] += static_cast<double>(project[k * 16 + i]) * modes[1].shape(i, 0);
+  CHECK(q[0] + q[1] == Approx(1).epsilon(0.01));
+  CHECK(q[0] > 5 * q[1]);  // by the square of their frequencies, 20 and 60 rad/s
+}
+
+// What the modes and the rest settle to under one felt acceleration everywhere.
 TEST_CASE("compliance_is_the_modes_static_answer") {
   const Character character = test::small_character();
   const TissueLayout layout = test::small_layout(character);
@@ -128,7 +164,8 @@ TEST_CASE("compliance_is_the_modes_static_answer") {
   REQUIRE(editor.open(&view).ok());
   const Eigen::Vector3d felt(1, -2, 0.5);
   const Eigen::VectorXd forces = modes[0].force * felt.replicate(3, 1);
-  const Eigen::VectorXd u = modes[0].shape * forces.cwiseQuotient(modes[0].rad_per_s.cwiseAbs2());
+  const Eigen::VectorXd u = modes[0].shape * forces.cwiseQuotient(modes[0].rad_per_s.cwiseAbs2()) +
+                            modes[0].rest * felt.replicate(3, 1);
   for (int row = 0; row < 9; ++row) {
     const float* c = view.compliance.data() + 3 * row;
     CHECK(c[0] * felt[0] + c[1] * felt[1] + c[2] * felt[2] == Approx(u[row]).margin(1e-8));
@@ -139,8 +176,14 @@ TEST_CASE("a_region_without_modes_is_packed_and_stands_still") {
   const Character character = test::small_character();
   const TissueLayout layout = test::small_layout(character);
   std::vector<ModalBasis> modes = test::small_modes(layout);
-  modes[0] = {Eigen::VectorXd(0), Eigen::VectorXd(0), Eigen::MatrixXd(9, 0), Eigen::MatrixXd(9, 0),
-              Eigen::MatrixXd(0, 9)};
+  modes[0] = {Eigen::VectorXd(0),
+              Eigen::VectorXd(0),
+              Eigen::MatrixXd(9, 0),
+              Eigen::MatrixXd(9, 0),
+              Eigen::MatrixXd(0, 9),
+              Eigen::MatrixXd::Zero(9, 9),
+              0,
+              0};
   test::PackEditor editor(pack_character(character, layout, modes));
   pack::PackView view;
   const Status status = editor.open(&view);
@@ -149,4 +192,5 @@ TEST_CASE("a_region_without_modes_is_packed_and_stands_still") {
   CHECK(view.region_modes[0].mode_count == 0);
   CHECK(view.compliance[4] == 0);
   CHECK(view.modes.size() == 2);
+  CHECK((view.region_modes[0].rest_a1 == 0 && view.region_modes[0].rest_a2 == 0));
 }
