@@ -16,10 +16,8 @@ VARIANTS = {
     "no modal base": ["--without", "base,base_step,turn"],
     "displacement not fed back": ["--without", "displacement,velocity"],
     "not told what it feels": ["--without", "felt_step"],
-    "not told the base's step": ["--without", "base_step"],
     "no leak in hidden layers": ["--hidden-leak", "0"],
     "gradients over 5 ticks": ["--window", "5"],
-    "trained without overdrive and stillness": ["--overdrive", "0", "--stillness", "0"],
     "channels 8, 8, 3": ["--channels", "8,8,3"],
     "channels 32, 32, 3": ["--channels", "32,32,3"],
 }

@@ -125,7 +125,7 @@ def energy(group, methods):
 def stability(network, group, gain):
     """Driven for 200 ticks at `gain`, then left alone for a minute: largest displacement and what is left.
     The largest |c|; the largest displacement as a share of its limit (the guard fires above 1)."""
-    s, watch, driven = torch.arange(min(8, group.count)), {}, min(200, group.ticks)
+    s, watch, driven = torch.arange(min(3, group.count)), {}, min(200, group.ticks)
     u = roll_out(
         network.model, network.scaling, group, driven + STILL_TICKS, s, gain, still_after=driven, watch=watch
     ).norm(dim=-1)
