@@ -8,6 +8,7 @@ import sys
 
 from . import dataset, plot
 from .evaluate import Network, ratio
+from .page import write_text
 from .rollout import error_ratio, truth
 
 # name -> options of `baker/train train`
@@ -78,3 +79,5 @@ def ablate(data, body, work, out, minutes, processes):
     lines += [f"| {name} | " + " | ".join(str(row[k]) for k in keys) + " |" for name, row in rows.items()]
     with open(os.path.join(out, "ablations.md"), "w") as file:
         file.write("\n".join(lines) + "\n\n![ablations](ablations.png)\n")
+    if os.path.exists(os.path.join(out, "metrics.json")):
+        write_text(out)

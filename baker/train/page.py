@@ -3,10 +3,9 @@ import json
 import os
 
 from . import plot
-from .evaluate import SKINNING
 
 PAPER = {10: (2.32, 0.12), 20: (3.4, 0.17), 30: (5.18, 0.27), 50: (7.9, 0.40)}  # Deng, Mu, Hu 2020, D-FAUST: mm, ratio
-TRACED = 3  # methods drawn beside the truth
+SHEET = "../pictures/hop_sheet.jpg"
 
 
 def _row(cells):
@@ -72,28 +71,53 @@ def stability_table(metrics):
     return _table(["drive", "largest, mm", "share of its limit", "largest cell", "left after a minute, mean mm", "largest mm", "share of height"], rows)
 
 
-def body_section(metrics, body, folder):
+def body_section(metrics, body):
     figures = metrics["bodies"][body]
     seen = "trained on, other motions" if figures["seen_in_training"] else "never trained on"
-    plot.regions(metrics, body, os.path.join(folder, f"regions_{body}.png"))
     return (
         f"## {body} ({seen})\n\n{roll_out_table(figures)}\n\n{surface_line(figures)}\n{single_step_table(figures)}\n\n"
         f"![error in each region](regions_{body}.png)\n\n{motion_table(figures)}\n\n{energy_table(figures)}\n"
     )
 
 
-def write_page(metrics, judged, runs, folder):
-    """folder/README.md, its pictures, and metrics.json."""
-    os.makedirs(folder, exist_ok=True)
-    bodies = list(metrics["bodies"])
+def _draw(metrics, judged, runs, folder):
+    bodies, place = list(metrics["bodies"]), lambda name: os.path.join(folder, name)
     rows = metrics["bodies"][bodies[0]]["roll_out"]
     longest = max((int(k) for k in rows if len(rows[k]) > 3), default=50)
-    plot.roll_outs(metrics, os.path.join(folder, "roll_outs.png"))
-    shown = [next(iter(metrics["models"])), "modal_warped", "node_springs"][:TRACED]
-    plot.trace(judged[bodies[0]], shown, os.path.join(folder, "trace.png"))
-    plot.cost(metrics, bodies[0], min(longest, 600), os.path.join(folder, "cost.png"))
-    plot.training(runs, os.path.join(folder, "training.png"))
+    shown = [next(iter(metrics["models"])), "modal_warped", "node_springs"]
+    plot.roll_outs(metrics, place("roll_outs.png"))
+    plot.trace(judged[bodies[0]], shown, place("trace.png"))
+    plot.cost(metrics, bodies[0], min(longest, 600), place("cost.png"))
+    plot.training(runs, place("training.png"))
+    for body in bodies:
+        plot.regions(metrics, body, place(f"regions_{body}.png"))
+
+
+def _known(metrics):
     known = metrics.get("known_motions", {})
+    figures = ", ".join(f"{plot.label_of(k)} {v:.3f}" for k, v in known.items())
+    return f"Whole training motions, for comparison: {figures}.\n" if known else ""
+
+
+def _beside(folder):
+    """What other commands and pictures add to the page, where they are there."""
+    parts = []
+    if os.path.exists(os.path.join(folder, SHEET)):
+        parts.append(f"![skinning, Sinew, truth and errors in a hop that was never trained on]({SHEET})\n")
+    if os.path.exists(os.path.join(folder, "every_vertex", "README.md")):
+        parts.append("The paper's own network, on every vertex: [every_vertex](every_vertex/README.md).\n")
+    if os.path.exists(os.path.join(folder, "ablations.md")):
+        with open(os.path.join(folder, "ablations.md")) as file:
+            parts.append("## What each part of the recipe is worth\n\n" + file.read())
+    return parts
+
+
+def write_text(folder):
+    """folder/README.md, from metrics.json and what lies beside it."""
+    with open(os.path.join(folder, "metrics.json")) as file:
+        metrics = json.load(file)
+    bodies = list(metrics["bodies"])
+    paper = ", ".join(f"{k} steps {mm} mm ({r})" for k, (mm, r) in PAPER.items())
     parts = [
         "# How far the tissue is from the truth\n",
         "Made by `baker/train evaluate`; figures in `metrics.json`. Errors are distances between control nodes and the "
@@ -102,15 +126,24 @@ def write_page(metrics, judged, runs, folder):
         "nor by choosing; plain models are fitted on the training motions of the body they are judged on.\n",
         "![error against roll-out length](roll_outs.png)\n",
         model_table(metrics, bodies[0]) + "\n",
-        f"![a node](trace.png)\n\n![error against cost](cost.png) ![training](training.png)\n",
-        "Whole training motions, for comparison: " + ", ".join(f"{plot.label_of(k)} {v:.3f}" for k, v in known.items()) + ".\n" if known else "",
-        "The paper's own figures, on captured bodies that are not available here (Deng, Mu, Hu 2020): "
-        + ", ".join(f"{k} steps {mm} mm ({r})" for k, (mm, r) in PAPER.items()) + ".\n",
+        "![a node](trace.png)\n\n![error against cost](cost.png) ![training](training.png)\n",
+        _known(metrics),
+        f"The paper's own figures, on captured bodies that are not available here (Deng, Mu, Hu 2020): {paper}.\n",
         f"## Driven, then left alone for a minute\n\n{stability_table(metrics)}\n",
+        *_beside(folder),
+        *(body_section(metrics, b) for b in bodies),
     ]
-    parts += [body_section(metrics, b, folder) for b in bodies]
-    with open(os.path.join(folder, "README.md"), "w") as file:
+    path = os.path.join(folder, "README.md")
+    with open(f"{path}.part", "w") as file:
         file.write("\n".join(p for p in parts if p))
+    os.replace(f"{path}.part", path)
+
+
+def write_page(metrics, judged, runs, folder):
+    """folder/README.md, its pictures, and metrics.json."""
+    os.makedirs(folder, exist_ok=True)
     with open(os.path.join(folder, "metrics.json"), "w") as file:
         json.dump(metrics, file, indent=1)
         file.write("\n")
+    _draw(metrics, judged, runs, folder)
+    write_text(folder)

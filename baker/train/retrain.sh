@@ -1,11 +1,11 @@
 #!/bin/sh
-# retrain.sh  Makes the shipped weights: data set, two sizes of network, the evaluation page, export.
+# retrain.sh  Makes the shipped weights: data set, network, the evaluation page, export.
 #
 #   baker/train/retrain.sh [BUILD_DIR] [WORK_DIR]
 #
 # BUILD_DIR holds bin/sinew-bake (default: build/release). WORK_DIR takes the data set and the runs (default: BUILD_DIR/train);
-# a second call goes on where the first was cut. In the environment, if wanted: MINUTES (22) of one core a network, PROCESSES (2),
-# PLAN (assets/bodies/plan.json), GENERATE and TRAIN (further options of those commands), OUT (assets) and PYTHON (/usr/bin/python3).
+# a second call goes on where the first was cut. In the environment, if wanted: MINUTES (14) of one core a network, SEEDS (0; the one that
+# validates best is kept), PROCESSES (2), PLAN (assets/bodies/plan.json), GENERATE and TRAIN (further options of those commands), OUT (assets) and PYTHON (/usr/bin/python3).
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 build=${1:-$root/build/release}
@@ -24,18 +24,17 @@ mkdir -p "$work"
 simulate --processes "${PROCESSES:-2}" --splits train validation
 simulate --processes 1 > "$work/generate.log" 2>&1 &   # what judging needs, while training runs
 pids=$!
-for size in 16,16,3 8,8,3; do
-  trainer train "$work/data" --out "$work/run$size" --channels "$size" --minutes "${MINUTES:-22}" --device auto ${TRAIN:-} \
-    > "$work/run$size.log" 2>&1 &
+runs=
+for seed in ${SEEDS:-0}; do
+  trainer train "$work/data" --out "$work/run$seed" --seed "$seed" --minutes "${MINUTES:-14}" --device auto ${TRAIN:-} > "$work/run$seed.log" 2>&1 &
   pids="$pids $!"
+  runs="$runs $work/run$seed"
 done
 for pid in $pids; do
   wait "$pid" || { tail -n 3 "$work"/*.log >&2; exit 2; }
 done
 
-trainer evaluate "$work/data" --run network="$work/run16,16,3" --run network_small="$work/run8,8,3" --out "$out/evaluation"
-trainer export "$work/data" --run "$work/run16,16,3" --page "$out/evaluation" --model network --body momo --out "$out/weights" --name creature
-trainer export "$work/data" --run "$work/run8,8,3" --page "$out/evaluation" --model network_small --body momo --out "$out/weights" --name creature_small
-for name in creature creature_small; do
-  "$bake" check "$out/weights/$name.safetensors" "$out/weights/$name.vectors.safetensors" --tolerance 1e-4
-done
+best=$(trainer best $runs)
+trainer evaluate "$work/data" --run network="$best" --out "$out/evaluation"
+trainer export "$work/data" --run "$best" --page "$out/evaluation" --model network --body momo --out "$out/weights" --name creature
+"$bake" check "$out/weights/creature.safetensors" "$out/weights/creature.vectors.safetensors" --tolerance 1e-4
