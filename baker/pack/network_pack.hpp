@@ -7,7 +7,7 @@
 
 namespace sinew::baker {
 
-// Metadata of a weights file beyond DESIGN.md section 5; absent: the paper's wiring.
+// Metadata of a weights file; absent: the paper's wiring.
 //   inputs         comma-separated names, in the order of the network's columns: rest_position rest_normal
 //                  stiffness angular_acceleration angular_velocity gravity_change displacement velocity
 //                  felt_step base_step turn frequency

@@ -10,6 +10,7 @@ from . import dataset, plot
 from .evaluate import Network, ratio
 from .page import write_text
 from .rollout import error_ratio, truth
+from .safetensors import BadData
 
 # name -> options of `baker/train train`
 VARIANTS = {
@@ -34,7 +35,9 @@ def _train(data, body, work, name, minutes):
     os.makedirs(run, exist_ok=True)
     command = [sys.executable, os.path.dirname(os.path.abspath(__file__)), "train", data, "--out", run, "--bodies", body]
     with open(os.path.join(run, "log.txt"), "w") as log:
-        subprocess.run([*command, "--minutes", f"{minutes:g}", *VARIANTS[name]], stdout=log, stderr=log, check=True)
+        done = subprocess.run([*command, "--minutes", f"{minutes:g}", *VARIANTS[name]], stdout=log, stderr=log)
+    if done.returncode:
+        raise BadData(f"{run}: training '{name}' failed; its log.txt says why")
 
 
 def _judge(run, groups):

@@ -64,6 +64,14 @@ def _train(a):
     train(a.data, a.out, options)
 
 
+def _read_json(path, mend):
+    try:
+        with open(path) as file:
+            return json.load(file)
+    except (OSError, ValueError) as error:
+        raise BadData(f"{path}: {error}; {mend}") from None
+
+
 def _named(pairs):
     """NAME=FOLDER arguments as a dict, in order."""
     for text in pairs:
@@ -97,8 +105,7 @@ def _ablate(a):
 def _export(a):
     from .export import export
 
-    with open(os.path.join(a.page, "metrics.json")) as file:
-        metrics = json.load(file)
+    metrics = _read_json(os.path.join(a.page, "metrics.json"), "run `baker/train evaluate` again")
     export(a.run, a.data, metrics, a.out, a.name, a.model, a.body)
 
 
@@ -106,8 +113,7 @@ def _best(a):
     """The run whose validation roll-outs were best."""
 
     def score(run):
-        with open(os.path.join(run, "curve.json")) as file:
-            return json.load(file)["best"]
+        return _read_json(os.path.join(run, "curve.json"), "train again")["best"]
 
     print(min(a.runs, key=score))
 

@@ -44,7 +44,7 @@ def motion_table(figures):
 
 def energy_table(figures):
     rows = [[plot.label_of(k)] + [f"{v[c]:.2f}" for c in ("min", "mean", "max")] for k, v in figures["energy"].items()]
-    return _table(["elastic energy in the modes, truth's mean = 1", "least", "mean", "largest"], rows)
+    return _table(["sum of (w q)² / 2 over the modes, truth's mean = 1", "least", "mean", "largest"], rows)
 
 
 def surface_line(figures):

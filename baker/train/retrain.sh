@@ -24,17 +24,17 @@ mkdir -p "$work"
 simulate --processes "${PROCESSES:-2}" --splits train validation
 simulate --processes 1 > "$work/generate.log" 2>&1 &   # what judging needs, while training runs
 pids=$!
-runs=
+set --
 for seed in ${SEEDS:-0}; do
   trainer train "$work/data" --out "$work/run$seed" --seed "$seed" --minutes "${MINUTES:-14}" --device auto ${TRAIN:-} > "$work/run$seed.log" 2>&1 &
   pids="$pids $!"
-  runs="$runs $work/run$seed"
+  set -- "$@" "$work/run$seed"
 done
 for pid in $pids; do
-  wait "$pid" || { tail -n 3 "$work"/*.log >&2; exit 2; }
+  wait "$pid" || { tail -n 3 "$work"/*.log >&2; kill $pids 2>/dev/null || :; exit 2; }
 done
 
-best=$(trainer best $runs)
+best=$(trainer best "$@")
 trainer evaluate "$work/data" --run network="$best" --out "$out/evaluation"
 trainer export "$work/data" --run "$best" --page "$out/evaluation" --model network --body momo --out "$out/weights" --name creature
 "$bake" check "$out/weights/creature.safetensors" "$out/weights/creature.vectors.safetensors" --tolerance 1e-4

@@ -112,9 +112,10 @@ def roll_out(model, scaling, group, ticks=None, sequences=None, gain=1.0, still_
     """Displacement (T+1, N, B, 3) metres of a group's sequences from rest.
 
     gain: factor on what drives the tissue. still_after: the character stands still from this tick on, for as
-    long as `ticks` says. watch: a dict that receives the largest |c| as 'cell'."""
+    long as `ticks` says. watch: a dict that receives the largest |c| as 'cell' and the largest |l|, in region
+    radii, as 'radii'."""
     s = torch.arange(group.count, device=group.device) if sequences is None else torch.as_tensor(sequences)
-    ticks, chunk, top = ticks or group.ticks, 100, 0.0
+    ticks, chunk = ticks or group.ticks, 100
     moving = min(ticks, group.ticks, still_after or ticks)
     with torch.no_grad():
         packed, static, state = _prepared(model, scaling, group, len(s))
@@ -126,10 +127,15 @@ def roll_out(model, scaling, group, ticks=None, sequences=None, gain=1.0, still_
                 now = (turn[0][t], turn[1][t])
                 state = tick(model, packed, group, scaling, static, state, gain * felt[t], drive[t], now)
                 out.append(group.flatten(state.base.u))
-                top = max(top, largest_cell(state.memory)) if watch is not None and model else top
-    if watch is not None:
-        watch["cell"] = top
+                if watch is not None:
+                    _watch(watch, group, state)
     return torch.stack(out)
+
+
+def _watch(watch, group, state):
+    radii = float((state.base.l.norm(dim=-1, keepdim=True) / group.radius).max())
+    watch["radii"] = max(watch.get("radii", 0.0), radii)
+    watch["cell"] = max(watch.get("cell", 0.0), largest_cell(state.memory) if state.memory else 0.0)
 
 
 def _driven(group, s, first, n, moving):

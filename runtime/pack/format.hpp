@@ -212,6 +212,8 @@ struct NodeRecord {
 };
 static_assert(sizeof(NodeRecord) == 80);
 
+inline constexpr uint32_t kMaxModes = 64;  // of a region
+
 // A region's modal base (tissue/modal_base.hpp): q_t = a1 q_{t-1} + a2 q_{t-2} + gain force e, and the modes
 // left out as one oscillator, r_t = rest_a1 r_{t-1} + rest_a2 r_{t-2} + rest_gain rest e; l = shape q + r. At
 // `matrices`, one after the other without gaps, with x y z of the region's nodes in a row and zeros behind

@@ -118,8 +118,7 @@ void modal_step(const ModalBase& base, const float* felt, const ModalState& stat
 }
 
 void modal_project(const ModalBase& base, const float* l, float* q) noexcept {
-  constexpr uint32_t kMostModes = 64;  // of a region, by the format
-  float add[kMostModes];
+  float add[pack::kMaxModes];
   const auto modes = static_cast<uint32_t>(base.modes.size());
   simd::kernels().dot_rows(base.project, modes, base.padded, l, add);
   for (uint32_t k = 0; k < modes; ++k) q[k] += add[k];

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "simd/kernels.hpp"
 #include "tissue/guard.hpp"
 #include "tissue/inputs.hpp"
 #include "tissue/modal_base.hpp"
@@ -32,10 +33,12 @@ void for_each_part(const Instance& instance, Work work) noexcept {
 
 size_t floats_of(const Instance& instance) noexcept { return size_t{3} * instance.asset->node_count(); }
 
-void count_clamps(Instance& instance, uint32_t held) noexcept {
+// `by_tier`: by what the tier itself put out, which gives it up in the end; a network is not to blame for its
+// base.
+void count_clamps(Instance& instance, uint32_t held, uint32_t by_tier) noexcept {
   InstanceState& state = *instance.state;
   state.displacement_clamps += held;
-  state.clamped_ticks = held > 0 ? state.clamped_ticks + 1 : 0;
+  state.clamped_ticks = by_tier > 0 ? state.clamped_ticks + 1 : 0;
 }
 
 // ---- springs ----
@@ -52,7 +55,7 @@ bool spring_tick(Instance& instance) noexcept {
   for_each_part(instance, [&](const Part& part) {
     held += tissue::hold_at_limit(part.record, {}, instance.u[0] + part.vector, instance.u[1] + part.vector);
   });
-  count_clamps(instance, held);
+  count_clamps(instance, held, held);
   return true;
 }
 
@@ -166,6 +169,14 @@ void give_up_network(Instance& instance) noexcept {
   instance.fell_back = true;
 }
 
+// The region stands still: nothing of the last tick is left to go on with.
+void stop(Instance& instance, const Part& part) noexcept {
+  const size_t floats = size_t{3} * part.record.node_count;
+  std::copy_n(instance.q[0] + part.mode, part.base.modes.size(), instance.q[1] + part.mode);
+  for (float* const* ticks : {instance.r, instance.u})
+    std::copy_n(ticks[0] + part.vector, floats, ticks[1] + part.vector);
+}
+
 // l of this tick is the network's; q, theta and u follow. Returns the nodes held.
 uint32_t settle_on_network(Instance& instance) noexcept {
   const Asset& asset = *instance.asset;
@@ -177,8 +188,8 @@ uint32_t settle_on_network(Instance& instance) noexcept {
     float *now = instance.l[0] + part.vector, *before = instance.l[1] + part.vector;
     const uint32_t here = tissue::hold_at_limit(part.record, memory, now, before);
     project_change(instance, part, instance.l[0], instance.l_hat, instance.q[0]);
-    if (here > 0) std::copy_n(instance.q[0] + part.mode, part.base.modes.size(), instance.q[1] + part.mode);
     turn_and_warp(instance, part);
+    if (here > 0) stop(instance, part);
     held += here;
   });
   return held;
@@ -212,17 +223,31 @@ void drive_nodes(Instance& instance) noexcept {
 bool simulate_tick(Instance& instance) noexcept {
   if (instance.state->tier == Tier::kSpring) return spring_tick(instance);
   if (!base_step(instance)) return false;
-  uint32_t held = hold_base(instance);
+  const uint32_t base_held = hold_base(instance);
   const bool corrected = instance.state->tier == Tier::kNetwork && network_step(instance);
   shift_back(instance);
   take_base_answer(instance);
+  uint32_t network_held = 0;
   if (corrected)
-    held += settle_on_network(instance);
+    network_held = settle_on_network(instance);
   else
     settle_on_base(instance);
-  count_clamps(instance, held);
+  count_clamps(instance, base_held + network_held, corrected ? network_held : base_held);
   return true;
 }
+
+namespace {
+
+// r of a tick: what of l the modes cannot hold.
+void leave_to_rest(Instance& instance, const Part& part, int tick) noexcept {
+  float* held = instance.region[0];
+  simd::kernels().add_rows(part.base.shape, static_cast<uint32_t>(part.base.modes.size()), part.base.padded,
+                           instance.q[tick] + part.mode, held);
+  for (size_t i = 0; i < size_t{3} * part.record.node_count; ++i)
+    instance.r[tick][part.vector + i] = instance.l[tick][part.vector + i] - held[i];
+}
+
+}  // namespace
 
 void lift_displacement(Instance& instance) noexcept {
   for (int tick = 0; tick < 2; ++tick) {
@@ -231,8 +256,10 @@ void lift_displacement(Instance& instance) noexcept {
     std::fill_n(instance.q[tick], instance.asset->mode_count(), 0.0f);
   }
   for_each_part(instance, [&](const Part& part) {
-    for (int tick = 0; tick < 2; ++tick)  // r is zero: nothing to take away
-      project_change(instance, part, instance.l[tick], instance.r[tick], instance.q[tick]);
+    for (int tick = 0; tick < 2; ++tick) {
+      project_change(instance, part, instance.l[tick], instance.r[tick], instance.q[tick]);  // r is zero
+      leave_to_rest(instance, part, tick);
+    }
     tissue::modal_turn(part.base, instance.q[0] + part.mode, instance.region[0],
                        instance.theta + part.vector);
   });
