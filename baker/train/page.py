@@ -104,6 +104,8 @@ def _beside(folder):
     parts = []
     if os.path.exists(os.path.join(folder, SHEET)):
         parts.append(f"![skinning, Sinew, truth and errors in a hop that was never trained on]({SHEET})\n")
+    if os.path.exists(os.path.join(folder, "data_sheet.json")):
+        parts.append("What the networks were trained and judged on, in figures: [data_sheet.json](data_sheet.json).\n")
     if os.path.exists(os.path.join(folder, "every_vertex", "README.md")):
         parts.append("The paper's own network, on every vertex: [every_vertex](every_vertex/README.md).\n")
     if os.path.exists(os.path.join(folder, "ablations.md")):
