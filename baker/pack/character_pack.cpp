@@ -177,8 +177,9 @@ void check_wiring(const Safetensors& weights) {
                    ": metadata key 'inputs' is missing (the paper's wiring), which characters cannot run in "
                    "this version; use weights from baker/train");
   if (weights.metadata.contains("without"))
-    throw BadInput(weights.path +
-                   ": metadata key 'without': trained with inputs left out, for comparison only; train without it");
+    throw BadInput(
+        weights.path +
+        ": metadata key 'without': trained with inputs left out, for comparison only; train without it");
   for (const auto& [key, wanted] : {std::pair{"frame", "node"}, std::pair{"base", "modal"}}) {
     const auto found = weights.metadata.find(key);
     if (found == weights.metadata.end() || found->second != wanted)

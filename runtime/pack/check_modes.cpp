@@ -7,7 +7,6 @@
 namespace sinew::pack {
 namespace {
 
-
 // Both roots of z^2 = a1 z + a2 lie inside the unit circle (Jury). False for NaN.
 bool is_stable(float a1, float a2) noexcept { return a2 > -1 && std::fabs(a1) < 1 - a2; }
 

@@ -1,4 +1,5 @@
-// node_drive.hpp  What moves a control node, as it feels it: along the axes of its own frame (tissue/node_pose.hpp).
+// node_drive.hpp  What moves a control node, as it feels it: along the axes of its own frame
+// (tissue/node_pose.hpp).
 //
 // With x its skinned place in the world, R its frame, g gravity, and ticks h apart, backward differences (the
 // future is not known at run time):
@@ -6,8 +7,8 @@
 //   gravity change           = R_t^T g - g
 //   angular velocity   omega = vee((A - A^T) / 2) / h,  A = R_{t-1}^T R_t     the sine of a tick's turn
 //   angular acceleration     = (omega_t - omega_{t-1}) / h
-// All are zero for a character that stands still in its bind pose. The trainer's data sets are written through
-// this same code, so network and runtime cannot disagree on an input.
+// All are zero for a character that stands still in its bind pose. The trainer's data sets are written
+// through this same code, so network and runtime cannot disagree on an input.
 #pragma once
 #include <cstdint>
 

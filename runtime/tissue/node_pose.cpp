@@ -37,11 +37,10 @@ Matrix3f rotation_of(const Matrix3f& m) {
 
 void pose_nodes(std::span<const pack::NodeRecord> nodes, const float* skin, const float root_rotation_xyzw[4],
                 NodePose* out) noexcept {
-  const Matrix3f root =
-      Eigen::Quaternionf(root_rotation_xyzw[3], root_rotation_xyzw[0], root_rotation_xyzw[1],
-                         root_rotation_xyzw[2])
-          .normalized()
-          .toRotationMatrix();
+  const Matrix3f root = Eigen::Quaternionf(root_rotation_xyzw[3], root_rotation_xyzw[0],
+                                           root_rotation_xyzw[1], root_rotation_xyzw[2])
+                            .normalized()
+                            .toRotationMatrix();
   for (const pack::NodeRecord& node : nodes) {
     const Rows34 matrix = blended(node.skin, skin);
     const Eigen::Map<const Vector3f> place(node.position_m);
