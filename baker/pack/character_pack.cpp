@@ -127,8 +127,9 @@ void append_carry(const Region& region, uint32_t padded_vertices, std::vector<fl
   }
 }
 
-pack::RegionRecord to_record(const Region& region, float displacement_limit) {
+pack::RegionRecord to_record(const Region& region, const ModalBasis& basis, float displacement_limit) {
   pack::RegionRecord record{};
+  record.anchor_node = to_u32(basis.anchor_node);
   record.first_node = to_u32(region.first_node);
   record.node_count = to_u32(region.node_count);
   record.vertex_count = to_u32(region.vertices.size());
@@ -139,12 +140,14 @@ pack::RegionRecord to_record(const Region& region, float displacement_limit) {
   return record;
 }
 
-void add_regions(const TissueLayout& layout, float displacement_limit, PackWriter& pack) {
+void add_regions(const TissueLayout& layout, const std::vector<ModalBasis>& modes, float displacement_limit,
+                 PackWriter& pack) {
   std::vector<pack::RegionRecord> regions;
   std::vector<uint32_t> vertices;
   std::vector<float> carry;
-  for (const Region& region : layout.regions) {
-    pack::RegionRecord record = to_record(region, displacement_limit);
+  for (size_t r = 0; r < layout.regions.size(); ++r) {
+    const Region& region = layout.regions[r];
+    pack::RegionRecord record = to_record(region, modes[r], displacement_limit);
     record.name = pack.string(region.name);
     record.first_vertex = to_u32(vertices.size());
     record.carry = carry.size();
@@ -180,7 +183,7 @@ void check_wiring(const Safetensors& weights) {
     throw BadInput(
         weights.path +
         ": metadata key 'without': trained with inputs left out, for comparison only; train without it");
-  for (const auto& [key, wanted] : {std::pair{"frame", "node"}, std::pair{"base", "modal"}}) {
+  for (const auto& [key, wanted] : {std::pair{"frame", "bent"}, std::pair{"base", "modal"}}) {
     const auto found = weights.metadata.find(key);
     if (found == weights.metadata.end() || found->second != wanted)
       throw BadInput(weights.path + ": metadata key '" + key + "' is not '" + wanted +
@@ -228,7 +231,8 @@ std::vector<std::byte> pack_character(const Character& character, const TissueLa
   add_joints(character, pack);
   add_mesh(character, pack);
   add_clips(character, pack);
-  add_regions(layout, number_of(weights, "displacement_limit", kDisplacementLimit, 1e-3f, 100), pack);
+  check_modes(layout, modes);
+  add_regions(layout, modes, number_of(weights, "displacement_limit", kDisplacementLimit, 1e-3f, 100), pack);
   add_nodes(layout, pack);
   const GraphRows graph =
       normalized_adjacency(layout.nodes.size(), layout.edges, character.name + ": control graph");

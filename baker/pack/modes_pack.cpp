@@ -55,7 +55,7 @@ MatrixXd projection(const ModalBasis& basis) {
 
 void append_matrices(const ModalBasis& basis, uint32_t padded, std::vector<float>* out) {
   append_rows(basis.shape.transpose(), padded, out);
-  append_rows(kTurnShare * basis.turn.transpose(), padded, out);
+  append_rows(basis.turn.transpose(), padded, out);
   append_rows(basis.force, padded, out);
   append_rows(projection(basis), padded, out);
   append_rows(basis.rest, padded, out);
@@ -84,7 +84,6 @@ struct Sections {
 };
 
 void append_region(const Region& region, const ModalBasis& basis, const TickGrid& grid, Sections* to) {
-  check_basis(region, basis);
   const bool moves = basis.rad_per_s.size() > 0;
   const double first = moves ? basis.rad_per_s[0] : kUsual_rad_per_s;
   pack::RegionModesRecord record{};
@@ -123,11 +122,16 @@ Recurrence modal_recurrence(double rad_per_s, double damping_ratio, const TickGr
   return r;
 }
 
-uint64_t add_modes(const TissueLayout& layout, const std::vector<ModalBasis>& modes, const TickGrid& grid,
-                   PackWriter& pack) {
+void check_modes(const TissueLayout& layout, const std::vector<ModalBasis>& modes) {
   if (modes.size() != layout.regions.size())
     throw BadInput("modal bases: " + std::to_string(modes.size()) + " for " +
                    std::to_string(layout.regions.size()) + " regions");
+  for (size_t r = 0; r < modes.size(); ++r) check_basis(layout.regions[r], modes[r]);
+}
+
+uint64_t add_modes(const TissueLayout& layout, const std::vector<ModalBasis>& modes, const TickGrid& grid,
+                   PackWriter& pack) {
+  check_modes(layout, modes);
   Sections sections;
   for (size_t r = 0; r < modes.size(); ++r) append_region(layout.regions[r], modes[r], grid, &sections);
   pack.section(SectionKind::kRegionModes, sections.regions);

@@ -28,17 +28,16 @@ struct Recurrence {
 };
 Recurrence modal_recurrence(double rad_per_s, double damping_ratio, const TickGrid& grid);
 
-// The share of the modes' own turn that they are warped by: a cantilever bent evenly leaves its straight path
-// by 2/3 of its tip's turn; this validated best.
-inline constexpr double kTurnShare = 0.75;
-
 // Shapes are nearly dependent at few nodes: q of a displacement u is the least |shape q - u|^2 + kRidge nodes
 // sum (w_k / w_1)^2 q_k^2, stiff modes last.
 inline constexpr double kRidge = 1e-3;
 
+// Throws BadInput: not one basis a region, one that does not fit its region, more than kMostModes modes,
+// numbers that are not finite.
+void check_modes(const TissueLayout& layout, const std::vector<ModalBasis>& modes);
+
 // Sections kRegionModes, kModes, kModeMatrices, kCompliance and kSprings; `modes` has one basis a region.
-// Returns the floats of the matrices. Throws BadInput: a basis that does not fit its region, more than
-// kMostModes modes, numbers that are not finite.
+// Returns the floats of the matrices. Throws BadInput as check_modes does.
 uint64_t add_modes(const TissueLayout& layout, const std::vector<ModalBasis>& modes, const TickGrid& grid,
                    PackWriter& pack);
 

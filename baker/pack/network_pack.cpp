@@ -37,7 +37,11 @@ constexpr InputName kInputNames[] = {{InputKind::kRestPosition, "rest_position",
                                      {InputKind::kFeltStep, "felt_step", 3},
                                      {InputKind::kBaseStep, "base_step", 3},
                                      {InputKind::kTurn, "turn", 3},
-                                     {InputKind::kFrequency, "frequency", 1}};
+                                     {InputKind::kFrequency, "frequency", 1},
+                                     {InputKind::kBend, "bend", 3},
+                                     {InputKind::kBentForce, "bent_force", 3},
+                                     {InputKind::kBentStep, "bent_step", 3},
+                                     {InputKind::kBentDisplacement, "bent_displacement", 3}};
 
 // ---- metadata ----
 

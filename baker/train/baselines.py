@@ -51,7 +51,7 @@ class Springs:
             p.requires_grad_()
 
     def _goal(self, drive):
-        """Where each node is pulled to, (T, N, B, 3) metres; drive (T, N, B, 12)."""
+        """Where each node is pulled to, (T, N, B, 3) metres; drive (T, N, B, 15)."""
         f = drive[..., FELT]
         if not self.each_node:
             return f * (self.felt * self.unit)[self.region][None, :, None, None]
@@ -60,7 +60,7 @@ class Springs:
         return pulled * self.unit[:, None, None]
 
     def roll_out(self, drive):
-        """drive (T+1, N, B, 12), the first at rest -> (T+1, N, B, 3) metres."""
+        """drive (T+1, N, B, 15), the first at rest -> (T+1, N, B, 3) metres."""
         a1, a2, _ = recurrence(self.log_w.exp(), self.log_zeta.exp(), self.tick_s, self.substeps)
         if not self.each_node:
             a1, a2 = a1[self.region], a2[self.region]

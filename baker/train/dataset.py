@@ -39,7 +39,7 @@ class Group:
             "stiffness": self._pad(body.stiffness),
             "frequency": (self.base.first * tick_s)[:, None, None] * self.mask[..., None],
         }
-        self.drive = self._stack([t.drive for t in trajectories])  # (S, T+1, N, 12)
+        self.drive = self._stack([t.drive for t in trajectories])  # (S, T+1, N, 15)
         self.rotation = self._stack([t.rotation for t in trajectories])  # (S, T+1, N, 9)
         self.displacement = self._stack([t.displacement for t in trajectories])  # (S, T+1, N, 3) metres
         self.count, self.ticks = self.drive.shape[0], self.drive.shape[1] - 1

@@ -9,6 +9,8 @@ import torch
 
 from . import dataset
 from .baselines import plain_models, single_step
+from .inputs import DRIVE
+from .modal_base import turned
 from .rollout import roll_out, single_steps, truth
 from .safetensors import BadData
 from .weights import read_weights
@@ -84,6 +86,12 @@ def by_motion(group, methods):
     }
 
 
+def _along_flesh(group, p):
+    """(T+1, N, B, 3) along the nodes' frames -> along the axes of their flesh, which carry to the surface."""
+    bend = group.drive[..., DRIVE["bend"]].permute(1, 2, 0, 3)
+    return turned(bend[: len(p)], p, transposed=True)
+
+
 def surface_error(group, methods):
     """Mean error over all carried vertices in mm and as a share of skinning's; `carried_truth`: the nodes'
     true displacement carried, the best that any method on these nodes can do. None where the trajectories
@@ -91,6 +99,7 @@ def surface_error(group, methods):
     if any("surface" not in t.tensors for t in group.trajectories):
         return None
     sums = {}
+    along_flesh = {k: _along_flesh(group, p) for k, p in {**methods, "carried_truth": truth(group)}.items()}
     for i, t in enumerate(group.trajectories):
         true, at = np.asarray(t.tensors["surface"], np.float32), 0
         for r, count in enumerate(t.tensors["region.vertex_count"]):
@@ -98,8 +107,9 @@ def surface_error(group, methods):
             nodes = np.asarray(group.body.region) == r
             u = true[1:, at : at + count]
             at += count
-            for name, p in {**methods, "carried_truth": truth(group)}.items():
-                e = np.linalg.norm(np.einsum("nv,tnd->tvd", carry, p[1:, nodes, i].numpy(), optimize=True) - u, axis=-1)
+            for name, p in along_flesh.items():
+                carried = np.einsum("nv,tnd->tvd", carry, p[1:, nodes, i].numpy(), optimize=True)
+                e = np.linalg.norm(carried - u, axis=-1)
                 sums[name] = sums.get(name, 0) + np.array([e.size, e.sum()])
     return {
         k: {"mean_mm": round(1e3 * e / n, 4), "ratio": round(e / sums[SKINNING][1], 4)}

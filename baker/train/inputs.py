@@ -3,15 +3,16 @@ from dataclasses import dataclass
 
 # name -> columns of a trajectory's drive (runtime/tissue/node_drive.hpp)
 FELT = slice(0, 3)
-DRIVE = {"gravity_change": slice(3, 6), "angular_velocity": slice(6, 9)}
+DRIVE = {"gravity_change": slice(3, 6), "angular_velocity": slice(6, 9), "bend": slice(12, 15)}
 STATIC = {"rest_position": 3, "rest_normal": 3, "stiffness": 1, "frequency": 1}
 BASE = ("felt_step", "base_step", "turn")  # from the modal base (modal_base.py)
 FEEDBACK = ("displacement", "velocity")
-ORDER = tuple(STATIC) + tuple(DRIVE) + BASE + FEEDBACK
+BENT = {"bent_force": "felt_step", "bent_step": "base_step", "bent_displacement": "displacement"}  # bend x these
+ORDER = tuple(STATIC) + tuple(DRIVE) + BASE + FEEDBACK + tuple(BENT)
 WIDTH = {**{name: 3 for name in ORDER}, **STATIC}
 INPUT_WIDTH = sum(WIDTH.values())
 STATIC_WIDTH = sum(STATIC.values())
-AXIAL = ("angular_velocity", "turn")  # rotation vectors: a mirror flips their other two components
+AXIAL = ("angular_velocity", "turn", "bend")  # rotation vectors: a mirror flips their other two components
 
 
 def columns(name):

@@ -8,9 +8,6 @@ import numpy as np
 import torch
 
 LARGEST_TURN = 2.0  # rad: beyond it a linear turn means nothing
-# Of the modes' own turn: a cantilever bent evenly leaves its straight path by 2/3 of its tip's turn; this
-# share validated best.
-TURN_SHARE = 0.75
 PROJECTION_RIDGE = 1e-3  # shapes of one region are far from independent at few nodes
 
 
@@ -100,7 +97,7 @@ def _of_region(basis, tick_s, substeps):
     rest_a1, rest_a2, _ = (v.view(1, 1, 1) for v in recurrence(*b["rest_oscillator"], tick_s, substeps))
     return {
         **dict(first=w[0], rad_per_s=w, damping_ratio=b["damping_ratio"], a1=a1, a2=a2, gain=gain),
-        **dict(shape=b["shape"], turn=TURN_SHARE * b["turn"], force=b["force"]),
+        **dict(shape=b["shape"], turn=b["turn"], force=b["force"]),
         "project": torch.as_tensor(projection(b["shape"].numpy(), w.numpy())),
         **dict(rest=b["rest"], rest_a1=rest_a1, rest_a2=rest_a2),
     }

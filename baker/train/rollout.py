@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 
 import torch
 
-from .inputs import AXIAL, DRIVE, INPUT_WIDTH, ORDER, STATIC, STATIC_WIDTH, WIDTH, columns
-from .modal_base import BaseState
+from .inputs import AXIAL, BENT, DRIVE, INPUT_WIDTH, ORDER, STATIC, STATIC_WIDTH, WIDTH, columns
+from .modal_base import BaseState, cross
 from .model import largest_cell
 
 
@@ -45,7 +45,7 @@ def raw_inputs(group, scaling, base, l_before, drive, predicted_l, felt):
     """name -> value of what changes from tick to tick, before its scale; lengths in length units."""
     unit = scaling.length_unit * group.radius
     first = group.base.first[:, None, None, None]
-    return {
+    raw = {
         **{k: drive[..., c] for k, c in DRIVE.items()},
         "felt_step": felt / (first * first) / unit,
         "base_step": (predicted_l - base.l) / unit,
@@ -53,6 +53,7 @@ def raw_inputs(group, scaling, base, l_before, drive, predicted_l, felt):
         "displacement": base.l / unit,
         "velocity": (base.l - l_before) / unit,
     }
+    return {**raw, **{k: cross(raw["bend"], raw[of]) for k, of in BENT.items()}}
 
 
 def tick(model, packed, group, scaling, static, state, felt, drive, turn_now, mirror=None):

@@ -5,8 +5,8 @@ import numpy as np
 
 from .safetensors import BadData, load
 
-VERSION = "2"
-DRIVE_WIDTH = 12
+VERSION = "3"
+DRIVE_WIDTH = 15
 BASIS = ("rad_per_s", "damping_ratio", "shape", "turn", "force", "rest", "rest_oscillator")
 _STILL = 1e-9  # metres: a displacement nowhere larger than this is no motion
 
@@ -36,9 +36,9 @@ class Trajectory:
 
     path: str
     body: Body
-    drive: np.ndarray  # (T+1, N, 12) m/s^2, rad/s, rad/s^2
+    drive: np.ndarray  # (T+1, N, 15) m/s^2, rad/s, rad/s^2, rad
     rotation: np.ndarray  # (T+1, N, 9) node frames, world from bind axes
-    displacement: np.ndarray  # (T+1, N, 3) metres, along the node's own axes
+    displacement: np.ndarray  # (T+1, N, 3) metres, along the node's own frame
     metadata: dict
     tensors: dict  # everything the file holds
 

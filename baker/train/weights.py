@@ -21,7 +21,7 @@ def weights_metadata(options, scaling, rate_hz, extra):
         "inputs": ",".join(ORDER),
         "input_scales": _join(scaling.scale[k] for k in ORDER),
         "envelope": _join(scaling.envelope[k] for k in ORDER),
-        "frame": "node",
+        "frame": "bent",
         "base": "none" if "base" in scaling.without else "modal",
         **({"without": ",".join(scaling.without)} if scaling.without else {}),
         "length_unit": f"{scaling.length_unit:.9g}",

@@ -129,25 +129,47 @@ Eigen::Matrix3d cross_matrix(const Vector3& v) {
   return Eigen::Matrix3d{{0, -v.z(), v.y()}, {v.z(), 0, -v.x()}, {-v.y(), v.x(), 0}};
 }
 
-// Half the curl of the modes, how flesh turns for small q: in the mean, by volume, over the tetrahedra of the
-// part around each node of the cage.
-MatrixXd turn_in_cage(const MatrixXd& shape, const Part& part, const Cage& cage) {
+// How the flesh of a part turns for small q.
+struct Turning {
+  MatrixXd turn;   // (3 cage nodes, modes): half the curl, in the mean, by volume, of the tetrahedra around
+  VectorXd share;  // of each mode's gradient (squared, over the part) what is rotation: 1 a rigid turn, 1/2 a
+                   // simple shear, 0 a stretch
+};
+
+Turning turning_in_cage(const MatrixXd& shape, const Part& part, const Cage& cage) {
   std::vector<bool> in_part(cage.nodes.size(), false);
   for (const int node : part.cage_node) in_part[static_cast<size_t>(node)] = true;
   MatrixXd turn = MatrixXd::Zero(shape.rows(), shape.cols());
   VectorXd volume = VectorXd::Zero(static_cast<Index>(cage.nodes.size()));
+  VectorXd rotation = VectorXd::Zero(shape.cols()), gradient = rotation;
   for (const auto& corners : cage.tetrahedra) {
     if (std::none_of(corners.begin(), corners.end(), [&](int n) { return in_part[static_cast<size_t>(n)]; }))
       continue;
     const Tetrahedron t = tetrahedron_of(cage, corners);
     MatrixXd curl = MatrixXd::Zero(3, shape.cols());
-    for (size_t a = 0; a < 4; ++a)
-      curl += cross_matrix(t.gradient.col(static_cast<Index>(a))) * shape.middleRows<3>(3 * corners[a]);
+    MatrixXd along[3];
+    for (MatrixXd& derivative : along) derivative = MatrixXd::Zero(3, shape.cols());
+    for (size_t a = 0; a < 4; ++a) {
+      const Vector3 slope = t.gradient.col(static_cast<Index>(a));
+      curl += cross_matrix(slope) * shape.middleRows<3>(3 * corners[a]);
+      for (Index axis = 0; axis < 3; ++axis) along[axis] += slope[axis] * shape.middleRows<3>(3 * corners[a]);
+    }
+    rotation += 0.5 * t.volume * curl.colwise().squaredNorm().transpose();
+    for (const MatrixXd& derivative : along)
+      gradient += t.volume * derivative.colwise().squaredNorm().transpose();
     for (const int n : corners) turn.middleRows<3>(3 * n) += 0.5 * t.volume * curl, volume[n] += t.volume;
   }
   for (Index n = 0; n < volume.size(); ++n)
     if (volume[n] > 0) turn.middleRows<3>(3 * n) /= volume[n];
-  return turn;
+  return {turn, rotation.cwiseQuotient(gradient)};
+}
+
+// The part of the turn that bends a mode's path. A cantilever bent evenly leaves its straight path by 2/3 of
+// its tip's turn, and kTurnShare validated best; a layer in simple shear turns as much as it stretches, and
+// does not leave its path.
+MatrixXd warping_turn(const Turning& turning) {
+  const VectorXd share = kTurnShare * (2 * turning.share.array() - 1).max(0).matrix();
+  return turning.turn * share.asDiagonal();
 }
 
 // (3 cage nodes, modes) -> (3 control nodes of the region, modes).
@@ -198,7 +220,8 @@ void append_modes(const Part& part, const MatrixXd& loads, const TissueLayout& l
                   const Cage& cage, std::vector<Mode>* modes) {
   const MatrixXd everywhere = in_cage(part, part.modes.shape, cage);
   const MatrixXd shape = at_control_nodes(everywhere, layout, region, cage);
-  const MatrixXd turn = at_control_nodes(turn_in_cage(everywhere, part, cage), layout, region, cage);
+  const Turning turning = turning_in_cage(everywhere, part, cage);
+  const MatrixXd turn = at_control_nodes(warping_turn(turning), layout, region, cage);
   const MatrixXd force = part.modes.shape.transpose() * loads;
   for (Index k = 0; k < shape.cols(); ++k) {
     const double w = std::sqrt(part.modes.squared_rad_per_s[k]);
@@ -222,6 +245,15 @@ size_t kept_modes(const std::vector<Mode>& ascending, int count) {
                                  [](const Mode& mode) { return mode.rad_per_s > kHighest_rad_per_s; });
   const auto below = static_cast<size_t>(high - ascending.begin());
   return std::min({ascending.size(), static_cast<size_t>(count), std::max(below, kFewest)});
+}
+
+// Of a shape's first columns: those of a beam, bent either way.
+int stillest_node(const MatrixXd& shape) {
+  const auto first = shape.leftCols(std::min<Index>(2, shape.cols()));
+  Index least = 0;
+  for (Index n = 0; n < first.rows() / 3; ++n)
+    if (first.middleRows<3>(3 * n).norm() < first.middleRows<3>(3 * least).norm()) least = n;
+  return static_cast<int>(least);
 }
 
 ModalBasis basis_of(Gathered gathered, int nodes, int count) {
@@ -249,6 +281,7 @@ ModalBasis basis_of(Gathered gathered, int nodes, int count) {
     basis.rest_rad_per_s = next.rad_per_s;
     basis.rest_damping_ratio = next.damping_ratio;
   }
+  basis.anchor_node = stillest_node(basis.shape);
   return basis;
 }
 

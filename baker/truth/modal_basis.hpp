@@ -15,16 +15,19 @@
 namespace sinew::baker {
 
 inline constexpr int kMostModes = 32;  // a region
+inline constexpr double kTurnShare = 0.75;
 
 struct ModalBasis {
   Eigen::VectorXd rad_per_s;      // w, ascending
   Eigen::VectorXd damping_ratio;  // zeta, of the Rayleigh damping
   Eigen::MatrixXd shape;          // (3 nodes, modes), bind-pose axes; the nodes' root mean square is 1
-  Eigen::MatrixXd turn;   // (3 nodes, modes), rotation vectors: half the curl of shape through the flesh
+  Eigen::MatrixXd turn;   // (3 nodes, modes), rotation vectors that shape is warped by: half its curl through
+                          // the flesh, times kTurnShare, less where the mode is shear rather than bending
   Eigen::MatrixXd force;  // (modes, 3 nodes)
   Eigen::MatrixXd rest;   // (3 nodes, 3 nodes), s^2: what the modes left out answer to a steady felt
                           // acceleration
   double rest_rad_per_s = 0, rest_damping_ratio = 0;
+  int anchor_node = 0;  // moved least by the first modes: where the region is held (tissue/node_bend.hpp)
 };
 
 // cage_node: a node of `bodies` -> of the cage. One basis a region; fewer than `count` modes where a region

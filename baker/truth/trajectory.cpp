@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "baker/mesh/node_record.hpp"
+#include "tissue/node_bend.hpp"
 
 namespace sinew::baker {
 namespace {
@@ -72,6 +73,10 @@ Vector3 displacement_of(const TruthFrame& frame, int vertex, const tissue::NodeP
 void TrajectoryRecorder::add_nodes(const TruthFrame& frame) {
   constexpr size_t kTicks = 3;
   poses_.insert(poses_.begin(), poses_of(nodes_, frame.pose));
+  for (size_t r = 0; r < layout_.regions.size(); ++r)
+    tissue::share_bend(static_cast<uint32_t>(modes_[r].anchor_node),
+                       static_cast<uint32_t>(layout_.regions[r].node_count),
+                       poses_[0].data() + layout_.regions[r].first_node);
   roots_.insert(roots_.begin(), frame.pose.root.topRightCorner<3, 1>());
   while (poses_.size() < kTicks) poses_.push_back(poses_.back()), roots_.push_back(roots_.back());
   poses_.resize(kTicks), roots_.resize(kTicks);
@@ -177,7 +182,7 @@ Safetensors TrajectoryRecorder::finish(std::map<std::string, std::string> metada
   Safetensors file;
   const size_t nodes = layout_.nodes.size();
   file.metadata = std::move(metadata);
-  file.metadata["sinew.trajectory"] = "2";
+  file.metadata["sinew.trajectory"] = "3";
   file.tensors["drive"] = tensor_f32({ticks_, nodes, tissue::kNodeDriveWidth}, drive_);
   file.tensors["rotation"] = tensor_f32({ticks_, nodes, 9}, rotation_);
   file.tensors["displacement"] = tensor_f32({ticks_, nodes, 3}, displacement_);

@@ -1,8 +1,8 @@
 // trajectory.hpp  A simulated motion as the file the trainer and the demo read.
 //
 // T ticks after the start, N nodes, R regions, V vertices, J joints; metres:
-//   drive (T+1,N,12) f32 of tissue/node_drive.hpp   rotation (T+1,N,9) f32 node frames, world from bind axes
-//   displacement (T+1,N,3) f32 along the node's own axes (tissue/node_pose.hpp)
+//   drive (T+1,N,15) f32 of tissue/node_drive.hpp   rotation (T+1,N,9) f32 node frames, world from bind axes
+//   displacement (T+1,N,3) f32 along the node's own frame (tissue/node_bend.hpp)
 //   joints (T+1,J,12) f32 character-from-joint   root (T+1,7) f64 place and quaternion xyzw
 //   energy (T+1,2) f64 elastic and kinetic, joules
 //   node.rest_position (N,3) less the region's centre, in radii   node.rest_normal (N,3)   node.stiffness
@@ -13,7 +13,7 @@
 //   its own skin, region after region; region.vertices (Vr) i32, region.vertex_count (R) i32,
 //   carry.{r} (nodes, vertices of region r)
 // with `positions`: positions (T+1,V,3) f32 truth relative to the root
-// Metadata: sinew.trajectory = 2 and the caller's.
+// Metadata: sinew.trajectory = 3 and the caller's.
 #pragma once
 #include <Eigen/Core>
 #include <map>

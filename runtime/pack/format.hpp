@@ -17,6 +17,8 @@
 // the others.
 //   1  first format
 //   2  tissue lives in node frames on a modal base; tiers modal and spring; a character may have no network
+//   3  node frames follow a share of their region's bend (RegionRecord::anchor_node); inputs that tell the
+//   bend
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -24,7 +26,7 @@
 namespace sinew::pack {
 
 inline constexpr char kMagic[8] = {'S', 'I', 'N', 'E', 'W', 'P', 'K', '\0'};
-inline constexpr uint32_t kVersion = 2;
+inline constexpr uint32_t kVersion = 3;
 inline constexpr size_t kSectionAlignment = 64;
 inline constexpr uint32_t kNoIndex = 0xffffffffu;
 
@@ -155,6 +157,10 @@ enum class InputKind : uint32_t {
   kBaseStep = 14,            // 3: l^ - l of the last tick, length units
   kTurn = 15,                // 3: theta of the last tick, rad
   kFrequency = 16,           // 1: w1 x tick, rad
+  kBend = 17,                // 3: of the node's frame, rad (tissue/node_pose.hpp)
+  kBentForce = 18,           // 3: bend x the value of kFeltStep
+  kBentStep = 19,            // 3: bend x the value of kBaseStep
+  kBentDisplacement = 20,    // 3: bend x the value of kDisplacement
 };
 
 struct InputRecord {
@@ -191,7 +197,7 @@ static_assert(sizeof(SkinRecord) == 48);
 // A soft part simulated as one: its nodes are one connected block of the graph and share one set of modes.
 struct RegionRecord {
   uint32_t name;
-  uint32_t reserved0;
+  uint32_t anchor_node;                 // among the region's: where it is held; bend is measured from there
   uint32_t first_node, node_count;      // 1..4096 nodes
   uint32_t first_vertex, vertex_count;  // in kRegionVertices
   uint64_t carry;                       // float offset in kCarry of [node_count][padded_vertices]

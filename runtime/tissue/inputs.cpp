@@ -34,6 +34,10 @@ Value difference(float scale, const float* v, const float* less) {
   return {{(v[0] - less[0]) * scale, (v[1] - less[1]) * scale, (v[2] - less[2]) * scale}, 3};
 }
 
+Value cross(const float* a, const Value& b) {
+  return {{a[1] * b.v[2] - a[2] * b.v[1], a[2] * b.v[0] - a[0] * b.v[2], a[0] * b.v[1] - a[1] * b.v[0]}, 3};
+}
+
 Value value_of(InputKind kind, const NodeSources& sources, uint32_t node, float unit_m) {
   const float* drive = sources.drive + size_t{node} * kNodeDriveWidth;
   const size_t at = size_t{node} * 3;
@@ -63,6 +67,14 @@ Value value_of(InputKind kind, const NodeSources& sources, uint32_t node, float 
       return from_floats(sources.theta + at);
     case InputKind::kFrequency:
       return {{w1 * sources.tick_s}, 1};
+    case InputKind::kBend:
+      return from_floats(drive + 12);
+    case InputKind::kBentForce:
+      return cross(drive + 12, scaled_by(1 / (w1 * w1 * unit_m), sources.felt + at));
+    case InputKind::kBentStep:
+      return cross(drive + 12, difference(1 / unit_m, sources.l_hat + at, sources.l + at));
+    case InputKind::kBentDisplacement:
+      return cross(drive + 12, scaled_by(1 / unit_m, sources.l + at));
   }
   return {};
 }

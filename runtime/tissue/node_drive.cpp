@@ -69,6 +69,7 @@ void compute_node_drive(const NodeMotion& motion, float tick_s, uint32_t count, 
     put(into_axes(now, gravity) - gravity, out);
     put(omega, out);
     put(rate * (omega - omega_before), out);
+    put(vector_at(now.bend), out);
   }
 }
 

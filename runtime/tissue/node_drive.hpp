@@ -1,5 +1,5 @@
 // node_drive.hpp  What moves a control node, as it feels it: along the axes of its own frame
-// (tissue/node_pose.hpp).
+// (tissue/node_bend.hpp).
 //
 // With x its skinned place in the world, R its frame, g gravity, and ticks h apart, backward differences (the
 // future is not known at run time):
@@ -7,6 +7,7 @@
 //   gravity change           = R_t^T g - g
 //   angular velocity   omega = vee((A - A^T) / 2) / h,  A = R_{t-1}^T R_t     the sine of a tick's turn
 //   angular acceleration     = (omega_t - omega_{t-1}) / h
+//   bend                     of its region, tissue/node_bend.hpp
 // All are zero for a character that stands still in its bind pose. The trainer's data sets are written
 // through this same code, so network and runtime cannot disagree on an input.
 #pragma once
@@ -17,8 +18,8 @@
 namespace sinew::tissue {
 
 // Three numbers each: felt acceleration and gravity change (m/s^2), angular velocity (rad/s), angular
-// acceleration (rad/s^2).
-inline constexpr int kNodeDriveWidth = 12;
+// acceleration (rad/s^2), bend (rad).
+inline constexpr int kNodeDriveWidth = 15;
 
 // The last three ticks, newest first; a character at rest holds three equal ones. Views.
 struct NodeMotion {

@@ -46,6 +46,7 @@ void pose_nodes(std::span<const pack::NodeRecord> nodes, const float* skin, cons
     const Eigen::Map<const Vector3f> place(node.position_m);
     Eigen::Map<Vector3f>(out->place_m) = root * (matrix.leftCols<3>() * place + matrix.col(3));
     Eigen::Map<Rows33>(out->rotation) = root * rotation_of(matrix.leftCols<3>());
+    Eigen::Map<Vector3f>(out->bend).setZero();
     ++out;
   }
 }

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <utility>
 
+#include "tissue/node_bend.hpp"
 #include "world/rotation.hpp"
 
 namespace sinew::world {
@@ -142,6 +143,8 @@ void push_pose(Instance& instance, double share) noexcept {
   const RootTransform root = root_at(instance, share);
   skin_matrices(pack.joints, joints_at(instance, share), instance.skin);
   tissue::pose_nodes(pack.nodes, instance.skin, root.rotation_xyzw, instance.poses[0]);
+  for (const pack::RegionRecord& region : pack.regions)
+    tissue::share_bend(region.anchor_node, region.node_count, instance.poses[0] + region.first_node);
   std::copy_n(root.position_m, 3, roots[0]);
 }
 

@@ -133,7 +133,7 @@ TEST_CASE("network_faults_are_refused_by_name") {
        {"state clamp", network([](auto& n) { n.state_clamp = 0; })},
        {"length unit", network([](auto& n) { n.length_unit = -1; })},
        {"reserved", network([](auto& n) { n.reserved[5] = 1; })},
-       {"input 1: kind 17", input([](auto& i) { i.kind = InputKind{17}; })},
+       {"input 1: kind 21", input([](auto& i) { i.kind = InputKind{21}; })},
        {"input 1: kind 4", input([](auto& i) { i.kind = InputKind{4}; })},
        {"input 1: its kind appears twice", input([](auto& i) { i.kind = InputKind::kRestPosition; })},
        {"input 1: scale", input([](auto& i) { i.scale = kNan; })},
@@ -207,7 +207,7 @@ TEST_CASE("tissue_faults_are_refused_by_name") {
   check_refused(
       character_pack(),
       {{"region 1: its name", region([](auto& r) { r.name = 100000; })},
-       {"region 1: reserved", region([](auto& r) { r.reserved0 = 3; })},
+       {"region 1: held at node 2 of 2", region([](auto& r) { r.anchor_node = 2; })},
        {"region 1: 4097 nodes", region([](auto& r) { r.node_count = 4097; })},
        {"region 1: 0 nodes", region([](auto& r) { r.node_count = 0; })},
        {"region 1: nodes do not follow", region([](auto& r) { r.first_node = 2; })},

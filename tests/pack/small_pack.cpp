@@ -109,7 +109,7 @@ baker::Safetensors small_weights() {
       "rest_position,rest_normal,stiffness,angular_acceleration,angular_velocity,gravity_change,displacement,"
       "velocity,felt_step,base_step,turn,frequency";
   weights.metadata.insert({{"inputs", inputs},
-                           {"frame", "node"},
+                           {"frame", "bent"},
                            {"base", "modal"},
                            {"input_scales", "1,1,1,0.01,0.1,0.1,1,10,1,10,1,1"},
                            {"envelope", "2,2,2,8,8,8,8,8,8,8,8,8"},

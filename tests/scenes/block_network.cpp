@@ -106,7 +106,7 @@ baker::Safetensors block_network(const BlockOptions& options) {
       {"sinew.version", "1"},
       {"channels", "8,3"},
       {"rate_hz", std::to_string(options.rate_hz)},
-      {"frame", "node"},
+      {"frame", "bent"},
       {"base", "modal"},
       {"inputs",
        "felt_step,base_step,gravity_change,angular_velocity,angular_acceleration,displacement,velocity,turn,"

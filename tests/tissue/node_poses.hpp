@@ -8,7 +8,7 @@ namespace sinew::test {
 
 inline tissue::NodePose node_pose(const Eigen::Matrix3d& rotation,
                                   const Eigen::Vector3d& place_m = {0, 0, 0}) {
-  tissue::NodePose pose;
+  tissue::NodePose pose{};
   Eigen::Map<Eigen::Vector3f>(pose.place_m) = place_m.cast<float>();
   Eigen::Map<Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(pose.rotation) = rotation.cast<float>();
   return pose;

@@ -1,6 +1,7 @@
 // test_inputs.cpp  Order, scales, units, the envelope and its count.
 #include "tissue/inputs.hpp"
 
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <limits>
 
@@ -123,6 +124,25 @@ TEST_CASE("assemble_inputs_reads_each_part_of_the_drive_from_its_place") {
     for (size_t k = 0; k < values.size(); ++k)
       REQUIRE(values[k] == static_cast<float>(node * tissue::kNodeDriveWidth + 3 + k));
   }
+}
+
+// Node 1: the drive counts up from 15, so its bend is (27, 28, 29) rad; the vectors crossed are those of the
+// test below.
+TEST_CASE("assemble_inputs_crosses_the_bend_with_force_step_and_displacement") {
+  Fixture fixture({{InputKind::kBend, 1, kInfinity, 0},
+                   {InputKind::kBentForce, 1, kInfinity, 0},
+                   {InputKind::kBentStep, 1, kInfinity, 0},
+                   {InputKind::kBentDisplacement, 1, kInfinity, 0}});
+  REQUIRE(fixture.assemble() == 0);
+  const std::vector<float> values = row(fixture, 1, 12);
+  const auto part = [&](size_t k) {
+    return Eigen::Vector3f(values[3 * k], values[3 * k + 1], values[3 * k + 2]);
+  };
+  const Eigen::Vector3f bend(27, 28, 29), l(3, 4, 5);
+  CHECK(part(0) == bend);
+  CHECK((part(1) - bend.cross(0.5f * l)).norm() < 1e-4f);  // float's rounding of some hundreds
+  CHECK((part(2) - bend.cross(2 * l)).norm() < 1e-4f);
+  CHECK((part(3) - bend.cross(2 * l)).norm() < 1e-4f);
 }
 
 // Node 1: felt 300 400 500 m/s^2 over (20 rad/s)^2 in units of half a metre; l_hat twice l = 3 4 5 m; a

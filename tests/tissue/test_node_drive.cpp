@@ -18,7 +18,7 @@ const Vector3d kGravity(0, -9.80665, 0);
 constexpr double kRounding = 4 * 6e-8 * 3600;
 
 struct Drive {
-  Vector3d felt, gravity_change, velocity, acceleration;
+  Vector3d felt, gravity_change, velocity, acceleration, bend;
 };
 
 // rotation and place (from the root) at t; root of the root.
@@ -35,7 +35,7 @@ Drive drive_at(const std::function<Matrix3d(double)>& rotation, const std::funct
   float out[tissue::kNodeDriveWidth];
   tissue::compute_node_drive(motion, static_cast<float>(kTick_s), 1, out);
   const auto part = [&](int k) { return Vector3d(Eigen::Map<Eigen::Vector3f>(out + 3 * k).cast<double>()); };
-  return {part(0), part(1), part(2), part(3)};
+  return {part(0), part(1), part(2), part(3), part(4)};
 }
 
 Vector3d nowhere(double) { return {0, 0, 0}; }
@@ -47,7 +47,7 @@ Matrix3d upright(double) { return Matrix3d::Identity(); }
 TEST_CASE("drive_at_rest_in_the_bind_pose_is_zero") {
   const Drive drive = drive_at(
       upright, somewhere, [](double) { return Vector3d(1e6, 3, -2); }, 1);
-  for (const Vector3d& part : {drive.felt, drive.gravity_change, drive.velocity, drive.acceleration})
+  for (const Vector3d& part : {drive.felt, drive.gravity_change, drive.velocity, drive.acceleration, drive.bend})
     CHECK(part.norm() == 0);
 }
 

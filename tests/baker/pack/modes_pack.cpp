@@ -126,7 +126,7 @@ TEST_CASE("matrices_lie_where_the_format_says") {
     const Eigen::MatrixXd shape = matrix(count), turn = matrix(count), force = matrix(count),
                           project = matrix(count);
     CHECK(same(shape.transpose(), modes[r].shape));
-    CHECK(same(turn.transpose(), kTurnShare * modes[r].turn));
+    CHECK(same(turn.transpose(), modes[r].turn));
     CHECK(same(force, modes[r].force));
     CHECK(same(matrix(floats), modes[r].rest));
     // Within a hundredth, stiff modes as the ridge has it.

@@ -3,7 +3,7 @@ double precision tick by tick as the equations stand, with a spring on top that 
 like flesh to tell whether training works."""
 import numpy as np
 
-from train.modal_base import LARGEST_TURN, TURN_SHARE
+from train.modal_base import LARGEST_TURN
 
 H = 1 / 60
 SUBSTEPS = 4
@@ -71,7 +71,7 @@ def _basis(rng, rest, edges):
         rad_per_s=w,
         damping_ratio=damping(w),
         shape=shape,
-        turn=turning @ shape,
+        turn=0.75 * turning @ shape,
         force=phi.T / np.sqrt(n),
         rest=compliance - (phi / w**2) @ phi.T,
         rest_oscillator=np.array([next_w, damping(next_w)]),
@@ -92,7 +92,7 @@ def _body(rng):
 
 
 def _motion(rng, rest, ticks, strength):
-    """Place (T+1, N, 3) and frame (T+1, N, 3, 3) of every node: ten still ticks, then a root that sways and
+    """Place (T+1, N, 3), frame (T+1, N, 3, 3) and bend (T+1, N, 3) of every node: ten still ticks, then a root that sways and
     turns and a joint that bends, of which each node has its own share."""
     t = np.arange(ticks + 1) * H
     ramp = np.clip((t - 10 * H) / 0.4, 0, 1)
@@ -110,11 +110,11 @@ def _motion(rng, rest, ticks, strength):
     share = 0.5 + 0.5 * rest[:, 0]
     bent = turn_and_mean(share[:, None] * bend[:, None])[0]
     place = (root @ bent @ (rest * RADIUS_M)[..., None])[..., 0] + wave(2)[:, None]
-    return place, root @ bent
+    return place, root @ bent, 0.25 * share[:, None] * bend[:, None]
 
 
-def drive_of(place, frame):
-    """(T+1, N, 12) as runtime/tissue/node_drive.hpp: what lies before the start is the start."""
+def drive_of(place, frame, bend):
+    """(T+1, N, 15) as runtime/tissue/node_drive.hpp: what lies before the start is the start."""
     before = lambda a: np.concatenate([a[:1], a[:-1]])
     back = np.swapaxes(frame, -1, -2)
     apply = lambda m, v: (m @ v[..., None])[..., 0]
@@ -125,7 +125,7 @@ def drive_of(place, frame):
     gravity = np.broadcast_to(GRAVITY, place.shape)
     alpha = (omega - before(omega)) / H
     return np.concatenate(
-        [apply(back, gravity - acceleration) - gravity, apply(back, gravity) - gravity, omega, alpha], -1
+        [apply(back, gravity - acceleration) - gravity, apply(back, gravity) - gravity, omega, alpha, bend], -1
     )
 
 
@@ -150,7 +150,7 @@ def simulate(basis, felt, frame, hardening=HARDENING, linear=False):
         goal = (1 - rest_a1 - rest_a2) * (basis["rest"] @ force.ravel()).reshape(n, 3)
         rest, rest_before = rest_a1 * rest + rest_a2 * rest_before + goal, rest
         l = (basis["shape"] @ q).reshape(n, 3) + rest
-        theta = TURN_SHARE * (basis["turn"] @ q).reshape(n, 3)
+        theta = (basis["turn"] @ q).reshape(n, 3)
         theta = theta / np.maximum(1, np.linalg.norm(theta, axis=-1, keepdims=True) / LARGEST_TURN)
         u, u_before = (l if linear else apply(turn_and_mean(theta)[1], l)), u
         out.append(u)
@@ -166,8 +166,8 @@ def _written(basis):
 def trajectory(seed, ticks=120, strength=1.0, body_seed=0, hardening=HARDENING, linear=False):
     """(tensors, metadata) as a trajectory file holds them."""
     rest, normal, edges, region, bases = _body(np.random.default_rng(body_seed))
-    place, frame = _motion(np.random.default_rng(1000 + seed), rest, ticks, strength)
-    drive = drive_of(place, frame)
+    place, frame, bend = _motion(np.random.default_rng(1000 + seed), rest, ticks, strength)
+    drive = drive_of(place, frame, bend)
     u = [
         simulate(b, drive[:, region == r, :3], frame[:, region == r], hardening, linear)
         for r, b in enumerate(bases)
@@ -186,7 +186,7 @@ def trajectory(seed, ticks=120, strength=1.0, body_seed=0, hardening=HARDENING, 
     for r, b in enumerate(bases):
         tensors.update({f"modes.{r}.{k}": v for k, v in _written(b).items()})
     metadata = {
-        "sinew.trajectory": 2,
+        "sinew.trajectory": 3,
         "character": "synthetic",
         "motion": "random",
         "seed": seed,
@@ -206,7 +206,7 @@ def mirrored(tensors):
     out = dict(tensors)
     for name in ("node.rest_position", "node.rest_normal", "displacement"):
         out[name] = tensors[name] * polar
-    out["drive"] = tensors["drive"] * np.concatenate([polar, polar, axial, axial])
+    out["drive"] = tensors["drive"] * np.concatenate([polar, polar, axial, axial, axial])
     out["rotation"] = tensors["rotation"] * np.outer(polar, polar).ravel()
     for name, a in tensors.items():
         if name.endswith(".shape") or name.endswith(".turn"):

@@ -17,7 +17,8 @@ namespace {
 constexpr double kHalf_m = 0.1, kHeight_m = 1;  // of a square post, held at its foot
 constexpr double kRigidTo_m = 0.4;
 
-// A post on one joint with a control node at every soft vertex, and the finite elements of its whole cage.
+// A post, or a wide pad, on one joint with a control node at every soft vertex, and the finite elements of
+// its whole cage.
 struct Post {
   Character character = sinew::test::bare_character({Vector3(0, 0, 0)});
   TissueLayout layout;
@@ -25,8 +26,8 @@ struct Post {
   std::vector<int> same;  // a node of the finite elements is one of the cage
 
   // halves: the post's left and right side are regions of their own.
-  explicit Post(double young_pa = 2e4, bool halves = false) {
-    sinew::test::add_box(character, {-kHalf_m, 0, -kHalf_m}, {kHalf_m, kHeight_m, kHalf_m}, 0.1, 0);
+  explicit Post(double young_pa = 2e4, bool halves = false, double half_m = kHalf_m) {
+    sinew::test::add_box(character, {-half_m, 0, -half_m}, {half_m, kHeight_m, half_m}, 0.1, 0);
     layout.regions.resize(halves ? 2 : 1);
     for (int side = 0; side < static_cast<int>(layout.regions.size()); ++side) add_region(side, halves);
     for (const Vector3& p : character.positions) layout.stiffness.push_back(p.y() > kRigidTo_m ? 0 : 1);
@@ -171,7 +172,8 @@ TEST_CASE("what_the_modes_leave_out_swings_as_the_first_of_them") {
   CHECK(all.rest.norm() < 1e-6 * (all.shape * all.force).norm() / all.rad_per_s.cwiseAbs2().minCoeff());
 }
 
-TEST_CASE("turn_is_the_slope_of_a_bending_mode") {
+// Of a slender beam the share would be kTurnShare; a post three times as high as wide bends and shears.
+TEST_CASE("turn_is_a_share_of_the_slope_of_a_bending_mode") {
   const Post post;
   const ModalBasis basis = post.bases(2)[0];
   const auto shape = [&](Index k, const Vector3& place) -> Vector3 {
@@ -190,8 +192,32 @@ TEST_CASE("turn_is_the_slope_of_a_bending_mode") {
     const Vector3 turn = basis.turn.col(k).segment<3>(3 * post.node_at(place));
     INFO("mode " << k << ": turn " << turn.transpose() << ", slope " << slope.transpose());
     CHECK(slope.norm() > 1);  // rad for a metre of the mode: it does bend
-    CHECK((turn - slope).norm() < 0.05 * slope.norm());
+    const double share = turn.norm() / slope.norm();
+    CHECK((turn - share * slope).norm() < 0.05 * turn.norm());
+    CHECK(share > 0.6 * kTurnShare);
+    CHECK(share < kTurnShare);
   }
+}
+
+TEST_CASE("a_pad_that_shears_is_hardly_warped") {
+  constexpr double kWide_m = 0.6;
+  const Post post, pad(2e4, false, kWide_m);
+  const ModalBasis bends = post.bases(2)[0], shears = pad.bases(2)[0];
+  for (Index k = 0; k < 2; ++k) {
+    // Radians at the top for a displacement of a metre there: half the height's inverse for a shear.
+    const auto turn_of = [&](const Post& of, const ModalBasis& basis) {
+      const int top = 3 * of.node_at({0, kHeight_m, 0});
+      return basis.turn.col(k).segment<3>(top).norm() / basis.shape.col(k).segment<3>(top).norm();
+    };
+    CHECK(turn_of(pad, shears) < 0.25 * turn_of(post, bends));
+  }
+}
+
+TEST_CASE("a_post_is_held_at_its_foot") {
+  const Post post;
+  const ModalBasis basis = post.bases(6)[0];
+  const ControlNode& anchor = post.layout.nodes[static_cast<size_t>(basis.anchor_node)];
+  CHECK(anchor.position.y() == Approx(kRigidTo_m + 0.1));  // the lowest of the soft ones
 }
 
 TEST_CASE("regions_that_share_a_body_are_split_between_them") {

@@ -42,6 +42,9 @@ struct Scene {
     layout.edges = {{0, 1}};
   }
 
+  // None but where the regions are held: at their first node.
+  std::vector<ModalBasis> modes() const { return std::vector<ModalBasis>(layout.regions.size()); }
+
   // The root at `root`, the second joint turned about Z, every vertex `offset` (world) from where skinning
   // puts it.
   TruthFrame frame(const Matrix4& root, const Vector3& offset, double bend = 0) const {
@@ -92,33 +95,36 @@ Vector3 at(const Tensor& tensor, size_t first) { return at(tensor.as_f32(), firs
 // The drive of every tick, of a scene without displacement.
 template <class RootAt>
 Values drive_of(const Scene& scene, int ticks, const RootAt& root_at) {
-  TrajectoryRecorder recorder(scene.character, scene.layout, {}, {});
+  TrajectoryRecorder recorder(scene.character, scene.layout, {}, scene.modes());
   for (int tick = 0; tick < ticks; ++tick) recorder.add(scene.frame(root_at(tick), Vector3::Zero()));
   return recorder.finish({}).need("drive", {ticks, std::ssize(scene.layout.nodes), kNodeDriveWidth}).as_f32();
 }
 
 }  // namespace
 
-TEST_CASE("displacement_lies_along_each_nodes_own_axes") {
+TEST_CASE("displacement_lies_along_each_nodes_own_frame") {
   const Scene scene;
-  TrajectoryRecorder recorder(scene.character, scene.layout, {}, {});
+  TrajectoryRecorder recorder(scene.character, scene.layout, {}, scene.modes());
   const double quarter = std::acos(0.0);
   recorder.add(scene.frame(rigid(Vector3(1000, 0, 0), quarter), Vector3(0.01, 0.02, 0), quarter));
   const Safetensors file = recorder.finish({{"motion", "none"}});
   const Tensor& displacement = file.need("displacement", {1, 2, 3});
   // A quarter turn about Y takes the first node's Z to the world's X.
   CHECK((at(displacement, 0) - Vector3(0, 0.02, 0.01)).norm() < kFloat);
-  // The second is half way to the bent joint: its axes are turned by an eighth more, about their Z.
-  const double s = std::sqrt(0.5);
-  CHECK((at(displacement, 3) - Vector3(0.02 * s, 0.02 * s, 0.01)).norm() < kFloat);
-  CHECK(file.metadata.at("sinew.trajectory") == "2");
+  // The flesh of the second is half way to the bent joint, turned by an eighth more about its Z; its frame by
+  // three quarters of that.
+  const double bend = 0.75 * quarter / 2;
+  CHECK((at(displacement, 3) - Vector3(0.02 * std::sin(bend), 0.02 * std::cos(bend), 0.01)).norm() < kFloat);
+  CHECK((at(file.need("drive", {1, 2, kNodeDriveWidth}), kNodeDriveWidth + 12) - Vector3(0, 0, quarter / 8))
+            .norm() < kFloat);
+  CHECK(file.metadata.at("sinew.trajectory") == "3");
   CHECK(file.metadata.at("motion") == "none");
 }
 
 TEST_CASE("displacement_turned_back_by_the_nodes_frames_gives_the_truth") {
   const Scene scene;
   const TruthFrame frame = scene.frame(rigid(Vector3(1, 2, 3), 0.7), Vector3(0.03, -0.02, 0.01), 1.1);
-  TrajectoryRecorder recorder(scene.character, scene.layout, {}, {});
+  TrajectoryRecorder recorder(scene.character, scene.layout, {}, scene.modes());
   recorder.add(frame);
   const Safetensors file = recorder.finish({});
   const Values rotation = file.need("rotation", {1, 2, 9}).as_f32();
@@ -203,7 +209,7 @@ TEST_CASE("the_modes_are_written_region_by_region") {
 
 TEST_CASE("statics_pose_and_optional_tensors_are_there") {
   const Scene scene;
-  TrajectoryRecorder recorder(scene.character, scene.layout, {60, true, true}, {});
+  TrajectoryRecorder recorder(scene.character, scene.layout, {60, true, true}, scene.modes());
   recorder.add(scene.frame(rigid(Vector3(5, 6, 7), 0.3), Vector3(0, 0.5, 0)));
   const Safetensors file = recorder.finish({});
   CHECK((at(file.need("node.rest_position", {2, 3}), 3) - Vector3(1, 0, 0)).norm() < kFloat);
@@ -217,7 +223,7 @@ TEST_CASE("statics_pose_and_optional_tensors_are_there") {
   CHECK(file.need("carry.0", {2, 2}).as_f32() == std::vector<float>{1, 0, 0, 1});
   CHECK((at(file.need("positions", {1, 3, 3}), 3) - Vector3(0, 1.5, 0)).norm() < kFloat);
 
-  TrajectoryRecorder plain(scene.character, scene.layout, {}, {});
+  TrajectoryRecorder plain(scene.character, scene.layout, {}, scene.modes());
   plain.add(scene.frame(Matrix4::Identity(), Vector3::Zero()));
   CHECK(plain.finish({}).tensors.count("positions") == 0);
 }

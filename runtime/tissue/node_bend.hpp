@@ -1,0 +1,22 @@
+// node_bend.hpp  Node frames that follow three quarters of their region's bend.
+//
+// With R_i a node's flesh and R_a that of the node where its region is held (RegionRecord::anchor_node), the
+// bend is beta_i = log(R_a^T R_i) and the node's frame F_i = R_a exp(3/4 beta_i). The modes are those of the
+// bind pose. In the frames of the flesh itself a bent tail's tip swings along its own axes alone; in those of
+// its root, as if it were straight. A turn near the root moves the tip about the root, not about itself, so
+// the truth lies between; this share validated best. Beyond a bend of 2.3 rad it returns to the flesh's own
+// frame, since at pi the shorter way round changes sides.
+#pragma once
+#include <cstdint>
+
+#include "tissue/node_pose.hpp"
+
+namespace sinew::tissue {
+
+// Nodes of one region, as pose_nodes left them; anchor < count. rotation becomes F_i, and bend = beta_i / 4.
+void share_bend(uint32_t anchor, uint32_t count, NodePose* nodes) noexcept;
+
+// A vector along a node's frame, along the axes of its flesh: exp([bend]x)^T v. Either may be the other.
+void along_flesh(const NodePose& node, const float v[3], float out[3]) noexcept;
+
+}  // namespace sinew::tissue

@@ -1,0 +1,59 @@
+// test_publish.cpp  From the frames that tissue moves in to the axes of the flesh, which carry and skin it.
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "tests/world/stage.hpp"
+#include "tissue/node_pose.hpp"
+#include "world/asset.hpp"
+#include "world/instance.hpp"
+#include "world/motion.hpp"
+#include "world/publish.hpp"
+
+using namespace sinew;
+using Eigen::Vector3f;
+using Rows33 = Eigen::Matrix<float, 3, 3, Eigen::RowMajor>;
+
+namespace {
+
+constexpr float kRounding_m = 1e-6f;  // of displacements of some centimetres, through a few rotations
+
+// A block in its modal tier, bent at the waist by two radians, with its nodes' frames as a tick leaves them.
+struct BentBlock {
+  world::Asset asset;
+  world::Instance instance;
+  BentBlock() {
+    REQUIRE(world::open_asset(test::block_pack().bytes(), &asset).ok());
+    REQUIRE(world::make_instance(asset, {}, {}, 1, &instance).ok());
+    const scenes::BlockPose pose = scenes::bent_pose(2);
+    std::copy_n(pose.joints.data(), 2, instance.joints);
+    world::take_pose(instance, 1);
+    world::follow_motion(instance, 0);
+    instance.state->tier = Tier::kModal;
+    instance.state->blend_ticks = world::kBlendInTicks;
+  }
+};
+
+}  // namespace
+
+// Whatever the frames, the same displacement in space.
+TEST_CASE("published_displacement_lies_along_the_flesh") {
+  BentBlock block;
+  world::Instance& instance = block.instance;
+  const Vector3f offset_m(0.03f, -0.02f, 0.05f);
+  float largest_bend_rad = 0;
+  for (size_t n = 0; n < block.asset.node_count(); ++n) {
+    const tissue::NodePose& pose = instance.poses[0][n];
+    const Vector3f along_frame = Eigen::Map<const Rows33>(pose.rotation).transpose() * offset_m;
+    for (float* shown : instance.shown) Eigen::Map<Vector3f>(shown + 3 * n) = along_frame;
+    largest_bend_rad = std::max(largest_bend_rad, Eigen::Map<const Vector3f>(pose.bend).norm());
+  }
+  REQUIRE(largest_bend_rad > 0.1f);  // a quarter of the bend: the waist blends
+  world::publish(instance);
+  std::vector<tissue::NodePose> flesh(block.asset.node_count());
+  const float upright[4] = {0, 0, 0, 1};
+  tissue::pose_nodes(block.asset.pack.nodes, instance.skin, upright, flesh.data());
+  for (size_t n = 0; n < flesh.size(); ++n) {
+    const Vector3f delta(instance.delta + 3 * n);
+    CHECK((Eigen::Map<const Rows33>(flesh[n].rotation) * delta - offset_m).norm() < kRounding_m);
+  }
+}
