@@ -1,7 +1,7 @@
 """The modal base that a network corrects (runtime/tissue/modal_base.hpp), for batches of sequences.
 
 Shapes: R regions of n nodes, K modes, B sequences. Displacements are (R, n, B, 3) in metres along the nodes'
-own axes; l is what the modes add up to, u the same after warping (Choi and Ko 2005)."""
+own frames; l is what the modes add up to, u the same after warping (Choi and Ko 2005)."""
 from dataclasses import dataclass
 
 import numpy as np

@@ -142,7 +142,7 @@ struct LayerRecord {
 static_assert(sizeof(LayerRecord) == 64);
 
 // What a node may be fed, in the order of the kInputs section. Vectors lie along the axes of the node's own
-// frame (tissue/node_pose.hpp, node_drive.hpp); l, l^, theta and e as in tissue/modal_base.hpp; w1 is
+// frame (tissue/node_bend.hpp, node_drive.hpp); l, l^, theta and e as in tissue/modal_base.hpp; w1 is
 // first_rad_per_s of the region, a length unit length_unit x radius_m. Numbers 4 to 7 were version 1's.
 enum class InputKind : uint32_t {
   kRestPosition = 1,         // 3: bind position less the region's centre, in region radii
@@ -157,7 +157,7 @@ enum class InputKind : uint32_t {
   kBaseStep = 14,            // 3: l^ - l of the last tick, length units
   kTurn = 15,                // 3: theta of the last tick, rad
   kFrequency = 16,           // 1: w1 x tick, rad
-  kBend = 17,                // 3: of the node's frame, rad (tissue/node_pose.hpp)
+  kBend = 17,                // 3: of the node's frame, rad (tissue/node_bend.hpp)
   kBentForce = 18,           // 3: bend x the value of kFeltStep
   kBentStep = 19,            // 3: bend x the value of kBaseStep
   kBentDisplacement = 20,    // 3: bend x the value of kDisplacement

@@ -1,6 +1,6 @@
 // modal_base.hpp  A soft part as a few damped modes, in axes that turn with its flesh.
 //
-// For control node i: u displacement along its own frame R (tissue/node_pose.hpp), l the same before warping,
+// For control node i: u displacement along its own frame R (tissue/node_bend.hpp), l the same before warping,
 // theta how its flesh has turned against its frame, f the felt acceleration (tissue/node_drive.hpp); q modal
 // coordinates. One tick, h long, from t-1 to t:
 //   phi   = [R_t^T (2 R_{t-1} u_{t-1} - R_{t-2} u_{t-2}) - (2 u_{t-1} - u_{t-2})] / h^2

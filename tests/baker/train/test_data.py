@@ -106,10 +106,10 @@ class Refusals(Folder):
         self.refused("modes.1.turn[4, 2]")
 
     def test_other_versions(self):
-        for version in ("1", "3", ""):
+        for version in ("2", "4", ""):
             self.metadata["sinew.trajectory"] = version
             self.write()
-            self.refused(f"version {version}", "reads 2")
+            self.refused(f"version {version}", "reads 3")
         del self.metadata["sinew.trajectory"]
         self.write()
         self.refused("version None")
