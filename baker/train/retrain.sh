@@ -1,17 +1,19 @@
 #!/bin/sh
-# retrain.sh  Makes the shipped weights: data set, network, the evaluation page, export.
+# retrain.sh  Makes the shipped weights: data set, networks, the evaluation page, export.
 #
 #   baker/train/retrain.sh [BUILD_DIR] [WORK_DIR]
 #
 # BUILD_DIR holds bin/sinew-bake (default: build/release). WORK_DIR takes the data set and the runs (default: BUILD_DIR/train);
-# a second call goes on where the first was cut. In the environment, if wanted: MINUTES (14) of one core a network, SEEDS (0; the one that
-# validates best is kept), PROCESSES (2), PLAN (assets/bodies/plan.json), GENERATE and TRAIN (further options of those commands), OUT (assets) and PYTHON (/usr/bin/python3).
+# a second call goes on where the first was cut. In the environment, if wanted: NETWORKS (name=channels ...),
+# MINUTES (30) of one core a network, SEEDS (0; of each network the one that validates best is kept), PROCESSES (2), PLAN (assets/bodies/plan.json),
+# GENERATE and TRAIN (further options of those commands), OUT (assets) and PYTHON (/usr/bin/python3).
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 build=${1:-$root/build/release}
 work=${2:-$build/train}
 python=${PYTHON:-/usr/bin/python3}
 out=${OUT:-$root/assets}
+networks=${NETWORKS:-creature=16,16,3 creature_small=8,8,3}
 bake=$build/bin/sinew-bake
 
 [ -x "$bake" ] || { echo "retrain.sh: no $bake; build the project first, or name its build folder" >&2; exit 2; }
@@ -24,17 +26,27 @@ mkdir -p "$work"
 simulate --processes "${PROCESSES:-2}" --splits train validation
 simulate --processes 1 > "$work/generate.log" 2>&1 &   # what judging needs, while training runs
 pids=$!
-set --
-for seed in ${SEEDS:-0}; do
-  trainer train "$work/data" --out "$work/run$seed" --seed "$seed" --minutes "${MINUTES:-14}" --device auto ${TRAIN:-} > "$work/run$seed.log" 2>&1 &
-  pids="$pids $!"
-  set -- "$@" "$work/run$seed"
+for network in $networks; do
+  for seed in ${SEEDS:-0}; do
+    run=${network%=*}.$seed
+    trainer train "$work/data" --out "$work/$run" --channels "${network#*=}" --seed "$seed" --minutes "${MINUTES:-30}" --device auto ${TRAIN:-} \
+      > "$work/$run.log" 2>&1 &
+    pids="$pids $!"
+  done
 done
 for pid in $pids; do
   wait "$pid" || { tail -n 3 "$work"/*.log >&2; kill $pids 2>/dev/null || :; exit 2; }
 done
 
-best=$(trainer best "$@")
-trainer evaluate "$work/data" --run network="$best" --out "$out/evaluation"
-trainer export "$work/data" --run "$best" --page "$out/evaluation" --model network --body momo --out "$out/weights" --name creature
-"$bake" check "$out/weights/creature.safetensors" "$out/weights/creature.vectors.safetensors" --tolerance 1e-4
+set --
+names=
+for network in $networks; do
+  name=${network%=*}
+  names="$names $name"
+  set -- "$@" --run "$name=$(trainer best "$work/$name".[0-9]*/)"
+done
+trainer evaluate "$work/data" "$@" --enduring $names --out "$out/evaluation"
+for name in $names; do
+  trainer export "$work/data" --run "$(trainer best "$work/$name".[0-9]*/)" --page "$out/evaluation" --model "$name" --body momo --out "$out/weights" --name "$name"
+  "$bake" check "$out/weights/$name.safetensors" "$out/weights/$name.vectors.safetensors" --tolerance 1e-4
+done
