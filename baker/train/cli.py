@@ -100,6 +100,12 @@ def _ablate(a):
     _compare(ablate, a)
 
 
+def _vanilla(a):
+    from .paper_forms import compare_forms
+
+    _compare(compare_forms, a)
+
+
 def _compare(how, a):
     import torch
 
@@ -177,6 +183,8 @@ def _parser():
     p.add_argument("--out", required=True, help="folder of the page")
     text = "Trains small variants of the recipe on one body and compares them."
     _add_comparison(command("ablate", _ablate, text), 4.0)
+    text = "Trains the paper's vanilla ConvLSTMs on one body and compares them with Alt-ConvLSTM."
+    _add_comparison(command("vanilla", _vanilla, text), 3.0)
     text = "Writes weights with their errors stated, and check vectors, of a judged run."
     p = command("export", _export, text)
     p.add_argument("data")

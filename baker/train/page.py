@@ -10,6 +10,7 @@ PAPER = {10: (2.32, 0.12), 20: (3.4, 0.17), 30: (5.18, 0.27), 50: (7.9, 0.40)}
 SHEET = "../pictures/hop_sheet.jpg"
 SECTIONS = {  # of other commands: what they wrote -> its title
     "ablations.md": "What each part of the recipe is worth",
+    "vanilla.md": "The paper's comparison: vanilla ConvLSTM",
 }
 
 
