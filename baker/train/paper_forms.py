@@ -25,8 +25,8 @@ ON_THE_BASE = {"ConvLSTM NP ΔY on the modal base": ["--form", "NP_dY"], "Alt-Co
 FORCED = ", single steps"
 VARIANTS = {
     **MODELS,
-    **{name + FORCED: [*options, "--teacher-forced", "1"] for name, options in MODELS.items()},
     **ON_THE_BASE,
+    **{name + FORCED: [*options, "--teacher-forced", "1"] for name, options in MODELS.items()},
 }
 SINGLE = "single step"
 DIVERGED = 10  # times the error of skinning alone
