@@ -5,7 +5,7 @@ import json
 import os
 import sys
 
-from .data_sheet import SPLITS
+from .dataset import SPLITS
 from .safetensors import BadData
 
 
@@ -95,11 +95,22 @@ def _evaluate(a):
 
 
 def _ablate(a):
-    import torch
     from .ablate import ablate
 
+    _compare(ablate, a)
+
+
+def _vanilla(a):
+    from .paper_forms import compare_forms
+
+    _compare(compare_forms, a)
+
+
+def _compare(how, a):
+    import torch
+
     torch.set_num_threads(1)
-    ablate(a.data, a.body, a.work, a.out, a.minutes, a.processes)
+    how(a.data, a.body, a.work, a.out, a.minutes, a.processes)
 
 
 def _export(a):
@@ -116,6 +127,17 @@ def _best(a):
         return _read_json(os.path.join(run, "curve.json"), "train again")["best"]
 
     print(min(a.runs, key=score))
+
+
+def _add_comparison(p, minutes):
+    """Options of a command that trains variants on one body and adds a section to the page."""
+    p.add_argument("data")
+    p.add_argument("--body", required=True)
+    of_one = f"of one core, a variant; default {minutes:g}"
+    p.add_argument("--minutes", type=float, default=minutes, help=of_one)
+    p.add_argument("--processes", type=int, default=2)
+    p.add_argument("--work", required=True, help="folder of the runs; a second call goes on")
+    p.add_argument("--out", required=True, help="folder of the evaluation page")
 
 
 def _parser():
@@ -142,7 +164,8 @@ def _parser():
         metavar="NAME=PATH",
         help="a further body, tested on: a skinned .glb; repeatable",
     )
-    p.add_argument("--splits", nargs="+", default=SPLITS, choices=SPLITS, help="simulate these now; default all")
+    now = "simulate these now; default all"
+    p.add_argument("--splits", nargs="+", default=SPLITS, choices=SPLITS, help=now)
     p = command("train", _train, "Trains one network.")
     p.add_argument("data", help="folder of the data set")
     p.add_argument("--out", required=True, help="folder of the run; a run that was cut goes on")
@@ -152,19 +175,18 @@ def _parser():
     _add_fields(p, TrainOptions)
     p = command("evaluate", _evaluate, "Judges runs on held-out motions and bodies: the evaluation page.")
     p.add_argument("data")
-    p.add_argument("--run", action="append", required=True, help="NAME=FOLDER; repeatable, the shipped one first")
+    named = "NAME=FOLDER; repeatable, the shipped one first"
+    p.add_argument("--run", action="append", required=True, help=named)
     p.add_argument("--bodies", nargs="+", help="default: all with test sequences")
     p.add_argument("--enduring", nargs="*", default=[], help="further models for the longest roll-outs")
     p.add_argument("--threads", type=int, default=1)
     p.add_argument("--out", required=True, help="folder of the page")
-    p = command("ablate", _ablate, "Trains small variants of the recipe on one body and compares them.")
-    p.add_argument("data")
-    p.add_argument("--body", required=True)
-    p.add_argument("--minutes", type=float, default=4.0, help="of one core, a variant; default 4")
-    p.add_argument("--processes", type=int, default=2)
-    p.add_argument("--work", required=True, help="folder of the runs; a second call goes on")
-    p.add_argument("--out", required=True, help="folder of the evaluation page")
-    p = command("export", _export, "Writes weights with their errors stated, and check vectors, of a judged run.")
+    text = "Trains small variants of the recipe on one body and compares them."
+    _add_comparison(command("ablate", _ablate, text), 4.0)
+    text = "Trains the paper's vanilla ConvLSTMs on one body and compares them with Alt-ConvLSTM."
+    _add_comparison(command("vanilla", _vanilla, text), 3.0)
+    text = "Writes weights with their errors stated, and check vectors, of a judged run."
+    p = command("export", _export, text)
     p.add_argument("data")
     p.add_argument("--run", required=True)
     p.add_argument("--page", required=True, help="folder of the evaluation page")

@@ -3,9 +3,9 @@ import os
 
 import numpy as np
 
+from .dataset import SPLITS
 from .trajectory import read_trajectory
 
-SPLITS = ("train", "validation", "test", "long")
 BANDS_HZ = (0, 1, 2, 4, 8, 16, 30)
 SEGMENT_S = 4.0  # of the spectrum (Welch 1967)
 

@@ -49,8 +49,8 @@ def check_vectors(weights, trajectory, ticks=VECTOR_TICKS):
     trajectory.
 
     edges (m, 2); z (T, n, F_in) with zeros where displacement and velocity go; carry (T, n, 3), y0 (n, 3) and
-    y (T, n, 3) in length units. Displacement is the last tick's y x its scale, velocity y_{t-1} - y_{t-2} x its
-    scale, with y_{-1} = y_0."""
+    y (T, n, 3) in length units. Displacement is the last tick's y x its scale, velocity y_{t-1} - y_{t-2} x
+    its scale, with y_{-1} = y_0."""
     model, scaling, _ = read_weights(weights)
     model, group = model.double(), _in_double(dataset.group([("", trajectory)])[0])
     nodes, ticks = int(group.mask[0].sum()), min(ticks, group.ticks)
@@ -82,10 +82,14 @@ def check_vectors(weights, trajectory, ticks=VECTOR_TICKS):
 
 
 def export(run, data, metrics, out, name, model, body):
-    """Writes out/name.safetensors, with its errors as `model` on `body` stated in it, and .vectors.safetensors."""
-    os.makedirs(out, exist_ok=True)
+    """Writes out/name.safetensors, with its errors as `model` on `body` stated in it, and
+    .vectors.safetensors. Throws BadData where the run is not of an Alt-ConvLSTM."""
     weights, place = os.path.join(run, "weights.safetensors"), os.path.join(out, name)
     tensors, metadata = load(weights)
+    if metadata.get("sinew.model") != "alt_conv_lstm":
+        kind = metadata.get("sinew.model", "no model")
+        raise BadData(f"{weights}: holds {kind}, which the runtime does not run; export an alt_conv_lstm run")
+    os.makedirs(out, exist_ok=True)
     save(
         f"{place}.safetensors",
         {k: np.array(v) for k, v in tensors.items()},

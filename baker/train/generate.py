@@ -5,26 +5,20 @@ files appear whole or not at all.
     DATA/data_sheet.json
 """
 import concurrent.futures
-import json
 import os
 import shutil
 import subprocess
 import sys
 
-from .data_sheet import SPLITS, statistics
-from .dataset import SHEET
+from .data_sheet import statistics
+from .dataset import SHEET, SPLITS
+from .files import write_json
 from .plan import clip_names, jobs_of, read_bodies, read_plan
 from .safetensors import BadData
 from .trajectory import read_trajectory
 
 MOST_FAILURES = 0.1  # of a data set; a truth that fails more often is broken
 STAMP = "made_from"
-
-
-def _write_json(path, value):
-    with open(f"{path}.part", "w") as file:
-        json.dump(value, file, indent=1)
-    os.replace(f"{path}.part", path)
 
 
 def _run(command):
@@ -58,9 +52,9 @@ def _prepare(bake, folder, body):
     if os.path.exists(os.path.join(folder, STAMP)) and os.path.exists(glb):
         return
     os.makedirs(folder, exist_ok=True)
-    _write_json(os.path.join(folder, "tissue.json"), body.tissue)
+    write_json(os.path.join(folder, "tissue.json"), body.tissue)
     if body.creature:
-        _write_json(recipe, body.creature)
+        write_json(recipe, body.creature)
         why = _run([bake, "creature", recipe, "-o", glb])
         if why:
             raise BadData(f"body '{body.name}' cannot be made: {why}")
@@ -172,9 +166,10 @@ def _run_all(bake, out, todo, processes, report):
 
 def generate(bake, plan_path, out, characters=None, processes=2, progress=sys.stderr, splits=SPLITS):
     """Writes the bodies, their trajectories and data_sheet.json; returns the sheet. characters: name -> path
-    of those the plan leaves open. splits: those to simulate now; what is there of others stays in the sheet. The sheet is there, without figures, as soon as all sequences of a body's
-    split are: training can begin while the long ones run. Throws BadData: before simulating where plan or
-    bodies are unusable, during it where too many simulations failed."""
+    of those the plan leaves open. splits: those to simulate now; what is there of others stays in the sheet.
+    The sheet is there, without figures, as soon as all sequences of a body's split are: training can begin
+    while the long ones run. Throws BadData: before simulating where plan or bodies are unusable, during it
+    where too many simulations failed."""
     plan = read_plan(plan_path)
     bodies = read_bodies(plan_path, plan, characters or {})
     clips = {
@@ -194,7 +189,7 @@ def generate(bake, plan_path, out, characters=None, processes=2, progress=sys.st
     def write_sheet(figures):
         ordered = [j for j in jobs if j in finished]
         sheet = {**_sheet(plan, bodies, ordered, failed, len(waiting)), **figures}
-        _write_json(os.path.join(out, SHEET), sheet)
+        write_json(os.path.join(out, SHEET), sheet)
         return sheet
 
     def report(job, why):

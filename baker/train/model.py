@@ -137,4 +137,4 @@ class AltConvLSTM(torch.nn.Module):
 
 def largest_cell(state):
     """Largest |c| over layers: (R, n, B) -> number."""
-    return max(float(c.abs().max()) for _, c, _ in state)
+    return max(float(c.abs().max()) for _, c, *_ in state)

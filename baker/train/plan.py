@@ -5,7 +5,7 @@ import struct
 from dataclasses import dataclass
 
 from .bodies import is_number, known_keys, read_body, read_character, read_json
-from .data_sheet import SPLITS
+from .dataset import SPLITS
 from .safetensors import BadData
 
 ALL_CHARACTERS = "*"  # a line for every character given on the command line

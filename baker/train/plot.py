@@ -48,7 +48,8 @@ def colours_of(methods):
 def roll_outs(metrics, path):
     """Error against roll-out length, a panel a body."""
     bodies = list(metrics["bodies"])
-    figure, axes = _pyplot().subplots(1, len(bodies), figsize=(4.6 * len(bodies), 4.2), sharey=True, squeeze=False)
+    size = dict(figsize=(4.6 * len(bodies), 4.2), sharey=True, squeeze=False)
+    figure, axes = _pyplot().subplots(1, len(bodies), **size)
     for a, body in zip(axes[0], bodies):
         rows = metrics["bodies"][body]["roll_out"]
         colours = colours_of(dict.fromkeys(m for row in rows.values() for m in row))
@@ -58,7 +59,8 @@ def roll_outs(metrics, path):
         a.axhline(1, color="#6b7280", linewidth=1, linestyle="--")
         a.set_xscale("log"), a.set_yscale("log"), a.set_ylim(0.02, 1.6)
         a.set_xlabel("ticks from rest (60 a second)")
-        a.set_title(body + ("" if metrics["bodies"][body]["seen_in_training"] else ", never trained on"), fontsize=10)
+        seen = "" if metrics["bodies"][body]["seen_in_training"] else ", never trained on"
+        a.set_title(body + seen, fontsize=10)
     axes[0][0].set_ylabel("error / error of skinning alone")
     axes[0][0].legend(frameon=False, fontsize=7)
     _finish(figure, axes[0], path)
@@ -73,10 +75,12 @@ def trace(judged, methods, path):
     figure, a = _pyplot().subplots(figsize=(9, 3.6))
     a.plot(seconds, 1e3 * u[:, node, axis], color="black", linewidth=2.4, label="ground truth")
     for method, colour in colours_of(m for m in methods if m in predicted).items():
-        a.plot(seconds, 1e3 * predicted[method][:, node, 0, axis], color=colour, linewidth=1.2, label=label_of(method))
+        p = 1e3 * predicted[method][:, node, 0, axis]
+        a.plot(seconds, p, color=colour, linewidth=1.2, label=label_of(method))
     a.set_xlabel("time (s)")
     a.set_ylabel(f"displacement along {'xyz'[axis]} (mm)")
-    a.set_title(f"One node of {group.name}, {group.trajectories[0].name}: its own output fed back all the way", fontsize=10)
+    motion = group.trajectories[0].name
+    a.set_title(f"One node of {group.name}, {motion}: its own output fed back all the way", fontsize=10)
     a.legend(frameon=False, fontsize=8)
     _finish(figure, [a], path)
 
@@ -87,8 +91,9 @@ def cost(metrics, body, ticks, path):
     figures = metrics["bodies"][body]
     row, operations = figures["roll_out"][str(ticks)], figures["operations_mflop"]
     for method, colour in colours_of(m for m in row if m in operations).items():
-        a.plot(operations[method], row[method]["ratio"], "o", color=colour)
-        a.annotate(label_of(method), (operations[method], row[method]["ratio"]), fontsize=8, xytext=(5, 4), textcoords="offset points")
+        point = (operations[method], row[method]["ratio"])
+        a.plot(*point, "o", color=colour)
+        a.annotate(label_of(method), point, fontsize=8, xytext=(5, 4), textcoords="offset points")
     a.set_xscale("log")
     a.set_ylim(0, None)
     a.margins(x=0.3)
@@ -104,7 +109,8 @@ def regions(metrics, body, path):
     methods = [m for m in next(iter(rows.values())) if m != "mean_displacement_mm"]
     width = 0.8 / len(methods)
     for i, (method, colour) in enumerate(colours_of(methods).items()):
-        a.bar([x + i * width for x in range(len(rows))], [r[method] for r in rows.values()], width, color=colour, label=label_of(method))
+        places, heights = [x + i * width for x in range(len(rows))], [r[method] for r in rows.values()]
+        a.bar(places, heights, width, color=colour, label=label_of(method))
     names = [f"{k}\n{r['mean_displacement_mm']:.1f} mm" for k, r in rows.items()]
     a.set_xticks([x + 0.4 - width / 2 for x in range(len(rows))], names, fontsize=8)
     a.set_ylabel("error / skinning alone")
@@ -122,7 +128,8 @@ def training(runs, path):
             continue
         with open(curve) as file:
             points = json.load(file)["curve"]
-        a.plot([p["minutes"] for p in points], [p["ratio_all"] for p in points], color=colour, label=label_of(name))
+        minutes, ratios = [p["minutes"] for p in points], [p["ratio_all"] for p in points]
+        a.plot(minutes, ratios, color=colour, label=label_of(name))
     a.set_xlabel("training (minutes of one core)")
     a.set_ylabel("validation error / skinning alone")
     a.legend(frameon=False, fontsize=8)

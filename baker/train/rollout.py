@@ -93,6 +93,13 @@ def _prepared(model, scaling, group, batch):
     return model.packed(), static_columns(group, scaling, batch), state
 
 
+def stand_at(group, scaling, u, u_before, state):
+    """The state of tissue that is at u and was at u_before a tick ago; the network's memory stays."""
+    if scaling is not None and "base" in scaling.without:  # nothing is warped: l is u
+        return State(replace(state.base, l=u, u=u, u_before=u_before), u_before, state.memory)
+    return State(*group.base.stand_at(u, u_before, state.base), state.memory)
+
+
 def single_steps(model, scaling, group):
     """As roll_out, but every tick starts from the true displacement; the network's memory is its own."""
     s = torch.arange(group.count, device=group.device)
@@ -104,8 +111,7 @@ def single_steps(model, scaling, group):
             now = (turn[0][t], turn[1][t])
             state = tick(model, packed, group, scaling, static, state, felt[t], drive[t], now)
             out.append(group.flatten(state.base.u))
-            true = group.base.stand_at(u[t], u[t - 1] if t else torch.zeros_like(u[t]), state.base)
-            state = State(true[0], true[1], state.memory)
+            state = stand_at(group, scaling, u[t], u[t - 1] if t else torch.zeros_like(u[t]), state)
     return torch.stack(out)
 
 

@@ -10,10 +10,14 @@ import torch
 from . import dataset
 from .dataset import Union
 from .episode import Episode
+from .files import write_json
 from .inputs import INPUT_WIDTH
 from .model import AltConvLSTM, ModelOptions
-from .rollout import State, error_ratio, roll_out, tick, truth
+from .rollout import State, error_ratio, roll_out, single_steps, stand_at, tick, truth
+from .safetensors import BadData
 from .scaling import measure_scaling
+from .train_options import TrainOptions
+from .vanilla import FORMS, ConvLSTM
 from .weights import save_weights
 
 VALIDATED_TICKS = (50, 150)  # and the whole sequence
@@ -21,7 +25,8 @@ VALIDATED_TICKS = (50, 150)  # and the whole sequence
 
 def _new_model(o):
     wiring = dict(output_scale=o.output_scale, hidden_leak=o.hidden_leak, state_clamp=o.state_clamp)
-    model = AltConvLSTM(ModelOptions(INPUT_WIDTH, tuple(o.channels), self_weights=True, **wiring))
+    options = ModelOptions(INPUT_WIDTH, tuple(o.channels), self_weights=True, **wiring)
+    model = ConvLSTM(options, o.form) if o.form else AltConvLSTM(options)
     return model.start_for_training().to(o.device)
 
 
@@ -108,8 +113,15 @@ class Trainer:
             fixed = (self.model, packed, episode.group, self.scaling, episode.static)
             state = tick(*fixed, state, felt[t], drive[t], now, episode.mirror)
             loss = loss + self._tick_loss(episode, state.base.u, true[t])
+            if self.options.teacher_forced:
+                state = self._at_truth(episode, state, true[t])
         episode.state = state
         return loss / len(felt)
+
+    def _at_truth(self, episode, state, true):
+        """Put where the truth is, if there is one."""
+        u = torch.where(episode.known()[:, None], true, state.base.u)
+        return stand_at(episode.group, self.scaling, u, state.base.u_before, state)
 
     def update(self, episode):
         self._set_rate()
@@ -126,10 +138,11 @@ class Trainer:
         return Episode(self.bodies, self.scaling, self.options, self.model, self.amplitudes)
 
     def validate(self):
-        """Ratios to skinning, by ticks, of roll-outs from rest; averaged over the bodies."""
-        ratios = {}
+        """Ratios to skinning, by ticks, of roll-outs from rest, or of single steps if they were trained;
+        averaged over the bodies."""
+        ratios, predict = {}, single_steps if self.options.teacher_forced else roll_out
         for g in self.validation:
-            y, u = roll_out(self.model, self.scaling, g), truth(g)
+            y, u = predict(self.model, self.scaling, g), truth(g)
             for k in [k for k in VALIDATED_TICKS if k < g.ticks] + ["all"]:
                 ratios.setdefault(k, []).append(error_ratio(y, u, g.ticks if k == "all" else k))
         return {k: sum(v) / len(v) for k, v in ratios.items()}
@@ -204,7 +217,7 @@ def _save_checkpoint(path, trainer):
 
 def _same_run(saved, options):
     plain = lambda o: {k: v for k, v in o.items() if k not in ("device",)}
-    return plain(saved["options"]) == plain(vars(options))
+    return plain({**vars(TrainOptions()), **saved["options"]}) == plain(vars(options))
 
 
 def _read(data, split, bodies):
@@ -216,6 +229,8 @@ def _read(data, split, bodies):
 def train(data, out, options, log=print):
     """Writes out/weights.safetensors, out/curve.json and out/checkpoint.pt; goes on from the checkpoint of a
     run that was cut."""
+    if options.form and options.form not in FORMS:
+        raise BadData(f"--form {options.form}: no such form; give one of {', '.join(FORMS)}, or none")
     train_set, validation_set = (_read(data, split, options.bodies) for split in ("train", "validation"))
     trainer = Trainer(
         dataset.group(train_set, options.device), dataset.group(validation_set, options.device), options, log
@@ -235,17 +250,8 @@ def train(data, out, options, log=print):
     )
     trainer.run(lambda: _save_checkpoint(checkpoint, trainer))
     _save_checkpoint(checkpoint, trainer)
-    with open(os.path.join(out, "curve.json"), "w") as file:
-        json.dump(
-            {
-                "options": vars(options),
-                "parameters": parameters,
-                "best": trainer.best,
-                "curve": trainer.curve,
-            },
-            file,
-            indent=1,
-        )
+    found = {"parameters": parameters, "best": trainer.best, "curve": trainer.curve}
+    write_json(os.path.join(out, "curve.json"), {"options": vars(options), **found})
     save_weights(
         os.path.join(out, "weights.safetensors"),
         trainer.model,
@@ -258,6 +264,7 @@ def train(data, out, options, log=print):
             "trained_minutes": f"{trainer.elapsed_s / 60:.2f}",
             "updates": trainer.updates,
             "validation_ratio": f"{trainer.best:.4f}",
+            **({"sinew.model": "conv_lstm", "form": options.form} if options.form else {}),
         },
     )
     return trainer

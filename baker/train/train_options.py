@@ -21,4 +21,6 @@ class TrainOptions:
     disturbance: float = 0.05  # displacement noise at some windows' start, length units
     bodies: tuple = ()  # train on these only; empty: all that have training sequences
     without: tuple = ()  # ablations: names of inputs that are fed zero; "base": no modal base
+    form: str = ""  # baseline: a vanilla ConvLSTM (vanilla.py, FORMS) in the network's place. Never shipped.
+    teacher_forced: bool = False  # baseline: every tick starts from the true displacement
     device: str = "cpu"

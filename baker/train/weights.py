@@ -1,10 +1,12 @@
-"""Weights files: names and metadata of baker/pack/network_pack.hpp and runtime/pack/format.hpp (NetworkRecord)."""
+"""Weights files: names and metadata of baker/pack/network_pack.hpp and runtime/pack/format.hpp
+(NetworkRecord)."""
 import numpy as np
 import torch
 
 from .inputs import INPUT_WIDTH, ORDER, Scaling
 from .model import AltConvLSTM, ModelOptions
 from .safetensors import BadData, load, save
+from .vanilla import FORMS, ConvLSTM
 
 
 def _join(numbers):
@@ -48,6 +50,13 @@ def _number(path, metadata, key, fallback):
         ) from None
 
 
+def _form(path, metadata):
+    if metadata.get("form") not in FORMS:
+        found = metadata.get("form", "")
+        raise BadData(f"{path}: metadata form is '{found}', not one of {', '.join(FORMS)}; train again")
+    return metadata["form"]
+
+
 def _read_scaling(path, metadata):
     if metadata["inputs"].split(",") != list(ORDER):
         raise BadData(f"{path}: metadata inputs: this trainer feeds {','.join(ORDER)}; train again")
@@ -63,23 +72,23 @@ def _read_scaling(path, metadata):
 
 
 def read_weights(path, device="cpu"):
-    """(model, scaling or None for the paper's wiring, metadata). Throws BadData naming a missing or
-    misshaped tensor."""
+    """(model, scaling or None for the paper's wiring, metadata); a vanilla ConvLSTM where the file says so.
+    Throws BadData naming a missing or misshaped tensor."""
     tensors, metadata = load(path)
-    if metadata.get("sinew.model") != "alt_conv_lstm":
-        raise BadData(f"{path}: holds {metadata.get('sinew.model', 'no model')}, not alt_conv_lstm weights")
+    kind = metadata.get("sinew.model", "no model")
+    if kind not in ("alt_conv_lstm", "conv_lstm"):
+        raise BadData(f"{path}: holds {kind}, not alt_conv_lstm weights")
     scaling = _read_scaling(path, metadata) if "inputs" in metadata else None
-    model = AltConvLSTM(
-        ModelOptions(
-            INPUT_WIDTH if scaling else 9,
-            tuple(int(c) for c in metadata["channels"].split(",")),
-            "layers.0.W_s" in tensors,
-            _number(path, metadata, "output_scale", 1),
-            _number(path, metadata, "output_leak", 0),
-            _number(path, metadata, "hidden_leak", 0),
-            _number(path, metadata, "state_clamp", "inf"),
-        )
+    options = ModelOptions(
+        INPUT_WIDTH if scaling else 9,
+        tuple(int(c) for c in metadata["channels"].split(",")),
+        "layers.0.W_s" in tensors,
+        _number(path, metadata, "output_scale", 1),
+        _number(path, metadata, "output_leak", 0),
+        _number(path, metadata, "hidden_leak", 0),
+        _number(path, metadata, "state_clamp", "inf"),
     )
+    model = ConvLSTM(options, _form(path, metadata)) if kind == "conv_lstm" else AltConvLSTM(options)
     for name, parameter in model.state_dict().items():
         if name not in tensors or tuple(tensors[name].shape) != tuple(parameter.shape):
             have = tensors[name].shape if name in tensors else "missing"

@@ -13,7 +13,8 @@ import support
 support.leave_without_torch()
 import numpy as np  # noqa: E402
 
-from train import bodies, data_sheet, plan as plans  # noqa: E402
+from train import bodies, plan as plans  # noqa: E402
+from train.dataset import SPLITS  # noqa: E402
 from train.generate import generate  # noqa: E402
 from train.safetensors import BadData, load, save  # noqa: E402
 from train.trajectory import read_trajectory  # noqa: E402
@@ -195,7 +196,7 @@ class Plans(Folder):
         self.assertEqual(jobs[-1].file, "fox/test-random-9.safetensors")
 
     def test_random_motion_of_training_and_validation_leaves_the_held_out_clip_alone(self):
-        lines = [{**LINE, "split": s, "first_seed": i * 10 + 1} for i, s in enumerate(data_sheet.SPLITS)]
+        lines = [{**LINE, "split": s, "first_seed": i * 10 + 1} for i, s in enumerate(SPLITS)]
         held_out = {j.split: j.held_out for j in self.jobs(lines)}
         self.assertEqual(held_out, {"train": "hop", "validation": "hop", "test": "", "long": ""})
 
