@@ -12,8 +12,9 @@ from .variants import judged_on, train_variants, write_section
 VARIANTS = {
     "as shipped": [],
     "no modal base": ["--without", "base,base_step,turn"],
-    "displacement not fed back": ["--without", "displacement,velocity"],
-    "not told what it feels": ["--without", "felt_step"],
+    "displacement not fed back": ["--without", "displacement,velocity,bent_displacement"],
+    "not told what it feels": ["--without", "felt_step,bent_force"],
+    "not told the bend": ["--without", "bend,bent_force,bent_step,bent_displacement"],
     "no leak in hidden layers": ["--hidden-leak", "0"],
     "gradients over 5 ticks": ["--window", "5"],
     "channels 8, 8, 3": ["--channels", "8,8,3"],
@@ -50,7 +51,8 @@ def _draw(rows, path):
 def ablate(data, body, work, out, minutes, processes):
     """Writes out/ablations.json, ablations.md and ablations.png."""
     groups = judged_on(data, body)  # first: what is unusable is refused before training
-    networks = train_variants(VARIANTS, data, body, work, minutes, processes)
+    variants = {**VARIANTS, "a quarter of the time": ["--minutes", f"{minutes / 4:g}"]}
+    networks = train_variants(variants, data, body, work, minutes, processes)
     rows = {name: _judge(network, groups) for name, network in networks.items()}
     keys = list(next(iter(rows.values())))
     head = f"{minutes:g} minutes of one core each, trained on {body} alone"

@@ -18,6 +18,7 @@ from .weights import read_weights
 TICKS = (10, 20, 30, 40, 50, 100, 200, 600, 3600, 36000)
 SKINNING = "skinning"
 STILL_TICKS = 3600  # a minute
+OVERDRIVE = 3.0
 ENDURANCE_TICKS = 3600  # longer roll-outs are left to the models named in `enduring`
 
 
@@ -238,11 +239,11 @@ def evaluate(runs, data, bodies=None, enduring=(), log=print):
     judged = {}
     for body in named:
         metrics["bodies"][body], judged[body] = judge_body(data, body, networks, enduring, log)
-    first, shipped = judged[named[0]][0][0], next(iter(networks.values()))
+    first = judged[named[0]][0][0]
     if metrics["bodies"][named[0]]["seen_in_training"]:
         metrics["known_motions"] = known_motions(data, named[0], networks)
-    metrics["rest"] = stability(shipped, first, 1.0)
-    metrics["overdrive"] = stability(shipped, first, 3.0)
+    for name, network in networks.items():
+        metrics["models"][name]["left_alone"] = [stability(network, first, gain) for gain in (1.0, OVERDRIVE)]
     return metrics, judged
 
 

@@ -78,6 +78,7 @@ def model_table(metrics, body):
 
 def stability_table(metrics):
     columns = {
+        "network": lambda m: m["network"],
         "drive": lambda m: f"x {m['gain']:g}",
         "largest, mm": lambda m: m["largest_mm"],
         "share of its limit": lambda m: m["largest_share_of_limit"],
@@ -86,7 +87,7 @@ def stability_table(metrics):
         "largest mm": lambda m: m["residue_largest_mm"],
         "share of height": lambda m: f"{100 * m['residue_share_of_height']:.4f} %",
     }
-    rows = (metrics["rest"], metrics["overdrive"])
+    rows = [{"network": name, **row} for name, m in metrics["models"].items() for row in m["left_alone"]]
     return table(columns, [[cell(m) for cell in columns.values()] for m in rows])
 
 
