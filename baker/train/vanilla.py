@@ -56,7 +56,7 @@ class ConvLSTM(torch.nn.Module):
         if form.startswith("CP"):
             for name in set(ORDER) - set(STATIC) - set(FEEDBACK):
                 late[columns(name)] = True
-        self.register_buffer("late", late, persistent=False)  # inputs that are seen a tick late
+        self.register_buffer("late", late, persistent=False)  # a tick: the drive, and products with it
 
     def start_for_training(self):
         """Long memory (Jozefowicz et al. 2015); a small output."""

@@ -113,7 +113,8 @@ class RollOuts(unittest.TestCase):
     def setUpClass(cls):
         cls.group = support.synthetic_group((0,), ticks=40)
         cls.scaling = measure_scaling([cls.group])
-        cls.scaling.without = ("base", "base_step", "turn")
+        # bend x displacement is seen a tick late as a whole, with the displacement of then
+        cls.scaling.without = ("base", "base_step", "turn", "bent_displacement")
 
     def test_the_current_pose_form_is_the_next_pose_form_on_a_drive_a_tick_late(self):
         delayed = lambda tensors: {**tensors, "drive": _delayed(tensors["drive"])}
