@@ -24,7 +24,7 @@ from train.weights import read_weights  # noqa: E402
 
 QUIET = lambda *a, **k: None
 SMALL = dict(channels=(16, 3), batch=6, window=15)
-MINUTES = 0.09
+MINUTES = 0.15
 
 
 class Killed(Exception):
