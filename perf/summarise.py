@@ -1,7 +1,7 @@
-"""Writes perf/results/<processor>.csv and the table of perf/README.md from a Google Benchmark JSON file.
+"""Writes perf/results/<processor>.csv and the tables of perf/README.md from files of Google Benchmark's JSON.
 
-usage: summarise.py MEASURED.json
-Times are medians over the repetitions of thread CPU time; of_peak is the share of the multiply-add peak of the same process.
+usage: summarise.py MEASURED.json...
+Times are medians over the repetitions of thread CPU time. A share is of the peak measured in the same process.
 """
 import csv
 import json
@@ -11,7 +11,14 @@ import statistics
 import sys
 
 HERE = pathlib.Path(__file__).parent
-COLUMNS = ["bench", "isa", "median_us", "min_us", "max_us", "mflop", "share_of_fma_peak", "fma_peak_gflops"]
+COLUMNS = ["bench", "runs", "median_us", "min_us", "max_us", "mega_operations", "giga_a_second", "share_of_peak"]
+# what, of what, the figure wanted at least and the aim; below 1 is faster for the first half, above for the second
+RATIOS = [
+    ("alt_conv_lstm_paper", "onednn_sgemm_paper", "1.25", "1.05"),
+    ("alt_conv_lstm_control_graph", "onednn_sgemm_control_graph", "", ""),
+    ("eigen_products_paper", "alt_conv_lstm_paper", "", ""),
+    ("pytorch_paper", "alt_conv_lstm_paper", "5", "6"),
+]
 
 
 def processor():
@@ -21,28 +28,52 @@ def processor():
     return f"{known['model name']} family {known['cpu family']} model {known['model']}"
 
 
-def rows(measured):
-    """One row a benchmark, from its repetitions."""
+def repetitions(files):
+    """{bench: its runs}, in the order of the files."""
     runs = {}
-    for run in json.loads(pathlib.Path(measured).read_text())["benchmarks"]:
-        if run["run_type"] == "iteration":
-            runs.setdefault(run["name"], []).append(run)
-    for name, repetitions in runs.items():
-        times = [run["cpu_time"] for run in repetitions]
-        first = repetitions[0]
-        yield [name, first["label"], f"{statistics.median(times):.1f}", f"{min(times):.1f}", f"{max(times):.1f}",
-               f"{first['MFLOP']:.1f}", f"{statistics.median(run['of_peak'] for run in repetitions):.2f}",
-               f"{first['peak_GFLOPs']:.0f}"]
+    for file in files:
+        for run in json.loads(pathlib.Path(file).read_text())["benchmarks"]:
+            if run["run_type"] == "iteration" and not run.get("error_occurred"):
+                runs.setdefault(run["name"], []).append(run)
+    return dict(sorted(runs.items()))
 
 
-def main(measured):
-    table = list(rows(measured))
-    machine = processor()
+def median_us(runs):
+    return statistics.median(run["cpu_time"] for run in runs)
+
+
+def speed(runs):
+    return runs[0]["mega_operations"] / median_us(runs) * 1e3
+
+
+def rows(benches):
+    for name, runs in benches.items():
+        times = [run["cpu_time"] for run in runs]
+        peak = benches.get("int8_peak" if "u8s8" in name or "int8" in name else "fma_peak")
+        yield [name, runs[0]["label"], f"{median_us(runs):.1f}", f"{min(times):.1f}", f"{max(times):.1f}",
+               f"{runs[0]['mega_operations']:.4g}", f"{speed(runs):.1f}", f"{speed(runs) / speed(peak):.2f}" if peak else ""]
+
+
+def ratios(benches):
+    for what, of, least, aim in RATIOS:
+        if what in benches and of in benches:
+            yield [f"{what} / {of}", f"{median_us(benches[what]) / median_us(benches[of]):.2f}", least, aim]
+
+
+def table(columns, lines):
+    rule = "|" + "---|" * len(columns)
+    return ["| " + " | ".join(columns) + " |", rule] + ["| " + " | ".join(line) + " |" for line in lines]
+
+
+def main(files):
+    benches, machine = repetitions(files), processor()
+    measured, compared = list(rows(benches)), list(ratios(benches))
     name = re.sub(r"[^a-z0-9]+", "_", machine.lower()).strip("_")
+    (HERE / "results").mkdir(exist_ok=True)
     with open(HERE / "results" / f"{name}.csv", "w", newline="") as file:
-        csv.writer(file, lineterminator="\n").writerows([COLUMNS] + table)
-    lines = [f"Processor: {machine}, one thread.", "", "| " + " | ".join(COLUMNS) + " |", "|" + "---|" * len(COLUMNS)]
-    lines += ["| " + " | ".join(row) + " |" for row in table]
+        csv.writer(file, lineterminator="\n").writerows([COLUMNS] + measured)
+    lines = [f"Processor: {machine}, one thread.", ""] + table(COLUMNS, measured)
+    lines += [""] + table(["ratio of medians", "measured", "at least", "aim"], compared)
     readme = HERE / "README.md"
     begin, end = "<!-- table -->", "<!-- end of table -->"
     head, rest = readme.read_text().split(begin)
@@ -51,4 +82,4 @@ def main(measured):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    main(sys.argv[1:])
