@@ -1,43 +1,53 @@
 // activation-inl.hpp  tanh and sigmoid of vectors.
 //
-//   tanh x    = x P(x^2) / Q(x^2) on |x| <= 9, where it rounds to 1
-//   sigmoid x = 1/2 + 1/2 tanh(x/2)
+//   tanh x    = x P(x^2) / Q(x^2) on |x| <= 8
+//   sigmoid x = 1/2 + 1/2 tanh(x/2) = 1/2 + x P(x^2 / 4) / (4 Q(x^2 / 4)) on |x| <= 16
 //
 // P and Q, of degree 4, come from a Lawson iteration on the relative error, which is 2.1e-8 before rounding;
-// all coefficients are positive, so that nothing cancels. Largest errors (every float of 2^-15 <= |x| < 64,
-// each sixteenth beyond; with FMA, without): tanh 3.6e-7, 4.0e-7 relative; sigmoid 1.9e-7, 2.2e-7 absolute.
-// Never beyond 1 in magnitude; exact at 0; NaN stays NaN. Cost: 8 FMA, 2 mul, 1 div, 4 compares.
+// all coefficients are positive, so that nothing cancels. At the bounds tanh is 1 - 2.4e-7, and no rounding
+// below them reaches beyond 1. Largest errors (every float of 2^-15 <= |x| < 64, each sixteenth beyond; with
+// FMA, without): tanh 3.6e-7, 4.0e-7 relative; sigmoid 1.9e-7, 2.2e-7 absolute. Never beyond 1 in magnitude;
+// exact at 0; NaN stays NaN. Cost: 8 FMA, 2 mul, 1 div, 2 min or max; sigmoid 1 add more.
 HWY_BEFORE_NAMESPACE();
 namespace sinew::simd::HWY_NAMESPACE {
 
-// By compare and select, for Min and Max drop a NaN on some targets.
+// NaN stays NaN: x86's minimum is its second operand where either is NaN; other targets' may drop it.
 HWY_INLINE Vector bounded(Vector x, Vector bound) {
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
+  return hn::Max(hn::Neg(bound), hn::Min(bound, x));
+#else
   x = hn::IfThenElse(hn::Gt(x, bound), bound, x);
   return hn::IfThenElse(hn::Lt(x, hn::Neg(bound)), hn::Neg(bound), x);
+#endif
 }
 
-HWY_INLINE Vector tanh_of(Vector x) {
+// tanh(x) or, halved, tanh(x/2) / 2: powers of two in the coefficients change no rounding.
+template <bool kHalved>
+HWY_INLINE Vector scaled_tanh(Vector x) {
+  constexpr float kSquare = kHalved ? 0.25f : 1.0f;
   const Floats d;
-  x = bounded(x, hn::Set(d, 9.0f));
+  const auto coefficient = [](float value, int power) HWY_ATTR {
+    for (int k = 0; k < power; ++k) value *= kSquare;
+    return hn::Set(Floats(), value);
+  };
+  x = bounded(x, hn::Set(d, kHalved ? 16.0f : 8.0f));
   const Vector s = hn::Mul(x, x);
-  Vector p = hn::Set(d, 1.335465375e-8f);
-  Vector q = hn::Set(d, 7.776555864e-7f);
-  p = hn::MulAdd(p, s, hn::Set(d, 2.060907912e-5f));
-  q = hn::MulAdd(q, s, hn::Set(d, 3.285634585e-4f));
-  p = hn::MulAdd(p, s, hn::Set(d, 3.495588020e-3f));
-  q = hn::MulAdd(q, s, hn::Set(d, 2.587698186e-2f));
-  p = hn::MulAdd(p, s, hn::Set(d, 1.338102557e-1f));
-  q = hn::MulAdd(q, s, hn::Set(d, 4.671434116e-1f));
-  p = hn::MulAdd(p, s, hn::Set(d, 1.0f));
+  Vector p = coefficient(1.335465375e-8f, 5);
+  Vector q = coefficient(7.776555864e-7f, 4);
+  p = hn::MulAdd(p, s, coefficient(2.060907912e-5f, 4));
+  q = hn::MulAdd(q, s, coefficient(3.285634585e-4f, 3));
+  p = hn::MulAdd(p, s, coefficient(3.495588020e-3f, 3));
+  q = hn::MulAdd(q, s, coefficient(2.587698186e-2f, 2));
+  p = hn::MulAdd(p, s, coefficient(1.338102557e-1f, 2));
+  q = hn::MulAdd(q, s, coefficient(4.671434116e-1f, 1));
+  p = hn::MulAdd(p, s, coefficient(1.0f, 1));
   q = hn::MulAdd(q, s, hn::Set(d, 1.0f));
-  // Rounding alone would take a few arguments near 8.5 to the float after 1, and sigmoid below 0.
-  return bounded(hn::Div(hn::Mul(x, p), q), hn::Set(d, 1.0f));
+  return hn::Div(hn::Mul(x, p), q);
 }
 
-HWY_INLINE Vector sigmoid_of(Vector x) {
-  const Vector half = hn::Set(Floats(), 0.5f);
-  return hn::MulAdd(half, tanh_of(hn::Mul(half, x)), half);
-}
+HWY_INLINE Vector tanh_of(Vector x) { return scaled_tanh<false>(x); }
+
+HWY_INLINE Vector sigmoid_of(Vector x) { return hn::Add(hn::Set(Floats(), 0.5f), scaled_tanh<true>(x)); }
 
 template <class Function>
 HWY_INLINE void map_floats(const float* x, size_t count, float* out, const Function& function) {

@@ -1,7 +1,7 @@
 // aggregate-inl.hpp  Sparse rows times dense rows: what a node hears from its neighbours.
 //
-//   out[i][:] = sum_e values[e] x[columns[e]][:],  e = rows[i] .. rows[i+1] - 1 in order
-//   x, out [nodes][stride], stride a multiple of kBlock, 64-byte aligned
+//   out[i - first][:] = sum_e values[e] x[columns[e]][:],  e = rows[i] .. rows[i+1] - 1 in order
+//   x [nodes][stride], out [last - first][stride], stride a multiple of kBlock, 64-byte aligned
 //
 // A row of P has about seven entries; the sum of one column block is a chain, and neighbouring blocks hide
 // its latency.
@@ -34,7 +34,7 @@ HWY_INLINE void aggregate_row(const SparseRows& graph, uint32_t node, const floa
 
 void aggregate(const SparseRows& graph, const float* x, size_t stride, uint32_t first, uint32_t last,
                float* out) {
-  for (uint32_t i = first; i < last; ++i) aggregate_row(graph, i, x, stride, out + i * stride);
+  for (uint32_t i = first; i < last; ++i) aggregate_row(graph, i, x, stride, out + (i - first) * stride);
 }
 
 }  // namespace sinew::simd::HWY_NAMESPACE

@@ -1,8 +1,6 @@
 // kernels.cpp  Compiles the kernels once an instruction set, and lists their tables, best first.
 #include "simd/kernels.hpp"
 
-#include <algorithm>
-
 // Sums are arrays of vectors, which scalable vectors cannot be: 64-bit Arm runs NEON.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #define HWY_TARGET_INCLUDE "simd/kernels.cpp"
@@ -58,10 +56,7 @@ std::span<const Kernels* const> compiled_kernels() noexcept {
   return tables;
 }
 
-size_t tile_floats(uint32_t inputs, uint32_t padded) noexcept {
-  const size_t widest = std::max(pad_to_block(inputs), static_cast<size_t>(padded));
-  return kTileRows * (widest + 4 * static_cast<size_t>(padded));
-}
+size_t tile_floats(uint32_t padded) noexcept { return kTileRows * 6 * static_cast<size_t>(padded); }
 
 }  // namespace sinew::simd
 #endif

@@ -23,7 +23,8 @@ struct SparseRows {
   const float* values;
 };
 
-// One layer of an Alt-ConvLSTM at one step; equations in pack/format.hpp, NetworkRecord.
+// One layer of an Alt-ConvLSTM at one step; equations in pack/format.hpp, NetworkRecord. A layer with y_next
+// is the last one. Plane: [nodes][padded].
 struct LayerJob {
   SparseRows graph{};
   uint32_t inputs = 0, channels = 0, padded = 0;  // F_in, F, F rounded up to kBlock
@@ -32,21 +33,23 @@ struct LayerJob {
   const float* w_h = nullptr;                     // [channels][4][padded]
   const float* w_y = nullptr;                     // [channels][3][padded]
   const float* bias = nullptr;                    // [4][padded]
-  const float* x = nullptr;                       // [nodes][x_stride] padded
+  const float* x = nullptr;                       // [nodes][x_stride] padded; read with w_s only
   size_t x_stride = 0;
-  float* h = nullptr;            // [nodes][padded], of t-1; layer_output makes it t
-  float* c = nullptr;            // [nodes][padded], of t-1; layer_cells makes it t
-  float* y = nullptr;            // [nodes][padded], of t-1; layer_output makes it t
-  const float* carry = nullptr;  // [nodes][3] added to y, or null
-  float y_keep = 1, y_gain = 1;  // y = y_keep y + y_gain c + carry
+  const float* px = nullptr;  // [last - first][x_stride], P x of the nodes of one call of layer_cells
+  float* pc = nullptr;        // [last - first][padded], where a hidden layer_output leaves P c: the next px
+  float* h = nullptr;         // plane, of t-1; layer_output makes it t
+  float* c = nullptr;         // plane, of t-1; layer_cells makes it t
+  float* y = nullptr;         // plane, of t-1; layer_output makes it t. In a hidden layer P y
+  const float* carry = nullptr;  // [nodes][3] added to the last layer's y, or null
+  float y_keep = 1, y_gain = 1;  // y = y_keep y + y_gain c + carry; a hidden layer's gain is 1
   float clamp = 0;               // bound on |c|; infinity: none
-  float* y_next = nullptr;       // [nodes][padded], scratch between the two calls
-  float* output_gate = nullptr;  // [nodes][padded], scratch between the two calls
-  float* tile = nullptr;         // tile_floats(inputs, padded), scratch of one call
+  float* y_next = nullptr;       // last layer: plane, scratch between the two calls
+  float* output_gate = nullptr;  // plane, scratch between the two calls
+  float* tile = nullptr;         // tile_floats(padded), scratch of one call
 };
 
 // Floats of LayerJob::tile.
-size_t tile_floats(uint32_t inputs, uint32_t padded) noexcept;
+size_t tile_floats(uint32_t padded) noexcept;
 
 // Points moved by up to eight joints each: out = sum_i weight[i] matrices[joint[i]] (point, 1).
 // Strides in bytes.
@@ -66,12 +69,13 @@ struct Kernels {
   int64_t target;  // Highway's bit
   bool fused;      // has FMA: belongs to the targets that give the same bits
 
-  // out[i] = sum_e values[e] x[columns[e]], rows of `stride` floats [padded], nodes first..last.
+  // out[i - first] = sum_e values[e] x[columns[e]], rows of `stride` floats [padded], nodes first..last.
   void (*aggregate)(const SparseRows& graph, const float* x, size_t stride, uint32_t first, uint32_t last,
                     float* out);
-  // Gates i f c, then c and y_next, of nodes first..last; needs the h and y of t-1 of all nodes.
+  // Gates i f c, then c (last layer: and y_next), of nodes first..last; needs h and the last layer's y of t-1
+  // of all nodes.
   void (*layer_cells)(const LayerJob& job, uint32_t first, uint32_t last);
-  // Gate o, then h and y, of nodes first..last; needs y_next of all nodes.
+  // Gate o, then h and y, of nodes first..last; needs c (last layer: y_next) of t of all nodes.
   void (*layer_output)(const LayerJob& job, uint32_t first, uint32_t last);
   // out[axis][v] = sum_n weights[n][v] displacement[n][axis]; weights [nodes][stride], out [3][stride]
   // [padded]; v < stride, a multiple of kBlock. Reads each weight once; out is overwritten.

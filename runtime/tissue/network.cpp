@@ -11,45 +11,87 @@ namespace {
 
 using simd::pad_to_block;
 
-// Scratch: y_next and the output gate's sums of the widest layer, then one tile.
+// Nodes whose P c goes from one layer to the next through L1; a multiple of simd::kTileRows.
+constexpr uint32_t kRangeNodes = 24;
+
+// Output gates of two neighbouring layers, y_next of the last, P x of a range, one tile; in floats.
 struct Scratch {
-  size_t row_floats;  // of one node in the widest layer
-  size_t tile_floats;
+  size_t gates, y_next, px, tile;
 };
 
-Scratch scratch_of(const Network& network) {
-  Scratch scratch{};
+Scratch scratch_of(const Network& network, uint32_t node_count) {
+  size_t widest = 0, last = 0;
   for (const pack::LayerRecord& layer : network.layers) {
-    scratch.row_floats = std::max<size_t>(scratch.row_floats, layer.padded);
-    scratch.tile_floats = std::max(scratch.tile_floats, simd::tile_floats(layer.inputs, layer.padded));
+    last = layer.padded;
+    widest = std::max(widest, last);
   }
-  return scratch;
+  const size_t inputs = std::max(widest, pad_to_block(network.record->input_width));
+  return {widest * node_count, last * node_count, inputs * kRangeNodes,
+          simd::tile_floats(static_cast<uint32_t>(widest))};
 }
 
-simd::LayerJob layer_job(const Network& network, const pack::LayerRecord& layer, const Graph& graph,
-                         const LayerState& state) {
+// What network_step is given.
+struct Step {
+  const Network& network;
+  const Graph& graph;
+  const float *z, *carry;
+  float *state, *scratch;
+};
+
+void set_weights(const Network& network, const pack::LayerRecord& layer, simd::LayerJob* job) {
   const float* weights = network.weights;
-  return {.graph = {graph.rows, graph.columns, graph.values},
-          .inputs = layer.inputs,
-          .channels = layer.channels,
-          .padded = layer.padded,
-          .w_x = weights + layer.w_x,
-          .w_s = layer.has_self ? weights + layer.w_s : nullptr,
-          .w_h = weights + layer.w_h,
-          .w_y = weights + layer.w_y,
-          .bias = weights + layer.bias,
-          .h = state.h,
-          .c = state.c,
-          .y = state.y,
-          .clamp = network.record->state_clamp};
+  job->inputs = layer.inputs;
+  job->channels = layer.channels;
+  job->padded = layer.padded;
+  job->w_x = weights + layer.w_x;
+  job->w_s = layer.has_self ? weights + layer.w_s : nullptr;
+  job->w_h = weights + layer.w_h;
+  job->w_y = weights + layer.w_y;
+  job->bias = weights + layer.bias;
 }
 
 // The last layer accumulates the output; the others only remember.
-void set_accumulation(const pack::NetworkRecord& record, bool is_last, const float* carry,
-                      simd::LayerJob* job) {
+void set_accumulation(const Step& step, bool is_last, float* y_next, simd::LayerJob* job) {
+  const pack::NetworkRecord& record = *step.network.record;
+  job->clamp = record.state_clamp;
   job->y_keep = 1 - (is_last ? record.output_leak : record.hidden_leak);
   job->y_gain = is_last ? record.output_scale : 1;
-  job->carry = is_last ? carry : nullptr;
+  job->carry = is_last ? step.carry : nullptr;
+  job->y_next = is_last ? y_next : nullptr;
+}
+
+simd::LayerJob job_of(const Step& step, uint32_t l) {
+  const uint32_t nodes = step.graph.node_count;
+  const LayerState state = layer_state(step.network, nodes, l, step.state);
+  const Scratch sizes = scratch_of(step.network, nodes);
+  float* y_next = step.scratch + 2 * sizes.gates;
+  simd::LayerJob job{.graph = {step.graph.rows, step.graph.columns, step.graph.values}};
+  set_weights(step.network, step.network.layers[l], &job);
+  set_accumulation(step, l + 1 == step.network.layers.size(), y_next, &job);
+  job.x = l == 0 ? step.z : layer_state(step.network, nodes, l - 1, step.state).c;
+  job.x_stride = pad_to_block(job.inputs);
+  job.px = job.pc = y_next + sizes.y_next;
+  job.h = state.h;
+  job.c = state.c;
+  job.y = state.y;
+  job.output_gate = step.scratch + l % 2 * sizes.gates;
+  job.tile = job.pc + sizes.px;
+  return job;
+}
+
+// All nodes through the second pass of the layer before l and the first of l: what the one leaves in cache
+// the other takes.
+void layer_step(const Step& step, uint32_t l) {
+  const simd::Kernels& kernels = simd::kernels();
+  const auto layers = static_cast<uint32_t>(step.network.layers.size());
+  const uint32_t nodes = step.graph.node_count;
+  const simd::LayerJob before = job_of(step, l == 0 ? 0 : l - 1), now = job_of(step, l < layers ? l : 0);
+  for (uint32_t first = 0; first < nodes; first += kRangeNodes) {
+    const uint32_t last = std::min(first + kRangeNodes, nodes);
+    if (l == 0) kernels.aggregate(now.graph, step.z, now.x_stride, first, last, now.pc);
+    if (l > 0) kernels.layer_output(before, first, last);
+    if (l < layers) kernels.layer_cells(now, first, last);
+  }
 }
 
 }  // namespace
@@ -61,8 +103,8 @@ size_t state_floats(const Network& network, uint32_t node_count) noexcept {
 }
 
 size_t scratch_floats(const Network& network, uint32_t node_count) noexcept {
-  const Scratch scratch = scratch_of(network);
-  return 2 * scratch.row_floats * node_count + scratch.tile_floats;
+  const Scratch sizes = scratch_of(network, node_count);
+  return 2 * sizes.gates + sizes.y_next + sizes.px + sizes.tile;
 }
 
 LayerState layer_state(const Network& network, uint32_t node_count, uint32_t layer, float* state) noexcept {
@@ -73,24 +115,8 @@ LayerState layer_state(const Network& network, uint32_t node_count, uint32_t lay
 
 void network_step(const Network& network, const Graph& graph, const float* z, const float* carry,
                   float* state, float* scratch) noexcept {
-  const simd::Kernels& kernels = simd::kernels();
-  const uint32_t nodes = graph.node_count;
-  const size_t plane = scratch_of(network).row_floats * nodes;
-  const float* x = z;
-  size_t x_stride = pad_to_block(network.record->input_width);
-  for (uint32_t l = 0; l < network.layers.size(); ++l) {
-    simd::LayerJob job = layer_job(network, network.layers[l], graph, layer_state(network, nodes, l, state));
-    set_accumulation(*network.record, l + 1 == network.layers.size(), carry, &job);
-    job.x = x;
-    job.x_stride = x_stride;
-    job.y_next = scratch;
-    job.output_gate = scratch + plane;
-    job.tile = scratch + 2 * plane;
-    kernels.layer_cells(job, 0, nodes);
-    kernels.layer_output(job, 0, nodes);
-    x = job.c;
-    x_stride = job.padded;
-  }
+  const Step step = {network, graph, z, carry, state, scratch};
+  for (uint32_t l = 0; l <= network.layers.size(); ++l) layer_step(step, l);
 }
 
 float largest_cell(const Network& network, uint32_t node_count, const float* state) noexcept {

@@ -24,9 +24,9 @@ struct Network {  // views into a pack; trivially copyable
   const float* weights = nullptr;
 };
 
-// Floats of state for node_count nodes: for each layer h, c, y as [node_count][padded]. 64-byte aligned, zero
-// is the start (the paper's wiring: y of the last layer starts at Y_0). Scratch is not state: nothing in it
-// survives a step.
+// Floats of state for node_count nodes: for each layer h, c, y as [node_count][padded], where y of a hidden
+// layer is P y, for it is heard through P only. 64-byte aligned, zero is the start (the paper's wiring: y of
+// the last layer starts at Y_0). Scratch is not state: nothing in it survives a step.
 size_t state_floats(const Network& network, uint32_t node_count) noexcept;
 size_t scratch_floats(const Network& network, uint32_t node_count) noexcept;
 

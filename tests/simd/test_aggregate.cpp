@@ -18,7 +18,7 @@ TEST_CASE("aggregate_is_the_sparse_product_and_touches_only_its_nodes") {
       for (const size_t stride : {16u, 32u, 48u, 64u, 112u, 128u}) {
         std::mt19937 random(nodes);
         test::Floats x = test::random_rows(random, nodes, stride, stride, 1), out(nodes * stride, kUntouched);
-        kernels.aggregate(graph.view(), x.data(), stride, 1, nodes, out.data());
+        kernels.aggregate(graph.view(), x.data(), stride, 1, nodes, out.data() + stride);
         for (size_t i = 0; i < nodes; ++i) {
           for (size_t j = 0; j < stride; ++j) {
             double exact = i == 0 ? kUntouched : 0.0;
