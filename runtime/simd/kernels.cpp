@@ -56,7 +56,9 @@ std::span<const Kernels* const> compiled_kernels() noexcept {
   return tables;
 }
 
-size_t tile_floats(uint32_t padded) noexcept { return kTileRows * 6 * static_cast<size_t>(padded); }
+size_t tile_floats(uint32_t padded) noexcept {
+  return kTileRows * 4 * kBlock + 2 * kRangeNodes * static_cast<size_t>(padded);
+}
 
 }  // namespace sinew::simd
 #endif

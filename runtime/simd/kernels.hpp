@@ -10,8 +10,9 @@
 
 namespace sinew::simd {
 
-inline constexpr uint32_t kBlock = 16;    // floats a row is padded to: the widest vector
-inline constexpr uint32_t kTileRows = 6;  // nodes whose gates are worked on at a time
+inline constexpr uint32_t kBlock = 16;       // floats a row is padded to: the widest vector
+inline constexpr uint32_t kTileRows = 6;     // nodes whose gates are worked on at a time
+inline constexpr uint32_t kRangeNodes = 48;  // nodes that a layer's weights are read for at a time
 inline constexpr uint32_t kInfluences = 8;
 
 constexpr size_t pad_to_block(size_t count) { return (count + kBlock - 1) / kBlock * kBlock; }

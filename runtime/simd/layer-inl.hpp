@@ -1,4 +1,4 @@
-// layer-inl.hpp  One Alt-ConvLSTM layer for a range of nodes, kTileRows at a time, in two passes.
+// layer-inl.hpp  One Alt-ConvLSTM layer for a range of nodes in two passes.
 //
 //   a       = b + (P x) W_x + x W_s + (P h) W_h                        (arXiv 2006.07818 Eq. 5, 9)
 //   i, f    = sigmoid(a_if + (P y) W_y_if)
@@ -10,62 +10,81 @@
 // y of a hidden layer is heard only through P, and P c is what the next layer's x becomes: so P y is kept
 // instead of y, and its aggregation costs nothing.
 //
-// Shapes: kernels.hpp, LayerJob. A tile's gates (kTileRows x 4 padded) and its aggregated rows stay in L1. A
-// tile that is not full repeats its last node and stores it once. Between the passes a_o waits in
-// output_gate.
+// Shapes: kernels.hpp, LayerJob. Nodes go by kRangeNodes. For each block of channels the weights of its gates
+// (at most 100 KB in the paper's network) are read from L2 by one tile of kTileRows nodes after the other,
+// and a tile's gates become cells while they are in L1. Between the passes a_o waits in output_gate.
 HWY_BEFORE_NAMESPACE();
 namespace sinew::simd::HWY_NAMESPACE {
 
-struct Tile {
-  uint32_t first, count;  // nodes
-  float* rows;            // [kTileRows][padded], aggregated
-  float* more_rows;       // as many
-  float* gates;           // [kTileRows][4 padded]
+struct Range {
+  uint32_t first, count;  // nodes, at most kRangeNodes
 };
 
-HWY_INLINE Tile tile_at(const LayerJob& job, uint32_t first, uint32_t last) {
-  float* more = job.tile + kTileRows * job.padded;
-  return {first, HWY_MIN(kTileRows, last - first), job.tile, more, more + kTileRows * job.padded};
+HWY_INLINE Range range_at(uint32_t first, uint32_t last) {
+  return {first, HWY_MIN(kRangeNodes, last - first)};
 }
 
-// P x of the tile's nodes, in `out`.
-HWY_INLINE RowPointers aggregated(const LayerJob& job, const Tile& tile, const float* x, float* out) {
-  for (uint32_t r = 0; r < tile.count; ++r)
-    aggregate_row(job.graph, tile.first + r, x, job.padded, out + r * job.padded);
-  return rows_of(out, job.padded, tile.count);
+// Rows of a plane, or of what was aggregated for a range.
+struct Plane {
+  const float* rows;
+  size_t stride;
+  TileRows tile(uint32_t first, uint32_t end) const {
+    return {rows + first * stride, stride, HWY_MIN(kTileRows, end - first)};
+  }
+};
+
+HWY_INLINE void copy_floats(const float* from, size_t count, float* out) {
+  for (size_t j = 0; j < count; j += kLanes) hn::Store(hn::Load(Floats(), from + j), Floats(), out + j);
 }
 
-// px: P x of the tile's nodes.
-HWY_INLINE void sum_gates(const LayerJob& job, const Tile& tile, const float* px) {
+// P x of the range's nodes, in `out`.
+HWY_INLINE Plane aggregated(const LayerJob& job, Range range, const float* x, float* out) {
+  aggregate(job.graph, x, job.padded, range.first, range.first + range.count, out);
+  return {out, job.padded};
+}
+
+// What the nodes of a range hear, row 0 the first node's.
+struct Heard {
+  Plane px, x, ph, py;
+};
+
+// a and the peepholes of gates i f c o, channels j .. j + kBlock - 1, of a tile, in gates
+// [kTileRows][4][kBlock].
+HWY_INLINE void sum_gates(const LayerJob& job, const Heard& heard, uint32_t tile, uint32_t end, size_t j,
+                          float* gates) {
   const size_t p = job.padded;
   Term terms[4];
   size_t count = 0;
-  terms[count++] = {rows_of(px, job.x_stride, tile.count), job.inputs, job.w_x, 4 * p};
-  if (job.w_s) {
-    const float* x = job.x + tile.first * job.x_stride;
-    terms[count++] = {rows_of(x, job.x_stride, tile.count), job.inputs, job.w_s, 4 * p};
+  terms[count++] = {heard.px.tile(tile, end), job.inputs, job.w_x, 4 * p};
+  if (job.w_s) terms[count++] = {heard.x.tile(tile, end), job.inputs, job.w_s, 4 * p};
+  terms[count++] = {heard.ph.tile(tile, end), job.channels, job.w_h, 4 * p};
+  terms[count] = {heard.py.tile(tile, end), job.channels, job.w_y, 3 * p};
+  Product product = {{job.bias, 0, 1}, terms, count, p, gates, 4 * kBlock};
+  if constexpr (kLanes == kBlock) {
+    multiply<4, 2>(product, j);
+  } else {
+    product.step = kLanes;
+    for (size_t at = 0; at < 4 * kBlock; at += kWide * kLanes) {
+      const size_t gate = at / kBlock, column = gate * p + j + at % kBlock;
+      product.out = gates + at;
+      if (gate < 2) multiply<kWide, kWide>(product, column);
+      if (gate >= 2) multiply<kWide, 0>(product, column);
+    }
   }
-  terms[count++] = {aggregated(job, tile, job.h, tile.rows), job.channels, job.w_h, 4 * p};
-  const RowPointers py = job.y_next ? aggregated(job, tile, job.y, tile.more_rows)
-                                    : rows_of(job.y + tile.first * p, p, tile.count);
-  terms[count] = {py, job.channels, job.w_y, 3 * p};
-  const RowPointers bias = rows_of(job.bias, 0, tile.count);
-  multiply({bias, terms, count + 1, tile.gates, 4 * p}, 0, 2 * p);
-  multiply({bias, terms, count, tile.gates, 4 * p}, 2 * p, 4 * p);
 }
 
-HWY_INLINE void update_cells(const LayerJob& job, const float* gates, uint32_t node) {
+// c = clamp(f c + i tanh(a_c)) with one division. gates [4][kBlock]; c and output_gate: a block of the
+// node's.
+HWY_INLINE void update_cells(const float* gates, float bound, float* c, float* output_gate) {
   const Floats d;
-  const size_t p = job.padded;
-  const size_t at = node * p;
-  const Vector clamp = hn::Set(d, job.clamp);
-  for (size_t j = 0; j < p; j += kLanes) {
-    const Vector i = sigmoid_of(hn::Load(d, gates + j));
-    const Vector f = sigmoid_of(hn::Load(d, gates + p + j));
-    const Vector g = tanh_of(hn::Load(d, gates + 2 * p + j));
-    const Vector c = bounded(hn::MulAdd(f, hn::Load(d, job.c + at + j), hn::Mul(i, g)), clamp);
-    hn::Store(c, d, job.c + at + j);
-    hn::Store(hn::Load(d, gates + 3 * p + j), d, job.output_gate + at + j);
+  for (size_t j = 0; j < kBlock; j += kLanes) {
+    const Quotient i = sigmoid_of(hn::Load(d, gates + j)), f = sigmoid_of(hn::Load(d, gates + kBlock + j));
+    const Quotient added = product_of(i, tanh_of(hn::Load(d, gates + 2 * kBlock + j)));
+    const Vector kept = hn::Mul(f.over, hn::Load(d, c + j));
+    const Vector sum = hn::MulAdd(kept, added.under, hn::Mul(added.over, f.under));
+    const Vector next = hn::Div(sum, hn::Mul(f.under, added.under));
+    hn::Store(bounded(next, hn::Set(d, bound)), d, c + j);
+    hn::Store(hn::Load(d, gates + 3 * kBlock + j), d, output_gate + j);
   }
 }
 
@@ -82,51 +101,81 @@ HWY_INLINE void update_output_state(const LayerJob& job, uint32_t node) {
   }
 }
 
-void layer_cells(const LayerJob& job, uint32_t first, uint32_t last) {
-  for (uint32_t node = first; node < last; node += kTileRows) {
-    const Tile tile = tile_at(job, node, last);
-    sum_gates(job, tile, job.px + (node - first) * job.x_stride);
-    for (uint32_t r = 0; r < tile.count; ++r) {
-      update_cells(job, tile.gates + r * 4 * job.padded, node + r);
-      if (job.y_next) update_output_state(job, node + r);
+HWY_INLINE void range_cells(const LayerJob& job, Range range, const float* px) {
+  const size_t p = job.padded;
+  float* rows = job.tile + kTileRows * 4 * kBlock;
+  const Plane ph = aggregated(job, range, job.h, rows);
+  const Plane py =
+      job.y_next ? aggregated(job, range, job.y, rows + kRangeNodes * p) : Plane{job.y + range.first * p, p};
+  const Plane x = {job.w_s ? job.x + range.first * job.x_stride : nullptr, job.x_stride};
+  const Heard heard = {{px, job.x_stride}, x, ph, py};
+  for (size_t j = 0; j < p; j += kBlock) {
+    for (uint32_t tile = 0; tile < range.count; tile += kTileRows) {
+      sum_gates(job, heard, tile, range.count, j, job.tile);
+      for (uint32_t i = tile; i < HWY_MIN(tile + kTileRows, range.count); ++i) {
+        const size_t at = (range.first + i) * p + j;
+        update_cells(job.tile + (i - tile) * 4 * kBlock, job.clamp, job.c + at, job.output_gate + at);
+      }
     }
   }
+  for (uint32_t i = 0; job.y_next && i < range.count; ++i) update_output_state(job, range.first + i);
 }
 
-// P c of one node, in pc, and with it P y.
-HWY_INLINE void hear_cells(const LayerJob& job, uint32_t node, float* pc) {
+void layer_cells(const LayerJob& job, uint32_t first, uint32_t last) {
+  for (uint32_t node = first; node < last; node += kRangeNodes)
+    range_cells(job, range_at(node, last), job.px + (node - first) * job.x_stride);
+}
+
+// P c of the range's nodes, in pc, and with it P y.
+HWY_INLINE void hear_cells(const LayerJob& job, Range range, float* pc) {
   const Floats d;
-  float* py = job.y + node * size_t{job.padded};
+  float* py = job.y + range.first * size_t{job.padded};
   const Vector keep = hn::Set(d, job.y_keep);
-  aggregate_row(job.graph, node, job.c, job.padded, pc);
-  for (size_t j = 0; j < job.padded; j += kLanes)
+  aggregated(job, range, job.c, pc);
+  for (size_t j = 0; j < range.count * size_t{job.padded}; j += kLanes)
     hn::Store(hn::MulAdd(keep, hn::Load(d, py + j), hn::Load(d, pc + j)), d, py + j);
 }
 
-HWY_INLINE void update_hidden(const LayerJob& job, const float* gate, uint32_t node) {
+// h = o tanh(c) of `count` channels.
+HWY_INLINE void update_hidden(const float* gate, const float* c, size_t count, float* h) {
   const Floats d;
-  const size_t at = node * size_t{job.padded};
-  for (size_t j = 0; j < job.padded; j += kLanes) {
-    const Vector o = sigmoid_of(hn::Load(d, gate + j));
-    hn::Store(hn::Mul(o, tanh_of(hn::Load(d, job.c + at + j))), d, job.h + at + j);
-    if (job.y_next) hn::Store(hn::Load(d, job.y_next + at + j), d, job.y + at + j);
+  for (size_t j = 0; j < count; j += kLanes) {
+    const Quotient o = sigmoid_of(hn::Load(d, gate + j)), t = tanh_of(hn::Load(d, c + j));
+    hn::Store(value_of(product_of(o, t)), d, h + j);
   }
 }
 
-void layer_output(const LayerJob& job, uint32_t first, uint32_t last) {
+template <size_t kVectors>
+HWY_INLINE void output_columns(const LayerJob& job, Range range, const Plane& py, size_t j) {
+  constexpr size_t kColumns = kVectors * kLanes;
   const size_t p = job.padded;
-  for (uint32_t node = first; node < last; node += kTileRows) {
-    const Tile tile = tile_at(job, node, last);
-    RowPointers py = rows_of(job.y + node * p, p, tile.count);
-    if (job.y_next) {
-      py = aggregated(job, tile, job.y_next, tile.rows);
-    } else {
-      for (uint32_t r = 0; r < tile.count; ++r) hear_cells(job, node + r, job.pc + (node - first + r) * p);
+  const Plane waiting = {job.output_gate + range.first * p, p};
+  for (uint32_t tile = 0; tile < range.count; tile += kTileRows) {
+    const Term term = {py.tile(tile, range.count), job.channels, job.w_y + 2 * p, 3 * p};
+    multiply<kVectors, 0>({waiting.tile(tile, range.count), &term, 1, kLanes, job.tile, kColumns}, j);
+    for (uint32_t i = tile; i < HWY_MIN(tile + kTileRows, range.count); ++i) {
+      const size_t at = (range.first + i) * p + j;
+      update_hidden(job.tile + (i - tile) * kColumns, job.c + at, kColumns, job.h + at);
     }
-    const Term term = {py, job.channels, job.w_y + 2 * p, 3 * p};
-    multiply({rows_of(job.output_gate + node * p, p, tile.count), &term, 1, tile.gates, p}, 0, p);
-    for (uint32_t r = 0; r < tile.count; ++r) update_hidden(job, tile.gates + r * p, node + r);
   }
+}
+
+HWY_INLINE void range_output(const LayerJob& job, Range range, float* pc) {
+  const size_t p = job.padded, at = range.first * p;
+  Plane py = {job.y + at, p};
+  if (job.y_next) {
+    py = aggregated(job, range, job.y_next, job.tile + kTileRows * 4 * kBlock);
+  } else {
+    hear_cells(job, range, pc);
+  }
+  const auto body = [&]<size_t kVectors>(size_t j) HWY_ATTR { output_columns<kVectors>(job, range, py, j); };
+  for_columns(p, body);
+  if (job.y_next) copy_floats(job.y_next + at, range.count * p, job.y + at);
+}
+
+void layer_output(const LayerJob& job, uint32_t first, uint32_t last) {
+  for (uint32_t node = first; node < last; node += kRangeNodes)
+    range_output(job, range_at(node, last), job.pc + (node - first) * job.padded);
 }
 
 }  // namespace sinew::simd::HWY_NAMESPACE

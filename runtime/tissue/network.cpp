@@ -9,10 +9,8 @@
 namespace sinew::tissue {
 namespace {
 
+using simd::kRangeNodes;
 using simd::pad_to_block;
-
-// Nodes whose P c goes from one layer to the next through L1; a multiple of simd::kTileRows.
-constexpr uint32_t kRangeNodes = 24;
 
 // Output gates of two neighbouring layers, y_next of the last, P x of a range, one tile; in floats.
 struct Scratch {
