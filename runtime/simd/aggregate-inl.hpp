@@ -28,11 +28,15 @@ HWY_INLINE void aggregate_columns(const SparseRows& graph, const float* x, size_
   }
 }
 
+// By tiles, so that all columns of a row are read while they are near.
 void aggregate(const SparseRows& graph, const float* x, size_t stride, uint32_t first, uint32_t last,
                float* out) {
-  const auto body = [&]<size_t kVectors>(size_t j)
-                        HWY_ATTR { aggregate_columns<kVectors>(graph, x + j, stride, first, last, out + j); };
-  for_columns(stride, body);
+  for (uint32_t node = first; node < last; node += kTileRows, out += kTileRows * stride) {
+    const uint32_t end = HWY_MIN(node + kTileRows, last);
+    const auto body = [&]<size_t kVectors>(size_t j)
+                          HWY_ATTR { aggregate_columns<kVectors>(graph, x + j, stride, node, end, out + j); };
+    for_columns(stride, body);
+  }
 }
 
 }  // namespace sinew::simd::HWY_NAMESPACE

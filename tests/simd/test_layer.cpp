@@ -7,7 +7,7 @@ using namespace sinew;
 
 namespace {
 
-constexpr uint32_t kNodes = 20, kPadded = 48;
+constexpr uint32_t kNodes = simd::kRangeNodes + 9, kPadded = 48;
 constexpr size_t kPlane = kNodes * kPadded;
 
 // Both passes of one layer, hidden or last, each cut at the given node as two workers would.

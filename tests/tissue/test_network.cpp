@@ -130,6 +130,17 @@ TEST_CASE("network_step_matches_the_equations_for_partial_tiles_and_blocks") {
   });
 }
 
+TEST_CASE("network_step_matches_the_equations_across_ranges_of_nodes") {
+  constexpr uint32_t kRange = simd::kRangeNodes;
+  test::for_every_isa([&](const char*, const simd::Kernels&) {
+    for (const uint32_t nodes : {kRange - 1, kRange, kRange + 1, 2 * kRange + 7}) {
+      Twins twins(kWirings[4], nodes, {9, 20, 80, 3});
+      for (int step = 0; step < 3; ++step) twins.step();
+      CHECK(twins.difference() <= kRollOut);
+    }
+  });
+}
+
 TEST_CASE("network_step_has_the_same_bits_on_all_targets_with_fma") {
   test::require_same_bits_where_fused([&](const simd::Kernels&) {
     Twins twins(kWirings[4], 23, {21, 40, 64, 3});
