@@ -17,7 +17,7 @@ VARIANTS = {
     "not told the bend": ["--without", "bend,bent_force,bent_step,bent_displacement"],
     "no leak in hidden layers": ["--hidden-leak", "0"],
     "gradients over 5 ticks": ["--window", "5"],
-    "channels 8, 8, 3": ["--channels", "8,8,3"],
+    "channels 16, 16, 3": ["--channels", "16,16,3"],
     "channels 32, 32, 3": ["--channels", "32,32,3"],
 }
 TICKS = (10, 50, 200)

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 class TrainOptions:
     """Defaults are the recipe of the shipped weights."""
 
-    channels: tuple = (16, 16, 3)
-    minutes: float = 14.0  # of one core's time, or of the clock's on a GPU
+    channels: tuple = (8, 8, 3)
+    minutes: float = 30.0  # of one core's time, or of the clock's on a GPU
     seed: int = 0
     batch: int = 4  # sequences of every body, all regions of each
     window: int = 20  # ticks of truncated back-propagation
