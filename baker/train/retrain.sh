@@ -4,8 +4,8 @@
 #   baker/train/retrain.sh [BUILD_DIR] [WORK_DIR]
 #
 # BUILD_DIR holds bin/sinew-bake (default: build/release). WORK_DIR takes the data set and the runs (default: BUILD_DIR/train);
-# a second call goes on where the first was cut. In the environment, if wanted: NETWORKS (name=channels ...),
-# MINUTES (30) of one core a network, SEEDS (0; of each network the one that validates best is kept), PROCESSES (2), PLAN (assets/bodies/plan.json),
+# a second call goes on where the first was cut. In the environment, if wanted: NETWORKS (name=channels:minutes ..., of one core),
+# SEEDS (0; of each network the one that validates best is kept), PROCESSES (2), PLAN (assets/bodies/plan.json),
 # GENERATE and TRAIN (further options of those commands), OUT (assets) and PYTHON (/usr/bin/python3).
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
@@ -13,7 +13,7 @@ build=${1:-$root/build/release}
 work=${2:-$build/train}
 python=${PYTHON:-/usr/bin/python3}
 out=${OUT:-$root/assets}
-networks=${NETWORKS:-creature=8,8,3 creature_wide=16,16,3}
+networks=${NETWORKS:-creature=8,8,3:24 creature_wide=16,16,3:30}
 bake=$build/bin/sinew-bake
 
 [ -x "$bake" ] || { echo "retrain.sh: no $bake; build the project first, or name its build folder" >&2; exit 2; }
@@ -28,8 +28,8 @@ simulate --processes 1 > "$work/generate.log" 2>&1 &   # what judging needs, whi
 pids=$!
 for network in $networks; do
   for seed in ${SEEDS:-0}; do
-    run=${network%=*}.$seed
-    trainer train "$work/data" --out "$work/$run" --channels "${network#*=}" --seed "$seed" --minutes "${MINUTES:-30}" --device auto ${TRAIN:-} \
+    run=${network%=*}.$seed channels=${network#*=} minutes=${network##*:}
+    trainer train "$work/data" --out "$work/$run" --channels "${channels%:*}" --seed "$seed" --minutes "$minutes" --device auto ${TRAIN:-} \
       > "$work/$run.log" 2>&1 &
     pids="$pids $!"
   done

@@ -7,7 +7,7 @@ class TrainOptions:
     """Defaults are the recipe of the shipped weights."""
 
     channels: tuple = (8, 8, 3)
-    minutes: float = 30.0  # of one core's time, or of the clock's on a GPU
+    minutes: float = 24.0  # of one core's time, or of the clock's on a GPU
     seed: int = 0
     batch: int = 4  # sequences of every body, all regions of each
     window: int = 20  # ticks of truncated back-propagation

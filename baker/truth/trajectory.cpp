@@ -182,7 +182,7 @@ Safetensors TrajectoryRecorder::finish(std::map<std::string, std::string> metada
   Safetensors file;
   const size_t nodes = layout_.nodes.size();
   file.metadata = std::move(metadata);
-  file.metadata["sinew.trajectory"] = "3";
+  file.metadata["sinew.trajectory"] = kTrajectoryVersion;
   file.tensors["drive"] = tensor_f32({ticks_, nodes, tissue::kNodeDriveWidth}, drive_);
   file.tensors["rotation"] = tensor_f32({ticks_, nodes, 9}, rotation_);
   file.tensors["displacement"] = tensor_f32({ticks_, nodes, 3}, displacement_);

@@ -26,6 +26,8 @@
 
 namespace sinew::baker {
 
+inline constexpr char kTrajectoryVersion[] = "3";
+
 struct TrajectoryOptions {
   double rate_hz = 60;
   bool surface = false, positions = false;

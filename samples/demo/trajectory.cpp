@@ -8,6 +8,7 @@
 
 #include "baker/common/bad_input.hpp"
 #include "baker/common/safetensors.hpp"
+#include "baker/truth/trajectory.hpp"
 #include "samples/demo/pose_blend.hpp"
 
 namespace sinew::demo {
@@ -31,7 +32,7 @@ double rate_of(const baker::Safetensors& file) {
         file.path +
         ": is not a trajectory; make one with: sinew-bake truth IN.glb --positions -o T.safetensors");
   }
-  if (file.metadata.at("sinew.trajectory") != "2")
+  if (file.metadata.at("sinew.trajectory") != baker::kTrajectoryVersion)
     throw baker::BadInput(file.path + ": is a trajectory of another version; simulate it again");
   const auto rate = file.metadata.find("rate_hz");
   const double rate_hz = rate == file.metadata.end() ? 0 : std::strtod(rate->second.c_str(), nullptr);

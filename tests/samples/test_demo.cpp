@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "baker/common/safetensors.hpp"
+#include "baker/truth/trajectory.hpp"
 #include "tests/baker/common/temporary_folder.hpp"
 #include "tests/baker/programs/run_program.hpp"
 #include "tests/pack/small_pack.hpp"
@@ -58,7 +59,7 @@ baker::Safetensors flat_truth() {
     root.insert(root.end(), pose.root.rotation_xyzw, pose.root.rotation_xyzw + 4);
   }
   baker::Safetensors file;
-  file.metadata = {{"sinew.trajectory", "2"}, {"rate_hz", "60"}, {"motion", "walk"}};
+  file.metadata = {{"sinew.trajectory", baker::kTrajectoryVersion}, {"rate_hz", "60"}, {"motion", "walk"}};
   file.tensors["joints"] = baker::tensor_f32({kRows, 2, 12}, joints);
   file.tensors["root"] = baker::tensor_f32({kRows, 7}, root);
   file.tensors["positions"] = baker::tensor_f32({kRows, kBlockVertices, 3}, positions);
