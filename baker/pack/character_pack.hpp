@@ -13,7 +13,7 @@ namespace sinew::baker {
 inline constexpr double kClipRateHz = 60;
 // The whole file; `modes`: one basis a region. Without weights (null) it has the tiers modal and spring, at
 // 60 Hz. Beyond network_pack's keys, reads from the weights' metadata:
-//   frame, base          must be "node" and "modal": what the network was trained on
+//   frame, base          must be "bent" and "modal": what the network was trained on
 //   base_substeps        of the truth that it was trained on (default 4)
 //   displacement_limit   share of a region's radius (default 0.75)
 //   error_mm, error_ratio   of the network on held-out motion; absent: not measured

@@ -23,10 +23,12 @@ uint64_t multiply_adds(std::span<const pack::LayerRecord> layers, size_t nodes, 
     const uint64_t input_rows = uint64_t{layer.inputs} * (1 + layer.has_self);
     const uint64_t products =
         layer.padded * (4 * input_rows + 4 * uint64_t{layer.channels} + 3 * uint64_t{layer.channels});
-    const uint64_t aggregated = uint64_t{layer.inputs} + 2 * uint64_t{layer.channels};  // x, h and y
+    const uint64_t aggregated =
+        uint64_t{layer.inputs} + uint64_t{layer.channels};  // x (c of the layer before), h
     total += nodes * products + graph_entries * aggregated;
   }
-  return total;
+  const uint64_t outputs = layers.empty() ? 0 : 2 * uint64_t{layers.back().channels};  // y, of then and now
+  return total + graph_entries * outputs;
 }
 
 std::vector<pack::TierRecord> make_tiers(const TierWork& work, float error_mm, float error_ratio) {

@@ -161,7 +161,7 @@ def operations(network, group):
     if network is not None:
         multiply_adds += nodes * network.parameters
         widths = [network.model.options.input_width, *network.model.options.channels]
-        multiply_adds += edges * (sum(widths[:-1]) + 2 * sum(widths[1:]))
+        multiply_adds += edges * (sum(widths[:-1]) + sum(widths[1:]) + 2 * widths[-1])
     for r, b in enumerate(group.body.bases):
         floats = 3 * int((group.body.region == r).sum())
         multiply_adds += floats * floats + (3 if network is None else 4) * floats * len(b["rad_per_s"])

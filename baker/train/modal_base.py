@@ -149,8 +149,8 @@ class ModalBase:
         return BaseState(zero, zero, zero, q, q, zero, zero, zero)
 
     def predict(self, state, felt, turn_now):
-        """What the modes alone do in a tick: (q, what the modes left out add to l), l, and the force in flesh
-        axes that drove them. felt (R, n, B, 3) m/s^2. turn_now: R_t^T R_{t-1} and R_t^T R_{t-2}, each
+        """What the modes alone do in a tick: (q, what the modes left out add to l), l, and the force along the turned
+        flesh that drove them. felt (R, n, B, 3) m/s^2. turn_now: R_t^T R_{t-1} and R_t^T R_{t-2}, each
         (R, n, B, 3, 3)."""
         f = felt + self._frame_term(state, turn_now) if self.frame_terms else felt
         if self.warping:

@@ -38,15 +38,20 @@ for pid in $pids; do
   wait "$pid" || { tail -n 3 "$work"/*.log >&2; kill $pids 2>/dev/null || :; exit 2; }
 done
 
+# Of the seeds of this call.
+best_of() { set -- "$1" ""; for seed in ${SEEDS:-0}; do set -- "$1" "$2 $work/$1.$seed"; done; trainer best $2; }
+
 set --
 names=
 for network in $networks; do
   name=${network%=*}
   names="$names $name"
-  set -- "$@" --run "$name=$(trainer best "$work/$name".[0-9]*/)"
+  best=$(best_of "$name")
+  set -- "$@" --run "$name=$best"
 done
 trainer evaluate "$work/data" "$@" --enduring $names --out "$out/evaluation"
 for name in $names; do
-  trainer export "$work/data" --run "$(trainer best "$work/$name".[0-9]*/)" --page "$out/evaluation" --model "$name" --body momo --out "$out/weights" --name "$name"
+  best=$(best_of "$name")
+  trainer export "$work/data" --run "$best" --page "$out/evaluation" --model "$name" --body momo --out "$out/weights" --name "$name"
   "$bake" check "$out/weights/$name.safetensors" "$out/weights/$name.vectors.safetensors" --tolerance 1e-4
 done

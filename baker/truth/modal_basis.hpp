@@ -14,8 +14,8 @@
 
 namespace sinew::baker {
 
-inline constexpr int kMostModes = 32;  // a region
-inline constexpr double kTurnShare = 0.75;
+inline constexpr int kMostModes = 32;       // a region
+inline constexpr double kTurnShare = 0.75;  // of half a bending mode's curl: what it is warped by
 
 struct ModalBasis {
   Eigen::VectorXd rad_per_s;      // w, ascending

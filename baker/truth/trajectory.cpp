@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "baker/common/bad_input.hpp"
 #include "baker/mesh/node_record.hpp"
 #include "tissue/node_bend.hpp"
 
@@ -27,6 +28,9 @@ Tensor tensor_of(Dtype dtype, std::vector<size_t> shape, const std::vector<T>& v
 TrajectoryRecorder::TrajectoryRecorder(const Character& character, const TissueLayout& layout,
                                        const TrajectoryOptions& options, std::vector<ModalBasis> modes)
     : character_(character), layout_(layout), options_(options), modes_(std::move(modes)) {
+  if (modes_.size() != layout.regions.size())
+    throw BadInput("trajectory: " + std::to_string(modes_.size()) + " modal bases for " +
+                   std::to_string(layout.regions.size()) + " regions");
   for (const ControlNode& node : layout.nodes) nodes_.push_back(node_record(node));
   for (size_t r = 0; r < layout.regions.size() && options.surface; ++r)
     for (const int vertex : layout.regions[r].vertices) {
@@ -61,7 +65,7 @@ void TrajectoryRecorder::add(const TruthFrame& frame) {
 
 namespace {
 
-// The truth less the skinning, along the axes of a point's own frame.
+// The truth less the skinning, along a node's frame, or along the flesh of a point on the surface.
 Vector3 displacement_of(const TruthFrame& frame, int vertex, const tissue::NodePose& pose) {
   const auto v = static_cast<size_t>(vertex);
   const Eigen::Map<const Eigen::Matrix<float, 3, 3, Eigen::RowMajor>> axes(pose.rotation);

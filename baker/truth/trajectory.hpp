@@ -33,8 +33,8 @@ struct TrajectoryOptions {
   bool surface = false, positions = false;
 };
 
-// Takes the start, then one tick after the other. Frames and drives come from runtime/tissue, so that network
-// and runtime cannot disagree.
+// Takes the start, then one tick after the other; one basis a region, else BadInput. Frames and drives come
+// from runtime/tissue, so that network and runtime cannot disagree.
 class TrajectoryRecorder {
  public:
   TrajectoryRecorder(const Character& character, const TissueLayout& layout, const TrajectoryOptions& options,

@@ -69,7 +69,7 @@ struct NetworkShape {
 
 // The paper's widths on as many vertices as its character has (6,890).
 inline NetworkShape paper_shape() { return {9, {32, 64, 128, 64, 32, 3}, false, 106, 65}; }
-// A shipped form on 240 control nodes.
+// A form like the shipped ones on 240 control nodes.
 inline NetworkShape control_graph_shape() { return {34, {16, 16, 3}, true, 20, 12}; }
 
 // One matrix product of a step: [nodes x depth] [depth x columns].

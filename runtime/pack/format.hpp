@@ -157,7 +157,7 @@ enum class InputKind : uint32_t {
   kBaseStep = 14,            // 3: l^ - l of the last tick, length units
   kTurn = 15,                // 3: theta of the last tick, rad
   kFrequency = 16,           // 1: w1 x tick, rad
-  kBend = 17,                // 3: of the node's frame, rad (tissue/node_bend.hpp)
+  kBend = 17,                // 3: a quarter of the region's bend, rad (tissue/node_bend.hpp)
   kBentForce = 18,           // 3: bend x the value of kFeltStep
   kBentStep = 19,            // 3: bend x the value of kBaseStep
   kBentDisplacement = 20,    // 3: bend x the value of kDisplacement

@@ -24,7 +24,8 @@ struct NodeMemory {
 
 // l beyond its region's limit is brought back along its own direction, and l_before with it, so that it has
 // no velocity: a clamp alone would leave the states behind it pushing. The node's states in every layer
-// become zero and its y what l is. l, l_before: [region nodes][3], metres. Returns the nodes held.
+// become zero and its y what l is; its neighbours forget what they gathered from it at the rate of
+// hidden_leak. l, l_before: [region nodes][3], metres. Returns the nodes held.
 uint32_t hold_at_limit(const pack::RegionRecord& region, const NodeMemory& memory, float* l,
                        float* l_before) noexcept;
 

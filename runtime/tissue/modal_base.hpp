@@ -1,4 +1,4 @@
-// modal_base.hpp  A soft part as a few damped modes, in axes that turn with its flesh.
+// modal_base.hpp  A soft part as a few damped modes, in frames that turn with its flesh.
 //
 // For control node i: u displacement along its own frame R (tissue/node_bend.hpp), l the same before warping,
 // theta how its flesh has turned against its frame, f the felt acceleration (tissue/node_drive.hpp); q modal

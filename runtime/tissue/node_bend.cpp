@@ -52,4 +52,9 @@ void along_flesh(const NodePose& node, const float v[3], float out[3]) noexcept 
   turn_back(node.bend, v, out);
 }
 
+void along_frame(const NodePose& node, const float v[3], float out[3]) noexcept {
+  const float back[3] = {-node.bend[0], -node.bend[1], -node.bend[2]};
+  turn_back(back, v, out);
+}
+
 }  // namespace sinew::tissue

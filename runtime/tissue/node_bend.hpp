@@ -13,10 +13,12 @@
 
 namespace sinew::tissue {
 
-// Nodes of one region, as pose_nodes left them; anchor < count. rotation becomes F_i, and bend = beta_i / 4.
+// Nodes of one region, as pose_nodes left them; anchor < count. rotation becomes F_i, and bend, what the
+// flesh is turned beyond it, beta_i / 4; 0 where a frame is not a number.
 void share_bend(uint32_t anchor, uint32_t count, NodePose* nodes) noexcept;
 
-// A vector along a node's frame, along the axes of its flesh: exp([bend]x)^T v. Either may be the other.
+// A vector along a node's frame, along the axes of its flesh: exp([bend]x)^T v; and back. v may be out.
 void along_flesh(const NodePose& node, const float v[3], float out[3]) noexcept;
+void along_frame(const NodePose& node, const float v[3], float out[3]) noexcept;
 
 }  // namespace sinew::tissue

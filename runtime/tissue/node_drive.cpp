@@ -1,4 +1,4 @@
-// node_drive.cpp  Differences of the last three ticks, turned into each node's own axes.
+// node_drive.cpp  Differences of the last three ticks, turned into each node's frame.
 #include "tissue/node_drive.hpp"
 
 namespace sinew::tissue {

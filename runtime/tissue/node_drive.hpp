@@ -7,7 +7,8 @@
 //   gravity change           = R_t^T g - g
 //   angular velocity   omega = vee((A - A^T) / 2) / h,  A = R_{t-1}^T R_t     the sine of a tick's turn
 //   angular acceleration     = (omega_t - omega_{t-1}) / h
-//   bend                     of its region, tissue/node_bend.hpp
+//   bend                     what its flesh is turned beyond it: a quarter of the region's bend
+//                            (tissue/node_bend.hpp)
 // All are zero for a character that stands still in its bind pose. The trainer's data sets are written
 // through this same code, so network and runtime cannot disagree on an input.
 #pragma once

@@ -8,6 +8,8 @@
 #include "frame/scheduler.hpp"
 #include "tissue/guard.hpp"
 #include "tissue/network.hpp"
+#include "tissue/node_bend.hpp"
+#include "world/motion.hpp"
 #include "world/simulate.hpp"
 
 namespace sinew::world {
@@ -17,6 +19,13 @@ size_t floats_of(const Instance& instance) noexcept { return size_t{3} * instanc
 
 void copy(const Instance& instance, const float* from, float* to) noexcept {
   std::memcpy(to, from, sizeof(float) * floats_of(instance));
+}
+
+// turn: along_flesh or along_frame, by the newest frames. from, to: [nodes][3].
+void for_each_node(const Instance& instance, decltype(&tissue::along_flesh) turn, const float* from,
+                   float* to) noexcept {
+  for (size_t n = 0; n < instance.asset->node_count(); ++n)
+    turn(instance.poses[0][n], from + 3 * n, to + 3 * n);
 }
 
 void begin_tail(Instance& instance, float velocity_kept) noexcept {
@@ -31,7 +40,9 @@ void begin_tail(Instance& instance, float velocity_kept) noexcept {
 // zero is exact.
 void begin_simulation(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
-  for (int tick = 0; tick < 2; ++tick) copy(instance, instance.shown[tick], instance.u[tick]);
+  pose_at_start(instance);
+  for (int tick = 0; tick < 2; ++tick)
+    for_each_node(instance, tissue::along_frame, instance.shown[tick], instance.u[tick]);
   state.motion_stale = 1;
   state.clamped_ticks = 0;
   state.blend_ticks = state.untouched ? kBlendInTicks : 0;
@@ -110,9 +121,10 @@ void show_tick(Instance& instance) noexcept {
   const float simulated = instance.simulated_share();
   const float tail = (1 - simulated) * instance.tail_share();
   copy(instance, instance.shown[0], instance.shown[1]);
-  if (simulated == 1) return copy(instance, instance.u[0], instance.shown[0]);
+  if (simulated > 0) for_each_node(instance, tissue::along_flesh, instance.u[0], instance.shown[0]);
+  if (simulated == 1) return;
   for (size_t i = 0; i < floats_of(instance); ++i) {
-    instance.shown[0][i] = simulated * instance.u[0][i] + tail * instance.tail[i];
+    instance.shown[0][i] = simulated * instance.shown[0][i] + tail * instance.tail[i];
   }
 }
 

@@ -66,9 +66,10 @@ struct InstancePlan {
   Tier tier = Tier::kSkinning;
 };
 
-// Arrays are [nodes][3] in metres along the axes of each node's own frame unless said otherwise; l, theta and
-// q as in tissue/modal_base.hpp, stale on springs. "Shown" is what is published: shown = b u + (1 - b) tail,
-// b rising smoothly from 0 to 1 in kBlendInTicks. The tail is the displacement shown when simulation was last
+// Arrays are [nodes][3] in metres along each node's frame (tissue/node_bend.hpp) unless said otherwise; l,
+// theta and q as in tissue/modal_base.hpp, stale on springs. "Shown" is what is published, along the axes of
+// the flesh, as is the tail: poses need not be followed to carry them on. shown = b u + (1 - b) tail, b
+// rising smoothly from 0 to 1 in kBlendInTicks. The tail is the displacement shown when simulation was last
 // left, carried on with damped velocity and then faded to zero.
 struct Instance {
   core::AlignedBlock memory;

@@ -131,20 +131,24 @@ RootTransform root_at(const Instance& instance, double share) noexcept {
                       path_weights(share, instance.plan.dt_s, state.dt_before_s));
 }
 
+void pose_nodes(Instance& instance, const Matrix34* joints, const RootTransform& root) noexcept {
+  const pack::PackView& pack = instance.asset->pack;
+  skin_matrices(pack.joints, joints, instance.skin);
+  tissue::pose_nodes(pack.nodes, instance.skin, root.rotation_xyzw, instance.poses[0]);
+  for (const pack::RegionRecord& region : pack.regions)
+    tissue::share_bend(region.anchor_node, region.node_count, instance.poses[0] + region.first_node);
+}
+
 // Shifts the history by one tick and puts the pose at `share` in front.
 void push_pose(Instance& instance, double share) noexcept {
-  const pack::PackView& pack = instance.asset->pack;
   auto& roots = instance.state->tick_root_m;
-  const size_t bytes = sizeof(tissue::NodePose) * pack.nodes.size();
+  const size_t bytes = sizeof(tissue::NodePose) * instance.asset->node_count();
   for (int back = 2; back > 0; --back) {
     std::memcpy(instance.poses[back], instance.poses[back - 1], bytes);
     std::copy_n(roots[back - 1], 3, roots[back]);
   }
   const RootTransform root = root_at(instance, share);
-  skin_matrices(pack.joints, joints_at(instance, share), instance.skin);
-  tissue::pose_nodes(pack.nodes, instance.skin, root.rotation_xyzw, instance.poses[0]);
-  for (const pack::RegionRecord& region : pack.regions)
-    tissue::share_bend(region.anchor_node, region.node_count, instance.poses[0] + region.first_node);
+  pose_nodes(instance, joints_at(instance, share), root);
   std::copy_n(root.position_m, 3, roots[0]);
 }
 
@@ -187,6 +191,10 @@ void follow_motion(Instance& instance, double time_s) noexcept {
     push_pose(instance, share - back);
   }
   push_pose(instance, share);
+}
+
+void pose_at_start(Instance& instance) noexcept {
+  pose_nodes(instance, instance.joints, instance.state->root);
 }
 
 }  // namespace sinew::world

@@ -2,22 +2,18 @@
 #include "world/publish.hpp"
 
 #include "simd/kernels.hpp"
-#include "tissue/node_bend.hpp"
 #include "world/pose.hpp"
 
 namespace sinew::world {
 namespace {
 
-// delta = u + (r/h)(u - u_before), along the axes of the flesh.
+// delta = u + (r/h)(u - u_before).
 void carry_on(Instance& instance) noexcept {
   const float ahead = instance.state->render_fraction;
-  for (size_t n = 0; n < instance.asset->node_count(); ++n) {
-    float* delta = instance.delta + 3 * n;
-    for (size_t k = 0; k < 3; ++k) {
-      const float now = instance.shown[0][3 * n + k];
-      delta[k] = now + ahead * (now - instance.shown[1][3 * n + k]);
-    }
-    tissue::along_flesh(instance.poses[0][n], delta, delta);
+  const size_t floats = size_t{3} * instance.asset->node_count();
+  for (size_t i = 0; i < floats; ++i) {
+    const float now = instance.shown[0][i];
+    instance.delta[i] = now + ahead * (now - instance.shown[1][i]);
   }
 }
 

@@ -14,7 +14,7 @@ namespace {
 using core::make_status;
 
 constexpr uint64_t kMagic = 0x31544154534e5753;  // "SWNSTAT1", little-endian
-constexpr uint32_t kVersion = 2;                 // of InstanceState and the arrays after it
+constexpr uint32_t kVersion = 3;                 // of InstanceState and the arrays after it
 
 struct Header {
   uint64_t magic, fingerprint, payload_bytes, checksum;

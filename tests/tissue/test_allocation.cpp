@@ -8,6 +8,7 @@
 #include "tissue/guard.hpp"
 #include "tissue/inputs.hpp"
 #include "tissue/modal_base.hpp"
+#include "tissue/node_bend.hpp"
 #include "tissue/node_drive.hpp"
 #include "tissue/spring.hpp"
 
@@ -73,6 +74,8 @@ TEST_CASE("a_tick_of_drive_base_inputs_network_and_guard_allocates_nothing") {
   std::vector<float> drive(kNodes * tissue::kNodeDriveWidth);
   const auto tick = [&] {
     tissue::pose_nodes(nodes, skin, upright, poses.data());
+    tissue::share_bend(0, kNodes, poses.data());
+    tissue::along_flesh(poses[1], u.data(), u.data());
     tissue::compute_node_drive(motion, 1.0f / 60, kNodes, drive.data());
     tissue::frame_term(history, u.data(), u_before.data(), 1.0f / 60, kNodes, felt.data());
     tissue::modal_step(base, felt.data(), {q.data(), q_before.data(), r.data(), r.data(), theta.data()},

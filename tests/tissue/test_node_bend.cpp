@@ -37,13 +37,25 @@ tissue::NodePose shared(double bend_rad, const Matrix3d& anchor = test::turned(0
 
 }  // namespace
 
+TEST_CASE("a_frame_that_is_not_a_number_is_not_bent") {
+  const tissue::NodePose good = test::node_pose(test::turned(0.7));
+  tissue::NodePose bad = good;
+  bad.rotation[4] = std::nanf("");
+  for (const bool anchor_is_bad : {false, true}) {
+    tissue::NodePose nodes[2] = {anchor_is_bad ? bad : good, anchor_is_bad ? good : bad};
+    tissue::share_bend(0, 2, nodes);
+    for (const tissue::NodePose& node : nodes) CHECK(bend_of(node) == Vector3d::Zero());
+    CHECK(rotation_of(nodes[anchor_is_bad]).allFinite());
+  }
+}
+
 TEST_CASE("without_a_bend_frames_stay_as_they_are_to_the_bit") {
   const tissue::NodePose straight = test::node_pose(test::turned(0.7));
   tissue::NodePose nodes[3] = {straight, straight, straight};
   tissue::share_bend(2, 3, nodes);
   for (const tissue::NodePose& node : nodes) {
     CHECK(bend_of(node) == Vector3d::Zero());
-    CHECK((rotation_of(node) - rotation_of(straight)).norm() < kRounding);
+    CHECK(rotation_of(node) == rotation_of(straight));
   }
 }
 

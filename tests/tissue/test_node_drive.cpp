@@ -47,7 +47,8 @@ Matrix3d upright(double) { return Matrix3d::Identity(); }
 TEST_CASE("drive_at_rest_in_the_bind_pose_is_zero") {
   const Drive drive = drive_at(
       upright, somewhere, [](double) { return Vector3d(1e6, 3, -2); }, 1);
-  for (const Vector3d& part : {drive.felt, drive.gravity_change, drive.velocity, drive.acceleration, drive.bend})
+  for (const Vector3d& part :
+       {drive.felt, drive.gravity_change, drive.velocity, drive.acceleration, drive.bend})
     CHECK(part.norm() == 0);
 }
 
@@ -65,6 +66,15 @@ TEST_CASE("acceleration_is_felt_the_other_way_along_the_node_s_axes") {
   const Drive drive = drive_at([](double) { return test::turned(0.4); }, somewhere, root, 2);
   const Vector3d want = test::turned(0.4).transpose() * (kGravity - a) - kGravity;
   CHECK((drive.felt - want).norm() < kRounding);
+}
+
+TEST_CASE("the_bend_is_told_as_the_newest_frame_has_it") {
+  tissue::NodePose poses[2] = {test::node_pose(upright(0)), test::node_pose(upright(0))};
+  for (int k = 0; k < 3; ++k) poses[0].bend[k] = 0.1f * static_cast<float>(k + 1);
+  const tissue::NodeMotion motion{{}, {&poses[0], &poses[1], &poses[1]}};
+  float out[tissue::kNodeDriveWidth];
+  tissue::compute_node_drive(motion, static_cast<float>(kTick_s), 1, out);
+  for (int k = 0; k < 3; ++k) CHECK(out[12 + k] == poses[0].bend[k]);
 }
 
 TEST_CASE("free_fall_is_felt_as_weightlessness") {

@@ -67,6 +67,32 @@ TEST_CASE("returning_instance_is_blended_in_over_the_stated_ticks") {
   }
 }
 
+// While it is not simulated nobody follows how it bends; it must come back as it is seen.
+TEST_CASE("coming_back_in_another_bend_does_not_turn_what_is_shown") {
+  constexpr int kDenied = 10;
+  constexpr double kBend_rad = 2, kBefore_s = 2.2;
+  const auto largest_change_at = [&](double bend_rad) {
+    Stage stage(1, {.budget_mode = BudgetMode::kWorkUnits});
+    double bent = 0;
+    const auto motion = [&](double t) {
+      scenes::BlockPose pose = scenes::bent_pose(bent + 0.45 * std::sin(19 * std::min(t, kBefore_s)));
+      return pose;
+    };
+    stage.play(motion, kBefore_s);
+    REQUIRE(stage.world.set_budget_us(kNothing_us).ok());
+    for (int f = 0; f < kDenied; ++f) {
+      bent += bend_rad / kDenied;
+      stage.step(motion, kFrame_s);
+    }
+    const std::vector<float> before = stage.read(0, Space::kBind);
+    REQUIRE(test::largest_length(before) > 0.01);
+    REQUIRE(stage.world.set_budget_us(kAll).ok());
+    stage.step(motion, kFrame_s);
+    return test::largest_distance(before, stage.read(0, Space::kBind));
+  };
+  CHECK(largest_change_at(kBend_rad) < 2 * largest_change_at(0) + 1e-3);  // a millimetre
+}
+
 // No pop: whatever is taken away or given back, no vertex moves more than twice as far in a frame as it does
 // undisturbed. The blend moves it by 1.5 / kBlendInTicks of its displacement a tick; a switch would by all of
 // it.
@@ -94,7 +120,8 @@ TEST_CASE("changing_tiers_does_not_pop") {
 // Springs, modes and network hand displacement and velocity on without a blend. A spring's place need not be
 // a shape of the modes: what is left out is what a switch may move.
 TEST_CASE("tier_switches_are_continuous") {
-  constexpr double kMost_mm = 6;  // in a frame, beyond what the motion itself does; it displaces by up to 56 mm
+  constexpr double kMost_mm =
+      6;  // in a frame, beyond what the motion itself does; it displaces by up to 56 mm
   const auto budget = [](Tier tier) {
     return tier == Tier::kNetwork ? kAll : test::tier_cost_us(tier) * 1.01f;
   };

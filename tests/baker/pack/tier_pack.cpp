@@ -28,8 +28,8 @@ pack::LayerRecord layer(uint32_t inputs, uint32_t channels, uint32_t has_self) {
 TEST_CASE("multiply_adds_count_padded_products_and_aggregation") {
   const pack::LayerRecord plain = layer(9, 16, 0), with_self = layer(9, 3, 1);
   // 16 (4 9 + 7 16) products a node; x, h and y of 9 + 2 16 numbers an entry.
-  CHECK(multiply_adds({&plain, 1}, 2, 4) == 2 * 16 * (4 * 9 + 7 * 16) + 4 * (9 + 2 * 16));
-  CHECK(multiply_adds({&with_self, 1}, 2, 4) == 2 * 16 * (8 * 9 + 7 * 3) + 4 * (9 + 2 * 3));
+  CHECK(multiply_adds({&plain, 1}, 2, 4) == 2 * 16 * (4 * 9 + 7 * 16) + 4 * (9 + 16 + 2 * 16));
+  CHECK(multiply_adds({&with_self, 1}, 2, 4) == 2 * 16 * (8 * 9 + 7 * 3) + 4 * (9 + 3 + 2 * 3));
 }
 
 TEST_CASE("tiers_ascend_and_errors_that_were_not_measured_stay_nan") {

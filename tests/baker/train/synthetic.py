@@ -130,7 +130,7 @@ def drive_of(place, frame, bend):
 
 
 def simulate(basis, felt, frame, hardening=HARDENING, linear=False):
-    """(T+1, n, 3) of one region from rest, along the nodes' own axes. linear: neither warped nor aware of how
+    """(T+1, n, 3) of one region from rest, along the nodes' frames. linear: neither warped nor aware of how
     the frames turn."""
     n, (a1, a2, gain) = felt.shape[1], recurrence(basis["rad_per_s"], basis["damping_ratio"])
     rest_a1, rest_a2, _ = recurrence(*basis["rest_oscillator"])

@@ -1,4 +1,4 @@
-// trajectory.cpp  What a trajectory file holds is what happened, along each node's own axes.
+// trajectory.cpp  What a trajectory file holds is what happened, along each node's frame.
 #include "baker/truth/trajectory.hpp"
 
 #include <algorithm>
