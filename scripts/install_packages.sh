@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages Sinew is built, tested and shown with. Does nothing, in well under a second, when all are there.
+# usage: install_packages.sh [PRESET]; with aarch64 also the cross compiler, an emulator and libraries of that architecture
 set -euo pipefail
 
 packages=(
@@ -10,6 +11,11 @@ packages=(
   catch2                                                  # tests
   python3-torch python3-numpy python3-matplotlib libopenblas0-pthread # training and plots
 )
+foreign=
+if [ "${1:-}" = aarch64 ]; then
+  packages+=(g++-aarch64-linux-gnu qemu-user libhwy-dev:arm64)
+  foreign=arm64
+fi
 
 missing=()
 for package in "${packages[@]}"; do
@@ -25,6 +31,7 @@ fi
 echo "Installing: ${missing[*]}"
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
+[ -z "$foreign" ] || "${as_root[@]}" dpkg --add-architecture "$foreign"
 "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive sh -c \
   'apt-get update -qq && apt-get install -y -qq --no-install-recommends "$@"' install "${missing[@]}" >"$log" 2>&1 || {
   tail -n 20 "$log" >&2

@@ -1,10 +1,25 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, runs every test. Arguments go to ctest: tests/run.sh -R world/
+# Installs what is missing, builds, runs every test; then those that cross-build for 64-bit Arm, when the tools for it are there.
+# Arguments go to ctest, and leave Arm out: tests/run.sh -R world/
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-scripts/install_packages.sh
-preset=${SINEW_PRESET:-release}
-cmake --preset "$preset" >/dev/null
-cmake --build --preset "$preset"
-exec ctest --test-dir "build/$preset" --output-on-failure -j "$(nproc)" "$@"
+run_preset() {
+  scripts/install_packages.sh "$1"
+  cmake --preset "$1" >/dev/null
+  cmake --build --preset "$1"
+  ctest --test-dir "build/$1" --output-on-failure -j "$(nproc)" "${@:2}"
+}
+
+has_arm_tools() {
+  command -v aarch64-linux-gnu-g++ && command -v qemu-aarch64 && dpkg-query -W libhwy-dev:arm64
+} >/dev/null 2>&1
+
+run_preset "${SINEW_PRESET:-release}" "$@"
+if [ -n "${SINEW_PRESET:-}" ] || [ $# -gt 0 ]; then
+  exit
+elif has_arm_tools; then
+  run_preset aarch64
+else
+  echo "The tests on 64-bit Arm were left out: the tools are not installed; scripts/install_packages.sh aarch64"
+fi

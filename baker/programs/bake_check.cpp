@@ -19,9 +19,8 @@ struct CheckOptions {
 };
 
 void choose_isa(const std::string& name) {
-  if (name.empty()) return;
-  const Status status = simd::force_isa(name.c_str());
-  if (!status.ok()) throw BadInput("--isa " + name + ": " + status.message);
+  const Status status = name.empty() ? simd::check_environment() : simd::force_isa(name.c_str());
+  if (!status.ok()) throw BadInput((name.empty() ? "" : "--isa " + name + ": ") + status.message);
 }
 
 int run_check(const CheckOptions& options) {

@@ -62,21 +62,28 @@ size_t index_of(const char* name) {
 
 std::atomic<const Kernels*> active_table{nullptr};
 
+// Null when SINEW_ISA is unset or empty.
+const char* isa_in_environment() {
+  const char* name = std::getenv("SINEW_ISA");
+  return name && *name ? name : nullptr;
+}
+
 const Kernels* choose_first() {
-  const char* wanted = std::getenv("SINEW_ISA");
+  const char* wanted = isa_in_environment();
   const size_t index = wanted ? index_of(wanted) : 0;
   return available().tables[index < available().count ? index : 0];
 }
 
-Status unknown_isa(const char* name) {
+Status missing_isa(const char* where, const char* name) {
   char list[128] = {};
   for (size_t i = 0; i < available().count; ++i) {
     if (i) std::strncat(list, ", ", sizeof(list) - std::strlen(list) - 1);
     std::strncat(list, available().names[i], sizeof(list) - std::strlen(list) - 1);
   }
-  return core::make_status(StatusCode::kUnsupported,
-                           "instruction set \"%.40s\" is not available; this processor and build have: %s",
-                           name ? name : "(null)", list);
+  return core::make_status(
+      StatusCode::kUnsupported,
+      "%sinstruction set \"%.40s\" is not available; use one this processor and build have: %s", where,
+      name ? name : "(null)", list);
 }
 
 }  // namespace
@@ -100,9 +107,14 @@ const char* active_isa() noexcept {
   return list.names[static_cast<size_t>(found - list.tables.begin())];
 }
 
+Status check_environment() noexcept {
+  const char* name = isa_in_environment();
+  return name && index_of(name) == available().count ? missing_isa("SINEW_ISA: ", name) : Status{};
+}
+
 Status force_isa(const char* name) noexcept {
   const size_t index = name ? index_of(name) : available().count;
-  if (index == available().count) return unknown_isa(name);
+  if (index == available().count) return missing_isa("", name);
   active_table.store(available().tables[index], std::memory_order_release);
   return {};
 }

@@ -1,7 +1,8 @@
 // isa.hpp  Which instruction set the kernels use.
 //
 // Chosen once, at first use: the one that the environment variable SINEW_ISA names, or the best the processor
-// has when it names none or one that is not available; active_isa tells. force_isa changes it.
+// has when it names none. One that is not available is refused by World::create and sinew-bake, which ask
+// check_environment; kernels called without them use the best. active_isa tells; force_isa changes it.
 #pragma once
 #include <span>
 
@@ -13,6 +14,8 @@ namespace sinew::simd {
 // "neon", "emu128", "scalar").
 std::span<const char* const> available_isas() noexcept;
 const char* active_isa() noexcept;
+// SINEW_ISA names an unknown or missing one: kUnsupported, listing the available.
+Status check_environment() noexcept;
 // Not thread-safe against running steps. An unknown or missing one: kUnsupported, listing the available;
 // nothing changes.
 Status force_isa(const char* name) noexcept;

@@ -7,6 +7,7 @@
 
 #include "core/assert_hook.hpp"
 #include "core/status.hpp"
+#include "simd/isa.hpp"
 #include "simd/kernels.hpp"
 #include "world/pose.hpp"
 #include "world/read.hpp"
@@ -89,6 +90,7 @@ World& World::operator=(World&& other) noexcept {
 Status World::create(const WorldDef& def, World* out) noexcept {
   if (!out) return invalid("World::create: out is a null pointer");
   if (Status status = check_def(def); !status.ok()) return status;
+  if (Status status = simd::check_environment(); !status.ok()) return status;
   World made;
   made.impl_ = new (std::nothrow) Impl();
   const bool complete = made.impl_ && made.impl_->assets.reserve(def.max_assets) &&

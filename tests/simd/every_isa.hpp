@@ -1,11 +1,13 @@
 // every_isa.hpp  Runs a check on each instruction set of this machine, and compares bits between those with
-// FMA.
+// FMA, on this and on other processors.
 #pragma once
 #include <catch2/catch.hpp>
-#include <cstring>
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "core/hash.hpp"
 #include "simd/isa.hpp"
 #include "simd/kernels.hpp"
 
@@ -23,16 +25,15 @@ void for_every_isa(const Check& check) {
   REQUIRE(simd::force_isa(before.c_str()).ok());
 }
 
-// produce(kernels) gives floats; all tables with FMA must give the same bits.
+// produce(kernels) gives floats; all tables with FMA, on x86 and on Arm, must give those whose hash64 is
+// `recorded`. A change of the arithmetic changes the hash: take over the one that fails here, once x86 and
+// SINEW_PRESET=aarch64 show the same.
 template <class Produce>
-void require_same_bits_where_fused(const Produce& produce) {
-  std::vector<float> first;
+void require_same_bits_where_fused(uint64_t recorded, const Produce& produce) {
   for_every_isa([&](const char*, const simd::Kernels& kernels) {
     if (!kernels.fused) return;
     const std::vector<float> values = produce(kernels);
-    if (first.empty()) first = values;
-    REQUIRE(values.size() == first.size());
-    REQUIRE(std::memcmp(values.data(), first.data(), values.size() * sizeof(float)) == 0);
+    CHECK(core::hash64(std::as_bytes(std::span(values))) == recorded);
   });
 }
 

@@ -50,5 +50,6 @@ TEST_CASE("carry_is_the_weighted_sum_of_the_nodes_displacements") {
 
 TEST_CASE("carry_has_the_same_bits_on_all_targets_with_fma") {
   CarryCase c = carry_case(40, 176);
-  test::require_same_bits_where_fused([&](const simd::Kernels& kernels) { return carried(kernels, c); });
+  test::require_same_bits_where_fused(0xf27554dc8d962fba,
+                                      [&](const simd::Kernels& kernels) { return carried(kernels, c); });
 }

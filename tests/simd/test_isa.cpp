@@ -11,16 +11,32 @@
 
 using namespace sinew;
 
+namespace {
+
+// One line: which, and what there is instead.
+void check_refused(const Status& status, const char* name) {
+  REQUIRE(status.code == StatusCode::kUnsupported);
+  CHECK(std::strstr(status.message, name) != nullptr);
+  CHECK(std::strchr(status.message, '\n') == nullptr);
+  for (const char* available : simd::available_isas()) {
+    CHECK(std::strstr(status.message, available) != nullptr);
+  }
+}
+
+}  // namespace
+
 TEST_CASE("force_isa_refuses_what_is_not_there_and_changes_nothing") {
   const std::string before = simd::active_isa();
-  for (const char* name : {"", "AVX2", "avx1024", static_cast<const char*>(nullptr)}) {
-    const Status status = simd::force_isa(name);
-    REQUIRE(status.code == StatusCode::kUnsupported);
-    for (const char* available : simd::available_isas()) {
-      REQUIRE(std::strstr(status.message, available) != nullptr);
-    }
+#if defined(__aarch64__)
+  const char* const of_another_processor = "avx2";
+#else
+  const char* const of_another_processor = "neon";
+#endif
+  for (const char* name : {"", "AVX2", "avx1024", of_another_processor}) {
+    check_refused(simd::force_isa(name), name);
     REQUIRE(simd::active_isa() == before);
   }
+  check_refused(simd::force_isa(nullptr), "(null)");
 }
 
 TEST_CASE("every_available_isa_can_be_forced_and_names_are_lower_case_and_different") {
@@ -36,9 +52,18 @@ TEST_CASE("every_available_isa_can_be_forced_and_names_are_lower_case_and_differ
   REQUIRE(simd::force_isa(before.c_str()).ok());
 }
 
-// The next two run in processes of their own, with SINEW_ISA set by CMakeLists.txt.
-TEST_CASE("unknown_isa_in_the_environment_falls_back_to_the_best", "[.]") {
+// The next three run in processes of their own, with SINEW_ISA set by CMakeLists.txt.
+TEST_CASE("missing_isa_in_the_environment_is_refused_by_name_and_the_best_is_used", "[.]") {
+  const char* wanted = std::getenv("SINEW_ISA");
+  REQUIRE(wanted != nullptr);
+  check_refused(simd::check_environment(), wanted);
+  CHECK(std::strstr(simd::check_environment().message, "SINEW_ISA") != nullptr);
+  REQUIRE(std::string(simd::active_isa()) == simd::available_isas().front());
+}
+
+TEST_CASE("empty_isa_in_the_environment_counts_as_none", "[.]") {
   REQUIRE(std::getenv("SINEW_ISA") != nullptr);
+  REQUIRE(simd::check_environment().ok());
   REQUIRE(std::string(simd::active_isa()) == simd::available_isas().front());
 }
 
@@ -50,4 +75,5 @@ TEST_CASE("isa_in_the_environment_is_the_active_one", "[.]") {
       std::any_of(names.begin(), names.end(), [&](const char* name) { return !std::strcmp(name, wanted); });
   if (!there) WARN(wanted << " is not available on this machine: nothing to check");
   REQUIRE((std::string(simd::active_isa()) == wanted) == there);
+  REQUIRE(simd::check_environment().ok() == there);
 }

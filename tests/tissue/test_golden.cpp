@@ -1,5 +1,6 @@
 // test_golden.cpp  The paper's wiring over whole roll-outs, against float64 PyTorch.
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 
 #include "baker/common/safetensors.hpp"

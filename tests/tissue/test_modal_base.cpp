@@ -257,12 +257,12 @@ TEST_CASE("modal_energy_never_grows_without_drive") {
 }
 
 TEST_CASE("modal_step_has_the_same_bits_on_all_targets_with_fma") {
-  test::require_same_bits_where_fused([](const simd::Kernels&) {
+  test::require_same_bits_where_fused(0x3b249b23f6d02b0c, [](const simd::Kernels&) {
     Body body = rod();
+    std::mt19937 random(1);  // not a sine: its last bit differs between processors
     std::vector<float> felt(3 * kRodNodes), out;
     for (int t = 0; t < 50; ++t) {
-      for (size_t i = 0; i < felt.size(); ++i)
-        felt[i] = std::sin(0.3f * static_cast<float>(t) + static_cast<float>(i));
+      for (float& value : felt) value = test::uniform(random, -1, 1);
       body.step(felt.data());
       out.insert(out.end(), body.u.begin(), body.u.end());
     }

@@ -1,5 +1,6 @@
 // test_invalid_inputs.cpp  Each call refuses what it cannot use, says why, and leaves everything as it was.
 #include <array>
+#include <cstdlib>
 #include <limits>
 #include <string>
 
@@ -38,6 +39,15 @@ TEST_CASE("create_refuses_a_definition_out_of_range") {
   check_refused(create_with({.budget_mode = static_cast<BudgetMode>(7)}), StatusCode::kInvalidArgument);
   const auto enqueue = [](TaskHook::Task, void*, uint32_t, void*) -> void* { return nullptr; };
   check_refused(create_with({.tasks = {.enqueue = enqueue}}), StatusCode::kInvalidArgument);
+}
+
+TEST_CASE("create_refuses_an_instruction_set_in_the_environment_that_is_not_there") {
+  setenv("SINEW_ISA", "abacus", 1);
+  const Status status = create_with({});
+  unsetenv("SINEW_ISA");
+  check_refused(status, StatusCode::kUnsupported);
+  CHECK_THAT(status.message, Catch::Contains("SINEW_ISA") && Catch::Contains("abacus"));
+  CHECK(create_with({}).ok());
 }
 
 TEST_CASE("null_world_refuses_every_call") {

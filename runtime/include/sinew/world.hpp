@@ -32,7 +32,7 @@ class World {
   World& operator=(World&& other) noexcept;
 
   // Takes the tables' memory. A field outside its range: kInvalidArgument; no memory: kOutOfCapacity;
-  // *out untouched.
+  // SINEW_ISA in the environment names an instruction set that is not there: kUnsupported. *out untouched.
   static Status create(const WorldDef& def, World* out) noexcept;
 
   // Checks the whole pack (O(bytes)), then uses it in place: bytes must outlive the asset and be 64-byte

@@ -1,4 +1,6 @@
 // arguments.cpp  Every command refuses unusable arguments with one line and exit code 2.
+#include <cstdlib>
+
 #include "tests/baker/common/temporary_folder.hpp"
 #include "tests/baker/programs/bake.hpp"
 
@@ -20,6 +22,12 @@ TEST_CASE("commands_and_options_that_do_not_exist_are_refused") {
                 {"--vertices 499", "500 to 50000"});
   check_refused({"creature", "r.json", "-o", "c.glb", "--vertices", "50001"}, {"--vertices 50001"});
   check_refused({"creature", "r.json", "-o", "c.glb", "--vertices", "-3"}, {"--vertices"});
+}
+
+TEST_CASE("check_refuses_an_instruction_set_in_the_environment_that_is_not_there") {
+  setenv("SINEW_ISA", "abacus", 1);
+  check_refused({"check", "m", "v"}, {"SINEW_ISA", "abacus", "use one"});
+  unsetenv("SINEW_ISA");
 }
 
 TEST_CASE("paths_that_do_not_exist_are_named") {
