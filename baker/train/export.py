@@ -50,7 +50,8 @@ def check_vectors(weights, trajectory, ticks=VECTOR_TICKS):
 
     edges (m, 2); z (T, n, F_in) with zeros where displacement and velocity go; carry (T, n, 3), y0 (n, 3) and
     y (T, n, 3) in length units. Displacement is the last tick's y x its scale, velocity y_{t-1} - y_{t-2} x
-    its scale, with y_{-1} = y_0."""
+    its scale, with y_{-1} = y_0. What the frames and the base make of the displacement (turn, bent inputs)
+    stands in z as this roll-out had it."""
     model, scaling, _ = read_weights(weights)
     model, group = model.double(), _in_double(dataset.group([("", trajectory)])[0])
     nodes, ticks = int(group.mask[0].sum()), min(ticks, group.ticks)

@@ -68,7 +68,7 @@ simd::LayerJob job_of(const Step& step, uint32_t l) {
   set_accumulation(step, l + 1 == step.network.layers.size(), y_next, &job);
   job.x = l == 0 ? step.z : layer_state(step.network, nodes, l - 1, step.state).c;
   job.x_stride = pad_to_block(job.inputs);
-  job.px = job.pc = y_next + sizes.y_next;
+  job.px = job.pc = y_next + sizes.y_next;  // P x of a layer is P c of the one before
   job.h = state.h;
   job.c = state.c;
   job.y = state.y;

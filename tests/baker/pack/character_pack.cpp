@@ -127,6 +127,8 @@ TEST_CASE("regions_keep_nodes_graph_and_carrying_weights") {
   const pack::RegionRecord& tip = packed.view.regions[1];
   CHECK(std::string(string_at(packed.view, tip.name)) == "tip");
   CHECK(tip.first_node == 3);
+  CHECK(packed.view.regions[0].anchor_node == 1);
+  CHECK(tip.anchor_node == 0);
   CHECK(packed.view.region_vertices[tip.first_vertex + 3] == 11);
   CHECK(tip.displacement_limit_m == Approx(0.75 * tip.radius_m));
   CHECK(tip.padded_vertices == 16);
