@@ -109,7 +109,8 @@ struct InstanceReport {
   // The network's state was given up: NaN or infinity in it, or nodes held at their bound in more than 60
   // ticks in a row. The modal base takes over for 60 ticks, then the network starts anew.
   uint32_t fallbacks = 0;
-  // All state was given up, faded to skinning and restarted: NaN or infinity in the modal base or the springs.
+  // All state was given up, faded to skinning and restarted: NaN or infinity in the modal base or the
+  // springs.
   uint32_t restarts = 0;
   float cost_us = 0;  // what this instance took in the last step, on its thread
 };

@@ -37,7 +37,7 @@ def small_plan(folder):
     }
     line = {"body": "mini", "seconds": 2, "random": 1}
     sequences = [
-        {**line, "split": "train", "random": 3},
+        {**line, "split": "train", "random": 8},
         {**line, "split": "validation", "first_seed": 2000},
         {**line, "split": "test", "random": 0, "held_out": 1, "surface": True},
     ]
@@ -105,8 +105,7 @@ def main(bake):
             f"held-out error after 100 ticks: {ratio} of skinning's, its modal base alone {base}; "
             f"baked for {len(told['regions'])} regions"
         )
-        # Six seconds of random motion teach nothing about a hop; they may not ruin it either.
-        assert ratio < 1.5 * base < 0.6, "training ruined the base, or the base is none"
+        assert ratio < 1.1 * base < 0.6, "training made the base worse, or the base is none"
         assert os.path.getsize(place("page/roll_outs.png")) > 1000 and os.path.exists(place("page/README.md"))
 
 

@@ -91,7 +91,7 @@ def _body(rng):
     return rest, normal, np.concatenate(edges), np.repeat(np.arange(len(SIZES)), SIZES), bases
 
 
-def _motion(rng, rest, ticks, strength):
+def _motion(rng, rest, ticks, strength, bend_share):
     """Place (T+1, N, 3), frame (T+1, N, 3, 3) and bend (T+1, N, 3) of every node: ten still ticks, then a root that sways and
     turns and a joint that bends, of which each node has its own share."""
     t = np.arange(ticks + 1) * H
@@ -110,7 +110,7 @@ def _motion(rng, rest, ticks, strength):
     share = 0.5 + 0.5 * rest[:, 0]
     bent = turn_and_mean(share[:, None] * bend[:, None])[0]
     place = (root @ bent @ (rest * RADIUS_M)[..., None])[..., 0] + wave(2)[:, None]
-    return place, root @ bent, 0.25 * share[:, None] * bend[:, None]
+    return place, root @ bent, bend_share * share[:, None] * bend[:, None]
 
 
 def drive_of(place, frame, bend):
@@ -163,10 +163,11 @@ def _written(basis):
     return {k: row(v) for k, v in basis.items()}
 
 
-def trajectory(seed, ticks=120, strength=1.0, body_seed=0, hardening=HARDENING, linear=False):
-    """(tensors, metadata) as a trajectory file holds them."""
+def trajectory(seed, ticks=120, strength=1.0, body_seed=0, hardening=HARDENING, linear=False, bend_share=0.25):
+    """(tensors, metadata) as a trajectory file holds them. bend_share: of the bend, told to the network; it has no
+    part in how this body moves."""
     rest, normal, edges, region, bases = _body(np.random.default_rng(body_seed))
-    place, frame, bend = _motion(np.random.default_rng(1000 + seed), rest, ticks, strength)
+    place, frame, bend = _motion(np.random.default_rng(1000 + seed), rest, ticks, strength, bend_share)
     drive = drive_of(place, frame, bend)
     u = [
         simulate(b, drive[:, region == r, :3], frame[:, region == r], hardening, linear)

@@ -24,7 +24,7 @@ from train.weights import read_weights  # noqa: E402
 
 QUIET = lambda *a, **k: None
 SMALL = dict(channels=(16, 3), batch=6, window=15)
-MINUTES = 0.15
+MINUTES = 0.06
 
 
 class Killed(Exception):
@@ -36,7 +36,7 @@ class Training(unittest.TestCase):
     def setUpClass(cls):
         torch.set_num_threads(1)
         cls.folder = tempfile.TemporaryDirectory()
-        support.write_data_set(cls.folder.name)
+        support.write_data_set(cls.folder.name, bend_share=0.0)
         cls.run_folder, cls.log = os.path.join(cls.folder.name, "run"), []
         cls.train(cls.run_folder, cls.log)
         cls.groups = [dataset.group(dataset.read_split(cls.folder.name, s)) for s in ("train", "validation")]
