@@ -175,6 +175,7 @@ void add_graph(const GraphRows& graph, PackWriter& pack) {
 // ---- weights ----
 
 void check_wiring(const Safetensors& weights) {
+  check_model(weights);
   if (!weights.metadata.contains("inputs"))
     throw BadInput(weights.path +
                    ": metadata key 'inputs' is missing (the paper's wiring), which characters cannot run in "

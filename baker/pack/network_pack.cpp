@@ -41,7 +41,12 @@ constexpr InputName kInputNames[] = {{InputKind::kRestPosition, "rest_position",
                                      {InputKind::kBend, "bend", 3},
                                      {InputKind::kBentForce, "bent_force", 3},
                                      {InputKind::kBentStep, "bent_step", 3},
-                                     {InputKind::kBentDisplacement, "bent_displacement", 3}};
+                                     {InputKind::kBentDisplacement, "bent_displacement", 3},
+                                     {InputKind::kTurnedForce, "turned_force", 3},
+                                     {InputKind::kTurnedStep, "turned_step", 3},
+                                     {InputKind::kTurnedVelocity, "turned_velocity", 3},
+                                     {InputKind::kSpunStep, "spun_step", 3},
+                                     {InputKind::kSpunVelocity, "spun_velocity", 3}};
 
 // ---- metadata ----
 
@@ -88,15 +93,6 @@ std::vector<float> parse_numbers(const Safetensors& weights, const std::string& 
   std::vector<float> numbers;
   for (const std::string& part : parts) numbers.push_back(parse_number(weights, key, part));
   return numbers;
-}
-
-void check_model(const Safetensors& weights) {
-  const std::string& model = need_key(weights, "sinew.model");
-  if (model != "alt_conv_lstm")
-    refuse_key(weights, "sinew.model", "is '" + model + "'; this version bakes alt_conv_lstm only");
-  const std::string& version = need_key(weights, "sinew.version");
-  if (version != "1")
-    refuse_key(weights, "sinew.version", "is '" + version + "'; this version reads 1: train or export again");
 }
 
 std::vector<uint32_t> parse_channels(const Safetensors& weights) {
@@ -238,6 +234,15 @@ pack::NetworkRecord make_record(const Safetensors& weights, const std::vector<ui
 }
 
 }  // namespace
+
+void check_model(const Safetensors& weights) {
+  const std::string& model = need_key(weights, "sinew.model");
+  if (model != "alt_conv_lstm")
+    refuse_key(weights, "sinew.model", "is '" + model + "'; this version bakes alt_conv_lstm only");
+  const std::string& version = need_key(weights, "sinew.version");
+  if (version != "1")
+    refuse_key(weights, "sinew.version", "is '" + version + "'; this version reads 1: train or export again");
+}
 
 const char* input_name(InputKind kind) {
   for (const InputName& input : kInputNames)

@@ -10,7 +10,8 @@ namespace sinew::baker {
 // Metadata of a weights file; absent: the paper's wiring.
 //   inputs         comma-separated names, in the order of the network's columns: rest_position rest_normal
 //                  stiffness angular_acceleration angular_velocity gravity_change displacement velocity
-//                  felt_step base_step turn frequency
+//                  felt_step base_step turn frequency bend bent_force bent_step bent_displacement
+//                  turned_force turned_step turned_velocity spun_step spun_velocity
 //   input_scales   one number an input
 //   envelope       one number an input (scaled units); absent: unbounded
 //   output_scale output_leak hidden_leak state_clamp
@@ -19,6 +20,9 @@ namespace sinew::baker {
 // Returns the layers as packed. Throws BadInput naming file, tensor or key: missing, misshaped, NaN, unknown
 // model or version, unknown input.
 std::vector<pack::LayerRecord> add_network(const Safetensors& weights, PackWriter& pack);
+
+// Throws BadInput where the file is not of trained weights, or of another version's.
+void check_model(const Safetensors& weights);
 
 // A number among the metadata; `fallback` where the key is absent. Throws BadInput naming file and key: not a
 // number, or outside low .. high.

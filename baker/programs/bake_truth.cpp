@@ -41,11 +41,12 @@ Motion make_motion(const Character& character, const TruthOptions& options) {
     return clip_motion(character, find_clip(character, options.motion.substr(5), options.input), options.seed,
                        options.strength);
   if (options.motion == "shake") return shake_motion(character, options.seed, options.strength);
-  if (options.motion == "random") {
-    for (const std::string& name : options.held_out) find_clip(character, name, options.input);
+  for (const std::string& name : options.held_out) find_clip(character, name, options.input);
+  if (options.motion == "random")
     return random_motion(character, options.seed, options.strength, options.held_out);
-  }
-  throw BadInput("--motion " + options.motion + ": unknown; use clip:NAME, shake or random");
+  if (options.motion == "leap")
+    return leap_motion(character, options.seed, options.strength, options.held_out);
+  throw BadInput("--motion " + options.motion + ": unknown; use clip:NAME, shake, random or leap");
 }
 
 double height_of(const Character& character) {
@@ -122,8 +123,10 @@ void add_truth_command(CLI::App& app, int*) {
   CLI::App* command = app.add_subcommand("truth", "Simulates soft tissue by FEM and writes a trajectory");
   command->add_option("character", options->input, "skinned glTF or VRM")->required();
   command->add_option("--recipe", options->recipe, "JSON; see baker/mesh/recipe.hpp");
-  command->add_option("--motion", options->motion, "clip:NAME, shake or random")->required();
-  command->add_option("--hold-out", options->held_out, "a clip that random motion must not use; repeatable")
+  command->add_option("--motion", options->motion, "clip:NAME, shake, random or leap")->required();
+  command
+      ->add_option("--hold-out", options->held_out,
+                   "a clip that random motions and leaps must not use; repeatable")
       ->allow_extra_args(false);
   command->add_option("--seed", options->seed, "variant of the motion; a clip's seed 0 is the clip as it is");
   command->add_option("--strength", options->strength, "amplitude of the motion");

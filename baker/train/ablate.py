@@ -4,17 +4,21 @@ import os
 
 from . import plot
 from .evaluate import ratio
+from .inputs import CROSSED, crossed_with
 from .page import table
 from .rollout import error_ratio, truth
 from .variants import judged_on, train_variants, write_section
 
+_without = lambda *names: ["--without", ",".join((*names, *crossed_with(*names)))]
+
 # name -> options of `baker/train train`
 VARIANTS = {
     "as shipped": [],
-    "no modal base": ["--without", "base,base_step,turn"],
-    "displacement not fed back": ["--without", "displacement,velocity,bent_displacement"],
-    "not told what it feels": ["--without", "felt_step,bent_force"],
-    "not told the bend": ["--without", "bend,bent_force,bent_step,bent_displacement"],
+    "no modal base": _without("base", "base_step", "turn"),
+    "displacement not fed back": _without("displacement", "velocity"),
+    "not told what it feels": _without("felt_step"),
+    "not told the bend": _without("bend"),
+    "no crossed inputs": ["--without", ",".join(CROSSED)],
     "no leak in hidden layers": ["--hidden-leak", "0"],
     "gradients over 5 ticks": ["--window", "5"],
     "channels 16, 16, 3": ["--channels", "16,16,3"],

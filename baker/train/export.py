@@ -5,9 +5,9 @@ import numpy as np
 import torch
 
 from . import dataset
-from .inputs import FEEDBACK, ORDER, columns
+from .inputs import FEEDBACK, columns
 from .modal_base import ModalBase
-from .rollout import bounded, raw_inputs, start, static_columns, tick
+from .rollout import moving_columns, raw_inputs, start, static_columns, tick
 from .safetensors import BadData, load, save
 from .weights import read_weights
 
@@ -65,7 +65,7 @@ def check_vectors(weights, trajectory, ticks=VECTOR_TICKS):
             now = (turn[0][t], turn[1][t])
             _, l, force = group.base.predict(state.base, felt[t], now)
             raw = raw_inputs(group, scaling, state.base, state.l_before, drive[t], l, force)
-            z = torch.cat([static] + [bounded(raw[k], k, scaling) for k in ORDER if k in raw], -1)
+            z = torch.cat([static, moving_columns(raw, scaling)], -1)
             for k in FEEDBACK:
                 z[..., columns(k)] = 0
             zs.append(z[0, :nodes, 0].float())

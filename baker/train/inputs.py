@@ -7,12 +7,26 @@ DRIVE = {"gravity_change": slice(3, 6), "angular_velocity": slice(6, 9), "bend":
 STATIC = {"rest_position": 3, "rest_normal": 3, "stiffness": 1, "frequency": 1}
 BASE = ("felt_step", "base_step", "turn")  # from the modal base (modal_base.py)
 FEEDBACK = ("displacement", "velocity")
-BENT = {"bent_force": "felt_step", "bent_step": "base_step", "bent_displacement": "displacement"}  # bend x these
-ORDER = tuple(STATIC) + tuple(DRIVE) + BASE + FEEDBACK + tuple(BENT)
+CROSSED = {  # name -> a rotation vector x what moves
+    "bent_force": ("bend", "felt_step"),
+    "bent_step": ("bend", "base_step"),
+    "bent_displacement": ("bend", "displacement"),
+    "turned_force": ("turn", "felt_step"),
+    "turned_step": ("turn", "base_step"),
+    "turned_velocity": ("turn", "velocity"),
+    "spun_step": ("angular_velocity", "base_step"),
+    "spun_velocity": ("angular_velocity", "velocity"),
+}
+ORDER = tuple(STATIC) + tuple(DRIVE) + BASE + FEEDBACK + tuple(CROSSED)
 WIDTH = {**{name: 3 for name in ORDER}, **STATIC}
 INPUT_WIDTH = sum(WIDTH.values())
 STATIC_WIDTH = sum(STATIC.values())
 AXIAL = ("angular_velocity", "turn", "bend")  # rotation vectors: a mirror flips their other two components
+
+
+def crossed_with(*names):
+    """The crossed inputs that hold any of these."""
+    return tuple(k for k, pair in CROSSED.items() if set(pair) & set(names))
 
 
 def columns(name):

@@ -2,6 +2,7 @@
 
 Shapes: R regions of n nodes, K modes, B sequences. Displacements are (R, n, B, 3) in metres along the nodes'
 own frames; l is what the modes add up to, u the same after warping (Choi and Ko 2005)."""
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -37,22 +38,32 @@ def cross(a, b):
     return torch.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx], -1)
 
 
+def _nested(s, divisors):
+    """1 - s/d0 (1 - s/d1 (1 - ...)) for each column of divisors; s (..., 1) -> (..., columns)."""
+    inverse = 1 / torch.tensor(divisors, dtype=s.dtype, device=s.device)
+    out = 1 - s * inverse[-1]
+    for row in inverse[:-1].flip(0):
+        out = 1 - s * row * out
+    return out
+
+
+SINE = (6, 20, 42, 72, 110, 156)  # sin(x) / x by s = x^2
+COSINE = (12, 30, 56, 90, 132, math.inf)  # 2 (1 - cos(x)) / x^2
+
+
 def turned(theta, v, transposed=False):
     """exp([theta]x) v, or its transpose times v; series good to 1e-6 up to 2 rad."""
-    s = theta.square().sum(-1, keepdim=True)
-    sine = 1 - s / 6 * (1 - s / 20 * (1 - s / 42 * (1 - s / 72 * (1 - s / 110 * (1 - s / 156)))))
-    cosine = 0.5 * (1 - s / 12 * (1 - s / 30 * (1 - s / 56 * (1 - s / 90 * (1 - s / 132)))))
+    series = _nested(theta.square().sum(-1, keepdim=True), tuple(zip(SINE, COSINE)))
+    sine, cosine = series[..., :1], 0.5 * series[..., 1:]
     first = cross(theta, v)
     return v + (-sine if transposed else sine) * first + cosine * cross(theta, first)
 
 
 def warped(theta, l):
     """The mean of exp(s [theta]x) l over s in 0..1: a linear displacement bent with the flesh's own turn."""
-    s = theta.square().sum(-1, keepdim=True)
-    first_share = 0.5 * (1 - s / 12 * (1 - s / 30 * (1 - s / 56 * (1 - s / 90 * (1 - s / 132)))))
-    second_share = (1 - s / 20 * (1 - s / 42 * (1 - s / 72 * (1 - s / 110 * (1 - s / 156))))) / 6
+    series = _nested(theta.square().sum(-1, keepdim=True), tuple(zip(COSINE, SINE[1:])))
     first = cross(theta, l)
-    return l + first_share * first + second_share * cross(theta, first)
+    return l + 0.5 * series[..., :1] * first + series[..., 1:] / 6 * cross(theta, first)
 
 
 def held(theta):

@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass
 import torch
 
 
-FIRST_OUTPUT = 0.06  # share of a usual output layer to start from: a loud start ends in a silent network
+FIRST_OUTPUT = 0.06  # share of a usual last layer to start from: a loud start ends in a silent network
 OUTPUT_FORGET = 0.0  # bias
 
 
@@ -88,7 +88,7 @@ class AltConvLSTM(torch.nn.Module):
         )
 
     def start_for_training(self):
-        """Biases that trained: open input gates, short memory; a small output layer."""
+        """Biases that trained: open input gates, short memory; a quiet last layer."""
         with torch.no_grad():
             for l, layer in enumerate(self.layers):
                 f, last = layer.channels, l == len(self.layers) - 1

@@ -7,11 +7,13 @@ import torch
 
 from . import plot
 from .evaluate import SKINNING, Tally
+from .inputs import crossed_with
 from .page import table
 from .rollout import roll_out, single_steps, truth
 from .variants import judged_on, train_variants, write_section
 
-ALONE = ["--without", "base,base_step,turn"]
+_BASE = ("base", "base_step", "turn")
+ALONE = ["--without", ",".join((*_BASE, *crossed_with(*_BASE)))]
 CHANGE, WHOLE = ["--output-scale", "0.15"], ["--output-scale", "1"]  # length units, for an output of 1
 # name -> options of `baker/train train`
 MODELS = {

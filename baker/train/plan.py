@@ -10,7 +10,8 @@ from .safetensors import BadData
 
 ALL_CHARACTERS = "*"  # a line for every character given on the command line
 PLAN_KEYS = ("substeps", "held_out_clip", "strengths", "sequences")
-MOTIONS = ("random", "shake", "clips", "held_out")
+DRAWN = ("random", "leap", "shake")  # from a seed
+MOTIONS = (*DRAWN, "clips", "held_out")
 LINE_KEYS = ("body", "split", "seconds", *MOTIONS, "first_seed", "strengths", "surface")
 
 
@@ -25,7 +26,7 @@ class Job:
     strength: float
     seconds: float
     substeps: int
-    held_out: str = ""  # a clip that the random motion must not use
+    held_out: str = ""  # a clip that random motions and leaps must not use
     surface: bool = False
 
     @property
@@ -114,14 +115,13 @@ def clip_names(path):
 
 
 def _line_jobs(plan, line, clips):
-    """The simulations of one line. Random motions and shakes take seeds from first_seed on; of a clip, seed 0
+    """The simulations of one line. Drawn motions take seeds from first_seed on; of a clip, seed 0
     is the clip as it is."""
     held_out = plan["held_out_clip"] if plan["held_out_clip"] in clips else ""
     unseen = held_out if line["split"] in ("train", "validation") else ""
     first = line.get("first_seed", 1)
     free = [c for c in clips if c != held_out]
-    motions = [("random", "random", first + i, i) for i in range(line.get("random", 0))]
-    motions += [("shake", "shake", first + i, i) for i in range(line.get("shake", 0))]
+    motions = [(kind, kind, first + i, i) for kind in DRAWN for i in range(line.get(kind, 0))]
     motions += [("clips", f"clip:{c}", i, i) for c in free for i in range(line.get("clips", 0))]
     if line.get("held_out") and not held_out:
         raise BadData(f"body '{line['body']}' has no clip '{plan['held_out_clip']}' to hold out")
@@ -136,19 +136,19 @@ def _line_jobs(plan, line, clips):
             float(strengths[i % len(strengths)]),
             float(line["seconds"]),
             plan["substeps"],
-            unseen if motion == "random" else "",
+            unseen if motion in ("random", "leap") else "",
             bool(line.get("surface")),
         )
 
 
 def _check_apart(path, jobs):
-    """No random motion is in two splits, whichever body makes it; no file is made twice."""
+    """No drawn motion is in two splits, whichever body makes it; no file is made twice."""
     split_of, files = {}, set()
     for job in jobs:
         if job.file in files:
             raise BadData(f"{path}: {job.file} is asked for twice; change first_seed")
         files.add(job.file)
-        if job.motion in ("random", "shake"):
+        if job.motion in DRAWN:
             other = split_of.setdefault((job.motion, job.seed), job.split)
             if other != job.split:
                 raise BadData(

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import torch
 
-from .inputs import AXIAL, BENT, DRIVE, INPUT_WIDTH, ORDER, STATIC, STATIC_WIDTH, WIDTH, columns
+from .inputs import AXIAL, CROSSED, DRIVE, INPUT_WIDTH, ORDER, STATIC, STATIC_WIDTH, WIDTH, columns
 from .modal_base import BaseState, cross
 from .model import largest_cell
 
@@ -31,6 +31,15 @@ def static_columns(group, scaling, batch):
     return torch.cat(parts, -1)[:, :, None].expand(-1, -1, batch, -1)
 
 
+def moving_columns(raw, scaling):
+    """What changes from tick to tick, side by side: scaled and held in the envelope as by bounded()."""
+    names = [k for k in ORDER if k in raw]
+    row = lambda of: torch.tensor([of(k) for k in names for _ in range(WIDTH[k])], device=raw[names[0]].device)
+    scale = row(lambda k: 0.0 if k in scaling.without else scaling.scale[k])
+    most = row(lambda k: scaling.envelope[k])
+    return (torch.cat([raw[k] for k in names], -1) * scale).clamp(-most, most)
+
+
 def mirror_signs(device="cpu"):
     """(INPUT_WIDTH,): left to right flips x of vectors, and y and z of rotation vectors."""
     flip = torch.ones(INPUT_WIDTH, device=device)
@@ -53,7 +62,8 @@ def raw_inputs(group, scaling, base, l_before, drive, predicted_l, felt):
         "displacement": base.l / unit,
         "velocity": (base.l - l_before) / unit,
     }
-    return {**raw, **{k: cross(raw["bend"], raw[of]) for k, of in BENT.items()}}
+    left, right = (torch.stack([raw[pair[i]] for pair in CROSSED.values()]) for i in (0, 1))
+    return {**raw, **dict(zip(CROSSED, cross(left, right)))}
 
 
 def tick(model, packed, group, scaling, static, state, felt, drive, turn_now, mirror=None):
@@ -66,7 +76,7 @@ def tick(model, packed, group, scaling, static, state, felt, drive, turn_now, mi
         return State(group.base.arrive(base, l, answer), base.l, state.memory)
     unit = scaling.length_unit * group.radius
     raw = raw_inputs(group, scaling, base, state.l_before, drive, l, force)
-    z = torch.cat([static] + [bounded(raw[k], k, scaling) for k in ORDER if k in raw], -1)
+    z = torch.cat([static, moving_columns(raw, scaling)], -1)
     y, carry = base.l / unit, (l - base.l) / unit
     if mirror is None:
         y, memory = model.step(packed, group.P, z, state.memory, y, carry)

@@ -229,6 +229,7 @@ def _read(data, split, bodies):
 def train(data, out, options, log=print):
     """Writes out/weights.safetensors, out/curve.json and out/checkpoint.pt; goes on from the checkpoint of a
     run that was cut."""
+    options.check()
     if options.form and options.form not in FORMS:
         raise BadData(f"--form {options.form}: no such form; give one of {', '.join(FORMS)}, or none")
     train_set, validation_set = (_read(data, split, options.bodies) for split in ("train", "validation"))

@@ -1,13 +1,16 @@
 """The recipe of a training run."""
 from dataclasses import dataclass
 
+from .inputs import ORDER
+from .safetensors import BadData
+
 
 @dataclass
 class TrainOptions:
     """Defaults are the recipe of the shipped weights."""
 
-    channels: tuple = (8, 8, 3)
-    minutes: float = 24.0  # of one core's time, or of the clock's on a GPU
+    channels: tuple = (8, 3)
+    minutes: float = 27.0  # of one core's time, or of the clock's on a GPU
     seed: int = 0
     batch: int = 4  # sequences of every body, all regions of each
     window: int = 20  # ticks of truncated back-propagation
@@ -24,3 +27,28 @@ class TrainOptions:
     form: str = ""  # baseline: a vanilla ConvLSTM (vanilla.py, FORMS) in the network's place. Never shipped.
     teacher_forced: bool = False  # baseline: every tick starts from the true displacement
     device: str = "cpu"
+
+    def check(self):
+        """Throws BadData naming the first option that cannot be trained with."""
+        whole = lambda v: isinstance(v, int) and v >= 1
+        usable = {
+            "channels": ("whole numbers of which the last is 3", _are_channels(self.channels)),
+            "minutes": ("above 0", 0 < self.minutes < float("inf")),
+            "batch": ("a whole number from 1", whole(self.batch)),
+            "window": ("a whole number from 1", whole(self.window)),
+            "learning_rate": ("above 0", self.learning_rate > 0),
+            "hidden_leak": ("from 0 to 1", 0 <= self.hidden_leak <= 1),
+            "output_scale": ("above 0", self.output_scale > 0),
+            "state_clamp": ("above 0", self.state_clamp > 0),
+            "overdrive": ("from 0 to 1", 0 <= self.overdrive <= 1),
+            "stillness": ("from 0 to 1", 0 <= self.stillness <= 1),
+            "disturbance": ("0 or more", self.disturbance >= 0),
+            "without": (f"of {', '.join((*ORDER, 'base'))}", set(self.without) <= {*ORDER, "base"}),
+        }
+        for name, (wanted, fine) in usable.items():
+            if not fine:
+                raise BadData(f"--{name.replace('_', '-')} {getattr(self, name)}: must be {wanted}")
+
+
+def _are_channels(channels):
+    return len(channels) > 0 and channels[-1] == 3 and all(isinstance(c, int) and c >= 1 for c in channels)

@@ -6,6 +6,7 @@
 #include <memory>
 #include <numbers>
 
+#include "baker/truth/gesture.hpp"
 #include "baker/truth/local_pose.hpp"
 
 namespace sinew::baker {
@@ -16,32 +17,6 @@ constexpr double kEaseIn_s = 0.5;  // from the rest pose into a clip
 constexpr double kRamp_s = 0.35;   // from stillness to full motion and back
 constexpr double kCrossFade_s = 0.35;
 constexpr double kLength_s = 600;  // random motions stand still afterwards
-constexpr double kTau = 2 * std::numbers::pi;
-
-// SplitMix64 (Steele, Lea, Flood 2014). The standard library's distributions differ between implementations.
-class Random {
- public:
-  explicit Random(uint64_t seed) : state_(seed * 0x9e3779b97f4a7c15u + 0x632be59bd9b4e019u) {}
-  uint64_t next() {
-    uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
-  double uniform(double low, double high) {
-    return low + (high - low) * static_cast<double>(next() >> 11) * 0x1p-53;
-  }
-  bool chance(double probability) { return uniform(0, 1) < probability; }
-  size_t below(size_t count) { return static_cast<size_t>(uniform(0, static_cast<double>(count))); }
-  double sign() { return chance(0.5) ? 1 : -1; }
-  Vector3 direction() {
-    const double height = uniform(-1, 1), turn = uniform(0, kTau), around = std::sqrt(1 - height * height);
-    return {around * std::cos(turn), height, around * std::sin(turn)};
-  }
-
- private:
-  uint64_t state_;
-};
 
 // A sum of sines along fixed directions, zero in value at time 0.
 struct Sway {
@@ -64,26 +39,6 @@ Sway::Wave wave_of_acceleration(Random& random, const Vector3& acceleration, dou
   return {acceleration / (w * w), w, random.uniform(0, kTau)};
 }
 
-// A smooth step of the root: `change` between `start_s` and `start_s + length_s`, taken back after `back_s`
-// where that is positive.
-struct Gesture {
-  double start_s, length_s, back_s;
-  Vector3 change;
-  double share(double t_s) const {
-    const double there = ease((t_s - start_s) / length_s);
-    return back_s > 0 ? there - ease((t_s - back_s) / length_s) : there;
-  }
-};
-
-Vector3 sum_of(const std::vector<Gesture>& gestures, double t_s) {
-  Vector3 sum = Vector3::Zero();
-  for (const Gesture& g : gestures) {
-    if (g.start_s > t_s) break;  // ascending
-    sum += g.share(t_s) * g.change;
-  }
-  return sum;
-}
-
 // An interval of motion between two of stillness.
 struct Bout {
   double start_s, end_s;
@@ -103,44 +58,20 @@ std::vector<Bout> draw_bouts(Random& random) {
 }
 
 struct RootTrack {
-  std::vector<Gesture> dashes;  // metres
-  std::vector<Gesture> turns;   // about Y, radians
-  std::vector<Gesture> tilts;   // rotation vectors
+  RootGestures gestures;
   Sway sway, rock;
 
   Matrix4 at(double t_s, double activity) const {
-    const Vector3 lean = sum_of(tilts, t_s) + activity * rock.at(t_s);
+    const Vector3 lean = sum_of(gestures.tilts, t_s) + activity * rock.at(t_s);
     Matrix4 root = Matrix4::Identity();
     root.topLeftCorner<3, 3>() =
-        (rotation_from_vector(sum_of(turns, t_s)) * rotation_from_vector(lean)).toRotationMatrix();
-    root.topRightCorner<3, 1>() = sum_of(dashes, t_s) + activity * sway.at(t_s);
+        (rotation_from_vector(sum_of(gestures.turns, t_s)) * rotation_from_vector(lean)).toRotationMatrix();
+    root.topRightCorner<3, 1>() = sum_of(gestures.dashes, t_s) + activity * sway.at(t_s);
     return root;
   }
 };
 
-constexpr double kEasePeak = 10 / std::numbers::sqrt3;  // largest second derivative of ease()
-
-void draw_gestures(Random& random, const Bout& bout, double strength, RootTrack* track) {
-  for (double t = bout.start_s + random.uniform(0, 0.4); t < bout.end_s; t += random.uniform(0.4, 1.5)) {
-    const double length = random.uniform(0.25, 0.7);
-    if (random.chance(0.6)) {  // a step, or a hop that comes back
-      const double acceleration = 3 * std::pow(10, random.uniform(0, 1)) * strength;
-      const double distance = acceleration * length * length / kEasePeak;
-      const Vector3 direction = random.chance(0.5) ? random.direction() : Vector3(0, random.sign(), 0);
-      track->dashes.push_back({t, length, random.chance(0.5) ? t + length : 0, distance * direction});
-    }
-    if (random.chance(0.4)) {
-      const double angle = std::min(1.6, random.uniform(8, 50) * strength * length * length / kEasePeak);
-      track->turns.push_back({t, length, 0, Vector3(0, random.sign() * angle, 0)});
-    }
-    if (random.chance(0.3)) {
-      const double angle = std::min(0.9, random.uniform(5, 40) * strength * length * length / kEasePeak);
-      track->tilts.push_back({t, length, t + length + random.uniform(0, 1.0), angle * random.direction()});
-    }
-  }
-}
-
-RootTrack draw_root(Random& random, const std::vector<Bout>& bouts, double strength) {
+RootTrack draw_sway(Random& random, double strength) {
   RootTrack track;
   for (int k = 0; k < 3; ++k) {
     const Vector3 acceleration = strength * random.uniform(0.5, 6) * random.direction();
@@ -148,7 +79,6 @@ RootTrack draw_root(Random& random, const std::vector<Bout>& bouts, double stren
     const Vector3 turning = strength * random.uniform(0.5, 4) * random.direction();
     track.rock.waves.push_back(wave_of_acceleration(random, turning, 0.5, 3));
   }
-  for (const Bout& bout : bouts) draw_gestures(random, bout, strength, &track);
   return track;
 }
 
@@ -185,6 +115,7 @@ struct RandomTrack {
   std::vector<ClipStretch> stretches;
   std::vector<Bout> bouts;
   std::vector<Sway> noise;
+  JointGestures strikes;
   RootTrack root;
   double clip_share = 1;
 
@@ -217,6 +148,8 @@ struct RandomTrack {
     LocalPose pose = blend(rest, clip_pose(t_s), clip_share * active);
     for (size_t j = 0; j < noise.size(); ++j)
       pose.rotation[j] = pose.rotation[j] * rotation_from_vector(active * noise[j].at(t_s));
+    for (size_t j = 0; j < strikes.size(); ++j)
+      pose.rotation[j] = pose.rotation[j] * rotation_from_vector(sum_of(strikes[j], t_s));
     return {joint_matrices(character, pose), root.at(t_s, active)};
   }
 };
@@ -234,6 +167,22 @@ Character skeleton_of(const Character& character) {
   out.inverse_bind = character.inverse_bind;
   out.character_from_scene = character.character_from_scene;
   return out;
+}
+
+std::shared_ptr<RandomTrack> draw_track(Random& random, const Character& character, double strength,
+                                        const std::vector<std::string>& held_out) {
+  auto track = std::make_shared<RandomTrack>();
+  track->character = skeleton_of(character);
+  track->rest = rest_pose(character);
+  for (const Clip& clip : character.clips)
+    if (std::find(held_out.begin(), held_out.end(), clip.name) == held_out.end())
+      track->clips.emplace_back(character, clip);
+  track->stretches = draw_clips(random, track->clips.size());
+  track->bouts = draw_bouts(random);
+  track->noise = draw_joint_noise(random, track->rest.rotation.size(), strength);
+  track->root = draw_sway(random, strength);
+  track->clip_share = std::min(strength, 1.0);
+  return track;
 }
 
 }  // namespace
@@ -266,24 +215,27 @@ Motion shake_motion(const Character& character, uint64_t seed, double strength) 
   return [=](double t_s) {
     const double in = t_s - kPeriod_s * std::floor(t_s / kPeriod_s);
     const double active = Bout{kStill_s, kMoving_s}.activity(in);
-    return WorldPose{rest, RootTrack{{}, {}, {}, sway, turn}.at(t_s, active)};
+    return WorldPose{rest, RootTrack{{}, sway, turn}.at(t_s, active)};
   };
 }
 
 Motion random_motion(const Character& character, uint64_t seed, double strength,
                      const std::vector<std::string>& held_out) {
   Random random(seed);
-  const auto track = std::make_shared<RandomTrack>();
-  track->character = skeleton_of(character);
-  track->rest = rest_pose(character);
-  for (const Clip& clip : character.clips)
-    if (std::find(held_out.begin(), held_out.end(), clip.name) == held_out.end())
-      track->clips.emplace_back(character, clip);
-  track->stretches = draw_clips(random, track->clips.size());
-  track->bouts = draw_bouts(random);
-  track->noise = draw_joint_noise(random, track->rest.rotation.size(), strength);
-  track->root = draw_root(random, track->bouts, strength);
-  track->clip_share = std::min(strength, 1.0);
+  const auto track = draw_track(random, character, strength, held_out);
+  for (const Bout& bout : track->bouts)
+    draw_gestures(random, bout.start_s, bout.end_s, strength, &track->root.gestures);
+  return [track](double t_s) { return track->at(t_s); };
+}
+
+Motion leap_motion(const Character& character, uint64_t seed, double strength,
+                   const std::vector<std::string>& held_out) {
+  Random random(~seed);
+  const auto track = draw_track(random, character, strength, held_out);
+  track->strikes.resize(character.joint_parent.size());
+  for (const Bout& bout : track->bouts)
+    draw_leaps(random, bout.start_s, bout.end_s, strength, character.joint_parent, &track->root.gestures,
+               &track->strikes);
   return [track](double t_s) { return track->at(t_s); };
 }
 

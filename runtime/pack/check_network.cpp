@@ -16,7 +16,7 @@ uint32_t input_width(InputKind kind) noexcept {
   using enum InputKind;
   if (kind == kStiffness || kind == kFrequency) return 1;
   const bool known = kind == kRestPosition || kind == kRestNormal ||
-                     (kind >= kAngularAcceleration && kind <= kBentDisplacement);
+                     (kind >= kAngularAcceleration && kind <= kSpunVelocity);
   return known ? 3 : 0;
 }
 

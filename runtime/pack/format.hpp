@@ -161,6 +161,11 @@ enum class InputKind : uint32_t {
   kBentForce = 18,           // 3: bend x the value of kFeltStep
   kBentStep = 19,            // 3: bend x the value of kBaseStep
   kBentDisplacement = 20,    // 3: bend x the value of kDisplacement
+  kTurnedForce = 21,         // 3: the value of kTurn x that of kFeltStep
+  kTurnedStep = 22,          // 3: kTurn x kBaseStep
+  kTurnedVelocity = 23,      // 3: kTurn x kVelocity
+  kSpunStep = 24,            // 3: kAngularVelocity x kBaseStep
+  kSpunVelocity = 25,        // 3: kAngularVelocity x kVelocity
 };
 
 struct InputRecord {

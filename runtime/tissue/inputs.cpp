@@ -38,10 +38,22 @@ Value cross(const float* a, const Value& b) {
   return {{a[1] * b.v[2] - a[2] * b.v[1], a[2] * b.v[0] - a[0] * b.v[2], a[0] * b.v[1] - a[1] * b.v[0]}, 3};
 }
 
-Value value_of(InputKind kind, const NodeSources& sources, uint32_t node, float unit_m) {
-  const float* drive = sources.drive + size_t{node} * kNodeDriveWidth;
-  const size_t at = size_t{node} * 3;
+// The vectors that are crossed with each other, in length units (a tick) where they are lengths.
+struct Motion {
+  Value felt_step, base_step, displacement, velocity;
+};
+
+Motion motion_of(const NodeSources& sources, size_t at, float unit_m) {
   const float w1 = sources.first_rad_per_s;
+  return {scaled_by(1 / (w1 * w1 * unit_m), sources.felt + at),
+          difference(1 / unit_m, sources.l_hat + at, sources.l + at), scaled_by(1 / unit_m, sources.l + at),
+          difference(1 / unit_m, sources.l + at, sources.l_before + at)};
+}
+
+Value value_of(InputKind kind, const NodeSources& sources, uint32_t node, const Motion& motion) {
+  const float* drive = sources.drive + size_t{node} * kNodeDriveWidth;
+  const float *angular_velocity = drive + 6, *bend = drive + 12;
+  const float* theta = sources.theta + size_t{node} * 3;
   switch (kind) {
     case InputKind::kRestPosition:
       return rest_position(sources, node);
@@ -52,29 +64,39 @@ Value value_of(InputKind kind, const NodeSources& sources, uint32_t node, float 
     case InputKind::kGravityChange:
       return from_floats(drive + 3);
     case InputKind::kAngularVelocity:
-      return from_floats(drive + 6);
+      return from_floats(angular_velocity);
     case InputKind::kAngularAcceleration:
       return from_floats(drive + 9);
     case InputKind::kDisplacement:
-      return scaled_by(1 / unit_m, sources.l + at);
+      return motion.displacement;
     case InputKind::kVelocity:
-      return difference(1 / unit_m, sources.l + at, sources.l_before + at);
+      return motion.velocity;
     case InputKind::kFeltStep:
-      return scaled_by(1 / (w1 * w1 * unit_m), sources.felt + at);
+      return motion.felt_step;
     case InputKind::kBaseStep:
-      return difference(1 / unit_m, sources.l_hat + at, sources.l + at);
+      return motion.base_step;
     case InputKind::kTurn:
-      return from_floats(sources.theta + at);
+      return from_floats(theta);
     case InputKind::kFrequency:
-      return {{w1 * sources.tick_s}, 1};
+      return {{sources.first_rad_per_s * sources.tick_s}, 1};
     case InputKind::kBend:
-      return from_floats(drive + 12);
+      return from_floats(bend);
     case InputKind::kBentForce:
-      return cross(drive + 12, scaled_by(1 / (w1 * w1 * unit_m), sources.felt + at));
+      return cross(bend, motion.felt_step);
     case InputKind::kBentStep:
-      return cross(drive + 12, difference(1 / unit_m, sources.l_hat + at, sources.l + at));
+      return cross(bend, motion.base_step);
     case InputKind::kBentDisplacement:
-      return cross(drive + 12, scaled_by(1 / unit_m, sources.l + at));
+      return cross(bend, motion.displacement);
+    case InputKind::kTurnedForce:
+      return cross(theta, motion.felt_step);
+    case InputKind::kTurnedStep:
+      return cross(theta, motion.base_step);
+    case InputKind::kTurnedVelocity:
+      return cross(theta, motion.velocity);
+    case InputKind::kSpunStep:
+      return cross(angular_velocity, motion.base_step);
+    case InputKind::kSpunVelocity:
+      return cross(angular_velocity, motion.velocity);
   }
   return {};
 }
@@ -92,11 +114,11 @@ uint32_t put_scaled(const Value& value, const pack::InputRecord& input, float* o
 }
 
 uint32_t fill_row(const Network& network, const NodeSources& sources, uint32_t node, float* row) {
-  const float unit_m = length_unit_m(network, *sources.region);
+  const Motion motion = motion_of(sources, size_t{node} * 3, length_unit_m(network, *sources.region));
   uint32_t clamps = 0;
   float* out = row;
   for (const pack::InputRecord& input : network.inputs) {
-    const Value value = value_of(input.kind, sources, node, unit_m);
+    const Value value = value_of(input.kind, sources, node, motion);
     clamps += put_scaled(value, input, out);
     out += value.width;
   }

@@ -133,7 +133,7 @@ TEST_CASE("network_faults_are_refused_by_name") {
        {"state clamp", network([](auto& n) { n.state_clamp = 0; })},
        {"length unit", network([](auto& n) { n.length_unit = -1; })},
        {"reserved", network([](auto& n) { n.reserved[5] = 1; })},
-       {"input 1: kind 21", input([](auto& i) { i.kind = InputKind{21}; })},
+       {"input 1: kind 26", input([](auto& i) { i.kind = InputKind{26}; })},
        {"input 1: kind 4", input([](auto& i) { i.kind = InputKind{4}; })},
        {"input 1: its kind appears twice", input([](auto& i) { i.kind = InputKind::kRestPosition; })},
        {"input 1: scale", input([](auto& i) { i.scale = kNan; })},

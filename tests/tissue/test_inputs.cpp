@@ -2,6 +2,7 @@
 #include "tissue/inputs.hpp"
 
 #include <Eigen/Geometry>
+#include <array>
 #include <catch2/catch.hpp>
 #include <limits>
 
@@ -143,6 +144,26 @@ TEST_CASE("assemble_inputs_crosses_the_bend_with_force_step_and_displacement") {
   CHECK((part(1) - bend.cross(0.5f * l)).norm() < 1e-4f);  // float's rounding of some hundreds
   CHECK((part(2) - bend.cross(2 * l)).norm() < 1e-4f);
   CHECK((part(3) - bend.cross(2 * l)).norm() < 1e-4f);
+}
+
+// Node 1: theta is less l, l a metre less the tick before, angular velocity (21, 22, 23) rad/s.
+TEST_CASE("assemble_inputs_crosses_the_turn_and_the_angular_velocity_with_what_moves") {
+  Fixture fixture({{InputKind::kTurnedForce, 1, kInfinity, 0},
+                   {InputKind::kTurnedStep, 1, kInfinity, 0},
+                   {InputKind::kTurnedVelocity, 1, kInfinity, 0},
+                   {InputKind::kSpunStep, 1, kInfinity, 0},
+                   {InputKind::kSpunVelocity, 1, kInfinity, 0}});
+  fixture.theta = {0, 0, 0, 0.5f, -1, 2, 0, 0, 0};
+  REQUIRE(fixture.assemble() == 0);
+  const std::vector<float> values = row(fixture, 1, 15);
+  const Eigen::Vector3f theta(0.5f, -1, 2), spin(21, 22, 23), l(3, 4, 5), velocity(4, 6, 8);
+  const std::array<Eigen::Vector3f, 5> wanted = {theta.cross(0.5f * l), theta.cross(2 * l),
+                                                 theta.cross(velocity), spin.cross(2 * l),
+                                                 spin.cross(velocity)};
+  for (size_t k = 0; k < wanted.size(); ++k) {
+    INFO("crossed input " << k);
+    CHECK((Eigen::Vector3f(values[3 * k], values[3 * k + 1], values[3 * k + 2]) - wanted[k]).norm() < 1e-4f);
+  }
 }
 
 // Node 1: felt 300 400 500 m/s^2 over (20 rad/s)^2 in units of half a metre; l_hat twice l = 3 4 5 m; a

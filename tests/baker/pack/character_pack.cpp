@@ -35,6 +35,11 @@ TEST_CASE("characters_that_cannot_be_packed_are_refused_with_the_reason") {
   const TissueLayout layout = test::small_layout(character);
   CHECK_THROWS_WITH(pack_small(character, layout, test::small_paper_weights()),
                     Contains("small.safetensors: metadata key 'inputs' is missing (the paper's wiring)"));
+  Safetensors trajectory = test::small_weights();
+  trajectory.metadata.erase("sinew.model");
+  trajectory.metadata.erase("inputs");
+  CHECK_THROWS_WITH(pack_small(character, layout, trajectory),
+                    Contains("is this a file of trained weights?"));
   for (const char* key : {"frame", "base"}) {
     Safetensors old = test::small_weights();
     old.metadata.erase(key);

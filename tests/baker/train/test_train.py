@@ -17,13 +17,14 @@ from train.episode import SETTLED_TICKS, SILENT_FROM, Episode  # noqa: E402
 from train.export import check_vectors  # noqa: E402
 from train.inputs import FEEDBACK, INPUT_WIDTH, ORDER, columns  # noqa: E402
 from train.rollout import bounded, error_ratio, roll_out, truth  # noqa: E402
+from train.safetensors import BadData  # noqa: E402
 from train.scaling import ENVELOPE_MARGIN, LEAST_LIMIT, SCALED_SIZE, measure_scaling  # noqa: E402
 from train.train import Trainer, train  # noqa: E402
 from train.train_options import TrainOptions  # noqa: E402
 from train.weights import read_weights  # noqa: E402
 
 QUIET = lambda *a, **k: None
-SMALL = dict(channels=(16, 3), batch=6, window=15)
+SMALL = dict(channels=(8, 3), batch=6, window=15, learning_rate=1e-2)
 MINUTES = 0.06
 
 
@@ -55,6 +56,28 @@ class Training(unittest.TestCase):
 
     def same_weights(self, a, b):
         return all(torch.equal(x, y) for x, y in zip(a.model.parameters(), b.model.parameters()))
+
+    def test_options_that_cannot_be_trained_with_are_refused_by_name(self):
+        unusable = {
+            "channels": [(), (8, 8), (0, 3), ("abc",)],
+            "minutes": [0, -1, float("nan"), float("inf")],
+            "batch": [0],
+            "window": [0],
+            "learning_rate": [0, float("nan")],
+            "hidden_leak": [-0.1, 1.1],
+            "output_scale": [0],
+            "state_clamp": [0],
+            "overdrive": [-0.1, 1.5],
+            "stillness": [2],
+            "disturbance": [-1],
+            "without": [("colour",)],
+            "form": ["LSTM"],
+        }
+        for name, values in unusable.items():
+            for value in values:
+                with self.assertRaises(BadData, msg=f"{name} {value}") as caught:
+                    train(self.folder.name, self.run_folder, TrainOptions(**{name: value}), QUIET)
+                self.assertIn("--" + name.replace("_", "-"), str(caught.exception))
 
     def test_a_few_seconds_already_beat_the_modal_base(self):
         model, scaling, _ = read_weights(os.path.join(self.run_folder, "weights.safetensors"))

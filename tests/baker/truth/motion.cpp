@@ -69,10 +69,18 @@ std::vector<Motion> every_motion(const Character& c) {
           shake_motion(c),
           shake_motion(c, 5),
           random_motion(c, 1, 1),
-          random_motion(c, 2, 0.5)};
+          random_motion(c, 2, 0.5),
+          leap_motion(c, 1, 1),
+          leap_motion(c, 2, 0.5)};
 }
 
 double distance(const Motion& a, const Motion& b, double t_s) { return (head(a, t_s) - head(b, t_s)).norm(); }
+
+double largest_distance(const Motion& a, const Motion& b) {
+  double largest = 0;
+  for (double t = 0; t < 10; t += 0.1) largest = std::max(largest, distance(a, b, t));
+  return largest;
+}
 
 }  // namespace
 
@@ -105,6 +113,8 @@ TEST_CASE("seeds_repeat_and_differ") {
   const Character c = marionette();
   CHECK(distance(random_motion(c, 7, 1), random_motion(c, 7, 1), 2.3) == 0);
   CHECK(distance(random_motion(c, 7, 1), random_motion(c, 8, 1), 2.3) > 1e-3);
+  CHECK(distance(leap_motion(c, 7, 1), leap_motion(c, 7, 1), 2.3) == 0);
+  CHECK(distance(leap_motion(c, 7, 1), leap_motion(c, 8, 1), 2.3) > 1e-3);
   CHECK(distance(clip_motion(c, c.clips[0], 4), clip_motion(c, c.clips[0], 4), 2.3) == 0);
   CHECK(distance(clip_motion(c, c.clips[0], 0), clip_motion(c, c.clips[0], 4), 2.3) > 1e-3);
   CHECK(distance(shake_motion(c, 1), shake_motion(c, 2), 1.3) > 1e-3);
@@ -121,12 +131,32 @@ TEST_CASE("strength_scales_a_clip_about_the_rest_pose") {
   CHECK(half == Approx(full / 2).epsilon(1e-9));
 }
 
-TEST_CASE("random_motion_uses_no_held_out_clip") {
+TEST_CASE("random_motions_and_leaps_use_no_held_out_clip") {
   Character without = marionette();
   without.clips.pop_back();
   const Character c = marionette();
+  CHECK(largest_distance(leap_motion(c, 4, 1, {"bob"}), leap_motion(without, 4, 1)) == 0);
+  CHECK(largest_distance(leap_motion(c, 4, 1), leap_motion(without, 4, 1)) > 1e-3);
   CHECK(distance(random_motion(c, 3, 1, {"bob"}), random_motion(without, 3, 1), 2.3) == 0);
   CHECK(distance(random_motion(c, 3, 1), random_motion(without, 3, 1), 2.3) > 1e-3);
+}
+
+TEST_CASE("leaps_throw_the_root_and_turn_the_joints") {
+  Character c = marionette();
+  c.clips.clear();
+  double hardest = 0, turned = 0;
+  for (uint64_t seed = 1; seed <= 8; ++seed) {
+    const Motion motion = leap_motion(c, seed, 1);
+    const auto root = [&](double t_s) { return Vector3(motion(t_s).root.topRightCorner<3, 1>()); };
+    for (double t = kStep_s; t < 4; t += 5 * kStep_s) {
+      const Vector3 change = root(t + kStep_s) - 2 * root(t) + root(t - kStep_s);
+      hardest = std::max(hardest, change.norm() / (kStep_s * kStep_s));
+      turned = std::max(turned, Eigen::AngleAxisd(motion(t).joints[1].topLeftCorner<3, 3>().eval()).angle());
+    }
+  }
+  CHECK(hardest > 30);   // of leaps of 8 to 70 m/s^2; the strongest sway reaches 18
+  CHECK(hardest < 120);  // 70, where two steps and the sway meet
+  CHECK(turned > 0.3);   // joint noise alone: below 0.25
 }
 
 TEST_CASE("random_motion_stands_still_now_and_then") {
