@@ -260,12 +260,14 @@ float metadata_number(const Safetensors& weights, const std::string& key, float 
   return value;
 }
 
-std::vector<pack::LayerRecord> add_network(const Safetensors& weights, PackWriter& pack) {
+std::vector<pack::LayerRecord> add_network(const Safetensors& weights, PackWriter& pack,
+                                           pack::Precision precision) {
   check_model(weights);
   const std::vector<uint32_t> channels = parse_channels(weights);
   const std::vector<pack::InputRecord> inputs = parse_inputs(weights);
   pack::NetworkRecord record = make_record(weights, channels);
   record.input_width = total_width(inputs);
+  record.precision = precision;
 
   WeightLayout layout(weights);
   std::vector<pack::LayerRecord> layers;

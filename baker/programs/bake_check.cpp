@@ -14,7 +14,7 @@ namespace sinew::baker {
 namespace {
 
 struct CheckOptions {
-  std::string model, vectors, isa, precision = "fp32";
+  std::string model, vectors, isa, precision;
   double tolerance = 1e-5;
 };
 
@@ -23,16 +23,31 @@ void choose_isa(const std::string& name) {
   if (!status.ok()) throw BadInput((name.empty() ? "" : "--isa " + name + ": ") + status.message);
 }
 
+const char* precision_of(const LoadedPack& model) {
+  return pack::kPrecisionNames[static_cast<uint32_t>(model.view().network->precision)];
+}
+
+// A pack runs in the precision it was baked in, weights in the one asked for.
+LoadedPack load_model(const CheckOptions& options) {
+  const std::string& wanted = options.precision;
+  LoadedPack model =
+      LoadedPack::from_pack_or_weights(options.model, parse_precision(wanted.empty() ? "fp32" : wanted));
+  if (!wanted.empty() && wanted != precision_of(model))
+    throw BadInput(options.model + ": was baked with --precision " + precision_of(model) + ", not " + wanted +
+                   "; check it as it is, or check its weights");
+  return model;
+}
+
 int run_check(const CheckOptions& options) {
-  check_precision(options.precision);
+  if (!options.precision.empty()) parse_precision(options.precision);
   if (!(options.tolerance >= 0)) throw BadInput("--tolerance: must be a number from 0 up");
   choose_isa(options.isa);
-  const LoadedPack model = LoadedPack::from_pack_or_weights(options.model);
+  const LoadedPack model = load_model(options);
   const RollOutError error = roll_out(model.network(), read_safetensors(options.vectors));
   const bool ok = error.max_abs_error <= options.tolerance;
   const nlohmann::ordered_json report = {{"model", "alt_conv_lstm"},
                                          {"isa", simd::active_isa()},
-                                         {"precision", options.precision},
+                                         {"precision", precision_of(model)},
                                          {"steps", error.steps},
                                          {"max_abs_error", error.max_abs_error},
                                          {"mean_abs_error", error.mean_abs_error},
@@ -50,7 +65,8 @@ void add_check_command(CLI::App& app, int* exit_code) {
       "check", "Runs a network on reference vectors, its own output fed back; exit 1 beyond the tolerance");
   command->add_option("model", options->model, ".sinew or weights as .safetensors")->required();
   command->add_option("vectors", options->vectors, "reference vectors as .safetensors")->required();
-  command->add_option("--precision", options->precision, "fp32");
+  command->add_option("--precision", options->precision,
+                      "fp32 or fp16; by default what the pack was baked in, of weights fp32");
   command->add_option("--isa", options->isa, "an instruction set of this processor; the best by default");
   command->add_option("--tolerance", options->tolerance, "largest absolute error (1e-5)");
   command->callback([options, exit_code] { *exit_code = run_check(*options); });

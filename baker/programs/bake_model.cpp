@@ -15,9 +15,9 @@ struct ModelOptions {
 };
 
 void run_model(const ModelOptions& options) {
-  check_precision(options.precision);
+  const pack::Precision precision = parse_precision(options.precision);
   PackWriter writer(pack::FileKind::kModel);
-  add_network(read_safetensors(options.weights), writer);
+  add_network(read_safetensors(options.weights), writer, precision);
   const std::vector<std::byte> bytes = writer.finish();
   LoadedPack::from_bytes(bytes, options.weights);  // what the runtime would refuse is not written
   write_file(options.output, bytes);
@@ -25,16 +25,21 @@ void run_model(const ModelOptions& options) {
 
 }  // namespace
 
-void check_precision(const std::string& precision) {
-  if (precision != "fp32")
-    throw BadInput("--precision " + precision + ": not built in this version; use fp32");
+pack::Precision parse_precision(const std::string& name) {
+  std::string known;
+  for (uint32_t k = 0; k < std::size(pack::kPrecisionNames); ++k) {
+    if (name == pack::kPrecisionNames[k]) return static_cast<pack::Precision>(k);
+    known += std::string(k == 0 ? "" : ", ") + pack::kPrecisionNames[k];
+  }
+  throw BadInput("--precision " + name + ": not built in this version; use one of " + known);
 }
 
 void add_model_command(CLI::App& app, int*) {
   auto options = std::make_shared<ModelOptions>();
   CLI::App* command = app.add_subcommand("model", "Packs trained weights");
   command->add_option("weights", options->weights, "safetensors")->required();
-  command->add_option("--precision", options->precision, "fp32");
+  command->add_option("--precision", options->precision,
+                      "fp32, or fp16: states of hidden layers kept as halves");
   command->add_option("-o,--output", options->output, "M.sinew")->required();
   command->callback([options] { run_model(*options); });
 }

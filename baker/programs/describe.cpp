@@ -26,6 +26,7 @@ Json describe_network(const pack::PackView& view) {
     inputs.push_back(
         {{"name", input_name(input.kind)}, {"scale", input.scale}, {"envelope", input.envelope}});
   return {{"model", "alt_conv_lstm"},
+          {"precision", pack::kPrecisionNames[static_cast<uint32_t>(record.precision)]},
           {"rate_hz", record.rate_hz},
           {"input_width", record.input_width},
           {"channels", channels},

@@ -26,10 +26,10 @@ LoadedPack LoadedPack::from_bytes(std::span<const std::byte> bytes, const std::s
   return loaded;
 }
 
-LoadedPack LoadedPack::from_pack_or_weights(const std::string& path) {
+LoadedPack LoadedPack::from_pack_or_weights(const std::string& path, pack::Precision precision) {
   if (looks_like_pack(path)) return from_file(path);
   PackWriter writer(pack::FileKind::kModel);
-  add_network(read_safetensors(path), writer);
+  add_network(read_safetensors(path), writer, precision);
   return from_bytes(writer.finish(), path);
 }
 

@@ -16,8 +16,9 @@ class LoadedPack {
   // Throws BadInput with the reader's reason, opening with `path`.
   static LoadedPack from_file(const std::string& path);
   static LoadedPack from_bytes(std::span<const std::byte> bytes, const std::string& path);
-  // A baked file as it is, or trained weights packed on the fly: what is checked is what would be baked.
-  static LoadedPack from_pack_or_weights(const std::string& path);
+  // A baked file as it is, or trained weights packed on the fly: what is checked is what would be baked with
+  // this precision.
+  static LoadedPack from_pack_or_weights(const std::string& path, pack::Precision precision);
 
   const pack::PackView& view() const { return view_; }
   size_t bytes() const { return bytes_; }

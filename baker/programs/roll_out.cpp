@@ -11,6 +11,7 @@
 #include "baker/pack/graph.hpp"
 #include "baker/pack/network_pack.hpp"
 #include "core/aligned_block.hpp"
+#include "core/half.hpp"
 #include "tissue/inputs.hpp"
 
 namespace sinew::baker {
@@ -109,11 +110,10 @@ class Stepper {
 
   RollOutError finish() {
     for (uint32_t l = 0; l < network_.layers.size(); ++l) {
-      const tissue::LayerState state = tissue::layer_state(network_, count(), l, state_.data());
-      const std::string prefix = "final." + std::to_string(l) + ".";
-      compare_state(prefix + "h", state.h, network_.layers[l]);
-      compare_state(prefix + "c", state.c, network_.layers[l]);
-      compare_state(prefix + "y", state.y, network_.layers[l]);
+      if (!tissue::keeps_halves(network_, l))
+        compare_planes(l, tissue::layer_state(network_, count(), l, state_.data()));
+      else
+        compare_planes(l, tissue::half_layer_state(network_, count(), l, state_.data()));
     }
     return error_.result(steps_);
   }
@@ -138,14 +138,26 @@ class Stepper {
     return {sum.begin(), sum.end()};
   }
 
-  void compare_state(const std::string& name, const float* values, const pack::LayerRecord& layer) {
+  static float value_of(float value) { return value; }
+  static float value_of(uint16_t half) { return core::half_to_float(half); }
+
+  template <class Planes>
+  void compare_planes(uint32_t l, const Planes& state) {
+    const std::string prefix = "final." + std::to_string(l) + ".";
+    compare_state(prefix + "h", state.h, network_.layers[l]);
+    compare_state(prefix + "c", state.c, network_.layers[l]);
+    compare_state(prefix + "y", state.y, network_.layers[l]);
+  }
+
+  template <class T>
+  void compare_state(const std::string& name, const T* values, const pack::LayerRecord& layer) {
     if (!vectors_.tensors.contains(name)) return;
     std::vector<float> expected =
         vectors_.need(name, {static_cast<long>(nodes_), static_cast<long>(layer.channels)}).as_f32();
     const bool is_hidden_y = name.back() == 'y' && &layer != &network_.layers.back();
     if (is_hidden_y) expected = aggregated(expected, layer.channels);  // the runtime keeps P y
     for (size_t k = 0; k < expected.size(); ++k)
-      error_.add(values[k / layer.channels * layer.padded + k % layer.channels], expected[k]);
+      error_.add(value_of(values[k / layer.channels * layer.padded + k % layer.channels]), expected[k]);
   }
 
   const tissue::Network& network_;

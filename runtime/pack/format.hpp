@@ -19,6 +19,7 @@
 //   2  tissue lives in node frames on a modal base; tiers modal and spring; a character may have no network
 //   3  node frames follow a share of their region's bend (RegionRecord::anchor_node); inputs that tell the
 //   bend
+//      since then, without a new version, for a reader that does not know it refuses the field: precision
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -96,6 +97,10 @@ enum class SectionKind : uint32_t {
 // counts, all else is zero.
 enum class ModelKind : uint32_t { kNone = 0, kAltConvLstm = 1 };
 
+// kHalfStates: h, c and P y of the hidden layers are kept as IEEE halves, all arithmetic is float32.
+enum class Precision : uint32_t { kFloat32 = 0, kHalfStates = 1 };
+inline constexpr const char* kPrecisionNames[] = {"fp32", "fp16"};  // as --precision has them
+
 // Alt-ConvLSTM (arXiv 2006.07818 Eq. 5, 9-11) with additions that training needs; each is off in the paper's
 // wiring.
 //   a   = (P x) W_x + x W_s + (P h) W_h + b       gates i f c o; W_s only where the layer has it
@@ -105,6 +110,7 @@ enum class ModelKind : uint32_t { kNone = 0, kAltConvLstm = 1 };
 //   y   = (1 - output_leak) y + output_scale c + carry      last layer
 //   o   = sigmoid(a_o + (P y) W_y_o)
 //   h   = o tanh(c)                               the next layer's x is c
+// All but the last layer work in the stated precision; the last is float32.
 // carry = X_t - X_{t-1} in the paper's wiring. In a character the network is closed on the modal base:
 // y = l, carry = l^ - l_{t-1}, both in length units (tissue/modal_base.hpp).
 struct NetworkRecord {
@@ -119,7 +125,8 @@ struct NetworkRecord {
   float state_clamp;      // bound on |c|; infinity: none
   float length_unit;      // of y: in a character a share of each region's radius, else metres; 1 in the
                           // paper's wiring
-  uint32_t reserved[6];
+  Precision precision;    // of a character's network: float32
+  uint32_t reserved[5];
 };
 static_assert(sizeof(NetworkRecord) == 64);
 

@@ -21,6 +21,7 @@
 // In this order: each needs the ones before it.
 // clang-format off
 #include "simd/vectors-inl.hpp"
+#include "simd/state-inl.hpp"
 #include "simd/activation-inl.hpp"
 #include "simd/aggregate-inl.hpp"
 #include "simd/product-inl.hpp"
@@ -57,7 +58,7 @@ std::span<const Kernels* const> compiled_kernels() noexcept {
 }
 
 size_t tile_floats(uint32_t padded) noexcept {
-  return kTileRows * 4 * kBlock + 2 * kRangeNodes * static_cast<size_t>(padded);
+  return kTileRows * 4 * kBlock + 3 * kRangeNodes * static_cast<size_t>(padded);
 }
 
 }  // namespace sinew::simd

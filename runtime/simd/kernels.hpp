@@ -24,8 +24,10 @@ struct SparseRows {
   const float* values;
 };
 
+using Half = uint16_t;  // IEEE binary16
+
 // One layer of an Alt-ConvLSTM at one step; equations in pack/format.hpp, NetworkRecord. A layer with y_next
-// is the last one. Plane: [nodes][padded].
+// is the last one. Plane: [nodes][padded]. The arithmetic is float whatever the state is kept as.
 struct LayerJob {
   SparseRows graph{};
   uint32_t inputs = 0, channels = 0, padded = 0;  // F_in, F, F rounded up to kBlock
@@ -34,13 +36,14 @@ struct LayerJob {
   const float* w_h = nullptr;                     // [channels][4][padded]
   const float* w_y = nullptr;                     // [channels][3][padded]
   const float* bias = nullptr;                    // [4][padded]
-  const float* x = nullptr;                       // [nodes][x_stride] padded; read with w_s only
+  bool x_is_half = false, state_is_half = false;  // of x; of h, c and y, a hidden layer's only: else floats
+  const void* x = nullptr;                        // [nodes][x_stride] padded; read with w_s only
   size_t x_stride = 0;
   const float* px = nullptr;  // [last - first][x_stride], P x of the nodes of one call of layer_cells
   float* pc = nullptr;        // [last - first][padded], where a hidden layer_output leaves P c: the next px
-  float* h = nullptr;         // plane, of t-1; layer_output makes it t
-  float* c = nullptr;         // plane, of t-1; layer_cells makes it t
-  float* y = nullptr;         // plane, of t-1; layer_output makes it t. In a hidden layer P y
+  void* h = nullptr;          // plane, of t-1; layer_output makes it t
+  void* c = nullptr;          // plane, of t-1; layer_cells makes it t
+  void* y = nullptr;          // plane, of t-1; layer_output makes it t. In a hidden layer P y
   const float* carry = nullptr;  // [nodes][3] added to the last layer's y, or null
   float y_keep = 1, y_gain = 1;  // y = y_keep y + y_gain c + carry; a hidden layer's gain is 1
   float clamp = 0;               // bound on |c|; infinity: none
