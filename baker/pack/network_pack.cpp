@@ -237,6 +237,12 @@ pack::NetworkRecord make_record(const Safetensors& weights, const std::vector<ui
   return record;
 }
 
+void add_int8(const Int8Sections& sections, PackWriter& pack) {
+  pack.section(pack::SectionKind::kInt8Weights, sections.weights);
+  pack.section(pack::SectionKind::kInt8Sums, sections.sums);
+  pack.section(pack::SectionKind::kInt8Scales, sections.scales);
+}
+
 }  // namespace
 
 const char* input_name(InputKind kind) {
@@ -261,7 +267,7 @@ float metadata_number(const Safetensors& weights, const std::string& key, float 
 }
 
 std::vector<pack::LayerRecord> add_network(const Safetensors& weights, PackWriter& pack,
-                                           pack::Precision precision) {
+                                           pack::Precision precision, std::span<const HeardRanges> ranges) {
   check_model(weights);
   const std::vector<uint32_t> channels = parse_channels(weights);
   const std::vector<pack::InputRecord> inputs = parse_inputs(weights);
@@ -281,6 +287,7 @@ std::vector<pack::LayerRecord> add_network(const Safetensors& weights, PackWrite
   pack.section(pack::SectionKind::kLayers, layers);
   pack.section(pack::SectionKind::kInputs, inputs);
   pack.section(pack::SectionKind::kWeights, layout.floats());
+  if (precision == pack::Precision::kInt8) add_int8(quantize_network(layers, layout.floats(), ranges), pack);
   return layers;
 }
 

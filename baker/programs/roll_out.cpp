@@ -71,8 +71,9 @@ std::vector<std::pair<int, int>> read_edges(const Safetensors& vectors) {
 // What is needed to take steps, whatever feeds them.
 class Stepper {
  public:
-  Stepper(const tissue::Network& network, const Safetensors& vectors)
+  Stepper(const tissue::Network& network, const Safetensors& vectors, const AfterStep& after_step)
       : network_(network),
+        after_step_(after_step),
         vectors_(vectors),
         nodes_(vectors.need("y0", {-1, 3}).shape[0]),
         steps_(vectors.need("y", {-1, static_cast<long>(nodes_), 3}).shape[0]),
@@ -100,6 +101,7 @@ class Stepper {
   const std::vector<float>& step(size_t index, const float* carry) {
     const tissue::Graph graph{count(), rows_.rows.data(), rows_.columns.data(), rows_.values.data()};
     tissue::network_step(network_, graph, z_.data(), carry, state_.data(), scratch_.data());
+    if (after_step_) after_step_(rows_, state_.data());
     output_.resize(nodes_ * kAxes);
     for (size_t k = 0; k < output_.size(); ++k) {
       output_[k] = output_state()[k / kAxes * last_padded() + k % kAxes];
@@ -161,6 +163,7 @@ class Stepper {
   }
 
   const tissue::Network& network_;
+  const AfterStep& after_step_;
   const Safetensors& vectors_;
   size_t nodes_, steps_;
   GraphRows rows_;
@@ -171,8 +174,9 @@ class Stepper {
 };
 
 // Input: X_t, X_t - X_{t-1}, Y_0 - X_0; the last layer carries X_t - X_{t-1} (arXiv 2006.07818 Eq. 9-11).
-RollOutError roll_out_paper(const tissue::Network& network, const Safetensors& vectors) {
-  Stepper stepper(network, vectors);
+RollOutError roll_out_paper(const tissue::Network& network, const Safetensors& vectors,
+                            const AfterStep& after_step) {
+  Stepper stepper(network, vectors, after_step);
   const size_t floats = stepper.nodes() * kAxes;
   const std::vector<float> x =
       vectors.need("x", {static_cast<long>(stepper.steps() + 1), static_cast<long>(stepper.nodes()), 3})
@@ -213,8 +217,9 @@ void feed_back(const FeedBack& to, size_t k, float value, Stepper* stepper) {
   stepper->input(k / kAxes)[to.column + k % kAxes] = scaled;
 }
 
-RollOutError roll_out_inputs(const tissue::Network& network, const Safetensors& vectors) {
-  Stepper stepper(network, vectors);
+RollOutError roll_out_inputs(const tissue::Network& network, const Safetensors& vectors,
+                             const AfterStep& after_step) {
+  Stepper stepper(network, vectors, after_step);
   const size_t width = network.record->input_width, nodes = stepper.nodes();
   const std::vector<float> z =
       vectors
@@ -242,14 +247,15 @@ RollOutError roll_out_inputs(const tissue::Network& network, const Safetensors& 
 
 }  // namespace
 
-RollOutError roll_out(const tissue::Network& network, const Safetensors& vectors) {
+RollOutError roll_out(const tissue::Network& network, const Safetensors& vectors,
+                      const AfterStep& after_step) {
   check_kind(vectors);
   const bool paper = network.inputs.empty();
   if (paper != vectors.tensors.contains("x"))
     throw BadInput(vectors.path + ": these vectors are of " +
                    (paper ? "stated inputs (z)" : "the paper's wiring (x)") +
                    ", the network is of the other; check it with vectors that were written with it");
-  return paper ? roll_out_paper(network, vectors) : roll_out_inputs(network, vectors);
+  return paper ? roll_out_paper(network, vectors, after_step) : roll_out_inputs(network, vectors, after_step);
 }
 
 }  // namespace sinew::baker

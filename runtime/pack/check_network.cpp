@@ -31,7 +31,8 @@ Status check_nothing(const PackView& pack) noexcept {
                      record.state_clamp == 0 && record.length_unit == 0 &&
                      record.precision == Precision::kFloat32;
   if (!empty) return corrupt("network: fields of a network that is not there");
-  if (!pack.layers.empty() || !pack.inputs.empty() || !pack.weights.empty())
+  const bool has_int8 = !pack.int8_weights.empty() || !pack.int8_sums.empty() || !pack.int8_scales.empty();
+  if (!pack.layers.empty() || !pack.inputs.empty() || !pack.weights.empty() || has_int8)
     return corrupt("network: layers, inputs or weights of a network that is not there");
   if (!is_positive(record.rate_hz)) return corrupt("network: rate %g Hz", double{record.rate_hz});
   return check_zero(record.reserved, "network", 0);
@@ -166,7 +167,7 @@ Status check_weights(const PackView& pack) noexcept { return check_finite(pack.w
 Status check_network(const PackView& pack) noexcept {
   if (pack.network == nullptr) return corrupt("it has no network record, or more than one");
   if (!has_network(pack)) return check_nothing(pack);
-  constexpr Check kChecks[] = {check_record, check_inputs, check_layers, check_weights};
+  constexpr Check kChecks[] = {check_record, check_inputs, check_layers, check_weights, check_int8};
   return run_checks(kChecks, pack);
 }
 

@@ -63,6 +63,11 @@ enum class SectionKind : uint32_t {
   kLayers = 11,   // LayerRecord x layers
   kInputs = 12,   // InputRecord x inputs; a model without: the paper's wiring
   kWeights = 13,  // float; the layers' tensors, laid out as LayerRecord says
+  // Of an int8 network, hidden layer after hidden layer without gaps (pack/int8_layout.hpp); k in fours:
+  kInt8Weights = 14,  // int8, +-127: for each 16 channels [k of x, h / 4][i f c o][16][4], then
+                      // [k of P y / 4][i f][16][4]; behind all channels gate o's [k of P y / 4][padded][4]
+  kInt8Sums = 15,     // int32: 128 sum_k w, [padded / 16][i f c o][16], then [padded] of gate o's P y
+  kInt8Scales = 16,   // float, >= 0: per_unit [k], then scale as kInt8Sums
 
   kCharacter = 20,  // CharacterRecord x 1
   kJoints = 21,     // JointRecord x joints
@@ -98,8 +103,13 @@ enum class SectionKind : uint32_t {
 enum class ModelKind : uint32_t { kNone = 0, kAltConvLstm = 1 };
 
 // kHalfStates: h, c and P y of the hidden layers are kept as IEEE halves, all arithmetic is float32.
-enum class Precision : uint32_t { kFloat32 = 0, kHalfStates = 1 };
-inline constexpr const char* kPrecisionNames[] = {"fp32", "fp16"};  // as --precision has them
+// kInt8: that, and the hidden layers' products but the first one's x are of bytes, summed in 32-bit integers:
+//   gate = start + scale[gate] sum_k q_k w[k][gate],  q_k = round(per_unit[k] v_k) within +-127
+// where v is what the layer hears, one after the other, each padded to whole 16: P x and x (not in the first
+// layer, x only with W_s), P h, P y, and start is the bias, in the first layer and what x gives it. Gate o
+// hears P y in a sum of its own. The float tensors are there all the same.
+enum class Precision : uint32_t { kFloat32 = 0, kHalfStates = 1, kInt8 = 2 };
+inline constexpr const char* kPrecisionNames[] = {"fp32", "fp16", "int8"};  // as --precision has them
 
 // Alt-ConvLSTM (arXiv 2006.07818 Eq. 5, 9-11) with additions that training needs; each is off in the paper's
 // wiring.

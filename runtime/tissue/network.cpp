@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/half.hpp"
+#include "pack/int8_layout.hpp"
 #include "simd/kernels.hpp"
 
 namespace sinew::tissue {
@@ -68,6 +69,24 @@ void set_weights(const Network& network, const pack::LayerRecord& layer, simd::L
   job->bias = weights + layer.bias;
 }
 
+void set_int8(const Network& network, uint32_t layer, simd::LayerJob* job) {
+  if (network.record->precision != pack::Precision::kInt8 || layer + 1 == network.layers.size()) return;
+  Int8Weights at = network.int8;
+  for (uint32_t l = 0; l < layer; ++l) {
+    const pack::Int8Extent before = pack::int8_extent(network.layers[l], l == 0);
+    at = {at.weights + before.weights, at.sums + before.sums, at.scales + before.scales};
+  }
+  const pack::Int8Extent extent = pack::int8_extent(network.layers[layer], layer == 0);
+  const size_t p = job->padded;
+  job->int8 = {.w = at.weights,
+               .w_o = at.weights + extent.weights - p * p,
+               .sums = at.sums,
+               .scale = at.scales + extent.depth,
+               .per_unit = at.scales,
+               .depth = extent.depth,
+               .hears_x = layer > 0};
+}
+
 // The last layer accumulates the output; the others only remember.
 void set_accumulation(const Step& step, bool is_last, float* y_next, simd::LayerJob* job) {
   const pack::NetworkRecord& record = *step.network.record;
@@ -85,6 +104,7 @@ simd::LayerJob job_of(const Step& step, uint32_t l) {
   float* y_next = step.scratch + 2 * sizes.gates;
   simd::LayerJob job{.graph = {step.graph.rows, step.graph.columns, step.graph.values}};
   set_weights(step.network, step.network.layers[l], &job);
+  set_int8(step.network, l, &job);
   set_accumulation(step, l + 1 == step.network.layers.size(), y_next, &job);
   job.x = l == 0 ? step.z : planes_of(step.network, nodes, l - 1, step.state).c;
   job.x_is_half = l > 0 && keeps_halves(step.network, l - 1);
