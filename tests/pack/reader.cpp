@@ -110,6 +110,26 @@ TEST_CASE("header_and_table_faults_are_refused_by_name") {
   }
 }
 
+TEST_CASE("int8_faults_are_refused_by_name") {
+  using enum SectionKind;
+  baker::PackWriter writer(FileKind::kModel);
+  const std::vector<float> ones(32, 1.0f);
+  const std::vector<baker::HeardRanges> ranges(1, {ones, ones, ones, ones});
+  baker::add_network(test::small_paper_weights(), writer, Precision::kInt8, ranges);
+  const std::vector<std::byte> model = writer.finish();
+  REQUIRE(PackEditor(model).open().ok());
+  const auto precision = [](Precision value) {
+    return change<NetworkRecord>(kNetwork, 0, [=](NetworkRecord& n) { n.precision = value; });
+  };
+  check_refused(model, {{"precision 3 is not known", precision(Precision{3}), StatusCode::kUnsupported},
+                        {"the layers make 0, 0 and 0", precision(Precision::kFloat32)},
+                        {"the layers make 0, 0 and 0", precision(Precision::kHalfStates)},
+                        {"int8 weights: a number below -127", set<int8_t>(kInt8Weights, 3, int8_t{-128})},
+                        {"layer 0: int8 sums", set<int32_t>(kInt8Sums, 7, 1)},
+                        {"int8 scales", set<float>(kInt8Scales, 2, -1.0f)},
+                        {"int8 scales", set<float>(kInt8Scales, 2, kNan)}});
+}
+
 TEST_CASE("network_faults_are_refused_by_name") {
   using enum SectionKind;
   const auto network = [](auto apply) { return change<NetworkRecord>(kNetwork, 0, apply); };

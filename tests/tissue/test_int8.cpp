@@ -13,7 +13,7 @@ using namespace sinew;
 namespace {
 
 // A weight is rounded by 1/254 of its column's largest, what is heard by 1/254 of its range; through up to
-// 240 terms, three layers and twelve steps that is 0.03 of a state of 0.5, measured; a wrong term is tenths.
+// 240 terms, three layers and twelve steps that is 0.02 of an output of order one, measured; a wrong term is tenths.
 constexpr double kInt8RollOut = 0.08;
 
 // The wiring that ships: leaks and a clamp, so that the ranges are known: |c| <= 1/2, |P c| <= 1, |P h| <= 1,
