@@ -15,9 +15,13 @@ COLUMNS = ["bench", "runs", "median_us", "min_us", "max_us", "mega_operations", 
 # what, of what, the figure wanted at least and the aim; below 1 is faster for the first half, above for the second
 RATIOS = [
     ("alt_conv_lstm_paper", "onednn_sgemm_paper", "1.25", "1.05"),
+    ("alt_conv_lstm_fp16_paper", "onednn_sgemm_paper", "", ""),
+    ("alt_conv_lstm_int8_paper", "onednn_u8s8s32_paper", "1.6", "1.15"),
+    ("alt_conv_lstm_int8_paper", "alt_conv_lstm_paper", "", ""),
     ("alt_conv_lstm_control_graph", "onednn_sgemm_control_graph", "", ""),
     ("eigen_products_paper", "alt_conv_lstm_paper", "", ""),
     ("pytorch_paper", "alt_conv_lstm_paper", "5", "6"),
+    ("pytorch_paper", "alt_conv_lstm_int8_paper", "14", "20"),
 ]
 
 

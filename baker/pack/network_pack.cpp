@@ -233,6 +233,12 @@ pack::NetworkRecord make_record(const Safetensors& weights, const std::vector<ui
   return record;
 }
 
+void add_int8(const Int8Sections& sections, PackWriter& pack) {
+  pack.section(pack::SectionKind::kInt8Weights, sections.weights);
+  pack.section(pack::SectionKind::kInt8Sums, sections.sums);
+  pack.section(pack::SectionKind::kInt8Scales, sections.scales);
+}
+
 }  // namespace
 
 void check_model(const Safetensors& weights) {
@@ -265,12 +271,14 @@ float metadata_number(const Safetensors& weights, const std::string& key, float 
   return value;
 }
 
-std::vector<pack::LayerRecord> add_network(const Safetensors& weights, PackWriter& pack) {
+std::vector<pack::LayerRecord> add_network(const Safetensors& weights, PackWriter& pack,
+                                           pack::Precision precision, std::span<const HeardRanges> ranges) {
   check_model(weights);
   const std::vector<uint32_t> channels = parse_channels(weights);
   const std::vector<pack::InputRecord> inputs = parse_inputs(weights);
   pack::NetworkRecord record = make_record(weights, channels);
   record.input_width = total_width(inputs);
+  record.precision = precision;
 
   WeightLayout layout(weights);
   std::vector<pack::LayerRecord> layers;
@@ -284,6 +292,7 @@ std::vector<pack::LayerRecord> add_network(const Safetensors& weights, PackWrite
   pack.section(pack::SectionKind::kLayers, layers);
   pack.section(pack::SectionKind::kInputs, inputs);
   pack.section(pack::SectionKind::kWeights, layout.floats());
+  if (precision == pack::Precision::kInt8) add_int8(quantize_network(layers, layout.floats(), ranges), pack);
   return layers;
 }
 

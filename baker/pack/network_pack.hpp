@@ -3,6 +3,7 @@
 #include <string>
 
 #include "baker/common/safetensors.hpp"
+#include "baker/pack/int8_pack.hpp"
 #include "baker/pack/pack_writer.hpp"
 
 namespace sinew::baker {
@@ -17,9 +18,12 @@ namespace sinew::baker {
 //   output_scale output_leak hidden_leak state_clamp
 //   length_unit    of the output; in a character a share of each region's radius
 // Tensors: layers.{l}.W_x (F_in,4F) W_h (F,4F) W_y (F,3F) b (4F), and optionally W_s (F_in,4F).
-// Returns the layers as packed. Throws BadInput naming file, tensor or key: missing, misshaped, NaN, unknown
-// model or version, unknown input.
-std::vector<pack::LayerRecord> add_network(const Safetensors& weights, PackWriter& pack);
+// precision: what the network runs in; ranges: of each hidden layer, for int8. Returns the layers as packed.
+// Throws BadInput naming file, tensor or key: missing, misshaped, NaN, unknown model or version, unknown
+// input.
+std::vector<pack::LayerRecord> add_network(const Safetensors& weights, PackWriter& pack,
+                                           pack::Precision precision = pack::Precision::kFloat32,
+                                           std::span<const HeardRanges> ranges = {});
 
 // Throws BadInput where the file is not of trained weights, or of another version's.
 void check_model(const Safetensors& weights);

@@ -3,7 +3,6 @@
 
 #include "baker/common/bad_input.hpp"
 #include "baker/common/write_file.hpp"
-#include "baker/pack/network_pack.hpp"
 #include "baker/programs/commands.hpp"
 #include "baker/programs/loaded_pack.hpp"
 
@@ -11,30 +10,39 @@ namespace sinew::baker {
 namespace {
 
 struct ModelOptions {
-  std::string weights, output, precision = "fp32";
+  std::string weights, output, calibration, precision = "fp32";
 };
 
 void run_model(const ModelOptions& options) {
-  check_precision(options.precision);
-  PackWriter writer(pack::FileKind::kModel);
-  add_network(read_safetensors(options.weights), writer);
-  const std::vector<std::byte> bytes = writer.finish();
-  LoadedPack::from_bytes(bytes, options.weights);  // what the runtime would refuse is not written
-  write_file(options.output, bytes);
+  const pack::Precision precision = parse_precision(options.precision);
+  if (!options.calibration.empty() && precision != pack::Precision::kInt8)
+    throw BadInput("--calibrate: only --precision int8 takes its scales from vectors; leave it out");
+  const LoadedPack packed = LoadedPack::from_weights(options.weights, precision, options.calibration);
+  write_file(options.output, packed.bytes());
 }
 
 }  // namespace
 
-void check_precision(const std::string& precision) {
-  if (precision != "fp32")
-    throw BadInput("--precision " + precision + ": not built in this version; use fp32");
+pack::Precision parse_precision(const std::string& name) {
+  std::string known;
+  for (uint32_t k = 0; k < std::size(pack::kPrecisionNames); ++k) {
+    if (name == pack::kPrecisionNames[k]) return static_cast<pack::Precision>(k);
+    known += std::string(k == 0 ? "" : ", ") + pack::kPrecisionNames[k];
+  }
+  throw BadInput("--precision " + name + ": not built in this version; use one of " + known);
 }
 
 void add_model_command(CLI::App& app, int*) {
   auto options = std::make_shared<ModelOptions>();
   CLI::App* command = app.add_subcommand("model", "Packs trained weights");
   command->add_option("weights", options->weights, "safetensors")->required();
-  command->add_option("--precision", options->precision, "fp32");
+  command->add_option(
+      "--precision", options->precision,
+      "fp32; fp16: states of hidden layers kept as halves; int8: and their products of bytes");
+  command->add_option(
+      "--calibrate", options->calibration,
+      "reference vectors that int8 takes its scales from; by default those beside the weights, "
+      "else a made-up motion");
   command->add_option("-o,--output", options->output, "M.sinew")->required();
   command->callback([options] { run_model(*options); });
 }

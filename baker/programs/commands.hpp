@@ -4,6 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "pack/format.hpp"
+
 namespace sinew::baker {
 
 void add_creature_command(CLI::App& app, int* exit_code);
@@ -14,6 +16,6 @@ void add_info_command(CLI::App& app, int* exit_code);
 void add_truth_command(CLI::App& app, int* exit_code);
 
 // Throws BadInput for a --precision that this version cannot bake or run.
-void check_precision(const std::string& precision);
+pack::Precision parse_precision(const std::string& name);
 
 }  // namespace sinew::baker

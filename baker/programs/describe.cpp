@@ -26,6 +26,7 @@ Json describe_network(const pack::PackView& view) {
     inputs.push_back(
         {{"name", input_name(input.kind)}, {"scale", input.scale}, {"envelope", input.envelope}});
   return {{"model", "alt_conv_lstm"},
+          {"precision", pack::kPrecisionNames[static_cast<uint32_t>(record.precision)]},
           {"rate_hz", record.rate_hz},
           {"input_width", record.input_width},
           {"channels", channels},
@@ -99,7 +100,7 @@ Json describe_pack(const LoadedPack& pack) {
   const pack::PackView& view = pack.view();
   const bool is_character = view.kind == pack::FileKind::kCharacter;
   Json description = {
-      {"kind", is_character ? "character" : "model"}, {"version", pack::kVersion}, {"bytes", pack.bytes()}};
+      {"kind", is_character ? "character" : "model"}, {"version", pack::kVersion}, {"bytes", pack.bytes().size()}};
   if (is_character) description["character"] = describe_character(view);
   description["network"] = describe_network(view);
   if (is_character) {

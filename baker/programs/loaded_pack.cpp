@@ -6,8 +6,24 @@
 
 #include "baker/common/bad_input.hpp"
 #include "baker/pack/network_pack.hpp"
+#include "baker/programs/calibrate.hpp"
 
 namespace sinew::baker {
+
+namespace {
+
+LoadedPack pack_network(const Safetensors& weights, pack::Precision precision,
+                        std::span<const HeardRanges> ranges) {
+  PackWriter writer(pack::FileKind::kModel);
+  add_network(weights, writer, precision, ranges);
+  return LoadedPack::from_bytes(writer.finish(), weights.path);
+}
+
+std::vector<HeardRanges> ranges_of(const tissue::Network& network, const std::string& vectors) {
+  return heard_ranges(network, vectors.empty() ? made_up_vectors(network) : read_safetensors(vectors));
+}
+
+}  // namespace
 
 LoadedPack LoadedPack::from_file(const std::string& path) {
   LoadedPack loaded;
@@ -26,21 +42,29 @@ LoadedPack LoadedPack::from_bytes(std::span<const std::byte> bytes, const std::s
   return loaded;
 }
 
-LoadedPack LoadedPack::from_pack_or_weights(const std::string& path) {
-  if (looks_like_pack(path)) return from_file(path);
-  PackWriter writer(pack::FileKind::kModel);
-  add_network(read_safetensors(path), writer);
-  return from_bytes(writer.finish(), path);
+LoadedPack LoadedPack::from_weights(const std::string& path, pack::Precision precision,
+                                    const std::string& calibration) {
+  const Safetensors weights = read_safetensors(path);
+  std::vector<HeardRanges> ranges;
+  if (precision == pack::Precision::kInt8) {
+    const LoadedPack floats = pack_network(weights, pack::Precision::kFloat32, {});
+    ranges = ranges_of(floats.network(), calibration.empty() ? vectors_beside(path) : calibration);
+  }
+  return pack_network(weights, precision, ranges);
 }
 
 void LoadedPack::open(std::span<const std::byte> bytes, const std::string& path) {
   const Status status = pack::open_pack(bytes, &view_);
   if (!status.ok()) throw BadInput(path + ": " + status.message);
-  bytes_ = bytes.size();
+  bytes_ = bytes;
 }
 
 tissue::Network LoadedPack::network() const {
-  return {view_.network, view_.layers, view_.inputs, view_.weights.data()};
+  return {view_.network,
+          view_.layers,
+          view_.inputs,
+          view_.weights.data(),
+          {view_.int8_weights.data(), view_.int8_sums.data(), view_.int8_scales.data()}};
 }
 
 bool looks_like_pack(const std::string& path) {

@@ -16,11 +16,13 @@ class LoadedPack {
   // Throws BadInput with the reader's reason, opening with `path`.
   static LoadedPack from_file(const std::string& path);
   static LoadedPack from_bytes(std::span<const std::byte> bytes, const std::string& path);
-  // A baked file as it is, or trained weights packed on the fly: what is checked is what would be baked.
-  static LoadedPack from_pack_or_weights(const std::string& path);
+  // Trained weights packed as they would be baked in this precision. calibration: a file of reference vectors
+  // that int8 takes its scales from; empty: those beside the weights, else a made-up motion.
+  static LoadedPack from_weights(const std::string& path, pack::Precision precision,
+                                 const std::string& calibration);
 
   const pack::PackView& view() const { return view_; }
-  size_t bytes() const { return bytes_; }
+  std::span<const std::byte> bytes() const { return bytes_; }
   tissue::Network network() const;
 
  private:
@@ -29,7 +31,7 @@ class LoadedPack {
   pack::MappedFile file_;
   core::AlignedBlock copy_;
   pack::PackView view_;
-  size_t bytes_ = 0;
+  std::span<const std::byte> bytes_;
 };
 
 // By the first bytes, or by its name where they are missing or damaged.

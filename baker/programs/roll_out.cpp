@@ -11,6 +11,7 @@
 #include "baker/pack/graph.hpp"
 #include "baker/pack/network_pack.hpp"
 #include "core/aligned_block.hpp"
+#include "core/half.hpp"
 #include "tissue/inputs.hpp"
 
 namespace sinew::baker {
@@ -70,8 +71,9 @@ std::vector<std::pair<int, int>> read_edges(const Safetensors& vectors) {
 // What is needed to take steps, whatever feeds them.
 class Stepper {
  public:
-  Stepper(const tissue::Network& network, const Safetensors& vectors)
+  Stepper(const tissue::Network& network, const Safetensors& vectors, const AfterStep& after_step)
       : network_(network),
+        after_step_(after_step),
         vectors_(vectors),
         nodes_(vectors.need("y0", {-1, 3}).shape[0]),
         steps_(vectors.need("y", {-1, static_cast<long>(nodes_), 3}).shape[0]),
@@ -99,6 +101,7 @@ class Stepper {
   const std::vector<float>& step(size_t index, const float* carry) {
     const tissue::Graph graph{count(), rows_.rows.data(), rows_.columns.data(), rows_.values.data()};
     tissue::network_step(network_, graph, z_.data(), carry, state_.data(), scratch_.data());
+    if (after_step_) after_step_(rows_, state_.data());
     output_.resize(nodes_ * kAxes);
     for (size_t k = 0; k < output_.size(); ++k) {
       output_[k] = output_state()[k / kAxes * last_padded() + k % kAxes];
@@ -109,11 +112,10 @@ class Stepper {
 
   RollOutError finish() {
     for (uint32_t l = 0; l < network_.layers.size(); ++l) {
-      const tissue::LayerState state = tissue::layer_state(network_, count(), l, state_.data());
-      const std::string prefix = "final." + std::to_string(l) + ".";
-      compare_state(prefix + "h", state.h, network_.layers[l]);
-      compare_state(prefix + "c", state.c, network_.layers[l]);
-      compare_state(prefix + "y", state.y, network_.layers[l]);
+      if (!tissue::keeps_halves(network_, l))
+        compare_planes(l, tissue::layer_state(network_, count(), l, state_.data()));
+      else
+        compare_planes(l, tissue::half_layer_state(network_, count(), l, state_.data()));
     }
     return error_.result(steps_);
   }
@@ -138,17 +140,30 @@ class Stepper {
     return {sum.begin(), sum.end()};
   }
 
-  void compare_state(const std::string& name, const float* values, const pack::LayerRecord& layer) {
+  static float value_of(float value) { return value; }
+  static float value_of(uint16_t half) { return core::half_to_float(half); }
+
+  template <class Planes>
+  void compare_planes(uint32_t l, const Planes& state) {
+    const std::string prefix = "final." + std::to_string(l) + ".";
+    compare_state(prefix + "h", state.h, network_.layers[l]);
+    compare_state(prefix + "c", state.c, network_.layers[l]);
+    compare_state(prefix + "y", state.y, network_.layers[l]);
+  }
+
+  template <class T>
+  void compare_state(const std::string& name, const T* values, const pack::LayerRecord& layer) {
     if (!vectors_.tensors.contains(name)) return;
     std::vector<float> expected =
         vectors_.need(name, {static_cast<long>(nodes_), static_cast<long>(layer.channels)}).as_f32();
     const bool is_hidden_y = name.back() == 'y' && &layer != &network_.layers.back();
     if (is_hidden_y) expected = aggregated(expected, layer.channels);  // the runtime keeps P y
     for (size_t k = 0; k < expected.size(); ++k)
-      error_.add(values[k / layer.channels * layer.padded + k % layer.channels], expected[k]);
+      error_.add(value_of(values[k / layer.channels * layer.padded + k % layer.channels]), expected[k]);
   }
 
   const tissue::Network& network_;
+  const AfterStep& after_step_;
   const Safetensors& vectors_;
   size_t nodes_, steps_;
   GraphRows rows_;
@@ -159,8 +174,9 @@ class Stepper {
 };
 
 // Input: X_t, X_t - X_{t-1}, Y_0 - X_0; the last layer carries X_t - X_{t-1} (arXiv 2006.07818 Eq. 9-11).
-RollOutError roll_out_paper(const tissue::Network& network, const Safetensors& vectors) {
-  Stepper stepper(network, vectors);
+RollOutError roll_out_paper(const tissue::Network& network, const Safetensors& vectors,
+                            const AfterStep& after_step) {
+  Stepper stepper(network, vectors, after_step);
   const size_t floats = stepper.nodes() * kAxes;
   const std::vector<float> x =
       vectors.need("x", {static_cast<long>(stepper.steps() + 1), static_cast<long>(stepper.nodes()), 3})
@@ -201,8 +217,9 @@ void feed_back(const FeedBack& to, size_t k, float value, Stepper* stepper) {
   stepper->input(k / kAxes)[to.column + k % kAxes] = scaled;
 }
 
-RollOutError roll_out_inputs(const tissue::Network& network, const Safetensors& vectors) {
-  Stepper stepper(network, vectors);
+RollOutError roll_out_inputs(const tissue::Network& network, const Safetensors& vectors,
+                             const AfterStep& after_step) {
+  Stepper stepper(network, vectors, after_step);
   const size_t width = network.record->input_width, nodes = stepper.nodes();
   const std::vector<float> z =
       vectors
@@ -230,14 +247,15 @@ RollOutError roll_out_inputs(const tissue::Network& network, const Safetensors& 
 
 }  // namespace
 
-RollOutError roll_out(const tissue::Network& network, const Safetensors& vectors) {
+RollOutError roll_out(const tissue::Network& network, const Safetensors& vectors,
+                      const AfterStep& after_step) {
   check_kind(vectors);
   const bool paper = network.inputs.empty();
   if (paper != vectors.tensors.contains("x"))
     throw BadInput(vectors.path + ": these vectors are of " +
                    (paper ? "stated inputs (z)" : "the paper's wiring (x)") +
                    ", the network is of the other; check it with vectors that were written with it");
-  return paper ? roll_out_paper(network, vectors) : roll_out_inputs(network, vectors);
+  return paper ? roll_out_paper(network, vectors, after_step) : roll_out_inputs(network, vectors, after_step);
 }
 
 }  // namespace sinew::baker

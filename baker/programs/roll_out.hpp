@@ -1,8 +1,10 @@
 // roll_out.hpp  A network run over reference vectors, its own output fed back, and how far it is from them.
 #pragma once
 #include <cstddef>
+#include <functional>
 
 #include "baker/common/safetensors.hpp"
+#include "baker/pack/graph.hpp"
 #include "tissue/network.hpp"
 
 namespace sinew::baker {
@@ -17,6 +19,9 @@ struct RollOutError {  // over every output and, where the vectors have them, fi
 // zero, y0 (n,3), y (T,n,3) in length units, and of a network closed on the modal base carry (T,n,3), what
 // the base adds to y. Displacement of step t is y_{t-1}, velocity y_{t-1} - y_{t-2}, y_{-1} = y_0. A result
 // that is not finite is an infinite error. Throws BadInput: vectors of another model, wiring or shape.
-RollOutError roll_out(const tissue::Network& network, const Safetensors& vectors);
+// after_step, where given, sees the graph's rows and the state behind each step.
+using AfterStep = std::function<void(const GraphRows& graph, float* state)>;
+RollOutError roll_out(const tissue::Network& network, const Safetensors& vectors,
+                      const AfterStep& after_step = {});
 
 }  // namespace sinew::baker

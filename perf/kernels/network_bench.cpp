@@ -4,8 +4,11 @@
 namespace sinew::perf {
 namespace {
 
-void run_network(benchmark::State& state, const NetworkShape& shape) {
+void run_network(benchmark::State& state, const NetworkShape& shape,
+                 pack::Precision precision = pack::Precision::kFloat32) {
   RandomNetwork network(shape);
+  network.record.precision = precision;
+  if (precision == pack::Precision::kInt8) network.make_int8();
   const TorusGraph graph(shape.nodes_u, shape.nodes_v);
   Floats memory(tissue::state_floats(network.view(), graph.nodes()));
   Floats scratch(tissue::scratch_floats(network.view(), graph.nodes()));
@@ -17,10 +20,18 @@ void run_network(benchmark::State& state, const NetworkShape& shape) {
     benchmark::ClobberMemory();
   }
   report(state, product_mflop(shape), simd::active_isa());
+  state.counters["state_megabytes"] =
+      4e-6 * static_cast<double>(tissue::state_floats(network.view(), graph.nodes()));
 }
 
 BENCHMARK_CAPTURE(run_network, paper, paper_shape())
     ->Name("alt_conv_lstm_paper")
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(run_network, paper_fp16, paper_shape(), pack::Precision::kHalfStates)
+    ->Name("alt_conv_lstm_fp16_paper")
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(run_network, paper_int8, paper_shape(), pack::Precision::kInt8)
+    ->Name("alt_conv_lstm_int8_paper")
     ->Unit(benchmark::kMicrosecond);
 // Few enough vertices that their states stay in L2.
 BENCHMARK_CAPTURE(run_network, paper_in_cache, NetworkShape{9, {32, 64, 128, 64, 32, 3}, false, 15, 10})

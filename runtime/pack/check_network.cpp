@@ -28,12 +28,29 @@ Status check_nothing(const PackView& pack) noexcept {
   if (pack.kind == FileKind::kModel) return corrupt("a model without a network");
   const bool empty = record.layer_count == 0 && record.input_width == 0 && record.max_channels == 0 &&
                      record.output_scale == 0 && record.output_leak == 0 && record.hidden_leak == 0 &&
-                     record.state_clamp == 0 && record.length_unit == 0;
+                     record.state_clamp == 0 && record.length_unit == 0 &&
+                     record.precision == Precision::kFloat32;
   if (!empty) return corrupt("network: fields of a network that is not there");
-  if (!pack.layers.empty() || !pack.inputs.empty() || !pack.weights.empty())
+  const bool has_int8 = !pack.int8_weights.empty() || !pack.int8_sums.empty() || !pack.int8_scales.empty();
+  if (!pack.layers.empty() || !pack.inputs.empty() || !pack.weights.empty() || has_int8)
     return corrupt("network: layers, inputs or weights of a network that is not there");
   if (!is_positive(record.rate_hz)) return corrupt("network: rate %g Hz", double{record.rate_hz});
   return check_zero(record.reserved, "network", 0);
+}
+
+Status check_precision(const PackView& pack) noexcept {
+  const auto precision = static_cast<uint32_t>(pack.network->precision);
+  if (precision >= std::size(kPrecisionNames))
+    return core::make_status(StatusCode::kUnsupported,
+                             "pack: network precision %u is not known to this build; update sinew or bake it "
+                             "with --precision fp32",
+                             precision);
+  if (precision != 0 && pack.kind == FileKind::kCharacter)
+    return core::make_status(StatusCode::kUnsupported,
+                             "pack: a character's network of precision %s, which this build runs in models "
+                             "only; bake it with fp32",
+                             kPrecisionNames[precision]);
+  return {};
 }
 
 Status check_record(const PackView& pack) noexcept {
@@ -54,6 +71,7 @@ Status check_record(const PackView& pack) noexcept {
     return corrupt("network: a leak is outside 0..1");
   if (!(record.state_clamp > 0)) return corrupt("network: state clamp %g", double{record.state_clamp});
   if (!is_positive(record.length_unit)) return corrupt("network: length unit %g", double{record.length_unit});
+  if (Status status = check_precision(pack); !status.ok()) return status;
   return check_zero(record.reserved, "network", 0);
 }
 
@@ -149,7 +167,7 @@ Status check_weights(const PackView& pack) noexcept { return check_finite(pack.w
 Status check_network(const PackView& pack) noexcept {
   if (pack.network == nullptr) return corrupt("it has no network record, or more than one");
   if (!has_network(pack)) return check_nothing(pack);
-  constexpr Check kChecks[] = {check_record, check_inputs, check_layers, check_weights};
+  constexpr Check kChecks[] = {check_record, check_inputs, check_layers, check_weights, check_int8};
   return run_checks(kChecks, pack);
 }
 

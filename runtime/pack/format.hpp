@@ -19,6 +19,7 @@
 //   2  tissue lives in node frames on a modal base; tiers modal and spring; a character may have no network
 //   3  node frames follow a share of their region's bend (RegionRecord::anchor_node); inputs that tell the
 //   bend
+//      since then, without a new version, for a reader that does not know it refuses the field: precision
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -62,6 +63,11 @@ enum class SectionKind : uint32_t {
   kLayers = 11,   // LayerRecord x layers
   kInputs = 12,   // InputRecord x inputs; a model without: the paper's wiring
   kWeights = 13,  // float; the layers' tensors, laid out as LayerRecord says
+  // Of an int8 network, hidden layer after hidden layer without gaps (pack/int8_layout.hpp); k in fours:
+  kInt8Weights = 14,  // int8, +-127: for each 16 channels [k of x, h / 4][i f c o][16][4], then
+                      // [k of P y / 4][i f][16][4]; behind all channels gate o's [k of P y / 4][padded][4]
+  kInt8Sums = 15,     // int32: 128 sum_k w, [padded / 16][i f c o][16], then [padded] of gate o's P y
+  kInt8Scales = 16,   // float, >= 0: per_unit [k], then scale as kInt8Sums
 
   kCharacter = 20,  // CharacterRecord x 1
   kJoints = 21,     // JointRecord x joints
@@ -96,6 +102,15 @@ enum class SectionKind : uint32_t {
 // counts, all else is zero.
 enum class ModelKind : uint32_t { kNone = 0, kAltConvLstm = 1 };
 
+// kHalfStates: h, c and P y of the hidden layers are kept as IEEE halves, all arithmetic is float32.
+// kInt8: that, and the hidden layers' products but the first one's x are of bytes, summed in 32-bit integers:
+//   gate = start + scale[gate] sum_k q_k w[k][gate],  q_k = round(per_unit[k] v_k) within +-127
+// where v is what the layer hears, one after the other, each padded to whole 16: P x and x (not in the first
+// layer, x only with W_s), P h, P y, and start is the bias, in the first layer and what x gives it. Gate o
+// hears P y in a sum of its own. The float tensors are there all the same.
+enum class Precision : uint32_t { kFloat32 = 0, kHalfStates = 1, kInt8 = 2 };
+inline constexpr const char* kPrecisionNames[] = {"fp32", "fp16", "int8"};  // as --precision has them
+
 // Alt-ConvLSTM (arXiv 2006.07818 Eq. 5, 9-11) with additions that training needs; each is off in the paper's
 // wiring.
 //   a   = (P x) W_x + x W_s + (P h) W_h + b       gates i f c o; W_s only where the layer has it
@@ -105,6 +120,7 @@ enum class ModelKind : uint32_t { kNone = 0, kAltConvLstm = 1 };
 //   y   = (1 - output_leak) y + output_scale c + carry      last layer
 //   o   = sigmoid(a_o + (P y) W_y_o)
 //   h   = o tanh(c)                               the next layer's x is c
+// All but the last layer work in the stated precision; the last is float32.
 // carry = X_t - X_{t-1} in the paper's wiring. In a character the network is closed on the modal base:
 // y = l, carry = l^ - l_{t-1}, both in length units (tissue/modal_base.hpp).
 struct NetworkRecord {
@@ -119,7 +135,8 @@ struct NetworkRecord {
   float state_clamp;      // bound on |c|; infinity: none
   float length_unit;      // of y: in a character a share of each region's radius, else metres; 1 in the
                           // paper's wiring
-  uint32_t reserved[6];
+  Precision precision;    // of a character's network: float32
+  uint32_t reserved[5];
 };
 static_assert(sizeof(NetworkRecord) == 64);
 

@@ -15,6 +15,9 @@ struct PackView {
   std::span<const LayerRecord> layers;
   std::span<const InputRecord> inputs;
   std::span<const float> weights;
+  std::span<const int8_t> int8_weights;  // empty but in an int8 network, as the next two
+  std::span<const int32_t> int8_sums;
+  std::span<const float> int8_scales;
   // Character packs only; empty in a model.
   const CharacterRecord* character = nullptr;
   std::span<const JointRecord> joints;

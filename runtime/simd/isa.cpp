@@ -14,7 +14,7 @@
 namespace sinew::simd {
 namespace {
 
-constexpr size_t kMaxTables = 18;  // Highway's dynamic targets and the fallback
+constexpr size_t kMaxTables = 19;  // Highway's dynamic targets, the fallback, and one with dot products
 
 struct Available {
   std::array<const Kernels*, kMaxTables> tables{};
@@ -26,7 +26,7 @@ struct Available {
 void add_table(const Kernels* table, Available* list) {
   const auto end = list->tables.begin() + static_cast<std::ptrdiff_t>(list->count);
   if (list->count == kMaxTables || std::find(list->tables.begin(), end, table) != end) return;
-  const char* name = hwy::TargetName(table->target);
+  const char* name = table->name ? table->name : hwy::TargetName(table->target);
   auto& text = list->text[list->count];
   for (size_t i = 0; name[i] && i + 1 < text.size(); ++i) {
     text[i] = name[i] >= 'A' && name[i] <= 'Z' ? static_cast<char>(name[i] - 'A' + 'a') : name[i];
@@ -35,11 +35,15 @@ void add_table(const Kernels* table, Available* list) {
   list->names[list->count++] = text.data();
 }
 
+bool runs_here(const Kernels& table) {
+  return (hwy::SupportedTargets() & table.target) != 0 && (!table.runs || table.runs());
+}
+
 // The fallback runs everywhere, whatever the processor says of itself.
 void find_available(Available* list) {
   const auto compiled = compiled_kernels();
   for (const Kernels* table : compiled) {
-    if (table && (hwy::SupportedTargets() & table->target) != 0) add_table(table, list);
+    if (table && runs_here(*table)) add_table(table, list);
   }
   if (list->count == 0) add_table(compiled.back(), list);
 }

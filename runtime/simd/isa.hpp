@@ -10,8 +10,8 @@
 
 namespace sinew::simd {
 
-// Names of the targets this build has and this processor runs, best first ("avx3", "avx2", "sse4", "ssse3",
-// "neon", "emu128", "scalar").
+// Names of the targets this build has and this processor runs, best first ("avx3_vnni", "avx3", "avx2",
+// "sse4", "ssse3", "neon", "emu128", "scalar").
 std::span<const char* const> available_isas() noexcept;
 const char* active_isa() noexcept;
 // SINEW_ISA names an unknown or missing one: kUnsupported, listing the available.

@@ -1,6 +1,8 @@
 // kernels.cpp  Compiles the kernels once an instruction set, and lists their tables, best first.
 #include "simd/kernels.hpp"
 
+#include <limits>
+
 // Sums are arrays of vectors, which scalable vectors cannot be: 64-bit Arm runs NEON.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #define HWY_TARGET_INCLUDE "simd/kernels.cpp"
@@ -8,6 +10,10 @@
 #include "hwy/highway.h"
 
 #include "simd/kernel_tables.hpp"
+
+#if HWY_ARCH_ARM_A64 && defined(__linux__)
+#include <sys/auxv.h>
+#endif
 
 // Sums stay in registers only when the loops over them are gone.
 #ifndef SINEW_UNROLL
@@ -21,10 +27,13 @@
 // In this order: each needs the ones before it.
 // clang-format off
 #include "simd/vectors-inl.hpp"
+#include "simd/state-inl.hpp"
 #include "simd/activation-inl.hpp"
 #include "simd/aggregate-inl.hpp"
 #include "simd/product-inl.hpp"
 #include "simd/layer-inl.hpp"
+#include "simd/dot-inl.hpp"
+#include "simd/int8_layer-inl.hpp"
 #include "simd/carry-inl.hpp"
 #include "simd/rows-inl.hpp"
 #include "simd/skin-inl.hpp"
@@ -32,19 +41,30 @@
 
 namespace sinew::simd::HWY_NAMESPACE {
 
-constexpr Kernels kKernels = {
-    .target = HWY_TARGET,
-    .fused = HWY_NATIVE_FMA != 0,
-    .aggregate = aggregate,
-    .layer_cells = layer_cells,
-    .layer_output = layer_output,
-    .carry = carry,
-    .dot_rows = dot_rows,
-    .add_rows = add_rows,
-    .skin = skin,
-    .sigmoid = sigmoid,
-    .tanh = tanh,
-};
+template <class Dot>
+constexpr Kernels kernels_with(const char* name, bool (*runs)()) {
+  return {
+      .target = HWY_TARGET,
+      .name = name,
+      .runs = runs,
+      .fused = HWY_NATIVE_FMA != 0,
+      .aggregate = aggregate,
+      .layer_cells = any_layer_cells<Dot>,
+      .layer_output = any_layer_output<Dot>,
+      .carry = carry,
+      .dot_rows = dot_rows,
+      .add_rows = add_rows,
+      .skin = skin,
+      .sigmoid = sigmoid,
+      .tanh = tanh,
+  };
+}
+
+constexpr Kernels kKernels = kernels_with<BasicDot>(nullptr, nullptr);
+#ifdef SINEW_FAST_DOT
+#undef SINEW_FAST_DOT
+constexpr Kernels kFastDotKernels = kernels_with<FastDot>(kFastDotName, has_fast_dot);
+#endif
 
 }  // namespace sinew::simd::HWY_NAMESPACE
 
@@ -52,12 +72,20 @@ constexpr Kernels kKernels = {
 namespace sinew::simd {
 
 std::span<const Kernels* const> compiled_kernels() noexcept {
-  static const Kernels* const tables[] = {HWY_CHOOSE_TARGET_LIST(kKernels), HWY_CHOOSE_FALLBACK(kKernels)};
+  static const Kernels* const tables[] = {
+#if HWY_TARGETS & HWY_AVX3
+    &N_AVX3::kFastDotKernels,
+#elif (HWY_TARGETS & HWY_NEON) && defined(__linux__)
+    &N_NEON::kFastDotKernels,
+#endif
+    HWY_CHOOSE_TARGET_LIST(kKernels),
+    HWY_CHOOSE_FALLBACK(kKernels)
+  };
   return tables;
 }
 
 size_t tile_floats(uint32_t padded) noexcept {
-  return kTileRows * 4 * kBlock + 2 * kRangeNodes * static_cast<size_t>(padded);
+  return kTileRows * 4 * kBlock + 3 * kRangeNodes * static_cast<size_t>(padded);
 }
 
 }  // namespace sinew::simd

@@ -10,9 +10,10 @@
 // y of a hidden layer is heard only through P, and P c is what the next layer's x becomes: so P y is kept
 // instead of y, and its aggregation costs nothing.
 //
-// Shapes: kernels.hpp, LayerJob. Nodes go by kRangeNodes. For each block of channels the weights of its gates
-// (at most 100 KB in the paper's network) are read from L2 by one tile of kTileRows nodes after the other,
-// and a tile's gates become cells while they are in L1. Between the passes a_o waits in output_gate.
+// T is what h, c and y are kept as, float or Half; what is read from them is summed, multiplied and added as
+// floats. Shapes: kernels.hpp, LayerJob. Nodes go by kRangeNodes. For each block of channels the weights of
+// its gates (at most 100 KB in the paper's network) are read from L2 by one tile of kTileRows nodes after the
+// other, and a tile's gates become cells while they are in L1. Between the passes a_o waits in output_gate.
 HWY_BEFORE_NAMESPACE();
 namespace sinew::simd::HWY_NAMESPACE {
 
@@ -38,9 +39,22 @@ HWY_INLINE void copy_floats(const float* from, size_t count, float* out) {
 }
 
 // P x of the range's nodes, in `out`.
-HWY_INLINE Plane aggregated(const LayerJob& job, Range range, const float* x, float* out) {
-  aggregate(job.graph, x, job.padded, range.first, range.first + range.count, out);
+template <class T>
+HWY_INLINE Plane aggregated(const LayerJob& job, Range range, const T* x, float* out) {
+  aggregate_rows(job.graph, x, job.padded, range.first, range.first + range.count, out);
   return {out, job.padded};
+}
+
+// The range's own rows as floats: where they lie, or in `out`.
+template <class T>
+HWY_INLINE Plane own_rows(Range range, const T* x, size_t stride, float* out) {
+  return {floats_of(x + range.first * stride, range.count * stride, out), stride};
+}
+
+HWY_INLINE Plane own_x(const LayerJob& job, Range range, float* out) {
+  if (!job.w_s) return {};
+  return job.x_is_half ? own_rows(range, static_cast<const Half*>(job.x), job.x_stride, out)
+                       : own_rows(range, static_cast<const float*>(job.x), job.x_stride, out);
 }
 
 // What the nodes of a range hear, row 0 the first node's.
@@ -75,15 +89,16 @@ HWY_INLINE void sum_gates(const LayerJob& job, const Heard& heard, uint32_t tile
 
 // c = clamp(f c + i tanh(a_c)) with one division. gates [4][kBlock]; c and output_gate: a block of the
 // node's.
-HWY_INLINE void update_cells(const float* gates, float bound, float* c, float* output_gate) {
+template <class T>
+HWY_INLINE void update_cells(const float* gates, float bound, T* c, float* output_gate) {
   const Floats d;
   for (size_t j = 0; j < kBlock; j += kLanes) {
     const Quotient i = sigmoid_of(hn::Load(d, gates + j)), f = sigmoid_of(hn::Load(d, gates + kBlock + j));
     const Quotient added = product_of(i, tanh_of(hn::Load(d, gates + 2 * kBlock + j)));
-    const Vector kept = hn::Mul(f.over, hn::Load(d, c + j));
+    const Vector kept = hn::Mul(f.over, load_state(c + j));
     const Vector sum = hn::MulAdd(kept, added.under, hn::Mul(added.over, f.under));
     const Vector next = hn::Div(sum, hn::Mul(f.under, added.under));
-    hn::Store(bounded(next, hn::Set(d, bound)), d, c + j);
+    store_state(bounded(next, hn::Set(d, bound)), c + j);
     hn::Store(hn::Load(d, gates + 3 * kBlock + j), d, output_gate + j);
   }
 }
@@ -91,30 +106,33 @@ HWY_INLINE void update_cells(const float* gates, float bound, float* c, float* o
 HWY_INLINE void update_output_state(const LayerJob& job, uint32_t node) {
   const Floats d;
   const size_t at = node * size_t{job.padded};
+  const auto *y = static_cast<const float*>(job.y), *c = static_cast<const float*>(job.c);
   const Vector keep = hn::Set(d, job.y_keep), gain = hn::Set(d, job.y_gain);
   for (size_t j = at; j < at + job.padded; j += kLanes) {
-    const Vector kept = hn::Mul(keep, hn::Load(d, job.y + j));
-    hn::Store(hn::MulAdd(gain, hn::Load(d, job.c + j), kept), d, job.y_next + j);
+    const Vector kept = hn::Mul(keep, hn::Load(d, y + j));
+    hn::Store(hn::MulAdd(gain, hn::Load(d, c + j), kept), d, job.y_next + j);
   }
   if (job.carry) {
     for (size_t axis = 0; axis < 3; ++axis) job.y_next[at + axis] += job.carry[node * 3 + axis];
   }
 }
 
+template <class T>
 HWY_INLINE void range_cells(const LayerJob& job, Range range, const float* px) {
   const size_t p = job.padded;
+  T* c = static_cast<T*>(job.c);
+  const auto *h = static_cast<const T*>(job.h), *y = static_cast<const T*>(job.y);
   float* rows = job.tile + kTileRows * 4 * kBlock;
-  const Plane ph = aggregated(job, range, job.h, rows);
-  const Plane py =
-      job.y_next ? aggregated(job, range, job.y, rows + kRangeNodes * p) : Plane{job.y + range.first * p, p};
-  const Plane x = {job.w_s ? job.x + range.first * job.x_stride : nullptr, job.x_stride};
-  const Heard heard = {{px, job.x_stride}, x, ph, py};
+  const Plane ph = aggregated(job, range, h, rows);
+  float* more = rows + kRangeNodes * p;
+  const Plane py = job.y_next ? aggregated(job, range, y, more) : own_rows(range, y, p, more);
+  const Heard heard = {{px, job.x_stride}, own_x(job, range, more + kRangeNodes * p), ph, py};
   for (size_t j = 0; j < p; j += kBlock) {
     for (uint32_t tile = 0; tile < range.count; tile += kTileRows) {
       sum_gates(job, heard, tile, range.count, j, job.tile);
       for (uint32_t i = tile; i < HWY_MIN(tile + kTileRows, range.count); ++i) {
         const size_t at = (range.first + i) * p + j;
-        update_cells(job.tile + (i - tile) * 4 * kBlock, job.clamp, job.c + at, job.output_gate + at);
+        update_cells(job.tile + (i - tile) * 4 * kBlock, job.clamp, c + at, job.output_gate + at);
       }
     }
   }
@@ -122,60 +140,71 @@ HWY_INLINE void range_cells(const LayerJob& job, Range range, const float* px) {
 }
 
 void layer_cells(const LayerJob& job, uint32_t first, uint32_t last) {
-  for (uint32_t node = first; node < last; node += kRangeNodes)
-    range_cells(job, range_at(node, last), job.px + (node - first) * job.x_stride);
-}
-
-// P c of the range's nodes, in pc, and with it P y.
-HWY_INLINE void hear_cells(const LayerJob& job, Range range, float* pc) {
-  const Floats d;
-  float* py = job.y + range.first * size_t{job.padded};
-  const Vector keep = hn::Set(d, job.y_keep);
-  aggregated(job, range, job.c, pc);
-  for (size_t j = 0; j < range.count * size_t{job.padded}; j += kLanes)
-    hn::Store(hn::MulAdd(keep, hn::Load(d, py + j), hn::Load(d, pc + j)), d, py + j);
-}
-
-// h = o tanh(c) of `count` channels.
-HWY_INLINE void update_hidden(const float* gate, const float* c, size_t count, float* h) {
-  const Floats d;
-  for (size_t j = 0; j < count; j += kLanes) {
-    const Quotient o = sigmoid_of(hn::Load(d, gate + j)), t = tanh_of(hn::Load(d, c + j));
-    hn::Store(value_of(product_of(o, t)), d, h + j);
+  for (uint32_t node = first; node < last; node += kRangeNodes) {
+    const float* px = job.px + (node - first) * job.x_stride;
+    if (job.state_is_half) range_cells<Half>(job, range_at(node, last), px);
+    if (!job.state_is_half) range_cells<float>(job, range_at(node, last), px);
   }
 }
 
-template <size_t kVectors>
+// P c of the range's nodes, in pc, and with it P y, which comes back as floats: where it lies, or in `out`.
+template <class T>
+HWY_INLINE Plane hear_cells(const LayerJob& job, Range range, float* pc, float* out) {
+  const Floats d;
+  const size_t p = job.padded, count = range.count * p;
+  T* py = static_cast<T*>(job.y) + range.first * p;
+  const Vector keep = hn::Set(d, job.y_keep);
+  aggregated(job, range, static_cast<const T*>(job.c), pc);
+  for (size_t j = 0; j < count; j += kLanes)
+    store_state(hn::MulAdd(keep, load_state(py + j), hn::Load(d, pc + j)), py + j);
+  return {floats_of(py, count, out), p};
+}
+
+// h = o tanh(c) of `count` channels.
+template <class T>
+HWY_INLINE void update_hidden(const float* gate, const T* c, size_t count, T* h) {
+  const Floats d;
+  for (size_t j = 0; j < count; j += kLanes) {
+    const Quotient o = sigmoid_of(hn::Load(d, gate + j)), t = tanh_of(load_state(c + j));
+    store_state(value_of(product_of(o, t)), h + j);
+  }
+}
+
+template <size_t kVectors, class T>
 HWY_INLINE void output_columns(const LayerJob& job, Range range, const Plane& py, size_t j) {
   constexpr size_t kColumns = kVectors * kLanes;
   const size_t p = job.padded;
   const Plane waiting = {job.output_gate + range.first * p, p};
+  const T* c = static_cast<const T*>(job.c);
+  T* h = static_cast<T*>(job.h);
   for (uint32_t tile = 0; tile < range.count; tile += kTileRows) {
     const Term term = {py.tile(tile, range.count), job.channels, job.w_y + 2 * p, 3 * p};
     multiply<kVectors, 0>({waiting.tile(tile, range.count), &term, 1, kLanes, job.tile, kColumns}, j);
     for (uint32_t i = tile; i < HWY_MIN(tile + kTileRows, range.count); ++i) {
       const size_t at = (range.first + i) * p + j;
-      update_hidden(job.tile + (i - tile) * kColumns, job.c + at, kColumns, job.h + at);
+      update_hidden(job.tile + (i - tile) * kColumns, c + at, kColumns, h + at);
     }
   }
 }
 
+template <class T>
 HWY_INLINE void range_output(const LayerJob& job, Range range, float* pc) {
   const size_t p = job.padded, at = range.first * p;
-  Plane py = {job.y + at, p};
-  if (job.y_next) {
-    py = aggregated(job, range, job.y_next, job.tile + kTileRows * 4 * kBlock);
-  } else {
-    hear_cells(job, range, pc);
-  }
-  const auto body = [&]<size_t kVectors>(size_t j) HWY_ATTR { output_columns<kVectors>(job, range, py, j); };
+  float* rows = job.tile + kTileRows * 4 * kBlock;
+  const Plane py =
+      job.y_next ? aggregated(job, range, job.y_next, rows) : hear_cells<T>(job, range, pc, rows);
+  const auto body = [&]<size_t kVectors>(size_t j)
+                        HWY_ATTR { output_columns<kVectors, T>(job, range, py, j); };
   for_columns(p, body);
-  if (job.y_next) copy_floats(job.y_next + at, range.count * p, job.y + at);
+  if (job.y_next) copy_floats(job.y_next + at, range.count * p, static_cast<float*>(job.y) + at);
 }
 
 void layer_output(const LayerJob& job, uint32_t first, uint32_t last) {
-  for (uint32_t node = first; node < last; node += kRangeNodes)
-    range_output(job, range_at(node, last), job.pc + (node - first) * job.padded);
+  for (uint32_t node = first; node < last; node += kRangeNodes) {
+    float* pc = job.pc + (node - first) * job.padded;
+    if (job.state_is_half) range_output<Half>(job, range_at(node, last), pc);
+    if (!job.state_is_half) range_output<float>(job, range_at(node, last), pc);
+  }
 }
 
 }  // namespace sinew::simd::HWY_NAMESPACE

@@ -110,6 +110,26 @@ TEST_CASE("header_and_table_faults_are_refused_by_name") {
   }
 }
 
+TEST_CASE("int8_faults_are_refused_by_name") {
+  using enum SectionKind;
+  baker::PackWriter writer(FileKind::kModel);
+  const std::vector<float> ones(32, 1.0f);
+  const std::vector<baker::HeardRanges> ranges(1, {ones, ones, ones, ones});
+  baker::add_network(test::small_paper_weights(), writer, Precision::kInt8, ranges);
+  const std::vector<std::byte> model = writer.finish();
+  REQUIRE(PackEditor(model).open().ok());
+  const auto precision = [](Precision value) {
+    return change<NetworkRecord>(kNetwork, 0, [=](NetworkRecord& n) { n.precision = value; });
+  };
+  check_refused(model, {{"precision 3 is not known", precision(Precision{3}), StatusCode::kUnsupported},
+                        {"the layers make 0, 0 and 0", precision(Precision::kFloat32)},
+                        {"the layers make 0, 0 and 0", precision(Precision::kHalfStates)},
+                        {"int8 weights: a number below -127", set<int8_t>(kInt8Weights, 3, int8_t{-128})},
+                        {"layer 0: int8 sums", set<int32_t>(kInt8Sums, 7, 1)},
+                        {"int8 scales", set<float>(kInt8Scales, 2, -1.0f)},
+                        {"int8 scales", set<float>(kInt8Scales, 2, kNan)}});
+}
+
 TEST_CASE("network_faults_are_refused_by_name") {
   using enum SectionKind;
   const auto network = [](auto apply) { return change<NetworkRecord>(kNetwork, 0, apply); };
@@ -121,6 +141,10 @@ TEST_CASE("network_faults_are_refused_by_name") {
   check_refused(
       character_pack(),
       {{"model 9 is not known", network([](auto& n) { n.model = ModelKind{9}; }), StatusCode::kUnsupported},
+       {"precision 9 is not known", network([](auto& n) { n.precision = Precision{9}; }),
+        StatusCode::kUnsupported},
+       {"precision fp16, which this build runs in models only",
+        network([](auto& n) { n.precision = Precision::kHalfStates; }), StatusCode::kUnsupported},
        {"layers stated", network([](auto& n) { n.layer_count = 3; })},
        {"input width", network([](auto& n) { n.input_width = 33; })},
        {"outside 1..1024", network([](auto& n) { n.input_width = 0; })},
@@ -132,7 +156,7 @@ TEST_CASE("network_faults_are_refused_by_name") {
        {"leak", network([](auto& n) { n.hidden_leak = kNan; })},
        {"state clamp", network([](auto& n) { n.state_clamp = 0; })},
        {"length unit", network([](auto& n) { n.length_unit = -1; })},
-       {"reserved", network([](auto& n) { n.reserved[5] = 1; })},
+       {"reserved", network([](auto& n) { n.reserved[4] = 1; })},
        {"input 1: kind 26", input([](auto& i) { i.kind = InputKind{26}; })},
        {"input 1: kind 4", input([](auto& i) { i.kind = InputKind{4}; })},
        {"input 1: its kind appears twice", input([](auto& i) { i.kind = InputKind::kRestPosition; })},

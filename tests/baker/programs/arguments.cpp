@@ -15,7 +15,8 @@ TEST_CASE("commands_and_options_that_do_not_exist_are_refused") {
   check_refused({"check", "m.sinew"}, {"vectors"});
   check_refused({"check", "m", "v", "--tolerance", "small"}, {"--tolerance"});
   check_refused({"check", "m", "v", "--tolerance", "-1"}, {"--tolerance"});
-  check_refused({"check", "m", "v", "--precision", "int8"}, {"--precision int8", "use fp32"});
+  check_refused({"check", "m", "v", "--precision", "fp64"}, {"--precision fp64", "fp32, fp16, int8"});
+  check_refused({"model", "w", "-o", "m", "--calibrate", "v"}, {"--calibrate", "int8"});
   check_refused({"check", "m", "v", "--isa", "abacus"}, {"--isa abacus", "abacus"});
   check_refused({"model", "w", "-o", "m", "--precision", "int4"}, {"--precision int4"});
   check_refused({"creature", "r.json", "-o", "c.glb", "--vertices", "499"},

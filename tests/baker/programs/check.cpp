@@ -128,6 +128,57 @@ TEST_CASE("golden_vectors_are_reproduced_on_every_instruction_set") {
   }
 }
 
+// Errors of states that grow to tens over fifty steps; of order one they are a hundredth of it.
+TEST_CASE("golden_vectors_are_reproduced_within_the_bound_of_each_precision_on_every_instruction_set") {
+  for (const auto& [precision, bound] : {std::pair("fp16", 0.06), std::pair("int8", 0.15)}) {
+    for (const char* name : {"tiny", "small"}) {
+      const std::string stem = std::string("alt_conv_lstm/") + name;
+      const std::string weights = golden(stem + ".weights.safetensors"),
+                        vectors = golden(stem + ".vectors.safetensors");
+      if (weights.empty()) return;
+      for (const char* isa : simd::available_isas()) {
+        const ProgramResult result =
+            bake({"check", weights, vectors, "--isa", isa, "--precision", precision});
+        CHECK(result.exit_code == 0);
+        const nlohmann::json report = report_of(result);
+        INFO(report.dump());
+        CHECK(report["isa"] == isa);
+        CHECK(report["precision"] == precision);
+        CHECK(report["tolerance"] == bound);
+        CHECK(report["max_abs_error"] > 1e-5);
+        CHECK(report["max_abs_error"] < bound);
+      }
+    }
+  }
+}
+
+TEST_CASE("a_pack_is_checked_in_the_precision_it_was_baked_in") {
+  const std::string weights = golden("alt_conv_lstm/small.weights.safetensors");
+  if (weights.empty()) return;
+  const TemporaryFolder folder;
+  const std::string vectors = golden("alt_conv_lstm/small.vectors.safetensors"),
+                    pack = folder.file("m.sinew");
+  REQUIRE(bake({"model", weights, "-o", pack, "--precision", "int8", "--calibrate", vectors}).exit_code == 0);
+  const ProgramResult checked = bake({"check", pack, vectors});
+  CHECK(checked.out == bake({"check", weights, vectors, "--precision", "int8"}).out);
+  CHECK(checked.out == bake({"check", pack, vectors, "--precision", "int8"}).out);
+  check_refused({"check", pack, vectors, "--precision", "fp16"}, {"baked with --precision int8, not fp16"});
+}
+
+// Without vectors, int8 is scaled by a made-up motion: worse, and of use.
+TEST_CASE("int8_is_baked_from_weights_alone") {
+  const Files files;
+  for (const bool paper : {true, false}) {
+    files.write(paper ? small_paper_weights() : small_weights(), zero_vectors(paper));
+    std::filesystem::rename(files.vectors, files.folder.file("elsewhere"));
+    const std::string pack = files.folder.file("m.sinew");
+    REQUIRE(bake({"model", files.weights, "-o", pack, "--precision", "int8"}).exit_code == 0);
+    const std::string report =
+        bake({"check", pack, files.folder.file("elsewhere"), "--tolerance", "1e9"}).out;
+    CHECK(nlohmann::json::parse(report)["precision"] == "int8");
+  }
+}
+
 // The trainer's own roll-out of the weights that are shipped, in double precision.
 TEST_CASE("the_shipped_weights_are_reproduced_on_every_instruction_set") {
   const std::string stem = std::string(SINEW_SOURCE_DIR) + "/assets/weights/creature";
