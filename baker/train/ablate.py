@@ -21,8 +21,10 @@ VARIANTS = {
     "no crossed inputs": ["--without", ",".join(CROSSED)],
     "no leak in hidden layers": ["--hidden-leak", "0"],
     "gradients over 5 ticks": ["--window", "5"],
-    "channels 16, 16, 3": ["--channels", "16,16,3"],
-    "channels 32, 32, 3": ["--channels", "32,32,3"],
+    "channels 3": ["--channels", "3"],
+    "channels 16, 3": ["--channels", "16,3"],
+    "channels 32, 3": ["--channels", "32,3"],
+    "channels 8, 8, 3": ["--channels", "8,8,3"],
 }
 TICKS = (10, 50, 200)
 

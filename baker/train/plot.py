@@ -46,11 +46,12 @@ def colours_of(methods):
 
 
 def roll_outs(metrics, path):
-    """Error against roll-out length, a panel a body."""
+    """Error against roll-out length, a panel a body; the legend in a panel of its own."""
     bodies = list(metrics["bodies"])
-    size = dict(figsize=(4.6 * len(bodies), 4.2), sharey=True, squeeze=False)
-    figure, axes = _pyplot().subplots(1, len(bodies), **size)
-    for a, body in zip(axes[0], bodies):
+    columns, rows = min(3, len(bodies) + 1), len(bodies) // 3 + 1
+    figure, grid = _pyplot().subplots(rows, columns, figsize=(4.6 * columns, 3.8 * rows), squeeze=False)
+    axes, spare = grid.flat[: len(bodies)], grid.flat[len(bodies) :]
+    for a, body in zip(axes, bodies):
         rows = metrics["bodies"][body]["roll_out"]
         colours = colours_of(dict.fromkeys(m for row in rows.values() for m in row))
         for method, colour in colours.items():
@@ -61,9 +62,11 @@ def roll_outs(metrics, path):
         a.set_xlabel("ticks from rest (60 a second)")
         seen = "" if metrics["bodies"][body]["seen_in_training"] else ", never trained on"
         a.set_title(body + seen, fontsize=10)
-    axes[0][0].set_ylabel("error / error of skinning alone")
-    axes[0][0].legend(frameon=False, fontsize=7)
-    _finish(figure, axes[0], path)
+        a.set_ylabel("error / error of skinning alone")
+    for a in spare:
+        a.axis("off")
+    spare[0].legend(*axes[0].get_legend_handles_labels(), frameon=False, fontsize=9, loc="upper left")
+    _finish(figure, axes, path)
 
 
 def trace(judged, methods, path):
@@ -90,16 +93,17 @@ def cost(metrics, body, ticks, path):
     figure, a = _pyplot().subplots(figsize=(5.6, 4))
     figures = metrics["bodies"][body]
     row, operations = figures["roll_out"][str(ticks)], figures["operations_mflop"]
-    for method, colour in colours_of(m for m in row if m in operations).items():
-        point = (operations[method], row[method]["ratio"])
-        a.plot(*point, "o", color=colour)
-        a.annotate(label_of(method), point, fontsize=8, xytext=(5, 4), textcoords="offset points")
+    colours = colours_of(m for m in row if m in operations)
+    for method in sorted(colours, key=lambda m: -row[m]["ratio"]):
+        x, y = operations[method], row[method]["ratio"]
+        a.plot(x, y, "o", color=colours[method], label=f"{label_of(method)}: {y:.3f}")
     a.set_xscale("log")
     a.margins(x=0.3, y=0.1)
     a.autoscale()
     a.set_ylim(bottom=0)
     a.set_xlabel("million operations a tick, whole body")
     a.set_ylabel(f"error / skinning alone, {ticks} ticks")
+    a.legend(frameon=False, fontsize=8)
     _finish(figure, [a], path)
 
 
@@ -115,8 +119,8 @@ def regions(metrics, body, path):
     names = [f"{k}\n{r['mean_displacement_mm']:.1f} mm" for k, r in rows.items()]
     a.set_xticks([x + 0.4 - width / 2 for x in range(len(rows))], names, fontsize=8)
     a.set_ylabel("error / skinning alone")
-    a.set_ylim(0, 1)
-    a.legend(frameon=False, fontsize=7, ncol=3)
+    a.set_ylim(0, 1.35)
+    a.legend(frameon=False, fontsize=7, ncol=3, loc="upper left")
     _finish(figure, [a], path)
 
 
