@@ -130,6 +130,11 @@ def _beside(folder):
         parts.append(f"What the networks were trained and judged on, in figures: {sheet}.\n")
     if os.path.exists(os.path.join(folder, "every_vertex", "README.md")):
         parts.append("The paper's own network, on every vertex: [every_vertex](every_vertex/README.md).\n")
+    if os.path.exists(os.path.join(folder, "confirmation", "README.md")):
+        parts.append(
+            "The recipe was developed with these test motions in sight. On motions drawn after it was decided: "
+            "[confirmation](confirmation/README.md).\n"
+        )
     for name, title in SECTIONS.items():
         if os.path.exists(os.path.join(folder, name)):
             with open(os.path.join(folder, name)) as file:
@@ -148,8 +153,8 @@ def write_page_text(folder):
         "Made by `baker/train evaluate`; figures in `metrics.json`. Errors are distances between control "
         "nodes and the finite-element truth, mean ± standard deviation over nodes, ticks and sequences; a "
         "ratio is to the error of skinning alone. Every roll-out starts at rest and feeds on its own output. "
-        "Test motions and bodies were seen neither by training nor by choosing; plain models are fitted on "
-        "the training motions of the body they are judged on.\n",
+        "No weights were trained or chosen on test motions and bodies; plain models are fitted on the training "
+        "motions of the body they are judged on.\n",
         "![error against roll-out length](roll_outs.png)\n",
         model_table(metrics, bodies[0]) + "\n",
         "![a node](trace.png)\n\n![error against cost](cost.png) ![training](training.png)\n",

@@ -1,4 +1,5 @@
 """The recipe of a training run."""
+import math
 from dataclasses import dataclass
 
 from .inputs import ORDER
@@ -33,16 +34,16 @@ class TrainOptions:
         whole = lambda v: isinstance(v, int) and v >= 1
         usable = {
             "channels": ("whole numbers of which the last is 3", _are_channels(self.channels)),
-            "minutes": ("above 0", 0 < self.minutes < float("inf")),
+            "minutes": ("above 0", 0 < self.minutes < math.inf),
             "batch": ("a whole number from 1", whole(self.batch)),
             "window": ("a whole number from 1", whole(self.window)),
-            "learning_rate": ("above 0", self.learning_rate > 0),
+            "learning_rate": ("above 0", 0 < self.learning_rate < math.inf),
             "hidden_leak": ("from 0 to 1", 0 <= self.hidden_leak <= 1),
-            "output_scale": ("above 0", self.output_scale > 0),
+            "output_scale": ("above 0", 0 < self.output_scale < math.inf),
             "state_clamp": ("above 0", self.state_clamp > 0),
             "overdrive": ("from 0 to 1", 0 <= self.overdrive <= 1),
             "stillness": ("from 0 to 1", 0 <= self.stillness <= 1),
-            "disturbance": ("0 or more", self.disturbance >= 0),
+            "disturbance": ("0 or more", 0 <= self.disturbance < math.inf),
             "without": (f"of {', '.join((*ORDER, 'base'))}", set(self.without) <= {*ORDER, "base"}),
         }
         for name, (wanted, fine) in usable.items():

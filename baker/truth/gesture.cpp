@@ -104,6 +104,10 @@ void draw_strikes(Random& random, const Timing& timing, double strength, const s
 
 }  // namespace
 
+void put_in_order(std::vector<Gesture>* gestures) {
+  std::ranges::stable_sort(*gestures, {}, &Gesture::start_s);
+}
+
 Vector3 sum_of(const std::vector<Gesture>& gestures, double t_s) {
   Vector3 sum = Vector3::Zero();
   for (const Gesture& g : gestures) {

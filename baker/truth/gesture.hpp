@@ -13,7 +13,10 @@ struct Gesture {
   Vector3 change;
 };
 
-// At t_s; gestures in order of start_s.
+// By start_s; leaps of neighbouring stretches of time may overlap.
+void put_in_order(std::vector<Gesture>* gestures);
+
+// At t_s; gestures in order.
 Vector3 sum_of(const std::vector<Gesture>& gestures, double t_s);
 
 struct RootGestures {
@@ -27,7 +30,8 @@ using JointGestures = std::vector<std::vector<Gesture>>;  // a joint: rotation v
 void draw_gestures(Random& random, double start_s, double end_s, double strength, RootGestures* root);
 
 // Leaps between two times: crouch, throw, fall and catch, upwards or to any side, while the joints strike a
-// pose in each phase. They push off and land with 8 to 70 m/s^2 at strength 1. joint_parent: -1 at a root.
+// pose in each phase. The harder of push-off and landing has 8 to 70 m/s^2 at strength 1. The last leap may
+// end after end_s. joint_parent: -1 at a root.
 void draw_leaps(Random& random, double start_s, double end_s, double strength,
                 const std::vector<int>& joint_parent, RootGestures* root, JointGestures* joints);
 

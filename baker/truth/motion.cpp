@@ -236,6 +236,9 @@ Motion leap_motion(const Character& character, uint64_t seed, double strength,
   for (const Bout& bout : track->bouts)
     draw_leaps(random, bout.start_s, bout.end_s, strength, character.joint_parent, &track->root.gestures,
                &track->strikes);
+  put_in_order(&track->root.gestures.dashes);
+  put_in_order(&track->root.gestures.tilts);
+  for (std::vector<Gesture>& gestures : track->strikes) put_in_order(&gestures);
   return [track](double t_s) { return track->at(t_s); };
 }
 

@@ -33,8 +33,8 @@ Motion shake_motion(const Character& character, uint64_t seed = 0, double streng
 Motion random_motion(const Character& character, uint64_t seed, double strength,
                      const std::vector<std::string>& held_out = {});
 
-// Clips and joint noise as in random_motion; the root leaps and dashes with up to 70 m/s^2 and the joints
-// strike poses on the way, with stretches of stillness.
+// Clips and joint noise as in random_motion; the root leaps with up to 70 m/s^2 and the joints strike poses
+// on the way, with stretches of stillness, which the end of a leap may shorten.
 Motion leap_motion(const Character& character, uint64_t seed, double strength,
                    const std::vector<std::string>& held_out = {});
 
