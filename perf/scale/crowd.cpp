@@ -41,7 +41,8 @@ void Crowd::read(unsigned instance, Space space) {
 }
 
 void Crowd::read_normals(unsigned instance) {
-  require(world_.read_normals(instances_[instance], {.out = surface_.data(), .capacity = info_.vertex_count}));
+  require(
+      world_.read_normals(instances_[instance], {.out = surface_.data(), .capacity = info_.vertex_count}));
 }
 
 }  // namespace sinew::perf

@@ -16,9 +16,9 @@ class Crowd {
   Crowd(const demo::CharacterFile& character, unsigned instances, const std::string& clip = "",
         const TaskHook& tasks = {});
 
-  void pose();                                    // all instances, a frame later
+  void pose();  // all instances, a frame later
   FrameReport step() { return world_.step(1.0f / 60); }
-  void read(unsigned instance, Space space);      // positions or bind-space deltas, into surface()
+  void read(unsigned instance, Space space);  // positions or bind-space deltas, into surface()
   void read_normals(unsigned instance);
   const std::vector<float>& surface() const { return surface_; }
   const AssetInfo& info() const { return info_; }

@@ -14,5 +14,7 @@ void measure_crowds(const demo::CharacterFile& character, int rounds);
 void measure_vertices(const std::vector<demo::CharacterFile>& characters, int rounds);
 // The paper's network on 6,890 vertices, its layers split over two workers.
 void measure_workers(int rounds);
+// Instances' control graphs as one block-diagonal graph, against one network step each.
+void measure_batches(int rounds);
 
 }  // namespace sinew::perf

@@ -1,12 +1,9 @@
 // growth.cpp  Time and memory over the number of instances, of vertices, and one or two workers.
-#include <sys/resource.h>
-
-#include "perf/kernels/fma_peak.hpp"
 #include "perf/scale/crowd.hpp"
 #include "perf/scale/groups.hpp"
+#include "perf/scale/pinned_pair.hpp"
 #include "perf/scale/record.hpp"
 #include "perf/scale/stopwatch.hpp"
-#include "samples/demo/thread_pool.hpp"
 
 namespace sinew::perf {
 namespace {
@@ -48,9 +45,9 @@ void measure_vertices(const std::vector<demo::CharacterFile>& characters, int ro
 }
 
 void measure_crowds(const demo::CharacterFile& character, int rounds) {
-  demo::ThreadPool one(1), two(2);
+  const PinnedPair pair;
   for (const unsigned count : kCounts) {
-    Crowd serial(character, count, "", one.hook()), shared(character, count, "", two.hook());
+    Crowd serial(character, count), shared(character, count, "", pair.hook());
     std::vector<Lap> laps = {{"1", 1, [&] { serial.step(); }}, {"2", 1, [&] { shared.step(); }}};
     const int frames = count > 100 ? kWarmFrames / 4 : kWarmFrames;
     for (int frame = 0; frame < frames; ++frame) serial.pose(), serial.step(), shared.pose(), shared.step();

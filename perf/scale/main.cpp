@@ -31,6 +31,7 @@ void run(const Options& options) {
   perf::measure_vertices(characters, options.rounds);
   perf::measure_crowds(usual(characters), options.rounds);
   perf::measure_workers(options.rounds);
+  perf::measure_batches(options.rounds);
 }
 
 }  // namespace

@@ -137,15 +137,18 @@ void measure_parts(const demo::CharacterFile& character, int rounds) {
       {"drive", us("drive"), 0},
       {"modal base", us("modal tick"), modal_mflop(pack, false)},
       {"network step", us("network step"), network_mflop(pack)},
-      {"inputs, closing on the base, guards", us("network tick") - us("modal tick") - us("network step"), 0},
+      {"inputs; closing on the base; guards", us("network tick") - us("modal tick") - us("network step"), 0},
       {"show", us("show"), 0},
-      {"carrying, skin matrices", us("publish"), carry_mflop(pack)},
+      {"carrying; skin matrices", us("publish"), carry_mflop(pack)},
       {"whole tick", tick, character_mflop(pack)},
       {"read: bind-space deltas", us("deltas"), 0},
       {"read: positions", us("positions"), 0},
       {"read: normals", us("normals"), 0},
   };
-  const Case of{.group = "parts", .subject = "peak", .vertices = pack.character->vertex_count, .instances = 1,
+  const Case of{.group = "parts",
+                .subject = "peak",
+                .vertices = pack.character->vertex_count,
+                .instances = 1,
                 .workers = 1};
   put(of, "gflop_a_second", peak);
   for (const Part& part : parts) put_part(of, part, peak);

@@ -12,9 +12,7 @@ struct Case {
   unsigned vertices = 0, instances = 0, workers = 0;
 };
 
-inline void put_header() {
-  std::puts("group,subject,vertices,instances,workers,quantity,value");
-}
+inline void put_header() { std::puts("group,subject,vertices,instances,workers,quantity,value"); }
 
 // The quantity carries its unit.
 inline void put(const Case& of, const char* quantity, double value) {
