@@ -226,10 +226,17 @@ HalfLayerState half_layer_state(const Network& network, uint32_t node_count, uin
 
 void network_step(const Network& network, const Graph& graph, const float* z, const float* carry,
                   float* state, float* scratch) noexcept {
+  const NodeRun all = {0, graph.node_count};
+  network_step(network, graph, {&all, 1}, z, carry, state, scratch);
+}
+
+void network_step(const Network& network, const Graph& graph, std::span<const NodeRun> runs, const float* z,
+                  const float* carry, float* state, float* scratch) noexcept {
   const Step step = {network, graph, z, carry, state, scratch};
   pack_narrow(network, step.packed());
-  for (uint32_t l = 0; l <= network.layers.size(); ++l)
-    layer_step(step, l, 0, graph.node_count, step.share(0));
+  for (uint32_t l = 0; l <= network.layers.size(); ++l) {
+    for (const NodeRun& run : runs) layer_step(step, l, run.first, run.last, step.share(0));
+  }
 }
 
 void network_step_on_workers(const TaskHook& tasks, const Network& network, const Graph& graph,
