@@ -15,9 +15,11 @@ void require(const Status& status) {
 }  // namespace
 
 Crowd::Crowd(const demo::CharacterFile& character, unsigned instances, const std::string& clip,
-             const TaskHook& tasks)
+             const TaskHook& tasks, float sleep_tolerance)
     : motion_(demo::make_motion(character, clip)), instances_(instances) {
-  require(World::create({.max_assets = 1, .max_instances = instances, .tasks = tasks}, &world_));
+  require(World::create(
+      {.max_assets = 1, .max_instances = instances, .sleep_tolerance = sleep_tolerance, .tasks = tasks},
+      &world_));
   AssetId asset;
   require(world_.load_asset(character.file.bytes(), &asset));
   require(world_.asset_info(asset, &info_));

@@ -12,9 +12,10 @@ namespace sinew::perf {
 
 class Crowd {
  public:
-  // Throws baker::BadInput. An empty clip plays all of them in turn.
+  // Throws baker::BadInput. An empty clip plays all of them in turn. By default nothing
+  // sleeps.
   Crowd(const demo::CharacterFile& character, unsigned instances, const std::string& clip = "",
-        const TaskHook& tasks = {});
+        const TaskHook& tasks = {}, float sleep_tolerance = 0);
 
   void pose();  // all instances, a frame later
   FrameReport step() { return world_.step(1.0f / 60); }

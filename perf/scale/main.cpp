@@ -30,6 +30,7 @@ void run(const Options& options) {
   perf::measure_parts(usual(characters), options.rounds);
   perf::measure_vertices(characters, options.rounds);
   perf::measure_crowds(usual(characters), options.rounds);
+  perf::measure_sleep(usual(characters));
   perf::measure_workers(options.rounds);
   perf::measure_batches(options.rounds);
 }

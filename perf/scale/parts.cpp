@@ -69,7 +69,12 @@ class Subject {
                          instance_.network_state, instance_.network_scratch);
   }
   void show() { world::show_tick(instance_); }
-  void publish() { world::publish(instance_); }
+  // At another moment between two ticks each time, for what has not changed is not carried again.
+  void publish() {
+    float& fraction = instance_.state->render_fraction;
+    fraction = fraction > 0 ? 0 : 0.5f;
+    world::publish(instance_);
+  }
 
   const world::Asset& asset() const { return asset_; }
 

@@ -40,6 +40,8 @@
 #include "simd/carry-inl.hpp"
 #include "simd/rows-inl.hpp"
 #include "simd/skin-inl.hpp"
+#include "simd/hold-inl.hpp"
+#include "simd/bend-inl.hpp"
 // clang-format on
 
 namespace sinew::simd::HWY_NAMESPACE {
@@ -61,6 +63,8 @@ constexpr Kernels kernels_with(const char* name, bool (*runs)()) {
       .dot_rows = dot_rows,
       .add_rows = add_rows,
       .skin = skin,
+      .hold_rows = hold_rows,
+      .share_bend = share_bend,
       .sigmoid = sigmoid,
       .tanh = tanh,
   };

@@ -87,6 +87,17 @@ struct SkinJob {
   uint32_t count;
 };
 
+// Frames that follow three quarters of their turn against `held`; cosines of half a turn below which the rest
+// fades out, and is nothing (tissue/node_bend.hpp).
+inline constexpr float kBendFading = 0.4f, kBendGone = 0.1f;
+struct BendJob {
+  float held[9];     // row-major rotation
+  float* rotations;  // row-major, at each stride; become three quarters
+  float* bends;      // rotation vector of the quarter that is left, at each stride
+  size_t stride;     // floats
+  uint32_t count;
+};
+
 struct Kernels {
   int64_t target;    // Highway's bit
   const char* name;  // of what it needs beyond that target, or null: the target's own
@@ -115,6 +126,10 @@ struct Kernels {
   // out[i] = sum_k weights[k] rows[k][i], i < stride; rows and out [padded].
   void (*add_rows)(const float* rows, uint32_t count, size_t stride, const float* weights, float* out);
   void (*skin)(const SkinJob& job);
+  // rows = clamp(rows scale, +-bound) by column, 0 where that is not finite. Returns how many it changed
+  // beyond the scale. rows [count][stride], scale and bound [stride] [padded].
+  uint32_t (*hold_rows)(float* rows, uint32_t count, size_t stride, const float* scale, const float* bound);
+  void (*share_bend)(const BendJob& job);
   // Of `count` floats, any count and alignment; NaN stays NaN. Maximum errors: simd/activation-inl.hpp.
   void (*sigmoid)(const float* x, size_t count, float* out);
   void (*tanh)(const float* x, size_t count, float* out);

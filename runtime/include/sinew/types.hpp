@@ -76,7 +76,7 @@ struct WorldDef {
   // 0..1, a share of a soft part's radius. A part that neither moves nor feels anything new by more than that
   // for half a swing falls asleep: it keeps its shape at next to no cost until it feels more
   // (runtime/world/sleep.hpp). 0: never.
-  float sleep_tolerance = 2e-4f;
+  float sleep_tolerance = 5e-4f;
   BudgetMode budget_mode = BudgetMode::kTime;
   TaskHook tasks = {};
   ClockHook clock = {};
