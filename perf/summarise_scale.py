@@ -48,9 +48,11 @@ def vertices_table(cases):
 def instances_table(cases):
     counts = sorted({instances for (_, _, instances, _) in cases})
     wall = {(instances, workers): of["wall_us"] for (_, _, instances, workers), of in cases.items()}
-    lines = [[str(n), number(wall[n, 1]), number(wall[n, 1] / n), number(wall[n, 2]), number(wall[n, 1] / wall[n, 2], 2)]
-             for n in counts]
-    return table(["instances", "one worker, us", "an instance, us", "two workers, us", "one / two"], lines)
+    cpu = {instances: of["cpu_us"] for (_, _, instances, workers), of in cases.items() if workers == 1}
+    lines = [[str(n), number(cpu[n]), number(cpu[n] / n), number(wall[n, 1]), number(wall[n, 2]),
+              number(wall[n, 1] / wall[n, 2], 2)] for n in counts]
+    columns = ["instances", "CPU time, us", "an instance, us", "one worker, us", "two workers, us", "one / two"]
+    return table(columns, lines)
 
 
 def workers_table(cases):
@@ -71,12 +73,26 @@ def sleep_table(cases):
     return table(["clip, 15 s", "regions asleep", "time / never sleeping", "added, mean mm", "largest mm"], lines)
 
 
+def figures_table(groups):
+    """What the project asks for of one character and of a large network, beside what was measured."""
+    tick = next(of for (subject, *_), of in groups["parts"].items() if subject == "whole tick")
+    state_kb = next(of for (_, vertices, *_), of in groups["vertices"].items() if vertices > 6000)["state_bytes"] / 1e3
+    ratios = {subject: of["one_over_two"] for (subject, *_), of in groups["workers"].items()}
+    peak = ratios.pop("fma_peak")
+    lines = [["character, share of float32 peak", number(tick["share_of_peak"], 2), "0.25", "0.50"],
+             ["character, us a tick", number(tick["us"]), "200", "80"],
+             ["character, state of an instance, kB", number(state_kb, 0), "1000", "200"]]
+    lines += [[f"{subject}, two workers / one", f"{ratio:.2f} (fma_peak: {peak:.2f})", "1.7", "1.9"]
+              for subject, ratio in ratios.items()]
+    return table(["figure", "measured", "at least", "aim"], lines)
+
+
 def plot(groups, path):
     figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.4), constrained_layout=True)
     for workers in (1, 2):
-        points = [(instances, of["wall_us"]) for (_, _, instances, w), of in groups["instances"].items() if w == workers]
+        points = [(instances, of["wall_us"] / instances) for (_, _, instances, w), of in groups["instances"].items() if w == workers]
         left.loglog(*zip(*points), marker="o", label=f"{workers} worker{'s' if workers > 1 else ''}")
-    left.set(xlabel="instances", ylabel="step, us")
+    left.set(xlabel="instances", ylabel="step, us an instance")
     left.legend()
     points = [(vertices, of["cpu_us"], of["read_us"]) for (_, vertices, *_), of in groups["vertices"].items()]
     vertices, step, read_us = zip(*points)
@@ -98,7 +114,7 @@ def main(path):
     name = re.sub(r"[^a-z0-9]+", "_", machine.lower()).strip("_")
     shutil.copyfile(path, HERE / "results" / f"{name}_scale.csv")
     plot(groups, HERE / "scale.png")
-    lines = [f"Processor: {machine}."]
+    lines = [f"Processor: {machine}.", ""] + figures_table(groups)
     for group, write in TABLES.items():
         lines += [""] + write(groups[group])
     readme = HERE / "README.md"

@@ -69,10 +69,11 @@ class Subject {
                          instance_.network_state, instance_.network_scratch);
   }
   void show() { world::show_tick(instance_); }
-  // At another moment between two ticks each time, for what has not changed is not carried again.
+  // A node of each region a little elsewhere each time, for what has not changed is not carried again.
   void publish() {
-    float& fraction = instance_.state->render_fraction;
-    fraction = fraction > 0 ? 0 : 0.5f;
+    nudge_m_ = -nudge_m_;
+    for (const pack::RegionRecord& region : asset_.pack.regions)
+      instance_.shown[0][size_t{3} * region.first_node] += nudge_m_;
     world::publish(instance_);
   }
 
@@ -83,6 +84,7 @@ class Subject {
   world::Instance instance_;
   std::unique_ptr<demo::Motion> motion_;
   int frame_ = 0;
+  float nudge_m_ = 1e-4f;
 };
 
 struct Part {
