@@ -137,17 +137,22 @@ TEST_CASE("narrow_layers_have_the_bits_of_the_general_kernels") {
 
 TEST_CASE("a_step_on_workers_has_the_bits_of_a_step_alone") {
   const core::FlushDenormals flush;
-  const TaskHook hooks[] = {{},
-                            hook_of([](TaskHook::Task task, void* argument, uint32_t count, void*) -> void* {
-                              for (uint32_t i = count; i > 0; --i) task(argument, i - 1);
-                              return nullptr;
-                            }),
-                            hook_of([](TaskHook::Task task, void* argument, uint32_t count, void*) -> void* {
-                              std::vector<std::jthread> threads;
-                              for (uint32_t i = 0; i < count; ++i) threads.emplace_back(task, argument, i);
-                              return nullptr;
-                            })};
-  for (const uint32_t nodes : {2u, 40u, 48u, 500u, 48u * tissue::kNetworkShares + 5}) {
+  std::vector<TaskHook> hooks = {
+      {}, hook_of([](TaskHook::Task task, void* argument, uint32_t count, void*) -> void* {
+        for (uint32_t i = count; i > 0; --i) task(argument, i - 1);
+        return nullptr;
+      })};
+#ifndef __aarch64__  // QEMU's user mode does not always end a thread
+  hooks.push_back(hook_of([](TaskHook::Task task, void* argument, uint32_t count, void*) -> void* {
+    const auto every_other = [=](uint32_t first) {
+      for (uint32_t i = first; i < count; i += 2) task(argument, i);
+    };
+    const std::jthread odd(every_other, 1u);
+    every_other(0);
+    return nullptr;
+  }));
+#endif
+  for (const uint32_t nodes : {2u, 49u, 48u * tissue::kNetworkShares + 5}) {
     Case of(nodes, {33, 8, 3}, true);
     const std::vector<float> alone = stepped_alone(of, nodes);
     for (const TaskHook& tasks : hooks) REQUIRE(stepped_on(tasks, of, nodes) == alone);
