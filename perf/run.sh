@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Measures the kernels and rewrites perf/results/<processor>.csv and the tables in perf/README.md. About two minutes.
+# Measures kernels and growth, and rewrites perf/results/<processor>*.csv, perf/scale.png and the tables in perf/README.md. About
+# four minutes.
 # SINEW_REFERENCE=path/to/alt_conv_lstm.py times the PyTorch network as well; SINEW_PYTHON is a Python that has PyTorch.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -9,7 +10,7 @@ command -v dpkg-query >/dev/null && dpkg-query -W libbenchmark-dev >/dev/null 2>
   exit 2
 }
 cmake --preset release -DSINEW_BUILD_PERF=ON | grep "^-- perf:" || true
-cmake --build --preset release --target perf_kernels
+cmake --build --preset release --target perf_kernels perf_scale sinew-bake
 measured=$(mktemp -d)
 trap 'rm -rf "$measured"' EXIT
 build/release/bin/perf_kernels --benchmark_repetitions=15 --benchmark_enable_random_interleaving=true \
@@ -18,3 +19,14 @@ if [ -n "${SINEW_REFERENCE:-}" ]; then
   OMP_NUM_THREADS=1 "${SINEW_PYTHON:-python3}" perf/peers/alt_conv_lstm_torch.py "$SINEW_REFERENCE" >"$measured/peers.json"
 fi
 python3 perf/summarise.py "$measured"/*.json
+
+# One character at several resolutions.
+for vertices in 500 2000 7000 20000 50000; do
+  build/release/bin/sinew-bake creature assets/creature/creature.json --vertices $vertices -o "$measured/$vertices.glb"
+  build/release/bin/sinew-bake character "$measured/$vertices.glb" --recipe assets/creature/tissue.json \
+    --tissue assets/weights/creature.safetensors -o "$measured/$vertices.sinew" >/dev/null
+done
+build/release/bin/perf_scale "$measured"/{500,2000,7000,20000,50000}.sinew >"$measured/scale.csv"
+python=python3
+"$python" -c 'import matplotlib' 2>/dev/null || python=/usr/bin/python3
+"$python" perf/summarise_scale.py "$measured/scale.csv"

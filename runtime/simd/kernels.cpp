@@ -1,7 +1,9 @@
 // kernels.cpp  Compiles the kernels once an instruction set, and lists their tables, best first.
 #include "simd/kernels.hpp"
 
+#include <cstring>
 #include <limits>
+#include <utility>
 
 // Sums are arrays of vectors, which scalable vectors cannot be: 64-bit Arm runs NEON.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
@@ -32,11 +34,14 @@
 #include "simd/aggregate-inl.hpp"
 #include "simd/product-inl.hpp"
 #include "simd/layer-inl.hpp"
+#include "simd/narrow-inl.hpp"
 #include "simd/dot-inl.hpp"
 #include "simd/int8_layer-inl.hpp"
 #include "simd/carry-inl.hpp"
 #include "simd/rows-inl.hpp"
 #include "simd/skin-inl.hpp"
+#include "simd/hold-inl.hpp"
+#include "simd/bend-inl.hpp"
 // clang-format on
 
 namespace sinew::simd::HWY_NAMESPACE {
@@ -51,10 +56,15 @@ constexpr Kernels kernels_with(const char* name, bool (*runs)()) {
       .aggregate = aggregate,
       .layer_cells = any_layer_cells<Dot>,
       .layer_output = any_layer_output<Dot>,
+      .aggregate_planes = aggregate_planes,
+      .narrow_cells = narrow_cells,
+      .narrow_output = narrow_output,
       .carry = carry,
       .dot_rows = dot_rows,
       .add_rows = add_rows,
       .skin = skin,
+      .hold_rows = hold_rows,
+      .share_bend = share_bend,
       .sigmoid = sigmoid,
       .tanh = tanh,
   };

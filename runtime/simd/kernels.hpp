@@ -63,6 +63,11 @@ struct LayerJob {
   float* y_next = nullptr;       // last layer: plane, scratch between the two calls
   float* output_gate = nullptr;  // plane, scratch between the two calls
   float* tile = nullptr;         // tile_floats(padded), scratch of one call
+  // Of narrow_cells and narrow_output only, where padded is kBlock.
+  uint32_t gate_width = 0;        // floats a gate takes in `packed`: 4 or 8, at least `channels`
+  const float* packed = nullptr;  // rows [4][gate_width]: bias, W_x, W_s if there, W_h, W_y; zero for c and o
+  const float* ph = nullptr;      // plane, P h of t-1
+  const float* py = nullptr;      // last layer: plane, P y of t-1
 };
 
 // Floats of LayerJob::tile.
@@ -82,6 +87,17 @@ struct SkinJob {
   uint32_t count;
 };
 
+// Frames that follow three quarters of their turn against `held`; cosines of half a turn below which the rest
+// fades out, and is nothing (tissue/node_bend.hpp).
+inline constexpr float kBendFading = 0.4f, kBendGone = 0.1f;
+struct BendJob {
+  float held[9];     // row-major rotation
+  float* rotations;  // row-major, at each stride; become three quarters
+  float* bends;      // rotation vector of the quarter that is left, at each stride
+  size_t stride;     // floats
+  uint32_t count;
+};
+
 struct Kernels {
   int64_t target;    // Highway's bit
   const char* name;  // of what it needs beyond that target, or null: the target's own
@@ -96,6 +112,12 @@ struct Kernels {
   void (*layer_cells)(const LayerJob& job, uint32_t first, uint32_t last);
   // Gate o, then h and y, of nodes first..last; needs c (last layer: y_next) of t of all nodes.
   void (*layer_output)(const LayerJob& job, uint32_t first, uint32_t last);
+  // out[p][i] = sum_e values[e] planes[p][columns[e]], rows of kBlock floats [padded], nodes i first..last.
+  void (*aggregate_planes)(const SparseRows& graph, const float* const* planes, uint32_t count,
+                           uint32_t first, uint32_t last, float* const* out);
+  // As layer_cells and layer_output, the same bits, for a layer of at most eight channels.
+  void (*narrow_cells)(const LayerJob& job, uint32_t first, uint32_t last);
+  void (*narrow_output)(const LayerJob& job, uint32_t first, uint32_t last);
   // out[axis][v] = sum_n weights[n][v] displacement[n][axis]; weights [nodes][stride], out [3][stride]
   // [padded]; v < stride, a multiple of kBlock. Reads each weight once; out is overwritten.
   void (*carry)(const float* weights, uint32_t nodes, size_t stride, const float* displacement, float* out);
@@ -104,6 +126,10 @@ struct Kernels {
   // out[i] = sum_k weights[k] rows[k][i], i < stride; rows and out [padded].
   void (*add_rows)(const float* rows, uint32_t count, size_t stride, const float* weights, float* out);
   void (*skin)(const SkinJob& job);
+  // rows = clamp(rows scale, +-bound) by column, 0 where that is not finite. Returns how many it changed
+  // beyond the scale. rows [count][stride], scale and bound [stride] [padded].
+  uint32_t (*hold_rows)(float* rows, uint32_t count, size_t stride, const float* scale, const float* bound);
+  void (*share_bend)(const BendJob& job);
   // Of `count` floats, any count and alignment; NaN stays NaN. Maximum errors: simd/activation-inl.hpp.
   void (*sigmoid)(const float* x, size_t count, float* out);
   void (*tanh)(const float* x, size_t count, float* out);

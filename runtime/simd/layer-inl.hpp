@@ -87,19 +87,21 @@ HWY_INLINE void sum_gates(const LayerJob& job, const Heard& heard, uint32_t tile
   }
 }
 
-// c = clamp(f c + i tanh(a_c)) with one division. gates [4][kBlock]; c and output_gate: a block of the
-// node's.
+// clamp(f c + i tanh(a_c)) with one division.
+HWY_INLINE Vector next_cell(Vector a_i, Vector a_f, Vector a_c, Vector c, Vector bound) {
+  const Quotient i = sigmoid_of(a_i), f = sigmoid_of(a_f), added = product_of(i, tanh_of(a_c));
+  const Vector sum = hn::MulAdd(hn::Mul(f.over, c), added.under, hn::Mul(added.over, f.under));
+  return bounded(hn::Div(sum, hn::Mul(f.under, added.under)), bound);
+}
+
+// gates [4][kBlock]; c and output_gate: a block of the node's.
 template <class T>
 HWY_INLINE void update_cells(const float* gates, float bound, T* c, float* output_gate) {
   const Floats d;
+  const auto gate = [&](size_t which, size_t j) HWY_ATTR { return hn::Load(d, gates + which * kBlock + j); };
   for (size_t j = 0; j < kBlock; j += kLanes) {
-    const Quotient i = sigmoid_of(hn::Load(d, gates + j)), f = sigmoid_of(hn::Load(d, gates + kBlock + j));
-    const Quotient added = product_of(i, tanh_of(hn::Load(d, gates + 2 * kBlock + j)));
-    const Vector kept = hn::Mul(f.over, load_state(c + j));
-    const Vector sum = hn::MulAdd(kept, added.under, hn::Mul(added.over, f.under));
-    const Vector next = hn::Div(sum, hn::Mul(f.under, added.under));
-    store_state(bounded(next, hn::Set(d, bound)), c + j);
-    hn::Store(hn::Load(d, gates + 3 * kBlock + j), d, output_gate + j);
+    store_state(next_cell(gate(0, j), gate(1, j), gate(2, j), load_state(c + j), hn::Set(d, bound)), c + j);
+    hn::Store(gate(3, j), d, output_gate + j);
   }
 }
 

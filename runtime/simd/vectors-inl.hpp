@@ -25,6 +25,7 @@ HWY_INLINE void for_columns(size_t columns, const Body& body) {
   size_t j = 0;
   for (; j + kWide * kLanes <= columns; j += kWide * kLanes) body.template operator()<kWide>(j);
   if constexpr (kWide > 2) {
+    if (columns - j == 3 * kLanes) return body.template operator()<3>(j);
     for (; j + 2 * kLanes <= columns; j += 2 * kLanes) body.template operator()<2>(j);
   }
   for (; j < columns; j += kLanes) body.template operator()<1>(j);

@@ -1,8 +1,9 @@
-// inputs.cpp  Copies each input's numbers to its place, scaled and held inside what training saw.
+// inputs.cpp  Copies each input's numbers to its columns, then scales all and holds them inside what training
+// saw (simd/hold-inl.hpp).
 #include "tissue/inputs.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 
 #include "simd/kernels.hpp"
 #include "tissue/node_drive.hpp"
@@ -12,118 +13,109 @@ namespace {
 
 using pack::InputKind;
 
-// What one input is for one node, before its scale.
-struct Value {
-  float v[3];
-  uint32_t width;
-};
+// Every kind once, padded.
+constexpr size_t kMostInputs = 64;
 
-Value from_floats(const float* v) { return {{v[0], v[1], v[2]}, 3}; }
+using Vector = std::array<float, 3>;
+using Number = std::array<float, 1>;
 
-Value rest_position(const NodeSources& sources, uint32_t node) {
-  const float* place = sources.nodes[node].position_m;
+Vector vector_at(const float* v) { return {v[0], v[1], v[2]}; }
+
+Vector scaled(float scale, const float* v) { return {v[0] * scale, v[1] * scale, v[2] * scale}; }
+
+Vector difference(float scale, const float* v, const float* less) {
+  return {(v[0] - less[0]) * scale, (v[1] - less[1]) * scale, (v[2] - less[2]) * scale};
+}
+
+Vector cross(const float* a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+Vector rest_position(const NodeSources& sources, const float* place) {
   const float* center = sources.region->center_m;
   const float radius = sources.region->radius_m;
-  return {{(place[0] - center[0]) / radius, (place[1] - center[1]) / radius, (place[2] - center[2]) / radius},
-          3};
+  return {(place[0] - center[0]) / radius, (place[1] - center[1]) / radius, (place[2] - center[2]) / radius};
 }
 
-Value scaled_by(float scale, const float* v) { return {{v[0] * scale, v[1] * scale, v[2] * scale}, 3}; }
-
-Value difference(float scale, const float* v, const float* less) {
-  return {{(v[0] - less[0]) * scale, (v[1] - less[1]) * scale, (v[2] - less[2]) * scale}, 3};
-}
-
-Value cross(const float* a, const Value& b) {
-  return {{a[1] * b.v[2] - a[2] * b.v[1], a[2] * b.v[0] - a[0] * b.v[2], a[0] * b.v[1] - a[1] * b.v[0]}, 3};
-}
-
-// The vectors that are crossed with each other, in length units (a tick) where they are lengths.
-struct Motion {
-  Value felt_step, base_step, displacement, velocity;
+// One input's columns in the rows of all nodes.
+struct Columns {
+  float* first;
+  size_t stride;
+  uint32_t nodes;
 };
 
-Motion motion_of(const NodeSources& sources, size_t at, float unit_m) {
-  const float w1 = sources.first_rad_per_s;
-  return {scaled_by(1 / (w1 * w1 * unit_m), sources.felt + at),
-          difference(1 / unit_m, sources.l_hat + at, sources.l + at), scaled_by(1 / unit_m, sources.l + at),
-          difference(1 / unit_m, sources.l + at, sources.l_before + at)};
+// value(node), an array as wide as the input. Returns that width.
+template <class Value>
+uint32_t put(const Columns& columns, const Value& value) {
+  for (uint32_t node = 0; node < columns.nodes; ++node)
+    std::ranges::copy(value(node), columns.first + node * columns.stride);
+  return static_cast<uint32_t>(value(0).size());
 }
 
-Value value_of(InputKind kind, const NodeSources& sources, uint32_t node, const Motion& motion) {
-  const float* drive = sources.drive + size_t{node} * kNodeDriveWidth;
-  const float *angular_velocity = drive + 6, *bend = drive + 12;
-  const float* theta = sources.theta + size_t{node} * 3;
+// Before scales. Returns the input's width.
+uint32_t put_values(InputKind kind, const NodeSources& sources, float unit_m, const Columns& to) {
+  const float w1 = sources.first_rad_per_s, per_unit = 1 / unit_m, per_felt = 1 / (w1 * w1 * unit_m);
+  const auto drive = [&](uint32_t node, size_t at) {
+    return sources.drive + size_t{node} * kNodeDriveWidth + at;
+  };
+  const auto angular_velocity = [&](uint32_t node) { return drive(node, 6); };
+  const auto bend = [&](uint32_t node) { return drive(node, 12); };
+  const auto theta = [&](uint32_t node) { return sources.theta + size_t{3} * node; };
+  const auto l = [&](uint32_t node) { return scaled(per_unit, sources.l + size_t{3} * node); };
+  const auto felt = [&](uint32_t node) { return scaled(per_felt, sources.felt + size_t{3} * node); };
+  const auto step = [&](uint32_t node) {
+    const size_t at = size_t{3} * node;
+    return difference(per_unit, sources.l_hat + at, sources.l + at);
+  };
+  const auto velocity = [&](uint32_t node) {
+    const size_t at = size_t{3} * node;
+    return difference(per_unit, sources.l + at, sources.l_before + at);
+  };
   switch (kind) {
     case InputKind::kRestPosition:
-      return rest_position(sources, node);
+      return put(to, [&](uint32_t n) { return rest_position(sources, sources.nodes[n].position_m); });
     case InputKind::kRestNormal:
-      return from_floats(sources.nodes[node].normal);
+      return put(to, [&](uint32_t n) { return vector_at(sources.nodes[n].normal); });
     case InputKind::kStiffness:
-      return {{sources.nodes[node].stiffness}, 1};
+      return put(to, [&](uint32_t n) { return Number{sources.nodes[n].stiffness}; });
     case InputKind::kGravityChange:
-      return from_floats(drive + 3);
+      return put(to, [&](uint32_t n) { return vector_at(drive(n, 3)); });
     case InputKind::kAngularVelocity:
-      return from_floats(angular_velocity);
+      return put(to, [&](uint32_t n) { return vector_at(angular_velocity(n)); });
     case InputKind::kAngularAcceleration:
-      return from_floats(drive + 9);
+      return put(to, [&](uint32_t n) { return vector_at(drive(n, 9)); });
     case InputKind::kDisplacement:
-      return motion.displacement;
+      return put(to, l);
     case InputKind::kVelocity:
-      return motion.velocity;
+      return put(to, velocity);
     case InputKind::kFeltStep:
-      return motion.felt_step;
+      return put(to, felt);
     case InputKind::kBaseStep:
-      return motion.base_step;
+      return put(to, step);
     case InputKind::kTurn:
-      return from_floats(theta);
+      return put(to, [&](uint32_t n) { return vector_at(theta(n)); });
     case InputKind::kFrequency:
-      return {{sources.first_rad_per_s * sources.tick_s}, 1};
+      return put(to, [&](uint32_t) { return Number{w1 * sources.tick_s}; });
     case InputKind::kBend:
-      return from_floats(bend);
+      return put(to, [&](uint32_t n) { return vector_at(bend(n)); });
     case InputKind::kBentForce:
-      return cross(bend, motion.felt_step);
+      return put(to, [&](uint32_t n) { return cross(bend(n), felt(n)); });
     case InputKind::kBentStep:
-      return cross(bend, motion.base_step);
+      return put(to, [&](uint32_t n) { return cross(bend(n), step(n)); });
     case InputKind::kBentDisplacement:
-      return cross(bend, motion.displacement);
+      return put(to, [&](uint32_t n) { return cross(bend(n), l(n)); });
     case InputKind::kTurnedForce:
-      return cross(theta, motion.felt_step);
+      return put(to, [&](uint32_t n) { return cross(theta(n), felt(n)); });
     case InputKind::kTurnedStep:
-      return cross(theta, motion.base_step);
+      return put(to, [&](uint32_t n) { return cross(theta(n), step(n)); });
     case InputKind::kTurnedVelocity:
-      return cross(theta, motion.velocity);
+      return put(to, [&](uint32_t n) { return cross(theta(n), velocity(n)); });
     case InputKind::kSpunStep:
-      return cross(angular_velocity, motion.base_step);
+      return put(to, [&](uint32_t n) { return cross(angular_velocity(n), step(n)); });
     case InputKind::kSpunVelocity:
-      return cross(angular_velocity, motion.velocity);
+      return put(to, [&](uint32_t n) { return cross(angular_velocity(n), velocity(n)); });
   }
-  return {};
-}
-
-// Writes value x scale; returns how many were clamped.
-uint32_t put_scaled(const Value& value, const pack::InputRecord& input, float* out) {
-  uint32_t clamps = 0;
-  for (uint32_t k = 0; k < value.width; ++k) {
-    const float scaled = value.v[k] * input.scale;
-    const bool finite = std::isfinite(scaled);
-    out[k] = finite ? std::clamp(scaled, -input.envelope, input.envelope) : 0;
-    clamps += !finite || out[k] != scaled;
-  }
-  return clamps;
-}
-
-uint32_t fill_row(const Network& network, const NodeSources& sources, uint32_t node, float* row) {
-  const Motion motion = motion_of(sources, size_t{node} * 3, length_unit_m(network, *sources.region));
-  uint32_t clamps = 0;
-  float* out = row;
-  for (const pack::InputRecord& input : network.inputs) {
-    const Value value = value_of(input.kind, sources, node, motion);
-    clamps += put_scaled(value, input, out);
-    out += value.width;
-  }
-  std::fill(out, row + input_stride(network), 0.0f);
-  return clamps;
+  return 0;
 }
 
 }  // namespace
@@ -137,11 +129,20 @@ float length_unit_m(const Network& network, const pack::RegionRecord& region) no
 }
 
 uint32_t assemble_inputs(const Network& network, const NodeSources& sources, float* z) noexcept {
-  uint32_t clamps = 0;
-  for (uint32_t node = 0; node < sources.region->node_count; ++node) {
-    clamps += fill_row(network, sources, node, z + node * input_stride(network));
+  alignas(64) float scale[kMostInputs] = {}, envelope[kMostInputs] = {};
+  const size_t stride = input_stride(network);
+  const uint32_t nodes = sources.region->node_count;
+  const float unit_m = length_unit_m(network, *sources.region);
+  size_t column = 0;
+  for (const pack::InputRecord& input : network.inputs) {
+    const uint32_t width = put_values(input.kind, sources, unit_m, {z + column, stride, nodes});
+    std::fill_n(scale + column, width, input.scale);
+    std::fill_n(envelope + column, width, input.envelope);
+    column += width;
   }
-  return clamps;
+  for (uint32_t node = 0; node < nodes; ++node)
+    std::fill(z + node * stride + column, z + (node + 1) * stride, 0.0f);
+  return simd::kernels().hold_rows(z, nodes, stride, scale, envelope);
 }
 
 }  // namespace sinew::tissue

@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/flush_denormals.hpp"
 #include "core/half.hpp"
+#include "core/run_tasks.hpp"
 #include "pack/int8_layout.hpp"
 #include "simd/kernels.hpp"
+#include "tissue/narrow_layer.hpp"
 
 namespace sinew::tissue {
 namespace {
@@ -14,9 +17,12 @@ namespace {
 using simd::kRangeNodes;
 using simd::pad_to_block;
 
-// Output gates of two neighbouring layers, y_next of the last, P x of a range, one tile; in floats.
+// Output gates of two neighbouring layers, y_next of the last, what narrow layers hear and their weights;
+// then for each share of the nodes P x of a range and one tile; in floats.
 struct Scratch {
-  size_t gates, y_next, px, tile;
+  size_t gates, y_next, heard, packed, px, tile;
+  size_t common() const { return 2 * gates + y_next + heard + packed; }
+  size_t share() const { return px + tile; }
 };
 
 Scratch scratch_of(const Network& network, uint32_t node_count) {
@@ -26,8 +32,9 @@ Scratch scratch_of(const Network& network, uint32_t node_count) {
     widest = std::max(widest, last);
   }
   const size_t inputs = std::max(widest, pad_to_block(network.record->input_width));
-  return {widest * node_count, last * node_count, inputs * kRangeNodes,
-          simd::tile_floats(static_cast<uint32_t>(widest))};
+  const NarrowScratch narrow = narrow_scratch(network, node_count);
+  return {widest * node_count,  last * node_count,    narrow.heard,
+          narrow.packed_floats, inputs * kRangeNodes, simd::tile_floats(static_cast<uint32_t>(widest))};
 }
 
 constexpr size_t kLineFloats = 16;
@@ -55,6 +62,11 @@ struct Step {
   const Graph& graph;
   const float *z, *carry;
   float *state, *scratch;
+  Scratch sizes = scratch_of(network, graph.node_count);
+  float* y_next() const { return scratch + 2 * sizes.gates; }
+  float* heard() const { return y_next() + sizes.y_next; }
+  float* packed() const { return heard() + sizes.heard; }
+  float* share(uint32_t index) const { return scratch + sizes.common() + index * sizes.share(); }
 };
 
 void set_weights(const Network& network, const pack::LayerRecord& layer, simd::LayerJob* job) {
@@ -97,41 +109,68 @@ void set_accumulation(const Step& step, bool is_last, float* y_next, simd::Layer
   job->y_next = is_last ? y_next : nullptr;
 }
 
-simd::LayerJob job_of(const Step& step, uint32_t l) {
+// `own`: scratch of the share of nodes that it is for.
+simd::LayerJob job_of(const Step& step, uint32_t l, float* own) {
   const uint32_t nodes = step.graph.node_count;
   const Planes state = planes_of(step.network, nodes, l, step.state);
-  const Scratch sizes = scratch_of(step.network, nodes);
-  float* y_next = step.scratch + 2 * sizes.gates;
   simd::LayerJob job{.graph = {step.graph.rows, step.graph.columns, step.graph.values}};
   set_weights(step.network, step.network.layers[l], &job);
   set_int8(step.network, l, &job);
-  set_accumulation(step, l + 1 == step.network.layers.size(), y_next, &job);
+  set_accumulation(step, l + 1 == step.network.layers.size(), step.y_next(), &job);
   job.x = l == 0 ? step.z : planes_of(step.network, nodes, l - 1, step.state).c;
   job.x_is_half = l > 0 && keeps_halves(step.network, l - 1);
   job.state_is_half = keeps_halves(step.network, l);
   job.x_stride = pad_to_block(job.inputs);
-  job.px = job.pc = y_next + sizes.y_next;  // P x of a layer is P c of the one before
+  job.px = job.pc = own;  // P x of a layer is P c of the one before
   job.h = state.h;
   job.c = state.c;
   job.y = state.y;
-  job.output_gate = step.scratch + l % 2 * sizes.gates;
-  job.tile = job.pc + sizes.px;
+  job.output_gate = step.scratch + l % 2 * step.sizes.gates;
+  job.tile = own + step.sizes.px;
+  set_narrow(step.network, nodes, l, step.heard(), step.packed(), &job);
   return job;
 }
 
-// All nodes through the second pass of the layer before l and the first of l: what the one leaves in cache
-// the other takes.
-void layer_step(const Step& step, uint32_t l) {
+void run_cells(const simd::LayerJob& job, uint32_t first, uint32_t last) {
+  const simd::Kernels& kernels = simd::kernels();
+  (job.gate_width > 0 ? kernels.narrow_cells : kernels.layer_cells)(job, first, last);
+}
+
+void run_output(const simd::LayerJob& job, uint32_t first, uint32_t last) {
+  const simd::Kernels& kernels = simd::kernels();
+  (job.gate_width > 0 ? kernels.narrow_output : kernels.layer_output)(job, first, last);
+}
+
+// Nodes first..last through the second pass of the layer before l and the first of l: what the one leaves in
+// cache the other takes.
+void layer_step(const Step& step, uint32_t l, uint32_t first_node, uint32_t last_node, float* own) {
   const simd::Kernels& kernels = simd::kernels();
   const auto layers = static_cast<uint32_t>(step.network.layers.size());
-  const uint32_t nodes = step.graph.node_count;
-  const simd::LayerJob before = job_of(step, l == 0 ? 0 : l - 1), now = job_of(step, l < layers ? l : 0);
-  for (uint32_t first = 0; first < nodes; first += kRangeNodes) {
-    const uint32_t last = std::min(first + kRangeNodes, nodes);
+  const simd::LayerJob before = job_of(step, l == 0 ? 0 : l - 1, own),
+                       now = job_of(step, l < layers ? l : 0, own);
+  if (l == 0) hear_narrow(step.network, step.graph, step.state, first_node, last_node, step.heard());
+  for (uint32_t first = first_node; first < last_node; first += kRangeNodes) {
+    const uint32_t last = std::min(first + kRangeNodes, last_node);
     if (l == 0) kernels.aggregate(now.graph, step.z, now.x_stride, first, last, now.pc);
-    if (l > 0) kernels.layer_output(before, first, last);
-    if (l < layers) kernels.layer_cells(now, first, last);
+    if (l > 0) run_output(before, first, last);
+    if (l < layers) run_cells(now, first, last);
   }
+}
+
+// One layer's share of the nodes, in whole ranges.
+struct Pass {
+  const Step& step;
+  uint32_t layer;
+};
+
+void run_share(void* argument, uint32_t share) {
+  const core::FlushDenormals flush;
+  const auto& [step, layer] = *static_cast<const Pass*>(argument);
+  const uint32_t nodes = step.graph.node_count, ranges = (nodes + kRangeNodes - 1) / kRangeNodes;
+  const auto node_at = [&](uint32_t cut) {
+    return std::min(nodes, ranges * cut / kNetworkShares * kRangeNodes);
+  };
+  layer_step(step, layer, node_at(share), node_at(share + 1), step.share(share));
 }
 
 // A NaN is kept.
@@ -161,7 +200,12 @@ size_t state_floats(const Network& network, uint32_t node_count) noexcept {
 
 size_t scratch_floats(const Network& network, uint32_t node_count) noexcept {
   const Scratch sizes = scratch_of(network, node_count);
-  return 2 * sizes.gates + sizes.y_next + sizes.px + sizes.tile;
+  return sizes.common() + sizes.share();
+}
+
+size_t shared_scratch_floats(const Network& network, uint32_t node_count) noexcept {
+  const Scratch sizes = scratch_of(network, node_count);
+  return sizes.common() + kNetworkShares * sizes.share();
 }
 
 LayerState layer_state(const Network& network, uint32_t node_count, uint32_t layer, float* state) noexcept {
@@ -182,8 +226,27 @@ HalfLayerState half_layer_state(const Network& network, uint32_t node_count, uin
 
 void network_step(const Network& network, const Graph& graph, const float* z, const float* carry,
                   float* state, float* scratch) noexcept {
+  const NodeRun all = {0, graph.node_count};
+  network_step(network, graph, {&all, 1}, z, carry, state, scratch);
+}
+
+void network_step(const Network& network, const Graph& graph, std::span<const NodeRun> runs, const float* z,
+                  const float* carry, float* state, float* scratch) noexcept {
   const Step step = {network, graph, z, carry, state, scratch};
-  for (uint32_t l = 0; l <= network.layers.size(); ++l) layer_step(step, l);
+  pack_narrow(network, step.packed());
+  for (uint32_t l = 0; l <= network.layers.size(); ++l) {
+    for (const NodeRun& run : runs) layer_step(step, l, run.first, run.last, step.share(0));
+  }
+}
+
+void network_step_on_workers(const TaskHook& tasks, const Network& network, const Graph& graph,
+                             const float* z, const float* carry, float* state, float* scratch) noexcept {
+  const Step step = {network, graph, z, carry, state, scratch};
+  pack_narrow(network, step.packed());
+  for (uint32_t l = 0; l <= network.layers.size(); ++l) {
+    Pass pass{step, l};
+    core::run_tasks(tasks, run_share, &pass, kNetworkShares);
+  }
 }
 
 float largest_cell(const Network& network, uint32_t node_count, const float* state) noexcept {

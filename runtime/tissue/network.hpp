@@ -7,6 +7,7 @@
 #include <span>
 
 #include "pack/format.hpp"
+#include "sinew/types.hpp"
 
 namespace sinew::tissue {
 
@@ -61,6 +62,23 @@ HalfLayerState half_layer_state(const Network& network, uint32_t node_count, uin
 // finite in a state reaches the output in the same step, in every precision.
 void network_step(const Network& network, const Graph& graph, const float* z, const float* carry,
                   float* state, float* scratch) noexcept;
+
+// The same for some of the nodes: runs that no edge of the graph leaves. What of z, carry and state belongs
+// to the others is neither read nor written.
+struct NodeRun {
+  uint32_t first, last;
+};
+void network_step(const Network& network, const Graph& graph, std::span<const NodeRun> runs, const float* z,
+                  const float* carry, float* state, float* scratch) noexcept;
+
+// The same step, denormals taken for zero as in a world's step, with each layer's nodes in kNetworkShares
+// tasks: the same bits for any number of workers. `tasks` is called once more than there are layers, each
+// time after the last has finished; the scratch is larger. Pays where a layer's share is tens of
+// microseconds: from about a thousand nodes of the paper's widths.
+inline constexpr uint32_t kNetworkShares = 16;
+size_t shared_scratch_floats(const Network& network, uint32_t node_count) noexcept;
+void network_step_on_workers(const TaskHook& tasks, const Network& network, const Graph& graph,
+                             const float* z, const float* carry, float* state, float* scratch) noexcept;
 
 // Largest |c| over all layers.
 float largest_cell(const Network& network, uint32_t node_count, const float* state) noexcept;

@@ -11,6 +11,7 @@
 #include "tissue/node_bend.hpp"
 #include "world/motion.hpp"
 #include "world/simulate.hpp"
+#include "world/sleep.hpp"
 
 namespace sinew::world {
 namespace {
@@ -97,6 +98,7 @@ void enter_tier(Instance& instance, Tier tier) noexcept {
   if (!simulated && was_simulated) begin_tail(instance, 1);
   if (has_base(tier) && !has_base(state.tier)) lift_displacement(instance);
   if (tier == Tier::kNetwork && state.tier != Tier::kNetwork) begin_network(instance);
+  if (tier != state.tier) wake_regions(instance);
   if (tier == Tier::kSkinning) state.tail_ticks = std::max(state.tail_ticks, kCarryTicks);
   state.tier = tier;
 }
@@ -110,6 +112,7 @@ void restart(Instance& instance) noexcept {
   state.tier = Tier::kSkinning;
   state.restarting = 1;
   state.forgotten = 1;
+  wake_regions(instance);
   ++state.restarts;
   instance.restarted = true;
 }

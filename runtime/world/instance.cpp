@@ -13,6 +13,7 @@
 #include "tissue/network.hpp"
 #include "tissue/node_drive.hpp"
 #include "world/publish.hpp"
+#include "world/sleep.hpp"
 
 namespace sinew::world {
 namespace {
@@ -39,6 +40,8 @@ void lay_out_state(const Asset& asset, core::Arena& arena, Instance& to) noexcep
   to.tail = arena.take<float>(vectors);
   to.tail_velocity = arena.take<float>(vectors);
   for (float*& shown : to.shown) shown = arena.take<float>(vectors);
+  to.felt_asleep = arena.take<float>(vectors);
+  to.quiet_ticks = arena.take<uint32_t>(asset.pack.regions.size());
   to.state_bytes = arena.used_bytes();
 }
 
@@ -54,6 +57,7 @@ void lay_out_scratch(const Asset& asset, core::Arena& arena, Instance& to) noexc
     *vectors = arena.take<float>(size_t{3} * nodes);
   to.q_hat = arena.take<float>(asset.mode_count());
   for (float*& region : to.region) region = arena.take<float>(asset.widest_region);
+  to.awake = arena.take<tissue::NodeRun>(asset.pack.regions.size());
   to.inputs = arena.take<float>(tissue::input_stride(asset.network) * nodes);
   to.network_scratch = arena.take<float>(tissue::scratch_floats(asset.network, nodes));
   to.skin = arena.take<float>(size_t{12} * joints);
@@ -140,6 +144,7 @@ InstanceReport describe(const Instance& instance, InstanceId id) noexcept {
           .displacement_clamps = state.displacement_clamps,
           .fallbacks = state.fallbacks,
           .restarts = state.restarts,
+          .regions_asleep = frame::is_simulated(state.tier) ? regions_asleep(instance) : 0,
           .cost_us = core::microseconds(instance.times.total_ns)};
 }
 

@@ -90,6 +90,8 @@ struct Instance {
   float *q[2] = {}, *r[2] = {};                     // q: [modes of all regions]
   float *tail = nullptr, *tail_velocity = nullptr;  // velocity a tick
   float* shown[2] = {};                             // newest first
+  float* felt_asleep = nullptr;                     // m/s^2, when the region's quiet began (world/sleep.hpp)
+  uint32_t* quiet_ticks = nullptr;                  // [regions]
   size_t state_bytes = 0;
 
   // Scratch of a step.
@@ -99,12 +101,13 @@ struct Instance {
   float* drive = nullptr;           // [nodes][kNodeDriveWidth]
   float *felt = nullptr, *l_hat = nullptr, *r_hat = nullptr, *q_hat = nullptr, *carry = nullptr;
   float *inputs = nullptr, *network_scratch = nullptr;
-  float* region[2] = {};  // one region's x y z, padded
+  float* region[2] = {};             // one region's x y z, padded
+  tissue::NodeRun* awake = nullptr;  // [regions]
 
   // Published by a step, read by read_*.
   float* skin = nullptr;     // [joints][12]
   float* delta = nullptr;    // [nodes][3], bind-pose axes
-  float* carried = nullptr;  // a region after the other [3][padded_vertices], bind-pose axes
+  float* carried = nullptr;  // of delta: a region after the other [3][padded_vertices], bind-pose axes
   float* surface = nullptr;  // [vertices][3], scratch of read_normals
 
   float simulated_share() const noexcept;  // b

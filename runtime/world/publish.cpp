@@ -1,20 +1,26 @@
 // publish.cpp  The last tick's displacement brought to the render time and to the surface.
 #include "world/publish.hpp"
 
+#include <bit>
+
 #include "simd/kernels.hpp"
 #include "world/pose.hpp"
 
 namespace sinew::world {
 namespace {
 
-// delta = u + (r/h)(u - u_before).
-void carry_on(Instance& instance) noexcept {
+// delta = u + (r/h)(u - u_before). True when any bit of it is new.
+bool carry_on(Instance& instance, const pack::RegionRecord& region) noexcept {
   const float ahead = instance.state->render_fraction;
-  const size_t floats = size_t{3} * instance.asset->node_count();
-  for (size_t i = 0; i < floats; ++i) {
+  const size_t begin = size_t{3} * region.first_node, end = begin + size_t{3} * region.node_count;
+  uint32_t changed = 0;
+  for (size_t i = begin; i < end; ++i) {
     const float now = instance.shown[0][i];
-    instance.delta[i] = now + ahead * (now - instance.shown[1][i]);
+    const float delta = now + ahead * (now - instance.shown[1][i]);
+    changed |= std::bit_cast<uint32_t>(delta) ^ std::bit_cast<uint32_t>(instance.delta[i]);
+    instance.delta[i] = delta;
   }
+  return changed != 0;
 }
 
 }  // namespace
@@ -24,11 +30,11 @@ void publish(Instance& instance) noexcept {
   skin_matrices(pack.joints, instance.joints, instance.skin);
   instance.displaced = instance.shown_share() > 0;
   if (!instance.displaced) return;
-  carry_on(instance);
   float* carried = instance.carried;
   for (const pack::RegionRecord& region : pack.regions) {
-    simd::kernels().carry(pack.carry.data() + region.carry, region.node_count, region.padded_vertices,
-                          instance.delta + size_t{3} * region.first_node, carried);
+    if (carry_on(instance, region))
+      simd::kernels().carry(pack.carry.data() + region.carry, region.node_count, region.padded_vertices,
+                            instance.delta + size_t{3} * region.first_node, carried);
     carried += size_t{3} * region.padded_vertices;
   }
 }

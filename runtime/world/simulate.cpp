@@ -10,6 +10,7 @@
 #include "tissue/network.hpp"
 #include "tissue/node_drive.hpp"
 #include "tissue/spring.hpp"
+#include "world/sleep.hpp"
 
 namespace sinew::world {
 namespace {
@@ -29,6 +30,13 @@ void for_each_part(const Instance& instance, Work work) noexcept {
     work(Part{pack.regions[r], tissue::modal_base(pack, r), r, node, 3 * node,
               pack.region_modes[r].first_mode});
   }
+}
+
+template <class Work>
+void for_each_awake_part(const Instance& instance, Work work) noexcept {
+  for_each_part(instance, [&](const Part& part) {
+    if (!is_asleep(instance, part.index)) work(part);
+  });
 }
 
 size_t floats_of(const Instance& instance) noexcept { return size_t{3} * instance.asset->node_count(); }
@@ -61,17 +69,32 @@ bool spring_tick(Instance& instance) noexcept {
 
 // ---- modes ----
 
-// felt = f + phi, then e; q_hat, r_hat and l_hat. False where they are not finite.
-bool base_step(Instance& instance) noexcept {
-  const Asset& asset = *instance.asset;
-  const tissue::NodePose* const poses[3] = {instance.poses[0], instance.poses[1], instance.poses[2]};
-  tissue::frame_term(poses, instance.u[0], instance.u[1], static_cast<float>(asset.tick_s),
-                     asset.node_count(), instance.felt);
-  for (size_t n = 0; n < asset.node_count(); ++n) {
+// f + phi.
+void feel(Instance& instance, const Part& part) noexcept {
+  const tissue::NodePose* const poses[3] = {instance.poses[0] + part.node, instance.poses[1] + part.node,
+                                            instance.poses[2] + part.node};
+  tissue::frame_term(poses, instance.u[0] + part.vector, instance.u[1] + part.vector,
+                     static_cast<float>(instance.asset->tick_s), part.record.node_count,
+                     instance.felt + part.vector);
+  for (size_t n = part.node; n < part.node + part.record.node_count; ++n) {
     for (size_t k = 0; k < 3; ++k)
       instance.felt[3 * n + k] += instance.drive[tissue::kNodeDriveWidth * n + k];
   }
-  for_each_part(instance, [&](const Part& part) {
+}
+
+// What sleeps answers with what it is.
+void answer_as_before(Instance& instance) noexcept {
+  std::copy_n(instance.q[0], instance.asset->mode_count(), instance.q_hat);
+  std::copy_n(instance.r[0], floats_of(instance), instance.r_hat);
+  std::copy_n(instance.l[0], floats_of(instance), instance.l_hat);
+}
+
+// felt = f + phi, then e; q_hat, r_hat and l_hat. False where they are not finite.
+bool base_step(Instance& instance) noexcept {
+  const Asset& asset = *instance.asset;
+  if (regions_asleep(instance) > 0) answer_as_before(instance);
+  for_each_awake_part(instance, [&](const Part& part) {
+    feel(instance, part);
     const tissue::ModalState state{.q = instance.q[0] + part.mode,
                                    .q_before = instance.q[1] + part.mode,
                                    .r = instance.r[0] + part.vector,
@@ -90,7 +113,7 @@ bool base_step(Instance& instance) noexcept {
 // What is the last tick's now, and this tick's before, in q and r: overwritten where a region is stopped.
 uint32_t hold_base(Instance& instance) noexcept {
   uint32_t held = 0;
-  for_each_part(instance, [&](const Part& part) {
+  for_each_awake_part(instance, [&](const Part& part) {
     held += tissue::hold_base_at_limit(part.record, static_cast<uint32_t>(part.base.modes.size()),
                                        instance.l_hat + part.vector,
                                        {instance.q_hat + part.mode, instance.q[0] + part.mode},
@@ -132,7 +155,7 @@ void take_base_answer(Instance& instance) noexcept {
 // l of this tick is the base's; theta and u follow.
 void settle_on_base(Instance& instance) noexcept {
   std::copy_n(instance.l_hat, floats_of(instance), instance.l[0]);
-  for_each_part(instance, [&](const Part& part) { turn_and_warp(instance, part); });
+  for_each_awake_part(instance, [&](const Part& part) { turn_and_warp(instance, part); });
 }
 
 // ---- the network ----
@@ -140,7 +163,7 @@ void settle_on_base(Instance& instance) noexcept {
 void assemble(Instance& instance) noexcept {
   const Asset& asset = *instance.asset;
   const size_t stride = tissue::input_stride(asset.network);
-  for_each_part(instance, [&](const Part& part) {
+  for_each_awake_part(instance, [&](const Part& part) {
     const tissue::NodeSources sources{.region = &part.record,
                                       .nodes = asset.pack.nodes.data() + part.node,
                                       .drive = instance.drive + tissue::kNodeDriveWidth * part.node,
@@ -165,16 +188,9 @@ void give_up_network(Instance& instance) noexcept {
   state.fallback_ticks = kFallbackTicks;
   state.forgotten = 1;
   state.clamped_ticks = 0;
+  wake_regions(instance);
   ++state.fallbacks;
   instance.fell_back = true;
-}
-
-// The region stands still: nothing of the last tick is left to go on with.
-void stop(Instance& instance, const Part& part) noexcept {
-  const size_t floats = size_t{3} * part.record.node_count;
-  std::copy_n(instance.q[0] + part.mode, part.base.modes.size(), instance.q[1] + part.mode);
-  for (float* const* ticks : {instance.r, instance.u})
-    std::copy_n(ticks[0] + part.vector, floats, ticks[1] + part.vector);
 }
 
 // l of this tick is the network's; q, theta and u follow. Returns the nodes held.
@@ -184,23 +200,36 @@ uint32_t settle_on_network(Instance& instance) noexcept {
   tissue::read_output(asset.network, asset.pack.regions, asset.node_count(), instance.network_state,
                       instance.l[0]);
   uint32_t held = 0;
-  for_each_part(instance, [&](const Part& part) {
+  for_each_awake_part(instance, [&](const Part& part) {
     float *now = instance.l[0] + part.vector, *before = instance.l[1] + part.vector;
     const uint32_t here = tissue::hold_at_limit(part.record, memory, now, before);
     project_change(instance, part, instance.l[0], instance.l_hat, instance.q[0]);
     turn_and_warp(instance, part);
-    if (here > 0) stop(instance, part);
+    if (here > 0) stop_region(instance, part.index);
     held += here;
   });
   return held;
+}
+
+// Runs of awake regions.
+std::span<const tissue::NodeRun> awake_nodes(Instance& instance) noexcept {
+  size_t count = 0;
+  for_each_awake_part(instance, [&](const Part& part) {
+    const auto first = static_cast<uint32_t>(part.node), last = first + part.record.node_count;
+    if (count > 0 && instance.awake[count - 1].last == first)
+      instance.awake[count - 1].last = last;
+    else
+      instance.awake[count++] = {first, last};
+  });
+  return {instance.awake, count};
 }
 
 // True when the network's state is sound after its step.
 bool network_step(Instance& instance) noexcept {
   const Asset& asset = *instance.asset;
   assemble(instance);
-  tissue::network_step(asset.network, asset.graph, instance.inputs, instance.carry, instance.network_state,
-                       instance.network_scratch);
+  tissue::network_step(asset.network, asset.graph, awake_nodes(instance), instance.inputs, instance.carry,
+                       instance.network_state, instance.network_scratch);
   if (instance.state->clamped_ticks <= kMostClampedTicks &&
       tissue::network_is_finite(asset.network, asset.node_count(), instance.network_state))
     return true;

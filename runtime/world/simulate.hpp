@@ -8,8 +8,8 @@ namespace sinew::world {
 void drive_nodes(Instance& instance) noexcept;
 
 // u of this tick, and l, theta and q where the tier has a modal base. A network whose state is given up
-// leaves the tick, and the tier, to the base (see kFallbackTicks). False: the base's own numbers are not
-// finite, and nothing of the state is of use any more.
+// leaves the tick, and the tier, to the base (see kFallbackTicks). Sleeping regions stay as they are. False:
+// the base's own numbers are not finite, and nothing of the state is of use any more.
 bool simulate_tick(Instance& instance) noexcept;
 
 // l, theta and q of a displacement that did not come from them: u is taken for l, at both ticks.

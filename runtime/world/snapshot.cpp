@@ -14,7 +14,8 @@ namespace {
 using core::make_status;
 
 constexpr uint64_t kMagic = 0x31544154534e5753;  // "SWNSTAT1", little-endian
-constexpr uint32_t kVersion = 3;                 // of InstanceState and the arrays after it
+// Of InstanceState and the arrays after it. 4: which regions sleep, and what they felt when they fell asleep.
+constexpr uint32_t kVersion = 4;
 
 struct Header {
   uint64_t magic, fingerprint, payload_bytes, checksum;

@@ -77,7 +77,9 @@ float planned_us(std::span<const Candidate> candidates) noexcept {
 }
 
 TickContext context_of(const WorldState& world, uint64_t start_ns) noexcept {
-  TickContext context{.clock = world.def.clock, .teleport_distance_m = world.def.teleport_distance_m};
+  TickContext context{.clock = world.def.clock,
+                      .teleport_distance_m = world.def.teleport_distance_m,
+                      .sleep_tolerance = world.def.sleep_tolerance};
   const bool limited = costs_are_measured(world) && world.budget_us > 0 && world.budget_us < 1e12f;
   if (limited) context.deadline_ns = start_ns + static_cast<uint64_t>(world.budget_us * 1e3);
   return context;
@@ -133,6 +135,7 @@ void add_to_report(const Instance& instance, FrameReport& report) noexcept {
   report.instances_cut += instance.cut;
   report.restarts += instance.restarted;
   report.fallbacks += instance.fell_back;
+  report.regions_asleep += describe(instance, {}).regions_asleep;
   count_tier(instance, report);
 }
 

@@ -8,28 +8,32 @@
 #include "world/motion.hpp"
 #include "world/publish.hpp"
 #include "world/simulate.hpp"
+#include "world/sleep.hpp"
 
 namespace sinew::world {
 namespace {
 
-void simulated_tick(Instance& instance, double time_s, const ClockHook& clock) noexcept {
+void simulated_tick(Instance& instance, double time_s, const TickContext& context) noexcept {
+  const ClockHook& clock = context.clock;
   const uint64_t start_ns = core::now_ns(clock);
   follow_motion(instance, time_s);
   drive_nodes(instance);
   const uint64_t driven_ns = core::now_ns(clock);
+  watch_drive(instance, context.sleep_tolerance);
   if (!simulate_tick(instance)) restart(instance);
+  watch_motion(instance, context.sleep_tolerance);
   instance.times.drive_ns += driven_ns - start_ns;
   instance.times.tissue_ns += core::now_ns(clock) - driven_ns;
 }
 
-void run_ticks(Instance& instance, const ClockHook& clock) noexcept {
+void run_ticks(Instance& instance, const TickContext& context) noexcept {
   InstanceState& state = *instance.state;
   const frame::TickPlan& ticks = instance.plan.ticks;
   if (ticks.dropped_s > 0) state.motion_stale = 1;
   for (uint32_t k = 0; k < ticks.ticks; ++k) {
     state.fallback_ticks -= state.fallback_ticks > 0;
     if (frame::is_simulated(state.tier))
-      simulated_tick(instance, ticks.first_tick_s + k * instance.asset->tick_s, clock);
+      simulated_tick(instance, ticks.first_tick_s + k * instance.asset->tick_s, context);
     else
       state.motion_stale = 1;
     state.ticks_since_network = state.tier == Tier::kNetwork ? 0 : state.ticks_since_network + 1;
@@ -57,7 +61,7 @@ void step_instance(Instance& instance, const TickContext& context) noexcept {
   instance.cut = tier != instance.plan.tier;
   enter_tier(instance, tier);
   take_pose(instance, context.teleport_distance_m);
-  run_ticks(instance, context.clock);
+  run_ticks(instance, context);
   keep_pose(instance);
   const uint64_t ticked_ns = core::now_ns(context.clock);
   publish(instance);

@@ -10,6 +10,7 @@ struct TickContext {
   ClockHook clock;
   uint64_t deadline_ns = UINT64_MAX;  // a simulated task that would begin later is cut: extrapolated instead
   float teleport_distance_m = 2;
+  float sleep_tolerance = 0;  // WorldDef; 0: regions never sleep
 };
 
 // instance.plan says what is to be done.

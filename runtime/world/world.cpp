@@ -38,6 +38,8 @@ Status check_def(const WorldDef& def) noexcept {
     return invalid("WorldDef: max_ticks_per_step must be 1..64");
   }
   if (!(def.teleport_distance_m > 0)) return invalid("WorldDef: teleport_distance_m must be > 0");
+  if (!(def.sleep_tolerance >= 0 && def.sleep_tolerance <= 1))
+    return invalid("WorldDef: sleep_tolerance must be 0..1, a share of a region's radius");
   if (def.budget_mode != BudgetMode::kTime && def.budget_mode != BudgetMode::kWorkUnits) {
     return invalid("WorldDef: budget_mode is neither kTime nor kWorkUnits");
   }

@@ -73,6 +73,10 @@ struct WorldDef {
   // > 0; infinity: never. A root set further than this from where its velocity of the last step would have
   // brought it is a teleport, at any frame rate: tissue keeps its shape and feels nothing of the jump.
   float teleport_distance_m = 2;
+  // 0..1, a share of a soft part's radius. A part that neither moves nor feels anything new by more than that
+  // for half a swing falls asleep: it keeps its shape at next to no cost until it feels more
+  // (runtime/world/sleep.hpp). 0: never.
+  float sleep_tolerance = 5e-4f;
   BudgetMode budget_mode = BudgetMode::kTime;
   TaskHook tasks = {};
   ClockHook clock = {};
@@ -112,7 +116,8 @@ struct InstanceReport {
   // All state was given up, faded to skinning and restarted: NaN or infinity in the modal base or the
   // springs.
   uint32_t restarts = 0;
-  float cost_us = 0;  // what this instance took in the last step, on its thread
+  uint32_t regions_asleep = 0;  // soft parts at rest, left out until they feel more
+  float cost_us = 0;            // what this instance took in the last step, on its thread
 };
 
 // Filled by step(). All times in microseconds of the world's clock.
@@ -131,6 +136,7 @@ struct FrameReport {
            instances_skinned = 0;
   uint32_t instances_cut = 0;            // to be simulated, but the deadline came first: extrapolated instead
   uint32_t restarts = 0, fallbacks = 0;  // instances in this frame
+  uint32_t regions_asleep = 0;           // soft parts at rest, of all instances
   uint32_t rejected_poses = 0;           // set_pose calls refused since the last step
   bool over_budget = false;  // kTime: total_us > budget_us; kWorkUnits: the baked cost of what ran is
 };

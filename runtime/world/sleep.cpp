@@ -1,0 +1,119 @@
+// sleep.cpp  see sleep.hpp.
+#include "world/sleep.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tissue/node_drive.hpp"
+
+namespace sinew::world {
+namespace {
+
+struct Region {
+  const pack::RegionRecord& record;
+  float w1, w1_tick, rest_m;  // rad/s, rad a tick, metres
+};
+
+Region region_at(const Instance& instance, size_t index, float tolerance) noexcept {
+  const pack::PackView& pack = instance.asset->pack;
+  const float w1 = pack.region_modes[index].first_rad_per_s;
+  return {pack.regions[index], w1, w1 * static_cast<float>(instance.asset->tick_s),
+          tolerance * pack.regions[index].radius_m};
+}
+
+uint32_t ticks_to_sleep(const Region& region) noexcept {
+  return static_cast<uint32_t>(std::ceil(std::numbers::pi_v<float> / std::min(region.w1_tick, 1.0f)));
+}
+
+// By compare, so that NaN is never near.
+bool is_near(const float* a, const float* b, float distance) noexcept {
+  float squared = 0;
+  for (int k = 0; k < 3; ++k) squared += (a[k] - b[k]) * (a[k] - b[k]);
+  return squared <= distance * distance;
+}
+
+bool feels_the_same(const Instance& instance, const Region& region) noexcept {
+  const float most = region.rest_m * region.w1 * region.w1;
+  for (size_t n = region.record.first_node; n < region.record.first_node + region.record.node_count; ++n) {
+    if (!is_near(instance.drive + tissue::kNodeDriveWidth * n, instance.felt_asleep + 3 * n, most))
+      return false;
+  }
+  return true;
+}
+
+void remember_drive(Instance& instance, const Region& region) noexcept {
+  for (size_t n = region.record.first_node; n < region.record.first_node + region.record.node_count; ++n)
+    std::copy_n(instance.drive + tissue::kNodeDriveWidth * n, 3, instance.felt_asleep + 3 * n);
+}
+
+bool stays(const Instance& instance, const Region& region) noexcept {
+  const float most = region.rest_m * region.w1_tick;
+  for (size_t n = region.record.first_node; n < region.record.first_node + region.record.node_count; ++n) {
+    if (!is_near(instance.l[0] + 3 * n, instance.l[1] + 3 * n, most)) return false;
+  }
+  return true;
+}
+
+template <class Work>
+void for_each_region(Instance& instance, float tolerance, Work work) noexcept {
+  for (size_t r = 0; r < instance.asset->pack.regions.size(); ++r)
+    work(r, region_at(instance, r, tolerance), instance.quiet_ticks[r]);
+}
+
+void fall_asleep(Instance& instance, size_t index, const Region& region) noexcept {
+  const size_t vector = size_t{3} * region.record.first_node;
+  stop_region(instance, index);
+  std::copy_n(instance.l[0] + vector, size_t{3} * region.record.node_count, instance.l[1] + vector);
+}
+
+// Springs are not worth it.
+bool may_sleep(const Instance& instance) noexcept {
+  return instance.state->tier == Tier::kModal || instance.state->tier == Tier::kNetwork;
+}
+
+}  // namespace
+
+void wake_regions(Instance& instance) noexcept {
+  std::fill_n(instance.quiet_ticks, instance.asset->pack.regions.size(), 0u);
+}
+
+bool is_asleep(const Instance& instance, size_t region) noexcept {
+  return instance.quiet_ticks[region] >= ticks_to_sleep(region_at(instance, region, 0));
+}
+
+uint32_t regions_asleep(const Instance& instance) noexcept {
+  uint32_t count = 0;
+  for (size_t r = 0; r < instance.asset->pack.regions.size(); ++r) count += is_asleep(instance, r);
+  return count;
+}
+
+void watch_drive(Instance& instance, float tolerance) noexcept {
+  for_each_region(instance, tolerance, [&](size_t, const Region& region, uint32_t& quiet_ticks) {
+    if (quiet_ticks > 0 && feels_the_same(instance, region)) return;
+    quiet_ticks = 0;
+    remember_drive(instance, region);
+  });
+}
+
+void watch_motion(Instance& instance, float tolerance) noexcept {
+  if (!may_sleep(instance)) return;
+  for_each_region(instance, tolerance, [&](size_t r, const Region& region, uint32_t& quiet_ticks) {
+    const uint32_t enough = ticks_to_sleep(region);
+    if (quiet_ticks >= enough) return;
+    quiet_ticks = tolerance > 0 && stays(instance, region) ? quiet_ticks + 1 : 0;
+    if (quiet_ticks == enough) fall_asleep(instance, r, region);
+  });
+}
+
+void stop_region(Instance& instance, size_t region) noexcept {
+  const pack::PackView& pack = instance.asset->pack;
+  const pack::RegionModesRecord& modes = pack.region_modes[region];
+  const size_t vector = size_t{3} * pack.regions[region].first_node,
+               floats = size_t{3} * pack.regions[region].node_count;
+  std::copy_n(instance.q[0] + modes.first_mode, modes.mode_count, instance.q[1] + modes.first_mode);
+  for (float* const* ticks : {instance.r, instance.u})
+    std::copy_n(ticks[0] + vector, floats, ticks[1] + vector);
+}
+
+}  // namespace sinew::world

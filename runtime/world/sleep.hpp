@@ -1,0 +1,30 @@
+// sleep.hpp  Regions at rest are left out of a tick's products.
+//
+// With w1 a region's lowest frequency, h a tick and s = sleep_tolerance x its radius, a length:
+//   quiet   in a tick: each node's felt acceleration is within s w1^2 of what it was when the quiet began,
+//   and
+//           its l moved by at most s w1 h: what swings at w1 or above swings by less than s
+//   asleep  after half a swing of quiet ticks, pi / (w1 h), as long as the felt acceleration stays that near
+// A sleeping region keeps l, theta, q, r and its network's states, with no velocity, and is carried and shown
+// as ever. Its poses and drive are followed, so that the first tick in which it feels more is simulated like
+// any other. What that costs: a swing of s, and the answer to a push of s w1^2, which is s if it lasts and
+// s / (2 zeta) if it lasts at resonance (damping ratio zeta).
+#pragma once
+#include "world/instance.hpp"
+
+namespace sinew::world {
+
+// All regions are awake: another tier, a guard, a start.
+void wake_regions(Instance& instance) noexcept;
+bool is_asleep(const Instance& instance, size_t region) noexcept;
+uint32_t regions_asleep(const Instance& instance) noexcept;
+
+// After a tick's drive, before its tissue: wakes what feels more than it did.
+void watch_drive(Instance& instance, float tolerance) noexcept;
+// After its tissue: counts quiet ticks; what falls asleep stops.
+void watch_motion(Instance& instance, float tolerance) noexcept;
+
+// The region stands still: nothing of the last tick is left to go on with.
+void stop_region(Instance& instance, size_t region) noexcept;
+
+}  // namespace sinew::world
