@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
+#include "baker/common/bad_input.hpp"
 #include "pack/int8_layout.hpp"
 
 namespace sinew::baker {
@@ -11,6 +13,33 @@ namespace {
 
 constexpr float kLargest = 127, kNarrowest = 1.0f / 16;
 constexpr uint32_t kGates = 4;
+
+// ---- what is refused ----
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw BadInput("int8 ranges: " + what + "; calibrate again, with a finite roll-out of this network");
+}
+
+void check_range(const std::vector<float>& range, size_t wanted, const std::string& what) {
+  if (range.size() != wanted)
+    refuse(what + " has " + std::to_string(range.size()) + " channels, wanted " + std::to_string(wanted));
+  if (std::ranges::any_of(range, [](float r) { return !(r >= 0 && std::isfinite(r)); }))
+    refuse(what + " holds a number below 0 or not finite");
+}
+
+void check_ranges(std::span<const pack::LayerRecord> layers, std::span<const HeardRanges> ranges) {
+  if (ranges.size() + 1 != layers.size())
+    refuse(std::to_string(ranges.size()) + " layers, wanted " + std::to_string(layers.size() - 1));
+  for (size_t l = 0; l < ranges.size(); ++l) {
+    const std::string layer = "layer " + std::to_string(l) + ": ";
+    check_range(ranges[l].px, layers[l].inputs, layer + "P x");
+    check_range(ranges[l].x, layers[l].inputs, layer + "x");
+    check_range(ranges[l].h, layers[l].channels, layer + "P h");
+    check_range(ranges[l].y, layers[l].channels, layer + "P y");
+  }
+}
+
+// ---- what is made ----
 
 // What the integer sums of one layer are made of: v[k] heard, times w[k][gate][channel].
 class LayerProducts {
@@ -48,7 +77,7 @@ class LayerProducts {
   void append(uint32_t rows, uint64_t tensor, uint32_t gates, const std::vector<float>& ranges) {
     const float widest = *std::ranges::max_element(ranges);
     const float narrowest = widest > 0 ? widest * kNarrowest : 1;
-    for (uint32_t k = 0; k < (rows + 15) / 16 * 16; ++k) {
+    for (uint32_t k = 0; k < pack::round_up_16(rows); ++k) {
       unit_.push_back(k < rows ? std::max(ranges[k], narrowest) / kLargest : 0);
       row_.push_back(tensor + uint64_t{k} * gates * layer_.padded);
     }
@@ -133,6 +162,7 @@ void append_layer(const LayerProducts& products, const pack::LayerRecord& layer,
 
 Int8Sections quantize_network(std::span<const pack::LayerRecord> layers, std::span<const float> floats,
                               std::span<const HeardRanges> ranges) {
+  check_ranges(layers, ranges);
   Int8Sections out;
   for (size_t l = 0; l + 1 < layers.size(); ++l)
     append_layer(LayerProducts(layers[l], l == 0, floats, ranges[l]), layers[l], &out);

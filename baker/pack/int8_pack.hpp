@@ -23,7 +23,7 @@ struct Int8Sections {
 // What a channel never exceeded becomes 127, and is clamped there; a channel that moved less than 1/16 of the
 // layer's widest of its kind is given that much. Those units are then the weights', and each gate's column is
 // rounded to its own largest 127th. `floats` are the tensors of the kWeights section; ranges: of each hidden
-// layer.
+// layer. Throws BadInput: ranges of another network, negative, NaN or infinite.
 Int8Sections quantize_network(std::span<const pack::LayerRecord> layers, std::span<const float> floats,
                               std::span<const HeardRanges> ranges);
 

@@ -188,7 +188,7 @@ class WeightLayout {
     pack::LayerRecord layer{};
     layer.inputs = inputs;
     layer.channels = channels;
-    layer.padded = (channels + 15) / 16 * 16;
+    layer.padded = static_cast<uint32_t>(pack::round_up_16(channels));
     layer.has_self = weights_.tensors.contains(prefix + "W_s") ? 1 : 0;
     layer.w_x = append(prefix + "W_x", layer, inputs, 4);
     if (layer.has_self != 0) layer.w_s = append(prefix + "W_s", layer, inputs, 4);

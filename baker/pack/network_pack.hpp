@@ -20,7 +20,7 @@ namespace sinew::baker {
 // Tensors: layers.{l}.W_x (F_in,4F) W_h (F,4F) W_y (F,3F) b (4F), and optionally W_s (F_in,4F).
 // precision: what the network runs in; ranges: of each hidden layer, for int8. Returns the layers as packed.
 // Throws BadInput naming file, tensor or key: missing, misshaped, NaN, unknown model or version, unknown
-// input.
+// input; for int8, ranges that are not this network's or not finite.
 std::vector<pack::LayerRecord> add_network(const Safetensors& weights, PackWriter& pack,
                                            pack::Precision precision = pack::Precision::kFloat32,
                                            std::span<const HeardRanges> ranges = {});

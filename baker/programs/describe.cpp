@@ -99,8 +99,9 @@ constexpr const char* dtype_name(Dtype dtype) {
 Json describe_pack(const LoadedPack& pack) {
   const pack::PackView& view = pack.view();
   const bool is_character = view.kind == pack::FileKind::kCharacter;
-  Json description = {
-      {"kind", is_character ? "character" : "model"}, {"version", pack::kVersion}, {"bytes", pack.bytes().size()}};
+  Json description = {{"kind", is_character ? "character" : "model"},
+                      {"version", pack::kVersion},
+                      {"bytes", pack.bytes().size()}};
   if (is_character) description["character"] = describe_character(view);
   description["network"] = describe_network(view);
   if (is_character) {

@@ -13,8 +13,6 @@ Status check_modes(const PackView& pack) noexcept;  // modal bases, compliance, 
 
 // ---- shared by the four ----
 
-constexpr uint64_t round_up_16(uint64_t value) noexcept { return (value + 15) / 16 * 16; }
-
 // "pack: <what>; the file is damaged, bake it again"
 [[gnu::format(printf, 1, 2)]] Status corrupt(const char* format, ...) noexcept;
 

@@ -19,7 +19,8 @@
 //   2  tissue lives in node frames on a modal base; tiers modal and spring; a character may have no network
 //   3  node frames follow a share of their region's bend (RegionRecord::anchor_node); inputs that tell the
 //   bend
-//      since then, without a new version, for a reader that does not know it refuses the field: precision
+//      since then without a new version, for a reader that does not know them refuses the field or the kind:
+//      NetworkRecord::precision with the int8 sections; the inputs kTurnedForce .. kSpunVelocity
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -30,6 +31,9 @@ inline constexpr char kMagic[8] = {'S', 'I', 'N', 'E', 'W', 'P', 'K', '\0'};
 inline constexpr uint32_t kVersion = 3;
 inline constexpr size_t kSectionAlignment = 64;
 inline constexpr uint32_t kNoIndex = 0xffffffffu;
+
+// Rows of channels are padded to whole 16.
+constexpr uint64_t round_up_16(uint64_t value) noexcept { return (value + 15) / 16 * 16; }
 
 enum class FileKind : uint32_t { kModel = 1, kCharacter = 2 };
 

@@ -13,7 +13,7 @@ struct Int8Extent {
 };
 
 constexpr Int8Extent int8_extent(const LayerRecord& layer, bool is_first) noexcept {
-  const uint32_t p = layer.padded, x = (layer.inputs + 15) / 16 * 16;
+  const uint32_t p = layer.padded, x = static_cast<uint32_t>(round_up_16(layer.inputs));
   const uint32_t depth = (is_first ? 0 : (1 + layer.has_self) * x) + 2 * p;
   return {depth, uint64_t{4} * p * (depth - p) + uint64_t{3} * p * p, uint64_t{5} * p,
           depth + uint64_t{5} * p};

@@ -85,7 +85,7 @@ std::span<const Kernels* const> compiled_kernels() noexcept {
   static const Kernels* const tables[] = {
 #if HWY_TARGETS & HWY_AVX3
     &N_AVX3::kFastDotKernels,
-#elif (HWY_TARGETS & HWY_NEON) && defined(__linux__)
+#elif (HWY_TARGETS & HWY_NEON) && HWY_ARCH_ARM_A64 && defined(__linux__)
     &N_NEON::kFastDotKernels,
 #endif
     HWY_CHOOSE_TARGET_LIST(kKernels),

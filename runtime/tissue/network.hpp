@@ -58,8 +58,8 @@ HalfLayerState half_layer_state(const Network& network, uint32_t node_count, uin
 
 // One step. z: [node_count][input_width rounded up to 16], padding zero. carry: [node_count][3] added to the
 // last layer's y, or null. After it the last layer's y (first 3 of each row of `padded`) is the output. The
-// same bits on every target with FMA; the sums run over k in order, whatever the vector width. What is not
-// finite in a state reaches the output in the same step, in every precision.
+// same bits on every target with FMA; the sums run over k in order, whatever the vector width. A NaN in a
+// state, or an infinity outside a clamped cell, reaches the output in the same step, in every precision.
 void network_step(const Network& network, const Graph& graph, const float* z, const float* carry,
                   float* state, float* scratch) noexcept;
 
