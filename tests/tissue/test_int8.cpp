@@ -59,6 +59,7 @@ struct Int8Twins {
           {all(layer.inputs, 1), all(layer.inputs, 0.5f), all(layer.channels, 1), all(layer.channels, 5)});
       floats += simd::pad_to_block(layer.channels) * (8 * layer.inputs + 7 * layer.channels + 4);
     }
+    ranges.pop_back();  // the last layer is of floats
     const tissue::Network network = packed.view();
     const baker::Int8Sections made =
         baker::quantize_network(network.layers, {network.weights, floats}, ranges);
