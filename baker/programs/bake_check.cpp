@@ -14,9 +14,9 @@
 namespace sinew::baker {
 namespace {
 
-// Of each precision, on outputs and states of order one over fifty steps of the paper's wiring, where nothing
-// leaks; twice what the reference vectors show.
-constexpr double kTolerances[] = {1e-5, 0.06, 0.15};
+// Of each precision, on outputs and states over fifty steps of the paper's wiring, where nothing leaks and sums
+// grow to tens: in float32 the contract, else twice what the reference vectors show.
+constexpr double kTolerances[] = {1e-5, 0.06, 0.12};
 
 struct CheckOptions {
   std::string model, vectors, isa, precision;
@@ -78,7 +78,7 @@ void add_check_command(CLI::App& app, int* exit_code) {
                       "fp32, fp16 or int8; by default what the pack was baked in, of weights fp32");
   command->add_option("--isa", options->isa, "an instruction set of this processor; the best by default");
   command->add_option("--tolerance", options->tolerance,
-                      "largest absolute error; by default 1e-5 (fp32), 0.06 (fp16), 0.15 (int8)");
+                      "largest absolute error; by default 1e-5 (fp32), 0.06 (fp16), 0.12 (int8)");
   command->callback([options, exit_code] { *exit_code = run_check(*options); });
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <random>
 
 #include "baker/common/bad_input.hpp"
@@ -17,7 +18,9 @@ constexpr size_t kSteps = 50, kRings = 12, kSpokes = 24, kNodes = kRings * kSpok
 
 // ---- what is heard ----
 
+// A range that is NaN stays so, whatever follows.
 void raise(float value, float* range) {
+  if (std::isnan(*range)) return;
   if (!(std::fabs(value) <= *range)) *range = std::fabs(value);
 }
 
@@ -85,8 +88,8 @@ std::vector<float> swaying_sphere() {
   for (size_t t = 0; t <= kSteps; ++t) {
     const double phase = 0.3 * static_cast<double>(t), turn = 0.5 * std::sin(0.7 * phase);
     for (size_t node = 0; node < kNodes; ++node) {
-      const double up = M_PI * (static_cast<double>(node / kSpokes) + 0.5) / kRings;
-      const double around = 2 * M_PI * static_cast<double>(node % kSpokes) / kSpokes + turn;
+      const double up = std::numbers::pi * (static_cast<double>(node / kSpokes) + 0.5) / kRings;
+      const double around = 2 * std::numbers::pi * static_cast<double>(node % kSpokes) / kSpokes + turn;
       for (const double v : {std::sin(up) * std::cos(around) + 0.3 * std::sin(phase),
                              std::cos(up) + 0.3 * std::sin(1.3 * phase),
                              std::sin(up) * std::sin(around) + 0.3 * std::sin(0.6 * phase)})

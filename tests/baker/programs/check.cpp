@@ -130,7 +130,7 @@ TEST_CASE("golden_vectors_are_reproduced_on_every_instruction_set") {
 
 // Errors of states that grow to tens over fifty steps; of order one they are a hundredth of it.
 TEST_CASE("golden_vectors_are_reproduced_within_the_bound_of_each_precision_on_every_instruction_set") {
-  for (const auto& [precision, bound] : {std::pair("fp16", 0.06), std::pair("int8", 0.15)}) {
+  for (const auto& [precision, bound] : {std::pair("fp16", 0.06), std::pair("int8", 0.12)}) {
     for (const char* name : {"tiny", "small"}) {
       const std::string stem = std::string("alt_conv_lstm/") + name;
       const std::string weights = golden(stem + ".weights.safetensors"),
@@ -165,17 +165,29 @@ TEST_CASE("a_pack_is_checked_in_the_precision_it_was_baked_in") {
   check_refused({"check", pack, vectors, "--precision", "fp16"}, {"baked with --precision int8, not fp16"});
 }
 
-// Without vectors, int8 is scaled by a made-up motion: worse, and of use.
+// Without vectors, int8 is scaled by a made-up motion: worse, and of use. Bounds are three times what is
+// seen, 0.032 of the paper's wiring and 0.0073 of stated inputs; ranges eight times too wide or too narrow
+// exceed them.
 TEST_CASE("int8_is_baked_from_weights_alone") {
-  const Files files;
-  for (const bool paper : {true, false}) {
-    files.write(paper ? small_paper_weights() : small_weights(), zero_vectors(paper));
-    std::filesystem::rename(files.vectors, files.folder.file("elsewhere"));
-    const std::string pack = files.folder.file("m.sinew");
-    REQUIRE(bake({"model", files.weights, "-o", pack, "--precision", "int8"}).exit_code == 0);
-    const std::string report =
-        bake({"check", pack, files.folder.file("elsewhere"), "--tolerance", "1e9"}).out;
-    CHECK(nlohmann::json::parse(report)["precision"] == "int8");
+  const std::string reference = golden("alt_conv_lstm/small.weights.safetensors");
+  const std::string shipped = std::string(SINEW_SOURCE_DIR) + "/assets/weights/creature";
+  struct Network {
+    std::string weights, vectors;
+    double bound;
+  };
+  for (const Network& network :
+       {Network{reference, golden("alt_conv_lstm/small.vectors.safetensors"), 0.1},
+        Network{shipped + ".safetensors", shipped + ".vectors.safetensors", 0.022}}) {
+    if (network.weights.empty()) continue;
+    const TemporaryFolder folder;
+    const std::string weights = folder.file("w.safetensors"), pack = folder.file("m.sinew");
+    std::filesystem::copy_file(network.weights, weights);
+    REQUIRE(bake({"model", weights, "-o", pack, "--precision", "int8"}).exit_code == 0);
+    const nlohmann::json report = report_of(bake({"check", pack, network.vectors}));
+    INFO(report.dump());
+    CHECK(report["precision"] == "int8");
+    CHECK(report["max_abs_error"].get<double>() > 1e-5);
+    CHECK(report["max_abs_error"].get<double>() < network.bound);
   }
 }
 
