@@ -52,12 +52,13 @@ std::vector<std::byte> int8_model() {
   return writer.finish();
 }
 
-// The editor's section, `by` elements longer.
+// The editor's section, an element longer or shorter.
 template <class T>
 void add_resized(PackEditor& from, SectionKind kind, int by, baker::PackWriter* writer) {
   const std::span<T> section = from.section<T>(kind);
   std::vector<T> elements(section.begin(), section.end());
-  elements.resize(elements.size() + static_cast<size_t>(by));
+  if (by > 0) elements.push_back(T{});
+  if (by < 0) elements.pop_back();
   writer->section(kind, elements);
 }
 
