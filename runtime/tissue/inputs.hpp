@@ -27,8 +27,9 @@ struct NodeSources {  // of one region; every array starts at the region's first
 // Metres of a length unit in the region.
 float length_unit_m(const Network& network, const pack::RegionRecord& region) noexcept;
 
-// Fills z, [region nodes][input_stride], padding zero. Returns how many numbers lay outside their envelope
-// and were clamped to it; what is not finite counts too and becomes 0. network.inputs must not be empty.
+// Fills z, [region nodes][input_stride], 64-byte aligned, padding zero. Returns how many numbers lay outside
+// their envelope and were clamped to it; what is not finite counts too and becomes 0. network.inputs must not
+// be empty.
 uint32_t assemble_inputs(const Network& network, const NodeSources& sources, float* z) noexcept;
 
 }  // namespace sinew::tissue

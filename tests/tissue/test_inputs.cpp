@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
+#include "tests/simd/test_data.hpp"
 #include "tests/tissue/reference_network.hpp"
 #include "tissue/node_drive.hpp"
 
@@ -60,19 +61,21 @@ struct Fixture {
   }
   uint32_t assemble() {
     const tissue::Network network = packed.view();
-    z = std::vector<float>(kNodes * tissue::input_stride(network), 99.0f);
-    return tissue::assemble_inputs(network,
-                                   {.region = &region,
-                                    .nodes = nodes.data(),
-                                    .drive = drive.data(),
-                                    .felt = felt.data(),
-                                    .l = l.data(),
-                                    .l_before = l_before.data(),
-                                    .l_hat = l_hat.data(),
-                                    .theta = theta.data(),
-                                    .first_rad_per_s = 20,
-                                    .tick_s = 0.0625f},
-                                   z.data());
+    test::Floats rows(kNodes * tissue::input_stride(network), 99.0f);
+    const uint32_t clamps = tissue::assemble_inputs(network,
+                                                    {.region = &region,
+                                                     .nodes = nodes.data(),
+                                                     .drive = drive.data(),
+                                                     .felt = felt.data(),
+                                                     .l = l.data(),
+                                                     .l_before = l_before.data(),
+                                                     .l_hat = l_hat.data(),
+                                                     .theta = theta.data(),
+                                                     .first_rad_per_s = 20,
+                                                     .tick_s = 0.0625f},
+                                                    rows.data());
+    z = rows.copy();
+    return clamps;
   }
   test::PackedNetwork packed;
   pack::RegionRecord region{};
