@@ -17,6 +17,6 @@ void measure_workers(int rounds);
 // Regions that sleep: what is left out of clips, and what that adds to the surface.
 void measure_sleep(const demo::CharacterFile& character);
 // Instances' control graphs as one block-diagonal graph, against one network step each.
-void measure_batches(int rounds);
+void measure_batches(const demo::CharacterFile& character, int rounds);
 
 }  // namespace sinew::perf

@@ -81,9 +81,16 @@ TorusGraph repeated(const TorusGraph& one, uint32_t copies) {
   return all;
 }
 
-void measure_batches(int rounds) {
+// A form like the character's on 240 nodes.
+NetworkShape shape_of(const pack::PackView& pack) {
+  NetworkShape shape{pack.network->input_width, {}, pack.layers[0].has_self == 1, 20, 12};
+  for (const pack::LayerRecord& layer : pack.layers) shape.channels.push_back(layer.channels);
+  return shape;
+}
+
+void measure_batches(const demo::CharacterFile& character, int rounds) {
   const core::FlushDenormals flush;
-  RandomNetwork shipped({41, {8, 8, 3}, true, 20, 12});
+  RandomNetwork shipped(shape_of(character.view));
   const TorusGraph one(20, 12);
   for (const uint32_t copies : {1u, 2u, 4u, 8u, 16u}) {
     const TorusGraph all = repeated(one, copies);
