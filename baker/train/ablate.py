@@ -50,7 +50,7 @@ def _draw(rows, path):
     a.set_yticks([y + 0.3 for y in range(len(rows))], list(rows), fontsize=8)
     a.invert_yaxis()
     a.set_xlabel("error / error of skinning alone (bars end at 2)")
-    a.legend(frameon=False, fontsize=8)
+    a.legend(frameon=False, fontsize=8, loc="lower right")
     plot._finish(figure, [a], path)
 
 
