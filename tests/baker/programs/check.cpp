@@ -165,6 +165,22 @@ TEST_CASE("a_pack_is_checked_in_the_precision_it_was_baked_in") {
   check_refused({"check", pack, vectors, "--precision", "fp16"}, {"baked with --precision int8, not fp16"});
 }
 
+// Nodes are visited in order: finite ones come before the bad one, and after it.
+TEST_CASE("vectors_on_which_one_node_of_many_goes_bad_cannot_calibrate") {
+  const Files files;
+  const std::string pack = files.folder.file("m.sinew");
+  for (const size_t node : {0u, 3u}) {
+    Safetensors vectors = zero_vectors(true);
+    std::vector<float> x(4 * 4 * 3);
+    x[(2 * 4 + node) * 3] = std::numeric_limits<float>::quiet_NaN();
+    vectors.tensors["x"] = tensor_f32({4, 4, 3}, x);
+    files.write(small_paper_weights(), vectors);
+    check_refused({"model", files.weights, "-o", pack, "--precision", "int8", "--calibrate", files.vectors},
+                  {"v.safetensors", "leaves finite numbers", "calibrate with others"});
+    CHECK(!std::filesystem::exists(pack));
+  }
+}
+
 // Without vectors, int8 is scaled by a made-up motion: worse, and of use. Bounds are three times what is
 // seen, 0.032 of the paper's wiring and 0.0073 of stated inputs; ranges eight times too wide or too narrow
 // exceed them.
