@@ -69,19 +69,27 @@ def table(columns, lines):
     return ["| " + " | ".join(columns) + " |", rule] + ["| " + " | ".join(line) + " |" for line in lines]
 
 
+def file_name(machine):
+    return re.sub(r"[^a-z0-9]+", "_", machine.lower()).strip("_")
+
+
+def put_between(name, lines):
+    """Into perf/README.md, in the place of what stands between its marks of that name."""
+    readme = HERE / "README.md"
+    begin, end = f"<!-- {name} -->", f"<!-- end of {name} -->"
+    head, rest = readme.read_text().split(begin)
+    readme.write_text(head + begin + "\n" + "\n".join(lines) + "\n" + end + rest.split(end)[1])
+
+
 def main(files):
     benches, machine = repetitions(files), processor()
     measured, compared = list(rows(benches)), list(ratios(benches))
-    name = re.sub(r"[^a-z0-9]+", "_", machine.lower()).strip("_")
     (HERE / "results").mkdir(exist_ok=True)
-    with open(HERE / "results" / f"{name}.csv", "w", newline="") as file:
+    with open(HERE / "results" / f"{file_name(machine)}.csv", "w", newline="") as file:
         csv.writer(file, lineterminator="\n").writerows([COLUMNS] + measured)
     lines = [f"Processor: {machine}, one thread.", ""] + table(COLUMNS, measured)
     lines += [""] + table(["ratio of medians", "measured", "at least", "aim"], compared)
-    readme = HERE / "README.md"
-    begin, end = "<!-- table -->", "<!-- end of table -->"
-    head, rest = readme.read_text().split(begin)
-    readme.write_text(head + begin + "\n" + "\n".join(lines) + "\n" + end + rest.split(end)[1])
+    put_between("table", lines)
     print("\n".join(lines))
 
 

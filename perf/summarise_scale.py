@@ -5,7 +5,6 @@ Times are medians; cpu_us is of all threads. A share is of the multiply-add peak
 """
 import csv
 import pathlib
-import re
 import shutil
 import sys
 
@@ -14,7 +13,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-from summarise import HERE, processor, table
+from summarise import HERE, file_name, processor, put_between, table
 
 
 def read(path):
@@ -111,16 +110,12 @@ TABLES = {"parts": parts_table, "vertices": vertices_table, "instances": instanc
 
 def main(path):
     groups, machine = read(path), processor()
-    name = re.sub(r"[^a-z0-9]+", "_", machine.lower()).strip("_")
-    shutil.copyfile(path, HERE / "results" / f"{name}_scale.csv")
+    shutil.copyfile(path, HERE / "results" / f"{file_name(machine)}_scale.csv")
     plot(groups, HERE / "scale.png")
     lines = [f"Processor: {machine}.", ""] + figures_table(groups)
     for group, write in TABLES.items():
         lines += [""] + write(groups[group])
-    readme = HERE / "README.md"
-    begin, end = "<!-- scale -->", "<!-- end of scale -->"
-    head, rest = readme.read_text().split(begin)
-    readme.write_text(head + begin + "\n" + "\n".join(lines) + "\n" + end + rest.split(end)[1])
+    put_between("scale", lines)
     print("\n".join(lines))
 
 

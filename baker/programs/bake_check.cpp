@@ -14,8 +14,8 @@
 namespace sinew::baker {
 namespace {
 
-// Of each precision, on outputs and states over fifty steps of the paper's wiring, where nothing leaks and sums
-// grow to tens: in float32 the contract, else twice what the reference vectors show.
+// Of each precision, on outputs and states over fifty steps of the paper's wiring, where nothing leaks and
+// sums grow to tens: in float32 the contract, else twice what the reference vectors show.
 constexpr double kTolerances[] = {1e-5, 0.06, 0.12};
 
 struct CheckOptions {

@@ -15,8 +15,8 @@ constexpr uint32_t kPaperInputWidth = 9, kOutputChannels = 3;
 uint32_t input_width(InputKind kind) noexcept {
   using enum InputKind;
   if (kind == kStiffness || kind == kFrequency) return 1;
-  const bool known = kind == kRestPosition || kind == kRestNormal ||
-                     (kind >= kAngularAcceleration && kind <= kSpunVelocity);
+  const bool known =
+      kind == kRestPosition || kind == kRestNormal || (kind >= kAngularAcceleration && kind <= kSpunVelocity);
   return known ? 3 : 0;
 }
 
