@@ -1,7 +1,7 @@
 // sleep.hpp  Regions at rest are left out of a tick's products.
 //
 // With w1 a region's lowest frequency, h a tick and s = sleep_tolerance x its radius, a length:
-//   quiet   in a tick: each node's felt acceleration is within s w1^2 of what it was when the quiet began, and
+//   quiet   in a tick: each node's felt acceleration is within s w1^2 of what it was as the quiet began, and
 //           its l moved by at most s w1 h: what swings at w1 or above swings by less than s
 //   asleep  after half a swing of quiet ticks, pi / (w1 h), as long as the felt acceleration stays that near
 // A sleeping region keeps l, theta, q, r and its network's states, with no velocity, and is carried and shown
