@@ -17,7 +17,7 @@ namespace sinew::baker {
 namespace {
 
 struct CharacterOptions {
-  std::string character, recipe, tissue, output;
+  std::string character, recipe, tissue, output, calibration, precision = "fp32";
 };
 
 Character import_character(const CharacterOptions& options, const Recipe& recipe) {
@@ -35,6 +35,11 @@ void print_summary(const CharacterOptions& options, const Character& character, 
 }
 
 void run_character(const CharacterOptions& options) {
+  const pack::Precision precision = parse_precision(options.precision);
+  check_calibration(precision, options.calibration);
+  if (precision != pack::Precision::kFloat32 && options.tissue.empty())
+    throw BadInput("--precision " + options.precision +
+                   ": is a network's, and there is no --tissue; leave it out or give weights");
   const Recipe recipe = options.recipe.empty() ? Recipe{} : read_recipe(options.recipe);
   std::optional<Safetensors> weights;
   if (!options.tissue.empty()) weights = read_safetensors(options.tissue);
@@ -42,8 +47,10 @@ void run_character(const CharacterOptions& options) {
   const TissueLayout layout = layout_tissue(character, recipe);
   const std::vector<ModalBasis> modes =
       TissueTruth(character, layout, recipe).modal_bases(layout, kMostModes);
+  const std::vector<HeardRanges> ranges =
+      weights ? ranges_for(*weights, precision, options.calibration) : std::vector<HeardRanges>();
   const std::vector<std::byte> bytes =
-      pack_character(character, layout, modes, weights ? &*weights : nullptr);
+      pack_character(character, layout, modes, weights ? &*weights : nullptr, precision, ranges);
   const LoadedPack pack =
       LoadedPack::from_bytes(bytes, options.character);  // what the runtime would refuse is not written
   write_file(options.output, bytes);
@@ -60,6 +67,7 @@ void add_character_command(CLI::App& app, int*) {
   command->add_option("--recipe", options->recipe, "JSON; see baker/mesh/recipe.hpp");
   command->add_option("--tissue", options->tissue,
                       "trained weights, safetensors; without: tiers modal and spring only");
+  add_precision_options(command, &options->precision, &options->calibration);
   command->add_option("-o,--output", options->output, "C.sinew")->required();
   command->callback([options] { run_character(*options); });
 }
