@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Bakes a body's character in every precision and judges each against ground truth, in closed loop: how much fp16 and int8 add to
-# the float32 network's error.
+# Bakes a body's character in every precision, int8 by scales from its validation motions, and judges each against ground truth on
+# its test motions, in closed loop: how much fp16 and int8 add to the float32 network's error.
 #   perf/precision.sh [DATA]
-# DATA takes the true motions (default build/release/precision); they are simulated where they are not there, two or three minutes.
-# In the environment, if wanted: PLAN (assets/bodies/precision.json: the creature's test motions), BODY (momo), WEIGHTS (the shipped
-# networks), CALIBRATE (vectors for int8; default those beside the weights) and PYTHON (/usr/bin/python3).
+# DATA takes the true motions (default build/release/precision); they are simulated where they are not there, some three minutes.
+# In the environment, if wanted: PLAN (assets/bodies/precision.json: the creature's own), BODY (momo), WEIGHTS (the shipped networks)
+# and PYTHON (/usr/bin/python3).
 set -euo pipefail
 shopt -s nullglob
 cd "$(dirname "$0")/.."
@@ -15,7 +15,7 @@ bake=build/release/bin/sinew-bake
 data=${1:-build/release/precision}
 body=$data/${BODY:-momo}
 "${PYTHON:-/usr/bin/python3}" baker/train generate --bake "$bake" --plan "${PLAN:-assets/bodies/precision.json}" --out "$data" \
-  --splits test long >/dev/null
+  --splits validation test long >/dev/null
 
 packs=$(mktemp -d)
 trap 'rm -rf "$packs"' EXIT
@@ -23,7 +23,7 @@ for weights in ${WEIGHTS:-assets/weights/creature.safetensors assets/weights/cre
   name=$(basename "$weights" .safetensors)
   for precision in fp32 fp16 int8; do
     calibrate=()
-    [ $precision = int8 ] && [ -n "${CALIBRATE:-}" ] && calibrate=(--calibrate "$CALIBRATE")
+    [ $precision = int8 ] && for motion in "$body"/validation-*.safetensors; do calibrate+=(--calibrate "$motion"); done
     "$bake" character "$body/body.glb" --recipe "$body/tissue.json" --tissue "$weights" --precision $precision "${calibrate[@]}" \
       -o "$packs/$name.$precision.sinew" >/dev/null
   done

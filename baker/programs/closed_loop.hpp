@@ -20,6 +20,8 @@ class ClosedLoop {
   void tick();  // to the motion's next tick; as many as it has
   // [nodes][3], metres along each node's frame.
   const float* displacement() const { return instance_.u[0]; }
+  const tissue::Network& network() const { return asset_.network; }
+  float* network_state() { return instance_.network_state; }
   // Nodes held at their limit, and times that the network was given up, so far.
   uint32_t held() const { return instance_.state->displacement_clamps; }
   uint32_t fallbacks() const { return instance_.state->fallbacks + instance_.state->restarts; }

@@ -91,7 +91,6 @@ TEST_CASE("displacement_beyond_the_limit_is_held_and_counted") {
       largest_m = std::max(largest_m, test::largest_length(stage.read(0, Space::kBind)));
     }
     CHECK(stage.report().displacement_clamps > 0);
-    CHECK(stage.report().fallbacks == 0);
     // Radius 0.2 m or so; skinning bends the bind-space delta a little.
     CHECK(largest_m < 1.3 * kShare * 0.25);
     CHECK(largest_m > 0.02);

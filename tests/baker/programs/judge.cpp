@@ -1,6 +1,7 @@
 // judge.cpp  Characters judged against ground truth in closed loop, the shipped weights in every precision.
 #include <nlohmann/json.hpp>
 
+#include "baker/common/read_file.hpp"
 #include "baker/common/safetensors.hpp"
 #include "simd/isa.hpp"
 #include "tests/baker/common/temporary_folder.hpp"
@@ -145,4 +146,35 @@ TEST_CASE("reduced_precision_adds_less_than_a_tenth_of_the_error_on_every_instru
       CHECK(one["fallbacks"] == 0);
     }
   }
+}
+
+// Scales from the character's own closed loop: other bytes than the vectors' scales give, no worse than the
+// bound either, and the same again.
+TEST_CASE("int8_takes_its_scales_from_true_motions_in_closed_loop") {
+  const auto packed = [](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"character",   hop().glb,
+                                          "--recipe",    hop().recipe,
+                                          "--tissue",    kAssets + "weights/creature.safetensors",
+                                          "--precision", "int8",
+                                          "-o",          hop().pack(name)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  };
+  must(bake(packed("tuned", {"--calibrate", hop().truth})));
+  must(bake(packed("again", {"--calibrate", hop().truth, "--calibrate", hop().truth})));
+  CHECK(read_text(hop().pack("tuned")) == read_text(hop().pack("again")));
+  CHECK(read_text(hop().pack("tuned")) != read_text(hop().pack("int8")));
+  const nlohmann::json report =
+      judged({hop().pack("fp32"), hop().pack("tuned"), "--truth", hop().truth, "--most-added", "0.1"});
+  CHECK(report["characters"][1]["ticks"]["50"]["apart"].get<double>() > 0);
+
+  const std::string vectors = kAssets + "weights/creature.vectors.safetensors";
+  check_refused(packed("no", {"--calibrate", vectors, "--calibrate", vectors}),
+                {vectors, "one file is taken"});
+  check_refused(packed("no", {"--calibrate", hop().truth, "--calibrate", vectors}),
+                {vectors, "is not a trajectory"});
+  check_refused(
+      packed("no", {"--calibrate", changed_truth("node.rest_position", [](auto& v) { v[0] += 1; })}),
+      {"control node 0 is not where"});
+  CHECK(!std::filesystem::exists(hop().pack("no")));
 }
