@@ -83,6 +83,9 @@ void run_aggregation(benchmark::State& state, Order order) {
   report(state, 2e-6 * 7 * kStride * graph.nodes(), simd::active_isa());
 }
 
+BENCHMARK_CAPTURE(run_step, rows, Order::kRows)
+    ->Name("alt_conv_lstm_paper_rows")
+    ->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(run_step, shuffled, Order::kShuffled)
     ->Name("alt_conv_lstm_paper_shuffled")
     ->Unit(benchmark::kMicrosecond);
