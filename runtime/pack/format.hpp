@@ -140,7 +140,7 @@ struct NetworkRecord {
   float state_clamp;      // bound on |c|; infinity: none
   float length_unit;      // of y: in a character a share of each region's radius, else metres; 1 in the
                           // paper's wiring
-  Precision precision;    // of a character's network: float32
+  Precision precision;
   uint32_t reserved[5];
 };
 static_assert(sizeof(NetworkRecord) == 64);
