@@ -19,6 +19,8 @@ RATIOS = [
     ("alt_conv_lstm_int8_paper", "onednn_u8s8s32_paper", "1.6", "1.15"),
     ("alt_conv_lstm_int8_paper", "alt_conv_lstm_paper", "", ""),
     ("alt_conv_lstm_control_graph", "onednn_sgemm_control_graph", "", ""),
+    ("deep_emulator_chains", "onednn_sgemm_deep_emulator", "1.3", "1.1"),
+    ("deep_emulator_step", "onednn_sgemm_deep_emulator", "1.3", "1.1"),
     ("eigen_products_paper", "alt_conv_lstm_paper", "", ""),
     ("pytorch_paper", "alt_conv_lstm_paper", "5", "6"),
     ("pytorch_paper", "alt_conv_lstm_int8_paper", "14", "20"),
