@@ -92,7 +92,7 @@ TEST_CASE("vectors_that_do_not_fit_are_refused_by_tensor") {
   };
   refuse(true, [](Safetensors& v) { v.metadata.clear(); }, {"'sinew.vectors' is missing"});
   refuse(true, [](Safetensors& v) { v.metadata["sinew.vectors"] = "coping_net"; },
-         {"'coping_net'", "does not run"});
+         {"'coping_net'", "the network is of 'alt_conv_lstm'"});
   refuse(true, [](Safetensors& v) { v.tensors.erase("edges"); }, {"tensor 'edges' is missing"});
   refuse(true,
          [](Safetensors& v) {
