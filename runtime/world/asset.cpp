@@ -55,7 +55,8 @@ Status open_asset(std::span<const std::byte> bytes, Asset* out) noexcept {
   for (const pack::RegionRecord& region : view.regions) asset.padded_vertices += region.padded_vertices;
   asset.widest_region = 0;
   for (const pack::RegionModesRecord& modes : view.region_modes)
-    asset.widest_region = std::max(asset.widest_region, modes.padded);
+    asset.widest_region = std::max(asset.widest_region,
+                                   modes.padded + static_cast<uint32_t>(pack::round_up_16(modes.mode_count)));
   asset.cost = baked_costs(view);
   return {};
 }

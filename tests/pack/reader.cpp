@@ -1,6 +1,7 @@
 // reader.cpp  What the reader refuses, why, and that it takes nothing and touches nothing while it does.
 #include "pack/reader.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
@@ -403,10 +404,18 @@ TEST_CASE("mode_faults_are_refused_by_name") {
        {"region modes 1: the rest's recurrence", region([](auto& r) { r.rest_a2 = kNan; })},
        {"region modes 1: rest_gain", region([](auto& r) { r.rest_gain = kInfinity; })},
        {"region modes 1: reserved", region([](auto& r) { r.reserved[6] = 1; })},
-       {"that no region owns", region([](auto& r) { r.mode_count = 1; })},
-       {"region modes 0: a number of a matrix", set<float>(kModeMatrices, 3 * 3 * 16 + 2, kNan)},
-       {"region modes 0: a number of a matrix", set<float>(kModeMatrices, (4 * 3 + 8) * 16 + 2, kNan)},
+       {"that no region owns",  // all zero, so that rows of other lengths have good padding
+        [](PackEditor& editor) {
+          std::ranges::fill(editor.section<float>(kModeMatrices), 0.0f);
+          editor.section<RegionModesRecord>(kRegionModes)[1].mode_count = 1;
+        }},
+       {"region modes 0: a number of a matrix", set<float>(kModeMatrices, 2 * 3 * 16 + 2, kNan)},
+       {"region modes 0: a number of a matrix",
+        set<float>(kModeMatrices, (2 * 3 + 9 * 3 - 1) * 16 + 2, kNan)},
        {"region modes 0: padding", set<float>(kModeMatrices, 15, 1.0f)},
+       {"region modes 0: padding", set<float>(kModeMatrices, 2 * 3 * 16 + 15, 1.0f)},
+       {"region modes 0: padding", set<float>(kModeMatrices, (2 * 3 + 1) * 16 + 15, 1.0f)},
+       {"region modes 0: padding", set<float>(kModeMatrices, (2 * 3 + 9 * 3 - 1) * 16 + 15, 1.0f)},
        {"mode 4: 0 rad/s", mode([](auto& m) { m.rad_per_s = 0; })},
        {"mode 4: damping ratio -1", mode([](auto& m) { m.damping_ratio = -1; })},
        {"mode 4: its recurrence", mode([](auto& m) { m.a2 = -1; })},
