@@ -1,8 +1,9 @@
-// graph.cpp  The aggregation matrix of a graph network.
+// graph.cpp  Who hears whom in a graph network, and how loud.
 #include "baker/pack/graph.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "baker/common/bad_input.hpp"
 
@@ -44,12 +45,31 @@ void check_no_repeat(const Neighbours& neighbours, const std::string& where) {
   }
 }
 
+Neighbours checked_neighbours(size_t nodes, const std::vector<std::pair<int, int>>& edges,
+                              const std::string& where) {
+  Neighbours neighbours = neighbours_of(nodes, edges, where);
+  check_no_repeat(neighbours, where);
+  return neighbours;
+}
+
 }  // namespace
+
+GraphRows neighbour_rows(size_t nodes, const std::vector<std::pair<int, int>>& edges,
+                         const std::string& where) {
+  const Neighbours neighbours = checked_neighbours(nodes, edges, where);
+  GraphRows graph;
+  graph.rows.push_back(0);
+  for (size_t node = 0; node < nodes; ++node) {
+    std::ranges::remove_copy(neighbours[node], std::back_inserter(graph.columns),
+                             static_cast<uint32_t>(node));
+    graph.rows.push_back(static_cast<uint32_t>(graph.columns.size()));
+  }
+  return graph;
+}
 
 GraphRows normalized_adjacency(size_t nodes, const std::vector<std::pair<int, int>>& edges,
                                const std::string& where) {
-  const Neighbours neighbours = neighbours_of(nodes, edges, where);
-  check_no_repeat(neighbours, where);
+  const Neighbours neighbours = checked_neighbours(nodes, edges, where);
   GraphRows graph;
   graph.rows.push_back(0);
   for (const std::vector<uint32_t>& row : neighbours) {

@@ -54,13 +54,6 @@ constexpr InputName kInputNames[] = {{InputKind::kRestPosition, "rest_position",
   throw BadInput(weights.path + ": metadata key '" + key + "' " + what);
 }
 
-const std::string& need_key(const Safetensors& weights, const std::string& key) {
-  const auto found = weights.metadata.find(key);
-  if (found == weights.metadata.end())
-    refuse_key(weights, key, "is missing; is this a file of trained weights?");
-  return found->second;
-}
-
 std::string trimmed(const std::string& text) {
   const size_t first = text.find_first_not_of(" \t");
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t") + 1 - first);
@@ -86,7 +79,7 @@ float parse_number(const Safetensors& weights, const std::string& key, const std
 }
 
 std::vector<float> parse_numbers(const Safetensors& weights, const std::string& key, size_t count) {
-  const std::vector<std::string> parts = split(need_key(weights, key));
+  const std::vector<std::string> parts = split(metadata_text(weights, key));
   if (parts.size() != count)
     refuse_key(weights, key,
                "holds " + std::to_string(parts.size()) + " numbers for " + std::to_string(count) + " inputs");
@@ -97,7 +90,7 @@ std::vector<float> parse_numbers(const Safetensors& weights, const std::string& 
 
 std::vector<uint32_t> parse_channels(const Safetensors& weights) {
   std::vector<uint32_t> channels;
-  for (const std::string& part : split(need_key(weights, "channels"))) {
+  for (const std::string& part : split(metadata_text(weights, "channels"))) {
     const float value = parse_number(weights, "channels", part);
     if (!(value >= 1 && value <= kMaxChannels) || value != std::floor(value))
       refuse_key(weights, "channels", "holds '" + part + "'; wanted whole numbers from 1 to 1024");
@@ -152,17 +145,6 @@ uint32_t total_width(const std::vector<pack::InputRecord>& inputs) {
 }
 
 // ---- tensors ----
-
-std::vector<float> finite_values(const Safetensors& weights, const std::string& name,
-                                 const std::vector<long>& shape) {
-  std::vector<float> values = weights.need(name, shape).as_f32();
-  const auto bad = std::ranges::find_if(values, [](float v) { return !std::isfinite(v); });
-  if (bad != values.end())
-    throw BadInput(weights.path + ": tensor '" + name + "' holds NaN or infinity at element " +
-                   std::to_string(bad - values.begin()) +
-                   "; the training diverged, take an earlier checkpoint");
-  return values;
-}
 
 // Tensors [rows][gates * channels] appended as [rows][gates][padded].
 class WeightLayout {
@@ -219,7 +201,7 @@ void check_no_stranger(const Safetensors& weights, size_t layers) {
 }
 
 pack::NetworkRecord make_record(const Safetensors& weights, const std::vector<uint32_t>& channels) {
-  need_key(weights, "rate_hz");
+  metadata_text(weights, "rate_hz");
   pack::NetworkRecord record{};
   record.model = pack::ModelKind::kAltConvLstm;
   record.layer_count = static_cast<uint32_t>(channels.size());
@@ -241,13 +223,23 @@ void add_int8(const Int8Sections& sections, PackWriter& pack) {
 
 }  // namespace
 
-void check_model(const Safetensors& weights) {
-  const std::string& model = need_key(weights, "sinew.model");
-  if (model != "alt_conv_lstm")
-    refuse_key(weights, "sinew.model", "is '" + model + "'; this version bakes alt_conv_lstm only");
-  const std::string& version = need_key(weights, "sinew.version");
+pack::ModelKind model_of(const Safetensors& weights) {
+  const std::string& model = metadata_text(weights, "sinew.model");
+  const auto* found = std::find(std::begin(pack::kModelNames) + 1, std::end(pack::kModelNames), model);
+  if (found == std::end(pack::kModelNames))
+    refuse_key(weights, "sinew.model",
+               "is '" + model + "'; this version bakes alt_conv_lstm, deep_emulator and coping_net");
+  const std::string& version = metadata_text(weights, "sinew.version");
   if (version != "1")
     refuse_key(weights, "sinew.version", "is '" + version + "'; this version reads 1: train or export again");
+  return static_cast<pack::ModelKind>(found - std::begin(pack::kModelNames));
+}
+
+void check_model(const Safetensors& weights) {
+  if (model_of(weights) != pack::ModelKind::kAltConvLstm)
+    refuse_key(weights, "sinew.model",
+               "is '" + metadata_text(weights, "sinew.model") +
+                   "', which `sinew-bake model` bakes; tissue takes alt_conv_lstm only");
 }
 
 const char* input_name(InputKind kind) {
@@ -261,6 +253,13 @@ uint32_t input_width(InputKind kind) {
   return input != nullptr ? input->width : 0;
 }
 
+const std::string& metadata_text(const Safetensors& weights, const std::string& key) {
+  const auto found = weights.metadata.find(key);
+  if (found == weights.metadata.end())
+    refuse_key(weights, key, "is missing; is this a file of trained weights?");
+  return found->second;
+}
+
 float metadata_number(const Safetensors& weights, const std::string& key, float fallback, float low,
                       float high) {
   const auto found = weights.metadata.find(key);
@@ -269,6 +268,17 @@ float metadata_number(const Safetensors& weights, const std::string& key, float 
   if (!(value >= low && value <= high))
     refuse_key(weights, key, "holds " + found->second + ", which is out of range");
   return value;
+}
+
+std::vector<float> finite_values(const Safetensors& weights, const std::string& name,
+                                 const std::vector<long>& shape) {
+  std::vector<float> values = weights.need(name, shape).as_f32();
+  const auto bad = std::ranges::find_if(values, [](float v) { return !std::isfinite(v); });
+  if (bad != values.end())
+    throw BadInput(weights.path + ": tensor '" + name + "' holds NaN or infinity at element " +
+                   std::to_string(bad - values.begin()) +
+                   "; the training diverged, take an earlier checkpoint");
+  return values;
 }
 
 std::vector<pack::LayerRecord> add_network(const Safetensors& weights, PackWriter& pack,

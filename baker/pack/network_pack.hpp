@@ -25,13 +25,22 @@ std::vector<pack::LayerRecord> add_network(const Safetensors& weights, PackWrite
                                            pack::Precision precision = pack::Precision::kFloat32,
                                            std::span<const HeardRanges> ranges = {});
 
-// Throws BadInput where the file is not of trained weights, or of another version's.
+// Throws BadInput where the file is not of trained weights, of an unknown model, or of another version's.
+pack::ModelKind model_of(const Safetensors& weights);
+// The same, and where the model is not alt_conv_lstm.
 void check_model(const Safetensors& weights);
+
+// What stands under a key. Throws BadInput naming file and key where it is absent.
+const std::string& metadata_text(const Safetensors& weights, const std::string& key);
 
 // A number among the metadata; `fallback` where the key is absent. Throws BadInput naming file and key: not a
 // number, or outside low .. high.
 float metadata_number(const Safetensors& weights, const std::string& key, float fallback, float low,
                       float high);
+
+// A tensor's numbers. Throws BadInput naming file and tensor: missing, misshaped, NaN or infinity.
+std::vector<float> finite_values(const Safetensors& weights, const std::string& name,
+                                 const std::vector<long>& shape);
 
 // As in `inputs` above; "unknown" for what this version does not know.
 const char* input_name(pack::InputKind kind);

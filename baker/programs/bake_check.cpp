@@ -27,6 +27,10 @@ const char* precision_of(const LoadedPack& model) {
   return pack::kPrecisionNames[static_cast<uint32_t>(model.view().network->precision)];
 }
 
+const char* model_name(const LoadedPack& model) {
+  return pack::kModelNames[static_cast<uint32_t>(model.view().network->model)];
+}
+
 // A pack runs in the precision it was baked in, weights in the one asked for, int8 calibrated on the vectors.
 LoadedPack load_model(const CheckOptions& options) {
   const std::string& wanted = options.precision;
@@ -40,16 +44,27 @@ LoadedPack load_model(const CheckOptions& options) {
   return model;
 }
 
+RollOutError error_of(const LoadedPack& model, const Safetensors& vectors) {
+  switch (model.view().network->model) {
+    case pack::ModelKind::kDeepEmulator:
+      return roll_out_deep_emulator(model.deep_emulator(), vectors);
+    case pack::ModelKind::kCopingNet:
+      return evaluate_coping_net(model.coping_net(), vectors);
+    default:
+      return roll_out(model.network(), vectors);
+  }
+}
+
 int run_check(const CheckOptions& options) {
   if (!options.precision.empty()) parse_precision(options.precision);
   if (!(options.tolerance.value_or(0) >= 0)) throw BadInput("--tolerance: must be a number from 0 up");
   choose_isa(options.isa);
   const LoadedPack model = load_model(options);
-  const RollOutError error = roll_out(model.network(), read_safetensors(options.vectors));
+  const RollOutError error = error_of(model, read_safetensors(options.vectors));
   const double tolerance =
       options.tolerance.value_or(kTolerances[static_cast<uint32_t>(model.view().network->precision)]);
   const bool ok = error.max_abs_error <= tolerance;
-  const nlohmann::ordered_json report = {{"model", "alt_conv_lstm"},
+  const nlohmann::ordered_json report = {{"model", model_name(model)},
                                          {"isa", simd::active_isa()},
                                          {"precision", precision_of(model)},
                                          {"steps", error.steps},

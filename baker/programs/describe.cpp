@@ -12,9 +12,25 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json describe_chains(const pack::PackView& view) {
+  const pack::NetworkRecord& record = *view.network;
+  size_t parameters = 0;
+  for (const pack::DenseRecord& layer : view.dense) parameters += size_t{layer.outputs} * (layer.inputs + 1);
+  Json network = {{"model", pack::kModelNames[static_cast<uint32_t>(record.model)]},
+                  {"precision", pack::kPrecisionNames[static_cast<uint32_t>(record.precision)]},
+                  {"parameters", parameters},
+                  {"inputs", Json::array()}};
+  if (record.model == pack::ModelKind::kCopingNet)
+    network.update({{"latent", record.max_channels}, {"blocks", record.blocks}, {"depth", record.depth}});
+  else
+    network["rate_hz"] = record.rate_hz;
+  return network;
+}
+
 Json describe_network(const pack::PackView& view) {
   if (!has_network(view))
     return {{"model", "none"}, {"rate_hz", view.network->rate_hz}, {"inputs", Json::array()}};
+  if (!view.dense.empty()) return describe_chains(view);
   const pack::NetworkRecord& record = *view.network;
   Json channels = Json::array(), inputs = Json::array();
   size_t parameters = 0;

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "baker/common/bad_input.hpp"
+#include "baker/pack/dense_pack.hpp"
 #include "baker/pack/network_pack.hpp"
 #include "baker/programs/calibrate.hpp"
 
@@ -15,9 +16,22 @@ namespace {
 LoadedPack pack_network(const Safetensors& weights, pack::Precision precision,
                         std::span<const HeardRanges> ranges) {
   PackWriter writer(pack::FileKind::kModel);
-  add_network(weights, writer, precision, ranges);
+  if (model_of(weights) == pack::ModelKind::kAltConvLstm)
+    add_network(weights, writer, precision, ranges);
+  else
+    add_chains(weights, writer);
   return LoadedPack::from_bytes(writer.finish(), weights.path);
 }
+
+// Networks of chains have no states to keep as halves, and no int8 form yet.
+void check_precision(const Safetensors& weights, pack::Precision precision) {
+  const pack::ModelKind model = model_of(weights);
+  if (precision == pack::Precision::kFloat32 || model == pack::ModelKind::kAltConvLstm) return;
+  throw BadInput(weights.path + ": a " + pack::kModelNames[static_cast<uint32_t>(model)] +
+                 " runs in fp32 only; leave --precision " +
+                 pack::kPrecisionNames[static_cast<uint32_t>(precision)] + " out");
+}
+
 }  // namespace
 
 LoadedPack LoadedPack::from_file(const std::string& path) {
@@ -40,6 +54,7 @@ LoadedPack LoadedPack::from_bytes(std::span<const std::byte> bytes, const std::s
 LoadedPack LoadedPack::from_weights(const std::string& path, pack::Precision precision,
                                     const std::string& calibration) {
   const Safetensors weights = read_safetensors(path);
+  check_precision(weights, precision);
   return pack_network(weights, precision, ranges_for(weights, precision, calibration));
 }
 
@@ -65,6 +80,10 @@ tissue::Network LoadedPack::network() const {
           view_.weights.data(),
           {view_.int8_weights.data(), view_.int8_sums.data(), view_.int8_scales.data()}};
 }
+
+tissue::DeepEmulator LoadedPack::deep_emulator() const { return {view_.dense, view_.weights.data()}; }
+
+rods::CopingNet LoadedPack::coping_net() const { return {view_.network, view_.dense, view_.weights.data()}; }
 
 bool looks_like_pack(const std::string& path) {
   char magic[sizeof pack::kMagic] = {};

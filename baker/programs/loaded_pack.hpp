@@ -10,6 +10,8 @@
 #include "core/aligned_block.hpp"
 #include "pack/mapped_file.hpp"
 #include "pack/reader.hpp"
+#include "rods/coping_net.hpp"
+#include "tissue/deep_emulator.hpp"
 #include "tissue/network.hpp"
 
 namespace sinew::baker {
@@ -26,7 +28,10 @@ class LoadedPack {
 
   const pack::PackView& view() const { return view_; }
   std::span<const std::byte> bytes() const { return bytes_; }
+  // Each where the pack's model is that one.
   tissue::Network network() const;
+  tissue::DeepEmulator deep_emulator() const;
+  rods::CopingNet coping_net() const;
 
  private:
   void open(std::span<const std::byte> bytes, const std::string& path);

@@ -3,14 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <memory>
 #include <utility>
 
 #include "baker/common/bad_input.hpp"
 #include "baker/pack/graph.hpp"
 #include "baker/pack/network_pack.hpp"
-#include "core/aligned_block.hpp"
+#include "baker/programs/reference_vectors.hpp"
 #include "core/half.hpp"
 #include "tissue/inputs.hpp"
 
@@ -18,55 +16,6 @@ namespace sinew::baker {
 namespace {
 
 constexpr size_t kAxes = 3;
-
-// Zeroed floats on a cache line, as the kernels want them.
-class AlignedFloats {
- public:
-  explicit AlignedFloats(size_t count)
-      : block_(count * sizeof(float)), data_(reinterpret_cast<float*>(block_.data())) {
-    if (data_ == nullptr) throw std::bad_alloc();
-  }
-  float* data() { return data_; }
-
- private:
-  core::AlignedBlock block_;
-  float* data_;
-};
-
-class ErrorSum {
- public:
-  void add(float value, float expected) {
-    double error = std::fabs(double{value} - double{expected});
-    if (!std::isfinite(error)) error = std::numeric_limits<double>::infinity();
-    largest_ = std::max(largest_, error);
-    sum_ += error;
-    ++count_;
-  }
-  RollOutError result(size_t steps) const {
-    return {steps, largest_, sum_ / static_cast<double>(std::max<size_t>(count_, 1))};
-  }
-
- private:
-  double largest_ = 0, sum_ = 0;
-  size_t count_ = 0;
-};
-
-void check_kind(const Safetensors& vectors) {
-  const auto found = vectors.metadata.find("sinew.vectors");
-  if (found == vectors.metadata.end())
-    throw BadInput(vectors.path +
-                   ": metadata key 'sinew.vectors' is missing; is this a file of reference vectors?");
-  if (found->second != "alt_conv_lstm")
-    throw BadInput(vectors.path + ": vectors of '" + found->second +
-                   "', a model that this version does not run; only alt_conv_lstm");
-}
-
-std::vector<std::pair<int, int>> read_edges(const Safetensors& vectors) {
-  const std::vector<int32_t> ends = vectors.need("edges", {-1, 2}).as_i32();
-  std::vector<std::pair<int, int>> edges;
-  for (size_t k = 0; k < ends.size(); k += 2) edges.emplace_back(ends[k], ends[k + 1]);
-  return edges;
-}
 
 // What is needed to take steps, whatever feeds them.
 class Stepper {
@@ -249,7 +198,7 @@ RollOutError roll_out_inputs(const tissue::Network& network, const Safetensors& 
 
 RollOutError roll_out(const tissue::Network& network, const Safetensors& vectors,
                       const AfterStep& after_step) {
-  check_kind(vectors);
+  check_vectors(vectors, "alt_conv_lstm");
   const bool paper = network.inputs.empty();
   if (paper != vectors.tensors.contains("x"))
     throw BadInput(vectors.path + ": these vectors are of " +

@@ -5,14 +5,12 @@
 
 #include "baker/common/safetensors.hpp"
 #include "baker/pack/graph.hpp"
+#include "baker/programs/reference_vectors.hpp"
+#include "rods/coping_net.hpp"
+#include "tissue/deep_emulator.hpp"
 #include "tissue/network.hpp"
 
 namespace sinew::baker {
-
-struct RollOutError {  // over every output and, where the vectors have them, final states
-  size_t steps = 0;
-  double max_abs_error = 0, mean_abs_error = 0;
-};
 
 // Vectors of the paper's wiring: edges (m,2), x (T+1,n,3), y0 (n,3), y (T,n,3), final.{l}.{h,c,y} (n,F).
 // Vectors of stated inputs: edges (m,2), z (T,n,input_width) with the columns of displacement and velocity
@@ -23,5 +21,14 @@ struct RollOutError {  // over every output and, where the vectors have them, fi
 using AfterStep = std::function<void(const GraphRows& graph, float* state)>;
 RollOutError roll_out(const tissue::Network& network, const Safetensors& vectors,
                       const AfterStep& after_step = {});
+
+// edges (m,2) undirected, x (T+3,n,3), material (n,3), constrained (n), u_1, u_0, u_m1 (n,3), y (T,n,3): step
+// t, from 1, reads x[t+1], x[t], x[t-1] and the last three dynamic frames, at first u_1, u_0, u_m1, and gives
+// y[t-1]. Throws as roll_out does.
+RollOutError roll_out_deep_emulator(const tissue::DeepEmulator& network, const Safetensors& vectors);
+
+// nodes (n,14), edges (m,5), senders, receivers (m), dp (n,6), dlambda (m,6): one evaluation. Throws as
+// roll_out does.
+RollOutError evaluate_coping_net(const rods::CopingNet& network, const Safetensors& vectors);
 
 }  // namespace sinew::baker

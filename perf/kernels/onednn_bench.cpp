@@ -2,7 +2,7 @@
 // no states. What the whole step is compared with.
 #include <oneapi/dnnl/dnnl.h>
 
-#include "perf/kernels/bench_data.hpp"
+#include "perf/kernels/chain_data.hpp"
 
 namespace sinew::perf {
 namespace {
@@ -50,6 +50,30 @@ void onednn_sgemm(benchmark::State& state, const NetworkShape& shape) {
   report(state, product_mflop(shape), "oneDNN");
 }
 
+// The products of each chain, layer after layer: what deep_emulator_chains and deep_emulator_step are compared
+// with.
+void onednn_sgemm_chains(benchmark::State& state, const std::vector<ChainProducts>& chains) {
+  constexpr size_t kRows = size_t{kPatches} * kNeighbours, kWidest = pack::kDeepWidest;
+  Floats x = random_floats(kRows * kWidest, 1), w = random_floats(kWidest * kWidest * 15, 0.1f),
+         even(kRows * kWidest), odd(kRows * kWidest);
+  for (auto _ : state) {
+    const float* next = w.data();
+    for (const ChainProducts& chain : chains) {
+      const float* from = x.data();
+      float *to = even.data(), *other = odd.data();
+      for (const ProductShape& p : chain.shapes) {
+        dnnl_sgemm('N', 'N', chain.rows, p.columns, p.depth, 1, from, p.depth, next, p.columns, 0, to,
+                   p.columns);
+        next += p.depth * p.columns;
+        from = to;
+        std::swap(to, other);
+      }
+    }
+    benchmark::ClobberMemory();
+  }
+  report(state, chain_mflop(chains), "oneDNN");
+}
+
 void onednn_u8s8s32(benchmark::State& state, const NetworkShape& shape) {
   const int64_t nodes = shape.nodes(), widest = widest_input(shape);
   Aligned<uint8_t> x(static_cast<size_t>(nodes * widest));
@@ -77,6 +101,10 @@ BENCHMARK_CAPTURE(onednn_sgemm, control_graph, control_graph_shape())
     ->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(onednn_u8s8s32, paper, paper_shape())
     ->Name("onednn_u8s8s32_paper")
+    ->Unit(benchmark::kMicrosecond);
+
+BENCHMARK_CAPTURE(onednn_sgemm_chains, deep_emulator, deep_emulator_products())
+    ->Name("onednn_sgemm_deep_emulator")
     ->Unit(benchmark::kMicrosecond);
 
 }  // namespace

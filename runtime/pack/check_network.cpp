@@ -20,6 +20,10 @@ uint32_t input_width(InputKind kind) noexcept {
   return known ? 3 : 0;
 }
 
+bool is_chain_model(ModelKind model) noexcept {
+  return model == ModelKind::kDeepEmulator || model == ModelKind::kCopingNet;
+}
+
 bool in_unit_range(float value) noexcept { return value >= 0 && value <= 1; }
 
 // A character may have no network.
@@ -29,10 +33,11 @@ Status check_nothing(const PackView& pack) noexcept {
   const bool empty = record.layer_count == 0 && record.input_width == 0 && record.max_channels == 0 &&
                      record.output_scale == 0 && record.output_leak == 0 && record.hidden_leak == 0 &&
                      record.state_clamp == 0 && record.length_unit == 0 &&
-                     record.precision == Precision::kFloat32;
+                     record.precision == Precision::kFloat32 && record.blocks == 0 && record.depth == 0;
   if (!empty) return corrupt("network: fields of a network that is not there");
   const bool has_int8 = !pack.int8_weights.empty() || !pack.int8_sums.empty() || !pack.int8_scales.empty();
-  if (!pack.layers.empty() || !pack.inputs.empty() || !pack.weights.empty() || has_int8)
+  if (!pack.layers.empty() || !pack.inputs.empty() || !pack.weights.empty() || !pack.dense.empty() ||
+      has_int8)
     return corrupt("network: layers, inputs or weights of a network that is not there");
   if (!is_positive(record.rate_hz)) return corrupt("network: rate %g Hz", double{record.rate_hz});
   return check_zero(record.reserved, "network", 0);
@@ -66,6 +71,8 @@ Status check_record(const PackView& pack) noexcept {
     return corrupt("network: a leak is outside 0..1");
   if (!(record.state_clamp > 0)) return corrupt("network: state clamp %g", double{record.state_clamp});
   if (!is_positive(record.length_unit)) return corrupt("network: length unit %g", double{record.length_unit});
+  if (record.blocks != 0 || record.depth != 0 || !pack.dense.empty())
+    return corrupt("network: blocks, depth or dense layers, which an alt_conv_lstm has not");
   if (Status status = check_precision(pack); !status.ok()) return status;
   return check_zero(record.reserved, "network", 0);
 }
@@ -162,6 +169,7 @@ Status check_weights(const PackView& pack) noexcept { return check_finite(pack.w
 Status check_network(const PackView& pack) noexcept {
   if (pack.network == nullptr) return corrupt("it has no network record, or more than one");
   if (!has_network(pack)) return check_nothing(pack);
+  if (is_chain_model(pack.network->model)) return check_dense(pack);
   constexpr Check kChecks[] = {check_record, check_inputs, check_layers, check_weights, check_int8};
   return run_checks(kChecks, pack);
 }

@@ -6,6 +6,7 @@
 namespace sinew::pack {
 
 Status check_network(const PackView& pack) noexcept;  // network, layers, inputs, weights
+Status check_dense(const PackView& pack) noexcept;    // the same of a network of chains
 Status check_int8(const PackView& pack) noexcept;     // what an int8 network has beside; after check_network
 Status check_character(const PackView& pack) noexcept;  // joints, mesh, skin, clips, tiers
 Status check_tissue(const PackView& pack) noexcept;     // regions, nodes, graph, carry; after check_character

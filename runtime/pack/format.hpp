@@ -22,6 +22,7 @@
 //      since then without a new version, for a reader that does not know them refuses the field or the kind:
 //      NetworkRecord::precision with the int8 sections; the inputs kTurnedForce .. kSpunVelocity
 //   4  what a region's modes hear lies input by input, so that no sum runs across a vector's lanes
+//      since then, likewise: the models kDeepEmulator and kCopingNet with the section kDense
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -32,6 +33,8 @@ inline constexpr char kMagic[8] = {'S', 'I', 'N', 'E', 'W', 'P', 'K', '\0'};
 inline constexpr uint32_t kVersion = 4;
 inline constexpr size_t kSectionAlignment = 64;
 inline constexpr uint32_t kNoIndex = 0xffffffffu;
+
+inline constexpr uint32_t kPanel = 64;  // outputs of a dense layer whose weights lie together
 
 // Rows of channels are padded to whole 16.
 constexpr uint64_t round_up_16(uint64_t value) noexcept { return (value + 15) / 16 * 16; }
@@ -73,6 +76,7 @@ enum class SectionKind : uint32_t {
                       // [k of P y / 4][i f][16][4]; behind all channels gate o's [k of P y / 4][padded][4]
   kInt8Sums = 15,     // int32: 128 sum_k w, [padded / 16][i f c o][16], then [padded] of gate o's P y
   kInt8Scales = 16,   // float, >= 0: per_unit [k], then scale as kInt8Sums
+  kDense = 17,        // DenseRecord x layers of a network of chains, which has no kLayers and no kInputs
 
   kCharacter = 20,  // CharacterRecord x 1
   kJoints = 21,     // JointRecord x joints
@@ -105,7 +109,9 @@ enum class SectionKind : uint32_t {
 
 // kNone: a character of modes and springs alone; no layers, inputs or weights, and of the record only rate_hz
 // counts, all else is zero.
-enum class ModelKind : uint32_t { kNone = 0, kAltConvLstm = 1 };
+// kDeepEmulator, kCopingNet: networks of chains of dense layers; models only.
+enum class ModelKind : uint32_t { kNone = 0, kAltConvLstm = 1, kDeepEmulator = 2, kCopingNet = 3 };
+inline constexpr const char* kModelNames[] = {"none", "alt_conv_lstm", "deep_emulator", "coping_net"};
 
 // kHalfStates: h, c and P y of the hidden layers are kept as IEEE halves, all arithmetic is float32.
 // kInt8: that, and the hidden layers' products but the first one's x are of bytes, summed in 32-bit integers:
@@ -141,7 +147,9 @@ struct NetworkRecord {
   float length_unit;      // of y: in a character a share of each region's radius, else metres; 1 in the
                           // paper's wiring
   Precision precision;
-  uint32_t reserved[5];
+  uint32_t blocks;        // of kCopingNet, whose latent width is max_channels; else 0
+  uint32_t depth;         // of kCopingNet: hidden layers of each chain; else 0
+  uint32_t reserved[3];
 };
 static_assert(sizeof(NetworkRecord) == 64);
 
@@ -162,6 +170,25 @@ struct LayerRecord {
   uint64_t reserved;
 };
 static_assert(sizeof(LayerRecord) == 64);
+
+// A dense layer z W + b of a network of chains. In kWeights, layer after layer without gaps: W by panels of
+// kPanel outputs, [padded / kPanel][inputs][kPanel], the last panel as wide as what is left; then b [padded].
+// Padding is zero. Offsets count floats. Which layers there are, of what size: pack/dense_layout.hpp.
+//
+// DeepEmulator (CVPR 2021, Eq. 5), tanh between layers; its equations: tissue/deep_emulator.hpp. COPINGNet
+// (Shao et al. 2021, Sec. 3), max(0, x) between layers; its equations: rods/coping_net.hpp. Behind its layers
+// stand norm.node and norm.edge, >= 0, 6 numbers each in 16. In their NetworkRecord layer_count counts
+// kDense, max_channels is the widest layer, rate_hz is 0 for kCopingNet, the precision is float32, and what
+// is Alt-ConvLSTM's own is 0.
+struct DenseRecord {
+  uint32_t inputs;
+  uint32_t outputs;
+  uint32_t padded;  // outputs rounded up to 16
+  uint32_t reserved;
+  uint64_t w;
+  uint64_t bias;
+};
+static_assert(sizeof(DenseRecord) == 32);
 
 // What a node may be fed, in the order of the kInputs section. Vectors lie along the axes of the node's own
 // frame (tissue/node_bend.hpp, node_drive.hpp); l, l^, theta and e as in tissue/modal_base.hpp; w1 is

@@ -24,6 +24,7 @@ PackView view_sections(const SectionTable& table) noexcept {
           .int8_weights = table.get<int8_t>(kInt8Weights),
           .int8_sums = table.get<int32_t>(kInt8Sums),
           .int8_scales = table.get<float>(kInt8Scales),
+          .dense = table.get<DenseRecord>(kDense),
           .character = only(table.get<CharacterRecord>(kCharacter)),
           .joints = table.get<JointRecord>(kJoints),
           .positions = table.get<float>(kPositions),

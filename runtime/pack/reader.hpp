@@ -18,6 +18,7 @@ struct PackView {
   std::span<const int8_t> int8_weights;  // empty but in an int8 network, as the next two
   std::span<const int32_t> int8_sums;
   std::span<const float> int8_scales;
+  std::span<const DenseRecord> dense;  // of a network of chains, which has no layers
   // Character packs only; empty in a model.
   const CharacterRecord* character = nullptr;
   std::span<const JointRecord> joints;

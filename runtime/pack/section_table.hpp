@@ -27,6 +27,7 @@ inline constexpr SectionRule kSectionRules[] = {
     {SectionKind::kInt8Weights, 1, "int8 weights"},
     {SectionKind::kInt8Sums, sizeof(int32_t), "int8 sums"},
     {SectionKind::kInt8Scales, sizeof(float), "int8 scales"},
+    {SectionKind::kDense, sizeof(DenseRecord), "dense layers"},
     {SectionKind::kCharacter, sizeof(CharacterRecord), "character"},
     {SectionKind::kJoints, sizeof(JointRecord), "joints"},
     {SectionKind::kPositions, 3 * sizeof(float), "positions"},

@@ -37,6 +37,7 @@
 #include "simd/narrow-inl.hpp"
 #include "simd/dot-inl.hpp"
 #include "simd/int8_layer-inl.hpp"
+#include "simd/mlp-inl.hpp"
 #include "simd/carry-inl.hpp"
 #include "simd/rows-inl.hpp"
 #include "simd/skin-inl.hpp"
@@ -62,6 +63,7 @@ constexpr Kernels kernels_with(const char* name, bool (*runs)()) {
       .aggregate_planes = aggregate_planes,
       .narrow_cells = narrow_cells,
       .narrow_output = narrow_output,
+      .mlp = mlp,
       .carry = carry,
       .add_rows = add_rows,
       .skin = skin,
@@ -102,6 +104,10 @@ std::span<const Kernels* const> compiled_kernels() noexcept {
 
 size_t tile_floats(uint32_t padded) noexcept {
   return kTileRows * 4 * kBlock + 3 * kRangeNodes * static_cast<size_t>(padded);
+}
+
+size_t mlp_floats(uint32_t widest) noexcept {
+  return kTileRows * pack::kPanel + 2 * kRangeNodes * static_cast<size_t>(widest);
 }
 
 }  // namespace sinew::simd

@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "pack/format.hpp"
+
 namespace sinew::simd {
 
 inline constexpr uint32_t kBlock = 16;       // floats a row is padded to: the widest vector
@@ -73,6 +75,41 @@ struct LayerJob {
 // Floats of LayerJob::tile.
 size_t tile_floats(uint32_t padded) noexcept;
 
+// `depth` numbers of rows of a plane: of row index[i], or of row i where there is no index. Any alignment.
+struct RowPart {
+  const float* rows = nullptr;
+  size_t stride = 0;
+  uint32_t depth = 0;
+  const uint32_t* index = nullptr;
+};
+
+enum class Pointwise : uint32_t { kNone, kRelu, kTanh };
+
+inline constexpr uint32_t kMlpParts = 3;
+
+// Rows through a chain of dense layers (pack/format.hpp, DenseRecord):
+//   z = between(z W + b), layer after layer, and of the last: out = last(z W + b) scale
+// A row's first z is its parts, one after the other, met by the first layer's inputs from first_input on.
+struct MlpJob {
+  const pack::DenseRecord* layers = nullptr;  // [layer_count], at least one
+  const float* weights = nullptr;             // what the layers' offsets count from
+  uint32_t layer_count = 0;
+  uint32_t widest = 0;  // of the layers' padded
+  RowPart parts[kMlpParts]{};
+  uint32_t part_count = 0, first_input = 0;
+  RowPart start{};  // [padded] rows that take the place of the first layer's bias; null: the bias
+  Pointwise between = Pointwise::kNone, last = Pointwise::kNone;
+  const float* scale = nullptr;  // [padded] of the last layer, or null: 1
+  bool adds = false;             // out is added to; it may be a part too, where there are two layers or more
+  float* out = nullptr;          // [rows][out_stride] [padded]
+  size_t out_stride = 0;
+  const uint32_t* out_index = nullptr;  // the row of out that row i is for, or null: i
+  float* scratch = nullptr;             // mlp_floats(widest) [padded]
+};
+
+// Floats of MlpJob::scratch.
+size_t mlp_floats(uint32_t widest) noexcept;
+
 // Points moved by up to eight joints each: out = sum_i weight[i] matrices[joint[i]] (point, 1).
 // Strides in bytes.
 struct SkinJob {
@@ -136,6 +173,8 @@ struct Kernels {
   // As layer_cells and layer_output, the same bits, for a layer of at most eight channels.
   void (*narrow_cells)(const LayerJob& job, uint32_t first, uint32_t last);
   void (*narrow_output)(const LayerJob& job, uint32_t first, uint32_t last);
+  // Rows first .. last, one after the other in out.
+  void (*mlp)(const MlpJob& job, uint32_t first, uint32_t last);
   // out[axis][v] = sum_n weights[n][v] displacement[n][axis]; weights [nodes][stride], out [3][stride]
   // [padded]; v < stride, a multiple of kBlock. Reads each weight once; out is overwritten.
   void (*carry)(const float* weights, uint32_t nodes, size_t stride, const float* displacement, float* out);

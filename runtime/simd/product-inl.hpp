@@ -9,12 +9,17 @@
 HWY_BEFORE_NAMESPACE();
 namespace sinew::simd::HWY_NAMESPACE {
 
-// A tile's rows of a plane; a tile that is not full repeats its last row.
+// A tile's rows of a plane, one after the other or as `index` names them; a tile that is not full repeats its
+// last row.
 struct TileRows {
   const float* first;
   size_t stride;
   uint32_t count;
-  const float* row(size_t r) const { return first + HWY_MIN(r, count - size_t{1}) * stride; }
+  const uint32_t* index = nullptr;
+  const float* row(size_t r) const {
+    const size_t at = HWY_MIN(r, count - size_t{1});
+    return first + (index ? index[at] : at) * stride;
+  }
 };
 
 struct Term {

@@ -7,7 +7,9 @@
 #include <functional>
 #include <limits>
 
+#include "baker/pack/dense_pack.hpp"
 #include "baker/pack/network_pack.hpp"
+#include "pack/dense_layout.hpp"
 #include "tests/pack/count_allocations.hpp"
 #include "tests/pack/pack_editor.hpp"
 #include "tests/pack/small_pack.hpp"
@@ -181,6 +183,83 @@ TEST_CASE("a_character_of_any_precision_is_taken_and_its_int8_faults_refused_by_
                  {"int8 scales", set<float>(kInt8Scales, 2, kNan)}});
 }
 
+TEST_CASE("faults_of_a_network_of_chains_are_refused_by_name") {
+  using enum SectionKind;
+  const std::vector<std::byte> model = test::small_chain_model();
+  REQUIRE(PackEditor(model).open().ok());
+  const auto network = [](auto apply) { return change<NetworkRecord>(kNetwork, 0, apply); };
+  const auto layer = [](auto apply) { return change<DenseRecord>(kDense, 3, apply); };
+  const auto weight = [](auto place, float value) -> std::function<void(PackEditor&)> {
+    return [=](PackEditor& editor) {
+      const DenseRecord& of = editor.section<DenseRecord>(kDense)[3];
+      editor.section<float>(kWeights)[place(of)] = value;
+    };
+  };
+  const size_t numbers = PackEditor(model).section<float>(kWeights).size();
+  check_refused(
+      model, {{"precision 2 of a model coping_net, which this build runs in fp32 only",
+               network([](auto& n) { n.precision = Precision::kInt8; }), StatusCode::kUnsupported},
+              {"fields of an alt_conv_lstm", network([](auto& n) { n.input_width = 9; })},
+              {"fields of an alt_conv_lstm", network([](auto& n) { n.state_clamp = 1; })},
+              {"latent width 0", network([](auto& n) { n.max_channels = 0; })},
+              {"latent width 257", network([](auto& n) { n.max_channels = 257; })},
+              {"17 blocks", network([](auto& n) { n.blocks = 17; })},
+              {"0 blocks", network([](auto& n) { n.blocks = 0; })},
+              {"depth 0", network([](auto& n) { n.depth = 0; })},
+              {"depth 9", network([](auto& n) { n.depth = 9; })},
+              {"a rate", network([](auto& n) { n.rate_hz = 60; })},
+              {"reserved", network([](auto& n) { n.reserved[0] = 1; })},
+              {"16 dense layers stated, 16 there, 12 wanted", network([](auto& n) { n.blocks = 1; })},
+              {"15 dense layers stated", network([](auto& n) { n.layer_count = 15; })},
+              {"deep_emulator has not", network([](auto& n) { n.model = ModelKind::kDeepEmulator; })},
+              {"dense layer 0: 14 inputs and 5 outputs, wanted 14 and 6",
+               network([](auto& n) { n.max_channels = 6; })},
+              {"dense layer 3: 6 inputs", layer([](auto& l) { l.inputs = 6; })},
+              {"dense layer 3: 5 inputs and 4 outputs", layer([](auto& l) { l.outputs = 4; })},
+              {"dense layer 3: outputs padded to 32", layer([](auto& l) { l.padded = 32; })},
+              {"dense layer 3: reserved", layer([](auto& l) { l.reserved = 1; })},
+              {"dense layer 3: its weights are not where", layer([](auto& l) { l.w += 16; })},
+              {"dense layer 3: its weights are not where", layer([](auto& l) { l.bias = ~uint64_t{0}; })},
+              {"dense layer 3: padding", weight([](const auto& l) { return l.w + weight_at(l, 2, 5); }, 1)},
+              {"dense layer 3: padding", weight([](const auto& l) { return l.bias + 15; }, 1)},
+              {"not finite", weight([](const auto& l) { return l.w; }, kNan)},
+              {"a norm is below zero", set<float>(kWeights, numbers - 32, -1.0f)},
+              {"a norm is below zero", set<float>(kWeights, numbers - 1, 1.0f)},
+              {"not finite", set<float>(kWeights, numbers - 16, kInfinity)}});
+}
+
+TEST_CASE("networks_of_chains_with_sections_of_another_network_or_of_the_wrong_length_are_refused") {
+  using enum SectionKind;
+  PackEditor good(test::small_chain_model());
+  const std::span<float> weights = good.section<float>(kWeights);
+  const auto changed = [&](const std::function<void(baker::PackWriter&)>& change) {
+    baker::PackWriter writer(FileKind::kModel);
+    baker::add_chains(test::small_coping_net(), writer);
+    change(writer);
+    return writer.finish();
+  };
+  const auto refuse = [&](const char* word, const std::function<void(baker::PackWriter&)>& change) {
+    check_refused(changed(change), {{word, [](PackEditor&) {}}});
+  };
+  refuse("int8 weights of an alt_conv_lstm",
+         [](auto& w) { w.section(kInputs, std::vector<InputRecord>(1)); });
+  refuse("int8 weights of an alt_conv_lstm",
+         [](auto& w) { w.section(kLayers, std::vector<LayerRecord>(1)); });
+  refuse("int8 weights of an alt_conv_lstm", [](auto& w) { w.section(kInt8Sums, std::vector<int32_t>(1)); });
+  refuse("dense layers stated, 15 there", [&](auto& w) {
+    const std::span<DenseRecord> dense = good.section<DenseRecord>(kDense);
+    w.section(kDense, std::vector(dense.begin(), dense.end() - 1));
+  });
+  refuse("31 numbers behind the layers",
+         [&](auto& w) { w.section(kWeights, std::vector(weights.begin(), weights.end() - 1)); });
+  refuse("reach beyond the section",
+         [&](auto& w) { w.section(kWeights, std::vector(weights.begin(), weights.begin() + 100)); });
+  baker::PackWriter writer(FileKind::kModel);
+  baker::add_network(test::small_paper_weights(), writer);
+  writer.section(kDense, std::vector<DenseRecord>(1));
+  check_refused(writer.finish(), {{"which an alt_conv_lstm has not", [](PackEditor&) {}}});
+}
+
 TEST_CASE("network_faults_are_refused_by_name") {
   using enum SectionKind;
   const auto network = [](auto apply) { return change<NetworkRecord>(kNetwork, 0, apply); };
@@ -205,7 +284,11 @@ TEST_CASE("network_faults_are_refused_by_name") {
        {"leak", network([](auto& n) { n.hidden_leak = kNan; })},
        {"state clamp", network([](auto& n) { n.state_clamp = 0; })},
        {"length unit", network([](auto& n) { n.length_unit = -1; })},
-       {"reserved", network([](auto& n) { n.reserved[4] = 1; })},
+       {"reserved", network([](auto& n) { n.reserved[2] = 1; })},
+       {"dense layers, which an alt_conv_lstm has not", network([](auto& n) { n.blocks = 1; })},
+       {"dense layers, which an alt_conv_lstm has not", network([](auto& n) { n.depth = 1; })},
+       {"model deep_emulator, which this build runs in models only",
+        network([](auto& n) { n.model = ModelKind::kDeepEmulator; }), StatusCode::kUnsupported},
        {"input 1: kind 26", input([](auto& i) { i.kind = InputKind{26}; })},
        {"input 1: kind 4", input([](auto& i) { i.kind = InputKind{4}; })},
        {"input 1: its kind appears twice", input([](auto& i) { i.kind = InputKind::kRestPosition; })},

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "baker/pack/character_pack.hpp"
+#include "baker/pack/dense_pack.hpp"
 #include "baker/pack/network_pack.hpp"
 
 namespace sinew::test {
@@ -35,6 +36,24 @@ baker::Safetensors make_weights(size_t inputs, bool self_weights) {
       {"sinew.model", "alt_conv_lstm"}, {"sinew.version", "1"}, {"channels", "5,3"}, {"rate_hz", "60"}};
   return weights;
 }
+
+// Random layers of a network of chains.
+struct ChainWeights {
+  explicit ChainWeights(const char* path) { weights.path = path; }
+  void add_tensor(const std::string& name, std::vector<size_t> shape) {
+    std::vector<float> values(shape.size() == 1 ? shape[0] : shape[0] * shape[1]);
+    for (float& value : values) value = static_cast<float>(random() % 2001) / 1000 - 1;
+    weights.tensors[name] = baker::tensor_f32(std::move(shape), values);
+  }
+  void add(const std::string& name, const std::vector<size_t>& widths) {
+    for (size_t k = 0; k + 1 < widths.size(); ++k) {
+      add_tensor(name + std::to_string(k) + ".weight", {widths[k + 1], widths[k]});
+      add_tensor(name + std::to_string(k) + ".bias", {widths[k + 1]});
+    }
+  }
+  std::mt19937 random{5};
+  baker::Safetensors weights;
+};
 
 Eigen::Matrix4d translation(const Vector3& offset) {
   Eigen::Matrix4d m = Eigen::Matrix4d::Identity();
@@ -126,6 +145,35 @@ baker::Safetensors small_weights() {
 
 baker::Safetensors small_paper_weights() { return make_weights(9, false); }
 
+baker::Safetensors small_deep_emulator() {
+  ChainWeights chains("deep_emulator.safetensors");
+  chains.add("alpha.", {18, 64, 64, 64, 64, 64});
+  chains.add("beta.", {37, 128, 128, 128, 128, 128});
+  chains.add("gamma.", {192, 192, 192, 192, 192, 3});
+  chains.weights.metadata = {{"sinew.model", "deep_emulator"}, {"sinew.version", "1"}, {"rate_hz", "24"}};
+  return chains.weights;
+}
+
+baker::Safetensors small_coping_net() {
+  ChainWeights chains("coping_net.safetensors");
+  chains.add("encoder.node.", {14, 5, 5});
+  chains.add("encoder.edge.", {5, 5, 5});
+  for (const char* block : {"blocks.0.", "blocks.1."}) {
+    chains.add(std::string(block) + "node.", {10, 5, 5});
+    chains.add(std::string(block) + "edge.", {15, 5, 5});
+  }
+  chains.add("decoder.node.", {5, 5, 6});
+  chains.add("decoder.edge.", {5, 5, 6});
+  for (const char* norm : {"norm.node", "norm.edge"})
+    chains.weights.tensors[norm] = baker::tensor_f32({6}, {0, 1, 2, 3, 4, 5});
+  chains.weights.metadata = {{"sinew.model", "coping_net"},
+                             {"sinew.version", "1"},
+                             {"latent", "5"},
+                             {"blocks", "2"},
+                             {"depth", "1"}};
+  return chains.weights;
+}
+
 baker::Character small_character() {
   baker::Character character;
   character.name = "bar";
@@ -175,6 +223,12 @@ std::vector<baker::ModalBasis> small_modes(const baker::TissueLayout& layout) {
 std::vector<std::byte> small_model() {
   baker::PackWriter writer(pack::FileKind::kModel);
   baker::add_network(small_paper_weights(), writer);
+  return writer.finish();
+}
+
+std::vector<std::byte> small_chain_model() {
+  baker::PackWriter writer(pack::FileKind::kModel);
+  baker::add_chains(small_coping_net(), writer);
   return writer.finish();
 }
 

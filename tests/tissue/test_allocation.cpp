@@ -3,8 +3,10 @@
 #include <cstdlib>
 #include <new>
 
+#include "tests/simd/chain.hpp"
 #include "tests/simd/every_isa.hpp"
 #include "tests/tissue/reference_network.hpp"
+#include "tissue/deep_emulator.hpp"
 #include "tissue/guard.hpp"
 #include "tissue/inputs.hpp"
 #include "tissue/modal_base.hpp"
@@ -100,4 +102,25 @@ TEST_CASE("a_tick_of_drive_base_inputs_network_and_guard_allocates_nothing") {
   // The counter sees what there is to see; a new-expression could be optimised away.
   REQUIRE(allocations_in([] { ::operator delete(::operator new(8)); }) == 1);
   REQUIRE(allocations_in(tick) == 0);
+}
+
+TEST_CASE("a_step_of_deep_emulator_allocates_nothing") {
+  constexpr uint32_t kNodes = 60;
+  std::mt19937 random(3);
+  const test::PlainChain alpha = test::random_chain(random, {18, 64, 64, 64, 64, 64}),
+                         beta = test::random_chain(random, {37, 128, 128, 128, 128, 128}),
+                         gamma = test::random_chain(random, {192, 192, 192, 192, 192, 3});
+  test::PackedChains packed({alpha, beta, gamma});
+  const test::TestGraph graph = test::ring_with_chords(kNodes);
+  std::vector<float> positions(3 * kNodes, 0.1f), next(positions);
+  const std::vector<uint8_t> constrained(kNodes);
+  test::Floats scratch(tissue::deep_emulator_scratch_floats());
+  const float* same = positions.data();
+  const tissue::DeepFrame frame = {same, same, same, same, same, same, same, constrained.data()};
+  const auto step = [&] {
+    tissue::deep_emulator_step({packed.layers(), packed.weights()}, {graph.rows.data(), graph.columns.data()},
+                               frame, 0, kNodes, next.data(), scratch.data());
+  };
+  step();
+  REQUIRE(allocations_in(step) == 0);
 }

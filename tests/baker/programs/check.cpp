@@ -36,6 +36,35 @@ Safetensors zero_vectors(bool paper) {
   return vectors;
 }
 
+// Vectors with the right shapes for a deep_emulator and for small_coping_net, all numbers zero.
+Safetensors zero_deep_vectors() {
+  constexpr size_t kNodes = 4, kSteps = 2;
+  const auto zeros = [](std::vector<size_t> shape, size_t count) {
+    return tensor_f32(std::move(shape), std::vector<float>(count));
+  };
+  Safetensors vectors;
+  vectors.metadata = {{"sinew.vectors", "deep_emulator"}};
+  vectors.tensors["edges"] = tensor_i32({2, 2}, {0, 1, 1, 2});
+  vectors.tensors["constrained"] = tensor_i32({kNodes}, {0, 1, 0, 0});
+  vectors.tensors["x"] = zeros({kSteps + 3, kNodes, 3}, (kSteps + 3) * kNodes * 3);
+  vectors.tensors["y"] = zeros({kSteps, kNodes, 3}, kSteps * kNodes * 3);
+  for (const char* name : {"material", "u_1", "u_0", "u_m1"})
+    vectors.tensors[name] = zeros({kNodes, 3}, kNodes * 3);
+  return vectors;
+}
+
+Safetensors zero_coping_vectors() {
+  Safetensors vectors;
+  vectors.metadata = {{"sinew.vectors", "coping_net"}};
+  vectors.tensors["nodes"] = tensor_f32({3, 14}, std::vector<float>(3 * 14));
+  vectors.tensors["edges"] = tensor_f32({2, 5}, std::vector<float>(2 * 5));
+  vectors.tensors["senders"] = tensor_i32({2}, {0, 1});
+  vectors.tensors["receivers"] = tensor_i32({2}, {1, 2});
+  vectors.tensors["dp"] = tensor_f32({3, 6}, std::vector<float>(3 * 6));
+  vectors.tensors["dlambda"] = tensor_f32({2, 6}, std::vector<float>(2 * 6));
+  return vectors;
+}
+
 struct Files {
   TemporaryFolder folder;
   std::string weights = folder.file("w.safetensors"), vectors = folder.file("v.safetensors");
@@ -63,7 +92,7 @@ TEST_CASE("vectors_that_do_not_fit_are_refused_by_tensor") {
   };
   refuse(true, [](Safetensors& v) { v.metadata.clear(); }, {"'sinew.vectors' is missing"});
   refuse(true, [](Safetensors& v) { v.metadata["sinew.vectors"] = "coping_net"; },
-         {"'coping_net'", "does not run"});
+         {"'coping_net'", "the network is of 'alt_conv_lstm'"});
   refuse(true, [](Safetensors& v) { v.tensors.erase("edges"); }, {"tensor 'edges' is missing"});
   refuse(true,
          [](Safetensors& v) {
@@ -92,16 +121,127 @@ TEST_CASE("vectors_that_do_not_fit_are_refused_by_tensor") {
          {"tensor 'carry' has shape (4, 3), wanted (3, 4, 3)"});
 }
 
-TEST_CASE("models_that_are_not_built_yet_are_refused_with_one_line") {
-  const std::string weights = golden("deep_emulator/small.weights.safetensors");
-  if (weights.empty()) return;
-  const std::string tiny = golden("alt_conv_lstm/tiny.weights.safetensors");
-  check_refused({"check", weights, golden("deep_emulator/small.vectors.safetensors")},
-                {"'deep_emulator'", "alt_conv_lstm only"});
-  check_refused({"check", tiny, golden("deep_emulator/small.vectors.safetensors")},
-                {"'deep_emulator'", "does not run"});
-  check_refused({"check", tiny, golden("coping_net/one_rod.vectors.safetensors")},
-                {"'coping_net'", "does not run"});
+TEST_CASE("vectors_of_another_model_are_refused_by_both_names") {
+  const Files files;
+  files.write(small_paper_weights(), zero_deep_vectors());
+  check_refused({"check", files.weights, files.vectors}, {"vectors of 'deep_emulator'", "'alt_conv_lstm'"});
+  files.write(small_deep_emulator(), zero_coping_vectors());
+  check_refused({"check", files.weights, files.vectors}, {"vectors of 'coping_net'", "'deep_emulator'"});
+  files.write(small_coping_net(), zero_vectors(true));
+  check_refused({"check", files.weights, files.vectors}, {"vectors of 'alt_conv_lstm'", "'coping_net'"});
+}
+
+TEST_CASE("vectors_of_a_deep_emulator_that_do_not_fit_are_refused_by_tensor") {
+  const Files files;
+  const auto refuse = [&](auto damage, const std::vector<std::string>& words) {
+    Safetensors vectors = zero_deep_vectors();
+    damage(vectors.tensors);
+    files.write(small_deep_emulator(), vectors);
+    check_refused({"check", files.weights, files.vectors}, words);
+  };
+  for (const char* name : {"edges", "x", "material", "constrained", "u_1", "u_0", "u_m1", "y"}) {
+    const std::string tensor = "tensor '" + std::string(name) + "'";
+    refuse([&](auto& t) { t.erase(name); }, {tensor + " is missing"});
+    refuse([&](auto& t) { t[name] = tensor_f32({7}, std::vector<float>(7)); }, {tensor + " has shape (7)"});
+  }
+  refuse([](auto& t) { t["edges"] = tensor_i32({1, 2}, {0, 4}); }, {"'edges'", "(0, 4)"});
+  refuse([](auto& t) { t["edges"] = tensor_i32({1, 2}, {1, 1}); }, {"'edges'", "self-loop"});
+  refuse([](auto& t) { t["constrained"] = tensor_f32({4}, {0, 0, 0, 0}); }, {"'constrained'", "floats"});
+  refuse([](auto& t) { t["y"] = tensor_f32({0, 4, 3}, {}); }, {"4 nodes and 0 steps"});
+}
+
+TEST_CASE("vectors_of_a_coping_net_that_do_not_fit_are_refused_by_tensor") {
+  const Files files;
+  const auto refuse = [&](auto damage, const std::vector<std::string>& words) {
+    Safetensors vectors = zero_coping_vectors();
+    damage(vectors.tensors);
+    files.write(small_coping_net(), vectors);
+    check_refused({"check", files.weights, files.vectors}, words);
+  };
+  for (const char* name : {"nodes", "edges", "senders", "receivers", "dp", "dlambda"}) {
+    const std::string tensor = "tensor '" + std::string(name) + "'";
+    refuse([&](auto& t) { t.erase(name); }, {tensor + " is missing"});
+    refuse([&](auto& t) { t[name] = tensor_f32({7}, std::vector<float>(7)); }, {tensor + " has shape (7)"});
+  }
+  refuse(
+      [](auto& t) {
+        t["senders"] = tensor_i32({2}, {0, 3});
+      },
+      {"'senders' and 'receivers'", "edge 1: sender 3 of 3 nodes"});
+  refuse([](auto& t) { t["receivers"] = tensor_i32({2}, {1, -1}); }, {"edge 1: receiver", "of 3 nodes"});
+  refuse([](auto& t) { t["receivers"] = tensor_i32({2}, {0, 2}); }, {"edge 0: sender is its own receiver"});
+  refuse([](auto& t) { t["nodes"] = tensor_f32({0, 14}, {}); }, {"holds no nodes"});
+}
+
+TEST_CASE("networks_of_chains_are_baked_in_fp32_only") {
+  const Files files;
+  const std::string pack = files.folder.file("m.sinew");
+  files.write(small_coping_net(), zero_coping_vectors());
+  for (const char* precision : {"fp16", "int8"}) {
+    check_refused({"model", files.weights, "-o", pack, "--precision", precision},
+                  {"a coping_net runs in fp32 only", precision});
+    check_refused({"check", files.weights, files.vectors, "--precision", precision}, {"runs in fp32 only"});
+  }
+  CHECK(!std::filesystem::exists(pack));
+}
+
+// Every number of the outputs is compared: one that is off is seen.
+TEST_CASE("golden_vectors_of_networks_of_chains_are_reproduced_on_every_instruction_set") {
+  struct Case {
+    std::string model, name, output;
+    size_t steps;
+  };
+  for (const Case& each :
+       {Case{"deep_emulator", "small", "y", 6}, Case{"deep_emulator", "medium", "y", 24},
+        Case{"coping_net", "one_rod", "dp", 1}, Case{"coping_net", "forest", "dlambda", 1}}) {
+    const std::string stem = each.model + "/" + each.name, weights = golden(stem + ".weights.safetensors"),
+                      vectors = golden(stem + ".vectors.safetensors");
+    if (weights.empty()) return;
+    const TemporaryFolder folder;
+    const std::string pack = folder.file("m.sinew");
+    REQUIRE(bake({"model", weights, "-o", pack}).exit_code == 0);
+    for (const char* isa : simd::available_isas()) {
+      const ProgramResult result = bake({"check", weights, vectors, "--isa", isa});
+      CHECK(result.exit_code == 0);
+      const nlohmann::json report = report_of(result);
+      INFO(report.dump());
+      CHECK(report["model"] == each.model);
+      CHECK(report["isa"] == isa);
+      CHECK(report["precision"] == "fp32");
+      CHECK(report["steps"] == each.steps);
+      CHECK(report["max_abs_error"].get<double>() < 1e-5);
+      CHECK(report["tolerance"] == 1e-5);
+      CHECK(bake({"check", pack, vectors, "--isa", isa}).out == result.out);
+    }
+    Safetensors off = read_safetensors(vectors);
+    std::vector<float> values = off.tensors.at(each.output).as_f32();
+    values.back() += 1e-3f;
+    off.tensors[each.output] = tensor_f32(off.tensors.at(each.output).shape, values);
+    write_safetensors(folder.file("v"), off);
+    const ProgramResult beyond = bake({"check", pack, folder.file("v")});
+    CHECK(beyond.exit_code == 1);
+    CHECK(report_of(beyond)["max_abs_error"].get<double>() == Approx(1e-3).epsilon(0.02));
+  }
+}
+
+TEST_CASE("info_shows_the_sizes_of_networks_of_chains") {
+  const Files files;
+  const std::string pack = files.folder.file("m.sinew");
+  files.write(small_coping_net(), zero_coping_vectors());
+  REQUIRE(bake({"model", files.weights, "-o", pack}).exit_code == 0);
+  nlohmann::json network = nlohmann::json::parse(bake({"info", "--json", pack}).out)["network"];
+  CHECK(network["model"] == "coping_net");
+  CHECK(network["latent"] == 5);
+  CHECK(network["blocks"] == 2);
+  CHECK(network["depth"] == 1);
+  CHECK(network["parameters"] == 687);
+  CHECK_THAT(bake({"info", pack}).out, Catch::Contains("latent"));
+  files.write(small_deep_emulator(), zero_deep_vectors());
+  REQUIRE(bake({"model", files.weights, "-o", pack}).exit_code == 0);
+  network = nlohmann::json::parse(bake({"info", "--json", pack}).out)["network"];
+  CHECK(network["model"] == "deep_emulator");
+  CHECK(network["rate_hz"] == 24);
+  CHECK(network["parameters"] == 237571);
 }
 
 TEST_CASE("golden_vectors_are_reproduced_on_every_instruction_set") {
