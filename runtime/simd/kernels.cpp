@@ -46,6 +46,8 @@
 
 namespace sinew::simd::HWY_NAMESPACE {
 
+extern const RodKernels kRodKernels;  // rod_kernels.cpp
+
 template <class Dot>
 constexpr Kernels kernels_with(const char* name, bool (*runs)()) {
   return {
@@ -67,6 +69,7 @@ constexpr Kernels kernels_with(const char* name, bool (*runs)()) {
       .share_bend = share_bend,
       .sigmoid = sigmoid,
       .tanh = tanh,
+      .rods = &kRodKernels,
   };
 }
 

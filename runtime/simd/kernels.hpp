@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "simd/rod_job.hpp"
+
 namespace sinew::simd {
 
 inline constexpr uint32_t kBlock = 16;       // floats a row is padded to: the widest vector
@@ -133,6 +135,7 @@ struct Kernels {
   // Of `count` floats, any count and alignment; NaN stays NaN. Maximum errors: simd/activation-inl.hpp.
   void (*sigmoid)(const float* x, size_t count, float* out);
   void (*tanh)(const float* x, size_t count, float* out);
+  const RodKernels* rods;
 };
 
 // The table of the active instruction set. Thread-safe.
