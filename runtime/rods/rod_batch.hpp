@@ -16,7 +16,8 @@
 namespace sinew::rods {
 
 enum class RodSolver : uint32_t {
-  kDirect = 0,  // block-tridiagonal, exact: O(segments)
+  kDirect = 0,  // exact, O(segments)
+  kCg = 1,      // conjugate gradients, preconditioned by the diagonal: for comparing
 };
 
 // Where a step's iteration starts. Free motion is what a segment would do without joints.
@@ -33,6 +34,8 @@ struct RodSettings {
   // 1e-6 to 1: the iteration ends where it turned no segment by more. Stretch is then at most its square over
   // two: 5e-5 at the default.
   float tolerance_rad = 0.01f;
+  float cg_tolerance = 1e-4f;         // 1e-7 to 1: kCg's residual against its first
+  uint32_t cg_max_iterations = 1000;  // 1 to 100000, of one linear system
   float gravity_m_s2[3] = {0, -9.81f, 0};
   // A pose given for a fixed segment further away than this many of its strand's lengths carries the strand
   // along as it is, without inertia. Above 0.
@@ -59,6 +62,7 @@ struct SegmentStart {
 struct RodReport {
   uint32_t iterations = 0;      // most of any strand
   uint32_t iterations_sum = 0;  // of all strands
+  uint32_t cg_iterations = 0;   // kCg's, of all strands
   uint32_t unconverged = 0;     // strands whose last iteration turned a segment by more than the tolerance
   uint32_t rejoined = 0;   // of these, strands torn by more than half a segment: put together at their joints
   uint32_t recovered = 0;  // strands that were not finite: put back at rest shape where they are held

@@ -25,7 +25,9 @@ simd::RodJob RodBatch::group_job(uint32_t group, float dt_s) const noexcept {
           .segments = segment_count_,
           .dt_s = dt_s,
           .tolerance_rad = settings_.tolerance_rad,
-          .start_from_zero = settings_.start == RodStart::kZero};
+          .start_from_zero = settings_.start == RodStart::kZero,
+          .cg_tolerance = settings_.cg_tolerance,
+          .cg_iterations = settings_.cg_max_iterations};
 }
 
 void RodBatch::step_group(uint32_t group, float dt_s, RodReport* report) noexcept {
@@ -35,7 +37,7 @@ void RodBatch::step_group(uint32_t group, float dt_s, RodReport* report) noexcep
   for (uint32_t i = 0; i < width_; ++i) job.lanes[simd::kLaneActive * width_ + i] = i < count ? 1.0f : 0.0f;
   call.predict(job);
   for (uint32_t k = 0; k < settings_.max_iterations; ++k) {
-    if (call.direct(job) == 0) break;
+    if ((settings_.solver == RodSolver::kCg ? call.cg : call.direct)(job) == 0) break;
   }
   call.finish(job);
   for (uint32_t i = 0; i < count; ++i) {
@@ -43,6 +45,7 @@ void RodBatch::step_group(uint32_t group, float dt_s, RodReport* report) noexcep
     const auto iterations = static_cast<uint32_t>(lane(simd::kLaneIterations));
     report->iterations = std::max(report->iterations, iterations);
     report->iterations_sum += iterations;
+    report->cg_iterations += static_cast<uint32_t>(lane(simd::kLaneCgIterations));
     report->unconverged += lane(simd::kLaneActive) != 0;
     report->recovered += lane(simd::kLaneBroken) != 0;
     if (lane(simd::kLaneBroken) != 0) {

@@ -74,6 +74,7 @@ enum RodLaneField : uint32_t {
   kLaneLargestTurn,                // of the last iteration, rad
   kLaneHeldMiss,                   // largest gap squared at joints whose child's pose is given
   kLaneIterations,
+  kLaneCgIterations,
   kLaneBroken,  // 1 where a step left something that is not finite
   kLaneFields
 };
@@ -84,8 +85,10 @@ struct RodJob {
   const uint32_t* parents;  // [segments], each less than its own index; parents[0] is 0
   uint32_t segments;
   float dt_s;
-  float tolerance_rad;   // converged: no segment turned more in an iteration
-  bool start_from_zero;  // else from kRodStart*
+  float tolerance_rad;     // converged: no segment turned more in an iteration
+  bool start_from_zero;    // else from kRodStart*
+  float cg_tolerance;      // of the residual's preconditioned norm against its first
+  uint32_t cg_iterations;  // at most, of one linear system
 };
 
 // For one width of a group. All calls work on every lane; a lane's numbers do not depend on its neighbours'.
@@ -94,6 +97,7 @@ struct RodCalls {
   void (*predict)(const RodJob& job);
   // One Newton iteration. Returns how many lanes are not converged.
   uint32_t (*direct)(const RodJob& job);
+  uint32_t (*cg)(const RodJob& job);
   // Takes the iterate over as the new state.
   void (*finish)(const RodJob& job);
 };

@@ -21,13 +21,17 @@
 #include "simd/rod_step-inl.hpp"
 #include "simd/rod_linearise-inl.hpp"
 #include "simd/rod_direct-inl.hpp"
+#include "simd/rod_cg-inl.hpp"
 // clang-format on
 
 namespace sinew::simd::HWY_NAMESPACE {
 
 template <size_t kWidth>
 constexpr RodCalls rod_calls() {
-  return {.predict = rod_predict<kWidth>, .direct = rod_direct<kWidth>, .finish = rod_finish<kWidth>};
+  return {.predict = rod_predict<kWidth>,
+          .direct = rod_direct<kWidth>,
+          .cg = rod_cg<kWidth>,
+          .finish = rod_finish<kWidth>};
 }
 
 extern const RodKernels kRodKernels;
