@@ -43,11 +43,12 @@ struct Scene {
   int steps;
 };
 
-void run(const Scene& scene, rods::RodStart start) {
+void run(const Scene& scene, rods::RodStart start, rods::RodSolver solver = rods::RodSolver::kDirect) {
   const test::Segments rod = test::straight_rod(scene.shape);
-  rods::RodBatch batch = test::batch_of(std::vector<test::Segments>(scene.strands, rod), {.start = start});
+  rods::RodBatch batch =
+      test::batch_of(std::vector<test::Segments>(scene.strands, rod), {.solver = solver, .start = start});
   std::vector<double> step_us, iteration_us;
-  double iterations = 0, stretch = 0;
+  double iterations = 0, inner = 0, stretch = 0;
   uint32_t unconverged = 0;
   for (int i = 0; i < scene.steps; ++i) {
     const auto begin = std::chrono::steady_clock::now();
@@ -57,13 +58,15 @@ void run(const Scene& scene, rods::RodStart start) {
     step_us.push_back(us / scene.strands);
     iteration_us.push_back(us / (static_cast<double>(report.iterations_sum) * scene.shape.segments));
     iterations += static_cast<double>(report.iterations_sum) / scene.strands / scene.steps;
+    inner += static_cast<double>(report.cg_iterations) / scene.strands / scene.steps;
     unconverged += report.unconverged;
     stretch = std::max(stretch, test::largest_stretch(batch, rod));
   }
-  std::printf("%s,%s,%u,%u,%.0e,%.3f,%.4f,%.2f,%.1e,%u\n", scene.name,
+  std::printf("%s,%s,%s,%u,%u,%.0e,%.3f,%.4f,%.2f,%.0f,%.1e,%u\n", scene.name,
+              solver == rods::RodSolver::kCg ? "cg" : "direct",
               start == rods::RodStart::kZero ? "zero" : "previous", scene.strands, scene.shape.segments,
               static_cast<double>(scene.shape.young_pa), median(step_us), median(iteration_us), iterations,
-              stretch, unconverged);
+              inner, stretch, unconverged);
 }
 
 Scene hair(uint32_t segments, float young_pa) {
@@ -82,7 +85,8 @@ Scene single(uint32_t segments, float young_pa) {
 void run_all() {
   std::printf("# %s, multiply-add peak %.1f GFLOP/s\n", simd::active_isa(), peak_gflops());
   std::puts(
-      "scene,start,strands,segments,young_pa,us_a_strand_step,us_a_segment_iteration,iterations,stretch,"
+      "scene,solver,start,strands,segments,young_pa,us_a_strand_step,us_a_segment_iteration,iterations,"
+      "stretch,"
       "unconverged");
   for (const rods::RodStart start : {rods::RodStart::kPrevious, rods::RodStart::kZero}) {
     for (const uint32_t segments : {16u, 32u}) {
@@ -91,6 +95,7 @@ void run_all() {
     for (const uint32_t segments : {30u, 200u}) {
       for (const float young : {1e4f, 1e6f, 1e8f}) run(single(segments, young), start);
     }
+    for (const float young : {1e4f, 1e6f}) run(single(30, young), start, rods::RodSolver::kCg);
   }
 }
 
