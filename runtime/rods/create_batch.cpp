@@ -92,8 +92,10 @@ struct RodBatchBuilder {
 
   void lay_out(std::byte* base, size_t* bytes) {
     core::Arena arena(base);
-    const size_t rows = groups() * batch.segment_count_ * simd::kRodFields;
+    const size_t rows = groups() * batch.segment_count_ * simd::kRodKeptFields;
     batch.records_ = arena.take<float>(rows * batch.width_);
+    batch.scratch_ = arena.take<float>(size_t{batch.segment_count_} *
+                                       (simd::kRodFields - simd::kRodKeptFields) * batch.width_);
     batch.lanes_ = arena.take<float>(groups() * simd::kLaneFields * batch.width_);
     batch.rest_ = arena.take<float>(size_t{batch.strand_count_} * batch.segment_count_ * 7);
     batch.units_ = arena.take<RodBatch::Units>(batch.strand_count_);

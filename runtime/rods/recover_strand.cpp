@@ -40,7 +40,7 @@ void RodBatch::recover(uint32_t strand) noexcept {
     const Vector arm = turned(
         by, {own.place[0] - from.place[0], own.place[1] - from.place[1], own.place[2] - from.place[2]});
     const Turn q = normalised(product(by, own.turn));
-    for (uint32_t field = simd::kRodTarget; field < simd::kRodFields; ++field) at(strand, i, field) = 0;
+    for (uint32_t field = simd::kRodTarget; field < simd::kRodKeptFields; ++field) at(strand, i, field) = 0;
     for (uint32_t k = 0; k < 3; ++k) {
       at(strand, i, simd::kRodPlace + k) = static_cast<float>(to.place[k] + arm[k]);
     }

@@ -34,7 +34,7 @@ bool RodBatch::rejoin(uint32_t strand, float dt_s) noexcept {
   };
   double torn = 0;
   for (uint32_t i = 0; i < segment_count_; ++i) {
-    for (uint32_t k = simd::kRodStartPush; k < simd::kRodFreeMove; ++k) at(strand, i, k) = 0;
+    for (uint32_t k = simd::kRodStartPush; k < simd::kRodKeptFields; ++k) at(strand, i, k) = 0;
     if (i == 0) continue;
     const Vector joined = joined_place(i), own = row3(i, simd::kRodPlace);
     torn = std::max(torn, std::hypot(joined[0] - own[0], joined[1] - own[1], joined[2] - own[2]));

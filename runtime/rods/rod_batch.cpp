@@ -36,7 +36,7 @@ Status check_target(uint32_t strand, uint32_t segment, const SegmentPose& pose) 
 
 size_t RodBatch::row(uint32_t strand, uint32_t segment, uint32_t field) const noexcept {
   const size_t group = strand / width_, lane = strand % width_;
-  return ((group * segment_count_ + segment) * simd::kRodFields + field) * width_ + lane;
+  return ((group * segment_count_ + segment) * simd::kRodKeptFields + field) * width_ + lane;
 }
 
 Status RodBatch::check_place(uint32_t strand, uint32_t segment) const noexcept {

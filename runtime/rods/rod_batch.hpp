@@ -115,7 +115,8 @@ class RodBatch {
   void recover(uint32_t strand) noexcept;
 
   core::AlignedBlock memory_;
-  float* records_ = nullptr;  // [groups][segments][kRodFields][width]
+  float* records_ = nullptr;  // [groups][segments][kRodKeptFields][width]
+  float* scratch_ = nullptr;  // of one group
   float* lanes_ = nullptr;    // [groups][kLaneFields][width]
   float* rest_ = nullptr;     // [strands][segments][7] place and orientation at rest
   Units* units_ = nullptr;    // [strands]

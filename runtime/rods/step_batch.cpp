@@ -19,7 +19,8 @@ const simd::RodCalls& calls(uint32_t width) {
 }  // namespace
 
 simd::RodJob RodBatch::group_job(uint32_t group, float dt_s) const noexcept {
-  return {.records = records_ + size_t{group} * segment_count_ * simd::kRodFields * width_,
+  return {.records = records_ + size_t{group} * segment_count_ * simd::kRodKeptFields * width_,
+          .scratch = scratch_,
           .lanes = lanes_ + size_t{group} * simd::kLaneFields * width_,
           .parents = parents_,
           .segments = segment_count_,

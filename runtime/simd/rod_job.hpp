@@ -1,6 +1,6 @@
 // rod_job.hpp  What the rod kernels work on: a group of strands of one shape, a strand a lane.
 //
-// A group is `width` strands, 4 or 16. A record of kRodFields rows of `width` floats holds one segment of all
+// A group is `width` strands, 4 or 16. A record of rows of `width` floats holds one segment of all
 // of them and the joint to its parent; segment 0 is the root and has no joint. Units are a strand's own: its
 // mean segment's length and mass, and seconds; joints' forces and compliances are kept free of the time
 // step's length. Positions are two floats, whose sum is exact to 1e-14 of what it measures. A segment's own z
@@ -45,8 +45,9 @@ enum RodField : uint32_t {
   kRodStartPush = kRodSpin + 3,         // [3]
   kRodStartTwist = kRodStartPush + 3,   // [3]
   kRodStartForce = kRodStartTwist + 3,  // [6]
-  // Of one step: where the segment goes without joints, what the joint asks for.
-  kRodFreeMove = kRodStartForce + 6,      // [3] displacement
+  kRodKeptFields = kRodStartForce + 6,
+  // Of one step, in scratch: where the segment goes without joints, what the joint asks for.
+  kRodFreeMove = kRodKeptFields,          // [3] displacement
   kRodFreeTurn = kRodFreeMove + 3,        // [4] orientation
   kRodFreeSpin = kRodFreeTurn + 4,        // [3]
   kRodGap = kRodFreeSpin + 3,             // [3] parent's place less own, at the step's start
@@ -80,8 +81,9 @@ enum RodLaneField : uint32_t {
 };
 
 struct RodJob {
-  float* records;           // [segments][kRodFields][width], 64-byte aligned (width 4: 16-byte)
-  float* lanes;             // [kLaneFields][width], aligned alike
+  float* records;  // [segments][kRodKeptFields][width], 64-byte aligned (width 4: 16-byte)
+  float* scratch;  // [segments][kRodFields - kRodKeptFields][width], aligned alike; from predict to finish
+  float* lanes;    // [kLaneFields][width], aligned alike
   const uint32_t* parents;  // [segments], each less than its own index; parents[0] is 0
   uint32_t segments;
   float dt_s;

@@ -106,10 +106,13 @@ template <class D, size_t kWidth>
 struct Group {
   using V = hn::Vec<D>;
   float* records;
+  float* scratch;
   float* lanes;
 
   HWY_INLINE float* at(size_t segment, size_t field) const {
-    return records + (segment * kRodFields + field) * kWidth;
+    return field < kRodKeptFields
+               ? records + (segment * kRodKeptFields + field) * kWidth
+               : scratch + (segment * (kRodFields - kRodKeptFields) + (field - kRodKeptFields)) * kWidth;
   }
   HWY_INLINE V get(size_t segment, size_t field) const { return hn::Load(D(), at(segment, field)); }
   HWY_INLINE void set(size_t segment, size_t field, V value) const {
@@ -144,7 +147,7 @@ template <size_t kWidth, class Body>
 HWY_INLINE void for_lanes(const RodJob& job, const Body& body) {
   using D = LanesOf<kWidth>;
   for (size_t i = 0; i < kWidth; i += hn::MaxLanes(D())) {
-    body(Group<D, kWidth>{job.records + i, job.lanes + i});
+    body(Group<D, kWidth>{job.records + i, job.scratch + i, job.lanes + i});
   }
 }
 
