@@ -8,7 +8,7 @@
 
 namespace sinew::baker {
 
-inline constexpr size_t kFewestCreatureVertices = 500;
+inline constexpr size_t kFewestCreatureVertices = 200;
 inline constexpr size_t kMostCreatureVertices = 50000;
 
 // Throws BadInput: not readable, not JSON, an unknown key (named, with the nearest known one), a value

@@ -4,6 +4,7 @@
 #include "baker/common/bad_input.hpp"
 #include "baker/mesh/carry.hpp"
 #include "baker/mesh/control_nodes.hpp"
+#include "baker/mesh/node_order.hpp"
 #include "baker/mesh/regions.hpp"
 #include "baker/mesh/stiffness.hpp"
 #include "baker/mesh/tissue_layout.hpp"
@@ -42,11 +43,33 @@ void measure(const std::vector<Vector3>& nodes, Region& region) {
     region.radius_m = std::max(region.radius_m, (node - region.center).norm());
 }
 
+using Edges = std::vector<std::pair<int, int>>;
+
+// Farthest points are sampled from all over a part. A few stay in cache in any order, and keep theirs; many
+// are put so that neighbours stand near each other.
+void order_for_cache(std::vector<int>& nodes, Edges& edges) {
+  constexpr size_t kFew = 256;
+  if (nodes.size() <= kFew) return;
+  const std::vector<int> order = order_by_neighbours(nodes.size(), edges), given = nodes;
+  std::vector<int> place(order.size());
+  for (size_t k = 0; k < order.size(); ++k) {
+    nodes[k] = given[static_cast<size_t>(order[k])];
+    place[static_cast<size_t>(order[k])] = static_cast<int>(k);
+  }
+  for (auto& [a, b] : edges) {
+    const auto [first, second] = std::minmax(place[static_cast<size_t>(a)], place[static_cast<size_t>(b)]);
+    a = first, b = second;
+  }
+  std::ranges::sort(edges);
+}
+
 void append_region(const Character& character, const Surface& surface, const Recipe& recipe,
                    const SoftParts& parts, int id, TissueLayout& layout) {
   const std::vector<int> vertices = part_vertices(parts, id), rim = rim_vertices(surface, parts, id);
   const PartSurface part{character, surface, parts.part, id, vertices, rim};
-  const std::vector<int> nodes = sample_nodes(part, layout.stiffness, recipe.nodes_per_region);
+  std::vector<int> nodes = sample_nodes(part, layout.stiffness, recipe.nodes_per_region);
+  Edges edges = connect_nodes(part, nodes, recipe.neighbours);
+  order_for_cache(nodes, edges);
 
   Region region;
   region.name = region_name(character, recipe, layout.stiffness, vertices);
@@ -58,8 +81,7 @@ void append_region(const Character& character, const Surface& surface, const Rec
   measure(node_places, region);
   region.carry = carry_weights(node_places, places(character, sample_rim(character, rim, kRimAnchors)),
                                places(character, region.vertices));
-  for (const auto& [a, b] : connect_nodes(part, nodes, recipe.neighbours))
-    layout.edges.emplace_back(region.first_node + a, region.first_node + b);
+  for (const auto& [a, b] : edges) layout.edges.emplace_back(region.first_node + a, region.first_node + b);
   append_nodes(character, nodes, static_cast<int>(layout.regions.size()), layout);
   layout.regions.push_back(std::move(region));
 }

@@ -1,18 +1,21 @@
 // character_pack.hpp  A character, its tissue and its network to one .sinew file.
 #pragma once
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "baker/common/safetensors.hpp"
 #include "baker/import/character.hpp"
 #include "baker/mesh/tissue_layout.hpp"
+#include "baker/pack/int8_pack.hpp"
 #include "baker/truth/modal_basis.hpp"
 
 namespace sinew::baker {
 
 inline constexpr double kClipRateHz = 60;
 // The whole file; `modes`: one basis a region. Without weights (null) it has the tiers modal and spring, at
-// 60 Hz. Beyond network_pack's keys, reads from the weights' metadata:
+// 60 Hz. precision, ranges: as add_network takes them. Beyond network_pack's keys, reads from the weights'
+// metadata:
 //   frame, base          must be "bent" and "modal": what the network was trained on
 //   base_substeps        of the truth that it was trained on (default 4)
 //   displacement_limit   share of a region's radius (default 0.75)
@@ -21,6 +24,8 @@ inline constexpr double kClipRateHz = 60;
 // more than ten minutes, a basis that does not fit its region, and what add_network refuses.
 std::vector<std::byte> pack_character(const Character& character, const TissueLayout& layout,
                                       const std::vector<ModalBasis>& modes,
-                                      const Safetensors* weights = nullptr);
+                                      const Safetensors* weights = nullptr,
+                                      pack::Precision precision = pack::Precision::kFloat32,
+                                      std::span<const HeardRanges> ranges = {});
 
 }  // namespace sinew::baker

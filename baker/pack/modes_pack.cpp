@@ -37,12 +37,13 @@ void check_basis(const Region& region, const ModalBasis& basis) {
                    "': its modes hold numbers that are not finite; is the mesh damaged there?");
 }
 
-// Rows of one mode each, padded.
-void append_rows(const MatrixXd& rows, uint32_t padded, std::vector<float>* out) {
-  for (Index k = 0; k < rows.rows(); ++k) {
-    for (Index i = 0; i < rows.cols(); ++i) out->push_back(static_cast<float>(rows(k, i)));
-    out->resize(out->size() + padded - static_cast<size_t>(rows.cols()), 0.0f);
-  }
+void append_row(const auto& row, std::vector<float>* out) {
+  for (const double value : row) out->push_back(static_cast<float>(value));
+  out->resize((out->size() + 15) / 16 * 16, 0.0f);
+}
+
+void append_rows(const MatrixXd& rows, std::vector<float>* out) {
+  for (const auto& row : rows.rowwise()) append_row(row, out);
 }
 
 MatrixXd projection(const ModalBasis& basis) {
@@ -53,12 +54,15 @@ MatrixXd projection(const ModalBasis& basis) {
   return square.ldlt().solve(basis.shape.transpose());
 }
 
-void append_matrices(const ModalBasis& basis, uint32_t padded, std::vector<float>* out) {
-  append_rows(basis.shape.transpose(), padded, out);
-  append_rows(basis.turn.transpose(), padded, out);
-  append_rows(basis.force, padded, out);
-  append_rows(projection(basis), padded, out);
-  append_rows(basis.rest, padded, out);
+// Every row begins at a multiple of 16.
+void append_matrices(const ModalBasis& basis, std::vector<float>* out) {
+  append_rows(basis.shape.transpose(), out);
+  append_rows(basis.turn.transpose(), out);
+  for (Index i = 0; i < basis.shape.rows(); ++i) {
+    append_row(basis.rest.col(i), out);
+    append_row(basis.force.col(i), out);
+  }
+  append_rows(projection(basis).transpose(), out);
 }
 
 // C_i: the static displacement of each node under a uniform felt acceleration, row-major 3x3.
@@ -99,7 +103,7 @@ void append_region(const Region& region, const ModalBasis& basis, const TickGrid
   to->regions.push_back(record);
   for (Index k = 0; k < basis.rad_per_s.size(); ++k)
     to->modes.push_back(mode_record(basis.rad_per_s[k], basis.damping_ratio[k], grid));
-  append_matrices(basis, record.padded, &to->matrices);
+  append_matrices(basis, &to->matrices);
   append_compliance(basis, region.node_count, &to->compliance);
   const Recurrence spring =
       modal_recurrence(first, moves ? basis.damping_ratio[0] : kUsualDampingRatio, grid);

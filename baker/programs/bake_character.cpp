@@ -9,6 +9,7 @@
 #include "baker/import/import_gltf.hpp"
 #include "baker/mesh/tissue_layout.hpp"
 #include "baker/pack/character_pack.hpp"
+#include "baker/programs/calibrate.hpp"
 #include "baker/programs/commands.hpp"
 #include "baker/programs/describe.hpp"
 #include "baker/truth/tissue_truth.hpp"
@@ -17,7 +18,8 @@ namespace sinew::baker {
 namespace {
 
 struct CharacterOptions {
-  std::string character, recipe, tissue, output;
+  std::string character, recipe, tissue, output, precision = "fp32";
+  std::vector<std::string> calibration;
 };
 
 Character import_character(const CharacterOptions& options, const Recipe& recipe) {
@@ -34,7 +36,36 @@ void print_summary(const CharacterOptions& options, const Character& character, 
   std::printf("%s: %s", options.output.c_str(), format_description(description).c_str());
 }
 
+pack::Precision precision_of(const CharacterOptions& options) {
+  const pack::Precision precision = parse_precision(options.precision);
+  check_calibration(precision, !options.calibration.empty());
+  if (precision != pack::Precision::kFloat32 && options.tissue.empty())
+    throw BadInput("--precision " + options.precision +
+                   ": is a network's, and there is no --tissue; leave it out or give weights");
+  return precision;
+}
+
+// A file of trajectories; else of vectors.
+bool holds_motion(const std::string& path) {
+  return read_safetensors(path).metadata.contains("sinew.trajectory");
+}
+
+// floats: the character in float32.
+std::vector<HeardRanges> int8_ranges(const CharacterOptions& options, const Safetensors& weights,
+                                     const std::vector<std::byte>& floats) {
+  const std::vector<std::string>& files = options.calibration;
+  if (!files.empty() && holds_motion(files.front()))
+    return heard_ranges(LoadedPack::from_bytes(floats, options.character), files);
+  if (files.size() > 1)
+    throw BadInput("--calibrate " + files.front() +
+                   ": is of vectors, of which one file is taken; give true "
+                   "motions, or it alone");
+  return widened(ranges_for(weights, pack::Precision::kInt8, files.empty() ? "" : files.front()),
+                 kBeyondVectors);
+}
+
 void run_character(const CharacterOptions& options) {
+  const pack::Precision precision = precision_of(options);
   const Recipe recipe = options.recipe.empty() ? Recipe{} : read_recipe(options.recipe);
   std::optional<Safetensors> weights;
   if (!options.tissue.empty()) weights = read_safetensors(options.tissue);
@@ -42,8 +73,13 @@ void run_character(const CharacterOptions& options) {
   const TissueLayout layout = layout_tissue(character, recipe);
   const std::vector<ModalBasis> modes =
       TissueTruth(character, layout, recipe).modal_bases(layout, kMostModes);
-  const std::vector<std::byte> bytes =
-      pack_character(character, layout, modes, weights ? &*weights : nullptr);
+  const auto packed = [&](pack::Precision in, std::span<const HeardRanges> ranges) {
+    return pack_character(character, layout, modes, weights ? &*weights : nullptr, in, ranges);
+  };
+  std::vector<HeardRanges> ranges;
+  if (precision == pack::Precision::kInt8)
+    ranges = int8_ranges(options, *weights, packed(pack::Precision::kFloat32, {}));
+  const std::vector<std::byte> bytes = packed(precision, ranges);
   const LoadedPack pack =
       LoadedPack::from_bytes(bytes, options.character);  // what the runtime would refuse is not written
   write_file(options.output, bytes);
@@ -60,6 +96,13 @@ void add_character_command(CLI::App& app, int*) {
   command->add_option("--recipe", options->recipe, "JSON; see baker/mesh/recipe.hpp");
   command->add_option("--tissue", options->tissue,
                       "trained weights, safetensors; without: tiers modal and spring only");
+  add_precision_option(command, &options->precision);
+  command
+      ->add_option("--calibrate", options->calibration,
+                   "true motions of this character (sinew-bake truth) that int8 takes its scales from, in "
+                   "closed loop; or a file of vectors; by default those beside the weights, else a made-up "
+                   "motion. Repeatable")
+      ->allow_extra_args(false);
   command->add_option("-o,--output", options->output, "C.sinew")->required();
   command->callback([options] { run_character(*options); });
 }

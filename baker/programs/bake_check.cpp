@@ -23,11 +23,6 @@ struct CheckOptions {
   std::optional<double> tolerance;
 };
 
-void choose_isa(const std::string& name) {
-  const Status status = name.empty() ? simd::check_environment() : simd::force_isa(name.c_str());
-  if (!status.ok()) throw BadInput((name.empty() ? "" : "--isa " + name + ": ") + status.message);
-}
-
 const char* precision_of(const LoadedPack& model) {
   return pack::kPrecisionNames[static_cast<uint32_t>(model.view().network->precision)];
 }
@@ -67,6 +62,11 @@ int run_check(const CheckOptions& options) {
 }
 
 }  // namespace
+
+void choose_isa(const std::string& name) {
+  const Status status = name.empty() ? simd::check_environment() : simd::force_isa(name.c_str());
+  if (!status.ok()) throw BadInput((name.empty() ? "" : "--isa " + name + ": ") + status.message);
+}
 
 void add_check_command(CLI::App& app, int* exit_code) {
   auto options = std::make_shared<CheckOptions>();

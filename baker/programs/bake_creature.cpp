@@ -17,7 +17,7 @@ struct CreatureOptions {
 void run_creature(const CreatureOptions& options, bool vertices_given) {
   if (vertices_given &&
       (options.vertices < kFewestCreatureVertices || options.vertices > kMostCreatureVertices))
-    throw BadInput("--vertices " + std::to_string(options.vertices) + ": must be from 500 to 50000");
+    throw BadInput("--vertices " + std::to_string(options.vertices) + ": must be from 200 to 50000");
   write_file(options.output, make_creature(read_creature_recipe(options.recipe), options.vertices));
 }
 
@@ -28,7 +28,7 @@ void add_creature_command(CLI::App& app, int*) {
   CLI::App* command = app.add_subcommand("creature", "Makes a character from a recipe");
   command->add_option("recipe", options->recipe, "JSON; see assets/creature/README.md")->required();
   CLI::Option* vertices = command->add_option("--vertices", options->vertices,
-                                              "about so many, 500 to 50000; the recipe's own by default");
+                                              "about so many, 200 to 50000; the recipe's own by default");
   command->add_option("-o,--output", options->output, "C.glb")->required();
   command->callback([options, vertices] { run_creature(*options, vertices->count() > 0); });
 }

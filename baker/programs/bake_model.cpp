@@ -15,8 +15,7 @@ struct ModelOptions {
 
 void run_model(const ModelOptions& options) {
   const pack::Precision precision = parse_precision(options.precision);
-  if (!options.calibration.empty() && precision != pack::Precision::kInt8)
-    throw BadInput("--calibrate: only --precision int8 takes its scales from vectors; leave it out");
+  check_calibration(precision, !options.calibration.empty());
   const LoadedPack packed = LoadedPack::from_weights(options.weights, precision, options.calibration);
   write_file(options.output, packed.bytes());
 }
@@ -32,13 +31,22 @@ pack::Precision parse_precision(const std::string& name) {
   throw BadInput("--precision " + name + ": not built in this version; use one of " + known);
 }
 
+void check_calibration(pack::Precision precision, bool given) {
+  if (given && precision != pack::Precision::kInt8)
+    throw BadInput("--calibrate: only --precision int8 takes its scales from vectors; leave it out");
+}
+
+void add_precision_option(CLI::App* command, std::string* precision) {
+  command->add_option(
+      "--precision", *precision,
+      "fp32; fp16: states of hidden layers kept as halves; int8: and their products of bytes");
+}
+
 void add_model_command(CLI::App& app, int*) {
   auto options = std::make_shared<ModelOptions>();
   CLI::App* command = app.add_subcommand("model", "Packs trained weights");
   command->add_option("weights", options->weights, "safetensors")->required();
-  command->add_option(
-      "--precision", options->precision,
-      "fp32; fp16: states of hidden layers kept as halves; int8: and their products of bytes");
+  add_precision_option(command, &options->precision);
   command->add_option(
       "--calibrate", options->calibration,
       "reference vectors that int8 takes its scales from; by default those beside the weights, "

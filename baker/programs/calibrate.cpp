@@ -9,6 +9,7 @@
 
 #include "baker/common/bad_input.hpp"
 #include "baker/pack/network_pack.hpp"
+#include "baker/programs/closed_loop.hpp"
 #include "baker/programs/roll_out.hpp"
 
 namespace sinew::baker {
@@ -69,6 +70,16 @@ void check_finite(const std::vector<HeardRanges>& ranges, const std::string& pat
   }
 }
 
+std::vector<HeardRanges> nothing_heard(const tissue::Network& network) {
+  std::vector<HeardRanges> ranges;
+  for (size_t l = 0; l + 1 < network.layers.size(); ++l) {
+    const size_t inputs = network.layers[l].inputs, channels = network.layers[l].channels;
+    ranges.push_back({std::vector<float>(inputs), std::vector<float>(inputs), std::vector<float>(channels),
+                      std::vector<float>(channels)});
+  }
+  return ranges;
+}
+
 // ---- a made-up motion ----
 
 std::vector<int32_t> sphere_edges() {
@@ -120,15 +131,38 @@ std::vector<float> wandering_inputs(const tissue::Network& network) {
 }  // namespace
 
 std::vector<HeardRanges> heard_ranges(const tissue::Network& network, const Safetensors& vectors) {
-  std::vector<HeardRanges> ranges;
-  for (size_t l = 0; l + 1 < network.layers.size(); ++l) {
-    const size_t inputs = network.layers[l].inputs, channels = network.layers[l].channels;
-    ranges.push_back({std::vector<float>(inputs), std::vector<float>(inputs), std::vector<float>(channels),
-                      std::vector<float>(channels)});
-  }
+  std::vector<HeardRanges> ranges = nothing_heard(network);
   roll_out(network, vectors,
            [&](const GraphRows& graph, float* state) { raise_layers(network, graph, state, &ranges); });
   check_finite(ranges, vectors.path);
+  return ranges;
+}
+
+std::vector<HeardRanges> heard_ranges(const LoadedPack& character,
+                                      std::span<const std::string> trajectories) {
+  const pack::PackView& view = character.view();
+  const GraphRows graph = {{view.graph_rows.begin(), view.graph_rows.end()},
+                           {view.graph_columns.begin(), view.graph_columns.end()},
+                           {view.graph_values.begin(), view.graph_values.end()}};
+  std::vector<HeardRanges> ranges = nothing_heard(character.network());
+  for (const std::string& path : trajectories) {
+    const TrueMotion motion(read_safetensors(path), view);
+    ClosedLoop loop(character, motion);
+    for (size_t tick = 0; tick < motion.ticks(); ++tick) {
+      loop.tick();
+      raise_layers(loop.network(), graph, loop.network_state(), &ranges);
+    }
+    check_finite(ranges, path);
+  }
+  return ranges;
+}
+
+std::vector<HeardRanges> widened(std::vector<HeardRanges> ranges, float factor) {
+  for (HeardRanges& layer : ranges) {
+    for (std::vector<float>* kind : {&layer.px, &layer.x, &layer.h, &layer.y}) {
+      for (float& range : *kind) range *= factor;
+    }
+  }
   return ranges;
 }
 

@@ -14,8 +14,17 @@ void add_model_command(CLI::App& app, int* exit_code);
 void add_check_command(CLI::App& app, int* exit_code);
 void add_info_command(CLI::App& app, int* exit_code);
 void add_truth_command(CLI::App& app, int* exit_code);
+void add_judge_command(CLI::App& app, int* exit_code);
 
 // Throws BadInput for a --precision that this version cannot bake or run.
 pack::Precision parse_precision(const std::string& name);
+// Throws BadInput where vectors are given that the precision has no use for.
+void check_calibration(pack::Precision precision, bool given);
+// --precision.
+void add_precision_option(CLI::App* command, std::string* precision);
+
+// Runs on this instruction set from here on; empty: the best, or what SINEW_ISA names. Throws BadInput where
+// this processor does not have it.
+void choose_isa(const std::string& name);
 
 }  // namespace sinew::baker

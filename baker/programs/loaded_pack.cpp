@@ -18,11 +18,6 @@ LoadedPack pack_network(const Safetensors& weights, pack::Precision precision,
   add_network(weights, writer, precision, ranges);
   return LoadedPack::from_bytes(writer.finish(), weights.path);
 }
-
-std::vector<HeardRanges> ranges_of(const tissue::Network& network, const std::string& vectors) {
-  return heard_ranges(network, vectors.empty() ? made_up_vectors(network) : read_safetensors(vectors));
-}
-
 }  // namespace
 
 LoadedPack LoadedPack::from_file(const std::string& path) {
@@ -45,12 +40,16 @@ LoadedPack LoadedPack::from_bytes(std::span<const std::byte> bytes, const std::s
 LoadedPack LoadedPack::from_weights(const std::string& path, pack::Precision precision,
                                     const std::string& calibration) {
   const Safetensors weights = read_safetensors(path);
-  std::vector<HeardRanges> ranges;
-  if (precision == pack::Precision::kInt8) {
-    const LoadedPack floats = pack_network(weights, pack::Precision::kFloat32, {});
-    ranges = ranges_of(floats.network(), calibration.empty() ? vectors_beside(path) : calibration);
-  }
-  return pack_network(weights, precision, ranges);
+  return pack_network(weights, precision, ranges_for(weights, precision, calibration));
+}
+
+std::vector<HeardRanges> ranges_for(const Safetensors& weights, pack::Precision precision,
+                                    const std::string& calibration) {
+  if (precision != pack::Precision::kInt8) return {};
+  const LoadedPack floats = pack_network(weights, pack::Precision::kFloat32, {});
+  const std::string vectors = calibration.empty() ? vectors_beside(weights.path) : calibration;
+  return heard_ranges(floats.network(),
+                      vectors.empty() ? made_up_vectors(floats.network()) : read_safetensors(vectors));
 }
 
 void LoadedPack::open(std::span<const std::byte> bytes, const std::string& path) {

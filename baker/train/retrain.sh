@@ -19,13 +19,18 @@ bake=$build/bin/sinew-bake
 [ -x "$bake" ] || { echo "retrain.sh: no $bake; build the project first, or name its build folder" >&2; exit 2; }
 "$python" -c 'import torch' 2>/dev/null || { echo "retrain.sh: $python has no PyTorch; apt-get install python3-torch" >&2; exit 2; }
 
-trainer() { "$python" "$root/baker/train" "$@"; }
+began=$(date +%s)
+done_with() { echo "retrain.sh: after $((($(date +%s) - began) / 60)) min: $*"; }
+pace=
+trainer() { $pace "$python" "$root/baker/train" "$@"; }
 simulate() { trainer generate --bake "$bake" --plan "${PLAN:-$root/assets/bodies/plan.json}" --out "$work/data" ${GENERATE:-} "$@"; }
 
 mkdir -p "$work"
 simulate --processes "${PROCESSES:-2}" --splits train validation
-simulate --processes 1 > "$work/generate.log" 2>&1 &   # what judging needs, while training runs
-pids=$!
+done_with "data to train on"
+pace="nice -n 15" simulate --processes 1 > "$work/generate.log" 2>&1 &   # what judging needs, behind the training
+judged=$!
+pids=
 for network in $networks; do
   for seed in ${SEEDS:-0}; do
     run=${network%=*}.$seed channels=${network#*=} minutes=${network##*:}
@@ -34,9 +39,11 @@ for network in $networks; do
     pids="$pids $!"
   done
 done
-for pid in $pids; do
-  wait "$pid" || { tail -n 3 "$work"/*.log >&2; kill $pids 2>/dev/null || :; exit 2; }
-done
+wait_for() { wait "$1" || { tail -n 3 "$work"/*.log >&2; kill $pids "$judged" 2>/dev/null || :; exit 2; }; }
+for pid in $pids; do wait_for "$pid"; done
+done_with "networks trained"
+wait_for "$judged"
+done_with "data to judge by"
 
 # Of the seeds of this call.
 best_of() { set -- "$1" ""; for seed in ${SEEDS:-0}; do set -- "$1" "$2 $work/$1.$seed"; done; trainer best $2; }
@@ -55,3 +62,4 @@ for name in $names; do
   trainer export "$work/data" --run "$best" --page "$out/evaluation" --model "$name" --body momo --out "$out/weights" --name "$name"
   "$bake" check "$out/weights/$name.safetensors" "$out/weights/$name.vectors.safetensors" --tolerance 1e-4
 done
+done_with "networks judged and exported"

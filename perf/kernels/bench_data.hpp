@@ -74,6 +74,10 @@ inline NetworkShape paper_shape() { return {9, {32, 64, 128, 64, 32, 3}, false, 
 // A form like the shipped ones on 240 control nodes.
 inline NetworkShape control_graph_shape() { return {34, {16, 16, 3}, true, 20, 12}; }
 
+// The shipped networks' on as many: narrow layers, and so wide an input that it is most of their products.
+inline NetworkShape creature_shape() { return {56, {8, 3}, true, 20, 12}; }
+inline NetworkShape creature_wide_shape() { return {56, {16, 3}, true, 20, 12}; }
+
 // One matrix product of a step: [nodes x depth] [depth x columns].
 struct ProductShape {
   int64_t depth, columns;

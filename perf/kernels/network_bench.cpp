@@ -41,5 +41,25 @@ BENCHMARK_CAPTURE(run_network, control_graph, control_graph_shape())
     ->Name("alt_conv_lstm_control_graph")
     ->Unit(benchmark::kMicrosecond);
 
+// The shipped widths in every precision.
+BENCHMARK_CAPTURE(run_network, creature, creature_shape(), pack::Precision::kFloat32)
+    ->Name("alt_conv_lstm_creature")
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(run_network, creature_fp16, creature_shape(), pack::Precision::kHalfStates)
+    ->Name("alt_conv_lstm_fp16_creature")
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(run_network, creature_int8, creature_shape(), pack::Precision::kInt8)
+    ->Name("alt_conv_lstm_int8_creature")
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(run_network, creature_wide, creature_wide_shape(), pack::Precision::kFloat32)
+    ->Name("alt_conv_lstm_creature_wide")
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(run_network, creature_wide_fp16, creature_wide_shape(), pack::Precision::kHalfStates)
+    ->Name("alt_conv_lstm_fp16_creature_wide")
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(run_network, creature_wide_int8, creature_wide_shape(), pack::Precision::kInt8)
+    ->Name("alt_conv_lstm_int8_creature_wide")
+    ->Unit(benchmark::kMicrosecond);
+
 }  // namespace
 }  // namespace sinew::perf

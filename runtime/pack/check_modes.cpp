@@ -34,20 +34,45 @@ Status check_record(const PackView& pack, const RegionModesRecord& modes, size_t
   return check_zero(modes.reserved, "region modes", index);
 }
 
-// shape, turn, force and project, then rest.
-uint64_t rows_of(const PackView& pack, const RegionModesRecord& modes, size_t index) noexcept {
-  return uint64_t{4} * modes.mode_count + uint64_t{3} * pack.regions[index].node_count;
+uint64_t numbers_of(const PackView& pack, size_t index) noexcept {
+  return uint64_t{3} * pack.regions[index].node_count;
+}
+
+// shape and turn; response; project.
+uint64_t floats_of(const PackView& pack, const RegionModesRecord& modes, size_t index) noexcept {
+  const uint64_t padded_modes = round_up_16(modes.mode_count);
+  return uint64_t{2} * modes.mode_count * modes.padded +
+         numbers_of(pack, index) * (modes.padded + 2 * padded_modes);
+}
+
+bool is_padded_with_zeros(std::span<const float> row, size_t used) noexcept {
+  return std::ranges::all_of(row.subspan(used), [](float v) { return v == 0; });
+}
+
+bool has_zero_padding(const PackView& pack, const RegionModesRecord& modes, size_t index) noexcept {
+  const size_t numbers = numbers_of(pack, index), padded_modes = round_up_16(modes.mode_count);
+  auto rest = pack.mode_matrices.subspan(modes.matrices);
+  const auto next_row_is_padded = [&](size_t padded, size_t used) {
+    const auto row = rest.first(padded);
+    rest = rest.subspan(padded);
+    return is_padded_with_zeros(row, used);
+  };
+  bool good = true;
+  for (uint32_t k = 0; k < 2 * modes.mode_count; ++k) good &= next_row_is_padded(modes.padded, numbers);
+  for (size_t i = 0; i < numbers; ++i) {
+    good &= next_row_is_padded(modes.padded, numbers);
+    good &= next_row_is_padded(padded_modes, modes.mode_count);
+  }
+  for (size_t i = 0; i < numbers; ++i) good &= next_row_is_padded(padded_modes, modes.mode_count);
+  return good;
 }
 
 Status check_matrices(const PackView& pack, const RegionModesRecord& modes, size_t index) noexcept {
-  const size_t used = size_t{3} * pack.regions[index].node_count;
-  for (uint64_t row = 0; row < rows_of(pack, modes, index); ++row) {
-    const auto values = pack.mode_matrices.subspan(modes.matrices + row * modes.padded, modes.padded);
-    if (first_not_finite(values) != values.size())
-      return corrupt("region modes %zu: a number of a matrix is not finite", index);
-    if (std::ranges::any_of(values.subspan(used), [](float v) { return v != 0; }))
-      return corrupt("region modes %zu: padding of a matrix is not zero", index);
-  }
+  const auto values = pack.mode_matrices.subspan(modes.matrices, floats_of(pack, modes, index));
+  if (first_not_finite(values) != values.size())
+    return corrupt("region modes %zu: a number of a matrix is not finite", index);
+  if (!has_zero_padding(pack, modes, index))
+    return corrupt("region modes %zu: padding of a matrix is not zero", index);
   return {};
 }
 
@@ -56,7 +81,7 @@ Status check_regions(const PackView& pack) noexcept {
   for (size_t index = 0; index < pack.region_modes.size(); ++index) {
     const RegionModesRecord& modes = pack.region_modes[index];
     if (Status status = check_record(pack, modes, index); !status.ok()) return status;
-    const uint64_t floats = rows_of(pack, modes, index) * modes.padded;
+    const uint64_t floats = floats_of(pack, modes, index);
     if (modes.first_mode != mode || modes.mode_count > pack.modes.size() - mode)
       return corrupt("region modes %zu: modes do not follow the region before it", index);
     if (modes.matrices != matrices || floats > pack.mode_matrices.size() - matrices)

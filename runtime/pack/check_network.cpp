@@ -45,11 +45,6 @@ Status check_precision(const PackView& pack) noexcept {
                              "pack: network precision %u is not known to this build; update sinew or bake it "
                              "with --precision fp32",
                              precision);
-  if (precision != 0 && pack.kind == FileKind::kCharacter)
-    return core::make_status(StatusCode::kUnsupported,
-                             "pack: a character's network of precision %s, which this build runs in models "
-                             "only; bake it with fp32",
-                             kPrecisionNames[precision]);
   return {};
 }
 

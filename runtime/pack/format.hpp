@@ -21,6 +21,7 @@
 //   bend
 //      since then without a new version, for a reader that does not know them refuses the field or the kind:
 //      NetworkRecord::precision with the int8 sections; the inputs kTurnedForce .. kSpunVelocity
+//   4  what a region's modes hear lies input by input, so that no sum runs across a vector's lanes
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -28,7 +29,7 @@
 namespace sinew::pack {
 
 inline constexpr char kMagic[8] = {'S', 'I', 'N', 'E', 'W', 'P', 'K', '\0'};
-inline constexpr uint32_t kVersion = 3;
+inline constexpr uint32_t kVersion = 4;
 inline constexpr size_t kSectionAlignment = 64;
 inline constexpr uint32_t kNoIndex = 0xffffffffu;
 
@@ -139,7 +140,7 @@ struct NetworkRecord {
   float state_clamp;      // bound on |c|; infinity: none
   float length_unit;      // of y: in a character a share of each region's radius, else metres; 1 in the
                           // paper's wiring
-  Precision precision;    // of a character's network: float32
+  Precision precision;
   uint32_t reserved[5];
 };
 static_assert(sizeof(NetworkRecord) == 64);
@@ -248,13 +249,15 @@ inline constexpr uint32_t kMaxModes = 64;  // of a region
 
 // A region's modal base (tissue/modal_base.hpp): q_t = a1 q_{t-1} + a2 q_{t-2} + gain force e, and the modes
 // left out as one oscillator, r_t = rest_a1 r_{t-1} + rest_a2 r_{t-2} + rest_gain rest e; l = shape q + r. At
-// `matrices`, one after the other without gaps, with x y z of the region's nodes in a row and zeros behind
-// them: shape, turn (rotation vectors a unit of q), force, project (q from l), each [mode_count][padded], and
-// rest, [3 node_count][padded], s^2.
+// `matrices`, one after the other without gaps, rows padded with zeros to whole 16, N = 3 node_count:
+//   shape, turn   [mode_count][padded]: x y z of the region's nodes a unit of q; turn in rotation vectors
+//   response      [N][padded + padded_modes]: what a unit of one number of e brings: rest (s^2), then force
+//   project       [N][padded_modes]: q of a unit of one number of l
+// where padded_modes is mode_count rounded up to 16.
 struct RegionModesRecord {
   uint32_t first_mode, mode_count;  // in kModes; 0..64
   uint64_t matrices;                // float offset in kModeMatrices
-  uint32_t padded;                  // 3 node_count rounded up to 16
+  uint32_t padded;                  // N rounded up to 16
   float first_rad_per_s;            // w1, > 0; a region without modes has one too, for its length of time
   float rest_a1, rest_a2;           // stable, as a mode's
   float rest_gain;                  // 1 - rest_a1 - rest_a2

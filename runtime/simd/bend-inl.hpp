@@ -8,18 +8,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace sinew::simd::HWY_NAMESPACE {
 
-struct Vector3 {
-  Vector x, y, z;
-};
-
-HWY_INLINE Vector dot(const Vector3& a, const Vector3& b) {
-  return hn::MulAdd(a.z, b.z, hn::MulAdd(a.y, b.y, hn::Mul(a.x, b.x)));
-}
-
-HWY_INLINE Vector3 scaled(const Vector3& a, Vector by) {
-  return {hn::Mul(a.x, by), hn::Mul(a.y, by), hn::Mul(a.z, by)};
-}
-
 // Rotations row-major, number k in r[k]; frame i of a job in lane i, the last is repeated.
 HWY_INLINE void load_frames(const BendJob& job, uint32_t first, Vector (&r)[9]) {
   HWY_ALIGN float lanes[9][kLanes];

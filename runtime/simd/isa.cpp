@@ -92,10 +92,6 @@ Status missing_isa(const char* where, const char* name) {
 
 }  // namespace
 
-std::span<const char* const> available_isas() noexcept {
-  return {available().names.data(), available().count};
-}
-
 const Kernels& kernels() noexcept {
   const Kernels* table = active_table.load(std::memory_order_acquire);
   if (!table) {
@@ -105,22 +101,31 @@ const Kernels& kernels() noexcept {
   return *table;
 }
 
-const char* active_isa() noexcept {
-  const Available& list = available();
-  const auto found = std::find(list.tables.begin(), list.tables.end(), &kernels());
-  return list.names[static_cast<size_t>(found - list.tables.begin())];
-}
-
 Status check_environment() noexcept {
   const char* name = isa_in_environment();
   return name && index_of(name) == available().count ? missing_isa("SINEW_ISA: ", name) : Status{};
 }
 
+}  // namespace sinew::simd
+
+namespace sinew {
+
+std::span<const char* const> available_isas() noexcept {
+  return {simd::available().names.data(), simd::available().count};
+}
+
+const char* active_isa() noexcept {
+  const simd::Available& list = simd::available();
+  const auto found = std::find(list.tables.begin(), list.tables.end(), &simd::kernels());
+  return list.names[static_cast<size_t>(found - list.tables.begin())];
+}
+
 Status force_isa(const char* name) noexcept {
-  const size_t index = name ? index_of(name) : available().count;
-  if (index == available().count) return missing_isa("", name);
-  active_table.store(available().tables[index], std::memory_order_release);
+  const simd::Available& list = simd::available();
+  const size_t index = name ? simd::index_of(name) : list.count;
+  if (index == list.count) return simd::missing_isa("", name);
+  simd::active_table.store(list.tables[index], std::memory_order_release);
   return {};
 }
 
-}  // namespace sinew::simd
+}  // namespace sinew

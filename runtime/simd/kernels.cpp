@@ -41,7 +41,10 @@
 #include "simd/rows-inl.hpp"
 #include "simd/skin-inl.hpp"
 #include "simd/hold-inl.hpp"
+#include "simd/vector3-inl.hpp"
 #include "simd/bend-inl.hpp"
+#include "simd/turn-inl.hpp"
+#include "simd/pose-inl.hpp"
 // clang-format on
 
 namespace sinew::simd::HWY_NAMESPACE {
@@ -62,11 +65,14 @@ constexpr Kernels kernels_with(const char* name, bool (*runs)()) {
       .narrow_cells = narrow_cells,
       .narrow_output = narrow_output,
       .carry = carry,
-      .dot_rows = dot_rows,
       .add_rows = add_rows,
       .skin = skin,
-      .hold_rows = hold_rows,
+      .hold_columns = hold_columns,
       .share_bend = share_bend,
+      .turn = turn,
+      .turn_back = turn_back,
+      .warp = warp,
+      .pose_frames = pose_frames,
       .sigmoid = sigmoid,
       .tanh = tanh,
       .rods = &kRodKernels,

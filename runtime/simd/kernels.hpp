@@ -100,6 +100,24 @@ struct BendJob {
   uint32_t count;
 };
 
+// Columns of up to kBlock rows; all [padded].
+struct HoldJob {
+  const float* columns;        // [width][kBlock]
+  const float *scale, *bound;  // [width]
+  float* rows;                 // [count][width]
+  size_t width;                // a multiple of kBlock
+  uint32_t count;              // 0..kBlock
+};
+
+// Vectors turned by rotation vectors of up to two radians. in and out [count][3], may be the same.
+struct TurnJob {
+  const float* turns;  // three numbers at each stride
+  size_t turn_stride;  // floats
+  const float* in;
+  float* out;
+  uint32_t count;
+};
+
 struct Kernels {
   int64_t target;    // Highway's bit
   const char* name;  // of what it needs beyond that target, or null: the target's own
@@ -123,15 +141,18 @@ struct Kernels {
   // out[axis][v] = sum_n weights[n][v] displacement[n][axis]; weights [nodes][stride], out [3][stride]
   // [padded]; v < stride, a multiple of kBlock. Reads each weight once; out is overwritten.
   void (*carry)(const float* weights, uint32_t nodes, size_t stride, const float* displacement, float* out);
-  // out[k] = sum_i rows[k][i] x[i], rows [count][stride] [padded], x [stride] [padded].
-  void (*dot_rows)(const float* rows, uint32_t count, size_t stride, const float* x, float* out);
   // out[i] = sum_k weights[k] rows[k][i], i < stride; rows and out [padded].
   void (*add_rows)(const float* rows, uint32_t count, size_t stride, const float* weights, float* out);
   void (*skin)(const SkinJob& job);
-  // rows = clamp(rows scale, +-bound) by column, 0 where that is not finite. Returns how many it changed
-  // beyond the scale. rows [count][stride], scale and bound [stride] [padded].
-  uint32_t (*hold_rows)(float* rows, uint32_t count, size_t stride, const float* scale, const float* bound);
+  // rows[i][j] = clamp(columns[j][i] scale[j], +-bound[j]), 0 where that is not finite. Returns how many it
+  // changed beyond the scale.
+  uint32_t (*hold_columns)(const HoldJob& job);
   void (*share_bend)(const BendJob& job);
+  void (*turn)(const TurnJob& job);       // by exp([turn]x)
+  void (*turn_back)(const TurnJob& job);  // by exp([turn]x)^T
+  void (*warp)(const TurnJob& job);       // by the mean of exp([x turn]x), x from 0 to 1
+  // Places, then row-major turns, of frames: 3 and 9 floats at each out_stride. root: row-major rotation.
+  void (*pose_frames)(const SkinJob& job, const float* root);
   // Of `count` floats, any count and alignment; NaN stays NaN. Maximum errors: simd/activation-inl.hpp.
   void (*sigmoid)(const float* x, size_t count, float* out);
   void (*tanh)(const float* x, size_t count, float* out);

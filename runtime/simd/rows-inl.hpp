@@ -1,44 +1,11 @@
-// rows-inl.hpp  A few rows of numbers against one vector: what modes are made of.
+// rows-inl.hpp  The weighted sum of a few rows: what modes are made of.
 //
-//   dot_rows   out[k] = sum_i rows[k][i] x[i]
-//   add_rows   out[i] = sum_k weights[k] rows[k][i],  k in order
-//   rows [count][stride]   x [stride]   stride a multiple of kBlock; rows, x and add_rows' out 64-byte
-//   aligned
+//   out[i] = sum_k weights[k] rows[k][i],  k in order
+//   rows [count][stride]   out [stride]   stride a multiple of kBlock; rows and out 64-byte aligned
 //
-// A dot product has kBlock partial sums, lane i mod kBlock, whatever the vector width, and they are added by
-// one tree. Every number of the matrix is read once: at most 64 rows of 128 floats are 32 KB.
+// Every number of the matrix is read once, and no sum runs across lanes.
 HWY_BEFORE_NAMESPACE();
 namespace sinew::simd::HWY_NAMESPACE {
-
-HWY_INLINE float sum_of_block(const float* lanes) {
-  float sum[kBlock];
-  SINEW_UNROLL
-  for (size_t i = 0; i < kBlock; ++i) sum[i] = lanes[i];
-  for (size_t half = kBlock / 2; half > 0; half /= 2) {
-    for (size_t i = 0; i < half; ++i) sum[i] += sum[i + half];
-  }
-  return sum[0];
-}
-
-void dot_rows(const float* rows, uint32_t count, size_t stride, const float* x, float* out) {
-  const Floats d;
-  constexpr size_t kVectors = kBlock / kLanes;
-  for (uint32_t k = 0; k < count; ++k, rows += stride) {
-    Vector sum[kVectors];
-    SINEW_UNROLL
-    for (size_t v = 0; v < kVectors; ++v) sum[v] = hn::Zero(d);
-    for (size_t i = 0; i < stride; i += kBlock) {
-      SINEW_UNROLL
-      for (size_t v = 0; v < kVectors; ++v) {
-        sum[v] = hn::MulAdd(hn::Load(d, rows + i + v * kLanes), hn::Load(d, x + i + v * kLanes), sum[v]);
-      }
-    }
-    HWY_ALIGN float lanes[kBlock];
-    SINEW_UNROLL
-    for (size_t v = 0; v < kVectors; ++v) hn::Store(sum[v], d, lanes + v * kLanes);
-    out[k] = sum_of_block(lanes);
-  }
-}
 
 template <size_t kVectors>
 HWY_INLINE void add_row_columns(const float* rows, uint32_t count, size_t stride, const float* weights,

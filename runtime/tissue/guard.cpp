@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "tissue/inputs.hpp"
 
@@ -22,11 +23,20 @@ OutputRows output_rows(const Network& network, uint32_t node_count, const float*
   return {layer_state(network, node_count, last, const_cast<float*>(state)).y, network.layers[last].padded};
 }
 
+template <class Planes>
+void forget_row(const Planes& layer, uint32_t node, size_t padded) {
+  for (auto* values : {layer.h, layer.c, layer.y})
+    std::memset(values + node * padded, 0, padded * sizeof *values);
+}
+
 void forget_node(const NodeMemory& memory, uint32_t node) {
-  for (uint32_t l = 0; l < memory.network->layers.size(); ++l) {
-    const size_t padded = memory.network->layers[l].padded;
-    const LayerState layer = layer_state(*memory.network, memory.node_count, l, memory.state);
-    for (float* values : {layer.h, layer.c, layer.y}) std::fill_n(values + node * padded, padded, 0.0f);
+  const Network& network = *memory.network;
+  for (uint32_t l = 0; l < network.layers.size(); ++l) {
+    const size_t padded = network.layers[l].padded;
+    if (keeps_halves(network, l))
+      forget_row(half_layer_state(network, memory.node_count, l, memory.state), node, padded);
+    else
+      forget_row(layer_state(network, memory.node_count, l, memory.state), node, padded);
   }
 }
 

@@ -1,9 +1,8 @@
-// inputs.cpp  Copies each input's numbers to its columns, then scales all and holds them inside what training
-// saw (simd/hold-inl.hpp).
+// inputs.cpp  Each input's numbers in columns, a block of nodes at a time; simd/hold-inl.hpp brings them to
+// scale, holds them inside what training saw and makes rows of them.
 #include "tissue/inputs.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "simd/kernels.hpp"
 #include "tissue/node_drive.hpp"
@@ -12,110 +11,155 @@ namespace sinew::tissue {
 namespace {
 
 using pack::InputKind;
+using simd::kBlock;
 
 // Every kind once, padded.
 constexpr size_t kMostInputs = 64;
 
-using Vector = std::array<float, 3>;
-using Number = std::array<float, 1>;
+// One number of each node of a block.
+using Column = float[kBlock];
 
-Vector vector_at(const float* v) { return {v[0], v[1], v[2]}; }
-
-Vector scaled(float scale, const float* v) { return {v[0] * scale, v[1] * scale, v[2] * scale}; }
-
-Vector difference(float scale, const float* v, const float* less) {
-  return {(v[0] - less[0]) * scale, (v[1] - less[1]) * scale, (v[2] - less[2]) * scale};
-}
-
-Vector cross(const float* a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Vector rest_position(const NodeSources& sources, const float* place) {
-  const float* center = sources.region->center_m;
-  const float radius = sources.region->radius_m;
-  return {(place[0] - center[0]) / radius, (place[1] - center[1]) / radius, (place[2] - center[2]) / radius};
-}
-
-// One input's columns in the rows of all nodes.
-struct Columns {
-  float* first;
-  size_t stride;
-  uint32_t nodes;
+struct Vectors {
+  Column x, y, z;
 };
 
-// value(node), an array as wide as the input. Returns that width.
-template <class Value>
-uint32_t put(const Columns& columns, const Value& value) {
-  for (uint32_t node = 0; node < columns.nodes; ++node)
-    std::ranges::copy(value(node), columns.first + node * columns.stride);
-  return static_cast<uint32_t>(value(0).size());
+// Nodes first..first + count of a region; lanes behind them repeat the last.
+struct Block {
+  uint32_t first, count;
+  size_t node(uint32_t lane) const { return first + std::min(lane, count - 1); }
+};
+
+void take(const Block& block, const float* rows, size_t stride, Column& out) {
+  for (uint32_t i = 0; i < kBlock; ++i) out[i] = rows[stride * block.node(i)];
+}
+
+Vectors vectors_of(const Block& block, const float* rows, size_t stride) {
+  Vectors v;
+  take(block, rows, stride, v.x);
+  take(block, rows + 1, stride, v.y);
+  take(block, rows + 2, stride, v.z);
+  return v;
+}
+
+// operation(number of a, number of b), coordinate by coordinate.
+template <class Operation>
+Vectors combined(const Vectors& a, const Vectors& b, const Operation& operation) {
+  Vectors out;
+  for (uint32_t i = 0; i < kBlock; ++i) out.x[i] = operation(a.x[i], b.x[i]);
+  for (uint32_t i = 0; i < kBlock; ++i) out.y[i] = operation(a.y[i], b.y[i]);
+  for (uint32_t i = 0; i < kBlock; ++i) out.z[i] = operation(a.z[i], b.z[i]);
+  return out;
+}
+
+Vectors scaled(float scale, const Vectors& v) {
+  return combined(v, v, [=](float a, float) { return a * scale; });
+}
+
+Vectors difference(float scale, const Vectors& v, const Vectors& less) {
+  return combined(v, less, [=](float a, float b) { return (a - b) * scale; });
+}
+
+Vectors cross(const Vectors& a, const Vectors& b) {
+  Vectors out;
+  for (uint32_t i = 0; i < kBlock; ++i) out.x[i] = a.y[i] * b.z[i] - a.z[i] * b.y[i];
+  for (uint32_t i = 0; i < kBlock; ++i) out.y[i] = a.z[i] * b.x[i] - a.x[i] * b.z[i];
+  for (uint32_t i = 0; i < kBlock; ++i) out.z[i] = a.x[i] * b.y[i] - a.y[i] * b.x[i];
+  return out;
+}
+
+// What moves a block's nodes and how they moved, in the units of pack/format.hpp, before the inputs' scales.
+struct Motion {
+  Motion(const NodeSources& s, float unit_m, const Block& block)
+      : felt(scaled(1 / (s.first_rad_per_s * s.first_rad_per_s * unit_m), vectors_of(block, s.felt, 3))),
+        l(vectors_of(block, s.l, 3)),
+        step(difference(1 / unit_m, vectors_of(block, s.l_hat, 3), l)),
+        velocity(difference(1 / unit_m, l, vectors_of(block, s.l_before, 3))),
+        theta(vectors_of(block, s.theta, 3)),
+        angular_velocity(vectors_of(block, s.drive + 6, kNodeDriveWidth)),
+        bend(vectors_of(block, s.drive + 12, kNodeDriveWidth)) {
+    l = scaled(1 / unit_m, l);
+  }
+  Vectors felt, l, step, velocity, theta, angular_velocity, bend;
+};
+
+Vectors rest_positions(const NodeSources& sources, const Block& block) {
+  Vectors v;
+  const float *center = sources.region->center_m, radius = sources.region->radius_m;
+  for (uint32_t i = 0; i < kBlock; ++i) {
+    const float* place = sources.nodes[block.node(i)].position_m;
+    v.x[i] = (place[0] - center[0]) / radius;
+    v.y[i] = (place[1] - center[1]) / radius;
+    v.z[i] = (place[2] - center[2]) / radius;
+  }
+  return v;
+}
+
+constexpr size_t kNodeStride = sizeof(pack::NodeRecord) / sizeof(float);
+
+// Of inputs that are vectors.
+Vectors vector_values(InputKind kind, const NodeSources& sources, const Motion& motion, const Block& block) {
+  switch (kind) {
+    case InputKind::kRestPosition:
+      return rest_positions(sources, block);
+    case InputKind::kRestNormal:
+      return vectors_of(block, sources.nodes->normal, kNodeStride);
+    case InputKind::kGravityChange:
+      return vectors_of(block, sources.drive + 3, kNodeDriveWidth);
+    case InputKind::kAngularVelocity:
+      return motion.angular_velocity;
+    case InputKind::kAngularAcceleration:
+      return vectors_of(block, sources.drive + 9, kNodeDriveWidth);
+    case InputKind::kDisplacement:
+      return motion.l;
+    case InputKind::kVelocity:
+      return motion.velocity;
+    case InputKind::kFeltStep:
+      return motion.felt;
+    case InputKind::kBaseStep:
+      return motion.step;
+    case InputKind::kTurn:
+      return motion.theta;
+    case InputKind::kBend:
+      return motion.bend;
+    case InputKind::kBentForce:
+      return cross(motion.bend, motion.felt);
+    case InputKind::kBentStep:
+      return cross(motion.bend, motion.step);
+    case InputKind::kBentDisplacement:
+      return cross(motion.bend, motion.l);
+    case InputKind::kTurnedForce:
+      return cross(motion.theta, motion.felt);
+    case InputKind::kTurnedStep:
+      return cross(motion.theta, motion.step);
+    case InputKind::kTurnedVelocity:
+      return cross(motion.theta, motion.velocity);
+    case InputKind::kSpunStep:
+      return cross(motion.angular_velocity, motion.step);
+    case InputKind::kSpunVelocity:
+      return cross(motion.angular_velocity, motion.velocity);
+    case InputKind::kStiffness:
+    case InputKind::kFrequency:
+      break;
+  }
+  return {};
 }
 
 // Before scales. Returns the input's width.
-uint32_t put_values(InputKind kind, const NodeSources& sources, float unit_m, const Columns& to) {
-  const float w1 = sources.first_rad_per_s, per_unit = 1 / unit_m, per_felt = 1 / (w1 * w1 * unit_m);
-  const auto drive = [&](uint32_t node, size_t at) {
-    return sources.drive + size_t{node} * kNodeDriveWidth + at;
-  };
-  const auto angular_velocity = [&](uint32_t node) { return drive(node, 6); };
-  const auto bend = [&](uint32_t node) { return drive(node, 12); };
-  const auto theta = [&](uint32_t node) { return sources.theta + size_t{3} * node; };
-  const auto l = [&](uint32_t node) { return scaled(per_unit, sources.l + size_t{3} * node); };
-  const auto felt = [&](uint32_t node) { return scaled(per_felt, sources.felt + size_t{3} * node); };
-  const auto step = [&](uint32_t node) {
-    const size_t at = size_t{3} * node;
-    return difference(per_unit, sources.l_hat + at, sources.l + at);
-  };
-  const auto velocity = [&](uint32_t node) {
-    const size_t at = size_t{3} * node;
-    return difference(per_unit, sources.l + at, sources.l_before + at);
-  };
-  switch (kind) {
-    case InputKind::kRestPosition:
-      return put(to, [&](uint32_t n) { return rest_position(sources, sources.nodes[n].position_m); });
-    case InputKind::kRestNormal:
-      return put(to, [&](uint32_t n) { return vector_at(sources.nodes[n].normal); });
-    case InputKind::kStiffness:
-      return put(to, [&](uint32_t n) { return Number{sources.nodes[n].stiffness}; });
-    case InputKind::kGravityChange:
-      return put(to, [&](uint32_t n) { return vector_at(drive(n, 3)); });
-    case InputKind::kAngularVelocity:
-      return put(to, [&](uint32_t n) { return vector_at(angular_velocity(n)); });
-    case InputKind::kAngularAcceleration:
-      return put(to, [&](uint32_t n) { return vector_at(drive(n, 9)); });
-    case InputKind::kDisplacement:
-      return put(to, l);
-    case InputKind::kVelocity:
-      return put(to, velocity);
-    case InputKind::kFeltStep:
-      return put(to, felt);
-    case InputKind::kBaseStep:
-      return put(to, step);
-    case InputKind::kTurn:
-      return put(to, [&](uint32_t n) { return vector_at(theta(n)); });
-    case InputKind::kFrequency:
-      return put(to, [&](uint32_t) { return Number{w1 * sources.tick_s}; });
-    case InputKind::kBend:
-      return put(to, [&](uint32_t n) { return vector_at(bend(n)); });
-    case InputKind::kBentForce:
-      return put(to, [&](uint32_t n) { return cross(bend(n), felt(n)); });
-    case InputKind::kBentStep:
-      return put(to, [&](uint32_t n) { return cross(bend(n), step(n)); });
-    case InputKind::kBentDisplacement:
-      return put(to, [&](uint32_t n) { return cross(bend(n), l(n)); });
-    case InputKind::kTurnedForce:
-      return put(to, [&](uint32_t n) { return cross(theta(n), felt(n)); });
-    case InputKind::kTurnedStep:
-      return put(to, [&](uint32_t n) { return cross(theta(n), step(n)); });
-    case InputKind::kTurnedVelocity:
-      return put(to, [&](uint32_t n) { return cross(theta(n), velocity(n)); });
-    case InputKind::kSpunStep:
-      return put(to, [&](uint32_t n) { return cross(angular_velocity(n), step(n)); });
-    case InputKind::kSpunVelocity:
-      return put(to, [&](uint32_t n) { return cross(angular_velocity(n), velocity(n)); });
+uint32_t put_values(InputKind kind, const NodeSources& sources, const Motion& motion, const Block& block,
+                    Column* to) {
+  if (kind == InputKind::kStiffness) {
+    take(block, &sources.nodes->stiffness, kNodeStride, *to);
+    return 1;
   }
-  return 0;
+  if (kind == InputKind::kFrequency) {
+    std::ranges::fill(*to, sources.first_rad_per_s * sources.tick_s);
+    return 1;
+  }
+  const Vectors values = vector_values(kind, sources, motion, block);
+  std::ranges::copy(values.x, to[0]);
+  std::ranges::copy(values.y, to[1]);
+  std::ranges::copy(values.z, to[2]);
+  return 3;
 }
 
 }  // namespace
@@ -129,20 +173,24 @@ float length_unit_m(const Network& network, const pack::RegionRecord& region) no
 }
 
 uint32_t assemble_inputs(const Network& network, const NodeSources& sources, float* z) noexcept {
-  alignas(64) float scale[kMostInputs] = {}, envelope[kMostInputs] = {};
+  alignas(64) float scale[kMostInputs] = {}, bound[kMostInputs] = {};
+  alignas(64) Column columns[kMostInputs] = {};
   const size_t stride = input_stride(network);
-  const uint32_t nodes = sources.region->node_count;
   const float unit_m = length_unit_m(network, *sources.region);
-  size_t column = 0;
-  for (const pack::InputRecord& input : network.inputs) {
-    const uint32_t width = put_values(input.kind, sources, unit_m, {z + column, stride, nodes});
-    std::fill_n(scale + column, width, input.scale);
-    std::fill_n(envelope + column, width, input.envelope);
-    column += width;
+  uint32_t held = 0;
+  for (uint32_t first = 0; first < sources.region->node_count; first += kBlock) {
+    const Block block{first, std::min(kBlock, sources.region->node_count - first)};
+    const Motion motion(sources, unit_m, block);
+    size_t column = 0;
+    for (const pack::InputRecord& input : network.inputs) {
+      const uint32_t width = put_values(input.kind, sources, motion, block, columns + column);
+      std::fill_n(scale + column, width, input.scale);
+      std::fill_n(bound + column, width, input.envelope);
+      column += width;
+    }
+    held += simd::kernels().hold_columns({columns[0], scale, bound, z + stride * first, stride, block.count});
   }
-  for (uint32_t node = 0; node < nodes; ++node)
-    std::fill(z + node * stride + column, z + (node + 1) * stride, 0.0f);
-  return simd::kernels().hold_rows(z, nodes, stride, scale, envelope);
+  return held;
 }
 
 }  // namespace sinew::tissue

@@ -1,4 +1,5 @@
-// modal_base.cpp  Frame terms, modal recurrences and warping; sums over modes are simd/rows-inl.hpp.
+// modal_base.cpp  Frame terms and modal recurrences; sums over modes are simd/rows-inl.hpp, turns
+// simd/turn-inl.hpp.
 #include "tissue/modal_base.hpp"
 
 #include <Eigen/Core>
@@ -18,26 +19,6 @@ using Rows33 = Eigen::Matrix<float, 3, 3, Eigen::RowMajor>;
 Matrix3f rotation_of(const NodePose& pose) { return Eigen::Map<const Rows33>(pose.rotation); }
 Vector3f vector_at(const float* v, uint32_t i) { return Eigen::Map<const Vector3f>(v + size_t{3} * i); }
 
-// (1 - cos a) / a^2 and (a - sin a) / a^3 as series in s = a^2 <= 4: what is left out is below 1e-9.
-struct TurnSeries {
-  float c, d;
-};
-
-TurnSeries turn_series(float s) {
-  constexpr int kTerms = 8;
-  // 1 / (2k + 2)! and 1 / (2k + 3)!, signs alternating.
-  constexpr float kC[kTerms] = {5.00000000e-1f, -4.16666667e-2f, 1.38888889e-3f,  -2.48015873e-5f,
-                                2.75573192e-7f, -2.08767570e-9f, 1.14707456e-11f, -4.77947733e-14f};
-  constexpr float kD[kTerms] = {1.66666667e-1f, -8.33333333e-3f,  1.98412698e-4f,  -2.75573192e-6f,
-                                2.50521084e-8f, -1.60590438e-10f, 7.64716373e-13f, -2.81145725e-15f};
-  TurnSeries series{kC[kTerms - 1], kD[kTerms - 1]};
-  for (int k = kTerms - 2; k >= 0; --k) {
-    series.c = series.c * s + kC[k];
-    series.d = series.d * s + kD[k];
-  }
-  return series;
-}
-
 // By compare, so that NaN stays NaN.
 void hold_turn(float theta[3]) {
   const float squared = theta[0] * theta[0] + theta[1] * theta[1] + theta[2] * theta[2];
@@ -46,24 +27,23 @@ void hold_turn(float theta[3]) {
   for (int k = 0; k < 3; ++k) theta[k] *= scale;
 }
 
-void clear_padding(const ModalBase& base, float* x) {
-  std::fill(x + size_t{3} * base.node_count, x + base.padded, 0.0f);
-}
-
 }  // namespace
 
 ModalBase modal_base(const pack::PackView& pack, size_t region) noexcept {
   const pack::RegionModesRecord& record = pack.region_modes[region];
-  const size_t plane = size_t{record.mode_count} * record.padded;
-  const float* matrices = pack.mode_matrices.data() + record.matrices;
+  const uint32_t nodes = pack.regions[region].node_count;
+  const auto padded_modes = static_cast<uint32_t>(pack::round_up_16(record.mode_count));
+  const float* shape = pack.mode_matrices.data() + record.matrices;
+  const float* turn = shape + size_t{record.mode_count} * record.padded;
+  const float* response = turn + size_t{record.mode_count} * record.padded;
   return {.modes = pack.modes.subspan(record.first_mode, record.mode_count),
-          .node_count = pack.regions[region].node_count,
+          .node_count = nodes,
           .padded = record.padded,
-          .shape = matrices,
-          .turn = matrices + plane,
-          .force = matrices + 2 * plane,
-          .project = matrices + 3 * plane,
-          .rest = matrices + 4 * plane,
+          .padded_modes = padded_modes,
+          .shape = shape,
+          .turn = turn,
+          .response = response,
+          .project = response + size_t{3} * nodes * (record.padded + padded_modes),
           .rest_a1 = record.rest_a1,
           .rest_a2 = record.rest_a2,
           .rest_gain = record.rest_gain};
@@ -82,54 +62,43 @@ void frame_term(const NodePose* const pose[3], const float* u, const float* u_be
   }
 }
 
-// Rodrigues: exp([t]x)^T v = v - (sin a / a) t x v + C t x (t x v), sin a / a = 1 - s D.
-void turn_back(const float theta[3], const float felt[3], float out[3]) noexcept {
-  const Vector3f t = vector_at(theta, 0), v = vector_at(felt, 0), turned = t.cross(v);
-  const float s = t.squaredNorm();
-  const TurnSeries series = turn_series(s);
-  Eigen::Map<Vector3f>{out} = v - (1 - s * series.d) * turned + series.c * t.cross(turned);
+void turn_back(const float* theta, const float* v, uint32_t count, float* out) noexcept {
+  simd::kernels().turn_back({.turns = theta, .turn_stride = 3, .in = v, .out = out, .count = count});
 }
 
-// W v = v + C t x v + D t x (t x v).
-void warp(const float theta[3], const float l[3], float out[3]) noexcept {
-  const Vector3f t = vector_at(theta, 0), v = vector_at(l, 0), turned = t.cross(v);
-  const TurnSeries series = turn_series(t.squaredNorm());
-  Eigen::Map<Vector3f>{out} = v + series.c * turned + series.d * t.cross(turned);
+void warp(const float* theta, const float* l, uint32_t count, float* out) noexcept {
+  simd::kernels().warp({.turns = theta, .turn_stride = 3, .in = l, .out = out, .count = count});
 }
 
-void modal_step(const ModalBase& base, const float* felt, const ModalState& state, float* e,
+void modal_step(const ModalBase& base, const float* felt, const ModalState& state, float* scratch, float* e,
                 const ModalAnswer& answer) noexcept {
   const simd::Kernels& kernels = simd::kernels();
   const auto modes = static_cast<uint32_t>(base.modes.size());
   const uint32_t floats = 3 * base.node_count;
-  for (uint32_t i = 0; i < floats; i += 3) turn_back(state.theta + i, felt + i, e + i);
-  clear_padding(base, e);
-  kernels.dot_rows(base.force, modes, base.padded, e, answer.q);
+  const float *rest = scratch, *force = scratch + base.padded;
+  turn_back(state.theta, felt, base.node_count, e);
+  kernels.add_rows(base.response, floats, base.padded + base.padded_modes, e, scratch);
   for (uint32_t k = 0; k < modes; ++k) {
     const pack::ModeRecord& mode = base.modes[k];
-    answer.q[k] = mode.a1 * state.q[k] + mode.a2 * state.q_before[k] + mode.gain * answer.q[k];
+    answer.q[k] = mode.a1 * state.q[k] + mode.a2 * state.q_before[k] + mode.gain * force[k];
   }
   kernels.add_rows(base.shape, modes, base.padded, answer.q, answer.l);
-  kernels.dot_rows(base.rest, floats, base.padded, e, answer.r);
   for (uint32_t i = 0; i < floats; ++i) {
-    answer.r[i] = base.rest_a1 * state.r[i] + base.rest_a2 * state.r_before[i] + base.rest_gain * answer.r[i];
+    answer.r[i] = base.rest_a1 * state.r[i] + base.rest_a2 * state.r_before[i] + base.rest_gain * rest[i];
     answer.l[i] += answer.r[i];
   }
 }
 
 void modal_project(const ModalBase& base, const float* l, float* q) noexcept {
-  float add[pack::kMaxModes];
-  const auto modes = static_cast<uint32_t>(base.modes.size());
-  simd::kernels().dot_rows(base.project, modes, base.padded, l, add);
-  for (uint32_t k = 0; k < modes; ++k) q[k] += add[k];
+  alignas(64) float add[pack::kMaxModes];
+  simd::kernels().add_rows(base.project, 3 * base.node_count, base.padded_modes, l, add);
+  for (size_t k = 0; k < base.modes.size(); ++k) q[k] += add[k];
 }
 
-void modal_turn(const ModalBase& base, const float* q, float* turned, float* theta) noexcept {
-  simd::kernels().add_rows(base.turn, static_cast<uint32_t>(base.modes.size()), base.padded, q, turned);
-  for (uint32_t i = 0; i < base.node_count; ++i) {
-    std::copy_n(turned + 3 * i, 3, theta + 3 * i);
-    hold_turn(theta + 3 * i);
-  }
+void modal_turn(const ModalBase& base, const float* q, float* scratch, float* theta) noexcept {
+  simd::kernels().add_rows(base.turn, static_cast<uint32_t>(base.modes.size()), base.padded, q, scratch);
+  std::copy_n(scratch, size_t{3} * base.node_count, theta);
+  for (uint32_t i = 0; i < base.node_count; ++i) hold_turn(theta + size_t{3} * i);
 }
 
 }  // namespace sinew::tissue

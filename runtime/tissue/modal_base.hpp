@@ -24,12 +24,14 @@ namespace sinew::tissue {
 
 inline constexpr float kLargestTurn_rad = 2;
 
-// A region's modes: views into its pack. Rows are of one mode, x y z of the region's nodes, zeros behind.
+// A region's modes: views into its pack, matrices as pack::RegionModesRecord has them.
 struct ModalBase {
   std::span<const pack::ModeRecord> modes;
   uint32_t node_count = 0;
-  uint32_t padded = 0;  // floats in a row
-  const float *shape = nullptr, *turn = nullptr, *force = nullptr, *project = nullptr, *rest = nullptr;
+  uint32_t padded = 0, padded_modes = 0;          // floats of all nodes and of all modes in a row
+  const float *shape = nullptr, *turn = nullptr;  // [modes][padded]
+  const float* response = nullptr;                // [3 node_count][padded + padded_modes]
+  const float* project = nullptr;                 // [3 node_count][padded_modes]
   float rest_a1 = 0, rest_a2 = 0, rest_gain = 0;
 };
 ModalBase modal_base(const pack::PackView& pack, size_t region) noexcept;
@@ -39,10 +41,10 @@ ModalBase modal_base(const pack::PackView& pack, size_t region) noexcept;
 void frame_term(const NodePose* const pose[3], const float* u, const float* u_before, float tick_s,
                 uint32_t count, float* phi) noexcept;
 
-// Of one node. theta within kLargestTurn_rad; polynomials in |theta|^2, exact to float and the same bits
-// everywhere.
-void turn_back(const float theta[3], const float felt[3], float out[3]) noexcept;  // exp([theta]x)^T felt
-void warp(const float theta[3], const float l[3], float out[3]) noexcept;          // W(theta) l
+// Of `count` nodes, three numbers each, out may be what is turned. theta within kLargestTurn_rad; exact to
+// float.
+void turn_back(const float* theta, const float* v, uint32_t count, float* out) noexcept;  // exp([theta]x)^T v
+void warp(const float* theta, const float* l, uint32_t count, float* out) noexcept;       // W(theta) l
 
 // What a tick goes on from: q [modes] and r [node_count][3] of the last two, theta [node_count][3] of the
 // last.
@@ -54,13 +56,13 @@ struct ModalAnswer {
   float *q, *r, *l;
 };
 
-// In the calls below e, l, l^ and turned are [padded], 64-byte aligned, zero behind the nodes; turned is
-// scratch. felt [node_count][3] = f + phi; e comes out as above.
-void modal_step(const ModalBase& base, const float* felt, const ModalState& state, float* e,
+// Below, scratch is [padded + padded_modes], 64-byte aligned as l^ is. felt, e, l: [node_count][3]; felt is
+// f + phi, and e comes out as above. e and felt may be the same.
+void modal_step(const ModalBase& base, const float* felt, const ModalState& state, float* scratch, float* e,
                 const ModalAnswer& answer) noexcept;
 // q += project l.
 void modal_project(const ModalBase& base, const float* l, float* q) noexcept;
 // theta = turn q, held.
-void modal_turn(const ModalBase& base, const float* q, float* turned, float* theta) noexcept;
+void modal_turn(const ModalBase& base, const float* q, float* scratch, float* theta) noexcept;
 
 }  // namespace sinew::tissue

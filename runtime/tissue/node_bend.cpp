@@ -4,25 +4,28 @@
 #include <algorithm>
 
 #include "simd/kernels.hpp"
-#include "tissue/modal_base.hpp"
 
 namespace sinew::tissue {
+namespace {
+
+constexpr size_t kFloats = sizeof(NodePose) / sizeof(float);
+
+}  // namespace
 
 void share_bend(uint32_t anchor, uint32_t count, NodePose* nodes) noexcept {
-  constexpr size_t kFloats = sizeof(NodePose) / sizeof(float);
   simd::BendJob job{
       .held = {}, .rotations = nodes->rotation, .bends = nodes->bend, .stride = kFloats, .count = count};
   std::copy_n(nodes[anchor].rotation, 9, job.held);
   simd::kernels().share_bend(job);
 }
 
-void along_flesh(const NodePose& node, const float v[3], float out[3]) noexcept {
-  turn_back(node.bend, v, out);
+void along_flesh(const NodePose* nodes, const float* v, uint32_t count, float* out) noexcept {
+  simd::kernels().turn_back(
+      {.turns = nodes->bend, .turn_stride = kFloats, .in = v, .out = out, .count = count});
 }
 
-void along_frame(const NodePose& node, const float v[3], float out[3]) noexcept {
-  const float back[3] = {-node.bend[0], -node.bend[1], -node.bend[2]};
-  turn_back(back, v, out);
+void along_frame(const NodePose* nodes, const float* v, uint32_t count, float* out) noexcept {
+  simd::kernels().turn({.turns = nodes->bend, .turn_stride = kFloats, .in = v, .out = out, .count = count});
 }
 
 }  // namespace sinew::tissue

@@ -17,8 +17,9 @@ namespace sinew::tissue {
 // flesh is turned beyond it, beta_i / 4; 0 where a frame is not a number.
 void share_bend(uint32_t anchor, uint32_t count, NodePose* nodes) noexcept;
 
-// A vector along a node's frame, along the axes of its flesh: exp([bend]x)^T v; and back. v may be out.
-void along_flesh(const NodePose& node, const float v[3], float out[3]) noexcept;
-void along_frame(const NodePose& node, const float v[3], float out[3]) noexcept;
+// Vectors along nodes' frames, along the axes of their flesh: exp([bend]x)^T v; and back. v, out [count][3];
+// v may be out.
+void along_flesh(const NodePose* nodes, const float* v, uint32_t count, float* out) noexcept;
+void along_frame(const NodePose* nodes, const float* v, uint32_t count, float* out) noexcept;
 
 }  // namespace sinew::tissue

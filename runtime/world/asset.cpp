@@ -46,7 +46,11 @@ Status open_asset(std::span<const std::byte> bytes, Asset* out) noexcept {
   if (Status status = check_runnable(view); !status.ok()) return status;
   Asset& asset = *out;
   asset.pack = view;
-  asset.network = {view.network, view.layers, view.inputs, view.weights.data()};
+  asset.network = {view.network,
+                   view.layers,
+                   view.inputs,
+                   view.weights.data(),
+                   {view.int8_weights.data(), view.int8_sums.data(), view.int8_scales.data()}};
   asset.graph = {view.character->node_count, view.graph_rows.data(), view.graph_columns.data(),
                  view.graph_values.data()};
   asset.tick_s = 1 / static_cast<double>(view.network->rate_hz);
@@ -55,7 +59,8 @@ Status open_asset(std::span<const std::byte> bytes, Asset* out) noexcept {
   for (const pack::RegionRecord& region : view.regions) asset.padded_vertices += region.padded_vertices;
   asset.widest_region = 0;
   for (const pack::RegionModesRecord& modes : view.region_modes)
-    asset.widest_region = std::max(asset.widest_region, modes.padded);
+    asset.widest_region = std::max(asset.widest_region,
+                                   modes.padded + static_cast<uint32_t>(pack::round_up_16(modes.mode_count)));
   asset.cost = baked_costs(view);
   return {};
 }

@@ -25,8 +25,7 @@ void copy(const Instance& instance, const float* from, float* to) noexcept {
 // turn: along_flesh or along_frame, by the newest frames. from, to: [nodes][3].
 void for_each_node(const Instance& instance, decltype(&tissue::along_flesh) turn, const float* from,
                    float* to) noexcept {
-  for (size_t n = 0; n < instance.asset->node_count(); ++n)
-    turn(instance.poses[0][n], from + 3 * n, to + 3 * n);
+  turn(instance.poses[0], from, instance.asset->node_count(), to);
 }
 
 void begin_tail(Instance& instance, float velocity_kept) noexcept {

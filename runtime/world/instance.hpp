@@ -101,7 +101,7 @@ struct Instance {
   float* drive = nullptr;           // [nodes][kNodeDriveWidth]
   float *felt = nullptr, *l_hat = nullptr, *r_hat = nullptr, *q_hat = nullptr, *carry = nullptr;
   float *inputs = nullptr, *network_scratch = nullptr;
-  float* region[2] = {};             // one region's x y z, padded
+  float* region[2] = {};             // [widest_region]: one region's x y z and modes
   tissue::NodeRun* awake = nullptr;  // [regions]
 
   // Published by a step, read by read_*.

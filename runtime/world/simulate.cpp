@@ -100,10 +100,10 @@ bool base_step(Instance& instance) noexcept {
                                    .r = instance.r[0] + part.vector,
                                    .r_before = instance.r[1] + part.vector,
                                    .theta = instance.theta + part.vector};
+    float* felt = instance.felt + part.vector;
     tissue::modal_step(
-        part.base, instance.felt + part.vector, state, instance.region[0],
+        part.base, felt, state, instance.region[0], felt,
         {.q = instance.q_hat + part.mode, .r = instance.r_hat + part.vector, .l = instance.region[1]});
-    std::copy_n(instance.region[0], 3 * part.record.node_count, instance.felt + part.vector);
     std::copy_n(instance.region[1], 3 * part.record.node_count, instance.l_hat + part.vector);
   });
   return tissue::all_finite(instance.l_hat, floats_of(instance)) &&
@@ -125,17 +125,16 @@ uint32_t hold_base(Instance& instance) noexcept {
 // q += project (l - from).
 void project_change(Instance& instance, const Part& part, const float* l, const float* from,
                     float* q) noexcept {
-  float* padded = instance.region[0];
+  float* change = instance.region[0];
   const size_t floats = size_t{3} * part.record.node_count;
-  for (size_t i = 0; i < floats; ++i) padded[i] = l[part.vector + i] - from[part.vector + i];
-  std::fill(padded + floats, padded + part.base.padded, 0.0f);
-  tissue::modal_project(part.base, padded, q + part.mode);
+  for (size_t i = 0; i < floats; ++i) change[i] = l[part.vector + i] - from[part.vector + i];
+  tissue::modal_project(part.base, change, q + part.mode);
 }
 
 void turn_and_warp(Instance& instance, const Part& part) noexcept {
   tissue::modal_turn(part.base, instance.q[0] + part.mode, instance.region[0], instance.theta + part.vector);
-  for (size_t i = part.vector; i < part.vector + 3 * part.record.node_count; i += 3)
-    tissue::warp(instance.theta + i, instance.l[0] + i, instance.u[0] + i);
+  tissue::warp(instance.theta + part.vector, instance.l[0] + part.vector, part.record.node_count,
+               instance.u[0] + part.vector);
 }
 
 void shift_back(Instance& instance) noexcept {

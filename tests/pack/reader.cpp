@@ -1,6 +1,7 @@
 // reader.cpp  What the reader refuses, why, and that it takes nothing and touches nothing while it does.
 #include "pack/reader.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
@@ -162,11 +163,22 @@ TEST_CASE("int8_sections_that_are_too_short_or_too_long_are_refused") {
   }
 }
 
-TEST_CASE("a_character_with_an_int8_network_is_refused") {
-  const auto precision = [](NetworkRecord& n) { n.precision = Precision::kInt8; };
-  check_refused(character_pack(),
-                {{"precision int8, which this build runs in models only",
-                  change<NetworkRecord>(SectionKind::kNetwork, 0, precision), StatusCode::kUnsupported}});
+TEST_CASE("a_character_of_any_precision_is_taken_and_its_int8_faults_refused_by_name") {
+  using enum SectionKind;
+  for (const Precision precision : {Precision::kHalfStates, Precision::kInt8}) {
+    const std::vector<std::byte> good = test::small_character_pack(precision);
+    PackView view;
+    REQUIRE(PackEditor(good).open(&view).ok());
+    CHECK(view.network->precision == precision);
+    CHECK(view.int8_weights.empty() == (precision != Precision::kInt8));
+  }
+  const auto is_int8 = [](NetworkRecord& n) { n.precision = Precision::kInt8; };
+  check_refused(character_pack(), {{"int8: 0 weights, 0 sums and 0 scales, the layers make 1792, 80 and 112",
+                                    change<NetworkRecord>(kNetwork, 0, is_int8)}});
+  check_refused(test::small_character_pack(Precision::kInt8),
+                {{"layer 0: int8 sums", set<int32_t>(kInt8Sums, 7, 1)},
+                 {"int8 weights: a number below -127", set<int8_t>(kInt8Weights, 3, int8_t{-128})},
+                 {"int8 scales", set<float>(kInt8Scales, 2, kNan)}});
 }
 
 TEST_CASE("network_faults_are_refused_by_name") {
@@ -182,8 +194,6 @@ TEST_CASE("network_faults_are_refused_by_name") {
       {{"model 9 is not known", network([](auto& n) { n.model = ModelKind{9}; }), StatusCode::kUnsupported},
        {"precision 9 is not known", network([](auto& n) { n.precision = Precision{9}; }),
         StatusCode::kUnsupported},
-       {"precision fp16, which this build runs in models only",
-        network([](auto& n) { n.precision = Precision::kHalfStates; }), StatusCode::kUnsupported},
        {"layers stated", network([](auto& n) { n.layer_count = 3; })},
        {"input width", network([](auto& n) { n.input_width = 33; })},
        {"outside 1..1024", network([](auto& n) { n.input_width = 0; })},
@@ -320,10 +330,18 @@ TEST_CASE("mode_faults_are_refused_by_name") {
        {"region modes 1: the rest's recurrence", region([](auto& r) { r.rest_a2 = kNan; })},
        {"region modes 1: rest_gain", region([](auto& r) { r.rest_gain = kInfinity; })},
        {"region modes 1: reserved", region([](auto& r) { r.reserved[6] = 1; })},
-       {"that no region owns", region([](auto& r) { r.mode_count = 1; })},
-       {"region modes 0: a number of a matrix", set<float>(kModeMatrices, 3 * 3 * 16 + 2, kNan)},
-       {"region modes 0: a number of a matrix", set<float>(kModeMatrices, (4 * 3 + 8) * 16 + 2, kNan)},
+       {"that no region owns",  // all zero, so that rows of other lengths have good padding
+        [](PackEditor& editor) {
+          std::ranges::fill(editor.section<float>(kModeMatrices), 0.0f);
+          editor.section<RegionModesRecord>(kRegionModes)[1].mode_count = 1;
+        }},
+       {"region modes 0: a number of a matrix", set<float>(kModeMatrices, 2 * 3 * 16 + 2, kNan)},
+       {"region modes 0: a number of a matrix",
+        set<float>(kModeMatrices, (2 * 3 + 9 * 3 - 1) * 16 + 2, kNan)},
        {"region modes 0: padding", set<float>(kModeMatrices, 15, 1.0f)},
+       {"region modes 0: padding", set<float>(kModeMatrices, 2 * 3 * 16 + 15, 1.0f)},
+       {"region modes 0: padding", set<float>(kModeMatrices, (2 * 3 + 1) * 16 + 15, 1.0f)},
+       {"region modes 0: padding", set<float>(kModeMatrices, (2 * 3 + 9 * 3 - 1) * 16 + 15, 1.0f)},
        {"mode 4: 0 rad/s", mode([](auto& m) { m.rad_per_s = 0; })},
        {"mode 4: damping ratio -1", mode([](auto& m) { m.damping_ratio = -1; })},
        {"mode 4: its recurrence", mode([](auto& m) { m.a2 = -1; })},

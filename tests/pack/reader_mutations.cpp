@@ -58,8 +58,9 @@ double read_modes(const PackView& view) {
   double sum = 0;
   for (size_t r = 0; r < view.regions.size(); ++r) {
     const RegionModesRecord& modes = view.region_modes[r];
-    const uint64_t rows = uint64_t{4} * modes.mode_count + uint64_t{3} * view.regions[r].node_count;
-    const uint64_t floats = rows * modes.padded;
+    const uint64_t floats =
+        uint64_t{2} * modes.mode_count * modes.padded +
+        uint64_t{3} * view.regions[r].node_count * (modes.padded + 2 * round_up_16(modes.mode_count));
     if (floats > 0) sum += view.mode_matrices[modes.matrices + floats - 1];
     for (uint32_t k = 0; k < modes.mode_count; ++k) sum += view.modes[modes.first_mode + k].gain;
     sum += view.springs[r].gain;

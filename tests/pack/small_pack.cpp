@@ -184,11 +184,13 @@ std::vector<std::byte> small_weightless_pack() {
   return baker::pack_character(character, layout, small_modes(layout));
 }
 
-std::vector<std::byte> small_character_pack() {
+std::vector<std::byte> small_character_pack(pack::Precision precision) {
   const baker::Character character = small_character();
   const baker::TissueLayout layout = small_layout(character);
   const baker::Safetensors weights = small_weights();
-  return baker::pack_character(character, layout, small_modes(layout), &weights);
+  const std::vector<float> inputs(32, 1.0f), channels(5, 1.0f);
+  const std::vector<baker::HeardRanges> ranges(1, {inputs, inputs, channels, channels});
+  return baker::pack_character(character, layout, small_modes(layout), &weights, precision, ranges);
 }
 
 }  // namespace sinew::test

@@ -8,6 +8,7 @@
 #include "baker/import/character.hpp"
 #include "baker/mesh/tissue_layout.hpp"
 #include "baker/truth/modal_basis.hpp"
+#include "pack/format.hpp"
 
 namespace sinew::test {
 
@@ -19,7 +20,7 @@ baker::TissueLayout small_layout(const baker::Character& character);  // two reg
 std::vector<baker::ModalBasis> small_modes(const baker::TissueLayout& layout);  // three and two
 
 std::vector<std::byte> small_model();
-std::vector<std::byte> small_character_pack();
+std::vector<std::byte> small_character_pack(pack::Precision precision = pack::Precision::kFloat32);
 std::vector<std::byte> small_weightless_pack();
 
 }  // namespace sinew::test

@@ -224,7 +224,8 @@ PackBytes soft_block(const BlockOptions& options) {
   const TissueLayout layout = block_tissue(character, options);
   const baker::Safetensors weights = block_network(options);
   const std::vector<std::byte> bytes =
-      baker::pack_character(character, layout, block_modes(layout), options.network ? &weights : nullptr);
+      baker::pack_character(character, layout, block_modes(layout), options.network ? &weights : nullptr,
+                            options.precision, block_ranges());
   return PackBytes(bytes.data(), bytes.size());
 }
 

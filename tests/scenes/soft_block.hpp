@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/aligned_block.hpp"
+#include "pack/format.hpp"
 
 namespace sinew::scenes {
 
@@ -26,6 +27,7 @@ struct BlockOptions {
   uint64_t seed = 1;
   double displacement_limit = 0.75;  // share of a region's radius
   bool network = true;               // false: modes and springs alone
+  pack::Precision precision = pack::Precision::kFloat32;
 };
 
 class PackBytes {  // 64-byte aligned, as load_asset wants them

@@ -60,10 +60,12 @@ TEST_CASE("a_tick_of_drive_base_inputs_network_and_guard_allocates_nothing") {
   const tissue::NodeMotion motion{{}, {poses.data(), poses.data(), poses.data()}};
   const tissue::NodePose* const history[3] = {poses.data(), poses.data(), poses.data()};
   const pack::ModeRecord modes[2] = {{20, 0, 1.8f, -0.9f, 1e-3f, {}}, {30, 0, 1.7f, -0.9f, 1e-3f, {}}};
-  test::Floats matrix = test::random_rows(random, 2, 33, kPadded, 1), e(kPadded), l(kPadded);
-  test::Floats rest = test::random_rows(random, 33, 33, kPadded, 1e-4f);
+  constexpr uint32_t kPaddedModes = 16;
+  test::Floats matrix = test::random_rows(random, 2, 33, kPadded, 1), l(kPadded);
+  test::Floats response = test::random_rows(random, 33, 50, kPadded + kPaddedModes, 1e-4f);
+  test::Floats project = test::random_rows(random, 33, 2, kPaddedModes, 1), room(kPadded + kPaddedModes);
   const tissue::ModalBase base{
-      modes, kNodes, kPadded, matrix.data(), matrix.data(), matrix.data(), matrix.data(), rest.data(),
+      modes, kNodes, kPadded, kPaddedModes, matrix.data(), matrix.data(), response.data(), project.data(),
       0,     0,      1};
   const pack::SpringRecord spring{1.8f, -0.9f, 0.1f, 0};
   const std::vector<float> compliance(9 * kNodes);
@@ -75,11 +77,11 @@ TEST_CASE("a_tick_of_drive_base_inputs_network_and_guard_allocates_nothing") {
   const auto tick = [&] {
     tissue::pose_nodes(nodes, skin, upright, poses.data());
     tissue::share_bend(0, kNodes, poses.data());
-    tissue::along_flesh(poses[1], u.data(), u.data());
+    tissue::along_flesh(poses.data(), u.data(), kNodes, u.data());
     tissue::compute_node_drive(motion, 1.0f / 60, kNodes, drive.data());
     tissue::frame_term(history, u.data(), u_before.data(), 1.0f / 60, kNodes, felt.data());
     tissue::modal_step(base, felt.data(), {q.data(), q_before.data(), r.data(), r.data(), theta.data()},
-                       e.data(), {q_hat.data(), r_hat.data(), l.data()});
+                       room.data(), felt.data(), {q_hat.data(), r_hat.data(), l.data()});
     tissue::assemble_inputs(network,
                             {&region, nodes.data(), drive.data(), felt.data(), u.data(), u_before.data(),
                              l.data(), theta.data(), 20, 1.0f / 60},
@@ -88,7 +90,8 @@ TEST_CASE("a_tick_of_drive_base_inputs_network_and_guard_allocates_nothing") {
     tissue::read_output(network, {&region, 1}, kNodes, state.data(), u.data());
     tissue::hold_at_limit(region, {&network, kNodes, state.data()}, u.data(), u_before.data());
     tissue::modal_project(base, l.data(), q.data());
-    tissue::modal_turn(base, q.data(), e.data(), theta.data());
+    tissue::modal_turn(base, q.data(), room.data(), theta.data());
+    tissue::warp(theta.data(), l.data(), kNodes, u.data());
     tissue::spring_step(spring, compliance.data(), drive.data(), tissue::kNodeDriveWidth, kNodes, u.data(),
                         u_before.data());
     tissue::rebase_state(network, {&region, 1}, kNodes, u.data(), state.data());

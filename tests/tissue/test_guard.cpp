@@ -19,9 +19,9 @@ constexpr float kRounding = 1e-7f;  // of 0.05 m through one division and one pr
 // Two regions of 3 and 4 nodes, the second with twice the limit and half the radius; states are filled with
 // ones, l with 0.01 0 -0.01 m.
 struct Fixture {
-  Fixture()
+  explicit Fixture(pack::Precision precision = pack::Precision::kFloat32)
       : random(5),
-        packed(test::plain_record(),
+        packed(of_precision(precision),
                {test::random_layer(random, 9, 20, false), test::random_layer(random, 20, 3, false)}),
         network(packed.view()),
         state(tissue::state_floats(network, kNodes), 1) {
@@ -35,6 +35,11 @@ struct Fixture {
     regions[1].radius_m = 0.5f;
     regions[1].displacement_limit_m = 2 * kLimit;
     for (uint32_t node = 0; node < kNodes; ++node) set_l(node, 0.01f, 0, -0.01f);
+  }
+  static pack::NetworkRecord of_precision(pack::Precision precision) {
+    pack::NetworkRecord record = test::plain_record();
+    record.precision = precision;
+    return record;
   }
   tissue::LayerState layer(uint32_t at) { return tissue::layer_state(network, kNodes, at, state.data()); }
   float* y(uint32_t node) { return layer(1).y + node * 16; }
@@ -128,6 +133,26 @@ TEST_CASE("guard_holds_a_node_at_its_regions_limit_and_forgets_what_pushed_it") 
       REQUIRE((layer.h[i] == want && layer.c[i] == want));
       if (at == 0) REQUIRE(layer.y[i] == want);
     }
+  }
+}
+
+// The hidden layer's planes are halves: the node's are zero, its neighbours' and the planes' ends untouched.
+TEST_CASE("guard_forgets_the_halves_of_a_node_and_no_others") {
+  for (const pack::Precision precision : {pack::Precision::kHalfStates, pack::Precision::kInt8}) {
+    Fixture fixture(precision);
+    constexpr uint32_t kPadded = 32, kHeld = 1;
+    constexpr uint16_t kOne = 0x3c00;
+    const tissue::HalfLayerState halves =
+        tissue::half_layer_state(fixture.network, kNodes, 0, fixture.state.data());
+    for (uint16_t* plane : {halves.h, halves.c, halves.y}) std::fill_n(plane, kNodes * kPadded, kOne);
+    fixture.set_l(kHeld, 0, 0.3f, 0.4f);
+    CHECK(fixture.hold() == 1);
+    for (const uint16_t* plane : {halves.h, halves.c, halves.y}) {
+      for (uint32_t i = 0; i < kNodes * kPadded; ++i) REQUIRE(plane[i] == (i / kPadded == kHeld ? 0 : kOne));
+    }
+    for (uint32_t i = 0; i < kNodes * 16; ++i)
+      REQUIRE(fixture.layer(1).c[i] == (i / 16 == kHeld ? 0.0f : 1.0f));
+    CHECK(fixture.y(kHeld)[2] * kUnit == Approx(0.8f * kLimit));
   }
 }
 

@@ -73,7 +73,7 @@ TEST_CASE("a_vector_along_the_frame_is_told_along_the_flesh") {
   for (const double bend : {0.0, 0.5, -2.2}) {
     const tissue::NodePose node = shared(bend);
     Eigen::Vector3f along = v.cast<float>();
-    tissue::along_flesh(node, along.data(), along.data());
+    tissue::along_flesh(&node, along.data(), 1, along.data());
     const Vector3d in_world = test::turned(0.7) * about(bend) * along.cast<double>();
     CHECK((in_world - rotation_of(node) * v).norm() < 4 * kRounding);
   }

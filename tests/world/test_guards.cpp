@@ -20,10 +20,10 @@ constexpr size_t kHeaderBytes = 40, kChecksumAt = 24;
 // A NaN in the state, at the place that `where` points to in a twin, smuggled in through a snapshot whose
 // checksum is right.
 template <class Where>
-void poison(Stage& stage, const Where& where) {
+void poison(Stage& stage, const Where& where, const scenes::PackBytes& pack = test::block_pack()) {
   world::Asset asset;
   world::Instance twin;
-  REQUIRE(world::open_asset(test::block_pack().bytes(), &asset).ok());
+  REQUIRE(world::open_asset(pack.bytes(), &asset).ok());
   REQUIRE(world::make_instance(asset, {}, {}, 1, &twin).ok());
   const auto at = static_cast<size_t>(reinterpret_cast<std::byte*>(where(twin)) -
                                       reinterpret_cast<std::byte*>(twin.state));
@@ -35,7 +35,7 @@ void poison(Stage& stage, const Where& where) {
   REQUIRE(stage.world.restore_state(stage.blocks[0], bytes).ok());
 }
 
-// The first channel of a node's row: the others may be padding, which nothing reads.
+// The first channel of a node's row, of halves the second: the others may be padding, which nothing reads.
 auto in_network(double share) {
   return [share](const world::Instance& twin) {
     const size_t floats = tissue::state_floats(twin.asset->network, twin.asset->node_count());
@@ -81,17 +81,20 @@ TEST_CASE("inputs_beyond_the_envelope_are_clamped_and_counted") {
 
 TEST_CASE("displacement_beyond_the_limit_is_held_and_counted") {
   constexpr double kShare = 0.2;
-  const scenes::PackBytes tight = scenes::soft_block({.displacement_limit = kShare});
-  Stage stage(1, {}, tight);
-  double largest_m = 0;
-  for (int f = 0; f < 90; ++f) {
-    stage.step(strong_shake, kFrame_s);
-    largest_m = std::max(largest_m, test::largest_length(stage.read(0, Space::kBind)));
+  for (const pack::Precision precision : test::kPrecisions) {
+    const scenes::PackBytes tight =
+        scenes::soft_block({.displacement_limit = kShare, .precision = precision});
+    Stage stage(1, {}, tight);
+    double largest_m = 0;
+    for (int f = 0; f < 90; ++f) {
+      stage.step(strong_shake, kFrame_s);
+      largest_m = std::max(largest_m, test::largest_length(stage.read(0, Space::kBind)));
+    }
+    CHECK(stage.report().displacement_clamps > 0);
+    // Radius 0.2 m or so; skinning bends the bind-space delta a little.
+    CHECK(largest_m < 1.3 * kShare * 0.25);
+    CHECK(largest_m > 0.02);
   }
-  CHECK(stage.report().displacement_clamps > 0);
-  // Radius 0.2 m or so; skinning bends the bind-space delta a little.
-  CHECK(largest_m < 1.3 * kShare * 0.25);
-  CHECK(largest_m > 0.02);
 }
 
 TEST_CASE("network_that_stays_at_its_limit_gives_way_to_the_modal_base") {
@@ -110,22 +113,24 @@ TEST_CASE("network_that_stays_at_its_limit_gives_way_to_the_modal_base") {
 
 // NaN anywhere in the network's state: the modal base shows this very tick, and sixty more.
 TEST_CASE("nan_in_the_network_falls_back_to_the_modal_base") {
-  for (const double share : {0.0, 0.1, 0.3, 0.5, 0.7, 0.95}) {
-    INFO("NaN at " << share << " of the network's state");
-    Stage stage(2);
-    stage.play(scenes::walk, 1);
-    poison(stage, in_network(share));
-    for (uint32_t f = 0; f <= world::kFallbackTicks + 1; ++f) {
-      const FrameReport report = stage.step(scenes::walk, kFrame_s);
-      CHECK(report.fallbacks == (f == 0 ? 1 : 0));
-      CHECK(report.restarts == 0);
-      CHECK(stage.report(0).tier == (f <= world::kFallbackTicks ? Tier::kModal : Tier::kNetwork));
-      CHECK(stage.report(0).blend == 1);
-      CHECK(stage.report(1).tier == Tier::kNetwork);
-      REQUIRE(test::all_finite(stage.read()));
+  for (const pack::Precision precision : test::kPrecisions) {
+    for (const double share : {0.0, 0.1, 0.3, 0.5, 0.7, 0.95}) {
+      INFO("NaN at " << share << " of the network's state, precision " << static_cast<uint32_t>(precision));
+      Stage stage(2, {}, test::block_pack(precision));
+      stage.play(scenes::walk, 1);
+      poison(stage, in_network(share), test::block_pack(precision));
+      for (uint32_t f = 0; f <= world::kFallbackTicks + 1; ++f) {
+        const FrameReport report = stage.step(scenes::walk, kFrame_s);
+        CHECK(report.fallbacks == (f == 0 ? 1 : 0));
+        CHECK(report.restarts == 0);
+        CHECK(stage.report(0).tier == (f <= world::kFallbackTicks ? Tier::kModal : Tier::kNetwork));
+        CHECK(stage.report(0).blend == 1);
+        CHECK(stage.report(1).tier == Tier::kNetwork);
+        REQUIRE(test::all_finite(stage.read()));
+      }
+      CHECK(stage.report(0).fallbacks == 1);
+      CHECK(stage.report(1).fallbacks == 0);
     }
-    CHECK(stage.report(0).fallbacks == 1);
-    CHECK(stage.report(1).fallbacks == 0);
   }
 }
 

@@ -1,6 +1,7 @@
 // sinew.hpp  Everything public in one include.
 #pragma once
 #include "sinew/id.hpp"
+#include "sinew/isa.hpp"
 #include "sinew/status.hpp"
 #include "sinew/types.hpp"
 #include "sinew/world.hpp"

@@ -141,6 +141,19 @@ TEST_CASE("painted_rings_become_regions_with_connected_nodes_inside") {
   CHECK(layout.regions[0].vertices.size() == 5 * 25);
 }
 
+// Sampled from all over the part, the nodes of half the edges would be a third of the region apart.
+TEST_CASE("many_nodes_of_a_region_stand_near_their_neighbours") {
+  Character character = painted_column(0.22, 1.78);
+  Recipe recipe;
+  recipe.nodes_per_region = 4096;
+  const TissueLayout layout = layout_tissue(character, recipe);
+  check_layout(character, layout, recipe);
+  REQUIRE(layout.nodes.size() > 500);
+  int widest = 0;
+  for (const auto& [a, b] : layout.edges) widest = std::max(widest, b - a);
+  CHECK(widest <= 4 * 24);  // a ring holds 24, and neighbours are at most two rings apart
+}
+
 TEST_CASE("nodes_start_at_the_softest_vertex_and_spread") {
   Character character = painted_column(0.5, 1.5);
   character.stiffness[500] = 0.05;

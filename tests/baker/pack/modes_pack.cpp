@@ -114,25 +114,27 @@ TEST_CASE("matrices_lie_where_the_format_says") {
     CHECK(record.first_rad_per_s == 20);
     using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     const float* at = view.mode_matrices.data() + record.matrices;
-    const auto matrix = [&](Eigen::Index rows) {
-      const Rows all = Eigen::Map<const Rows>(at, rows, record.padded);
-      at += rows * record.padded;
-      return Eigen::MatrixXd(all.leftCols(floats).cast<double>());
+    const Eigen::Index padded_modes = (count + 15) / 16 * 16;
+    const auto matrix = [&](Eigen::Index rows, Eigen::Index padded) {
+      const Rows all = Eigen::Map<const Rows>(at, rows, padded);
+      at += rows * padded;
+      return Eigen::MatrixXd(all.cast<double>());
     };
     const auto same = [](const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
       constexpr double kFloatRounding = 1e-6;  // of numbers up to 1
       return (a - b).cwiseAbs().maxCoeff() < kFloatRounding;
     };
-    const Eigen::MatrixXd shape = matrix(count), turn = matrix(count), force = matrix(count),
-                          project = matrix(count);
+    const Eigen::MatrixXd shape = matrix(count, record.padded).leftCols(floats),
+                          turn = matrix(count, record.padded).leftCols(floats),
+                          response = matrix(floats, record.padded + padded_modes),
+                          project = matrix(floats, padded_modes).leftCols(count);
     CHECK(same(shape.transpose(), modes[r].shape));
     CHECK(same(turn.transpose(), modes[r].turn));
-    CHECK(same(force, modes[r].force));
-    CHECK(same(matrix(floats), modes[r].rest));
+    CHECK(same(response.leftCols(floats).transpose(), modes[r].rest));
+    CHECK(same(response.middleCols(record.padded, count).transpose(), modes[r].force));
     // Within a hundredth, stiff modes as the ridge has it.
-    CHECK((project * shape.transpose() - Eigen::MatrixXd::Identity(count, count)).cwiseAbs().maxCoeff() <
-          0.1);
-    CHECK((project.row(0) * shape.transpose())[0] == Approx(1).epsilon(0.02));
+    CHECK((shape * project - Eigen::MatrixXd::Identity(count, count)).cwiseAbs().maxCoeff() < 0.1);
+    CHECK((shape.row(0) * project)[0] == Approx(1).epsilon(0.02));
   }
 }
 
@@ -146,10 +148,12 @@ TEST_CASE("a_displacement_that_two_modes_explain_goes_to_the_softer") {
   pack::PackView view;
   REQUIRE(editor.open(&view).ok());
   const pack::RegionModesRecord& record = view.region_modes[1];
-  const float* project = view.mode_matrices.data() + record.matrices + 3 * 2 * record.padded;
+  // Behind shape and turn of two modes and the response of six numbers, rows of 16.
+  const float* project =
+      view.mode_matrices.data() + record.matrices + 2 * 2 * record.padded + 6 * (record.padded + 16);
   double q[2] = {0, 0};
   for (int k = 0; k < 2; ++k)
-    for (int i = 0; i < 6; ++i) q[k] += static_cast<double>(project[k * 16 + i]) * modes[1].shape(i, 0);
+    for (int i = 0; i < 6; ++i) q[k] += static_cast<double>(project[i * 16 + k]) * modes[1].shape(i, 0);
   CHECK(q[0] + q[1] == Approx(1).epsilon(0.01));
   CHECK(q[0] > 5 * q[1]);  // by the square of their frequencies, 20 and 60 rad/s
 }

@@ -19,8 +19,19 @@ TEST_CASE("commands_and_options_that_do_not_exist_are_refused") {
   check_refused({"model", "w", "-o", "m", "--calibrate", "v"}, {"--calibrate", "int8"});
   check_refused({"check", "m", "v", "--isa", "abacus"}, {"--isa abacus", "abacus"});
   check_refused({"model", "w", "-o", "m", "--precision", "int4"}, {"--precision int4"});
-  check_refused({"creature", "r.json", "-o", "c.glb", "--vertices", "499"},
-                {"--vertices 499", "500 to 50000"});
+  check_refused({"character", "c.glb", "-o", "c", "--precision", "int4"},
+                {"--precision int4", "fp32, fp16, int8"});
+  check_refused({"character", "c.glb", "-o", "c", "--tissue", "w", "--calibrate", "v"},
+                {"--calibrate", "int8"});
+  check_refused({"character", "c.glb", "-o", "c", "--precision", "int8"},
+                {"--precision int8", "no --tissue"});
+  check_refused({"judge", "c.sinew"}, {"--truth"});
+  check_refused({"judge", "--truth", "t"}, {"characters"});
+  check_refused({"judge", "c.sinew", "--truth", "t", "--ticks", "0"}, {"--ticks", "1 to 1000000"});
+  check_refused({"judge", "c.sinew", "--truth", "t", "--most-added", "-1"}, {"--most-added"});
+  check_refused({"judge", "c.sinew", "--truth", "t", "--isa", "abacus"}, {"--isa abacus"});
+  check_refused({"creature", "r.json", "-o", "c.glb", "--vertices", "199"},
+                {"--vertices 199", "200 to 50000"});
   check_refused({"creature", "r.json", "-o", "c.glb", "--vertices", "50001"}, {"--vertices 50001"});
   check_refused({"creature", "r.json", "-o", "c.glb", "--vertices", "-3"}, {"--vertices"});
 }
@@ -39,6 +50,7 @@ TEST_CASE("paths_that_do_not_exist_are_named") {
   check_refused({"info", folder.path()}, {folder.path()});
   check_refused({"model", missing, "-o", output}, {missing, "No such file"});
   check_refused({"check", missing, missing}, {missing, "No such file"});
+  check_refused({"judge", missing, "--truth", missing}, {missing, "No such file"});
   check_refused({"creature", missing, "-o", output}, {missing});
   check_refused({"character", missing, "--tissue", missing, "-o", output}, {missing});
   check_refused({"character", missing, "--recipe", missing, "--tissue", missing, "-o", output}, {missing});
@@ -49,6 +61,6 @@ TEST_CASE("help_goes_to_stdout_and_names_every_command") {
   const ProgramResult help = bake({"--help"});
   CHECK(help.exit_code == 0);
   CHECK(help.error.empty());
-  for (const char* command : {"creature", "character", "model", "check", "info", "truth"})
+  for (const char* command : {"creature", "character", "model", "check", "info", "judge", "truth"})
     CHECK_THAT(help.out, Catch::Contains(command));
 }

@@ -1,0 +1,38 @@
+// closed_loop.hpp  A character as the runtime ticks it: poses, modal base, network, guards, its own output
+// fed back.
+#pragma once
+#include <cstddef>
+
+#include "baker/programs/loaded_pack.hpp"
+#include "baker/programs/true_motion.hpp"
+#include "world/instance.hpp"
+
+namespace sinew::baker {
+
+// At the motion's start, at rest on the skinning, as the truth starts. Regions never sleep; there is no
+// budget. The pack and the motion must outlive it.
+class ClosedLoop {
+ public:
+  ClosedLoop(const LoadedPack& character, const TrueMotion& motion);
+  ClosedLoop(const ClosedLoop&) = delete;
+  ClosedLoop& operator=(const ClosedLoop&) = delete;
+
+  void tick();  // to the motion's next tick; as many as it has
+  // [nodes][3], metres along each node's frame.
+  const float* displacement() const { return instance_.u[0]; }
+  const tissue::Network& network() const { return asset_.network; }
+  float* network_state() { return instance_.network_state; }
+  // Nodes held at their limit, and times that the network was given up, so far.
+  uint32_t held() const { return instance_.state->displacement_clamps; }
+  uint32_t fallbacks() const { return instance_.state->fallbacks + instance_.state->restarts; }
+
+ private:
+  void step(Tier tier);
+
+  const TrueMotion& motion_;
+  world::Asset asset_;
+  world::Instance instance_;
+  size_t tick_ = 0;
+};
+
+}  // namespace sinew::baker

@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# Bakes a body's character in every precision, int8 by scales from its validation motions, and judges each against ground truth on
+# its test motions, in closed loop: how much fp16 and int8 add to the float32 network's error.
+#   perf/precision.sh [DATA]
+# DATA takes the true motions (default build/release/precision); they are simulated where they are not there, some three minutes.
+# In the environment, if wanted: PLAN (assets/bodies/precision.json: the creature's own), BODY (momo), WEIGHTS (the shipped networks)
+# and PYTHON (/usr/bin/python3).
+set -euo pipefail
+shopt -s nullglob
+cd "$(dirname "$0")/.."
+
+cmake --preset release >/dev/null
+cmake --build --preset release --target sinew-bake | { grep -v '^ninja: no work' || true; }
+bake=build/release/bin/sinew-bake
+data=${1:-build/release/precision}
+body=$data/${BODY:-momo}
+"${PYTHON:-/usr/bin/python3}" baker/train generate --bake "$bake" --plan "${PLAN:-assets/bodies/precision.json}" --out "$data" \
+  --splits validation test long >/dev/null
+
+packs=$(mktemp -d)
+trap 'rm -rf "$packs"' EXIT
+for weights in ${WEIGHTS:-assets/weights/creature.safetensors assets/weights/creature_wide.safetensors}; do
+  name=$(basename "$weights" .safetensors)
+  for precision in fp32 fp16 int8; do
+    calibrate=()
+    [ $precision = int8 ] && for motion in "$body"/validation-*.safetensors; do calibrate+=(--calibrate "$motion"); done
+    "$bake" character "$body/body.glb" --recipe "$body/tissue.json" --tissue "$weights" --precision $precision "${calibrate[@]}" \
+      -o "$packs/$name.$precision.sinew" >/dev/null
+  done
+  echo "$weights"
+  "$bake" judge "$packs/$name".{fp32,fp16,int8}.sinew --truth "$body"/{test,long}-*.safetensors --ticks 10 50 100 200 600 --most-added 0.1
+done
