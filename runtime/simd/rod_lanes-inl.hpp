@@ -86,11 +86,11 @@ HWY_INLINE Four<V> turned(const Four<V>& q, const Three<V>& turn) {
 
 // Own axes in the world.
 template <class V>
-struct Axes {
+struct SegmentAxes {
   Three<V> x, y, z;
 };
 template <class V>
-HWY_INLINE Axes<V> axes_of(const Four<V>& q) {
+HWY_INLINE SegmentAxes<V> axes_of(const Four<V>& q) {
   const V two = hn::Set(hn::DFromV<V>(), 2), one = hn::Set(hn::DFromV<V>(), 1);
   const V x2 = hn::Mul(two, q.x), y2 = hn::Mul(two, q.y), z2 = hn::Mul(two, q.z);
   const V xx = hn::Mul(x2, q.x), xy = hn::Mul(x2, q.y), xz = hn::Mul(x2, q.z), xw = hn::Mul(x2, q.w);

@@ -46,7 +46,7 @@ HWY_INLINE void linearise_segment(const G& g, size_t i) {
   using V = typename G::V;
   const hn::DFromV<V> d;
   const Four<V> q = g.get4(i, kRodNow);
-  const Axes<V> axes = axes_of(q);
+  const SegmentAxes<V> axes = axes_of(q);
   g.set3(i, kRodAxes, axes.x);
   g.set3(i, kRodAxes + 3, axes.y);
   g.set3(i, kRodAxes + 6, axes.z);
