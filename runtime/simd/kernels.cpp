@@ -50,6 +50,8 @@
 
 namespace sinew::simd::HWY_NAMESPACE {
 
+extern const RodKernels kRodKernels;  // rod_kernels.cpp
+
 template <class Dot>
 constexpr Kernels kernels_with(const char* name, bool (*runs)()) {
   return {
@@ -75,6 +77,7 @@ constexpr Kernels kernels_with(const char* name, bool (*runs)()) {
       .pose_frames = pose_frames,
       .sigmoid = sigmoid,
       .tanh = tanh,
+      .rods = &kRodKernels,
   };
 }
 

@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "pack/format.hpp"
+#include "simd/rod_job.hpp"
 
 namespace sinew::simd {
 
@@ -193,6 +194,7 @@ struct Kernels {
   // Of `count` floats, any count and alignment; NaN stays NaN. Maximum errors: simd/activation-inl.hpp.
   void (*sigmoid)(const float* x, size_t count, float* out);
   void (*tanh)(const float* x, size_t count, float* out);
+  const RodKernels* rods;
 };
 
 // The table of the active instruction set. Thread-safe.

@@ -1,0 +1,154 @@
+// rod_batch.cpp  What goes into a batch and comes out of it, in metres and world axes.
+#include "rods/rod_batch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/status.hpp"
+#include "rods/turn.hpp"
+
+namespace sinew::rods {
+namespace {
+
+constexpr float kUnitTolerance = 1e-3f;
+
+bool all_finite(std::span<const float> values) {
+  return std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); });
+}
+
+Status not_finite(uint32_t strand, uint32_t segment, const char* what) {
+  return core::make_status(StatusCode::kNotFinite,
+                           "strand %u, segment %u: %s is not finite; the last one stays", strand, segment,
+                           what);
+}
+
+Status check_target(uint32_t strand, uint32_t segment, const SegmentPose& pose) {
+  bool finite = all_finite(pose.orientation);
+  for (const double x : pose.position_m) finite = finite && std::isfinite(x);
+  if (!finite) return not_finite(strand, segment, "the pose");
+  if (std::fabs(norm(turn_of(pose.orientation)) - 1) <= kUnitTolerance) return {};
+  return core::make_status(StatusCode::kInvalidArgument,
+                           "strand %u, segment %u: the orientation's length is %g; give a unit quaternion",
+                           strand, segment, norm(turn_of(pose.orientation)));
+}
+
+}  // namespace
+
+size_t RodBatch::row(uint32_t strand, uint32_t segment, uint32_t field) const noexcept {
+  const size_t group = strand / width_, lane = strand % width_;
+  return ((group * segment_count_ + segment) * simd::kRodKeptFields + field) * width_ + lane;
+}
+
+Status RodBatch::check_place(uint32_t strand, uint32_t segment) const noexcept {
+  if (strand < strand_count_ && segment < segment_count_) return {};
+  return core::make_status(StatusCode::kInvalidArgument,
+                           "strand %u, segment %u: the batch has %u strands of %u segments", strand, segment,
+                           strand_count_, segment_count_);
+}
+
+Status RodBatch::set_target(uint32_t strand, uint32_t segment, const SegmentPose& pose) noexcept {
+  Status status = check_place(strand, segment);
+  if (status.ok()) status = check_target(strand, segment, pose);
+  if (!status.ok()) return status;
+  if (at(strand, segment, simd::kRodFree) != 0) {
+    return core::make_status(StatusCode::kInvalidArgument,
+                             "strand %u, segment %u: its pose is simulated; make it fixed to give one",
+                             strand, segment);
+  }
+  const Units& units = units_[strand];
+  double move[3], square = 0;
+  const SegmentPose now = this->pose(strand, segment);
+  for (int k = 0; k < 3; ++k) {
+    move[k] = (pose.position_m[k] - now.position_m[k]) / units.length_m;
+    square += move[k] * move[k];
+  }
+  if (std::sqrt(square) > static_cast<double>(settings_.teleport_lengths * units.total_lengths)) {
+    carry(strand, segment, pose);
+    return {};
+  }
+  for (uint32_t k = 0; k < 3; ++k) at(strand, segment, simd::kRodTarget + k) = static_cast<float>(move[k]);
+  const Turn turn = normalised(turn_of(pose.orientation));
+  for (uint32_t k = 0; k < 4; ++k) {
+    at(strand, segment, simd::kRodTargetTurn + k) = static_cast<float>(turn[k]);
+  }
+  return {};
+}
+
+Status RodBatch::set_force(uint32_t strand, uint32_t segment, const float (&force_n)[3]) noexcept {
+  const Status status = check_place(strand, segment);
+  if (!status.ok()) return status;
+  if (!all_finite(force_n)) return not_finite(strand, segment, "force_n");
+  const float unit = units_[strand].mass_kg * units_[strand].length_m;
+  for (uint32_t k = 0; k < 3; ++k) at(strand, segment, simd::kRodForce + k) = force_n[k] / unit;
+  return {};
+}
+
+Status RodBatch::set_velocity(uint32_t strand, uint32_t segment, const SegmentVelocity& velocity) noexcept {
+  const Status status = check_place(strand, segment);
+  if (!status.ok()) return status;
+  if (!all_finite(velocity.linear_m_s) || !all_finite(velocity.angular_rad_s)) {
+    return not_finite(strand, segment, "the velocity");
+  }
+  const Vector own =
+      turned_back(turn_of(pose(strand, segment).orientation), vector_of(velocity.angular_rad_s));
+  for (uint32_t k = 0; k < 3; ++k) {
+    at(strand, segment, simd::kRodVelocity + k) = velocity.linear_m_s[k] / units_[strand].length_m;
+    at(strand, segment, simd::kRodSpin + k) = static_cast<float>(own[k]);
+  }
+  return {};
+}
+
+Status RodBatch::set_start(uint32_t strand, uint32_t segment, const SegmentStart& start) noexcept {
+  const Status status = check_place(strand, segment);
+  if (!status.ok()) return status;
+  if (!all_finite(start.acceleration_m_s2) || !all_finite(start.angular_acceleration_rad_s2) ||
+      !all_finite(start.force_n) || !all_finite(start.moment_nm)) {
+    return not_finite(strand, segment, "the start");
+  }
+  const float l = units_[strand].length_m, force = units_[strand].mass_kg * l;
+  for (uint32_t k = 0; k < 3; ++k) {
+    at(strand, segment, simd::kRodStartPush + k) = start.acceleration_m_s2[k] / l;
+    at(strand, segment, simd::kRodStartTwist + k) = start.angular_acceleration_rad_s2[k];
+    at(strand, segment, simd::kRodStartForce + k) = start.force_n[k] / force;
+    at(strand, segment, simd::kRodStartForce + 3 + k) = start.moment_nm[k] / (force * l);
+  }
+  return {};
+}
+
+SegmentPose RodBatch::pose(uint32_t strand, uint32_t segment) const noexcept {
+  const Units& units = units_[strand];
+  SegmentPose out;
+  for (uint32_t k = 0; k < 3; ++k) {
+    const double place = static_cast<double>(at(strand, segment, simd::kRodPlace + k)) +
+                         static_cast<double>(at(strand, segment, simd::kRodPlaceLow + k));
+    out.position_m[k] = units.origin_m[k] + place * units.length_m;
+  }
+  for (uint32_t k = 0; k < 4; ++k) out.orientation[k] = at(strand, segment, simd::kRodTurn + k);
+  return out;
+}
+
+SegmentVelocity RodBatch::velocity(uint32_t strand, uint32_t segment) const noexcept {
+  SegmentVelocity out;
+  Vector own;
+  for (uint32_t k = 0; k < 3; ++k) {
+    out.linear_m_s[k] = at(strand, segment, simd::kRodVelocity + k) * units_[strand].length_m;
+    own[k] = static_cast<double>(at(strand, segment, simd::kRodSpin + k));
+  }
+  const Vector world = turned(turn_of(pose(strand, segment).orientation), own);
+  for (uint32_t k = 0; k < 3; ++k) out.angular_rad_s[k] = static_cast<float>(world[k]);
+  return out;
+}
+
+SegmentStart RodBatch::last_forces(uint32_t strand, uint32_t segment) const noexcept {
+  const float l = units_[strand].length_m, force = units_[strand].mass_kg * l;
+  SegmentStart out;
+  for (uint32_t k = 0; k < 3; ++k) {
+    out.acceleration_m_s2[k] = at(strand, segment, simd::kRodStartPush + k) * l;
+    out.angular_acceleration_rad_s2[k] = at(strand, segment, simd::kRodStartTwist + k);
+    out.force_n[k] = at(strand, segment, simd::kRodStartForce + k) * force;
+    out.moment_nm[k] = at(strand, segment, simd::kRodStartForce + 3 + k) * (force * l);
+  }
+  return out;
+}
+
+}  // namespace sinew::rods

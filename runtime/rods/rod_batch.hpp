@@ -1,0 +1,128 @@
+// rod_batch.hpp  Strands of one shape, simulated together.
+//
+// An implicit Euler step in its mixed form, iterated by Newton's method (simd/rod_linearise-inl.hpp): rods do
+// not stretch, soft ones converge as stiff ones do, and where the iteration ends does not depend on where it
+// starts. A strand is a lane of the vectors; its numbers do not depend on its neighbours. Results have the
+// same bits on all instruction sets with fused multiply-adds. One thread at a time for a batch; several
+// batches at once are several threads' work.
+#pragma once
+#include <cstdint>
+#include <span>
+
+#include "core/aligned_block.hpp"
+#include "rods/strand.hpp"
+#include "simd/rod_job.hpp"
+
+namespace sinew::rods {
+
+enum class RodSolver : uint32_t {
+  kDirect = 0,  // exact, O(segments)
+  kCg = 1,      // conjugate gradients, preconditioned by the diagonal: for comparing
+};
+
+// Where a step's iteration starts. Free motion is what a segment would do without joints.
+enum class RodStart : uint32_t {
+  kZero = 0,      // at free motion, no forces
+  kPrevious = 1,  // free motion with the last step's forces and what they did
+  kGiven = 2,     // what set_start gave since the last step, else as kPrevious
+};
+
+struct RodSettings {
+  RodSolver solver = RodSolver::kDirect;
+  RodStart start = RodStart::kPrevious;
+  uint32_t max_iterations = 12;  // 1 to 1000
+  // 1e-6 to 1: the iteration ends where it turned no segment by more. Stretch is then at most its square over
+  // two: 5e-5 at the default.
+  float tolerance_rad = 0.01f;
+  float cg_tolerance = 1e-4f;         // 1e-7 to 1: kCg's residual against its first
+  uint32_t cg_max_iterations = 1000;  // 1 to 100000, of one linear system
+  float gravity_m_s2[3] = {0, -9.81f, 0};
+  // A pose given for a fixed segment further away than this many of its strand's lengths carries the strand
+  // along as it is, without inertia. Above 0.
+  float teleport_lengths = 2;
+};
+
+struct SegmentPose {
+  double position_m[3];
+  float orientation[4];  // x y z w
+};
+struct SegmentVelocity {
+  float linear_m_s[3], angular_rad_s[3];  // in the world
+};
+
+// A guess of what the joints do to a segment in the coming step, and of what its joint to the parent carries.
+struct SegmentStart {
+  float acceleration_m_s2[3] = {0, 0, 0};
+  float angular_acceleration_rad_s2[3] = {0, 0, 0};  // along the segment's own axes
+  float force_n[3] = {0, 0, 0};  // of the joint, on the parent, in the world; the root's is not read
+  float moment_nm[3] = {0, 0,
+                        0};  // minus the derivative of the bending energy by the Darboux vector times length
+};
+
+struct RodReport {
+  uint32_t iterations = 0;      // most of any strand
+  uint32_t iterations_sum = 0;  // of all strands
+  uint32_t cg_iterations = 0;   // kCg's, of all strands
+  uint32_t unconverged = 0;     // strands whose last iteration turned a segment by more than the tolerance
+  uint32_t rejoined = 0;   // of these, strands torn by more than half a segment: put together at their joints
+  uint32_t recovered = 0;  // strands that were not finite: put back at rest shape where they are held
+  uint32_t teleported = 0;  // strands carried along since the last step
+};
+
+class RodBatch {
+ public:
+  RodBatch() noexcept = default;
+  // Every strand with as many segments as the first and the same parents. Refused: what check_strand refuses,
+  // other shapes, settings outside their range, no strand, no memory; `out` is then untouched.
+  static Status create(std::span<const StrandDef> strands, const RodSettings& settings,
+                       RodBatch* out) noexcept;
+
+  uint32_t strand_count() const noexcept { return strand_count_; }
+  uint32_t segment_count() const noexcept { return segment_count_; }
+
+  // Where a fixed segment is at the end of the coming step; without it the segment stays. Its velocity is
+  // what takes it there. Refused: no such segment, one that is not fixed, numbers that are not finite, no
+  // unit quaternion; the last target then holds.
+  Status set_target(uint32_t strand, uint32_t segment, const SegmentPose& pose) noexcept;
+  // Newtons on the segment's middle, in every step until changed.
+  Status set_force(uint32_t strand, uint32_t segment, const float (&force_n)[3]) noexcept;
+  Status set_velocity(uint32_t strand, uint32_t segment, const SegmentVelocity& velocity) noexcept;
+  Status set_start(uint32_t strand, uint32_t segment, const SegmentStart& start) noexcept;
+
+  // dt_s in (0, 1]; otherwise refused, and nothing moves. Allocates nothing.
+  Status step(float dt_s, RodReport* report) noexcept;
+
+  // Of an existing segment.
+  SegmentPose pose(uint32_t strand, uint32_t segment) const noexcept;
+  SegmentVelocity velocity(uint32_t strand, uint32_t segment) const noexcept;
+  SegmentStart last_forces(uint32_t strand, uint32_t segment) const noexcept;  // what kPrevious starts from
+
+ private:
+  friend struct RodBatchBuilder;
+  struct Units {
+    double origin_m[3];
+    float length_m, mass_kg, total_lengths;
+  };
+  size_t row(uint32_t strand, uint32_t segment, uint32_t field) const noexcept;
+  float& at(uint32_t strand, uint32_t segment, uint32_t field) const noexcept {
+    return records_[row(strand, segment, field)];
+  }
+  Status check_place(uint32_t strand, uint32_t segment) const noexcept;
+  simd::RodJob group_job(uint32_t group, float dt_s) const noexcept;
+  void step_group(uint32_t group, float dt_s, RodReport* report) noexcept;
+  void carry(uint32_t strand, uint32_t segment, const SegmentPose& to) noexcept;
+  bool rejoin(uint32_t strand, float dt_s) noexcept;
+  void recover(uint32_t strand) noexcept;
+
+  core::AlignedBlock memory_;
+  float* records_ = nullptr;  // [groups][segments][kRodKeptFields][width]
+  float* scratch_ = nullptr;  // of one group
+  float* lanes_ = nullptr;    // [groups][kLaneFields][width]
+  float* rest_ = nullptr;     // [strands][segments][7] place and orientation at rest
+  Units* units_ = nullptr;    // [strands]
+  uint32_t* parents_ = nullptr;
+  RodSettings settings_;
+  uint32_t strand_count_ = 0, segment_count_ = 0, width_ = 0, teleported_ = 0;
+};
+
+}  // namespace sinew::rods

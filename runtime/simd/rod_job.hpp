@@ -1,0 +1,112 @@
+// rod_job.hpp  What the rod kernels work on: a group of strands of one shape, a strand a lane.
+//
+// A group is `width` strands, 4 or 16. A record of rows of `width` floats holds one segment of all
+// of them and the joint to its parent; segment 0 is the root and has no joint. Units are a strand's own: its
+// mean segment's length and mass, and seconds; joints' forces and compliances are kept free of the time
+// step's length. Positions are two floats, whose sum is exact to 1e-14 of what it measures. A segment's own z
+// axis runs from its parent's end to its own.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+namespace sinew::simd {
+
+// Of a segment in one step: faster spins are slowed down; and in one iteration: longer steps are shortened.
+inline constexpr float kRodLargestSpin_rad = 3, kRodLargestTurn_rad = 0.5f;
+
+enum RodField : uint32_t {
+  // Fixed at creation.
+  kRodFree = 0,  // 1, or 0 where the pose is given from outside
+  kRodMass,
+  kRodInverseMass,   // 0 where the pose is given
+  kRodInertia,       // about x and y
+  kRodAxialInertia,  // about z
+  kRodHalfLength,
+  kRodDrag,  // 1/s
+  // Of the joint to the parent, as all that says joint.
+  kRodStretchCompliance,
+  kRodBendCompliance,
+  kRodTwistCompliance,
+  kRodDamping,  // s: force by rate of strain over force by strain
+  kRodTied,     // 1 where both ends' poses are given: the joint does nothing
+  kRodRest,     // [3] 2 Im(conj(q_parent) q) at rest
+  // What goes from step to step.
+  kRodForce = kRodRest + 3,         // [3]
+  kRodTarget = kRodForce + 3,       // [3] where the pose is given: displacement of the coming step
+  kRodTargetTurn = kRodTarget + 3,  // [4] and orientation at its end
+  kRodPlace = kRodTargetTurn + 4,   // [3]
+  kRodPlaceLow = kRodPlace + 3,     // [3]
+  kRodTurn = kRodPlaceLow + 3,      // [4] orientation x y z w
+  kRodVelocity = kRodTurn + 4,      // [3]
+  kRodSpin = kRodVelocity + 3,      // [3] angular velocity along the segment's own axes
+  // Where a step starts from: acceleration and angular acceleration (own axes) that the joints give a
+  // segment,
+  // and the joint's force and moment. A step leaves its own here.
+  kRodStartPush = kRodSpin + 3,         // [3]
+  kRodStartTwist = kRodStartPush + 3,   // [3]
+  kRodStartForce = kRodStartTwist + 3,  // [6]
+  kRodKeptFields = kRodStartForce + 6,
+  // Of one step, in scratch: where the segment goes without joints, what the joint asks for.
+  kRodFreeMove = kRodKeptFields,          // [3] displacement
+  kRodFreeTurn = kRodFreeMove + 3,        // [4] orientation
+  kRodFreeSpin = kRodFreeTurn + 4,        // [3]
+  kRodGap = kRodFreeSpin + 3,             // [3] parent's place less own, at the step's start
+  kRodStepRest = kRodGap + 3,             // [3]
+  kRodStepCompliance = kRodStepRest + 3,  // [3] stretch, bend, twist
+  // The iterate.
+  kRodMove = kRodStepCompliance + 3,  // [3]
+  kRodNow = kRodMove + 3,             // [4]
+  kRodForceNow = kRodNow + 4,         // [6]
+  // Of one iteration.
+  kRodAxes = kRodForceNow + 6,               // [9] own axes in the world
+  kRodBend = kRodAxes + 9,                   // [4] orientation against the parent's
+  kRodStiffened = kRodBend + 4,              // [2] inertia with geometric stiffness: about x and y, about z
+  kRodImpulse = kRodStiffened + 2,           // [6] momentum residual; then the segment's change
+  kRodMiss = kRodImpulse + 6,                // [6] constraint residual; then the change of the joint's force
+  kRodInertiaFactor = kRodMiss + 6,          // [21] of the segment with all that hangs on it
+  kRodJointFactor = kRodInertiaFactor + 21,  // [21]
+  kRodFields = kRodJointFactor + 21
+};
+
+// Rows of `width` floats of the group itself.
+enum RodLaneField : uint32_t {
+  kLaneGravity = 0,                // [3]
+  kLaneActive = kLaneGravity + 3,  // 1 while a strand is not converged, 0 afterwards and where there is none
+  kLaneLargestTurn,                // of the last iteration, rad
+  kLaneHeldMiss,                   // largest gap squared at joints whose child's pose is given
+  kLaneIterations,
+  kLaneCgIterations,
+  kLaneBroken,  // 1 where a step left something that is not finite
+  kLaneFields
+};
+
+struct RodJob {
+  float* records;  // [segments][kRodKeptFields][width], 64-byte aligned (width 4: 16-byte)
+  float* scratch;  // [segments][kRodFields - kRodKeptFields][width], aligned alike; from predict to finish
+  float* lanes;    // [kLaneFields][width], aligned alike
+  const uint32_t* parents;  // [segments], each less than its own index; parents[0] is 0
+  uint32_t segments;
+  float dt_s;
+  float tolerance_rad;     // converged: no segment turned more in an iteration
+  bool start_from_zero;    // else from kRodStart*
+  float cg_tolerance;      // of the residual's preconditioned norm against its first
+  uint32_t cg_iterations;  // at most, of one linear system
+};
+
+// For one width of a group. All calls work on every lane; a lane's numbers do not depend on its neighbours'.
+struct RodCalls {
+  // Where segments go without joints, and the first iterate.
+  void (*predict)(const RodJob& job);
+  // One Newton iteration. Returns how many lanes are not converged.
+  uint32_t (*direct)(const RodJob& job);
+  uint32_t (*cg)(const RodJob& job);
+  // Takes the iterate over as the new state.
+  void (*finish)(const RodJob& job);
+};
+
+struct RodKernels {
+  RodCalls wide;    // groups of 16
+  RodCalls narrow;  // groups of 4
+};
+
+}  // namespace sinew::simd

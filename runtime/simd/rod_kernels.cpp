@@ -1,0 +1,40 @@
+// rod_kernels.cpp  Compiles the rod kernels once an instruction set; kernels.cpp puts them into its tables.
+#include "simd/rod_job.hpp"
+
+// As in kernels.cpp.
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#define HWY_TARGET_INCLUDE "simd/rod_kernels.cpp"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#ifndef SINEW_UNROLL
+#ifdef __clang__
+#define SINEW_UNROLL _Pragma("clang loop unroll(full)")
+#else
+#define SINEW_UNROLL _Pragma("GCC unroll 16")
+#endif
+#endif
+
+// In this order: each needs the ones before it.
+// clang-format off
+#include "simd/rod_lanes-inl.hpp"
+#include "simd/rod_step-inl.hpp"
+#include "simd/rod_linearise-inl.hpp"
+#include "simd/rod_direct-inl.hpp"
+#include "simd/rod_cg-inl.hpp"
+// clang-format on
+
+namespace sinew::simd::HWY_NAMESPACE {
+
+template <size_t kWidth>
+constexpr RodCalls rod_calls() {
+  return {.predict = rod_predict<kWidth>,
+          .direct = rod_direct<kWidth>,
+          .cg = rod_cg<kWidth>,
+          .finish = rod_finish<kWidth>};
+}
+
+extern const RodKernels kRodKernels;
+const RodKernels kRodKernels = {.wide = rod_calls<16>(), .narrow = rod_calls<4>()};
+
+}  // namespace sinew::simd::HWY_NAMESPACE

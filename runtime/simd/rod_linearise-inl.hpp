@@ -1,0 +1,142 @@
+// rod_linearise-inl.hpp  The rod's equations about the iterate, and what an iteration changes.
+//
+// Unknown are each segment's displacement d and rotation, and each joint's force f and moment t (times h^2):
+//   m (d - d*) - J^T (f, t) = 0,  I 2 Im(conj(q*) q) - J^T (f, t) = 0       momentum
+//   C(d, q) + alpha (f, t) = 0                                           constraints
+//   C_stretch = gap + d_a - d_b + l_a z_a + l_b z_b                      Kugelstadt & Schoemer 2016, Eq. 3
+//   C_bend    = 2 Im(conj(q_a) q_b) - rest                               the same, Eq. 8, times the length
+// the implicit Euler step in its mixed form: whatever the iteration starts from, where it ends does not
+// depend on it. One iteration solves
+//   M delta x - J^T delta(f, t) = -g,   J delta x + alpha delta(f, t) = -(C + alpha (f, t))
+// with g the momentum residual and M mass and inertia. To the inertia about x and y is added the part of the
+// geometric stiffness that tension makes, sum max(0, l f.z) over the segment's two ends; to the inertia about
+// z a bound of what bent joints' moments make of a roll, sum |t_xy| |p_xy|. Two numbers a segment, positive,
+// M stays diagonal; without the first soft rods do not converge, without the second those that bend stiffly
+// and twist softly.
+HWY_BEFORE_NAMESPACE();
+namespace sinew::simd::HWY_NAMESPACE {
+
+// Of moment times bend, to the inertia about z. Half is what a segment needs whose joint bends by gravity
+// alone.
+inline constexpr float kRollStiffness = 1;
+
+// A v and A^T v with A = w + [p]x of the relative orientation: how C_bend changes with b's and, negative,
+// with a's rotation.
+template <class V>
+HWY_INLINE Three<V> bend_by_child(const Four<V>& p, const Three<V>& v) {
+  return scaled_sum(p.w, v, cross(vector_part(p), v));
+}
+template <class V>
+HWY_INLINE Three<V> bend_by_parent(const Four<V>& p, const Three<V>& v) {
+  return scaled_sum(p.w, v, cross(v, vector_part(p)));
+}
+
+// What a force at distance l along z does to the segment's rotation, and how that point moves with it.
+template <class V>
+HWY_INLINE Three<V> lever(V l, const Three<V>& x, const Three<V>& y, const Three<V>& force) {
+  return {hn::Neg(hn::Mul(l, dot(force, y))), hn::Mul(l, dot(force, x)), hn::Zero(hn::DFromV<V>())};
+}
+template <class V>
+HWY_INLINE Three<V> swing(V l, const Three<V>& x, const Three<V>& y, const Three<V>& turn) {
+  return less_scaled(hn::Mul(l, turn.x), y, scaled(hn::Mul(l, turn.y), x));
+}
+
+template <class G>
+HWY_INLINE void linearise_segment(const G& g, size_t i) {
+  using V = typename G::V;
+  const hn::DFromV<V> d;
+  const Four<V> q = g.get4(i, kRodNow);
+  const SegmentAxes<V> axes = axes_of(q);
+  g.set3(i, kRodAxes, axes.x);
+  g.set3(i, kRodAxes + 3, axes.y);
+  g.set3(i, kRodAxes + 6, axes.z);
+  const V two = hn::Set(d, 2), inertia = hn::Mul(two, g.get(i, kRodInertia));
+  const Three<V> turn = vector_part(relative(g.get4(i, kRodFreeTurn), q));
+  g.set3(i, kRodImpulse, scaled(g.get(i, kRodMass), g.get3(i, kRodMove) - g.get3(i, kRodFreeMove)));
+  g.set(i, kRodImpulse + 3, hn::Mul(inertia, turn.x));
+  g.set(i, kRodImpulse + 4, hn::Mul(inertia, turn.y));
+  g.set(i, kRodImpulse + 5, hn::Mul(hn::Mul(two, g.get(i, kRodAxialInertia)), turn.z));
+  g.set(i, kRodStiffened, g.get(i, kRodInertia));
+  g.set(i, kRodStiffened + 1, g.get(i, kRodAxialInertia));
+}
+
+template <class G>
+HWY_INLINE void stiffen(const G& g, size_t i, typename G::V tension, typename G::V moment) {
+  using V = typename G::V;
+  g.set(i, kRodStiffened, hn::Add(g.get(i, kRodStiffened), hn::Max(tension, hn::Zero(hn::DFromV<V>()))));
+  g.set(i, kRodStiffened + 1, hn::Add(g.get(i, kRodStiffened + 1), moment));
+}
+
+template <class G>
+HWY_INLINE void linearise_joint(const G& g, size_t i, size_t parent) {
+  using V = typename G::V;
+  const hn::DFromV<V> d;
+  const V two = hn::Set(d, 2);
+  const Four<V> p = relative(g.get4(parent, kRodNow), g.get4(i, kRodNow));
+  g.set4(i, kRodBend, p);
+  const V l_a = g.get(parent, kRodHalfLength), l_b = g.get(i, kRodHalfLength);
+  const Three<V> z_a = g.get3(parent, kRodAxes + 6), z_b = g.get3(i, kRodAxes + 6);
+  const Three<V> f = g.get3(i, kRodForceNow), t = g.get3(i, kRodForceNow + 3);
+  const Three<V> gap = g.get3(i, kRodGap) + (g.get3(parent, kRodMove) - g.get3(i, kRodMove));
+  const Three<V> stretch = scaled_sum(l_a, z_a, scaled_sum(l_b, z_b, gap));
+  const V bend_compliance = g.get(i, kRodStepCompliance + 1);
+  const Three<V> miss = scaled_sum(g.get(i, kRodStepCompliance), f, stretch);
+  g.set3(i, kRodMiss, miss);
+  const V works = hn::Sub(hn::Set(d, 1), hn::Max(g.get(i, kRodFree), g.get(i, kRodTied)));
+  g.set_lane(kLaneHeldMiss, hn::Max(g.lane(kLaneHeldMiss), hn::Mul(works, dot(miss, miss))));
+  const Three<V> bend = scaled(two, vector_part(p)) - g.get3(i, kRodStepRest);
+  g.set(i, kRodMiss + 3, hn::MulAdd(bend_compliance, t.x, bend.x));
+  g.set(i, kRodMiss + 4, hn::MulAdd(bend_compliance, t.y, bend.y));
+  g.set(i, kRodMiss + 5, hn::MulAdd(g.get(i, kRodStepCompliance + 2), t.z, bend.z));
+  const Three<V> lever_a = lever(l_a, g.get3(parent, kRodAxes), g.get3(parent, kRodAxes + 3), f);
+  const Three<V> lever_b = lever(l_b, g.get3(i, kRodAxes), g.get3(i, kRodAxes + 3), f);
+  g.set3(parent, kRodImpulse, g.get3(parent, kRodImpulse) - f);
+  g.set3(parent, kRodImpulse + 3, (g.get3(parent, kRodImpulse + 3) - lever_a) + bend_by_child(p, t));
+  g.set3(i, kRodImpulse, g.get3(i, kRodImpulse) + f);
+  g.set3(i, kRodImpulse + 3, (g.get3(i, kRodImpulse + 3) - lever_b) - bend_by_parent(p, t));
+  const V moment = hn::MulAdd(t.y, t.y, hn::Mul(t.x, t.x)), bent = hn::MulAdd(p.y, p.y, hn::Mul(p.x, p.x));
+  const V roll = hn::Mul(hn::Set(d, kRollStiffness), hn::Sqrt(hn::Mul(moment, bent)));
+  stiffen(g, parent, hn::Mul(l_a, dot(f, z_a)), roll);
+  stiffen(g, i, hn::Mul(l_b, dot(f, z_b)), roll);
+}
+
+template <class G>
+HWY_INLINE void linearise(const G& g, const RodJob& job) {
+  g.set_lane(kLaneHeldMiss, hn::Zero(hn::DFromV<typename G::V>()));
+  for (size_t i = 0; i < job.segments; ++i) linearise_segment(g, i);
+  for (size_t i = 1; i < job.segments; ++i) linearise_joint(g, i, job.parents[i]);
+}
+
+// Takes the changes in kRodImpulse and kRodMiss over, shortened where a segment would turn too far; strands
+// that had converged stay as they were. Returns how many are not converged now.
+template <class G>
+HWY_INLINE uint32_t apply_changes(const G& g, const RodJob& job, typename G::V largest_square) {
+  using V = typename G::V;
+  const hn::DFromV<V> d;
+  const V zero = hn::Zero(d), one = hn::Set(d, 1), most = hn::Set(d, kRodLargestTurn_rad);
+  const auto active = hn::Gt(g.lane(kLaneActive), zero);
+  const V turn = hn::Sqrt(largest_square);
+  const V share = hn::Div(most, hn::Max(most, turn));
+  for (size_t i = 0; i < job.segments; ++i) {
+    const auto moves = hn::And(active, g.free(i));
+    const Three<V> move = scaled_sum(share, g.get3(i, kRodImpulse), g.get3(i, kRodMove));
+    const Four<V> q = g.get4(i, kRodNow);
+    g.set3(i, kRodMove, choose(moves, move, g.get3(i, kRodMove)));
+    g.set4(i, kRodNow, choose(moves, turned(q, scaled(share, g.get3(i, kRodImpulse + 3))), q));
+    for (uint32_t k = 0; i > 0 && k < 6; ++k) {
+      const V force = g.get(i, kRodForceNow + k);
+      g.set(i, kRodForceNow + k,
+            hn::IfThenElse(active, hn::MulAdd(share, g.get(i, kRodMiss + k), force), force));
+    }
+  }
+  g.set_lane(kLaneLargestTurn, hn::IfThenElse(active, turn, g.lane(kLaneLargestTurn)));
+  g.set_lane(kLaneIterations, hn::Add(g.lane(kLaneIterations), hn::IfThenElseZero(active, one)));
+  // Also false where the turn is not a number: finish() reports that strand.
+  const V left = hn::Max(turn, hn::Sqrt(g.lane(kLaneHeldMiss)));
+  const auto goes_on = hn::And(active, hn::Gt(left, hn::Set(d, job.tolerance_rad)));
+  g.set_lane(kLaneActive, hn::IfThenElseZero(goes_on, one));
+  return static_cast<uint32_t>(hn::CountTrue(d, goes_on));
+}
+
+}  // namespace sinew::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();

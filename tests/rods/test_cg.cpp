@@ -1,0 +1,74 @@
+// test_cg.cpp  Conjugate gradients reach what the direct solver reaches.
+#include <catch2/catch.hpp>
+
+#include "tests/rods/rod_scenes.hpp"
+
+using namespace sinew;
+
+namespace {
+
+constexpr float kDt_s = 0.02f;
+
+test::RodBatch batch_by(rods::RodSolver solver, const std::vector<test::Segments>& strands) {
+  return test::batch_of(
+      strands, {.solver = solver, .max_iterations = 100, .tolerance_rad = 1e-4f, .cg_tolerance = 1e-5f});
+}
+
+// Of a segment's length after some steps; single precision through two different orders of sums.
+double largest_difference(const test::Segments& segments, int steps = 50) {
+  test::RodBatch direct = batch_by(rods::RodSolver::kDirect, {segments});
+  test::RodBatch cg = batch_by(rods::RodSolver::kCg, {segments});
+  double largest = 0;
+  for (int i = 0; i < steps; ++i) {
+    test::step(direct, kDt_s);
+    const test::RodReport report = test::step(cg, kDt_s);
+    REQUIRE(report.unconverged == 0);
+    REQUIRE(report.cg_iterations > 0);
+  }
+  for (uint32_t i = 0; i < segments.size(); ++i) {
+    largest = std::max(largest, test::distance(direct.pose(0, i).position_m, cg.pose(0, i).position_m) /
+                                    static_cast<double>(segments[i].length_m));
+  }
+  return largest;
+}
+
+}  // namespace
+
+TEST_CASE("cg_takes_the_steps_that_direct_takes") {
+  CHECK(largest_difference(test::straight_rod({.segments = 10, .young_pa = 1e5f})) < 1e-3);
+  CHECK(largest_difference(test::helix(12, 0.1, 1e5f)) < 1e-3);
+}
+
+TEST_CASE("cg_takes_the_steps_that_direct_takes_where_rods_branch_or_are_held_twice") {
+  test::Segments rod = test::helix(12, 0.1, 1e5f);
+  test::SegmentDef twig = rod[6];  // beside its twin, lighter
+  twig.density_kg_m3 = 300;
+  rod.push_back(twig);
+  CHECK(largest_difference(rod) < 1e-3);
+  rod[10].fixed = rod[11].fixed = true;
+  CHECK(largest_difference(rod, 10) < 1e-3);
+}
+
+TEST_CASE("a_strand_in_cg_does_not_know_of_its_neighbours") {
+  const test::Segments soft = test::helix(8, 0.1, 1e3f), stiff = test::helix(8, 0.1, 1e7f);
+  test::RodBatch both = batch_by(rods::RodSolver::kCg, {soft, stiff}),
+                 alone = batch_by(rods::RodSolver::kCg, {soft});
+  for (int i = 0; i < 20; ++i) {
+    test::step(both, kDt_s);
+    test::step(alone, kDt_s);
+  }
+  for (uint32_t i = 0; i < 8; ++i) {
+    CHECK(test::distance(both.pose(0, i).position_m, alone.pose(0, i).position_m) == 0);
+  }
+}
+
+TEST_CASE("cg_needs_more_iterations_for_longer_rods") {
+  const auto iterations = [](uint32_t segments) {
+    test::RodBatch batch =
+        batch_by(rods::RodSolver::kCg, {test::straight_rod({.segments = segments, .young_pa = 1e6f})});
+    uint32_t sum = 0;
+    for (int i = 0; i < 10; ++i) sum += test::step(batch, kDt_s).cg_iterations;
+    return sum;
+  };
+  CHECK(iterations(30) > 2 * iterations(10));
+}

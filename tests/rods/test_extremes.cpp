@@ -1,0 +1,104 @@
+// test_extremes.cpp  The ends of every range: bounded, finite, recovered.
+#include <catch2/catch.hpp>
+
+#include "tests/pack/count_allocations.hpp"
+#include "tests/rods/rod_scenes.hpp"
+
+using namespace sinew;
+
+namespace {
+
+constexpr double kHeld = 1e-3;  // stretch that is left where iterations end at their cap
+
+// Falls for a while; the number of strands that had to be put back.
+uint32_t fall(test::RodBatch& batch, const test::Segments& segments, int steps, float dt_s) {
+  uint32_t recovered = 0;
+  for (int i = 0; i < steps; ++i) recovered += test::step(batch, dt_s).recovered;
+  CHECK(test::largest_stretch(batch, segments) < kHeld);
+  return recovered;
+}
+
+}  // namespace
+
+TEST_CASE("rods_of_two_and_of_two_thousand_segments_fall") {
+  for (const uint32_t count : {2u, 2000u}) {
+    for (const float young : {1e4f, 1e9f}) {
+      const test::Segments rod = test::straight_rod({.segments = count, .young_pa = young});
+      test::RodBatch batch = test::batch_of({rod});
+      INFO(count << " segments, E " << young);
+      CHECK(fall(batch, rod, 100, 0.02f) == 0);
+    }
+  }
+}
+
+TEST_CASE("rods_of_a_millimetre_and_of_a_hundred_metres_fall") {
+  for (const double length : {1e-3, 1.0, 100.0}) {
+    for (const float young : {1e2f, 1e6f, 1e12f}) {
+      const test::Segments rod = test::straight_rod({.segments = 40,
+                                                     .young_pa = young,
+                                                     .length_m = length,
+                                                     .radius_m = static_cast<float>(length / 400)});
+      test::RodBatch batch = test::batch_of({rod});
+      INFO(length << " m, E " << young);
+      CHECK(fall(batch, rod, 100, 0.02f) == 0);
+      // What hangs cannot be further away than it is long.
+      CHECK(test::distance(test::end_of(batch, rod, 39), test::end_of(batch, rod, 0)) < length * 1.001);
+    }
+  }
+}
+
+TEST_CASE("masses_of_one_to_a_million_fall_either_way_round") {
+  for (const bool heavy_tip : {true, false}) {
+    test::Segments rod = test::straight_rod({.segments = 20, .young_pa = 1e6f});
+    rod[heavy_tip ? 19 : 1].density_kg_m3 = 1e9f;
+    test::RodBatch batch = test::batch_of({rod});
+    INFO((heavy_tip ? "heavy tip" : "heavy root"));
+    CHECK(fall(batch, rod, 200, 0.01f) == 0);
+  }
+}
+
+TEST_CASE("a_root_that_jumps_within_a_step_pulls_its_rod_along") {
+  const test::Segments rod = test::straight_rod({.segments = 30, .young_pa = 1e5f});
+  test::RodBatch batch = test::batch_of({rod});
+  for (int i = 0; i < 50; ++i) {
+    rods::SegmentPose target = batch.pose(0, 0);
+    target.position_m[2] += i % 2 ? -2.0 : 2.0;  // half its length, at 100 m/s
+    REQUIRE(batch.set_target(0, 0, target).ok());
+    CHECK(test::step(batch, 0.02f).recovered == 0);
+  }
+  CHECK(fall(batch, rod, 100, 0.02f) == 0);
+}
+
+TEST_CASE("a_rod_thrown_with_impossible_speed_comes_to_its_senses") {
+  const test::Segments rod = test::straight_rod({.segments = 20, .young_pa = 1e6f});
+  test::RodBatch batch = test::batch_of({rod});
+  for (uint32_t i = 1; i < 20; ++i) {
+    REQUIRE(batch.set_velocity(0, i, {{0, 1e4f, i % 2 ? 1e4f : -1e4f}, {1e4f, 0, 1e4f}}).ok());
+  }
+  fall(batch, rod, 200, 0.02f);
+  const double fallen = 20 * rods::segment_inertia(rod[0]).mass_kg * 9.81 * 4;
+  for (int i = 0; i < 2000; ++i) test::step(batch, 0.02f);
+  CHECK(test::energy(batch, rod, 9.81).kinetic_j < fallen);
+}
+
+TEST_CASE("a_rod_held_twice_too_far_apart_stays_finite_and_comes_back") {
+  test::Segments rod = test::straight_rod({.segments = 20, .young_pa = 1e6f});
+  rod.back().fixed = true;
+  test::RodBatch batch = test::batch_of({rod});
+  rods::SegmentPose target = batch.pose(0, 19), back = target;
+  target.position_m[0] += 0.5;  // the rod is 4 m long and does not stretch
+  REQUIRE(batch.set_target(0, 19, target).ok());
+  for (int i = 0; i < 50; ++i) test::step(batch, 0.02f);
+  back.position_m[0] -= 0.1;
+  REQUIRE(batch.set_target(0, 19, back).ok());
+  for (int i = 0; i < 200; ++i) test::step(batch, 0.02f);
+  CHECK(test::largest_stretch(batch, rod) < kHeld);
+}
+
+TEST_CASE("a_step_allocates_nothing") {
+  test::RodBatch batch = test::batch_of(std::vector<test::Segments>(20, test::helix(16)));
+  test::step(batch, 0.02f);
+  const size_t before = test::allocation_count();
+  for (int i = 0; i < 10; ++i) test::step(batch, 0.02f);
+  CHECK(test::allocation_count() == before);
+}
