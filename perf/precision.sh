@@ -19,14 +19,21 @@ body=$data/${BODY:-momo}
 
 packs=$(mktemp -d)
 trap 'rm -rf "$packs"' EXIT
+bake_as() {  # NAME PRECISION [--calibrate ...]
+  "$bake" character "$body/body.glb" --recipe "$body/tissue.json" --tissue "$weights" --precision "$2" "${@:3}" \
+    -o "$packs/$name.$1.sinew" >/dev/null
+}
+worst=0
 for weights in ${WEIGHTS:-assets/weights/creature.safetensors assets/weights/creature_wide.safetensors}; do
   name=$(basename "$weights" .safetensors)
   for precision in fp32 fp16 int8; do
     calibrate=()
     [ $precision = int8 ] && for motion in "$body"/validation-*.safetensors; do calibrate+=(--calibrate "$motion"); done
-    "$bake" character "$body/body.glb" --recipe "$body/tissue.json" --tissue "$weights" --precision $precision "${calibrate[@]}" \
-      -o "$packs/$name.$precision.sinew" >/dev/null
+    bake_as $precision $precision "${calibrate[@]}"
   done
+  bake_as int8_by_vectors int8
   echo "$weights"
-  "$bake" judge "$packs/$name".{fp32,fp16,int8}.sinew --truth "$body"/{test,long}-*.safetensors --ticks 10 50 100 200 600 --most-added 0.1
+  "$bake" judge "$packs/$name".{fp32,fp16,int8,int8_by_vectors}.sinew --truth "$body"/{test,long}-*.safetensors \
+    --ticks 10 50 100 200 600 --most-added 0.1 || worst=$?
 done
+exit $worst

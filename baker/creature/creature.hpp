@@ -16,7 +16,7 @@ inline constexpr size_t kMostCreatureVertices = 50000;
 CreatureRecipe read_creature_recipe(const std::string& path);
 
 // A glTF 2.0 binary with about `vertices` vertices (within 10 %); 0 takes the recipe's own number. The same
-// bytes on every run. Throws BadInput: vertices outside 500 .. 50000, a body that is not one closed piece
+// bytes on every run. Throws BadInput: vertices outside 200 .. 50000, a body that is not one closed piece
 // without handles.
 std::vector<std::byte> make_creature(const CreatureRecipe& recipe, size_t vertices = 0);
 

@@ -152,7 +152,11 @@ std::vector<HeardRanges> heard_ranges(const LoadedPack& character,
       loop.tick();
       raise_layers(loop.network(), graph, loop.network_state(), &ranges);
     }
-    check_finite(ranges, path);
+    if (loop.fallbacks() > 0)
+      throw BadInput(
+          path +
+          ": the guards gave the network up along this motion, so what it hears there says little; "
+          "calibrate with others");
   }
   return ranges;
 }

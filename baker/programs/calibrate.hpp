@@ -16,12 +16,11 @@ namespace sinew::baker {
 std::vector<HeardRanges> heard_ranges(const tissue::Network& network, const Safetensors& vectors);
 
 // The same of a float32 character in closed loop along true motions. Throws BadInput as TrueMotion does, and
-// when the network leaves finite numbers.
+// when the guards give the network up.
 std::vector<HeardRanges> heard_ranges(const LoadedPack& character, std::span<const std::string> trajectories);
 
 // What a network hears in other regions, bodies and motions than the one region's that vectors hold: ranges
-// this much wider. By validation motions: the smallest power of two with which int8 adds less than a
-// twentieth to the error of both shipped networks.
+// this much wider, chosen on validation motions of the shipped networks.
 inline constexpr float kBeyondVectors = 8;
 std::vector<HeardRanges> widened(std::vector<HeardRanges> ranges, float factor);
 

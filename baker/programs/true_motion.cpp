@@ -84,6 +84,7 @@ std::vector<RootTransform> read_roots(const Safetensors& file) {
 void check_trajectory_of(const Safetensors& file, const pack::PackView& character) {
   check_version(file);
   check_rate(file, character);
+  file.need("joints", {-1, static_cast<long>(character.joints.size()), 12});
   check_nodes(file, character);
 }
 

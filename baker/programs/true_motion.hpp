@@ -10,14 +10,14 @@
 
 namespace sinew::baker {
 
-// Throws BadInput: not a trajectory of this version, of another character (control nodes, and where they
-// rest), or of another rate.
+// Throws BadInput: not a trajectory of this version, of another character (joints, control nodes, and where
+// they rest), or of another rate.
 void check_trajectory_of(const Safetensors& file, const pack::PackView& character);
 
 // T ticks after the start; immutable.
 class TrueMotion {
  public:
-  // Throws BadInput as check_trajectory_of does; and: other joints, shorter than one tick, not finite.
+  // Throws BadInput as check_trajectory_of does; and: shorter than one tick, not finite.
   TrueMotion(const Safetensors& file, const pack::PackView& character);
 
   size_t ticks() const { return roots_.size() - 1; }

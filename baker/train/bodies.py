@@ -13,7 +13,7 @@ from .safetensors import BadData
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 KEYS = ("creature", "vertices", "proportions", "radii", "tissue_recipe", "tissue")
 SMALLEST, LARGEST = 0.1, 10.0  # factor of a proportion or radius
-FEWEST_VERTICES, MOST_VERTICES = 500, 50000  # of sinew-bake creature
+FEWEST_VERTICES, MOST_VERTICES = 200, 50000  # of sinew-bake creature
 TISSUE_KEYS = (  # of a tissue recipe, see baker/mesh/recipe.hpp
     "young_soft_pa",
     "young_stiff_pa",

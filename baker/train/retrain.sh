@@ -21,20 +21,21 @@ bake=$build/bin/sinew-bake
 
 began=$(date +%s)
 done_with() { echo "retrain.sh: after $((($(date +%s) - began) / 60)) min: $*"; }
-pace=
-trainer() { $pace "$python" "$root/baker/train" "$@"; }
-simulate() { trainer generate --bake "$bake" --plan "${PLAN:-$root/assets/bodies/plan.json}" --out "$work/data" ${GENERATE:-} "$@"; }
+trainer() { "$python" "$root/baker/train" "$@"; }
+set -- generate --bake "$bake" --plan "${PLAN:-$root/assets/bodies/plan.json}" --out "$work/data" ${GENERATE:-}
 
 mkdir -p "$work"
-simulate --processes "${PROCESSES:-2}" --splits train validation
+trainer "$@" --processes "${PROCESSES:-2}" --splits train validation
 done_with "data to train on"
-pace="nice -n 15" simulate --processes 1 > "$work/generate.log" 2>&1 &   # what judging needs, behind the training
+# What judging needs, behind the training. Not by trainer(): $! of a function is a shell's, which dies alone.
+nice -n 15 "$python" "$root/baker/train" "$@" --processes 1 > "$work/generate.log" 2>&1 &
 judged=$!
 pids=
+trap 'kill $pids $judged 2>/dev/null || :; exit 2' INT TERM
 for network in $networks; do
   for seed in ${SEEDS:-0}; do
     run=${network%=*}.$seed channels=${network#*=} minutes=${network##*:}
-    trainer train "$work/data" --out "$work/$run" --channels "${channels%:*}" --seed "$seed" --minutes "$minutes" --device auto ${TRAIN:-} \
+    "$python" "$root/baker/train" train "$work/data" --out "$work/$run" --channels "${channels%:*}" --seed "$seed" --minutes "$minutes" --device auto ${TRAIN:-} \
       > "$work/$run.log" 2>&1 &
     pids="$pids $!"
   done

@@ -50,7 +50,7 @@ HWY_INLINE Vector3 rotation_vector(const Vector3& v) {
 }
 
 // R turned back by (v, w): R (1 + 2 w [b]x + 2 [b]x^2), b = -v.
-HWY_INLINE void turn_back(const Vector3& v, Vector (&r)[9]) {
+HWY_INLINE void turn_frame_back(const Vector3& v, Vector (&r)[9]) {
   const Floats d;
   const Vector one = hn::Set(d, 1);
   const Vector w = hn::Sqrt(hn::Sub(one, dot(v, v)));
@@ -85,7 +85,7 @@ void share_bend(const BendJob& job) {
     Vector r[9];
     load_frames(job, first, r);
     const Vector3 v = quarter_turn(job.held, r);
-    turn_back(v, r);
+    turn_frame_back(v, r);
     store_frames(job, first, r, rotation_vector(v));
   }
 }

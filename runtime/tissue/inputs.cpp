@@ -144,22 +144,24 @@ Vectors vector_values(InputKind kind, const NodeSources& sources, const Motion& 
   return {};
 }
 
-// Before scales. Returns the input's width.
-uint32_t put_values(InputKind kind, const NodeSources& sources, const Motion& motion, const Block& block,
-                    Column* to) {
+uint32_t width_of(InputKind kind) {
+  return kind == InputKind::kStiffness || kind == InputKind::kFrequency ? 1 : 3;
+}
+
+// Before scales.
+void put_values(InputKind kind, const NodeSources& sources, const Motion& motion, const Block& block,
+                Column* to) {
   if (kind == InputKind::kStiffness) {
-    take(block, &sources.nodes->stiffness, kNodeStride, *to);
-    return 1;
+    return take(block, &sources.nodes->stiffness, kNodeStride, *to);
   }
   if (kind == InputKind::kFrequency) {
     std::ranges::fill(*to, sources.first_rad_per_s * sources.tick_s);
-    return 1;
+    return;
   }
   const Vectors values = vector_values(kind, sources, motion, block);
   std::ranges::copy(values.x, to[0]);
   std::ranges::copy(values.y, to[1]);
   std::ranges::copy(values.z, to[2]);
-  return 3;
 }
 
 }  // namespace
@@ -175,18 +177,23 @@ float length_unit_m(const Network& network, const pack::RegionRecord& region) no
 uint32_t assemble_inputs(const Network& network, const NodeSources& sources, float* z) noexcept {
   alignas(64) float scale[kMostInputs] = {}, bound[kMostInputs] = {};
   alignas(64) Column columns[kMostInputs] = {};
+  size_t width = 0;
+  for (const pack::InputRecord& input : network.inputs) {
+    const uint32_t columns_of = width_of(input.kind);
+    std::fill_n(scale + width, columns_of, input.scale);
+    std::fill_n(bound + width, columns_of, input.envelope);
+    width += columns_of;
+  }
   const size_t stride = input_stride(network);
   const float unit_m = length_unit_m(network, *sources.region);
   uint32_t held = 0;
   for (uint32_t first = 0; first < sources.region->node_count; first += kBlock) {
     const Block block{first, std::min(kBlock, sources.region->node_count - first)};
     const Motion motion(sources, unit_m, block);
-    size_t column = 0;
+    Column* column = columns;
     for (const pack::InputRecord& input : network.inputs) {
-      const uint32_t width = put_values(input.kind, sources, motion, block, columns + column);
-      std::fill_n(scale + column, width, input.scale);
-      std::fill_n(bound + column, width, input.envelope);
-      column += width;
+      put_values(input.kind, sources, motion, block, column);
+      column += width_of(input.kind);
     }
     held += simd::kernels().hold_columns({columns[0], scale, bound, z + stride * first, stride, block.count});
   }

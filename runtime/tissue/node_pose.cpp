@@ -3,10 +3,14 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cstddef>
 
 #include "simd/kernels.hpp"
 
 namespace sinew::tissue {
+
+// As the kernel writes them.
+static_assert(offsetof(NodePose, rotation) == 3 * sizeof(float));
 
 void pose_nodes(std::span<const pack::NodeRecord> nodes, const float* skin, const float root_rotation_xyzw[4],
                 NodePose* out) noexcept {

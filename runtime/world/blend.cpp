@@ -22,12 +22,6 @@ void copy(const Instance& instance, const float* from, float* to) noexcept {
   std::memcpy(to, from, sizeof(float) * floats_of(instance));
 }
 
-// turn: along_flesh or along_frame, by the newest frames. from, to: [nodes][3].
-void for_each_node(const Instance& instance, decltype(&tissue::along_flesh) turn, const float* from,
-                   float* to) noexcept {
-  turn(instance.poses[0], from, instance.asset->node_count(), to);
-}
-
 void begin_tail(Instance& instance, float velocity_kept) noexcept {
   copy(instance, instance.shown[0], instance.tail);
   for (size_t i = 0; i < floats_of(instance); ++i) {
@@ -42,7 +36,8 @@ void begin_simulation(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   pose_at_start(instance);
   for (int tick = 0; tick < 2; ++tick)
-    for_each_node(instance, tissue::along_frame, instance.shown[tick], instance.u[tick]);
+    tissue::along_frame(instance.poses[0], instance.shown[tick], instance.asset->node_count(),
+                        instance.u[tick]);
   state.motion_stale = 1;
   state.clamped_ticks = 0;
   state.blend_ticks = state.untouched ? kBlendInTicks : 0;
@@ -123,7 +118,8 @@ void show_tick(Instance& instance) noexcept {
   const float simulated = instance.simulated_share();
   const float tail = (1 - simulated) * instance.tail_share();
   copy(instance, instance.shown[0], instance.shown[1]);
-  if (simulated > 0) for_each_node(instance, tissue::along_flesh, instance.u[0], instance.shown[0]);
+  if (simulated > 0)
+    tissue::along_flesh(instance.poses[0], instance.u[0], instance.asset->node_count(), instance.shown[0]);
   if (simulated == 1) return;
   for (size_t i = 0; i < floats_of(instance); ++i) {
     instance.shown[0][i] = simulated * instance.shown[0][i] + tail * instance.tail[i];

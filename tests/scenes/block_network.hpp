@@ -10,7 +10,7 @@ namespace sinew::scenes {
 
 baker::Safetensors block_network(const BlockOptions& options);
 
-// What its hidden layer hears at most: cells within +-1 that leak by a fifth a tick.
+// What its hidden layer hears at most: cells within +-1, of which y, their sum, forgets a fifth a tick.
 std::vector<baker::HeardRanges> block_ranges();
 
 }  // namespace sinew::scenes

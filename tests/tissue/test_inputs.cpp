@@ -20,8 +20,9 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr uint32_t kNodes = 3;
 
 struct Fixture {
-  explicit Fixture(std::vector<pack::InputRecord> inputs)
-      : packed(test::plain_record(), {{width_of(inputs),
+  explicit Fixture(std::vector<pack::InputRecord> inputs, uint32_t node_count = kNodes)
+      : count(node_count),
+        packed(test::plain_record(), {{width_of(inputs),
                                        3,
                                        std::vector<float>(width_of(inputs) * 12),
                                        {},
@@ -34,8 +35,8 @@ struct Fixture {
     region.center_m[1] = 2;
     region.center_m[2] = 3;
     region.radius_m = 2;
-    region.node_count = kNodes;
-    for (uint32_t n = 0; n < kNodes; ++n) {
+    region.node_count = count;
+    for (uint32_t n = 0; n < count; ++n) {
       nodes.push_back({{static_cast<float>(n), 4, 5},
                        {0, static_cast<float>(n), 1},
                        0.25f * static_cast<float>(n),
@@ -61,7 +62,7 @@ struct Fixture {
   }
   uint32_t assemble() {
     const tissue::Network network = packed.view();
-    test::Floats rows(kNodes * tissue::input_stride(network), 99.0f);
+    test::Floats rows(count * tissue::input_stride(network), 99.0f);
     const uint32_t clamps = tissue::assemble_inputs(network,
                                                     {.region = &region,
                                                      .nodes = nodes.data(),
@@ -77,16 +78,17 @@ struct Fixture {
     z = rows.copy();
     return clamps;
   }
+  uint32_t count;
   test::PackedNetwork packed;
   pack::RegionRecord region{};
   std::vector<pack::NodeRecord> nodes;
-  std::vector<float> drive = std::vector<float>(kNodes * tissue::kNodeDriveWidth);
-  std::vector<float> l = std::vector<float>(kNodes * 3), l_before = l, l_hat = l, felt = l, theta = l;
+  std::vector<float> drive = std::vector<float>(count * tissue::kNodeDriveWidth);
+  std::vector<float> l = std::vector<float>(count * 3), l_before = l, l_hat = l, felt = l, theta = l;
   std::vector<float> z;
 };
 
 std::vector<float> row(const Fixture& fixture, size_t node, size_t count) {
-  const size_t stride = fixture.z.size() / kNodes;
+  const size_t stride = fixture.z.size() / fixture.count;
   return {fixture.z.begin() + static_cast<long>(node * stride),
           fixture.z.begin() + static_cast<long>(node * stride + count)};
 }
@@ -179,4 +181,30 @@ TEST_CASE("assemble_inputs_tells_the_base_s_terms_in_length_units_and_radians") 
   REQUIRE(fixture.assemble() == 0);
   const std::vector<float> values = row(fixture, 1, 10), want = {1.5f, 2, 2.5f, 6, 8, 10, -3, -4, -5, 1.25f};
   for (size_t k = 0; k < want.size(); ++k) CHECK(values[k] == Approx(want[k]).epsilon(1e-6));
+}
+
+// Sixteen nodes are assembled at a time; what a node is fed does not depend on how many there are.
+TEST_CASE("a_node_is_fed_the_same_in_a_region_of_any_size") {
+  std::vector<pack::InputRecord> inputs;
+  for (const InputKind kind :
+       {InputKind::kRestPosition, InputKind::kRestNormal, InputKind::kStiffness, InputKind::kFeltStep,
+        InputKind::kVelocity, InputKind::kTurnedForce, InputKind::kFrequency, InputKind::kSpunStep})
+    inputs.push_back({kind, 1e-3f, 1, 0});
+  Fixture largest(inputs, 40);
+  largest.assemble();
+  const size_t width = Fixture::width_of(inputs);
+  for (const uint32_t nodes : {1u, 15u, 16u, 17u, 39u}) {
+    Fixture fixture(inputs, nodes);
+    fixture.assemble();
+    for (uint32_t n = 0; n < nodes; ++n) REQUIRE(row(fixture, n, width) == row(largest, n, width));
+  }
+  REQUIRE(row(largest, 39, width) != row(largest, 38, width));
+}
+
+TEST_CASE("what_is_clamped_is_counted_in_every_block_of_nodes") {
+  Fixture fixture({{InputKind::kGravityChange, 1, 1, 0}}, 40);
+  std::fill(fixture.drive.begin(), fixture.drive.end(), 0.0f);
+  for (const size_t node : {0u, 15u, 16u, 31u, 32u, 39u})
+    fixture.drive[node * tissue::kNodeDriveWidth + 4] = 7;
+  REQUIRE(fixture.assemble() == 6);
 }

@@ -33,7 +33,7 @@ Difference difference_to_float32(pack::Precision precision) {
 }  // namespace
 
 // As shares of the largest displacement, three times what is seen: 8e-5 of halves, 0.002 of bytes. The
-// block's hidden layer has no memory, so only the rounding of what it hands on adds up.
+// block's cells have no memory and y leaks by a fifth a tick, so rounding hardly adds up.
 TEST_CASE("reduced_precision_stays_near_float32_over_five_seconds") {
   for (const auto& [precision, most] :
        {std::pair(pack::Precision::kHalfStates, 2.4e-4), std::pair(pack::Precision::kInt8, 0.006)}) {
@@ -73,6 +73,7 @@ TEST_CASE("every_precision_has_the_same_bits_on_all_targets_with_fma") {
       stage.play(scenes::walk, 2);
       hashes.push_back(test::hash_of(stage.read()));
     });
+    if (hashes.size() < 2) WARN("one instruction set with FMA on this machine: nothing to compare");
     for (const uint64_t hash : hashes) CHECK(hash == hashes.front());
   }
 }

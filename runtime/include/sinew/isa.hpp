@@ -1,9 +1,9 @@
 // isa.hpp  Which instruction set the runtime computes with. Needs status.hpp.
 //
 // Chosen once, at first use: the one that the environment variable SINEW_ISA names, or the best the processor
-// has when it names none. One that is not available is refused by World::create and sinew-bake, which look at
-// the environment; what runs without them uses the best. Targets with fused multiply-adds (avx3_vnni, avx3,
-// avx2, neon) give the same bits.
+// has when it names none. One that is not available is refused by World::create, and by `sinew-bake check` and
+// `judge`; what runs without them uses the best. Targets with fused multiply-adds (avx3_vnni, avx3, avx2,
+// neon_dot, neon) give the same bits.
 #pragma once
 #include <span>
 
@@ -16,8 +16,8 @@ namespace sinew {
 std::span<const char* const> available_isas() noexcept;
 const char* active_isa() noexcept;
 
-// For all worlds of the process. Call it while none of them steps. An unknown or missing name, or null:
-// kUnsupported, listing the available; nothing changes. Costs nothing afterwards.
+// For all worlds of the process, whatever SINEW_ISA says. Call it while none of them steps. An unknown or
+// missing name, or null: kUnsupported, listing the available; nothing changes. Costs nothing afterwards.
 Status force_isa(const char* name) noexcept;
 
 }  // namespace sinew

@@ -16,7 +16,7 @@ using test::shipped_recipe;
 
 TEST_CASE("creatures_that_cannot_be_made_are_refused") {
   CHECK_THROWS_WITH(baker::make_creature(shipped_recipe(), 199), Catch::Contains("200 .. 50000"));
-  CHECK_THROWS_WITH(baker::make_creature(shipped_recipe(), 50001), Catch::Contains("500 .. 50000"));
+  CHECK_THROWS_WITH(baker::make_creature(shipped_recipe(), 50001), Catch::Contains("200 .. 50000"));
   baker::CreatureRecipe apart = shipped_recipe();
   apart.body[0].solid.at.x() += 3;
   CHECK_THROWS_WITH(baker::make_creature(apart, 500), Catch::Contains("2 pieces"));

@@ -47,7 +47,7 @@ TEST_CASE("wrong_creature_recipes_are_refused_by_place_and_key") {
 
   const std::vector<std::pair<std::function<void(json&)>, std::string>> faults = {
       {[](json& r) { r["verticse"] = 1; }, "did you mean \"vertices\""},
-      {[](json& r) { r["vertices"] = 100; }, "500 .. 50000"},
+      {[](json& r) { r["vertices"] = 100; }, "200 .. 50000"},
       {[](json& r) { r["joints"] = json::array(); }, "at least one joint"},
       {[](json& r) { r["joints"][3]["parent"] = "nobody"; }, "joints[3]: \"parent\""},
       {[](json& r) { r["joints"][2]["name"] = "pelvis"; }, "is taken"},

@@ -20,7 +20,7 @@ void must(const ProgramResult& result) {
   REQUIRE(result.exit_code == 0);
 }
 
-// The creature at its coarsest with the shipped weights in every precision, and 50 ticks of a hop that no
+// A coarse creature with the shipped weights in every precision, and 50 ticks of a hop that no
 // training saw. Made once: the truth is the slow part.
 struct Hop {
   TemporaryFolder folder;
@@ -177,4 +177,19 @@ TEST_CASE("int8_takes_its_scales_from_true_motions_in_closed_loop") {
       packed("no", {"--calibrate", changed_truth("node.rest_position", [](auto& v) { v[0] += 1; })}),
       {"control node 0 is not where"});
   CHECK(!std::filesystem::exists(hop().pack("no")));
+}
+
+// An output that overshoots wildly: nodes stand at their limit for more than a second, which the guards do
+// not allow.
+TEST_CASE("a_motion_on_which_the_network_is_given_up_calibrates_nothing") {
+  Safetensors wild = read_safetensors(kAssets + "weights/creature.safetensors");
+  wild.metadata["output_scale"] = "1000";
+  const std::string path = hop().folder.file("wild.safetensors"), out = hop().folder.file("wild.sinew");
+  const std::string truth = hop().folder.file("longer.safetensors");
+  write_safetensors(path, wild);
+  must(bake({"truth", hop().glb, "--recipe", hop().recipe, "--motion", "clip:hop", "--seconds", "1.2", "-o",
+             truth}));
+  check_refused({"character", hop().glb, "--recipe", hop().recipe, "--tissue", path, "-o", out, "--precision",
+                 "int8", "--calibrate", truth},
+                {truth, "gave the network up", "calibrate with others"});
 }
