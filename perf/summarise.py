@@ -24,7 +24,7 @@ RATIOS = [
     ("alt_conv_lstm_fp16_creature_wide", "alt_conv_lstm_creature_wide", "", ""),
     ("alt_conv_lstm_int8_creature_wide", "alt_conv_lstm_creature_wide", "", ""),
     ("deep_emulator_chains", "onednn_sgemm_deep_emulator", "1.3", "1.1"),
-    ("deep_emulator_step", "onednn_sgemm_deep_emulator", "1.3", "1.1"),
+    ("deep_emulator_step", "onednn_sgemm_deep_emulator", "", ""),
     ("eigen_products_paper", "alt_conv_lstm_paper", "", ""),
     ("pytorch_paper", "alt_conv_lstm_paper", "5", "6"),
     ("pytorch_paper", "alt_conv_lstm_int8_paper", "14", "20"),

@@ -13,6 +13,15 @@ namespace sinew::baker {
 
 namespace {
 
+// Networks of chains have no states to keep as halves, and no int8 form yet.
+void check_precision(const Safetensors& weights, pack::Precision precision) {
+  const pack::ModelKind model = model_of(weights);
+  if (precision == pack::Precision::kFloat32 || model == pack::ModelKind::kAltConvLstm) return;
+  throw BadInput(weights.path + ": a " + pack::kModelNames[static_cast<uint32_t>(model)] +
+                 " runs in fp32 only; leave --precision " +
+                 pack::kPrecisionNames[static_cast<uint32_t>(precision)] + " out");
+}
+
 LoadedPack pack_network(const Safetensors& weights, pack::Precision precision,
                         std::span<const HeardRanges> ranges) {
   PackWriter writer(pack::FileKind::kModel);
@@ -21,15 +30,6 @@ LoadedPack pack_network(const Safetensors& weights, pack::Precision precision,
   else
     add_chains(weights, writer);
   return LoadedPack::from_bytes(writer.finish(), weights.path);
-}
-
-// Networks of chains have no states to keep as halves, and no int8 form yet.
-void check_precision(const Safetensors& weights, pack::Precision precision) {
-  const pack::ModelKind model = model_of(weights);
-  if (precision == pack::Precision::kFloat32 || model == pack::ModelKind::kAltConvLstm) return;
-  throw BadInput(weights.path + ": a " + pack::kModelNames[static_cast<uint32_t>(model)] +
-                 " runs in fp32 only; leave --precision " +
-                 pack::kPrecisionNames[static_cast<uint32_t>(precision)] + " out");
 }
 
 }  // namespace
@@ -54,12 +54,12 @@ LoadedPack LoadedPack::from_bytes(std::span<const std::byte> bytes, const std::s
 LoadedPack LoadedPack::from_weights(const std::string& path, pack::Precision precision,
                                     const std::string& calibration) {
   const Safetensors weights = read_safetensors(path);
-  check_precision(weights, precision);
   return pack_network(weights, precision, ranges_for(weights, precision, calibration));
 }
 
 std::vector<HeardRanges> ranges_for(const Safetensors& weights, pack::Precision precision,
                                     const std::string& calibration) {
+  check_precision(weights, precision);
   if (precision != pack::Precision::kInt8) return {};
   const LoadedPack floats = pack_network(weights, pack::Precision::kFloat32, {});
   const std::string vectors = calibration.empty() ? vectors_beside(weights.path) : calibration;

@@ -54,7 +54,7 @@ void deep_emulator(benchmark::State& state) {
 }
 BENCHMARK(deep_emulator)->Name("deep_emulator_step")->Unit(benchmark::kMicrosecond);
 
-// Strands of 16 segments, in runs of so many strands.
+// Strands of 16 segments, evaluated some at a time.
 struct Strands {
   static constexpr uint32_t kCount = 1000, kSegments = 16;
   Strands() : rows(kNodes + 1), ends(2 * size_t{kEdges}), ones(ends.size()) {

@@ -50,8 +50,8 @@ void onednn_sgemm(benchmark::State& state, const NetworkShape& shape) {
   report(state, product_mflop(shape), "oneDNN");
 }
 
-// The products of each chain, layer after layer: what deep_emulator_chains and deep_emulator_step are compared
-// with.
+// The products of each chain, layer after layer: what deep_emulator_chains and deep_emulator_step are
+// compared with.
 void onednn_sgemm_chains(benchmark::State& state, const std::vector<ChainProducts>& chains) {
   constexpr size_t kRows = size_t{kPatches} * kNeighbours, kWidest = pack::kDeepWidest;
   Floats x = random_floats(kRows * kWidest, 1), w = random_floats(kWidest * kWidest * 15, 0.1f),

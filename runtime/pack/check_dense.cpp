@@ -1,5 +1,4 @@
 // check_dense.cpp  A network of chains: its record, its dense layers and their weights agree with each other.
-#include <algorithm>
 
 #include "core/status.hpp"
 #include "pack/checks.hpp"

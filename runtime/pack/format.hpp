@@ -147,8 +147,8 @@ struct NetworkRecord {
   float length_unit;      // of y: in a character a share of each region's radius, else metres; 1 in the
                           // paper's wiring
   Precision precision;
-  uint32_t blocks;        // of kCopingNet, whose latent width is max_channels; else 0
-  uint32_t depth;         // of kCopingNet: hidden layers of each chain; else 0
+  uint32_t blocks;  // of kCopingNet, whose latent width is max_channels; else 0
+  uint32_t depth;   // of kCopingNet: hidden layers of each chain; else 0
   uint32_t reserved[3];
 };
 static_assert(sizeof(NetworkRecord) == 64);
@@ -178,8 +178,8 @@ static_assert(sizeof(LayerRecord) == 64);
 // DeepEmulator (CVPR 2021, Eq. 5), tanh between layers; its equations: tissue/deep_emulator.hpp. COPINGNet
 // (Shao et al. 2021, Sec. 3), max(0, x) between layers; its equations: rods/coping_net.hpp. Behind its layers
 // stand norm.node and norm.edge, >= 0, 6 numbers each in 16. In their NetworkRecord layer_count counts
-// kDense, max_channels is the widest layer, rate_hz is 0 for kCopingNet, the precision is float32, and what
-// is Alt-ConvLSTM's own is 0.
+// kDense, max_channels is the widest layer (of kCopingNet the latent width), rate_hz is 0 for kCopingNet, the
+// precision is float32, and what is Alt-ConvLSTM's own is 0.
 struct DenseRecord {
   uint32_t inputs;
   uint32_t outputs;

@@ -29,7 +29,8 @@ struct CopingNet {  // views into a pack; trivially copyable
   const float* weights = nullptr;
 };
 
-// Segments and what joins them. Each edge stands once; its sender is the lower segment.
+// Segments and what joins them. The caller sees to it that each edge stands once, its sender the lower
+// segment.
 struct RodGraph {
   uint32_t node_count = 0, edge_count = 0;
   const uint32_t* senders = nullptr;    // [edge_count]

@@ -101,7 +101,8 @@ struct MlpJob {
   RowPart start{};  // [padded] rows that take the place of the first layer's bias; null: the bias
   Pointwise between = Pointwise::kNone, last = Pointwise::kNone;
   const float* scale = nullptr;  // [padded] of the last layer, or null: 1
-  bool adds = false;             // out is added to; it may be a part too, where there are two layers or more
+  bool adds = false;             // out is added to; it may be a part too, read without an index and without
+                                 // out_index, where there are two layers or more
   float* out = nullptr;          // [rows][out_stride] [padded]
   size_t out_stride = 0;
   const uint32_t* out_index = nullptr;  // the row of out that row i is for, or null: i

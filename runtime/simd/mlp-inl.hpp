@@ -6,7 +6,7 @@
 //
 // Rows go by kRangeNodes through the whole chain, so that what is hidden, 2 kRangeNodes x the widest layer
 // (72 KB for 192), stays in L1 and L2. A layer's weights lie in panels of pack::kPanel columns, each read
-// from one end to the other (at most 48 KB) for one tile of kTileRows rows after the other. Parts are read
+// (48 KB for 192 inputs) for one tile of kTileRows rows after the other. Parts are read
 // where they lie, through an index where there is one: nothing is gathered. Cost: the products', one pass
 // over each tile's block while it is in L1.
 HWY_BEFORE_NAMESPACE();

@@ -260,6 +260,20 @@ TEST_CASE("networks_of_chains_with_sections_of_another_network_or_of_the_wrong_l
   check_refused(writer.finish(), {{"which an alt_conv_lstm has not", [](PackEditor&) {}}});
 }
 
+TEST_CASE("faults_of_a_deep_emulator_are_refused_by_name") {
+  using enum SectionKind;
+  baker::PackWriter writer(FileKind::kModel);
+  baker::add_chains(test::small_deep_emulator(), writer);
+  const std::vector<std::byte> model = writer.finish();
+  REQUIRE(PackEditor(model).open().ok());
+  const auto network = [](auto apply) { return change<NetworkRecord>(kNetwork, 0, apply); };
+  check_refused(model, {{"widest layer", network([](auto& n) { n.max_channels = 191; })},
+                        {"rate", network([](auto& n) { n.rate_hz = 0; })},
+                        {"rate", network([](auto& n) { n.rate_hz = -1; })},
+                        {"rate", network([](auto& n) { n.rate_hz = kNan; })},
+                        {"blocks", network([](auto& n) { n.blocks = 1; })}});
+}
+
 TEST_CASE("network_faults_are_refused_by_name") {
   using enum SectionKind;
   const auto network = [](auto apply) { return change<NetworkRecord>(kNetwork, 0, apply); };

@@ -7,6 +7,7 @@
 #include "tests/pack/packed_model.hpp"
 #include "tests/simd/chain.hpp"
 #include "tests/simd/every_isa.hpp"
+#include "tests/simd/test_data.hpp"
 
 using namespace sinew;
 using Catch::Contains;
@@ -93,8 +94,8 @@ struct Scene {
     aligned = std::make_unique<test::Floats>(weights.size() + 32);
     std::copy(weights.begin(), weights.end(), aligned->data());
     for (size_t k = 0; k < 6; ++k) {
-      (*aligned)[weights.size() + k] = norm_node[k];
-      (*aligned)[weights.size() + 16 + k] = norm_edge[k];
+      (*aligned)[weights.size() + k] = kNormNode[k];
+      (*aligned)[weights.size() + 16 + k] = kNormEdge[k];
     }
     for (uint32_t k = 0; k < rods.nodes * 14; ++k) nodes.push_back(test::uniform(random, -1, 1));
     for (uint32_t k = 0; k < rods.edge_count() * 5; ++k) edges.push_back(test::uniform(random, -1, 1));
@@ -140,7 +141,7 @@ struct Scene {
       const std::vector<double> z = mlp(2 * (record.blocks + 1) + decoder, rows[i]);
       for (size_t k = 0; k < 6; ++k) {
         const double off = std::fabs(have[i * 6 + k] - std::tanh(z[k]) * norm[k]);
-        worst = off <= worst ? worst : off;
+        worst = test::larger(worst, off);
       }
     }
     return worst;
@@ -148,11 +149,11 @@ struct Scene {
   double difference(const Result& have) {
     Rows v = encoded(0, nodes, 14), e = encoded(1, edges, 5);
     for (size_t m = 0; m < record.blocks; ++m) plain_block(m, &v, &e);
-    return std::max(decoded_difference(0, v, norm_node, have.dp),
-                    decoded_difference(1, e, norm_edge, have.dlambda));
+    return test::larger(decoded_difference(0, v, kNormNode, have.dp),
+                        decoded_difference(1, e, kNormEdge, have.dlambda));
   }
 
-  static constexpr float norm_node[6] = {.01f, .02f, .03f, .1f, .2f, .3f}, norm_edge[6] = {1, 2, 3, 4, 5, 0};
+  static constexpr float kNormNode[6] = {.01f, .02f, .03f, .1f, .2f, .3f}, kNormEdge[6] = {1, 2, 3, 4, 5, 0};
   std::mt19937 random;
   Rods rods;
   std::vector<test::PlainChain> chains;

@@ -2,6 +2,7 @@
 #pragma once
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <random>
 #include <set>
 #include <vector>
@@ -31,6 +32,12 @@ class Floats {
 inline float uniform(std::mt19937& random, float low, float high) {
   // Not std::uniform_real_distribution: its values differ between libraries.
   return low + (high - low) * static_cast<float>(random() >> 8) * 0x1p-24f;
+}
+
+// The larger of two errors; one that is not a number is the largest.
+inline double larger(double worst, double error) {
+  if (!std::isfinite(error)) return std::numeric_limits<double>::infinity();
+  return error > worst ? error : worst;
 }
 
 // [rows][stride]: `width` random numbers a row, padding zero.

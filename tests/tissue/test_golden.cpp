@@ -98,7 +98,7 @@ struct RollOut {
     double worst = 0;
     for (size_t i = 0; i < golden.y0.size(); ++i) {
       const double off = std::fabs(y[i / 3 * 16 + i % 3] - golden.y[(t - 1) * golden.y0.size() + i]);
-      worst = off <= worst ? worst : off;
+      worst = test::larger(worst, off);
     }
     return worst;
   }
@@ -116,7 +116,7 @@ struct RollOut {
     double worst = 0;
     for (size_t i = 0; i < want.size(); ++i) {
       const double off = std::fabs(values[i / f * padded + i % f] - want[i]);
-      worst = off <= worst ? worst : off;
+      worst = test::larger(worst, off);
     }
     return worst;
   }
@@ -135,7 +135,7 @@ void check_roll_out(const std::string& name) {
     for (size_t t = 1; t <= golden.y.size() / golden.y0.size(); ++t) {
       roll_out.step(t);
       const double off = roll_out.output_error(t);
-      worst = off <= worst ? worst : off;
+      worst = test::larger(worst, off);
     }
     CHECK(worst <= kGolden);
     for (uint32_t l = 0; l < golden.network.layers.size(); ++l) {

@@ -35,8 +35,9 @@ TEST_CASE("characters_that_cannot_be_packed_are_refused_with_the_reason") {
   const TissueLayout layout = test::small_layout(character);
   CHECK_THROWS_WITH(pack_small(character, layout, test::small_paper_weights()),
                     Contains("small.safetensors: metadata key 'inputs' is missing (the paper's wiring)"));
-  CHECK_THROWS_WITH(pack_small(character, layout, test::small_deep_emulator()),
-                    Contains("'deep_emulator', which `sinew-bake model` bakes; tissue takes alt_conv_lstm"));
+  CHECK_THROWS_WITH(
+      pack_small(character, layout, test::small_deep_emulator()),
+      Contains("'deep_emulator', which `sinew-bake model` bakes; characters take alt_conv_lstm"));
   Safetensors trajectory = test::small_weights();
   trajectory.metadata.erase("sinew.model");
   trajectory.metadata.erase("inputs");

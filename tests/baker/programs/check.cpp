@@ -482,3 +482,13 @@ TEST_CASE("a_network_on_the_modal_base_is_carried_by_it") {
   files.write(weights, vectors);
   CHECK(bake({"check", files.weights, files.vectors}).exit_code == 1);
 }
+
+TEST_CASE("a_character_without_a_network_has_nothing_to_check") {
+  const Files files;
+  files.write(small_paper_weights(), zero_vectors(true));
+  const std::vector<std::byte> bytes = small_weightless_pack();
+  const TemporaryFolder folder;
+  const std::string pack = folder.file("c.sinew");
+  write_file(pack, bytes);
+  check_refused({"check", pack, files.vectors}, {pack, "holds no network", "--tissue"});
+}
