@@ -30,11 +30,9 @@ HWY_INLINE Vector3 across(const Vector3& x) {
 HWY_INLINE Axes axes_of(const Vector (&m)[12]) {
   const Floats d;
   const Vector3 first = {hn::Set(d, 1), hn::Zero(d), hn::Zero(d)}, second = {m[1], m[5], m[9]};
-  Axes axes;
-  axes.x = unit_or({m[0], m[4], m[8]}, first);
-  axes.y = unit_or(scaled_and_added(axes.x, hn::Neg(dot(axes.x, second)), second), across(axes.x));
-  axes.z = cross(axes.x, axes.y);
-  return axes;
+  const Vector3 x = unit_or({m[0], m[4], m[8]}, first);
+  const Vector3 y = unit_or(scaled_and_added(x, hn::Neg(dot(x, second)), second), across(x));
+  return {x, y, cross(x, y)};
 }
 
 HWY_INLINE Vector3 rotated(const float* root, const Vector3& v) {

@@ -23,6 +23,7 @@ inline constexpr float kHeldCompliance = 1e-3f;
 // A symmetric 6x6 by its lower triangle; after factorise() L below D^-1.
 template <class V>
 struct Block {
+  HWY_INLINE Block() {}  // written out, for one that a compiler makes up would not be of this target
   V at[21];
 };
 

@@ -3,6 +3,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace sinew::simd::HWY_NAMESPACE {
 
+// Always made from three vectors: the constructor a compiler makes up for none would not be of this target.
 struct Vector3 {
   Vector x, y, z;
 };
@@ -32,10 +33,10 @@ HWY_INLINE Vector3 chosen(hn::Mask<Floats> yes, const Vector3& a, const Vector3&
 // Row first + i of `count` in lane i, the last one repeated; rows `stride` floats apart.
 HWY_INLINE Vector3 load_rows3(const float* rows, size_t stride, uint32_t first, uint32_t count) {
   const Floats d;
-  Vector3 v;
   if (stride == 3 && first + kLanes <= count) {
-    hn::LoadInterleaved3(d, rows + size_t{3} * first, v.x, v.y, v.z);
-    return v;
+    Vector x, y, z;
+    hn::LoadInterleaved3(d, rows + size_t{3} * first, x, y, z);
+    return {x, y, z};
   }
   HWY_ALIGN float lanes[3][kLanes];
   for (uint32_t i = 0; i < kLanes; ++i) {
