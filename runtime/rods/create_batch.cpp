@@ -1,6 +1,7 @@
 // create_batch.cpp  Checks strands and settings, then lays a batch out and fills it.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/arena.hpp"
 #include "core/status.hpp"
@@ -36,8 +37,9 @@ Status check_settings(const RodSettings& s) {
   if (!(s.tolerance_rad >= 1e-6f && s.tolerance_rad <= 1)) {
     return bad_setting("tolerance_rad", static_cast<double>(s.tolerance_rad), "1e-6 to 1");
   }
-  if (!(s.teleport_lengths > 0)) {
-    return bad_setting("teleport_lengths", static_cast<double>(s.teleport_lengths), "a number above 0");
+  if (!(s.teleport_lengths > 0 && std::isfinite(s.teleport_lengths))) {
+    return bad_setting("teleport_lengths", static_cast<double>(s.teleport_lengths),
+                       "a finite number above 0");
   }
   for (const float g : s.gravity_m_s2) {
     if (!std::isfinite(g)) return bad_setting("gravity_m_s2", static_cast<double>(g), "finite numbers");
@@ -82,6 +84,31 @@ JointEnd joint_end(const SegmentDef& s) {
   return end;
 }
 
+Status out_of_range(uint32_t strand, uint32_t segment, const char* what, double value) {
+  return core::make_status(
+      StatusCode::kInvalidArgument,
+      "strand %u, segment %u: %s, in floats, is %g; change its length, radius, density or moduli", strand,
+      segment, what, value);
+}
+
+// Denormal numbers are 0 in a step.
+bool above_zero(double value) {
+  return value >= std::numeric_limits<float>::min() && value <= std::numeric_limits<float>::max();
+}
+
+// What a segment must keep in the strand's own units.
+struct Kept {
+  uint32_t field;
+  const char* name;
+};
+constexpr Kept kOfBody[] = {{simd::kRodMass, "its mass over the strand's mean"},
+                            {simd::kRodInertia, "its inertia over the strand's mean"},
+                            {simd::kRodAxialInertia, "its axial inertia over the strand's mean"},
+                            {simd::kRodHalfLength, "its half length over the strand's mean"}};
+constexpr Kept kOfJoint[] = {
+    {simd::kRodBendCompliance, "its joint's bending compliance over the strand's mean"},
+    {simd::kRodTwistCompliance, "its joint's twisting compliance over the strand's mean"}};
+
 }  // namespace
 
 // Fills one batch; a friend, so that the class shows only what a user calls.
@@ -97,7 +124,8 @@ struct RodBatchBuilder {
     batch.scratch_ = arena.take<float>(size_t{batch.segment_count_} *
                                        (simd::kRodFields - simd::kRodKeptFields) * batch.width_);
     batch.lanes_ = arena.take<float>(groups() * simd::kLaneFields * batch.width_);
-    batch.rest_ = arena.take<float>(size_t{batch.strand_count_} * batch.segment_count_ * 7);
+    batch.rest_ =
+        arena.take<float>(size_t{batch.strand_count_} * batch.segment_count_ * RodBatch::kRestNumbers);
     batch.units_ = arena.take<RodBatch::Units>(batch.strand_count_);
     batch.parents_ = arena.take<uint32_t>(batch.segment_count_);
     *bytes = arena.used_bytes();
@@ -146,15 +174,57 @@ struct RodBatchBuilder {
   void set_pose(const SegmentDef& s, uint32_t slot, uint32_t i, const RodBatch::Units& units) {
     const JointEnd end = joint_end(s);
     for (uint32_t k = 0; k < 3; ++k) {
-      const double place = (s.position_m[k] - units.origin_m[k]) / units.length_m;
-      const float high = static_cast<float>(place);
-      put(slot, i, simd::kRodPlace + k, high);
-      put(slot, i, simd::kRodPlaceLow + k, place - high);
+      batch.put_place(slot, i, k, (s.position_m[k] - units.origin_m[k]) / units.length_m);
     }
     for (uint32_t k = 0; k < 4; ++k) {
       put(slot, i, simd::kRodTurn + k, end.orientation[k]);
       put(slot, i, simd::kRodTargetTurn + k, end.orientation[k]);
     }
+  }
+
+  // Of the strand's units, before they divide.
+  Status check_units(const StrandDef& strand, uint32_t index) const {
+    const RodBatch::Units& units = batch.units_[index];
+    for (uint32_t i = 0; i < batch.segment_count_; ++i) {
+      const SegmentDef& s = strand.segments[i];
+      const double mass = segment_inertia(s).mass_kg;
+      if (!above_zero(s.length_m)) return out_of_range(index, i, "its length in metres", s.length_m);
+      if (!above_zero(mass)) return out_of_range(index, i, "its mass in kg", mass);
+    }
+    const double force = static_cast<double>(units.mass_kg) * units.length_m, moment = force * units.length_m;
+    if (!above_zero(force)) return out_of_range(index, 0, "the strand's mean mass times length", force);
+    if (!above_zero(moment)) return out_of_range(index, 0, "the strand's mean mass times length^2", moment);
+    for (const float g : batch.settings_.gravity_m_s2) {
+      const float own = g / units.length_m;
+      if (!std::isfinite(own)) return out_of_range(index, 0, "gravity over the strand's mean length", own);
+    }
+    return {};
+  }
+
+  Status check_above_zero(uint32_t strand, uint32_t i, std::span<const Kept> kept) const {
+    for (const Kept& k : kept) {
+      const float value = batch.at(strand, i, k.field);
+      if (!above_zero(value)) return out_of_range(strand, i, k.name, value);
+    }
+    return {};
+  }
+
+  Status check_joint(const SegmentDef& s, uint32_t strand, uint32_t i) const {
+    const float stretch = batch.at(strand, i, simd::kRodStretchCompliance);
+    if (std::isfinite(s.stretch_modulus_pa) && !above_zero(stretch)) {
+      return out_of_range(strand, i, "its joint's stretching compliance over the strand's mean", stretch);
+    }
+    return check_above_zero(strand, i, kOfJoint);
+  }
+
+  // Of what fill() left of a strand.
+  Status check_filled(const StrandDef& strand, uint32_t index) const {
+    Status status;
+    for (uint32_t i = 0; i < batch.segment_count_ && status.ok(); ++i) {
+      status = check_above_zero(index, i, kOfBody);
+      if (i > 0 && status.ok()) status = check_joint(strand.segments[i], index, i);
+    }
+    return status;
   }
 
   // `slot` may lie behind the last strand: lanes that nobody looks at repeat the first strand's numbers.
@@ -174,10 +244,11 @@ struct RodBatchBuilder {
   }
 
   void keep_rest(uint32_t strand) {
-    float* out = batch.rest_ + size_t{strand} * batch.segment_count_ * 7;
+    float* out = batch.rest_ + size_t{strand} * batch.segment_count_ * RodBatch::kRestNumbers;
     for (uint32_t i = 0; i < batch.segment_count_; ++i) {
-      for (uint32_t k = 0; k < 3; ++k) *out++ = batch.at(strand, i, simd::kRodPlace + k);
-      for (uint32_t k = 0; k < 4; ++k) *out++ = batch.at(strand, i, simd::kRodTurn + k);
+      for (uint32_t k = 0; k < RodBatch::kRestNumbers; ++k) {
+        *out++ = batch.at(strand, i, simd::kRodPlace + k);
+      }
     }
   }
 
@@ -188,7 +259,7 @@ struct RodBatchBuilder {
 
 Status RodBatch::create(std::span<const StrandDef> strands, const RodSettings& settings,
                         RodBatch* out) noexcept {
-  const Status status = check_all(strands, settings);
+  Status status = check_all(strands, settings);
   if (!status.ok()) return status;
   RodBatch made;
   RodBatchBuilder builder{made};
@@ -205,14 +276,19 @@ Status RodBatch::create(std::span<const StrandDef> strands, const RodSettings& s
   }
   builder.lay_out(made.memory_.data(), &bytes);
   for (uint32_t i = 1; i < made.segment_count_; ++i) made.parents_[i] = strands[0].segments[i].parent;
-  for (uint32_t i = 0; i < made.strand_count_; ++i) builder.set_units(strands[i], i);
-  for (uint32_t slot = 0; slot < builder.groups() * made.width_; ++slot) {
+  for (uint32_t i = 0; i < made.strand_count_ && status.ok(); ++i) {
+    builder.set_units(strands[i], i);
+    status = builder.check_units(strands[i], i);
+  }
+  for (uint32_t slot = 0; status.ok() && slot < builder.groups() * made.width_; ++slot) {
     const uint32_t strand = slot < made.strand_count_ ? slot : 0;
     builder.fill(strands[strand], slot, strand);
-    if (slot < made.strand_count_) builder.keep_rest(slot);
+    if (slot >= made.strand_count_) continue;
+    builder.keep_rest(slot);
+    status = builder.check_filled(strands[slot], slot);
   }
-  *out = static_cast<RodBatch&&>(made);
-  return {};
+  if (status.ok()) *out = static_cast<RodBatch&&>(made);
+  return status;
 }
 
 }  // namespace sinew::rods

@@ -12,8 +12,9 @@ constexpr double kTorn = 0.5;  // gap over the strand's mean segment
 
 }  // namespace
 
-// What its joints carried is no start for the next step. Torn apart, its segments keep their orientations and
-// are set end to end from the root, velocities accordingly: so it stays within its length of where it is held
+// What its joints carried is no start for the next step: where what is held cannot be reached it grows by
+// each iteration, and what is then let go is thrown. Torn apart, its segments keep their orientations and are
+// set end to end from the root, velocities accordingly: so it stays within its length of where it is held
 // whatever is done to it. Segments whose pose is given stay; a gap that they leave remains. Returns whether
 // it was torn.
 bool RodBatch::rejoin(uint32_t strand, float dt_s) noexcept {
@@ -46,11 +47,9 @@ bool RodBatch::rejoin(uint32_t strand, float dt_s) noexcept {
     for (uint32_t k = 0; k < 3; ++k) {
       const double before = static_cast<double>(at(strand, i, simd::kRodPlace + k)) +
                             static_cast<double>(at(strand, i, simd::kRodPlaceLow + k));
-      const float high = static_cast<float>(joined[k]);
       at(strand, i, simd::kRodVelocity + k) +=
           static_cast<float>((joined[k] - before) / static_cast<double>(dt_s));
-      at(strand, i, simd::kRodPlace + k) = high;
-      at(strand, i, simd::kRodPlaceLow + k) = static_cast<float>(joined[k] - static_cast<double>(high));
+      put_place(strand, i, k, joined[k]);
     }
   }
   return true;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/status.hpp"
 #include "rods/turn.hpp"
@@ -20,6 +21,13 @@ Status not_finite(uint32_t strand, uint32_t segment, const char* what) {
   return core::make_status(StatusCode::kNotFinite,
                            "strand %u, segment %u: %s is not finite; the last one stays", strand, segment,
                            what);
+}
+
+Status too_large(uint32_t strand, uint32_t segment, const char* what) {
+  return core::make_status(
+      StatusCode::kInvalidArgument,
+      "strand %u, segment %u: %s, over the strand's mean segment, leaves float's range; the last one stays",
+      strand, segment, what);
 }
 
 Status check_target(uint32_t strand, uint32_t segment, const SegmentPose& pose) {
@@ -46,6 +54,14 @@ Status RodBatch::check_place(uint32_t strand, uint32_t segment) const noexcept {
                            strand_count_, segment_count_);
 }
 
+Status RodBatch::check_simulated(uint32_t strand, uint32_t segment, const char* what) const noexcept {
+  const Status status = check_place(strand, segment);
+  if (!status.ok() || at(strand, segment, simd::kRodFree) != 0) return status;
+  return core::make_status(StatusCode::kInvalidArgument,
+                           "strand %u, segment %u: it is fixed and %s would do nothing; give set_target",
+                           strand, segment, what);
+}
+
 Status RodBatch::set_target(uint32_t strand, uint32_t segment, const SegmentPose& pose) noexcept {
   Status status = check_place(strand, segment);
   if (status.ok()) status = check_target(strand, segment, pose);
@@ -56,13 +72,16 @@ Status RodBatch::set_target(uint32_t strand, uint32_t segment, const SegmentPose
                              strand, segment);
   }
   const Units& units = units_[strand];
-  double move[3], square = 0;
+  double move[3], square = 0, largest = 0;
   const SegmentPose now = this->pose(strand, segment);
   for (int k = 0; k < 3; ++k) {
     move[k] = (pose.position_m[k] - now.position_m[k]) / units.length_m;
     square += move[k] * move[k];
+    const double place = (pose.position_m[k] - units.origin_m[k]) / units.length_m;
+    largest = std::max({largest, std::fabs(move[k]), std::fabs(place)});
   }
-  if (std::sqrt(square) > static_cast<double>(settings_.teleport_lengths * units.total_lengths)) {
+  if (largest > std::numeric_limits<float>::max()) return too_large(strand, segment, "the position");
+  if (std::sqrt(square) > static_cast<double>(settings_.teleport_lengths) * units.total_lengths) {
     carry(strand, segment, pose);
     return {};
   }
@@ -75,25 +94,33 @@ Status RodBatch::set_target(uint32_t strand, uint32_t segment, const SegmentPose
 }
 
 Status RodBatch::set_force(uint32_t strand, uint32_t segment, const float (&force_n)[3]) noexcept {
-  const Status status = check_place(strand, segment);
+  const Status status = check_simulated(strand, segment, "force_n");
   if (!status.ok()) return status;
   if (!all_finite(force_n)) return not_finite(strand, segment, "force_n");
   const float unit = units_[strand].mass_kg * units_[strand].length_m;
-  for (uint32_t k = 0; k < 3; ++k) at(strand, segment, simd::kRodForce + k) = force_n[k] / unit;
+  const float own[3] = {force_n[0] / unit, force_n[1] / unit, force_n[2] / unit};
+  if (!all_finite(own)) return too_large(strand, segment, "force_n");
+  for (uint32_t k = 0; k < 3; ++k) at(strand, segment, simd::kRodForce + k) = own[k];
   return {};
 }
 
 Status RodBatch::set_velocity(uint32_t strand, uint32_t segment, const SegmentVelocity& velocity) noexcept {
-  const Status status = check_place(strand, segment);
+  const Status status = check_simulated(strand, segment, "the velocity");
   if (!status.ok()) return status;
   if (!all_finite(velocity.linear_m_s) || !all_finite(velocity.angular_rad_s)) {
     return not_finite(strand, segment, "the velocity");
   }
-  const Vector own =
+  const Vector spin =
       turned_back(turn_of(pose(strand, segment).orientation), vector_of(velocity.angular_rad_s));
+  float own[6];
   for (uint32_t k = 0; k < 3; ++k) {
-    at(strand, segment, simd::kRodVelocity + k) = velocity.linear_m_s[k] / units_[strand].length_m;
-    at(strand, segment, simd::kRodSpin + k) = static_cast<float>(own[k]);
+    own[k] = velocity.linear_m_s[k] / units_[strand].length_m;
+    own[3 + k] = static_cast<float>(spin[k]);
+  }
+  if (!all_finite(own)) return too_large(strand, segment, "the velocity");
+  for (uint32_t k = 0; k < 3; ++k) {
+    at(strand, segment, simd::kRodVelocity + k) = own[k];
+    at(strand, segment, simd::kRodSpin + k) = own[3 + k];
   }
   return {};
 }
@@ -101,17 +128,26 @@ Status RodBatch::set_velocity(uint32_t strand, uint32_t segment, const SegmentVe
 Status RodBatch::set_start(uint32_t strand, uint32_t segment, const SegmentStart& start) noexcept {
   const Status status = check_place(strand, segment);
   if (!status.ok()) return status;
+  if (settings_.start != RodStart::kGiven) {
+    return core::make_status(StatusCode::kInvalidArgument,
+                             "strand %u, segment %u: this batch reads no start; create it with "
+                             "RodSettings::start kGiven",
+                             strand, segment);
+  }
   if (!all_finite(start.acceleration_m_s2) || !all_finite(start.angular_acceleration_rad_s2) ||
       !all_finite(start.force_n) || !all_finite(start.moment_nm)) {
     return not_finite(strand, segment, "the start");
   }
   const float l = units_[strand].length_m, force = units_[strand].mass_kg * l;
+  float own[12];
   for (uint32_t k = 0; k < 3; ++k) {
-    at(strand, segment, simd::kRodStartPush + k) = start.acceleration_m_s2[k] / l;
-    at(strand, segment, simd::kRodStartTwist + k) = start.angular_acceleration_rad_s2[k];
-    at(strand, segment, simd::kRodStartForce + k) = start.force_n[k] / force;
-    at(strand, segment, simd::kRodStartForce + 3 + k) = start.moment_nm[k] / (force * l);
+    own[k] = start.acceleration_m_s2[k] / l;
+    own[3 + k] = start.angular_acceleration_rad_s2[k];
+    own[6 + k] = start.force_n[k] / force;
+    own[9 + k] = start.moment_nm[k] / (force * l);
   }
+  if (!all_finite(own)) return too_large(strand, segment, "the start");
+  for (uint32_t k = 0; k < 12; ++k) at(strand, segment, simd::kRodStartPush + k) = own[k];
   return {};
 }
 

@@ -22,9 +22,10 @@ enum class RodSolver : uint32_t {
 
 // Where a step's iteration starts. Free motion is what a segment would do without joints.
 enum class RodStart : uint32_t {
-  kZero = 0,      // at free motion, no forces
-  kPrevious = 1,  // free motion with the last step's forces and what they did
-  kGiven = 2,     // what set_start gave since the last step, else as kPrevious
+  kZero = 0,  // at free motion, no forces
+  // Free motion with the last step's forces and what they did; as kZero for a strand that did not converge.
+  kPrevious = 1,
+  kGiven = 2,  // what set_start gave since the last step; segments given nothing as with kPrevious
 };
 
 struct RodSettings {
@@ -38,7 +39,7 @@ struct RodSettings {
   uint32_t cg_max_iterations = 1000;  // 1 to 100000, of one linear system
   float gravity_m_s2[3] = {0, -9.81f, 0};
   // A pose given for a fixed segment further away than this many of its strand's lengths carries the strand
-  // along as it is, without inertia. Above 0.
+  // along as it is, without inertia. Finite, above 0.
   float teleport_lengths = 2;
 };
 
@@ -73,7 +74,8 @@ class RodBatch {
  public:
   RodBatch() noexcept = default;
   // Every strand with as many segments as the first and the same parents. Refused: what check_strand refuses,
-  // other shapes, settings outside their range, no strand, no memory; `out` is then untouched.
+  // other shapes, settings outside their range, no strand, no memory, numbers that in a strand's own units
+  // (its mean segment's length and mass) become 0 or leave float's range; `out` is then untouched.
   static Status create(std::span<const StrandDef> strands, const RodSettings& settings,
                        RodBatch* out) noexcept;
 
@@ -81,12 +83,16 @@ class RodBatch {
   uint32_t segment_count() const noexcept { return segment_count_; }
 
   // Where a fixed segment is at the end of the coming step; without it the segment stays. Its velocity is
-  // what takes it there. Refused: no such segment, one that is not fixed, numbers that are not finite, no
-  // unit quaternion; the last target then holds.
+  // what takes it there. Refused: no such segment, one that is not fixed, numbers that are not finite or
+  // leave float's range in the strand's own units, no unit quaternion; the last target then holds.
   Status set_target(uint32_t strand, uint32_t segment, const SegmentPose& pose) noexcept;
-  // Newtons on the segment's middle, in every step until changed.
+  // Newtons on the segment's middle, in every step until changed. Refused, here and below: no such segment,
+  // numbers that are not finite or leave float's range in the strand's own units; the last ones then hold.
+  // Refused as well: a fixed segment.
   Status set_force(uint32_t strand, uint32_t segment, const float (&force_n)[3]) noexcept;
+  // What the coming step starts with. Refused as well: a fixed segment, whose velocity is its target's.
   Status set_velocity(uint32_t strand, uint32_t segment, const SegmentVelocity& velocity) noexcept;
+  // For the coming step. Refused as well: RodSettings::start other than kGiven.
   Status set_start(uint32_t strand, uint32_t segment, const SegmentStart& start) noexcept;
 
   // dt_s in (0, 1]; otherwise refused, and nothing moves. Allocates nothing.
@@ -95,7 +101,8 @@ class RodBatch {
   // Of an existing segment.
   SegmentPose pose(uint32_t strand, uint32_t segment) const noexcept;
   SegmentVelocity velocity(uint32_t strand, uint32_t segment) const noexcept;
-  SegmentStart last_forces(uint32_t strand, uint32_t segment) const noexcept;  // what kPrevious starts from
+  // What kPrevious starts from: of the last step; zeros where the strand did not converge.
+  SegmentStart last_forces(uint32_t strand, uint32_t segment) const noexcept;
 
  private:
   friend struct RodBatchBuilder;
@@ -107,19 +114,28 @@ class RodBatch {
   float& at(uint32_t strand, uint32_t segment, uint32_t field) const noexcept {
     return records_[row(strand, segment, field)];
   }
+  void put_place(uint32_t strand, uint32_t segment, uint32_t axis, double place) const noexcept {
+    const float high = static_cast<float>(place);
+    at(strand, segment, simd::kRodPlace + axis) = high;
+    at(strand, segment, simd::kRodPlaceLow + axis) = static_cast<float>(place - static_cast<double>(high));
+  }
   Status check_place(uint32_t strand, uint32_t segment) const noexcept;
+  Status check_simulated(uint32_t strand, uint32_t segment, const char* what) const noexcept;
+  bool held(uint32_t strand, uint32_t segment) const noexcept;
   simd::RodJob group_job(uint32_t group, float dt_s) const noexcept;
   void step_group(uint32_t group, float dt_s, RodReport* report) noexcept;
   void carry(uint32_t strand, uint32_t segment, const SegmentPose& to) noexcept;
   bool rejoin(uint32_t strand, float dt_s) noexcept;
   void recover(uint32_t strand) noexcept;
 
+  static constexpr uint32_t kRestNumbers = 10;
+
   core::AlignedBlock memory_;
   float* records_ = nullptr;  // [groups][segments][kRodKeptFields][width]
   float* scratch_ = nullptr;  // of one group
   float* lanes_ = nullptr;    // [groups][kLaneFields][width]
-  float* rest_ = nullptr;     // [strands][segments][7] place and orientation at rest
-  Units* units_ = nullptr;    // [strands]
+  float* rest_ = nullptr;   // [strands][segments][kRestNumbers] place, high and low, and orientation at rest
+  Units* units_ = nullptr;  // [strands]
   uint32_t* parents_ = nullptr;
   RodSettings settings_;
   uint32_t strand_count_ = 0, segment_count_ = 0, width_ = 0, teleported_ = 0;

@@ -1,6 +1,5 @@
 // step_batch.cpp  One step of a batch, and what is done where a strand cannot be simulated on.
 #include <algorithm>
-#include <cmath>
 
 #include "core/flush_denormals.hpp"
 #include "core/status.hpp"
@@ -88,10 +87,8 @@ void RodBatch::carry(uint32_t strand, uint32_t segment, const SegmentPose& to) n
     for (uint32_t k = 0; k < 3; ++k) {
       const double place = (to.position_m[k] + arm[k] - units.origin_m[k]) / units.length_m;
       const double before = (old.position_m[k] - units.origin_m[k]) / units.length_m;
-      const float high = static_cast<float>(place);
       at(strand, i, simd::kRodTarget + k) += static_cast<float>(before - place);
-      at(strand, i, simd::kRodPlace + k) = high;
-      at(strand, i, simd::kRodPlaceLow + k) = static_cast<float>(place - static_cast<double>(high));
+      put_place(strand, i, k, place);
       at(strand, i, simd::kRodVelocity + k) = static_cast<float>(speed[k]);
     }
     for (uint32_t k = 0; k < 4; ++k) at(strand, i, simd::kRodTurn + k) = static_cast<float>(q[k]);

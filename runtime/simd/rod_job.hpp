@@ -72,7 +72,6 @@ enum RodField : uint32_t {
 enum RodLaneField : uint32_t {
   kLaneGravity = 0,                // [3]
   kLaneActive = kLaneGravity + 3,  // 1 while a strand is not converged, 0 afterwards and where there is none
-  kLaneLargestTurn,                // of the last iteration, rad
   kLaneHeldMiss,                   // largest gap squared at joints whose child's pose is given
   kLaneIterations,
   kLaneCgIterations,

@@ -129,7 +129,6 @@ HWY_INLINE uint32_t apply_changes(const G& g, const RodJob& job, typename G::V l
             hn::IfThenElse(active, hn::MulAdd(share, g.get(i, kRodMiss + k), force), force));
     }
   }
-  g.set_lane(kLaneLargestTurn, hn::IfThenElse(active, turn, g.lane(kLaneLargestTurn)));
   g.set_lane(kLaneIterations, hn::Add(g.lane(kLaneIterations), hn::IfThenElseZero(active, one)));
   // Also false where the turn is not a number: finish() reports that strand.
   const V left = hn::Max(turn, hn::Sqrt(g.lane(kLaneHeldMiss)));

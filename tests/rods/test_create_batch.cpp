@@ -24,7 +24,42 @@ const BadSetting kBad[] = {
     {"RodSettings::tolerance_rad is 0", [](test::RodSettings& s) { s.tolerance_rad = 0; }},
     {"RodSettings::tolerance_rad is nan", [](test::RodSettings& s) { s.tolerance_rad = std::nanf(""); }},
     {"RodSettings::teleport_lengths is 0", [](test::RodSettings& s) { s.teleport_lengths = 0; }},
+    {"RodSettings::teleport_lengths is inf", [](test::RodSettings& s) { s.teleport_lengths = HUGE_VALF; }},
     {"RodSettings::gravity_m_s2 is inf", [](test::RodSettings& s) { s.gravity_m_s2[2] = HUGE_VALF; }},
+};
+
+// Each number by itself is in its range; in a strand's own units it is 0 or leaves float's range.
+struct OutOfRange {
+  const char* expected;
+  std::function<void(test::Segments&)> spoil;
+};
+
+const OutOfRange kOutOfRange[] = {
+    {"strand 1, segment 2: its mass in kg", [](test::Segments& s) { s[2].radius_m = 1e-25f; }},
+    {"strand 1, segment 2: its mass in kg",
+     [](test::Segments& s) { s[2].density_kg_m3 = s[2].radius_m = 3e38f; }},
+    {"strand 1, segment 0: its mass over the strand's mean",
+     [](test::Segments& s) { s[0].density_kg_m3 = 1e-30f, s[2].density_kg_m3 = 1e20f; }},
+    {"strand 1, segment 2: its inertia over", [](test::Segments& s) { s[2].density_kg_m3 = 1.6e-35f; }},
+    {"strand 1, segment 2: its axial inertia over", [](test::Segments& s) { s[2].density_kg_m3 = 1e-33f; }},
+    {"strand 1, segment 3: its joint's bending compliance",
+     [](test::Segments& s) { s[3].young_modulus_pa = 1e-37f; }},
+    {"strand 1, segment 3: its joint's twisting compliance",
+     [](test::Segments& s) { s[3].torsion_modulus_pa = 1e-37f; }},
+    {"strand 1, segment 1: its joint's bending compliance",
+     [](test::Segments& s) {
+       for (auto& x : s) x.density_kg_m3 = 1, x.radius_m = 50;
+       s[1].young_modulus_pa = 3e38f;
+     }},
+    {"strand 1, segment 1: its joint's stretching compliance",
+     [](test::Segments& s) {
+       for (auto& x : s) x.density_kg_m3 = 1;
+       s[1].stretch_modulus_pa = 3e38f;
+     }},
+    {"strand 1, segment 0: the strand's mean mass times length^2",
+     [](test::Segments& s) {
+       s = test::straight_rod({.segments = 4, .length_m = 4e-10, .radius_m = 1e-8f});
+     }},
 };
 
 }  // namespace
@@ -56,6 +91,13 @@ TEST_CASE("bad_settings_and_strands_make_no_batch_and_leave_the_old_one_alone") 
   test::Segments soft = good;
   soft[2].young_modulus_pa = 0;
   refused({good, soft}, {}, "strand 1, segment 2: young_modulus_pa is 0");
+  for (const OutOfRange& bad : kOutOfRange) {
+    test::Segments spoilt = good;
+    bad.spoil(spoilt);
+    refused({good, spoilt}, {}, bad.expected);
+  }
+  const test::Segments small = test::straight_rod({.segments = 4, .length_m = 0.4});
+  refused({good, small}, {.gravity_m_s2 = {0, 3e38f, 0}}, "strand 1, segment 0: gravity over");
 }
 
 TEST_CASE("a_batch_begins_in_the_shape_it_was_given") {

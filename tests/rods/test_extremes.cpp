@@ -95,6 +95,27 @@ TEST_CASE("a_rod_held_twice_too_far_apart_stays_finite_and_comes_back") {
   CHECK(test::largest_stretch(batch, rod) < kHeld);
 }
 
+TEST_CASE("a_rod_held_out_of_reach_for_long_keeps_no_force_and_is_not_torn_when_let_go") {
+  test::Segments rod = test::straight_rod({.segments = 20, .young_pa = 1e6f});
+  rod.back().fixed = true;
+  test::RodBatch batch = test::batch_of({rod});
+  rods::SegmentPose target = batch.pose(0, 19);
+  target.position_m[0] += 0.05;  // a quarter of a segment: too far, but nothing tears
+  REQUIRE(batch.set_target(0, 19, target).ok());
+  for (int i = 0; i < 500; ++i) {
+    const test::RodReport report = test::step(batch, 0.02f);
+    CHECK(report.unconverged == 1);
+    CHECK(report.rejoined == 0);
+  }
+  for (uint32_t i = 0; i < 20; ++i) {
+    for (const float f : batch.last_forces(0, i).force_n) CHECK(f == 0);
+  }
+  target.position_m[0] -= 0.15;
+  REQUIRE(batch.set_target(0, 19, target).ok());
+  for (int i = 0; i < 200; ++i) CHECK(test::step(batch, 0.02f).rejoined == 0);
+  CHECK(test::largest_stretch(batch, rod) < kHeld);
+}
+
 TEST_CASE("a_step_allocates_nothing") {
   test::RodBatch batch = test::batch_of(std::vector<test::Segments>(20, test::helix(16)));
   test::step(batch, 0.02f);

@@ -22,8 +22,9 @@ void refused(const Status& status, const std::string& expected) {
 }  // namespace
 
 TEST_CASE("bad_poses_forces_velocities_starts_and_times_are_refused_and_change_nothing") {
-  test::RodBatch batch = test::batch_of({test::straight_rod({.segments = 4})});
-  test::RodBatch same = test::batch_of({test::straight_rod({.segments = 4})});
+  const test::Segments hair = test::straight_rod({.segments = 4, .length_m = 0.4, .radius_m = 1e-6f});
+  test::RodBatch batch = test::batch_of({hair}, {.start = rods::RodStart::kGiven});
+  test::RodBatch same = test::batch_of({hair}, {.start = rods::RodStart::kGiven});
   const rods::SegmentPose good = batch.pose(0, 0);
   rods::SegmentPose bad = good;
   bad.position_m[1] = std::nan("");
@@ -41,13 +42,33 @@ TEST_CASE("bad_poses_forces_velocities_starts_and_times_are_refused_and_change_n
   refused(batch.set_force(9, 1, {0, 0, 0}), "strand 9");
   refused(batch.set_velocity(0, 1, {{kNan, 0, 0}, {0, 0, 0}}), "the velocity is not finite");
   refused(batch.set_velocity(0, 9, {}), "segment 9");
+  bad = good;
+  bad.position_m[0] = 1e300;
+  refused(batch.set_target(0, 0, bad), "strand 0, segment 0: the position, over");
+  // Finite, but over a segment's tenth of a metre and third of a billionth of a kilogram they are not.
+  refused(batch.set_force(0, 1, {0, 1e30f, 0}), "strand 0, segment 1: force_n, over");
+  refused(batch.set_velocity(0, 1, {{0, 3e38f, 0}, {0, 0, 0}}), "strand 0, segment 1: the velocity, over");
+  test::RodBatch askew = test::batch_of({test::helix(3)});
+  refused(askew.set_velocity(0, 2, {{0, 0, 0}, {3e38f, 3e38f, 3e38f}}), "the velocity, over");
   refused(batch.set_start(0, 1, {.force_n = {0, 0, HUGE_VALF}}), "the start is not finite");
+  refused(batch.set_start(0, 1, {.force_n = {0, 0, 1e30f}}), "strand 0, segment 1: the start, over");
+  refused(batch.set_start(0, 1, {.acceleration_m_s2 = {3e38f, 0, 0}}), "the start, over");
+  refused(batch.set_start(0, 1, {.moment_nm = {0, 0, 1e30f}}), "the start, over");
   refused(batch.set_start(0, 9, {}), "segment 9");
+  refused(batch.set_force(0, 0, {0, 1, 0}), "strand 0, segment 0: it is fixed and force_n would do nothing");
+  refused(batch.set_velocity(0, 0, {}), "strand 0, segment 0: it is fixed and the velocity would do nothing");
   for (const float dt : {0.0f, -0.01f, 1.5f, kNan}) refused(batch.step(dt, nullptr), "dt_s is");
   test::step(batch, 0.02f);
   test::step(same, 0.02f);
   for (uint32_t i = 0; i < 4; ++i) {
     CHECK(test::distance(batch.pose(0, i).position_m, same.pose(0, i).position_m) == 0);
+  }
+}
+
+TEST_CASE("a_start_is_refused_by_a_batch_that_does_not_read_it") {
+  for (const rods::RodStart start : {rods::RodStart::kZero, rods::RodStart::kPrevious}) {
+    test::RodBatch batch = test::batch_of({test::straight_rod({.segments = 4})}, {.start = start});
+    refused(batch.set_start(0, 1, {}), "strand 0, segment 1: this batch reads no start");
   }
 }
 
