@@ -1,8 +1,8 @@
 // isa.hpp  Which instruction set the runtime computes with. Needs status.hpp.
 //
 // Chosen once, at first use: the one that the environment variable SINEW_ISA names, or the best the processor
-// has when it names none. One that is not available is refused by World::create, and by `sinew-bake check` and
-// `judge`; what runs without them uses the best. Targets with fused multiply-adds (avx3_vnni, avx3, avx2,
+// has when it names none. One that is not available is refused by World::create, and by `sinew-bake check`
+// and `judge`; what runs without them uses the best. Targets with fused multiply-adds (avx3_vnni, avx3, avx2,
 // neon_dot, neon) give the same bits.
 #pragma once
 #include <span>
