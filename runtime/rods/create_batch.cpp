@@ -126,6 +126,7 @@ struct RodBatchBuilder {
     batch.lanes_ = arena.take<float>(groups() * simd::kLaneFields * batch.width_);
     batch.rest_ =
         arena.take<float>(size_t{batch.strand_count_} * batch.segment_count_ * RodBatch::kRestNumbers);
+    batch.radii_m_ = arena.take<float>(size_t{batch.strand_count_} * batch.segment_count_);
     batch.units_ = arena.take<RodBatch::Units>(batch.strand_count_);
     batch.parents_ = arena.take<uint32_t>(batch.segment_count_);
     *bytes = arena.used_bytes();
@@ -252,6 +253,11 @@ struct RodBatchBuilder {
     }
   }
 
+  void keep_radii(const StrandDef& strand, uint32_t index) {
+    float* out = batch.radii_m_ + size_t{index} * batch.segment_count_;
+    for (const SegmentDef& s : strand.segments) *out++ = s.radius_m;
+  }
+
   void put(uint32_t slot, uint32_t segment, uint32_t field, double value) {
     batch.at(slot, segment, field) = static_cast<float>(value);
   }
@@ -285,6 +291,7 @@ Status RodBatch::create(std::span<const StrandDef> strands, const RodSettings& s
     builder.fill(strands[strand], slot, strand);
     if (slot >= made.strand_count_) continue;
     builder.keep_rest(slot);
+    builder.keep_radii(strands[slot], slot);
     status = builder.check_filled(strands[slot], slot);
   }
   if (status.ok()) *out = static_cast<RodBatch&&>(made);

@@ -10,6 +10,7 @@
 #include <span>
 
 #include "core/aligned_block.hpp"
+#include "rods/collider.hpp"
 #include "rods/strand.hpp"
 #include "simd/rod_job.hpp"
 
@@ -68,6 +69,10 @@ struct RodReport {
   uint32_t rejoined = 0;   // of these, strands torn by more than half a segment: put together at their joints
   uint32_t recovered = 0;  // strands that were not finite: put back at rest shape where they are held
   uint32_t teleported = 0;  // strands carried along since the last step
+  // With a collider: contacts near enough to be looked at, and those that had no room.
+  uint32_t contacts = 0, contacts_dropped = 0;
+  uint32_t contacts_unconverged = 0;  // strands whose contacts, at the last iteration, were not exact enough
+  float deepest_penetration = 0;      // at the step's end, share of the segment's radius
 };
 
 class RodBatch {
@@ -97,6 +102,8 @@ class RodBatch {
 
   // dt_s in (0, 1]; otherwise refused, and nothing moves. Allocates nothing.
   Status step(float dt_s, RodReport* report) noexcept;
+  // The same among obstacles and with one another. Refused as well: a collider made for another shape.
+  Status step(float dt_s, RodCollider* collider, RodReport* report) noexcept;
 
   // Of an existing segment.
   SegmentPose pose(uint32_t strand, uint32_t segment) const noexcept;
@@ -106,6 +113,10 @@ class RodBatch {
 
  private:
   friend struct RodBatchBuilder;
+  friend class RodCollider;
+  friend struct ColliderBuilder;
+  friend struct ContactFinder;
+  friend struct ContactForces;
   struct Units {
     double origin_m[3];
     float length_m, mass_kg, total_lengths;
@@ -122,8 +133,13 @@ class RodBatch {
   Status check_place(uint32_t strand, uint32_t segment) const noexcept;
   Status check_simulated(uint32_t strand, uint32_t segment, const char* what) const noexcept;
   bool held(uint32_t strand, uint32_t segment) const noexcept;
-  simd::RodJob group_job(uint32_t group, float dt_s) const noexcept;
-  void step_group(uint32_t group, float dt_s, RodReport* report) noexcept;
+  simd::RodJob group_job(uint32_t group, float dt_s, const RodCollider* collider) const noexcept;
+  void begin_group(const simd::RodJob& job, uint32_t group) const noexcept;
+  uint32_t iterate(uint32_t first_group, uint32_t groups, float dt_s,
+                   const RodCollider* collider) const noexcept;
+  void step_groups(uint32_t first_group, uint32_t groups, float dt_s, RodCollider* collider,
+                   RodReport* report) noexcept;
+  void end_group(const simd::RodJob& job, uint32_t group, float dt_s, RodReport* report) noexcept;
   void carry(uint32_t strand, uint32_t segment, const SegmentPose& to) noexcept;
   bool rejoin(uint32_t strand, float dt_s) noexcept;
   void recover(uint32_t strand) noexcept;
@@ -134,8 +150,9 @@ class RodBatch {
   float* records_ = nullptr;  // [groups][segments][kRodKeptFields][width]
   float* scratch_ = nullptr;  // of one group
   float* lanes_ = nullptr;    // [groups][kLaneFields][width]
-  float* rest_ = nullptr;   // [strands][segments][kRestNumbers] place, high and low, and orientation at rest
-  Units* units_ = nullptr;  // [strands]
+  float* rest_ = nullptr;  // [strands][segments][kRestNumbers] place, high and low, and orientation at rest
+  float* radii_m_ = nullptr;  // [strands][segments]
+  Units* units_ = nullptr;    // [strands]
   uint32_t* parents_ = nullptr;
   RodSettings settings_;
   uint32_t strand_count_ = 0, segment_count_ = 0, width_ = 0, teleported_ = 0;

@@ -17,9 +17,9 @@ const simd::RodCalls& calls(uint32_t width) {
 
 }  // namespace
 
-simd::RodJob RodBatch::group_job(uint32_t group, float dt_s) const noexcept {
+simd::RodJob RodBatch::group_job(uint32_t group, float dt_s, const RodCollider* collider) const noexcept {
   return {.records = records_ + size_t{group} * segment_count_ * simd::kRodKeptFields * width_,
-          .scratch = scratch_,
+          .scratch = collider ? collider->scratch(*this, group) : scratch_,
           .lanes = lanes_ + size_t{group} * simd::kLaneFields * width_,
           .parents = parents_,
           .segments = segment_count_,
@@ -30,16 +30,30 @@ simd::RodJob RodBatch::group_job(uint32_t group, float dt_s) const noexcept {
           .cg_iterations = settings_.cg_max_iterations};
 }
 
-void RodBatch::step_group(uint32_t group, float dt_s, RodReport* report) noexcept {
-  const simd::RodJob job = group_job(group, dt_s);
-  const simd::RodCalls& call = calls(width_);
-  const uint32_t first = group * width_, count = std::min(width_, strand_count_ - first);
+void RodBatch::begin_group(const simd::RodJob& job, uint32_t group) const noexcept {
+  const uint32_t count = std::min(width_, strand_count_ - group * width_);
   for (uint32_t i = 0; i < width_; ++i) job.lanes[simd::kLaneActive * width_ + i] = i < count ? 1.0f : 0.0f;
-  call.predict(job);
-  for (uint32_t k = 0; k < settings_.max_iterations; ++k) {
-    if ((settings_.solver == RodSolver::kCg ? call.cg : call.direct)(job) == 0) break;
+  calls(width_).predict(job);
+}
+
+// Once, those of the groups that have strands to iterate. Returns how many strands are not converged.
+uint32_t RodBatch::iterate(uint32_t first_group, uint32_t groups, float dt_s,
+                           const RodCollider* collider) const noexcept {
+  const simd::RodCalls& call = calls(width_);
+  uint32_t active = 0;
+  for (uint32_t g = first_group; g < first_group + groups; ++g) {
+    simd::RodJob job = group_job(g, dt_s, collider);
+    if (collider) collider->give(&job, g);
+    const float* lanes = job.lanes + simd::kLaneActive * width_;
+    if (std::none_of(lanes, lanes + width_, [](float x) { return x != 0; })) continue;
+    active += (settings_.solver == RodSolver::kCg ? call.cg : call.direct)(job);
   }
-  call.finish(job);
+  return active;
+}
+
+void RodBatch::end_group(const simd::RodJob& job, uint32_t group, float dt_s, RodReport* report) noexcept {
+  calls(width_).finish(job);
+  const uint32_t first = group * width_, count = std::min(width_, strand_count_ - first);
   for (uint32_t i = 0; i < count; ++i) {
     const auto lane = [&](uint32_t field) { return job.lanes[field * width_ + i]; };
     const auto iterations = static_cast<uint32_t>(lane(simd::kLaneIterations));
@@ -56,16 +70,46 @@ void RodBatch::step_group(uint32_t group, float dt_s, RodReport* report) noexcep
   }
 }
 
-Status RodBatch::step(float dt_s, RodReport* report) noexcept {
+void RodBatch::step_groups(uint32_t first_group, uint32_t groups, float dt_s, RodCollider* collider,
+                           RodReport* report) noexcept {
+  for (uint32_t g = first_group; g < first_group + groups; ++g) {
+    begin_group(group_job(g, dt_s, collider), g);
+  }
+  if (collider) collider->begin_range(*this, first_group, groups, dt_s);
+  for (uint32_t k = 0; k < settings_.max_iterations; ++k) {
+    uint32_t active = iterate(first_group, groups, dt_s, collider);
+    if (collider) active = collider->settle(*this);
+    if (active == 0) break;
+  }
+  if (collider) collider->end_range(*this, report);
+  for (uint32_t g = first_group; g < first_group + groups; ++g) {
+    end_group(group_job(g, dt_s, collider), g, dt_s, report);
+  }
+}
+
+Status RodBatch::step(float dt_s, RodReport* report) noexcept { return step(dt_s, nullptr, report); }
+
+Status RodBatch::step(float dt_s, RodCollider* collider, RodReport* report) noexcept {
   if (!(dt_s > 0 && dt_s <= 1)) {
     return core::make_status(StatusCode::kInvalidArgument, "dt_s is %g; give a number above 0, at most 1",
                              static_cast<double>(dt_s));
+  }
+  if (collider && !collider->fits(*this)) {
+    return core::make_status(StatusCode::kInvalidArgument,
+                             "the collider is for %u strands of %u segments, the batch has %u of %u; create "
+                             "one for it",
+                             collider->strand_count_, collider->segment_count_, strand_count_,
+                             segment_count_);
   }
   const core::FlushDenormals flush;
   RodReport made;
   made.teleported = teleported_;
   teleported_ = 0;
-  for (uint32_t group = 0; group * width_ < strand_count_; ++group) step_group(group, dt_s, &made);
+  const uint32_t groups = (strand_count_ + width_ - 1) / width_;
+  const uint32_t at_once = collider && collider->settings_.rods_collide ? groups : 1;
+  if (collider) collider->begin_step();
+  for (uint32_t g = 0; g < groups; g += at_once) step_groups(g, at_once, dt_s, collider, &made);
+  if (collider) collider->end_step(dt_s, &made);
   if (report) *report = made;
   return {};
 }

@@ -20,6 +20,7 @@
 #include "simd/rod_lanes-inl.hpp"
 #include "simd/rod_step-inl.hpp"
 #include "simd/rod_linearise-inl.hpp"
+#include "simd/rod_contacts-inl.hpp"
 #include "simd/rod_direct-inl.hpp"
 #include "simd/rod_cg-inl.hpp"
 // clang-format on
