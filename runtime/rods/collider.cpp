@@ -57,9 +57,9 @@ struct ColliderBuilder {
     to.strand_count_ = batch.strand_count_;
     to.segment_count_ = batch.segment_count_;
     to.width_ = batch.width_;
-    const uint64_t two_each = uint64_t{2} * batch.strand_count_ * batch.segment_count_;
+    const uint64_t four_each = uint64_t{4} * batch.strand_count_ * batch.segment_count_;
     const auto by_default =
-        static_cast<uint32_t>(std::clamp<uint64_t>(two_each, kLeastContacts, kMostContacts));
+        static_cast<uint32_t>(std::clamp<uint64_t>(four_each, kLeastContacts, kMostContacts));
     to.capacity_ = to.settings_.contact_capacity ? to.settings_.contact_capacity : by_default;
     to.kept_size_ = std::bit_ceil(2 * to.capacity_);
   }
@@ -84,6 +84,7 @@ struct ColliderBuilder {
     to.turning_ = arena.take<uint8_t>(to.strand_count_);
     to.pending_ = arena.take<uint8_t>(to.strand_count_);
     to.changed_ = arena.take<uint8_t>(to.strand_count_);
+    to.ways_ = arena.take<double>(to.strand_count_);
     to.iterated_ = arena.take<uint8_t>(to.strand_count_);
     if (all) {
       to.scratch_ = arena.take<float>(segments * (simd::kRodFields - simd::kRodKeptFields));

@@ -34,7 +34,7 @@ struct ColliderSettings {
   // penetration can give.
   float largest_push_out_m_s = 1;
   // Contacts at a time; further ones are dropped and counted, in the order given points, planes, spheres,
-  // capsules, rods, each by strand and segment. 0: two a segment, at least 64. At most 2^24.
+  // capsules, rods, each by strand and segment. 0: four a segment, at least 64. At most 2^24.
   uint32_t contact_capacity = 0;
   uint32_t obstacle_capacity = 64;  // of planes, of spheres and of capsules; at most 65536
   uint32_t point_capacity = 256;    // given contacts; at most 2^24
@@ -102,7 +102,7 @@ class RodCollider {
   Contact* contacts_ = nullptr;  // [capacity_] of this step; those of the range from first_contact_
   uint32_t contact_count_ = 0, first_contact_ = 0, dropped_ = 0;
   Kept* kept_ = nullptr;  // [kept_size_] a table by name
-  uint64_t steps_ = 1;  // a zeroed table is empty
+  uint64_t steps_ = 1;    // a zeroed table is empty
   Range range_ = {0, 0};
   Sweep* sweeps_ = nullptr;           // [segments of a range]
   SweptBox* boxes_ = nullptr;         // alike
@@ -113,6 +113,7 @@ class RodCollider {
   uint32_t touched_count_ = 0;
   uint8_t* turning_ = nullptr;   // [strands] not converged by themselves
   uint8_t* pending_ = nullptr;   // [strands] not converged by a contact
+  double* ways_ = nullptr;       // [strands] where the first iterate is, from the step's start to free motion
   uint8_t* changed_ = nullptr;   // [strands] a contact opened or closed in the last iteration
   uint8_t* iterated_ = nullptr;  // [strands] moved by the last iteration
   float* scratch_ = nullptr;     // of all groups, where rods collide

@@ -36,13 +36,15 @@ struct Contact {
   double gap_m;          // at the step's start
   double allowed_m;      // least gap at its end: below zero where penetration is left or pushed out slowly
   double gain_kg;
+  double slowness;  // what is left to go, over an iteration's change
   double friction;
   double scale_m;  // the segment's radius, that tolerance and penetration are shares of
   double force;
   Vector drag;
   double open_m;  // C and slip of the last evaluation
   Vector slip_m;
-  double moved_m;  // by how much the last iteration changed them
+  double open_before_m;  // and of the one before
+  Vector slip_before_m;
 
   bool has_two_rods() const { return sides[1].segment != kNoSegment; }
 };

@@ -9,6 +9,9 @@ namespace {
 
 constexpr size_t triangle(size_t row, size_t column) { return row * (row + 1) / 2 + column; }
 
+constexpr double kDeep = 0.5;     // of a segment's radius
+constexpr double kForgiven = 10;  // of the rods' tolerance
+
 struct Forces {
   double press;
   Vector drag;
@@ -71,17 +74,12 @@ bool ContactForces::iterated(const Contact& c) const {
   return to.iterated_[c.sides[0].strand] || (c.has_two_rods() && to.iterated_[c.sides[1].strand]);
 }
 
-// Looks, and marks the strands of a contact that has opened or closed by more than its tolerance.
-void ContactForces::find_change(Contact* c) const {
-  const double open = c->open_m;
-  const Vector slip = c->slip_m;
-  look(c);
-  c->moved_m = std::max(std::fabs(c->open_m - open),
-                        c->friction > 0 ? length(difference(c->slip_m, slip)) : 0.0);
-  const double press = forces_of(*c).press, before = std::max(0.0, c->force - c->gain_kg * open);
-  if ((press > 0) == (before > 0) || std::max(press, before) < tolerance_m(*c) * c->gain_kg) return;
-  to.changed_[c->sides[0].strand] = 1;
-  if (c->has_two_rods()) to.changed_[c->sides[1].strand] = 1;
+// Marks the strands of a contact that has opened or closed by more than its tolerance.
+void ContactForces::find_change(const Contact& c) const {
+  const double press = forces_of(c).press, before = std::max(0.0, c.force - c.gain_kg * c.open_before_m);
+  if ((press > 0) == (before > 0) || std::max(press, before) < tolerance_m(c) * c.gain_kg) return;
+  to.changed_[c.sides[0].strand] = 1;
+  if (c.has_two_rods()) to.changed_[c.sides[1].strand] = 1;
 }
 
 double ContactForces::tolerance_m(const Contact& c) const {
@@ -98,16 +96,118 @@ bool ContactForces::take_over(Contact* c) const {
   c->drag = f.drag;
   if (!(force > 0) && !(f.press > 0)) return true;
   const double off = std::max(std::fabs(f.press - force), length(difference(f.drag, drag))) / c->gain_kg;
-  return std::max(off, c->moved_m) <= tolerance_m(*c);
+  const double moved = std::max(std::fabs(c->open_m - c->open_before_m),
+                                c->friction > 0 ? length(difference(c->slip_m, c->slip_before_m)) : 0.0);
+  return std::max(off, c->slowness * moved) <= tolerance_m(*c);
 }
 
+std::span<Contact> ContactForces::contacts() const {
+  return {to.contacts_ + to.first_contact_, to.contact_count_ - to.first_contact_};
+}
+
+// What share of its way a strand goes before it is deep in something.
+void ContactForces::find_ways() const {
+  std::fill(to.ways_ + first_strand(), to.ways_ + end_strand(), 1.0);
+  for (const Contact& c : contacts()) {
+    if (!(c.open_m < -kDeep * c.scale_m)) continue;
+    shorten(c, std::max(c.gap_m - c.allowed_m, 0.0));
+  }
+}
+
+// A way that opened at `start` and leads deep into a contact ends where the contact has just closed.
+void ContactForces::shorten(const Contact& c, double start) const {
+  const double way = (start + 0.25 * kDeep * c.scale_m) / (start - c.open_m);
+  to.ways_[c.sides[0].strand] = std::min(to.ways_[c.sides[0].strand], way);
+  if (c.has_two_rods()) to.ways_[c.sides[1].strand] = std::min(to.ways_[c.sides[1].strand], way);
+}
+
+// The iterate that share of the way to free motion, without forces.
+void ContactForces::step_back(uint32_t strand, uint32_t segment) const {
+  if (batch.at(strand, segment, simd::kRodFree) == 0) return;
+  const double way = to.ways_[strand];
+  const auto row = [&](uint32_t field) { return to.scratch_row(batch, strand, segment, field); };
+  for (uint32_t k = 0; k < 3; ++k) {
+    *row(simd::kRodMove + k) = static_cast<float>(way * static_cast<double>(*row(simd::kRodFreeMove + k)));
+  }
+  Turn before, after;
+  for (uint32_t k = 0; k < 4; ++k) {
+    before[k] = static_cast<double>(batch.at(strand, segment, simd::kRodTurn + k));
+    after[k] = static_cast<double>(*row(simd::kRodFreeTurn + k));
+  }
+  const double side = product(conjugate(before), after)[3] < 0 ? -1 : 1;
+  for (size_t k = 0; k < 4; ++k) after[k] = (1 - way) * side * before[k] + way * after[k];
+  after = normalised(after);
+  for (uint32_t k = 0; k < 4; ++k) *row(simd::kRodNow + k) = static_cast<float>(after[k]);
+  for (uint32_t k = 0; k < 6; ++k) *row(simd::kRodForceNow + k) = 0;
+}
+
+// Strands that would start deep in something start where they first touch it: an iteration that is cut short,
+// by its cap or by how far segments may turn in it, then leaves them in front of it, slower, not behind.
 void ContactForces::begin() const noexcept {
-  for (uint32_t i = to.first_contact_; i < to.contact_count_; ++i) look(&to.contacts_[i]);
+  for (Contact& c : contacts()) look(&c);
+  find_ways();
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {
     to.turning_[s] = 0;
     to.pending_[s] = 1;
+    for (uint32_t i = 0; to.ways_[s] < 1 && i < batch.segment_count_; ++i) step_back(s, i);
   }
+  for (Contact& c : contacts()) look(&c);
   assemble();
+}
+
+// Takes back what of the last iteration lies beyond the strand's way.
+void ContactForces::take_back(uint32_t strand) const {
+  const auto row = [&](uint32_t i, uint32_t field) { return to.scratch_row(batch, strand, i, field); };
+  const auto change = [&](uint32_t i, uint32_t k) {
+    return static_cast<double>(*row(i, simd::kRodImpulse + k));
+  };
+  double square = 0;
+  for (uint32_t i = 0; i < batch.segment_count_; ++i) {
+    const Vector turn = {change(i, 3), change(i, 4), change(i, 5)};
+    square = std::max(square, dot(turn, turn));
+  }
+  // As the kernels shortened it.
+  const double most = static_cast<double>(simd::kRodLargestTurn_rad);
+  const double taken = most / std::max(most, std::sqrt(square)), way = to.ways_[strand];
+  const double back = taken * (1 - way);
+  const auto less = [&](float* value, double by) {
+    *value = static_cast<float>(static_cast<double>(*value) - by);
+  };
+  for (uint32_t i = 0; i < batch.segment_count_; ++i) {
+    if (batch.at(strand, i, simd::kRodFree) != 0) {
+      Turn q;
+      for (uint32_t k = 0; k < 4; ++k) q[k] = static_cast<double>(*row(i, simd::kRodNow + k));
+      const double half = 0.5 * taken;
+      const Turn whole = {half * change(i, 3), half * change(i, 4), half * change(i, 5), 1};
+      const Turn part = {way * whole[0], way * whole[1], way * whole[2], 1};
+      q = normalised(product(product(q, conjugate(whole)), part));
+      for (uint32_t k = 0; k < 3; ++k) less(row(i, simd::kRodMove + k), back * change(i, k));
+      for (uint32_t k = 0; k < 4; ++k) *row(i, simd::kRodNow + k) = static_cast<float>(q[k]);
+    }
+    for (uint32_t k = 0; i > 0 && k < 6; ++k) {
+      less(row(i, simd::kRodForceNow + k), back * static_cast<double>(*row(i, simd::kRodMiss + k)));
+    }
+  }
+}
+
+// No iteration goes deep into what it did not know to be closed: ways end there.
+void ContactForces::stop_at_new_contacts() const {
+  std::fill(to.ways_ + first_strand(), to.ways_ + end_strand(), 1.0);
+  bool any = false;
+  for (const Contact& c : contacts()) {
+    if (!iterated(c) || !(c.open_m < -kDeep * c.scale_m) || !(c.open_before_m > 0)) continue;
+    shorten(c, c.open_before_m);
+    any = true;
+  }
+  if (!any) return;
+  for (uint32_t s = first_strand(); s < end_strand(); ++s) {
+    if (to.ways_[s] < 1 && to.iterated_[s]) take_back(s);
+  }
+  for (Contact& c : contacts()) {
+    const bool moved =
+        to.ways_[c.sides[0].strand] < 1 || (c.has_two_rods() && to.ways_[c.sides[1].strand] < 1);
+    if (moved) look(&c);
+  }
 }
 
 uint32_t ContactForces::settle() const noexcept {
@@ -116,11 +216,17 @@ uint32_t ContactForces::settle() const noexcept {
     to.turning_[s] = active(s) != 0;
     to.pending_[s] = to.changed_[s] = 0;
   }
-  const std::span<Contact> contacts(to.contacts_ + to.first_contact_, to.contact_count_ - to.first_contact_);
-  for (Contact& c : contacts) {
-    if (iterated(c)) find_change(&c);
+  for (Contact& c : contacts()) {
+    if (!iterated(c)) continue;
+    c.open_before_m = c.open_m;
+    c.slip_before_m = c.slip_m;
+    look(&c);
   }
-  for (Contact& c : contacts) {
+  stop_at_new_contacts();
+  for (const Contact& c : contacts()) {
+    if (iterated(c)) find_change(c);
+  }
+  for (Contact& c : contacts()) {
     if (!iterated(c) || take_over(&c)) continue;
     to.pending_[c.sides[0].strand] = 1;
     if (c.has_two_rods()) to.pending_[c.sides[1].strand] = 1;
@@ -134,7 +240,41 @@ uint32_t ContactForces::settle() const noexcept {
   return count;
 }
 
+// The largest turn of the last iteration; infinity where what is held is out of reach.
+double ContactForces::last_turn(uint32_t strand) const {
+  const size_t group = strand / batch.width_;
+  const float miss =
+      batch.lanes_[(group * simd::kLaneFields + simd::kLaneHeldMiss) * batch.width_ + strand % batch.width_];
+  const double tolerance = static_cast<double>(batch.settings_.tolerance_rad);
+  if (!(static_cast<double>(miss) <= tolerance * tolerance)) return std::numeric_limits<double>::max();
+  double square = 0;
+  for (uint32_t i = 0; i < batch.segment_count_; ++i) {
+    const auto turn = [&](uint32_t k) {
+      return static_cast<double>(*to.scratch_row(batch, strand, i, simd::kRodImpulse + 3 + k));
+    };
+    const Vector v = {turn(0), turn(1), turn(2)};
+    square = std::max(square, dot(v, v));
+  }
+  return std::sqrt(square);
+}
+
+// A strand that touches something and still turns a little each iteration keeps its forces: it counts as one
+// whose contacts did not converge.
+void ContactForces::forgive() const {
+  const double most = kForgiven * static_cast<double>(batch.settings_.tolerance_rad);
+  for (const Contact& c : contacts()) {
+    if (!(c.force > 0)) continue;
+    for (const Contact::Side& side : c.sides) {
+      if (side.segment == kNoSegment || !to.turning_[side.strand] || !(last_turn(side.strand) < most))
+        continue;
+      to.turning_[side.strand] = 0;
+      to.pending_[side.strand] = 1;
+    }
+  }
+}
+
 uint32_t ContactForces::end() const noexcept {
+  forgive();
   uint32_t count = 0;
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {
     active(s) = to.turning_[s] ? 1.0f : 0.0f;
@@ -155,7 +295,7 @@ void ContactForces::clear() const noexcept {
 
 void ContactForces::assemble() const {
   clear();
-  for (uint32_t i = to.first_contact_; i < to.contact_count_; ++i) add(to.contacts_[i]);
+  for (const Contact& c : contacts()) add(c);
 }
 
 void ContactForces::add(const Contact& c) const {

@@ -27,11 +27,19 @@ struct ContactForces {
   uint32_t end_strand() const;
   float& active(uint32_t strand) const;
   Now now(const Contact& contact, size_t side) const;
+  std::span<Contact> contacts() const;
+  void find_ways() const;
+  void shorten(const Contact& contact, double start) const;
+  void take_back(uint32_t strand) const;
+  void stop_at_new_contacts() const;
+  void step_back(uint32_t strand, uint32_t segment) const;
   void look(Contact* contact) const;
   bool iterated(const Contact& contact) const;
-  void find_change(Contact* contact) const;
+  void find_change(const Contact& contact) const;
   double tolerance_m(const Contact& contact) const;
   bool take_over(Contact* contact) const;
+  double last_turn(uint32_t strand) const;
+  void forgive() const;
   void assemble() const;
   void add(const Contact& contact) const;
   void add_to_side(const Contact& contact, size_t side, const Vector& force, double pressed,
