@@ -11,6 +11,7 @@
 
 #include "core/aligned_block.hpp"
 #include "rods/strand.hpp"
+#include "rods/turn.hpp"
 #include "simd/rod_job.hpp"
 
 namespace sinew::rods {
@@ -119,6 +120,7 @@ class RodBatch {
     at(strand, segment, simd::kRodPlace + axis) = high;
     at(strand, segment, simd::kRodPlaceLow + axis) = static_cast<float>(place - static_cast<double>(high));
   }
+  void put_target(uint32_t strand, uint32_t segment, const Vector& move, const Turn& turn) const noexcept;
   Status check_place(uint32_t strand, uint32_t segment) const noexcept;
   Status check_simulated(uint32_t strand, uint32_t segment, const char* what) const noexcept;
   bool held(uint32_t strand, uint32_t segment) const noexcept;

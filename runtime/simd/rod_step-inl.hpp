@@ -41,17 +41,6 @@ HWY_INLINE Four<V> rotation_by(const Three<V>& turn) {
   return {part.x, part.y, part.z, cosine(square)};
 }
 
-template <class V>
-HWY_INLINE Three<V> choose(hn::Mask<hn::DFromV<V>> mask, const Three<V>& yes, const Three<V>& no) {
-  return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y),
-          hn::IfThenElse(mask, yes.z, no.z)};
-}
-template <class V>
-HWY_INLINE Four<V> choose(hn::Mask<hn::DFromV<V>> mask, const Four<V>& yes, const Four<V>& no) {
-  const Three<V> part = choose(mask, vector_part(yes), vector_part(no));
-  return {part.x, part.y, part.z, hn::IfThenElse(mask, yes.w, no.w)};
-}
-
 template <class G>
 HWY_INLINE void predict_move(const G& g, size_t i, typename G::V h) {
   using V = typename G::V;
