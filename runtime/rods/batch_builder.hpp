@@ -6,12 +6,17 @@
 
 namespace sinew::rods {
 
+// The segment that is fixed in most strands, the first of several; 0 if none is.
+uint32_t most_held(std::span<const StrandDef> strands);
+
 // A friend of the batch, so that the class shows only what a user calls.
 struct RodBatchBuilder {
   RodBatch& batch;
 
   size_t groups() const { return (batch.strand_count_ + batch.width_ - 1) / batch.width_; }
   void lay_out(std::byte* base, size_t* bytes);
+  // Puts the records in the order of a tree whose root this segment is.
+  void root_at(uint32_t segment);
   void set_units(const StrandDef& strand, uint32_t index);
   // All of a batch that is laid out; refuses what check_units and check_filled refuse.
   Status fill_all(std::span<const StrandDef> strands);
@@ -25,7 +30,7 @@ struct RodBatchBuilder {
 
  private:
   struct Kept;
-  Status check_above_zero(uint32_t strand, uint32_t i, std::span<const Kept> kept) const;
+  Status check_above_zero(uint32_t strand, uint32_t i, uint32_t record, std::span<const Kept> kept) const;
   Status check_joint(const SegmentDef& s, uint32_t strand, uint32_t i) const;
   void set_body(const SegmentDef& s, uint32_t slot, uint32_t i, const RodBatch::Units& units);
   void set_joint(const SegmentDef& parent, const SegmentDef& s, uint32_t slot, uint32_t i,

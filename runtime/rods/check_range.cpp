@@ -47,9 +47,10 @@ Status RodBatchBuilder::check_units(const StrandDef& strand, uint32_t index) con
   return {};
 }
 
-Status RodBatchBuilder::check_above_zero(uint32_t strand, uint32_t i, std::span<const Kept> kept) const {
+Status RodBatchBuilder::check_above_zero(uint32_t strand, uint32_t i, uint32_t record,
+                                         std::span<const Kept> kept) const {
   for (const Kept& k : kept) {
-    const float value = batch.at(strand, i, k.field);
+    const float value = batch.at(strand, record, k.field);
     if (!above_zero(value)) return out_of_range(strand, i, k.name, value);
   }
   return {};
@@ -59,11 +60,12 @@ Status RodBatchBuilder::check_joint(const SegmentDef& s, uint32_t strand, uint32
   static constexpr Kept kOfJoint[] = {
       {simd::kRodBendCompliance, "its joint's bending compliance over the strand's mean"},
       {simd::kRodTwistCompliance, "its joint's twisting compliance over the strand's mean"}};
-  const float stretch = batch.at(strand, i, simd::kRodStretchCompliance);
+  const uint32_t record = batch.joint_segments_[i];
+  const float stretch = batch.at(strand, record, simd::kRodStretchCompliance);
   if (std::isfinite(s.stretch_modulus_pa) && !above_zero(stretch)) {
     return out_of_range(strand, i, "its joint's stretching compliance over the strand's mean", stretch);
   }
-  return check_above_zero(strand, i, kOfJoint);
+  return check_above_zero(strand, i, record, kOfJoint);
 }
 
 Status RodBatchBuilder::check_filled(const StrandDef& strand, uint32_t index) const {
@@ -73,7 +75,7 @@ Status RodBatchBuilder::check_filled(const StrandDef& strand, uint32_t index) co
                                      {simd::kRodHalfLength, "its half length over the strand's mean"}};
   Status status;
   for (uint32_t i = 0; i < batch.segment_count_ && status.ok(); ++i) {
-    status = check_above_zero(index, i, kOfBody);
+    status = check_above_zero(index, i, i, kOfBody);
     if (i > 0 && status.ok()) status = check_joint(strand.segments[i], index, i);
   }
   return status;

@@ -21,12 +21,15 @@ void RodBatchBuilder::lay_out(std::byte* base, size_t* bytes) {
   batch.rest_ =
       arena.take<float>(size_t{batch.strand_count_} * batch.segment_count_ * RodBatch::kRestNumbers);
   batch.units_ = arena.take<RodBatch::Units>(batch.strand_count_);
-  batch.parents_ = arena.take<uint32_t>(batch.segment_count_);
+  for (uint32_t** list : {&batch.parents_, &batch.slots_, &batch.joint_segments_, &batch.slot_parents_}) {
+    *list = arena.take<uint32_t>(batch.segment_count_);
+  }
   *bytes = arena.used_bytes();
 }
 
 Status RodBatchBuilder::fill_all(std::span<const StrandDef> strands) {
   for (uint32_t i = 1; i < batch.segment_count_; ++i) batch.parents_[i] = strands[0].segments[i].parent;
+  root_at(most_held(strands));
   Status status;
   for (uint32_t i = 0; i < batch.strand_count_ && status.ok(); ++i) {
     set_units(strands[i], i);

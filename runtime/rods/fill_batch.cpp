@@ -48,15 +48,19 @@ void RodBatchBuilder::set_body(const SegmentDef& s, uint32_t slot, uint32_t i, c
 void RodBatchBuilder::set_joint(const SegmentDef& parent, const SegmentDef& s, uint32_t slot, uint32_t i,
                                 const RodBatch::Units& units) {
   const JointCompliance c = joint_compliance(parent, s);
-  const double m = units.mass_kg, l = units.length_m;
-  put(slot, i, simd::kRodStretchCompliance, c.stretch_m_n * m);
-  put(slot, i, simd::kRodBendCompliance, c.bend_rad_nm * m * l * l);
-  put(slot, i, simd::kRodTwistCompliance, c.twist_rad_nm * m * l * l);
-  put(slot, i, simd::kRodDamping, s.damping_s);
-  put(slot, i, simd::kRodTied, parent.fixed && s.fixed ? 1 : 0);
+  const double m = units.mass_kg, l = units.length_m, side = batch.joint_side(i);
+  const uint32_t at = batch.joint_segments_[i];
+  const float upper = parent.length_m, own = s.length_m;
+  put(slot, at, simd::kRodStretchCompliance, c.stretch_m_n * m);
+  put(slot, at, simd::kRodBendCompliance, c.bend_rad_nm * m * l * l);
+  put(slot, at, simd::kRodTwistCompliance, c.twist_rad_nm * m * l * l);
+  put(slot, at, simd::kRodDamping, s.damping_s);
+  put(slot, at, simd::kRodTied, parent.fixed && s.fixed ? 1 : 0);
+  put(slot, at, simd::kRodParentArm, 0.5 * side * (side > 0 ? upper : own) / l);
+  put(slot, at, simd::kRodArm, 0.5 * side * (side > 0 ? own : upper) / l);
   double rest[3] = {};
   darboux(joint_end(parent), joint_end(s), rest);
-  for (uint32_t k = 0; k < 3; ++k) put(slot, i, simd::kRodRest + k, rest[k]);
+  for (uint32_t k = 0; k < 3; ++k) put(slot, at, simd::kRodRest + k, side * rest[k]);
 }
 
 void RodBatchBuilder::set_pose(const SegmentDef& s, uint32_t slot, uint32_t i, const RodBatch::Units& units) {

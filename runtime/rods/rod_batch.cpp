@@ -50,7 +50,7 @@ double largest_of(const Vector& v) { return std::max({std::fabs(v[0]), std::fabs
 
 size_t RodBatch::row(uint32_t strand, uint32_t segment, uint32_t field) const noexcept {
   const size_t group = strand / width_, lane = strand % width_;
-  return ((group * segment_count_ + segment) * simd::kRodKeptFields + field) * width_ + lane;
+  return ((group * segment_count_ + slots_[segment]) * simd::kRodKeptFields + field) * width_ + lane;
 }
 
 Status RodBatch::check_place(uint32_t strand, uint32_t segment) const noexcept {
@@ -154,7 +154,10 @@ Status RodBatch::set_start(uint32_t strand, uint32_t segment, const SegmentStart
     own[9 + k] = start.moment_nm[k] / (force * l);
   }
   if (!all_finite(own)) return too_large(strand, segment, "the start");
-  for (uint32_t k = 0; k < 12; ++k) at(strand, segment, simd::kRodStartPush + k) = own[k];
+  for (uint32_t k = 0; k < 6; ++k) at(strand, segment, simd::kRodStartPush + k) = own[k];
+  for (uint32_t k = 0; k < 6 && segment > 0; ++k) {
+    at(strand, joint_segments_[segment], simd::kRodStartForce + k) = joint_side(segment) * own[6 + k];
+  }
   return {};
 }
 
@@ -188,8 +191,10 @@ SegmentStart RodBatch::last_forces(uint32_t strand, uint32_t segment) const noex
   for (uint32_t k = 0; k < 3; ++k) {
     out.acceleration_m_s2[k] = at(strand, segment, simd::kRodStartPush + k) * l;
     out.angular_acceleration_rad_s2[k] = at(strand, segment, simd::kRodStartTwist + k);
-    out.force_n[k] = at(strand, segment, simd::kRodStartForce + k) * force;
-    out.moment_nm[k] = at(strand, segment, simd::kRodStartForce + 3 + k) * (force * l);
+    if (segment == 0) continue;
+    const uint32_t joint = joint_segments_[segment];
+    out.force_n[k] = joint_side(segment) * at(strand, joint, simd::kRodStartForce + k) * force;
+    out.moment_nm[k] = joint_side(segment) * at(strand, joint, simd::kRodStartForce + 3 + k) * (force * l);
   }
   return out;
 }

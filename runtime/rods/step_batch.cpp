@@ -20,7 +20,7 @@ simd::RodJob RodBatch::group_job(uint32_t group, float dt_s) const noexcept {
   return {.records = records_ + size_t{group} * segment_count_ * simd::kRodKeptFields * width_,
           .scratch = scratch_,
           .lanes = lanes_ + size_t{group} * simd::kLaneFields * width_,
-          .parents = parents_,
+          .parents = slot_parents_,
           .segments = segment_count_,
           .dt_s = dt_s,
           .tolerance_rad = settings_.tolerance_rad,

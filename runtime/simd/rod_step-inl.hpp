@@ -90,7 +90,7 @@ HWY_INLINE void predict_joint(const G& g, size_t i, size_t parent, typename G::V
   const Three<V> gap = (g.get3(parent, kRodPlace) - g.get3(i, kRodPlace)) +
                        (g.get3(parent, kRodPlaceLow) - g.get3(i, kRodPlaceLow));
   const Three<V> stretched =
-      scaled_sum(g.get(parent, kRodHalfLength), z_a, scaled_sum(g.get(i, kRodHalfLength), z_b, gap));
+      scaled_sum(g.get(i, kRodParentArm), z_a, scaled_sum(g.get(i, kRodArm), z_b, gap));
   g.set3(i, kRodGap, less_scaled(stretch_share, stretched, gap));
   const Three<V> rest = g.get3(i, kRodRest), bent = scaled(two, vector_part(relative(q_a, q_b)));
   g.set3(i, kRodStepRest, scaled_sum(share, bent - rest, rest));
