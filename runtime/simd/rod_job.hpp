@@ -69,7 +69,8 @@ enum RodField : uint32_t {
   kRodMiss = kRodImpulse + 6,                // [6] constraint residual; then the change of the joint's force
   kRodInertiaFactor = kRodMiss + 6,          // [21] of the segment with all that hangs on it
   kRodJointFactor = kRodInertiaFactor + 21,  // [21]
-  kRodFields = kRodJointFactor + 21
+  kRodLastTurn = kRodJointFactor + 21,       // [3] rotation that the iteration before asked for
+  kRodFields = kRodLastTurn + 3
 };
 
 // Rows of `width` floats of the group itself.
@@ -77,10 +78,11 @@ enum RodLaneField : uint32_t {
   kLaneGravity = 0,                // [3]
   kLaneActive = kLaneGravity + 3,  // 1 while a strand is not converged, 0 afterwards and where there is none
   kLaneHeldMiss,                   // largest gap or bend squared left at joints whose child's pose is given
+  kLaneShare,                      // of its change that the iteration before took
   kLaneIterations,
   kLaneCgIterations,
   kLaneCgScale,  // what kCg's residuals are measured by, squared: its zero start's first
-  kLaneBroken,  // 1 where a step left something that is not finite
+  kLaneBroken,   // 1 where a step left something that is not finite
   kLaneFields
 };
 
@@ -95,6 +97,7 @@ struct RodJob {
   bool start_from_zero;    // else from kRodStart*
   float cg_tolerance;      // of the residual's preconditioned norm against kLaneCgScale's
   uint32_t cg_iterations;  // at most, of one linear system
+  uint32_t local_sweeps;   // of one linear system
 };
 
 // For one width of a group. All calls work on every lane; a lane's numbers do not depend on its neighbours'.
@@ -106,6 +109,7 @@ struct RodCalls {
   // One Newton iteration. Returns how many lanes are not converged.
   uint32_t (*direct)(const RodJob& job);
   uint32_t (*cg)(const RodJob& job);
+  uint32_t (*local)(const RodJob& job);
   // Takes the iterate over as the new state.
   void (*finish)(const RodJob& job);
 };

@@ -10,9 +10,11 @@
 #include "simd/three-inl.hpp"
 #include "simd/rod_lanes-inl.hpp"
 #include "simd/rod_step-inl.hpp"
+#include "simd/rod_relax-inl.hpp"
 #include "simd/rod_linearise-inl.hpp"
 #include "simd/rod_direct-inl.hpp"
 #include "simd/rod_cg-inl.hpp"
+#include "simd/rod_local-inl.hpp"
 // clang-format on
 
 namespace sinew::simd::HWY_NAMESPACE {
@@ -23,6 +25,7 @@ constexpr RodCalls rod_calls() {
           .measure_cg = rod_measure_cg<kWidth>,
           .direct = rod_direct<kWidth>,
           .cg = rod_cg<kWidth>,
+          .local = rod_local<kWidth>,
           .finish = rod_finish<kWidth>};
 }
 
