@@ -36,7 +36,8 @@ struct RodSettings {
   // 1e-6 to 1: the iteration ends where it turned no segment by more. Stretch is then at most its square over
   // two: 5e-5 at the default.
   float tolerance_rad = 0.01f;
-  float cg_tolerance = 1e-4f;         // 1e-7 to 1: kCg's residual against its first
+  // 1e-7 to 1: kCg's residual against that of the step's first system from kZero, whatever the start.
+  float cg_tolerance = 1e-4f;
   uint32_t cg_max_iterations = 1000;  // 1 to 100000, of one linear system
   float gravity_m_s2[3] = {0, -9.81f, 0};
   // A pose given for a fixed segment further away than this many of its strand's lengths carries the strand

@@ -35,6 +35,7 @@ void RodBatch::step_group(uint32_t group, float dt_s, RodReport* report) noexcep
   const uint32_t first = group * width_, count = std::min(width_, strand_count_ - first);
   for (uint32_t i = 0; i < width_; ++i) job.lanes[simd::kLaneActive * width_ + i] = i < count ? 1.0f : 0.0f;
   call.predict(job);
+  if (settings_.solver == RodSolver::kCg) call.measure_cg(job);
   for (uint32_t k = 0; k < settings_.max_iterations; ++k) {
     if ((settings_.solver == RodSolver::kCg ? call.cg : call.direct)(job) == 0) break;
   }

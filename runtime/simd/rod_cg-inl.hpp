@@ -5,6 +5,10 @@
 // with W the inverse of mass and stiffened inertia. The matrix is applied, not stored; any tree. Its
 // condition grows with segments^4: for comparing, and for what a good start leaves to do. A strand that is
 // done stays as it is.
+//
+// An iteration ends where the residual r has r . P r <= cg_tolerance^2 (r . P r of the step's first system
+// from free motion without forces), P the inverse diagonal: not against the residual of the start it was
+// given, so that a better start has less to do and a perfect one nothing.
 HWY_BEFORE_NAMESPACE();
 namespace sinew::simd::HWY_NAMESPACE {
 
@@ -185,13 +189,18 @@ HWY_INLINE typename G::V improve(const G& g, const RodJob& job, M active, typena
   return next;
 }
 
+// Below this share of what it starts from a residual is rounding. It ends what is measured by nothing: a
+// strand that free motion would leave as it is.
+inline constexpr float kCgRounding = 1e-6f;
+
 template <class G>
 HWY_INLINE void solve_gradient(const G& g, const RodJob& job) {
   using V = typename G::V;
   const hn::DFromV<V> d;
   const V one = hn::Set(d, 1), zero = hn::Zero(d);
   V energy = start_gradient(g, job);
-  const V enough = hn::Mul(hn::Set(d, job.cg_tolerance * job.cg_tolerance), energy);
+  const V enough = hn::Max(hn::Mul(hn::Set(d, job.cg_tolerance * job.cg_tolerance), g.lane(kLaneCgScale)),
+                           hn::Mul(hn::Set(d, kCgRounding * kCgRounding), energy));
   auto active = hn::And(hn::Gt(g.lane(kLaneActive), zero), hn::Gt(energy, enough));
   for (uint32_t k = 0; k < job.cg_iterations && !hn::AllFalse(d, active); ++k) {
     g.set_lane(kLaneCgIterations, hn::Add(g.lane(kLaneCgIterations), hn::IfThenElseZero(active, one)));
@@ -214,6 +223,17 @@ HWY_INLINE typename G::V change_bodies(const G& g, const RodJob& job) {
     largest = hn::Max(largest, dot(change.t, change.t));
   }
   return largest;
+}
+
+template <size_t kWidth>
+void rod_measure_cg(const RodJob& job) {
+  for_lanes<kWidth>(job, [&](const auto& g) HWY_ATTR {
+    const LanesOf<kWidth> d;
+    for (size_t i = 0; i < job.segments; ++i) start_iterate(g, i, hn::Zero(d));
+    linearise(g, job);
+    g.set_lane(kLaneCgScale, start_gradient(g, job));
+    for (size_t i = 0; i < job.segments; ++i) start_iterate(g, i, start_square(d, job));
+  });
 }
 
 template <size_t kWidth>

@@ -79,6 +79,7 @@ enum RodLaneField : uint32_t {
   kLaneHeldMiss,                   // largest gap or bend squared left at joints whose child's pose is given
   kLaneIterations,
   kLaneCgIterations,
+  kLaneCgScale,  // what kCg's residuals are measured by, squared: its zero start's first
   kLaneBroken,  // 1 where a step left something that is not finite
   kLaneFields
 };
@@ -92,7 +93,7 @@ struct RodJob {
   float dt_s;
   float tolerance_rad;     // converged: no segment turned more in an iteration
   bool start_from_zero;    // else from kRodStart*
-  float cg_tolerance;      // of the residual's preconditioned norm against its first
+  float cg_tolerance;      // of the residual's preconditioned norm against kLaneCgScale's
   uint32_t cg_iterations;  // at most, of one linear system
 };
 
@@ -100,6 +101,8 @@ struct RodJob {
 struct RodCalls {
   // Where segments go without joints, and the first iterate.
   void (*predict)(const RodJob& job);
+  // Before the first iteration of cg: fills kLaneCgScale. The first iterate stays.
+  void (*measure_cg)(const RodJob& job);
   // One Newton iteration. Returns how many lanes are not converged.
   uint32_t (*direct)(const RodJob& job);
   uint32_t (*cg)(const RodJob& job);

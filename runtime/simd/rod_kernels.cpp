@@ -20,6 +20,7 @@ namespace sinew::simd::HWY_NAMESPACE {
 template <size_t kWidth>
 constexpr RodCalls rod_calls() {
   return {.predict = rod_predict<kWidth>,
+          .measure_cg = rod_measure_cg<kWidth>,
           .direct = rod_direct<kWidth>,
           .cg = rod_cg<kWidth>,
           .finish = rod_finish<kWidth>};

@@ -116,12 +116,18 @@ HWY_INLINE void start_iterate(const G& g, size_t i, typename G::V square) {
   }
 }
 
+// What a start's accelerations are worth in a step.
+template <class D>
+HWY_INLINE hn::Vec<D> start_square(D d, const RodJob& job) {
+  return hn::Set(d, job.start_from_zero ? 0.0f : job.dt_s * job.dt_s);
+}
+
 template <size_t kWidth>
 void rod_predict(const RodJob& job) {
   for_lanes<kWidth>(job, [&](const auto& g) HWY_ATTR {
     const LanesOf<kWidth> d;
     const auto h = hn::Set(d, job.dt_s);
-    const auto square = hn::Set(d, job.start_from_zero ? 0.0f : job.dt_s * job.dt_s);
+    const auto square = start_square(d, job);
     for (size_t i = 0; i < job.segments; ++i) {
       predict_move(g, i, h);
       predict_turn(g, i, h);
