@@ -43,6 +43,8 @@ struct RodSettings {
   // A pose given for a fixed segment further away than this many of its strand's lengths carries the strand
   // along as it is, without inertia. Finite, above 0.
   float teleport_lengths = 2;
+  // Fills RodReport::residual, for a fifth of an iteration's time.
+  bool report_residual = false;
 };
 
 struct SegmentPose {
@@ -70,6 +72,9 @@ struct RodReport {
   uint32_t rejoined = 0;   // of these, strands torn by more than half a segment: put together at their joints
   uint32_t recovered = 0;  // strands that were not finite: put back at rest shape where they are held
   uint32_t teleported = 0;  // strands carried along since the last step
+  // With RodSettings::report_residual, of any strand: what the step's equations miss by, in the strand's mean
+  // segments' lengths, radians, and shares of its largest force (simd/rod_residual-inl.hpp). Otherwise 0.
+  float residual = 0;
 };
 
 class RodBatch {
@@ -99,6 +104,10 @@ class RodBatch {
 
   // dt_s in (0, 1]; otherwise refused, and nothing moves. Allocates nothing.
   Status step(float dt_s, RodReport* report) noexcept;
+
+  // What `from` has come to, its targets and forces too, with this batch's own settings. Refused: one not
+  // made of the same strands, as far as counts and parents tell. Allocates nothing.
+  Status take_state(const RodBatch& from) noexcept;
 
   // Of an existing segment.
   SegmentPose pose(uint32_t strand, uint32_t segment) const noexcept;

@@ -39,6 +39,7 @@ void RodBatch::step_group(uint32_t group, float dt_s, RodReport* report) noexcep
   for (uint32_t k = 0; k < settings_.max_iterations; ++k) {
     if ((settings_.solver == RodSolver::kCg ? call.cg : call.direct)(job) == 0) break;
   }
+  if (settings_.report_residual) call.residual(job);
   call.finish(job);
   for (uint32_t i = 0; i < count; ++i) {
     const auto lane = [&](uint32_t field) { return job.lanes[field * width_ + i]; };
@@ -46,6 +47,7 @@ void RodBatch::step_group(uint32_t group, float dt_s, RodReport* report) noexcep
     report->iterations = std::max(report->iterations, iterations);
     report->iterations_sum += iterations;
     report->cg_iterations += static_cast<uint32_t>(lane(simd::kLaneCgIterations));
+    if (settings_.report_residual) report->residual = std::max(report->residual, lane(simd::kLaneResidual));
     report->unconverged += lane(simd::kLaneActive) != 0;
     report->recovered += lane(simd::kLaneBroken) != 0;
     if (lane(simd::kLaneBroken) != 0) {

@@ -79,8 +79,9 @@ enum RodLaneField : uint32_t {
   kLaneHeldMiss,                   // largest gap or bend squared left at joints whose child's pose is given
   kLaneIterations,
   kLaneCgIterations,
-  kLaneCgScale,  // what kCg's residuals are measured by, squared: its zero start's first
-  kLaneBroken,  // 1 where a step left something that is not finite
+  kLaneCgScale,   // what kCg's residuals are measured by, squared: its zero start's first
+  kLaneResidual,  // what residual() found
+  kLaneBroken,    // 1 where a step left something that is not finite
   kLaneFields
 };
 
@@ -106,6 +107,8 @@ struct RodCalls {
   // One Newton iteration. Returns how many lanes are not converged.
   uint32_t (*direct)(const RodJob& job);
   uint32_t (*cg)(const RodJob& job);
+  // Fills kLaneResidual; the iterate stays.
+  void (*residual)(const RodJob& job);
   // Takes the iterate over as the new state.
   void (*finish)(const RodJob& job);
 };

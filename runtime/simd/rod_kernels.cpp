@@ -11,6 +11,7 @@
 #include "simd/rod_lanes-inl.hpp"
 #include "simd/rod_step-inl.hpp"
 #include "simd/rod_linearise-inl.hpp"
+#include "simd/rod_residual-inl.hpp"
 #include "simd/rod_direct-inl.hpp"
 #include "simd/rod_cg-inl.hpp"
 // clang-format on
@@ -23,6 +24,7 @@ constexpr RodCalls rod_calls() {
           .measure_cg = rod_measure_cg<kWidth>,
           .direct = rod_direct<kWidth>,
           .cg = rod_cg<kWidth>,
+          .residual = rod_residual<kWidth>,
           .finish = rod_finish<kWidth>};
 }
 

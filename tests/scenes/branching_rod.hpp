@@ -34,16 +34,15 @@ struct BranchingRod {
 inline constexpr BranchOrder kYoungTree[] = {
     {14, 9, 2.7, 0.036, 0}, {7, 6, 1.35, 0.015, 0.95}, {5, 4, 0.62, 0.007, 0.85}, {4, 0, 0.32, 0.0035, 0.75}};
 
-// Grows upwards from the origin, its first segment fixed. The same tree for the same seed.
+// Grows from the origin, its first segment fixed. The same tree for the same seed.
 class TreeGrower {
  public:
-  TreeGrower(std::span<const BranchOrder> orders, const Timber& timber, uint32_t seed = 1)
-      : orders_(orders), timber_(timber), random_(seed) {}
+  TreeGrower(std::span<const BranchOrder> orders, const Timber& timber, uint32_t seed = 1,
+             const Eigen::Vector3d& up = Eigen::Vector3d::UnitY())
+      : orders_(orders), timber_(timber), random_(seed), up_(up) {}
 
   BranchingRod grow() {
-    // Own z upwards.
-    const Eigen::Quaterniond up = Eigen::Quaterniond::FromTwoVectors(Vector::UnitZ(), Vector::UnitY());
-    branch(0, rods::kNoParent, Vector::Zero(), up, 1);
+    branch(0, rods::kNoParent, Vector::Zero(), Eigen::Quaterniond::FromTwoVectors(Vector::UnitZ(), up_), 1);
     made_.segments[0].fixed = true;
     return std::move(made_);
   }
@@ -89,8 +88,7 @@ class TreeGrower {
   // A little crooked, and towards the light.
   Eigen::Quaterniond bent(uint32_t order, const Eigen::Quaterniond& turn) {
     const double crooked = order == 0 ? 0.05 : 0.10, lift = order == 0 ? 0.02 : 0.07;
-    const Vector aim =
-        axis(turn) + crooked * Vector(signed_one(), signed_one(), signed_one()) + lift * Vector::UnitY();
+    const Vector aim = axis(turn) + crooked * Vector(signed_one(), signed_one(), signed_one()) + lift * up_;
     return Eigen::Quaterniond::FromTwoVectors(axis(turn), aim) * turn;
   }
 
@@ -119,12 +117,13 @@ class TreeGrower {
   std::span<const BranchOrder> orders_;
   Timber timber_;
   std::mt19937 random_;
+  Vector up_;
   BranchingRod made_;
 };
 
 // A tree of exactly this many segments, 4 or more: a trunk of two fifths, three branches, six from 50 on.
-// Segments of 5 cm, 6 mm thick.
-inline std::vector<rods::SegmentDef> forked_rod(uint32_t count, double young_pa) {
+// Segments of 5 cm, 12 mm thick and less; it grows along +y, or -y for up -1.
+inline std::vector<rods::SegmentDef> forked_rod(uint32_t count, double young_pa, double up = 1) {
   const uint32_t branches = count < 10   ? 1
                             : count < 50 ? 3
                                          : 6,
@@ -133,7 +132,7 @@ inline std::vector<rods::SegmentDef> forked_rod(uint32_t count, double young_pa)
   const BranchOrder orders[] = {{trunk, branches, 0.05 * trunk, 0.006, 0},
                                 {each, 0, 0.05 * each, 0.004, 0.9}};
   const Timber timber{.young_pa = young_pa, .torsion_pa = young_pa, .density_kg_m3 = 1000, .damping_s = 0};
-  return TreeGrower(orders, timber).grow().segments;
+  return TreeGrower(orders, timber, 1, up * Eigen::Vector3d::UnitY()).grow().segments;
 }
 
 }  // namespace sinew::test
