@@ -45,7 +45,83 @@ class Fallen {
   test::RodBatch now_, converged_;
 };
 
+// The same in double by constraints.hpp, of a first step from rest: d* is h^2 g there and q* the rest's.
+struct Residuals {
+  double miss = 0, momentum = 0;
+};
+
+Residuals plain_residuals(const test::RodBatch& batch, const test::Segments& rod, double dt_s) {
+  const double l = static_cast<double>(rod[0].length_m), mass = rods::segment_inertia(rod[0]).mass_kg;
+  const double square = dt_s * dt_s, gravity = 9.81;
+  Residuals out;
+  double force = mass * gravity * square / (mass * l);
+  std::vector<std::array<double, 6>> g(rod.size());
+  for (uint32_t i = 0; i < rod.size(); ++i) {
+    const rods::SegmentPose pose = batch.pose(0, i);
+    const rods::SegmentInertia inertia = rods::segment_inertia(rod[i]);
+    const rods::Turn turn =
+        rods::product(rods::conjugate(rods::turn_of(rod[i].orientation)), rods::turn_of(pose.orientation));
+    for (size_t k = 0; k < 3; ++k) {
+      const double falls = k == 1 ? -gravity * square : 0;
+      g[i][k] = mass * (pose.position_m[k] - rod[i].position_m[k] - falls);
+      g[i][3 + k] = 2 * turn[k] * (k == 2 ? inertia.axial_inertia_kg_m2 : inertia.inertia_kg_m2);
+    }
+  }
+  for (uint32_t i = 1; i < rod.size(); ++i) {
+    const rods::SegmentStart joint = batch.last_forces(0, i);
+    const rods::JointCompliance soft = rods::joint_compliance(rod[i - 1], rod[i]);
+    rods::Constraint stretch, bend;
+    const double straight[3] = {};
+    const rods::JointEnd a = test::joint_end(batch.pose(0, i - 1), l),
+                         b = test::joint_end(batch.pose(0, i), l);
+    REQUIRE(rods::stretch_shear(a, b, &stretch));
+    REQUIRE(rods::bend_twist(a, b, straight, &bend));
+    double gap = 0, angle = 0, pull = 0, moment = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double f = square * static_cast<double>(joint.force_n[k]);
+      const double t = square * static_cast<double>(joint.moment_nm[k]);
+      const double compliance = (k == 2 ? soft.twist_rad_nm : soft.bend_rad_nm) / square;
+      gap += std::pow(stretch.value[k] / l, 2);
+      angle += std::pow(bend.value[k] + compliance * t, 2);
+      pull += std::pow(f / (mass * l), 2);
+      moment += std::pow(t / (mass * l * l), 2);
+      for (size_t c = 0; c < 3; ++c) {
+        g[i - 1][c] -= stretch.by_parent_position[k][c] * f;
+        g[i][c] -= stretch.by_child_position[k][c] * f;
+        g[i - 1][3 + c] -= stretch.by_parent_rotation[k][c] * f + bend.by_parent_rotation[k][c] * t;
+        g[i][3 + c] -= stretch.by_child_rotation[k][c] * f + bend.by_child_rotation[k][c] * t;
+      }
+    }
+    out.miss = std::max({out.miss, std::sqrt(gap), std::sqrt(angle)});
+    force = std::max({force, std::sqrt(pull), std::sqrt(moment)});
+  }
+  for (uint32_t i = 1; i < rod.size(); ++i) {
+    const double push = std::hypot(g[i][0], g[i][1], g[i][2]) / (mass * l);
+    const double twist = std::hypot(g[i][3], g[i][4], g[i][5]) / (mass * l * l);
+    out.momentum = std::max({out.momentum, push, twist});
+  }
+  out.momentum /= force;
+  return out;
+}
+
 }  // namespace
+
+TEST_CASE("the_residual_is_what_the_constraints_and_momentum_say_in_double") {
+  for (const float young_pa : {1e3f, 1e6f, 1e9f}) {
+    const test::Segments rod = test::straight_rod({.segments = 6, .young_pa = young_pa});
+    // So large a tolerance that the forces of an unfinished iteration are kept.
+    test::RodBatch batch = test::batch_of(
+        {rod},
+        {.start = rods::RodStart::kZero, .max_iterations = 1, .tolerance_rad = 1, .report_residual = true});
+    const rods::RodReport report = test::step(batch, 0.1f);
+    const Residuals plain = plain_residuals(batch, rod, 0.1);
+    INFO("E " << young_pa << ", miss " << plain.miss << ", momentum " << plain.momentum);
+    REQUIRE(report.unconverged == 0);
+    CHECK(plain.miss > 1e-4);
+    CHECK(static_cast<double>(report.residual) ==
+          Approx(std::max(plain.miss, plain.momentum)).epsilon(1e-3));  // floats against doubles
+  }
+}
 
 TEST_CASE("a_residual_is_reported_only_where_it_is_asked_for") {
   test::RodBatch batch = test::batch_of({test::straight_rod({})}, {.max_iterations = 1});
