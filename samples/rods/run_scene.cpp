@@ -45,7 +45,7 @@ void take_step(const Scene& scene, Measured* m) {
   const double begin = thread_us();
   const Status status = scene.batch->step(static_cast<float>(scene.dt_s), &report);
   m->step_us.push_back(thread_us() - begin);
-  if (!status.ok()) throw std::runtime_error(status.message);
+  accept(status);
   m->iterations_sum += report.iterations_sum;
   m->iterations_most = std::max(m->iterations_most, report.iterations);
   m->unconverged += report.unconverged;
@@ -60,6 +60,10 @@ Moment moment_of(const Scene& scene, double time_s) {
 }
 
 }  // namespace
+
+void accept(const Status& status) {
+  if (!status.ok()) throw std::runtime_error(status.message);
+}
 
 void run_scene(const Scene& scene, Story* story) {
   Measured& m = story->measured;

@@ -15,6 +15,9 @@ struct Scene {
   std::function<std::string(double time_s)> caption;
 };
 
+// Throws std::runtime_error with the status' line unless it is ok.
+void accept(const Status& status);
+
 // Fills moments and measured of a story whose actors are there. Throws std::runtime_error where a step is
 // refused.
 void run_scene(const Scene& scene, Story* story);

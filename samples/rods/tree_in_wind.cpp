@@ -1,6 +1,5 @@
 // tree_in_wind.cpp  A young tree in a gusting wind.
 #include <cstdio>
-#include <stdexcept>
 
 #include "samples/rods/run_scene.hpp"
 #include "samples/rods/scenes.hpp"
@@ -29,8 +28,7 @@ Story tree_in_wind(double seconds) {
   }
   rods::RodBatch batch;
   const rods::StrandDef strand{actor.segments};
-  const Status status = rods::RodBatch::create({&strand, 1}, {}, &batch);
-  if (!status.ok()) throw std::runtime_error(status.message);
+  accept(rods::RodBatch::create({&strand, 1}, {}, &batch));
 
   Story story{.name = "tree", .title = {}, .actors = {actor}, .view = {.yaw_deg = 12, .pitch_deg = 9, .margin = 1.2f}};
   const test::Wind wind;
