@@ -1,12 +1,14 @@
 // main.cpp  perf_trade_rods: time and iterations to a residual, for solvers, starts, rods and scenes, as CSV.
 //
 //   perf_trade_rods OUT.csv [--quick]
-// Cases whose lines are in OUT.csv already are left out, so that a run that was stopped goes on. The first
-// line tells the multiply-add peak of the process that began the file.
+// Cases whose lines are in OUT.csv already are left out, so that a run that was stopped goes on; --quick
+// begins anew, with a few small cases. The first line tells the multiply-add peak of the process that began
+// the file.
 #include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <set>
+#include <stdexcept>
 
 #include "perf/rods/peak.hpp"
 #include "perf/trade/measure.hpp"
@@ -20,10 +22,14 @@ constexpr const char* kColumns =
     "scene,strands,segments,young_pa,solver,start,residual,states,reached,iterations_mean,iterations_most,"
     "inner_mean,us_a_strand,error_lengths";
 
-// The cases that a file holds, whole: a case is written at once.
+// The cases that a file holds, whole: a case is written at once. Throws where it holds something else.
 std::set<std::string> done_in(const std::string& path) {
   std::set<std::string> out;
   std::ifstream file(path);
+  std::string first, columns;
+  if (std::getline(file, first) && (!std::getline(file, columns) || columns != kColumns)) {
+    throw std::runtime_error(path + ": holds no measurements of this program; give another path");
+  }
   for (std::string line; std::getline(file, line);) {
     size_t end = 0;
     for (int i = 0; i < 6 && end != std::string::npos; ++i) end = line.find(',', end + (i > 0));
@@ -44,8 +50,8 @@ std::string lines_of(const TradeCase& c) {
 }
 
 int run(const std::string& path, bool quick) {
-  const std::set<std::string> done = done_in(path);
-  std::FILE* file = std::fopen(path.c_str(), "a");
+  const std::set<std::string> done = quick ? std::set<std::string>() : done_in(path);
+  std::FILE* file = std::fopen(path.c_str(), quick ? "w" : "a");
   if (file == nullptr) {
     std::fprintf(stderr, "perf_trade_rods: %s cannot be written; give another path\n", path.c_str());
     return 2;
@@ -76,6 +82,6 @@ int main(int argc, char** argv) {
     return run(argv[1], quick);
   } catch (const std::exception& problem) {
     std::fprintf(stderr, "perf_trade_rods: %s\n", problem.what());
-    return 1;
+    return 2;
   }
 }
