@@ -28,8 +28,14 @@ Status check_settings(const RodSettings& s) {
   if (s.cg_max_iterations < 1 || s.cg_max_iterations > 100000) {
     return bad_setting("cg_max_iterations", s.cg_max_iterations, "1 to 100000");
   }
-  if (s.start > RodStart::kGiven) {
-    return bad_setting("start", static_cast<double>(s.start), "kZero, kPrevious or kGiven");
+  if (s.start > RodStart::kLearned) {
+    return bad_setting("start", static_cast<double>(s.start), "kZero, kPrevious, kGiven, kContinued, kKnn or kLearned");
+  }
+  if (s.start == RodStart::kLearned) {
+    if (const Status status = check_learned_start(s.network); !status.ok()) return status;
+  }
+  if (s.start == RodStart::kKnn) {
+    if (const Status status = check_examples(s.examples); !status.ok()) return status;
   }
   if (s.max_iterations < 1 || s.max_iterations > 1000) {
     return bad_setting("max_iterations", s.max_iterations, "1 to 1000");
@@ -124,11 +130,26 @@ struct RodBatchBuilder {
     batch.scratch_ = arena.take<float>(size_t{batch.segment_count_} *
                                        (simd::kRodFields - simd::kRodKeptFields) * batch.width_);
     batch.lanes_ = arena.take<float>(groups() * simd::kLaneFields * batch.width_);
+    lay_out_start(arena);
     batch.rest_ =
         arena.take<float>(size_t{batch.strand_count_} * batch.segment_count_ * RodBatch::kRestNumbers);
     batch.units_ = arena.take<RodBatch::Units>(batch.strand_count_);
     batch.parents_ = arena.take<uint32_t>(batch.segment_count_);
     *bytes = arena.used_bytes();
+  }
+
+  void lay_out_start(core::Arena& arena) {
+    const size_t rows = groups() * batch.segment_count_ * batch.width_;
+    if (!batch.has_history()) return;
+    batch.history_ = arena.take<float>(rows * simd::kRodStartAges * simd::kRodStartNumbers);
+    if (!batch.has_inputs()) return;
+    batch.inputs_ = arena.take<float>(rows * simd::kRodStartInputs);
+    batch.continued_ = arena.take<float>(rows * simd::kRodStartNumbers);
+    batch.scales_ = arena.take<float>(groups() * simd::kRodStartTriples * batch.width_);
+    if (batch.net_.latent == 0) return;
+    batch.encodings_ = arena.take<float>(rows * batch.net_.latent);
+    batch.planes_ =
+        arena.take<float>(simd::rod_net_floats(batch.segment_count_, batch.net_.latent, batch.width_));
   }
 
   void set_units(const StrandDef& strand, uint32_t index) {
@@ -264,6 +285,8 @@ Status RodBatch::create(std::span<const StrandDef> strands, const RodSettings& s
   RodBatch made;
   RodBatchBuilder builder{made};
   made.settings_ = settings;
+  if (settings.start == RodStart::kLearned) made.net_ = start_net(*settings.network);
+  if (settings.start == RodStart::kKnn) made.examples_ = start_examples(*settings.examples);
   made.strand_count_ = static_cast<uint32_t>(strands.size());
   made.segment_count_ = static_cast<uint32_t>(strands[0].segments.size());
   made.width_ = strands.size() > kNarrow ? kWide : kNarrow;
@@ -287,6 +310,7 @@ Status RodBatch::create(std::span<const StrandDef> strands, const RodSettings& s
     builder.keep_rest(slot);
     status = builder.check_filled(strands[slot], slot);
   }
+  if (status.ok()) made.tell_fixed_inputs();
   if (status.ok()) *out = static_cast<RodBatch&&>(made);
   return status;
 }
