@@ -13,6 +13,7 @@
 #include "rods/knn_start.hpp"
 #include "rods/learned_start.hpp"
 #include "rods/strand.hpp"
+#include "rods/turn.hpp"
 #include "simd/rod_job.hpp"
 
 namespace sinew::rods {
@@ -134,6 +135,9 @@ class RodBatch {
     float length_m, mass_kg, total_lengths;
   };
   size_t row(uint32_t strand, uint32_t segment, uint32_t field) const noexcept;
+  // -1 where the record tells the joint to the parent from its other end: its force is minus that on the
+  // parent.
+  float joint_side(uint32_t segment) const noexcept { return joint_segments_[segment] == segment ? 1 : -1; }
   float& at(uint32_t strand, uint32_t segment, uint32_t field) const noexcept {
     return records_[row(strand, segment, field)];
   }
@@ -142,6 +146,7 @@ class RodBatch {
     at(strand, segment, simd::kRodPlace + axis) = high;
     at(strand, segment, simd::kRodPlaceLow + axis) = static_cast<float>(place - static_cast<double>(high));
   }
+  void put_target(uint32_t strand, uint32_t segment, const Vector& move, const Turn& turn) const noexcept;
   Status check_place(uint32_t strand, uint32_t segment) const noexcept;
   Status check_simulated(uint32_t strand, uint32_t segment, const char* what) const noexcept;
   bool held(uint32_t strand, uint32_t segment) const noexcept;
@@ -153,11 +158,21 @@ class RodBatch {
   }
   simd::RodStartJob start_job(uint32_t group) const noexcept;
   void tell_fixed_inputs() noexcept;
-  void tell_joint(uint32_t strand, uint32_t segment, float (&out)[simd::kRodJointInputs]) const noexcept;
+  void tell_joint(uint32_t strand, uint32_t slot, float (&out)[simd::kRodJointInputs]) const noexcept;
   void make_start(uint32_t group, const simd::RodJob& job) const noexcept;
   void carry(uint32_t strand, uint32_t segment, const SegmentPose& to) noexcept;
+  void carry_place(uint32_t strand, uint32_t segment, const Turn& by, const SegmentPose& from,
+                   const SegmentPose& to) noexcept;
+  void turn_row(uint32_t strand, uint32_t segment, uint32_t field, const Turn& by) noexcept;
   bool rejoin(uint32_t strand, float dt_s) noexcept;
+  Vector place(uint32_t strand, uint32_t segment) const noexcept;
+  Vector half_axis(uint32_t strand, uint32_t segment) const noexcept;
+  Vector joint_offset(uint32_t strand, uint32_t segment) const noexcept;
+  double largest_gap(uint32_t strand) const noexcept;
+  void count_joints_to_held(uint32_t strand, float* joints) const noexcept;
+  void shift(uint32_t strand, uint32_t segment, const Vector& to, float dt_s) noexcept;
   void recover(uint32_t strand) noexcept;
+  void forget_motion(uint32_t strand, uint32_t segment) noexcept;
 
   static constexpr uint32_t kRestNumbers = 10;
 
@@ -173,7 +188,10 @@ class RodBatch {
   float* planes_ = nullptr;     // of one group
   float* rest_ = nullptr;   // [strands][segments][kRestNumbers] place, high and low, and orientation at rest
   Units* units_ = nullptr;  // [strands]
-  uint32_t* parents_ = nullptr;
+  uint32_t* parents_ = nullptr;         // [segments] as listed
+  uint32_t* slots_ = nullptr;           // [segments] where a segment's record is; slot 0 is held if one is
+  uint32_t* joint_segments_ = nullptr;  // [segments] whose record holds the joint to the parent
+  uint32_t* slot_parents_ = nullptr;    // [slots] slots
   RodSettings settings_;
   simd::RodStartNet net_{};
   simd::RodStartExamples examples_{};

@@ -45,7 +45,7 @@ void RodBatch::tell_fixed_inputs() noexcept {
   const size_t groups = (size_t{strand_count_} + width_ - 1) / width_;
   float* place = scratch_;  // not yet in use
   place[0] = 0;
-  for (uint32_t i = 1; i < segment_count_; ++i) place[i] = place[parents_[i]] + 1;
+  for (uint32_t i = 1; i < segment_count_; ++i) place[i] = place[slot_parents_[i]] + 1;
   const float per = 1 / *std::max_element(place, place + segment_count_);
   for (size_t row = 0; row < groups * segment_count_; ++row) {
     float* to = inputs_ + (row * simd::kRodStartInputs + simd::kRodStartNumbers) * width_;
@@ -68,26 +68,28 @@ void RodBatch::tell_fixed_inputs() noexcept {
   }
 }
 
-void RodBatch::tell_joint(uint32_t strand, uint32_t segment,
+// Of a record's joint.
+void RodBatch::tell_joint(uint32_t strand, uint32_t slot,
                           float (&out)[simd::kRodJointInputs]) const noexcept {
+  const float* record = records_ + (size_t{strand / width_} * segment_count_ + slot) * simd::kRodKeptFields * width_ +
+                        strand % width_;
   float rest[3];
-  for (uint32_t k = 0; k < 3; ++k) rest[k] = at(strand, segment, simd::kRodRest + k);
-  joint_inputs(rest, at(strand, segment, simd::kRodBendCompliance),
-               at(strand, segment, simd::kRodTwistCompliance), out);
+  for (uint32_t k = 0; k < 3; ++k) rest[k] = record[(simd::kRodRest + k) * width_];
+  joint_inputs(rest, record[simd::kRodBendCompliance * width_], record[simd::kRodTwistCompliance * width_], out);
 }
 
 StartInputs RodBatch::start_inputs(uint32_t strand, uint32_t segment) const noexcept {
   StartInputs out{};
   if (!inputs_) return out;
   const simd::RodStartJob job = start_job(strand / width_);
-  const uint32_t lane = strand % width_;
+  const uint32_t lane = strand % width_, slot = slots_[segment];
   const auto read = [&](const float* rows, size_t row, uint32_t count, float* to) {
     for (uint32_t k = 0; k < count; ++k) to[k] = rows[(row * count + k) * width_ + lane];
   };
-  read(job.inputs, segment, simd::kRodStartInputs, out.told);
-  read(job.continued, segment, simd::kRodStartNumbers, out.continued);
+  read(job.inputs, slot, simd::kRodStartInputs, out.told);
+  read(job.continued, slot, simd::kRodStartNumbers, out.continued);
   read(job.scales, 0, simd::kRodStartTriples, out.scales);
-  if (segment > 0) tell_joint(strand, segment, out.joint);
+  if (slot > 0) tell_joint(strand, slot, out.joint);
   return out;
 }
 

@@ -65,9 +65,8 @@ HWY_INLINE void add_impulse(const G& g, size_t i, size_t parent, const Six<typen
   const Four<V> p = g.get4(i, kRodBend);
   const Six<V> a = six(g, parent, kCgBody), b = six(g, i, kCgBody);
   const Three<V> arm_a =
-      lever(g.get(parent, kRodHalfLength), g.get3(parent, kRodAxes), g.get3(parent, kRodAxes + 3), force.f);
-  const Three<V> arm_b =
-      lever(g.get(i, kRodHalfLength), g.get3(i, kRodAxes), g.get3(i, kRodAxes + 3), force.f);
+      lever(g.get(i, kRodParentArm), g.get3(parent, kRodAxes), g.get3(parent, kRodAxes + 3), force.f);
+  const Three<V> arm_b = lever(g.get(i, kRodArm), g.get3(i, kRodAxes), g.get3(i, kRodAxes + 3), force.f);
   set_six(g, parent, kCgBody, {a.f + force.f, (a.t + arm_a) - bend_by_child(p, force.t)});
   set_six(g, i, kCgBody, {b.f - force.f, (b.t + arm_b) + bend_by_parent(p, force.t)});
 }
@@ -79,8 +78,8 @@ HWY_INLINE Six<typename G::V> joint_change(const G& g, size_t i, size_t parent) 
   const Six<V> a = six(g, parent, kCgBody), b = six(g, i, kCgBody);
   const Four<V> p = g.get4(i, kRodBend);
   const Three<V> at_a =
-      swing(g.get(parent, kRodHalfLength), g.get3(parent, kRodAxes), g.get3(parent, kRodAxes + 3), a.t);
-  const Three<V> at_b = swing(g.get(i, kRodHalfLength), g.get3(i, kRodAxes), g.get3(i, kRodAxes + 3), b.t);
+      swing(g.get(i, kRodParentArm), g.get3(parent, kRodAxes), g.get3(parent, kRodAxes + 3), a.t);
+  const Three<V> at_b = swing(g.get(i, kRodArm), g.get3(i, kRodAxes), g.get3(i, kRodAxes + 3), b.t);
   return {(a.f - b.f) + (at_a + at_b), bend_by_child(p, b.t) - bend_by_parent(p, a.t)};
 }
 

@@ -4,7 +4,7 @@
 // of them and the joint to its parent; segment 0 is the root and has no joint. Units are a strand's own: its
 // mean segment's length and mass, and seconds; joints' forces and compliances are kept free of the time
 // step's length. Positions are two floats, whose sum is exact to 1e-14 of what it measures. A segment's own z
-// axis runs from its parent's end to its own.
+// axis runs from its beginning to its end.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -31,7 +31,11 @@ enum RodField : uint32_t {
   kRodTwistCompliance,
   kRodDamping,  // s: force by rate of strain over force by strain
   kRodTied,     // 1 where both ends' poses are given: the joint does nothing
-  kRodRest,     // [3] 2 Im(conj(q_parent) q) at rest
+  // Half lengths along z from the parent's middle to the joint and from the joint to this one's; both are
+  // negative where the rod was listed from its other end.
+  kRodParentArm,
+  kRodArm,
+  kRodRest,  // [3] 2 Im(conj(q_parent) q) at rest
   // What goes from step to step.
   kRodForce = kRodRest + 3,         // [3]
   kRodTarget = kRodForce + 3,       // [3] where the pose is given: displacement of the coming step
@@ -74,7 +78,7 @@ enum RodField : uint32_t {
 enum RodLaneField : uint32_t {
   kLaneGravity = 0,                // [3]
   kLaneActive = kLaneGravity + 3,  // 1 while a strand is not converged, 0 afterwards and where there is none
-  kLaneHeldMiss,                   // largest gap squared at joints whose child's pose is given
+  kLaneHeldMiss,                   // largest gap or bend squared left at joints whose child's pose is given
   kLaneIterations,
   kLaneCgIterations,
   kLaneCgScale,  // what kCg's residuals are measured by, squared: its zero start's first

@@ -1,22 +1,13 @@
 // rod_kernels.cpp  Compiles the rod kernels once an instruction set; kernels.cpp puts them into its tables.
 #include "simd/rod_job.hpp"
-
-// As in kernels.cpp.
-#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#include "simd/targets.hpp"
 #define HWY_TARGET_INCLUDE "simd/rod_kernels.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
-#ifndef SINEW_UNROLL
-#ifdef __clang__
-#define SINEW_UNROLL _Pragma("clang loop unroll(full)")
-#else
-#define SINEW_UNROLL _Pragma("GCC unroll 16")
-#endif
-#endif
-
 // In this order: each needs the ones before it.
 // clang-format off
+#include "simd/three-inl.hpp"
 #include "simd/rod_lanes-inl.hpp"
 #include "simd/rod_step-inl.hpp"
 #include "simd/rod_linearise-inl.hpp"

@@ -74,7 +74,7 @@ HWY_INLINE void linearise_joint(const G& g, size_t i, size_t parent) {
   const V two = hn::Set(d, 2);
   const Four<V> p = relative(g.get4(parent, kRodNow), g.get4(i, kRodNow));
   g.set4(i, kRodBend, p);
-  const V l_a = g.get(parent, kRodHalfLength), l_b = g.get(i, kRodHalfLength);
+  const V l_a = g.get(i, kRodParentArm), l_b = g.get(i, kRodArm);
   const Three<V> z_a = g.get3(parent, kRodAxes + 6), z_b = g.get3(i, kRodAxes + 6);
   const Three<V> f = g.get3(i, kRodForceNow), t = g.get3(i, kRodForceNow + 3);
   const Three<V> gap = g.get3(i, kRodGap) + (g.get3(parent, kRodMove) - g.get3(i, kRodMove));
@@ -82,12 +82,14 @@ HWY_INLINE void linearise_joint(const G& g, size_t i, size_t parent) {
   const V bend_compliance = g.get(i, kRodStepCompliance + 1);
   const Three<V> miss = scaled_sum(g.get(i, kRodStepCompliance), f, stretch);
   g.set3(i, kRodMiss, miss);
-  const V works = hn::Sub(hn::Set(d, 1), hn::Max(g.get(i, kRodFree), g.get(i, kRodTied)));
-  g.set_lane(kLaneHeldMiss, hn::Max(g.lane(kLaneHeldMiss), hn::Mul(works, dot(miss, miss))));
   const Three<V> bend = scaled(two, vector_part(p)) - g.get3(i, kRodStepRest);
-  g.set(i, kRodMiss + 3, hn::MulAdd(bend_compliance, t.x, bend.x));
-  g.set(i, kRodMiss + 4, hn::MulAdd(bend_compliance, t.y, bend.y));
-  g.set(i, kRodMiss + 5, hn::MulAdd(g.get(i, kRodStepCompliance + 2), t.z, bend.z));
+  const Three<V> bend_miss = {hn::MulAdd(bend_compliance, t.x, bend.x),
+                              hn::MulAdd(bend_compliance, t.y, bend.y),
+                              hn::MulAdd(g.get(i, kRodStepCompliance + 2), t.z, bend.z)};
+  g.set3(i, kRodMiss + 3, bend_miss);
+  const V works = hn::Sub(hn::Set(d, 1), hn::Max(g.get(i, kRodFree), g.get(i, kRodTied)));
+  const V held_miss = hn::Max(dot(miss, miss), dot(bend_miss, bend_miss));
+  g.set_lane(kLaneHeldMiss, hn::Max(g.lane(kLaneHeldMiss), hn::Mul(works, held_miss)));
   const Three<V> lever_a = lever(l_a, g.get3(parent, kRodAxes), g.get3(parent, kRodAxes + 3), f);
   const Three<V> lever_b = lever(l_b, g.get3(i, kRodAxes), g.get3(i, kRodAxes + 3), f);
   g.set3(parent, kRodImpulse, g.get3(parent, kRodImpulse) - f);

@@ -41,17 +41,6 @@ HWY_INLINE Four<V> rotation_by(const Three<V>& turn) {
   return {part.x, part.y, part.z, cosine(square)};
 }
 
-template <class V>
-HWY_INLINE Three<V> choose(hn::Mask<hn::DFromV<V>> mask, const Three<V>& yes, const Three<V>& no) {
-  return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y),
-          hn::IfThenElse(mask, yes.z, no.z)};
-}
-template <class V>
-HWY_INLINE Four<V> choose(hn::Mask<hn::DFromV<V>> mask, const Four<V>& yes, const Four<V>& no) {
-  const Three<V> part = choose(mask, vector_part(yes), vector_part(no));
-  return {part.x, part.y, part.z, hn::IfThenElse(mask, yes.w, no.w)};
-}
-
 template <class G>
 HWY_INLINE void predict_move(const G& g, size_t i, typename G::V h) {
   using V = typename G::V;
@@ -101,7 +90,7 @@ HWY_INLINE void predict_joint(const G& g, size_t i, size_t parent, typename G::V
   const Three<V> gap = (g.get3(parent, kRodPlace) - g.get3(i, kRodPlace)) +
                        (g.get3(parent, kRodPlaceLow) - g.get3(i, kRodPlaceLow));
   const Three<V> stretched =
-      scaled_sum(g.get(parent, kRodHalfLength), z_a, scaled_sum(g.get(i, kRodHalfLength), z_b, gap));
+      scaled_sum(g.get(i, kRodParentArm), z_a, scaled_sum(g.get(i, kRodArm), z_b, gap));
   g.set3(i, kRodGap, less_scaled(stretch_share, stretched, gap));
   const Three<V> rest = g.get3(i, kRodRest), bent = scaled(two, vector_part(relative(q_a, q_b)));
   g.set3(i, kRodStepRest, scaled_sum(share, bent - rest, rest));
