@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "simd/rod_start_job.hpp"
+
 namespace sinew::simd {
 
 // Of a segment in one step: faster spins are slowed down; and in one iteration: longer steps are shortened.
@@ -79,9 +81,10 @@ enum RodLaneField : uint32_t {
   kLaneHeldMiss,                   // largest gap or bend squared left at joints whose child's pose is given
   kLaneIterations,
   kLaneCgIterations,
-  kLaneCgScale,   // what kCg's residuals are measured by, squared: its zero start's first
-  kLaneResidual,  // what residual() found
-  kLaneBroken,    // 1 where a step left something that is not finite
+  kLaneCgScale,     // what kCg's residuals are measured by, squared: its zero start's first
+  kLaneKnownSteps,  // how many of the last steps' results a start may use, at most kRodStartKnown + 1
+  kLaneResidual,    // what residual() found
+  kLaneBroken,      // 1 where a step left something that is not finite
   kLaneFields
 };
 
@@ -100,6 +103,7 @@ struct RodJob {
 
 // For one width of a group. All calls work on every lane; a lane's numbers do not depend on its neighbours'.
 struct RodCalls {
+  RodStartCalls start;
   // Where segments go without joints, and the first iterate.
   void (*predict)(const RodJob& job);
   // Before the first iteration of cg: fills kLaneCgScale. The first iterate stays.
