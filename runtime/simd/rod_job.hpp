@@ -71,7 +71,8 @@ enum RodField : uint32_t {
   kRodMiss = kRodImpulse + 6,                // [6] constraint residual; then the change of the joint's force
   kRodInertiaFactor = kRodMiss + 6,          // [21] of the segment with all that hangs on it
   kRodJointFactor = kRodInertiaFactor + 21,  // [21]
-  kRodFields = kRodJointFactor + 21
+  kRodLastTurn = kRodJointFactor + 21,       // [3] rotation that the iteration before asked for
+  kRodFields = kRodLastTurn + 3
 };
 
 // Rows of `width` floats of the group itself.
@@ -79,6 +80,7 @@ enum RodLaneField : uint32_t {
   kLaneGravity = 0,                // [3]
   kLaneActive = kLaneGravity + 3,  // 1 while a strand is not converged, 0 afterwards and where there is none
   kLaneHeldMiss,                   // largest gap or bend squared left at joints whose child's pose is given
+  kLaneShare,                      // of its change that the iteration before took
   kLaneIterations,
   kLaneCgIterations,
   kLaneCgScale,     // what kCg's residuals are measured by, squared: its zero start's first

@@ -10,6 +10,7 @@
 #include "simd/three-inl.hpp"
 #include "simd/rod_lanes-inl.hpp"
 #include "simd/rod_step-inl.hpp"
+#include "simd/rod_relax-inl.hpp"
 #include "simd/rod_linearise-inl.hpp"
 #include "simd/rod_residual-inl.hpp"
 #include "simd/rod_direct-inl.hpp"
