@@ -10,6 +10,8 @@
 #include <span>
 
 #include "core/aligned_block.hpp"
+#include "rods/knn_start.hpp"
+#include "rods/learned_start.hpp"
 #include "rods/strand.hpp"
 #include "rods/turn.hpp"
 #include "simd/rod_job.hpp"
@@ -27,6 +29,11 @@ enum class RodStart : uint32_t {
   // Free motion with the last step's forces and what they did; as kZero for a strand that did not converge.
   kPrevious = 1,
   kGiven = 2,  // what set_start gave since the last step; segments given nothing as with kPrevious
+  // The last steps' forces continued: by how much they change, and how that changed, in the shares that would
+  // have served the last step best (simd/rod_start-inl.hpp). As kPrevious until four steps converged.
+  kContinued = 3,
+  kKnn = 4,      // kContinued, corrected by the nearest of RodSettings::examples: a baseline, for comparing
+  kLearned = 5,  // kContinued, corrected by RodSettings::network
 };
 
 struct RodSettings {
@@ -45,6 +52,9 @@ struct RodSettings {
   float teleport_lengths = 2;
   // Fills RodReport::residual, for a fifth of an iteration's time.
   bool report_residual = false;
+  const CopingNet* network = nullptr;       // of kLearned; what it points to outlives the batch
+  const StartExamples* examples = nullptr;  // of kKnn; the same
+  bool keeps_start_inputs = false;          // for training: kContinued then has start_inputs as well
 };
 
 struct SegmentPose {
@@ -62,6 +72,15 @@ struct SegmentStart {
   float force_n[3] = {0, 0, 0};  // of the joint, on the parent, in the world; the root's is not read
   float moment_nm[3] = {0, 0,
                         0};  // minus the derivative of the bending energy by the Darboux vector times length
+};
+
+// What kKnn and kLearned were told of a segment and its joint, and what they correct: simd/rod_start_job.hpp.
+// Numbers in the strand's own units: its mean segment's length and mass, and seconds.
+struct StartInputs {
+  float told[simd::kRodStartInputs];
+  float joint[simd::kRodJointInputs];
+  float scales[simd::kRodStartTriples];
+  float continued[simd::kRodStartNumbers];
 };
 
 struct RodReport {
@@ -115,6 +134,9 @@ class RodBatch {
   // What kPrevious starts from: of the last step; zeros where the strand did not converge.
   SegmentStart last_forces(uint32_t strand, uint32_t segment) const noexcept;
 
+ // For training, of the last step; zeros but with kKnn, kLearned or keeps_start_inputs.
+  StartInputs start_inputs(uint32_t strand, uint32_t segment) const noexcept;
+
  private:
   friend struct RodBatchBuilder;
   struct Units {
@@ -139,6 +161,14 @@ class RodBatch {
   bool held(uint32_t strand, uint32_t segment) const noexcept;
   simd::RodJob group_job(uint32_t group, float dt_s) const noexcept;
   void step_group(uint32_t group, float dt_s, RodReport* report) noexcept;
+  bool has_history() const noexcept { return settings_.start >= RodStart::kContinued; }
+  bool has_inputs() const noexcept {
+    return settings_.start >= RodStart::kKnn || (has_history() && settings_.keeps_start_inputs);
+  }
+  simd::RodStartJob start_job(uint32_t group) const noexcept;
+  void tell_fixed_inputs() noexcept;
+  void tell_joint(uint32_t strand, uint32_t slot, float (&out)[simd::kRodJointInputs]) const noexcept;
+  void make_start(uint32_t group, const simd::RodJob& job) const noexcept;
   void carry(uint32_t strand, uint32_t segment, const SegmentPose& to) noexcept;
   void carry_place(uint32_t strand, uint32_t segment, const Turn& by, const SegmentPose& from,
                    const SegmentPose& to) noexcept;
@@ -159,6 +189,12 @@ class RodBatch {
   float* records_ = nullptr;  // [groups][segments][kRodKeptFields][width]
   float* scratch_ = nullptr;  // of one group
   float* lanes_ = nullptr;    // [groups][kLaneFields][width]
+  float* history_ = nullptr;  // [groups][kRodStartAges][segments][kRodStartNumbers][width]
+  float* inputs_ = nullptr;     // [groups][segments][kRodStartInputs][width]
+  float* continued_ = nullptr;  // [groups][segments][kRodStartNumbers][width]
+  float* scales_ = nullptr;     // [groups][kRodStartTriples][width]
+  float* encodings_ = nullptr;  // [groups][segments][latent][width]
+  float* planes_ = nullptr;     // of one group
   float* rest_ = nullptr;   // [strands][segments][kRestNumbers] place, high and low, and orientation at rest
   Units* units_ = nullptr;  // [strands]
   uint32_t* parents_ = nullptr;         // [segments] as listed
@@ -166,7 +202,9 @@ class RodBatch {
   uint32_t* joint_segments_ = nullptr;  // [segments] whose record holds the joint to the parent
   uint32_t* slot_parents_ = nullptr;    // [slots] slots
   RodSettings settings_;
-  uint32_t strand_count_ = 0, segment_count_ = 0, width_ = 0, teleported_ = 0;
+  simd::RodStartNet net_{};
+  simd::RodStartExamples examples_{};
+  uint32_t strand_count_ = 0, segment_count_ = 0, width_ = 0, teleported_ = 0, newest_ = 0;
 };
 
 }  // namespace sinew::rods

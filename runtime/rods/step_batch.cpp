@@ -34,6 +34,7 @@ void RodBatch::step_group(uint32_t group, float dt_s, RodReport* report) noexcep
   const simd::RodCalls& call = calls(width_);
   const uint32_t first = group * width_, count = std::min(width_, strand_count_ - first);
   for (uint32_t i = 0; i < width_; ++i) job.lanes[simd::kLaneActive * width_ + i] = i < count ? 1.0f : 0.0f;
+  make_start(group, job);
   call.predict(job);
   if (settings_.solver == RodSolver::kCg) call.measure_cg(job);
   for (uint32_t k = 0; k < settings_.max_iterations; ++k) {
@@ -50,6 +51,9 @@ void RodBatch::step_group(uint32_t group, float dt_s, RodReport* report) noexcep
     if (settings_.report_residual) report->residual = std::max(report->residual, lane(simd::kLaneResidual));
     report->unconverged += lane(simd::kLaneActive) != 0;
     report->recovered += lane(simd::kLaneBroken) != 0;
+    const bool ended = lane(simd::kLaneActive) == 0 && lane(simd::kLaneBroken) == 0;
+    float& known = job.lanes[simd::kLaneKnownSteps * width_ + i];
+    known = ended ? std::min(known + 1, simd::kRodStartKnown + 1.0f) : 0;
     if (lane(simd::kLaneBroken) != 0) {
       recover(first + i);
     } else if (lane(simd::kLaneActive) != 0) {
@@ -68,6 +72,7 @@ Status RodBatch::step(float dt_s, RodReport* report) noexcept {
   made.teleported = teleported_;
   teleported_ = 0;
   for (uint32_t group = 0; group * width_ < strand_count_; ++group) step_group(group, dt_s, &made);
+  newest_ = (newest_ + 1) % simd::kRodStartAges;
   if (report) *report = made;
   return {};
 }

@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "simd/rod_start_job.hpp"
+
 namespace sinew::simd {
 
 // Of a segment in one step: faster spins are slowed down; and in one iteration: longer steps are shortened.
@@ -69,7 +71,8 @@ enum RodField : uint32_t {
   kRodMiss = kRodImpulse + 6,                // [6] constraint residual; then the change of the joint's force
   kRodInertiaFactor = kRodMiss + 6,          // [21] of the segment with all that hangs on it
   kRodJointFactor = kRodInertiaFactor + 21,  // [21]
-  kRodFields = kRodJointFactor + 21
+  kRodLastTurn = kRodJointFactor + 21,       // [3] rotation that the iteration before asked for
+  kRodFields = kRodLastTurn + 3
 };
 
 // Rows of `width` floats of the group itself.
@@ -77,11 +80,13 @@ enum RodLaneField : uint32_t {
   kLaneGravity = 0,                // [3]
   kLaneActive = kLaneGravity + 3,  // 1 while a strand is not converged, 0 afterwards and where there is none
   kLaneHeldMiss,                   // largest gap or bend squared left at joints whose child's pose is given
+  kLaneShare,                      // of its change that the iteration before took
   kLaneIterations,
   kLaneCgIterations,
-  kLaneCgScale,   // what kCg's residuals are measured by, squared: its zero start's first
-  kLaneResidual,  // what residual() found
-  kLaneBroken,    // 1 where a step left something that is not finite
+  kLaneCgScale,     // what kCg's residuals are measured by, squared: its zero start's first
+  kLaneKnownSteps,  // how many of the last steps' results a start may use, at most kRodStartKnown + 1
+  kLaneResidual,    // what residual() found
+  kLaneBroken,      // 1 where a step left something that is not finite
   kLaneFields
 };
 
@@ -100,6 +105,7 @@ struct RodJob {
 
 // For one width of a group. All calls work on every lane; a lane's numbers do not depend on its neighbours'.
 struct RodCalls {
+  RodStartCalls start;
   // Where segments go without joints, and the first iterate.
   void (*predict)(const RodJob& job);
   // Before the first iteration of cg: fills kLaneCgScale. The first iterate stays.
