@@ -64,6 +64,14 @@ def _train(a):
     train(a.data, a.out, options)
 
 
+def _train_rods(a):
+    import torch
+    from .rod_train import RodTrainOptions, train_rods
+
+    torch.set_num_threads(a.threads)
+    train_rods(a.data, a.out, _from_fields(RodTrainOptions, a))
+
+
 def _read_json(path, mend):
     try:
         with open(path) as file:
@@ -194,6 +202,13 @@ def _parser():
     p.add_argument("--body", required=True, help="body whose error is stated in the weights")
     p.add_argument("--out", required=True)
     p.add_argument("--name", required=True)
+    p = command("train-rods", _train_rods, "Trains a network that corrects a rod's continued start.")
+    p.add_argument("data", help="folder of runs, of sinew-bake rod-data")
+    p.add_argument("--out", required=True, help="folder of the run")
+    p.add_argument("--threads", type=int, default=1)
+    from .rod_train import RodTrainOptions
+
+    _add_fields(p, RodTrainOptions)
     p = command("best", _best, "Prints the run that validated best.")
     p.add_argument("runs", nargs="+")
     return parser

@@ -192,7 +192,7 @@ struct Kernels {
   void (*warp)(const TurnJob& job);       // by the mean of exp([x turn]x), x from 0 to 1
   // Places, then row-major turns, of frames: 3 and 9 floats at each out_stride. root: row-major rotation.
   void (*pose_frames)(const SkinJob& job, const float* root);
-  // Of `count` floats, any count and alignment; NaN stays NaN. Maximum errors: simd/activation-inl.hpp.
+  // Of `count` floats, any count and alignment; NaN stays NaN. Maximum errors: simd/tanh-inl.hpp.
   void (*sigmoid)(const float* x, size_t count, float* out);
   void (*tanh)(const float* x, size_t count, float* out);
   const RodKernels* rods;
