@@ -81,9 +81,9 @@ enum RodLaneField : uint32_t {
   kLaneHeldMiss,                   // largest gap or bend squared left at joints whose child's pose is given
   kLaneIterations,
   kLaneCgIterations,
-  kLaneCgScale,  // what kCg's residuals are measured by, squared: its zero start's first
+  kLaneCgScale,     // what kCg's residuals are measured by, squared: its zero start's first
   kLaneKnownSteps,  // how many of the last steps' results a start may use, at most kRodStartKnown + 1
-  kLaneBroken,  // 1 where a step left something that is not finite
+  kLaneBroken,      // 1 where a step left something that is not finite
   kLaneFields
 };
 

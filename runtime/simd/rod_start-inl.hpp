@@ -141,7 +141,8 @@ HWY_INLINE void scale_inputs(const G& g, const RodJob& job, const Rows& inputs,
                              const typename G::V (&scales)[kRodStartTriples]) {
   using V = typename G::V;
   const hn::DFromV<V> d;
-  const V one = hn::Set(d, 1), least = hn::Set(d, 1e-20f), per = hn::Set(d, 1.0f / static_cast<float>(job.segments));
+  const V one = hn::Set(d, 1), least = hn::Set(d, 1e-20f),
+          per = hn::Set(d, 1.0f / static_cast<float>(job.segments));
   V carried = hn::Zero(d), by[kRodStartTriples];
   for (size_t i = 0; i < job.segments; ++i) {
     const Three<V> f = g.get3(i, kRodStartForce);
@@ -194,7 +195,8 @@ void rod_continue(const RodJob& job, const RodStartJob& start) {
 // Adds a correction of the triple at `part`, in own axes and over its scale.
 template <size_t kWidth, class G, class M>
 HWY_INLINE void correct(const G& g, const RodJob& job, const RodStartJob& start, size_t i, size_t part,
-                        const Three<typename G::V>& correction, const SegmentAxes<typename G::V>& axes, M meant) {
+                        const Three<typename G::V>& correction, const SegmentAxes<typename G::V>& axes,
+                        M meant) {
   using V = typename G::V;
   const V scale = hn::IfThenElseZero(
       meant, hn::Load(LanesOf<kWidth>(), start.scales + part / 3 * kWidth + (g.records - job.records)));
