@@ -238,8 +238,15 @@ std::vector<Case> all_cases() {
   return out;
 }
 
-// Medians over steps in turns, us a segment and strand of a group of 16: a start's cost is its step's less
-// that of kPrevious, both of one iteration; an iteration's is that of a step of three less that of two.
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return values.empty() ? 0 : *middle;
+}
+
+// Medians over steps in turns, us a segment and strand of a group of 16. A start's cost is its step's less
+// that of kPrevious, both of one iteration; an iteration's is what steps of several take more, by their
+// number.
 void print_costs(const Given& given) {
   constexpr uint32_t kSteps = 400;
   for (const double n : {16.0, 50.0, 100.0}) {
@@ -248,26 +255,25 @@ void print_costs(const Given& given) {
     std::vector<Contender> all = contenders(given, rods::RodSolver::kDirect);
     all.resize(all.size() - 3);
     for (Contender& who : all) who.settings.max_iterations = 1, who.settings.tolerance_rad = 1;
-    for (const uint32_t iterations : {2u, 3u}) {
-      Contender& more = all.emplace_back();
-      more.settings.start = rods::RodStart::kZero;
-      more.settings.tolerance_rad = 1e-6f;
-      more.settings.max_iterations = iterations;
-    }
+    all[0].settings.max_iterations = 30;
+    all[0].settings.tolerance_rad = 1e-3f;
     std::vector<std::vector<double>> us(all.size());
     for (Contender& who : all) who.batch = strands.batch(who.settings);
+    std::vector<double> iteration;
     for (uint32_t at = 0; at < kSteps; ++at) {
+      rods::RodReport reports[2];
       for (size_t k = 0; k < all.size(); ++k) {
+        strands.drive(at, &all[k].batch);
         const double begin = thread_us();
-        all[k].batch.step(kDt_s, nullptr);
+        all[k].batch.step(kDt_s, &reports[k > 0]);
         us[k].push_back((thread_us() - begin) / c.strands / n);
       }
+      const bool several = reports[0].iterations > 1 && reports[0].unconverged == 0;
+      if (several) iteration.push_back((us[0].back() - us[1].back()) / (reports[0].iterations - 1));
     }
-    for (auto& list : us) std::nth_element(list.begin(), list.begin() + kSteps / 2, list.end());
-    const auto median = [&](size_t k) { return us[k][kSteps / 2]; };
-    std::printf("# cost,%.0f,iteration,%.4f\n", n, median(all.size() - 1) - median(all.size() - 2));
-    for (size_t k = 2; k + 2 < all.size(); ++k) {
-      std::printf("# cost,%.0f,%s,%.4f\n", n, all[k].name.c_str(), median(k) - median(1));
+    std::printf("# cost,%.0f,iteration,%.4f\n", n, median(iteration));
+    for (size_t k = 2; k < all.size(); ++k) {
+      std::printf("# cost,%.0f,%s,%.4f\n", n, all[k].name.c_str(), median(us[k]) - median(us[1]));
     }
   }
 }

@@ -180,7 +180,7 @@ class RodBatch {
   float* records_ = nullptr;    // [groups][segments][kRodKeptFields][width]
   float* scratch_ = nullptr;    // of one group
   float* lanes_ = nullptr;      // [groups][kLaneFields][width]
-  float* history_ = nullptr;    // [groups][kRodStartAges][segments][kRodStartNumbers][width]
+  float* history_ = nullptr;    // [groups][segments][kRodStartAges][kRodStartNumbers][width]
   float* inputs_ = nullptr;     // [groups][segments][kRodStartInputs][width]
   float* continued_ = nullptr;  // [groups][segments][kRodStartNumbers][width]
   float* scales_ = nullptr;     // [groups][kRodStartTriples][width]

@@ -14,9 +14,10 @@ struct Nearest {
 // Ties keep the earlier example.
 template <class V>
 HWY_INLINE void offer(V far, V index, Nearest<V>* nearest) {
+  auto closer = hn::Lt(far, nearest->far[0]);
   SINEW_UNROLL
   for (size_t k = 0; k < kRodNeighbours; ++k) {
-    const auto closer = hn::Lt(far, nearest->far[k]);
+    closer = hn::Or(closer, hn::Lt(far, nearest->far[k]));  // what is moved down moves the next one down
     const V was = nearest->far[k], whose = nearest->index[k];
     nearest->far[k] = hn::IfThenElse(closer, far, was);
     nearest->index[k] = hn::IfThenElse(closer, index, whose);

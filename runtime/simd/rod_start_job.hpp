@@ -37,7 +37,7 @@ inline constexpr uint32_t kRodNeighbours = 3;  // Shao et al. 2021, Sec. 4
 
 // Arrays of a group are aligned like its records.
 struct RodStartJob {
-  float* history;    // [kRodStartAges][segments][kRodStartNumbers][width]
+  float* history;    // [segments][kRodStartAges][kRodStartNumbers][width]
   uint32_t newest;   // of the ages: the last result but one; the one after it, in turn, is the oldest
   float* continued;  // [segments][kRodStartNumbers][width]: as continue_start left it, before corrections; or
                      // null
