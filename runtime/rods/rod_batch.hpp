@@ -21,6 +21,9 @@ namespace sinew::rods {
 enum class RodSolver : uint32_t {
   kDirect = 0,  // exact, O(segments)
   kCg = 1,      // conjugate gradients, preconditioned by the diagonal: for comparing
+  // Joint by joint (Gauss-Seidel, XPBD): a sweep costs less than an exact solution, and long or stiff strands
+  // need hundreds. What it leaves undone is stretch and bend, never momentum.
+  kLocal = 2,
 };
 
 // Where a step's iteration starts. Free motion is what a segment would do without joints.
@@ -46,10 +49,13 @@ struct RodSettings {
   // 1e-7 to 1: kCg's residual against that of the step's first system from kZero, whatever the start.
   float cg_tolerance = 1e-4f;
   uint32_t cg_max_iterations = 1000;  // 1 to 100000, of one linear system
+  uint32_t local_sweeps = 10;         // 1 to 10000: kLocal's over all joints, in each iteration
   float gravity_m_s2[3] = {0, -9.81f, 0};
   // A pose given for a fixed segment further away than this many of its strand's lengths carries the strand
   // along as it is, without inertia. Finite, above 0.
   float teleport_lengths = 2;
+  // Fills RodReport::residual, for a fifth of an iteration's time.
+  bool report_residual = false;
   const CopingNet* network = nullptr;       // of kLearned; what it points to outlives the batch
   const StartExamples* examples = nullptr;  // of kKnn; the same
   bool keeps_start_inputs = false;          // for training: kContinued then has start_inputs as well
@@ -89,6 +95,9 @@ struct RodReport {
   uint32_t rejoined = 0;   // of these, strands torn by more than half a segment: put together at their joints
   uint32_t recovered = 0;  // strands that were not finite: put back at rest shape where they are held
   uint32_t teleported = 0;  // strands carried along since the last step
+  // With RodSettings::report_residual, of any strand: what the step's equations miss by, in the strand's mean
+  // segments' lengths, radians, and shares of its largest force (simd/rod_residual-inl.hpp). Otherwise 0.
+  float residual = 0;
 };
 
 class RodBatch {
@@ -118,6 +127,10 @@ class RodBatch {
 
   // dt_s in (0, 1]; otherwise refused, and nothing moves. Allocates nothing.
   Status step(float dt_s, RodReport* report) noexcept;
+
+  // What `from` has come to, its targets and forces too, with this batch's own settings. Refused: one not
+  // made of the same strands, as far as counts and parents tell. Allocates nothing.
+  Status take_state(const RodBatch& from) noexcept;
 
   // Of an existing segment.
   SegmentPose pose(uint32_t strand, uint32_t segment) const noexcept;

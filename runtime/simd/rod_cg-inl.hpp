@@ -62,13 +62,14 @@ HWY_INLINE Six<typename G::V> by_mobility(const G& g, size_t i, const Six<typena
 template <class G>
 HWY_INLINE void add_impulse(const G& g, size_t i, size_t parent, const Six<typename G::V>& force) {
   using V = typename G::V;
-  const Four<V> p = g.get4(i, kRodBend);
+  const BendRows<V> c = bend_rows(g, i);
   const Six<V> a = six(g, parent, kCgBody), b = six(g, i, kCgBody);
   const Three<V> arm_a =
       lever(g.get(i, kRodParentArm), g.get3(parent, kRodAxes), g.get3(parent, kRodAxes + 3), force.f);
   const Three<V> arm_b = lever(g.get(i, kRodArm), g.get3(i, kRodAxes), g.get3(i, kRodAxes + 3), force.f);
-  set_six(g, parent, kCgBody, {a.f + force.f, (a.t + arm_a) - bend_by_child(p, force.t)});
-  set_six(g, i, kCgBody, {b.f - force.f, (b.t + arm_b) + bend_by_parent(p, force.t)});
+  const Three<V> straight = scaled(c.w, force.t), bent = bent_times(c, force.t);
+  set_six(g, parent, kCgBody, {a.f + force.f, (a.t + arm_a) + (bent - straight)});
+  set_six(g, i, kCgBody, {b.f - force.f, (b.t + arm_b) + (bent + straight)});
 }
 
 // J of the bodies at a joint; nothing where both ends are given.
@@ -76,11 +77,11 @@ template <class G>
 HWY_INLINE Six<typename G::V> joint_change(const G& g, size_t i, size_t parent) {
   using V = typename G::V;
   const Six<V> a = six(g, parent, kCgBody), b = six(g, i, kCgBody);
-  const Four<V> p = g.get4(i, kRodBend);
+  const BendRows<V> c = bend_rows(g, i);
   const Three<V> at_a =
       swing(g.get(i, kRodParentArm), g.get3(parent, kRodAxes), g.get3(parent, kRodAxes + 3), a.t);
   const Three<V> at_b = swing(g.get(i, kRodArm), g.get3(i, kRodAxes), g.get3(i, kRodAxes + 3), b.t);
-  return {(a.f - b.f) + (at_a + at_b), bend_by_child(p, b.t) - bend_by_parent(p, a.t)};
+  return {(a.f - b.f) + (at_a + at_b), scaled_sum(c.w, b.t - a.t, times_bent(c, a.t + b.t))};
 }
 
 template <class G>
@@ -111,8 +112,8 @@ HWY_INLINE Six<typename G::V> inverse_diagonal(const G& g, size_t i, size_t pare
   const Six<V> soft = joint_compliance(g, i);
   V diagonal[6] = {soft.f.x, soft.f.y, soft.f.z, soft.t.x, soft.t.y, soft.t.z};
   const Six<V> ones = {{one, one, one}, {one, one, one}};
-  const Four<V> p = g.get4(i, kRodBend);
-  const V a[3][3] = {{p.w, hn::Neg(p.z), p.y}, {p.z, p.w, hn::Neg(p.x)}, {hn::Neg(p.y), p.x, p.w}};
+  V a[3][3];
+  bend_matrix(bend_rows(g, i), a);
   for (const size_t s : {parent, i}) {
     const Six<V> w = by_mobility(g, s, ones);
     const V l = g.get(s, kRodHalfLength), k = hn::Mul(hn::Mul(l, l), w.t.x);
@@ -121,7 +122,7 @@ HWY_INLINE Six<typename G::V> inverse_diagonal(const G& g, size_t i, size_t pare
       const V z = g.get(s, kRodAxes + 6 + r);
       diagonal[r] = hn::Add(diagonal[r], hn::MulAdd(k, hn::NegMulAdd(z, z, one), w.f.x));
       for (size_t c = 0; c < 3; ++c) {
-        const V by = s == i ? a[r][c] : a[c][r];
+        const V by = a[r][c];
         diagonal[3 + r] = hn::MulAdd(hn::Mul(by, by), turn[c], diagonal[3 + r]);
       }
     }

@@ -111,10 +111,13 @@ HWY_INLINE void start_segment(const G& g, size_t i) {
   }
 }
 
-// A = w + [p]x, the derivative of bend by the child's rotation; minus its transpose that by the parent's.
+// A = w + C, how bend changes with the child's rotation; by the parent's off its diagonal the same, on it
+// minus.
 template <class V>
-HWY_INLINE void bend_matrix(const Four<V>& p, V (&a)[3][3]) {
-  const V out[3][3] = {{p.w, hn::Neg(p.z), p.y}, {p.z, p.w, hn::Neg(p.x)}, {hn::Neg(p.y), p.x, p.w}};
+HWY_INLINE void bend_matrix(const BendRows<V>& c, V (&a)[3][3]) {
+  const V out[3][3] = {{c.w, hn::Neg(c.bent.z), c.bent.y},
+                       {c.bent.z, c.w, hn::Neg(c.bent.x)},
+                       {hn::Neg(c.twist_y), c.twist_x, c.w}};
   SINEW_UNROLL
   for (size_t r = 0; r < 3; ++r) {
     SINEW_UNROLL
@@ -162,8 +165,12 @@ HWY_INLINE void joint_through_child(const G& g, size_t i, const Block<typename G
   V inverse[6];
   SINEW_UNROLL
   for (size_t k = 0; k < 6; ++k) inverse[k] = hn::Mul(free, s.at[triangle(k, k)]);
-  const V held = hn::Mul(hn::Set(d, kHeldCompliance), hn::Sub(one, free));
-  const V held_bend = hn::Mul(hn::Set(d, kHeldBendCompliance), hn::Sub(one, free));
+  const V held = hn::Sub(one, free);
+  const V stretch = hn::MulAdd(hn::Set(d, kHeldCompliance), held, g.get(i, kRodStepCompliance));
+  const V held_bend = hn::Mul(hn::Set(d, kHeldBendCompliance), held);
+  const V bend = hn::Add(held_bend, g.get(i, kRodStepCompliance + 1));
+  const V twist = hn::Add(held_bend, g.get(i, kRodStepCompliance + 2));
+  const V diagonal[6] = {stretch, stretch, stretch, bend, bend, twist};
   SINEW_UNROLL
   for (size_t r = 0; r < 6; ++r) {
     const size_t from = r < 3 ? 0 : 3;
@@ -172,10 +179,7 @@ HWY_INLINE void joint_through_child(const G& g, size_t i, const Block<typename G
     for (size_t k = from; k < 6; ++k) scaled_row[k] = hn::Mul(inverse[k], x[r][k]);
     SINEW_UNROLL
     for (size_t c = 0; c <= r; ++c) {
-      V sum = r == c ? hn::Add(r < 3 ? held : held_bend, g.get(i, kRodStepCompliance + (r < 3   ? 0
-                                                                                        : r < 5 ? 1
-                                                                                                : 2)))
-                     : zero;
+      V sum = r == c ? diagonal[r] : zero;
       SINEW_UNROLL
       for (size_t k = from; k < 6; ++k) sum = hn::MulAdd(scaled_row[k], x[c][k], sum);
       t->at[triangle(r, c)] = sum;
@@ -203,7 +207,7 @@ HWY_INLINE void add_to_parent(const G& g, size_t i, size_t parent, const Block<t
     for (size_t r = 0; r < 3; ++r) {
       y[c][r] = r == c ? one : zero;
       y[c][3 + r] = zero;
-      y[3 + c][3 + r] = hn::Neg(a[c][r]);
+      y[3 + c][3 + r] = r == c ? hn::Neg(a[r][c]) : a[r][c];
     }
     forward(t, y[c]);
   }
@@ -249,7 +253,7 @@ HWY_INLINE void eliminate_segment(const G& g, size_t i, size_t parent) {
   forward(s, z);
   set_block(g, i, kRodInertiaFactor, s);
   set_six(g, i, kRodImpulse, z);
-  bend_matrix(g.get4(i, kRodBend), a);
+  bend_matrix(bend_rows(g, i), a);
   joint_through_child(g, i, s, z, a, &t, right);
   factorise(&t);
   forward(t, right);
@@ -279,11 +283,11 @@ template <class G>
 HWY_INLINE typename G::V substitute(const G& g, size_t i, size_t parent) {
   using V = typename G::V;
   const Block<V> t = get_block(g, i, kRodJointFactor);
-  const Four<V> p = g.get4(i, kRodBend);
+  const BendRows<V> c = bend_rows(g, i);
   const Three<V> move = g.get3(parent, kRodImpulse), turn = g.get3(parent, kRodImpulse + 3);
   const Three<V> stretch =
       move + swing(g.get(i, kRodParentArm), g.get3(parent, kRodAxes), g.get3(parent, kRodAxes + 3), turn);
-  const Three<V> bend = bend_by_parent(p, turn);
+  const Three<V> bend = scaled(c.w, turn) - times_bent(c, turn);
   V x[6] = {stretch.x, stretch.y, stretch.z, hn::Neg(bend.x), hn::Neg(bend.y), hn::Neg(bend.z)};
   forward(t, x);
   SINEW_UNROLL
@@ -292,9 +296,9 @@ HWY_INLINE typename G::V substitute(const G& g, size_t i, size_t parent) {
   }
   backward(t, x);
   set_six(g, i, kRodMiss, x);
-  const Three<V> force = {x[0], x[1], x[2]};
+  const Three<V> force = {x[0], x[1], x[2]}, moment = {x[3], x[4], x[5]};
   const Three<V> arm = lever(g.get(i, kRodArm), g.get3(i, kRodAxes), g.get3(i, kRodAxes + 3), force) +
-                       bend_by_parent(p, Three<V>{x[3], x[4], x[5]});
+                       scaled_sum(c.w, moment, bent_times(c, moment));
   V impulse[6] = {hn::Neg(force.x), hn::Neg(force.y), hn::Neg(force.z), arm.x, arm.y, arm.z};
   return solve_segment(g, i, impulse);
 }
