@@ -42,7 +42,7 @@ HWY_INLINE auto start_history(const G& g, const RodJob& job, const RodStartJob& 
 
 // Added to the diagonal of the fit, of itself: what noise makes of a motion that two numbers describe well.
 inline constexpr float kStartDamping = 1e-2f;
-inline constexpr float kLargestShare = 1.5f;  // of a and b
+inline constexpr float kLargestContinuedShare = 1.5f;  // of a and b
 
 template <class V>
 struct Shares {
@@ -65,7 +65,7 @@ HWY_INLINE Shares<typename G::V> fit_shares(const G& g, const RodJob& job, const
     yz = hn::Add(yz, dot(y, z));
   }
   const V grown = hn::Set(d, 1 + kStartDamping), least = hn::Set(d, 1e-30f);
-  const V most = hn::Set(d, kLargestShare), low = hn::Neg(most);
+  const V most = hn::Set(d, kLargestContinuedShare), low = hn::Neg(most);
   xx = hn::MulAdd(xx, grown, least);
   yy = hn::MulAdd(yy, grown, least);
   const V per = hn::Div(hn::Set(d, 1), hn::Max(hn::NegMulAdd(xy, xy, hn::Mul(xx, yy)), least));
