@@ -14,13 +14,16 @@ Status bad_setting(const char* name, double value, const char* range) {
 }
 
 Status check_settings(const RodSettings& s) {
-  if (s.solver > RodSolver::kCg)
-    return bad_setting("solver", static_cast<double>(s.solver), "kDirect or kCg");
+  if (s.solver > RodSolver::kLocal)
+    return bad_setting("solver", static_cast<double>(s.solver), "kDirect, kCg or kLocal");
   if (!(s.cg_tolerance >= 1e-7f && s.cg_tolerance <= 1)) {
     return bad_setting("cg_tolerance", static_cast<double>(s.cg_tolerance), "1e-7 to 1");
   }
   if (s.cg_max_iterations < 1 || s.cg_max_iterations > 100000) {
     return bad_setting("cg_max_iterations", s.cg_max_iterations, "1 to 100000");
+  }
+  if (s.local_sweeps < 1 || s.local_sweeps > 10000) {
+    return bad_setting("local_sweeps", s.local_sweeps, "1 to 10000");
   }
   if (s.start > RodStart::kLearned) {
     return bad_setting("start", static_cast<double>(s.start),

@@ -21,6 +21,9 @@ namespace sinew::rods {
 enum class RodSolver : uint32_t {
   kDirect = 0,  // exact, O(segments)
   kCg = 1,      // conjugate gradients, preconditioned by the diagonal: for comparing
+  // Joint by joint (Gauss-Seidel, XPBD): a sweep costs less than an exact solution, and long or stiff strands
+  // need hundreds. What it leaves undone is stretch and bend, never momentum.
+  kLocal = 2,
 };
 
 // Where a step's iteration starts. Free motion is what a segment would do without joints.
@@ -46,6 +49,7 @@ struct RodSettings {
   // 1e-7 to 1: kCg's residual against that of the step's first system from kZero, whatever the start.
   float cg_tolerance = 1e-4f;
   uint32_t cg_max_iterations = 1000;  // 1 to 100000, of one linear system
+  uint32_t local_sweeps = 10;         // 1 to 10000: kLocal's over all joints, in each iteration
   float gravity_m_s2[3] = {0, -9.81f, 0};
   // A pose given for a fixed segment further away than this many of its strand's lengths carries the strand
   // along as it is, without inertia. Finite, above 0.

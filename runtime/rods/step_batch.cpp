@@ -14,6 +14,12 @@ const simd::RodCalls& calls(uint32_t width) {
   return width == 16 ? kernels.wide : kernels.narrow;
 }
 
+using Iteration = uint32_t (*)(const simd::RodJob& job);
+Iteration iteration(const simd::RodCalls& calls, RodSolver solver) {
+  if (solver == RodSolver::kCg) return calls.cg;
+  return solver == RodSolver::kLocal ? calls.local : calls.direct;
+}
+
 }  // namespace
 
 simd::RodJob RodBatch::group_job(uint32_t group, float dt_s) const noexcept {
@@ -26,7 +32,8 @@ simd::RodJob RodBatch::group_job(uint32_t group, float dt_s) const noexcept {
           .tolerance_rad = settings_.tolerance_rad,
           .start_from_zero = settings_.start == RodStart::kZero,
           .cg_tolerance = settings_.cg_tolerance,
-          .cg_iterations = settings_.cg_max_iterations};
+          .cg_iterations = settings_.cg_max_iterations,
+          .local_sweeps = settings_.local_sweeps};
 }
 
 void RodBatch::step_group(uint32_t group, float dt_s, RodReport* report) noexcept {
@@ -37,8 +44,9 @@ void RodBatch::step_group(uint32_t group, float dt_s, RodReport* report) noexcep
   make_start(group, job);
   call.predict(job);
   if (settings_.solver == RodSolver::kCg) call.measure_cg(job);
+  const auto iterate = iteration(call, settings_.solver);
   for (uint32_t k = 0; k < settings_.max_iterations; ++k) {
-    if ((settings_.solver == RodSolver::kCg ? call.cg : call.direct)(job) == 0) break;
+    if (iterate(job) == 0) break;
   }
   if (settings_.report_residual) call.residual(job);
   call.finish(job);

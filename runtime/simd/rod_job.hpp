@@ -101,6 +101,7 @@ struct RodJob {
   bool start_from_zero;    // else from kRodStart*
   float cg_tolerance;      // of the residual's preconditioned norm against kLaneCgScale's
   uint32_t cg_iterations;  // at most, of one linear system
+  uint32_t local_sweeps;   // of one linear system
 };
 
 // For one width of a group. All calls work on every lane; a lane's numbers do not depend on its neighbours'.
@@ -113,6 +114,7 @@ struct RodCalls {
   // One Newton iteration. Returns how many lanes are not converged.
   uint32_t (*direct)(const RodJob& job);
   uint32_t (*cg)(const RodJob& job);
+  uint32_t (*local)(const RodJob& job);
   // Fills kLaneResidual; the iterate stays.
   void (*residual)(const RodJob& job);
   // Takes the iterate over as the new state.

@@ -15,6 +15,7 @@
 #include "simd/rod_residual-inl.hpp"
 #include "simd/rod_direct-inl.hpp"
 #include "simd/rod_cg-inl.hpp"
+#include "simd/rod_local-inl.hpp"
 #include "simd/tanh-inl.hpp"
 #include "simd/rod_start-inl.hpp"
 #include "simd/rod_learned-inl.hpp"
@@ -33,6 +34,7 @@ constexpr RodCalls rod_calls() {
           .measure_cg = rod_measure_cg<kWidth>,
           .direct = rod_direct<kWidth>,
           .cg = rod_cg<kWidth>,
+          .local = rod_local<kWidth>,
           .residual = rod_residual<kWidth>,
           .finish = rod_finish<kWidth>};
 }
