@@ -29,6 +29,12 @@ const char* name_of(rods::RodStart start) {
       return "previous";
     case rods::RodStart::kGiven:
       return "given";
+    case rods::RodStart::kContinued:
+      return "continued";
+    case rods::RodStart::kKnn:
+      return "knn";
+    case rods::RodStart::kLearned:
+      return "learned";
   }
   return "";
 }
