@@ -173,8 +173,8 @@ float* RodCollider::scratch(const RodBatch& batch, uint32_t group) const noexcep
 
 float* RodCollider::scratch_row(const RodBatch& batch, uint32_t strand, uint32_t segment,
                                 uint32_t field) const noexcept {
-  const size_t row =
-      size_t{segment} * (simd::kRodFields - simd::kRodKeptFields) + field - simd::kRodKeptFields;
+  const size_t row = size_t{batch.slots_[segment]} * (simd::kRodFields - simd::kRodKeptFields) + field -
+                     simd::kRodKeptFields;
   return scratch(batch, strand / width_) + row * width_ + strand % width_;
 }
 

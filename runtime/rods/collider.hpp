@@ -30,8 +30,8 @@ struct ColliderSettings {
   // 1e-4 to 1, share of a segment's radius: contacts have converged when gaps and slips are this exact. Twice
   // this much of penetration is left alone.
   float tolerance = 0.01f;
-  // What is found in penetration is pushed out no faster. Finite, above 0. Its energy is the most that
-  // penetration can give.
+  // What is found in penetration is pushed out no faster at a contact; a rod that lies deep in something
+  // round, whose parts are pushed apart, has left twice as fast. Finite, above 0.
   float largest_push_out_m_s = 1;
   // Contacts at a time; further ones are dropped and counted, in the order given points, planes, spheres,
   // capsules, rods, each by strand and segment. 0: four a segment, at least 64. At most 2^24.

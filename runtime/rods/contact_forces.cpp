@@ -10,6 +10,7 @@ namespace {
 constexpr size_t triangle(size_t row, size_t column) { return row * (row + 1) / 2 + column; }
 
 constexpr double kDeep = 0.5;     // of a segment's radius
+constexpr double kAcross = 1.5;   // the same: next to where two rods' axes cross
 constexpr double kForgiven = 10;  // of the rods' tolerance
 
 struct Forces {
@@ -36,10 +37,12 @@ uint32_t ContactForces::end_strand() const {
   return std::min(batch.strand_count_, first_strand() + to.range_.groups * batch.width_);
 }
 
-float& ContactForces::active(uint32_t strand) const {
+float& ContactForces::lane(uint32_t strand, uint32_t field) const {
   const size_t group = strand / batch.width_;
-  return batch.lanes_[(group * simd::kLaneFields + simd::kLaneActive) * batch.width_ + strand % batch.width_];
+  return batch.lanes_[(group * simd::kLaneFields + field) * batch.width_ + strand % batch.width_];
 }
+
+float& ContactForces::active(uint32_t strand) const { return lane(strand, simd::kLaneActive); }
 
 ContactForces::Now ContactForces::now(const Contact& c, size_t side) const {
   const Contact::Side& s = c.sides[side];
@@ -54,8 +57,9 @@ ContactForces::Now ContactForces::now(const Contact& c, size_t side) const {
   Turn before;
   for (uint32_t k = 0; k < 4; ++k) before[k] = batch.at(s.strand, s.segment, simd::kRodTurn + k);
   const Turn by = product(conjugate(before), turn);
-  const double roll = by[3] < 0 ? -2 * by[2] : 2 * by[2];
-  out.surface_move = scaled_sum(roll * s.radius_m, cross(out.z, c.normal), out.move);
+  const double side_of = by[3] < 0 ? -2 : 2;
+  const Vector turned_by = turned(turn, {side_of * by[0], side_of * by[1], side_of * by[2]});
+  out.surface_move = scaled_sum(s.radius_m, cross(turned_by, c.normal), out.move);
   return out;
 }
 
@@ -114,9 +118,11 @@ void ContactForces::find_ways() const {
   }
 }
 
-// A way that opened at `start` and leads deep into a contact ends where the contact has just closed.
+// A way that opened at `start` and leads deep into a contact ends where the contact has just closed; one that
+// began in it where it is deep, or at once.
 void ContactForces::shorten(const Contact& c, double start) const {
-  const double way = (start + 0.25 * kDeep * c.scale_m) / (start - c.open_m);
+  const double least = (start > 0 ? 0.25 * kDeep : kAcross) * c.scale_m;
+  const double way = std::max(0.0, start + least) / (start - c.open_m);
   to.ways_[c.sides[0].strand] = std::min(to.ways_[c.sides[0].strand], way);
   if (c.has_two_rods()) to.ways_[c.sides[1].strand] = std::min(to.ways_[c.sides[1].strand], way);
 }
@@ -161,14 +167,7 @@ void ContactForces::take_back(uint32_t strand) const {
   const auto change = [&](uint32_t i, uint32_t k) {
     return static_cast<double>(*row(i, simd::kRodImpulse + k));
   };
-  double square = 0;
-  for (uint32_t i = 0; i < batch.segment_count_; ++i) {
-    const Vector turn = {change(i, 3), change(i, 4), change(i, 5)};
-    square = std::max(square, dot(turn, turn));
-  }
-  // As the kernels shortened it.
-  const double most = static_cast<double>(simd::kRodLargestTurn_rad);
-  const double taken = most / std::max(most, std::sqrt(square)), way = to.ways_[strand];
+  const double taken = static_cast<double>(lane(strand, simd::kLaneShare)), way = to.ways_[strand];
   const double back = taken * (1 - way);
   const auto less = [&](float* value, double by) {
     *value = static_cast<float>(static_cast<double>(*value) - by);
@@ -184,18 +183,20 @@ void ContactForces::take_back(uint32_t strand) const {
       for (uint32_t k = 0; k < 3; ++k) less(row(i, simd::kRodMove + k), back * change(i, k));
       for (uint32_t k = 0; k < 4; ++k) *row(i, simd::kRodNow + k) = static_cast<float>(q[k]);
     }
-    for (uint32_t k = 0; i > 0 && k < 6; ++k) {
+    for (uint32_t k = 0; batch.slots_[i] > 0 && k < 6; ++k) {
       less(row(i, simd::kRodForceNow + k), back * static_cast<double>(*row(i, simd::kRodMiss + k)));
     }
   }
 }
 
-// No iteration goes deep into what it did not know to be closed: ways end there.
+// No iteration goes deep, or deeper, into anything: ways end there.
 void ContactForces::stop_at_new_contacts() const {
   std::fill(to.ways_ + first_strand(), to.ways_ + end_strand(), 1.0);
   bool any = false;
   for (const Contact& c : contacts()) {
-    if (!iterated(c) || !(c.open_m < -kDeep * c.scale_m) || !(c.open_before_m > 0)) continue;
+    if (!(c.open_before_m > 0) && c.allowed_m < 0) continue;  // it began deep
+    const double deep = c.open_before_m > 0 ? kDeep : kAcross;
+    if (!iterated(c) || !(c.open_m < -deep * c.scale_m) || c.open_m >= c.open_before_m) continue;
     shorten(c, c.open_before_m);
     any = true;
   }
@@ -242,9 +243,7 @@ uint32_t ContactForces::settle() const noexcept {
 
 // The largest turn of the last iteration; infinity where what is held is out of reach.
 double ContactForces::last_turn(uint32_t strand) const {
-  const size_t group = strand / batch.width_;
-  const float miss =
-      batch.lanes_[(group * simd::kLaneFields + simd::kLaneHeldMiss) * batch.width_ + strand % batch.width_];
+  const float miss = lane(strand, simd::kLaneHeldMiss);
   const double tolerance = static_cast<double>(batch.settings_.tolerance_rad);
   if (!(static_cast<double>(miss) <= tolerance * tolerance)) return std::numeric_limits<double>::max();
   double square = 0;
@@ -279,7 +278,10 @@ uint32_t ContactForces::end() const noexcept {
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {
     active(s) = to.turning_[s] ? 1.0f : 0.0f;
     count += to.pending_[s];
+    to.pending_[s] = 1;
   }
+  // What the residual is measured with is of all strands.
+  if (batch.settings_.report_residual) assemble();
   return count;
 }
 
@@ -312,7 +314,7 @@ void ContactForces::add(const Contact& c) const {
 
 float* ContactForces::touched_rows(uint32_t strand, uint32_t segment) const {
   const uint32_t group = strand / batch.width_ - to.range_.first_group;
-  const uint32_t place = group * batch.segment_count_ + segment;
+  const uint32_t place = group * batch.segment_count_ + batch.slots_[segment];
   if (!to.touched_[place]) {
     to.touched_[place] = 1;
     to.touched_list_[to.touched_count_++] = place;

@@ -25,6 +25,7 @@ struct ContactForces {
   };
   uint32_t first_strand() const { return to.range_.first_group * batch.width_; }
   uint32_t end_strand() const;
+  float& lane(uint32_t strand, uint32_t field) const;
   float& active(uint32_t strand) const;
   Now now(const Contact& contact, size_t side) const;
   std::span<Contact> contacts() const;

@@ -19,6 +19,8 @@ constexpr double kLeftAlone = 2;
 // this share of their radii; between its ends such an overlap is touched too, unless the axes' angle bends it
 // away by less than the last.
 constexpr double kSideBySide = 0.1, kOverlap = 0.5, kFlat = 0.3;
+// Deep, of a segment's radius; end on, of a unit normal along the segment.
+constexpr double kDeep = 0.5, kEndOn = 0.7;
 // Segments of a strand that at rest are nearer than this, over the sum of their radii, never touch.
 constexpr double kRestDistance = 1.2;
 
@@ -277,6 +279,15 @@ void ContactFinder::add_touch(uint32_t strand, uint32_t segment, const Other& ot
   const Vector way_b = difference(at(other.sweep.end, touch.at.b), at(other.sweep.start, touch.at.b));
   const double radii = a.radius_m + (other.segment == kNoSegment ? 0 : other.sweep.radius_m);
   if (!(touch.gap_m < kNearRadii * radii + kNearWay * length(difference(way_a, way_b)))) return;
+  // A chain's segments, deep in something, would be pushed out along themselves, away from each other.
+  const Vector z = difference(a.start.to, a.start.from);
+  if (touch.time == 0 && touch.gap_m < -kDeep * a.radius_m &&
+      std::fabs(dot(touch.normal, z)) > kEndOn * length(z)) {
+    const Vector n = way_out(touch.axis_a, touch.axis_b, touch.normal);
+    const Vector apart = difference(at(touch.axis_a, touch.at.a), at(touch.axis_b, touch.at.b));
+    add_at(strand, segment, other, touch.at, n, dot(apart, n) - a.radius_m - other.sweep.radius_m, 0, 0);
+    return;
+  }
   if (add_side_by_side(strand, segment, other, touch)) return;
   add_at(strand, segment, other, touch.at, touch.normal, touch.gap_m, touch.time, 0);
 }

@@ -22,14 +22,14 @@ struct Plane {
   double point_m[3] = {0, 0, 0};
   float normal[3] = {0, 1, 0};  // unit vector, out of what is solid
   float friction = 0.5f;
-  ObstacleMotion motion;
+  ObstacleMotion motion = {};
 };
 
 struct Sphere {
   double middle_m[3] = {0, 0, 0};
   float radius_m = 0;  // above 0
   float friction = 0.5f;
-  ObstacleMotion motion;
+  ObstacleMotion motion = {};
 };
 
 // Both ends may be the same point: a sphere.
@@ -37,7 +37,7 @@ struct Capsule {
   double ends_m[2][3] = {{0, 0, 0}, {0, 0, 0}};  // of the axis
   float radius_m = 0;                            // above 0
   float friction = 0.5f;
-  ObstacleMotion motion;
+  ObstacleMotion motion = {};
 };
 
 // The door for other collision detection: one point of a segment against a half-space, at the step's start.

@@ -4,7 +4,6 @@
 #include "core/flush_denormals.hpp"
 #include "core/status.hpp"
 #include "rods/rod_batch.hpp"
-#include "rods/turn.hpp"
 #include "simd/kernels.hpp"
 
 namespace sinew::rods {
@@ -15,43 +14,53 @@ const simd::RodCalls& calls(uint32_t width) {
   return width == 16 ? kernels.wide : kernels.narrow;
 }
 
+using Iteration = uint32_t (*)(const simd::RodJob& job);
+Iteration iteration(const simd::RodCalls& calls, RodSolver solver) {
+  if (solver == RodSolver::kCg) return calls.cg;
+  return solver == RodSolver::kLocal ? calls.local : calls.direct;
+}
+
 }  // namespace
 
 simd::RodJob RodBatch::group_job(uint32_t group, float dt_s, const RodCollider* collider) const noexcept {
   return {.records = records_ + size_t{group} * segment_count_ * simd::kRodKeptFields * width_,
           .scratch = collider ? collider->scratch(*this, group) : scratch_,
           .lanes = lanes_ + size_t{group} * simd::kLaneFields * width_,
-          .parents = parents_,
+          .parents = slot_parents_,
           .segments = segment_count_,
           .dt_s = dt_s,
           .tolerance_rad = settings_.tolerance_rad,
           .start_from_zero = settings_.start == RodStart::kZero,
           .cg_tolerance = settings_.cg_tolerance,
-          .cg_iterations = settings_.cg_max_iterations};
+          .cg_iterations = settings_.cg_max_iterations,
+          .local_sweeps = settings_.local_sweeps};
 }
 
-void RodBatch::begin_group(const simd::RodJob& job, uint32_t group) const noexcept {
+void RodBatch::begin_group(uint32_t group, const simd::RodJob& job) const noexcept {
+  const simd::RodCalls& call = calls(width_);
   const uint32_t count = std::min(width_, strand_count_ - group * width_);
   for (uint32_t i = 0; i < width_; ++i) job.lanes[simd::kLaneActive * width_ + i] = i < count ? 1.0f : 0.0f;
-  calls(width_).predict(job);
+  make_start(group, job);
+  call.predict(job);
+  if (settings_.solver == RodSolver::kCg) call.measure_cg(job);
 }
 
 // Once, those of the groups that have strands to iterate. Returns how many strands are not converged.
 uint32_t RodBatch::iterate(uint32_t first_group, uint32_t groups, float dt_s,
                            const RodCollider* collider) const noexcept {
-  const simd::RodCalls& call = calls(width_);
+  const auto iterate = iteration(calls(width_), settings_.solver);
   uint32_t active = 0;
   for (uint32_t g = first_group; g < first_group + groups; ++g) {
     simd::RodJob job = group_job(g, dt_s, collider);
     if (collider) collider->give(&job, g);
     const float* lanes = job.lanes + simd::kLaneActive * width_;
-    if (std::none_of(lanes, lanes + width_, [](float x) { return x != 0; })) continue;
-    active += (settings_.solver == RodSolver::kCg ? call.cg : call.direct)(job);
+    if (std::any_of(lanes, lanes + width_, [](float x) { return x != 0; })) active += iterate(job);
   }
   return active;
 }
 
-void RodBatch::end_group(const simd::RodJob& job, uint32_t group, float dt_s, RodReport* report) noexcept {
+void RodBatch::end_group(uint32_t group, const simd::RodJob& job, RodReport* report) noexcept {
+  if (settings_.report_residual) calls(width_).residual(job);
   calls(width_).finish(job);
   const uint32_t first = group * width_, count = std::min(width_, strand_count_ - first);
   for (uint32_t i = 0; i < count; ++i) {
@@ -60,21 +69,24 @@ void RodBatch::end_group(const simd::RodJob& job, uint32_t group, float dt_s, Ro
     report->iterations = std::max(report->iterations, iterations);
     report->iterations_sum += iterations;
     report->cg_iterations += static_cast<uint32_t>(lane(simd::kLaneCgIterations));
+    if (settings_.report_residual) report->residual = std::max(report->residual, lane(simd::kLaneResidual));
     report->unconverged += lane(simd::kLaneActive) != 0;
     report->recovered += lane(simd::kLaneBroken) != 0;
+    const bool ended = lane(simd::kLaneActive) == 0 && lane(simd::kLaneBroken) == 0;
+    float& known = job.lanes[simd::kLaneKnownSteps * width_ + i];
+    known = ended ? std::min(known + 1, simd::kRodStartKnown + 1.0f) : 0;
     if (lane(simd::kLaneBroken) != 0) {
       recover(first + i);
     } else if (lane(simd::kLaneActive) != 0) {
-      report->rejoined += rejoin(first + i, dt_s);
+      report->rejoined += rejoin(first + i, job.dt_s);
     }
   }
 }
 
 void RodBatch::step_groups(uint32_t first_group, uint32_t groups, float dt_s, RodCollider* collider,
                            RodReport* report) noexcept {
-  for (uint32_t g = first_group; g < first_group + groups; ++g) {
-    begin_group(group_job(g, dt_s, collider), g);
-  }
+  const uint32_t end = first_group + groups;
+  for (uint32_t g = first_group; g < end; ++g) begin_group(g, group_job(g, dt_s, collider));
   if (collider) collider->begin_range(*this, first_group, groups, dt_s);
   for (uint32_t k = 0; k < settings_.max_iterations; ++k) {
     uint32_t active = iterate(first_group, groups, dt_s, collider);
@@ -82,8 +94,10 @@ void RodBatch::step_groups(uint32_t first_group, uint32_t groups, float dt_s, Ro
     if (active == 0) break;
   }
   if (collider) collider->end_range(*this, report);
-  for (uint32_t g = first_group; g < first_group + groups; ++g) {
-    end_group(group_job(g, dt_s, collider), g, dt_s, report);
+  for (uint32_t g = first_group; g < end; ++g) {
+    simd::RodJob job = group_job(g, dt_s, collider);
+    if (collider) collider->give(&job, g);
+    end_group(g, job, report);
   }
 }
 
@@ -101,6 +115,11 @@ Status RodBatch::step(float dt_s, RodCollider* collider, RodReport* report) noex
                              collider->strand_count_, collider->segment_count_, strand_count_,
                              segment_count_);
   }
+  if (collider && settings_.solver == RodSolver::kLocal) {
+    return core::make_status(StatusCode::kInvalidArgument,
+                             "RodSettings::solver kLocal knows no contacts; create the batch with kDirect or "
+                             "kCg, or step it without a collider");
+  }
   const core::FlushDenormals flush;
   RodReport made;
   made.teleported = teleported_;
@@ -110,38 +129,9 @@ Status RodBatch::step(float dt_s, RodCollider* collider, RodReport* report) noex
   if (collider) collider->begin_step();
   for (uint32_t g = 0; g < groups; g += at_once) step_groups(g, at_once, dt_s, collider, &made);
   if (collider) collider->end_step(dt_s, &made);
+  newest_ = (newest_ + 1) % simd::kRodStartAges;
   if (report) *report = made;
   return {};
-}
-
-// Everything moves as a rigid body with the given segment; velocities turn along. Targets of other fixed
-// segments stay where they are in the world.
-void RodBatch::carry(uint32_t strand, uint32_t segment, const SegmentPose& to) noexcept {
-  const SegmentPose from = pose(strand, segment);
-  const Turn by = product(normalised(turn_of(to.orientation)), conjugate(turn_of(from.orientation)));
-  const Units& units = units_[strand];
-  for (uint32_t i = 0; i < segment_count_; ++i) {
-    const SegmentPose old = pose(strand, i);
-    const Vector arm =
-        turned(by, {old.position_m[0] - from.position_m[0], old.position_m[1] - from.position_m[1],
-                    old.position_m[2] - from.position_m[2]});
-    const Vector speed = turned(by, {at(strand, i, simd::kRodVelocity), at(strand, i, simd::kRodVelocity + 1),
-                                     at(strand, i, simd::kRodVelocity + 2)});
-    const Turn q = normalised(product(by, turn_of(old.orientation)));
-    for (uint32_t k = 0; k < 3; ++k) {
-      const double place = (to.position_m[k] + arm[k] - units.origin_m[k]) / units.length_m;
-      const double before = (old.position_m[k] - units.origin_m[k]) / units.length_m;
-      at(strand, i, simd::kRodTarget + k) += static_cast<float>(before - place);
-      put_place(strand, i, k, place);
-      at(strand, i, simd::kRodVelocity + k) = static_cast<float>(speed[k]);
-    }
-    for (uint32_t k = 0; k < 4; ++k) at(strand, i, simd::kRodTurn + k) = static_cast<float>(q[k]);
-  }
-  for (uint32_t k = 0; k < 3; ++k) at(strand, segment, simd::kRodTarget + k) = 0;
-  for (uint32_t k = 0; k < 4; ++k) {
-    at(strand, segment, simd::kRodTargetTurn + k) = at(strand, segment, simd::kRodTurn + k);
-  }
-  ++teleported_;
 }
 
 }  // namespace sinew::rods

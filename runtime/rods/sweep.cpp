@@ -9,6 +9,7 @@ namespace {
 constexpr int kMostMoments = 32;
 constexpr double kTouching = 1e-2;    // gap over the sum of radii
 constexpr double kMeeting = 1e-6;     // distance of axes over the sum of radii: it has no direction
+constexpr double kKnownWay = 0.1;     // of a unit vector, that which is across an axis
 constexpr double kParallel = 1e-8;    // sine squared
 constexpr double kNoLength2 = 1e-60;  // m^2
 
@@ -63,6 +64,13 @@ Touch touch_at(const Sweep& a, const Sweep& b, double time) {
 }
 
 }  // namespace
+
+Vector way_out(const Axis& a, const Axis& b, const Vector& normal) noexcept {
+  const Vector along = difference(a.to, a.from);
+  const Vector v = across(normal, scaled(1 / length(along), along));
+  const double size = length(v);
+  return size > kKnownWay ? scaled(1 / size, v) : normal_of_meeting(a, b, {});
+}
 
 double nearest(const Axis& axis, const Vector& point) noexcept {
   const Vector d = difference(axis.to, axis.from);

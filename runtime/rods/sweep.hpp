@@ -24,6 +24,9 @@ Nearest nearest(const Axis& a, const Axis& b) noexcept;
 // The share of `axis` nearest to a point.
 double nearest(const Axis& axis, const Vector& point) noexcept;
 
+// A direction out of b for an axis a that lies deep in it: across a, and across b where they cross.
+Vector way_out(const Axis& a, const Axis& b, const Vector& normal) noexcept;
+
 // When two sweeps first touch, or, where they do not, are nearest of the moments looked at: by conservative
 // advancement, at most 32 of them.
 struct Touch {

@@ -24,8 +24,8 @@ double sampled_distance(const Axis& a, const Axis& b, int samples) {
   double least = HUGE_VAL;
   for (int i = 0; i <= samples; ++i) {
     for (int k = 0; k <= samples; ++k) {
-      least = std::min(least, distance_at(a, b, static_cast<double>(i) / samples,
-                                          static_cast<double>(k) / samples));
+      least = std::min(least,
+                       distance_at(a, b, static_cast<double>(i) / samples, static_cast<double>(k) / samples));
     }
   }
   return least;
@@ -42,7 +42,8 @@ double nearest_distance(const Axis& a, const Axis& b) {
 TEST_CASE("nearest_points_of_axes_are_as_near_as_any_sampled") {
   std::mt19937 random(1);
   for (int i = 0; i < 300; ++i) {
-    const Axis a = {random_point(random), random_point(random)}, b = {random_point(random), random_point(random)};
+    const Axis a = {random_point(random), random_point(random)},
+               b = {random_point(random), random_point(random)};
     const double exact = nearest_distance(a, b), sampled = sampled_distance(a, b, 60);
     CHECK(exact <= sampled + 1e-12);
     // Between samples a distance changes by at most a sixtieth of both lengths, 3.5 each.
@@ -52,12 +53,12 @@ TEST_CASE("nearest_points_of_axes_are_as_near_as_any_sampled") {
 
 TEST_CASE("nearest_points_of_degenerate_axes_are_finite_and_right") {
   const Axis x = {{0, 0, 0}, {1, 0, 0}};
-  CHECK(nearest_distance(x, {{0.3, 0.5, 0}, {0.3, 0.5, 0}}) == Approx(0.5));          // a point
+  CHECK(nearest_distance(x, {{0.3, 0.5, 0}, {0.3, 0.5, 0}}) == Approx(0.5));             // a point
   CHECK(nearest_distance({{2, 0, 0}, {2, 0, 0}}, {{2, 1, 0}, {2, 1, 0}}) == Approx(1));  // two
-  CHECK(nearest_distance(x, {{0.5, 0.1, 0}, {3, 0.1, 0}}) == Approx(0.1));             // parallel
-  CHECK(nearest_distance(x, {{3, 0, 0}, {2, 0, 0}}) == Approx(1));                     // in line
-  CHECK(nearest_distance(x, {{0.5, 0, 0}, {2, 0, 0}}) == 0);                           // overlapping
-  CHECK(nearest_distance(x, {{0.5, 0, -1}, {0.5, 0, 1}}) == 0);                        // crossing
+  CHECK(nearest_distance(x, {{0.5, 0.1, 0}, {3, 0.1, 0}}) == Approx(0.1));               // parallel
+  CHECK(nearest_distance(x, {{3, 0, 0}, {2, 0, 0}}) == Approx(1));                       // in line
+  CHECK(nearest_distance(x, {{0.5, 0, 0}, {2, 0, 0}}) == 0);                             // overlapping
+  CHECK(nearest_distance(x, {{0.5, 0, -1}, {0.5, 0, 1}}) == 0);                          // crossing
   const rods::Nearest n = rods::nearest(x, {{0, 0.1, 0}, {1, 0.1, 0}});
   CHECK(n.a == Approx(0.5));  // side by side: the middle
 }
