@@ -25,7 +25,7 @@ struct Record {
 
   void add_forces(const rods::RodBatch& batch, const Units& units) {
     const double force = units.mass_kg * units.length_m;
-    const auto add = [&](const float (&v)[3], double per) {
+    const auto add = [&](const float(&v)[3], double per) {
       for (const float x : v) forces.push_back(static_cast<float>(static_cast<double>(x) / per));
     };
     for (uint32_t i = 0; i < batch.segment_count(); ++i) {

@@ -11,7 +11,8 @@ struct NoTruth : BadInput {
 };
 
 // In the strand's own units: its mean segment's length and mass, and seconds. S steps, N segments.
-//   forces     [S + 1][N][12]  what the solver found, before the first step (zeros) and after each: acceleration
+//   forces     [S + 1][N][12]  what the solver found, before the first step (zeros) and after each:
+//   acceleration
 //                              (world) and angular acceleration (own axes) by the joints, the joint's force
 //                              (world) and moment
 //   turns      [S][N][4]       orientation x y z w at each step's start

@@ -72,6 +72,17 @@ def _train_rods(a):
     train_rods(a.data, a.out, _from_fields(RodTrainOptions, a))
 
 
+def _export_rods(a):
+    from .rod_export import export_examples, export_rods
+
+    if (a.run is None) == (a.examples == 0):
+        raise BadData("export-rods: give either --run or --examples")
+    if a.run is None:
+        export_examples(a.data, a.out, a.name, a.examples, a.seed)
+    else:
+        export_rods(a.run, a.data, a.out, a.name)
+
+
 def _read_json(path, mend):
     try:
         with open(path) as file:
@@ -209,6 +220,14 @@ def _parser():
     from .rod_train import RodTrainOptions
 
     _add_fields(p, RodTrainOptions)
+    text = "Writes weights of a start with their errors and check vectors, or examples for k-NN."
+    p = command("export-rods", _export_rods, text)
+    p.add_argument("data")
+    p.add_argument("--run", help="folder of train-rods")
+    p.add_argument("--examples", type=int, default=0, help="how many, instead of a run")
+    p.add_argument("--seed", type=int, default=0, help="of the examples")
+    p.add_argument("--out", required=True)
+    p.add_argument("--name", required=True)
     p = command("best", _best, "Prints the run that validated best.")
     p.add_argument("runs", nargs="+")
     return parser

@@ -15,9 +15,10 @@ Status check_learned_start(const CopingNet* network) noexcept {
   }
   const uint32_t latent = network->record->max_channels;
   if (latent % 8 == 0 && latent <= pack::kPanel) return {};
-  return core::make_status(StatusCode::kInvalidArgument,
-                           "RodSettings::network has a latent width of %u; kLearned needs a multiple of 8, at most %u",
-                           latent, pack::kPanel);
+  return core::make_status(
+      StatusCode::kInvalidArgument,
+      "RodSettings::network has a latent width of %u; kLearned needs a multiple of 8, at most %u", latent,
+      pack::kPanel);
 }
 
 simd::RodStartNet start_net(const CopingNet& network) noexcept {

@@ -139,7 +139,7 @@ class RodBatch {
   // What kPrevious starts from: of the last step; zeros where the strand did not converge.
   SegmentStart last_forces(uint32_t strand, uint32_t segment) const noexcept;
 
- // For training, of the last step; zeros but with kKnn, kLearned or keeps_start_inputs.
+  // For training, of the last step; zeros but with kKnn, kLearned or keeps_start_inputs.
   StartInputs start_inputs(uint32_t strand, uint32_t segment) const noexcept;
 
  private:
@@ -192,10 +192,10 @@ class RodBatch {
   static constexpr uint32_t kRestNumbers = 10;
 
   core::AlignedBlock memory_;
-  float* records_ = nullptr;  // [groups][segments][kRodKeptFields][width]
-  float* scratch_ = nullptr;  // of one group
-  float* lanes_ = nullptr;    // [groups][kLaneFields][width]
-  float* history_ = nullptr;  // [groups][kRodStartAges][segments][kRodStartNumbers][width]
+  float* records_ = nullptr;    // [groups][segments][kRodKeptFields][width]
+  float* scratch_ = nullptr;    // of one group
+  float* lanes_ = nullptr;      // [groups][kLaneFields][width]
+  float* history_ = nullptr;    // [groups][segments][kRodStartAges][kRodStartNumbers][width]
   float* inputs_ = nullptr;     // [groups][segments][kRodStartInputs][width]
   float* continued_ = nullptr;  // [groups][segments][kRodStartNumbers][width]
   float* scales_ = nullptr;     // [groups][kRodStartTriples][width]

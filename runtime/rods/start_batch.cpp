@@ -71,11 +71,13 @@ void RodBatch::tell_fixed_inputs() noexcept {
 // Of a record's joint.
 void RodBatch::tell_joint(uint32_t strand, uint32_t slot,
                           float (&out)[simd::kRodJointInputs]) const noexcept {
-  const float* record = records_ + (size_t{strand / width_} * segment_count_ + slot) * simd::kRodKeptFields * width_ +
+  const float* record = records_ +
+                        (size_t{strand / width_} * segment_count_ + slot) * simd::kRodKeptFields * width_ +
                         strand % width_;
   float rest[3];
   for (uint32_t k = 0; k < 3; ++k) rest[k] = record[(simd::kRodRest + k) * width_];
-  joint_inputs(rest, record[simd::kRodBendCompliance * width_], record[simd::kRodTwistCompliance * width_], out);
+  joint_inputs(rest, record[simd::kRodBendCompliance * width_], record[simd::kRodTwistCompliance * width_],
+               out);
 }
 
 StartInputs RodBatch::start_inputs(uint32_t strand, uint32_t segment) const noexcept {

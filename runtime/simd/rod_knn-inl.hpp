@@ -1,7 +1,7 @@
 // rod_knn-inl.hpp  A start by the nearest of kept examples, the mean of three (Shao et al. 2021, Sec. 4).
 //
-// Every segment is compared with every example: a baseline, not meant to be fast. Cost a segment and vector of
-// strands: kRodStartInputs multiply-adds an example.
+// Every segment is compared with every example: a baseline, not meant to be fast. Cost a segment and vector
+// of strands: kRodStartInputs multiply-adds an example.
 HWY_BEFORE_NAMESPACE();
 namespace sinew::simd::HWY_NAMESPACE {
 
@@ -14,9 +14,10 @@ struct Nearest {
 // Ties keep the earlier example.
 template <class V>
 HWY_INLINE void offer(V far, V index, Nearest<V>* nearest) {
+  auto closer = hn::Lt(far, nearest->far[0]);
   SINEW_UNROLL
   for (size_t k = 0; k < kRodNeighbours; ++k) {
-    const auto closer = hn::Lt(far, nearest->far[k]);
+    closer = hn::Or(closer, hn::Lt(far, nearest->far[k]));  // what is moved down moves the next one down
     const V was = nearest->far[k], whose = nearest->index[k];
     nearest->far[k] = hn::IfThenElse(closer, far, was);
     nearest->index[k] = hn::IfThenElse(closer, index, whose);
@@ -45,14 +46,16 @@ HWY_INLINE Nearest<hn::Vec<D>> find_nearest(D d, const RodStartExamples& example
 
 // The mean answer of each lane's neighbours, [kRodStartNumbers][width].
 template <size_t kWidth, class D>
-HWY_INLINE void mean_answers(D d, const RodStartExamples& examples, const Nearest<hn::Vec<D>>& nearest, float* out) {
+HWY_INLINE void mean_answers(D d, const RodStartExamples& examples, const Nearest<hn::Vec<D>>& nearest,
+                             float* out) {
   HWY_ALIGN float index[kWidth];
   for (size_t k = 0; k < kRodStartNumbers; ++k) hn::Store(hn::Zero(d), d, out + k * kWidth);
   for (size_t n = 0; n < kRodNeighbours; ++n) {
     hn::Store(nearest.index[n], d, index);
     for (size_t lane = 0; lane < hn::MaxLanes(d); ++lane) {
       const float* answer = examples.answers + static_cast<size_t>(index[lane]) * kRodStartNumbers;
-      for (size_t k = 0; k < kRodStartNumbers; ++k) out[k * kWidth + lane] += answer[k] * (1.0f / kRodNeighbours);
+      for (size_t k = 0; k < kRodStartNumbers; ++k)
+        out[k * kWidth + lane] += answer[k] * (1.0f / kRodNeighbours);
     }
   }
 }

@@ -57,7 +57,8 @@ HWY_INLINE LaneNet lane_net(const RodJob& job, const RodStartNet& net, float* pl
 }
 
 template <size_t kWidth, class D>
-HWY_INLINE void chain_lanes(D d, const RodStartNet& net, uint32_t chain, LaneInput in, const LaneNet& at, float* out) {
+HWY_INLINE void chain_lanes(D d, const RodStartNet& net, uint32_t chain, LaneInput in, const LaneNet& at,
+                            float* out) {
   const pack::DenseRecord* layer = net.layers + size_t{chain} * (net.depth + 1);
   for (uint32_t k = 0; k < net.depth; ++k, ++layer) {
     dense_lanes<kWidth>(d, net, *layer, in, true, at.hidden[k % 2]);
@@ -78,7 +79,8 @@ HWY_INLINE void copy_lanes(D d, const float* from, size_t count, float* to) {
 }
 
 template <size_t kWidth, class D>
-HWY_INLINE void message_block(D d, const RodJob& job, const RodStartNet& net, uint32_t block, const LaneNet& at) {
+HWY_INLINE void message_block(D d, const RodJob& job, const RodStartNet& net, uint32_t block,
+                              const LaneNet& at) {
   const size_t row = size_t{net.latent} * kWidth;
   const uint32_t n = net.latent;
   for (size_t k = 0; k < n; ++k) hn::Store(hn::Zero(d), d, at.sum + k * kWidth);
@@ -89,7 +91,8 @@ HWY_INLINE void message_block(D d, const RodJob& job, const RodStartNet& net, ui
     add_lanes<kWidth>(d, at.last, n, e);
     copy_lanes<kWidth>(d, e, n, at.sum + i * row);
   }
-  for (size_t i = 1; i < job.segments; ++i) add_lanes<kWidth>(d, at.e + i * row, n, at.sum + job.parents[i] * row);
+  for (size_t i = 1; i < job.segments; ++i)
+    add_lanes<kWidth>(d, at.e + i * row, n, at.sum + job.parents[i] * row);
   for (size_t i = 0; i < job.segments; ++i) {
     float* v = at.v + i * row;
     chain_lanes<kWidth>(d, net, 2 * block + 2, {{{v, n}, {at.sum + i * row, n}}, 2}, at, at.last);
@@ -149,7 +152,8 @@ void rod_encode_joints(const RodJob& job, const RodStartNet& net, const float* j
     const LaneNet at = lane_net<kWidth>(job, net, planes + lane);
     for (size_t i = 1; i < job.segments; ++i) {
       const float* told = joints + i * kRodJointInputs * kWidth + lane;
-      chain_lanes<kWidth>(d, net, 1, {{{told, kRodJointInputs}}, 1}, at, encodings + i * net.latent * kWidth + lane);
+      chain_lanes<kWidth>(d, net, 1, {{{told, kRodJointInputs}}, 1}, at,
+                          encodings + i * net.latent * kWidth + lane);
     }
   });
 }

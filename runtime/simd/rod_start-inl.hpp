@@ -12,10 +12,10 @@ namespace sinew::simd::HWY_NAMESPACE {
 // A vector of lanes' rows of the last results but one, two and three.
 template <class D, size_t kWidth>
 struct StartHistory {
-  float* ages[kRodStartAges];  // of a segment 0, the field kRodStartPush
+  float* ages[kRodStartAges];  // of segment 0
 
   HWY_INLINE float* at(size_t age, size_t i, size_t part) const {
-    return ages[age] + (i * kRodStartNumbers + part) * kWidth;
+    return ages[age] + (i * kRodStartAges * kRodStartNumbers + part) * kWidth;
   }
   HWY_INLINE Three<hn::Vec<D>> get3(size_t age, size_t i, size_t part) const {
     const D d;
@@ -31,60 +31,83 @@ struct StartHistory {
 
 template <size_t kWidth, class G>
 HWY_INLINE auto start_history(const G& g, const RodJob& job, const RodStartJob& start) {
-  const size_t lane = static_cast<size_t>(g.records - job.records);
-  const size_t age = size_t{job.segments} * kRodStartNumbers * kWidth;
-  StartHistory<LanesOf<kWidth>, kWidth> out;
-  for (size_t k = 0; k < kRodStartAges; ++k) {
-    out.ages[k] = start.history + (start.newest + kRodStartAges - k) % kRodStartAges * age + lane;
-  }
-  return out;
+  float* first = start.history + (g.records - job.records);
+  const auto of = [&](uint32_t age) {
+    return first + (start.newest + kRodStartAges - age) % kRodStartAges * kRodStartNumbers * kWidth;
+  };
+  return StartHistory<LanesOf<kWidth>, kWidth>{{of(0), of(1), of(2)}};
 }
 
 // Added to the diagonal of the fit, of itself: what noise makes of a motion that two numbers describe well.
 inline constexpr float kStartDamping = 1e-2f;
-inline constexpr float kLargestContinuedShare = 1.5f;  // of a and b
+inline constexpr float kLargestStartShare = 1.5f;  // of a and b
 
 template <class V>
 struct Shares {
   V a, b;
 };
 
+// Products of a triple's d_{t-1}, d_{t-1} - d_{t-2} and d_t, summed over the strand.
+template <class V>
+struct StartFit {
+  V xx, xy, yy, xz, yz;
+};
+
 template <class G, class H>
-HWY_INLINE Shares<typename G::V> fit_shares(const G& g, const RodJob& job, const H& history, size_t part) {
+HWY_INLINE void add_to_fit(const G& g, const H& history, size_t i, size_t part,
+                           StartFit<typename G::V>* fit) {
   using V = typename G::V;
+  const Three<V> r1 = history.get3(0, i, part), r2 = history.get3(1, i, part);
+  const Three<V> z = g.get3(i, kRodStartPush + part) - r1, x = r1 - r2;
+  const Three<V> y = x - (r2 - history.get3(2, i, part));
+  fit->xx = hn::Add(fit->xx, dot(x, x));
+  fit->xy = hn::Add(fit->xy, dot(x, y));
+  fit->yy = hn::Add(fit->yy, dot(y, y));
+  fit->xz = hn::Add(fit->xz, dot(x, z));
+  fit->yz = hn::Add(fit->yz, dot(y, z));
+}
+
+template <class V>
+HWY_INLINE Shares<V> shares_of(const StartFit<V>& fit) {
   const hn::DFromV<V> d;
-  V xx = hn::Zero(d), xy = xx, yy = xx, xz = xx, yz = xx;
-  for (size_t i = 0; i < job.segments; ++i) {
-    const Three<V> r1 = history.get3(0, i, part), r2 = history.get3(1, i, part);
-    const Three<V> z = g.get3(i, kRodStartPush + part) - r1, x = r1 - r2;
-    const Three<V> y = x - (r2 - history.get3(2, i, part));
-    xx = hn::Add(xx, dot(x, x));
-    xy = hn::Add(xy, dot(x, y));
-    yy = hn::Add(yy, dot(y, y));
-    xz = hn::Add(xz, dot(x, z));
-    yz = hn::Add(yz, dot(y, z));
-  }
   const V grown = hn::Set(d, 1 + kStartDamping), least = hn::Set(d, 1e-30f);
-  const V most = hn::Set(d, kLargestContinuedShare), low = hn::Neg(most);
-  xx = hn::MulAdd(xx, grown, least);
-  yy = hn::MulAdd(yy, grown, least);
-  const V per = hn::Div(hn::Set(d, 1), hn::Max(hn::NegMulAdd(xy, xy, hn::Mul(xx, yy)), least));
-  const V a = hn::Mul(per, hn::NegMulAdd(xy, yz, hn::Mul(yy, xz)));
-  const V b = hn::Mul(per, hn::NegMulAdd(xy, xz, hn::Mul(xx, yz)));
+  const V most = hn::Set(d, kLargestStartShare), low = hn::Neg(most);
+  const V xx = hn::MulAdd(fit.xx, grown, least), yy = hn::MulAdd(fit.yy, grown, least);
+  const V per = hn::Div(hn::Set(d, 1), hn::Max(hn::NegMulAdd(fit.xy, fit.xy, hn::Mul(xx, yy)), least));
+  const V a = hn::Mul(per, hn::NegMulAdd(fit.xy, fit.yz, hn::Mul(yy, fit.xz)));
+  const V b = hn::Mul(per, hn::NegMulAdd(fit.xy, fit.xz, hn::Mul(xx, fit.yz)));
   return {hn::Max(low, hn::Min(a, most)), hn::Max(low, hn::Min(b, most))};
 }
 
-template <class G, class H>
-HWY_INLINE void continue_part(const G& g, const RodJob& job, const H& history, size_t part,
-                              hn::Mask<hn::DFromV<typename G::V>> known) {
+template <class G, class H, class M>
+HWY_INLINE void continue_triple(const G& g, const H& history, size_t i, size_t part,
+                                const Shares<typename G::V>& shares, M known) {
   using V = typename G::V;
-  const Shares<V> shares = fit_shares(g, job, history, part);
+  const Three<V> r = g.get3(i, kRodStartPush + part), r1 = history.get3(0, i, part);
   const V both = hn::Add(shares.a, shares.b);
+  const Three<V> next = scaled_sum(both, r - r1, less_scaled(shares.b, r1 - history.get3(1, i, part), r));
+  g.set3(i, kRodStartPush + part, choose(known, next, r));
+  history.keep3(kRodStartAges - 1, i, part, r);
+}
+
+template <size_t kWidth, class G>
+HWY_INLINE void continue_results(const G& g, const RodJob& job, const RodStartJob& start) {
+  using V = typename G::V;
+  const LanesOf<kWidth> d;
+  const auto history = start_history<kWidth>(g, job, start);
+  const auto known = hn::Ge(g.lane(kLaneKnownSteps), hn::Set(d, float{kRodStartKnown}));
+  const V zero = hn::Zero(d);
+  const StartFit<V> none = {zero, zero, zero, zero, zero};
+  StartFit<V> fits[kRodStartTriples] = {none, none, none, none};
   for (size_t i = 0; i < job.segments; ++i) {
-    const Three<V> r = g.get3(i, kRodStartPush + part), r1 = history.get3(0, i, part);
-    const Three<V> next = scaled_sum(both, r - r1, less_scaled(shares.b, r1 - history.get3(1, i, part), r));
-    g.set3(i, kRodStartPush + part, choose(known, next, r));
-    history.keep3(kRodStartAges - 1, i, part, r);
+    SINEW_UNROLL
+    for (size_t t = 0; t < kRodStartTriples; ++t) add_to_fit(g, history, i, 3 * t, &fits[t]);
+  }
+  const Shares<V> shares[kRodStartTriples] = {shares_of(fits[0]), shares_of(fits[1]), shares_of(fits[2]),
+                                              shares_of(fits[3])};
+  for (size_t i = 0; i < job.segments; ++i) {
+    SINEW_UNROLL
+    for (size_t t = 0; t < kRodStartTriples; ++t) continue_triple(g, history, i, 3 * t, shares[t], known);
   }
 }
 
@@ -141,7 +164,8 @@ HWY_INLINE void scale_inputs(const G& g, const RodJob& job, const Rows& inputs,
                              const typename G::V (&scales)[kRodStartTriples]) {
   using V = typename G::V;
   const hn::DFromV<V> d;
-  const V one = hn::Set(d, 1), least = hn::Set(d, 1e-20f), per = hn::Set(d, 1.0f / static_cast<float>(job.segments));
+  const V one = hn::Set(d, 1), least = hn::Set(d, 1e-20f),
+          per = hn::Set(d, 1.0f / static_cast<float>(job.segments));
   V carried = hn::Zero(d), by[kRodStartTriples];
   for (size_t i = 0; i < job.segments; ++i) {
     const Three<V> f = g.get3(i, kRodStartForce);
@@ -178,11 +202,8 @@ HWY_INLINE void tell_inputs(const G& g, const RodJob& job, const RodStartJob& st
 template <size_t kWidth>
 void rod_continue(const RodJob& job, const RodStartJob& start) {
   for_lanes<kWidth>(job, [&](const auto& g) HWY_ATTR {
-    const LanesOf<kWidth> d;
     if (start.inputs) tell_inputs<kWidth>(g, job, start);
-    const auto history = start_history<kWidth>(g, job, start);
-    const auto known = hn::Ge(g.lane(kLaneKnownSteps), hn::Set(d, float{kRodStartKnown}));
-    for (size_t part = 0; part < kRodStartNumbers; part += 3) continue_part(g, job, history, part, known);
+    continue_results<kWidth>(g, job, start);
     if (!start.inputs) return;
     const auto kept = lane_rows<kWidth>(g, job, start.continued, kRodStartNumbers);
     for (size_t i = 0; i < job.segments; ++i) {
@@ -194,7 +215,8 @@ void rod_continue(const RodJob& job, const RodStartJob& start) {
 // Adds a correction of the triple at `part`, in own axes and over its scale.
 template <size_t kWidth, class G, class M>
 HWY_INLINE void correct(const G& g, const RodJob& job, const RodStartJob& start, size_t i, size_t part,
-                        const Three<typename G::V>& correction, const SegmentAxes<typename G::V>& axes, M meant) {
+                        const Three<typename G::V>& correction, const SegmentAxes<typename G::V>& axes,
+                        M meant) {
   using V = typename G::V;
   const V scale = hn::IfThenElseZero(
       meant, hn::Load(LanesOf<kWidth>(), start.scales + part / 3 * kWidth + (g.records - job.records)));

@@ -37,9 +37,10 @@ inline constexpr uint32_t kRodNeighbours = 3;  // Shao et al. 2021, Sec. 4
 
 // Arrays of a group are aligned like its records.
 struct RodStartJob {
-  float* history;    // [kRodStartAges][segments][kRodStartNumbers][width]
+  float* history;    // [segments][kRodStartAges][kRodStartNumbers][width]
   uint32_t newest;   // of the ages: the last result but one; the one after it, in turn, is the oldest
-  float* continued;  // [segments][kRodStartNumbers][width]: as continue_start left it, before corrections; or null
+  float* continued;  // [segments][kRodStartNumbers][width]: as continue_start left it, before corrections; or
+                     // null
   float* inputs;     // [segments][kRodStartInputs][width]; where they are told, else null
   float* scales;     // [kRodStartTriples][width]: the root mean squares that inputs were divided by
   const float* encodings;  // [segments][latent][width], as encode_joints leaves them; the root's is not read

@@ -30,7 +30,9 @@ struct Quotient {
 };
 
 template <class V>
-HWY_INLINE V value_of(const Quotient<V>& q) { return hn::Div(q.over, q.under); }
+HWY_INLINE V value_of(const Quotient<V>& q) {
+  return hn::Div(q.over, q.under);
+}
 
 template <class V>
 HWY_INLINE Quotient<V> product_of(const Quotient<V>& a, const Quotient<V>& b) {
@@ -62,7 +64,9 @@ HWY_INLINE Quotient<V> tanh_quotient(V x) {
 }
 
 template <class V>
-HWY_INLINE Quotient<V> tanh_of(V x) { return tanh_quotient<false>(x); }
+HWY_INLINE Quotient<V> tanh_of(V x) {
+  return tanh_quotient<false>(x);
+}
 
 template <class V>
 HWY_INLINE Quotient<V> sigmoid_of(V x) {
