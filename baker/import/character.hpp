@@ -47,6 +47,17 @@ struct Clip {
   std::vector<Channel> channels;
 };
 
+// Bones that a VRM file lets swing: a root joint and all that hangs on it, or what lies between it and `end`.
+struct SpringBones {
+  std::string name;
+  int root = 0, end = -1;    // joints; -1: no end is stated
+  double stiffness = 1;      // 0 .. 4: pull to the rest direction
+  double gravity_power = 0;  // pull down
+  double drag_force = 0.4;   // 0 .. 1: share of its velocity that a bone loses in a frame
+  double hit_radius_m = 0.02;
+  bool collides = false;  // with colliders that the file states
+};
+
 struct Character {
   std::string name;
   std::vector<Node> nodes;
@@ -66,6 +77,7 @@ struct Character {
 
   std::vector<int> welded;  // vertex -> first vertex at the same place with the same influences
   std::vector<Clip> clips;
+  std::vector<SpringBones> springs;
   std::vector<std::string> notes;  // what was mended or dropped on import, one line each
 };
 

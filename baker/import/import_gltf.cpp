@@ -10,6 +10,7 @@
 #include "baker/import/clips.hpp"
 #include "baker/import/gltf_file.hpp"
 #include "baker/import/primitives.hpp"
+#include "baker/import/spring_bones.hpp"
 #include "baker/import/weld.hpp"
 
 namespace sinew::baker {
@@ -90,6 +91,7 @@ Character import_file(Source& source, const ImportOptions& options) {
   if (character.positions.empty() || character.triangles.empty())
     source.refuse("", "no mesh of this file has triangles", "export the character's mesh as triangles");
   character.clips = read_clips(model, graph, accessors, source);
+  character.springs = read_spring_bones(model, graph, joints.node, source);
   character.nodes = std::move(graph.nodes);
   character.joint_node = std::move(joints.node);
   character.joint_parent = std::move(joints.parent);

@@ -86,14 +86,30 @@ void append_region(const Character& character, const Surface& surface, const Rec
   layout.regions.push_back(std::move(region));
 }
 
+// Flesh that a rod's bones move by more than this is not soft: rim of both, it would swing twice.
+constexpr double kRodWeight = 0.05;
+
+void hold_on_rods(const Character& character, const std::vector<Rod>& rods, std::vector<double>& stiffness) {
+  const std::vector<bool> on = joints_on_rods(character, rods);
+  for (size_t v = 0; v < stiffness.size(); ++v) {
+    const Influences& skin = character.skin[static_cast<size_t>(character.welded[v])];
+    double weight = 0;
+    for (size_t k = 0; k < kInfluences; ++k)
+      if (on[static_cast<size_t>(skin.joint[k])]) weight += skin.weight[k];
+    if (weight > kRodWeight) stiffness[v] = 1;
+  }
+}
+
 }  // namespace
 
 TissueLayout layout_tissue(Character& character, const Recipe& recipe) {
   const Surface surface = find_surface(character);
   TissueLayout layout;
+  layout.rods = find_rods(character, recipe);
   layout.stiffness = find_stiffness(character, surface, recipe);
+  hold_on_rods(character, layout.rods, layout.stiffness);
   const SoftParts parts = find_soft_parts(character, surface, recipe, layout.stiffness);
-  if (parts.count == 0)
+  if (parts.count == 0 && layout.rods.empty())
     throw BadInput(character.name + ": no part of the surface is soft (stiffness below " +
                    std::to_string(recipe.rigid_stiffness) +
                    "); paint _STIFFNESS, or name soft joints in the recipe's regions");

@@ -67,6 +67,7 @@ Recipe read_recipe(const std::string& path) {
   read_material(section, recipe);
   read_graph(section, recipe);
   for (JsonSection& region : section.sections("regions")) recipe.regions.push_back(read_region(region));
+  if (section.has("rods")) recipe.rods = read_rod_recipes(section);
   section.finish();
   return recipe;
 }

@@ -1,7 +1,10 @@
 // recipe.hpp  What an artist states about a character's tissue; every key of the JSON file is optional.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "baker/mesh/rod_recipe.hpp"
 
 namespace sinew::baker {
 
@@ -31,6 +34,7 @@ struct Recipe {
   int neighbours = 6;         // 2 .. 16
   double unit_m = 0;          // see ImportOptions
   char up = 'y';
+  std::optional<std::vector<RodRecipe>> rods;  // absent: from the file's spring bones, where it has any
   std::vector<RegionRecipe>
       regions;  // used where the file paints no _STIFFNESS; empty and unpainted: by flesh thickness
 };

@@ -1,10 +1,12 @@
-// tissue_layout.hpp  Which parts of a character are soft, and the control graph that stands for them.
+// tissue_layout.hpp  Which parts of a character are soft, the control graph that stands for them, and which
+// bones are rods.
 #pragma once
 #include <utility>
 #include <vector>
 
 #include "baker/import/character.hpp"
 #include "baker/mesh/recipe.hpp"
+#include "baker/mesh/rods.hpp"
 
 namespace sinew::baker {
 
@@ -32,10 +34,11 @@ struct TissueLayout {
   std::vector<Region> regions;
   std::vector<ControlNode> nodes;          // region after region
   std::vector<std::pair<int, int>> edges;  // undirected, no self-loops, each region connected
+  std::vector<Rod> rods;                   // what hangs on their bones is not soft: the rods move it
 };
 
-// Throws BadInput: no soft vertex at all, a region smaller than four vertices is dropped with a note, a
-// recipe's joint that does not exist (named).
+// Throws BadInput as find_rods does, and: no soft vertex at all and no rod, a region smaller than four
+// vertices is dropped with a note, a recipe's joint that does not exist (named).
 TissueLayout layout_tissue(Character& character, const Recipe& recipe);
 
 }  // namespace sinew::baker

@@ -10,6 +10,7 @@
 #include "baker/pack/graph.hpp"
 #include "baker/pack/modes_pack.hpp"
 #include "baker/pack/network_pack.hpp"
+#include "baker/pack/rods_pack.hpp"
 #include "baker/pack/tier_pack.hpp"
 
 namespace sinew::baker {
@@ -54,6 +55,7 @@ void add_record(const Character& character, const TissueLayout& layout, PackWrit
   record.node_count = to_u32(layout.nodes.size());
   record.clip_count = to_u32(character.clips.size());
   record.height_m = static_cast<float>(height_of(character));
+  record.rod_count = to_u32(layout.rods.size());
   pack.section(SectionKind::kCharacter, std::vector{record});
 }
 
@@ -210,6 +212,12 @@ void add_tiers(const Safetensors* weights, const TierWork& work, PackWriter& pac
   pack.section(SectionKind::kTiers, make_tiers(work, error_mm, error_ratio));
 }
 
+size_t rod_segments(const TissueLayout& layout) {
+  size_t count = 0;
+  for (const Rod& rod : layout.rods) count += rod.bones.size();
+  return count;
+}
+
 // rate_hz alone.
 std::vector<pack::LayerRecord> add_no_network(PackWriter& pack) {
   pack::NetworkRecord record{};
@@ -239,6 +247,7 @@ std::vector<std::byte> pack_character(const Character& character, const TissueLa
   const GraphRows graph =
       normalized_adjacency(layout.nodes.size(), layout.edges, character.name + ": control graph");
   add_graph(graph, pack);
+  add_rods(character, layout.rods, pack);
   const uint64_t mode_floats =
       add_modes(layout, modes,
                 {.rate_hz = number_of(weights, "rate_hz", kRate_hz, 1, 1000),
@@ -247,7 +256,8 @@ std::vector<std::byte> pack_character(const Character& character, const TissueLa
   add_tiers(weights,
             {.nodes = layout.nodes.size(),
              .mode_floats = mode_floats,
-             .network_multiply_adds = multiply_adds(layers, layout.nodes.size(), graph.columns.size())},
+             .network_multiply_adds = multiply_adds(layers, layout.nodes.size(), graph.columns.size()),
+             .rod_segments = rod_segments(layout)},
             pack);
   return pack.finish();
 }

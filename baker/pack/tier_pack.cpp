@@ -34,8 +34,8 @@ uint64_t multiply_adds(std::span<const pack::LayerRecord> layers, size_t nodes, 
 std::vector<pack::TierRecord> make_tiers(const TierWork& work, float error_mm, float error_ratio) {
   // A node's share: its damped coordinates; its frame, drive and spring; its terms and warp. The last two are
   // scalar code: so many multiply-adds of the kernels take as long.
-  constexpr uint64_t kExtrapolationOps = 3, kSpringOps = 1900, kModalOps = 1100;
-  const uint64_t spring = work.nodes * kSpringOps;
+  constexpr uint64_t kExtrapolationOps = 3, kSpringOps = 1900, kModalOps = 1100, kRodSegmentOps = 30000;
+  const uint64_t spring = work.nodes * kSpringOps + work.rod_segments * kRodSegmentOps;
   const uint64_t modal = spring + work.nodes * kModalOps + work.mode_floats;
   const float skinning_mm = error_ratio > 0 ? error_mm / error_ratio : kNotMeasured;
   const auto record = [](Tier tier, uint64_t ops, float mm = kNotMeasured, float ratio = kNotMeasured) {

@@ -21,6 +21,7 @@ struct TierWork {
   size_t nodes = 0;
   uint64_t mode_floats = 0;            // of the modal bases' matrices
   uint64_t network_multiply_adds = 0;  // 0: no network
+  size_t rod_segments = 0;             // in every simulated tier
 };
 
 // Every tier that the work allows; the errors are the network's, NaN where not measured.

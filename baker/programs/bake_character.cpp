@@ -64,6 +64,13 @@ std::vector<HeardRanges> int8_ranges(const CharacterOptions& options, const Safe
                  kBeyondVectors);
 }
 
+// A character of rods alone has no tissue.
+std::vector<ModalBasis> modal_bases(const Character& character, const TissueLayout& layout,
+                                    const Recipe& recipe) {
+  if (layout.regions.empty()) return {};
+  return TissueTruth(character, layout, recipe).modal_bases(layout, kMostModes);
+}
+
 void run_character(const CharacterOptions& options) {
   const pack::Precision precision = precision_of(options);
   const Recipe recipe = options.recipe.empty() ? Recipe{} : read_recipe(options.recipe);
@@ -71,8 +78,7 @@ void run_character(const CharacterOptions& options) {
   if (!options.tissue.empty()) weights = read_safetensors(options.tissue);
   Character character = import_character(options, recipe);
   const TissueLayout layout = layout_tissue(character, recipe);
-  const std::vector<ModalBasis> modes =
-      TissueTruth(character, layout, recipe).modal_bases(layout, kMostModes);
+  const std::vector<ModalBasis> modes = modal_bases(character, layout, recipe);
   const auto packed = [&](pack::Precision in, std::span<const HeardRanges> ranges) {
     return pack_character(character, layout, modes, weights ? &*weights : nullptr, in, ranges);
   };

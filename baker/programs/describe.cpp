@@ -1,6 +1,8 @@
 // describe.cpp  What is inside a file, as JSON.
 #include "baker/programs/describe.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "baker/pack/network_pack.hpp"
@@ -84,6 +86,33 @@ Json describe_regions(const pack::PackView& view) {
   return regions;
 }
 
+Json describe_rods(const pack::PackView& view) {
+  Json rods = Json::array();
+  for (const pack::RodRecord& rod : view.rods) {
+    double length_m = 0, softest_pa = HUGE_VAL, stiffest_pa = 0;
+    std::vector<const char*> bones;
+    for (const pack::RodSegmentRecord& s : view.rod_segments.subspan(rod.first_segment, rod.segment_count)) {
+      if (s.joint == pack::kNoIndex) continue;
+      length_m +=
+          std::hypot(double{s.end_m[0]} - double{s.begin_m[0]}, double{s.end_m[1]} - double{s.begin_m[1]},
+                     double{s.end_m[2]} - double{s.begin_m[2]});
+      softest_pa = std::min(softest_pa, double{s.young_modulus_pa});
+      stiffest_pa = std::max(stiffest_pa, double{s.young_modulus_pa});
+      bones.push_back(string_at(view, view.joints[s.joint].name));
+    }
+    rods.push_back({{"name", string_at(view, rod.name)},
+                    {"hangs_on", string_at(view, view.joints[rod.attach].name)},
+                    {"bones", bones.size()},
+                    {"from", bones.front()},
+                    {"to", bones.back()},
+                    {"length_m", length_m},
+                    {"young_modulus_pa", Json::array({softest_pa, stiffest_pa})},
+                    {"gravity", rod.gravity},
+                    {"sag", rod.sag}});
+  }
+  return rods;
+}
+
 Json describe_clips(const pack::PackView& view) {
   Json clips = Json::array();
   for (const pack::ClipRecord& clip : view.clips)
@@ -122,6 +151,7 @@ Json describe_pack(const LoadedPack& pack) {
   description["network"] = describe_network(view);
   if (is_character) {
     description["regions"] = describe_regions(view);
+    if (!view.rods.empty()) description["rods"] = describe_rods(view);
     description["clips"] = describe_clips(view);
     description["tiers"] = describe_tiers(view);
   }

@@ -11,8 +11,9 @@ Status check_int8(const PackView& pack) noexcept;     // what an int8 network ha
 Status check_character(const PackView& pack) noexcept;  // joints, mesh, skin, clips, tiers
 Status check_tissue(const PackView& pack) noexcept;     // regions, nodes, graph, carry; after check_character
 Status check_modes(const PackView& pack) noexcept;  // modal bases, compliance, springs; after check_tissue
+Status check_rods(const PackView& pack) noexcept;   // rods, segments, what they move; after check_character
 
-// ---- shared by the four ----
+// ---- shared by all of them ----
 
 // "pack: <what>; the file is damaged, bake it again"
 [[gnu::format(printf, 1, 2)]] Status corrupt(const char* format, ...) noexcept;

@@ -23,6 +23,8 @@
 //      NetworkRecord::precision with the int8 sections; the inputs kTurnedForce .. kSpunVelocity
 //   4  what a region's modes hear lies input by input, so that no sum runs across a vector's lanes
 //      since then, likewise: the models kDeepEmulator and kCopingNet with the section kDense
+//   5  weights of Alt-ConvLSTM lie in the order that kernels read them; CharacterRecord::rod_count with the
+//      sections of rods, and a character of rods without soft regions
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -30,11 +32,11 @@
 namespace sinew::pack {
 
 inline constexpr char kMagic[8] = {'S', 'I', 'N', 'E', 'W', 'P', 'K', '\0'};
-inline constexpr uint32_t kVersion = 4;
+inline constexpr uint32_t kVersion = 5;
 inline constexpr size_t kSectionAlignment = 64;
 inline constexpr uint32_t kNoIndex = 0xffffffffu;
 
-inline constexpr uint32_t kPanel = 64;  // outputs of a dense layer whose weights lie together
+inline constexpr uint32_t kPanel = 64;  // outputs of one layer whose weights lie together
 
 // Rows of channels are padded to whole 16.
 constexpr uint64_t round_up_16(uint64_t value) noexcept { return (value + 15) / 16 * 16; }
@@ -105,6 +107,11 @@ enum class SectionKind : uint32_t {
   kSprings = 46,     // SpringRecord x regions
 
   kTiers = 50,  // TierRecord x tiers
+
+  kRods = 60,         // RodRecord x rods
+  kRodSegments = 61,  // RodSegmentRecord: of all rods, rod after rod
+  kJointRods = 62,  // uint32 x joints, where there are rods: the segment in kRodSegments that moves a joint,
+                    // its own or its parent's; kNoIndex: none
 };
 
 // kNone: a character of modes and springs alone; no layers, inputs or weights, and of the record only rate_hz
@@ -153,19 +160,18 @@ struct NetworkRecord {
 };
 static_assert(sizeof(NetworkRecord) == 64);
 
-// One tensor after the other in kWeights, layer after layer, without gaps, each row-major and padded to whole
-// rows of `padded` = channels rounded up to 16 in each gate block, so that a row of all gates is gates x
-// padded floats; padding is zero. Offsets count floats, each a multiple of 16. x stands for the layer's
-// input.
+// One tensor after the other in kWeights, layer after layer, without gaps. Channels are padded to `padded`,
+// weights lie as pack/weight_layout.hpp says: all rows of all gates of 16 channels, then of the next 16.
+// Padding is zero. Offsets count floats, each a multiple of 16. x stands for the layer's input.
 struct LayerRecord {
   uint32_t inputs;    // F_in: input_width, then the channels of the layer before
   uint32_t channels;  // F, 1..1024
   uint32_t padded;    // F rounded up to 16
   uint32_t has_self;  // 1: W_s is there
-  uint64_t w_x;       // [F_in][4][padded]
-  uint64_t w_s;       // [F_in][4][padded], if has_self; else 0
-  uint64_t w_h;       // [F][4][padded]
-  uint64_t w_y;       // [F][3][padded], gates i f o
+  uint64_t w_x;       // [padded / 16][F_in][4][16]
+  uint64_t w_s;       // the same, if has_self; else 0
+  uint64_t w_h;       // [padded / 16][F][4][16]
+  uint64_t w_y;       // [padded / 16][F][2][16], gates i f; then gate o, [padded / kPanel][F][kPanel]
   uint64_t bias;      // [4][padded]
   uint64_t reserved;
 };
@@ -229,7 +235,8 @@ struct CharacterRecord {
   uint32_t name;  // offset in kStrings
   uint32_t vertex_count, triangle_count, joint_count, region_count, node_count, clip_count;
   float height_m;
-  uint32_t reserved[8];
+  uint32_t rod_count;
+  uint32_t reserved[7];
 };
 static_assert(sizeof(CharacterRecord) == 64);
 
@@ -308,6 +315,31 @@ struct SpringRecord {
   uint32_t reserved;
 };
 static_assert(sizeof(SpringRecord) == 16);
+
+// Bones that swing: a chain or tree of segments, the first of which hangs on a bone that no rod moves. A
+// character has regions, rods or both.
+struct RodRecord {
+  uint32_t name;
+  uint32_t attach;                        // joint; moved by no rod
+  uint32_t first_segment, segment_count;  // 1..65535
+  float gravity;                          // 0..100, times the earth's
+  float sag;  // 0..1: share of gravity that bends the posed shape; the rest has bent it already in the bind
+              // pose
+  uint32_t reserved[2];
+};
+static_assert(sizeof(RodRecord) == 32);
+
+// A rigid piece of a rod and the joint that holds its beginning (rods/strand.hpp); bind pose, metres. Its
+// joint's parent is the joint of the bone that it hangs on.
+struct RodSegmentRecord {
+  uint32_t joint;   // kNoIndex: a stiff link between a bone's end and a child that begins elsewhere
+  uint32_t parent;  // in the rod, before it; kNoIndex for the first alone. A link's is a bone
+  float begin_m[3], end_m[3];  // it begins exactly where its parent ends
+  float radius_m, density_kg_m3, young_modulus_pa, torsion_modulus_pa;  // > 0
+  float damping_s, drag_per_s;                                          // >= 0
+  uint32_t reserved[2];
+};
+static_assert(sizeof(RodSegmentRecord) == 64);
 
 struct ClipRecord {
   uint32_t name;

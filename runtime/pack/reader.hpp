@@ -41,6 +41,9 @@ struct PackView {
   std::span<const ClipRecord> clips;
   std::span<const float> clip_frames;  // 12 a joint and frame
   std::span<const TierRecord> tiers;
+  std::span<const RodRecord> rods;
+  std::span<const RodSegmentRecord> rod_segments;
+  std::span<const uint32_t> joint_rods;  // a joint; empty without rods
 };
 
 inline bool has_network(const PackView& pack) noexcept { return pack.network->model != ModelKind::kNone; }

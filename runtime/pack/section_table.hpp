@@ -51,6 +51,9 @@ inline constexpr SectionRule kSectionRules[] = {
     {SectionKind::kCompliance, 9 * sizeof(float), "compliance"},
     {SectionKind::kSprings, sizeof(SpringRecord), "springs"},
     {SectionKind::kTiers, sizeof(TierRecord), "tiers"},
+    {SectionKind::kRods, sizeof(RodRecord), "rods"},
+    {SectionKind::kRodSegments, sizeof(RodSegmentRecord), "rod segments"},
+    {SectionKind::kJointRods, sizeof(uint32_t), "joint rods"},
 };
 
 const SectionRule* find_rule(uint32_t kind) noexcept;  // null: not known

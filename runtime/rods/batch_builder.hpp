@@ -2,6 +2,7 @@
 #pragma once
 #include <span>
 
+#include "core/arena.hpp"
 #include "rods/rod_batch.hpp"
 
 namespace sinew::rods {
@@ -15,6 +16,7 @@ struct RodBatchBuilder {
 
   size_t groups() const { return (batch.strand_count_ + batch.width_ - 1) / batch.width_; }
   void lay_out(std::byte* base, size_t* bytes);
+  void lay_out_start(core::Arena& arena);
   // Puts the records in the order of a tree whose root this segment is.
   void root_at(uint32_t segment);
   void set_units(const StrandDef& strand, uint32_t index);

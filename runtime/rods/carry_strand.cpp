@@ -44,6 +44,9 @@ void RodBatch::carry(uint32_t strand, uint32_t segment, const SegmentPose& to) n
   for (uint32_t k = 0; k < 4; ++k) {
     at(strand, segment, simd::kRodTargetTurn + k) = at(strand, segment, simd::kRodTurn + k);
   }
+  // Earlier results were not turned along: the next step starts from the last one.
+  lanes_[(size_t{strand / width_} * simd::kLaneFields + simd::kLaneKnownSteps) * width_ + strand % width_] =
+      1;
   ++teleported_;
 }
 

@@ -25,8 +25,9 @@ Status check_settings(const RodSettings& s) {
   if (s.local_sweeps < 1 || s.local_sweeps > 10000) {
     return bad_setting("local_sweeps", s.local_sweeps, "1 to 10000");
   }
-  if (s.start > RodStart::kGiven) {
-    return bad_setting("start", static_cast<double>(s.start), "kZero, kPrevious or kGiven");
+  if (s.start > RodStart::kLearned) {
+    return bad_setting("start", static_cast<double>(s.start),
+                       "kZero, kPrevious, kGiven, kContinued, kKnn or kLearned");
   }
   if (s.max_iterations < 1 || s.max_iterations > 1000) {
     return bad_setting("max_iterations", s.max_iterations, "1 to 1000");
@@ -41,7 +42,8 @@ Status check_settings(const RodSettings& s) {
   for (const float g : s.gravity_m_s2) {
     if (!std::isfinite(g)) return bad_setting("gravity_m_s2", static_cast<double>(g), "finite numbers");
   }
-  return {};
+  if (s.start == RodStart::kLearned) return check_learned_start(s.network);
+  return s.start == RodStart::kKnn ? check_examples(s.examples) : Status{};
 }
 
 Status check_shape(const StrandDef& first, const StrandDef& strand, uint32_t index) {

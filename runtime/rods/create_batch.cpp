@@ -18,6 +18,7 @@ void RodBatchBuilder::lay_out(std::byte* base, size_t* bytes) {
   batch.scratch_ = arena.take<float>(size_t{batch.segment_count_} *
                                      (simd::kRodFields - simd::kRodKeptFields) * batch.width_);
   batch.lanes_ = arena.take<float>(groups() * simd::kLaneFields * batch.width_);
+  lay_out_start(arena);
   batch.rest_ =
       arena.take<float>(size_t{batch.strand_count_} * batch.segment_count_ * RodBatch::kRestNumbers);
   batch.units_ = arena.take<RodBatch::Units>(batch.strand_count_);
@@ -25,6 +26,20 @@ void RodBatchBuilder::lay_out(std::byte* base, size_t* bytes) {
     *list = arena.take<uint32_t>(batch.segment_count_);
   }
   *bytes = arena.used_bytes();
+}
+
+void RodBatchBuilder::lay_out_start(core::Arena& arena) {
+  if (!batch.has_history()) return;
+  const size_t rows = groups() * batch.segment_count_ * batch.width_;
+  batch.history_ = arena.take<float>(rows * simd::kRodStartAges * simd::kRodStartNumbers);
+  if (!batch.has_inputs()) return;
+  batch.inputs_ = arena.take<float>(rows * simd::kRodStartInputs);
+  batch.continued_ = arena.take<float>(rows * simd::kRodStartNumbers);
+  batch.scales_ = arena.take<float>(groups() * simd::kRodStartTriples * batch.width_);
+  if (batch.net_.latent == 0) return;
+  batch.encodings_ = arena.take<float>(rows * batch.net_.latent);
+  batch.planes_ =
+      arena.take<float>(simd::rod_net_floats(batch.segment_count_, batch.net_.latent, batch.width_));
 }
 
 Status RodBatchBuilder::fill_all(std::span<const StrandDef> strands) {
@@ -52,6 +67,8 @@ Status RodBatch::create(std::span<const StrandDef> strands, const RodSettings& s
   RodBatch made;
   RodBatchBuilder builder{made};
   made.settings_ = settings;
+  if (settings.start == RodStart::kLearned) made.net_ = start_net(*settings.network);
+  if (settings.start == RodStart::kKnn) made.examples_ = start_examples(*settings.examples);
   made.strand_count_ = static_cast<uint32_t>(strands.size());
   made.segment_count_ = static_cast<uint32_t>(strands[0].segments.size());
   made.width_ = strands.size() > kNarrow ? kWide : kNarrow;
@@ -64,7 +81,9 @@ Status RodBatch::create(std::span<const StrandDef> strands, const RodSettings& s
   }
   builder.lay_out(made.memory_.data(), &bytes);
   status = builder.fill_all(strands);
-  if (status.ok()) *out = static_cast<RodBatch&&>(made);
+  if (!status.ok()) return status;
+  made.tell_fixed_inputs();
+  *out = static_cast<RodBatch&&>(made);
   return status;
 }
 

@@ -10,6 +10,8 @@
 #include <span>
 
 #include "core/aligned_block.hpp"
+#include "rods/knn_start.hpp"
+#include "rods/learned_start.hpp"
 #include "rods/strand.hpp"
 #include "rods/turn.hpp"
 #include "simd/rod_job.hpp"
@@ -30,6 +32,11 @@ enum class RodStart : uint32_t {
   // Free motion with the last step's forces and what they did; as kZero for a strand that did not converge.
   kPrevious = 1,
   kGiven = 2,  // what set_start gave since the last step; segments given nothing as with kPrevious
+  // The last steps' forces continued: by how much they change, and how that changed, in the shares that would
+  // have served the last step best (simd/rod_start-inl.hpp). As kPrevious until four steps converged.
+  kContinued = 3,
+  kKnn = 4,      // kContinued, corrected by the nearest of RodSettings::examples: a baseline, for comparing
+  kLearned = 5,  // kContinued, corrected by RodSettings::network
 };
 
 struct RodSettings {
@@ -47,6 +54,11 @@ struct RodSettings {
   // A pose given for a fixed segment further away than this many of its strand's lengths carries the strand
   // along as it is, without inertia. Finite, above 0.
   float teleport_lengths = 2;
+  // Fills RodReport::residual, for a fifth of an iteration's time.
+  bool report_residual = false;
+  const CopingNet* network = nullptr;       // of kLearned; what it points to outlives the batch
+  const StartExamples* examples = nullptr;  // of kKnn; the same
+  bool keeps_start_inputs = false;          // for training: kContinued then has start_inputs as well
 };
 
 struct SegmentPose {
@@ -66,6 +78,15 @@ struct SegmentStart {
                         0};  // minus the derivative of the bending energy by the Darboux vector times length
 };
 
+// What kKnn and kLearned were told of a segment and its joint, and what they correct: simd/rod_start_job.hpp.
+// Numbers in the strand's own units: its mean segment's length and mass, and seconds.
+struct StartInputs {
+  float told[simd::kRodStartInputs];
+  float joint[simd::kRodJointInputs];
+  float scales[simd::kRodStartTriples];
+  float continued[simd::kRodStartNumbers];
+};
+
 struct RodReport {
   uint32_t iterations = 0;      // most of any strand
   uint32_t iterations_sum = 0;  // of all strands
@@ -74,6 +95,9 @@ struct RodReport {
   uint32_t rejoined = 0;   // of these, strands torn by more than half a segment: put together at their joints
   uint32_t recovered = 0;  // strands that were not finite: put back at rest shape where they are held
   uint32_t teleported = 0;  // strands carried along since the last step
+  // With RodSettings::report_residual, of any strand: what the step's equations miss by, in the strand's mean
+  // segments' lengths, radians, and shares of its largest force (simd/rod_residual-inl.hpp). Otherwise 0.
+  float residual = 0;
 };
 
 class RodBatch {
@@ -104,11 +128,19 @@ class RodBatch {
   // dt_s in (0, 1]; otherwise refused, and nothing moves. Allocates nothing.
   Status step(float dt_s, RodReport* report) noexcept;
 
+  // What `from` has come to, its targets and forces too, with this batch's own settings. Refused: one not
+  // made of the same strands, as far as counts and parents tell. What kContinued and those after it remember
+  // comes along from a batch that remembers it too; otherwise they begin anew. Allocates nothing.
+  Status take_state(const RodBatch& from) noexcept;
+
   // Of an existing segment.
   SegmentPose pose(uint32_t strand, uint32_t segment) const noexcept;
   SegmentVelocity velocity(uint32_t strand, uint32_t segment) const noexcept;
   // What kPrevious starts from: of the last step; zeros where the strand did not converge.
   SegmentStart last_forces(uint32_t strand, uint32_t segment) const noexcept;
+
+  // For training, of the last step; zeros but with kKnn, kLearned or keeps_start_inputs.
+  StartInputs start_inputs(uint32_t strand, uint32_t segment) const noexcept;
 
  private:
   friend struct RodBatchBuilder;
@@ -134,6 +166,15 @@ class RodBatch {
   bool held(uint32_t strand, uint32_t segment) const noexcept;
   simd::RodJob group_job(uint32_t group, float dt_s) const noexcept;
   void step_group(uint32_t group, float dt_s, RodReport* report) noexcept;
+  bool has_history() const noexcept { return settings_.start >= RodStart::kContinued; }
+  bool has_inputs() const noexcept {
+    return settings_.start >= RodStart::kKnn || (has_history() && settings_.keeps_start_inputs);
+  }
+  simd::RodStartJob start_job(uint32_t group) const noexcept;
+  void tell_fixed_inputs() noexcept;
+  void tell_joint(uint32_t strand, uint32_t slot, float (&out)[simd::kRodJointInputs]) const noexcept;
+  void make_start(uint32_t group, const simd::RodJob& job) const noexcept;
+  void take_history(const RodBatch& from) noexcept;
   void carry(uint32_t strand, uint32_t segment, const SegmentPose& to) noexcept;
   void carry_place(uint32_t strand, uint32_t segment, const Turn& by, const SegmentPose& from,
                    const SegmentPose& to) noexcept;
@@ -151,9 +192,15 @@ class RodBatch {
   static constexpr uint32_t kRestNumbers = 10;
 
   core::AlignedBlock memory_;
-  float* records_ = nullptr;  // [groups][segments][kRodKeptFields][width]
-  float* scratch_ = nullptr;  // of one group
-  float* lanes_ = nullptr;    // [groups][kLaneFields][width]
+  float* records_ = nullptr;    // [groups][segments][kRodKeptFields][width]
+  float* scratch_ = nullptr;    // of one group
+  float* lanes_ = nullptr;      // [groups][kLaneFields][width]
+  float* history_ = nullptr;    // [groups][segments][kRodStartAges][kRodStartNumbers][width]
+  float* inputs_ = nullptr;     // [groups][segments][kRodStartInputs][width]
+  float* continued_ = nullptr;  // [groups][segments][kRodStartNumbers][width]
+  float* scales_ = nullptr;     // [groups][kRodStartTriples][width]
+  float* encodings_ = nullptr;  // [groups][segments][latent][width]
+  float* planes_ = nullptr;     // of one group
   float* rest_ = nullptr;   // [strands][segments][kRestNumbers] place, high and low, and orientation at rest
   Units* units_ = nullptr;  // [strands]
   uint32_t* parents_ = nullptr;         // [segments] as listed
@@ -161,7 +208,9 @@ class RodBatch {
   uint32_t* joint_segments_ = nullptr;  // [segments] whose record holds the joint to the parent
   uint32_t* slot_parents_ = nullptr;    // [slots] slots
   RodSettings settings_;
-  uint32_t strand_count_ = 0, segment_count_ = 0, width_ = 0, teleported_ = 0;
+  simd::RodStartNet net_{};
+  simd::RodStartExamples examples_{};
+  uint32_t strand_count_ = 0, segment_count_ = 0, width_ = 0, teleported_ = 0, newest_ = 0;
 };
 
 }  // namespace sinew::rods

@@ -41,12 +41,14 @@ void RodBatch::step_group(uint32_t group, float dt_s, RodReport* report) noexcep
   const simd::RodCalls& call = calls(width_);
   const uint32_t first = group * width_, count = std::min(width_, strand_count_ - first);
   for (uint32_t i = 0; i < width_; ++i) job.lanes[simd::kLaneActive * width_ + i] = i < count ? 1.0f : 0.0f;
+  make_start(group, job);
   call.predict(job);
   if (settings_.solver == RodSolver::kCg) call.measure_cg(job);
   const auto iterate = iteration(call, settings_.solver);
   for (uint32_t k = 0; k < settings_.max_iterations; ++k) {
     if (iterate(job) == 0) break;
   }
+  if (settings_.report_residual) call.residual(job);
   call.finish(job);
   for (uint32_t i = 0; i < count; ++i) {
     const auto lane = [&](uint32_t field) { return job.lanes[field * width_ + i]; };
@@ -54,8 +56,12 @@ void RodBatch::step_group(uint32_t group, float dt_s, RodReport* report) noexcep
     report->iterations = std::max(report->iterations, iterations);
     report->iterations_sum += iterations;
     report->cg_iterations += static_cast<uint32_t>(lane(simd::kLaneCgIterations));
+    if (settings_.report_residual) report->residual = std::max(report->residual, lane(simd::kLaneResidual));
     report->unconverged += lane(simd::kLaneActive) != 0;
     report->recovered += lane(simd::kLaneBroken) != 0;
+    const bool ended = lane(simd::kLaneActive) == 0 && lane(simd::kLaneBroken) == 0;
+    float& known = job.lanes[simd::kLaneKnownSteps * width_ + i];
+    known = ended ? std::min(known + 1, simd::kRodStartKnown + 1.0f) : 0;
     if (lane(simd::kLaneBroken) != 0) {
       recover(first + i);
     } else if (lane(simd::kLaneActive) != 0) {
@@ -74,6 +80,7 @@ Status RodBatch::step(float dt_s, RodReport* report) noexcept {
   made.teleported = teleported_;
   teleported_ = 0;
   for (uint32_t group = 0; group * width_ < strand_count_; ++group) step_group(group, dt_s, &made);
+  newest_ = (newest_ + 1) % simd::kRodStartAges;
   if (report) *report = made;
   return {};
 }

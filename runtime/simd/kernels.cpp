@@ -20,6 +20,7 @@
 // clang-format off
 #include "simd/vectors-inl.hpp"
 #include "simd/state-inl.hpp"
+#include "simd/tanh-inl.hpp"
 #include "simd/activation-inl.hpp"
 #include "simd/aggregate-inl.hpp"
 #include "simd/product-inl.hpp"

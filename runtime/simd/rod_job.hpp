@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "simd/rod_start_job.hpp"
+
 namespace sinew::simd {
 
 // Of a segment in one step: faster spins are slowed down; and in one iteration: longer steps are shortened.
@@ -81,8 +83,10 @@ enum RodLaneField : uint32_t {
   kLaneShare,                      // of its change that the iteration before took
   kLaneIterations,
   kLaneCgIterations,
-  kLaneCgScale,  // what kCg's residuals are measured by, squared: its zero start's first
-  kLaneBroken,   // 1 where a step left something that is not finite
+  kLaneCgScale,     // what kCg's residuals are measured by, squared: its zero start's first
+  kLaneKnownSteps,  // how many of the last steps' results a start may use, at most kRodStartKnown + 1
+  kLaneResidual,    // what residual() found
+  kLaneBroken,      // 1 where a step left something that is not finite
   kLaneFields
 };
 
@@ -102,6 +106,7 @@ struct RodJob {
 
 // For one width of a group. All calls work on every lane; a lane's numbers do not depend on its neighbours'.
 struct RodCalls {
+  RodStartCalls start;
   // Where segments go without joints, and the first iterate.
   void (*predict)(const RodJob& job);
   // Before the first iteration of cg: fills kLaneCgScale. The first iterate stays.
@@ -110,6 +115,8 @@ struct RodCalls {
   uint32_t (*direct)(const RodJob& job);
   uint32_t (*cg)(const RodJob& job);
   uint32_t (*local)(const RodJob& job);
+  // Fills kLaneResidual; the iterate stays.
+  void (*residual)(const RodJob& job);
   // Takes the iterate over as the new state.
   void (*finish)(const RodJob& job);
 };

@@ -515,3 +515,60 @@ TEST_CASE("a_refused_pack_is_not_allocated_for_either") {
   CHECK(test::allocation_count() == before);
   CHECK_FALSE(status.ok());
 }
+
+TEST_CASE("rods_that_disagree_with_the_skeleton_are_refused_by_name") {
+  using enum SectionKind;
+  const std::vector<std::byte> good = test::small_rod_pack();
+  const auto segment = [](size_t index, auto apply) {
+    return change<RodSegmentRecord>(kRodSegments, index, [=](RodSegmentRecord& s) { apply(s); });
+  };
+  const auto rod = [](auto apply) { return change<RodRecord>(kRods, 0, [=](RodRecord& r) { apply(r); }); };
+  const std::vector<Damage> damages = {
+      {"rods: 1 there", change<CharacterRecord>(kCharacter, 0, [](CharacterRecord& c) { c.rod_count = 2; })},
+      {"rods: 1 there", change<CharacterRecord>(kCharacter, 0, [](CharacterRecord& c) { c.rod_count = 0; })},
+      {"its name lies outside", rod([](RodRecord& r) { r.name = 1u << 30; })},
+      {"hangs on joint 3 of 3", rod([](RodRecord& r) { r.attach = 3; })},
+      {"0 segments", rod([](RodRecord& r) { r.segment_count = 0; })},
+      {"do not follow", rod([](RodRecord& r) { r.segment_count = 4; })},
+      {"do not follow", rod([](RodRecord& r) { r.first_segment = 1; })},
+      {"segments that no rod owns", rod([](RodRecord& r) { r.segment_count = 2; })},
+      {"gravity", rod([](RodRecord& r) { r.gravity = -1; })},
+      {"gravity", rod([](RodRecord& r) { r.gravity = kNan; })},
+      {"gravity", rod([](RodRecord& r) { r.gravity = 101; })},
+      {"sag", rod([](RodRecord& r) { r.sag = 1.5f; })},
+      {"reserved", rod([](RodRecord& r) { r.reserved[1] = 1; })},
+      {"parent", segment(0, [](RodSegmentRecord& s) { s.parent = 0; })},
+      {"parent", segment(1, [](RodSegmentRecord& s) { s.parent = 1; })},  // a cycle
+      {"parent", segment(1, [](RodSegmentRecord& s) { s.parent = kNoIndex; })},
+      {"not finite", segment(0, [](RodSegmentRecord& s) { s.end_m[1] = kInfinity; })},
+      {"length 0", segment(2, [](RodSegmentRecord& s) { s.end_m[1] = s.begin_m[1]; })},
+      {"begin where its parent ends", segment(1, [](RodSegmentRecord& s) { s.begin_m[1] += 0.001f; })},
+      {"radius 0", segment(0, [](RodSegmentRecord& s) { s.radius_m = 0; })},
+      {"density", segment(0, [](RodSegmentRecord& s) { s.density_kg_m3 = -1; })},
+      {"Young's modulus", segment(2, [](RodSegmentRecord& s) { s.young_modulus_pa = 0; })},
+      {"torsion modulus", segment(2, [](RodSegmentRecord& s) { s.torsion_modulus_pa = kNan; })},
+      {"damping", segment(2, [](RodSegmentRecord& s) { s.damping_s = -1; })},
+      {"drag", segment(2, [](RodSegmentRecord& s) { s.drag_per_s = kInfinity; })},
+      {"reserved", segment(2, [](RodSegmentRecord& s) { s.reserved[0] = 1; })},
+      {"joint 3 of 3", segment(2, [](RodSegmentRecord& s) { s.joint = 3; })},
+      {"another bone than its joint", segment(2, [](RodSegmentRecord& s) { s.joint = 1; })},
+      {"another bone than its joint", segment(0, [](RodSegmentRecord& s) { s.joint = 0; })},
+      {"hangs on no bone", segment(0, [](RodSegmentRecord& s) { s.joint = kNoIndex; })},
+      {"hangs on no bone", segment(2, [](RodSegmentRecord& s) { s.joint = kNoIndex; })},
+      {"another segment", set<uint32_t>(kJointRods, 2, 0)},
+      {"neither the joint's own", set<uint32_t>(kJointRods, 0, 2)},
+      {"neither the joint's own", set<uint32_t>(kJointRods, 0, 77)},
+  };
+  PackEditor untouched(good);
+  REQUIRE(untouched.open().ok());
+  check_refused(good, damages);
+}
+
+TEST_CASE("a_pack_without_rods_has_none") {
+  PackEditor editor(character_pack());
+  PackView view;
+  REQUIRE(editor.open(&view).ok());
+  CHECK(view.rods.empty());
+  CHECK(view.rod_segments.empty());
+  CHECK(view.joint_rods.empty());
+}

@@ -85,9 +85,25 @@ double read_network(const PackView& view) {
   return sum;
 }
 
+double read_rods(const PackView& view) {
+  double sum = 0;
+  for (const RodRecord& rod : view.rods) {
+    sum += view.joints[rod.attach].inverse_bind[11];
+    sum += static_cast<double>(std::strlen(string_at(view, rod.name)));
+    for (const RodSegmentRecord& s : view.rod_segments.subspan(rod.first_segment, rod.segment_count)) {
+      if (s.parent != kNoIndex) sum += view.rod_segments[rod.first_segment + s.parent].end_m[0];
+      if (s.joint != kNoIndex) sum += view.joint_rods[s.joint];
+    }
+  }
+  for (const uint32_t carrier : view.joint_rods)
+    if (carrier != kNoIndex) sum += view.rod_segments[carrier].radius_m;
+  return sum;
+}
+
 // Reads everything that indexes something, as the runtime would. Spans are not checked: the sanitizers are.
 double read_all(const PackView& view) {
-  return read_strings(view) + read_mesh(view) + read_regions(view) + read_modes(view) + read_network(view);
+  return read_strings(view) + read_mesh(view) + read_regions(view) + read_modes(view) + read_network(view) +
+         read_rods(view);
 }
 
 // Whether the damaged pack is taken; one that is must be safe to read.
@@ -168,11 +184,13 @@ TEST_CASE("flipped_bits_are_refused") {
 TEST_CASE("hostile_words_with_right_checksums_are_refused_or_harmless") {
   check_hostile_words(character_pack());
   check_hostile_words(test::small_chain_model());
+  check_hostile_words(test::small_rod_pack());
 }
 
 TEST_CASE("random_damage_with_right_checksums_is_refused_or_harmless") {
   check_random_damage(character_pack());
   check_random_damage(test::small_chain_model());
+  check_random_damage(test::small_rod_pack());
 }
 
 TEST_CASE("random_tables_with_right_checksums_are_refused_or_harmless") {

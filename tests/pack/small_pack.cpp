@@ -238,6 +238,25 @@ std::vector<std::byte> small_weightless_pack() {
   return baker::pack_character(character, layout, small_modes(layout));
 }
 
+std::vector<baker::Rod> small_rods() {
+  baker::Rod rod;
+  rod.name = "top";
+  rod.gravity = 2;
+  rod.sag = 0.25;
+  const auto bone = [](int joint, int parent, double from, double to) {
+    return baker::RodBone{joint, parent, {0, from, 0}, {0, to, 0}, 0.1, 900, 1e5, 2e5, 0.02, 0.5};
+  };
+  rod.bones = {bone(1, -1, 0.25, 0.4), bone(-1, 0, 0.4, 0.5), bone(2, 1, 0.5, 0.75)};
+  return {rod};
+}
+
+std::vector<std::byte> small_rod_pack() {
+  const baker::Character character = small_character();
+  baker::TissueLayout layout = small_layout(character);
+  layout.rods = small_rods();
+  return baker::pack_character(character, layout, small_modes(layout));
+}
+
 std::vector<std::byte> small_character_pack(pack::Precision precision) {
   const baker::Character character = small_character();
   const baker::TissueLayout layout = small_layout(character);

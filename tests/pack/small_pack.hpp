@@ -25,5 +25,7 @@ std::vector<std::byte> small_model();
 std::vector<std::byte> small_chain_model();  // of small_coping_net
 std::vector<std::byte> small_character_pack(pack::Precision precision = pack::Precision::kFloat32);
 std::vector<std::byte> small_weightless_pack();
+std::vector<baker::Rod> small_rods();     // one, of the two upper joints and a link between them
+std::vector<std::byte> small_rod_pack();  // the weightless one with it
 
 }  // namespace sinew::test

@@ -136,11 +136,12 @@ inline double largest_stretch(const RodBatch& batch, const Segments& segments, u
   return largest;
 }
 
-// Length of a chain from joint to joint over its length at rest.
+// Length of a chain or tree from joint to joint over its length at rest.
 inline double length_ratio(const RodBatch& batch, const Segments& segments, uint32_t strand = 0) {
   double length = 0, at_rest = 0;
   for (uint32_t i = 1; i < segments.size(); ++i) {
-    length += distance(end_of(batch, segments, i, strand), end_of(batch, segments, i - 1, strand));
+    length +=
+        distance(end_of(batch, segments, i, strand), end_of(batch, segments, segments[i].parent, strand));
     at_rest += static_cast<double>(segments[i].length_m);
   }
   return length / at_rest;

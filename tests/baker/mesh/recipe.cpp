@@ -59,6 +59,21 @@ TEST_CASE("wrong_recipes_are_refused_by_key") {
       {R"({"regions": [{"joints": ["spine"]}]})", "name"},
       {R"({"regions": [{"name": "belly", "joints": ["spine"], "stiffness": 2}]})", "stiffness"},
       {R"({"regions": [{"name": "belly", "joints": ["spine"], "softness": 1}]})", "softness"},
+      {R"({"rods": {"root": "tail"}})", "list"},
+      {R"({"rods": [{"name": "tail"}]})", "root"},
+      {R"({"rods": [{"root": "tail", "radius": 0.1}]})", "radius_m"},
+      {R"({"rods": [{"root": "tail", "radius_m": 0}]})", "radius_m"},
+      {R"({"rods": [{"root": "tail", "density_kg_m3": 0}]})", "density_kg_m3"},
+      {R"({"rods": [{"root": "tail", "young_modulus_pa": 0}]})", "rods[0]: \"young_modulus_pa\" is 0"},
+      {R"({"rods": [{"root": "ear"}, {"root": "tail", "torsion_modulus_pa": -1}]})",
+       "rods[1]: \"torsion_modulus_pa\""},
+      {R"({"rods": [{"root": "tail", "frequency_hz": 0}]})", "frequency_hz"},
+      {R"({"rods": [{"root": "tail", "frequency_hz": 2, "young_modulus_pa": 1e6}]})",
+       "says the same as frequency_hz"},
+      {R"({"rods": [{"root": "tail", "damping_s": -1}]})", "damping_s"},
+      {R"({"rods": [{"root": "tail", "drag_per_s": -1}]})", "drag_per_s"},
+      {R"({"rods": [{"root": "tail", "gravity": -1}]})", "gravity"},
+      {R"({"rods": [{"root": "tail", "sag": 2}]})", "sag"},
   };
   for (const auto& [text, says] : faults) {
     const std::string line = refusal(text);
@@ -73,6 +88,7 @@ TEST_CASE("every_key_of_a_recipe_is_read_and_absent_ones_keep_their_default") {
   const Recipe plain = read_recipe(write("{}"));
   CHECK(plain.voxels_high == Recipe().voxels_high);
   CHECK(plain.regions.empty());
+  CHECK(!plain.rods.has_value());
   const Recipe recipe = read_recipe(write(R"({
     "young_soft_pa": 1000, "young_stiff_pa": 2000, "poisson_ratio": 0.3, "density_kg_m3": 900, "damping_ratio": 0.2,
     "voxels_high": 20, "rigid_stiffness": 0.5, "core_share": 0.25, "coreless_joints": ["ear_*"], "nodes_per_region": 12,
@@ -94,4 +110,35 @@ TEST_CASE("every_key_of_a_recipe_is_read_and_absent_ones_keep_their_default") {
   CHECK(recipe.regions[0].name == "belly");
   CHECK(recipe.regions[0].joints == std::vector<std::string>{"spine_*", "pelvis"});
   CHECK(recipe.regions[0].stiffness == 0.3);
+}
+
+TEST_CASE("every_key_of_a_rod_is_read_and_absent_ones_keep_their_default") {
+  const Recipe recipe = read_recipe(write(R"({"rods": [
+    {"root": "tail_1"},
+    {"name": "ear", "root": "ear_1", "end": "ear_3", "radius_m": 0.02, "density_kg_m3": 300, "young_modulus_pa": 2e5,
+     "torsion_modulus_pa": 3e5, "damping_s": 0.1, "drag_per_s": 2, "gravity": 0.5, "sag": 0.25},
+    {"root": "mane", "frequency_hz": 2.5}]})"));
+  REQUIRE(recipe.rods.has_value());
+  const std::vector<RodRecipe>& rods = *recipe.rods;
+  REQUIRE(rods.size() == 3);
+  CHECK(rods[0].name == "tail_1");
+  CHECK(rods[0].end.empty());
+  CHECK(rods[0].radius_m == 0);
+  CHECK(rods[0].young_modulus_pa == RodRecipe().young_modulus_pa);
+  CHECK(rods[0].torsion_modulus_pa == rods[0].young_modulus_pa);
+  CHECK(rods[0].gravity == 1);
+  CHECK(rods[1].name == "ear");
+  CHECK(rods[1].root == "ear_1");
+  CHECK(rods[1].end == "ear_3");
+  CHECK(rods[1].radius_m == 0.02);
+  CHECK(rods[1].density_kg_m3 == 300);
+  CHECK(rods[1].young_modulus_pa == 2e5);
+  CHECK(rods[1].torsion_modulus_pa == 3e5);
+  CHECK(rods[1].damping_s == 0.1);
+  CHECK(rods[1].drag_per_s == 2);
+  CHECK(rods[1].gravity == 0.5);
+  CHECK(rods[1].sag == 0.25);
+  CHECK(rods[2].frequency_hz == 2.5);
+  const Recipe none = read_recipe(write(R"({"rods": []})"));
+  CHECK((none.rods.has_value() && none.rods->empty()));
 }

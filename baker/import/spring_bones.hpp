@@ -1,0 +1,16 @@
+// spring_bones.hpp  Spring bones that a VRM file states, version 0 and 1.
+#pragma once
+#include <tiny_gltf.h>
+
+#include "baker/import/character.hpp"
+#include "baker/import/scene_graph.hpp"
+
+namespace sinew::baker {
+
+// VRM 0: extensions.VRM.secondaryAnimation.boneGroups, each bone a root with all that hangs on it. VRM 1:
+// extensions.VRMC_springBone.springs, from the first to the last joint of each, with the numbers of the
+// first. What is damaged or names no joint of `joint_node` is left out with a note: springs are ornament.
+std::vector<SpringBones> read_spring_bones(const tinygltf::Model& model, const SceneGraph& graph,
+                                           const std::vector<int>& joint_node, Source& source);
+
+}  // namespace sinew::baker

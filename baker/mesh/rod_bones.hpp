@@ -1,0 +1,17 @@
+// rod_bones.hpp  The segments of a bone chain or tree in the bind pose.
+#pragma once
+#include "baker/mesh/rods.hpp"
+
+namespace sinew::baker {
+
+// Joints of a chain or tree, by name for messages.
+struct RodPlace {
+  std::string where;       // "recipe: rod 'tail'"
+  int root = 0, end = -1;  // end -1: all below the root
+};
+
+// Joints, parents, begin and end of each bone; radii as the flesh is thick on them. Throws BadInput as
+// find_rods does.
+std::vector<RodBone> segment_bones(const Character& character, const RodPlace& place);
+
+}  // namespace sinew::baker

@@ -1,0 +1,43 @@
+// rod_recipe.cpp  The list "rods" of a recipe, every key checked.
+#include "baker/mesh/rod_recipe.hpp"
+
+#include "baker/common/json_section.hpp"
+
+namespace sinew::baker {
+namespace {
+
+constexpr double kLeastModulus_pa = 1e-3, kMostModulus_pa = 1e12;
+
+RodRecipe read_rod(JsonSection& section) {
+  RodRecipe rod;
+  rod.root = section.text("root");
+  rod.name = section.text("name", rod.root);
+  if (section.has("end")) rod.end = section.text("end");
+  if (section.has("radius_m")) rod.radius_m = section.number("radius_m", 0, 1e-5, 10);
+  rod.density_kg_m3 = section.number("density_kg_m3", rod.density_kg_m3, 1, 1e5);
+  if (section.has("frequency_hz")) {
+    rod.frequency_hz = section.number("frequency_hz", 0, 0.01, 100);
+    for (const char* modulus : {"young_modulus_pa", "torsion_modulus_pa"})
+      if (section.has(modulus)) section.complain(modulus, "says the same as frequency_hz; state one of them");
+  }
+  rod.young_modulus_pa =
+      section.number("young_modulus_pa", rod.young_modulus_pa, kLeastModulus_pa, kMostModulus_pa);
+  rod.torsion_modulus_pa =
+      section.number("torsion_modulus_pa", rod.young_modulus_pa, kLeastModulus_pa, kMostModulus_pa);
+  rod.damping_s = section.number("damping_s", rod.damping_s, 0, 10);
+  rod.drag_per_s = section.number("drag_per_s", rod.drag_per_s, 0, 1000);
+  rod.gravity = section.number("gravity", rod.gravity, 0, 100);
+  rod.sag = section.number("sag", rod.sag, 0, 1);
+  section.finish();
+  return rod;
+}
+
+}  // namespace
+
+std::vector<RodRecipe> read_rod_recipes(JsonSection& section) {
+  std::vector<RodRecipe> rods;
+  for (JsonSection& rod : section.sections("rods")) rods.push_back(read_rod(rod));
+  return rods;
+}
+
+}  // namespace sinew::baker

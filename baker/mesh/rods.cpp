@@ -1,0 +1,244 @@
+// rods.cpp  Bones that swing as rods: which ones, and what they are made of.
+//
+// What springs of a VRM file become. UniVRM moves a bone's end by Verlet steps, 60 a second: each adds the
+// pull stiffness / 60 s towards the rest direction, gravity_power / 60 s downwards, and keeps (1 -
+// drag_force) of the velocity. Both pulls are accelerations of 60/s times their number, so that
+//   stiffness      a bone of length L swings at w^2 = 60 stiffness / L; each joint is made so stiff that all
+//                  that hangs on it does
+//   gravity_power  bends a lone bone as far as there where gravity is 40 gravity_power / 9.80665 of the
+//                  earth's (a rod's mass lies along it, not at its end); it bends the posed shape: sag is 1
+//   drag_force d   takes 60 d / (1 - d) of the velocity a second
+// Colliders, hit radii and centres are not mapped.
+#include "baker/mesh/rods.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "baker/common/bad_input.hpp"
+#include "baker/mesh/joint_names.hpp"
+#include "baker/mesh/rod_bones.hpp"
+#include "rods/section.hpp"
+
+namespace sinew::baker {
+namespace {
+
+constexpr double kFrames_hz = 60, kGravity = 9.80665;
+constexpr double kLeastStiffness = 0.01,
+                 kMostDrag = 0.95;       // of springs: beyond them bones fall, or stand still
+constexpr double kLinkStiffness = 1000;  // times the stiffest joint of its rod
+
+rods::SegmentDef segment_of(const RodBone& bone) {
+  rods::SegmentDef s;
+  s.length_m = static_cast<float>((bone.end - bone.begin).norm());
+  s.radius_m = static_cast<float>(bone.radius_m);
+  s.density_kg_m3 = static_cast<float>(bone.density_kg_m3);
+  s.young_modulus_pa = 1;
+  return s;
+}
+
+// Of a bone and all that hangs on it, about the bone's beginning, kg m^2; turning about the own axis aside.
+std::vector<double> outboard_inertia(const std::vector<RodBone>& bones) {
+  std::vector<double> inertia(bones.size(), 0);
+  for (size_t b = 0; b < bones.size(); ++b) {
+    const rods::SegmentInertia own = rods::segment_inertia(segment_of(bones[b]));
+    const Vector3 middle = (bones[b].begin + bones[b].end) / 2;
+    for (int at = static_cast<int>(b); at >= 0; at = bones[static_cast<size_t>(at)].parent) {
+      const double arm = (middle - bones[static_cast<size_t>(at)].begin).norm();
+      inertia[static_cast<size_t>(at)] += own.inertia_kg_m2 + own.mass_kg * arm * arm;
+    }
+  }
+  return inertia;
+}
+
+int longest_chain(const std::vector<RodBone>& bones) {
+  std::vector<int> depth(bones.size(), 1);
+  for (size_t b = 0; b < bones.size(); ++b)
+    if (bones[b].parent >= 0) depth[b] = depth[static_cast<size_t>(bones[b].parent)] + (bones[b].joint >= 0);
+  return *std::ranges::max_element(depth);
+}
+
+// Each joint's modulus from the square of the frequency at which all that hangs on it is to swing, rad/s.
+void stiffen(std::vector<RodBone>& bones, const std::vector<double>& square_frequency) {
+  const std::vector<double> inertia = outboard_inertia(bones);
+  for (size_t b = 0; b < bones.size(); ++b) {
+    const RodBone& parent = bones[b].parent < 0 ? bones[b] : bones[static_cast<size_t>(bones[b].parent)];
+    const rods::JointCompliance unit = rods::joint_compliance(segment_of(parent), segment_of(bones[b]));
+    bones[b].young_modulus_pa = square_frequency[b] * inertia[b] * unit.bend_rad_nm;
+    bones[b].torsion_modulus_pa = bones[b].young_modulus_pa;
+  }
+}
+
+void stiffen_links(std::vector<RodBone>& bones) {
+  double stiffest = 0;
+  for (const RodBone& bone : bones)
+    if (bone.joint >= 0) stiffest = std::max({stiffest, bone.young_modulus_pa, bone.torsion_modulus_pa});
+  for (RodBone& bone : bones)
+    if (bone.joint < 0) bone.young_modulus_pa = bone.torsion_modulus_pa = kLinkStiffness * stiffest;
+}
+
+// Joints in a row give more than one: by Dunkerley the whole swings no slower than this when each swings
+// sqrt(joints in a row) times as fast.
+void apply(const RodRecipe& recipe, std::vector<RodBone>& bones) {
+  for (RodBone& bone : bones) {
+    if (recipe.radius_m > 0) bone.radius_m = recipe.radius_m;
+    bone.density_kg_m3 = recipe.density_kg_m3;
+    bone.young_modulus_pa = recipe.young_modulus_pa;
+    bone.torsion_modulus_pa =
+        recipe.torsion_modulus_pa > 0 ? recipe.torsion_modulus_pa : recipe.young_modulus_pa;
+    bone.damping_s = recipe.damping_s;
+    bone.drag_per_s = recipe.drag_per_s;
+  }
+  if (recipe.frequency_hz > 0) {
+    const double w = 2 * std::numbers::pi * recipe.frequency_hz;
+    stiffen(bones, std::vector<double>(bones.size(), w * w * longest_chain(bones)));
+  }
+  stiffen_links(bones);
+}
+
+void apply(const SpringBones& spring, std::vector<RodBone>& bones) {
+  const double drag = std::min(spring.drag_force, kMostDrag);
+  std::vector<double> square_frequency;
+  for (RodBone& bone : bones) {
+    bone.density_kg_m3 = RodRecipe{}.density_kg_m3;
+    bone.drag_per_s = kFrames_hz * drag / (1 - drag);
+    square_frequency.push_back(kFrames_hz * std::max(spring.stiffness, kLeastStiffness) /
+                               (bone.end - bone.begin).norm());
+  }
+  stiffen(bones, square_frequency);
+  stiffen_links(bones);
+}
+
+int joint_called(const Character& character, const std::string& name, const std::string& where) {
+  if (name.ends_with('*'))
+    throw BadInput(character.name + ": " + where + ": '" + name +
+                   "' may be many; a rod has one root and at most one end");
+  const std::vector<bool> matched = match_joints(character, {name}, where);
+  return static_cast<int>(std::ranges::find(matched, true) - matched.begin());
+}
+
+// Which rod a joint is a bone of; -1: none.
+class Owners {
+ public:
+  explicit Owners(const Character& character)
+      : character_(character), owner_(character.joint_node.size(), -1) {}
+
+  // Throws BadInput where bones of `rod` are another's.
+  void take(const std::vector<Rod>& rods, const Rod& rod, const std::string& where) {
+    std::vector<int> owner = owner_;
+    for (const RodBone& bone : rod.bones) {
+      if (bone.joint < 0) continue;
+      int& own = owner[static_cast<size_t>(bone.joint)];
+      if (own >= 0)
+        refuse(where, "bone '" + name_of(bone.joint) + "' is moved by rod '" +
+                          rods[static_cast<size_t>(own)].name + "' as well; let it be in one of them");
+      own = static_cast<int>(rods.size());
+    }
+    const std::vector<int> carrier = carriers(owner);
+    if (const int by = carrier[static_cast<size_t>(rod.attach)]; by >= 0)
+      refuse(where, "it hangs on bone '" + name_of(rod.attach) + "', which rod '" +
+                        rods[static_cast<size_t>(by)].name +
+                        "' moves; make them one tree by naming that one's root alone");
+    for (const Rod& other : rods)
+      if (carrier[static_cast<size_t>(other.attach)] >= 0)
+        refuse(where, "rod '" + other.name + "' hangs on its bone '" + name_of(other.attach) +
+                          "'; make them one tree by naming this root alone");
+    owner_ = std::move(owner);
+  }
+
+ private:
+  // What hangs on a rod's bone is moved by it.
+  std::vector<int> carriers(std::vector<int> owner) const {
+    for (size_t j = 0; j < owner.size(); ++j) {
+      const int up = character_.joint_parent[j];
+      if (owner[j] < 0 && up >= 0) owner[j] = owner[static_cast<size_t>(up)];
+    }
+    return owner;
+  }
+  const std::string& name_of(int joint) const { return joint_name(character_, static_cast<size_t>(joint)); }
+  [[noreturn]] void refuse(const std::string& where, const std::string& what) const {
+    throw BadInput(character_.name + ": " + where + ": " + what);
+  }
+  const Character& character_;
+  std::vector<int> owner_;
+};
+
+Rod make_rod(const Character& character, const RodPlace& place, const std::string& name) {
+  Rod rod;
+  rod.name = name;
+  rod.attach = character.joint_parent[static_cast<size_t>(place.root)];
+  if (rod.attach < 0)
+    throw BadInput(character.name + ": " + place.where + ": its root '" +
+                   joint_name(character, static_cast<size_t>(place.root)) +
+                   "' hangs on no bone; name one below it");
+  rod.bones = segment_bones(character, place);
+  return rod;
+}
+
+std::vector<Rod> stated_rods(const Character& character, const std::vector<RodRecipe>& recipes) {
+  std::vector<Rod> rods;
+  Owners owners(character);
+  for (const RodRecipe& recipe : recipes) {
+    RodPlace place{"recipe: rod '" + recipe.name + "'"};
+    place.root = joint_called(character, recipe.root, place.where);
+    if (!recipe.end.empty()) place.end = joint_called(character, recipe.end, place.where);
+    Rod rod = make_rod(character, place, recipe.name);
+    apply(recipe, rod.bones);
+    rod.gravity = recipe.gravity;
+    rod.sag = recipe.sag;
+    owners.take(rods, rod, place.where);
+    rods.push_back(std::move(rod));
+  }
+  return rods;
+}
+
+std::vector<Rod> rods_of_springs(Character& character) {
+  constexpr double kOfLoneBone = 40;
+  std::vector<Rod> rods;
+  Owners owners(character);
+  bool collides = false;
+  for (const SpringBones& spring : character.springs) {
+    const std::string& name = joint_name(character, static_cast<size_t>(spring.root));
+    const RodPlace place{"spring bone '" + name + "'", spring.root, spring.end};
+    try {
+      Rod rod = make_rod(character, place, name);
+      apply(spring, rod.bones);
+      rod.gravity = kOfLoneBone * spring.gravity_power / kGravity;
+      rod.sag = 1;
+      owners.take(rods, rod, place.where);
+      rods.push_back(std::move(rod));
+      collides |= spring.collides;
+    } catch (const BadInput& refused) {
+      character.notes.push_back(std::string(refused.what()) + ": left out");
+    }
+  }
+  if (!rods.empty())
+    character.notes.push_back("spring bones of the file became " + std::to_string(rods.size()) +
+                              " rods; a recipe's \"rods\" takes their place");
+  if (collides)
+    character.notes.push_back(
+        "spring bones: colliders and hit radii are not used, rods do not meet bodies yet");
+  return rods;
+}
+
+}  // namespace
+
+std::vector<Rod> find_rods(Character& character, const Recipe& recipe) {
+  std::vector<Rod> rods = recipe.rods ? stated_rods(character, *recipe.rods) : rods_of_springs(character);
+  std::ranges::sort(rods, {}, [](const Rod& rod) { return rod.bones.front().joint; });
+  return rods;
+}
+
+std::vector<bool> joints_on_rods(const Character& character, const std::vector<Rod>& rods) {
+  std::vector<bool> on(character.joint_node.size(), false);
+  for (const Rod& rod : rods)
+    for (const RodBone& bone : rod.bones)
+      if (bone.joint >= 0) on[static_cast<size_t>(bone.joint)] = true;
+  for (size_t j = 0; j < on.size(); ++j) {
+    const int up = character.joint_parent[j];
+    if (up >= 0 && on[static_cast<size_t>(up)]) on[j] = true;
+  }
+  return on;
+}
+
+}  // namespace sinew::baker

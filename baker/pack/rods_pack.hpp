@@ -1,0 +1,11 @@
+// rods_pack.hpp  Rods of a character to the sections that the runtime simulates them from.
+#pragma once
+#include "baker/mesh/rods.hpp"
+#include "baker/pack/pack_writer.hpp"
+
+namespace sinew::baker {
+
+// Sections kRods, kRodSegments and kJointRods; none of them without rods.
+void add_rods(const Character& character, const std::vector<Rod>& rods, PackWriter& pack);
+
+}  // namespace sinew::baker

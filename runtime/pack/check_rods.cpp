@@ -1,0 +1,137 @@
+// check_rods.cpp  Rods agree with the skeleton that they move, and are made of something.
+#include <cmath>
+
+#include "pack/checks.hpp"
+
+namespace sinew::pack {
+namespace {
+
+constexpr float kMostGravity = 100;
+constexpr uint32_t kMostSegments = 65535;  // of a rod: rods/strand.hpp, less the one that is held
+
+bool is_not_negative(float value) noexcept { return std::isfinite(value) && value >= 0; }
+
+Status check_counts(const PackView& pack) noexcept {
+  if (pack.rods.size() != pack.character->rod_count)
+    return corrupt("rods: %zu there, the character states %u", pack.rods.size(), pack.character->rod_count);
+  const size_t carried = pack.rods.empty() ? 0 : pack.joints.size();
+  if (pack.joint_rods.size() != carried)
+    return corrupt("joint rods: %zu numbers there, %zu wanted", pack.joint_rods.size(), carried);
+  return {};
+}
+
+Status check_record(const PackView& pack, const RodRecord& rod, size_t index, uint64_t first) noexcept {
+  if (Status status = check_name(pack, rod.name, "rod", index); !status.ok()) return status;
+  if (rod.attach >= pack.joints.size())
+    return corrupt("rod %zu: hangs on joint %u of %zu", index, rod.attach, pack.joints.size());
+  if (rod.segment_count < 1 || rod.segment_count > kMostSegments)
+    return corrupt("rod %zu: %u segments, outside 1..65535", index, rod.segment_count);
+  if (rod.first_segment != first || rod.segment_count > pack.rod_segments.size() - first)
+    return corrupt("rod %zu: segments do not follow the rod before it", index);
+  if (!is_not_negative(rod.gravity) || rod.gravity > kMostGravity)
+    return corrupt("rod %zu: gravity %g, outside 0..100", index, double{rod.gravity});
+  if (!(rod.sag >= 0 && rod.sag <= 1))
+    return corrupt("rod %zu: sag %g, outside 0..1", index, double{rod.sag});
+  return check_zero(rod.reserved, "rod", index);
+}
+
+Status check_material(const RodSegmentRecord& segment, size_t index) noexcept {
+  struct Number {
+    const char* name;
+    float value;
+  };
+  for (const Number& number : {Number{"radius", segment.radius_m}, Number{"density", segment.density_kg_m3},
+                               Number{"Young's modulus", segment.young_modulus_pa},
+                               Number{"torsion modulus", segment.torsion_modulus_pa}})
+    if (!is_positive(number.value))
+      return corrupt("rod segment %zu: %s %g", index, number.name, double{number.value});
+  if (!is_not_negative(segment.damping_s) || !is_not_negative(segment.drag_per_s))
+    return corrupt("rod segment %zu: damping %g s, drag %g 1/s", index, double{segment.damping_s},
+                   double{segment.drag_per_s});
+  return check_zero(segment.reserved, "rod segment", index);
+}
+
+Status check_place(const RodSegmentRecord& segment, size_t index) noexcept {
+  if (first_not_finite(segment.begin_m) != 3 || first_not_finite(segment.end_m) != 3)
+    return corrupt("rod segment %zu: its ends are not finite", index);
+  const float length =
+      std::hypot(segment.end_m[0] - segment.begin_m[0], segment.end_m[1] - segment.begin_m[1],
+                 segment.end_m[2] - segment.begin_m[2]);
+  return is_positive(length) ? Status{} : corrupt("rod segment %zu: length %g m", index, double{length});
+}
+
+// The joint of the bone that a segment hangs on, links passed over.
+uint32_t joint_above(const PackView& pack, const RodRecord& rod, const RodSegmentRecord& segment) noexcept {
+  uint32_t at = segment.parent;
+  while (at != kNoIndex) {
+    const RodSegmentRecord& above = pack.rod_segments[rod.first_segment + at];
+    if (above.joint != kNoIndex) return above.joint;
+    at = above.parent;
+  }
+  return rod.attach;
+}
+
+// The segments before it have been checked.
+Status check_segment(const PackView& pack, const RodRecord& rod, uint32_t own) noexcept {
+  const size_t index = size_t{rod.first_segment} + own;
+  const RodSegmentRecord& segment = pack.rod_segments[index];
+  if ((segment.parent == kNoIndex) != (own == 0) || (own > 0 && segment.parent >= own))
+    return corrupt("rod segment %zu: its parent does not come before it", index);
+  if (Status status = check_place(segment, index); !status.ok()) return status;
+  if (Status status = check_material(segment, index); !status.ok()) return status;
+  if (own > 0) {
+    const RodSegmentRecord& above = pack.rod_segments[rod.first_segment + segment.parent];
+    for (int k = 0; k < 3; ++k)
+      if (segment.begin_m[k] != above.end_m[k])
+        return corrupt("rod segment %zu: does not begin where its parent ends", index);
+  }
+  if (segment.joint == kNoIndex) {
+    // A link in a row with another one would make the way to the bone above long.
+    const bool bone_above =
+        own > 0 && pack.rod_segments[rod.first_segment + segment.parent].joint != kNoIndex;
+    return bone_above ? Status{} : corrupt("rod segment %zu: a link that hangs on no bone", index);
+  }
+  if (segment.joint >= pack.joints.size())
+    return corrupt("rod segment %zu: joint %u of %zu", index, segment.joint, pack.joints.size());
+  if (pack.joints[segment.joint].parent != joint_above(pack, rod, segment))
+    return corrupt("rod segment %zu: hangs on another bone than its joint does", index);
+  if (pack.joint_rods[segment.joint] != index)
+    return corrupt("rod segment %zu: its joint is moved by another segment", index);
+  return {};
+}
+
+Status check_rods_and_segments(const PackView& pack) noexcept {
+  uint64_t first = 0;
+  for (size_t index = 0; index < pack.rods.size(); ++index) {
+    const RodRecord& rod = pack.rods[index];
+    if (Status status = check_record(pack, rod, index, first); !status.ok()) return status;
+    for (uint32_t own = 0; own < rod.segment_count; ++own)
+      if (Status status = check_segment(pack, rod, own); !status.ok()) return status;
+    first += rod.segment_count;
+  }
+  return first == pack.rod_segments.size() ? Status{} : corrupt("rods: segments that no rod owns");
+}
+
+// A joint is moved by its own segment, else as its parent is.
+Status check_carried(const PackView& pack) noexcept {
+  for (size_t j = 0; j < pack.joint_rods.size(); ++j) {
+    const uint32_t carrier = pack.joint_rods[j], parent = pack.joints[j].parent;
+    const bool own = carrier < pack.rod_segments.size() && pack.rod_segments[carrier].joint == j;
+    const uint32_t inherited = parent == kNoIndex ? kNoIndex : pack.joint_rods[parent];
+    if (!own && carrier != inherited)
+      return corrupt("joint rods %zu: neither the joint's own segment nor its parent's", j);
+  }
+  for (size_t index = 0; index < pack.rods.size(); ++index)
+    if (pack.joint_rods[pack.rods[index].attach] != kNoIndex)
+      return corrupt("rod %zu: hangs on a bone that a rod moves", index);
+  return {};
+}
+
+}  // namespace
+
+Status check_rods(const PackView& pack) noexcept {
+  constexpr Check kChecks[] = {check_counts, check_rods_and_segments, check_carried};
+  return run_checks(kChecks, pack);
+}
+
+}  // namespace sinew::pack

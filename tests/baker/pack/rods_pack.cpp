@@ -1,0 +1,76 @@
+// rods_pack.cpp  Rods go into the file and come out as they were.
+#include "baker/pack/rods_pack.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "baker/pack/character_pack.hpp"
+#include "sinew/types.hpp"
+#include "tests/pack/pack_editor.hpp"
+#include "tests/pack/small_pack.hpp"
+
+using namespace sinew;
+using namespace sinew::baker;
+using Catch::Contains;
+
+TEST_CASE("rods_come_out_of_a_pack_as_they_went_in") {
+  test::PackEditor editor(test::small_rod_pack());
+  pack::PackView view;
+  REQUIRE(editor.open(&view).ok());
+  const Rod rod = test::small_rods()[0];
+  REQUIRE(view.rods.size() == 1);
+  CHECK(std::string(string_at(view, view.rods[0].name)) == rod.name);
+  CHECK(view.rods[0].attach == 0);
+  CHECK(view.rods[0].gravity == 2);
+  CHECK(view.rods[0].sag == 0.25f);
+  REQUIRE(view.rod_segments.size() == 3);
+  for (size_t b = 0; b < 3; ++b) {
+    const pack::RodSegmentRecord& s = view.rod_segments[b];
+    CHECK(s.joint == static_cast<uint32_t>(rod.bones[b].joint));
+    CHECK(s.parent == static_cast<uint32_t>(rod.bones[b].parent));
+    CHECK(s.begin_m[1] == static_cast<float>(rod.bones[b].begin.y()));
+    CHECK(s.end_m[1] == static_cast<float>(rod.bones[b].end.y()));
+    CHECK(s.radius_m == 0.1f);
+    CHECK(s.density_kg_m3 == 900);
+    CHECK(s.young_modulus_pa == 1e5f);
+    CHECK(s.torsion_modulus_pa == 2e5f);
+    CHECK(s.damping_s == 0.02f);
+    CHECK(s.drag_per_s == 0.5f);
+  }
+  CHECK(std::vector<uint32_t>(view.joint_rods.begin(), view.joint_rods.end()) ==
+        std::vector<uint32_t>{pack::kNoIndex, 0, 2});
+}
+
+TEST_CASE("rods_cost_every_simulated_tier_and_no_other") {
+  pack::PackView with, without;
+  test::PackEditor one(test::small_rod_pack()), other(test::small_weightless_pack());
+  REQUIRE(one.open(&with).ok());
+  REQUIRE(other.open(&without).ok());
+  for (size_t t = 0; t < with.tiers.size(); ++t) {
+    const bool simulated = with.tiers[t].tier >= static_cast<uint32_t>(Tier::kNetwork);
+    CHECK((with.tiers[t].cost_us > without.tiers[t].cost_us) == simulated);
+  }
+}
+
+TEST_CASE("a_rod_that_hangs_on_another_is_refused_by_the_reader") {
+  const Character character = test::small_character();
+  TissueLayout layout = test::small_layout(character);
+  Rod lower = test::small_rods()[0], upper = lower;
+  lower.bones.resize(1);
+  upper.attach = 1;
+  upper.bones = {test::small_rods()[0].bones[2]};
+  upper.bones[0].parent = -1;
+  layout.rods = {lower, upper};
+  test::PackEditor editor(pack_character(character, layout, test::small_modes(layout)));
+  CHECK_THAT(editor.open().message, Contains("rod 1: hangs on a bone that a rod moves"));
+}
+
+TEST_CASE("a_character_of_rods_alone_is_taken") {
+  const Character character = test::small_character();
+  TissueLayout layout;
+  layout.rods = test::small_rods();
+  test::PackEditor editor(pack_character(character, layout, {}));
+  CHECK(editor.open().ok());
+  layout.rods.clear();
+  test::PackEditor neither(pack_character(character, layout, {}));
+  CHECK_THAT(neither.open().message, Contains("neither a soft region nor a rod"));
+}
