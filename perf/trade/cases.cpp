@@ -40,9 +40,12 @@ constexpr TradeScene kScenes[] = {{"chain", false, false, 0.02f, chain, nothing,
                                   {"tree", true, false, 1.0f / 60, tree, nothing, shake}};
 
 constexpr TradeSolver kSolvers[] = {{"direct", rods::RodSolver::kDirect, 40, false},
-                                    {"cg", rods::RodSolver::kCg, 6, true}};
+                                    {"cg", rods::RodSolver::kCg, 6, true},
+                                    {"local", rods::RodSolver::kLocal, 300, true}};
 
-constexpr TradeStart kStarts[] = {{"zero", rods::RodStart::kZero}, {"previous", rods::RodStart::kPrevious}};
+constexpr TradeStart kStarts[] = {{"zero", rods::RodStart::kZero},
+                                  {"previous", rods::RodStart::kPrevious},
+                                  {"continued", rods::RodStart::kContinued}};
 
 constexpr uint32_t kSegments[] = {10, 30, 50, 100, 200};
 constexpr double kYoung_pa[] = {1e4, 1e5, 1e6, 1e7, 1e8, 1e9};

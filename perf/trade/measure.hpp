@@ -19,7 +19,8 @@ struct Reached {
 
 // The scene goes on by tight direct steps; from every tenth of its states the case's step is taken with 1, 2,
 // ... iterations until its residual is small enough, then as often again for the time, without asking for the
-// residual. The same states for every solver and start. Throws std::runtime_error where a batch is refused.
+// residual. The same states for every solver
+// and start, but for rounding. Throws std::runtime_error where a batch is refused.
 std::vector<Reached> measure(const TradeCase& c);
 
 }  // namespace sinew::perf

@@ -129,7 +129,8 @@ class RodBatch {
   Status step(float dt_s, RodReport* report) noexcept;
 
   // What `from` has come to, its targets and forces too, with this batch's own settings. Refused: one not
-  // made of the same strands, as far as counts and parents tell. Allocates nothing.
+  // made of the same strands, as far as counts and parents tell. What kContinued and those after it remember
+  // comes along from a batch that remembers it too; otherwise they begin anew. Allocates nothing.
   Status take_state(const RodBatch& from) noexcept;
 
   // Of an existing segment.
@@ -173,6 +174,7 @@ class RodBatch {
   void tell_fixed_inputs() noexcept;
   void tell_joint(uint32_t strand, uint32_t slot, float (&out)[simd::kRodJointInputs]) const noexcept;
   void make_start(uint32_t group, const simd::RodJob& job) const noexcept;
+  void take_history(const RodBatch& from) noexcept;
   void carry(uint32_t strand, uint32_t segment, const SegmentPose& to) noexcept;
   void carry_place(uint32_t strand, uint32_t segment, const Turn& by, const SegmentPose& from,
                    const SegmentPose& to) noexcept;

@@ -5,9 +5,10 @@
 //   delta = (J W J^T + alpha)^-1 (-(C + alpha (f, t)) - alpha change - J x),  change += delta,
 //   x += W J^T delta
 // from x = -W g, so that x = W (J^T change - g) holds after each: what the joints carry is what the segments
-// are given, and where sweeps go on to the end it is the direct solver's answer. A sweep goes from the root
-// to the leaves, the next one back. Errors that span many segments fade slowly, with segments^2 sweeps and
-// more: a strand has converged when, besides, the last sweep found no joint further off than the tolerance.
+// are given, and where sweeps go on to the end it is the direct solver's answer. Sweeps go from the root to
+// the leaves: back and forth by turns left twice the stretch. Errors that span many segments fade slowly,
+// with segments^2 sweeps and more: a strand has converged when, besides, the last sweep found no joint
+// further off than the tolerance.
 HWY_BEFORE_NAMESPACE();
 namespace sinew::simd::HWY_NAMESPACE {
 
@@ -147,10 +148,7 @@ HWY_INLINE typename G::V sweep(const G& g, const RodJob& job) {
   V worst = hn::Zero(hn::DFromV<V>());
   for (uint32_t k = 0; k < job.local_sweeps; ++k) {
     worst = hn::Zero(hn::DFromV<V>());
-    for (size_t n = 1; n < job.segments; ++n) {
-      const size_t i = k % 2 == 0 ? n : job.segments - n;
-      worst = hn::Max(worst, visit_joint(g, i, job.parents[i]));
-    }
+    for (size_t i = 1; i < job.segments; ++i) worst = hn::Max(worst, visit_joint(g, i, job.parents[i]));
   }
   return worst;
 }

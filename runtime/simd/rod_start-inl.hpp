@@ -40,7 +40,7 @@ HWY_INLINE auto start_history(const G& g, const RodJob& job, const RodStartJob& 
 
 // Added to the diagonal of the fit, of itself: what noise makes of a motion that two numbers describe well.
 inline constexpr float kStartDamping = 1e-2f;
-inline constexpr float kMostContinued = 1.5f;  // of a and b
+inline constexpr float kLargestStartShare = 1.5f;  // of a and b
 
 template <class V>
 struct Shares {
@@ -71,7 +71,7 @@ template <class V>
 HWY_INLINE Shares<V> shares_of(const StartFit<V>& fit) {
   const hn::DFromV<V> d;
   const V grown = hn::Set(d, 1 + kStartDamping), least = hn::Set(d, 1e-30f);
-  const V most = hn::Set(d, kMostContinued), low = hn::Neg(most);
+  const V most = hn::Set(d, kLargestStartShare), low = hn::Neg(most);
   const V xx = hn::MulAdd(fit.xx, grown, least), yy = hn::MulAdd(fit.yy, grown, least);
   const V per = hn::Div(hn::Set(d, 1), hn::Max(hn::NegMulAdd(fit.xy, fit.xy, hn::Mul(xx, yy)), least));
   const V a = hn::Mul(per, hn::NegMulAdd(fit.xy, fit.yz, hn::Mul(yy, fit.xz)));

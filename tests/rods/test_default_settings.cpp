@@ -18,6 +18,8 @@ const char* name_of(rods::RodSolver solver) {
       return "direct";
     case rods::RodSolver::kCg:
       return "cg";
+    case rods::RodSolver::kLocal:
+      return "local";
   }
   return "";
 }
@@ -29,6 +31,12 @@ const char* name_of(rods::RodStart start) {
       return "previous";
     case rods::RodStart::kGiven:
       return "given";
+    case rods::RodStart::kContinued:
+      return "continued";
+    case rods::RodStart::kKnn:
+      return "knn";
+    case rods::RodStart::kLearned:
+      return "learned";
   }
   return "";
 }

@@ -48,6 +48,10 @@ TEST_CASE("a_state_is_taken_only_from_a_batch_of_the_same_strands") {
   for (int k = 0; k < 3; ++k) forked[11].position_m[k] = forked[10].position_m[k];
   std::copy_n(forked[10].orientation, 4, forked[11].orientation);
   check_refused(batch, test::batch_of({forked}));
+  test::Segments held_at_its_tip = test::helix(12);
+  held_at_its_tip[0].fixed = false;
+  held_at_its_tip[11].fixed = true;
+  check_refused(batch, test::batch_of({held_at_its_tip}));
   check_refused(batch, test::RodBatch());
 }
 
@@ -60,6 +64,27 @@ TEST_CASE("two_batches_with_one_state_take_the_same_steps") {
     CHECK(apart(from, to) == 0);  // the same floats through the same operations
     test::step(from, 1.0f / 60);
     test::step(to, 1.0f / 60);
+  }
+}
+
+TEST_CASE("what_a_start_remembers_comes_along_and_begins_anew_from_a_batch_that_remembers_nothing") {
+  const rods::RodSettings continued = {.start = rods::RodStart::kContinued};
+  test::RodBatch from = test::batch_of(strands(), continued), to = test::batch_of(strands(), continued);
+  disturb(from);
+  REQUIRE(to.take_state(from).ok());
+  for (int i = 0; i < 10; ++i) {
+    test::step(from, 1.0f / 60);
+    test::step(to, 1.0f / 60);
+    CHECK(apart(from, to) == 0);  // the same floats through the same operations
+  }
+  test::RodBatch plain = test::batch_of(strands());
+  disturb(plain);
+  REQUIRE(to.take_state(plain).ok());
+  // Two steps know too little to be continued: both batches start from the last one.
+  for (int i = 0; i < 2; ++i) {
+    test::step(plain, 1.0f / 60);
+    test::step(to, 1.0f / 60);
+    CHECK(apart(plain, to) == 0);
   }
 }
 
