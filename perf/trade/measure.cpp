@@ -80,7 +80,9 @@ class CaseRun {
             .tolerance_rad = 1e-6f,
             .cg_tolerance = static_cast<float>(std::max(0.1 * residual, 1e-7)),
             .cg_max_iterations = 2000,
-            .report_residual = report};
+            .report_residual = report,
+            .network = case_.start->network,
+            .examples = case_.start->examples};
   }
 
   void try_all(const rods::RodBatch& from, std::vector<Tally>* tallies) const {
