@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include "tests/scenes/thread_pool.hpp"
 #include "tests/world/stage.hpp"
 
 using namespace sinew;
@@ -418,4 +419,38 @@ TEST_CASE("rods_cost_a_stage_of_their_own_in_the_report") {
   const FrameReport report = stage.step_motion([](double t) { return scenes::shake(t, 2); }, 3 * kFrame_s);
   CHECK(report.rods_us > 0);
   CHECK(report.rods_us < report.total_us);
+}
+
+TEST_CASE("rods_have_the_same_bits_on_any_number_of_workers") {
+  scenes::ThreadPool pool(3);
+  RodStage serial({}, {}, 4), threaded({}, {.tasks = pool.hook()}, 4);
+  for (int f = 0; f < 60; ++f) {
+    for (RodStage* stage : {&serial, &threaded}) {
+      for (size_t i = 0; i < stage->blocks.size(); ++i) {
+        const TailedPose pose =
+            scenes::with_rods(scenes::shake(f * kFrame_s + 0.1 * static_cast<double>(i), 2));
+        REQUIRE(stage->world.set_pose(stage->blocks[i], pose.pose()).ok());
+      }
+      stage->world.step(static_cast<float>(kFrame_s));
+    }
+    for (size_t i = 0; i < 4; ++i) REQUIRE(same_bits(serial.joints(i), threaded.joints(i)));
+  }
+}
+
+TEST_CASE("a_character_of_rods_alone_swings") {
+  const scenes::PackBytes pack =
+      scenes::soft_block({.regions = 0, .network = false, .rods = scenes::RodMatter{}});
+  Stage stage(1, {}, pack);
+  CHECK(stage.info.region_count == 0);
+  std::vector<Matrix34> joints(stage.info.joint_count);
+  double largest = 0;
+  for (int f = 0; f < 60; ++f) {
+    const TailedPose pose = scenes::with_rods(scenes::shake(f * kFrame_s, 2));
+    REQUIRE(stage.world.set_pose(stage.blocks[0], pose.pose()).ok());
+    stage.world.step(static_cast<float>(kFrame_s));
+    REQUIRE(stage.world.read_joint_matrices(stage.blocks[0], joints).ok());
+    largest = std::max(largest, largest_difference(joints, pose.joints));
+  }
+  CHECK(largest > 0.01);
+  CHECK(test::all_finite(stage.read()));
 }
