@@ -79,9 +79,8 @@ def file_name(machine):
     return re.sub(r"[^a-z0-9]+", "_", machine.lower()).strip("_")
 
 
-def put_between(name, lines):
-    """Into perf/README.md, in the place of what stands between its marks of that name."""
-    readme = HERE / "README.md"
+def put_between(name, lines, readme=HERE / "README.md"):
+    """Into a page, in the place of what stands between its marks of that name."""
     begin, end = f"<!-- {name} -->", f"<!-- end of {name} -->"
     head, rest = readme.read_text().split(begin)
     readme.write_text(head + begin + "\n" + "\n".join(lines) + "\n" + end + rest.split(end)[1])

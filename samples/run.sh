@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, bakes the creature, runs the character loop headless; prints a table and writes pictures.
+# Installs what is missing, builds, bakes the creature, runs the character loop and scenes of rods headless; prints tables and writes pictures.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 scripts/install_packages.sh
 cmake --preset release >/dev/null
-cmake --build --preset release --target sinew-bake sinew-demo sinew-hello | { grep -v '^ninja: no work' || true; }
+cmake --build --preset release --target sinew-bake sinew-demo sinew-hello sinew-rods | { grep -v '^ninja: no work' || true; }
 
 bin=build/release/bin
 out=out
@@ -46,4 +46,7 @@ python=python3
 "$python" -c 'import matplotlib' 2>/dev/null || python=/usr/bin/python3
 "$python" samples/demo/plot_budget.py "$out/report.json" -o "$out/budget.png"
 echo
-echo "Pictures: $out/pictures/contact_sheet.png  $out/pictures_rods/contact_sheet.png  $out/pictures (frames, animation)  $out/budget.png"
+echo "Rods without a character:"
+newer "$out/rods/tree.png" "$bin/sinew-rods" || "$bin/sinew-rods" -o "$out/rods"
+echo
+echo "Pictures: $out/pictures/contact_sheet.png  $out/pictures_rods/contact_sheet.png  $out/pictures (frames, animation)  $out/budget.png  $out/rods/*.png"

@@ -7,6 +7,7 @@
 
 #include "baker/common/bad_input.hpp"
 #include "pack/int8_layout.hpp"
+#include "pack/weight_layout.hpp"
 
 namespace sinew::baker {
 namespace {
@@ -47,11 +48,11 @@ class LayerProducts {
   LayerProducts(const pack::LayerRecord& layer, bool is_first, std::span<const float> floats,
                 const HeardRanges& ranges)
       : layer_(layer), floats_(floats) {
-    if (!is_first) append(layer.inputs, layer.w_x, kGates, ranges.px);
-    if (!is_first && layer.has_self != 0) append(layer.inputs, layer.w_s, kGates, ranges.x);
-    append(layer.channels, layer.w_h, kGates, ranges.h);
+    if (!is_first) append(layer.inputs, layer.w_x, ranges.px);
+    if (!is_first && layer.has_self != 0) append(layer.inputs, layer.w_s, ranges.x);
+    append(layer.channels, layer.w_h, ranges.h);
     first_y_ = static_cast<uint32_t>(unit_.size());
-    append(layer.channels, layer.w_y, 3, ranges.y);
+    append(layer.channels, layer.w_y, ranges.y);
   }
 
   uint32_t depth() const { return static_cast<uint32_t>(unit_.size()); }
@@ -62,9 +63,10 @@ class LayerProducts {
   float weight(uint32_t k, uint32_t gate, uint32_t channel) const {
     const bool hears_y = gate < 2 || gate == kGates, hears_others = gate < kGates;
     if (unit_[k] == 0 || !(k < first_y_ ? hears_others : hears_y)) return 0;
-    const size_t row = k < first_y_ ? row_[k] + size_t{gate} * layer_.padded
-                                    : row_[k] + size_t{std::min(gate, 2u)} * layer_.padded;
-    return unit_[k] * floats_[row + channel];
+    const Row& row = row_[k];
+    const uint64_t at = k < first_y_ ? pack::gate_weight_at(row.of, kGates, row.index, gate, channel)
+                                     : pack::peephole_at(layer_, row.index, std::min(gate, 2u), channel);
+    return unit_[k] * floats_[row.tensor + at];
   }
 
   float scale(uint32_t gate, uint32_t channel) const {
@@ -74,19 +76,25 @@ class LayerProducts {
   }
 
  private:
-  void append(uint32_t rows, uint64_t tensor, uint32_t gates, const std::vector<float>& ranges) {
+  // Of the weights, all gates.
+  struct Row {
+    uint64_t tensor;
+    uint32_t index, of;
+  };
+
+  void append(uint32_t rows, uint64_t tensor, const std::vector<float>& ranges) {
     const float widest = *std::ranges::max_element(ranges);
     const float narrowest = widest > 0 ? widest * kNarrowest : 1;
     for (uint32_t k = 0; k < pack::round_up_16(rows); ++k) {
       unit_.push_back(k < rows ? std::max(ranges[k], narrowest) / kLargest : 0);
-      row_.push_back(tensor + uint64_t{k} * gates * layer_.padded);
+      row_.push_back({tensor, k, rows});
     }
   }
 
   const pack::LayerRecord& layer_;
   std::span<const float> floats_;
-  std::vector<float> unit_;    // of a quantised 1
-  std::vector<uint64_t> row_;  // of the weights, all gates
+  std::vector<float> unit_;  // of a quantised 1
+  std::vector<Row> row_;
   uint32_t first_y_ = 0;
 };
 

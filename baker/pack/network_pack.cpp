@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "baker/common/bad_input.hpp"
+#include "pack/weight_layout.hpp"
 
 namespace sinew::baker {
 namespace {
@@ -146,7 +147,7 @@ uint32_t total_width(const std::vector<pack::InputRecord>& inputs) {
 
 // ---- tensors ----
 
-// Tensors [rows][gates * channels] appended as [rows][gates][padded].
+// Tensors [rows][gates * channels] appended as pack/weight_layout.hpp has them.
 class WeightLayout {
  public:
   explicit WeightLayout(const Safetensors& weights) : weights_(weights) {}
@@ -159,9 +160,15 @@ class WeightLayout {
         vector ? std::vector<long>{columns} : std::vector<long>{static_cast<long>(rows), columns});
     const uint64_t offset = floats_.size();
     floats_.resize(offset + size_t{rows} * gates * layer.padded, 0.0f);
-    for (size_t block = 0; block < size_t{rows} * gates; ++block)
-      std::copy_n(values.data() + block * layer.channels, layer.channels,
-                  floats_.data() + offset + block * layer.padded);
+    const auto place = [&](size_t row, size_t gate, size_t channel) {
+      if (vector) return gate * layer.padded + channel;
+      return gates == 4 ? pack::gate_weight_at(rows, gates, row, gate, channel)
+                        : pack::peephole_at(layer, row, gate, channel);
+    };
+    auto value = values.begin();
+    for (size_t row = 0; row < rows; ++row)
+      for (size_t gate = 0; gate < gates; ++gate)
+        for (size_t j = 0; j < layer.channels; ++j) floats_[offset + place(row, gate, j)] = *value++;
     return offset;
   }
 

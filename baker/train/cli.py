@@ -64,6 +64,25 @@ def _train(a):
     train(a.data, a.out, options)
 
 
+def _train_rods(a):
+    import torch
+    from .rod_train import RodTrainOptions, train_rods
+
+    torch.set_num_threads(a.threads)
+    train_rods(a.data, a.out, _from_fields(RodTrainOptions, a))
+
+
+def _export_rods(a):
+    from .rod_export import export_examples, export_rods
+
+    if (a.run is None) == (a.examples == 0):
+        raise BadData("export-rods: give either --run or --examples")
+    if a.run is None:
+        export_examples(a.data, a.out, a.name, a.examples, a.seed)
+    else:
+        export_rods(a.run, a.data, a.out, a.name)
+
+
 def _read_json(path, mend):
     try:
         with open(path) as file:
@@ -192,6 +211,21 @@ def _parser():
     p.add_argument("--page", required=True, help="folder of the evaluation page")
     p.add_argument("--model", required=True, help="the run's name on that page")
     p.add_argument("--body", required=True, help="body whose error is stated in the weights")
+    p.add_argument("--out", required=True)
+    p.add_argument("--name", required=True)
+    p = command("train-rods", _train_rods, "Trains a network that corrects a rod's continued start.")
+    p.add_argument("data", help="folder of runs, of sinew-bake rod-data")
+    p.add_argument("--out", required=True, help="folder of the run")
+    p.add_argument("--threads", type=int, default=1)
+    from .rod_train import RodTrainOptions
+
+    _add_fields(p, RodTrainOptions)
+    text = "Writes weights of a start with their errors and check vectors, or examples for k-NN."
+    p = command("export-rods", _export_rods, text)
+    p.add_argument("data")
+    p.add_argument("--run", help="folder of train-rods")
+    p.add_argument("--examples", type=int, default=0, help="how many, instead of a run")
+    p.add_argument("--seed", type=int, default=0, help="of the examples")
     p.add_argument("--out", required=True)
     p.add_argument("--name", required=True)
     p = command("best", _best, "Prints the run that validated best.")

@@ -4,6 +4,7 @@
 
 #include "core/status.hpp"
 #include "pack/checks.hpp"
+#include "pack/weight_layout.hpp"
 
 namespace sinew::pack {
 namespace {
@@ -109,23 +110,36 @@ Status check_layer_record(const LayerRecord& layer, uint32_t expected_inputs, si
   return {};
 }
 
-// One tensor [rows][gates][padded] that must start at *cursor; moves *cursor behind it.
+// One tensor of rows x gates x padded that must start at *cursor; moves *cursor behind it.
 struct TensorPlace {
   uint64_t offset;
   uint32_t rows, gates;
+  uint64_t (*at)(const LayerRecord& layer, uint64_t rows, uint64_t row, uint64_t gate, uint64_t channel);
 };
+
+uint64_t gates_at(const LayerRecord&, uint64_t rows, uint64_t row, uint64_t gate, uint64_t channel) {
+  return gate_weight_at(rows, 4, row, gate, channel);
+}
+uint64_t peepholes_at(const LayerRecord& layer, uint64_t, uint64_t row, uint64_t gate, uint64_t channel) {
+  return peephole_at(layer, row, gate, channel);
+}
+uint64_t bias_at(const LayerRecord& layer, uint64_t, uint64_t, uint64_t gate, uint64_t channel) {
+  return gate * layer.padded + channel;
+}
 
 Status check_tensor(const PackView& pack, const LayerRecord& layer, size_t index, TensorPlace tensor,
                     uint64_t* cursor) noexcept {
-  const uint64_t blocks = uint64_t{tensor.rows} * tensor.gates, floats = blocks * layer.padded;
+  const uint64_t floats = uint64_t{tensor.rows} * tensor.gates * layer.padded;
   if (tensor.offset != *cursor || floats > pack.weights.size() - *cursor)
     return corrupt("layer %zu: a tensor is not where the one before it ends, or reaches beyond the weights",
                    index);
-  for (uint64_t block = 0; block < blocks; ++block) {
-    const auto padding =
-        pack.weights.subspan(*cursor + block * layer.padded + layer.channels, layer.padded - layer.channels);
-    if (std::ranges::any_of(padding, [](float v) { return v != 0; }))
-      return corrupt("layer %zu: padding of the weights is not zero", index);
+  for (uint32_t row = 0; row < tensor.rows; ++row) {
+    for (uint32_t gate = 0; gate < tensor.gates; ++gate) {
+      for (uint32_t channel = layer.channels; channel < layer.padded; ++channel) {
+        if (pack.weights[*cursor + tensor.at(layer, tensor.rows, row, gate, channel)] != 0)
+          return corrupt("layer %zu: padding of the weights is not zero", index);
+      }
+    }
   }
   *cursor += floats;
   return {};
@@ -133,11 +147,11 @@ Status check_tensor(const PackView& pack, const LayerRecord& layer, size_t index
 
 Status check_tensors(const PackView& pack, const LayerRecord& layer, size_t index,
                      uint64_t* cursor) noexcept {
-  const TensorPlace tensors[] = {{layer.w_x, layer.inputs, 4},
-                                 {layer.w_s, layer.has_self != 0 ? layer.inputs : 0, 4},
-                                 {layer.w_h, layer.channels, 4},
-                                 {layer.w_y, layer.channels, 3},
-                                 {layer.bias, 1, 4}};
+  const TensorPlace tensors[] = {{layer.w_x, layer.inputs, 4, gates_at},
+                                 {layer.w_s, layer.has_self != 0 ? layer.inputs : 0, 4, gates_at},
+                                 {layer.w_h, layer.channels, 4, gates_at},
+                                 {layer.w_y, layer.channels, 3, peepholes_at},
+                                 {layer.bias, 1, 4, bias_at}};
   for (TensorPlace tensor : tensors) {
     if (tensor.rows == 0 && tensor.offset != 0)
       return corrupt("layer %zu: an offset of self weights that are not there", index);

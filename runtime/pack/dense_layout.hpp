@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "pack/format.hpp"
+#include "pack/weight_layout.hpp"
 
 namespace sinew::pack {
 
@@ -38,10 +39,9 @@ constexpr uint32_t dense_count(const NetworkRecord& record) noexcept {
                                                   : chain_count(record) * (record.depth + 1);
 }
 
-// Where a layer's place is in a panel: the float offset from the layer's w of one weight.
+// Where one weight is, counted from the layer's w.
 constexpr uint64_t weight_at(const DenseRecord& layer, uint32_t input, uint32_t output) noexcept {
-  const uint32_t panel = output / kPanel * kPanel, left = layer.padded - panel;
-  return uint64_t{panel} * layer.inputs + uint64_t{input} * (left < kPanel ? left : kPanel) + output % kPanel;
+  return panel_weight_at(layer.inputs, layer.padded, input, output);
 }
 
 }  // namespace sinew::pack

@@ -22,8 +22,9 @@
 //      since then without a new version, for a reader that does not know them refuses the field or the kind:
 //      NetworkRecord::precision with the int8 sections; the inputs kTurnedForce .. kSpunVelocity
 //   4  what a region's modes hear lies input by input, so that no sum runs across a vector's lanes
-//      since then, likewise: the models kDeepEmulator and kCopingNet with the section kDense;
-//      CharacterRecord::rod_count with the sections of rods, and a character of rods without soft regions
+//      since then, likewise: the models kDeepEmulator and kCopingNet with the section kDense
+//   5  weights of Alt-ConvLSTM lie in the order that kernels read them; CharacterRecord::rod_count with the
+//      sections of rods, and a character of rods without soft regions
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -31,11 +32,11 @@
 namespace sinew::pack {
 
 inline constexpr char kMagic[8] = {'S', 'I', 'N', 'E', 'W', 'P', 'K', '\0'};
-inline constexpr uint32_t kVersion = 4;
+inline constexpr uint32_t kVersion = 5;
 inline constexpr size_t kSectionAlignment = 64;
 inline constexpr uint32_t kNoIndex = 0xffffffffu;
 
-inline constexpr uint32_t kPanel = 64;  // outputs of a dense layer whose weights lie together
+inline constexpr uint32_t kPanel = 64;  // outputs of one layer whose weights lie together
 
 // Rows of channels are padded to whole 16.
 constexpr uint64_t round_up_16(uint64_t value) noexcept { return (value + 15) / 16 * 16; }
@@ -159,19 +160,18 @@ struct NetworkRecord {
 };
 static_assert(sizeof(NetworkRecord) == 64);
 
-// One tensor after the other in kWeights, layer after layer, without gaps, each row-major and padded to whole
-// rows of `padded` = channels rounded up to 16 in each gate block, so that a row of all gates is gates x
-// padded floats; padding is zero. Offsets count floats, each a multiple of 16. x stands for the layer's
-// input.
+// One tensor after the other in kWeights, layer after layer, without gaps. Channels are padded to `padded`,
+// weights lie as pack/weight_layout.hpp says: all rows of all gates of 16 channels, then of the next 16.
+// Padding is zero. Offsets count floats, each a multiple of 16. x stands for the layer's input.
 struct LayerRecord {
   uint32_t inputs;    // F_in: input_width, then the channels of the layer before
   uint32_t channels;  // F, 1..1024
   uint32_t padded;    // F rounded up to 16
   uint32_t has_self;  // 1: W_s is there
-  uint64_t w_x;       // [F_in][4][padded]
-  uint64_t w_s;       // [F_in][4][padded], if has_self; else 0
-  uint64_t w_h;       // [F][4][padded]
-  uint64_t w_y;       // [F][3][padded], gates i f o
+  uint64_t w_x;       // [padded / 16][F_in][4][16]
+  uint64_t w_s;       // the same, if has_self; else 0
+  uint64_t w_h;       // [padded / 16][F][4][16]
+  uint64_t w_y;       // [padded / 16][F][2][16], gates i f; then gate o, [padded / kPanel][F][kPanel]
   uint64_t bias;      // [4][padded]
   uint64_t reserved;
 };

@@ -22,6 +22,15 @@ RestPose rest_pose(const float* rest) {
   return out;
 }
 
+// As a rigid body that goes from one pose to the other.
+RestPose moved_along(const RestPose& own, const RestPose& from, const RestPose& to) {
+  const Turn by = normalised(product(to.turn, conjugate(from.turn)));
+  const Vector arm =
+      turned(by, {own.place[0] - from.place[0], own.place[1] - from.place[1], own.place[2] - from.place[2]});
+  return {{to.place[0] + arm[0], to.place[1] + arm[1], to.place[2] + arm[2]},
+          normalised(product(by, own.turn))};
+}
+
 }  // namespace
 
 bool RodBatch::held(uint32_t strand, uint32_t segment) const noexcept {
@@ -30,6 +39,15 @@ bool RodBatch::held(uint32_t strand, uint32_t segment) const noexcept {
     finite = finite && std::isfinite(at(strand, segment, k));
   }
   return finite;
+}
+
+// Motion, forces and targets end where the segment is.
+void RodBatch::forget_motion(uint32_t strand, uint32_t segment) noexcept {
+  for (uint32_t k = 0; k < 3; ++k) at(strand, segment, simd::kRodTarget + k) = 0;
+  for (uint32_t k = 0; k < 4; ++k) {
+    at(strand, segment, simd::kRodTargetTurn + k) = at(strand, segment, simd::kRodTurn + k);
+  }
+  for (uint32_t k = simd::kRodVelocity; k < simd::kRodKeptFields; ++k) at(strand, segment, k) = 0;
 }
 
 // Segments whose pose is given stay where they are, the others are put relative to the first of these;
@@ -45,21 +63,13 @@ void RodBatch::recover(uint32_t strand) noexcept {
     from = rest_pose(rest + size_t{first} * kRestNumbers);
     to = rest_pose(now);
   }
-  const Turn by = normalised(product(to.turn, conjugate(from.turn)));
   for (uint32_t i = 0; i < segment_count_; ++i) {
     if (!held(strand, i)) {
-      const RestPose own = rest_pose(rest + size_t{i} * kRestNumbers);
-      const Vector arm = turned(
-          by, {own.place[0] - from.place[0], own.place[1] - from.place[1], own.place[2] - from.place[2]});
-      const Turn q = normalised(product(by, own.turn));
-      for (uint32_t k = 0; k < 3; ++k) put_place(strand, i, k, to.place[k] + arm[k]);
-      for (uint32_t k = 0; k < 4; ++k) at(strand, i, simd::kRodTurn + k) = static_cast<float>(q[k]);
+      const RestPose put = moved_along(rest_pose(rest + size_t{i} * kRestNumbers), from, to);
+      for (uint32_t k = 0; k < 3; ++k) put_place(strand, i, k, put.place[k]);
+      for (uint32_t k = 0; k < 4; ++k) at(strand, i, simd::kRodTurn + k) = static_cast<float>(put.turn[k]);
     }
-    for (uint32_t k = 0; k < 3; ++k) at(strand, i, simd::kRodTarget + k) = 0;
-    for (uint32_t k = 0; k < 4; ++k) {
-      at(strand, i, simd::kRodTargetTurn + k) = at(strand, i, simd::kRodTurn + k);
-    }
-    for (uint32_t k = simd::kRodVelocity; k < simd::kRodKeptFields; ++k) at(strand, i, k) = 0;
+    forget_motion(strand, i);
   }
 }
 

@@ -12,45 +12,85 @@ constexpr double kTorn = 0.5;  // gap over the strand's mean segment
 
 }  // namespace
 
+Vector RodBatch::place(uint32_t strand, uint32_t segment) const noexcept {
+  Vector out;
+  for (uint32_t k = 0; k < 3; ++k) {
+    out[k] = static_cast<double>(at(strand, segment, simd::kRodPlace + k)) +
+             static_cast<double>(at(strand, segment, simd::kRodPlaceLow + k));
+  }
+  return out;
+}
+
+// From a segment's middle to its end.
+Vector RodBatch::half_axis(uint32_t strand, uint32_t segment) const noexcept {
+  const Turn q = {at(strand, segment, simd::kRodTurn), at(strand, segment, simd::kRodTurn + 1),
+                  at(strand, segment, simd::kRodTurn + 2), at(strand, segment, simd::kRodTurn + 3)};
+  return turned(q, {0, 0, at(strand, segment, simd::kRodHalfLength)});
+}
+
+// From the parent's place to where the joint puts the segment's.
+Vector RodBatch::joint_offset(uint32_t strand, uint32_t segment) const noexcept {
+  const Vector a = half_axis(strand, parents_[segment]), b = half_axis(strand, segment);
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+
+double RodBatch::largest_gap(uint32_t strand) const noexcept {
+  double largest = 0;
+  for (uint32_t i = 1; i < segment_count_; ++i) {
+    const Vector a = place(strand, parents_[i]), b = place(strand, i), by = joint_offset(strand, i);
+    largest = std::max(largest, std::hypot(a[0] + by[0] - b[0], a[1] + by[1] - b[1], a[2] + by[2] - b[2]));
+  }
+  return largest;
+}
+
+// Of each segment, how many joints lie between it and the nearest whose pose is given; counted from the root
+// where there is none.
+void RodBatch::count_joints_to_held(uint32_t strand, float* joints) const noexcept {
+  bool any = false;
+  for (uint32_t i = 0; i < segment_count_; ++i) any = any || at(strand, i, simd::kRodFree) == 0;
+  const auto farthest = static_cast<float>(segment_count_);
+  for (uint32_t i = 0; i < segment_count_; ++i) {
+    joints[i] = (any ? at(strand, i, simd::kRodFree) == 0 : i == 0) ? 0 : farthest;
+  }
+  for (uint32_t i = segment_count_ - 1; i > 0; --i) {
+    joints[parents_[i]] = std::min(joints[parents_[i]], joints[i] + 1);
+  }
+  for (uint32_t i = 1; i < segment_count_; ++i) joints[i] = std::min(joints[i], joints[parents_[i]] + 1);
+}
+
+// Puts a segment somewhere else within a step; its velocity is what took it there.
+void RodBatch::shift(uint32_t strand, uint32_t segment, const Vector& to, float dt_s) noexcept {
+  const Vector before = place(strand, segment);
+  for (uint32_t k = 0; k < 3; ++k) {
+    at(strand, segment, simd::kRodVelocity + k) +=
+        static_cast<float>((to[k] - before[k]) / static_cast<double>(dt_s));
+    put_place(strand, segment, k, to[k]);
+  }
+}
+
 // What its joints carried is no start for the next step: where what is held cannot be reached it grows by
 // each iteration, and what is then let go is thrown. Torn apart, its segments keep their orientations and are
-// set end to end from the root, velocities accordingly: so it stays within its length of where it is held
-// whatever is done to it. Segments whose pose is given stay; a gap that they leave remains. Returns whether
-// it was torn.
+// set end to end outwards from what is held, from the nearest of several, velocities accordingly: so it stays
+// within its length of where it is held whatever is done to it. Between two that are held a gap may remain.
+// Returns whether it was torn.
 bool RodBatch::rejoin(uint32_t strand, float dt_s) noexcept {
-  const auto row3 = [&](uint32_t i, uint32_t field) -> Vector {
-    return {at(strand, i, field), at(strand, i, field + 1), at(strand, i, field + 2)};
-  };
-  const auto half_axis = [&](uint32_t i) {
-    const Turn q = {at(strand, i, simd::kRodTurn), at(strand, i, simd::kRodTurn + 1),
-                    at(strand, i, simd::kRodTurn + 2), at(strand, i, simd::kRodTurn + 3)};
-    return turned(q, {0, 0, at(strand, i, simd::kRodHalfLength)});
-  };
-  const auto joined_place = [&](uint32_t i) {
-    const uint32_t parent = parents_[i];
-    const Vector a = row3(parent, simd::kRodPlace), low = row3(parent, simd::kRodPlaceLow),
-                 z_a = half_axis(parent), z_b = half_axis(i);
-    return Vector{a[0] + low[0] + z_a[0] + z_b[0], a[1] + low[1] + z_a[1] + z_b[1],
-                  a[2] + low[2] + z_a[2] + z_b[2]};
-  };
-  double torn = 0;
   for (uint32_t i = 0; i < segment_count_; ++i) {
     for (uint32_t k = simd::kRodStartPush; k < simd::kRodKeptFields; ++k) at(strand, i, k) = 0;
-    if (i == 0) continue;
-    const Vector joined = joined_place(i), own = row3(i, simd::kRodPlace);
-    torn = std::max(torn, std::hypot(joined[0] - own[0], joined[1] - own[1], joined[2] - own[2]));
   }
-  if (torn <= kTorn) return false;
+  if (largest_gap(strand) <= kTorn) return false;
+  float* joints = scratch_;  // free between finish and predict
+  count_joints_to_held(strand, joints);
+  // Children come after their parents: inwards first, so that what turns outwards again stands already.
+  for (uint32_t i = segment_count_ - 1; i > 0; --i) {
+    const uint32_t parent = parents_[i];
+    if (joints[parent] != joints[i] + 1) continue;
+    const Vector own = place(strand, i), by = joint_offset(strand, i);
+    shift(strand, parent, {own[0] - by[0], own[1] - by[1], own[2] - by[2]}, dt_s);
+  }
   for (uint32_t i = 1; i < segment_count_; ++i) {
-    if (at(strand, i, simd::kRodFree) == 0) continue;
-    const Vector joined = joined_place(i);
-    for (uint32_t k = 0; k < 3; ++k) {
-      const double before = static_cast<double>(at(strand, i, simd::kRodPlace + k)) +
-                            static_cast<double>(at(strand, i, simd::kRodPlaceLow + k));
-      at(strand, i, simd::kRodVelocity + k) +=
-          static_cast<float>((joined[k] - before) / static_cast<double>(dt_s));
-      put_place(strand, i, k, joined[k]);
-    }
+    if (joints[i] != joints[parents_[i]] + 1) continue;
+    const Vector from = place(strand, parents_[i]), by = joint_offset(strand, i);
+    shift(strand, i, {from[0] + by[0], from[1] + by[1], from[2] + by[2]}, dt_s);
   }
   return true;
 }

@@ -40,11 +40,17 @@ Status check_target(uint32_t strand, uint32_t segment, const SegmentPose& pose) 
                            strand, segment, norm(turn_of(pose.orientation)));
 }
 
+Vector over(float unit, const double (&to)[3], const double (&from)[3]) {
+  return {(to[0] - from[0]) / unit, (to[1] - from[1]) / unit, (to[2] - from[2]) / unit};
+}
+
+double largest_of(const Vector& v) { return std::max({std::fabs(v[0]), std::fabs(v[1]), std::fabs(v[2])}); }
+
 }  // namespace
 
 size_t RodBatch::row(uint32_t strand, uint32_t segment, uint32_t field) const noexcept {
   const size_t group = strand / width_, lane = strand % width_;
-  return ((group * segment_count_ + segment) * simd::kRodKeptFields + field) * width_ + lane;
+  return ((group * segment_count_ + slots_[segment]) * simd::kRodKeptFields + field) * width_ + lane;
 }
 
 Status RodBatch::check_place(uint32_t strand, uint32_t segment) const noexcept {
@@ -72,25 +78,26 @@ Status RodBatch::set_target(uint32_t strand, uint32_t segment, const SegmentPose
                              strand, segment);
   }
   const Units& units = units_[strand];
-  double move[3], square = 0, largest = 0;
   const SegmentPose now = this->pose(strand, segment);
-  for (int k = 0; k < 3; ++k) {
-    move[k] = (pose.position_m[k] - now.position_m[k]) / units.length_m;
-    square += move[k] * move[k];
-    const double place = (pose.position_m[k] - units.origin_m[k]) / units.length_m;
-    largest = std::max({largest, std::fabs(move[k]), std::fabs(place)});
-  }
+  const Vector move = over(units.length_m, pose.position_m, now.position_m),
+               place = over(units.length_m, pose.position_m, units.origin_m);
+  const double largest = std::max(largest_of(move), largest_of(place));
   if (largest > std::numeric_limits<float>::max()) return too_large(strand, segment, "the position");
-  if (std::sqrt(square) > static_cast<double>(settings_.teleport_lengths) * units.total_lengths) {
+  if (std::hypot(move[0], move[1], move[2]) >
+      static_cast<double>(settings_.teleport_lengths) * units.total_lengths) {
     carry(strand, segment, pose);
-    return {};
+  } else {
+    put_target(strand, segment, move, normalised(turn_of(pose.orientation)));
   }
+  return {};
+}
+
+void RodBatch::put_target(uint32_t strand, uint32_t segment, const Vector& move,
+                          const Turn& turn) const noexcept {
   for (uint32_t k = 0; k < 3; ++k) at(strand, segment, simd::kRodTarget + k) = static_cast<float>(move[k]);
-  const Turn turn = normalised(turn_of(pose.orientation));
   for (uint32_t k = 0; k < 4; ++k) {
     at(strand, segment, simd::kRodTargetTurn + k) = static_cast<float>(turn[k]);
   }
-  return {};
 }
 
 Status RodBatch::set_force(uint32_t strand, uint32_t segment, const float (&force_n)[3]) noexcept {
@@ -147,7 +154,10 @@ Status RodBatch::set_start(uint32_t strand, uint32_t segment, const SegmentStart
     own[9 + k] = start.moment_nm[k] / (force * l);
   }
   if (!all_finite(own)) return too_large(strand, segment, "the start");
-  for (uint32_t k = 0; k < 12; ++k) at(strand, segment, simd::kRodStartPush + k) = own[k];
+  for (uint32_t k = 0; k < 6; ++k) at(strand, segment, simd::kRodStartPush + k) = own[k];
+  for (uint32_t k = 0; k < 6 && segment > 0; ++k) {
+    at(strand, joint_segments_[segment], simd::kRodStartForce + k) = joint_side(segment) * own[6 + k];
+  }
   return {};
 }
 
@@ -181,8 +191,10 @@ SegmentStart RodBatch::last_forces(uint32_t strand, uint32_t segment) const noex
   for (uint32_t k = 0; k < 3; ++k) {
     out.acceleration_m_s2[k] = at(strand, segment, simd::kRodStartPush + k) * l;
     out.angular_acceleration_rad_s2[k] = at(strand, segment, simd::kRodStartTwist + k);
-    out.force_n[k] = at(strand, segment, simd::kRodStartForce + k) * force;
-    out.moment_nm[k] = at(strand, segment, simd::kRodStartForce + 3 + k) * (force * l);
+    if (segment == 0) continue;
+    const uint32_t joint = joint_segments_[segment];
+    out.force_n[k] = joint_side(segment) * at(strand, joint, simd::kRodStartForce + k) * force;
+    out.moment_nm[k] = joint_side(segment) * at(strand, joint, simd::kRodStartForce + 3 + k) * (force * l);
   }
   return out;
 }

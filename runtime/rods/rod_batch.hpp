@@ -12,7 +12,10 @@
 #include <span>
 
 #include "core/aligned_block.hpp"
+#include "rods/knn_start.hpp"
+#include "rods/learned_start.hpp"
 #include "rods/strand.hpp"
+#include "rods/turn.hpp"
 #include "simd/rod_job.hpp"
 
 namespace sinew::rods {
@@ -20,6 +23,9 @@ namespace sinew::rods {
 enum class RodSolver : uint32_t {
   kDirect = 0,  // exact, O(segments)
   kCg = 1,      // conjugate gradients, preconditioned by the diagonal: for comparing
+  // Joint by joint (Gauss-Seidel, XPBD): a sweep costs less than an exact solution, and long or stiff strands
+  // need hundreds. What it leaves undone is stretch and bend, never momentum.
+  kLocal = 2,
 };
 
 // Where a step's iteration starts. Free motion is what a segment would do without joints.
@@ -28,6 +34,11 @@ enum class RodStart : uint32_t {
   // Free motion with the last step's forces and what they did; as kZero for a strand that did not converge.
   kPrevious = 1,
   kGiven = 2,  // what set_start gave since the last step; segments given nothing as with kPrevious
+  // The last steps' forces continued: by how much they change, and how that changed, in the shares that would
+  // have served the last step best (simd/rod_start-inl.hpp). As kPrevious until four steps converged.
+  kContinued = 3,
+  kKnn = 4,      // kContinued, corrected by the nearest of RodSettings::examples: a baseline, for comparing
+  kLearned = 5,  // kContinued, corrected by RodSettings::network
 };
 
 struct RodSettings {
@@ -37,12 +48,19 @@ struct RodSettings {
   // 1e-6 to 1: the iteration ends where it turned no segment by more. Stretch is then at most its square over
   // two: 5e-5 at the default.
   float tolerance_rad = 0.01f;
-  float cg_tolerance = 1e-4f;         // 1e-7 to 1: kCg's residual against its first
+  // 1e-7 to 1: kCg's residual against that of the step's first system from kZero, whatever the start.
+  float cg_tolerance = 1e-4f;
   uint32_t cg_max_iterations = 1000;  // 1 to 100000, of one linear system
+  uint32_t local_sweeps = 10;         // 1 to 10000: kLocal's over all joints, in each iteration
   float gravity_m_s2[3] = {0, -9.81f, 0};
   // A pose given for a fixed segment further away than this many of its strand's lengths carries the strand
   // along as it is, without inertia. Finite, above 0.
   float teleport_lengths = 2;
+  // Fills RodReport::residual, for a fifth of an iteration's time.
+  bool report_residual = false;
+  const CopingNet* network = nullptr;       // of kLearned; what it points to outlives the batch
+  const StartExamples* examples = nullptr;  // of kKnn; the same
+  bool keeps_start_inputs = false;          // for training: kContinued then has start_inputs as well
 };
 
 struct SegmentPose {
@@ -62,6 +80,15 @@ struct SegmentStart {
                         0};  // minus the derivative of the bending energy by the Darboux vector times length
 };
 
+// What kKnn and kLearned were told of a segment and its joint, and what they correct: simd/rod_start_job.hpp.
+// Numbers in the strand's own units: its mean segment's length and mass, and seconds.
+struct StartInputs {
+  float told[simd::kRodStartInputs];
+  float joint[simd::kRodJointInputs];
+  float scales[simd::kRodStartTriples];
+  float continued[simd::kRodStartNumbers];
+};
+
 struct RodReport {
   uint32_t iterations = 0;      // most of any strand
   uint32_t iterations_sum = 0;  // of all strands
@@ -70,6 +97,9 @@ struct RodReport {
   uint32_t rejoined = 0;   // of these, strands torn by more than half a segment: put together at their joints
   uint32_t recovered = 0;  // strands that were not finite: put back at rest shape where they are held
   uint32_t teleported = 0;  // strands carried along since the last step
+  // With RodSettings::report_residual, of any strand: what the step's equations miss by, in the strand's mean
+  // segments' lengths, radians, and shares of its largest force (simd/rod_residual-inl.hpp). Otherwise 0.
+  float residual = 0;
 };
 
 class RodBatch {
@@ -100,18 +130,26 @@ class RodBatch {
   // dt_s in (0, 1]; otherwise refused, and nothing moves. Allocates nothing.
   Status step(float dt_s, RodReport* report) noexcept;
 
+  // What `from` has come to, its targets and forces too, with this batch's own settings. Refused: one not
+  // made of the same strands, as far as counts and parents tell. What kContinued and those after it remember
+  // comes along from a batch that remembers it too; otherwise they begin anew. Allocates nothing.
+  Status take_state(const RodBatch& from) noexcept;
+
   // Of an existing segment.
   SegmentPose pose(uint32_t strand, uint32_t segment) const noexcept;
   SegmentVelocity velocity(uint32_t strand, uint32_t segment) const noexcept;
   // What kPrevious starts from: of the last step; zeros where the strand did not converge.
   SegmentStart last_forces(uint32_t strand, uint32_t segment) const noexcept;
 
+  // For training, of the last step; zeros but with kKnn, kLearned or keeps_start_inputs.
+  StartInputs start_inputs(uint32_t strand, uint32_t segment) const noexcept;
+
   // ---- rod_state.cpp: for what keeps a batch in a pose, in a snapshot, with a character ----
 
   // Puts a segment there, fixed or not, moving so, without forces; a fixed one stays until its next target.
   // Refused: no such segment, numbers as in set_target and set_velocity.
-  Status place(uint32_t strand, uint32_t segment, const SegmentPose& pose,
-               const SegmentVelocity& velocity) noexcept;
+  Status set_pose(uint32_t strand, uint32_t segment, const SegmentPose& pose,
+                  const SegmentVelocity& velocity) noexcept;
   // The segment's orientation in its parent's axes at which their joint is at rest, until changed. Refused:
   // no such segment, the root, no unit quaternion.
   Status set_rest(uint32_t strand, uint32_t segment, const float (&to_parent)[4]) noexcept;
@@ -123,8 +161,8 @@ class RodBatch {
   size_t state_bytes() const noexcept;
   void save_state(std::byte* out) const noexcept;
   void restore_state(const std::byte* from) noexcept;
-  // What a batch of so many strands of so many segments takes.
-  static size_t memory_bytes(uint32_t strands, uint32_t segments) noexcept;
+  // What a batch of so many strands of so many segments takes; a network's part is not counted.
+  static size_t memory_bytes(uint32_t strands, uint32_t segments, const RodSettings& settings) noexcept;
 
  private:
   friend struct RodBatchBuilder;
@@ -133,6 +171,9 @@ class RodBatch {
     float length_m, mass_kg, total_lengths;
   };
   size_t row(uint32_t strand, uint32_t segment, uint32_t field) const noexcept;
+  // -1 where the record tells the joint to the parent from its other end: its force is minus that on the
+  // parent.
+  float joint_side(uint32_t segment) const noexcept { return joint_segments_[segment] == segment ? 1 : -1; }
   float& at(uint32_t strand, uint32_t segment, uint32_t field) const noexcept {
     return records_[row(strand, segment, field)];
   }
@@ -141,26 +182,59 @@ class RodBatch {
     at(strand, segment, simd::kRodPlace + axis) = high;
     at(strand, segment, simd::kRodPlaceLow + axis) = static_cast<float>(place - static_cast<double>(high));
   }
+  void put_target(uint32_t strand, uint32_t segment, const Vector& move, const Turn& turn) const noexcept;
+  template <class Run>
+  void for_each_run(Run run) const noexcept;
   Status check_place(uint32_t strand, uint32_t segment) const noexcept;
   Status check_simulated(uint32_t strand, uint32_t segment, const char* what) const noexcept;
   bool held(uint32_t strand, uint32_t segment) const noexcept;
   simd::RodJob group_job(uint32_t group, float dt_s) const noexcept;
   void step_group(uint32_t group, float dt_s, RodReport* report) noexcept;
+  bool has_history() const noexcept { return settings_.start >= RodStart::kContinued; }
+  bool has_inputs() const noexcept {
+    return settings_.start >= RodStart::kKnn || (has_history() && settings_.keeps_start_inputs);
+  }
+  simd::RodStartJob start_job(uint32_t group) const noexcept;
+  void tell_fixed_inputs() noexcept;
+  void tell_joint(uint32_t strand, uint32_t slot, float (&out)[simd::kRodJointInputs]) const noexcept;
+  void make_start(uint32_t group, const simd::RodJob& job) const noexcept;
+  void take_history(const RodBatch& from) noexcept;
   void carry(uint32_t strand, uint32_t segment, const SegmentPose& to) noexcept;
+  void carry_place(uint32_t strand, uint32_t segment, const Turn& by, const SegmentPose& from,
+                   const SegmentPose& to) noexcept;
+  void turn_row(uint32_t strand, uint32_t segment, uint32_t field, const Turn& by) noexcept;
   bool rejoin(uint32_t strand, float dt_s) noexcept;
+  Vector place(uint32_t strand, uint32_t segment) const noexcept;
+  Vector half_axis(uint32_t strand, uint32_t segment) const noexcept;
+  Vector joint_offset(uint32_t strand, uint32_t segment) const noexcept;
+  double largest_gap(uint32_t strand) const noexcept;
+  void count_joints_to_held(uint32_t strand, float* joints) const noexcept;
+  void shift(uint32_t strand, uint32_t segment, const Vector& to, float dt_s) noexcept;
   void recover(uint32_t strand) noexcept;
+  void forget_motion(uint32_t strand, uint32_t segment) noexcept;
 
   static constexpr uint32_t kRestNumbers = 10;
 
   core::AlignedBlock memory_;
-  float* records_ = nullptr;  // [groups][segments][kRodKeptFields][width]
-  float* scratch_ = nullptr;  // of one group
-  float* lanes_ = nullptr;    // [groups][kLaneFields][width]
+  float* records_ = nullptr;    // [groups][segments][kRodKeptFields][width]
+  float* scratch_ = nullptr;    // of one group
+  float* lanes_ = nullptr;      // [groups][kLaneFields][width]
+  float* history_ = nullptr;    // [groups][segments][kRodStartAges][kRodStartNumbers][width]
+  float* inputs_ = nullptr;     // [groups][segments][kRodStartInputs][width]
+  float* continued_ = nullptr;  // [groups][segments][kRodStartNumbers][width]
+  float* scales_ = nullptr;     // [groups][kRodStartTriples][width]
+  float* encodings_ = nullptr;  // [groups][segments][latent][width]
+  float* planes_ = nullptr;     // of one group
   float* rest_ = nullptr;   // [strands][segments][kRestNumbers] place, high and low, and orientation at rest
   Units* units_ = nullptr;  // [strands]
-  uint32_t* parents_ = nullptr;
+  uint32_t* parents_ = nullptr;         // [segments] as listed
+  uint32_t* slots_ = nullptr;           // [segments] where a segment's record is; slot 0 is held if one is
+  uint32_t* joint_segments_ = nullptr;  // [segments] whose record holds the joint to the parent
+  uint32_t* slot_parents_ = nullptr;    // [slots] slots
   RodSettings settings_;
-  uint32_t strand_count_ = 0, segment_count_ = 0, width_ = 0, teleported_ = 0;
+  simd::RodStartNet net_{};
+  simd::RodStartExamples examples_{};
+  uint32_t strand_count_ = 0, segment_count_ = 0, width_ = 0, teleported_ = 0, newest_ = 0;
 };
 
 }  // namespace sinew::rods

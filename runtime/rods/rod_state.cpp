@@ -25,27 +25,45 @@ Status check_turn(uint32_t strand, uint32_t segment, const Turn& turn) {
 
 }  // namespace
 
+// Runs of bytes: a record's rows; of starts that remember steps what they remember.
+template <class Run>
+void RodBatch::for_each_run(Run run) const noexcept {
+  if (strand_count_ == 0) return;
+  const size_t groups = (size_t{strand_count_} + width_ - 1) / width_, records = groups * segment_count_;
+  for (size_t r = 0; r < records; ++r)
+    run(records_ + (r * simd::kRodKeptFields + kFirstKept) * width_, kKept * width_ * sizeof(float));
+  if (history_ == nullptr) return;
+  for (size_t g = 0; g < groups; ++g)
+    run(lanes_ + (g * simd::kLaneFields + simd::kLaneKnownSteps) * width_, width_ * sizeof(float));
+  run(history_, records * width_ * simd::kRodStartAges * simd::kRodStartNumbers * sizeof(float));
+}
+
 size_t RodBatch::state_bytes() const noexcept {
-  const size_t groups = (strand_count_ + width_ - 1) / std::max(width_, 1u);
-  return groups * segment_count_ * kKept * width_ * sizeof(float);
+  size_t bytes = sizeof newest_;
+  for_each_run([&](const float*, size_t size) { bytes += size; });
+  return bytes;
 }
 
 void RodBatch::save_state(std::byte* out) const noexcept {
-  const size_t run = size_t{kKept} * width_,
-               records = strand_count_ == 0 ? 0 : state_bytes() / (run * sizeof(float));
-  for (size_t r = 0; r < records; ++r, out += run * sizeof(float))
-    std::memcpy(out, records_ + (r * simd::kRodKeptFields + kFirstKept) * width_, run * sizeof(float));
+  std::memcpy(out, &newest_, sizeof newest_);
+  out += sizeof newest_;
+  for_each_run([&](const float* run, size_t size) {
+    std::memcpy(out, run, size);
+    out += size;
+  });
 }
 
 void RodBatch::restore_state(const std::byte* from) noexcept {
-  const size_t run = size_t{kKept} * width_,
-               records = strand_count_ == 0 ? 0 : state_bytes() / (run * sizeof(float));
-  for (size_t r = 0; r < records; ++r, from += run * sizeof(float))
-    std::memcpy(records_ + (r * simd::kRodKeptFields + kFirstKept) * width_, from, run * sizeof(float));
+  std::memcpy(&newest_, from, sizeof newest_);
+  from += sizeof newest_;
+  for_each_run([&](float* run, size_t size) {
+    std::memcpy(run, from, size);
+    from += size;
+  });
 }
 
-Status RodBatch::place(uint32_t strand, uint32_t segment, const SegmentPose& pose,
-                       const SegmentVelocity& velocity) noexcept {
+Status RodBatch::set_pose(uint32_t strand, uint32_t segment, const SegmentPose& pose,
+                          const SegmentVelocity& velocity) noexcept {
   Status status = check_place(strand, segment);
   if (status.ok()) status = check_turn(strand, segment, turn_of(pose.orientation));
   if (!status.ok()) return status;
@@ -88,18 +106,14 @@ Status RodBatch::set_rest(uint32_t strand, uint32_t segment, const float (&to_pa
     return core::make_status(StatusCode::kInvalidArgument,
                              "strand %u, segment 0: the root has no joint; give a segment after it", strand);
   const Turn turn = normalised(turn_of(to_parent));
-  const double twice = turn[3] < 0 ? -2 : 2;
+  const double twice = (turn[3] < 0 ? -2 : 2) * static_cast<double>(joint_side(segment));
   for (uint32_t k = 0; k < 3; ++k)
-    at(strand, segment, simd::kRodRest + k) = static_cast<float>(twice * turn[k]);
+    at(strand, joint_segments_[segment], simd::kRodRest + k) = static_cast<float>(twice * turn[k]);
   return {};
 }
 
 void RodBatch::turn_all(const Turn& by, const Vector& centre_m) noexcept {
   const Turn turn = normalised(by);
-  const auto turn3 = [&](uint32_t strand, uint32_t i, uint32_t field) {
-    const Vector v = turned(turn, {at(strand, i, field), at(strand, i, field + 1), at(strand, i, field + 2)});
-    for (uint32_t k = 0; k < 3; ++k) at(strand, i, field + k) = static_cast<float>(v[k]);
-  };
   for (uint32_t strand = 0; strand < strand_count_; ++strand) {
     const Units& units = units_[strand];
     for (uint32_t i = 0; i < segment_count_; ++i) {
@@ -117,8 +131,12 @@ void RodBatch::turn_all(const Turn& by, const Vector& centre_m) noexcept {
       }
       for (const uint32_t field :
            {simd::kRodForce, simd::kRodVelocity, simd::kRodStartPush, simd::kRodStartForce})
-        turn3(strand, i, field);
+        turn_row(strand, i, field, turn);
     }
+    // Earlier results were not turned along: the next step starts from the last one.
+    float& known = lanes_[(size_t{strand / width_} * simd::kLaneFields + simd::kLaneKnownSteps) * width_ +
+                          strand % width_];
+    known = std::min(known, 1.0f);
   }
 }
 

@@ -23,7 +23,8 @@ HWY_INLINE Vector3 quarter_turn(const float* held, const Vector (&r)[9]) {
   const Floats d;
   const auto set = [](float value) HWY_ATTR { return hn::Set(Floats(), value); };
   const auto turn = [&](size_t row, size_t c) HWY_ATTR {
-    return dot({set(held[row]), set(held[3 + row]), set(held[6 + row])}, {r[c], r[3 + c], r[6 + c]});
+    return dot(Vector3{set(held[row]), set(held[3 + row]), set(held[6 + row])},
+               Vector3{r[c], r[3 + c], r[6 + c]});
   };
   const Vector one = set(1), two = set(2);
   const Vector trace = hn::Add(turn(0, 0), hn::Add(turn(1, 1), turn(2, 2)));
@@ -35,7 +36,7 @@ HWY_INLINE Vector3 quarter_turn(const float* held, const Vector (&r)[9]) {
   const Vector faded = hn::Div(hn::Sub(w, set(kBendGone)), set(kBendFading - kBendGone));
   const Vector size = hn::Div(hn::Min(one, faded), hn::Mul(hn::Mul(root, quarter), hn::Mul(set(4), w)));
   const auto told = hn::Gt(w, set(kBendGone));  // false where a frame is not a number
-  const Vector3 v = scaled(twice, size);
+  const Vector3 v = scaled(size, twice);
   return {hn::IfThenElseZero(told, v.x), hn::IfThenElseZero(told, v.y), hn::IfThenElseZero(told, v.z)};
 }
 
@@ -46,7 +47,7 @@ HWY_INLINE Vector3 rotation_vector(const Vector3& v) {
   Vector sum = hn::Set(d, 63.0f / 1408);
   for (const float term : {35.0f / 576, 5.0f / 56, 3.0f / 20, 1.0f / 3, 2.0f})
     sum = hn::MulAdd(sum, s, hn::Set(d, term));
-  return scaled(v, sum);
+  return scaled(sum, v);
 }
 
 // R turned back by (v, w): R (1 + 2 w [b]x + 2 [b]x^2), b = -v.
@@ -54,8 +55,8 @@ HWY_INLINE void turn_frame_back(const Vector3& v, Vector (&r)[9]) {
   const Floats d;
   const Vector one = hn::Set(d, 1);
   const Vector w = hn::Sqrt(hn::Sub(one, dot(v, v)));
-  const Vector3 b = {hn::Neg(v.x), hn::Neg(v.y), hn::Neg(v.z)}, t = scaled(b, hn::Set(d, 2)),
-                wt = scaled(t, w);
+  const Vector3 b = {hn::Neg(v.x), hn::Neg(v.y), hn::Neg(v.z)}, t = scaled(hn::Set(d, 2), b),
+                wt = scaled(w, t);
   const Vector xx = hn::Mul(t.x, b.x), yy = hn::Mul(t.y, b.y), zz = hn::Mul(t.z, b.z);
   const Vector xy = hn::Mul(t.x, b.y), xz = hn::Mul(t.x, b.z), yz = hn::Mul(t.y, b.z);
   const Vector3 x = {hn::Sub(one, hn::Add(yy, zz)), hn::Add(xy, wt.z), hn::Sub(xz, wt.y)};  // columns

@@ -125,14 +125,15 @@ HWY_INLINE void sum_byte_gates(const LayerJob& job, const Heard& floats, const Q
   TileRows start = {job.bias + j, 0, 1};
   size_t start_step = p;
   if (floats.px.rows) {
-    const Term terms[] = {{floats.px.tile(tile, end), job.inputs, job.w_x, 4 * p},
-                          {job.w_s ? floats.x.tile(tile, end) : TileRows{}, job.inputs, job.w_s, 4 * p}};
+    const size_t block = 4 * j * job.inputs, row = 4 * kBlock;
+    const Term terms[] = {
+        {floats.px.tile(tile, end), job.inputs, job.w_x + block, row},
+        {job.w_s ? floats.x.tile(tile, end) : TileRows{}, job.inputs, job.w_s + (job.w_s ? block : 0), row}};
     const size_t count = job.w_s ? 2 : 1;
     for (size_t at = 0; at < 4 * kBlock; at += kWide * kLanes) {
       constexpr bool kGateAVector = kLanes == kBlock;
-      const size_t column = kGateAVector ? j : at / kBlock * p + j + at % kBlock;
-      multiply<kWide, 0>(
-          {{job.bias, 0, 1}, terms, count, kGateAVector ? p : kLanes, job.tile + at, 4 * kBlock}, column);
+      const TileRows bias = {job.bias + at / kBlock * p + j + at % kBlock, 0, 1};
+      multiply<kWide, 0>({bias, terms, count, kGateAVector ? p : kLanes, job.tile + at, row}, at);
     }
     start = {job.tile, 4 * kBlock, kTileRows};
     start_step = kBlock;

@@ -5,8 +5,7 @@
 #include <limits>
 #include <utility>
 
-// Sums are arrays of vectors, which scalable vectors cannot be: 64-bit Arm runs NEON.
-#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#include "simd/targets.hpp"
 #define HWY_TARGET_INCLUDE "simd/kernels.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
@@ -17,19 +16,11 @@
 #include <sys/auxv.h>
 #endif
 
-// Sums stay in registers only when the loops over them are gone.
-#ifndef SINEW_UNROLL
-#ifdef __clang__
-#define SINEW_UNROLL _Pragma("clang loop unroll(full)")
-#else
-#define SINEW_UNROLL _Pragma("GCC unroll 16")
-#endif
-#endif
-
 // In this order: each needs the ones before it.
 // clang-format off
 #include "simd/vectors-inl.hpp"
 #include "simd/state-inl.hpp"
+#include "simd/tanh-inl.hpp"
 #include "simd/activation-inl.hpp"
 #include "simd/aggregate-inl.hpp"
 #include "simd/product-inl.hpp"
@@ -42,6 +33,7 @@
 #include "simd/rows-inl.hpp"
 #include "simd/skin-inl.hpp"
 #include "simd/hold-inl.hpp"
+#include "simd/three-inl.hpp"
 #include "simd/vector3-inl.hpp"
 #include "simd/bend-inl.hpp"
 #include "simd/turn-inl.hpp"

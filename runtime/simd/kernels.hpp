@@ -46,10 +46,10 @@ struct Int8Layer {
 struct LayerJob {
   SparseRows graph{};
   uint32_t inputs = 0, channels = 0, padded = 0;  // F_in, F, F rounded up to kBlock
-  const float* w_x = nullptr;                     // [inputs][4][padded]
-  const float* w_s = nullptr;                     // [inputs][4][padded] or null
-  const float* w_h = nullptr;                     // [channels][4][padded]
-  const float* w_y = nullptr;                     // [channels][3][padded]
+  const float* w_x = nullptr;                     // [padded / 16][inputs][4][16]
+  const float* w_s = nullptr;                     // the same or null
+  const float* w_h = nullptr;                     // [padded / 16][channels][4][16]
+  const float* w_y = nullptr;                     // pack/weight_layout.hpp, peephole_at
   const float* bias = nullptr;                    // [4][padded]
   bool x_is_half = false, state_is_half = false;  // of x; of h, c and y, a hidden layer's only: else floats
   Int8Layer int8{};
@@ -192,7 +192,7 @@ struct Kernels {
   void (*warp)(const TurnJob& job);       // by the mean of exp([x turn]x), x from 0 to 1
   // Places, then row-major turns, of frames: 3 and 9 floats at each out_stride. root: row-major rotation.
   void (*pose_frames)(const SkinJob& job, const float* root);
-  // Of `count` floats, any count and alignment; NaN stays NaN. Maximum errors: simd/activation-inl.hpp.
+  // Of `count` floats, any count and alignment; NaN stays NaN. Maximum errors: simd/tanh-inl.hpp.
   void (*sigmoid)(const float* x, size_t count, float* out);
   void (*tanh)(const float* x, size_t count, float* out);
   const RodKernels* rods;

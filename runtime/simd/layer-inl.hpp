@@ -66,23 +66,22 @@ struct Heard {
 // [kTileRows][4][kBlock].
 HWY_INLINE void sum_gates(const LayerJob& job, const Heard& heard, uint32_t tile, uint32_t end, size_t j,
                           float* gates) {
-  const size_t p = job.padded;
+  const size_t p = job.padded, row = 4 * kBlock, inputs = job.inputs, channels = job.channels;
   Term terms[4];
   size_t count = 0;
-  terms[count++] = {heard.px.tile(tile, end), job.inputs, job.w_x, 4 * p};
-  if (job.w_s) terms[count++] = {heard.x.tile(tile, end), job.inputs, job.w_s, 4 * p};
-  terms[count++] = {heard.ph.tile(tile, end), job.channels, job.w_h, 4 * p};
-  terms[count] = {heard.py.tile(tile, end), job.channels, job.w_y, 3 * p};
-  Product product = {{job.bias, 0, 1}, terms, count, p, gates, 4 * kBlock};
+  terms[count++] = {heard.px.tile(tile, end), inputs, job.w_x + 4 * j * inputs, row};
+  if (job.w_s) terms[count++] = {heard.x.tile(tile, end), inputs, job.w_s + 4 * j * inputs, row};
+  terms[count++] = {heard.ph.tile(tile, end), channels, job.w_h + 4 * j * channels, row};
+  terms[count] = {heard.py.tile(tile, end), channels, job.w_y + 2 * j * channels, row / 2};
   if constexpr (kLanes == kBlock) {
-    multiply<4, 2>(product, j);
+    multiply<4, 2>({{job.bias + j, 0, 1}, terms, count, p, gates, row}, 0);
   } else {
-    product.step = kLanes;
-    for (size_t at = 0; at < 4 * kBlock; at += kWide * kLanes) {
-      const size_t gate = at / kBlock, column = gate * p + j + at % kBlock;
-      product.out = gates + at;
-      if (gate < 2) multiply<kWide, kWide>(product, column);
-      if (gate >= 2) multiply<kWide, 0>(product, column);
+    for (size_t at = 0; at < row; at += kWide * kLanes) {
+      const size_t gate = at / kBlock;
+      const TileRows bias = {job.bias + gate * p + j + at % kBlock, 0, 1};
+      const Product product = {bias, terms, count, kLanes, gates + at, row};
+      if (gate < 2) multiply<kWide, kWide>(product, at);
+      if (gate >= 2) multiply<kWide, 0>(product, at);
     }
   }
 }
@@ -176,12 +175,14 @@ template <size_t kVectors, class T>
 HWY_INLINE void output_columns(const LayerJob& job, Range range, const Plane& py, size_t j) {
   constexpr size_t kColumns = kVectors * kLanes;
   const size_t p = job.padded;
-  const Plane waiting = {job.output_gate + range.first * p, p};
+  const Plane waiting = {job.output_gate + range.first * p + j, p};
+  const size_t panel = j / pack::kPanel * pack::kPanel, width = HWY_MIN(size_t{pack::kPanel}, p - panel);
+  const float* w_o = job.w_y + (2 * p + panel) * job.channels + (j - panel);
   const T* c = static_cast<const T*>(job.c);
   T* h = static_cast<T*>(job.h);
   for (uint32_t tile = 0; tile < range.count; tile += kTileRows) {
-    const Term term = {py.tile(tile, range.count), job.channels, job.w_y + 2 * p, 3 * p};
-    multiply<kVectors, 0>({waiting.tile(tile, range.count), &term, 1, kLanes, job.tile, kColumns}, j);
+    const Term term = {py.tile(tile, range.count), job.channels, w_o, width};
+    multiply<kVectors, 0>({waiting.tile(tile, range.count), &term, 1, kLanes, job.tile, kColumns}, 0);
     for (uint32_t i = tile; i < HWY_MIN(tile + kTileRows, range.count); ++i) {
       const size_t at = (range.first + i) * p + j;
       update_hidden(job.tile + (i - tile) * kColumns, c + at, kColumns, h + at);

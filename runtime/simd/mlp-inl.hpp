@@ -87,7 +87,7 @@ HWY_INLINE void dense_columns(const MlpJob& job, const DenseStep& step, size_t p
       terms[t] = {tile_of(step.parts[t], 0, row, count), depth, w, width};
       w += depth * width;
     }
-    const TileRows start = tile_of(step.start, panel, row, count);
+    const TileRows start = tile_of(step.start, at, row, count);
     float* out = step.out ? step.out + tile * padded + at : job.scratch;
     const size_t stride = step.out ? padded : kColumns;
     multiply<kVectors, 0>({start, terms, step.part_count, kLanes, out, stride}, j);

@@ -103,7 +103,7 @@ HWY_INLINE void narrow_gates(const LayerJob& job, const Heard& heard, uint32_t c
     terms[terms_used++] = {heard.ph.tile(tile, count), job.channels, w_h, kRow};
     terms[terms_used++] = {heard.py.tile(tile, count), job.channels, w, kRow};
     const auto body = [&]<size_t kVectors>(size_t j) HWY_ATTR {
-      multiply<kVectors, 0>({{bias, 0, 1}, terms, terms_used, kLanes, gates + tile * kRow + j, kRow}, j);
+      multiply<kVectors, 0>({{bias + j, 0, 1}, terms, terms_used, kLanes, gates + tile * kRow + j, kRow}, j);
     };
     for_columns(kRow, body);
   }
@@ -160,9 +160,10 @@ HWY_INLINE void narrow_tile_output(const LayerJob& job, Range range, const Plane
   const Plane waiting = {job.output_gate + at, kBlock};
   const Plane cells = {static_cast<const float*>(job.c) + at, kBlock};
   const Plane hidden = {static_cast<const float*>(job.h) + at, kBlock};
-  const Term term = {py.tile(tile, range.count), job.channels, job.w_y + 2 * kBlock, 3 * kBlock};
+  const Term term = {py.tile(tile, range.count), job.channels, job.w_y + 2 * kBlock * job.channels, kBlock};
   const auto body = [&]<size_t kVectors>(size_t j) HWY_ATTR {
-    multiply<kVectors, 0>({waiting.tile(tile, range.count), &term, 1, kLanes, job.tile + j, kBlock}, j);
+    const Plane from = {waiting.rows + j, kBlock};
+    multiply<kVectors, 0>({from.tile(tile, range.count), &term, 1, kLanes, job.tile + j, kBlock}, j);
   };
   for_columns(kBlock, body);
   const TileRows c = cells.tile(tile, range.count), h = hidden.tile(tile, range.count);

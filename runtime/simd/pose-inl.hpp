@@ -15,15 +15,15 @@ HWY_INLINE Vector3 unit_or(const Vector3& v, const Vector3& otherwise) {
   const Floats d;
   const Vector length = hn::Sqrt(dot(v, v));
   const auto good = hn::Gt(length, hn::Set(d, 1e-6f));
-  return chosen(good, scaled(v, hn::Div(hn::Set(d, 1), length)), otherwise);
+  return choose(good, scaled(hn::Div(hn::Set(d, 1), length), v), otherwise);
 }
 
 // Any unit vector across x: in the plane of its two larger coordinates, nearly.
 HWY_INLINE Vector3 across(const Vector3& x) {
   const Vector none = hn::Zero(Floats());
   const auto steep = hn::Gt(hn::Abs(x.z), hn::Set(Floats(), 0.9f));
-  const Vector3 v = chosen(steep, {none, hn::Neg(x.z), x.y}, {hn::Neg(x.y), x.x, none});
-  return scaled(v, hn::Div(hn::Set(Floats(), 1), hn::Sqrt(dot(v, v))));
+  const Vector3 v = choose(steep, Vector3{none, hn::Neg(x.z), x.y}, Vector3{hn::Neg(x.y), x.x, none});
+  return scaled(hn::Div(hn::Set(Floats(), 1), hn::Sqrt(dot(v, v))), v);
 }
 
 // Columns 0 to 2 of row-major 3x4 matrices, number k in m[k].
@@ -31,14 +31,14 @@ HWY_INLINE Axes axes_of(const Vector (&m)[12]) {
   const Floats d;
   const Vector3 first = {hn::Set(d, 1), hn::Zero(d), hn::Zero(d)}, second = {m[1], m[5], m[9]};
   const Vector3 x = unit_or({m[0], m[4], m[8]}, first);
-  const Vector3 y = unit_or(scaled_and_added(x, hn::Neg(dot(x, second)), second), across(x));
+  const Vector3 y = unit_or(scaled_sum(hn::Neg(dot(x, second)), x, second), across(x));
   return {x, y, cross(x, y)};
 }
 
 HWY_INLINE Vector3 rotated(const float* root, const Vector3& v) {
   const auto row = [&](size_t r) HWY_ATTR {
     const Floats d;
-    return dot({hn::Set(d, root[r]), hn::Set(d, root[r + 1]), hn::Set(d, root[r + 2])}, v);
+    return dot(Vector3{hn::Set(d, root[r]), hn::Set(d, root[r + 1]), hn::Set(d, root[r + 2])}, v);
   };
   return {row(0), row(3), row(6)};
 }

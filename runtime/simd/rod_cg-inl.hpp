@@ -5,6 +5,10 @@
 // with W the inverse of mass and stiffened inertia. The matrix is applied, not stored; any tree. Its
 // condition grows with segments^4: for comparing, and for what a good start leaves to do. A strand that is
 // done stays as it is.
+//
+// An iteration ends where the residual r has r . P r <= cg_tolerance^2 (r . P r of the step's first system
+// from free motion without forces), P the inverse diagonal: not against the residual of the start it was
+// given, so that a better start has less to do and a perfect one nothing.
 HWY_BEFORE_NAMESPACE();
 namespace sinew::simd::HWY_NAMESPACE {
 
@@ -58,14 +62,14 @@ HWY_INLINE Six<typename G::V> by_mobility(const G& g, size_t i, const Six<typena
 template <class G>
 HWY_INLINE void add_impulse(const G& g, size_t i, size_t parent, const Six<typename G::V>& force) {
   using V = typename G::V;
-  const Four<V> p = g.get4(i, kRodBend);
+  const BendRows<V> c = bend_rows(g, i);
   const Six<V> a = six(g, parent, kCgBody), b = six(g, i, kCgBody);
   const Three<V> arm_a =
-      lever(g.get(parent, kRodHalfLength), g.get3(parent, kRodAxes), g.get3(parent, kRodAxes + 3), force.f);
-  const Three<V> arm_b =
-      lever(g.get(i, kRodHalfLength), g.get3(i, kRodAxes), g.get3(i, kRodAxes + 3), force.f);
-  set_six(g, parent, kCgBody, {a.f + force.f, (a.t + arm_a) - bend_by_child(p, force.t)});
-  set_six(g, i, kCgBody, {b.f - force.f, (b.t + arm_b) + bend_by_parent(p, force.t)});
+      lever(g.get(i, kRodParentArm), g.get3(parent, kRodAxes), g.get3(parent, kRodAxes + 3), force.f);
+  const Three<V> arm_b = lever(g.get(i, kRodArm), g.get3(i, kRodAxes), g.get3(i, kRodAxes + 3), force.f);
+  const Three<V> straight = scaled(c.w, force.t), bent = bent_times(c, force.t);
+  set_six(g, parent, kCgBody, {a.f + force.f, (a.t + arm_a) + (bent - straight)});
+  set_six(g, i, kCgBody, {b.f - force.f, (b.t + arm_b) + (bent + straight)});
 }
 
 // J of the bodies at a joint; nothing where both ends are given.
@@ -73,11 +77,11 @@ template <class G>
 HWY_INLINE Six<typename G::V> joint_change(const G& g, size_t i, size_t parent) {
   using V = typename G::V;
   const Six<V> a = six(g, parent, kCgBody), b = six(g, i, kCgBody);
-  const Four<V> p = g.get4(i, kRodBend);
+  const BendRows<V> c = bend_rows(g, i);
   const Three<V> at_a =
-      swing(g.get(parent, kRodHalfLength), g.get3(parent, kRodAxes), g.get3(parent, kRodAxes + 3), a.t);
-  const Three<V> at_b = swing(g.get(i, kRodHalfLength), g.get3(i, kRodAxes), g.get3(i, kRodAxes + 3), b.t);
-  return {(a.f - b.f) + (at_a + at_b), bend_by_child(p, b.t) - bend_by_parent(p, a.t)};
+      swing(g.get(i, kRodParentArm), g.get3(parent, kRodAxes), g.get3(parent, kRodAxes + 3), a.t);
+  const Three<V> at_b = swing(g.get(i, kRodArm), g.get3(i, kRodAxes), g.get3(i, kRodAxes + 3), b.t);
+  return {(a.f - b.f) + (at_a + at_b), scaled_sum(c.w, b.t - a.t, times_bent(c, a.t + b.t))};
 }
 
 template <class G>
@@ -108,8 +112,8 @@ HWY_INLINE Six<typename G::V> inverse_diagonal(const G& g, size_t i, size_t pare
   const Six<V> soft = joint_compliance(g, i);
   V diagonal[6] = {soft.f.x, soft.f.y, soft.f.z, soft.t.x, soft.t.y, soft.t.z};
   const Six<V> ones = {{one, one, one}, {one, one, one}};
-  const Four<V> p = g.get4(i, kRodBend);
-  const V a[3][3] = {{p.w, hn::Neg(p.z), p.y}, {p.z, p.w, hn::Neg(p.x)}, {hn::Neg(p.y), p.x, p.w}};
+  V a[3][3];
+  bend_matrix(bend_rows(g, i), a);
   for (const size_t s : {parent, i}) {
     const Six<V> w = by_mobility(g, s, ones);
     const V l = g.get(s, kRodHalfLength), k = hn::Mul(hn::Mul(l, l), w.t.x);
@@ -118,7 +122,7 @@ HWY_INLINE Six<typename G::V> inverse_diagonal(const G& g, size_t i, size_t pare
       const V z = g.get(s, kRodAxes + 6 + r);
       diagonal[r] = hn::Add(diagonal[r], hn::MulAdd(k, hn::NegMulAdd(z, z, one), w.f.x));
       for (size_t c = 0; c < 3; ++c) {
-        const V by = s == i ? a[r][c] : a[c][r];
+        const V by = a[r][c];
         diagonal[3 + r] = hn::MulAdd(hn::Mul(by, by), turn[c], diagonal[3 + r]);
       }
     }
@@ -186,13 +190,18 @@ HWY_INLINE typename G::V improve(const G& g, const RodJob& job, M active, typena
   return next;
 }
 
+// Below this share of what it starts from a residual is rounding. It ends what is measured by nothing: a
+// strand that free motion would leave as it is.
+inline constexpr float kCgRounding = 1e-6f;
+
 template <class G>
 HWY_INLINE void solve_gradient(const G& g, const RodJob& job) {
   using V = typename G::V;
   const hn::DFromV<V> d;
   const V one = hn::Set(d, 1), zero = hn::Zero(d);
   V energy = start_gradient(g, job);
-  const V enough = hn::Mul(hn::Set(d, job.cg_tolerance * job.cg_tolerance), energy);
+  const V enough = hn::Max(hn::Mul(hn::Set(d, job.cg_tolerance * job.cg_tolerance), g.lane(kLaneCgScale)),
+                           hn::Mul(hn::Set(d, kCgRounding * kCgRounding), energy));
   auto active = hn::And(hn::Gt(g.lane(kLaneActive), zero), hn::Gt(energy, enough));
   for (uint32_t k = 0; k < job.cg_iterations && !hn::AllFalse(d, active); ++k) {
     g.set_lane(kLaneCgIterations, hn::Add(g.lane(kLaneCgIterations), hn::IfThenElseZero(active, one)));
@@ -215,6 +224,17 @@ HWY_INLINE typename G::V change_bodies(const G& g, const RodJob& job) {
     largest = hn::Max(largest, dot(change.t, change.t));
   }
   return largest;
+}
+
+template <size_t kWidth>
+void rod_measure_cg(const RodJob& job) {
+  for_lanes<kWidth>(job, [&](const auto& g) HWY_ATTR {
+    const LanesOf<kWidth> d;
+    for (size_t i = 0; i < job.segments; ++i) start_iterate(g, i, hn::Zero(d));
+    linearise(g, job);
+    g.set_lane(kLaneCgScale, start_gradient(g, job));
+    for (size_t i = 0; i < job.segments; ++i) start_iterate(g, i, start_square(d, job));
+  });
 }
 
 template <size_t kWidth>

@@ -17,8 +17,9 @@ constexpr size_t triangle(size_t row, size_t column) { return row * (row + 1) / 
 // Below this share of its diagonal a pivot is rounding.
 inline constexpr float kLeastPivot = 2e-7f;
 // Given to the matrix, not to the equations, where a joint's child is held: what is held twice may have no
-// answer, and otherwise a few more iterations find it.
-inline constexpr float kHeldCompliance = 1e-3f;
+// answer, and otherwise a few more iterations find it. Bend always has one, and asks only for a number above
+// zero: a stiff rod behind a softer joint would take its pose in hundreds of iterations.
+inline constexpr float kHeldCompliance = 1e-3f, kHeldBendCompliance = 1e-7f;
 
 // A symmetric 6x6 by its lower triangle; after factorise() L below D^-1.
 template <class V>
@@ -110,10 +111,13 @@ HWY_INLINE void start_segment(const G& g, size_t i) {
   }
 }
 
-// A = w + [p]x, the derivative of bend by the child's rotation; minus its transpose that by the parent's.
+// A = w + C, how bend changes with the child's rotation; by the parent's off its diagonal the same, on it
+// minus.
 template <class V>
-HWY_INLINE void bend_matrix(const Four<V>& p, V (&a)[3][3]) {
-  const V out[3][3] = {{p.w, hn::Neg(p.z), p.y}, {p.z, p.w, hn::Neg(p.x)}, {hn::Neg(p.y), p.x, p.w}};
+HWY_INLINE void bend_matrix(const BendRows<V>& c, V (&a)[3][3]) {
+  const V out[3][3] = {{c.w, hn::Neg(c.bent.z), c.bent.y},
+                       {c.bent.z, c.w, hn::Neg(c.bent.x)},
+                       {hn::Neg(c.twist_y), c.twist_x, c.w}};
   SINEW_UNROLL
   for (size_t r = 0; r < 3; ++r) {
     SINEW_UNROLL
@@ -121,11 +125,10 @@ HWY_INLINE void bend_matrix(const Four<V>& p, V (&a)[3][3]) {
   }
 }
 
-// Rows of rotation of J^T's stretch columns: -l y and l x.
+// Rows of rotation of J^T's stretch columns: -l y and l x of a segment.
 template <class G>
-HWY_INLINE void lever_rows(const G& g, size_t i, typename G::V (&by_x)[3], typename G::V (&by_y)[3]) {
-  using V = typename G::V;
-  const V l = g.get(i, kRodHalfLength);
+HWY_INLINE void lever_rows(const G& g, size_t i, typename G::V l, typename G::V (&by_x)[3],
+                           typename G::V (&by_y)[3]) {
   SINEW_UNROLL
   for (size_t k = 0; k < 3; ++k) {
     by_x[k] = hn::Neg(hn::Mul(l, g.get(i, kRodAxes + 3 + k)));
@@ -143,7 +146,7 @@ HWY_INLINE void joint_through_child(const G& g, size_t i, const Block<typename G
   const hn::DFromV<V> d;
   const V zero = hn::Zero(d), one = hn::Set(d, 1), free = g.get(i, kRodFree);
   V by_x[3], by_y[3], x[6][6];  // x[column] = L^-1 J_b^T, columns of bend zero in the rows of place
-  lever_rows(g, i, by_x, by_y);
+  lever_rows(g, i, g.get(i, kRodArm), by_x, by_y);
   SINEW_UNROLL
   for (size_t c = 0; c < 3; ++c) {
     SINEW_UNROLL
@@ -162,7 +165,12 @@ HWY_INLINE void joint_through_child(const G& g, size_t i, const Block<typename G
   V inverse[6];
   SINEW_UNROLL
   for (size_t k = 0; k < 6; ++k) inverse[k] = hn::Mul(free, s.at[triangle(k, k)]);
-  const V held = hn::Mul(hn::Set(d, kHeldCompliance), hn::Sub(one, free));
+  const V held = hn::Sub(one, free);
+  const V stretch = hn::MulAdd(hn::Set(d, kHeldCompliance), held, g.get(i, kRodStepCompliance));
+  const V held_bend = hn::Mul(hn::Set(d, kHeldBendCompliance), held);
+  const V bend = hn::Add(held_bend, g.get(i, kRodStepCompliance + 1));
+  const V twist = hn::Add(held_bend, g.get(i, kRodStepCompliance + 2));
+  const V diagonal[6] = {stretch, stretch, stretch, bend, bend, twist};
   SINEW_UNROLL
   for (size_t r = 0; r < 6; ++r) {
     const size_t from = r < 3 ? 0 : 3;
@@ -171,7 +179,7 @@ HWY_INLINE void joint_through_child(const G& g, size_t i, const Block<typename G
     for (size_t k = from; k < 6; ++k) scaled_row[k] = hn::Mul(inverse[k], x[r][k]);
     SINEW_UNROLL
     for (size_t c = 0; c <= r; ++c) {
-      V sum = r == c ? hn::Add(held, g.get(i, kRodStepCompliance + (r < 3 ? 0 : r < 5 ? 1 : 2))) : zero;
+      V sum = r == c ? diagonal[r] : zero;
       SINEW_UNROLL
       for (size_t k = from; k < 6; ++k) sum = hn::MulAdd(scaled_row[k], x[c][k], sum);
       t->at[triangle(r, c)] = sum;
@@ -186,20 +194,20 @@ HWY_INLINE void joint_through_child(const G& g, size_t i, const Block<typename G
 // K = J_a^T T^-1 J_a and J_a^T T^-1 (right side) added to the parent; T comes factorised, u is L^-1 (right
 // side).
 template <class G>
-HWY_INLINE void add_to_parent(const G& g, size_t parent, const Block<typename G::V>& t,
+HWY_INLINE void add_to_parent(const G& g, size_t i, size_t parent, const Block<typename G::V>& t,
                               const typename G::V (&u)[6], const typename G::V (&a)[3][3]) {
   using V = typename G::V;
   const hn::DFromV<V> d;
   const V zero = hn::Zero(d), one = hn::Set(d, 1);
   V by_x[3], by_y[3], y[6][6];  // y[column] = L^-1 J_a
-  lever_rows(g, parent, by_x, by_y);
+  lever_rows(g, parent, g.get(i, kRodParentArm), by_x, by_y);
   SINEW_UNROLL
   for (size_t c = 0; c < 3; ++c) {
     SINEW_UNROLL
     for (size_t r = 0; r < 3; ++r) {
       y[c][r] = r == c ? one : zero;
       y[c][3 + r] = zero;
-      y[3 + c][3 + r] = hn::Neg(a[c][r]);
+      y[3 + c][3 + r] = r == c ? hn::Neg(a[r][c]) : a[r][c];
     }
     forward(t, y[c]);
   }
@@ -245,13 +253,13 @@ HWY_INLINE void eliminate_segment(const G& g, size_t i, size_t parent) {
   forward(s, z);
   set_block(g, i, kRodInertiaFactor, s);
   set_six(g, i, kRodImpulse, z);
-  bend_matrix(g.get4(i, kRodBend), a);
+  bend_matrix(bend_rows(g, i), a);
   joint_through_child(g, i, s, z, a, &t, right);
   factorise(&t);
   forward(t, right);
   set_block(g, i, kRodJointFactor, t);
   set_six(g, i, kRodMiss, right);
-  add_to_parent(g, parent, t, right, a);
+  add_to_parent(g, i, parent, t, right, a);
 }
 
 // delta x of a segment from z + L^-1 (added impulse); returns the square of its turn.
@@ -275,11 +283,11 @@ template <class G>
 HWY_INLINE typename G::V substitute(const G& g, size_t i, size_t parent) {
   using V = typename G::V;
   const Block<V> t = get_block(g, i, kRodJointFactor);
-  const Four<V> p = g.get4(i, kRodBend);
+  const BendRows<V> c = bend_rows(g, i);
   const Three<V> move = g.get3(parent, kRodImpulse), turn = g.get3(parent, kRodImpulse + 3);
-  const Three<V> stretch = move + swing(g.get(parent, kRodHalfLength), g.get3(parent, kRodAxes),
-                                        g.get3(parent, kRodAxes + 3), turn);
-  const Three<V> bend = bend_by_parent(p, turn);
+  const Three<V> stretch =
+      move + swing(g.get(i, kRodParentArm), g.get3(parent, kRodAxes), g.get3(parent, kRodAxes + 3), turn);
+  const Three<V> bend = scaled(c.w, turn) - times_bent(c, turn);
   V x[6] = {stretch.x, stretch.y, stretch.z, hn::Neg(bend.x), hn::Neg(bend.y), hn::Neg(bend.z)};
   forward(t, x);
   SINEW_UNROLL
@@ -288,9 +296,9 @@ HWY_INLINE typename G::V substitute(const G& g, size_t i, size_t parent) {
   }
   backward(t, x);
   set_six(g, i, kRodMiss, x);
-  const Three<V> force = {x[0], x[1], x[2]};
-  const Three<V> arm = lever(g.get(i, kRodHalfLength), g.get3(i, kRodAxes), g.get3(i, kRodAxes + 3), force) +
-                       bend_by_parent(p, Three<V>{x[3], x[4], x[5]});
+  const Three<V> force = {x[0], x[1], x[2]}, moment = {x[3], x[4], x[5]};
+  const Three<V> arm = lever(g.get(i, kRodArm), g.get3(i, kRodAxes), g.get3(i, kRodAxes + 3), force) +
+                       scaled_sum(c.w, moment, bent_times(c, moment));
   V impulse[6] = {hn::Neg(force.x), hn::Neg(force.y), hn::Neg(force.z), arm.x, arm.y, arm.z};
   return solve_segment(g, i, impulse);
 }

@@ -4,10 +4,12 @@
 // of them and the joint to its parent; segment 0 is the root and has no joint. Units are a strand's own: its
 // mean segment's length and mass, and seconds; joints' forces and compliances are kept free of the time
 // step's length. Positions are two floats, whose sum is exact to 1e-14 of what it measures. A segment's own z
-// axis runs from its parent's end to its own.
+// axis runs from its beginning to its end.
 #pragma once
 #include <cstddef>
 #include <cstdint>
+
+#include "simd/rod_start_job.hpp"
 
 namespace sinew::simd {
 
@@ -29,7 +31,11 @@ enum RodField : uint32_t {
   kRodTwistCompliance,
   kRodDamping,  // s: force by rate of strain over force by strain
   kRodTied,     // 1 where both ends' poses are given: the joint does nothing
-  kRodRest,     // [3] 2 Im(conj(q_parent) q) at rest
+  // Half lengths along z from the parent's middle to the joint and from the joint to this one's; both are
+  // negative where the rod was listed from its other end.
+  kRodParentArm,
+  kRodArm,
+  kRodRest,  // [3] 2 Im(conj(q_parent) q) at rest
   // What goes from step to step.
   kRodForce = kRodRest + 3,         // [3]
   kRodTarget = kRodForce + 3,       // [3] where the pose is given: displacement of the coming step
@@ -65,17 +71,22 @@ enum RodField : uint32_t {
   kRodMiss = kRodImpulse + 6,                // [6] constraint residual; then the change of the joint's force
   kRodInertiaFactor = kRodMiss + 6,          // [21] of the segment with all that hangs on it
   kRodJointFactor = kRodInertiaFactor + 21,  // [21]
-  kRodFields = kRodJointFactor + 21
+  kRodLastTurn = kRodJointFactor + 21,       // [3] rotation that the iteration before asked for
+  kRodFields = kRodLastTurn + 3
 };
 
 // Rows of `width` floats of the group itself.
 enum RodLaneField : uint32_t {
   kLaneGravity = 0,                // [3]
   kLaneActive = kLaneGravity + 3,  // 1 while a strand is not converged, 0 afterwards and where there is none
-  kLaneHeldMiss,                   // largest gap squared at joints whose child's pose is given
+  kLaneHeldMiss,                   // largest gap or bend squared left at joints whose child's pose is given
+  kLaneShare,                      // of its change that the iteration before took
   kLaneIterations,
   kLaneCgIterations,
-  kLaneBroken,  // 1 where a step left something that is not finite
+  kLaneCgScale,     // what kCg's residuals are measured by, squared: its zero start's first
+  kLaneKnownSteps,  // how many of the last steps' results a start may use, at most kRodStartKnown + 1
+  kLaneResidual,    // what residual() found
+  kLaneBroken,      // 1 where a step left something that is not finite
   kLaneFields
 };
 
@@ -88,17 +99,24 @@ struct RodJob {
   float dt_s;
   float tolerance_rad;     // converged: no segment turned more in an iteration
   bool start_from_zero;    // else from kRodStart*
-  float cg_tolerance;      // of the residual's preconditioned norm against its first
+  float cg_tolerance;      // of the residual's preconditioned norm against kLaneCgScale's
   uint32_t cg_iterations;  // at most, of one linear system
+  uint32_t local_sweeps;   // of one linear system
 };
 
 // For one width of a group. All calls work on every lane; a lane's numbers do not depend on its neighbours'.
 struct RodCalls {
+  RodStartCalls start;
   // Where segments go without joints, and the first iterate.
   void (*predict)(const RodJob& job);
+  // Before the first iteration of cg: fills kLaneCgScale. The first iterate stays.
+  void (*measure_cg)(const RodJob& job);
   // One Newton iteration. Returns how many lanes are not converged.
   uint32_t (*direct)(const RodJob& job);
   uint32_t (*cg)(const RodJob& job);
+  uint32_t (*local)(const RodJob& job);
+  // Fills kLaneResidual; the iterate stays.
+  void (*residual)(const RodJob& job);
   // Takes the iterate over as the new state.
   void (*finish)(const RodJob& job);
 };

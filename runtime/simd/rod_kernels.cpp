@@ -1,36 +1,41 @@
 // rod_kernels.cpp  Compiles the rod kernels once an instruction set; kernels.cpp puts them into its tables.
 #include "simd/rod_job.hpp"
-
-// As in kernels.cpp.
-#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#include "simd/targets.hpp"
 #define HWY_TARGET_INCLUDE "simd/rod_kernels.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
-#ifndef SINEW_UNROLL
-#ifdef __clang__
-#define SINEW_UNROLL _Pragma("clang loop unroll(full)")
-#else
-#define SINEW_UNROLL _Pragma("GCC unroll 16")
-#endif
-#endif
-
 // In this order: each needs the ones before it.
 // clang-format off
+#include "simd/three-inl.hpp"
 #include "simd/rod_lanes-inl.hpp"
 #include "simd/rod_step-inl.hpp"
+#include "simd/rod_relax-inl.hpp"
 #include "simd/rod_linearise-inl.hpp"
+#include "simd/rod_residual-inl.hpp"
 #include "simd/rod_direct-inl.hpp"
 #include "simd/rod_cg-inl.hpp"
+#include "simd/rod_local-inl.hpp"
+#include "simd/tanh-inl.hpp"
+#include "simd/rod_start-inl.hpp"
+#include "simd/rod_learned-inl.hpp"
+#include "simd/rod_knn-inl.hpp"
 // clang-format on
 
 namespace sinew::simd::HWY_NAMESPACE {
 
 template <size_t kWidth>
 constexpr RodCalls rod_calls() {
-  return {.predict = rod_predict<kWidth>,
+  return {.start = {.continue_start = rod_continue<kWidth>,
+                    .add_network = rod_add_network<kWidth>,
+                    .add_nearest = rod_add_nearest<kWidth>,
+                    .encode_joints = rod_encode_joints<kWidth>},
+          .predict = rod_predict<kWidth>,
+          .measure_cg = rod_measure_cg<kWidth>,
           .direct = rod_direct<kWidth>,
           .cg = rod_cg<kWidth>,
+          .local = rod_local<kWidth>,
+          .residual = rod_residual<kWidth>,
           .finish = rod_finish<kWidth>};
 }
 

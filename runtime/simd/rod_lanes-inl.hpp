@@ -1,50 +1,13 @@
-// rod_lanes-inl.hpp  Three-vectors and quaternions of many strands at once, and a group's records.
+// rod_lanes-inl.hpp  Quaternions of many strands at once, and a group's records.
 //
 // As all of rod_*-inl.hpp, included by rod_kernels.cpp alone, once a target: no include guard.
 HWY_BEFORE_NAMESPACE();
 namespace sinew::simd::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
-template <class V>
-struct Three {
-  V x, y, z;
-};
 template <class V>
 struct Four {  // a quaternion
   V x, y, z, w;
 };
 
-template <class V>
-HWY_INLINE Three<V> operator+(const Three<V>& a, const Three<V>& b) {
-  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
-}
-template <class V>
-HWY_INLINE Three<V> operator-(const Three<V>& a, const Three<V>& b) {
-  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-template <class V>
-HWY_INLINE Three<V> scaled(V s, const Three<V>& a) {
-  return {hn::Mul(s, a.x), hn::Mul(s, a.y), hn::Mul(s, a.z)};
-}
-// s a + b
-template <class V>
-HWY_INLINE Three<V> scaled_sum(V s, const Three<V>& a, const Three<V>& b) {
-  return {hn::MulAdd(s, a.x, b.x), hn::MulAdd(s, a.y, b.y), hn::MulAdd(s, a.z, b.z)};
-}
-// b - s a
-template <class V>
-HWY_INLINE Three<V> less_scaled(V s, const Three<V>& a, const Three<V>& b) {
-  return {hn::NegMulAdd(s, a.x, b.x), hn::NegMulAdd(s, a.y, b.y), hn::NegMulAdd(s, a.z, b.z)};
-}
-template <class V>
-HWY_INLINE V dot(const Three<V>& a, const Three<V>& b) {
-  return hn::MulAdd(a.z, b.z, hn::MulAdd(a.y, b.y, hn::Mul(a.x, b.x)));
-}
-template <class V>
-HWY_INLINE Three<V> cross(const Three<V>& a, const Three<V>& b) {
-  return {hn::NegMulAdd(a.z, b.y, hn::Mul(a.y, b.z)), hn::NegMulAdd(a.x, b.z, hn::Mul(a.z, b.x)),
-          hn::NegMulAdd(a.y, b.x, hn::Mul(a.x, b.y))};
-}
 template <class V>
 HWY_INLINE Three<V> vector_part(const Four<V>& q) {
   return {q.x, q.y, q.z};
@@ -52,6 +15,11 @@ HWY_INLINE Three<V> vector_part(const Four<V>& q) {
 template <class V>
 HWY_INLINE Four<V> scaled(V s, const Four<V>& q) {
   return {hn::Mul(s, q.x), hn::Mul(s, q.y), hn::Mul(s, q.z), hn::Mul(s, q.w)};
+}
+template <class V>
+HWY_INLINE Four<V> choose(hn::Mask<hn::DFromV<V>> mask, const Four<V>& yes, const Four<V>& no) {
+  const Three<V> part = choose(mask, vector_part(yes), vector_part(no));
+  return {part.x, part.y, part.z, hn::IfThenElse(mask, yes.w, no.w)};
 }
 
 template <class V>

@@ -8,17 +8,18 @@
 // the implicit Euler step in its mixed form: whatever the iteration starts from, where it ends does not
 // depend on it. One iteration solves
 //   M delta x - J^T delta(f, t) = -g,   J delta x + alpha delta(f, t) = -(C + alpha (f, t))
-// with g the momentum residual and M mass and inertia. To the inertia about x and y is added the part of the
-// geometric stiffness that tension makes, sum max(0, l f.z) over the segment's two ends; to the inertia about
-// z a bound of what bent joints' moments make of a roll, sum |t_xy| |p_xy|. Two numbers a segment, positive,
-// M stays diagonal; without the first soft rods do not converge, without the second those that bend stiffly
-// and twist softly.
+// with g the momentum residual and M mass and inertia. What the second derivative of the constraints adds,
+// the geometric stiffness, would be indefinite blocks between segments. Taken of it is
+//   of tension  sum max(0, l f.z) over the segment's two ends, added to the inertia about x and y: without it
+//               soft rods do not converge;
+//   of moments  -t.(phi_a x phi_b)/2, the torque that turns along with both segments, put into J: in the
+//               matrix C_bend changes as w (phi_b - phi_a) + (p + alpha t/4) x (phi_a + phi_b), and the
+//               moment by t x (phi_a + phi_b)/4 more than solved for. What is thereby left out is negative.
+//               Without it rods that bend stiffly and twist softly do not converge: alpha t/4 of twist is
+//               then many times p.
+// M stays diagonal, and J as full as it was.
 HWY_BEFORE_NAMESPACE();
 namespace sinew::simd::HWY_NAMESPACE {
-
-// Of moment times bend, to the inertia about z. Half is what a segment needs whose joint bends by gravity
-// alone.
-inline constexpr float kRollStiffness = 1;
 
 // A v and A^T v with A = w + [p]x of the relative orientation: how C_bend changes with b's and, negative,
 // with a's rotation.
@@ -29,6 +30,38 @@ HWY_INLINE Three<V> bend_by_child(const Four<V>& p, const Three<V>& v) {
 template <class V>
 HWY_INLINE Three<V> bend_by_parent(const Four<V>& p, const Three<V>& v) {
   return scaled_sum(p.w, v, cross(v, vector_part(p)));
+}
+
+// How C_bend changes in the matrix: w + C by the child's rotation, C - w by the parent's, with the rows of C
+// those of [bent]x but for the last, of twist, which has its own x and y.
+template <class V>
+struct BendRows {
+  V w;
+  Three<V> bent;
+  V twist_x, twist_y;
+};
+template <class G>
+HWY_INLINE BendRows<typename G::V> bend_rows(const G& g, size_t i) {
+  using V = typename G::V;
+  const V quarter = hn::Set(hn::DFromV<V>(), 0.25f);
+  const Four<V> p = g.get4(i, kRodBend);
+  const Three<V> t = scaled(quarter, g.get3(i, kRodForceNow + 3));
+  const V twist = g.get(i, kRodStepCompliance + 2);
+  return {p.w, scaled_sum(g.get(i, kRodStepCompliance + 1), t, vector_part(p)), hn::MulAdd(twist, t.x, p.x),
+          hn::MulAdd(twist, t.y, p.y)};
+}
+// C v and C^T v.
+template <class V>
+HWY_INLINE Three<V> times_bent(const BendRows<V>& c, const Three<V>& v) {
+  return {hn::NegMulAdd(c.bent.z, v.y, hn::Mul(c.bent.y, v.z)),
+          hn::NegMulAdd(c.bent.x, v.z, hn::Mul(c.bent.z, v.x)),
+          hn::NegMulAdd(c.twist_y, v.x, hn::Mul(c.twist_x, v.y))};
+}
+template <class V>
+HWY_INLINE Three<V> bent_times(const BendRows<V>& c, const Three<V>& v) {
+  return {hn::NegMulAdd(c.twist_y, v.z, hn::Mul(c.bent.z, v.y)),
+          hn::NegMulAdd(c.bent.z, v.x, hn::Mul(c.twist_x, v.z)),
+          hn::NegMulAdd(c.bent.x, v.y, hn::Mul(c.bent.y, v.x))};
 }
 
 // What a force at distance l along z does to the segment's rotation, and how that point moves with it.
@@ -61,10 +94,9 @@ HWY_INLINE void linearise_segment(const G& g, size_t i) {
 }
 
 template <class G>
-HWY_INLINE void stiffen(const G& g, size_t i, typename G::V tension, typename G::V moment) {
+HWY_INLINE void stiffen(const G& g, size_t i, typename G::V tension) {
   using V = typename G::V;
   g.set(i, kRodStiffened, hn::Add(g.get(i, kRodStiffened), hn::Max(tension, hn::Zero(hn::DFromV<V>()))));
-  g.set(i, kRodStiffened + 1, hn::Add(g.get(i, kRodStiffened + 1), moment));
 }
 
 template <class G>
@@ -74,7 +106,7 @@ HWY_INLINE void linearise_joint(const G& g, size_t i, size_t parent) {
   const V two = hn::Set(d, 2);
   const Four<V> p = relative(g.get4(parent, kRodNow), g.get4(i, kRodNow));
   g.set4(i, kRodBend, p);
-  const V l_a = g.get(parent, kRodHalfLength), l_b = g.get(i, kRodHalfLength);
+  const V l_a = g.get(i, kRodParentArm), l_b = g.get(i, kRodArm);
   const Three<V> z_a = g.get3(parent, kRodAxes + 6), z_b = g.get3(i, kRodAxes + 6);
   const Three<V> f = g.get3(i, kRodForceNow), t = g.get3(i, kRodForceNow + 3);
   const Three<V> gap = g.get3(i, kRodGap) + (g.get3(parent, kRodMove) - g.get3(i, kRodMove));
@@ -82,22 +114,22 @@ HWY_INLINE void linearise_joint(const G& g, size_t i, size_t parent) {
   const V bend_compliance = g.get(i, kRodStepCompliance + 1);
   const Three<V> miss = scaled_sum(g.get(i, kRodStepCompliance), f, stretch);
   g.set3(i, kRodMiss, miss);
-  const V works = hn::Sub(hn::Set(d, 1), hn::Max(g.get(i, kRodFree), g.get(i, kRodTied)));
-  g.set_lane(kLaneHeldMiss, hn::Max(g.lane(kLaneHeldMiss), hn::Mul(works, dot(miss, miss))));
   const Three<V> bend = scaled(two, vector_part(p)) - g.get3(i, kRodStepRest);
-  g.set(i, kRodMiss + 3, hn::MulAdd(bend_compliance, t.x, bend.x));
-  g.set(i, kRodMiss + 4, hn::MulAdd(bend_compliance, t.y, bend.y));
-  g.set(i, kRodMiss + 5, hn::MulAdd(g.get(i, kRodStepCompliance + 2), t.z, bend.z));
+  const Three<V> bend_miss = {hn::MulAdd(bend_compliance, t.x, bend.x),
+                              hn::MulAdd(bend_compliance, t.y, bend.y),
+                              hn::MulAdd(g.get(i, kRodStepCompliance + 2), t.z, bend.z)};
+  g.set3(i, kRodMiss + 3, bend_miss);
+  const V works = hn::Sub(hn::Set(d, 1), hn::Max(g.get(i, kRodFree), g.get(i, kRodTied)));
+  const V held_miss = hn::Max(dot(miss, miss), dot(bend_miss, bend_miss));
+  g.set_lane(kLaneHeldMiss, hn::Max(g.lane(kLaneHeldMiss), hn::Mul(works, held_miss)));
   const Three<V> lever_a = lever(l_a, g.get3(parent, kRodAxes), g.get3(parent, kRodAxes + 3), f);
   const Three<V> lever_b = lever(l_b, g.get3(i, kRodAxes), g.get3(i, kRodAxes + 3), f);
   g.set3(parent, kRodImpulse, g.get3(parent, kRodImpulse) - f);
   g.set3(parent, kRodImpulse + 3, (g.get3(parent, kRodImpulse + 3) - lever_a) + bend_by_child(p, t));
   g.set3(i, kRodImpulse, g.get3(i, kRodImpulse) + f);
   g.set3(i, kRodImpulse + 3, (g.get3(i, kRodImpulse + 3) - lever_b) - bend_by_parent(p, t));
-  const V moment = hn::MulAdd(t.y, t.y, hn::Mul(t.x, t.x)), bent = hn::MulAdd(p.y, p.y, hn::Mul(p.x, p.x));
-  const V roll = hn::Mul(hn::Set(d, kRollStiffness), hn::Sqrt(hn::Mul(moment, bent)));
-  stiffen(g, parent, hn::Mul(l_a, dot(f, z_a)), roll);
-  stiffen(g, i, hn::Mul(l_b, dot(f, z_b)), roll);
+  stiffen(g, parent, hn::Mul(l_a, dot(f, z_a)));
+  stiffen(g, i, hn::Mul(l_b, dot(f, z_b)));
 }
 
 template <class G>
@@ -105,6 +137,32 @@ HWY_INLINE void linearise(const G& g, const RodJob& job) {
   g.set_lane(kLaneHeldMiss, hn::Zero(hn::DFromV<typename G::V>()));
   for (size_t i = 0; i < job.segments; ++i) linearise_segment(g, i);
   for (size_t i = 1; i < job.segments; ++i) linearise_joint(g, i, job.parents[i]);
+}
+
+// Moments turn along with both segments.
+template <class G>
+HWY_INLINE void turn_moments(const G& g, size_t i, size_t parent) {
+  using V = typename G::V;
+  const Three<V> turns = g.get3(parent, kRodImpulse + 3) + g.get3(i, kRodImpulse + 3);
+  const V quarter = hn::Set(hn::DFromV<V>(), 0.25f);
+  g.set3(i, kRodMiss + 3,
+         scaled_sum(quarter, cross(g.get3(i, kRodForceNow + 3), turns), g.get3(i, kRodMiss + 3)));
+}
+
+template <class G>
+HWY_INLINE void change_segment(const G& g, size_t i, hn::Mask<hn::DFromV<typename G::V>> active,
+                               typename G::V share) {
+  using V = typename G::V;
+  const auto moves = hn::And(active, g.free(i));
+  const Three<V> move = scaled_sum(share, g.get3(i, kRodImpulse), g.get3(i, kRodMove));
+  const Four<V> q = g.get4(i, kRodNow);
+  g.set3(i, kRodMove, choose(moves, move, g.get3(i, kRodMove)));
+  g.set4(i, kRodNow, choose(moves, turned(q, scaled(share, g.get3(i, kRodImpulse + 3))), q));
+  for (uint32_t k = 0; i > 0 && k < 6; ++k) {
+    const V force = g.get(i, kRodForceNow + k);
+    const V changed = hn::MulAdd(share, g.get(i, kRodMiss + k), force);
+    g.set(i, kRodForceNow + k, hn::IfThenElse(active, changed, force));
+  }
 }
 
 // Takes the changes in kRodImpulse and kRodMiss over, shortened where a segment would turn too far; strands
@@ -116,23 +174,19 @@ HWY_INLINE uint32_t apply_changes(const G& g, const RodJob& job, typename G::V l
   const V zero = hn::Zero(d), one = hn::Set(d, 1), most = hn::Set(d, kRodLargestTurn_rad);
   const auto active = hn::Gt(g.lane(kLaneActive), zero);
   const V turn = hn::Sqrt(largest_square);
-  const V share = hn::Div(most, hn::Max(most, turn));
-  for (size_t i = 0; i < job.segments; ++i) {
-    const auto moves = hn::And(active, g.free(i));
-    const Three<V> move = scaled_sum(share, g.get3(i, kRodImpulse), g.get3(i, kRodMove));
-    const Four<V> q = g.get4(i, kRodNow);
-    g.set3(i, kRodMove, choose(moves, move, g.get3(i, kRodMove)));
-    g.set4(i, kRodNow, choose(moves, turned(q, scaled(share, g.get3(i, kRodImpulse + 3))), q));
-    for (uint32_t k = 0; i > 0 && k < 6; ++k) {
-      const V force = g.get(i, kRodForceNow + k);
-      g.set(i, kRodForceNow + k,
-            hn::IfThenElse(active, hn::MulAdd(share, g.get(i, kRodMiss + k), force), force));
-    }
-  }
-  g.set_lane(kLaneIterations, hn::Add(g.lane(kLaneIterations), hn::IfThenElseZero(active, one)));
   // Also false where the turn is not a number: finish() reports that strand.
   const V left = hn::Max(turn, hn::Sqrt(g.lane(kLaneHeldMiss)));
   const auto goes_on = hn::And(active, hn::Gt(left, hn::Set(d, job.tolerance_rad)));
+  V share = one;
+  if (!hn::AllFalse(d, goes_on)) {
+    share = relaxation(g, job, goes_on);
+    for (size_t i = 0; i < job.segments; ++i) g.set3(i, kRodLastTurn, g.get3(i, kRodImpulse + 3));
+  }
+  share = hn::Div(hn::Mul(share, most), hn::Max(most, hn::Mul(share, turn)));
+  for (size_t i = 1; i < job.segments; ++i) turn_moments(g, i, job.parents[i]);
+  for (size_t i = 0; i < job.segments; ++i) change_segment(g, i, active, share);
+  g.set_lane(kLaneShare, share);
+  g.set_lane(kLaneIterations, hn::Add(g.lane(kLaneIterations), hn::IfThenElseZero(active, one)));
   g.set_lane(kLaneActive, hn::IfThenElseZero(goes_on, one));
   return static_cast<uint32_t>(hn::CountTrue(d, goes_on));
 }

@@ -41,17 +41,6 @@ HWY_INLINE Four<V> rotation_by(const Three<V>& turn) {
   return {part.x, part.y, part.z, cosine(square)};
 }
 
-template <class V>
-HWY_INLINE Three<V> choose(hn::Mask<hn::DFromV<V>> mask, const Three<V>& yes, const Three<V>& no) {
-  return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y),
-          hn::IfThenElse(mask, yes.z, no.z)};
-}
-template <class V>
-HWY_INLINE Four<V> choose(hn::Mask<hn::DFromV<V>> mask, const Four<V>& yes, const Four<V>& no) {
-  const Three<V> part = choose(mask, vector_part(yes), vector_part(no));
-  return {part.x, part.y, part.z, hn::IfThenElse(mask, yes.w, no.w)};
-}
-
 template <class G>
 HWY_INLINE void predict_move(const G& g, size_t i, typename G::V h) {
   using V = typename G::V;
@@ -101,7 +90,7 @@ HWY_INLINE void predict_joint(const G& g, size_t i, size_t parent, typename G::V
   const Three<V> gap = (g.get3(parent, kRodPlace) - g.get3(i, kRodPlace)) +
                        (g.get3(parent, kRodPlaceLow) - g.get3(i, kRodPlaceLow));
   const Three<V> stretched =
-      scaled_sum(g.get(parent, kRodHalfLength), z_a, scaled_sum(g.get(i, kRodHalfLength), z_b, gap));
+      scaled_sum(g.get(i, kRodParentArm), z_a, scaled_sum(g.get(i, kRodArm), z_b, gap));
   g.set3(i, kRodGap, less_scaled(stretch_share, stretched, gap));
   const Three<V> rest = g.get3(i, kRodRest), bent = scaled(two, vector_part(relative(q_a, q_b)));
   g.set3(i, kRodStepRest, scaled_sum(share, bent - rest, rest));
@@ -127,12 +116,18 @@ HWY_INLINE void start_iterate(const G& g, size_t i, typename G::V square) {
   }
 }
 
+// What a start's accelerations are worth in a step.
+template <class D>
+HWY_INLINE hn::Vec<D> start_square(D d, const RodJob& job) {
+  return hn::Set(d, job.start_from_zero ? 0.0f : job.dt_s * job.dt_s);
+}
+
 template <size_t kWidth>
 void rod_predict(const RodJob& job) {
   for_lanes<kWidth>(job, [&](const auto& g) HWY_ATTR {
     const LanesOf<kWidth> d;
     const auto h = hn::Set(d, job.dt_s);
-    const auto square = hn::Set(d, job.start_from_zero ? 0.0f : job.dt_s * job.dt_s);
+    const auto square = start_square(d, job);
     for (size_t i = 0; i < job.segments; ++i) {
       predict_move(g, i, h);
       predict_turn(g, i, h);

@@ -45,7 +45,7 @@ HWY_INLINE Vector3 turn_about(const Vector3& theta, const Vector3& v) {
   const TurnSeries series = turn_series(s);
   const Vector3 once = cross(theta, v), twice = cross(theta, once);
   const Vector sine = hn::NegMulAdd(s, series.d, hn::Set(Floats(), 1));
-  return scaled_and_added(twice, series.c, scaled_and_added(once, sine, v));
+  return scaled_sum(series.c, twice, scaled_sum(sine, once, v));
 }
 
 void turn(const TurnJob& job) {
@@ -62,7 +62,7 @@ void warp(const TurnJob& job) {
   for_each_turn(job, [](const Vector3& theta, const Vector3& v) HWY_ATTR {
     const TurnSeries series = turn_series(dot(theta, theta));
     const Vector3 once = cross(theta, v), twice = cross(theta, once);
-    return scaled_and_added(twice, series.d, scaled_and_added(once, series.c, v));
+    return scaled_sum(series.d, twice, scaled_sum(series.c, once, v));
   });
 }
 

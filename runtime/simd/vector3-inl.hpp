@@ -1,34 +1,8 @@
-// vector3-inl.hpp  Vectors of three numbers, as many at a time as there are lanes, out of and into rows of
-// them.
+// vector3-inl.hpp  Vectors of three numbers out of and into rows of them, a row a lane.
 HWY_BEFORE_NAMESPACE();
 namespace sinew::simd::HWY_NAMESPACE {
 
-// Always made from three vectors: the constructor a compiler makes up for none would not be of this target.
-struct Vector3 {
-  Vector x, y, z;
-};
-
-HWY_INLINE Vector dot(const Vector3& a, const Vector3& b) {
-  return hn::MulAdd(a.z, b.z, hn::MulAdd(a.y, b.y, hn::Mul(a.x, b.x)));
-}
-
-HWY_INLINE Vector3 scaled(const Vector3& a, Vector by) {
-  return {hn::Mul(a.x, by), hn::Mul(a.y, by), hn::Mul(a.z, by)};
-}
-
-// a s + b.
-HWY_INLINE Vector3 scaled_and_added(const Vector3& a, Vector s, const Vector3& b) {
-  return {hn::MulAdd(a.x, s, b.x), hn::MulAdd(a.y, s, b.y), hn::MulAdd(a.z, s, b.z)};
-}
-
-HWY_INLINE Vector3 cross(const Vector3& a, const Vector3& b) {
-  return {hn::MulSub(a.y, b.z, hn::Mul(a.z, b.y)), hn::MulSub(a.z, b.x, hn::Mul(a.x, b.z)),
-          hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
-}
-
-HWY_INLINE Vector3 chosen(hn::Mask<Floats> yes, const Vector3& a, const Vector3& b) {
-  return {hn::IfThenElse(yes, a.x, b.x), hn::IfThenElse(yes, a.y, b.y), hn::IfThenElse(yes, a.z, b.z)};
-}
+using Vector3 = Three<Vector>;
 
 // Row first + i of `count` in lane i, the last one repeated; rows `stride` floats apart.
 HWY_INLINE Vector3 load_rows3(const float* rows, size_t stride, uint32_t first, uint32_t count) {

@@ -8,7 +8,7 @@ namespace {
 
 using simd::kBlock;
 
-constexpr uint32_t kGates = 4, kPeepholes = 3, kPeepholesOfCells = 2;  // W_y: gates i f o; i and f alone
+constexpr uint32_t kGates = 4, kPeepholes = 2;  // W_y: gates i and f, o behind them
 
 // Of float32 networks only.
 uint32_t gate_width(const Network& network, uint32_t l) {
@@ -33,12 +33,11 @@ uint32_t heard_planes(const Network& network, uint32_t l) {
   return is_last(network, l) ? 2 : 1;
 }
 
-// Rows of `given` gates of kBlock floats to rows of four of `width`; gates from `taken` on are zero.
-float* pack_rows(const float* rows, size_t count, uint32_t given, uint32_t taken, uint32_t width,
-                 float* out) {
+// Rows of `given` gates of kBlock floats to rows of four of `width`; the other gates are zero.
+float* pack_rows(const float* rows, size_t count, uint32_t given, uint32_t width, float* out) {
   for (size_t row = 0; row < count; ++row, rows += size_t{given} * kBlock, out += size_t{kGates} * width) {
     std::fill_n(out, kGates * width, 0.0f);
-    for (uint32_t gate = 0; gate < taken; ++gate)
+    for (uint32_t gate = 0; gate < given; ++gate)
       std::copy_n(rows + size_t{gate} * kBlock, width, out + size_t{gate} * width);
   }
   return out;
@@ -46,13 +45,13 @@ float* pack_rows(const float* rows, size_t count, uint32_t given, uint32_t taken
 
 float* pack_layer(const pack::LayerRecord& layer, uint32_t width, const float* weights, float* out) {
   const auto all = [&](uint64_t at, size_t rows) {
-    out = pack_rows(weights + at, rows, kGates, kGates, width, out);
+    out = pack_rows(weights + at, rows, kGates, width, out);
   };
   all(layer.bias, 1);
   all(layer.w_x, layer.inputs);
   if (layer.has_self) all(layer.w_s, layer.inputs);
   all(layer.w_h, layer.channels);
-  return pack_rows(weights + layer.w_y, layer.channels, kPeepholes, kPeepholesOfCells, width, out);
+  return pack_rows(weights + layer.w_y, layer.channels, kPeepholes, width, out);
 }
 
 }  // namespace

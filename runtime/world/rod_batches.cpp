@@ -59,7 +59,7 @@ size_t rod_batch_bytes(const Asset& asset) noexcept {
       ++strands;
       segments = seat.slot_count;
     }
-    bytes += sizeof(rods::RodBatch) + rods::RodBatch::memory_bytes(strands, segments);
+    bytes += sizeof(rods::RodBatch) + rods::RodBatch::memory_bytes(strands, segments, kSettings);
   }
   return bytes;
 }

@@ -71,8 +71,8 @@ void take_along(Instance& instance) noexcept {
       Eigen::Map<Eigen::Vector3f>(velocity.angular_rad_s) =
           (logarithm(now.turn * before.turn.conjugate()) / tick_s).cast<float>();
       // A refusal leaves the segment where it was: its joints pull it back, or the batch recovers the strand.
-      (void)instance.rod_batches[seat.batch].place(seat.strand, s - seat.first_slot,
-                                                   pose_of(before.turn, before.middle), velocity);
+      (void)instance.rod_batches[seat.batch].set_pose(seat.strand, s - seat.first_slot,
+                                                      pose_of(before.turn, before.middle), velocity);
     }
   }
 }

@@ -50,6 +50,16 @@ class DenseRod {
     return iteration;
   }
   const std::vector<DenseSegment>& now() const { return now_; }
+  // What the step leaves, in the world; forces and moments as in SegmentStart.
+  Eigen::Vector3d velocity(uint32_t i) const { return (now_[i].position - state_[i].position) / dt_; }
+  Eigen::Vector3d spin(uint32_t i) const {
+    const Eigen::Vector3d own =
+        segments_[i].fixed ? Eigen::Vector3d(chord(state_[i].turn, now_[i].turn) / dt_)
+                           : Eigen::Vector3d(free_[i].spin + chord(free_[i].turn, now_[i].turn) / dt_);
+    return now_[i].turn * own;
+  }
+  Eigen::Vector3d force(uint32_t i) const { return force_.segment<3>(6 * (i - 1)) / (dt_ * dt_); }
+  Eigen::Vector3d moment(uint32_t i) const { return force_.segment<3>(6 * (i - 1) + 3) / (dt_ * dt_); }
 
  private:
   Eigen::Index joints() const { return static_cast<Eigen::Index>(segments_.size()) - 1; }
@@ -186,5 +196,43 @@ class DenseRod {
   std::vector<Eigen::Vector3d> rest_;
   Eigen::VectorXd force_;
 };
+
+// The largest of each over a strand: of a segment's length, in radians, of what a step makes of speeds alike,
+// of the strand's largest force or its weight, and of its largest moment or its weight over a segment.
+struct DenseDifference {
+  double place = 0, turn = 0, velocity = 0, spin = 0, force = 0, moment = 0;
+};
+
+inline Eigen::Vector3d dense_vector(const float (&v)[3]) { return Eigen::Vector3f(v).cast<double>(); }
+
+inline DenseDifference difference(const RodBatch& batch, const DenseRod& dense, const Segments& segments,
+                                  double dt_s, uint32_t strand = 0) {
+  DenseDifference out;
+  double weight = 0;
+  for (const SegmentDef& s : segments) weight += 9.81 * rods::segment_inertia(s).mass_kg;
+  double force = weight, moment = weight * static_cast<double>(segments[0].length_m);
+  for (uint32_t i = 0; i < segments.size(); ++i) {
+    const auto length = static_cast<double>(segments[i].length_m);
+    const rods::SegmentPose pose = batch.pose(strand, i);
+    const rods::SegmentVelocity v = batch.velocity(strand, i);
+    const float* q = pose.orientation;
+    const Eigen::Quaterniond turn = Eigen::Quaternionf(q[3], q[0], q[1], q[2]).cast<double>();
+    const Eigen::Vector3d place(pose.position_m);
+    out.place = std::max(out.place, (place - dense.now()[i].position).norm() / length);
+    out.turn = std::max(out.turn, turn.angularDistance(dense.now()[i].turn));
+    const Eigen::Vector3d slip = dense_vector(v.linear_m_s) - dense.velocity(i);
+    out.velocity = std::max(out.velocity, slip.norm() * dt_s / length);
+    out.spin = std::max(out.spin, (dense_vector(v.angular_rad_s) - dense.spin(i)).norm() * dt_s);
+    if (i == 0 || (segments[i].fixed && segments[segments[i].parent].fixed)) continue;
+    const rods::SegmentStart joint = batch.last_forces(strand, i);
+    out.force = std::max(out.force, (dense_vector(joint.force_n) - dense.force(i)).norm());
+    out.moment = std::max(out.moment, (dense_vector(joint.moment_nm) - dense.moment(i)).norm());
+    force = std::max(force, dense.force(i).norm());
+    moment = std::max(moment, dense.moment(i).norm());
+  }
+  out.force /= force;
+  out.moment /= moment;
+  return out;
+}
 
 }  // namespace sinew::test

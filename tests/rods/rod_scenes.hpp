@@ -136,14 +136,49 @@ inline double largest_stretch(const RodBatch& batch, const Segments& segments, u
   return largest;
 }
 
-// Length of a chain from joint to joint over its length at rest.
+// Length of a chain or tree from joint to joint over its length at rest.
 inline double length_ratio(const RodBatch& batch, const Segments& segments, uint32_t strand = 0) {
   double length = 0, at_rest = 0;
   for (uint32_t i = 1; i < segments.size(); ++i) {
-    length += distance(end_of(batch, segments, i, strand), end_of(batch, segments, i - 1, strand));
+    length +=
+        distance(end_of(batch, segments, i, strand), end_of(batch, segments, segments[i].parent, strand));
     at_rest += static_cast<double>(segments[i].length_m);
   }
   return length / at_rest;
+}
+
+// A trunk of `trunk` segments along y with a branch of `branch` from each of its segments.
+inline Segments branched_rod(uint32_t trunk, uint32_t branch, float young_pa) {
+  Segments segments;
+  const auto add = [&](uint32_t parent, const rods::Turn& turn) {
+    rods::Vector begin = {0, 0, 0};
+    const rods::Vector z = rods::turned(turn, {0, 0, 1});
+    if (parent != rods::kNoParent) {
+      rods::SegmentPose pose;
+      std::copy_n(segments[parent].position_m, 3, pose.position_m);
+      std::copy_n(segments[parent].orientation, 4, pose.orientation);
+      const rods::Vector axis = axis_of(pose);
+      for (size_t k = 0; k < 3; ++k) begin[k] = pose.position_m[k] + 0.05 * axis[k];
+    }
+    SegmentDef s;
+    for (size_t k = 0; k < 3; ++k) s.position_m[k] = begin[k] + 0.05 * z[k];
+    for (size_t k = 0; k < 4; ++k) s.orientation[k] = static_cast<float>(turn[k]);
+    s.length_m = 0.1f;
+    s.radius_m = 0.01f;
+    s.young_modulus_pa = s.torsion_modulus_pa = young_pa;
+    s.parent = parent;
+    segments.push_back(s);
+    return static_cast<uint32_t>(segments.size() - 1);
+  };
+  const rods::Turn up = rods::normalised({-1, 0, 0, 1}), aside = rods::normalised({-0.6, 0.3, 0, 1});
+  uint32_t below = add(rods::kNoParent, up);
+  segments[0].fixed = true;
+  for (uint32_t i = 1; i < trunk; ++i) {
+    uint32_t twig = below;
+    for (uint32_t k = 0; k < branch; ++k) twig = add(twig, aside);
+    below = add(below, up);
+  }
+  return segments;
 }
 
 struct Energy {

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "rods/rod_batch.hpp"
@@ -25,7 +26,7 @@ std::vector<SegmentDef> chain(uint32_t segments) {
   return out;
 }
 
-RodBatch make_batch(uint32_t strands, uint32_t segments, RodSettings settings = {}) {
+RodBatch make_batch(uint32_t strands, uint32_t segments, const RodSettings& settings = {}) {
   const std::vector<SegmentDef> defs = chain(segments);
   const std::vector<StrandDef> all(strands, StrandDef{defs});
   RodBatch batch;
@@ -56,16 +57,16 @@ TEST_CASE("placing_and_bending_refuse_what_is_not_there_or_no_number") {
   RodBatch batch = make_batch(2, 4);
   const std::vector<std::byte> before = saved(batch);
   SegmentPose pose = batch.pose(0, 1);
-  CHECK(batch.place(2, 1, pose, {}).code == StatusCode::kInvalidArgument);
-  CHECK(batch.place(0, 4, pose, {}).code == StatusCode::kInvalidArgument);
-  CHECK(batch.place(0, 1, pose, {{kNan, 0, 0}, {0, 0, 0}}).code == StatusCode::kNotFinite);
+  CHECK(batch.set_pose(2, 1, pose, {}).code == StatusCode::kInvalidArgument);
+  CHECK(batch.set_pose(0, 4, pose, {}).code == StatusCode::kInvalidArgument);
+  CHECK(batch.set_pose(0, 1, pose, {{kNan, 0, 0}, {0, 0, 0}}).code == StatusCode::kNotFinite);
   pose.orientation[3] = 2;
-  CHECK(batch.place(0, 1, pose, {}).code == StatusCode::kInvalidArgument);
+  CHECK(batch.set_pose(0, 1, pose, {}).code == StatusCode::kInvalidArgument);
   pose.orientation[3] = kNan;
-  CHECK(batch.place(0, 1, pose, {}).code == StatusCode::kNotFinite);
+  CHECK(batch.set_pose(0, 1, pose, {}).code == StatusCode::kNotFinite);
   pose = batch.pose(0, 1);
   pose.position_m[1] = 1e300;
-  CHECK(batch.place(0, 1, pose, {}).code == StatusCode::kNotFinite);
+  CHECK(batch.set_pose(0, 1, pose, {}).code == StatusCode::kNotFinite);
   CHECK(batch.set_rest(0, 0, {0, 0, 0, 1}).code == StatusCode::kInvalidArgument);
   CHECK(batch.set_rest(0, 9, {0, 0, 0, 1}).code == StatusCode::kInvalidArgument);
   CHECK(batch.set_rest(0, 1, {0, 0, 0, 0.5f}).code == StatusCode::kInvalidArgument);
@@ -74,8 +75,15 @@ TEST_CASE("placing_and_bending_refuse_what_is_not_there_or_no_number") {
 }
 
 TEST_CASE("after_a_restore_the_same_steps_give_the_same_bits") {
-  for (const uint32_t strands : {1u, 3u, 19u}) {  // narrow and wide groups, whole and partial
-    RodBatch batch = make_batch(strands, 6), other = make_batch(strands, 6);
+  // Narrow and wide groups, whole and partial; the second start remembers steps.
+  const std::pair<uint32_t, RodStart> cases[] = {{1, RodStart::kPrevious},
+                                                 {3, RodStart::kContinued},
+                                                 {19, RodStart::kPrevious},
+                                                 {19, RodStart::kContinued}};
+  for (const auto& [strands, start] : cases) {
+    RodSettings settings;
+    settings.start = start;
+    RodBatch batch = make_batch(strands, 6, settings), other = make_batch(strands, 6, settings);
     step(batch, 20);
     const std::vector<std::byte> state = saved(batch);
     step(batch, 20);
@@ -96,7 +104,7 @@ TEST_CASE("a_placed_segment_is_there_and_moves_so") {
   step(batch, 10);
   const SegmentPose pose = {{1, 2, 3}, {0, std::sqrt(0.5f), 0, std::sqrt(0.5f)}};
   const SegmentVelocity velocity = {{0.5f, -1, 2}, {3, 1, -2}};
-  REQUIRE(batch.place(0, 2, pose, velocity).ok());
+  REQUIRE(batch.set_pose(0, 2, pose, velocity).ok());
   const SegmentPose got = batch.pose(0, 2);
   const SegmentVelocity moves = batch.velocity(0, 2);
   for (int k = 0; k < 3; ++k) {
@@ -109,7 +117,9 @@ TEST_CASE("a_placed_segment_is_there_and_moves_so") {
 }
 
 TEST_CASE("a_joint_goes_to_the_rest_it_is_given") {
-  RodBatch batch = make_batch(1, 3, {.gravity_m_s2 = {0, 0, 0}});
+  RodSettings weightless;
+  weightless.gravity_m_s2[1] = 0;
+  RodBatch batch = make_batch(1, 3, weightless);
   const float angle = 0.6f, half[4] = {std::sin(angle / 2), 0, 0, std::cos(angle / 2)};
   const float negated[4] = {-half[0], 0, 0, -half[3]};  // the same rotation
   REQUIRE(batch.set_rest(0, 1, half).ok());
@@ -145,7 +155,24 @@ TEST_CASE("turning_all_turns_what_follows") {
 }
 
 TEST_CASE("memory_is_told_before_a_batch_is_made") {
-  CHECK(RodBatch::memory_bytes(1, 2) > 0);
-  CHECK(RodBatch::memory_bytes(17, 8) > RodBatch::memory_bytes(16, 8));
-  CHECK(RodBatch::memory_bytes(2, 9) > RodBatch::memory_bytes(2, 8));
+  CHECK(RodBatch::memory_bytes(1, 2, {}) > 0);
+  CHECK(RodBatch::memory_bytes(17, 8, {}) > RodBatch::memory_bytes(16, 8, {}));
+  CHECK(RodBatch::memory_bytes(2, 9, {}) > RodBatch::memory_bytes(2, 8, {}));
+}
+
+TEST_CASE("a_rest_is_told_from_the_parent_whichever_end_is_held") {
+  std::vector<SegmentDef> defs = chain(3);
+  defs[0].fixed = false;
+  defs[2].fixed = true;  // the batch counts its joints from there
+  const StrandDef strand{defs};
+  RodSettings weightless;
+  weightless.gravity_m_s2[1] = 0;
+  RodBatch batch;
+  REQUIRE(RodBatch::create({&strand, 1}, weightless, &batch).ok());
+  const float half[4] = {std::sin(0.3f), 0, 0, std::cos(0.3f)};
+  REQUIRE(batch.set_rest(0, 1, half).ok());
+  step(batch, 1200);
+  // Segment 1 goes on with the held one; 0 is turned back from it.
+  const SegmentPose pose = batch.pose(0, 0);
+  CHECK(2 * std::atan2(pose.orientation[0], pose.orientation[3]) == Approx(-0.6).margin(0.01));
 }

@@ -159,6 +159,30 @@ TEST_CASE("rods_converge_at_every_stiffness_step_and_length") {
   }
 }
 
+TEST_CASE("rods_that_bend_far_more_stiffly_than_they_twist_converge_at_default_settings") {
+  for (const uint32_t segments : {10u, 30u, 100u}) {
+    for (const float young : {1e8f, 1e9f, 1e10f}) {
+      const test::Segments rod = test::straight_rod({.segments = segments, .young_pa = young});
+      test::RodBatch batch = test::batch_of({rod});
+      const double fall = segments * rods::segment_inertia(rod[0]).mass_kg * kGravity * 2;
+      double last = test::energy(batch, rod, kGravity).sum_j(), grown = 0;
+      uint32_t iterations = 0, unconverged = 0;
+      for (int i = 0; i < 500; ++i) {
+        const test::RodReport report = test::step(batch, 0.02f);
+        iterations += report.iterations;
+        unconverged += report.unconverged;
+        const double now = test::energy(batch, rod, kGravity).sum_j();
+        grown = std::max(grown, now - last);
+        last = now;
+      }
+      INFO("E/G " << young / 1e6f << ", " << segments << " segments: " << iterations << " iterations");
+      CHECK(unconverged == 0);
+      CHECK(iterations < 500 * 5);
+      CHECK(grown < 1e-3 * fall);  // what a hundredth of a radian leaves of a stiff rod's bending
+    }
+  }
+}
+
 TEST_CASE("damping_and_drag_take_energy_away") {
   const auto left = [](float damping_s, float drag_per_s) {
     test::Segments rod = test::straight_rod({.segments = 20, .young_pa = 1e7f});

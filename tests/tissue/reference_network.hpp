@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "pack/weight_layout.hpp"
 #include "tests/simd/test_data.hpp"
 #include "tissue/network.hpp"
 
@@ -57,16 +58,24 @@ class PackedNetwork {
     }
     return count;
   }
-  uint64_t add_tensor(const std::vector<float>& plain, const PlainLayer& layer) {
+  // place(row, gate, channel) of plain [rows][gates][channels].
+  template <class Place>
+  uint64_t add_tensor(const std::vector<float>& plain, const pack::LayerRecord& layer, size_t gates,
+                      const Place& place) {
     const uint64_t start = end_;
-    const size_t padded = simd::pad_to_block(layer.channels), blocks = plain.size() / layer.channels;
-    for (size_t block = 0; block < blocks; ++block) {
-      for (size_t j = 0; j < layer.channels; ++j) {
-        weights_[end_ + block * padded + j] = plain[block * layer.channels + j];
-      }
+    const size_t rows = plain.size() / layer.channels / gates;
+    for (size_t i = 0; i < plain.size(); ++i) {
+      const size_t j = i % layer.channels, gate = i / layer.channels % gates;
+      weights_[start + place(i / layer.channels / gates, gate, j)] = plain[i];
     }
-    end_ += blocks * padded;
+    end_ += rows * gates * layer.padded;
     return start;
+  }
+  uint64_t add_gates(const std::vector<float>& plain, const pack::LayerRecord& layer) {
+    const size_t rows = plain.size() / layer.channels / 4;
+    return add_tensor(plain, layer, 4, [=](size_t row, size_t gate, size_t j) {
+      return pack::gate_weight_at(rows, 4, row, gate, j);
+    });
   }
   void add_layer(const PlainLayer& layer) {
     pack::LayerRecord record{};
@@ -74,11 +83,14 @@ class PackedNetwork {
     record.channels = static_cast<uint32_t>(layer.channels);
     record.padded = static_cast<uint32_t>(simd::pad_to_block(layer.channels));
     record.has_self = !layer.w_s.empty();
-    record.w_x = add_tensor(layer.w_x, layer);
-    record.w_s = add_tensor(layer.w_s, layer);
-    record.w_h = add_tensor(layer.w_h, layer);
-    record.w_y = add_tensor(layer.w_y, layer);
-    record.bias = add_tensor(layer.b, layer);
+    record.w_x = add_gates(layer.w_x, record);
+    record.w_s = add_gates(layer.w_s, record);
+    record.w_h = add_gates(layer.w_h, record);
+    record.w_y = add_tensor(layer.w_y, record, 3, [&](size_t row, size_t gate, size_t j) {
+      return pack::peephole_at(record, row, gate, j);
+    });
+    record.bias = add_tensor(layer.b, record, 4,
+                             [&](size_t, size_t gate, size_t j) { return gate * record.padded + j; });
     records_.push_back(record);
   }
   pack::NetworkRecord record_;

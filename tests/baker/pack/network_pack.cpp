@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "baker/common/bad_input.hpp"
+#include "pack/weight_layout.hpp"
 #include "tests/pack/pack_editor.hpp"
 #include "tests/pack/small_pack.hpp"
 
@@ -127,12 +128,17 @@ TEST_CASE("every_weight_lies_where_the_format_says") {
   for (size_t l = 0; l < view.layers.size(); ++l) {
     const pack::LayerRecord& layer = view.layers[l];
     const std::string prefix = "layers." + std::to_string(l) + ".";
+    const auto place = [&](size_t rows, size_t gates, size_t row, size_t gate, size_t k) {
+      if (rows == 1) return gate * layer.padded + k;
+      return gates == 4 ? pack::gate_weight_at(rows, gates, row, gate, k)
+                        : pack::peephole_at(layer, row, gate, k);
+    };
     const auto check = [&](const char* name, uint64_t offset, size_t rows, size_t gates) {
       const std::vector<float> values = weights.tensors.at(prefix + name).as_f32();
       for (size_t row = 0; row < rows; ++row)
         for (size_t gate = 0; gate < gates; ++gate)
           for (size_t k = 0; k < layer.channels; ++k, ++placed)
-            if (view.weights[offset + (row * gates + gate) * layer.padded + k] !=
+            if (view.weights[offset + place(rows, gates, row, gate, k)] !=
                 values[(row * gates + gate) * layer.channels + k])
               FAIL_CHECK(prefix << name << " row " << row << " gate " << gate << " channel " << k);
     };

@@ -1,0 +1,56 @@
+// cases.hpp  What perf_trade_rods compares: a row for each scene, solver and start. A new one is a new row.
+#pragma once
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "rods/rod_batch.hpp"
+
+namespace sinew::perf {
+
+using Segments = std::vector<rods::SegmentDef>;
+
+struct TradeScene {
+  const char* name;
+  bool tree, contacts;
+  float dt_s;
+  Segments (*rod)(uint32_t segments, double young_pa);
+  // What a new batch of these rods needs besides (obstacles).
+  void (*furnish)(rods::RodBatch& batch);
+  // Before a step: what is held goes where it should be at the step's end.
+  void (*drive)(rods::RodBatch& batch, int step);
+};
+
+struct TradeSolver {
+  const char* name;
+  rods::RodSolver solver;
+  uint32_t most_iterations;  // given up beyond
+  bool inner;                // iterates inside an iteration: slow on long rods, so measured at fewer states
+};
+
+struct TradeStart {
+  const char* name;
+  rods::RodStart start;
+};
+
+std::span<const TradeScene> trade_scenes();
+std::span<const TradeSolver> trade_solvers();
+std::span<const TradeStart> trade_starts();
+
+// One line of the table: a rod in a scene, with a solver and a start.
+struct TradeCase {
+  const TradeScene* scene;
+  uint32_t strands, segments;
+  double young_pa;
+  const TradeSolver* solver;
+  const TradeStart* start;
+};
+
+// "chain,1,30,1e+06,direct,previous": the first columns of its lines.
+std::string key_of(const TradeCase& c);
+
+// All of them, or a few of each kind.
+std::vector<TradeCase> trade_cases(bool quick);
+
+}  // namespace sinew::perf

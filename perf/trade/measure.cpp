@@ -1,0 +1,143 @@
+// measure.cpp  see measure.hpp.
+#include "perf/trade/measure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "perf/scale/stopwatch.hpp"
+#include "tests/rods/rod_scenes.hpp"
+
+namespace sinew::perf {
+namespace {
+
+constexpr int kSteps = 60, kEvery = 10, kRepeats = 5;
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+// Strands differ by some per cent, as hairs do.
+std::vector<Segments> strands_of(const TradeCase& c) {
+  std::vector<Segments> out;
+  for (uint32_t s = 0; s < c.strands; ++s)
+    out.push_back(c.scene->rod(c.segments, c.young_pa * (1 + 0.01 * s)));
+  return out;
+}
+
+class CaseRun {
+ public:
+  explicit CaseRun(const TradeCase& c) : case_(c), strands_(strands_of(c)) {}
+
+  std::vector<Reached> run() {
+    std::vector<Tally> tallies(std::size(kResiduals));
+    // With the case's own start, for what it remembers of the steps before.
+    rods::RodSettings tight = settings(1e-6, 200, false);
+    tight.solver = rods::RodSolver::kDirect;
+    tight.tolerance_rad = 1e-4f;
+    rods::RodBatch scene = made(tight);
+    for (int step = 0; step < kSteps; ++step) {
+      case_.scene->drive(scene, step);
+      if (step % every() == every() - 1) try_all(scene, &tallies);
+      (void)test::step(scene, case_.scene->dt_s);
+    }
+    std::vector<Reached> out;
+    for (size_t i = 0; i < tallies.size(); ++i) out.push_back(tallies[i].result(kResiduals[i]));
+    return out;
+  }
+
+ private:
+  struct Tally {
+    std::vector<double> us, errors;
+    double iterations = 0, inner = 0;
+    uint32_t most = 0;
+    Reached result(double residual) const {
+      const auto count = static_cast<double>(errors.size());
+      return {residual,
+              static_cast<uint32_t>(us.size()),
+              static_cast<uint32_t>(errors.size()),
+              errors.empty() ? 0 : iterations / count,
+              errors.empty() ? 0 : inner / count,
+              most,
+              median(us),
+              errors.empty() ? kNever : median(errors)};
+    }
+  };
+
+  int every() const { return case_.solver->inner && case_.segments >= 100 ? 2 * kEvery : kEvery; }
+
+  rods::RodBatch made(const rods::RodSettings& settings) const {
+    rods::RodBatch batch;
+    const Status status = test::try_batch(strands_, settings, &batch);
+    if (!status.ok()) throw std::runtime_error(key_of(case_) + ": " + status.message);
+    case_.scene->furnish(batch);
+    return batch;
+  }
+
+  // CG is asked for a tenth of what is wanted, down to what floats can.
+  rods::RodSettings settings(double residual, uint32_t iterations, bool report) const {
+    return {.solver = case_.solver->solver,
+            .start = case_.start->start,
+            .max_iterations = iterations,
+            .tolerance_rad = 1e-6f,
+            .cg_tolerance = static_cast<float>(std::max(0.1 * residual, 1e-7)),
+            .cg_max_iterations = 2000,
+            .report_residual = report};
+  }
+
+  void try_all(const rods::RodBatch& from, std::vector<Tally>* tallies) const {
+    rods::RodBatch exact = made({.max_iterations = 200, .tolerance_rad = 1e-6f});
+    (void)exact.take_state(from);
+    (void)test::step(exact, case_.scene->dt_s);
+    for (size_t i = 0; i < tallies->size(); ++i) try_one(from, exact, kResiduals[i], &(*tallies)[i]);
+  }
+
+  void try_one(const rods::RodBatch& from, const rods::RodBatch& exact, double residual, Tally* tally) const {
+    uint32_t k = 1;
+    while (k <= case_.solver->most_iterations) {
+      rods::RodBatch tried = made(settings(residual, k, true));
+      (void)tried.take_state(from);
+      const rods::RodReport report = test::step(tried, case_.scene->dt_s);
+      if (static_cast<double>(report.residual) <= residual) {
+        tally->us.push_back(time_us(from, residual, k));
+        tally->errors.push_back(apart(tried, exact));
+        tally->iterations += k;
+        tally->inner += static_cast<double>(report.cg_iterations) / case_.strands;
+        tally->most = std::max(tally->most, k);
+        return;
+      }
+      k = std::max(k + 1, k * 5 / 4);
+    }
+    tally->us.push_back(kNever);
+  }
+
+  double time_us(const rods::RodBatch& from, double residual, uint32_t iterations) const {
+    rods::RodBatch timed = made(settings(residual, iterations, false));
+    std::vector<double> us;
+    for (int i = 0; i <= kRepeats; ++i) {
+      (void)timed.take_state(from);
+      const double begin = clock_us(CLOCK_THREAD_CPUTIME_ID);
+      (void)test::step(timed, case_.scene->dt_s);
+      if (i > 0) us.push_back((clock_us(CLOCK_THREAD_CPUTIME_ID) - begin) / case_.strands);
+    }
+    return median(us);
+  }
+
+  // Of any segment, over the first one's length.
+  double apart(const rods::RodBatch& a, const rods::RodBatch& b) const {
+    double largest = 0;
+    for (uint32_t s = 0; s < case_.strands; ++s) {
+      for (uint32_t i = 0; i < case_.segments; ++i) {
+        largest = std::max(largest, test::distance(a.pose(s, i).position_m, b.pose(s, i).position_m));
+      }
+    }
+    return largest / static_cast<double>(strands_[0][0].length_m);
+  }
+
+  const TradeCase& case_;
+  std::vector<Segments> strands_;
+};
+
+}  // namespace
+
+std::vector<Reached> measure(const TradeCase& c) { return CaseRun(c).run(); }
+
+}  // namespace sinew::perf

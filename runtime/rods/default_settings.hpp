@@ -1,0 +1,22 @@
+// default_settings.hpp  Solver and start for a kind of rod, as measured.
+#pragma once
+#include "rods/rod_batch.hpp"
+
+namespace sinew::rods {
+
+// What decides; a batch is of one kind.
+struct RodKind {
+  uint32_t segments = 0;
+  float young_pa = 1e6f;
+  bool tree = false;
+  bool contacts = false;
+};
+
+// What was fastest to a residual of 1e-4 for this kind (perf/trade/README.md); all else as RodSettings has
+// it. A test holds it to the table of measurements. The direct solver from the last step's forces has been
+// the fastest, or as fast as any, for all kinds that were measured.
+constexpr RodSettings default_settings(const RodKind&) noexcept {
+  return {.solver = RodSolver::kDirect, .start = RodStart::kPrevious};
+}
+
+}  // namespace sinew::rods

@@ -1,0 +1,120 @@
+// start_scenes.hpp  Networks and examples for starts, made up, and a group of lanes to try kernels on.
+#pragma once
+#include <array>
+#include <vector>
+
+#include "rods/coping_net.hpp"
+#include "simd/kernels.hpp"
+#include "simd/rod_job.hpp"
+#include "tests/pack/packed_model.hpp"
+#include "tests/rods/rod_scenes.hpp"
+#include "tests/simd/test_data.hpp"
+
+namespace sinew::test {
+
+// A network of random weights that answers with numbers of about `norm`.
+class RandomCopingNet {
+ public:
+  explicit RandomCopingNet(uint32_t latent = 8, uint32_t blocks = 2, uint32_t depth = 1, float norm = 1)
+      : packed_(make(latent, blocks, depth, norm)) {
+    net_ = {packed_.view().network, packed_.view().dense, packed_.view().weights.data()};
+  }
+  const rods::CopingNet& net() const { return net_; }
+
+ private:
+  static baker::Safetensors make(uint32_t latent, uint32_t blocks, uint32_t depth, float norm) {
+    baker::Safetensors file;
+    file.path = "random";
+    file.metadata = {{"sinew.model", "coping_net"},
+                     {"sinew.version", "1"},
+                     {"latent", std::to_string(latent)},
+                     {"blocks", std::to_string(blocks)},
+                     {"depth", std::to_string(depth)}};
+    std::mt19937 random(latent + blocks);
+    const auto numbers = [&](size_t count, float size) {
+      std::vector<float> out(count);
+      for (float& x : out) x = uniform(random, -size, size);
+      return out;
+    };
+    const auto chain = [&](const std::string& name, uint32_t inputs, uint32_t outputs) {
+      for (uint32_t k = 0; k <= depth; ++k) {
+        const uint32_t in = k == 0 ? inputs : latent, out = k == depth ? outputs : latent;
+        const std::string layer = name + "." + std::to_string(k);
+        file.tensors[layer + ".weight"] = baker::tensor_f32({out, in}, numbers(size_t{out} * in, 0.5f));
+        file.tensors[layer + ".bias"] = baker::tensor_f32({out}, numbers(out, 0.2f));
+      }
+    };
+    const auto both = [&](const std::string& name, uint32_t of_node, uint32_t of_edge, uint32_t outputs) {
+      chain(name + ".node", of_node, outputs);
+      chain(name + ".edge", of_edge, outputs);
+    };
+    both("encoder", rods::kRodNodeInputs, rods::kRodEdgeInputs, latent);
+    for (uint32_t m = 0; m < blocks; ++m) both("blocks." + std::to_string(m), 2 * latent, 3 * latent, latent);
+    both("decoder", latent, latent, rods::kRodOutputs);
+    for (const char* name : {"norm.node", "norm.edge"}) {
+      file.tensors[name] = baker::tensor_f32({6}, std::vector<float>(6, norm));
+    }
+    return file;
+  }
+  PackedModel packed_;
+  rods::CopingNet net_;
+};
+
+// Three examples at one place, whose mean answer is `answer` everywhere, and one far away.
+struct MadeUpExamples {
+  explicit MadeUpExamples(float answer, float far = 100) {
+    for (const float by : {-0.5f, 0.0f, 0.5f, far}) {
+      inputs.insert(inputs.end(), simd::kRodStartInputs, by == far ? far : 0.0f);
+      answers.insert(answers.end(), simd::kRodStartNumbers, by == far ? far : answer + by);
+    }
+    view = {inputs, answers};
+  }
+  std::vector<float> inputs, answers;
+  rods::StartExamples view;
+};
+
+// Memory of a group, all zeros but for orientations, which are none.
+template <uint32_t kWidth>
+struct StartLanes {
+  explicit StartLanes(std::vector<uint32_t> parent_list, uint32_t latent = 8)
+      : parents(std::move(parent_list)), segments(static_cast<uint32_t>(parents.size())) {
+    for (auto* plane :
+         {&records, &scratch, &lanes, &history, &continued, &inputs, &scales, &encodings, &planes}) {
+      *plane = std::make_unique<Floats>(1, 0.0f);
+    }
+    const auto take = [&](std::unique_ptr<Floats>& to, size_t rows, float value = 0) {
+      to = std::make_unique<Floats>(rows * kWidth, value);
+      return to->data();
+    };
+    job.records = take(records, size_t{segments} * simd::kRodKeptFields);
+    job.scratch = take(scratch, size_t{segments} * (simd::kRodFields - simd::kRodKeptFields));
+    job.lanes = take(lanes, simd::kLaneFields);
+    job.parents = parents.data();
+    job.segments = segments;
+    job.dt_s = 0.02f;
+    start.history = take(history, size_t{segments} * simd::kRodStartAges * simd::kRodStartNumbers);
+    start.continued = take(continued, size_t{segments} * simd::kRodStartNumbers);
+    start.inputs = take(inputs, size_t{segments} * simd::kRodStartInputs);
+    start.scales = take(scales, simd::kRodStartTriples, 1);
+    start.encodings = take(encodings, size_t{segments} * latent);
+    start.planes = take(planes, simd::rod_net_floats(segments, latent, kWidth) / kWidth);
+    for (uint32_t i = 0; i < segments; ++i) fill(at(i, simd::kRodTurn + 3), 1);
+    know(simd::kRodStartKnown + 1);
+  }
+  float* at(uint32_t segment, uint32_t field) const {
+    return job.records + (size_t{segment} * simd::kRodKeptFields + field) * kWidth;
+  }
+  static void fill(float* row, float value) { std::fill_n(row, kWidth, value); }
+  void know(uint32_t steps) { fill(job.lanes + simd::kLaneKnownSteps * kWidth, static_cast<float>(steps)); }
+  static const simd::RodStartCalls& calls(const simd::Kernels& kernels) {
+    return kWidth == 16 ? kernels.rods->wide.start : kernels.rods->narrow.start;
+  }
+
+  std::vector<uint32_t> parents;
+  uint32_t segments;
+  std::unique_ptr<Floats> records, scratch, lanes, history, continued, inputs, scales, encodings, planes;
+  simd::RodJob job{};
+  simd::RodStartJob start{};
+};
+
+}  // namespace sinew::test

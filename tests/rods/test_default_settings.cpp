@@ -1,0 +1,123 @@
+// test_default_settings.cpp  What is chosen for a kind of rod is what the committed measurements say.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "rods/default_settings.hpp"
+
+using namespace sinew;
+
+namespace {
+
+const char* name_of(rods::RodSolver solver) {
+  switch (solver) {
+    case rods::RodSolver::kDirect:
+      return "direct";
+    case rods::RodSolver::kCg:
+      return "cg";
+  }
+  return "";
+}
+const char* name_of(rods::RodStart start) {
+  switch (start) {
+    case rods::RodStart::kZero:
+      return "zero";
+    case rods::RodStart::kPrevious:
+      return "previous";
+    case rods::RodStart::kGiven:
+      return "given";
+    case rods::RodStart::kContinued:
+      return "continued";
+    case rods::RodStart::kKnn:
+      return "knn";
+    case rods::RodStart::kLearned:
+      return "learned";
+  }
+  return "";
+}
+
+struct Row {
+  std::map<std::string, std::string> of;
+  double number(const char* column) const { return std::stod(of.at(column)); }
+  std::string option() const { return of.at("solver") + " " + of.at("start"); }
+};
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> out;
+  std::istringstream stream(line);
+  for (std::string word; std::getline(stream, word, ',');) out.push_back(word);
+  return out;
+}
+
+// Of one file, to a residual of 1e-4, by case.
+std::map<std::string, std::vector<Row>> cases_of(const std::filesystem::path& path) {
+  std::map<std::string, std::vector<Row>> out;
+  std::ifstream file(path);
+  std::vector<std::string> columns;
+  for (std::string line; std::getline(file, line);) {
+    if (line[0] == '#') continue;
+    const std::vector<std::string> words = split(line);
+    if (columns.empty()) {
+      columns = words;
+      continue;
+    }
+    REQUIRE(words.size() == columns.size());
+    Row row;
+    for (size_t i = 0; i < words.size(); ++i) row.of[columns[i]] = words[i];
+    if (row.of.at("residual") != "1e-04") continue;
+    const std::string key = row.of.at("scene") + "," + row.of.at("strands") + "," + row.of.at("segments") +
+                            "," + row.of.at("young_pa");
+    out[key].push_back(row);
+  }
+  return out;
+}
+
+rods::RodKind kind_of(const Row& row) {
+  return {.segments = static_cast<uint32_t>(row.number("segments")),
+          .young_pa = static_cast<float>(row.number("young_pa")),
+          .tree = row.of.at("scene") == "tree",
+          .contacts = row.of.at("scene").starts_with("contact")};
+}
+
+std::vector<std::filesystem::path> measurements() {
+  std::vector<std::filesystem::path> out;
+  for (const auto& entry : std::filesystem::directory_iterator(SINEW_SOURCE_DIR "/perf/results")) {
+    if (entry.path().filename().string().ends_with("_rods_trade.csv")) out.push_back(entry.path());
+  }
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("defaults_are_as_fast_as_the_fastest_that_was_measured") {
+  // Of noise: single cases are medians of six states, their scenes' means over thirty moduli and lengths.
+  constexpr double kOfACase = 1.5, kOfAScene = 1.05;
+  REQUIRE(!measurements().empty());
+  for (const auto& path : measurements()) {
+    std::map<std::string, std::vector<double>> slower;  // by scene and strands, logarithms
+    for (const auto& [key, rows] : cases_of(path)) {
+      const rods::RodSettings chosen = rods::default_settings(kind_of(rows[0]));
+      const std::string option = std::string(name_of(chosen.solver)) + " " + name_of(chosen.start);
+      double fastest = HUGE_VAL, reached = 0, own = -1;
+      for (const Row& row : rows) {
+        fastest = std::min(fastest, row.number("us_a_strand"));
+        reached = std::max(reached, row.number("reached"));
+        if (row.option() == option) own = row.number("us_a_strand");
+      }
+      INFO(path.filename().string() << ": " << key << ", " << option << " " << own << " us, fastest "
+                                    << fastest);
+      REQUIRE(own > 0);
+      CHECK(own <= kOfACase * fastest);
+      slower[rows[0].of.at("scene") + " x " + rows[0].of.at("strands")].push_back(std::log(own / fastest));
+    }
+    for (const auto& [scene, logs] : slower) {
+      double sum = 0;
+      for (const double x : logs) sum += x;
+      INFO(path.filename().string() << ": " << scene << " over " << logs.size() << " cases");
+      CHECK(std::exp(sum / static_cast<double>(logs.size())) <= kOfAScene);
+    }
+  }
+}
