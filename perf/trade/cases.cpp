@@ -40,7 +40,8 @@ constexpr TradeScene kScenes[] = {{"chain", false, false, 0.02f, chain, nothing,
                                   {"tree", true, false, 1.0f / 60, tree, nothing, shake}};
 
 constexpr TradeSolver kSolvers[] = {{"direct", rods::RodSolver::kDirect, 40, false},
-                                    {"cg", rods::RodSolver::kCg, 6, true}};
+                                    {"cg", rods::RodSolver::kCg, 6, true},
+                                    {"local", rods::RodSolver::kLocal, 300, true}};
 
 constexpr TradeStart kStarts[] = {{"zero", rods::RodStart::kZero},
                                   {"previous", rods::RodStart::kPrevious},

@@ -18,6 +18,8 @@ const char* name_of(rods::RodSolver solver) {
       return "direct";
     case rods::RodSolver::kCg:
       return "cg";
+    case rods::RodSolver::kLocal:
+      return "local";
   }
   return "";
 }
