@@ -14,9 +14,13 @@ if [ "${1:-}" = --quick ]; then
   build/release/bin/perf_trade_rods "$quick/trade.csv" --quick
   exit
 fi
+# The learned start and its baseline, where they are trained.
+starts=()
+[ ! -e "${SINEW_ROD_WEIGHTS:-}" ] || starts+=(--network "$SINEW_ROD_WEIGHTS")
+[ ! -e "${SINEW_ROD_EXAMPLES:-}" ] || starts+=(--examples "$SINEW_ROD_EXAMPLES")
 [ "${1:-}" != --again ] || rm -f "$measured"
 build/release/bin/perf_rods >build/release/rods.csv
-build/release/bin/perf_trade_rods "$measured"
+build/release/bin/perf_trade_rods "$measured" "${starts[@]}"
 python=python3
 "$python" -c 'import matplotlib' 2>/dev/null || python=/usr/bin/python3
 "$python" perf/summarise_rods.py build/release/rods.csv

@@ -40,7 +40,8 @@ constexpr TradeScene kScenes[] = {{"chain", false, false, 0.02f, chain, nothing,
                                   {"tree", true, false, 1.0f / 60, tree, nothing, shake}};
 
 constexpr TradeSolver kSolvers[] = {{"direct", rods::RodSolver::kDirect, 40, false},
-                                    {"cg", rods::RodSolver::kCg, 6, true}};
+                                    {"cg", rods::RodSolver::kCg, 6, true},
+                                    {"local", rods::RodSolver::kLocal, 120, true}};
 
 constexpr TradeStart kStarts[] = {{"zero", rods::RodStart::kZero},
                                   {"previous", rods::RodStart::kPrevious},
@@ -63,7 +64,7 @@ std::string key_of(const TradeCase& c) {
   return text;
 }
 
-std::vector<TradeCase> trade_cases(bool quick) {
+std::vector<TradeCase> trade_cases(std::span<const TradeStart> starts, bool quick) {
   std::vector<TradeCase> out;
   for (const TradeScene& scene : kScenes) {
     for (const uint32_t segments : kSegments) {
@@ -72,7 +73,7 @@ std::vector<TradeCase> trade_cases(bool quick) {
           if (strands > 1 && segments > kLongestInBatch) continue;
           if (quick && (segments != 10 || (young != 1e4 && young != 1e8) || strands > 1)) continue;
           for (const TradeSolver& solver : kSolvers) {
-            for (const TradeStart& start : kStarts) {
+            for (const TradeStart& start : starts) {
               out.push_back({&scene, strands, segments, young, &solver, &start});
             }
           }

@@ -32,10 +32,13 @@ struct TradeSolver {
 struct TradeStart {
   const char* name;
   rods::RodStart start;
+  const rods::CopingNet* network = nullptr;       // of kLearned
+  const rods::StartExamples* examples = nullptr;  // of kKnn
 };
 
 std::span<const TradeScene> trade_scenes();
 std::span<const TradeSolver> trade_solvers();
+// Those that need no file.
 std::span<const TradeStart> trade_starts();
 
 // One line of the table: a rod in a scene, with a solver and a start.
@@ -50,7 +53,7 @@ struct TradeCase {
 // "chain,1,30,1e+06,direct,previous": the first columns of its lines.
 std::string key_of(const TradeCase& c);
 
-// All of them, or a few of each kind.
-std::vector<TradeCase> trade_cases(bool quick);
+// All of them, or a few of each kind. They point to the starts.
+std::vector<TradeCase> trade_cases(std::span<const TradeStart> starts, bool quick);
 
 }  // namespace sinew::perf

@@ -1,17 +1,21 @@
 // main.cpp  perf_trade_rods: time and iterations to a residual, for solvers, starts, rods and scenes, as CSV.
 //
-//   perf_trade_rods OUT.csv [--quick]
+//   perf_trade_rods OUT.csv [--quick] [--solver NAME] [--network WEIGHTS] [--examples FILE]
 // Cases whose lines are in OUT.csv already are left out, so that a run that was stopped goes on; --quick
-// begins anew, with a few small cases. The first line tells the multiply-add peak of the process that began
-// the file.
+// begins anew, with a few small cases; --solver leaves out the cases
+// of others; --network and --examples add the starts `learned` and `knn`. The first line tells the
+// multiply-add peak of the process that began the file.
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <memory>
 #include <set>
 #include <stdexcept>
 
 #include "perf/rods/peak.hpp"
 #include "perf/trade/measure.hpp"
+#include "perf/trade/start_files.hpp"
 #include "simd/isa.hpp"
 
 namespace {
@@ -49,20 +53,26 @@ std::string lines_of(const TradeCase& c) {
   return out;
 }
 
-int run(const std::string& path, bool quick) {
-  const std::set<std::string> done = quick ? std::set<std::string>() : done_in(path);
-  std::FILE* file = std::fopen(path.c_str(), quick ? "w" : "a");
+struct Request {
+  std::string out, solver, network, examples;
+  bool quick = false;
+};
+
+int run(const Request& request, std::span<const TradeStart> starts) {
+  const std::set<std::string> done = request.quick ? std::set<std::string>() : done_in(request.out);
+  std::FILE* file = std::fopen(request.out.c_str(), request.quick ? "w" : "a");
   if (file == nullptr) {
-    std::fprintf(stderr, "perf_trade_rods: %s cannot be written; give another path\n", path.c_str());
+    std::fprintf(stderr, "perf_trade_rods: %s cannot be written; give another path\n", request.out.c_str());
     return 2;
   }
   if (done.empty()) {
     std::fprintf(file, "# %s, multiply-add peak %.1f GFLOP/s\n%s\n", sinew::simd::active_isa(), peak_gflops(),
                  kColumns);
   }
-  const std::vector<TradeCase> cases = trade_cases(quick);
+  const std::vector<TradeCase> cases = trade_cases(starts, request.quick);
   for (size_t i = 0; i < cases.size(); ++i) {
-    if (done.contains(key_of(cases[i]))) continue;
+    const bool wanted = request.solver.empty() || request.solver == cases[i].solver->name;
+    if (!wanted || done.contains(key_of(cases[i]))) continue;
     std::fputs(lines_of(cases[i]).c_str(), file);
     std::fflush(file);
     std::fprintf(stderr, "%zu of %zu: %s\n", i + 1, cases.size(), key_of(cases[i]).c_str());
@@ -70,16 +80,56 @@ int run(const std::string& path, bool quick) {
   return std::fclose(file) == 0 ? 0 : 2;
 }
 
+int run(const Request& request) {
+  std::vector<TradeStart> starts(trade_starts().begin(), trade_starts().end());
+  std::unique_ptr<StartNetwork> network;
+  std::unique_ptr<ExampleFile> examples;
+  if (!request.examples.empty()) {
+    examples = std::make_unique<ExampleFile>(request.examples);
+    starts.push_back({.name = "knn", .start = sinew::rods::RodStart::kKnn, .examples = examples->examples()});
+  }
+  if (!request.network.empty()) {
+    network = std::make_unique<StartNetwork>(request.network);
+    starts.push_back(
+        {.name = "learned", .start = sinew::rods::RodStart::kLearned, .network = network->net()});
+  }
+  return run(request, starts);
+}
+
+bool parse(int argc, char** argv, Request* out) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    std::string* value = word == "--solver"     ? &out->solver
+                         : word == "--network"  ? &out->network
+                         : word == "--examples" ? &out->examples
+                                                : nullptr;
+    if (word == "--quick") {
+      out->quick = true;
+    } else if (value != nullptr) {
+      if (++i == argc) return false;
+      *value = argv[i];
+    } else if (word[0] != '-' && out->out.empty()) {
+      out->out = word;
+    } else {
+      return false;
+    }
+  }
+  const auto named = [&](const TradeSolver& solver) { return solver.name == out->solver; };
+  return !out->out.empty() && (out->solver.empty() || std::ranges::any_of(trade_solvers(), named));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  const bool quick = argc == 3 && std::strcmp(argv[2], "--quick") == 0;
-  if (argc < 2 || argv[1][0] == '-' || (argc > 2 && !quick)) {
-    std::fprintf(stderr, "usage: perf_trade_rods OUT.csv [--quick]\n");
+  Request request;
+  if (!parse(argc, argv, &request)) {
+    std::fprintf(stderr,
+                 "usage: perf_trade_rods OUT.csv [--quick] [--solver direct|cg|local] [--network WEIGHTS] "
+                 "[--examples FILE]\n");
     return 2;
   }
   try {
-    return run(argv[1], quick);
+    return run(request);
   } catch (const std::exception& problem) {
     std::fprintf(stderr, "perf_trade_rods: %s\n", problem.what());
     return 2;
