@@ -1,6 +1,6 @@
 // starts.cpp  What a start is worth: iterations and time of both solvers for every start, as CSV.
 //
-//   perf_rod_starts [--steps S] [--examples FILE] [WEIGHTS ...]
+//   perf_rod_starts [--steps S] [--scene PREFIX] [--examples FILE] [WEIGHTS ...]
 //
 // Scenes as the networks are trained on (baker/rods/rod_scene.hpp), of seeds in no plan. The direct solver
 // steps one group of 16 strands, which waits for its slowest; conjugate gradients step each rod alone, as the
@@ -82,6 +82,7 @@ struct Given {  // on the command line
   std::vector<std::unique_ptr<Network>> networks;
   std::unique_ptr<Examples> examples;
   uint32_t steps = 200, length_steps = 0;
+  std::string scene;  // only those that begin so
 };
 
 struct Case {
@@ -308,10 +309,12 @@ Given read_arguments(int count, char** arguments) {
   Given given;
   for (int i = 1; i < count; ++i) {
     const std::string word = arguments[i];
-    const bool valued = word == "--steps" || word == "--examples" || word == "--length";
+    const bool valued = word == "--steps" || word == "--examples" || word == "--length" || word == "--scene";
     if (valued && i + 1 == count) throw baker::BadInput(word + ": needs a value");
     if (word == "--steps") {
       given.steps = whole(word, arguments[++i]);
+    } else if (word == "--scene") {
+      given.scene = arguments[++i];
     } else if (word == "--length") {
       given.length_steps = whole(word, arguments[++i]);
     } else if (word == "--examples") {
@@ -329,7 +332,9 @@ void run_all(const Given& given) {
   print_costs(given);
   std::puts(
       "scene,segments,young_pa,solver,start,horizon,newton,most,cg_iterations,us_a_strand_step,unconverged");
-  for (const Case& c : all_cases()) run(c, given);
+  for (const Case& c : all_cases()) {
+    if (c.name.starts_with(given.scene)) run(c, given);
+  }
 }
 
 }  // namespace
