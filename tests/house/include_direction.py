@@ -26,7 +26,8 @@ BAKER = {
     "mesh": {"import"},
     "truth": {"import", "mesh"},
     "pack": {"import", "mesh", "truth"},
-    "programs": {"import", "mesh", "truth", "pack", "creature"},
+    "rods": set(),
+    "programs": {"import", "mesh", "truth", "pack", "creature", "rods"},
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 
