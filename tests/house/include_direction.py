@@ -26,7 +26,7 @@ BAKER = {
     "mesh": {"import"},
     "truth": {"import", "mesh"},
     "pack": {"import", "mesh", "truth"},
-    "rods": set(),
+    "rods": {"truth"},
     "programs": {"import", "mesh", "truth", "pack", "creature", "rods"},
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
