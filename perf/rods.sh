@@ -14,10 +14,7 @@ if [ "${1:-}" = --quick ]; then
   build/release/bin/perf_trade_rods "$quick/trade.csv" --quick
   exit
 fi
-# The learned start and its baseline, where they are trained.
-starts=()
-[ ! -e "${SINEW_ROD_WEIGHTS:-}" ] || starts+=(--network "$SINEW_ROD_WEIGHTS")
-[ ! -e "${SINEW_ROD_EXAMPLES:-}" ] || starts+=(--examples "$SINEW_ROD_EXAMPLES")
+starts=(--examples assets/weights/coping_examples.safetensors --network "${SINEW_ROD_WEIGHTS:-assets/weights/coping_8.safetensors}")
 [ "${1:-}" != --again ] || rm -f "$measured"
 build/release/bin/perf_rods >build/release/rods.csv
 build/release/bin/perf_trade_rods "$measured" "${starts[@]}"

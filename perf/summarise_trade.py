@@ -106,27 +106,27 @@ def starts_table(cases):
 
 
 def plot_time(axes, cases, scene):
-    for solver, start in options(cases):
+    for number, (solver, start) in enumerate(options(cases)):
         points = {}
         for (name, strands, segments, _, residual), of in cases.items():
             if (name, strands, residual) == (scene, 1, "1e-04") and (solver, start) in of and math.isfinite(us(of[solver, start])):
                 points.setdefault(segments, []).append(us(of[solver, start]))
         if points:
             n = sorted(points)
-            line, = axes.loglog(n, [geometric_mean(points[k]) for k in n], marker="o", ms=3, label=f"{solver}, {start}")
+            line, = axes.loglog(n, [geometric_mean(points[k]) for k in n], marker="o", ms=3, color=f"C{number}", label=f"{solver}, {start}")
             axes.fill_between(n, [min(points[k]) for k in n], [max(points[k]) for k in n], alpha=0.12, color=line.get_color())
     axes.set(title=scene, xlabel="segments", xticks=[10, 30, 50, 100, 200], xticklabels=[10, 30, 50, 100, 200])
     axes.minorticks_off()
 
 
 def plot_iterations(axes, cases, scene):
-    for solver, start in options(cases):
-        if solver == "cg":
+    for number, (solver, start) in enumerate(options(cases)):
+        if solver != "direct":
             continue
         points = [(case[3], float(of[solver, start]["iterations_mean"])) for case, of in sorted(cases.items(), key=lambda c: c[0][3])
                   if case[:3] == (scene, 1, 50) and case[4] == "1e-06" and (solver, start) in of and int(of[solver, start]["reached"])]
         if points:
-            axes.semilogx(*zip(*points), marker="o", ms=3, label=f"{solver}, {start}")
+            axes.semilogx(*zip(*points), marker="o", ms=3, color=f"C{number}")
     axes.set(xlabel="Young's modulus, Pa", ylim=(0, None))
 
 
@@ -137,11 +137,11 @@ def plot(cases, path):
         plot_time(rows[0][column], cases, scene)
         plot_iterations(rows[1][column], cases, scene)
     rows[0][0].set_ylabel("us a step, to residual 1e-4\n(line: mean over moduli, band: all)")
-    rows[1][0].set_ylabel("iterations to 1e-6, 50 segments")
-    rows[0][0].legend(fontsize=7)
+    rows[1][0].set_ylabel("iterations of direct to 1e-6, 50 segments")
+    figure.legend(*rows[0][0].get_legend_handles_labels(), loc="lower center", bbox_to_anchor=(0.5, -0.08), ncol=5, fontsize=7)
     for axes in rows.flat:
         axes.grid(alpha=0.3)
-    figure.savefig(path, dpi=100)
+    figure.savefig(path, dpi=100, bbox_inches="tight")
 
 
 def main(path):

@@ -32,6 +32,12 @@ newer "$out/hop.truth.safetensors" "$out/creature.glb" "$tissue" || {
 }
 newer "$out/pictures/contact_sheet.png" "$out/creature.sinew" "$out/hop.truth.safetensors" "$bin/sinew-demo" ||
   "$bin/sinew-demo" "$out/creature.sinew" --seconds 3 --truth "$out/hop.truth.safetensors" --frames "$out/pictures"
+# The same creature with its tail and ears as rods.
+rods=assets/creature/tissue_rods.json
+newer "$out/creature_rods.sinew" "$out/creature.glb" "$rods" "$weights" ||
+  "$bin/sinew-bake" character "$out/creature.glb" --recipe "$rods" --tissue "$weights" -o "$out/creature_rods.sinew"
+newer "$out/pictures_rods/contact_sheet.png" "$out/creature_rods.sinew" "$bin/sinew-demo" ||
+  "$bin/sinew-demo" "$out/creature_rods.sinew" --seconds 2.4 --clip hop --picture-fps 15 --frames "$out/pictures_rods"
 
 echo
 echo "16 creatures, 10 seconds, 1500 us a frame:"
@@ -43,4 +49,4 @@ echo
 echo "Rods without a character:"
 newer "$out/rods/two_rods.png" "$bin/sinew-rods" || "$bin/sinew-rods" -o "$out/rods"
 echo
-echo "Pictures: $out/pictures/contact_sheet.png  $out/pictures (frames, animation)  $out/budget.png  $out/rods/*.png"
+echo "Pictures: $out/pictures/contact_sheet.png  $out/pictures_rods/contact_sheet.png  $out/pictures (frames, animation)  $out/budget.png  $out/rods/*.png"

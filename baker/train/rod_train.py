@@ -136,7 +136,8 @@ class RodTrainer:
                 before = self.best
                 self.validate(elapsed_s, float(np.mean(losses)))
                 losses, since = [], 0 if self.best < before else since + 1
-        self.validate(time.process_time() - begin, float(np.mean(losses or [0])))
+        if losses:
+            self.validate(time.process_time() - begin, float(np.mean(losses)))
         self.model.load_state_dict(self.best_state)
         self.seconds = time.process_time() - begin
 

@@ -60,6 +60,17 @@ Status RodBatchBuilder::fill_all(std::span<const StrandDef> strands) {
   return status;
 }
 
+size_t RodBatch::memory_bytes(uint32_t strands, uint32_t segments, const RodSettings& settings) noexcept {
+  RodBatch measured;
+  measured.settings_ = settings;
+  measured.strand_count_ = strands;
+  measured.segment_count_ = segments;
+  measured.width_ = strands > kNarrow ? kWide : kNarrow;
+  size_t bytes = 0;
+  RodBatchBuilder{measured}.lay_out(nullptr, &bytes);
+  return bytes;
+}
+
 Status RodBatch::create(std::span<const StrandDef> strands, const RodSettings& settings,
                         RodBatch* out) noexcept {
   Status status = check_batch(strands, settings);

@@ -6,6 +6,8 @@
 // same bits on all instruction sets with fused multiply-adds. One thread at a time for a batch; several
 // batches at once are several threads' work.
 #pragma once
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -142,6 +144,26 @@ class RodBatch {
   // For training, of the last step; zeros but with kKnn, kLearned or keeps_start_inputs.
   StartInputs start_inputs(uint32_t strand, uint32_t segment) const noexcept;
 
+  // ---- rod_state.cpp: for what keeps a batch in a pose, in a snapshot, with a character ----
+
+  // Puts a segment there, fixed or not, moving so, without forces; a fixed one stays until its next target.
+  // Refused: no such segment, numbers as in set_target and set_velocity.
+  Status set_pose(uint32_t strand, uint32_t segment, const SegmentPose& pose,
+                  const SegmentVelocity& velocity) noexcept;
+  // The segment's orientation in its parent's axes at which their joint is at rest, until changed. Refused:
+  // no such segment, the root, no unit quaternion.
+  Status set_rest(uint32_t strand, uint32_t segment, const float (&to_parent)[4]) noexcept;
+  // Turns everything rigidly about a point: poses, velocities, forces. Targets not yet stepped to are
+  // dropped.
+  void turn_all(const std::array<double, 4>& by_xyzw, const std::array<double, 3>& centre_m) noexcept;
+  // What steps change, as bytes: after a restore into a batch of the same strands and settings the same steps
+  // give the same bits.
+  size_t state_bytes() const noexcept;
+  void save_state(std::byte* out) const noexcept;
+  void restore_state(const std::byte* from) noexcept;
+  // What a batch of so many strands of so many segments takes; a network's part is not counted.
+  static size_t memory_bytes(uint32_t strands, uint32_t segments, const RodSettings& settings) noexcept;
+
  private:
   friend struct RodBatchBuilder;
   struct Units {
@@ -161,6 +183,8 @@ class RodBatch {
     at(strand, segment, simd::kRodPlaceLow + axis) = static_cast<float>(place - static_cast<double>(high));
   }
   void put_target(uint32_t strand, uint32_t segment, const Vector& move, const Turn& turn) const noexcept;
+  template <class Run>
+  void for_each_run(Run run) const noexcept;
   Status check_place(uint32_t strand, uint32_t segment) const noexcept;
   Status check_simulated(uint32_t strand, uint32_t segment, const char* what) const noexcept;
   bool held(uint32_t strand, uint32_t segment) const noexcept;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "core/status.hpp"
 #include "world/instance.hpp"
@@ -44,8 +45,11 @@ Status open_asset(std::span<const std::byte> bytes, Asset* out) noexcept {
   pack::PackView view;
   if (Status status = pack::open_pack(bytes, &view); !status.ok()) return status;
   if (Status status = check_runnable(view); !status.ok()) return status;
+  RodRig rods;
+  if (Status status = make_rod_rig(view, &rods); !status.ok()) return status;
   Asset& asset = *out;
   asset.pack = view;
+  asset.rods = std::move(rods);
   asset.network = {view.network,
                    view.layers,
                    view.inputs,
@@ -73,6 +77,7 @@ AssetInfo describe(const Asset& asset) noexcept {
           .region_count = character.region_count,
           .node_count = character.node_count,
           .clip_count = character.clip_count,
+          .rod_count = character.rod_count,
           .tick_hz = asset.pack.network->rate_hz,
           .height_m = character.height_m,
           .instance_bytes = instance_bytes(asset)};

@@ -8,6 +8,7 @@
 #include "pack/reader.hpp"
 #include "sinew/types.hpp"
 #include "tissue/network.hpp"
+#include "world/rod_rig.hpp"
 
 namespace sinew::world {
 
@@ -16,6 +17,7 @@ struct Asset {
   pack::PackView pack;
   tissue::Network network;  // without layers where the character has none
   tissue::Graph graph;
+  RodRig rods;
   double tick_s = 0;
   uint64_t fingerprint = 0;      // of all of the pack's bytes
   uint32_t padded_vertices = 0;  // carried vertices of all regions, each region padded

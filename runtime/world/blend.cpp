@@ -10,6 +10,7 @@
 #include "tissue/network.hpp"
 #include "tissue/node_bend.hpp"
 #include "world/motion.hpp"
+#include "world/rod_blend.hpp"
 #include "world/simulate.hpp"
 #include "world/sleep.hpp"
 
@@ -27,6 +28,7 @@ void begin_tail(Instance& instance, float velocity_kept) noexcept {
   for (size_t i = 0; i < floats_of(instance); ++i) {
     instance.tail_velocity[i] = velocity_kept * (instance.shown[0][i] - instance.shown[1][i]);
   }
+  begin_rod_tails(instance, velocity_kept);
   instance.state->tail_ticks = 0;
 }
 
@@ -38,6 +40,7 @@ void begin_simulation(Instance& instance) noexcept {
   for (int tick = 0; tick < 2; ++tick)
     tissue::along_frame(instance.poses[0], instance.shown[tick], instance.asset->node_count(),
                         instance.u[tick]);
+  take_rods_as_shown(instance);
   state.motion_stale = 1;
   state.clamped_ticks = 0;
   state.blend_ticks = state.untouched ? kBlendInTicks : 0;
@@ -118,6 +121,7 @@ void show_tick(Instance& instance) noexcept {
   const float simulated = instance.simulated_share();
   const float tail = (1 - simulated) * instance.tail_share();
   copy(instance, instance.shown[0], instance.shown[1]);
+  show_rods(instance, simulated);
   if (simulated > 0)
     tissue::along_flesh(instance.poses[0], instance.u[0], instance.asset->node_count(), instance.shown[0]);
   if (simulated == 1) return;

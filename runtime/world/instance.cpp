@@ -13,13 +13,16 @@
 #include "tissue/network.hpp"
 #include "tissue/node_drive.hpp"
 #include "world/publish.hpp"
+#include "world/rod_batches.hpp"
+#include "world/rod_blend.hpp"
+#include "world/rod_sleep.hpp"
 #include "world/sleep.hpp"
 
 namespace sinew::world {
 namespace {
 
 static_assert(std::is_trivially_copyable_v<InstanceState>, "saved as bytes");
-static_assert(sizeof(InstanceState) == 296, "no padding: equal states are equal bytes");
+static_assert(sizeof(InstanceState) == 336, "no padding: equal states are equal bytes");
 
 float smooth_step(float t) noexcept { return t * t * (3 - 2 * t); }
 
@@ -42,6 +45,14 @@ void lay_out_state(const Asset& asset, core::Arena& arena, Instance& to) noexcep
   for (float*& shown : to.shown) shown = arena.take<float>(vectors);
   to.felt_asleep = arena.take<float>(vectors);
   to.quiet_ticks = arena.take<uint32_t>(asset.pack.regions.size());
+  const size_t slots = asset.rods.slot_count;
+  for (float** turns : {&to.rod_turn, &to.rod_shown[0], &to.rod_shown[1], &to.rod_tail})
+    *turns = arena.take<float>(4 * slots);
+  to.rod_tail_velocity = arena.take<float>(3 * slots);
+  to.rod_asleep = arena.take<double>(4 * slots);
+  to.rod_hold_asleep = arena.take<double>(size_t{3} * asset.rods.rod_count);
+  for (double*& rest : to.rod_rest) rest = arena.take<double>(4 * slots);
+  for (double*& hold : to.rod_hold) hold = arena.take<double>(size_t{3} * asset.rods.rod_count);
   to.state_bytes = arena.used_bytes();
 }
 
@@ -64,6 +75,12 @@ void lay_out_scratch(const Asset& asset, core::Arena& arena, Instance& to) noexc
   to.delta = arena.take<float>(size_t{3} * nodes);
   to.carried = arena.take<float>(size_t{3} * asset.padded_vertices);
   to.surface = arena.take<float>(size_t{3} * asset.vertex_count());
+  const size_t slots = asset.rods.slot_count;
+  for (size_t tick = 0; tick < 2; ++tick) {
+    to.rod_end[tick] = arena.take<double>(3 * slots);
+  }
+  to.rod_motion = arena.take<Matrix34>(slots);
+  to.rod_joints = arena.take<Matrix34>(slots > 0 ? joints : 0);
 }
 
 void lay_out(const Asset& asset, core::Arena& arena, Instance& to) noexcept {
@@ -88,17 +105,20 @@ size_t instance_bytes(const Asset& asset) noexcept {
   core::Arena measure;
   Instance unused;
   lay_out(asset, measure, unused);
-  return measure.used_bytes();
+  return measure.used_bytes() + rod_batch_bytes(asset);
 }
 
 Status make_instance(Asset& asset, AssetId asset_id, const RootTransform& root, float importance,
                      Instance* out) noexcept {
-  const size_t bytes = instance_bytes(asset);
+  core::Arena measure;
   Instance made;
+  lay_out(asset, measure, made);
+  const size_t bytes = measure.used_bytes();
   made.memory = core::AlignedBlock(bytes);
   if (!made.memory.data()) {
     return core::make_status(StatusCode::kOutOfCapacity, "create_instance: no memory for %zu bytes", bytes);
   }
+  if (Status status = make_rod_batches(asset, &made.rod_batches); !status.ok()) return status;
   core::Arena arena(made.memory.data());
   lay_out(asset, arena, made);
   made.asset = &asset;
@@ -108,6 +128,7 @@ Status make_instance(Asset& asset, AssetId asset_id, const RootTransform& root, 
   made.state->importance = frame::sane_importance(importance);
   bind_pose(asset.pack.joints, made.joints);
   std::copy_n(made.joints, asset.pack.character->joint_count, made.joints_before);
+  forget_rods(made);
   publish(made);
   *out = std::move(made);
   return {};
@@ -119,6 +140,7 @@ void forget_motion(Instance& instance) noexcept {
   for (float* shown : instance.shown) std::memset(shown, 0, bytes);
   std::memset(instance.tail, 0, bytes);
   std::memset(instance.tail_velocity, 0, bytes);
+  forget_rods(instance);
   state.at_start = 1;
   state.motion_stale = 1;
   state.restarting = 0;
@@ -129,6 +151,7 @@ void forget_motion(Instance& instance) noexcept {
   state.tail_ticks = kCarryTicks + kFadeTicks;
   state.clamped_ticks = 0;
   state.render_fraction = 0;
+  state.teleported = 0;
   std::fill_n(state.velocity_m_s, 3, 0.0);
   std::fill_n(state.angular_velocity, 3, 0.0);
 }
@@ -145,6 +168,8 @@ InstanceReport describe(const Instance& instance, InstanceId id) noexcept {
           .fallbacks = state.fallbacks,
           .restarts = state.restarts,
           .regions_asleep = frame::is_simulated(state.tier) ? regions_asleep(instance) : 0,
+          .rod_recoveries = state.rod_recoveries,
+          .rods_asleep = frame::is_simulated(state.tier) ? rods_asleep(instance) : 0,
           .cost_us = core::microseconds(instance.times.total_ns)};
 }
 

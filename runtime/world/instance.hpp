@@ -2,10 +2,12 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 
 #include "core/aligned_block.hpp"
 #include "frame/tick_clock.hpp"
+#include "rods/rod_batch.hpp"
 #include "sinew/types.hpp"
 #include "tissue/node_pose.hpp"
 #include "world/asset.hpp"
@@ -51,12 +53,17 @@ struct InstanceState {
   uint32_t clamped_ticks = 0;                      // in a row
   uint32_t ticks_since_network = 0;
   uint32_t input_clamps = 0, displacement_clamps = 0, fallbacks = 0, restarts = 0;
-  uint32_t untouched = 1;  // no tick since the first pose: displacement is exactly zero
+  uint32_t untouched = 1;       // no tick since the first pose: displacement is exactly zero
+  double rod_anchor_m[3] = {};  // of the world, where rods' places count from: near, so that they stay exact
+  uint32_t rod_recoveries = 0;
+  uint32_t rod_quiet_ticks = 0;  // world/rod_sleep.hpp
+  uint32_t teleported = 0;       // in the last step
+  uint32_t reserved = 0;         // no padding
 };
 
 // What the last step measured; not state.
 struct InstanceTimes {
-  uint64_t drive_ns = 0, tissue_ns = 0, publish_ns = 0, total_ns = 0;
+  uint64_t drive_ns = 0, tissue_ns = 0, rods_ns = 0, publish_ns = 0, total_ns = 0;
 };
 
 // What a step will do with an instance; set before the tasks run.
@@ -80,6 +87,9 @@ struct Instance {
   bool cut = false, restarted = false, fell_back = false;  // in the last step
   bool parts_ready = false;                                // in this step: the parts are filled in
   bool displaced = false;                                  // published displacement is not zero everywhere
+  bool rods_anew = false;   // in this tick: rods are taken to where they are shown before they go on
+  bool rods_shown = false;  // published joints are not the pose's
+  std::unique_ptr<rods::RodBatch[]> rod_batches;  // their state is saved beside the run of bytes below
 
   // State: one run of bytes from `state` on.
   InstanceState* state = nullptr;
@@ -92,6 +102,14 @@ struct Instance {
   float* shown[2] = {};                             // newest first
   float* felt_asleep = nullptr;                     // m/s^2, when the region's quiet began (world/sleep.hpp)
   uint32_t* quiet_ticks = nullptr;                  // [regions]
+  // Of rods, [slots][4]: how a segment is turned against its rest, x y z w along its own axes; as u, shown
+  // and tail are for tissue.
+  float *rod_turn = nullptr, *rod_shown[2] = {}, *rod_tail = nullptr;
+  float* rod_tail_velocity = nullptr;                        // [slots][3]: rotation vector a tick
+  double *rod_asleep = nullptr, *rod_hold_asleep = nullptr;  // rest and hold when their quiet began
+  // Of the last two ticks, newest first: [slots][4] segments' orientations in the world at rest, [rods][3]
+  // where their holders end, from rod_anchor_m.
+  double *rod_rest[2] = {}, *rod_hold[2] = {};
   size_t state_bytes = 0;
 
   // Scratch of a step.
@@ -104,11 +122,15 @@ struct Instance {
   float* region[2] = {};             // [widest_region]: one region's x y z and modes
   tissue::NodeRun* awake = nullptr;  // [regions]
 
+  double* rod_end[2] = {};  // [slots][3] where segments end, as they are taken along
+
   // Published by a step, read by read_*.
-  float* skin = nullptr;     // [joints][12]
-  float* delta = nullptr;    // [nodes][3], bind-pose axes
-  float* carried = nullptr;  // of delta: a region after the other [3][padded_vertices], bind-pose axes
-  float* surface = nullptr;  // [vertices][3], scratch of read_normals
+  float* skin = nullptr;           // [joints][12]
+  float* delta = nullptr;          // [nodes][3], bind-pose axes
+  float* carried = nullptr;        // of delta: a region after the other [3][padded_vertices], bind-pose axes
+  float* surface = nullptr;        // [vertices][3], scratch of read_normals
+  Matrix34* rod_motion = nullptr;  // [slots]: how rods move the pose's bones, in the character's space
+  Matrix34* rod_joints = nullptr;  // [joints], where there are rods: the pose's, moved by them
 
   float simulated_share() const noexcept;  // b
   float tail_share() const noexcept;       // 1 while carried, then falling smoothly to 0

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "tissue/node_bend.hpp"
+#include "world/rod_motion.hpp"
 #include "world/rotation.hpp"
 
 namespace sinew::world {
@@ -72,6 +73,7 @@ void shift_past(Instance& instance, const RootTransform& root) noexcept {
   }
   for (tissue::NodePose* poses : instance.poses)
     turn_poses(turn.cast<float>(), instance.asset->node_count(), poses);
+  move_rods(instance, rotation_of(root) * rotation_of(state.root).conjugate(), from, to);
   state.root = root;
 }
 
@@ -91,6 +93,11 @@ void measure_velocity(Instance& instance) noexcept {
   const Vector3d turn = logarithm(rotation_of(state.root).conjugate() * rotation_of(state.next_root));
   Eigen::Map<Vector3d>(state.velocity_m_s) = (place_of(state.next_root) - place_of(state.root)) / dt_s;
   Eigen::Map<Vector3d>(state.angular_velocity) = turn / dt_s;
+}
+
+void forget_velocity(InstanceState& state) noexcept {
+  std::fill_n(state.velocity_m_s, 3, 0.0);
+  std::fill_n(state.angular_velocity, 3, 0.0);
 }
 
 void copy_joints(const Instance& instance, const Matrix34* from, Matrix34* to) noexcept {
@@ -148,7 +155,9 @@ void push_pose(Instance& instance, double share) noexcept {
     std::copy_n(roots[back - 1], 3, roots[back]);
   }
   const RootTransform root = root_at(instance, share);
-  pose_nodes(instance, joints_at(instance, share), root);
+  const Matrix34* joints = joints_at(instance, share);
+  pose_nodes(instance, joints, root);
+  rest_rods(instance, joints, root);
   std::copy_n(root.position_m, 3, roots[0]);
 }
 
@@ -168,7 +177,10 @@ void take_pose(Instance& instance, float teleport_distance_m) noexcept {
     state.untouched = 1;
     state.motion_stale = 1;
   } else if (teleported(instance, teleport_distance_m)) {
+    if (std::exchange(state.teleported, 1u)) forget_velocity(state);
     shift_past(instance, root_leading_to_next(instance));
+  } else {
+    state.teleported = 0;
   }
   remember_root_step(instance);
   measure_velocity(instance);
@@ -187,6 +199,7 @@ void follow_motion(Instance& instance, double time_s) noexcept {
   if (std::exchange(instance.state->motion_stale, 0u)) {
     const double tick = instance.plan.dt_s > 0 ? instance.asset->tick_s / instance.plan.dt_s : 0;
     const double back = tick <= kFarthestBack ? tick : 0;
+    begin_rods(instance);
     push_pose(instance, share - 2 * back);
     push_pose(instance, share - back);
   }

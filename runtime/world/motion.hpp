@@ -10,6 +10,7 @@ namespace sinew::world {
 //   teleport: the root is further than teleport_distance_m from where its velocity of the last step would
 //   have brought it, at any frame rate. The past (previous root, motion history) is moved rigidly so that it
 //   leads to the new root at that same velocity: tissue keeps its shape and feels nothing of the jump.
+//   A second one in the next step is no jump but a velocity that was none: it is forgotten first.
 void take_pose(Instance& instance, float teleport_distance_m) noexcept;
 
 // End of a step: the pose that was set is the present one.

@@ -96,6 +96,12 @@ Status check_pose(const Pose& pose, uint32_t joint_count, RootTransform* root) n
   return check_root(pose.root, root);
 }
 
+void joint_rotation(const Matrix34& joint, double out_xyzw[4]) noexcept {
+  const Eigen::Matrix3d rotation = rotation_of(map(joint).leftCols<3>()).cast<double>();
+  Eigen::Map<Eigen::Vector4d> out(out_xyzw);
+  out = Quaterniond(rotation).normalized().coeffs();
+}
+
 JointParts split_joint(const Matrix34& joint) noexcept {
   const RowMatrix3 linear = map(joint).leftCols<3>();
   const RowMatrix3 rotation = rotation_of(linear);

@@ -21,6 +21,8 @@ struct JointParts {
   float translation_m[3];
 };
 
+// The rotation alone, x y z w; none where the matrix has no three directions.
+void joint_rotation(const Matrix34& joint, double out_xyzw[4]) noexcept;
 JointParts split_joint(const Matrix34& joint) noexcept;
 
 // A place between two poses a and b, c the pose before a: a + next (b - a) + past (a - c), rotations through

@@ -5,6 +5,7 @@
 
 #include "simd/kernels.hpp"
 #include "world/pose.hpp"
+#include "world/rod_publish.hpp"
 
 namespace sinew::world {
 namespace {
@@ -27,7 +28,8 @@ bool carry_on(Instance& instance, const pack::RegionRecord& region) noexcept {
 
 void publish(Instance& instance) noexcept {
   const pack::PackView& pack = instance.asset->pack;
-  skin_matrices(pack.joints, instance.joints, instance.skin);
+  publish_rods(instance);
+  skin_matrices(pack.joints, shown_joints(instance), instance.skin);
   instance.displaced = instance.shown_share() > 0;
   if (!instance.displaced) return;
   float* carried = instance.carried;

@@ -14,8 +14,9 @@ namespace {
 using core::make_status;
 
 constexpr uint64_t kMagic = 0x31544154534e5753;  // "SWNSTAT1", little-endian
-// Of InstanceState and the arrays after it. 4: which regions sleep, and what they felt when they fell asleep.
-constexpr uint32_t kVersion = 4;
+// Of InstanceState, the arrays after it and the rods' batches. 4: which regions sleep, and what they felt
+// when they fell asleep. 5: rods.
+constexpr uint32_t kVersion = 5;
 
 struct Header {
   uint64_t magic, fingerprint, payload_bytes, checksum;
@@ -23,12 +24,29 @@ struct Header {
 };
 static_assert(sizeof(Header) == 40);
 
-std::span<std::byte> payload_of(const Instance& instance) noexcept {
-  return {reinterpret_cast<std::byte*>(instance.state), instance.state_bytes};
-}
-
 Header header_of(const Instance& instance, std::span<const std::byte> payload) noexcept {
   return {kMagic, instance.asset->fingerprint, payload.size(), core::hash64(payload), kVersion, 0};
+}
+
+void save_rods(const Instance& instance, std::byte* out) noexcept {
+  for (uint32_t b = 0; b < instance.asset->rods.batch_count; ++b) {
+    instance.rod_batches[b].save_state(out);
+    out += instance.rod_batches[b].state_bytes();
+  }
+}
+
+void restore_rods(Instance& instance, const std::byte* from) noexcept {
+  for (uint32_t b = 0; b < instance.asset->rods.batch_count; ++b) {
+    instance.rod_batches[b].restore_state(from);
+    from += instance.rod_batches[b].state_bytes();
+  }
+}
+
+size_t payload_bytes(const Instance& instance) noexcept {
+  size_t bytes = instance.state_bytes;
+  for (uint32_t b = 0; b < instance.asset->rods.batch_count; ++b)
+    bytes += instance.rod_batches[b].state_bytes();
+  return bytes;
 }
 
 Status corrupt(const char* why) noexcept {
@@ -37,17 +55,18 @@ Status corrupt(const char* why) noexcept {
 
 }  // namespace
 
-size_t snapshot_bytes(const Instance& instance) noexcept { return sizeof(Header) + instance.state_bytes; }
+size_t snapshot_bytes(const Instance& instance) noexcept { return sizeof(Header) + payload_bytes(instance); }
 
 Status save(const Instance& instance, std::span<std::byte> out) noexcept {
   if (out.size() < snapshot_bytes(instance)) {
     return make_status(StatusCode::kInvalidArgument, "save_state: %zu bytes given, %zu needed (state_bytes)",
                        out.size(), snapshot_bytes(instance));
   }
-  const std::span<const std::byte> payload = payload_of(instance);
+  const std::span<std::byte> payload = out.subspan(sizeof(Header), payload_bytes(instance));
+  std::memcpy(payload.data(), instance.state, instance.state_bytes);
+  save_rods(instance, payload.data() + instance.state_bytes);
   const Header header = header_of(instance, payload);
   std::memcpy(out.data(), &header, sizeof header);
-  std::memcpy(out.data() + sizeof header, payload.data(), payload.size());
   return {};
 }
 
@@ -56,7 +75,7 @@ Status restore(Instance& instance, std::span<const std::byte> bytes) noexcept {
     return corrupt("fewer bytes than state_bytes; another asset's, or cut");
   Header given;
   std::memcpy(&given, bytes.data(), sizeof given);
-  const std::span<const std::byte> payload = bytes.subspan(sizeof given, instance.state_bytes);
+  const std::span<const std::byte> payload = bytes.subspan(sizeof given, payload_bytes(instance));
   if (given.magic != kMagic) return corrupt("not a snapshot of an instance");
   if (given.version != kVersion) return corrupt("saved by another version of the library");
   if (given.fingerprint != instance.asset->fingerprint)
@@ -64,7 +83,9 @@ Status restore(Instance& instance, std::span<const std::byte> bytes) noexcept {
   if (given.payload_bytes != payload.size() || given.checksum != core::hash64(payload)) {
     return corrupt("the bytes changed since they were saved");
   }
-  std::memcpy(instance.state, payload.data(), payload.size());
+  std::memcpy(instance.state, payload.data(), instance.state_bytes);
+  restore_rods(instance, payload.data() + instance.state_bytes);
+  instance.rods_anew = false;
   const core::FlushDenormals flush;  // as in a step: the same bits are shown
   publish(instance);
   return {};

@@ -101,7 +101,7 @@ void age(Instance& instance) noexcept {
 void correct_costs(Instance& instance) noexcept {
   frame::CostModel& cost = instance.asset->cost;
   const InstanceTimes& times = instance.times;
-  const uint64_t ticked_ns = times.drive_ns + times.tissue_ns;
+  const uint64_t ticked_ns = times.drive_ns + times.tissue_ns + times.rods_ns;
   cost.base.observe(core::microseconds(times.total_ns - ticked_ns));
   const Tier tier = instance.state->tier;
   const auto ticks = static_cast<float>(instance.plan.ticks.ticks);
@@ -131,6 +131,7 @@ void add_to_report(const Instance& instance, FrameReport& report) noexcept {
   report.dropped_s = std::max(report.dropped_s, static_cast<float>(ticks.dropped_s));
   report.drive_us += core::microseconds(instance.times.drive_ns);
   report.tissue_us += core::microseconds(instance.times.tissue_ns);
+  report.rods_us += core::microseconds(instance.times.rods_ns);
   report.publish_us += core::microseconds(instance.times.publish_ns);
   report.instances_cut += instance.cut;
   report.restarts += instance.restarted;

@@ -7,6 +7,7 @@
 #include "world/blend.hpp"
 #include "world/motion.hpp"
 #include "world/publish.hpp"
+#include "world/rod_motion.hpp"
 #include "world/simulate.hpp"
 #include "world/sleep.hpp"
 
@@ -22,8 +23,11 @@ void simulated_tick(Instance& instance, double time_s, const TickContext& contex
   watch_drive(instance, context.sleep_tolerance);
   if (!simulate_tick(instance)) restart(instance);
   watch_motion(instance, context.sleep_tolerance);
+  const uint64_t soft_ns = core::now_ns(clock);
+  if (frame::is_simulated(instance.state->tier)) simulate_rods(instance, context.sleep_tolerance);
   instance.times.drive_ns += driven_ns - start_ns;
-  instance.times.tissue_ns += core::now_ns(clock) - driven_ns;
+  instance.times.tissue_ns += soft_ns - driven_ns;
+  instance.times.rods_ns += core::now_ns(clock) - soft_ns;
 }
 
 void run_ticks(Instance& instance, const TickContext& context) noexcept {

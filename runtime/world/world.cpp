@@ -11,6 +11,7 @@
 #include "simd/kernels.hpp"
 #include "world/pose.hpp"
 #include "world/read.hpp"
+#include "world/rod_publish.hpp"
 #include "world/snapshot.hpp"
 #include "world/step.hpp"
 #include "world/world_state.hpp"
@@ -165,6 +166,12 @@ const char* World::joint_name(AssetId id, uint32_t joint) const noexcept {
   return pack::string_at(asset->pack, asset->pack.joints[joint].name);
 }
 
+bool World::joint_is_on_rod(AssetId id, uint32_t joint) const noexcept {
+  Asset* asset = nullptr;
+  return find_asset(impl_, id, &asset).ok() && joint < asset->pack.joint_rods.size() &&
+         asset->pack.joint_rods[joint] != pack::kNoIndex;
+}
+
 Status World::bind_pose(AssetId id, std::span<Matrix34> out) const noexcept {
   Asset* asset = nullptr;
   if (Status status = find_asset(impl_, id, &asset); !status.ok()) return status;
@@ -270,6 +277,19 @@ Status World::read_normals(InstanceId id, const ReadDef& def) const noexcept {
   if (Status status = world::check_read(def, instance->asset->vertex_count(), true); !status.ok())
     return status;
   world::read_normals(*instance, def);
+  return {};
+}
+
+Status World::read_joint_matrices(InstanceId id, std::span<Matrix34> out) const noexcept {
+  Instance* instance = nullptr;
+  if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
+  const uint32_t joints = instance->asset->pack.character->joint_count;
+  if (out.size() != joints) {
+    return make_status(StatusCode::kInvalidArgument,
+                       "read_joint_matrices: out has room for %zu joints, the asset has %u", out.size(),
+                       joints);
+  }
+  std::copy_n(world::shown_joints(*instance), joints, out.data());
   return {};
 }
 

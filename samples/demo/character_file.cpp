@@ -40,11 +40,27 @@ render::Mesh bind_mesh(const CharacterFile& character) {
   return mesh;
 }
 
+namespace {
+
+std::vector<uint32_t> each_once(std::vector<uint32_t> vertices) {
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
+}
+
+}  // namespace
+
 std::vector<uint32_t> soft_vertices(const CharacterFile& character) {
-  std::vector<uint32_t> out(character.view.region_vertices.begin(), character.view.region_vertices.end());
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());
-  return out;
+  return each_once({character.view.region_vertices.begin(), character.view.region_vertices.end()});
+}
+
+std::vector<uint32_t> moved_vertices(const CharacterFile& character) {
+  const pack::PackView& view = character.view;
+  std::vector<uint32_t> out(view.region_vertices.begin(), view.region_vertices.end());
+  if (view.rods.empty()) return each_once(std::move(out));
+  for (uint32_t v = 0; v < view.character->vertex_count; ++v)
+    if (view.joint_rods[view.skin[v].joint[0]] != pack::kNoIndex) out.push_back(v);  // weights descend
+  return each_once(std::move(out));
 }
 
 }  // namespace sinew::demo

@@ -25,5 +25,7 @@ CharacterFile open_character(const std::string& path);
 render::Mesh bind_mesh(const CharacterFile& character);
 // Ascending, each once: the vertices that tissue moves.
 std::vector<uint32_t> soft_vertices(const CharacterFile& character);
+// Those, and what hangs on rods.
+std::vector<uint32_t> moved_vertices(const CharacterFile& character);
 
 }  // namespace sinew::demo

@@ -71,7 +71,7 @@ FilmSet::FilmSet(const CharacterFile& character, const Run& run, float aspect)
   camera_ = render::camera_around(points, aspect, {.yaw_deg = kYaw_deg, .margin = 1.2f});
   camera_.eye.y() += 0.02f * run.asset.height_m;
   camera_.target.y() += 0.02f * run.asset.height_m;
-  highest_mm_ = scale_mm(run, soft_vertices(character));
+  highest_mm_ = scale_mm(run, moved_vertices(character));
 }
 
 FilmSet::Positions FilmSet::on_floor(const Snapshot& snapshot, const Positions& positions) const {
@@ -121,7 +121,7 @@ std::vector<render::Panel> FilmSet::panels(const Snapshot& s, const PanelSize& s
   std::vector<render::Panel> out = {{picture(s, s.skinned, size), "Skinning alone", when},
                                     {picture(s, s.sinew, size), "Sinew", ""}};
   if (s.truth.empty()) {
-    out.push_back({distances(s, s.sinew, s.skinned, "moved by tissue (mm)", size), "Displacement", ""});
+    out.push_back({distances(s, s.sinew, s.skinned, "moved (mm)", size), "Displacement", ""});
     return out;
   }
   const auto mean = [](float mm) { return "mean " + decimals(static_cast<double>(mm), "%.1f mm"); };

@@ -17,7 +17,7 @@ import numpy as np
 from matplotlib.ticker import MaxNLocator
 
 STAGES = [("schedule_us", "schedule", "#8d99ae"), ("drive_us", "drive", "#4f9d8c"),
-          ("tissue_us", "tissue", "#2c6fbb"), ("publish_us", "publish", "#b07aa1")]
+          ("tissue_us", "tissue", "#2c6fbb"), ("rods_us", "rods", "#c88a5a"), ("publish_us", "publish", "#b07aa1")]
 REST = ("rest of the step", "#cfd4dc")
 TIERS = [("network", "network", "#2c6fbb"), ("modal", "modal", "#7db3e0"), ("spring", "spring", "#c88a5a"),
          ("extrapolated", "extrapolated", "#eebc3c"), ("skinning", "skinning", "#b9bfc9")]

@@ -9,9 +9,10 @@ namespace sinew::demo {
 namespace {
 
 void print_head(const Run& run, const CharacterFile& character, const Options& options) {
-  std::printf("%s: %u vertices, %u soft regions, %u control nodes, tissue at %g Hz\n",
-              character.name().c_str(), run.asset.vertex_count, run.asset.region_count, run.asset.node_count,
-              static_cast<double>(run.asset.tick_hz));
+  std::printf("%s: %u vertices, %u soft regions, %u control nodes, ", character.name().c_str(),
+              run.asset.vertex_count, run.asset.region_count, run.asset.node_count);
+  if (run.asset.rod_count > 0) std::printf("%u rods, ", run.asset.rod_count);
+  std::printf("ticks at %g Hz\n", static_cast<double>(run.asset.tick_hz));
   std::printf("%d instance%s, %zu frames of %.2f ms, %d thread%s, ", run.instances,
               run.instances == 1 ? "" : "s", run.frames.size(), 1e3 / run.fps, options.threads,
               options.threads == 1 ? "" : "s");

@@ -33,6 +33,7 @@ Summary summarise(const Run& run, const CharacterFile& character) {
   out.step = {stage(run, "schedule", [](const FrameRecord& f) { return f.step.schedule_us; }),
               stage(run, "drive", [](const FrameRecord& f) { return f.step.drive_us; }),
               stage(run, "tissue", [](const FrameRecord& f) { return f.step.tissue_us; }),
+              stage(run, "rods", [](const FrameRecord& f) { return f.step.rods_us; }),
               stage(run, "publish", [](const FrameRecord& f) { return f.step.publish_us; }),
               stage(run, "whole step", [](const FrameRecord& f) { return f.step.total_us; })};
   out.engine = {stage(run, "set poses", [](const FrameRecord& f) { return f.poses_us; }),

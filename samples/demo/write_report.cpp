@@ -64,6 +64,7 @@ Json frame_json(const FrameRecord& frame, bool truth) {
               {"schedule_us", r.schedule_us},
               {"drive_us", r.drive_us},
               {"tissue_us", r.tissue_us},
+              {"rods_us", r.rods_us},
               {"publish_us", r.publish_us},
               {"poses_us", frame.poses_us},
               {"read_us", frame.read_us},

@@ -3,6 +3,7 @@
 
 #include "tests/pack/count_allocations.hpp"
 #include "tests/rods/rod_scenes.hpp"
+#include "tests/simd/test_data.hpp"
 
 using namespace sinew;
 
@@ -16,6 +17,14 @@ uint32_t fall(test::RodBatch& batch, const test::Segments& segments, int steps, 
   for (int i = 0; i < steps; ++i) recovered += test::step(batch, dt_s).recovered;
   CHECK(test::largest_stretch(batch, segments) < kHeld);
   return recovered;
+}
+
+rods::SegmentStart off_by_a_fifth(rods::SegmentStart start, std::mt19937* random) {
+  for (float* three :
+       {start.acceleration_m_s2, start.angular_acceleration_rad_s2, start.force_n, start.moment_nm}) {
+    for (int k = 0; k < 3; ++k) three[k] *= test::uniform(*random, 0.8f, 1.2f);
+  }
+  return start;
 }
 
 }  // namespace
@@ -54,6 +63,105 @@ TEST_CASE("masses_of_one_to_a_million_fall_either_way_round") {
     test::RodBatch batch = test::batch_of({rod});
     INFO((heavy_tip ? "heavy tip" : "heavy root"));
     CHECK(fall(batch, rod, 200, 0.01f) == 0);
+  }
+}
+
+TEST_CASE("rods_fall_without_gaining_energy_at_every_stiffness_and_step_at_default_settings") {
+  for (const float dt : {0.001f, 0.02f, 0.1f}) {
+    for (float young = 1e2f; young < 2e12f; young *= 100) {
+      const test::Segments rod =
+          test::straight_rod({.segments = 30, .young_pa = young, .torsion_pa = young / 3});
+      test::RodBatch batch = test::batch_of({rod});
+      const double fall = 30 * rods::segment_inertia(rod[0]).mass_kg * 9.81 * 2;  // what gravity can give
+      const double began = test::energy(batch, rod, 9.81).sum_j();
+      double last = began, grown = 0, highest = -HUGE_VAL;
+      uint32_t unconverged = 0;
+      for (int i = 0; i < 300; ++i) {
+        unconverged += test::step(batch, dt).unconverged;
+        const double now = test::energy(batch, rod, 9.81).sum_j();
+        grown = std::max(grown, now - last);
+        highest = std::max(highest, now);
+        last = now;
+      }
+      INFO("E " << young << ", dt " << dt);
+      CHECK(unconverged == 0);
+      CHECK(highest < began);  // the step itself takes energy, most where it is longest
+      // What grows in a step is what the tolerance leaves undone of it, where little moves any more.
+      CHECK(grown < 1e-5 * fall);
+      CHECK(test::largest_stretch(batch, rod) < kHeld);
+    }
+  }
+}
+
+TEST_CASE("masses_of_one_to_a_million_hold_at_the_longest_and_the_shortest_step") {
+  for (const bool heavy_tip : {true, false}) {
+    for (const float dt : {0.001f, 0.1f}) {
+      for (const float young : {1e4f, 1e9f}) {
+        test::Segments rod = test::straight_rod({.segments = 20, .young_pa = young});
+        rod[heavy_tip ? 19 : 1].density_kg_m3 = 1e9f;
+        test::RodBatch batch = test::batch_of({rod});
+        INFO((heavy_tip ? "heavy tip" : "heavy root") << ", E " << young << ", dt " << dt);
+        CHECK(fall(batch, rod, 200, dt) == 0);
+      }
+    }
+  }
+}
+
+TEST_CASE("a_root_that_flies_a_kilometre_within_a_step_is_followed_or_joined_and_comes_to_rest") {
+  for (const float young : {1e4f, 1e9f}) {
+    const test::Segments rod = test::straight_rod({.segments = 30, .young_pa = young});
+    test::RodBatch batch = test::batch_of({rod}, {.teleport_lengths = 1e6f});  // not carried: 50 km/s
+    rods::SegmentPose target = batch.pose(0, 0);
+    target.position_m[2] += 1000;
+    REQUIRE(batch.set_target(0, 0, target).ok());
+    const double there[3] = {target.position_m[0], target.position_m[1], target.position_m[2]};
+    uint32_t recovered = 0;
+    for (int i = 0; i < 2000; ++i) {
+      recovered += test::step(batch, 0.02f).recovered;
+      // Torn by less than half a segment at each joint.
+      REQUIRE(test::distance(batch.pose(0, 29).position_m, there) < 1.5 * 4);
+    }
+    INFO("E " << young);
+    CHECK(recovered == 0);
+    CHECK(test::largest_stretch(batch, rod) < kHeld);
+    const double fallen = 30 * rods::segment_inertia(rod[0]).mass_kg * 9.81 * 4;
+    CHECK(test::energy(batch, rod, 9.81).kinetic_j < fallen);
+  }
+}
+
+TEST_CASE("whatever_a_solver_leaves_undone_a_rod_stays_within_reach_of_where_it_is_held") {
+  for (const auto solver : {rods::RodSolver::kDirect, rods::RodSolver::kCg, rods::RodSolver::kLocal}) {
+    for (const uint32_t count : {30u, 200u}) {
+      for (const float young : {1e4f, 1e9f}) {
+        const test::Segments rod = test::straight_rod({.segments = count, .young_pa = young});
+        test::RodBatch batch = test::batch_of(
+            {rod}, {.solver = solver, .max_iterations = 1, .cg_max_iterations = 5, .local_sweeps = 1});
+        for (int i = 0; i < 200; ++i) REQUIRE(test::step(batch, 0.02f).recovered == 0);
+        INFO("solver " << static_cast<int>(solver) << ", " << count << " segments, E " << young);
+        const rods::SegmentPose root = batch.pose(0, 0);
+        CHECK(test::distance(batch.pose(0, count - 1).position_m, root.position_m) < 1.5 * 4);
+      }
+    }
+  }
+}
+
+TEST_CASE("lengths_hold_over_ten_thousand_steps_from_the_last_forces_and_from_guesses_off_by_a_fifth") {
+  for (const float young : {1e4f, 1e6f, 1e9f}) {
+    const test::Segments rod = test::straight_rod({.segments = 12, .young_pa = young});
+    for (const rods::RodStart start : {rods::RodStart::kPrevious, rods::RodStart::kGiven}) {
+      test::RodBatch batch = test::batch_of({rod}, {.start = start});
+      std::mt19937 random(3);
+      double longest = 0;
+      for (int i = 0; i < 10000; ++i) {
+        for (uint32_t k = 1; start == rods::RodStart::kGiven && k < 12; ++k) {
+          REQUIRE(batch.set_start(0, k, off_by_a_fifth(batch.last_forces(0, k), &random)).ok());
+        }
+        test::step(batch, 0.02f);
+        if (i % 10 == 0) longest = std::max(longest, test::length_ratio(batch, rod));
+      }
+      INFO("E " << young << ", start " << static_cast<int>(start));
+      CHECK(longest < 1.0001);
+    }
   }
 }
 

@@ -220,8 +220,9 @@ PackBytes::PackBytes(const std::byte* data, size_t size) : memory_(size), size_(
 }
 
 PackBytes soft_block(const BlockOptions& options) {
-  const Character character = block_character(options);
-  const TissueLayout layout = block_tissue(character, options);
+  Character character = block_character(options);
+  TissueLayout layout = block_tissue(character, options);
+  if (options.rods) add_rods(*options.rods, character, layout);
   const baker::Safetensors weights = block_network(options);
   const std::vector<std::byte> bytes =
       baker::pack_character(character, layout, block_modes(layout), options.network ? &weights : nullptr,

@@ -2,11 +2,13 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
 #include "core/aligned_block.hpp"
 #include "pack/format.hpp"
+#include "tests/scenes/block_rods.hpp"
 
 namespace sinew::scenes {
 
@@ -28,6 +30,7 @@ struct BlockOptions {
   double displacement_limit = 0.75;  // share of a region's radius
   bool network = true;               // false: modes and springs alone
   pack::Precision precision = pack::Precision::kFloat32;
+  std::optional<RodMatter> rods = std::nullopt;  // a tail and horns (block_rods.hpp)
 };
 
 class PackBytes {  // 64-byte aligned, as load_asset wants them

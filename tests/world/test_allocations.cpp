@@ -95,6 +95,7 @@ size_t allocations_of(Work work) {
 struct Frame {
   Stage& stage;
   std::vector<float> out = std::vector<float>(size_t{3} * stage.info.vertex_count);
+  std::vector<Matrix34> joints = std::vector<Matrix34>(stage.info.joint_count);
   std::vector<std::byte> saved = stage.save();
   bool ok = true;
 
@@ -104,8 +105,8 @@ struct Frame {
     World& world = stage.world;
     expect(world.set_budget_us(budget_us));
     for (const InstanceId block : stage.blocks) {
-      const scenes::BlockPose pose = scenes::walk(time_s);
-      expect(world.set_pose(block, pose.pose()));
+      const scenes::TailedPose pose = scenes::with_rods(scenes::walk(time_s));
+      expect(world.set_pose(block, {std::span(pose.joints).first(stage.info.joint_count), pose.root}));
       ok = ok && !world.set_pose(block, {}).ok();
     }
     world.step(static_cast<float>(dt_s));
@@ -124,6 +125,7 @@ struct Frame {
     }
     expect(world.read_normals(block, {.out = out.data(), .capacity = stage.info.vertex_count}));
     expect(world.report(block, &report));
+    expect(world.read_joint_matrices(block, joints));
   }
 };
 
@@ -165,6 +167,12 @@ TEST_CASE("a_frame_allocates_nothing") {
     Stage stage(3, {}, test::block_pack(precision));
     CHECK(allocations_of_frames(stage) == 0);
   }
+}
+
+TEST_CASE("a_frame_of_rods_allocates_nothing") {
+  const scenes::PackBytes pack = scenes::soft_block({.rods = scenes::RodMatter{}});
+  Stage stage(3, {}, pack);
+  CHECK(allocations_of_frames(stage) == 0);
 }
 
 TEST_CASE("a_frame_on_worker_threads_allocates_nothing") {

@@ -105,7 +105,8 @@ TEST_CASE("report_counts_every_instance_once_and_measures_its_stages") {
     CHECK(report.instances_network + report.instances_modal + report.instances_spring +
               report.instances_extrapolated + report.instances_skinned ==
           6);
-    const float stages_us = report.schedule_us + report.drive_us + report.tissue_us + report.publish_us;
+    const float stages_us =
+        report.schedule_us + report.drive_us + report.tissue_us + report.rods_us + report.publish_us;
     CHECK(stages_us > 0);
     CHECK(stages_us < report.total_us);
   }

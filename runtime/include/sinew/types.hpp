@@ -117,7 +117,10 @@ struct InstanceReport {
   // springs.
   uint32_t restarts = 0;
   uint32_t regions_asleep = 0;  // soft parts at rest, left out until they feel more
-  float cost_us = 0;            // what this instance took in the last step, on its thread
+  // Since creation: rods that had to be put together or put back where they are held.
+  uint32_t rod_recoveries = 0;
+  uint32_t rods_asleep = 0;  // rods at rest, not stepped until they are held or shaped otherwise: all or none
+  float cost_us = 0;         // what this instance took in the last step, on its thread
 };
 
 // Filled by step(). All times in microseconds of the world's clock.
@@ -127,10 +130,10 @@ struct FrameReport {
   float dropped_s = 0;  // time beyond max_ticks_per_step, not simulated; the most of any instance
   float budget_us = 0;  // as set; infinity: no limit
   float total_us = 0;   // the whole step
-  // Stages: choosing tiers; poses, node frames and drive; modes, springs, network and guards; displacement
-  // brought to the render time and the surface. The last three are summed over the instances: on several
-  // threads they may exceed total_us.
-  float schedule_us = 0, drive_us = 0, tissue_us = 0, publish_us = 0;
+  // Stages: choosing tiers; poses, node frames and drive; modes, springs, network and guards; bones that are
+  // rods; displacement brought to the render time and the surface. The last four are summed over the
+  // instances: on several threads they may exceed total_us.
+  float schedule_us = 0, drive_us = 0, tissue_us = 0, rods_us = 0, publish_us = 0;
   // Each instance once; one whose extrapolation has faded away counts as skinned.
   uint32_t instances_network = 0, instances_modal = 0, instances_spring = 0, instances_extrapolated = 0,
            instances_skinned = 0;
@@ -161,6 +164,7 @@ struct ReadDef {
 struct AssetInfo {
   uint32_t vertex_count = 0, triangle_count = 0, joint_count = 0, region_count = 0, node_count = 0,
            clip_count = 0;
+  uint32_t rod_count = 0;  // chains and trees of bones that swing
   float tick_hz = 0;
   float height_m = 0;           // extent of the bind pose along Y
   uint64_t instance_bytes = 0;  // memory one instance takes

@@ -49,12 +49,16 @@ class World {
   // The joint's name in the file it was baked from, so that an engine can map its skeleton; lives as long as
   // the asset. Null for a stale id or joint >= joint_count.
   const char* joint_name(AssetId asset, uint32_t joint) const noexcept;
+  // Whether a rod moves the joint, as its bone or as what hangs on one; what read_joint_matrices gives
+  // differs from the pose for such joints alone. False for a stale id or joint >= joint_count.
+  bool joint_is_on_rod(AssetId asset, uint32_t joint) const noexcept;
   // character-from-joint of the bind pose; out.size() must be joint_count, else kInvalidArgument and nothing
   // is written.
   Status bind_pose(AssetId asset, std::span<Matrix34> out) const noexcept;
 
-  // One allocation for all of the instance's state. It starts at rest in its bind pose; the first pose
-  // that is set counts as having been held for ever. max_instances live, or no memory: kOutOfCapacity.
+  // One allocation for all of the instance's state, and one more for each shape of its rods. It starts at
+  // rest in its bind pose; the first pose that is set counts as having been held for ever. max_instances
+  // live, or no memory: kOutOfCapacity.
   Status create_instance(const InstanceDef& def, InstanceId* out) noexcept;
   Status destroy_instance(InstanceId instance) noexcept;
 
@@ -86,6 +90,11 @@ class World {
   // triangle has area. Cost as read_positions and O(triangles). From several threads at a time for
   // different instances; for one instance, one thread at a time.
   Status read_normals(InstanceId instance, const ReadDef& def) const noexcept;
+  // Character-from-joint of every joint at the time of the last step, for the engine's own skinning: the
+  // pose's, but for bones that are rods and what hangs on them. The surface that read_positions gives is
+  // skinned by these. out.size() must be joint_count, else kInvalidArgument and nothing is written. From any
+  // number of threads at a time, as read_positions.
+  Status read_joint_matrices(InstanceId instance, std::span<Matrix34> out) const noexcept;
   // From any number of threads at a time, as read_positions.
   Status report(InstanceId instance, InstanceReport* out) const noexcept;
 

@@ -1,0 +1,67 @@
+// rod_batches.cpp  An instance's rods as batches: one for each shape of its asset's rods.
+#include "world/rod_batches.hpp"
+
+#include <limits>
+#include <new>
+#include <utility>
+
+#include "core/status.hpp"
+
+namespace sinew::world {
+namespace {
+
+// Gravity comes as a force, a rod's own; teleports are the world's (world/rod_motion.hpp).
+constexpr rods::RodSettings kSettings = {.gravity_m_s2 = {0, 0, 0}, .teleport_lengths = 1e30f};
+
+// What is needed while batches are made.
+struct Definitions {
+  std::unique_ptr<rods::SegmentDef[]> segments;  // [slots]
+  std::unique_ptr<rods::StrandDef[]> strands;    // [rods]
+};
+
+Status no_memory() noexcept {
+  return core::make_status(StatusCode::kOutOfCapacity, "create_instance: no memory for its rods");
+}
+
+}  // namespace
+
+Status make_rod_batches(const Asset& asset, std::unique_ptr<rods::RodBatch[]>* out) noexcept {
+  const RodRig& rig = asset.rods;
+  if (rig.rod_count == 0) return {};
+  std::unique_ptr<rods::RodBatch[]> made(new (std::nothrow) rods::RodBatch[rig.batch_count]);
+  Definitions defs{std::unique_ptr<rods::SegmentDef[]>(new (std::nothrow) rods::SegmentDef[rig.slot_count]),
+                   std::unique_ptr<rods::StrandDef[]>(new (std::nothrow) rods::StrandDef[rig.rod_count])};
+  if (!made || !defs.segments || !defs.strands) return no_memory();
+  for (uint32_t batch = 0; batch < rig.batch_count; ++batch) {
+    uint32_t strands = 0;
+    for (uint32_t rod = 0; rod < rig.rod_count; ++rod) {
+      const RodSeat& seat = rig.seats()[rod];
+      if (seat.batch != batch) continue;
+      const std::span<rods::SegmentDef> segments(defs.segments.get() + seat.first_slot, seat.slot_count);
+      define_strand(asset.pack, rod, segments);
+      defs.strands[strands++] = {segments};
+    }
+    const Status status =
+        rods::RodBatch::create(std::span(defs.strands.get(), strands), kSettings, &made[batch]);
+    if (!status.ok()) return core::make_status(status.code, "create_instance: rods: %s", status.message);
+  }
+  *out = std::move(made);
+  return {};
+}
+
+size_t rod_batch_bytes(const Asset& asset) noexcept {
+  const RodRig& rig = asset.rods;
+  size_t bytes = 0;
+  for (uint32_t batch = 0; batch < rig.batch_count; ++batch) {
+    uint32_t strands = 0, segments = 0;
+    for (const RodSeat& seat : rig.seats()) {
+      if (seat.batch != batch) continue;
+      ++strands;
+      segments = seat.slot_count;
+    }
+    bytes += sizeof(rods::RodBatch) + rods::RodBatch::memory_bytes(strands, segments, kSettings);
+  }
+  return bytes;
+}
+
+}  // namespace sinew::world

@@ -1,0 +1,193 @@
+// rod_motion.cpp  Bones that are rods, tick by tick.
+#include "world/rod_motion.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "world/pose.hpp"
+#include "world/rod_sleep.hpp"
+#include "world/rotation.hpp"
+
+namespace sinew::world {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using MapTurn = Eigen::Map<Quaterniond>;
+using MapPlace = Eigen::Map<Vector3d>;
+
+constexpr double kGravity_m_s2 = 9.80665;  // along -Y, as tissue feels it
+
+Quaterniond turn_of(const Instance& instance, uint32_t slot) noexcept {
+  return Eigen::Map<const Eigen::Quaternionf>(instance.rod_turn + 4 * slot).cast<double>().normalized();
+}
+
+Quaterniond rest_of(const Instance& instance, int tick, uint32_t slot) noexcept {
+  return Eigen::Map<const Quaterniond>(instance.rod_rest[tick] + size_t{4} * slot);
+}
+
+rods::SegmentPose pose_of(const Quaterniond& turn, const Vector3d& middle) noexcept {
+  rods::SegmentPose pose;
+  std::copy_n(middle.data(), 3, pose.position_m);
+  Eigen::Map<Eigen::Vector4f>(pose.orientation) = turn.coeffs().cast<float>();
+  return pose;
+}
+
+Vector3d half_axis(const RodSlot& slot, const Quaterniond& turn) noexcept {
+  return turn * Vector3d(0, 0, slot.length_m / 2);
+}
+
+// Where a segment is when its rod is turned as rod_turn says against the rest of a tick; parents first.
+struct Placed {
+  Quaterniond turn;
+  Vector3d middle;
+};
+Placed place_segment(Instance& instance, const RodSeat& seat, uint32_t rod, uint32_t s, int tick) noexcept {
+  const RodSlot& slot = instance.asset->rods.slots()[s];
+  const Quaterniond turn = (rest_of(instance, tick, s) * turn_of(instance, s)).normalized();
+  const Vector3d half = half_axis(slot, turn);
+  MapPlace end(instance.rod_end[tick] + size_t{3} * s);
+  if (s == seat.first_slot) {
+    end = Eigen::Map<const Vector3d>(instance.rod_hold[tick] + size_t{3} * rod);
+    return {turn, end - half};
+  }
+  const Vector3d begin = Eigen::Map<const Vector3d>(instance.rod_end[tick] + size_t{3} * slot.parent);
+  end = begin + 2 * half;
+  return {turn, begin + half};
+}
+
+// As they are shown at the tick before, moving as the pose does.
+void take_along(Instance& instance) noexcept {
+  const RodRig& rig = instance.asset->rods;
+  const double tick_s = instance.asset->tick_s;
+  for (uint32_t rod = 0; rod < rig.rod_count; ++rod) {
+    const RodSeat& seat = rig.seats()[rod];
+    for (uint32_t s = seat.first_slot; s < seat.first_slot + seat.slot_count; ++s) {
+      const Placed before = place_segment(instance, seat, rod, s, 1),
+                   now = place_segment(instance, seat, rod, s, 0);
+      rods::SegmentVelocity velocity;
+      Eigen::Map<Eigen::Vector3f>(velocity.linear_m_s) =
+          ((now.middle - before.middle) / tick_s).cast<float>();
+      Eigen::Map<Eigen::Vector3f>(velocity.angular_rad_s) =
+          (logarithm(now.turn * before.turn.conjugate()) / tick_s).cast<float>();
+      // A refusal leaves the segment where it was: its joints pull it back, or the batch recovers the strand.
+      (void)instance.rod_batches[seat.batch].set_pose(seat.strand, s - seat.first_slot,
+                                                      pose_of(before.turn, before.middle), velocity);
+    }
+  }
+}
+
+Vector3d felt_gravity(const Instance& instance, uint32_t rod, const RodSeat& seat) noexcept {
+  const pack::RodRecord& record = instance.asset->pack.rods[rod];
+  const Quaterniond bind(instance.asset->rods.slots()[seat.first_slot].bind_xyzw);
+  const Quaterniond turned = rest_of(instance, 0, seat.first_slot) * bind.conjugate();
+  const Vector3d g(0, -kGravity_m_s2, 0);
+  return double{record.gravity} * (g - (1 - double{record.sag}) * (turned * g));
+}
+
+// Damping resists all bending, the animation's too, which would trail by damping_s: (1 + t/h) C - (t/h) C_0
+// of the joint (simd/rod_step-inl.hpp) counts both from this tick's rest. A rest that leads by t/h of its own
+// step makes it resist only what the rod does beside it.
+Quaterniond led_rest(const Instance& instance, uint32_t s) noexcept {
+  const RodSlot& slot = instance.asset->rods.slots()[s];
+  const auto bent = [&](int tick) {
+    return rest_of(instance, tick, slot.parent).conjugate() * rest_of(instance, tick, s);
+  };
+  const Quaterniond now = bent(0), step = bent(1).conjugate() * now;
+  const double lead = double{slot.damping_s} / instance.asset->tick_s;
+  return (now * exponential(lead * logarithm(step))).normalized();
+}
+
+// Where it is held, its shape at rest, what pulls at it.
+void drive_rod(Instance& instance, uint32_t rod) noexcept {
+  const RodRig& rig = instance.asset->rods;
+  const RodSeat& seat = rig.seats()[rod];
+  rods::RodBatch& batch = instance.rod_batches[seat.batch];
+  const Quaterniond held = rest_of(instance, 0, seat.first_slot);
+  const Vector3d hold = Eigen::Map<const Vector3d>(instance.rod_hold[0] + size_t{3} * rod);
+  // What is refused keeps its last value; poses have been checked.
+  (void)batch.set_target(seat.strand, 0, pose_of(held, hold - half_axis(rig.slots()[seat.first_slot], held)));
+  const Vector3d gravity = felt_gravity(instance, rod, seat);
+  for (uint32_t k = 1; k < seat.slot_count; ++k) {
+    const RodSlot& slot = rig.slots()[seat.first_slot + k];
+    float rest[4], force_n[3];
+    Eigen::Vector4f::Map(rest) = led_rest(instance, seat.first_slot + k).coeffs().cast<float>();
+    Eigen::Vector3f::Map(force_n) = (double{slot.mass_kg} * gravity).cast<float>();
+    (void)batch.set_rest(seat.strand, k, rest);
+    (void)batch.set_force(seat.strand, k, force_n);
+  }
+}
+
+void read_turns(Instance& instance) noexcept {
+  const RodRig& rig = instance.asset->rods;
+  for (const RodSeat& seat : rig.seats()) {
+    for (uint32_t k = 1; k < seat.slot_count; ++k) {
+      const uint32_t s = seat.first_slot + k;
+      const rods::SegmentPose pose = instance.rod_batches[seat.batch].pose(seat.strand, k);
+      const Quaterniond turn = rest_of(instance, 0, s).conjugate() * quaternion(pose.orientation);
+      Eigen::Map<Eigen::Vector4f>(instance.rod_turn + size_t{4} * s) =
+          turn.normalized().coeffs().cast<float>();
+    }
+  }
+}
+
+}  // namespace
+
+void begin_rods(Instance& instance) noexcept {
+  instance.rods_anew = true;
+  std::copy_n(instance.state->next_root.position_m, 3, instance.state->rod_anchor_m);
+}
+
+void rest_rods(Instance& instance, const Matrix34* joints, const RootTransform& root) noexcept {
+  const RodRig& rig = instance.asset->rods;
+  if (rig.rod_count == 0) return;
+  std::copy_n(instance.rod_rest[0], size_t{4} * rig.slot_count, instance.rod_rest[1]);
+  std::copy_n(instance.rod_hold[0], size_t{3} * rig.rod_count, instance.rod_hold[1]);
+  const Quaterniond world = quaternion(root.rotation_xyzw);
+  const Vector3d place =
+      Eigen::Map<const Vector3d>(root.position_m) - Eigen::Map<const Vector3d>(instance.state->rod_anchor_m);
+  for (uint32_t s = 0; s < rig.slot_count; ++s) {
+    const RodSlot& slot = rig.slots()[s];
+    Quaterniond joint;
+    joint_rotation(joints[slot.joint], joint.coeffs().data());
+    MapTurn(instance.rod_rest[0] + size_t{4} * s) =
+        (world * joint * Quaterniond(slot.offset_xyzw)).normalized();
+  }
+  for (uint32_t rod = 0; rod < rig.rod_count; ++rod) {
+    const Matrix34& first = joints[rig.slots()[rig.seats()[rod].first_slot + 1].bone];
+    MapPlace(instance.rod_hold[0] + size_t{3} * rod) =
+        place + world * Vector3d(first.m[0][3], first.m[1][3], first.m[2][3]);
+  }
+}
+
+void move_rods(Instance& instance, const Quaterniond& turn, const Vector3d& from_m,
+               const Vector3d& to_m) noexcept {
+  InstanceState& state = *instance.state;
+  MapPlace anchor(state.rod_anchor_m);
+  const Vector3d centre = from_m - anchor;
+  anchor += to_m - from_m;
+  if (turn.vec().isZero(0)) return;
+  for (uint32_t b = 0; b < instance.asset->rods.batch_count; ++b)
+    instance.rod_batches[b].turn_all({turn.x(), turn.y(), turn.z(), turn.w()},
+                                     {centre.x(), centre.y(), centre.z()});
+}
+
+void simulate_rods(Instance& instance, float sleep_tolerance) noexcept {
+  const RodRig& rig = instance.asset->rods;
+  if (rig.rod_count == 0) return;
+  if (std::exchange(instance.rods_anew, false)) {
+    take_along(instance);
+    wake_rods(instance);
+  }
+  if (rods_sleep_on(instance, sleep_tolerance)) return;
+  for (uint32_t rod = 0; rod < rig.rod_count; ++rod) drive_rod(instance, rod);
+  for (uint32_t b = 0; b < rig.batch_count; ++b) {
+    rods::RodReport report;
+    (void)instance.rod_batches[b].step(static_cast<float>(instance.asset->tick_s), &report);
+    instance.state->rod_recoveries += report.rejoined + report.recovered;
+  }
+  read_turns(instance);
+  watch_rods(instance, sleep_tolerance);
+}
+
+}  // namespace sinew::world

@@ -1,0 +1,154 @@
+// rod_rig.cpp  How a character's rods lie on its skeleton.
+#include "world/rod_rig.hpp"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <new>
+
+#include "core/status.hpp"
+#include "rods/section.hpp"
+#include "world/pose.hpp"
+
+namespace sinew::world {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using pack::kNoIndex;
+
+Vector3d vector(const float (&v)[3]) noexcept { return Eigen::Map<const Eigen::Vector3f>(v).cast<double>(); }
+
+std::span<const pack::RodSegmentRecord> segments_of(const pack::PackView& pack, uint32_t rod) noexcept {
+  return pack.rod_segments.subspan(pack.rods[rod].first_segment, pack.rods[rod].segment_count);
+}
+
+// Own axes to the character's: z along the segment, by the shortest way.
+Quaterniond axes_of(const pack::RodSegmentRecord& segment) noexcept {
+  return Quaterniond::FromTwoVectors(Vector3d::UnitZ(), vector(segment.end_m) - vector(segment.begin_m))
+      .normalized();
+}
+
+rods::SegmentDef define_segment(const pack::RodSegmentRecord& record) noexcept {
+  const Vector3d begin = vector(record.begin_m), end = vector(record.end_m), middle = (begin + end) / 2;
+  rods::SegmentDef s;
+  std::copy_n(middle.data(), 3, s.position_m);
+  Eigen::Map<Eigen::Vector4f>(s.orientation) = axes_of(record).coeffs().cast<float>();
+  s.length_m = static_cast<float>((end - begin).norm());
+  s.radius_m = record.radius_m;
+  s.density_kg_m3 = record.density_kg_m3;
+  s.young_modulus_pa = record.young_modulus_pa;
+  s.torsion_modulus_pa = record.torsion_modulus_pa;
+  s.damping_s = record.damping_s;
+  s.drag_per_s = record.drag_per_s;
+  s.parent = record.parent == kNoIndex ? 0 : record.parent + 1;
+  return s;
+}
+
+bool same_shape(const pack::PackView& pack, uint32_t a, uint32_t b) noexcept {
+  const auto one = segments_of(pack, a), other = segments_of(pack, b);
+  return std::ranges::equal(one, other, {}, &pack::RodSegmentRecord::parent, &pack::RodSegmentRecord::parent);
+}
+
+// The joint whose rotation a segment follows at rest.
+uint32_t joint_of(const pack::PackView& pack, uint32_t rod, const pack::RodSegmentRecord& segment) noexcept {
+  if (segment.joint != kNoIndex) return segment.joint;
+  return segments_of(pack, rod)[segment.parent].joint;  // a link hangs on a bone
+}
+
+RodSlot make_slot(const Matrix34& bind, const Quaterniond& axes) noexcept {
+  RodSlot slot{};
+  Quaterniond joint;
+  joint_rotation(bind, joint.coeffs().data());
+  Eigen::Map<Eigen::Vector4d>(slot.offset_xyzw) = (joint.conjugate() * axes).normalized().coeffs();
+  Eigen::Map<Eigen::Vector4d>(slot.bind_xyzw) = axes.coeffs();
+  return slot;
+}
+
+void fill_slots(const pack::PackView& pack, uint32_t rod, const Matrix34* bind, RodRig& rig) noexcept {
+  const uint32_t first = rig.seat_memory[rod].first_slot, attach = pack.rods[rod].attach;
+  const auto segments = segments_of(pack, rod);
+  RodSlot& holder = rig.slot_memory[first];
+  holder = make_slot(bind[attach], axes_of(segments[0]));
+  holder.joint = attach;
+  holder.parent = first;
+  holder.bone = kNoIndex;
+  holder.length_m = define_segment(segments[0]).length_m;
+  for (uint32_t s = 0; s < segments.size(); ++s) {
+    const uint32_t joint = joint_of(pack, rod, segments[s]);
+    const rods::SegmentDef def = define_segment(segments[s]);
+    RodSlot& slot = rig.slot_memory[first + 1 + s];
+    slot = make_slot(bind[joint], axes_of(segments[s]));
+    slot.joint = joint;
+    slot.parent = first + def.parent;
+    slot.bone = segments[s].joint;
+    slot.length_m = def.length_m;
+    slot.damping_s = def.damping_s;
+    slot.mass_kg = static_cast<float>(rods::segment_inertia(def).mass_kg);
+  }
+}
+
+void fill_seats(const pack::PackView& pack, RodRig& rig) noexcept {
+  uint32_t slot = 0;
+  for (uint32_t rod = 0; rod < rig.rod_count; ++rod) {
+    const uint32_t slots = pack.rods[rod].segment_count + 1;
+    RodSeat seat{rig.batch_count, 0, slot, slots};
+    for (uint32_t other = rod; other-- > 0;) {
+      const RodSeat& known = rig.seat_memory[other];
+      if (!same_shape(pack, rod, other)) continue;
+      seat.batch = known.batch;
+      seat.strand = known.strand + 1;
+      break;
+    }
+    rig.batch_count += seat.batch == rig.batch_count;
+    rig.seat_memory[rod] = seat;
+    slot += slots;
+  }
+}
+
+void fill_joint_slots(const pack::PackView& pack, RodRig& rig) noexcept {
+  for (uint32_t rod = 0; rod < rig.rod_count; ++rod) {
+    const RodSeat& seat = rig.seat_memory[rod];
+    for (uint32_t s = seat.first_slot + 1; s < seat.first_slot + seat.slot_count; ++s)
+      if (rig.slot_memory[s].bone != kNoIndex) rig.joint_slots[rig.slot_memory[s].bone] = s;
+  }
+  for (size_t j = 0; j < pack.joints.size(); ++j) {
+    const uint32_t parent = pack.joints[j].parent;
+    if (rig.joint_slots[j] == kNoIndex && parent != kNoIndex) rig.joint_slots[j] = rig.joint_slots[parent];
+  }
+}
+
+}  // namespace
+
+Status make_rod_rig(const pack::PackView& pack, RodRig* out) noexcept {
+  *out = {};
+  if (pack.rods.empty()) return {};
+  RodRig rig;
+  rig.rod_count = static_cast<uint32_t>(pack.rods.size());
+  rig.slot_count = static_cast<uint32_t>(pack.rod_segments.size()) + rig.rod_count;
+  rig.slot_memory.reset(new (std::nothrow) RodSlot[rig.slot_count]);
+  rig.seat_memory.reset(new (std::nothrow) RodSeat[rig.rod_count]);
+  rig.joint_slots.reset(new (std::nothrow) uint32_t[pack.joints.size()]);
+  const std::unique_ptr<Matrix34[]> bind(new (std::nothrow) Matrix34[pack.joints.size()]);
+  if (!rig.slot_memory || !rig.seat_memory || !rig.joint_slots || !bind)
+    return core::make_status(StatusCode::kOutOfCapacity, "load_asset: no memory for %u rods", rig.rod_count);
+  std::fill_n(rig.joint_slots.get(), pack.joints.size(), kNoIndex);
+  bind_pose(pack.joints, bind.get());
+  fill_seats(pack, rig);
+  for (uint32_t rod = 0; rod < rig.rod_count; ++rod) fill_slots(pack, rod, bind.get(), rig);
+  fill_joint_slots(pack, rig);
+  *out = std::move(rig);
+  return {};
+}
+
+void define_strand(const pack::PackView& pack, uint32_t rod, std::span<rods::SegmentDef> out) noexcept {
+  const auto segments = segments_of(pack, rod);
+  for (size_t s = 0; s < segments.size(); ++s) out[s + 1] = define_segment(segments[s]);
+  out[0] = out[1];
+  out[0].parent = rods::kNoParent;
+  out[0].fixed = true;
+  const Vector3d axis = vector(segments[0].end_m) - vector(segments[0].begin_m);
+  for (int k = 0; k < 3; ++k) out[0].position_m[k] -= axis[k];
+}
+
+}  // namespace sinew::world

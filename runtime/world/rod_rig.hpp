@@ -1,0 +1,46 @@
+// rod_rig.hpp  How a character's rods lie on its skeleton; shared by its instances.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "pack/reader.hpp"
+#include "rods/strand.hpp"
+#include "sinew/status.hpp"
+
+namespace sinew::world {
+
+// A segment of a rod. Slots go rod after rod; each rod's first one is its *holder*, which the pack does not
+// have: as long as the first bone's segment, straight behind it and fixed to the bone that the rod hangs on.
+struct RodSlot {
+  double offset_xyzw[4];  // the segment's axes in those of `joint`, at rest
+  double bind_xyzw[4];    // the segment's axes in the character's, bind pose
+  uint32_t joint;         // whose rotation it follows at rest: the bone's, for a link the one it hangs on
+  uint32_t parent;        // slot; a holder's is itself
+  uint32_t bone;          // its own joint; kNoIndex for holders and links
+  float length_m, mass_kg, damping_s;
+};
+
+// Rods of one shape are strands of one batch.
+struct RodSeat {
+  uint32_t batch, strand;
+  uint32_t first_slot, slot_count;
+};
+
+struct RodRig {
+  std::unique_ptr<RodSlot[]> slot_memory;
+  std::unique_ptr<RodSeat[]> seat_memory;
+  std::unique_ptr<uint32_t[]> joint_slots;  // a joint's carrier; kNoIndex: no rod moves it
+  uint32_t slot_count = 0, rod_count = 0, batch_count = 0;
+
+  std::span<const RodSlot> slots() const noexcept { return {slot_memory.get(), slot_count}; }
+  std::span<const RodSeat> seats() const noexcept { return {seat_memory.get(), rod_count}; }
+};
+
+// Of a checked pack. kOutOfCapacity when memory is short.
+Status make_rod_rig(const pack::PackView& pack, RodRig* out) noexcept;
+
+// A rod's segments in the bind pose, the holder first; out has room for its slots.
+void define_strand(const pack::PackView& pack, uint32_t rod, std::span<rods::SegmentDef> out) noexcept;
+
+}  // namespace sinew::world

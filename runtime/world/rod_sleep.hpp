@@ -1,0 +1,22 @@
+// rod_sleep.hpp  Rods at rest are not stepped, as regions at rest are not (world/sleep.hpp).
+//
+//   quiet   in a tick: every rod is held and shaped as when the quiet began, within the tolerance of its
+//   length
+//           and in radians, and no segment turned by more than a tenth of the tolerance
+//   asleep  after kRodsQuietTicks quiet ticks in a row, as long as they are held and shaped so
+// A tolerance of 0: never.
+#pragma once
+#include "world/instance.hpp"
+
+namespace sinew::world {
+
+inline constexpr uint32_t kRodsQuietTicks = 60;  // a second at 60 Hz: longer than half a swing of most rods
+
+void wake_rods(Instance& instance) noexcept;
+uint32_t rods_asleep(const Instance& instance) noexcept;
+// Before a tick's drive: true where it may be left out.
+bool rods_sleep_on(Instance& instance, float tolerance) noexcept;
+// After it: counts quiet ticks.
+void watch_rods(Instance& instance, float tolerance) noexcept;
+
+}  // namespace sinew::world
