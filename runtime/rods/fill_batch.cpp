@@ -98,4 +98,9 @@ void RodBatchBuilder::keep_rest(uint32_t strand) {
   }
 }
 
+void RodBatchBuilder::keep_radii(const StrandDef& strand, uint32_t index) {
+  float* out = batch.radii_m_ + size_t{index} * batch.segment_count_;
+  for (const SegmentDef& s : strand.segments) *out++ = s.radius_m;
+}
+
 }  // namespace sinew::rods

@@ -12,6 +12,7 @@
 #include <span>
 
 #include "core/aligned_block.hpp"
+#include "rods/collider.hpp"
 #include "rods/knn_start.hpp"
 #include "rods/learned_start.hpp"
 #include "rods/strand.hpp"
@@ -100,6 +101,10 @@ struct RodReport {
   // With RodSettings::report_residual, of any strand: what the step's equations miss by, in the strand's mean
   // segments' lengths, radians, and shares of its largest force (simd/rod_residual-inl.hpp). Otherwise 0.
   float residual = 0;
+  // With a collider: contacts near enough to be looked at, and those that had no room.
+  uint32_t contacts = 0, contacts_dropped = 0;
+  uint32_t contacts_unconverged = 0;  // strands whose contacts, at the last iteration, were not exact enough
+  float deepest_penetration = 0;      // at the step's end, share of the segment's radius
 };
 
 class RodBatch {
@@ -129,6 +134,9 @@ class RodBatch {
 
   // dt_s in (0, 1]; otherwise refused, and nothing moves. Allocates nothing.
   Status step(float dt_s, RodReport* report) noexcept;
+  // The same among obstacles and with one another. Refused as well: a collider made for another shape,
+  // RodSolver::kLocal.
+  Status step(float dt_s, RodCollider* collider, RodReport* report) noexcept;
 
   // What `from` has come to, its targets and forces too, with this batch's own settings. Refused: one not
   // made of the same strands, as far as counts and parents tell. What kContinued and those after it remember
@@ -166,6 +174,10 @@ class RodBatch {
 
  private:
   friend struct RodBatchBuilder;
+  friend class RodCollider;
+  friend struct ColliderBuilder;
+  friend struct ContactFinder;
+  friend struct ContactForces;
   struct Units {
     double origin_m[3];
     float length_m, mass_kg, total_lengths;
@@ -188,8 +200,13 @@ class RodBatch {
   Status check_place(uint32_t strand, uint32_t segment) const noexcept;
   Status check_simulated(uint32_t strand, uint32_t segment, const char* what) const noexcept;
   bool held(uint32_t strand, uint32_t segment) const noexcept;
-  simd::RodJob group_job(uint32_t group, float dt_s) const noexcept;
-  void step_group(uint32_t group, float dt_s, RodReport* report) noexcept;
+  simd::RodJob group_job(uint32_t group, float dt_s, const RodCollider* collider) const noexcept;
+  void begin_group(uint32_t group, const simd::RodJob& job) const noexcept;
+  uint32_t iterate(uint32_t first_group, uint32_t groups, float dt_s,
+                   const RodCollider* collider) const noexcept;
+  void step_groups(uint32_t first_group, uint32_t groups, float dt_s, RodCollider* collider,
+                   RodReport* report) noexcept;
+  void end_group(uint32_t group, const simd::RodJob& job, RodReport* report) noexcept;
   bool has_history() const noexcept { return settings_.start >= RodStart::kContinued; }
   bool has_inputs() const noexcept {
     return settings_.start >= RodStart::kKnn || (has_history() && settings_.keeps_start_inputs);
@@ -225,8 +242,9 @@ class RodBatch {
   float* scales_ = nullptr;     // [groups][kRodStartTriples][width]
   float* encodings_ = nullptr;  // [groups][segments][latent][width]
   float* planes_ = nullptr;     // of one group
-  float* rest_ = nullptr;   // [strands][segments][kRestNumbers] place, high and low, and orientation at rest
-  Units* units_ = nullptr;  // [strands]
+  float* rest_ = nullptr;  // [strands][segments][kRestNumbers] place, high and low, and orientation at rest
+  float* radii_m_ = nullptr;            // [strands][segments]
+  Units* units_ = nullptr;              // [strands]
   uint32_t* parents_ = nullptr;         // [segments] as listed
   uint32_t* slots_ = nullptr;           // [segments] where a segment's record is; slot 0 is held if one is
   uint32_t* joint_segments_ = nullptr;  // [segments] whose record holds the joint to the parent

@@ -2,7 +2,8 @@
 // Algorithm 1).
 //
 //   (J W J^T + alpha) delta(f, t) = -(C + alpha (f, t)) + J W g,   delta x = W (J^T delta(f, t) - g)
-// with W the inverse of mass and stiffened inertia. The matrix is applied, not stored; any tree. Its
+// with W the inverse of mass and stiffened inertia and, of a segment that touches something, of its
+// contacts' matrix. The matrix is applied, not stored; any tree. Its
 // condition grows with segments^4: for comparing, and for what a good start leaves to do. A strand that is
 // done stays as it is.
 //
@@ -48,14 +49,58 @@ HWY_INLINE Three<V> times(const Three<V>& a, const Three<V>& b) {
   return {hn::Mul(a.x, b.x), hn::Mul(a.y, b.y), hn::Mul(a.z, b.z)};
 }
 
+// In place of contacts' matrices: L D L^T of them with mass and stiffened inertia.
+template <class G>
+HWY_INLINE void factorise_contacts(const G& g, const RodJob& job) {
+  using V = typename G::V;
+  for (size_t i = 0; g.contacts && i < job.segments; ++i) {
+    if (!g.touches(i)) continue;
+    const V m = g.get(i, kRodMass), bending = g.get(i, kRodStiffened);
+    const V diagonal[6] = {m, m, m, bending, bending, g.get(i, kRodStiffened + 1)};
+    Block<V> block;
+    for (size_t k = 0; k < 21; ++k) block.at[k] = g.contact(i, k);
+    for (size_t r = 0; r < 6; ++r) {
+      block.at[triangle(r, r)] = hn::Add(block.at[triangle(r, r)], diagonal[r]);
+    }
+    factorise(&block);
+    for (size_t k = 0; k < 21; ++k) g.set_contact(i, k, block.at[k]);
+  }
+}
+
+template <class G>
+HWY_INLINE Six<typename G::V> by_touching_mobility(const G& g, size_t i, const Six<typename G::V>& v) {
+  using V = typename G::V;
+  Block<V> block;
+  for (size_t k = 0; k < 21; ++k) block.at[k] = g.contact(i, k);
+  V x[6] = {v.f.x, v.f.y, v.f.z, v.t.x, v.t.y, v.t.z};
+  forward(block, x);
+  for (size_t k = 0; k < 6; ++k) x[k] = hn::Mul(x[k], block.at[triangle(k, k)]);
+  backward(block, x);
+  const V free = g.get(i, kRodFree);
+  return {{hn::Mul(free, x[0]), hn::Mul(free, x[1]), hn::Mul(free, x[2])},
+          {hn::Mul(free, x[3]), hn::Mul(free, x[4]), hn::Mul(free, x[5])}};
+}
+
 // W v of a segment.
 template <class G>
 HWY_INLINE Six<typename G::V> by_mobility(const G& g, size_t i, const Six<typename G::V>& v) {
   using V = typename G::V;
+  if (g.touches(i)) return by_touching_mobility(g, i, v);
   const V free = g.get(i, kRodFree), across = hn::Div(free, g.get(i, kRodStiffened));
   const V about = hn::Div(free, g.get(i, kRodStiffened + 1));
   return {scaled(g.get(i, kRodInverseMass), v.f),
           {hn::Mul(across, v.t.x), hn::Mul(across, v.t.y), hn::Mul(about, v.t.z)}};
+}
+
+// W's diagonal; of a segment that touches something that of D^-1, which is positive as well.
+template <class G>
+HWY_INLINE Six<typename G::V> mobility_scale(const G& g, size_t i) {
+  using V = typename G::V;
+  const V free = g.get(i, kRodFree), one = hn::Set(hn::DFromV<V>(), 1);
+  if (!g.touches(i)) return by_mobility(g, i, Six<V>{{one, one, one}, {one, one, one}});
+  V w[6];
+  for (size_t k = 0; k < 6; ++k) w[k] = hn::Mul(free, g.contact(i, triangle(k, k)));
+  return {{w[0], w[1], w[2]}, {w[3], w[4], w[5]}};
 }
 
 // Bodies += J^T of a joint's forces.
@@ -111,11 +156,10 @@ HWY_INLINE Six<typename G::V> inverse_diagonal(const G& g, size_t i, size_t pare
   const V one = hn::Set(d, 1), least = hn::Set(d, 1e-30f);
   const Six<V> soft = joint_compliance(g, i);
   V diagonal[6] = {soft.f.x, soft.f.y, soft.f.z, soft.t.x, soft.t.y, soft.t.z};
-  const Six<V> ones = {{one, one, one}, {one, one, one}};
   V a[3][3];
   bend_matrix(bend_rows(g, i), a);
   for (const size_t s : {parent, i}) {
-    const Six<V> w = by_mobility(g, s, ones);
+    const Six<V> w = mobility_scale(g, s);
     const V l = g.get(s, kRodHalfLength), k = hn::Mul(hn::Mul(l, l), w.t.x);
     const V turn[3] = {w.t.x, w.t.y, w.t.z};
     for (size_t r = 0; r < 3; ++r) {
@@ -242,6 +286,8 @@ uint32_t rod_cg(const RodJob& job) {
   uint32_t active = 0;
   for_lanes<kWidth>(job, [&](const auto& g) HWY_ATTR {
     linearise(g, job);
+    add_contact_forces(g, job);
+    factorise_contacts(g, job);
     solve_gradient(g, job);
     active += apply_changes(g, job, change_bodies(g, job));
   });

@@ -309,7 +309,9 @@ uint32_t rod_direct(const RodJob& job) {
   for_lanes<kWidth>(job, [&](const auto& g) HWY_ATTR {
     using V = hn::Vec<LanesOf<kWidth>>;
     linearise(g, job);
+    add_contact_forces(g, job);
     for (size_t i = 0; i < job.segments; ++i) start_segment(g, i);
+    add_contact_matrices(g, job);
     for (size_t i = job.segments - 1; i > 0; --i) eliminate_segment(g, i, job.parents[i]);
     Block<V> root = get_block(g, 0, kRodInertiaFactor);
     V z[6], none[6];

@@ -90,6 +90,10 @@ enum RodLaneField : uint32_t {
   kLaneFields
 };
 
+// What contacts give a segment, in rows of `width` floats: the lower triangle of a positive 6x6 to be added
+// to mass and inertia, then force and moment; three of place, three of rotation along the segment's own axes.
+enum RodContactRow : uint32_t { kContactMatrix = 0, kContactForce = 21, kRodContactRows = 27 };
+
 struct RodJob {
   float* records;  // [segments][kRodKeptFields][width], 64-byte aligned (width 4: 16-byte)
   float* scratch;  // [segments][kRodFields - kRodKeptFields][width], aligned alike; from predict to finish
@@ -102,6 +106,9 @@ struct RodJob {
   float cg_tolerance;      // of the residual's preconditioned norm against kLaneCgScale's
   uint32_t cg_iterations;  // at most, of one linear system
   uint32_t local_sweeps;   // of one linear system
+  // Null where the group touches nothing; else aligned alike. What is in it is used up by an iteration.
+  float* contacts = nullptr;         // [segments][kRodContactRows][width]
+  const uint8_t* touched = nullptr;  // [segments] 0 where all rows are zero
 };
 
 // For one width of a group. All calls work on every lane; a lane's numbers do not depend on its neighbours'.

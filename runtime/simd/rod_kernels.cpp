@@ -12,6 +12,7 @@
 #include "simd/rod_step-inl.hpp"
 #include "simd/rod_relax-inl.hpp"
 #include "simd/rod_linearise-inl.hpp"
+#include "simd/rod_contacts-inl.hpp"
 #include "simd/rod_residual-inl.hpp"
 #include "simd/rod_direct-inl.hpp"
 #include "simd/rod_cg-inl.hpp"

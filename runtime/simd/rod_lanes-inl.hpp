@@ -76,6 +76,8 @@ struct Group {
   float* records;
   float* scratch;
   float* lanes;
+  float* contacts;         // null where the group touches nothing
+  const uint8_t* touched;  // of all lanes
 
   HWY_INLINE float* at(size_t segment, size_t field) const {
     return field < kRodKeptFields
@@ -101,6 +103,13 @@ struct Group {
     set3(segment, field, vector_part(q));
     set(segment, field + 3, q.w);
   }
+  HWY_INLINE bool touches(size_t segment) const { return contacts && touched[segment] != 0; }
+  HWY_INLINE V contact(size_t segment, size_t row) const {
+    return hn::Load(D(), contacts + (segment * kRodContactRows + row) * kWidth);
+  }
+  HWY_INLINE void set_contact(size_t segment, size_t row, V value) const {
+    hn::Store(value, D(), contacts + (segment * kRodContactRows + row) * kWidth);
+  }
   HWY_INLINE V lane(size_t field) const { return hn::Load(D(), lanes + field * kWidth); }
   HWY_INLINE void set_lane(size_t field, V value) const { hn::Store(value, D(), lanes + field * kWidth); }
   HWY_INLINE auto free(size_t segment) const { return hn::Gt(get(segment, kRodFree), hn::Zero(D())); }
@@ -115,7 +124,8 @@ template <size_t kWidth, class Body>
 HWY_INLINE void for_lanes(const RodJob& job, const Body& body) {
   using D = LanesOf<kWidth>;
   for (size_t i = 0; i < kWidth; i += hn::MaxLanes(D())) {
-    body(Group<D, kWidth>{job.records + i, job.scratch + i, job.lanes + i});
+    body(Group<D, kWidth>{job.records + i, job.scratch + i, job.lanes + i,
+                          job.contacts ? job.contacts + i : nullptr, job.touched});
   }
 }
 

@@ -37,6 +37,7 @@ template <size_t kWidth>
 void rod_residual(const RodJob& job) {
   for_lanes<kWidth>(job, [&](const auto& g) HWY_ATTR {
     linearise(g, job);
+    add_contact_forces(g, job);
     g.set_lane(kLaneResidual, strand_residual(g, job));
   });
 }

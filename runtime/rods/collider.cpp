@@ -1,0 +1,235 @@
+// collider.cpp  Makes a collider's memory, takes obstacles in, and carries forces from step to step.
+#include "rods/collider.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "core/arena.hpp"
+#include "core/status.hpp"
+#include "rods/contact_forces.hpp"
+#include "rods/find_contacts.hpp"
+#include "rods/rod_batch.hpp"
+
+namespace sinew::rods {
+namespace {
+
+constexpr uint32_t kMostContacts = 1u << 24, kMostObstacles = 65536, kLeastContacts = 64;
+
+Status bad_setting(const char* name, double value, const char* range) {
+  return core::make_status(StatusCode::kInvalidArgument, "ColliderSettings::%s is %g; give %s", name, value,
+                           range);
+}
+
+Status check_settings(const ColliderSettings& s) {
+  if (!(s.rod_friction >= 0 && std::isfinite(s.rod_friction))) {
+    return bad_setting("rod_friction", static_cast<double>(s.rod_friction), "a finite number, 0 or more");
+  }
+  if (!(s.tolerance >= 1e-4f && s.tolerance <= 1)) {
+    return bad_setting("tolerance", static_cast<double>(s.tolerance), "1e-4 to 1");
+  }
+  if (!(s.largest_push_out_m_s > 0 && std::isfinite(s.largest_push_out_m_s))) {
+    return bad_setting("largest_push_out_m_s", static_cast<double>(s.largest_push_out_m_s),
+                       "a finite number above 0");
+  }
+  if (s.contact_capacity > kMostContacts) {
+    return bad_setting("contact_capacity", s.contact_capacity, "at most 2^24");
+  }
+  if (s.obstacle_capacity > kMostObstacles) {
+    return bad_setting("obstacle_capacity", s.obstacle_capacity, "at most 65536");
+  }
+  if (s.point_capacity > kMostContacts) {
+    return bad_setting("point_capacity", s.point_capacity, "at most 2^24");
+  }
+  return {};
+}
+
+}  // namespace
+
+// Lays one collider out; a friend, so that the class shows only what a user calls.
+struct ColliderBuilder {
+  RodCollider& to;
+  const RodBatch& batch;
+
+  uint32_t groups() const { return (batch.strand_count_ + batch.width_ - 1) / batch.width_; }
+
+  void set_sizes() {
+    to.strand_count_ = batch.strand_count_;
+    to.segment_count_ = batch.segment_count_;
+    to.width_ = batch.width_;
+    const uint64_t four_each = uint64_t{4} * batch.strand_count_ * batch.segment_count_;
+    const auto by_default =
+        static_cast<uint32_t>(std::clamp<uint64_t>(four_each, kLeastContacts, kMostContacts));
+    to.capacity_ = to.settings_.contact_capacity ? to.settings_.contact_capacity : by_default;
+    to.kept_size_ = std::bit_ceil(2 * to.capacity_);
+  }
+
+  void lay_out(std::byte* base, size_t* bytes) {
+    core::Arena arena(base);
+    const bool all = to.settings_.rods_collide;
+    const uint32_t range = all ? groups() : 1;
+    const size_t segments = size_t{range} * to.width_ * to.segment_count_;
+    to.planes_ = arena.take<Plane>(to.settings_.obstacle_capacity);
+    to.spheres_ = arena.take<Sphere>(to.settings_.obstacle_capacity);
+    to.capsules_ = arena.take<Capsule>(to.settings_.obstacle_capacity);
+    to.points_ = arena.take<ContactPoint>(to.settings_.point_capacity);
+    to.contacts_ = arena.take<Contact>(to.capacity_);
+    to.kept_ = arena.take<RodCollider::Kept>(to.kept_size_);
+    to.sweeps_ = arena.take<Sweep>(segments);
+    to.boxes_ = arena.take<SweptBox>(segments);
+    to.strand_boxes_ = arena.take<SweptBox>(size_t{range} * to.width_);
+    to.rows_ = arena.take<float>(segments * simd::kRodContactRows);
+    to.touched_ = arena.take<uint8_t>(size_t{range} * to.segment_count_);
+    to.touched_list_ = arena.take<uint32_t>(size_t{range} * to.segment_count_);
+    to.turning_ = arena.take<uint8_t>(to.strand_count_);
+    to.pending_ = arena.take<uint8_t>(to.strand_count_);
+    to.changed_ = arena.take<uint8_t>(to.strand_count_);
+    to.ways_ = arena.take<double>(to.strand_count_);
+    to.iterated_ = arena.take<uint8_t>(to.strand_count_);
+    if (all) {
+      to.scratch_ = arena.take<float>(segments * (simd::kRodFields - simd::kRodKeptFields));
+      to.hash_.lay_out(&arena, static_cast<uint32_t>(segments));
+    }
+    *bytes = arena.used_bytes();
+  }
+};
+
+Status RodCollider::create(const RodBatch& batch, const ColliderSettings& settings,
+                           RodCollider* out) noexcept {
+  const Status status = check_settings(settings);
+  if (!status.ok()) return status;
+  if (batch.strand_count() == 0) {
+    return core::make_status(StatusCode::kInvalidArgument, "the batch has no strand; create it first");
+  }
+  RodCollider made;
+  made.settings_ = settings;
+  ColliderBuilder builder{made, batch};
+  builder.set_sizes();
+  size_t bytes = 0;
+  builder.lay_out(nullptr, &bytes);
+  made.memory_ = core::AlignedBlock(bytes);
+  if (!made.memory_.data()) {
+    return core::make_status(StatusCode::kOutOfCapacity,
+                             "no memory for %zu bytes of contacts; give a smaller contact_capacity", bytes);
+  }
+  builder.lay_out(made.memory_.data(), &bytes);
+  *out = static_cast<RodCollider&&>(made);
+  return {};
+}
+
+template <class Obstacle>
+Status RodCollider::set(std::span<const Obstacle> given, uint32_t capacity, const char* what, Obstacle* to,
+                        uint32_t* count) noexcept {
+  if (given.size() > capacity) {
+    return core::make_status(StatusCode::kOutOfCapacity,
+                             "%zu %s where the collider has room for %u; create it for more", given.size(),
+                             what, capacity);
+  }
+  for (uint32_t i = 0; i < given.size(); ++i) {
+    const Status status = check_obstacle(given[i], i);
+    if (!status.ok()) return status;
+  }
+  std::copy(given.begin(), given.end(), to);
+  *count = static_cast<uint32_t>(given.size());
+  return {};
+}
+
+Status RodCollider::set_planes(std::span<const Plane> planes) noexcept {
+  return set(planes, settings_.obstacle_capacity, "planes", planes_, &plane_count_);
+}
+Status RodCollider::set_spheres(std::span<const Sphere> spheres) noexcept {
+  return set(spheres, settings_.obstacle_capacity, "spheres", spheres_, &sphere_count_);
+}
+Status RodCollider::set_capsules(std::span<const Capsule> capsules) noexcept {
+  return set(capsules, settings_.obstacle_capacity, "capsules", capsules_, &capsule_count_);
+}
+
+Status RodCollider::check_points(std::span<const ContactPoint> points) const noexcept {
+  for (uint32_t i = 0; i < points.size(); ++i) {
+    if (points[i].strand < strand_count_ && points[i].segment < segment_count_) continue;
+    return core::make_status(StatusCode::kInvalidArgument,
+                             "contact point %u: strand %u, segment %u where the batch has %u strands of %u "
+                             "segments",
+                             i, points[i].strand, points[i].segment, strand_count_, segment_count_);
+  }
+  return {};
+}
+
+Status RodCollider::set_points(std::span<const ContactPoint> points) noexcept {
+  const Status status = check_points(points);
+  return status.ok() ? set(points, settings_.point_capacity, "contact points", points_, &point_count_)
+                     : status;
+}
+
+bool RodCollider::fits(const RodBatch& batch) const noexcept {
+  return strand_count_ == batch.strand_count_ && segment_count_ == batch.segment_count_ &&
+         width_ == batch.width_;
+}
+
+float* RodCollider::scratch(const RodBatch& batch, uint32_t group) const noexcept {
+  if (!settings_.rods_collide) return batch.scratch_;
+  return scratch_ + size_t{group} * segment_count_ * (simd::kRodFields - simd::kRodKeptFields) * width_;
+}
+
+float* RodCollider::scratch_row(const RodBatch& batch, uint32_t strand, uint32_t segment,
+                                uint32_t field) const noexcept {
+  const size_t row = size_t{batch.slots_[segment]} * (simd::kRodFields - simd::kRodKeptFields) + field -
+                     simd::kRodKeptFields;
+  return scratch(batch, strand / width_) + row * width_ + strand % width_;
+}
+
+void RodCollider::give(simd::RodJob* job, uint32_t group) const noexcept {
+  const size_t first = size_t{group - range_.first_group} * segment_count_;
+  const uint8_t* touched = touched_ + first;
+  if (touched_count_ == 0 || std::none_of(touched, touched + segment_count_, [](uint8_t t) { return t; })) {
+    return;
+  }
+  job->contacts = rows_ + first * simd::kRodContactRows * width_;
+  job->touched = touched;
+}
+
+void RodCollider::begin_step() noexcept { contact_count_ = dropped_ = 0; }
+
+void RodCollider::begin_range(const RodBatch& batch, uint32_t first_group, uint32_t groups,
+                              float dt_s) noexcept {
+  // Rows are of the range before.
+  ContactForces{*this, batch}.clear();
+  range_ = {first_group, groups};
+  first_contact_ = contact_count_;
+  ContactFinder{*this, batch, static_cast<double>(dt_s)}.find();
+  ContactForces{*this, batch}.begin();
+}
+
+uint32_t RodCollider::settle(const RodBatch& batch) noexcept { return ContactForces{*this, batch}.settle(); }
+
+void RodCollider::end_range(const RodBatch& batch, RodReport* report) noexcept {
+  report->contacts_unconverged += ContactForces{*this, batch}.end();
+}
+
+// Where it is, or where it would be put.
+RodCollider::Kept* RodCollider::find_kept(uint64_t name) const noexcept {
+  size_t at = name >> 20 & (kept_size_ - 1);
+  while (kept_[at].step == steps_ && kept_[at].name != name) at = (at + 1) & (kept_size_ - 1);
+  return kept_ + at;
+}
+
+// Forces are what the next step's contacts of the same names start with; not those of strands that did not
+// converge.
+void RodCollider::end_step(float dt_s, RodReport* report) noexcept {
+  ++steps_;
+  const double per_square = 1 / (static_cast<double>(dt_s) * static_cast<double>(dt_s));
+  for (uint32_t i = 0; i < contact_count_; ++i) {
+    const Contact& c = contacts_[i];
+    const double deep = -(c.open_m + c.allowed_m) / c.scale_m;
+    report->deepest_penetration = std::max(report->deepest_penetration, static_cast<float>(deep));
+    const bool lost =
+        turning_[c.sides[0].strand] || (c.sides[1].segment != kNoSegment && turning_[c.sides[1].strand]);
+    if (!(c.force > 0) || lost) continue;
+    *find_kept(c.name) = {c.name, steps_, c.force * per_square, scaled(per_square, c.drag)};
+  }
+  report->contacts = contact_count_;
+  report->contacts_dropped = dropped_;
+  point_count_ = 0;
+}
+
+}  // namespace sinew::rods

@@ -1,0 +1,123 @@
+// collider.hpp  What a batch's rods touch in a step: obstacles, given contacts and one another.
+//
+// Handed to RodBatch::step. Rods are capsules, their whole length touches. Each step finds contacts once, on
+// the way from where segments are to where they would go freely (find_contacts.cpp), so that what passes
+// through something within a step touches it. Forces are part of the step's Newton iteration
+// (contact_forces.cpp): where it ends does not depend on where it starts.
+// One thread at a time with its batch. A step allocates nothing. Memory: some 400 bytes a contact; where rods
+// collide with one another some 800 bytes a segment besides, for all groups then iterate in turn.
+// Cost: a microsecond for each contact and iteration is an upper bound; perf_rods measures it.
+#pragma once
+#include <cstdint>
+#include <span>
+
+#include "core/aligned_block.hpp"
+#include "rods/contact.hpp"
+#include "rods/obstacle.hpp"
+#include "rods/spatial_hash.hpp"
+#include "rods/sweep.hpp"
+#include "simd/rod_job.hpp"
+
+namespace sinew::rods {
+
+class RodBatch;
+struct RodReport;
+
+struct ColliderSettings {
+  // Strands of the batch with one another and with themselves, but for segments that overlap at rest.
+  bool rods_collide = true;
+  float rod_friction = 0.3f;  // 0 or more, finite; between rods
+  // 1e-4 to 1, share of a segment's radius: contacts have converged when gaps and slips are this exact. Twice
+  // this much of penetration is left alone.
+  float tolerance = 0.01f;
+  // What is found in penetration is pushed out no faster at a contact; a rod that lies deep in something
+  // round, whose parts are pushed apart, has left twice as fast. Finite, above 0.
+  float largest_push_out_m_s = 1;
+  // Contacts at a time; further ones are dropped and counted, in the order given points, planes, spheres,
+  // capsules, rods, each by strand and segment. 0: four a segment, at least 64. At most 2^24.
+  uint32_t contact_capacity = 0;
+  uint32_t obstacle_capacity = 64;  // of planes, of spheres and of capsules; at most 65536
+  uint32_t point_capacity = 256;    // given contacts; at most 2^24
+};
+
+class RodCollider {
+ public:
+  RodCollider() noexcept = default;
+  // For batches of as many strands and segments as this one. Refused: settings outside their range, an empty
+  // batch, no memory; `out` is then untouched.
+  static Status create(const RodBatch& batch, const ColliderSettings& settings, RodCollider* out) noexcept;
+
+  // Until set again. Refused: what check_obstacle refuses, more than obstacle_capacity; the last ones then
+  // stay. An obstacle is known from step to step by its index.
+  Status set_planes(std::span<const Plane> planes) noexcept;
+  Status set_spheres(std::span<const Sphere> spheres) noexcept;
+  Status set_capsules(std::span<const Capsule> capsules) noexcept;
+  // For the coming step alone. Refused as well: a strand or segment that is not there, more than
+  // point_capacity.
+  Status set_points(std::span<const ContactPoint> points) noexcept;
+
+ private:
+  friend class RodBatch;
+  friend struct ColliderBuilder;
+  friend struct ContactFinder;
+  friend struct ContactForces;
+
+  // A contact's force in newtons, from step to step.
+  struct Kept {
+    uint64_t name, step;  // of another step: none
+    double force_n;
+    Vector drag_n;
+  };
+  // Of the strands being stepped: all of them where rods collide, else one group after the other.
+  struct Range {
+    uint32_t first_group, groups;
+  };
+
+  template <class Obstacle>
+  Status set(std::span<const Obstacle> given, uint32_t capacity, const char* what, Obstacle* to,
+             uint32_t* count) noexcept;
+  Status check_points(std::span<const ContactPoint> points) const noexcept;
+  bool fits(const RodBatch& batch) const noexcept;
+  Kept* find_kept(uint64_t name) const noexcept;
+  // The parts of a step; of each range settle() after each iteration.
+  void begin_step() noexcept;
+  void begin_range(const RodBatch& batch, uint32_t first_group, uint32_t groups, float dt_s) noexcept;
+  uint32_t settle(const RodBatch& batch) noexcept;  // returns how many strands are not converged
+  void end_range(const RodBatch& batch, RodReport* report) noexcept;
+  void end_step(float dt_s, RodReport* report) noexcept;
+  float* scratch(const RodBatch& batch, uint32_t group) const noexcept;
+  // Of one lane; rows are width_ apart.
+  float* scratch_row(const RodBatch& batch, uint32_t strand, uint32_t segment, uint32_t field) const noexcept;
+  void give(simd::RodJob* job, uint32_t group) const noexcept;
+
+  core::AlignedBlock memory_;
+  ColliderSettings settings_;
+  Plane* planes_ = nullptr;
+  Sphere* spheres_ = nullptr;
+  Capsule* capsules_ = nullptr;
+  ContactPoint* points_ = nullptr;
+  uint32_t plane_count_ = 0, sphere_count_ = 0, capsule_count_ = 0, point_count_ = 0;
+  uint32_t strand_count_ = 0, segment_count_ = 0, width_ = 0, capacity_ = 0, kept_size_ = 0;
+
+  Contact* contacts_ = nullptr;  // [capacity_] of this step; those of the range from first_contact_
+  uint32_t contact_count_ = 0, first_contact_ = 0, dropped_ = 0;
+  Kept* kept_ = nullptr;  // [kept_size_] a table by name
+  uint64_t steps_ = 1;    // a zeroed table is empty
+  Range range_ = {0, 0};
+  Sweep* sweeps_ = nullptr;           // [segments of a range]
+  SweptBox* boxes_ = nullptr;         // alike
+  SweptBox* strand_boxes_ = nullptr;  // [strands of a range]
+  float* rows_ = nullptr;             // [groups of a range][segments][kRodContactRows][width]
+  uint8_t* touched_ = nullptr;        // [groups of a range][segments]: rows are not zero
+  uint32_t* touched_list_ = nullptr;
+  uint32_t touched_count_ = 0;
+  uint8_t* turning_ = nullptr;   // [strands] not converged by themselves
+  uint8_t* pending_ = nullptr;   // [strands] not converged by a contact
+  double* ways_ = nullptr;       // [strands] where the first iterate is, from the step's start to free motion
+  uint8_t* changed_ = nullptr;   // [strands] a contact opened or closed in the last iteration
+  uint8_t* iterated_ = nullptr;  // [strands] moved by the last iteration
+  float* scratch_ = nullptr;     // of all groups, where rods collide
+  SpatialHash hash_;
+};
+
+}  // namespace sinew::rods

@@ -1,0 +1,347 @@
+// contact_forces.cpp  The augmented Lagrangian's forces, and their rows for the rods' own iteration.
+#include "rods/contact_forces.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace sinew::rods {
+namespace {
+
+constexpr size_t triangle(size_t row, size_t column) { return row * (row + 1) / 2 + column; }
+
+constexpr double kDeep = 0.5;     // of a segment's radius
+constexpr double kAcross = 1.5;   // the same: next to where two rods' axes cross
+constexpr double kForgiven = 10;  // of the rods' tolerance
+
+struct Forces {
+  double press;
+  Vector drag;
+  double held;  // drag over what it would be without the limit
+};
+
+// Of friction Macklin et al. 2014, Eq. 24: along the slip, at most friction times the pressing force.
+Forces forces_of(const Contact& c) {
+  Forces f = {std::max(0.0, c.force - c.gain_kg * c.open_m), scaled_sum(-c.gain_kg, c.slip_m, c.drag), 1};
+  const double most = c.friction * f.press, size = length(f.drag);
+  if (size > most) {
+    f.held = most / size;
+    f.drag = scaled(f.held, f.drag);
+  }
+  if (!(most > 0)) f = {f.press, {}, 0};
+  return f;
+}
+
+}  // namespace
+
+uint32_t ContactForces::end_strand() const {
+  return std::min(batch.strand_count_, first_strand() + to.range_.groups * batch.width_);
+}
+
+float& ContactForces::lane(uint32_t strand, uint32_t field) const {
+  const size_t group = strand / batch.width_;
+  return batch.lanes_[(group * simd::kLaneFields + field) * batch.width_ + strand % batch.width_];
+}
+
+float& ContactForces::active(uint32_t strand) const { return lane(strand, simd::kLaneActive); }
+
+ContactForces::Now ContactForces::now(const Contact& c, size_t side) const {
+  const Contact::Side& s = c.sides[side];
+  if (s.segment == kNoSegment) return {c.obstacle_move, c.obstacle_move, {}, {}, {}};
+  const auto row = [&](uint32_t field) { return to.scratch_row(batch, s.strand, s.segment, field); };
+  const size_t w = batch.width_;
+  const float *q = row(simd::kRodNow), *d = row(simd::kRodMove);
+  const Turn turn = {q[0], q[w], q[2 * w], q[3 * w]};
+  Now out = {{}, {}, turned(turn, {1, 0, 0}), turned(turn, {0, 1, 0}), turned(turn, {0, 0, 1})};
+  const Vector move = scaled(batch.units_[s.strand].length_m, {d[0], d[w], d[2 * w]});
+  out.move = scaled_sum(s.along_m, difference(out.z, s.axis), move);
+  Turn before;
+  for (uint32_t k = 0; k < 4; ++k) before[k] = batch.at(s.strand, s.segment, simd::kRodTurn + k);
+  const Turn by = product(conjugate(before), turn);
+  const double side_of = by[3] < 0 ? -2 : 2;
+  const Vector turned_by = turned(turn, {side_of * by[0], side_of * by[1], side_of * by[2]});
+  out.surface_move = scaled_sum(s.radius_m, cross(turned_by, c.normal), out.move);
+  return out;
+}
+
+// Gap and slip at the iterate. A strand that is lost touches nothing: others are not to be lost with it.
+void ContactForces::look(Contact* c) const {
+  const Now a = now(*c, 0), b = now(*c, 1);
+  c->open_m = c->gap_m + dot(c->normal, difference(a.move, b.move)) - c->allowed_m;
+  c->slip_m = across(difference(a.surface_move, b.surface_move), c->normal);
+  if (std::isfinite(c->open_m) && finite(c->slip_m)) return;
+  c->open_m = std::numeric_limits<double>::max();
+  c->force = 0;
+  c->slip_m = c->drag = {};
+}
+
+bool ContactForces::iterated(const Contact& c) const {
+  return to.iterated_[c.sides[0].strand] || (c.has_two_rods() && to.iterated_[c.sides[1].strand]);
+}
+
+// Marks the strands of a contact that has opened or closed by more than its tolerance.
+void ContactForces::find_change(const Contact& c) const {
+  const double press = forces_of(c).press, before = std::max(0.0, c.force - c.gain_kg * c.open_before_m);
+  if ((press > 0) == (before > 0) || std::max(press, before) < tolerance_m(c) * c.gain_kg) return;
+  to.changed_[c.sides[0].strand] = 1;
+  if (c.has_two_rods()) to.changed_[c.sides[1].strand] = 1;
+}
+
+double ContactForces::tolerance_m(const Contact& c) const {
+  return static_cast<double>(to.settings_.tolerance) * c.scale_m;
+}
+
+// Returns whether the contact is as exact as wanted.
+bool ContactForces::take_over(Contact* c) const {
+  const double force = c->force;
+  const Vector drag = c->drag;
+  const Forces f = forces_of(*c);
+  if (to.changed_[c->sides[0].strand] || (c->has_two_rods() && to.changed_[c->sides[1].strand])) return false;
+  c->force = f.press;
+  c->drag = f.drag;
+  if (!(force > 0) && !(f.press > 0)) return true;
+  const double off = std::max(std::fabs(f.press - force), length(difference(f.drag, drag))) / c->gain_kg;
+  const double moved = std::max(std::fabs(c->open_m - c->open_before_m),
+                                c->friction > 0 ? length(difference(c->slip_m, c->slip_before_m)) : 0.0);
+  return std::max(off, c->slowness * moved) <= tolerance_m(*c);
+}
+
+std::span<Contact> ContactForces::contacts() const {
+  return {to.contacts_ + to.first_contact_, to.contact_count_ - to.first_contact_};
+}
+
+// What share of its way a strand goes before it is deep in something.
+void ContactForces::find_ways() const {
+  std::fill(to.ways_ + first_strand(), to.ways_ + end_strand(), 1.0);
+  for (const Contact& c : contacts()) {
+    if (!(c.open_m < -kDeep * c.scale_m)) continue;
+    shorten(c, std::max(c.gap_m - c.allowed_m, 0.0));
+  }
+}
+
+// A way that opened at `start` and leads deep into a contact ends where the contact has just closed; one that
+// began in it where it is deep, or at once.
+void ContactForces::shorten(const Contact& c, double start) const {
+  const double least = (start > 0 ? 0.25 * kDeep : kAcross) * c.scale_m;
+  const double way = std::max(0.0, start + least) / (start - c.open_m);
+  to.ways_[c.sides[0].strand] = std::min(to.ways_[c.sides[0].strand], way);
+  if (c.has_two_rods()) to.ways_[c.sides[1].strand] = std::min(to.ways_[c.sides[1].strand], way);
+}
+
+// The iterate that share of the way to free motion, without forces.
+void ContactForces::step_back(uint32_t strand, uint32_t segment) const {
+  if (batch.at(strand, segment, simd::kRodFree) == 0) return;
+  const double way = to.ways_[strand];
+  const auto row = [&](uint32_t field) { return to.scratch_row(batch, strand, segment, field); };
+  for (uint32_t k = 0; k < 3; ++k) {
+    *row(simd::kRodMove + k) = static_cast<float>(way * static_cast<double>(*row(simd::kRodFreeMove + k)));
+  }
+  Turn before, after;
+  for (uint32_t k = 0; k < 4; ++k) {
+    before[k] = static_cast<double>(batch.at(strand, segment, simd::kRodTurn + k));
+    after[k] = static_cast<double>(*row(simd::kRodFreeTurn + k));
+  }
+  const double side = product(conjugate(before), after)[3] < 0 ? -1 : 1;
+  for (size_t k = 0; k < 4; ++k) after[k] = (1 - way) * side * before[k] + way * after[k];
+  after = normalised(after);
+  for (uint32_t k = 0; k < 4; ++k) *row(simd::kRodNow + k) = static_cast<float>(after[k]);
+  for (uint32_t k = 0; k < 6; ++k) *row(simd::kRodForceNow + k) = 0;
+}
+
+// Strands that would start deep in something start where they first touch it: an iteration that is cut short,
+// by its cap or by how far segments may turn in it, then leaves them in front of it, slower, not behind.
+void ContactForces::begin() const noexcept {
+  for (Contact& c : contacts()) look(&c);
+  find_ways();
+  for (uint32_t s = first_strand(); s < end_strand(); ++s) {
+    to.turning_[s] = 0;
+    to.pending_[s] = 1;
+    for (uint32_t i = 0; to.ways_[s] < 1 && i < batch.segment_count_; ++i) step_back(s, i);
+  }
+  for (Contact& c : contacts()) look(&c);
+  assemble();
+}
+
+// Takes back what of the last iteration lies beyond the strand's way.
+void ContactForces::take_back(uint32_t strand) const {
+  const auto row = [&](uint32_t i, uint32_t field) { return to.scratch_row(batch, strand, i, field); };
+  const auto change = [&](uint32_t i, uint32_t k) {
+    return static_cast<double>(*row(i, simd::kRodImpulse + k));
+  };
+  const double taken = static_cast<double>(lane(strand, simd::kLaneShare)), way = to.ways_[strand];
+  const double back = taken * (1 - way);
+  const auto less = [&](float* value, double by) {
+    *value = static_cast<float>(static_cast<double>(*value) - by);
+  };
+  for (uint32_t i = 0; i < batch.segment_count_; ++i) {
+    if (batch.at(strand, i, simd::kRodFree) != 0) {
+      Turn q;
+      for (uint32_t k = 0; k < 4; ++k) q[k] = static_cast<double>(*row(i, simd::kRodNow + k));
+      const double half = 0.5 * taken;
+      const Turn whole = {half * change(i, 3), half * change(i, 4), half * change(i, 5), 1};
+      const Turn part = {way * whole[0], way * whole[1], way * whole[2], 1};
+      q = normalised(product(product(q, conjugate(whole)), part));
+      for (uint32_t k = 0; k < 3; ++k) less(row(i, simd::kRodMove + k), back * change(i, k));
+      for (uint32_t k = 0; k < 4; ++k) *row(i, simd::kRodNow + k) = static_cast<float>(q[k]);
+    }
+    for (uint32_t k = 0; batch.slots_[i] > 0 && k < 6; ++k) {
+      less(row(i, simd::kRodForceNow + k), back * static_cast<double>(*row(i, simd::kRodMiss + k)));
+    }
+  }
+}
+
+// No iteration goes deep, or deeper, into anything: ways end there.
+void ContactForces::stop_at_new_contacts() const {
+  std::fill(to.ways_ + first_strand(), to.ways_ + end_strand(), 1.0);
+  bool any = false;
+  for (const Contact& c : contacts()) {
+    if (!(c.open_before_m > 0) && c.allowed_m < 0) continue;  // it began deep
+    const double deep = c.open_before_m > 0 ? kDeep : kAcross;
+    if (!iterated(c) || !(c.open_m < -deep * c.scale_m) || c.open_m >= c.open_before_m) continue;
+    shorten(c, c.open_before_m);
+    any = true;
+  }
+  if (!any) return;
+  for (uint32_t s = first_strand(); s < end_strand(); ++s) {
+    if (to.ways_[s] < 1 && to.iterated_[s]) take_back(s);
+  }
+  for (Contact& c : contacts()) {
+    const bool moved =
+        to.ways_[c.sides[0].strand] < 1 || (c.has_two_rods() && to.ways_[c.sides[1].strand] < 1);
+    if (moved) look(&c);
+  }
+}
+
+uint32_t ContactForces::settle() const noexcept {
+  for (uint32_t s = first_strand(); s < end_strand(); ++s) {
+    to.iterated_[s] = to.turning_[s] | to.pending_[s];
+    to.turning_[s] = active(s) != 0;
+    to.pending_[s] = to.changed_[s] = 0;
+  }
+  for (Contact& c : contacts()) {
+    if (!iterated(c)) continue;
+    c.open_before_m = c.open_m;
+    c.slip_before_m = c.slip_m;
+    look(&c);
+  }
+  stop_at_new_contacts();
+  for (const Contact& c : contacts()) {
+    if (iterated(c)) find_change(c);
+  }
+  for (Contact& c : contacts()) {
+    if (!iterated(c) || take_over(&c)) continue;
+    to.pending_[c.sides[0].strand] = 1;
+    if (c.has_two_rods()) to.pending_[c.sides[1].strand] = 1;
+  }
+  uint32_t count = 0;
+  for (uint32_t s = first_strand(); s < end_strand(); ++s) {
+    active(s) = to.turning_[s] | to.pending_[s] ? 1.0f : 0.0f;
+    count += active(s) != 0;
+  }
+  if (count > 0) assemble();
+  return count;
+}
+
+// The largest turn of the last iteration; infinity where what is held is out of reach.
+double ContactForces::last_turn(uint32_t strand) const {
+  const float miss = lane(strand, simd::kLaneHeldMiss);
+  const double tolerance = static_cast<double>(batch.settings_.tolerance_rad);
+  if (!(static_cast<double>(miss) <= tolerance * tolerance)) return std::numeric_limits<double>::max();
+  double square = 0;
+  for (uint32_t i = 0; i < batch.segment_count_; ++i) {
+    const auto turn = [&](uint32_t k) {
+      return static_cast<double>(*to.scratch_row(batch, strand, i, simd::kRodImpulse + 3 + k));
+    };
+    const Vector v = {turn(0), turn(1), turn(2)};
+    square = std::max(square, dot(v, v));
+  }
+  return std::sqrt(square);
+}
+
+// A strand that touches something and still turns a little each iteration keeps its forces: it counts as one
+// whose contacts did not converge.
+void ContactForces::forgive() const {
+  const double most = kForgiven * static_cast<double>(batch.settings_.tolerance_rad);
+  for (const Contact& c : contacts()) {
+    if (!(c.force > 0)) continue;
+    for (const Contact::Side& side : c.sides) {
+      if (side.segment == kNoSegment || !to.turning_[side.strand] || !(last_turn(side.strand) < most))
+        continue;
+      to.turning_[side.strand] = 0;
+      to.pending_[side.strand] = 1;
+    }
+  }
+}
+
+uint32_t ContactForces::end() const noexcept {
+  forgive();
+  uint32_t count = 0;
+  for (uint32_t s = first_strand(); s < end_strand(); ++s) {
+    active(s) = to.turning_[s] ? 1.0f : 0.0f;
+    count += to.pending_[s];
+    to.pending_[s] = 1;
+  }
+  // What the residual is measured with is of all strands.
+  if (batch.settings_.report_residual) assemble();
+  return count;
+}
+
+// Rows that an iteration used up become zero.
+void ContactForces::clear() const noexcept {
+  const size_t rows = size_t{simd::kRodContactRows} * batch.width_;
+  for (uint32_t k = 0; k < to.touched_count_; ++k) {
+    std::fill_n(to.rows_ + to.touched_list_[k] * rows, rows, 0.0f);
+    to.touched_[to.touched_list_[k]] = 0;
+  }
+  to.touched_count_ = 0;
+}
+
+void ContactForces::assemble() const {
+  clear();
+  for (const Contact& c : contacts()) add(c);
+}
+
+void ContactForces::add(const Contact& c) const {
+  const Forces f = forces_of(c);
+  if (!(f.press > 0)) return;
+  for (size_t side = 0; side < 2; ++side) {
+    const Contact::Side& s = c.sides[side];
+    if (s.segment == kNoSegment || !(s.stiffness_kg > 0)) continue;
+    if (!(to.turning_[s.strand] | to.pending_[s.strand])) continue;
+    const Vector force = scaled_sum(f.press, c.normal, f.drag);
+    add_to_side(c, side, side == 0 ? force : scaled(-1, force), s.stiffness_kg, f.held * s.stiffness_kg);
+  }
+}
+
+float* ContactForces::touched_rows(uint32_t strand, uint32_t segment) const {
+  const uint32_t group = strand / batch.width_ - to.range_.first_group;
+  const uint32_t place = group * batch.segment_count_ + batch.slots_[segment];
+  if (!to.touched_[place]) {
+    to.touched_[place] = 1;
+    to.touched_list_[to.touched_count_++] = place;
+  }
+  return to.rows_ + size_t{place} * simd::kRodContactRows * batch.width_ + strand % batch.width_;
+}
+
+// J^T K J and J^T force of a side's point, K = pressed n n^T + held (1 - n n^T), J = (1, -[arm] R): in units
+// of the strand's own.
+void ContactForces::add_to_side(const Contact& c, size_t side, const Vector& force, double pressed,
+                                double held) const {
+  const Contact::Side& s = c.sides[side];
+  const RodBatch::Units& units = batch.units_[s.strand];
+  const double m = units.mass_kg, l = units.length_m;
+  const Now own = now(c, side);
+  const Vector arm = scaled(1 / l, scaled_sum(s.radius_m, c.normal, scaled(s.along_m, own.z)));
+  const Vector moves[6] = {{1, 0, 0},         {0, 1, 0},         {0, 0, 1},
+                           cross(own.x, arm), cross(own.y, arm), cross(own.z, arm)};
+  float* rows = touched_rows(s.strand, s.segment);
+  const auto put = [&](size_t row, double value) { rows[row * batch.width_] += static_cast<float>(value); };
+  for (size_t r = 0; r < 6; ++r) {
+    const double along = dot(moves[r], c.normal);
+    const Vector stiff =
+        scaled(1 / m, scaled_sum((pressed - held) * along, c.normal, scaled(held, moves[r])));
+    for (size_t k = 0; k <= r; ++k) put(simd::kContactMatrix + triangle(r, k), dot(stiff, moves[k]));
+    put(simd::kContactForce + r, dot(force, moves[r]) / (m * l));
+  }
+}
+
+}  // namespace sinew::rods

@@ -1,0 +1,51 @@
+// contact_forces.hpp  Contacts' forces at the iterate, and what an iteration is to know of them.
+#pragma once
+#include "rods/collider.hpp"
+#include "rods/rod_batch.hpp"
+
+namespace sinew::rods {
+
+struct ContactForces {
+  RodCollider& to;
+  const RodBatch& batch;
+
+  void clear() const noexcept;
+  // Of the range, at the step's first iterate; all its strands are to be iterated.
+  void begin() const noexcept;
+  // After an iteration: takes forces over, and says which strands go on, in kLaneActive. Returns how many.
+  uint32_t settle() const noexcept;
+  // After the last: kLaneActive is again what the rods themselves said. Returns how many strands are not
+  // converged by their contacts.
+  uint32_t end() const noexcept;
+
+ private:
+  // A side as it stands: what its point and its surface moved in this step, and its axes.
+  struct Now {
+    Vector move, surface_move, x, y, z;
+  };
+  uint32_t first_strand() const { return to.range_.first_group * batch.width_; }
+  uint32_t end_strand() const;
+  float& lane(uint32_t strand, uint32_t field) const;
+  float& active(uint32_t strand) const;
+  Now now(const Contact& contact, size_t side) const;
+  std::span<Contact> contacts() const;
+  void find_ways() const;
+  void shorten(const Contact& contact, double start) const;
+  void take_back(uint32_t strand) const;
+  void stop_at_new_contacts() const;
+  void step_back(uint32_t strand, uint32_t segment) const;
+  void look(Contact* contact) const;
+  bool iterated(const Contact& contact) const;
+  void find_change(const Contact& contact) const;
+  double tolerance_m(const Contact& contact) const;
+  bool take_over(Contact* contact) const;
+  double last_turn(uint32_t strand) const;
+  void forgive() const;
+  void assemble() const;
+  void add(const Contact& contact) const;
+  void add_to_side(const Contact& contact, size_t side, const Vector& force, double pressed,
+                   double held) const;
+  float* touched_rows(uint32_t strand, uint32_t segment) const;
+};
+
+}  // namespace sinew::rods

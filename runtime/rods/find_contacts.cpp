@@ -1,0 +1,394 @@
+// find_contacts.cpp  Sweeps of segments and obstacles, and the contacts between them.
+#include "rods/find_contacts.hpp"
+
+#include <algorithm>
+
+namespace sinew::rods {
+namespace {
+
+// Contacts are kept for what comes this near, shares of the radii and of the way.
+constexpr double kNearRadii = 0.25, kNearWay = 0.25;
+// An obstacle's gain over the segment's mass: an iteration divides a contact's error by some hundreds.
+constexpr double kObstacleGain = 1e3;
+// Between rods, over their reduced mass: more would slow down what both do together, less the force. An
+// iteration leaves 2/3 of a common motion's error and, of a force's, 1/3 or more where rods are stiff.
+constexpr double kRodGain = 2;
+// Penetration that is left alone, of the tolerance.
+constexpr double kLeftAlone = 2;
+// Capsules are side by side where the squared sine of their angle is below this, and overlap by more than
+// this share of their radii; between its ends such an overlap is touched too, unless the axes' angle bends it
+// away by less than the last.
+constexpr double kSideBySide = 0.1, kOverlap = 0.5, kFlat = 0.3;
+// Deep, of a segment's radius; end on, of a unit normal along the segment.
+constexpr double kDeep = 0.5, kEndOn = 0.7;
+// Segments of a strand that at rest are nearer than this, over the sum of their radii, never touch.
+constexpr double kRestDistance = 1.2;
+
+enum Kind : uint64_t { kPoint = 1, kPlane, kSphere, kCapsule, kRod };
+
+uint64_t mixed(uint64_t h, uint64_t value) {
+  h = (h ^ value) * 0x9e3779b97f4a7c15u;
+  return h ^ h >> 29;
+}
+
+Vector at(const Axis& axis, double share) { return between(axis.from, axis.to, share); }
+
+Vector axis_of(const Turn& q) {
+  return {2 * (q[0] * q[2] + q[1] * q[3]), 2 * (q[1] * q[2] - q[0] * q[3]),
+          1 - 2 * (q[0] * q[0] + q[1] * q[1])};
+}
+
+// Turned by a rotation vector (Rodrigues).
+Vector turned_by(const Vector& turn, const Vector& v) {
+  const double angle = length(turn);
+  if (!(angle > 1e-12)) return sum(v, cross(turn, v));
+  const Vector unit = scaled(1 / angle, turn);
+  return sum(sum(scaled(std::cos(angle), v), scaled(std::sin(angle), cross(unit, v))),
+             scaled(dot(unit, v) * (1 - std::cos(angle)), unit));
+}
+
+void widen(const Vector& by, SweptBox* box) {
+  for (size_t k = 0; k < 3; ++k) {
+    box->low[k] = std::min(box->low[k], by[k]);
+    box->high[k] = std::max(box->high[k], by[k]);
+  }
+}
+
+SweptBox box_of(const Sweep& s, double margin_m) {
+  SweptBox box = {s.start.from, s.start.from};
+  for (const Vector& point : {s.start.to, s.end.from, s.end.to}) widen(point, &box);
+  for (size_t k = 0; k < 3; ++k) box.low[k] -= margin_m, box.high[k] += margin_m;
+  return box;
+}
+
+bool overlap(const SweptBox& a, const SweptBox& b) {
+  for (size_t k = 0; k < 3; ++k) {
+    if (!(a.low[k] <= b.high[k] && b.low[k] <= a.high[k])) return false;
+  }
+  return true;
+}
+
+double longest_way(const Sweep& s) {
+  return std::max(length(difference(s.end.from, s.start.from)), length(difference(s.end.to, s.start.to)));
+}
+
+// How far an obstacle's surface moves in the step at a point of it.
+Vector surface_move(const ObstacleMotion& motion, const Vector& arm, double dt_s) {
+  return scaled(dt_s, sum(vector_of(motion.linear_m_s), cross(vector_of(motion.angular_rad_s), arm)));
+}
+
+}  // namespace
+
+uint32_t ContactFinder::end_strand() const {
+  return std::min(batch.strand_count_, first_strand() + to.range_.groups * batch.width_);
+}
+
+bool ContactFinder::free(uint32_t strand, uint32_t segment) const {
+  return batch.at(strand, segment, simd::kRodFree) != 0;
+}
+
+double ContactFinder::mass_kg(uint32_t strand, uint32_t segment) const {
+  return static_cast<double>(batch.at(strand, segment, simd::kRodMass)) *
+         static_cast<double>(batch.units_[strand].mass_kg);
+}
+
+Vector ContactFinder::iterate3(uint32_t strand, uint32_t segment, uint32_t field) const {
+  const float* row = to.scratch_row(batch, strand, segment, field);
+  return {row[0], row[batch.width_], row[2 * batch.width_]};
+}
+
+// Of a segment that moved from its place, in metres, with its z along a unit vector.
+Axis ContactFinder::axis(uint32_t strand, uint32_t segment, const Vector& move, const Vector& along) const {
+  const RodBatch::Units& units = batch.units_[strand];
+  const double l = static_cast<double>(units.length_m);
+  Vector middle;
+  for (uint32_t k = 0; k < 3; ++k) {
+    const double place = static_cast<double>(batch.at(strand, segment, simd::kRodPlace + k)) +
+                         static_cast<double>(batch.at(strand, segment, simd::kRodPlaceLow + k));
+    middle[k] = units.origin_m[k] + place * l + move[k];
+  }
+  const double half = static_cast<double>(batch.at(strand, segment, simd::kRodHalfLength)) * l;
+  return {scaled_sum(-half, along, middle), scaled_sum(half, along, middle)};
+}
+
+void ContactFinder::add_sweep(uint32_t strand, uint32_t segment) const {
+  const double l = static_cast<double>(batch.units_[strand].length_m);
+  const double radius = static_cast<double>(batch.radii_m_[size_t{strand} * batch.segment_count_ + segment]);
+  Turn before, after;
+  for (uint32_t k = 0; k < 4; ++k) {
+    before[k] = static_cast<double>(batch.at(strand, segment, simd::kRodTurn + k));
+    after[k] = static_cast<double>(*to.scratch_row(batch, strand, segment, simd::kRodFreeTurn + k));
+  }
+  const Vector move = scaled(l, iterate3(strand, segment, simd::kRodFreeMove));
+  const Sweep s = {axis(strand, segment, {}, axis_of(before)), axis(strand, segment, move, axis_of(after)),
+                   radius};
+  const double margin = (1 + kNearRadii) * radius + kNearWay * longest_way(s);
+  SweptBox box = box_of(s, margin);
+  // The first iterate, by its middle: where forces of the last step would bring it.
+  const Vector first = scaled(l, iterate3(strand, segment, simd::kRodMove));
+  const Axis there = axis(strand, segment, first, axis_of(before));
+  for (const Vector& end : {there.from, there.to}) {
+    const Vector by = {radius, radius, radius};
+    widen(difference(end, by), &box), widen(sum(end, by), &box);
+  }
+  to.sweeps_[local(strand, segment)] = s;
+  to.boxes_[local(strand, segment)] = box;
+}
+
+SweptBox ContactFinder::strand_box(uint32_t strand) const {
+  SweptBox box = to.boxes_[local(strand, 0)];
+  for (uint32_t i = 1; i < batch.segment_count_; ++i) {
+    const SweptBox& own = to.boxes_[local(strand, i)];
+    widen(own.low, &box), widen(own.high, &box);
+  }
+  return box;
+}
+
+// `along` from the segment's middle, metres; normal, gap and obstacle's move are left to the caller.
+Contact ContactFinder::made(uint32_t strand, uint32_t segment, double along, const Other& other,
+                            uint64_t feature) const {
+  const Sweep& s = to.sweeps_[local(strand, segment)];
+  const Vector way = difference(s.start.to, s.start.from);
+  Contact c = {};
+  c.name = mixed(mixed(mixed(mixed(mixed(0, other.kind), other.index), strand), segment), feature) | 1;
+  c.sides[0] = {strand, segment, along, -s.radius_m, 0, scaled(1 / length(way), way)};
+  c.sides[1] = {other.strand, other.segment, 0, other.sweep.radius_m, 0, {}};
+  c.friction = other.friction;
+  c.scale_m = s.radius_m;
+  return c;
+}
+
+// Gains of obstacles are stiff, of rods such that what each adds to its own matrix covers the pair's: (u -
+// v)^2
+// <= (1 + t) u^2 + (1 + 1 / t) v^2, t the ratio of masses. Then iterations that know the other only as it was
+// do not overshoot.
+void ContactFinder::set_gain(Contact* c) const {
+  const Contact::Side &a = c->sides[0], &b = c->sides[1];
+  c->slowness = 1;
+  const bool moves_b = b.segment != kNoSegment && free(b.strand, b.segment);
+  const double mass_a = mass_kg(a.strand, a.segment), mass_b = moves_b ? mass_kg(b.strand, b.segment) : 0;
+  if (!moves_b) {
+    c->gain_kg = c->sides[0].stiffness_kg = kObstacleGain * mass_a;
+  } else if (!free(a.strand, a.segment)) {
+    c->gain_kg = c->sides[1].stiffness_kg = kObstacleGain * mass_b;
+  } else {
+    c->gain_kg = kRodGain * mass_a * mass_b / (mass_a + mass_b);
+    c->slowness = 1 + kRodGain;
+    c->sides[0].stiffness_kg = kRodGain * mass_a;
+    c->sides[1].stiffness_kg = kRodGain * mass_b;
+  }
+}
+
+// `depth_m` is the gap at the step's start where that is in penetration, else 0 or more.
+void ContactFinder::add(Contact c, double depth_m) const {
+  if (to.contact_count_ == to.capacity_) {
+    ++to.dropped_;
+    return;
+  }
+  const double left = kLeftAlone * static_cast<double>(to.settings_.tolerance) * c.scale_m;
+  const double pushed = static_cast<double>(to.settings_.largest_push_out_m_s) * dt_s;
+  if (depth_m < 0) c.allowed_m = depth_m + std::min(pushed, std::max(0.0, -depth_m - left));
+  set_gain(&c);
+  if (batch.settings_.start != RodStart::kZero) {
+    const RodCollider::Kept& kept = *to.find_kept(c.name);
+    if (kept.step == to.steps_) {
+      c.force = kept.force_n * dt_s * dt_s;
+      c.drag = scaled(dt_s * dt_s, across(kept.drag_n, c.normal));
+    }
+  }
+  to.contacts_[to.contact_count_++] = c;
+}
+
+void ContactFinder::add_point(const ContactPoint& p) const {
+  if (p.strand < first_strand() || p.strand >= end_strand() || !free(p.strand, p.segment)) return;
+  const Sweep& s = to.sweeps_[local(p.strand, p.segment)];
+  Other other = {kPoint, p.name, 0, kNoSegment, {}, {}, {}, static_cast<double>(p.friction)};
+  const double half = 0.5 * length(difference(s.start.to, s.start.from));
+  Contact c = made(p.strand, p.segment, half * static_cast<double>(p.along), other, 0);
+  const Vector n = vector_of(p.normal);
+  c.normal = scaled(1 / length(n), n);
+  c.gap_m = p.gap_m;
+  c.obstacle_move = scaled(dt_s, vector_of(p.velocity_m_s));
+  add(c, p.gap_m);
+}
+
+void ContactFinder::add_end(const Plane& plane, const Other& other, uint32_t strand, uint32_t segment,
+                            bool end) const {
+  const Sweep& s = to.sweeps_[local(strand, segment)];
+  const Vector before = end ? s.start.to : s.start.from, after = end ? s.end.to : s.end.from;
+  const Vector n = scaled(1 / length(vector_of(plane.normal)), vector_of(plane.normal));
+  const double height = dot(difference(before, other.middle_m), n) - s.radius_m;
+  const Vector foot = scaled_sum(-(height + s.radius_m), n, before);
+  const Vector move = surface_move(plane.motion, difference(foot, other.middle_m), dt_s);
+  const double gap = height + dot(n, move), free_gap = dot(difference(after, other.middle_m), n) - s.radius_m;
+  const double way = length(difference(difference(after, before), move));
+  if (!(std::min(gap, free_gap) < kNearRadii * s.radius_m + kNearWay * way)) return;
+  const double half = 0.5 * length(difference(s.start.to, s.start.from));
+  Contact c = made(strand, segment, end ? half : -half, other, end ? 1 : 0);
+  c.normal = n;
+  c.gap_m = gap;
+  c.obstacle_move = move;
+  add(c, gap);
+}
+
+// A joint's two ends are one point: the parent's touches, unless the child is thicker.
+void ContactFinder::add_plane(const Plane& plane, uint32_t index) const {
+  const Other other = {kPlane,
+                       index,
+                       0,
+                       kNoSegment,
+                       {},
+                       plane.motion,
+                       {plane.point_m[0], plane.point_m[1], plane.point_m[2]},
+                       static_cast<double>(plane.friction)};
+  for (uint32_t strand = first_strand(); strand < end_strand(); ++strand) {
+    const float* radii = batch.radii_m_ + size_t{strand} * batch.segment_count_;
+    for (uint32_t i = 0; i < batch.segment_count_; ++i) {
+      if (!free(strand, i)) continue;
+      if (i == 0 || radii[i] > radii[batch.parents_[i]]) add_end(plane, other, strand, i, false);
+      add_end(plane, other, strand, i, true);
+    }
+  }
+}
+
+void ContactFinder::add_capsule(const Capsule& capsule, uint64_t kind, uint32_t index) const {
+  const Vector from = {capsule.ends_m[0][0], capsule.ends_m[0][1], capsule.ends_m[0][2]};
+  const Vector to_end = {capsule.ends_m[1][0], capsule.ends_m[1][1], capsule.ends_m[1][2]};
+  const Vector middle = between(from, to_end, 0.5), half = scaled(0.5, difference(to_end, from));
+  const Vector back = scaled(-dt_s, vector_of(capsule.motion.angular_rad_s));
+  const Vector was = scaled_sum(-dt_s, vector_of(capsule.motion.linear_m_s), middle);
+  const Vector half_then = turned_by(back, half);
+  const Sweep sweep = {{difference(was, half_then), sum(was, half_then)},
+                       {from, to_end},
+                       static_cast<double>(capsule.radius_m)};
+  const Other other = {kind,  index,          0,      kNoSegment,
+                       sweep, capsule.motion, middle, static_cast<double>(capsule.friction)};
+  const SweptBox box = box_of(sweep, sweep.radius_m + kNearWay * longest_way(sweep));
+  for (uint32_t strand = first_strand(); strand < end_strand(); ++strand) {
+    if (!overlap(to.strand_boxes_[strand - first_strand()], box)) continue;
+    for (uint32_t i = 0; i < batch.segment_count_; ++i) {
+      if (free(strand, i) && overlap(to.boxes_[local(strand, i)], box)) add_touch(strand, i, other);
+    }
+  }
+}
+
+void ContactFinder::add_touch(uint32_t strand, uint32_t segment, const Other& other) const {
+  const Sweep& a = to.sweeps_[local(strand, segment)];
+  const Touch touch = first_touch(a, other.sweep);
+  const Vector way_a = difference(at(a.end, touch.at.a), at(a.start, touch.at.a));
+  const Vector way_b = difference(at(other.sweep.end, touch.at.b), at(other.sweep.start, touch.at.b));
+  const double radii = a.radius_m + (other.segment == kNoSegment ? 0 : other.sweep.radius_m);
+  if (!(touch.gap_m < kNearRadii * radii + kNearWay * length(difference(way_a, way_b)))) return;
+  // A chain's segments, deep in something, would be pushed out along themselves, away from each other.
+  const Vector z = difference(a.start.to, a.start.from);
+  if (touch.time == 0 && touch.gap_m < -kDeep * a.radius_m &&
+      std::fabs(dot(touch.normal, z)) > kEndOn * length(z)) {
+    const Vector n = way_out(touch.axis_a, touch.axis_b, touch.normal);
+    const Vector apart = difference(at(touch.axis_a, touch.at.a), at(touch.axis_b, touch.at.b));
+    add_at(strand, segment, other, touch.at, n, dot(apart, n) - a.radius_m - other.sweep.radius_m, 0, 0);
+    return;
+  }
+  if (add_side_by_side(strand, segment, other, touch)) return;
+  add_at(strand, segment, other, touch.at, touch.normal, touch.gap_m, touch.time, 0);
+}
+
+// The ends of where two capsules overlap. Returns whether the middle is touched by these as well.
+bool ContactFinder::add_side_by_side(uint32_t strand, uint32_t segment, const Other& other,
+                                     const Touch& touch) const {
+  const Vector u = difference(touch.axis_a.to, touch.axis_a.from);
+  const Vector v = difference(touch.axis_b.to, touch.axis_b.from), across_both = cross(u, v);
+  const double uu = dot(u, u), vv = dot(v, v), sine = dot(across_both, across_both);
+  if (!(sine < kSideBySide * uu * vv)) return false;
+  const double radii = to.sweeps_[local(strand, segment)].radius_m + other.sweep.radius_m;
+  const double ends[2] = {nearest(touch.axis_a, touch.axis_b.from), nearest(touch.axis_a, touch.axis_b.to)};
+  const double overlap_m = std::fabs(ends[1] - ends[0]) * std::sqrt(uu);
+  if (!(overlap_m > kOverlap * radii)) return false;
+  for (uint64_t k = 0; k < 2; ++k) {
+    const Vector point = at(touch.axis_a, ends[k]);
+    const Nearest place = {ends[k], nearest(touch.axis_b, point)};
+    const Vector apart = difference(point, at(touch.axis_b, place.b));
+    const double distance = length(apart);
+    const bool known = distance > 0.1 * radii && dot(apart, touch.normal) > 0;
+    const Vector n = known ? scaled(1 / distance, apart) : touch.normal;
+    add_at(strand, segment, other, place, n, dot(apart, n) - radii, touch.time, 1 + k);
+  }
+  const double bent = 0.5 * overlap_m * std::sqrt(sine / (uu * vv));
+  return bent < kFlat * radii;
+}
+
+void ContactFinder::add_at(uint32_t strand, uint32_t segment, const Other& other, const Nearest& place,
+                           const Vector& normal, double gap_then_m, double time, uint64_t feature) const {
+  const Sweep &a = to.sweeps_[local(strand, segment)], &b = other.sweep;
+  const double length_a = length(difference(a.start.to, a.start.from));
+  const Vector point_b = at(b.start, place.b), end_b = at(b.end, place.b);
+  Contact c = made(strand, segment, (place.a - 0.5) * length_a, other, feature);
+  c.normal = normal;
+  c.gap_m = dot(difference(at(a.start, place.a), point_b), normal) - a.radius_m - b.radius_m;
+  if (other.segment != kNoSegment) {
+    const Vector way = difference(b.start.to, b.start.from);
+    const double length_b = length(way);
+    c.sides[1].along_m = (place.b - 0.5) * length_b;
+    c.sides[1].axis = scaled(1 / length_b, way);
+  } else {
+    const Vector surface = scaled_sum(b.radius_m, normal, end_b), axis_move = difference(end_b, point_b);
+    const Vector slides = surface_move(other.motion, difference(surface, other.middle_m), dt_s);
+    c.obstacle_move = scaled_sum(dot(normal, axis_move), normal, across(slides, normal));
+  }
+  add(c, time > 0 ? 0 : gap_then_m);
+}
+
+bool ContactFinder::overlap_at_rest(uint32_t strand, uint32_t i, uint32_t j) const {
+  const double l = static_cast<double>(batch.units_[strand].length_m);
+  double radii = 0;
+  Axis axes[2];
+  for (const uint32_t s : {i, j}) {
+    const float* rest = batch.rest_ + (size_t{strand} * batch.segment_count_ + s) * RodBatch::kRestNumbers;
+    const Vector middle = {static_cast<double>(rest[0]) + static_cast<double>(rest[3]),
+                           static_cast<double>(rest[1]) + static_cast<double>(rest[4]),
+                           static_cast<double>(rest[2]) + static_cast<double>(rest[5])};
+    const double half = static_cast<double>(batch.at(strand, s, simd::kRodHalfLength));
+    const Vector along = axis_of({rest[6], rest[7], rest[8], rest[9]});
+    axes[s == j] = {scaled_sum(-half, along, middle), scaled_sum(half, along, middle)};
+    radii += static_cast<double>(batch.radii_m_[size_t{strand} * batch.segment_count_ + s]);
+  }
+  const Nearest n = nearest(axes[0], axes[1]);
+  return length(difference(at(axes[0], n.a), at(axes[1], n.b))) * l < kRestDistance * radii;
+}
+
+// Two segments of the range by their local numbers.
+void ContactFinder::add_pair(uint32_t i, uint32_t j) const {
+  const uint32_t count = batch.segment_count_, strand_i = first_strand() + i / count,
+                 strand_j = first_strand() + j / count, a = i % count, b = j % count;
+  if (!free(strand_i, a) && !free(strand_j, b)) return;
+  if (strand_i == strand_j && overlap_at_rest(strand_i, a, b)) return;
+  const Other other = {kRod,
+                       uint64_t{strand_j} << 32 | b,
+                       strand_j,
+                       b,
+                       to.sweeps_[j],
+                       {},
+                       {},
+                       static_cast<double>(to.settings_.rod_friction)};
+  add_touch(strand_i, a, other);
+}
+
+void ContactFinder::find() const noexcept {
+  for (uint32_t strand = first_strand(); strand < end_strand(); ++strand) {
+    for (uint32_t i = 0; i < batch.segment_count_; ++i) add_sweep(strand, i);
+    to.strand_boxes_[strand - first_strand()] = strand_box(strand);
+  }
+  for (uint32_t i = 0; i < to.point_count_; ++i) add_point(to.points_[i]);
+  for (uint32_t i = 0; i < to.plane_count_; ++i) add_plane(to.planes_[i], i);
+  for (uint32_t i = 0; i < to.sphere_count_; ++i) {
+    const Sphere& s = to.spheres_[i];
+    Capsule point = {.radius_m = s.radius_m, .friction = s.friction, .motion = s.motion};
+    for (auto& end : point.ends_m) std::copy_n(s.middle_m, 3, end);
+    add_capsule(point, kSphere, i);
+  }
+  for (uint32_t i = 0; i < to.capsule_count_; ++i) add_capsule(to.capsules_[i], kCapsule, i);
+  if (!to.settings_.rods_collide) return;
+  to.hash_.build(to.boxes_, (end_strand() - first_strand()) * batch.segment_count_);
+  to.hash_.for_pairs([this](uint32_t i, uint32_t j) { add_pair(i, j); });
+}
+
+}  // namespace sinew::rods

@@ -1,0 +1,59 @@
+// find_contacts.hpp  Which segments of a range of groups may touch something in the coming step.
+//
+// Each segment is a capsule on its way from where it is to where it would go without joints and contacts. A
+// contact is made where that way, widened by a quarter of itself and half the radius, meets another. Its
+// normal is that of the first touch on the way (conservative advancement), or of the start where it touches
+// already: what is fast does not come out on the other side. Capsules side by side touch at both ends of
+// where they overlap; at a plane a segment touches by its ends, and a joint's two ends are one.
+#pragma once
+#include "rods/collider.hpp"
+#include "rods/rod_batch.hpp"
+
+namespace sinew::rods {
+
+struct ContactFinder {
+  RodCollider& to;
+  const RodBatch& batch;
+  double dt_s;
+
+  // The iterate in scratch is the step's first.
+  void find() const noexcept;
+
+ private:
+  // What a segment touches: a segment, or an obstacle (segment is kNoSegment).
+  struct Other {
+    uint64_t kind, index;  // for the contact's name
+    uint32_t strand, segment;
+    Sweep sweep;
+    ObstacleMotion motion;
+    Vector middle_m;  // that it turns about, at the step's end
+    double friction;
+  };
+
+  uint32_t first_strand() const { return to.range_.first_group * batch.width_; }
+  uint32_t end_strand() const;
+  size_t local(uint32_t strand, uint32_t segment) const {
+    return size_t{strand - first_strand()} * batch.segment_count_ + segment;
+  }
+  bool free(uint32_t strand, uint32_t segment) const;
+  double mass_kg(uint32_t strand, uint32_t segment) const;
+  Vector iterate3(uint32_t strand, uint32_t segment, uint32_t field) const;
+  Axis axis(uint32_t strand, uint32_t segment, const Vector& move, const Vector& along) const;
+  void add_sweep(uint32_t strand, uint32_t segment) const;
+  SweptBox strand_box(uint32_t strand) const;
+  Contact made(uint32_t strand, uint32_t segment, double along, const Other& other, uint64_t feature) const;
+  void add(Contact contact, double depth_m) const;
+  void set_gain(Contact* contact) const;
+  void add_point(const ContactPoint& point) const;
+  void add_plane(const Plane& plane, uint32_t index) const;
+  void add_end(const Plane& plane, const Other& other, uint32_t strand, uint32_t segment, bool end) const;
+  void add_capsule(const Capsule& capsule, uint64_t kind, uint32_t index) const;
+  void add_pair(uint32_t i, uint32_t j) const;
+  bool overlap_at_rest(uint32_t strand, uint32_t i, uint32_t j) const;
+  void add_touch(uint32_t strand, uint32_t segment, const Other& other) const;
+  bool add_side_by_side(uint32_t strand, uint32_t segment, const Other& other, const Touch& touch) const;
+  void add_at(uint32_t strand, uint32_t segment, const Other& other, const Nearest& at, const Vector& normal,
+              double gap_then_m, double time, uint64_t feature) const;
+};
+
+}  // namespace sinew::rods
