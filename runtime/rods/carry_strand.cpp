@@ -1,4 +1,6 @@
 // carry_strand.cpp  A strand is carried along with a segment whose pose jumps.
+#include <algorithm>
+
 #include "rods/rod_batch.hpp"
 #include "rods/turn.hpp"
 
@@ -45,8 +47,7 @@ void RodBatch::carry(uint32_t strand, uint32_t segment, const SegmentPose& to) n
     at(strand, segment, simd::kRodTargetTurn + k) = at(strand, segment, simd::kRodTurn + k);
   }
   // Earlier results were not turned along: the next step starts from the last one.
-  lanes_[(size_t{strand / width_} * simd::kLaneFields + simd::kLaneKnownSteps) * width_ + strand % width_] =
-      1;
+  known_steps(strand) = std::min(known_steps(strand), 1.0f);
   ++teleported_;
 }
 

@@ -1,8 +1,8 @@
 // contact.hpp  One contact of a step: two points, a normal and the force between them.
 //
 //   gap    C = gap_m + n . (move_a - move_b) - allowed_m >= 0
-//   force  p = max(0, force - gain C)                          augmented Lagrangian (Hestenes 1969, Powell
-//   1969) slip   s = what of move_a - move_b, at the surfaces, is across n (Macklin et al. 2014, Section 6.1)
+//   force  p = max(0, force - gain C), an augmented Lagrangian (Hestenes 1969, Powell 1969)
+//   slip   s = what of move_a - move_b, at the surfaces, is across n (Macklin et al. 2014, Section 6.1)
 //   drag   t = drag - gain s, shortened to friction p
 // After each iteration force <- p and drag <- t; what is iterated to has C = 0 or p = 0, s = 0 or |t| =
 // friction p, exactly, whatever the gain and whatever it began with. The gain only says how fast: an

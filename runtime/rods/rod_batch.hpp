@@ -99,7 +99,8 @@ struct RodReport {
   uint32_t recovered = 0;  // strands that were not finite: put back at rest shape where they are held
   uint32_t teleported = 0;  // strands carried along since the last step
   // With RodSettings::report_residual, of any strand: what the step's equations miss by, in the strand's mean
-  // segments' lengths, radians, and shares of its largest force (simd/rod_residual-inl.hpp). Otherwise 0.
+  // segments' lengths, radians, and shares of its largest force (simd/rod_residual-inl.hpp); infinite where a
+  // strand had to be recovered. Otherwise 0.
   float residual = 0;
   // With a collider: contacts near enough to be looked at, and those that had no room.
   uint32_t contacts = 0, contacts_dropped = 0;
@@ -188,6 +189,11 @@ class RodBatch {
   float joint_side(uint32_t segment) const noexcept { return joint_segments_[segment] == segment ? 1 : -1; }
   float& at(uint32_t strand, uint32_t segment, uint32_t field) const noexcept {
     return records_[row(strand, segment, field)];
+  }
+  // Steps that its start may go back to.
+  float& known_steps(uint32_t strand) const noexcept {
+    return lanes_[(size_t{strand / width_} * simd::kLaneFields + simd::kLaneKnownSteps) * width_ +
+                  strand % width_];
   }
   void put_place(uint32_t strand, uint32_t segment, uint32_t axis, double place) const noexcept {
     const float high = static_cast<float>(place);

@@ -36,6 +36,10 @@ void RodBatch::for_each_run(Run run) const noexcept {
   for (size_t g = 0; g < groups; ++g)
     run(lanes_ + (g * simd::kLaneFields + simd::kLaneKnownSteps) * width_, width_ * sizeof(float));
   run(history_, records * width_ * simd::kRodStartAges * simd::kRodStartNumbers * sizeof(float));
+  if (inputs_ == nullptr) return;
+  run(inputs_, records * width_ * simd::kRodStartInputs * sizeof(float));
+  run(continued_, records * width_ * simd::kRodStartNumbers * sizeof(float));
+  run(scales_, groups * width_ * simd::kRodStartTriples * sizeof(float));
 }
 
 size_t RodBatch::state_bytes() const noexcept {
@@ -95,6 +99,7 @@ Status RodBatch::set_pose(uint32_t strand, uint32_t segment, const SegmentPose& 
     at(strand, segment, simd::kRodTargetTurn + k) = static_cast<float>(turn[k]);
   }
   for (uint32_t k = simd::kRodStartPush; k < simd::kRodKeptFields; ++k) at(strand, segment, k) = 0;
+  known_steps(strand) = 0;
   return {};
 }
 
@@ -134,9 +139,7 @@ void RodBatch::turn_all(const Turn& by, const Vector& centre_m) noexcept {
         turn_row(strand, i, field, turn);
     }
     // Earlier results were not turned along: the next step starts from the last one.
-    float& known = lanes_[(size_t{strand / width_} * simd::kLaneFields + simd::kLaneKnownSteps) * width_ +
-                          strand % width_];
-    known = std::min(known, 1.0f);
+    known_steps(strand) = std::min(known_steps(strand), 1.0f);
   }
 }
 

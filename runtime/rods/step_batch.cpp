@@ -1,5 +1,6 @@
 // step_batch.cpp  One step of a batch, and what is done where a strand cannot be simulated on.
 #include <algorithm>
+#include <limits>
 
 #include "core/flush_denormals.hpp"
 #include "core/status.hpp"
@@ -69,7 +70,11 @@ void RodBatch::end_group(uint32_t group, const simd::RodJob& job, RodReport* rep
     report->iterations = std::max(report->iterations, iterations);
     report->iterations_sum += iterations;
     report->cg_iterations += static_cast<uint32_t>(lane(simd::kLaneCgIterations));
-    if (settings_.report_residual) report->residual = std::max(report->residual, lane(simd::kLaneResidual));
+    if (settings_.report_residual) {
+      const float residual = lane(simd::kLaneBroken) != 0 ? std::numeric_limits<float>::infinity()
+                                                          : lane(simd::kLaneResidual);
+      report->residual = residual <= report->residual ? report->residual : residual;
+    }
     report->unconverged += lane(simd::kLaneActive) != 0;
     report->recovered += lane(simd::kLaneBroken) != 0;
     const bool ended = lane(simd::kLaneActive) == 0 && lane(simd::kLaneBroken) == 0;

@@ -20,7 +20,13 @@ void RodBatch::take_history(const RodBatch& from) noexcept {
   newest_ = from.newest_;
   if (from.history_)
     std::copy_n(from.history_, rows * simd::kRodStartAges * simd::kRodStartNumbers, history_);
-  if (!inputs_ || !from.inputs_) return;
+  if (!inputs_) return;
+  if (!from.inputs_) {
+    // Continued as far as it goes; what corrects has nothing to go by yet.
+    for (uint32_t strand = 0; strand < strand_count_; ++strand)
+      known_steps(strand) = std::min(known_steps(strand), float{simd::kRodStartKnown});
+    return;
+  }
   std::copy_n(from.inputs_, rows * simd::kRodStartInputs, inputs_);
   std::copy_n(from.continued_, rows * simd::kRodStartNumbers, continued_);
   std::copy_n(from.scales_, groups * simd::kRodStartTriples * width_, scales_);

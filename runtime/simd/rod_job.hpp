@@ -46,8 +46,7 @@ enum RodField : uint32_t {
   kRodVelocity = kRodTurn + 4,      // [3]
   kRodSpin = kRodVelocity + 3,      // [3] angular velocity along the segment's own axes
   // Where a step starts from: acceleration and angular acceleration (own axes) that the joints give a
-  // segment,
-  // and the joint's force and moment. A step leaves its own here.
+  // segment, and the joint's force and moment. A step leaves its own here.
   kRodStartPush = kRodSpin + 3,         // [3]
   kRodStartTwist = kRodStartPush + 3,   // [3]
   kRodStartForce = kRodStartTwist + 3,  // [6]

@@ -1,17 +1,23 @@
 // rod_batches.cpp  An instance's rods as batches: one for each shape of its asset's rods.
 #include "world/rod_batches.hpp"
 
-#include <limits>
 #include <new>
 #include <utility>
 
 #include "core/status.hpp"
+#include "rods/default_settings.hpp"
 
 namespace sinew::world {
 namespace {
 
 // Gravity comes as a force, a rod's own; teleports are the world's (world/rod_motion.hpp).
-constexpr rods::RodSettings kSettings = {.gravity_m_s2 = {0, 0, 0}, .teleport_lengths = 1e30f};
+constexpr rods::RodSettings settings_of_characters() noexcept {
+  rods::RodSettings settings = rods::default_settings({});
+  for (float& g : settings.gravity_m_s2) g = 0;
+  settings.teleport_lengths = 1e30f;
+  return settings;
+}
+constexpr rods::RodSettings kSettings = settings_of_characters();
 
 // What is needed while batches are made.
 struct Definitions {

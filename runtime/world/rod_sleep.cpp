@@ -20,9 +20,10 @@ double half_turn(const T* a, const T* b) noexcept {
   return std::sqrt(square) / 2;  // chord over two
 }
 
+// Without the holder, which the character does not have.
 double length_of(const RodRig& rig, const RodSeat& seat) noexcept {
   double length_m = 0;
-  for (const RodSlot& slot : rig.slots().subspan(seat.first_slot, seat.slot_count))
+  for (const RodSlot& slot : rig.slots().subspan(seat.first_slot + 1, seat.slot_count - 1))
     length_m += static_cast<double>(slot.length_m);
   return length_m;
 }
@@ -62,7 +63,7 @@ uint32_t rods_asleep(const Instance& instance) noexcept {
 
 bool rods_sleep_on(Instance& instance, float tolerance) noexcept {
   uint32_t& quiet_ticks = instance.state->rod_quiet_ticks;
-  if (quiet_ticks > 0 && is_held_alike(instance, static_cast<double>(tolerance)))
+  if (tolerance > 0 && quiet_ticks > 0 && is_held_alike(instance, static_cast<double>(tolerance)))
     return quiet_ticks >= kRodsQuietTicks;
   const RodRig& rig = instance.asset->rods;
   quiet_ticks = 0;

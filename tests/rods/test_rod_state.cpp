@@ -1,4 +1,5 @@
 // test_rod_state.cpp  A batch put into poses, turned, given other rest shapes, saved and restored.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -114,6 +115,22 @@ TEST_CASE("a_placed_segment_is_there_and_moves_so") {
   }
   for (int k = 0; k < 4; ++k) CHECK(got.orientation[k] == Approx(pose.orientation[k]).margin(1e-6));
   for (const float force : batch.last_forces(0, 2).force_n) CHECK(force == 0);
+}
+
+TEST_CASE("a_strand_put_into_a_pose_starts_as_a_new_one_whatever_it_did_before") {
+  const RodSettings settings = {.start = RodStart::kContinued, .max_iterations = 1, .tolerance_rad = 1};
+  RodBatch fresh = make_batch(1, 6, settings), moved = make_batch(1, 6, settings);
+  const std::vector<SegmentDef> defs = chain(6);
+  step(moved, 20);
+  for (uint32_t i = 0; i < 6; ++i) {
+    SegmentPose pose{{}, {0, 0, 0, 1}};
+    std::copy_n(defs[i].position_m, 3, pose.position_m);
+    REQUIRE(moved.set_pose(0, i, pose, {}).ok());
+  }
+  // One iteration, held to be enough, does not reach the answer: what it started from is seen.
+  step(fresh, 1);
+  step(moved, 1);
+  for (uint32_t i = 0; i < 6; ++i) CHECK(distance(fresh, moved, 0, i) == 0);
 }
 
 TEST_CASE("a_joint_goes_to_the_rest_it_is_given") {
