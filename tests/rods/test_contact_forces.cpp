@@ -258,6 +258,27 @@ TEST_CASE("a_strand_that_touches_nothing_moves_as_if_alone") {
   }
 }
 
+TEST_CASE("a_strand_that_touches_something_does_not_know_of_its_neighbours") {
+  // Each falls on the same bar from another height: they wake at other iterations, in one group.
+  std::vector<test::Segments> strands;
+  for (int i = 0; i < 18; ++i) strands.push_back(test::lying_rod(0.032 + 0.021 * i, 7));
+  const rods::Capsule bar = {.ends_m = {{0.2, -0.05, -1}, {0.2, 0.05, 1}}, .radius_m = 0.03f};
+  test::RodBatch batch = test::batch_of(strands);
+  rods::RodCollider collider = test::collider_of(batch, {.rods_collide = false});
+  REQUIRE(collider.set_capsules({&bar, 1}).ok());
+  for (int i = 0; i < 40; ++i) test::step(batch, collider);
+  for (uint32_t s = 0; s < 18; ++s) {
+    test::RodBatch alone = test::batch_of({strands[s]});
+    rods::RodCollider own = test::collider_of(alone, {.rods_collide = false});
+    REQUIRE(own.set_capsules({&bar, 1}).ok());
+    for (int i = 0; i < 40; ++i) test::step(alone, own);
+    INFO("strand " << s);
+    for (uint32_t i = 0; i < 7; ++i) {
+      CHECK(test::distance(batch.pose(s, i).position_m, alone.pose(0, i).position_m) == 0);
+    }
+  }
+}
+
 TEST_CASE("a_pile_stays_bounded_for_ten_thousand_steps") {
   std::vector<test::Segments> strands;
   for (int i = 0; i < 8; ++i) {
