@@ -83,7 +83,7 @@ class RodCollider {
   void begin_step() noexcept;
   void begin_range(const RodBatch& batch, uint32_t first_group, uint32_t groups, float dt_s) noexcept;
   uint32_t settle(const RodBatch& batch) noexcept;  // returns how many strands are not converged
-  void end_range(const RodBatch& batch, RodReport* report) noexcept;
+  void end_range(const RodBatch& batch, float dt_s, RodReport* report) noexcept;
   void end_step(float dt_s, RodReport* report) noexcept;
   float* scratch(const RodBatch& batch, uint32_t group) const noexcept;
   // Of one lane; rows are width_ apart.
@@ -114,6 +114,7 @@ class RodCollider {
   uint8_t* turning_ = nullptr;   // [strands] not converged by themselves
   uint8_t* pending_ = nullptr;   // [strands] not converged by a contact
   double* ways_ = nullptr;       // [strands] where the first iterate is, from the step's start to free motion
+  Vector* carries_ = nullptr;    // [strands] how far a core takes a strand along that it stops
   uint8_t* changed_ = nullptr;   // [strands] a contact opened or closed in the last iteration
   uint8_t* iterated_ = nullptr;  // [strands] moved by the last iteration
   float* scratch_ = nullptr;     // of all groups, where rods collide
