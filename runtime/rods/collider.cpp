@@ -15,7 +15,7 @@ namespace sinew::rods {
 namespace {
 
 constexpr uint32_t kMostContacts = 1u << 24, kMostObstacles = 65536, kLeastContacts = 64;
-// A strand that is held before a core bends a little on the way there.
+// A strand that is held bends a little on the way there: it is looked at again.
 constexpr int kMostHolds = 4;
 
 Status bad_setting(const char* name, double value, const char* range) {
@@ -88,6 +88,7 @@ struct ColliderBuilder {
     to.changed_ = arena.take<uint8_t>(to.strand_count_);
     to.ways_ = arena.take<double>(to.strand_count_);
     to.carries_ = arena.take<Vector>(to.strand_count_);
+    to.pressed_ = arena.take<uint8_t>(to.strand_count_);
     to.iterated_ = arena.take<uint8_t>(to.strand_count_);
     if (all) {
       to.scratch_ = arena.take<float>(segments * (simd::kRodFields - simd::kRodKeptFields));
@@ -209,7 +210,7 @@ void RodCollider::end_range(const RodBatch& batch, float dt_s, RodReport* report
   const ContactFinder finder{*this, batch, static_cast<double>(dt_s)};
   const ContactForces forces{*this, batch};
   forces.forgive();
-  for (int k = 0; k < kMostHolds && finder.find_cores(); ++k) forces.hold();
+  for (int k = 0; k < kMostHolds && finder.find_holds(); ++k) forces.hold();
   report->contacts_unconverged += forces.end();
 }
 

@@ -267,9 +267,11 @@ double ContactForces::last_turn(uint32_t strand) const {
 
 void ContactForces::forgive() const noexcept {
   const double most = kForgiven * static_cast<double>(batch.settings_.tolerance_rad);
+  std::fill(to.pressed_ + first_strand(), to.pressed_ + end_strand(), uint8_t{0});
   for (const Contact& c : contacts()) {
     if (!(c.force > 0)) continue;
     for (const Contact::Side& side : c.sides) {
+      if (side.segment != kNoSegment) to.pressed_[side.strand] = 1;
       if (side.segment == kNoSegment || !to.turning_[side.strand] || !(last_turn(side.strand) < most))
         continue;
       to.turning_[side.strand] = 0;

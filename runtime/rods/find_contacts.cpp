@@ -27,6 +27,8 @@ constexpr double kRestDistance = 1.2;
 // The core of what is round, over the sum of radii; how near an axis that begins in it may come, over how
 // near it was; what of a core's radius counts as there.
 constexpr double kCore = 0.5, kNearer = 0.8, kThere = 0.05;
+// A gap that does not count as torn yet, of the strand's mean segment.
+constexpr double kHardlyTorn = 0.4;
 
 enum Kind : uint64_t { kPoint = 1, kPlane, kSphere, kCapsule, kRod };
 
@@ -422,10 +424,29 @@ void ContactFinder::stop_at_core(const Sweep& core) const {
   }
 }
 
-bool ContactFinder::find_cores() const noexcept {
+// Gaps grow at most in proportion to the way, from what they are where fixed segments are already there.
+void ContactFinder::stop_torn(uint32_t strand) const {
+  const double most = kHardlyTorn * static_cast<double>(batch.units_[strand].length_m);
+  for (uint32_t i = 1; i < batch.segment_count_; ++i) {
+    const uint32_t p = batch.parents_[i];
+    const Sweep parent = taken_sweep(strand, p), own = taken_sweep(strand, i);
+    const Vector& from = (free(strand, p) ? parent.start : parent.end).to;
+    const Vector& to_here = (free(strand, i) ? own.start : own.end).from;
+    const double began = length(difference(from, to_here));
+    const double ends = length(difference(parent.end.to, own.end.from));
+    if (!(ends > most) || !(began < most)) continue;
+    const double way = (most - began) / (ends - began);
+    if (way < to.ways_[strand]) to.ways_[strand] = way, to.carries_[strand] = {};
+  }
+}
+
+bool ContactFinder::find_holds() const noexcept {
   std::fill(to.ways_ + first_strand(), to.ways_ + end_strand(), 1.0);
   for (uint32_t i = 0; i < to.sphere_count_; ++i) stop_at_core(sweep_of(capsule_of(to.spheres_[i])));
   for (uint32_t i = 0; i < to.capsule_count_; ++i) stop_at_core(sweep_of(to.capsules_[i]));
+  for (uint32_t s = first_strand(); s < end_strand(); ++s) {
+    if (to.turning_[s] && to.pressed_[s]) stop_torn(s);
+  }
   return std::any_of(to.ways_ + first_strand(), to.ways_ + end_strand(), [](double w) { return w < 1; });
 }
 

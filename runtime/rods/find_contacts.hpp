@@ -8,7 +8,8 @@
 //
 // A segment that turns far within a step gets past a normal of its start with another part of it. So what was
 // iterated to is looked at again: no axis enters the core of a sphere or capsule, half the sum of radii about
-// its axis, nor, having begun there, comes nearer to that axis by more than a fifth.
+// its axis, nor, having begun there, comes nearer to that axis by more than a fifth; and a rod that is caught
+// on something is not torn there, for rejoining it knows no obstacle. A strand that would goes only so far.
 #pragma once
 #include "rods/collider.hpp"
 #include "rods/rod_batch.hpp"
@@ -23,9 +24,9 @@ struct ContactFinder {
   // The iterate in scratch is the step's first.
   void find() const noexcept;
   // Of the iterate as the step's end: what share of its way each strand of the range goes before an axis
-  // enters the core of a sphere or capsule, into ways_, and that core's own move by then, into carries_.
-  // Returns whether any does.
-  bool find_cores() const noexcept;
+  // enters the core of a sphere or capsule, or before a strand that something presses on is torn, into ways_;
+  // that core's own move by then, into carries_. Returns whether any is to be held.
+  bool find_holds() const noexcept;
 
  private:
   // What a segment touches: a segment, or an obstacle (segment is kNoSegment).
@@ -50,6 +51,7 @@ struct ContactFinder {
   void add_sweep(uint32_t strand, uint32_t segment) const;
   Sweep taken_sweep(uint32_t strand, uint32_t segment) const;
   Sweep sweep_of(const Capsule& capsule) const;
+  void stop_torn(uint32_t strand) const;
   void stop_at_core(const Sweep& core) const;
   void stop_at_core(uint32_t strand, uint32_t segment, const Sweep& core) const;
   SweptBox strand_box(uint32_t strand) const;
