@@ -27,6 +27,8 @@ constexpr double kRestDistance = 1.2;
 // The core of what is round, over the sum of radii; how near an axis that begins in it may come, over how
 // near it was; what of a core's radius counts as there.
 constexpr double kCore = 0.5, kNearer = 0.8, kThere = 0.05;
+// Small gaps are advanced through slowly.
+constexpr int kCoreMoments = 256;
 // A gap that does not count as torn yet, of the strand's mean segment.
 constexpr double kHardlyTorn = 0.4;
 
@@ -407,7 +409,7 @@ void ContactFinder::stop_at_core(uint32_t strand, uint32_t segment, const Sweep&
   const double began = length(difference(at(own.start, n.a), at(core.start, n.b)));
   core.radius_m = std::min(kCore * (own.radius_m + core.radius_m), kNearer * began);
   own.radius_m = 0;
-  const Touch touch = first_touch(own, core);
+  const Touch touch = first_touch(own, core, kCoreMoments);
   if (!(touch.gap_m < kThere * core.radius_m) || touch.time >= to.ways_[strand]) return;
   const Vector moved = difference(at(core.end, touch.at.b), at(core.start, touch.at.b));
   to.ways_[strand] = touch.time;
