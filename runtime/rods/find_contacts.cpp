@@ -27,6 +27,8 @@ constexpr double kRestDistance = 1.2;
 // The core of what is round, over the sum of radii; how near an axis that begins in it may come, over how
 // near it was; what of a core's radius counts as there.
 constexpr double kCore = 0.5, kNearer = 0.8, kThere = 0.05;
+// An axis that begins nearer than this, over the sum of radii, may leave on any side.
+constexpr double kLost = 0.2;
 // Small gaps are advanced through slowly.
 constexpr int kCoreMoments = 256;
 // A gap that does not count as torn yet, of the strand's mean segment.
@@ -407,6 +409,7 @@ void ContactFinder::stop_at_core(uint32_t strand, uint32_t segment, const Sweep&
   Sweep own = taken_sweep(strand, segment), core = round;
   const Nearest n = nearest(own.start, core.start);
   const double began = length(difference(at(own.start, n.a), at(core.start, n.b)));
+  if (began < kLost * (own.radius_m + core.radius_m)) return;
   core.radius_m = std::min(kCore * (own.radius_m + core.radius_m), kNearer * began);
   own.radius_m = 0;
   const Touch touch = first_touch(own, core, kCoreMoments);

@@ -8,7 +8,8 @@
 //
 // A segment that turns far within a step gets past a normal of its start with another part of it. So what was
 // iterated to is looked at again: no axis enters the core of a sphere or capsule, half the sum of radii about
-// its axis, nor, having begun there, comes nearer to that axis by more than a fifth; and a rod that is caught
+// its axis, nor, having begun there, comes nearer to that axis by more than a fifth,
+// unless it lies about that axis; and a rod that is caught
 // on something is not torn there, for rejoining it knows no obstacle. A strand that would goes only so far.
 #pragma once
 #include "rods/collider.hpp"
