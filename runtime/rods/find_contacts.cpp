@@ -456,6 +456,8 @@ bool ContactFinder::find_holds() const noexcept {
 }
 
 void ContactFinder::find() const noexcept {
+  const uint32_t obstacles = to.point_count_ + to.plane_count_ + to.sphere_count_ + to.capsule_count_;
+  if (obstacles == 0 && !to.settings_.rods_collide) return;
   for (uint32_t strand = first_strand(); strand < end_strand(); ++strand) {
     for (uint32_t i = 0; i < batch.segment_count_; ++i) add_sweep(strand, i);
     to.strand_boxes_[strand - first_strand()] = strand_box(strand);
