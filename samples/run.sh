@@ -47,6 +47,6 @@ python=python3
 "$python" samples/demo/plot_budget.py "$out/report.json" -o "$out/budget.png"
 echo
 echo "Rods without a character:"
-newer "$out/rods/tree.png" "$bin/sinew-rods" || "$bin/sinew-rods" -o "$out/rods"
+newer "$out/rods/two_rods.png" "$bin/sinew-rods" || "$bin/sinew-rods" -o "$out/rods"
 echo
 echo "Pictures: $out/pictures/contact_sheet.png  $out/pictures_rods/contact_sheet.png  $out/pictures (frames, animation)  $out/budget.png  $out/rods/*.png"

@@ -38,7 +38,7 @@ Status make_rod_batches(const Asset& asset, std::unique_ptr<rods::RodBatch[]>* o
       const RodSeat& seat = rig.seats()[rod];
       if (seat.batch != batch) continue;
       const std::span<rods::SegmentDef> segments(defs.segments.get() + seat.first_slot, seat.slot_count);
-      define_strand(asset.pack, rod, segments);
+      define_strand(asset.pack, rig, rod, segments);
       defs.strands[strands++] = {segments};
     }
     const Status status =

@@ -23,17 +23,17 @@ std::span<const pack::RodSegmentRecord> segments_of(const pack::PackView& pack, 
   return pack.rod_segments.subspan(pack.rods[rod].first_segment, pack.rods[rod].segment_count);
 }
 
-// Own axes to the character's: z along the segment, by the shortest way.
-Quaterniond axes_of(const pack::RodSegmentRecord& segment) noexcept {
-  return Quaterniond::FromTwoVectors(Vector3d::UnitZ(), vector(segment.end_m) - vector(segment.begin_m))
-      .normalized();
+// Own axes to the character's: z along the segment, by the shortest way from the parent's. From a common
+// start neighbours would be rolled against each other, where that start points away from them by half a turn.
+Quaterniond axes_of(const pack::RodSegmentRecord& segment, const Quaterniond& parent) noexcept {
+  const Vector3d along = vector(segment.end_m) - vector(segment.begin_m);
+  return (Quaterniond::FromTwoVectors(parent * Vector3d::UnitZ(), along) * parent).normalized();
 }
 
 rods::SegmentDef define_segment(const pack::RodSegmentRecord& record) noexcept {
   const Vector3d begin = vector(record.begin_m), end = vector(record.end_m), middle = (begin + end) / 2;
   rods::SegmentDef s;
   std::copy_n(middle.data(), 3, s.position_m);
-  Eigen::Map<Eigen::Vector4f>(s.orientation) = axes_of(record).coeffs().cast<float>();
   s.length_m = static_cast<float>((end - begin).norm());
   s.radius_m = record.radius_m;
   s.density_kg_m3 = record.density_kg_m3;
@@ -69,7 +69,7 @@ void fill_slots(const pack::PackView& pack, uint32_t rod, const Matrix34* bind, 
   const uint32_t first = rig.seat_memory[rod].first_slot, attach = pack.rods[rod].attach;
   const auto segments = segments_of(pack, rod);
   RodSlot& holder = rig.slot_memory[first];
-  holder = make_slot(bind[attach], axes_of(segments[0]));
+  holder = make_slot(bind[attach], axes_of(segments[0], Quaterniond::Identity()));
   holder.joint = attach;
   holder.parent = first;
   holder.bone = kNoIndex;
@@ -78,7 +78,8 @@ void fill_slots(const pack::PackView& pack, uint32_t rod, const Matrix34* bind, 
     const uint32_t joint = joint_of(pack, rod, segments[s]);
     const rods::SegmentDef def = define_segment(segments[s]);
     RodSlot& slot = rig.slot_memory[first + 1 + s];
-    slot = make_slot(bind[joint], axes_of(segments[s]));
+    const Quaterniond above(rig.slot_memory[first + def.parent].bind_xyzw);
+    slot = make_slot(bind[joint], axes_of(segments[s], above));
     slot.joint = joint;
     slot.parent = first + def.parent;
     slot.bone = segments[s].joint;
@@ -141,9 +142,14 @@ Status make_rod_rig(const pack::PackView& pack, RodRig* out) noexcept {
   return {};
 }
 
-void define_strand(const pack::PackView& pack, uint32_t rod, std::span<rods::SegmentDef> out) noexcept {
+void define_strand(const pack::PackView& pack, const RodRig& rig, uint32_t rod,
+                   std::span<rods::SegmentDef> out) noexcept {
   const auto segments = segments_of(pack, rod);
-  for (size_t s = 0; s < segments.size(); ++s) out[s + 1] = define_segment(segments[s]);
+  const uint32_t first = rig.seats()[rod].first_slot + 1;
+  for (size_t s = 0; s < segments.size(); ++s) {
+    out[s + 1] = define_segment(segments[s]);
+    std::copy_n(rig.slots()[first + s].bind_xyzw, 4, out[s + 1].orientation);
+  }
   out[0] = out[1];
   out[0].parent = rods::kNoParent;
   out[0].fixed = true;

@@ -41,6 +41,7 @@ struct RodRig {
 Status make_rod_rig(const pack::PackView& pack, RodRig* out) noexcept;
 
 // A rod's segments in the bind pose, the holder first; out has room for its slots.
-void define_strand(const pack::PackView& pack, uint32_t rod, std::span<rods::SegmentDef> out) noexcept;
+void define_strand(const pack::PackView& pack, const RodRig& rig, uint32_t rod,
+                   std::span<rods::SegmentDef> out) noexcept;
 
 }  // namespace sinew::world

@@ -25,7 +25,9 @@ struct NamedScene {
   sample::Story (*run)(double seconds);
 };
 
-constexpr NamedScene kScenes[] = {{"tree", 8, sample::tree_in_wind}};
+constexpr NamedScene kScenes[] = {{"tree", 8, sample::tree_in_wind},
+                                  {"helix", 3, sample::helix_on_plane},
+                                  {"two_rods", 4, sample::two_rods}};
 
 const NamedScene& find_scene(const std::string& name) {
   std::string known;

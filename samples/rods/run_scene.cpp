@@ -43,17 +43,26 @@ void measure_shape(const rods::RodBatch& batch, const Story& story, Measured* m)
 void take_step(const Scene& scene, Measured* m) {
   rods::RodReport report;
   const double begin = thread_us();
-  const Status status = scene.batch->step(static_cast<float>(scene.dt_s), &report);
+  const Status status = scene.batch->step(static_cast<float>(scene.dt_s), scene.collider, &report);
   m->step_us.push_back(thread_us() - begin);
   accept(status);
   m->iterations_sum += report.iterations_sum;
   m->iterations_most = std::max(m->iterations_most, report.iterations);
   m->unconverged += report.unconverged;
   m->recovered += report.recovered;
+  m->contacts_most = std::max(m->contacts_most, report.contacts);
+  m->deepest_penetration = std::max(m->deepest_penetration, static_cast<double>(report.deepest_penetration));
+}
+
+std::string caption_of(const Scene& scene, double time_s) {
+  if (scene.caption) return scene.caption(time_s);
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f s", time_s);
+  return text;
 }
 
 Moment moment_of(const Scene& scene, double time_s) {
-  Moment moment{time_s, scene.caption(time_s), {}};
+  Moment moment{time_s, caption_of(scene, time_s), {}};
   for (uint32_t k = 0; k < scene.batch->strand_count(); ++k)
     moment.poses.push_back(poses_of(*scene.batch, k));
   return moment;
@@ -93,7 +102,11 @@ std::string report_line(const Story& story) {
                 story.name.c_str(), m.strands, m.segments, m.steps, 1e3 * m.dt_s, m.length_ratio,
                 m.largest_gap, m.iterations_sum / m.strands / m.steps, m.iterations_most, m.unconverged,
                 m.step_us.empty() ? 0.0 : median(m.step_us));
-  return text;
+  if (m.contacts_most == 0) return text;
+  char contacts[96];
+  std::snprintf(contacts, sizeof contacts, ", up to %u contacts, %.2f of a radius deep", m.contacts_most,
+                m.deepest_penetration);
+  return std::string(text) + contacts;
 }
 
 }  // namespace sinew::sample

@@ -7,12 +7,14 @@
 namespace sinew::sample {
 
 struct Scene {
-  rods::RodBatch* batch;  // one strand an actor
-  double dt_s, seconds;
+  rods::RodBatch* batch;                  // one strand an actor
+  rods::RodCollider* collider = nullptr;  // null: nothing collides
+  double dt_s = 0, seconds = 0;
   std::vector<double> moments_s;  // rising
   // Before each step, with the time at its end: what drives the scene.
   std::function<void(double time_s)> drive = [](double) {};
-  std::function<std::string(double time_s)> caption;
+  // Of a moment; without: the time alone.
+  std::function<std::string(double time_s)> caption = {};
 };
 
 // Throws std::runtime_error with the status' line unless it is ok.

@@ -37,8 +37,9 @@ struct Measured {
   double length_ratio = 1;  // all joints' distances over their lengths at rest, where it was furthest from 1
   double largest_gap = 0;   // at a joint, of its segment's length
   double iterations_sum = 0;  // of all strands and steps
-  uint32_t iterations_most = 0, unconverged = 0, recovered = 0;
-  std::vector<double> step_us;  // thread CPU time
+  uint32_t iterations_most = 0, unconverged = 0, recovered = 0, contacts_most = 0;
+  double deepest_penetration = 0;  // of a segment's radius
+  std::vector<double> step_us;     // thread CPU time
 };
 
 struct Story {

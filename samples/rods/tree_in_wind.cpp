@@ -30,7 +30,10 @@ Story tree_in_wind(double seconds) {
   const rods::StrandDef strand{actor.segments};
   accept(rods::RodBatch::create({&strand, 1}, {}, &batch));
 
-  Story story{.name = "tree", .title = {}, .actors = {actor}, .view = {.yaw_deg = 12, .pitch_deg = 9, .margin = 1.2f}};
+  Story story{.name = "tree",
+              .title = {},
+              .actors = {actor},
+              .view = {.yaw_deg = 12, .pitch_deg = 9, .margin = 1.2f}};
   const test::Wind wind;
   const Eigen::Vector3d crown(0, 2, 0);
   run_scene({.batch = &batch,

@@ -34,7 +34,7 @@ class Tube {
 
   void draw() {
     for (uint32_t i = 0; i < segments_.size(); ++i) {
-      if (!follows(i)) first_row_ = row(start_of(i), i == 0 ? 1.0f : 0.0f);
+      if (!follows(i)) begin(i);
       for (uint32_t k = 1; k <= look_.rings; ++k) {
         join_row(between(start_of(i), end_of(i), static_cast<float>(k) / static_cast<float>(look_.rings)));
       }
@@ -75,8 +75,8 @@ class Tube {
             u * a.radius + t * b.radius};
   }
 
-  // A ring of vertices, returns its first; `cap` closes it towards what lies before.
-  uint32_t row(const Station& s, float cap = 0, float lean = 0) {
+  // A ring of vertices, whose normals lean along the rod; returns its first.
+  uint32_t row(const Station& s, float lean = 0) {
     const auto first = static_cast<uint32_t>(mesh_.positions.size());
     const float slope = std::sqrt(1 - lean * lean);
     for (uint32_t j = 0; j < look_.sides; ++j) {
@@ -86,12 +86,11 @@ class Tube {
       mesh_.normals.push_back(slope * out + lean * s.along);
       mesh_.colors.push_back(4 * j < look_.sides ? look_.stripe : look_.color);
     }
-    if (cap > 0) close(s.place - 0.3f * s.radius * s.along, -s.along, first);
     return first;
   }
 
   void join_row(const Station& s, float lean = 0) {
-    const uint32_t next = row(s, 0, lean);
+    const uint32_t next = row(s, lean);
     for (uint32_t j = 0; j < look_.sides; ++j) {
       const uint32_t k = (j + 1) % look_.sides;
       mesh_.triangles.push_back({first_row_ + j, first_row_ + k, next + j});
@@ -100,23 +99,41 @@ class Tube {
     first_row_ = next;
   }
 
-  void round_off(const Station& s) {
-    for (const float angle : {0.5f, 1.0f, 1.35f}) {
-      Station ring = s;
-      ring.place += std::sin(angle) * s.radius * s.along;
-      ring.radius = std::cos(angle) * s.radius;
-      join_row(ring, std::sin(angle));
-    }
-    close(s.place + s.radius * s.along, s.along, first_row_);
+  // Half a ball's ring, this far towards its pole.
+  static Station ring(const Station& s, float angle) {
+    Station out = s;
+    out.place += std::sin(angle) * s.radius * s.along;
+    out.radius = std::cos(angle) * s.radius;
+    return out;
   }
 
-  void close(const Vector& tip, const Vector& normal, uint32_t first) {
+  // A branch begins inside its parent.
+  void begin(uint32_t i) {
+    const Station s = start_of(i);
+    if (i > 0) {
+      first_row_ = row(s);
+      return;
+    }
+    first_row_ = row(ring(s, -1.35f), std::sin(-1.35f));
+    close(s.place - s.radius * s.along, -s.along, true);
+    for (const float angle : {-1.0f, -0.5f}) join_row(ring(s, angle), std::sin(angle));
+    join_row(s);
+  }
+
+  void round_off(const Station& s) {
+    for (const float angle : {0.5f, 1.0f, 1.35f}) join_row(ring(s, angle), std::sin(angle));
+    close(s.place + s.radius * s.along, s.along, false);
+  }
+
+  // A fan over the last ring; its triangles turn like the tube's.
+  void close(const Vector& tip, const Vector& normal, bool before) {
     const auto index = static_cast<uint32_t>(mesh_.positions.size());
     mesh_.positions.push_back(tip);
     mesh_.normals.push_back(normal);
     mesh_.colors.push_back(look_.color);
     for (uint32_t j = 0; j < look_.sides; ++j) {
-      mesh_.triangles.push_back({first + j, first + (j + 1) % look_.sides, index});
+      const uint32_t a = first_row_ + j, b = first_row_ + (j + 1) % look_.sides;
+      mesh_.triangles.push_back(before ? std::array{b, a, index} : std::array{a, b, index});
     }
   }
 

@@ -53,7 +53,8 @@ rods::SegmentPose pose_of(const rods::SegmentDef& s) {
 TEST_CASE("rods_refuses_what_it_cannot_draw") {
   TemporaryFolder folder;
   check_refused({}, {"--output"});
-  check_refused({"-o", folder.file("out"), "--scene", "castle"}, {"castle", "there are tree"});
+  check_refused({"-o", folder.file("out"), "--scene", "castle"},
+                {"castle", "there are tree, helix, two_rods"});
   check_refused({"-o", folder.file("out"), "--seconds", "0"}, {"--seconds"});
   check_refused({"-o", "/dev/null/out"}, {"/dev/null/out"});
   CHECK(folder.entries() == 0);
@@ -68,6 +69,21 @@ TEST_CASE("rods_draws_a_tree_of_more_than_a_thousand_segments_in_wind") {
   CHECK_THAT(result.out, Catch::Contains("1 x 1211 segments, 30 steps"));
   CHECK_THAT(result.out, Catch::Contains(" 0 not converged"));
   check_sheet(folder.file("out/tree.png"), 3, 2);
+}
+
+TEST_CASE("rods_draws_a_helix_on_a_plane_and_two_rods_that_touch") {
+  TemporaryFolder folder;
+  const ProgramResult result =
+      rods_program({"-o", folder.file("out"), "--scene", "helix", "--scene", "two_rods", "--seconds", "0.6"});
+  INFO(result.error);
+  REQUIRE(result.exit_code == 0);
+  CHECK_THAT(result.out, Catch::Contains("1 x 120 segments, 72 steps"));
+  CHECK_THAT(result.out, Catch::Contains("2 x 50 segments, 72 steps"));
+  const size_t first = result.out.find(" contacts, ");
+  REQUIRE(first != std::string::npos);
+  CHECK(result.out.find(" contacts, ", first + 1) != std::string::npos);
+  check_sheet(folder.file("out/helix.png"), 3, 2);
+  check_sheet(folder.file("out/two_rods.png"), 3, 2);
 }
 
 TEST_CASE("a_tube_is_as_thick_as_its_rod_everywhere_and_closed") {
