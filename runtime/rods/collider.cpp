@@ -15,6 +15,8 @@ namespace sinew::rods {
 namespace {
 
 constexpr uint32_t kMostContacts = 1u << 24, kMostObstacles = 65536, kLeastContacts = 64;
+// A strand that is held bends a little on the way there: it is looked at again.
+constexpr int kMostHolds = 4;
 
 Status bad_setting(const char* name, double value, const char* range) {
   return core::make_status(StatusCode::kInvalidArgument, "ColliderSettings::%s is %g; give %s", name, value,
@@ -85,6 +87,8 @@ struct ColliderBuilder {
     to.pending_ = arena.take<uint8_t>(to.strand_count_);
     to.changed_ = arena.take<uint8_t>(to.strand_count_);
     to.ways_ = arena.take<double>(to.strand_count_);
+    to.carries_ = arena.take<Vector>(to.strand_count_);
+    to.pressed_ = arena.take<uint8_t>(to.strand_count_);
     to.iterated_ = arena.take<uint8_t>(to.strand_count_);
     if (all) {
       to.scratch_ = arena.take<float>(segments * (simd::kRodFields - simd::kRodKeptFields));
@@ -202,8 +206,12 @@ void RodCollider::begin_range(const RodBatch& batch, uint32_t first_group, uint3
 
 uint32_t RodCollider::settle(const RodBatch& batch) noexcept { return ContactForces{*this, batch}.settle(); }
 
-void RodCollider::end_range(const RodBatch& batch, RodReport* report) noexcept {
-  report->contacts_unconverged += ContactForces{*this, batch}.end();
+void RodCollider::end_range(const RodBatch& batch, float dt_s, RodReport* report) noexcept {
+  const ContactFinder finder{*this, batch, static_cast<double>(dt_s)};
+  const ContactForces forces{*this, batch};
+  forces.forgive();
+  for (int k = 0; k < kMostHolds && finder.find_holds(); ++k) forces.hold();
+  report->contacts_unconverged += forces.end();
 }
 
 // Where it is, or where it would be put.

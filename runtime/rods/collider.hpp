@@ -3,7 +3,14 @@
 // Handed to RodBatch::step. Rods are capsules, their whole length touches. Each step finds contacts once, on
 // the way from where segments are to where they would go freely (find_contacts.cpp), so that what passes
 // through something within a step touches it. Forces are part of the step's Newton iteration
-// (contact_forces.cpp): where it ends does not depend on where it starts.
+// (contact_forces.cpp): a step that converges, RodReport::unconverged and contacts_unconverged both 0, ends
+// where it does whatever it started from; one that ends at the cap depends on its start. What was iterated to
+// is looked at once more, and a strand whose axis would be in the core of a sphere or capsule stops on its
+// way there and counts as not converged: fast rods are caught, slower than momentum would have them. Between
+// two rods, and at given points, there is no such second look.
+// Forces of the last step are where the next one's begin. They are the collider's, not in
+// RodBatch::save_state: after a restore a step with contacts begins with other forces, and has the same bits
+// only from RodStart::kZero, or with a collider made anew at saving as well as after the restore.
 // One thread at a time with its batch. A step allocates nothing. Memory: some 400 bytes a contact; where rods
 // collide with one another some 800 bytes a segment besides, for all groups then iterate in turn.
 // Cost: a microsecond for each contact and iteration is an upper bound; perf_rods measures it.
@@ -30,8 +37,9 @@ struct ColliderSettings {
   // 1e-4 to 1, share of a segment's radius: contacts have converged when gaps and slips are this exact. Twice
   // this much of penetration is left alone.
   float tolerance = 0.01f;
-  // What is found in penetration is pushed out no faster at a contact; a rod that lies deep in something
-  // round, whose parts are pushed apart, has left twice as fast. Finite, above 0.
+  // What is found in penetration is pushed out no faster at a contact. No bound of a strand's speed: what
+  // lies deep in something round is pushed apart, part against part, and has left five times as fast in the
+  // mean, a single segment fifteen times. Finite, above 0.
   float largest_push_out_m_s = 1;
   // Contacts at a time; further ones are dropped and counted, in the order given points, planes, spheres,
   // capsules, rods, each by strand and segment. 0: four a segment, at least 64. At most 2^24.
@@ -83,7 +91,7 @@ class RodCollider {
   void begin_step() noexcept;
   void begin_range(const RodBatch& batch, uint32_t first_group, uint32_t groups, float dt_s) noexcept;
   uint32_t settle(const RodBatch& batch) noexcept;  // returns how many strands are not converged
-  void end_range(const RodBatch& batch, RodReport* report) noexcept;
+  void end_range(const RodBatch& batch, float dt_s, RodReport* report) noexcept;
   void end_step(float dt_s, RodReport* report) noexcept;
   float* scratch(const RodBatch& batch, uint32_t group) const noexcept;
   // Of one lane; rows are width_ apart.
@@ -114,7 +122,9 @@ class RodCollider {
   uint8_t* turning_ = nullptr;   // [strands] not converged by themselves
   uint8_t* pending_ = nullptr;   // [strands] not converged by a contact
   double* ways_ = nullptr;       // [strands] where the first iterate is, from the step's start to free motion
+  Vector* carries_ = nullptr;    // [strands] how far a core takes a strand along that it stops
   uint8_t* changed_ = nullptr;   // [strands] a contact opened or closed in the last iteration
+  uint8_t* pressed_ = nullptr;   // [strands] a contact with a force, at the last iteration
   uint8_t* iterated_ = nullptr;  // [strands] moved by the last iteration
   float* scratch_ = nullptr;     // of all groups, where rods collide
   SpatialHash hash_;

@@ -127,6 +127,22 @@ void ContactForces::shorten(const Contact& c, double start) const {
   if (c.has_two_rods()) to.ways_[c.sides[1].strand] = std::min(to.ways_[c.sides[1].strand], way);
 }
 
+// The iterate's turn: ways_'s share of the way from the step's start to the turn in `field`.
+void ContactForces::turn_part(uint32_t strand, uint32_t segment, uint32_t field) const {
+  const double way = to.ways_[strand];
+  Turn before, after;
+  for (uint32_t k = 0; k < 4; ++k) {
+    before[k] = static_cast<double>(batch.at(strand, segment, simd::kRodTurn + k));
+    after[k] = static_cast<double>(*to.scratch_row(batch, strand, segment, field + k));
+  }
+  const double side = product(conjugate(before), after)[3] < 0 ? -1 : 1;
+  for (size_t k = 0; k < 4; ++k) after[k] = (1 - way) * side * before[k] + way * after[k];
+  after = normalised(after);
+  for (uint32_t k = 0; k < 4; ++k) {
+    *to.scratch_row(batch, strand, segment, simd::kRodNow + k) = static_cast<float>(after[k]);
+  }
+}
+
 // The iterate that share of the way to free motion, without forces.
 void ContactForces::step_back(uint32_t strand, uint32_t segment) const {
   if (batch.at(strand, segment, simd::kRodFree) == 0) return;
@@ -135,15 +151,7 @@ void ContactForces::step_back(uint32_t strand, uint32_t segment) const {
   for (uint32_t k = 0; k < 3; ++k) {
     *row(simd::kRodMove + k) = static_cast<float>(way * static_cast<double>(*row(simd::kRodFreeMove + k)));
   }
-  Turn before, after;
-  for (uint32_t k = 0; k < 4; ++k) {
-    before[k] = static_cast<double>(batch.at(strand, segment, simd::kRodTurn + k));
-    after[k] = static_cast<double>(*row(simd::kRodFreeTurn + k));
-  }
-  const double side = product(conjugate(before), after)[3] < 0 ? -1 : 1;
-  for (size_t k = 0; k < 4; ++k) after[k] = (1 - way) * side * before[k] + way * after[k];
-  after = normalised(after);
-  for (uint32_t k = 0; k < 4; ++k) *row(simd::kRodNow + k) = static_cast<float>(after[k]);
+  turn_part(strand, segment, simd::kRodFreeTurn);
   for (uint32_t k = 0; k < 6; ++k) *row(simd::kRodForceNow + k) = 0;
 }
 
@@ -257,13 +265,13 @@ double ContactForces::last_turn(uint32_t strand) const {
   return std::sqrt(square);
 }
 
-// A strand that touches something and still turns a little each iteration keeps its forces: it counts as one
-// whose contacts did not converge.
-void ContactForces::forgive() const {
+void ContactForces::forgive() const noexcept {
   const double most = kForgiven * static_cast<double>(batch.settings_.tolerance_rad);
+  std::fill(to.pressed_ + first_strand(), to.pressed_ + end_strand(), uint8_t{0});
   for (const Contact& c : contacts()) {
     if (!(c.force > 0)) continue;
     for (const Contact::Side& side : c.sides) {
+      if (side.segment != kNoSegment) to.pressed_[side.strand] = 1;
       if (side.segment == kNoSegment || !to.turning_[side.strand] || !(last_turn(side.strand) < most))
         continue;
       to.turning_[side.strand] = 0;
@@ -272,8 +280,26 @@ void ContactForces::forgive() const {
   }
 }
 
+void ContactForces::hold(uint32_t strand, uint32_t segment) const {
+  if (batch.at(strand, segment, simd::kRodFree) == 0) return;
+  const double way = to.ways_[strand], l = static_cast<double>(batch.units_[strand].length_m);
+  for (uint32_t k = 0; k < 3; ++k) {
+    float& move = *to.scratch_row(batch, strand, segment, simd::kRodMove + k);
+    move = static_cast<float>(way * static_cast<double>(move) + to.carries_[strand][k] / l);
+  }
+  turn_part(strand, segment, simd::kRodNow);
+}
+
+void ContactForces::hold() const noexcept {
+  for (uint32_t s = first_strand(); s < end_strand(); ++s) {
+    if (!(to.ways_[s] < 1)) continue;
+    to.turning_[s] = to.pending_[s] = 1;
+    for (uint32_t i = 0; i < batch.segment_count_; ++i) hold(s, i);
+  }
+  for (Contact& c : contacts()) look(&c);
+}
+
 uint32_t ContactForces::end() const noexcept {
-  forgive();
   uint32_t count = 0;
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {
     active(s) = to.turning_[s] ? 1.0f : 0.0f;

@@ -14,6 +14,11 @@ struct ContactForces {
   void begin() const noexcept;
   // After an iteration: takes forces over, and says which strands go on, in kLaneActive. Returns how many.
   uint32_t settle() const noexcept;
+  // A strand that touches something and still turns a little each iteration keeps its forces: it counts as
+  // one whose contacts did not converge.
+  void forgive() const noexcept;
+  // Strands whose way_ is below 1 end there; they count as not converged.
+  void hold() const noexcept;
   // After the last: kLaneActive is again what the rods themselves said. Returns how many strands are not
   // converged by their contacts.
   uint32_t end() const noexcept;
@@ -33,6 +38,7 @@ struct ContactForces {
   void shorten(const Contact& contact, double start) const;
   void take_back(uint32_t strand) const;
   void stop_at_new_contacts() const;
+  void turn_part(uint32_t strand, uint32_t segment, uint32_t field) const;
   void step_back(uint32_t strand, uint32_t segment) const;
   void look(Contact* contact) const;
   bool iterated(const Contact& contact) const;
@@ -40,7 +46,7 @@ struct ContactForces {
   double tolerance_m(const Contact& contact) const;
   bool take_over(Contact* contact) const;
   double last_turn(uint32_t strand) const;
-  void forgive() const;
+  void hold(uint32_t strand, uint32_t segment) const;
   void assemble() const;
   void add(const Contact& contact) const;
   void add_to_side(const Contact& contact, size_t side, const Vector& force, double pressed,

@@ -24,6 +24,16 @@ constexpr double kDeep = 0.5, kEndOn = 0.7;
 // Segments of a strand that at rest are nearer than this, over the sum of their radii, never touch.
 constexpr double kRestDistance = 1.2;
 
+// The core of what is round, over the sum of radii; how near an axis that begins in it may come, over how
+// near it was; what of a core's radius counts as there.
+constexpr double kCore = 0.5, kNearer = 0.8, kThere = 0.05;
+// An axis that begins nearer than this, over the sum of radii, may leave on any side.
+constexpr double kLost = 0.2;
+// Small gaps are advanced through slowly.
+constexpr int kCoreMoments = 256;
+// A gap that does not count as torn yet, of the strand's mean segment.
+constexpr double kHardlyTorn = 0.4;
+
 enum Kind : uint64_t { kPoint = 1, kPlane, kSphere, kCapsule, kRod };
 
 uint64_t mixed(uint64_t h, uint64_t value) {
@@ -70,6 +80,12 @@ bool overlap(const SweptBox& a, const SweptBox& b) {
 
 double longest_way(const Sweep& s) {
   return std::max(length(difference(s.end.from, s.start.from)), length(difference(s.end.to, s.start.to)));
+}
+
+Capsule capsule_of(const Sphere& s) {
+  Capsule point = {.radius_m = s.radius_m, .friction = s.friction, .motion = s.motion};
+  for (auto& end : point.ends_m) std::copy_n(s.middle_m, 3, end);
+  return point;
 }
 
 // How far an obstacle's surface moves in the step at a point of it.
@@ -251,16 +267,21 @@ void ContactFinder::add_plane(const Plane& plane, uint32_t index) const {
   }
 }
 
-void ContactFinder::add_capsule(const Capsule& capsule, uint64_t kind, uint32_t index) const {
+Sweep ContactFinder::sweep_of(const Capsule& capsule) const {
   const Vector from = {capsule.ends_m[0][0], capsule.ends_m[0][1], capsule.ends_m[0][2]};
   const Vector to_end = {capsule.ends_m[1][0], capsule.ends_m[1][1], capsule.ends_m[1][2]};
   const Vector middle = between(from, to_end, 0.5), half = scaled(0.5, difference(to_end, from));
   const Vector back = scaled(-dt_s, vector_of(capsule.motion.angular_rad_s));
   const Vector was = scaled_sum(-dt_s, vector_of(capsule.motion.linear_m_s), middle);
   const Vector half_then = turned_by(back, half);
-  const Sweep sweep = {{difference(was, half_then), sum(was, half_then)},
-                       {from, to_end},
-                       static_cast<double>(capsule.radius_m)};
+  return {{difference(was, half_then), sum(was, half_then)},
+          {from, to_end},
+          static_cast<double>(capsule.radius_m)};
+}
+
+void ContactFinder::add_capsule(const Capsule& capsule, uint64_t kind, uint32_t index) const {
+  const Sweep sweep = sweep_of(capsule);
+  const Vector middle = between(sweep.end.from, sweep.end.to, 0.5);
   const Other other = {kind,  index,          0,      kNoSegment,
                        sweep, capsule.motion, middle, static_cast<double>(capsule.friction)};
   const SweptBox box = box_of(sweep, sweep.radius_m + kNearWay * longest_way(sweep));
@@ -372,19 +393,78 @@ void ContactFinder::add_pair(uint32_t i, uint32_t j) const {
   add_touch(strand_i, a, other);
 }
 
+// From the step's start to the iterate.
+Sweep ContactFinder::taken_sweep(uint32_t strand, uint32_t segment) const {
+  Turn now;
+  for (uint32_t k = 0; k < 4; ++k) {
+    now[k] = static_cast<double>(*to.scratch_row(batch, strand, segment, simd::kRodNow + k));
+  }
+  const double l = static_cast<double>(batch.units_[strand].length_m);
+  const Sweep& known = to.sweeps_[local(strand, segment)];
+  const Vector move = scaled(l, iterate3(strand, segment, simd::kRodMove));
+  return {known.start, axis(strand, segment, move, axis_of(now)), known.radius_m};
+}
+
+void ContactFinder::stop_at_core(uint32_t strand, uint32_t segment, const Sweep& round) const {
+  Sweep own = taken_sweep(strand, segment), core = round;
+  const Nearest n = nearest(own.start, core.start);
+  const double began = length(difference(at(own.start, n.a), at(core.start, n.b)));
+  if (began < kLost * (own.radius_m + core.radius_m)) return;
+  core.radius_m = std::min(kCore * (own.radius_m + core.radius_m), kNearer * began);
+  own.radius_m = 0;
+  const Touch touch = first_touch(own, core, kCoreMoments);
+  if (!(touch.gap_m < kThere * core.radius_m) || touch.time >= to.ways_[strand]) return;
+  const Vector moved = difference(at(core.end, touch.at.b), at(core.start, touch.at.b));
+  to.ways_[strand] = touch.time;
+  to.carries_[strand] = scaled(1 - touch.time, moved);
+}
+
+void ContactFinder::stop_at_core(const Sweep& core) const {
+  const SweptBox box = box_of(core, core.radius_m + kNearWay * longest_way(core));
+  for (uint32_t strand = first_strand(); strand < end_strand(); ++strand) {
+    if (!overlap(to.strand_boxes_[strand - first_strand()], box)) continue;
+    for (uint32_t i = 0; i < batch.segment_count_; ++i) {
+      if (free(strand, i)) stop_at_core(strand, i, core);
+    }
+  }
+}
+
+// Gaps grow at most in proportion to the way, from what they are where fixed segments are already there.
+void ContactFinder::stop_torn(uint32_t strand) const {
+  const double most = kHardlyTorn * static_cast<double>(batch.units_[strand].length_m);
+  for (uint32_t i = 1; i < batch.segment_count_; ++i) {
+    const uint32_t p = batch.parents_[i];
+    const Sweep parent = taken_sweep(strand, p), own = taken_sweep(strand, i);
+    const Vector& from = (free(strand, p) ? parent.start : parent.end).to;
+    const Vector& to_here = (free(strand, i) ? own.start : own.end).from;
+    const double began = length(difference(from, to_here));
+    const double ends = length(difference(parent.end.to, own.end.from));
+    if (!(ends > most) || !(began < most)) continue;
+    const double way = (most - began) / (ends - began);
+    if (way < to.ways_[strand]) to.ways_[strand] = way, to.carries_[strand] = {};
+  }
+}
+
+bool ContactFinder::find_holds() const noexcept {
+  std::fill(to.ways_ + first_strand(), to.ways_ + end_strand(), 1.0);
+  for (uint32_t i = 0; i < to.sphere_count_; ++i) stop_at_core(sweep_of(capsule_of(to.spheres_[i])));
+  for (uint32_t i = 0; i < to.capsule_count_; ++i) stop_at_core(sweep_of(to.capsules_[i]));
+  for (uint32_t s = first_strand(); s < end_strand(); ++s) {
+    if (to.turning_[s] && to.pressed_[s]) stop_torn(s);
+  }
+  return std::any_of(to.ways_ + first_strand(), to.ways_ + end_strand(), [](double w) { return w < 1; });
+}
+
 void ContactFinder::find() const noexcept {
+  const uint32_t obstacles = to.point_count_ + to.plane_count_ + to.sphere_count_ + to.capsule_count_;
+  if (obstacles == 0 && !to.settings_.rods_collide) return;
   for (uint32_t strand = first_strand(); strand < end_strand(); ++strand) {
     for (uint32_t i = 0; i < batch.segment_count_; ++i) add_sweep(strand, i);
     to.strand_boxes_[strand - first_strand()] = strand_box(strand);
   }
   for (uint32_t i = 0; i < to.point_count_; ++i) add_point(to.points_[i]);
   for (uint32_t i = 0; i < to.plane_count_; ++i) add_plane(to.planes_[i], i);
-  for (uint32_t i = 0; i < to.sphere_count_; ++i) {
-    const Sphere& s = to.spheres_[i];
-    Capsule point = {.radius_m = s.radius_m, .friction = s.friction, .motion = s.motion};
-    for (auto& end : point.ends_m) std::copy_n(s.middle_m, 3, end);
-    add_capsule(point, kSphere, i);
-  }
+  for (uint32_t i = 0; i < to.sphere_count_; ++i) add_capsule(capsule_of(to.spheres_[i]), kSphere, i);
   for (uint32_t i = 0; i < to.capsule_count_; ++i) add_capsule(to.capsules_[i], kCapsule, i);
   if (!to.settings_.rods_collide) return;
   to.hash_.build(to.boxes_, (end_strand() - first_strand()) * batch.segment_count_);

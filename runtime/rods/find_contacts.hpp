@@ -5,6 +5,12 @@
 // normal is that of the first touch on the way (conservative advancement), or of the start where it touches
 // already: what is fast does not come out on the other side. Capsules side by side touch at both ends of
 // where they overlap; at a plane a segment touches by its ends, and a joint's two ends are one.
+//
+// A segment that turns far within a step gets past a normal of its start with another part of it. So what was
+// iterated to is looked at again: no axis enters the core of a sphere or capsule, half the sum of radii about
+// its axis, nor, having begun there, comes nearer to that axis by more than a fifth,
+// unless it lies about that axis; and a rod that is caught
+// on something is not torn there, for rejoining it knows no obstacle. A strand that would goes only so far.
 #pragma once
 #include "rods/collider.hpp"
 #include "rods/rod_batch.hpp"
@@ -18,6 +24,10 @@ struct ContactFinder {
 
   // The iterate in scratch is the step's first.
   void find() const noexcept;
+  // Of the iterate as the step's end: what share of its way each strand of the range goes before an axis
+  // enters the core of a sphere or capsule, or before a strand that something presses on is torn, into ways_;
+  // that core's own move by then, into carries_. Returns whether any is to be held.
+  bool find_holds() const noexcept;
 
  private:
   // What a segment touches: a segment, or an obstacle (segment is kNoSegment).
@@ -40,6 +50,11 @@ struct ContactFinder {
   Vector iterate3(uint32_t strand, uint32_t segment, uint32_t field) const;
   Axis axis(uint32_t strand, uint32_t segment, const Vector& move, const Vector& along) const;
   void add_sweep(uint32_t strand, uint32_t segment) const;
+  Sweep taken_sweep(uint32_t strand, uint32_t segment) const;
+  Sweep sweep_of(const Capsule& capsule) const;
+  void stop_torn(uint32_t strand) const;
+  void stop_at_core(const Sweep& core) const;
+  void stop_at_core(uint32_t strand, uint32_t segment, const Sweep& core) const;
   SweptBox strand_box(uint32_t strand) const;
   Contact made(uint32_t strand, uint32_t segment, double along, const Other& other, uint64_t feature) const;
   void add(Contact contact, double depth_m) const;

@@ -105,7 +105,8 @@ struct RodReport {
   // With a collider: contacts near enough to be looked at, and those that had no room.
   uint32_t contacts = 0, contacts_dropped = 0;
   uint32_t contacts_unconverged = 0;  // strands whose contacts, at the last iteration, were not exact enough
-  float deepest_penetration = 0;      // at the step's end, share of the segment's radius
+  // At the step's end, share of the segment's radius, as contacts measure it: along normals of the step.
+  float deepest_penetration = 0;
 };
 
 class RodBatch {
@@ -166,7 +167,7 @@ class RodBatch {
   // dropped.
   void turn_all(const std::array<double, 4>& by_xyzw, const std::array<double, 3>& centre_m) noexcept;
   // What steps change, as bytes: after a restore into a batch of the same strands and settings the same steps
-  // give the same bits.
+  // give the same bits. With a collider see there: the forces it keeps are not among them.
   size_t state_bytes() const noexcept;
   void save_state(std::byte* out) const noexcept;
   void restore_state(const std::byte* from) noexcept;

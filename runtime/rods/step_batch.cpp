@@ -98,7 +98,7 @@ void RodBatch::step_groups(uint32_t first_group, uint32_t groups, float dt_s, Ro
     if (collider) active = collider->settle(*this);
     if (active == 0) break;
   }
-  if (collider) collider->end_range(*this, report);
+  if (collider) collider->end_range(*this, dt_s, report);
   for (uint32_t g = first_group; g < end; ++g) {
     simd::RodJob job = group_job(g, dt_s, collider);
     if (collider) collider->give(&job, g);

@@ -6,7 +6,6 @@
 namespace sinew::rods {
 namespace {
 
-constexpr int kMostMoments = 32;
 constexpr double kTouching = 1e-2;    // gap over the sum of radii
 constexpr double kMeeting = 1e-6;     // distance of axes over the sum of radii: it has no direction
 constexpr double kKnownWay = 0.1;     // of a unit vector, that which is across an axis
@@ -95,10 +94,10 @@ Nearest nearest(const Axis& a, const Axis& b) noexcept {
   return {nearest(a, at(b, t)), t};
 }
 
-Touch first_touch(const Sweep& a, const Sweep& b) noexcept {
+Touch first_touch(const Sweep& a, const Sweep& b, int moments) noexcept {
   const double speed = closing_speed(a, b), enough = kTouching * (a.radius_m + b.radius_m);
   Touch best = touch_at(a, b, 0), now = best;
-  for (int k = 1; k < kMostMoments && now.gap_m > enough && now.time < 1; ++k) {
+  for (int k = 1; k < moments && now.gap_m > enough && now.time < 1; ++k) {
     const double next = now.gap_m >= speed * (1 - now.time) ? 1.0 : now.time + now.gap_m / speed;
     now = touch_at(a, b, std::min(next, 1.0));
     if (now.gap_m < best.gap_m) best = now;

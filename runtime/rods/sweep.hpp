@@ -28,7 +28,7 @@ double nearest(const Axis& axis, const Vector& point) noexcept;
 Vector way_out(const Axis& a, const Axis& b, const Vector& normal) noexcept;
 
 // When two sweeps first touch, or, where they do not, are nearest of the moments looked at: by conservative
-// advancement, at most 32 of them.
+// advancement, at most `moments` of them.
 struct Touch {
   double time;          // share of the step
   Nearest at;           // of the axes then
@@ -36,6 +36,6 @@ struct Touch {
   double gap_m;         // then, between the surfaces
   Axis axis_a, axis_b;  // then
 };
-Touch first_touch(const Sweep& a, const Sweep& b) noexcept;
+Touch first_touch(const Sweep& a, const Sweep& b, int moments = 32) noexcept;
 
 }  // namespace sinew::rods

@@ -166,7 +166,8 @@ HWY_INLINE void change_segment(const G& g, size_t i, hn::Mask<hn::DFromV<typenam
 }
 
 // Takes the changes in kRodImpulse and kRodMiss over, shortened where a segment would turn too far; strands
-// that had converged stay as they were. Returns how many are not converged now.
+// that had converged stay as they were, with what they remember, for contacts may wake them again. Returns
+// how many are not converged now.
 template <class G>
 HWY_INLINE uint32_t apply_changes(const G& g, const RodJob& job, typename G::V largest_square) {
   using V = typename G::V;
@@ -177,15 +178,14 @@ HWY_INLINE uint32_t apply_changes(const G& g, const RodJob& job, typename G::V l
   // Also false where the turn is not a number: finish() reports that strand.
   const V left = hn::Max(turn, hn::Sqrt(g.lane(kLaneHeldMiss)));
   const auto goes_on = hn::And(active, hn::Gt(left, hn::Set(d, job.tolerance_rad)));
-  V share = one;
-  if (!hn::AllFalse(d, goes_on)) {
-    share = relaxation(g, job, goes_on);
-    for (size_t i = 0; i < job.segments; ++i) g.set3(i, kRodLastTurn, g.get3(i, kRodImpulse + 3));
+  V share = relaxation(g, job, goes_on);
+  for (size_t i = 0; i < job.segments; ++i) {
+    g.set3(i, kRodLastTurn, choose(active, g.get3(i, kRodImpulse + 3), g.get3(i, kRodLastTurn)));
   }
   share = hn::Div(hn::Mul(share, most), hn::Max(most, hn::Mul(share, turn)));
   for (size_t i = 1; i < job.segments; ++i) turn_moments(g, i, job.parents[i]);
   for (size_t i = 0; i < job.segments; ++i) change_segment(g, i, active, share);
-  g.set_lane(kLaneShare, share);
+  g.set_lane(kLaneShare, hn::IfThenElse(active, share, g.lane(kLaneShare)));
   g.set_lane(kLaneIterations, hn::Add(g.lane(kLaneIterations), hn::IfThenElseZero(active, one)));
   g.set_lane(kLaneActive, hn::IfThenElseZero(goes_on, one));
   return static_cast<uint32_t>(hn::CountTrue(d, goes_on));

@@ -1,9 +1,12 @@
-// test_collider.cpp  What a collider refuses, how many contacts it holds, and that a step allocates nothing.
+// test_collider.cpp  What a collider refuses, how many contacts it holds, that a step allocates nothing, and
+// that its bits do not depend on the processor.
+#include <cstring>
 #include <functional>
 #include <string>
 
 #include "tests/pack/count_allocations.hpp"
 #include "tests/rods/contact_scenes.hpp"
+#include "tests/simd/every_isa.hpp"
 
 using namespace sinew;
 
@@ -30,6 +33,41 @@ void check_says(const Status& status, const std::string& expected) {
   INFO(expected << " | " << status.message);
   CHECK_FALSE(status.ok());
   CHECK(std::string(status.message).find(expected) != std::string::npos);
+}
+
+// Poses and velocities of all strands.
+void append_state(const test::RodBatch& batch, std::vector<float>* out) {
+  for (uint32_t s = 0; s < batch.strand_count(); ++s) {
+    for (uint32_t i = 0; i < batch.segment_count(); ++i) {
+      const rods::SegmentPose pose = batch.pose(s, i);
+      const rods::SegmentVelocity v = batch.velocity(s, i);
+      for (const double x : pose.position_m) out->push_back(static_cast<float>(x));
+      for (const float q : pose.orientation) out->push_back(q);
+      for (const float x : v.linear_m_s) out->push_back(x);
+      for (const float x : v.angular_rad_s) out->push_back(x);
+    }
+  }
+}
+
+// Rods that fall on one another, a floor, a ball and a bar that turns: `count` of them, 40 steps.
+std::vector<float> state_after_falling(rods::RodSolver solver, bool rods_collide, int count) {
+  std::vector<test::Segments> strands;
+  for (int i = 0; i < count; ++i) {
+    strands.push_back(i % 2 ? test::crossing_rod(0.1 + 0.05 * i, 0.025 + 0.021 * i, 7)
+                            : test::lying_rod(0.025 + 0.021 * i, 7));
+  }
+  test::RodBatch batch = test::batch_of(strands, {.solver = solver});
+  rods::RodCollider collider = test::collider_of(batch, {.rods_collide = rods_collide});
+  const rods::Plane floor = {.friction = 0.4f};
+  const rods::Sphere ball = {.middle_m = {0.5, 0.02, 0.1}, .radius_m = 0.06f};
+  const rods::Capsule bar = {
+      .ends_m = {{0.2, 0, -1}, {0.2, 0.1, 1}}, .radius_m = 0.03f, .motion = {.angular_rad_s = {0, 0, 2}}};
+  REQUIRE((collider.set_planes({&floor, 1}).ok() && collider.set_spheres({&ball, 1}).ok()));
+  REQUIRE(collider.set_capsules({&bar, 1}).ok());
+  for (int i = 0; i < 40; ++i) test::step(batch, collider);
+  std::vector<float> out;
+  append_state(batch, &out);
+  return out;
 }
 
 }  // namespace
@@ -93,4 +131,47 @@ TEST_CASE("a_step_with_contacts_allocates_nothing") {
   const size_t before = test::allocation_count();
   for (int i = 0; i < 10; ++i) (void)batch.step(test::kFrame_s, &collider, nullptr);
   CHECK(test::allocation_count() == before);
+}
+
+TEST_CASE("contacts_have_the_same_bits_on_all_targets_with_fma_by_both_solvers_in_narrow_groups_and_wide") {
+  const auto produce = [](const simd::Kernels&) {
+    std::vector<float> out;
+    for (const rods::RodSolver solver : {rods::RodSolver::kDirect, rods::RodSolver::kCg}) {
+      for (const bool rods_collide : {false, true}) {
+        for (const int count : {3, 18}) {
+          const std::vector<float> state = state_after_falling(solver, rods_collide, count);
+          out.insert(out.end(), state.begin(), state.end());
+        }
+      }
+    }
+    return out;
+  };
+  test::require_same_bits_where_fused(0x4faab85140a68213, produce);
+}
+
+TEST_CASE("a_collider_that_is_empty_or_far_away_changes_no_bit") {
+  const rods::Plane floor = {.point_m = {0, -100, 0}};
+  for (const bool rods_collide : {false, true}) {
+    for (const bool with_floor : {false, true}) {
+      for (const size_t count : {1u, 4u, 19u}) {
+        std::vector<test::Segments> strands(count, test::helix(11, 0.05, 1e5f));
+        for (size_t i = 0; i < count; ++i) {
+          for (auto& s : strands[i]) s.position_m[0] += 5.0 * static_cast<double>(i);
+        }
+        test::RodBatch alone = test::batch_of(strands), batch = test::batch_of(strands);
+        rods::RodCollider collider = test::collider_of(batch, {.rods_collide = rods_collide});
+        if (with_floor) REQUIRE(collider.set_planes({&floor, 1}).ok());
+        for (int i = 0; i < 60; ++i) {
+          CHECK(test::step(batch, collider).contacts == 0);
+          test::step(alone, test::kFrame_s);
+        }
+        std::vector<float> expected, found;
+        append_state(alone, &expected);
+        append_state(batch, &found);
+        INFO(count << " strands");
+        CHECK(expected.size() == found.size());
+        CHECK(std::memcmp(expected.data(), found.data(), expected.size() * sizeof(float)) == 0);
+      }
+    }
+  }
 }
