@@ -1,10 +1,11 @@
 """Writes perf/results/<processor>_rods_trade.csv, perf/trade/rods.png and the tables of perf/trade/README.md.
 
-usage: summarise_trade.py TRADE.csv      what build/release/bin/perf_trade_rods wrote
+usage: summarise_trade.py TRADE.csv...      what build/release/bin/perf_trade_rods wrote
+Lines of the scene `collisions` go to a table and a file of their own, <processor>_rods_contacts.csv: too few of its steps are solved
+for ranks. Of files with no line of it that table and file stay.
 """
 import csv
 import math
-import shutil
 import sys
 
 import matplotlib
@@ -18,13 +19,20 @@ RESIDUALS = ["1e-02", "1e-04", "1e-06"]
 PAGE = HERE / "trade" / "README.md"
 
 
-def read(path):
+def read(paths):
     """{(scene, strands, segments, young_pa, residual): {(solver, start): row}}"""
     cases = {}
-    for row in csv.DictReader(line for line in open(path) if not line.startswith("#")):
+    for row in (row for path in paths for row in csv.DictReader(line for line in open(path) if not line.startswith("#"))):
         case = (row["scene"], int(row["strands"]), int(row["segments"]), float(row["young_pa"]), row["residual"])
         cases.setdefault(case, {})[row["solver"], row["start"]] = row
     return cases
+
+
+def write(paths, collisions, path):
+    """The lines of the first file's beginning, then those of the scene or of all others."""
+    lines = [line for path in paths for line in open(path)]
+    wanted = [line for line in lines[2:] if line[0] != "#" and not line.startswith("scene,") and line.startswith("collisions,") == collisions]
+    path.write_text("".join(lines[:2] + wanted))
 
 
 def us(row):
@@ -105,6 +113,20 @@ def starts_table(cases):
     return table(["solver", "start", "to"] + [f"{young:.0e} Pa" for young in sorted({case[3] for case in cases})], lines)
 
 
+def reached_table(cases):
+    """Of each solver and start: the states in which a residual was reached, and cases in which it was in most."""
+    lines = []
+    for solver, start in options(cases):
+        line = [solver, start]
+        for residual in RESIDUALS:
+            those = [of[solver, start] for case, of in cases.items() if case[4] == residual and (solver, start) in of]
+            states, reached = (sum(int(row[word]) for row in those) for word in ("states", "reached"))
+            line.append(f"{100 * reached / states:.0f} % of {states}, {sum(math.isfinite(us(row)) for row in those)} of {len(those)} cases" if states else "")
+        if any(line[2:]):
+            lines.append(line)
+    return table(["solver", "start"] + [f"reaches {residual}" for residual in RESIDUALS], lines)
+
+
 def plot_time(axes, cases, scene):
     for number, (solver, start) in enumerate(options(cases)):
         points = {}
@@ -144,9 +166,15 @@ def plot(cases, path):
     figure.savefig(path, dpi=100, bbox_inches="tight")
 
 
-def main(path):
-    cases, machine = read(path), processor()
-    shutil.copyfile(path, HERE / "results" / f"{file_name(machine)}_rods_trade.csv")
+def main(paths):
+    everything, machine = read(paths), processor()
+    contacts, cases = ({case: of for case, of in everything.items() if (case[0] == "collisions") == wanted} for wanted in (True, False))
+    if contacts:
+        write(paths, True, HERE / "results" / f"{file_name(machine)}_rods_contacts.csv")
+        put_between("collisions", reached_table(contacts), PAGE)
+    if not cases:
+        return
+    write(paths, False, HERE / "results" / f"{file_name(machine)}_rods_trade.csv")
     plot(cases, HERE / "trade" / "rods.png")
     put_between("wins", [f"Processor: {machine}, one thread.", ""] + wins_table(cases), PAGE)
     put_between("starts", starts_table(cases), PAGE)
@@ -160,4 +188,4 @@ def main(path):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    main(sys.argv[1:])

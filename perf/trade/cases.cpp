@@ -22,7 +22,16 @@ Segments helix(uint32_t segments, double young_pa) {
 // Hangs: its root is above.
 Segments tree(uint32_t segments, double young_pa) { return test::forked_rod(segments, young_pa, -1); }
 
-void nothing(rods::RodBatch&) {}
+// Down over a capsule across its way, 1.2 m from its root, onto a floor 0.6 m below; there it stays.
+Status over_capsule_onto_floor(rods::RodCollider& collider) {
+  const rods::Capsule capsule = {
+      .ends_m = {{1.2, -0.25, -2}, {1.2, -0.25, 2}}, .radius_m = 0.15f, .friction = 0.3f};
+  const rods::Plane floor = {.point_m = {0, -0.6, 0}, .friction = 0.3f};
+  const Status status = collider.set_capsules({&capsule, 1});
+  return status.ok() ? collider.set_planes({&floor, 1}) : status;
+}
+
+Status nothing(rods::RodCollider&) { return {}; }
 void stay(rods::RodBatch&, int) {}
 
 // The root goes to and fro, 3 cm at 1.5 Hz.
@@ -35,13 +44,15 @@ void shake(rods::RodBatch& batch, int step) {
   }
 }
 
-constexpr TradeScene kScenes[] = {{"chain", false, false, 0.02f, chain, nothing, stay},
-                                  {"helix", false, false, 1.0f / 60, helix, nothing, shake},
-                                  {"tree", true, false, 1.0f / 60, tree, nothing, shake}};
+constexpr TradeScene kScenes[] = {
+    {"chain", false, false, 0.02f, chain, nothing, stay},
+    {"helix", false, false, 1.0f / 60, helix, nothing, shake},
+    {"tree", true, false, 1.0f / 60, tree, nothing, shake},
+    {"collisions", false, true, 1.0f / 60, chain, over_capsule_onto_floor, stay}};
 
-constexpr TradeSolver kSolvers[] = {{"direct", rods::RodSolver::kDirect, 40, false},
-                                    {"cg", rods::RodSolver::kCg, 6, true},
-                                    {"local", rods::RodSolver::kLocal, 120, true}};
+constexpr TradeSolver kSolvers[] = {{"direct", rods::RodSolver::kDirect, true, 40, false},
+                                    {"cg", rods::RodSolver::kCg, true, 6, true},
+                                    {"local", rods::RodSolver::kLocal, false, 120, true}};
 
 constexpr TradeStart kStarts[] = {{"zero", rods::RodStart::kZero},
                                   {"previous", rods::RodStart::kPrevious},
@@ -50,6 +61,7 @@ constexpr TradeStart kStarts[] = {{"zero", rods::RodStart::kZero},
 constexpr uint32_t kSegments[] = {10, 30, 50, 100, 200};
 constexpr double kYoung_pa[] = {1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
 constexpr uint32_t kBatch = 16, kLongestInBatch = 50;  // strands of a batch, and what is measured in one
+constexpr uint32_t kLongestInContact = 100;
 
 }  // namespace
 
@@ -71,8 +83,10 @@ std::vector<TradeCase> trade_cases(std::span<const TradeStart> starts, bool quic
       for (const double young : kYoung_pa) {
         for (const uint32_t strands : {1u, kBatch}) {
           if (strands > 1 && segments > kLongestInBatch) continue;
+          if (scene.contacts && segments > kLongestInContact) continue;
           if (quick && (segments != 10 || (young != 1e4 && young != 1e8) || strands > 1)) continue;
           for (const TradeSolver& solver : kSolvers) {
+            if (scene.contacts && !solver.contacts) continue;
             for (const TradeStart& start : starts) {
               out.push_back({&scene, strands, segments, young, &solver, &start});
             }

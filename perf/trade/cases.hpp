@@ -16,8 +16,8 @@ struct TradeScene {
   bool tree, contacts;
   float dt_s;
   Segments (*rod)(uint32_t segments, double young_pa);
-  // What a new batch of these rods needs besides (obstacles).
-  void (*furnish)(rods::RodBatch& batch);
+  // What a new collider of a scene with contacts is to know.
+  Status (*furnish)(rods::RodCollider& collider);
   // Before a step: what is held goes where it should be at the step's end.
   void (*drive)(rods::RodBatch& batch, int step);
 };
@@ -25,6 +25,7 @@ struct TradeScene {
 struct TradeSolver {
   const char* name;
   rods::RodSolver solver;
+  bool contacts;             // knows them
   uint32_t most_iterations;  // given up beyond
   bool inner;                // iterates inside an iteration: slow on long rods, so measured at fewer states
 };

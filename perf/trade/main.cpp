@@ -1,9 +1,9 @@
 // main.cpp  perf_trade_rods: time and iterations to a residual, for solvers, starts, rods and scenes, as CSV.
 //
-//   perf_trade_rods OUT.csv [--quick] [--solver NAME] [--network WEIGHTS] [--examples FILE]
+//   perf_trade_rods OUT.csv [--quick] [--scene NAME] [--solver NAME] [--network WEIGHTS] [--examples FILE]
 // Cases whose lines are in OUT.csv already are left out, so that a run that was stopped goes on; --quick
-// begins anew, with a few small cases; --solver leaves out the cases
-// of others; --network and --examples add the starts `learned` and `knn`. The first line tells the
+// begins anew, with a few small cases; --scene and --solver leave out the
+// cases of others; --network and --examples add the starts `learned` and `knn`. The first line tells the
 // multiply-add peak of the process that began the file.
 #include <algorithm>
 #include <cstdio>
@@ -54,7 +54,7 @@ std::string lines_of(const TradeCase& c) {
 }
 
 struct Request {
-  std::string out, solver, network, examples;
+  std::string out, scene, solver, network, examples;
   bool quick = false;
 };
 
@@ -71,7 +71,8 @@ int run(const Request& request, std::span<const TradeStart> starts) {
   }
   const std::vector<TradeCase> cases = trade_cases(starts, request.quick);
   for (size_t i = 0; i < cases.size(); ++i) {
-    const bool wanted = request.solver.empty() || request.solver == cases[i].solver->name;
+    const bool wanted = (request.solver.empty() || request.solver == cases[i].solver->name) &&
+                        (request.scene.empty() || request.scene == cases[i].scene->name);
     if (!wanted || done.contains(key_of(cases[i]))) continue;
     std::fputs(lines_of(cases[i]).c_str(), file);
     std::fflush(file);
@@ -100,6 +101,7 @@ bool parse(int argc, char** argv, Request* out) {
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     std::string* value = word == "--solver"     ? &out->solver
+                         : word == "--scene"    ? &out->scene
                          : word == "--network"  ? &out->network
                          : word == "--examples" ? &out->examples
                                                 : nullptr;
@@ -115,7 +117,9 @@ bool parse(int argc, char** argv, Request* out) {
     }
   }
   const auto named = [&](const TradeSolver& solver) { return solver.name == out->solver; };
-  return !out->out.empty() && (out->solver.empty() || std::ranges::any_of(trade_solvers(), named));
+  const auto set = [&](const TradeScene& scene) { return scene.name == out->scene; };
+  return !out->out.empty() && (out->solver.empty() || std::ranges::any_of(trade_solvers(), named)) &&
+         (out->scene.empty() || std::ranges::any_of(trade_scenes(), set));
 }
 
 }  // namespace
@@ -124,8 +128,8 @@ int main(int argc, char** argv) {
   Request request;
   if (!parse(argc, argv, &request)) {
     std::fprintf(stderr,
-                 "usage: perf_trade_rods OUT.csv [--quick] [--solver direct|cg|local] [--network WEIGHTS] "
-                 "[--examples FILE]\n");
+                 "usage: perf_trade_rods OUT.csv [--quick] [--scene chain|helix|tree|collisions] "
+                 "[--solver direct|cg|local] [--network WEIGHTS] [--examples FILE]\n");
     return 2;
   }
   try {

@@ -15,6 +15,32 @@ namespace {
 constexpr int kSteps = 60, kEvery = 10, kRepeats = 5;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
+// The same for all, for it is part of a step's equations: twice this much of penetration is left alone.
+constexpr float kContactTolerance = 1e-4f;
+
+// Strands and what they touch.
+struct Rig {
+  rods::RodBatch batch;
+  rods::RodCollider collider;
+  bool contacts;
+
+  rods::RodReport step(float dt_s) {
+    rods::RodReport report;
+    const Status status = batch.step(dt_s, contacts ? &collider : nullptr, &report);
+    if (!status.ok()) throw std::runtime_error(status.message);
+    return report;
+  }
+  void take_state(const Rig& from) {
+    Status status = batch.take_state(from.batch);
+    if (status.ok() && contacts) status = collider.take_state(from.collider);
+    if (!status.ok()) throw std::runtime_error(status.message);
+  }
+};
+
+bool solved(const rods::RodReport& report, double residual) {
+  return static_cast<double>(report.residual) <= residual && report.contacts_dropped == 0;
+}
+
 // Strands differ by some per cent, as hairs do.
 std::vector<Segments> strands_of(const TradeCase& c) {
   std::vector<Segments> out;
@@ -33,11 +59,11 @@ class CaseRun {
     rods::RodSettings tight = settings(1e-6, 200, false);
     tight.solver = rods::RodSolver::kDirect;
     tight.tolerance_rad = 1e-4f;
-    rods::RodBatch scene = made(tight);
+    Rig scene = made(tight);
     for (int step = 0; step < kSteps; ++step) {
-      case_.scene->drive(scene, step);
+      case_.scene->drive(scene.batch, step);
       if (step % every() == every() - 1) try_all(scene, &tallies);
-      (void)test::step(scene, case_.scene->dt_s);
+      (void)scene.step(case_.scene->dt_s);
     }
     std::vector<Reached> out;
     for (size_t i = 0; i < tallies.size(); ++i) out.push_back(tallies[i].result(kResiduals[i]));
@@ -64,12 +90,19 @@ class CaseRun {
 
   int every() const { return case_.solver->inner && case_.segments >= 100 ? 2 * kEvery : kEvery; }
 
-  rods::RodBatch made(const rods::RodSettings& settings) const {
-    rods::RodBatch batch;
-    const Status status = test::try_batch(strands_, settings, &batch);
+  Rig made(const rods::RodSettings& settings) const {
+    Rig rig{{}, {}, case_.scene->contacts};
+    Status status = test::try_batch(strands_, settings, &rig.batch);
+    if (status.ok() && rig.contacts) status = furnish(&rig);
     if (!status.ok()) throw std::runtime_error(key_of(case_) + ": " + status.message);
-    case_.scene->furnish(batch);
-    return batch;
+    return rig;
+  }
+
+  // Strands are at the same place, and do not touch one another.
+  Status furnish(Rig* rig) const {
+    const rods::ColliderSettings settings = {.rods_collide = false, .tolerance = kContactTolerance};
+    const Status status = rods::RodCollider::create(rig->batch, settings, &rig->collider);
+    return status.ok() ? case_.scene->furnish(rig->collider) : status;
   }
 
   // CG is asked for a tenth of what is wanted, down to what floats can.
@@ -85,10 +118,10 @@ class CaseRun {
             .examples = case_.start->examples};
   }
 
-  void try_all(const rods::RodBatch& from, std::vector<Tally>* tallies) const {
-    rods::RodBatch exact = made({.max_iterations = 200, .tolerance_rad = 1e-6f});
-    (void)exact.take_state(from);
-    (void)test::step(exact, case_.scene->dt_s);
+  void try_all(const Rig& from, std::vector<Tally>* tallies) const {
+    Rig exact = made({.max_iterations = 200, .tolerance_rad = 1e-6f});
+    exact.take_state(from);
+    (void)exact.step(case_.scene->dt_s);
     uint32_t k = 1;
     for (size_t i = 0; i < tallies->size(); ++i) {
       // With a tighter inner tolerance fewer iterations may do.
@@ -98,15 +131,14 @@ class CaseRun {
   }
 
   // From so many iterations on: fewer left more than this. Returns how many it took.
-  uint32_t try_one(const rods::RodBatch& from, const rods::RodBatch& exact, uint32_t k, double residual,
-                   Tally* tally) const {
+  uint32_t try_one(const Rig& from, const Rig& exact, uint32_t k, double residual, Tally* tally) const {
     while (k <= case_.solver->most_iterations) {
-      rods::RodBatch tried = made(settings(residual, k, true));
-      (void)tried.take_state(from);
-      const rods::RodReport report = test::step(tried, case_.scene->dt_s);
-      if (static_cast<double>(report.residual) <= residual) {
+      Rig tried = made(settings(residual, k, true));
+      tried.take_state(from);
+      const rods::RodReport report = tried.step(case_.scene->dt_s);
+      if (solved(report, residual)) {
         tally->us.push_back(time_us(from, residual, k));
-        tally->errors.push_back(apart(tried, exact));
+        tally->errors.push_back(apart(tried.batch, exact.batch));
         tally->iterations += k;
         tally->inner += static_cast<double>(report.cg_iterations) / case_.strands;
         tally->most = std::max(tally->most, k);
@@ -118,13 +150,13 @@ class CaseRun {
     return k;
   }
 
-  double time_us(const rods::RodBatch& from, double residual, uint32_t iterations) const {
-    rods::RodBatch timed = made(settings(residual, iterations, false));
+  double time_us(const Rig& from, double residual, uint32_t iterations) const {
+    Rig timed = made(settings(residual, iterations, false));
     std::vector<double> us;
     for (int i = 0; i <= kRepeats; ++i) {
-      (void)timed.take_state(from);
+      timed.take_state(from);
       const double begin = clock_us(CLOCK_THREAD_CPUTIME_ID);
-      (void)test::step(timed, case_.scene->dt_s);
+      (void)timed.step(case_.scene->dt_s);
       if (i > 0) us.push_back((clock_us(CLOCK_THREAD_CPUTIME_ID) - begin) / case_.strands);
     }
     return median(us);

@@ -64,6 +64,11 @@ class RodCollider {
   // point_capacity.
   Status set_points(std::span<const ContactPoint> points) noexcept;
 
+  // The forces that `from`'s contacts came to in its last step, with this one's own settings, obstacles and
+  // points; contacts are known by their obstacles' indices. Refused: one made for other strands or segments,
+  // one with more contact_capacity; its own forces then stay. Allocates nothing.
+  Status take_state(const RodCollider& from) noexcept;
+
  private:
   friend class RodBatch;
   friend struct ColliderBuilder;

@@ -307,8 +307,19 @@ uint32_t ContactForces::end() const noexcept {
     to.pending_[s] = 1;
   }
   // What the residual is measured with is of all strands.
-  if (batch.settings_.report_residual) assemble();
+  if (batch.settings_.report_residual) assemble_ended();
   return count;
+}
+
+double ContactForces::miss() const noexcept {
+  double largest = 0;
+  for (uint32_t i = 0; i < to.contact_count_; ++i) {
+    const Contact& c = to.contacts_[i];
+    const Forces f = forces_of(c);
+    const double off = std::max(std::fabs(f.press - c.force), length(difference(f.drag, c.drag))) / c.gain_kg;
+    largest = std::max(largest, off / static_cast<double>(batch.units_[c.sides[0].strand].length_m));
+  }
+  return largest;
 }
 
 // Rows that an iteration used up become zero.
@@ -324,6 +335,17 @@ void ContactForces::clear() const noexcept {
 void ContactForces::assemble() const {
   clear();
   for (const Contact& c : contacts()) add(c);
+}
+
+// The forces that the last iteration found, not what a further one would make of their gaps: at a gain of a
+// thousand masses that would be rounding.
+void ContactForces::assemble_ended() const {
+  clear();
+  for (Contact c : contacts()) {
+    c.open_m = 0;
+    c.slip_m = {};
+    add(c);
+  }
 }
 
 void ContactForces::add(const Contact& c) const {

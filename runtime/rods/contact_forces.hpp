@@ -22,6 +22,9 @@ struct ContactForces {
   // After the last: kLaneActive is again what the rods themselves said. Returns how many strands are not
   // converged by their contacts.
   uint32_t end() const noexcept;
+  // Of all the step's contacts, what gap and slip miss by while their force stays: 0 where C = 0 or p = 0 and
+  // s = 0 or |t| = friction p. In mean segment lengths of the first side's strand.
+  double miss() const noexcept;
 
  private:
   // A side as it stands: what its point and its surface moved in this step, and its axes.
@@ -48,6 +51,7 @@ struct ContactForces {
   double last_turn(uint32_t strand) const;
   void hold(uint32_t strand, uint32_t segment) const;
   void assemble() const;
+  void assemble_ended() const;
   void add(const Contact& contact) const;
   void add_to_side(const Contact& contact, size_t side, const Vector& force, double pressed,
                    double held) const;

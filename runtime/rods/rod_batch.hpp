@@ -99,8 +99,9 @@ struct RodReport {
   uint32_t recovered = 0;  // strands that were not finite: put back at rest shape where they are held
   uint32_t teleported = 0;  // strands carried along since the last step
   // With RodSettings::report_residual, of any strand: what the step's equations miss by, in the strand's mean
-  // segments' lengths, radians, and shares of its largest force (simd/rod_residual-inl.hpp); infinite where a
-  // strand had to be recovered. Otherwise 0.
+  // segments' lengths, radians, and shares of its largest force (simd/rod_residual-inl.hpp), with a collider
+  // of contacts' forces, gaps and slips (lengths) too; infinite where a strand had to be recovered. Otherwise
+  // 0.
   float residual = 0;
   // With a collider: contacts near enough to be looked at, and those that had no room.
   uint32_t contacts = 0, contacts_dropped = 0;

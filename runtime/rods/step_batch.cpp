@@ -4,6 +4,7 @@
 
 #include "core/flush_denormals.hpp"
 #include "core/status.hpp"
+#include "rods/contact_forces.hpp"
 #include "rods/rod_batch.hpp"
 #include "simd/kernels.hpp"
 
@@ -133,6 +134,9 @@ Status RodBatch::step(float dt_s, RodCollider* collider, RodReport* report) noex
   const uint32_t at_once = collider && collider->settings_.rods_collide ? groups : 1;
   if (collider) collider->begin_step();
   for (uint32_t g = 0; g < groups; g += at_once) step_groups(g, at_once, dt_s, collider, &made);
+  if (collider && settings_.report_residual) {
+    made.residual = std::max(made.residual, static_cast<float>(ContactForces{*collider, *this}.miss()));
+  }
   if (collider) collider->end_step(dt_s, &made);
   newest_ = (newest_ + 1) % simd::kRodStartAges;
   if (report) *report = made;

@@ -81,7 +81,7 @@ rods::RodKind kind_of(const Row& row) {
   return {.segments = static_cast<uint32_t>(row.number("segments")),
           .young_pa = static_cast<float>(row.number("young_pa")),
           .tree = row.of.at("scene") == "tree",
-          .contacts = row.of.at("scene").starts_with("contact")};
+          .contacts = row.of.at("scene") == "collisions"};
 }
 
 std::vector<std::filesystem::path> measurements() {

@@ -1,7 +1,7 @@
 // test_residual.cpp  What a step says its equations miss by.
 #include <catch2/catch.hpp>
 
-#include "tests/rods/rod_scenes.hpp"
+#include "tests/rods/contact_scenes.hpp"
 
 using namespace sinew;
 
@@ -166,4 +166,24 @@ TEST_CASE("a_body_in_free_fall_leaves_no_residual") {
   const test::Segments rod = test::straight_rod({.held = false});
   test::RodBatch batch = test::batch_of({rod}, {.max_iterations = 1, .report_residual = true});
   for (int i = 0; i < 10; ++i) CHECK(test::step(batch, 0.02f).residual < 1e-6f);  // rounding
+}
+
+TEST_CASE("the_residual_of_a_rod_at_rest_on_a_plane_balances_its_weight_with_the_planes_force") {
+  const uint32_t strands = GENERATE(1u, 5u);  // narrow and wide groups
+  const std::vector<test::Segments> rods(strands, test::lying_rod(0.01));
+  // Alone, a step's fall is a momentum of its weight: the plane's part is all that can make it small.
+  test::RodBatch batch =
+      test::batch_of(rods, {.max_iterations = 100, .tolerance_rad = 1e-6f, .report_residual = true});
+  rods::RodCollider collider = test::collider_of(batch, {.rods_collide = false, .tolerance = 1e-4f});
+  const rods::Plane floor;
+  REQUIRE(collider.set_planes({&floor, 1}).ok());
+  rods::RodReport report;
+  for (int i = 0; i < 20; ++i) report = test::step(batch, collider);
+  INFO("residual " << report.residual << ", penetration " << report.deepest_penetration);
+  CHECK(report.contacts >= 2 * strands);
+  CHECK(report.contacts_unconverged == 0);
+  CHECK(report.deepest_penetration < 4e-4f);  // twice the tolerance is left alone, and once it is the error
+  // Without the plane's forces 1.5. Orientations round to 6e-8, at half a length, times a gain of 1e3 masses,
+  // over a step's fall of 2.7e-2 lengths: 1e-3 at each end.
+  CHECK(report.residual < 5e-3f);
 }
