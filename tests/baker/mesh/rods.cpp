@@ -227,6 +227,17 @@ TEST_CASE("springs_of_the_file_become_rods_unless_the_recipe_says_otherwise") {
   CHECK(find_rods(other, with({rooted("bone_1")}))[0].bones.size() == 3);
 }
 
+TEST_CASE("a_spring_pulls_down_no_harder_than_a_pack_may_hold") {
+  Character character = column();
+  character.springs = {{.name = "lead", .root = 2, .gravity_power = 100}};
+  CHECK(find_rods(character, {})[0].gravity == 100);  // not 40 * 100 / 9.80665
+  CHECK(noted(character, "spring bone 'bone_2': its gravityPower is 407"));
+  character.springs[0].gravity_power = 24;  // 97.9
+  character.notes.clear();
+  CHECK(find_rods(character, {})[0].gravity == Approx(40 * 24 / 9.80665));
+  CHECK(!noted(character, "gravityPower"));
+}
+
 namespace {
 
 std::vector<Rod> rods_of(const std::string& file, const Recipe& recipe, Character* out) {
