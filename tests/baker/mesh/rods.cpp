@@ -160,6 +160,15 @@ TEST_CASE("a_branch_that_begins_beside_the_end_hangs_on_a_stiff_link") {
   CHECK(bones[3].young_modulus_pa >= 100 * bones[4].young_modulus_pa);
 }
 
+// It begins at its parent's end, near enough, and so where it ends.
+TEST_CASE("a_bone_that_snaps_to_its_own_end_is_refused") {
+  Character character = column();
+  add_joint(character, "second", 1, {0, 0.9997, 0});
+  add_joint(character, "second_end", 4, {0, 1, 0});
+  CHECK_THAT(refusal(character, {rooted("bone_1")}),
+             Contains("bones 'second' and 'second_end' begin in one place"));
+}
+
 TEST_CASE("rods_come_in_the_order_of_their_roots") {
   Character character = column();
   add_joint(character, "side", 0, {0.3, 0, 0});
