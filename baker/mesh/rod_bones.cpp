@@ -109,7 +109,28 @@ class Segmenter {
     return false;
   }
 
+  // Of a node below the joint's, by the rest pose of the nodes between.
+  Vector3 place_below(int joint, int node) const {
+    const int top = character_.joint_node[static_cast<size_t>(joint)];
+    Matrix4 to_node = Matrix4::Identity();
+    for (; node >= 0 && node != top; node = character_.nodes[static_cast<size_t>(node)].parent) {
+      const auto at = std::find(character_.joint_node.begin(), character_.joint_node.end(), node);
+      if (at != character_.joint_node.end()) {
+        joint = static_cast<int>(at - character_.joint_node.begin());
+        break;
+      }
+      to_node = local_matrix(character_.nodes[static_cast<size_t>(node)]) * to_node;
+    }
+    const Matrix4 bind = character_.inverse_bind[static_cast<size_t>(joint)].inverse();
+    return (bind * to_node).topRightCorner<3, 1>();
+  }
+
   Vector3 end_of(int joint, int parent_bone, const Vector3& begin) const {
+    if (joint == place_.end && place_.end_node >= 0) {
+      const Vector3 end = place_below(joint, place_.end_node);
+      if ((end - begin).norm() > no_length_m_) return end;
+      refuse("bone " + quoted(joint) + " begins where it ends: a segment has a length; end the rod above it");
+    }
     const int child = main_child(joint);
     Vector3 site;
     if (child >= 0) {
@@ -135,7 +156,8 @@ class Segmenter {
   }
 
   void add(int joint) {
-    const int above = joint == place_.root ? -1 : bone_of(character_.joint_parent[static_cast<size_t>(joint)]);
+    const int above =
+        joint == place_.root ? -1 : bone_of(character_.joint_parent[static_cast<size_t>(joint)]);
     RodBone bone;
     bone.joint = joint;
     bone.parent = above;

@@ -207,7 +207,7 @@ std::vector<Rod> rods_of_springs(Character& character) {
   bool collides = false;
   for (const SpringBones& spring : character.springs) {
     const std::string& name = joint_name(character, static_cast<size_t>(spring.root));
-    const RodPlace place{"spring bone '" + name + "'", spring.root, spring.end};
+    const RodPlace place{"spring bone '" + name + "'", spring.root, spring.end, spring.end_node};
     try {
       Rod rod = make_rod(character, place, name);
       apply(spring, rod.bones);
