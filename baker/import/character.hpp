@@ -50,12 +50,12 @@ struct Clip {
 // Bones that a VRM file lets swing: a root joint and all that hangs on it, or what lies between it and `end`.
 struct SpringBones {
   std::string name;
-  int root = 0, end = -1;    // joints; -1: no end is stated
+  int root = 0, end = -1;    // joints; -1: no end is stated, all below the root swings
+  int end_node = -1;         // where the bone of `end` ends; -1: where its child is
   double stiffness = 1;      // 0 .. 4: pull to the rest direction
   double gravity_power = 0;  // pull down
   double drag_force = 0.4;   // 0 .. 1: share of its velocity that a bone loses in a frame
-  double hit_radius_m = 0.02;
-  bool collides = false;  // with colliders that the file states
+  bool collides = false;     // with colliders that the file states
 };
 
 struct Character {

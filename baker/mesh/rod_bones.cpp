@@ -96,7 +96,7 @@ class Segmenter {
   }
 
   // A node below the joint's that is no joint.
-  bool end_site(int joint, Vector3* out) const {
+  bool end_site(int joint, const Vector3& begin, Vector3* out) const {
     const int node = character_.joint_node[static_cast<size_t>(joint)];
     for (size_t n = 0; n < character_.nodes.size(); ++n) {
       const bool is_joint = std::find(character_.joint_node.begin(), character_.joint_node.end(),
@@ -104,12 +104,33 @@ class Segmenter {
       if (character_.nodes[n].parent != node || is_joint) continue;
       const Matrix4 bind = character_.inverse_bind[static_cast<size_t>(joint)].inverse();
       *out = (bind * local_matrix(character_.nodes[n])).topRightCorner<3, 1>();
-      return (*out - place_of(character_, joint)).norm() > no_length_m_;
+      return (*out - begin).norm() > no_length_m_;
     }
     return false;
   }
 
+  // Of a node below the joint's, by the rest pose of the nodes between.
+  Vector3 place_below(int joint, int node) const {
+    const int top = character_.joint_node[static_cast<size_t>(joint)];
+    Matrix4 to_node = Matrix4::Identity();
+    for (; node >= 0 && node != top; node = character_.nodes[static_cast<size_t>(node)].parent) {
+      const auto at = std::find(character_.joint_node.begin(), character_.joint_node.end(), node);
+      if (at != character_.joint_node.end()) {
+        joint = static_cast<int>(at - character_.joint_node.begin());
+        break;
+      }
+      to_node = local_matrix(character_.nodes[static_cast<size_t>(node)]) * to_node;
+    }
+    const Matrix4 bind = character_.inverse_bind[static_cast<size_t>(joint)].inverse();
+    return (bind * to_node).topRightCorner<3, 1>();
+  }
+
   Vector3 end_of(int joint, int parent_bone, const Vector3& begin) const {
+    if (joint == place_.end && place_.end_node >= 0) {
+      const Vector3 end = place_below(joint, place_.end_node);
+      if ((end - begin).norm() > no_length_m_) return end;
+      refuse("bone " + quoted(joint) + " begins where it ends: a segment has a length; end the rod above it");
+    }
     const int child = main_child(joint);
     Vector3 site;
     if (child >= 0) {
@@ -118,7 +139,7 @@ class Segmenter {
       refuse("bones " + quoted(joint) + " and " + quoted(child) +
              " begin in one place: a segment has a length; end the rod above them or move one");
     }
-    if (end_site(joint, &site)) return site;
+    if (end_site(joint, begin, &site)) return site;
     if (parent_bone < 0)
       refuse(
           "bone " + quoted(joint) +
@@ -135,22 +156,22 @@ class Segmenter {
   }
 
   void add(int joint) {
-    int parent = joint == place_.root ? -1 : bone_of(character_.joint_parent[static_cast<size_t>(joint)]);
-    Vector3 begin = place_of(character_, joint);
+    const int above =
+        joint == place_.root ? -1 : bone_of(character_.joint_parent[static_cast<size_t>(joint)]);
     RodBone bone;
     bone.joint = joint;
-    bone.end = end_of(joint, parent, begin);
-    if (parent >= 0) {
-      const RodBone above = bones_[static_cast<size_t>(parent)];
-      const double gap = (begin - above.end).norm();
-      if (gap <= kSamePlace * (above.end - above.begin).norm())
-        begin = above.end;
-      else
-        parent = add_link(parent, above.end, begin);
-    }
-    bone.parent = parent;
-    bone.begin = begin;
+    bone.parent = above;
+    bone.begin = place_of(character_, joint);
+    const bool beside = above >= 0 && !begins_at_end(bone.begin, above);
+    if (above >= 0 && !beside) bone.begin = bones_[static_cast<size_t>(above)].end;
+    bone.end = end_of(joint, above, bone.begin);  // of where it begins now: it may have come to its own end
+    if (beside) bone.parent = add_link(above, bones_[static_cast<size_t>(above)].end, bone.begin);
     bones_.push_back(bone);
+  }
+
+  bool begins_at_end(const Vector3& begin, int bone) const {
+    const RodBone& above = bones_[static_cast<size_t>(bone)];
+    return (begin - above.end).norm() <= kSamePlace * (above.end - above.begin).norm();
   }
 
   int add_link(int parent, const Vector3& begin, const Vector3& end) {

@@ -8,6 +8,7 @@ namespace sinew::baker {
 struct RodPlace {
   std::string where;       // "recipe: rod 'tail'"
   int root = 0, end = -1;  // end -1: all below the root
+  int end_node = -1;       // below `end`'s: where its bone ends; -1: where its child is, else its end site
 };
 
 // Joints, parents, begin and end of each bone; radii as the flesh is thick on them. Throws BadInput as

@@ -23,7 +23,8 @@
 namespace sinew::baker {
 namespace {
 
-constexpr double kFrames_hz = 60, kGravity = 9.80665;
+constexpr double kFrames_hz = 60, kGravity = 9.80665, kOfLoneBone = 40;
+constexpr double kMostGravity = 100;  // of the earth's: what a pack may hold, runtime/pack/check_rods.cpp
 constexpr double kLeastStiffness = 0.01,
                  kMostDrag = 0.95;       // of springs: beyond them bones fall, or stand still
 constexpr double kLinkStiffness = 1000;  // times the stiffest joint of its rod
@@ -107,6 +108,14 @@ void apply(const SpringBones& spring, std::vector<RodBone>& bones) {
   }
   stiffen(bones, square_frequency);
   stiffen_links(bones);
+}
+
+double gravity_of(const SpringBones& spring, const std::string& where, Character& character) {
+  const double gravity = kOfLoneBone * spring.gravity_power / kGravity;
+  if (gravity > kMostGravity)
+    character.notes.push_back(character.name + ": " + where + ": its gravityPower is " +
+                              std::to_string(gravity) + " times the earth's gravity: taken as 100");
+  return std::min(gravity, kMostGravity);
 }
 
 int joint_called(const Character& character, const std::string& name, const std::string& where) {
@@ -193,19 +202,18 @@ std::vector<Rod> stated_rods(const Character& character, const std::vector<RodRe
 }
 
 std::vector<Rod> rods_of_springs(Character& character) {
-  constexpr double kOfLoneBone = 40;
   std::vector<Rod> rods;
   Owners owners(character);
   bool collides = false;
   for (const SpringBones& spring : character.springs) {
     const std::string& name = joint_name(character, static_cast<size_t>(spring.root));
-    const RodPlace place{"spring bone '" + name + "'", spring.root, spring.end};
+    const RodPlace place{"spring bone '" + name + "'", spring.root, spring.end, spring.end_node};
     try {
       Rod rod = make_rod(character, place, name);
       apply(spring, rod.bones);
-      rod.gravity = kOfLoneBone * spring.gravity_power / kGravity;
       rod.sag = 1;
       owners.take(rods, rod, place.where);
+      rod.gravity = gravity_of(spring, place.where, character);
       rods.push_back(std::move(rod));
       collides |= spring.collides;
     } catch (const BadInput& refused) {

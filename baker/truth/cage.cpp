@@ -10,6 +10,7 @@
 #include "baker/mesh/bones.hpp"
 #include "baker/mesh/joint_names.hpp"
 #include "baker/truth/cage_fields.hpp"
+#include "baker/truth/cage_support.hpp"
 #include "baker/truth/disjoint_sets.hpp"
 
 namespace sinew::baker {
@@ -90,6 +91,13 @@ void hold_useless_bodies(const TissueLayout& layout, Cage& cage) {
   }
 }
 
+// A hinge's turn has no stiffness; the recurrence of such a mode would not stay.
+void hold_hinged_parts(Cage& cage) {
+  const std::vector<bool> hinged = hinged_nodes(cage.nodes, cage.tetrahedra, cage.constrained);
+  for (size_t i = 0; i < hinged.size(); ++i)
+    if (hinged[i]) cage.constrained[i] = true;
+}
+
 void set_material(const Recipe& recipe, Cage& cage) {
   for (size_t e = 0; e < cage.tetrahedra.size(); ++e) {
     double s = 0;
@@ -137,6 +145,7 @@ Cage build_cage(const Character& character, const TissueLayout& layout, const Re
   cage.skin = std::move(fields.skin);
   cage.stiffness = std::move(fields.stiffness);
   cage.constrained = held_by_bones(character, recipe, cage, surface_distance(topology, samples));
+  hold_hinged_parts(cage);
   hold_useless_bodies(layout, cage);
   set_material(recipe, cage);
   if (std::all_of(cage.constrained.begin(), cage.constrained.end(), [](bool c) { return c; }))

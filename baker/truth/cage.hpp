@@ -30,7 +30,8 @@ struct Cage {
 };
 
 // Free are the nodes around soft regions that are neither as stiff as the recipe's rigid_stiffness nor in a
-// bone's core, and hang on constrained ones. Throws BadInput when none is free.
+// bone's core, and hang on constrained ones by more than a corner or an edge (cage_support.hpp). Throws
+// BadInput when none is free.
 Cage build_cage(const Character& character, const TissueLayout& layout, const Recipe& recipe);
 
 }  // namespace sinew::baker

@@ -7,6 +7,7 @@ namespace sinew::pack {
 namespace {
 
 constexpr float kMostGravity = 100;
+constexpr float kLeastRate_hz = 1;  // a longer tick is none that rods are stepped by: rods/rod_batch.hpp
 constexpr uint32_t kMostSegments = 65535;  // of a rod: rods/strand.hpp, less the one that is held
 
 bool is_not_negative(float value) noexcept { return std::isfinite(value) && value >= 0; }
@@ -17,6 +18,9 @@ Status check_counts(const PackView& pack) noexcept {
   const size_t carried = pack.rods.empty() ? 0 : pack.joints.size();
   if (pack.joint_rods.size() != carried)
     return corrupt("joint rods: %zu numbers there, %zu wanted", pack.joint_rods.size(), carried);
+  const float rate_hz = pack.network->rate_hz;
+  if (!pack.rods.empty() && !(rate_hz >= kLeastRate_hz))
+    return corrupt("rods: %g ticks a second, below 1", double{rate_hz});
   return {};
 }
 

@@ -556,6 +556,8 @@ TEST_CASE("rods_that_disagree_with_the_skeleton_are_refused_by_name") {
       {"hangs on no bone", segment(0, [](RodSegmentRecord& s) { s.joint = kNoIndex; })},
       {"hangs on no bone", segment(2, [](RodSegmentRecord& s) { s.joint = kNoIndex; })},
       {"another segment", set<uint32_t>(kJointRods, 2, 0)},
+      {"rods: 0.5 ticks a second, below 1",
+       change<NetworkRecord>(kNetwork, 0, [](NetworkRecord& n) { n.rate_hz = 0.5f; })},
       {"neither the joint's own", set<uint32_t>(kJointRods, 0, 2)},
       {"neither the joint's own", set<uint32_t>(kJointRods, 0, 77)},
   };

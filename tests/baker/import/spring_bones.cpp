@@ -50,21 +50,110 @@ TEST_CASE("springs_of_version_0_are_roots_with_all_below") {
   CHECK(spring.stiffness == 2.5);
   CHECK(spring.gravity_power == 0.5);
   CHECK(spring.drag_force == 0.25);
-  CHECK(spring.hit_radius_m == 0.03);
   CHECK(spring.collides);
   CHECK(noted(character, "gravityDir is not straight down"));
 }
 
-TEST_CASE("springs_of_version_1_run_from_first_to_last_joint") {
-  const Character character = with("VRMC_springBone", nlohmann::json::parse(R"({"springs": [
-    {"name": "tail", "joints": [{"node": 0, "stiffness": 1.5, "dragForce": 0.5, "gravityDir": [0, -1, 0]}, {"node": 1}]}]})"),
-                                   "springs_1");
+namespace {
+
+// The bar with joints to spare: nodes 1, 3 and 4 in a row, of which "tip" is in the skin and "tip_end" is
+// not.
+TinyFile long_bar() {
+  TinyFile file = bar();
+  file.json["nodes"][1]["children"] = {3};
+  file.json["nodes"].push_back({{"name", "tip"}, {"translation", {0, 1, 0}}, {"children", {4}}});
+  file.json["nodes"].push_back({{"name", "tip_end"}, {"translation", {0, 1, 0}}});
+  const int binds =
+      file.add_floats({1, 0, 0, 0, 0, 1,  0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1,  0, 0,
+                       0, 0, 1, 0, 0, -1, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -2, 0, 1},
+                      "MAT4");
+  file.json["skins"] = {{{"joints", {0, 1, 3}}, {"inverseBindMatrices", binds}}};
+  return file;
+}
+
+Character with_springs(const char* springs, const std::string& name) {
+  TinyFile file = long_bar();
+  file.json["extensions"]["VRMC_springBone"]["springs"] = nlohmann::json::parse(springs);
+  return import_gltf(file.write(name));
+}
+
+const std::string& node_name(const Character& character, int node) {
+  return character.nodes[static_cast<size_t>(node)].name;
+}
+
+const std::string& joint_name(const Character& character, int joint) {
+  return node_name(character, character.joint_node[static_cast<size_t>(joint)]);
+}
+
+}  // namespace
+
+TEST_CASE("springs_of_version_1_swing_all_joints_but_the_last_which_is_their_end") {
+  const Character character = with_springs(R"([{"name": "tail", "joints": [
+    {"node": 0, "stiffness": 1.5, "dragForce": 0.25, "gravityPower": 2, "gravityDir": [0, -1, 0]},
+    {"node": 1, "stiffness": 1.5, "dragForce": 0.25, "gravityPower": 2}, {"node": 3, "stiffness": 9}]}])",
+                                           "springs_1");
   REQUIRE(character.springs.size() == 1);
   const SpringBones& spring = character.springs[0];
   CHECK(spring.name == "tail");
-  CHECK(spring.root == 0);
-  CHECK(spring.end == 1);
+  CHECK(joint_name(character, spring.root) == "lower");
+  CHECK(joint_name(character, spring.end) == "upper");
+  CHECK(node_name(character, spring.end_node) == "tip");
   CHECK(spring.stiffness == 1.5);
-  CHECK(spring.drag_force == 0.5);
+  CHECK(spring.drag_force == 0.25);
+  CHECK(spring.gravity_power == 2);
   CHECK(!spring.collides);
+  CHECK(!noted(character, "differ"));  // the last one's are no bone's
+  CHECK(!noted(character, "gravityDir"));
+}
+
+TEST_CASE("a_spring_of_one_joint_of_version_1_is_left_out") {
+  const Character character =
+      with_springs(R"([{"name": "stub", "joints": [{"node": 0}]}])", "springs_1_stub");
+  CHECK(character.springs.empty());
+  CHECK(noted(character, "spring 'stub': of one joint, which nothing swings: left out"));
+}
+
+TEST_CASE("a_spring_of_version_1_of_two_joints_is_one_bone") {
+  const Character character = with_springs(R"([{"joints": [{"node": 1}, {"node": 3}]}])", "springs_1_pair");
+  REQUIRE(character.springs.size() == 1);
+  CHECK(character.springs[0].end == character.springs[0].root);  // not -1, all that is below
+  CHECK(node_name(character, character.springs[0].end_node) == "tip");
+}
+
+TEST_CASE("a_joint_that_says_nothing_has_the_numbers_of_its_version") {
+  const SpringBones zero =
+      with("VRM", nlohmann::json::parse(R"({"secondaryAnimation": {"boneGroups": [{"bones": [0]}]}})"),
+           "springs_0_bare")
+          .springs.at(0);
+  CHECK((zero.stiffness == 1 && zero.gravity_power == 0 && zero.drag_force == 0.4));
+  const SpringBones one =
+      with_springs(R"([{"joints": [{"node": 0}, {"node": 1}]}])", "springs_1_bare").springs.at(0);
+  CHECK((one.stiffness == 1 && one.gravity_power == 0 && one.drag_force == 0.5));
+}
+
+TEST_CASE("joints_outside_the_skin_end_a_spring_of_version_1") {
+  const Character ends =
+      with_springs(R"([{"joints": [{"node": 0}, {"node": 1}, {"node": 3}, {"node": 4}]}])", "springs_1_end");
+  REQUIRE(ends.springs.size() == 1);
+  CHECK(joint_name(ends, ends.springs[0].end) == "tip");
+  CHECK(node_name(ends, ends.springs[0].end_node) == "tip_end");
+  CHECK(!noted(ends, "not in the skin"));
+  TinyFile file = long_bar();
+  file.json["nodes"][4]["children"] = {5};
+  file.json["nodes"].push_back({{"name", "far_end"}, {"translation", {0, 1, 0}}});
+  file.json["extensions"]["VRMC_springBone"]["springs"] = nlohmann::json::parse(
+      R"([{"name": "hair", "joints": [{"node": 1}, {"node": 3}, {"node": 4}, {"node": 5}]}])");
+  const Character outside = import_gltf(file.write("springs_1_outside"));
+  REQUIRE(outside.springs.size() == 1);
+  CHECK(joint_name(outside, outside.springs[0].end) == "tip");
+  CHECK(node_name(outside, outside.springs[0].end_node) == "tip_end");
+  CHECK(noted(outside, "spring 'hair': its last joints are not in the skin"));
+}
+
+TEST_CASE("joints_that_differ_and_gravity_that_rises_are_noted") {
+  const Character character = with_springs(R"([{"name": "tail", "joints": [
+    {"node": 0, "gravityPower": 1, "gravityDir": [0, 1, 0]}, {"node": 1, "stiffness": 2}, {"node": 3}]}])",
+                                           "springs_1_differ");
+  CHECK(noted(character, "spring 'tail': its joints differ in numbers: the first one's are taken for all"));
+  CHECK(noted(character, "gravityDir is not straight down"));
 }

@@ -160,6 +160,15 @@ TEST_CASE("a_branch_that_begins_beside_the_end_hangs_on_a_stiff_link") {
   CHECK(bones[3].young_modulus_pa >= 100 * bones[4].young_modulus_pa);
 }
 
+// It begins at its parent's end, near enough, and so where it ends.
+TEST_CASE("a_bone_that_snaps_to_its_own_end_is_refused") {
+  Character character = column();
+  add_joint(character, "second", 1, {0, 0.9997, 0});
+  add_joint(character, "second_end", 4, {0, 1, 0});
+  CHECK_THAT(refusal(character, {rooted("bone_1")}),
+             Contains("bones 'second' and 'second_end' begin in one place"));
+}
+
 TEST_CASE("rods_come_in_the_order_of_their_roots") {
   Character character = column();
   add_joint(character, "side", 0, {0.3, 0, 0});
@@ -225,6 +234,38 @@ TEST_CASE("springs_of_the_file_become_rods_unless_the_recipe_says_otherwise") {
   CHECK(noted(character, "colliders and hit radii are not used"));
   CHECK(find_rods(other, with({})).empty());
   CHECK(find_rods(other, with({rooted("bone_1")}))[0].bones.size() == 3);
+}
+
+TEST_CASE("a_spring_ends_where_its_file_says") {
+  Character character = column();
+  add_joint(character, "side", 2, {0.3, 1, 0});
+  character.springs = {{.name = "hair", .root = 1, .end = 2, .end_node = character.joint_node[4]}};
+  const std::vector<Rod> rods = find_rods(character, {});
+  REQUIRE(rods[0].bones.size() == 2);
+  CHECK((rods[0].bones[1].end - Vector3(0.3, 1, 0)).norm() < kRounding);  // not at bone_3
+  Node site;
+  site.name = "far";
+  for (int deep = 0; deep < 2; ++deep) {  // nodes in a row that are no joints
+    site.parent = deep == 0 ? character.joint_node[3] : static_cast<int>(character.nodes.size()) - 1;
+    site.translation = Vector3(0, 0.1, 0.1);
+    character.nodes.push_back(site);
+  }
+  character.springs = {{.name = "hair", .root = 3, .end = 3, .end_node = site.parent + 1}};
+  CHECK((find_rods(character, {})[0].bones[0].end - Vector3(0, 1.7, 0.2)).norm() < kRounding);
+  character.springs[0].end_node = character.joint_node[3];  // its own place
+  CHECK(find_rods(character, {}).empty());
+  CHECK(noted(character, "bone 'bone_3' begins where it ends"));
+}
+
+TEST_CASE("a_spring_pulls_down_no_harder_than_a_pack_may_hold") {
+  Character character = column();
+  character.springs = {{.name = "lead", .root = 2, .gravity_power = 100}};
+  CHECK(find_rods(character, {})[0].gravity == 100);  // not 40 * 100 / 9.80665
+  CHECK(noted(character, "spring bone 'bone_2': its gravityPower is 407"));
+  character.springs[0].gravity_power = 24;  // 97.9
+  character.notes.clear();
+  CHECK(find_rods(character, {})[0].gravity == Approx(40 * 24 / 9.80665));
+  CHECK(!noted(character, "gravityPower"));
 }
 
 namespace {

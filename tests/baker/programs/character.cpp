@@ -1,4 +1,5 @@
 // character.cpp  From a recipe to a packed character through the programs alone.
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "baker/common/read_file.hpp"
@@ -41,6 +42,25 @@ TEST_CASE("the_creature_bakes_to_a_character_with_clips_regions_and_the_same_byt
   CHECK(description["character"]["joints"].get<int>() >= 20);
   REQUIRE(bake(creature.bake_arguments(creature.folder.file("again"))).exit_code == 0);
   CHECK(read_text(creature.pack) == read_text(creature.folder.file("again")));
+}
+
+// Its loose pieces meet the body in corners and edges of the cage, about which they would turn at no
+// frequency.
+TEST_CASE("a_real_vrm_bakes_without_a_recipe_to_a_pack_that_opens") {
+  const std::string vrm = SINEW_SHARED_DIR "/characters/godette_vrm0/file.vrm";
+  if (!std::filesystem::exists(vrm)) {
+    WARN("skipped: no " << vrm << "; set SINEW_SHARED_DIR");
+    return;
+  }
+  const TemporaryFolder folder;
+  const std::string pack = folder.file("godette.sinew");
+  const ProgramResult result = bake({"character", vrm, "-o", pack});
+  INFO(result.error);
+  REQUIRE(result.exit_code == 0);
+  const auto description = nlohmann::json::parse(bake({"info", "--json", pack}).out);
+  CHECK(description["rods"].size() == 8);
+  CHECK(description["regions"].size() >= 3);
+  for (const auto& region : description["regions"]) CHECK(region["first_hz"].get<double>() > 1);
 }
 
 TEST_CASE("without_weights_a_character_is_packed_with_its_modes") {
