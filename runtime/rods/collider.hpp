@@ -13,7 +13,7 @@
 // only from RodStart::kZero, or with a collider made anew at saving as well as after the restore.
 // One thread at a time with its batch. A step allocates nothing. Memory: some 400 bytes a contact; where rods
 // collide with one another some 800 bytes a segment besides, for all groups then iterate in turn.
-// Cost: a microsecond for each contact and iteration is an upper bound; perf_rods measures it.
+// Cost: each segment is swept in double precision in every step, near an obstacle or not.
 #pragma once
 #include <cstdint>
 #include <span>

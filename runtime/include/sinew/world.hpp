@@ -56,7 +56,7 @@ class World {
   // is written.
   Status bind_pose(AssetId asset, std::span<Matrix34> out) const noexcept;
 
-  // One allocation for all of the instance's state, and one more for each shape of its rods. It starts at
+  // One allocation for all of the instance's state, and with rods two or more, by their shapes. It starts at
   // rest in its bind pose; the first pose that is set counts as having been held for ever. max_instances
   // live, or no memory: kOutOfCapacity.
   Status create_instance(const InstanceDef& def, InstanceId* out) noexcept;
