@@ -14,8 +14,8 @@ struct RodKind {
 
 // What was fastest to a residual of 1e-4 for this kind (perf/trade/README.md); all else as RodSettings has
 // it. A test holds it to the table of measurements. The direct solver from the last steps' forces continued
-// is the fastest on average over each scene that was measured without contacts; over single cases another start
-// may be up to half faster.
+// is the fastest on average over each scene that was measured without contacts; in single cases another start
+// is up to 1.6 times as fast.
 constexpr RodSettings default_settings(const RodKind&) noexcept {
   return {.solver = RodSolver::kDirect, .start = RodStart::kContinued};
 }

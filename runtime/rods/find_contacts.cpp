@@ -175,8 +175,8 @@ Contact ContactFinder::made(uint32_t strand, uint32_t segment, double along, con
 }
 
 // Gains of obstacles are stiff, of rods such that what each adds to its own matrix covers the pair's:
-// (u - v)^2 <= (1 + t) u^2 + (1 + 1 / t) v^2, t the ratio of masses. Then iterations that know the other only as it was
-// do not overshoot.
+//   (u - v)^2 <= (1 + t) u^2 + (1 + 1 / t) v^2,  t the ratio of masses.
+// Then iterations that know the other only as it was do not overshoot.
 void ContactFinder::set_gain(Contact* c) const {
   const Contact::Side &a = c->sides[0], &b = c->sides[1];
   c->slowness = 1;
