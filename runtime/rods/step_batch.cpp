@@ -72,8 +72,8 @@ void RodBatch::end_group(uint32_t group, const simd::RodJob& job, RodReport* rep
     report->iterations_sum += iterations;
     report->cg_iterations += static_cast<uint32_t>(lane(simd::kLaneCgIterations));
     if (settings_.report_residual) {
-      const float residual = lane(simd::kLaneBroken) != 0 ? std::numeric_limits<float>::infinity()
-                                                          : lane(simd::kLaneResidual);
+      const float residual =
+          lane(simd::kLaneBroken) != 0 ? std::numeric_limits<float>::infinity() : lane(simd::kLaneResidual);
       report->residual = residual <= report->residual ? report->residual : residual;
     }
     report->unconverged += lane(simd::kLaneActive) != 0;

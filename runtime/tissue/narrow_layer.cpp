@@ -44,9 +44,7 @@ float* pack_rows(const float* rows, size_t count, uint32_t given, uint32_t width
 }
 
 float* pack_layer(const pack::LayerRecord& layer, uint32_t width, const float* weights, float* out) {
-  const auto all = [&](uint64_t at, size_t rows) {
-    out = pack_rows(weights + at, rows, kGates, width, out);
-  };
+  const auto all = [&](uint64_t at, size_t rows) { out = pack_rows(weights + at, rows, kGates, width, out); };
   all(layer.bias, 1);
   all(layer.w_x, layer.inputs);
   if (layer.has_self) all(layer.w_s, layer.inputs);
