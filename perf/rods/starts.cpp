@@ -17,17 +17,15 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
-#include <ctime>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/pack/dense_pack.hpp"
 #include "baker/rods/rod_run.hpp"
 #include "baker/truth/random.hpp"
-#include "pack/reader.hpp"
+#include "perf/rods/start_files.hpp"
+#include "perf/scale/stopwatch.hpp"
 #include "tests/rods/rod_scenes.hpp"
 
 namespace sinew::perf {
@@ -36,51 +34,11 @@ namespace {
 constexpr float kDt_s = 0.02f;
 constexpr uint32_t kBlindSteps = 5, kTrainedSteps = 50, kFirstSeed = 900001;
 
-double thread_us() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
-}
-
-// Weights as the runtime reads them.
-class Network {
- public:
-  explicit Network(const std::string& path) {
-    baker::PackWriter writer(pack::FileKind::kModel);
-    baker::add_chains(baker::read_safetensors(path), writer);
-    const std::vector<std::byte> bytes = writer.finish();
-    memory_ = core::AlignedBlock(bytes.size());
-    std::memcpy(memory_.data(), bytes.data(), bytes.size());
-    const Status status = pack::open_pack({memory_.data(), bytes.size()}, &view_);
-    if (!status.ok()) throw baker::BadInput(path + ": " + status.message);
-    net_ = {view_.network, view_.dense, view_.weights.data()};
-    const size_t slash = path.rfind('/') + 1, dot = path.rfind('.');
-    name_ = path.substr(slash, dot - slash);
-  }
-  const rods::CopingNet* net() const { return &net_; }
-  const std::string& name() const { return name_; }
-
- private:
-  core::AlignedBlock memory_;
-  pack::PackView view_;
-  rods::CopingNet net_;
-  std::string name_;
-};
-
-struct Examples {
-  std::vector<float> inputs, answers;
-  rods::StartExamples view;
-  explicit Examples(const std::string& path) {
-    const baker::Safetensors file = baker::read_safetensors(path);
-    inputs = file.need("inputs", {-1, simd::kRodStartInputs}).as_f32();
-    answers = file.need("answers", {-1, simd::kRodStartNumbers}).as_f32();
-    view = {inputs, answers};
-  }
-};
+double thread_us() { return clock_us(CLOCK_THREAD_CPUTIME_ID); }
 
 struct Given {  // on the command line
-  std::vector<std::unique_ptr<Network>> networks;
-  std::unique_ptr<Examples> examples;
+  std::vector<std::unique_ptr<StartNetwork>> networks;
+  std::unique_ptr<ExampleFile> examples;
   uint32_t steps = 200, length_steps = 0;
   std::string scene;  // only those that begin so
 };
@@ -138,7 +96,7 @@ std::vector<Contender> contenders(const Given& given, rods::RodSolver solver) {
   add("zero", rods::RodStart::kZero);
   add("previous", rods::RodStart::kPrevious);
   add("continued", rods::RodStart::kContinued);
-  if (given.examples) add("knn", rods::RodStart::kKnn)->examples = &given.examples->view;
+  if (given.examples) add("knn", rods::RodStart::kKnn)->examples = given.examples->examples();
   for (const auto& network : given.networks) {
     add(network->name(), rods::RodStart::kLearned)->network = network->net();
   }
@@ -239,12 +197,6 @@ std::vector<Case> all_cases() {
   return out;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return values.empty() ? 0 : *middle;
-}
-
 // Medians over steps in turns, us a segment and strand of a group of 16. A start's cost is its step's less
 // that of kPrevious, both of one iteration; an iteration's is what steps of several take more, by their
 // number.
@@ -318,9 +270,9 @@ Given read_arguments(int count, char** arguments) {
     } else if (word == "--length") {
       given.length_steps = whole(word, arguments[++i]);
     } else if (word == "--examples") {
-      given.examples = std::make_unique<Examples>(arguments[++i]);
+      given.examples = std::make_unique<ExampleFile>(arguments[++i]);
     } else {
-      given.networks.push_back(std::make_unique<Network>(word));
+      given.networks.push_back(std::make_unique<StartNetwork>(word));
     }
   }
   if (given.length_steps > 0 && given.networks.empty()) throw baker::BadInput("--length: name the weights");

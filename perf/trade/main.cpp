@@ -14,8 +14,8 @@
 #include <stdexcept>
 
 #include "perf/rods/peak.hpp"
+#include "perf/rods/start_files.hpp"
 #include "perf/trade/measure.hpp"
-#include "perf/trade/start_files.hpp"
 #include "simd/isa.hpp"
 
 namespace {

@@ -1,6 +1,7 @@
 // start_files.hpp  Weights and examples of starts from files, as the runtime reads them.
 #pragma once
 #include <cstring>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -25,13 +26,17 @@ class StartNetwork {
     const Status status = pack::open_pack({memory_.data(), bytes.size()}, &view_);
     if (!status.ok()) throw baker::BadInput(path + ": " + status.message);
     net_ = {view_.network, view_.dense, view_.weights.data()};
+    name_ = std::filesystem::path(path).stem().string();
   }
   const rods::CopingNet* net() const { return &net_; }
+  // The file's, without folder and ending.
+  const std::string& name() const { return name_; }
 
  private:
   core::AlignedBlock memory_;
   pack::PackView view_;
   rods::CopingNet net_;
+  std::string name_;
 };
 
 // Throws BadInput where the file holds no examples.
