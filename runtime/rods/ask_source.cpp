@@ -1,0 +1,109 @@
+// ask_source.cpp  The range's segments to a contact source, and its hits as contacts.
+#include <algorithm>
+
+#include "rods/find_contacts.hpp"
+
+namespace sinew::rods {
+namespace {
+
+// Of a segment's radius: how deep it is stopped, and how deep it may then be.
+constexpr double kDeep = 0.5, kStopped = 0.125;
+
+double longest(const Axis& from, const Axis& to) {
+  return std::max(length(difference(to.from, from.from)), length(difference(to.to, from.to)));
+}
+
+ContactPoint point_of(const ContactHit& hit, uint32_t strand, uint32_t segment) {
+  ContactPoint p = {.strand = strand,
+                    .segment = segment,
+                    .along = hit.along,
+                    .gap_m = hit.gap_m,
+                    .friction = hit.friction,
+                    .name = hit.name,
+                    .restitution = hit.restitution};
+  std::copy_n(hit.normal, 3, p.normal);
+  std::copy_n(hit.velocity_m_s, 3, p.velocity_m_s);
+  return p;
+}
+
+}  // namespace
+
+void ContactFinder::probe(uint32_t strand, uint32_t segment, const Sweep& sweep, uint32_t* count) const {
+  ContactProbe& p = to.probes_[*count];
+  const Vector* ends[2][2] = {{&sweep.start.from, &sweep.start.to}, {&sweep.end.from, &sweep.end.to}};
+  for (size_t e = 0; e < 2; ++e) {
+    std::copy_n(ends[0][e]->data(), 3, p.start_m[e]);
+    std::copy_n(ends[1][e]->data(), 3, p.end_m[e]);
+  }
+  p.radius_m = static_cast<float>(sweep.radius_m);
+  p.owner = to.owner_;
+  to.probe_segments_[(*count)++] = static_cast<uint32_t>(local(strand, segment));
+}
+
+// What a source wrote, of hits that a contact can be made of.
+std::span<const ContactHit> ContactFinder::ask(uint32_t probes, ContactHit* hits, uint32_t room,
+                                               uint32_t* dropped) const {
+  const uint32_t found =
+      to.source_->find({to.probes_, probes}, static_cast<float>(dt_s), std::span(hits, room));
+  const uint32_t written = std::min(found, room);
+  *dropped += found - written;
+  const auto bad = [&](const ContactHit& hit) {
+    return hit.probe >= probes || !check_obstacle(point_of(hit, 0, 0), 0).ok();
+  };
+  ContactHit* end = std::remove_if(hits, hits + written, bad);
+  to.bad_hits_ += static_cast<uint32_t>(hits + written - end);
+  return {hits, end};
+}
+
+void ContactFinder::add_hits() const {
+  uint32_t probes = 0;
+  for (uint32_t s = first_strand(); s < end_strand(); ++s) {
+    for (uint32_t i = 0; i < batch.segment_count_; ++i) {
+      if (free(s, i)) probe(s, i, to.sweeps_[local(s, i)], &probes);
+    }
+  }
+  const uint32_t room = to.settings_.source_capacity - to.hit_count_;
+  for (const ContactHit& hit : ask(probes, to.hits_ + to.hit_count_, room, &to.dropped_)) {
+    const uint32_t segment = to.probe_segments_[hit.probe];
+    const uint32_t strand = first_strand() + segment / batch.segment_count_;
+    const Contact* made = add_point(point_of(hit, strand, segment % batch.segment_count_), kHit);
+    const auto contact = static_cast<uint32_t>(made - to.contacts_);
+    to.taken_[to.hit_count_++] = {made ? contact : RodCollider::kNoContact, {}, {}};
+  }
+}
+
+// Segments that moved further than their radius, and ended further than that from where they were looked for.
+void ContactFinder::stop_at_hits() const {
+  uint32_t probes = 0;
+  for (uint32_t s = first_strand(); s < end_strand(); ++s) {
+    for (uint32_t i = 0; i < batch.segment_count_; ++i) {
+      const Sweep& known = to.sweeps_[local(s, i)];
+      const Sweep own = taken_sweep(s, i);
+      if (!free(s, i) || !(longest(own.start, own.end) > own.radius_m)) continue;
+      if (longest(known.end, own.end) > own.radius_m) probe(s, i, own, &probes);
+    }
+  }
+  if (probes == 0) return;
+  const uint32_t room = to.settings_.source_capacity;
+  uint32_t dropped = 0;  // of what is only looked at
+  for (const ContactHit& hit : ask(probes, to.hits_ + room, room, &dropped)) {
+    const uint32_t segment = to.probe_segments_[hit.probe];
+    stop_at_hit(first_strand() + segment / batch.segment_count_, segment % batch.segment_count_, hit);
+  }
+}
+
+void ContactFinder::stop_at_hit(uint32_t strand, uint32_t segment, const ContactHit& hit) const {
+  const Sweep own = taken_sweep(strand, segment);
+  const double share = 0.5 + 0.5 * static_cast<double>(hit.along);
+  const Vector move =
+      difference(between(own.end.from, own.end.to, share), between(own.start.from, own.start.to, share));
+  const Vector obstacle_move = scaled(dt_s, vector_of(hit.velocity_m_s));
+  const double gap = hit.gap_m, end = gap + dot(vector_of(hit.normal), difference(move, obstacle_move));
+  if (!(end < -kDeep * own.radius_m) || end >= gap || gap < -kDeep * own.radius_m) return;
+  const double way = std::max(0.0, gap + (gap > 0 ? kStopped : kDeep) * own.radius_m) / (gap - end);
+  if (way >= to.ways_[strand]) return;
+  to.ways_[strand] = way;
+  to.carries_[strand] = scaled(1 - way, obstacle_move);
+}
+
+}  // namespace sinew::rods
