@@ -6,8 +6,12 @@
 namespace sinew::rods {
 namespace {
 
-// Of a segment's radius: how deep it is stopped, and how deep it may then be.
-constexpr double kDeep = 0.5, kStopped = 0.125;
+// What of a segment's radius is looked at a second time: a whole one that touches where it begins would not
+// be followed to where another part of it goes through.
+constexpr double kCore = 0.5;
+// How deep that may come, and how far outside it is stopped so that it is the same in the next step, both of
+// its own radius.
+constexpr double kThere = 0.05, kOutside = 0.5;
 
 double longest(const Axis& from, const Axis& to) {
   return std::max(length(difference(to.from, from.from)), length(difference(to.to, from.to)));
@@ -78,9 +82,11 @@ void ContactFinder::stop_at_hits() const {
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {
     for (uint32_t i = 0; i < batch.segment_count_; ++i) {
       const Sweep& known = to.sweeps_[local(s, i)];
-      const Sweep own = taken_sweep(s, i);
+      Sweep own = taken_sweep(s, i);
       if (!free(s, i) || !(longest(own.start, own.end) > own.radius_m)) continue;
-      if (longest(known.end, own.end) > own.radius_m) probe(s, i, own, &probes);
+      if (!(longest(known.end, own.end) > own.radius_m)) continue;
+      own.radius_m *= kCore;
+      probe(s, i, own, &probes);
     }
   }
   if (probes == 0) return;
@@ -94,13 +100,14 @@ void ContactFinder::stop_at_hits() const {
 
 void ContactFinder::stop_at_hit(uint32_t strand, uint32_t segment, const ContactHit& hit) const {
   const Sweep own = taken_sweep(strand, segment);
+  const double core = kCore * own.radius_m;
   const double share = 0.5 + 0.5 * static_cast<double>(hit.along);
   const Vector move =
       difference(between(own.end.from, own.end.to, share), between(own.start.from, own.start.to, share));
   const Vector obstacle_move = scaled(dt_s, vector_of(hit.velocity_m_s));
   const double gap = hit.gap_m, end = gap + dot(vector_of(hit.normal), difference(move, obstacle_move));
-  if (!(end < -kDeep * own.radius_m) || end >= gap || gap < -kDeep * own.radius_m) return;
-  const double way = std::max(0.0, gap + (gap > 0 ? kStopped : kDeep) * own.radius_m) / (gap - end);
+  if (!(end < -kThere * core) || gap < 0) return;  // or it began deep
+  const double way = std::max(0.0, gap - kOutside * core) / (gap - end);
   if (way >= to.ways_[strand]) return;
   to.ways_[strand] = way;
   to.carries_[strand] = scaled(1 - way, obstacle_move);

@@ -35,7 +35,7 @@ class CapsuleSource : public ContactSource {
     const rods::Sweep b = {{rods::difference(end.from, move), rods::difference(end.to, move)},
                            end,
                            static_cast<double>(capsule.radius_m)};
-    const rods::Touch touch = rods::first_touch(a, b);
+    const rods::Touch touch = rods::first_touch(a, b, 256);  // small gaps are advanced through slowly
     const rods::Vector own = rods::difference(a.end.from, a.start.from);
     if (!(touch.gap_m < 0.5 * radius + 0.25 * rods::length(rods::difference(own, move)))) return;
     const rods::Vector apart = rods::difference(rods::between(a.start.from, a.start.to, touch.at.a),

@@ -1,7 +1,7 @@
 // test_ask_source.cpp  A contact source: what of its hits is taken, that it replaces an obstacle, that what
-// it is told keeps the momentum.
+// it is told keeps the momentum, and that nothing fast gets through.
 #include "tests/pack/count_allocations.hpp"
-#include "tests/rods/capsule_source.hpp"
+#include "tests/rods/passing_scenes.hpp"
 
 using namespace sinew;
 
@@ -167,6 +167,12 @@ TEST_CASE("a_strand_that_does_not_converge_pushes_no_more_than_it_was_moved") {
     CHECK(rods::length(floor.pushed) <= 1.01 * mass * moved + 1e-6);
   }
   CHECK(unconverged > 0);
+}
+
+TEST_CASE("of_a_thousand_rods_at_fifty_metres_a_second_none_passes_through_a_source_s_capsule") {
+  const test::Passes passes = test::rods_at_a_bar(1000, test::Through::kSource);
+  CHECK(passes.passed == 0);
+  CHECK(passes.hit > 900);
 }
 
 TEST_CASE("a_step_that_asks_a_source_allocates_nothing") {
