@@ -11,7 +11,7 @@ namespace {
 constexpr double kCore = 0.5;
 // How deep that may come, and how far outside it is stopped so that it is the same in the next step, both of
 // its own radius.
-constexpr double kThere = 0.05, kOutside = 0.5;
+constexpr double kThere = 0.05, kOutside = 0.9;
 
 double longest(const Axis& from, const Axis& to) {
   return std::max(length(difference(to.from, from.from)), length(difference(to.to, from.to)));

@@ -231,7 +231,7 @@ void RodCollider::end_range(const RodBatch& batch, float dt_s, RodReport* report
   const ContactFinder finder{*this, batch, static_cast<double>(dt_s)};
   const ContactForces forces{*this, batch};
   forces.forgive();
-  for (int k = 0; k < kMostHolds && finder.find_holds(k == 0); ++k) forces.hold();
+  for (int k = 0; k < kMostHolds && finder.find_holds(); ++k) forces.hold();
   forces.place_hits();
   report->contacts_unconverged += forces.end();
 }

@@ -68,10 +68,11 @@ class RodCollider {
   Status set_points(std::span<const ContactPoint> points) noexcept;
 
   // Asked in each step, until set again, with the free segments that are stepped at a time: all where rods
-  // collide, else a group of 16 strands or 4. Null: nobody is asked. `owner` goes into each probe. A second
-  // time for segments that were iterated to where they had not been looked for. After the step push is told
-  // what each hit's contact did: minus what the rod felt; of a strand that did not converge, no more together
-  // than what moved it. Source and what it looks at outlive the steps.
+  // collide, else a group of 16 strands or 4. Null: nobody is asked. `owner` goes into each probe.
+  // Again, with half their radius, for segments that were iterated to where they had not been looked for: a
+  // strand that would be through something is stopped on its way, and looked at again, three times at most.
+  // After the step push is told what each hit's contact did: minus what the rod felt; of a strand that did
+  // not converge, no more together than what moved it. Source and what it looks at outlive the steps.
   // Refused: a source where source_capacity is 0; the last one then stays.
   Status set_source(ContactSource* source, uint32_t owner = 0) noexcept;
 

@@ -485,9 +485,9 @@ void ContactFinder::stop_torn(uint32_t strand) const {
   }
 }
 
-bool ContactFinder::find_holds(bool ask) const noexcept {
+bool ContactFinder::find_holds() const noexcept {
   std::fill(to.ways_ + first_strand(), to.ways_ + end_strand(), 1.0);
-  if (ask && to.source_) stop_at_hits();
+  if (to.source_) stop_at_hits();
   for (uint32_t i = 0; i < to.sphere_count_; ++i) stop_at_core(sweep_of(capsule_of(to.spheres_[i])));
   for (uint32_t i = 0; i < to.capsule_count_; ++i) stop_at_core(sweep_of(to.capsules_[i]));
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {

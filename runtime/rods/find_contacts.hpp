@@ -28,7 +28,7 @@ struct ContactFinder {
   // enters the core of a sphere or capsule, or before a strand that something presses on is torn, into ways_;
   // that core's own move by then, into carries_. A source, which is asked where `ask`, stops axes at
   // surfaces. Returns whether any is to be held.
-  bool find_holds(bool ask) const noexcept;
+  bool find_holds() const noexcept;
 
  private:
   enum Kind : uint64_t { kPoint = 1, kPlane, kSphere, kCapsule, kRod, kHit };
