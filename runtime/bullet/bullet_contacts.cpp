@@ -64,11 +64,11 @@ bool is_good(const Path& path) {
          rods::finite(path.start[1]) && rods::finite(path.end[0]) && rods::finite(path.end[1]);
 }
 
-bool goes_on(const ContactProbe& probe, const ContactProbe& before) {
-  double far = 0;
-  for (size_t k = 0; k < 3; ++k) far = std::max(far, std::fabs(probe.start_m[0][k] - before.start_m[1][k]));
-  return probe.owner == before.owner && probe.radius_m <= before.radius_m &&
-         far <= kSamePoint * static_cast<double>(probe.radius_m);
+bool goes_on(const Path& path, const Path& before) {
+  const double enough = kSamePoint * path.radius_m;
+  return is_good(before) && path.radius_m <= before.radius_m &&
+         rods::length(rods::difference(path.start[0], before.start[1])) <= enough &&
+         rods::length(rods::difference(path.start[0], path.start[1])) > enough;
 }
 
 // The first hits.size() of all, then the deepest of them.
@@ -140,7 +140,8 @@ void BulletContacts::State::find(std::span<const ContactProbe> all, size_t index
     contacts.add(body);
   }
   contacts.reduce();
-  const bool joined = index > 0 && goes_on(probe, all[index - 1]);
+  const bool joined = index > 0 && all[index - 1].owner == probe.owner &&
+                      goes_on(path, path_of(all[index - 1], def.origin_m));
   for (uint32_t i = 0; i < contacts.size(); ++i) {
     if (joined && contacts[i].along == -1) continue;
     ContactHit hit = contacts[i];

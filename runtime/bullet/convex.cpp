@@ -3,6 +3,8 @@
 
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
 #include <BulletCollision/CollisionShapes/btCapsuleShape.h>
+#include <BulletCollision/CollisionShapes/btConvexHullShape.h>
+#include <BulletCollision/CollisionShapes/btConvexInternalShape.h>
 #include <BulletCollision/CollisionShapes/btCylinderShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 #include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
@@ -17,7 +19,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Sine squared of a triangle's flattest angle: below float's resolution it has no normal.
 constexpr double kFlat = 1e-12;
-constexpr float kJitter_m = 1e-4f;  // GJK's own resolution
+constexpr double kScaled = 1000;  // half the size of what GJK is asked
+constexpr float kJitter = 0.02f;  // its resolution
 
 Vector vector_of(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -91,30 +94,58 @@ Distance from_triangle(const Triangle& t, const Vector& p) {
   return from_core(rods::difference(p, nearest_on(t, p)), t.margin_m, rods::scaled(1 / rods::length(n), n));
 }
 
-// Where the point is so near to the surface without margin that GJK gives up, a neighbour of it is not.
-Distance from_other(const btConvexShape& shape, const Vector& p) {
-  const btTransform here = btTransform::getIdentity();
+// Bullet's GJK takes corners within a centimetre of each other for one: shapes are asked this much larger.
+class Scaled final : public btConvexInternalShape {
+ public:
+  Scaled(const btConvexShape& shape, float scale) : shape_(shape), scale_(scale) {
+    m_shapeType = CUSTOM_CONVEX_SHAPE_TYPE;
+    setMargin(scale * shape.getMarginNonVirtual());
+  }
+  btVector3 localGetSupportingVertexWithoutMargin(const btVector3& way) const override {
+    return scale_ * shape_.localGetSupportVertexWithoutMarginNonVirtual(way);
+  }
+  void batchedUnitVectorGetSupportingVertexWithoutMargin(const btVector3* ways, btVector3* out,
+                                                         int count) const override {
+    for (int i = 0; i < count; ++i) out[i] = localGetSupportingVertexWithoutMargin(ways[i]);
+  }
+  void calculateLocalInertia(btScalar, btVector3& inertia) const override { inertia.setZero(); }
+  const char* getName() const override { return "scaled"; }
+
+ private:
+  const btConvexShape& shape_;
+  float scale_;
+};
+
+// Where the point is so near to the surface without margin that GJK gives up, a neighbour of it is not; and
+// a shape is nowhere nearer than its box.
+Distance from_other(const Convex& c, const Vector& p) {
+  const auto scale = static_cast<float>(kScaled / std::max({c.size[0], c.size[1], c.size[2]}));
+  const Scaled shape(*c.other, scale);
   for (int k = 0; k < 4; ++k) {
     btGjkEpaSolver2::sResults found;
     btVector3 point(static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
-    if (k > 0) point[k - 1] += kJitter_m;
+    point *= scale;
+    if (k > 0) point[k - 1] += kJitter;
     found.normal.setZero();
-    const double d = btGjkEpaSolver2::SignedDistance(point, 0, &shape, here, found);
+    const double d = btGjkEpaSolver2::SignedDistance(point, 0, &shape, btTransform::getIdentity(), found);
     const Vector n = vector_of(found.normal);
     if (std::isfinite(d) && std::fabs(rods::dot(n, n) - 1) < 1e-3) {
-      return {d, rods::scaled(1 / rods::length(n), n)};
+      return {d / static_cast<double>(scale), rods::scaled(1 / rods::length(n), n)};
     }
   }
-  return {kInfinity, {0, 1, 0}};
+  return from_box(c.size, rods::difference(p, c.middle));
 }
 
-bool has_extent(const btConvexShape& shape) {
+Convex by_gjk(const btConvexShape& shape) {
+  Convex out = {.kind = Convex::kOther, .other = &shape};
+  const bool empty = shape.getShapeType() == CONVEX_HULL_SHAPE_PROXYTYPE &&
+                     static_cast<const btConvexHullShape&>(shape).getNumVertices() == 0;
+  if (empty) return out;  // its box is nonsense
   btVector3 low, high;
   shape.getAabb(btTransform::getIdentity(), low, high);
-  for (int k = 0; k < 3; ++k) {
-    if (!(high[k] > low[k] && std::isfinite(high[k] - low[k]))) return false;
-  }
-  return true;
+  out.middle = vector_of(0.5f * (low + high));
+  out.size = vector_of(0.5f * (high - low));
+  return out;
 }
 
 }  // namespace
@@ -129,13 +160,12 @@ bool Convex::has_volume() const noexcept {
     case kCylinder:
       return has_radius && half_m > 0 && std::isfinite(half_m);
     case kBox:
+    case kOther:
       return std::min({size[0], size[1], size[2]}) > 0 && rods::finite(size);
     case kPlane:
       return std::fabs(rods::dot(size, size) - 1) < 1e-3 && std::isfinite(half_m);
     case kTriangle:
       return true;
-    case kOther:
-      return has_extent(*other);
   }
   return false;
 }
@@ -164,7 +194,7 @@ Convex convex_of(const btConvexShape& shape) noexcept {
               .half_m = cylinder.getHalfExtentsWithMargin()[axis]};
     }
     default:
-      return {.kind = Convex::kOther, .other = &shape};
+      return by_gjk(shape);
   }
 }
 
@@ -190,7 +220,7 @@ Distance distance(const Convex& c, const Vector& p) noexcept {
     case Convex::kTriangle:
       return from_triangle(c.triangle, p);
     case Convex::kOther:
-      return from_other(*c.other, p);
+      return from_other(c, p);
   }
   return {kInfinity, {0, 1, 0}};
 }

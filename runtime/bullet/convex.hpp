@@ -24,10 +24,11 @@ struct Triangle {
 struct Convex {
   enum Kind { kSphere, kBox, kCapsule, kCylinder, kPlane, kTriangle, kOther };
   Kind kind = kSphere;
-  size_t axis = 0;                       // kCapsule, kCylinder
-  double radius_m = 0, half_m = 0;       // half_m: of the axis
-  Vector size = {};                      // kBox: half extents; kPlane: normal, with half_m its distance
-  Triangle triangle = {};                // kTriangle
+  size_t axis = 0;                  // kCapsule, kCylinder
+  double radius_m = 0, half_m = 0;  // half_m: of the axis
+  Vector size = {};                 // kBox, kOther: half extents; kPlane: normal, with half_m its distance
+  Vector middle = {};               // kOther: of its box
+  Triangle triangle = {};           // kTriangle
   const btConvexShape* other = nullptr;  // kOther: asked by GJK and, inside, EPA
 
   bool has_volume() const noexcept;
@@ -39,7 +40,6 @@ inline Convex convex_of(const Triangle& triangle) noexcept {
   return {.kind = Convex::kTriangle, .triangle = triangle};
 }
 
-// Infinity with any normal where Bullet's solver gives up.
 Distance distance(const Convex& shape, const Vector& point) noexcept;
 
 // Twice the area as a vector along the normal of its winding.

@@ -18,6 +18,7 @@ struct Place {
   Vector direction(const Vector& own) const noexcept;
   Vector own_point(const Vector& point) const noexcept;
 };
+inline constexpr Place kHere = {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {0, 0, 0}};
 Place place_of(const btTransform& transform) noexcept;
 Place product(const Place& a, const Place& b) noexcept;
 

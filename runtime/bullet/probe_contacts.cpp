@@ -19,7 +19,6 @@ constexpr double kNearRadii = 0.25, kNearWay = 0.25;
 // On a mesh: normals and places that are the same, places a share of the radius.
 constexpr double kTouches = 0.05;  // gap at the moment it was found at, share of the radius
 constexpr double kSameNormal = 0.999, kSamePlace = 0.05;
-constexpr Place kHere = {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {0, 0, 0}};
 
 Vector vector_of(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 

@@ -11,7 +11,7 @@ constexpr double kTouching = 0.01, kTouching_m = 1e-6;
 constexpr int kMoments = 64, kLooks = 24, kHalvings = 6;
 // An axis lies flat where it rises by no more than this; both ends of it count if they are so far apart.
 // Shares of the radius.
-constexpr double kFlat = 0.02, kApart = 0.5;
+constexpr double kFlat = 0.005, kApart = 0.5;
 
 double slope(const Near& near, const Vector& way) { return rods::dot(near.distance.normal, way); }
 

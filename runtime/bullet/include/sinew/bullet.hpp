@@ -6,6 +6,9 @@
 // where Bullet has them, collision margins included; boxes and cylinders have sharp edges. Triangle meshes
 // are sheets with two sides; what is below a heightfield is solid.
 //
+// stepSimulation comes before Sinew's step: transforms are those at the tick's end, and velocities say where
+// bodies were when it began. Sleeping bodies stand still.
+//
 // Nothing of the world is remembered from one call to the next: between two steps of Sinew the engine may
 // add, move, change and remove bodies as it likes, and must not while find, push or apply_impulses run. find
 // reads broadphase boxes; whoever moves a body outside stepSimulation calls updateSingleAabb.
@@ -24,16 +27,9 @@ class btCollisionObject;
 
 namespace sinew {
 
-// Which end of a Sinew tick a body's transform belongs to; its velocity says where the other is.
-enum class BulletPose : uint32_t {
-  kTickEnd = 0,    // stepSimulation comes before Sinew's step
-  kTickStart = 1,  // and after it
-};
-
 struct BulletDef {
   btCollisionWorld* world = nullptr;  // outlives what is made of it; null: refused
   double origin_m[3] = {0, 0, 0};     // where Bullet's origin is in Sinew's world; finite
-  BulletPose pose = BulletPose::kTickEnd;
   // As of a body's broadphase proxy; both sides have to agree.
   int32_t group = 1;
   int32_t mask = -1;
