@@ -1,3 +1,11 @@
 include(CMakeFindDependencyMacro)
 find_dependency(hwy)
 include("${CMAKE_CURRENT_LIST_DIR}/sinew-targets.cmake")
+# find_package(sinew COMPONENTS bullet): what of the adapters was built.
+foreach(component IN LISTS sinew_FIND_COMPONENTS)
+  include("${CMAKE_CURRENT_LIST_DIR}/sinew-${component}-targets.cmake" OPTIONAL RESULT_VARIABLE sinew_${component}_FOUND)
+  if(NOT sinew_${component}_FOUND AND sinew_FIND_REQUIRED_${component})
+    set(sinew_FOUND FALSE)
+    set(sinew_NOT_FOUND_MESSAGE "this sinew was built without ${component}")
+  endif()
+endforeach()

@@ -17,6 +17,8 @@ ALLOWED = {
     "frame": {"core", "pack", "simd", "tissue", "rods"},
     "world": {"core", "pack", "simd", "tissue", "rods", "frame"},
     "include": set(),
+    # Adapters to other libraries; the core knows none of them.
+    "bullet": {"core", "pack", "simd", "tissue", "rods", "frame", "world"},
 }
 # The offline rooms, in the same way; every one may include baker/common and the runtime.
 BAKER = {
