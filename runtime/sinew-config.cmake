@@ -1,3 +1,7 @@
 include(CMakeFindDependencyMacro)
 find_dependency(hwy)
 include("${CMAKE_CURRENT_LIST_DIR}/sinew-targets.cmake")
+if(EXISTS "${CMAKE_CURRENT_LIST_DIR}/sinew-embree-targets.cmake")
+  find_dependency(embree 3)
+  include("${CMAKE_CURRENT_LIST_DIR}/sinew-embree-targets.cmake")
+endif()

@@ -16,6 +16,7 @@ ALLOWED = {
     "rods": {"core", "pack", "simd"},
     "frame": {"core", "pack", "simd", "tissue", "rods"},
     "world": {"core", "pack", "simd", "tissue", "rods", "frame"},
+    "embree": {"core", "pack", "simd", "tissue", "rods", "frame", "world"},
     "include": set(),
 }
 # The offline rooms, in the same way; every one may include baker/common and the runtime.
