@@ -4,6 +4,9 @@
 // contacts as half-spaces, and is told afterwards what pushed against it. sinew::bullet and sinew::embree are
 // such implementations; a scene of a few planes, spheres and capsules needs none (rods/collider.hpp).
 //
+// An obstacle's pose is that at the tick's end, and its velocity is what brought it there (as in
+// rods/obstacle.hpp): a tick earlier it was where its velocity came from.
+//
 // Thread rule: a world steps instances on its workers, so find and push come from several threads at a time,
 // each with probes of its own. Nothing may throw, allocate or block in them.
 #pragma once
