@@ -50,6 +50,25 @@ TEST_CASE("inside_is_told_as_by_winding_numbers_on_ridges_and_in_valleys") {
   CHECK(inside > 500);
 }
 
+TEST_CASE("inside_is_told_as_by_winding_numbers_about_spikes_and_sharp_edges") {
+  MeshData mesh = ball(1, 2);
+  std::mt19937 engine(5);
+  for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+    const double s = 1 + random_vector(engine, 0.7)[0];
+    for (size_t k = 0; k < 3; ++k) mesh.places[3 * v + k] *= static_cast<float>(s);
+  }
+  SurfaceId id;
+  SurfaceContacts contacts = contacts_of(mesh, &id, {.reach_m = 2});
+  for (int i = 0; i < 20000; ++i) {
+    // About corners, and about edges.
+    const embree::Triangle t = mesh.triangle(static_cast<size_t>(i) % (mesh.triangles.size() / 3));
+    const Vector on = rods::between(t.corners[0], t.corners[1], i % 2 == 0 ? 0 : 0.5);
+    const Vector at = rods::sum(on, random_vector(engine, 0.05));
+    if (nearest_of_all(mesh, at).distance_m < 2 * kRadius) continue;
+    CHECK(says_inside(contacts, at) == winds_about(mesh, at));
+  }
+}
+
 TEST_CASE("beyond_the_border_of_an_open_surface_all_is_outside") {
   MeshData sheet;
   for (const Vector& p : {Vector{-1, 0, -1}, {1, 0, -1}, {-1, 0, 1}, {1, 0, 1}}) sheet.add_vertex(p);
