@@ -14,7 +14,7 @@ using namespace bullet;
 using rods::Vector;
 
 constexpr size_t kAtOnce = 16;       // probes that share a question to the broadphase
-constexpr double kSamePoint = 1e-3;  // of the radius
+constexpr double kSamePoint = 0.05;  // of the radius
 
 Status bad(const char* name, double value, const char* range) {
   return core::make_status(StatusCode::kInvalidArgument, "BulletDef::%s is %g; give %s", name, value, range);

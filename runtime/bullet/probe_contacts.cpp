@@ -31,6 +31,12 @@ uint32_t mixed(uint32_t a, uint32_t b) {
   return h ^ h >> 15;
 }
 
+// The same from tick to tick: one of the axis' ends, or before or behind its nearest point.
+uint32_t feature_of(double share, double nearest) {
+  if (share == 0 || share == 1) return share == 0 ? 1 : 2;
+  return share <= nearest ? 3 : 4;
+}
+
 void put(const Vector& from, float (&to)[3]) {
   for (size_t k = 0; k < 3; ++k) to[k] = static_cast<float>(from[k]);
 }
@@ -142,7 +148,8 @@ void ProbeContacts::add_convex(const Body& body, const Part& part, const Convex&
   const Axis ends = own_axis(path_, 1, body.motion.at(1, part.place));
   for (size_t i = 0; i < count; ++i) {
     const double at_end_m = distance(shape, ends.at(points[i].share)).m;
-    add_contact(body, part, touch.time, points[i], at_end_m, {static_cast<uint32_t>(i), false, false});
+    add_contact(body, part, touch.time, points[i], at_end_m,
+                {feature_of(points[i].share, touch.near.share), false, false});
   }
 }
 
@@ -180,11 +187,11 @@ void ProbeContacts::add_triangle(const Body& body, const Part& part, const Trian
   for (size_t i = 0; i < count; ++i) {
     const Vector end = rods::difference(ends.at(faces[i].share), t.corners[0]);
     const double at_end_m = rods::dot(end, faces[i].distance.normal) - t.margin_m;
-    add_contact(body, own, touch.time, faces[i], at_end_m, {static_cast<uint32_t>(i), true, true});
+    add_contact(body, own, touch.time, faces[i], at_end_m, {feature_of(faces[i].share, 0.5), true, true});
   }
   if (count == 0 && touch.near.distance.m + t.margin_m > 0) {
     const double at_end_m = distance(convex_of(t), ends.at(touch.near.share)).m;
-    add_contact(body, own, touch.time, touch.near, at_end_m, {2, true, false});
+    add_contact(body, own, touch.time, touch.near, at_end_m, {0, true, false});
   }
 }
 
