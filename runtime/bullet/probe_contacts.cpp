@@ -16,6 +16,8 @@ namespace {
 // Contacts are given for what comes this near, shares of the radius and of how much body and probe may near
 // each other in the tick.
 constexpr double kNearRadii = 0.25, kNearWay = 0.25;
+// The same of an axis' ends, where another point of it is nearer.
+constexpr double kEndRadii = 0.02;
 // On a mesh: normals and places that are the same, places a share of the radius.
 constexpr double kTouches = 0.05;  // gap at the moment it was found at, share of the radius
 constexpr double kSameNormal = 0.999, kSamePlace = 0.05;
@@ -68,6 +70,10 @@ void ProbeContacts::add(const Body& body) noexcept {
 
 double ProbeContacts::reach_m(const Body& body) const noexcept {
   return kNearRadii * path_.radius_m + kNearWay * path_.closing_m(body.motion);
+}
+
+double ProbeContacts::end_reach_m(const Body& body) const noexcept {
+  return kEndRadii * path_.radius_m + kNearWay * path_.closing_m(body.motion);
 }
 
 double ProbeContacts::length_m() const noexcept {
@@ -144,7 +150,7 @@ void ProbeContacts::add_convex(const Body& body, const Part& part, const Convex&
   if (!(touch.near.distance.m - path_.radius_m <= reach)) return;
   const Axis axis = own_axis(path_, touch.time, body.motion.at(touch.time, part.place));
   Near points[4];
-  const size_t count = supports(shape, axis, touch.near, path_.radius_m, reach, points);
+  const size_t count = supports(shape, axis, touch.near, path_.radius_m, end_reach_m(body), points);
   const Axis ends = own_axis(path_, 1, body.motion.at(1, part.place));
   for (size_t i = 0; i < count; ++i) {
     const double at_end_m = distance(shape, ends.at(points[i].share)).m;

@@ -45,6 +45,7 @@ class ProbeContacts {
   };
 
   double reach_m(const Body& body) const noexcept;
+  double end_reach_m(const Body& body) const noexcept;
   Box own_box(const Body& body, const Place& part) const noexcept;
   void add_shape(const Body& body, const Part& part, const btCollisionShape& shape) noexcept;
   void add_children(const Body& body, const Part& part, const btCompoundShape& shape) noexcept;
