@@ -1,8 +1,11 @@
 include(CMakeFindDependencyMacro)
 find_dependency(hwy)
 include("${CMAKE_CURRENT_LIST_DIR}/sinew-targets.cmake")
-# find_package(sinew COMPONENTS bullet): what of the adapters was built.
+# find_package(sinew COMPONENTS bullet embree): what of the adapters was built.
 foreach(component IN LISTS sinew_FIND_COMPONENTS)
+  if(component STREQUAL embree)
+    find_dependency(embree 3)
+  endif()
   include("${CMAKE_CURRENT_LIST_DIR}/sinew-${component}-targets.cmake" OPTIONAL RESULT_VARIABLE sinew_${component}_FOUND)
   if(NOT sinew_${component}_FOUND AND sinew_FIND_REQUIRED_${component})
     set(sinew_FOUND FALSE)

@@ -36,8 +36,10 @@ void ContactFinder::probe(uint32_t strand, uint32_t segment, const Sweep& sweep,
   ContactProbe& p = to.probes_[*count];
   const Vector* ends[2][2] = {{&sweep.start.from, &sweep.start.to}, {&sweep.end.from, &sweep.end.to}};
   for (size_t e = 0; e < 2; ++e) {
-    std::copy_n(ends[0][e]->data(), 3, p.start_m[e]);
-    std::copy_n(ends[1][e]->data(), 3, p.end_m[e]);
+    for (size_t k = 0; k < 3; ++k) {
+      p.start_m[e][k] = (*ends[0][e])[k] + to.origin_m_[k];
+      p.end_m[e][k] = (*ends[1][e])[k] + to.origin_m_[k];
+    }
   }
   p.radius_m = static_cast<float>(sweep.radius_m);
   p.owner = to.owner_;

@@ -14,6 +14,7 @@
 // collide with one another some 800 bytes a segment besides, for all groups then iterate in turn.
 // Cost: each segment is swept in double precision in every step, near an obstacle or not.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
@@ -75,6 +76,9 @@ class RodCollider {
   // not converge, no more together than what moved it. Source and what it looks at outlive the steps.
   // Refused: a source where source_capacity is 0; the last one then stays.
   Status set_source(ContactSource* source, uint32_t owner = 0) noexcept;
+  // Where in the source's world the batch's places count from, 0 until set; finite. Obstacles and given
+  // points are in the batch's own.
+  void set_origin(const double (&origin_m)[3]) noexcept { std::copy_n(origin_m, 3, origin_m_); }
 
   // The forces that `from`'s contacts came to in its last step, with this one's own settings, obstacles and
   // points; contacts are known by their obstacles' indices. Refused: one made for other strands or segments,
@@ -160,6 +164,7 @@ class RodCollider {
   SpatialHash hash_;
 
   ContactSource* source_ = nullptr;
+  double origin_m_[3] = {0, 0, 0};
   uint32_t owner_ = 0, hit_count_ = 0, first_hit_ = 0, bad_hits_ = 0;
   ContactProbe* probes_ = nullptr;      // [segments of a range]
   uint32_t* probe_segments_ = nullptr;  // alike: as ContactFinder::local

@@ -76,7 +76,7 @@ void RodCollider::push(float dt_s) const noexcept {
     if (!(dot(impulse, impulse) > 0) || !finite(impulse) || !finite(taken_[i].point_m)) continue;
     const Vector& p = taken_[i].point_m;
     source_->push(
-        hits_[i], {p[0], p[1], p[2]},
+        hits_[i], {p[0] + origin_m_[0], p[1] + origin_m_[1], p[2] + origin_m_[2]},
         {static_cast<float>(impulse[0]), static_cast<float>(impulse[1]), static_cast<float>(impulse[2])});
   }
 }

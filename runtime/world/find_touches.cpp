@@ -44,7 +44,7 @@ struct Question {
     const auto end = std::remove_if(instance.hits, instance.hits + given,
                                     [&](const ContactHit& hit) { return !core::is_usable(hit, count); });
     const auto usable = static_cast<size_t>(end - instance.hits);
-    instance.tissue_touches.refused += given - static_cast<uint32_t>(usable);
+    instance.told.refused += given - static_cast<uint32_t>(usable);
     *all = found > kHitsAtOnce;
     return {instance.hits, usable};
   }
@@ -93,7 +93,7 @@ struct Found {
 
 void keep(Instance& instance, const Found& found, const ContactHit& hit) {
   if (instance.touch_count == 2 * instance.asset->patches.vertex_count) {
-    ++instance.tissue_touches.dropped;
+    ++instance.told.dropped;
     return;
   }
   Touch& touch = instance.touches[instance.touch_count++];
@@ -108,7 +108,7 @@ void keep(Instance& instance, const Found& found, const ContactHit& hit) {
 void ask_vertices(Instance& instance, Question& question, const Found* found) {
   bool all = false;
   for (const ContactHit& hit : question.ask(&all)) keep(instance, found[hit.probe], hit);
-  instance.tissue_touches.dropped += all;
+  instance.told.dropped += all;
   question.count = 0;
 }
 

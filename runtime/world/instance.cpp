@@ -16,6 +16,7 @@
 #include "world/push_surface.hpp"
 #include "world/rod_batches.hpp"
 #include "world/rod_blend.hpp"
+#include "world/rod_contacts.hpp"
 #include "world/rod_sleep.hpp"
 #include "world/sleep.hpp"
 
@@ -147,6 +148,7 @@ Status make_instance(Asset& asset, const InstanceDef& def, Instance* out) noexce
   bind_pose(asset.pack.joints, made.joints);
   std::copy_n(made.joints, asset.pack.character->joint_count, made.joints_before);
   forget_rods(made);
+  if (Status status = make_rod_colliders(made); !status.ok()) return status;
   publish(made);
   *out = std::move(made);
   return {};
@@ -189,11 +191,12 @@ InstanceReport describe(const Instance& instance, InstanceId id) noexcept {
           .regions_asleep = frame::is_simulated(state.tier) ? regions_asleep(instance) : 0,
           .rod_recoveries = state.rod_recoveries,
           .rods_asleep = frame::is_simulated(state.tier) ? rods_asleep(instance) : 0,
-          .vertices_touched = instance.tissue_touches.vertices,
-          .contacts_refused = instance.tissue_touches.refused,
-          .contacts_dropped = instance.tissue_touches.dropped,
-          .contact_volume_m3 = instance.tissue_touches.volume_m3,
-          .deepest_penetration_m = instance.tissue_touches.deepest_m,
+          .rod_contacts = instance.told.rod_contacts,
+          .vertices_touched = instance.told.vertices,
+          .contacts_refused = instance.told.refused,
+          .contacts_dropped = instance.told.dropped,
+          .contact_volume_m3 = instance.told.volume_m3,
+          .deepest_penetration_m = instance.told.deepest_m,
           .cost_us = core::microseconds(instance.times.total_ns)};
 }
 

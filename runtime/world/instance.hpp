@@ -7,6 +7,7 @@
 
 #include "core/aligned_block.hpp"
 #include "frame/tick_clock.hpp"
+#include "rods/collider.hpp"
 #include "rods/rod_batch.hpp"
 #include "sinew/contact_source.hpp"
 #include "sinew/types.hpp"
@@ -69,8 +70,9 @@ struct InstanceTimes {
   uint64_t drive_ns = 0, tissue_ns = 0, rods_ns = 0, publish_ns = 0, total_ns = 0;
 };
 
-// What its soft parts touched in the last tick; not state.
-struct TissueTouches {
+// What was touched in the last tick; not state.
+struct Touches {
+  uint32_t rod_contacts = 0;
   uint32_t vertices = 0;  // touched, or pushed out
   uint32_t refused = 0;   // the source's answers that were none
   uint32_t dropped = 0;   // contacts there was no room for
@@ -110,7 +112,8 @@ struct Instance {
   bool rods_anew = false;   // in this tick: rods are taken to where they are shown before they go on
   bool rods_shown = false;  // published joints are not the pose's
   ContactDef contacts;      // without a source, the arrays of contacts have no memory
-  std::unique_ptr<rods::RodBatch[]> rod_batches;  // their state is saved beside the run of bytes below
+  std::unique_ptr<rods::RodBatch[]> rod_batches;       // their state is saved beside the run of bytes below
+  std::unique_ptr<rods::RodCollider[]> rod_colliders;  // [batches], theirs too; null: rods touch nothing
 
   // State: one run of bytes from `state` on.
   InstanceState* state = nullptr;
@@ -155,7 +158,7 @@ struct Instance {
   float* flesh = nullptr;             // [nodes][3]: displacement along the axes of the flesh
   uint32_t* deepest = nullptr;        // [nodes]: of touches
   uint8_t* carries_pushes = nullptr;  // [regions]: `carried` has pushes in it
-  TissueTouches tissue_touches;
+  Touches told;
 
   double* rod_end[2] = {};  // [slots][3] where segments end, as they are taken along
 

@@ -42,7 +42,7 @@ void push_vertex(Instance& instance, const Touch& touch) {
   const Vector3f after = before + in_bind(now.world_from_bind, out * normal);
   for (size_t k = 0; k < 3; ++k) push[k * pitch] = after[static_cast<Eigen::Index>(k)];
   instance.pushed[touch.region] |= out > 0;
-  TissueTouches& told = instance.tissue_touches;
+  Touches& told = instance.told;
   told.vertices += touch.gap_m < 0 || out > 0;
   told.volume_m3 += vertex.area_m2 * std::max(0.0f, moved + out);
   told.deepest_m = std::max(told.deepest_m, -touch.gap_m - moved - out);

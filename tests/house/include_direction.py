@@ -18,6 +18,7 @@ ALLOWED = {
     "world": {"core", "pack", "simd", "tissue", "rods", "frame"},
     "include": set(),
     # Adapters to other libraries; the core knows none of them.
+    "embree": {"core", "pack", "simd", "tissue", "rods", "frame", "world"},
     "bullet": {"core", "pack", "simd", "tissue", "rods", "frame", "world"},
 }
 # The offline rooms, in the same way; every one may include baker/common and the runtime.

@@ -85,12 +85,13 @@ struct WorldDef {
   AssertHook assert_hook = {};
 };
 
-// What an instance touches. Soft parts are asked for tick by tick, where they are simulated; the source
+// What an instance touches. It is asked tick by tick, where the instance is simulated; the source
 // outlives the instance. Instances are stepped on the world's threads, so find may come from several at a
 // time.
 struct ContactDef {
   ContactSource* source = nullptr;  // null: nothing is touched, and no memory is taken for it
   uint32_t owner = 0;               // ContactProbe::owner of all its probes
+  bool tissue = true, rods = true;  // what of the instance touches
 };
 
 struct InstanceDef {
@@ -133,6 +134,7 @@ struct InstanceReport {
   uint32_t rods_asleep = 0;  // rods at rest, not stepped until they are held or shaped otherwise: all or none
   // Of the last tick, where the instance has a contact source. The volume is at most what contacts took from
   // the soft parts: of vertices that touched something, area times way.
+  uint32_t rod_contacts = 0;  // near enough to be looked at
   uint32_t vertices_touched = 0, contacts_refused = 0, contacts_dropped = 0;
   float contact_volume_m3 = 0;
   float deepest_penetration_m = 0;  // what soft parts are left inside, bounded as they are

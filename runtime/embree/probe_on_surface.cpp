@@ -1,0 +1,218 @@
+// probe_on_surface.cpp  see probe_on_surface.hpp.
+#include "embree/probe_on_surface.hpp"
+
+#include <algorithm>
+
+#include "rods/vector.hpp"
+
+namespace sinew::embree {
+namespace {
+
+using namespace rods;
+
+// What comes this near is a contact: shares of the radius and of the way relative to the surface.
+constexpr double kNearRadius = 0.25, kNearWay = 0.25;
+// An axis' touch nearer to an end than this share of the axis is that end's.
+constexpr double kAtEnd = 0.15;
+// A touch between two ends that touch is left out where it is no deeper than their line by this, of the
+// radius.
+constexpr double kDeeper = 0.01;
+constexpr double kMeeting = 1e-9;  // m: a distance without a direction
+
+Vector relative_to(const double (&point_m)[3], const double (&origin_m)[3]) {
+  return {point_m[0] - origin_m[0], point_m[1] - origin_m[1], point_m[2] - origin_m[2]};
+}
+
+Sweep sweep_of(const ContactProbe& probe, const double (&origin_m)[3]) {
+  return {{relative_to(probe.start_m[0], origin_m), relative_to(probe.start_m[1], origin_m)},
+          {relative_to(probe.end_m[0], origin_m), relative_to(probe.end_m[1], origin_m)},
+          static_cast<double>(probe.radius_m)};
+}
+
+Vector unit_or(const Vector& v, const Vector& otherwise) {
+  const double size = length(v);
+  return size > kMeeting ? scaled(1 / size, v) : otherwise;
+}
+
+bool comes_before(const TriangleTouch& a, const TriangleTouch& b, double radius_m) {
+  const bool a_touches = a.gap_m <= 0.02 * radius_m, b_touches = b.gap_m <= 0.02 * radius_m;
+  if (a_touches && b_touches && a.time != b.time) return a.time < b.time;
+  if (a_touches != b_touches) return a_touches;
+  return a.gap_m < b.gap_m;
+}
+
+}  // namespace
+
+ProbeOnSurface::ProbeOnSurface(const Surface& surface, const ContactProbe& probe, const SurfaceFilter& filter,
+                               bool grows_here, double reach_m, double dt_s) noexcept
+    : surface_(surface),
+      filter_(filter),
+      grows_here_(grows_here),
+      reach_m_(reach_m),
+      share_(surface.motion_s() > 0 ? std::min(1.0, dt_s / surface.motion_s()) : 0),
+      sweep_(sweep_of(probe, surface.origin_m())) {
+  half_m_ = 0.5 * length(difference(sweep_.start.to, sweep_.start.from));
+  way_m_ = std::max(length(difference(sweep_.end.from, sweep_.start.from)),
+                    length(difference(sweep_.end.to, sweep_.start.to)));
+  round_ = !(half_m_ > 0) && std::equal(probe.end_m[0], probe.end_m[0] + 3, probe.end_m[1]);
+  for (Nearby& n : samples_) n.distance_m = reach_m_;
+}
+
+Vector ProbeOnSurface::sample(uint32_t where) const {
+  return between(sweep_.start.from, sweep_.start.to, along(where));
+}
+
+Sweep ProbeOnSurface::sweep_of_end(uint32_t where) const {
+  const Vector start = where == kFrom ? sweep_.start.from : sweep_.start.to;
+  const Vector end = where == kFrom ? sweep_.end.from : sweep_.end.to;
+  return {{start, start}, {end, end}, sweep_.radius_m};
+}
+
+// Beyond this from the middle of the axis nothing matters any more.
+double ProbeOnSurface::radius_left() const noexcept {
+  double farthest = half_m_ + (1 + kNearRadius) * sweep_.radius_m + (1 + kNearWay) * way_m_;
+  for (const Nearby& n : samples_) farthest = std::max(farthest, n.distance_m + half_m_);
+  return farthest;
+}
+
+void ProbeOnSurface::look_at_sample(uint32_t where, uint32_t triangle, const Triangle& start) noexcept {
+  const Vector point = sample(where);
+  const OnTriangle on = nearest(start, point);
+  const double distance = length(difference(point, on.point));
+  Nearby& best = samples_[where];
+  if (distance > best.distance_m || (distance == best.distance_m && triangle > best.triangle)) return;
+  best = {distance, triangle, on};
+}
+
+double ProbeOnSurface::look(uint32_t triangle) noexcept {
+  if (!(surface_.groups(triangle) & filter_.groups)) return radius_left();
+  const MovingTriangle moving = surface_.moving_triangle(triangle, share_);
+  const Vector middle = sample(kMiddle);
+  const double distance = length(difference(middle, nearest(moving.start, middle).point));
+  for (uint32_t s = 0; s < kSamples; ++s) {
+    if (distance - (s == kMiddle ? 0 : half_m_) <= samples_[s].distance_m) {
+      look_at_sample(s, triangle, moving.start);
+    }
+    if (round_) break;
+  }
+  look_at_ways(triangle, moving, distance);
+  return radius_left();
+}
+
+void ProbeOnSurface::look_at_ways(uint32_t triangle, const MovingTriangle& moving,
+                                  double distance_m) noexcept {
+  const double way = closing_speed(sweep_, moving);
+  const double near_m = (1 + kNearRadius) * sweep_.radius_m + (1 + kNearWay) * way;
+  if (distance_m - half_m_ > near_m) return;
+  const TriangleTouch touch = first_touch(sweep_, moving);
+  if (axis_.triangle == kNone || comes_before(touch, axis_.touch, sweep_.radius_m)) axis_ = {touch, triangle};
+  if (round_ || touch.gap_m > near_m) return;
+  for (const uint32_t where : {kFrom, kTo}) {
+    const TriangleTouch end = first_touch(sweep_of_end(where), moving);
+    if (ends_[where].triangle == kNone || comes_before(end, ends_[where].touch, sweep_.radius_m)) {
+      ends_[where] = {end, triangle};
+    }
+  }
+}
+
+void ProbeOnSurface::tell_sides() noexcept {
+  for (uint32_t s = 0; s < (round_ ? 1u : kSamples); ++s) {
+    Nearby& n = samples_[s];
+    if (n.triangle == kNone || surface_.two_sided()) continue;
+    n.inside = side_of(surface_, filter_.groups, n.triangle, n.on, sample(s)) == Side::kInside;
+  }
+}
+
+bool ProbeOnSurface::grows_from(uint32_t triangle, const OnTriangle& on) const noexcept {
+  if (!grows_here_) return false;
+  const Vector rest = weighted(surface_.rest_triangle(triangle).corners, on.weights);
+  return length(difference(rest, vector_of(filter_.root_m))) < static_cast<double>(filter_.root_radius_m);
+}
+
+// Of the probe less the surface, in a tick.
+Vector ProbeOnSurface::relative_way(uint32_t triangle, const std::array<double, 3>& weights,
+                                    double along) const noexcept {
+  const Vector way = between(difference(sweep_.end.from, sweep_.start.from),
+                             difference(sweep_.end.to, sweep_.start.to), along);
+  return difference(way, weighted(surface_.moving_triangle(triangle, share_).moves, weights));
+}
+
+bool ProbeOnSurface::near(const Touched& t) const noexcept {
+  if (t.triangle == kNone || grows_from(t.triangle, t.touch.at.on)) return false;
+  const double way = length(relative_way(t.triangle, t.touch.at.on.weights, t.touch.at.along));
+  return t.touch.gap_m <= kNearRadius * sweep_.radius_m + kNearWay * way;
+}
+
+void ProbeOnSurface::put(uint32_t triangle, const std::array<double, 3>& weights, double along,
+                         const Vector& normal, double gap_m, uint32_t name) noexcept {
+  ContactHit& hit = hits_[count_++];
+  hit = {};
+  hit.along = static_cast<float>(round_ ? 0 : 2 * along - 1);
+  hit.gap_m = gap_m;
+  const Vector velocity =
+      surface_.motion_s() > 0
+          ? scaled(1 / surface_.motion_s(), weighted(surface_.moving_triangle(triangle, 1).moves, weights))
+          : Vector{};
+  for (size_t k = 0; k < 3; ++k) {
+    hit.normal[k] = static_cast<float>(normal[k]);
+    hit.velocity_m_s[k] = static_cast<float>(velocity[k]);
+  }
+  hit.friction = surface_.friction(), hit.restitution = surface_.restitution();
+  hit.name = name;
+  hit.body = surface_.topology().source[triangle];
+}
+
+// The gap is along the touch's normal, where the tick begins.
+void ProbeOnSurface::add(const Touched& t, uint32_t name) noexcept {
+  const double along = name == kMiddle ? t.touch.at.along : Where{name} == kFrom ? 0 : 1;
+  const Vector point = between(sweep_.start.from, sweep_.start.to, along);
+  const OnTriangle& on = t.touch.at.on;
+  const Vector there = weighted(surface_.start_triangle(t.triangle).corners, on.weights);
+  Vector normal = t.touch.normal;
+  if (t.touch.at.distance_m <= kMeeting) {  // the axis crosses something thin, or lies on it
+    const Vector out = pseudonormal(surface_, filter_.groups, t.triangle, kFace);
+    normal = dot(difference(sample(kMiddle), there), out) < -kMeeting ? scaled(-1, out) : out;
+  }
+  if (!(dot(normal, normal) > 0)) return;
+  put(t.triangle, on.weights, along, normal, dot(difference(point, there), normal) - sweep_.radius_m, name);
+}
+
+void ProbeOnSurface::add_way_out(uint32_t where) noexcept {
+  const Nearby& n = samples_[where];
+  if (grows_from(n.triangle, n.on)) return;
+  const Vector face = pseudonormal(surface_, filter_.groups, n.triangle, kFace);
+  const Vector normal = unit_or(difference(n.on.point, sample(where)), face);
+  if (!(dot(normal, normal) > 0)) return;
+  put(n.triangle, n.on.weights, along(where), normal, -n.distance_m - sweep_.radius_m, where);
+}
+
+void ProbeOnSurface::add_outside() noexcept {
+  const double at = axis_.touch.at.along, gap = axis_.touch.gap_m;
+  const bool from = !round_ && near(ends_[kFrom]), to = !round_ && near(ends_[kTo]);
+  const double of_from = ends_[kFrom].touch.gap_m, of_to = ends_[kTo].touch.gap_m;
+  const bool no_deeper = from && to && gap > (1 - at) * of_from + at * of_to - kDeeper * sweep_.radius_m;
+  const bool at_end = (from && at < kAtEnd) || (to && at > 1 - kAtEnd);
+  if (from) add(ends_[kFrom], kFrom);
+  if (to) add(ends_[kTo], kTo);
+  if (!no_deeper && !at_end && near(axis_)) add(axis_, kMiddle);
+}
+
+uint32_t ProbeOnSurface::find(ContactHit (&hits)[kMostContacts]) noexcept {
+  hits_ = hits, count_ = 0;
+  surface_.visit_ball(sample(kMiddle), radius_left(), [this](uint32_t triangle) { return look(triangle); });
+  tell_sides();
+  if (!samples_[kFrom].inside && !samples_[kTo].inside && !samples_[kMiddle].inside) {
+    add_outside();
+    return count_;
+  }
+  for (const uint32_t where : {kFrom, kTo, kMiddle}) {
+    if (samples_[where].inside) {
+      add_way_out(where);
+    } else if (where != kMiddle && !round_ && near(ends_[where])) {
+      add(ends_[where], where);
+    }
+  }
+  return count_;
+}
+
+}  // namespace sinew::embree

@@ -1,0 +1,209 @@
+// surface_contacts.cpp  The public class: surfaces by id, filters by owner, hits by probe.
+#include "sinew/surface_contacts.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <utility>
+
+#include "core/slot_table.hpp"
+#include "core/status.hpp"
+#include "embree/probe_on_surface.hpp"
+
+namespace sinew {
+
+using core::make_status;
+using embree::ProbeOnSurface;
+using embree::Surface;
+
+struct SurfaceContacts::Impl {
+  RTCDevice device = nullptr;
+  SurfaceContactsDef def;
+  core::SlotTable<std::unique_ptr<Surface>, SurfaceId> surfaces;
+  std::vector<SurfaceFilter> filters;  // [max_owners]
+  SurfaceFilter all;
+  std::atomic<uint64_t> skipped{0};
+
+  ~Impl() {
+    surfaces = {};
+    if (device) rtcReleaseDevice(device);
+  }
+  Surface* find(SurfaceId id) const {
+    std::unique_ptr<Surface>* found = surfaces.find(id);
+    return found ? found->get() : nullptr;
+  }
+  const SurfaceFilter& filter_of(uint32_t owner) const {
+    return owner < filters.size() ? filters[owner] : all;
+  }
+};
+
+namespace {
+
+constexpr uint32_t kMostSurfaces = 65535, kMostOwners = 1u << 24;
+
+Status stale() {
+  return make_status(StatusCode::kStaleId, "no such surface; give the id that add_surface gave");
+}
+Status empty() {
+  return make_status(StatusCode::kInvalidArgument, "these surface contacts are empty; call create first");
+}
+
+Status check(const SurfaceContactsDef& def) {
+  if (def.max_surfaces < 1 || def.max_surfaces > kMostSurfaces) {
+    return make_status(StatusCode::kInvalidArgument, "max_surfaces is %u; give 1 to %u", def.max_surfaces,
+                       kMostSurfaces);
+  }
+  if (def.max_owners > kMostOwners) {
+    return make_status(StatusCode::kInvalidArgument, "max_owners is %u; give at most %u", def.max_owners,
+                       kMostOwners);
+  }
+  if (def.reach_m > 0 && std::isfinite(def.reach_m)) return {};
+  return make_status(StatusCode::kInvalidArgument, "reach_m is %g; give a finite number above 0",
+                     static_cast<double>(def.reach_m));
+}
+
+bool usable(const ContactProbe& probe) {
+  double sum = static_cast<double>(probe.radius_m);
+  for (size_t end = 0; end < 2; ++end) {
+    for (size_t k = 0; k < 3; ++k) sum += std::fabs(probe.start_m[end][k]) + std::fabs(probe.end_m[end][k]);
+  }
+  return probe.radius_m >= 0 && std::isfinite(sum);
+}
+
+// Keeps the deepest of more than there is room for; the shallowest of those kept is first then.
+class Collected {
+ public:
+  explicit Collected(std::span<ContactHit> room) : room_(room) {}
+  void add(const ContactHit& hit) {
+    if (count_ < room_.size()) {
+      room_[count_++] = hit;
+      return;
+    }
+    if (count_++ == room_.size()) std::make_heap(room_.begin(), room_.end(), deeper);
+    if (room_.empty() || !deeper(hit, room_.front())) return;
+    std::pop_heap(room_.begin(), room_.end(), deeper);
+    room_.back() = hit;
+    std::push_heap(room_.begin(), room_.end(), deeper);
+  }
+  uint32_t count() const { return count_; }
+
+ private:
+  static bool deeper(const ContactHit& a, const ContactHit& b) { return a.gap_m < b.gap_m; }
+  std::span<ContactHit> room_;
+  uint32_t count_ = 0;
+};
+
+}  // namespace
+
+SurfaceContacts::~SurfaceContacts() { delete impl_; }
+SurfaceContacts::SurfaceContacts(SurfaceContacts&& other) noexcept
+    : impl_(std::exchange(other.impl_, nullptr)) {}
+SurfaceContacts& SurfaceContacts::operator=(SurfaceContacts&& other) noexcept {
+  std::swap(impl_, other.impl_);
+  return *this;
+}
+
+Status SurfaceContacts::create(const SurfaceContactsDef& def, SurfaceContacts* out) noexcept {
+  if (!out) return make_status(StatusCode::kInvalidArgument, "out is null; give where the contacts go");
+  Status status = check(def);
+  if (!status.ok()) return status;
+  SurfaceContacts made;
+  made.impl_ = new (std::nothrow) Impl;
+  if (!made.impl_ || !made.impl_->surfaces.reserve(def.max_surfaces)) {
+    return make_status(StatusCode::kOutOfCapacity, "no memory for %u surfaces", def.max_surfaces);
+  }
+  made.impl_->def = def;
+  made.impl_->filters.resize(def.max_owners);
+  // The caller's thread builds: no other is started, and the tree is the same on every run.
+  made.impl_->device = rtcNewDevice("threads=1");
+  if (!made.impl_->device)
+    return make_status(StatusCode::kUnsupported, "Embree cannot start on this machine");
+  *out = std::move(made);
+  return {};
+}
+
+Status SurfaceContacts::add_surface(const SurfaceDef& def, SurfaceId* out) noexcept {
+  if (!impl_) return empty();
+  if (!out) return make_status(StatusCode::kInvalidArgument, "out is null; give where the id goes");
+  if (impl_->surfaces.count() == impl_->surfaces.capacity()) {
+    return make_status(StatusCode::kOutOfCapacity, "%u surfaces are there; raise max_surfaces",
+                       impl_->surfaces.count());
+  }
+  std::unique_ptr<Surface> made;
+  const Status status = Surface::create(impl_->device, def, &made);
+  if (status.ok()) *out = impl_->surfaces.create(std::move(made));
+  return status;
+}
+
+Status SurfaceContacts::remove_surface(SurfaceId surface) noexcept {
+  if (!impl_) return empty();
+  if (!impl_->find(surface)) return stale();
+  impl_->surfaces.destroy(surface);
+  return {};
+}
+
+Status SurfaceContacts::move_surface(SurfaceId surface, const SurfacePose& pose) noexcept {
+  if (!impl_) return empty();
+  Surface* found = impl_->find(surface);
+  return found ? found->move(pose) : stale();
+}
+
+Status SurfaceContacts::set_filter(uint32_t owner, const SurfaceFilter& filter) noexcept {
+  if (!impl_) return empty();
+  if (owner >= impl_->filters.size()) {
+    return make_status(StatusCode::kInvalidArgument, "owner %u of %zu; raise max_owners", owner,
+                       impl_->filters.size());
+  }
+  if (filter.root_surface.index1 != 0 && !impl_->find(filter.root_surface)) return stale();
+  const float sum = filter.root_m[0] + filter.root_m[1] + filter.root_m[2] + filter.root_radius_m;
+  if (!(filter.root_radius_m >= 0) || !std::isfinite(sum)) {
+    return make_status(StatusCode::kInvalidArgument,
+                       "the root of owner %u is not finite, or its radius %g; give finite "
+                       "numbers and a radius of 0 or more",
+                       owner, static_cast<double>(filter.root_radius_m));
+  }
+  impl_->filters[owner] = filter;
+  return {};
+}
+
+Status SurfaceContacts::report(SurfaceId surface, SurfaceReport* out) const noexcept {
+  if (!impl_) return empty();
+  if (!out) return make_status(StatusCode::kInvalidArgument, "out is null; give where the report goes");
+  const Surface* found = impl_->find(surface);
+  if (!found) return stale();
+  *out = found->report();
+  return {};
+}
+
+uint64_t SurfaceContacts::probes_skipped() const noexcept { return impl_ ? impl_->skipped.load() : 0; }
+
+uint32_t SurfaceContacts::find(std::span<const ContactProbe> probes, float dt_s,
+                               std::span<ContactHit> hits) noexcept {
+  if (!impl_ || !(dt_s >= 0)) return 0;
+  Collected collected(hits);
+  for (uint32_t p = 0; p < probes.size(); ++p) {
+    if (!usable(probes[p])) {
+      ++impl_->skipped;
+      continue;
+    }
+    const SurfaceFilter& filter = impl_->filter_of(probes[p].owner);
+    for (uint32_t s = 0; s < impl_->surfaces.end(); ++s) {
+      const std::unique_ptr<Surface>* surface = impl_->surfaces.at(s);
+      if (!surface) continue;
+      const bool grows_here = filter.root_surface == impl_->surfaces.id_at(s);
+      ContactHit found[ProbeOnSurface::kMostContacts];
+      ProbeOnSurface look(**surface, probes[p], filter, grows_here, static_cast<double>(impl_->def.reach_m),
+                          static_cast<double>(dt_s));
+      const uint32_t count = look.find(found);
+      for (uint32_t i = 0; i < count; ++i) {
+        found[i].probe = p;
+        found[i].name += 3 * s;
+        found[i].body |= uint64_t{s + 1} << 32;
+        collected.add(found[i]);
+      }
+    }
+  }
+  return collected.count();
+}
+
+}  // namespace sinew

@@ -1,0 +1,94 @@
+// main.cpp  sinew-hair: hair over the shoulders of a turning character, as pictures and a line of figures.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+
+#include "baker/common/bad_input.hpp"
+#include "samples/hair/picture.hpp"
+#include "samples/render/layout.hpp"
+
+namespace {
+
+using namespace sinew;
+
+struct Request {
+  std::string folder;
+  std::vector<std::string> against;
+  uint32_t steps = 600;
+  size_t vertices = 6000;
+  sample::HairStyle style;
+  sample::HairPicture size;
+  std::vector<double> moments_s = {0, 2.2, 3.1, 4.3, 5.2, 6.3};
+};
+
+struct Named {
+  const char* name;
+  sample::Against against;
+  const char* title;
+};
+constexpr Named kAll[] = {{"nothing", sample::Against::kNothing, "Hair that collides with nothing"},
+                          {"proxies", sample::Against::kProxies, "Hair against capsules of the bones"},
+                          {"skin", sample::Against::kSkin, "Hair against the skinned mesh"}};
+
+void make_folder(const std::string& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (!error && std::filesystem::is_directory(path)) return;
+  throw baker::BadInput(path + ": cannot be made a folder; give -o another place");
+}
+
+void run(const Request& request, const Named& named) {
+  sample::Hair hair(request.style, named.against, request.vertices);
+  std::vector<render::Cell> cells;
+  const auto look = [&] {
+    if (cells.size() == request.moments_s.size() || hair.time_s() < request.moments_s[cells.size()] - 1e-3)
+      return;
+    char caption[32];
+    std::snprintf(caption, sizeof caption, "%.1f s", hair.time_s());
+    cells.push_back({sample::picture(hair, request.size), caption});
+  };
+  look();
+  for (uint32_t i = 0; i < request.steps; ++i) {
+    hair.step(true);
+    look();
+  }
+  std::printf("%s\n", sample::report_line(hair, named.name).c_str());
+  const std::string path =
+      std::filesystem::path(request.folder) / (std::string("hair_") + named.name + ".png");
+  render::write_png(path, render::contact_sheet(cells, 3, named.title));
+  std::printf("%s\n", path.c_str());
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Request request;
+  CLI::App app("Hair over the shoulders of a turning character, with how deep it goes below the skin.");
+  app.add_option("-o,--output", request.folder, "folder of the pictures")->required();
+  app.add_option("--against", request.against, "nothing, proxies, skin; without: all")
+      ->check(CLI::IsMember({"nothing", "proxies", "skin"}));
+  app.add_option("--steps", request.steps, "of a sixtieth of a second")->check(CLI::Range(1, 1000000));
+  app.add_option("--strands", request.style.strands, "locks of hair")->check(CLI::Range(1, 20000));
+  app.add_option("--segments", request.style.segments, "of each")->check(CLI::Range(2, 1000));
+  app.add_option("--vertices", request.vertices, "of the skin")->check(CLI::Range(200, 200000));
+  app.add_option("--width", request.size.width, "of each moment, pixels")->check(CLI::Range(16, 8192));
+  app.add_option("--height", request.size.height, "of each moment, pixels")->check(CLI::Range(16, 8192));
+  app.add_option("--samples", request.size.samples, "a pixel")->check(CLI::Range(1, 4096));
+  app.add_option("--yaw", request.size.yaw_deg, "0: from the front, 180: from behind");
+  try {
+    app.parse(argc, argv);
+    make_folder(request.folder);
+    for (const Named& named : kAll) {
+      const bool wanted =
+          std::find(request.against.begin(), request.against.end(), named.name) != request.against.end();
+      if (request.against.empty() || wanted) run(request, named);
+    }
+    return 0;
+  } catch (const CLI::CallForHelp& help) {
+    return app.exit(help);
+  } catch (const std::exception& problem) {
+    std::fprintf(stderr, "sinew-hair: %s\n", problem.what());
+    return 2;
+  }
+}

@@ -1,0 +1,214 @@
+// test_surface_contacts.cpp  Surfaces by id: what is refused, how they move, what it allocates, many threads.
+#include <cstring>
+#include <limits>
+#include <thread>
+
+#include "tests/embree/surface_scenes.hpp"
+#include "tests/pack/count_allocations.hpp"
+
+using namespace sinew;
+using namespace sinew::test;
+
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+std::vector<ContactProbe> probes_about(double radius_m, int count, uint32_t seed) {
+  std::mt19937 engine(seed);
+  std::vector<ContactProbe> out;
+  for (int i = 0; i < count; ++i) {
+    const Vector from = random_vector(engine, 1.2 * radius_m),
+                 to = rods::sum(from, random_vector(engine, 0.1));
+    out.push_back(probe(from, to, 0.02, random_vector(engine, 0.05)));
+  }
+  return out;
+}
+
+bool same(const std::vector<ContactHit>& a, const std::vector<ContactHit>& b) {
+  return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](const auto& x, const auto& y) {
+           return x.probe == y.probe && x.gap_m == y.gap_m && std::equal(x.normal, x.normal + 3, y.normal) &&
+                  x.along == y.along && x.name == y.name;
+         });
+}
+
+}  // namespace
+
+TEST_CASE("what_is_no_surface_no_pose_and_no_filter_is_refused_with_its_reason") {
+  SurfaceContacts empty, contacts;
+  SurfaceId id, none;
+  const MeshData mesh = box({1, 1, 1});
+  CHECK(empty.add_surface(mesh.def(), &id).code == StatusCode::kInvalidArgument);
+  CHECK(found(empty, ball_probe({1, 0, 0}, 0.1)).empty());
+  for (const SurfaceContactsDef& def : {SurfaceContactsDef{.max_surfaces = 0},
+                                        {.max_surfaces = 65536},
+                                        {.max_owners = (1u << 24) + 1},
+                                        {.reach_m = 0},
+                                        {.reach_m = kNan}}) {
+    CHECK(SurfaceContacts::create(def, &contacts).code == StatusCode::kInvalidArgument);
+  }
+  CHECK(SurfaceContacts::create({}, nullptr).code == StatusCode::kInvalidArgument);
+  REQUIRE(SurfaceContacts::create({.max_surfaces = 1, .max_owners = 2}, &contacts).ok());
+
+  std::vector<float> places = mesh.places, line = {0, 0, 0, 1, 0, 0, 2, 0, 0};
+  std::vector<uint32_t> missing = {0, 1, 8}, flat = {0, 1, 2}, inside_out = mesh.triangles, groups(3, 1u);
+  for (size_t i = 0; i < inside_out.size(); i += 3) std::swap(inside_out[i], inside_out[i + 1]);
+  std::vector<SurfaceDef> bad(9, mesh.def());
+  bad[0].triangles = {};
+  bad[1].triangles = std::span(mesh.triangles).first(4);
+  bad[2].rest_m = {};
+  bad[3].triangles = missing;
+  bad[4].triangles = flat, bad[4].rest_m = line;
+  bad[5].triangles = inside_out;
+  bad[6].groups = groups;
+  bad[7].friction = -1;
+  bad[8].restitution = 2;
+  for (const SurfaceDef& def : bad) {
+    const Status status = contacts.add_surface(def, &id);
+    CHECK(status.code == StatusCode::kInvalidArgument);
+    CHECK(std::strlen(status.message) > 20);
+    CHECK(id == none);
+  }
+  places[4] = kNan;
+  CHECK(contacts.add_surface({.triangles = mesh.triangles, .rest_m = places}, &id).code ==
+        StatusCode::kNotFinite);
+  CHECK(contacts.add_surface(mesh.def(), nullptr).code == StatusCode::kInvalidArgument);
+  REQUIRE(contacts.add_surface(mesh.def(), &id).ok());
+  CHECK(contacts.add_surface(mesh.def(), &none).code == StatusCode::kOutOfCapacity);
+
+  CHECK(contacts.move_surface(id, {.places_m = places}).code == StatusCode::kNotFinite);
+  CHECK(contacts.move_surface(id, {.places_m = line}).code == StatusCode::kInvalidArgument);
+  CHECK(contacts.move_surface(id, {.places_m = mesh.places, .dt_s = -1}).code ==
+        StatusCode::kInvalidArgument);
+  CHECK(contacts.move_surface(id, {.places_m = mesh.places, .origin_m = {0, HUGE_VAL, 0}}).code ==
+        StatusCode::kNotFinite);
+  CHECK(contacts.move_surface({}, {.places_m = mesh.places}).code == StatusCode::kStaleId);
+  CHECK(contacts.set_filter(2, {}).code == StatusCode::kInvalidArgument);
+  CHECK(contacts.set_filter(0, {.root_surface = {7, 1}}).code == StatusCode::kStaleId);
+  CHECK(contacts.set_filter(0, {.root_radius_m = kNan}).code == StatusCode::kInvalidArgument);
+  SurfaceReport report;
+  REQUIRE(contacts.report(id, &report).ok());
+  CHECK(report.triangles == 12);
+  CHECK(report.border_edges == 0);
+  CHECK(report.poses_refused == 4);
+  CHECK(found(contacts, ball_probe({1.09, 0, 0}, 0.1)).size() == 1);  // where it was
+
+  ContactProbe bad_probes[4];
+  for (ContactProbe& p : bad_probes) p = ball_probe({1.09, 0, 0}, 0.1);
+  bad_probes[0].radius_m = -1;
+  bad_probes[1].radius_m = kNan;
+  bad_probes[2].start_m[0][1] = static_cast<double>(kNan);
+  const std::vector<ContactHit> hits = found(contacts, bad_probes);
+  REQUIRE(hits.size() == 1);
+  CHECK(hits[0].probe == 3);
+  CHECK(contacts.probes_skipped() == 3);
+  CHECK(contacts.find(bad_probes, kNan, {}) == 0);
+
+  REQUIRE(contacts.remove_surface(id).ok());
+  CHECK(contacts.remove_surface(id).code == StatusCode::kStaleId);
+  CHECK(found(contacts, ball_probe({1.09, 0, 0}, 0.1)).empty());
+}
+
+TEST_CASE("triangles_that_lose_their_area_later_give_no_nan") {
+  const MeshData mesh = bumpy_ball(1, 2);
+  SurfaceId id;
+  SurfaceContacts contacts = contacts_of(mesh, &id);
+  MeshData flat = mesh;
+  for (size_t i = 0; i < flat.places.size(); i += 3) flat.places[i] = 0;   // a disc
+  for (size_t i = 0; i < flat.places.size() / 2; ++i) flat.places[i] = 0;  // and much of it a point
+  REQUIRE(contacts.move_surface(id, {.places_m = flat.places, .dt_s = 0.01f}).ok());
+  REQUIRE(contacts.move_surface(id, {.places_m = flat.places, .dt_s = 0.01f}).ok());
+  for (const ContactHit& hit : found(contacts, probes_about(1, 2000, 10))) {
+    CHECK(std::isfinite(hit.gap_m));
+    CHECK(rods::length(normal_of(hit)) == Approx(1).margin(1e-5));
+    CHECK(rods::finite(rods::vector_of(hit.velocity_m_s)));
+  }
+}
+
+TEST_CASE("a_refitted_surface_finds_what_one_built_there_finds") {
+  SurfaceId id, other;
+  SurfaceContacts moved = contacts_of(bumpy_ball(1, 4), &id);
+  MeshData now;
+  for (int i = 1; i <= 20; ++i) {
+    now = turned(bumpy_ball(1, 4, 0.1 * i), 0.05 * i);
+    REQUIRE(moved.move_surface(id, {.places_m = now.places, .dt_s = 0}).ok());
+  }
+  SurfaceContacts built = contacts_of(now, &other);
+  const std::vector<ContactProbe> probes = probes_about(1, 5000, 11);
+  const std::vector<ContactHit> a = found(moved, probes), b = found(built, probes);
+  CHECK(a.size() > 500);
+  REQUIRE(a.size() == b.size());
+  for (size_t i = 0; i < a.size(); ++i) {
+    CHECK(a[i].probe == b[i].probe);
+    CHECK(a[i].gap_m == Approx(b[i].gap_m).margin(1e-9));
+  }
+}
+
+TEST_CASE("far_from_the_origin_contacts_are_the_same") {
+  const MeshData mesh = bumpy_ball(1, 3);
+  SurfaceId id;
+  SurfaceContacts here = contacts_of(mesh, &id), far = contacts_of(mesh, &id);
+  const double origin = 1 << 20;  // 1,000 km; sums with it round at 1e-10
+  REQUIRE(far.move_surface(id, {.places_m = mesh.places, .origin_m = {origin, -origin, origin}}).ok());
+  std::vector<ContactProbe> probes = probes_about(1, 1000, 12), there = probes;
+  for (ContactProbe& p : there) {
+    for (size_t end = 0; end < 2; ++end) {
+      for (size_t k = 0; k < 3; ++k) {
+        p.start_m[end][k] += k == 1 ? -origin : origin;
+        p.end_m[end][k] += k == 1 ? -origin : origin;
+      }
+    }
+  }
+  const std::vector<ContactHit> a = found(here, probes), b = found(far, there);
+  REQUIRE(a.size() == b.size());
+  for (size_t i = 0; i < a.size(); ++i) CHECK(a[i].gap_m == Approx(b[i].gap_m).margin(1e-7));
+}
+
+TEST_CASE("a_surface_that_walks_away_with_its_origin_tells_its_velocity") {
+  const MeshData mesh = ball(0.1, 3);
+  for (const SurfaceTime time : {SurfaceTime::kTickEnd, SurfaceTime::kTickStart}) {
+    SurfaceId id;
+    SurfaceContacts contacts = contacts_of(mesh, &id);
+    REQUIRE(contacts.move_surface(id, {.places_m = mesh.places, .origin_m = {1000, 0, 0}, .dt_s = 0}).ok());
+    REQUIRE(contacts
+                .move_surface(
+                    id, {.places_m = mesh.places, .origin_m = {1000.05, 0, 0}, .dt_s = 0.01f, .time = time})
+                .ok());
+    const double start = time == SurfaceTime::kTickEnd ? 1000 : 1000.05;
+    const std::vector<ContactHit> hits = found(contacts, ball_probe({start, 0.109, 0}, 0.01), 0.01f);
+    REQUIRE(!hits.empty());
+    CHECK(hits[0].velocity_m_s[0] == Approx(5).epsilon(1e-3));
+    CHECK(hits[0].gap_m < 0);
+  }
+}
+
+TEST_CASE("where_room_is_short_the_deepest_contacts_are_kept") {
+  SurfaceId id;
+  SurfaceContacts contacts = contacts_of(box({1, 1, 1}), &id);
+  std::vector<ContactProbe> probes;
+  for (int i = 0; i < 50; ++i) probes.push_back(ball_probe({0, 1.05 + 0.001 * ((i * 37) % 50), 0}, 0.1));
+  std::vector<ContactHit> some(10);
+  CHECK(contacts.find(probes, 0.01f, some) == 50);
+  for (const ContactHit& hit : some) CHECK(hit.gap_m < -0.05 + 0.0101);
+  CHECK(contacts.find(probes, 0.01f, {}) == 50);
+}
+
+TEST_CASE("find_allocates_nothing_and_threads_find_the_same") {
+  SurfaceId id;
+  SurfaceContacts contacts = contacts_of(bumpy_ball(1, 5), &id);
+  const std::vector<ContactProbe> probes = probes_about(1, 4000, 13);
+  std::vector<ContactHit> hits(16 * probes.size());
+  const size_t before = allocation_count();
+  const uint32_t count = contacts.find(probes, 0.01f, hits);
+  CHECK(allocation_count() == before);
+  hits.resize(count);
+  std::vector<std::vector<ContactHit>> of_threads(8);
+  std::vector<std::thread> threads;
+  for (auto& out : of_threads) {
+    threads.emplace_back([&] {
+      out.resize(16 * probes.size());
+      out.resize(contacts.find(probes, 0.01f, out));
+    });
+  }
+  for (std::thread& t : threads) t.join();
+  for (const auto& out : of_threads) CHECK(same(out, hits));
+}
