@@ -1,6 +1,6 @@
 // ropes.cpp  Ropes of Sinew's rods and of Bullet's soft bodies, on the same moving bodies, in the same steps.
 //
-// usage: perf_contacts [repetitions]  writes a table of comma-separated values
+// usage: perf_ropes [repetitions]  writes a table of comma-separated values
 // Time is the thread's, of the world's step and the rope's together; the least of the repetitions' means.
 // Depth is geometry's, of all steps, of the capsules between nodes, in shares of the rope's radius; of nodes
 // alone as well, for these are what a soft body's contacts know. Stretch is the largest of any piece, and the

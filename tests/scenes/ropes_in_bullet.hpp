@@ -103,22 +103,24 @@ inline const Swing kBarSwing{.middle_m = {0, 0, 0}, .way_m = 0.15, .turn_rad = 0
 inline constexpr float kBarRadius_m = 0.2f;
 inline constexpr double kRopeHalf_m = 1.2, kRopeHeight_m = 0.35;
 
-// The drum, and a rope that begins on it, is wound twice about it and hangs down.
-inline const Swing kDrumSwing{.middle_m = {0, 0, 0}, .way_m = 0.25, .turn_rad = 5, .period_s = 8};
-inline constexpr float kDrumRadius_m = 0.15f;
+// The drum, and a rope that begins on it, is wound about it two and a half times and hangs down.
+inline const Swing kDrumSwing{.middle_m = {0, 1.6f, 0}, .way_m = 0.25, .turn_rad = 3, .period_s = 8};
+inline constexpr float kDrumRadius_m = 0.15f, kDrumHalf_m = 0.12f;
 
 inline std::vector<Eigen::Vector3d> wound_rope(float rope_radius_m) {
   constexpr uint32_t kTurn = 36;  // segments a turn
-  constexpr double kTurns = 2.5, kPitch_m = 0.045, kTail_m = 0.9;
+  constexpr double kTurns = 2.5, kPitch_m = 0.045, kTail_m = 0.8;
   const double half_angle = std::numbers::pi / kTurn;
-  const double radius = (static_cast<double>(kDrumRadius_m + rope_radius_m) + 1e-4) / std::cos(half_angle);
+  // Its corners stand out so far that its middles touch.
+  const double radius = static_cast<double>(kDrumRadius_m + rope_radius_m) / std::cos(half_angle);
+  const Eigen::Vector3d middle(0, static_cast<double>(kDrumSwing.middle_m.y()), 0);
   std::vector<Eigen::Vector3d> out;
   for (uint32_t i = 0; i <= kTurn * kTurns; ++i) {
-    const double angle = 2 * std::numbers::pi * i / kTurn;
-    out.push_back({-radius * std::cos(angle), radius * std::sin(angle), kPitch_m * i / kTurn - 0.06});
+    const double angle = 2 * std::numbers::pi * i / kTurn, along = kPitch_m * i / kTurn - 0.08;
+    out.push_back(middle + Eigen::Vector3d(-radius * std::cos(angle), radius * std::sin(angle), along));
   }
   const double step = 2 * radius * std::sin(half_angle);
-  while (out.back().y() > -kTail_m) out.push_back(out.back() - step * Eigen::Vector3d::UnitY());
+  while (out.back().y() > middle.y() - kTail_m) out.push_back(out.back() - step * Eigen::Vector3d::UnitY());
   return out;
 }
 
