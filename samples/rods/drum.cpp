@@ -86,7 +86,7 @@ Story drum(double seconds) {
               .title = {},
               .actors = {{rope.segments, {{0.55f, 0.10f, 0.08f}, {0.85f, 0.72f, 0.45f}, 18, 4}, {}}},
               .prop = drum_mesh(),
-              .view = {.yaw_deg = 35, .pitch_deg = 12}};
+              .view = {.yaw_deg = 58, .pitch_deg = 16}};
   run_scene(
       {.batch = &rope.batch,
        .collider = &rope.collider,

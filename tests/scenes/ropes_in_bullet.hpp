@@ -104,12 +104,12 @@ inline constexpr float kBarRadius_m = 0.2f;
 inline constexpr double kRopeHalf_m = 1.2, kRopeHeight_m = 0.35;
 
 // The drum, and a rope that begins on it, is wound about it two and a half times and hangs down.
-inline const Swing kDrumSwing{.middle_m = {0, 1.6f, 0}, .way_m = 0.25, .turn_rad = 3, .period_s = 8};
+inline const Swing kDrumSwing{.middle_m = {0, 1.05f, 0}, .way_m = 0.2, .turn_rad = 2, .period_s = 8};
 inline constexpr float kDrumRadius_m = 0.15f, kDrumHalf_m = 0.12f;
 
 inline std::vector<Eigen::Vector3d> wound_rope(float rope_radius_m) {
   constexpr uint32_t kTurn = 36;  // segments a turn
-  constexpr double kTurns = 2.5, kPitch_m = 0.045, kTail_m = 0.8;
+  constexpr double kTurns = 2.5, kPitch_m = 0.045, kTail_m = 0.5;
   const double half_angle = std::numbers::pi / kTurn;
   // Its corners stand out so far that its middles touch.
   const double radius = static_cast<double>(kDrumRadius_m + rope_radius_m) / std::cos(half_angle);
