@@ -43,8 +43,10 @@ struct MovingTriangle {
 struct TriangleTouch {
   double time;
   AxisOnTriangle at;
-  Vector normal;  // to the sweep; zero where the axis meets the triangle
-  double gap_m;   // then, between the surfaces
+  Vector normal;   // to the sweep; zero where the axis meets the triangle
+  double gap_m;    // then, between the surfaces
+  bool touches;
+  double arrives;  // when the gap will have closed, along the normal
 };
 TriangleTouch first_touch(const Sweep& sweep, const MovingTriangle& triangle) noexcept;
 
