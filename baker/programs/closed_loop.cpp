@@ -10,7 +10,7 @@ namespace sinew::baker {
 
 ClosedLoop::ClosedLoop(const LoadedPack& character, const TrueMotion& motion) : motion_(motion) {
   Status status = world::open_asset(character.bytes(), &asset_);
-  if (status.ok()) status = world::make_instance(asset_, {}, {}, 1, &instance_);
+  if (status.ok()) status = world::make_instance(asset_, {}, &instance_);
   if (!status.ok()) throw BadInput(status.message);
   step(Tier::kSkinning);  // the first pose was held; what the tissue feels begins with the next
 }

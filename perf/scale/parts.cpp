@@ -31,7 +31,7 @@ class Subject {
  public:
   explicit Subject(const demo::CharacterFile& character) : motion_(demo::make_motion(character, "")) {
     Status status = world::open_asset(character.file.bytes(), &asset_);
-    if (status.ok()) status = world::make_instance(asset_, {}, {}, 1, &instance_);
+    if (status.ok()) status = world::make_instance(asset_, {}, &instance_);
     if (!status.ok()) throw baker::BadInput(status.message);
     for (int frame = 0; frame < kWarmFrames; ++frame) pose(), step();
   }

@@ -129,14 +129,16 @@ double ProbeOnSurface::look(uint32_t triangle) noexcept {
 }
 
 // Whether a triangle stays behind what is touched best, along that touch's normal, for as long as it matters.
-bool ProbeOnSurface::is_beaten(const Touched& best, const Sweep& sweep, const MovingTriangle& m) const noexcept {
+bool ProbeOnSurface::is_beaten(const Touched& best, const Sweep& sweep,
+                               const MovingTriangle& m) const noexcept {
   const Vector& n = best.touch.normal;
   if (best.triangle == kNone || !(dot(n, n) > 0)) return false;
   for (const double time : {0.0, best.touch.touches ? best.touch.time : 1.0}) {
     const double axis = std::min(dot(n, between(sweep.start.from, sweep.end.from, time)),
                                  dot(n, between(sweep.start.to, sweep.end.to, time)));
     double most = -std::numeric_limits<double>::infinity();
-    for (size_t k = 0; k < 3; ++k) most = std::max(most, dot(n, scaled_sum(time, m.moves[k], m.start.corners[k])));
+    for (size_t k = 0; k < 3; ++k)
+      most = std::max(most, dot(n, scaled_sum(time, m.moves[k], m.start.corners[k])));
     if (axis - most - sweep.radius_m < best.touch.gap_m - kSame * sweep.radius_m) return false;
   }
   return true;

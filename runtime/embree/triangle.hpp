@@ -43,8 +43,8 @@ struct MovingTriangle {
 struct TriangleTouch {
   double time;
   AxisOnTriangle at;
-  Vector normal;   // to the sweep; zero where the axis meets the triangle
-  double gap_m;    // then, between the surfaces
+  Vector normal;  // to the sweep; zero where the axis meets the triangle
+  double gap_m;   // then, between the surfaces
   bool touches;
   double arrives;  // when the gap will have closed, along the normal
 };

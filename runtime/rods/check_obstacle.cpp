@@ -39,6 +39,12 @@ Status check_friction(Place place, float friction) {
              : refuse(place, "friction", static_cast<double>(friction), "give a finite number, 0 or more");
 }
 
+Status check_restitution(Place place, float restitution) {
+  return restitution >= 0 && restitution <= 1
+             ? Status{}
+             : refuse(place, "restitution", static_cast<double>(restitution), "give 0 to 1");
+}
+
 Status check_normal(Place place, const float (&n)[3]) {
   const double length = std::hypot(n[0], n[1], n[2]);
   return std::fabs(length - 1) <= kUnitTolerance
@@ -46,8 +52,11 @@ Status check_normal(Place place, const float (&n)[3]) {
              : refuse(place, "the length of normal", length, "give a unit vector");
 }
 
-Status check_surface(Place place, float friction, const ObstacleMotion& motion) {
-  Status status = check_friction(place, friction);
+template <class Obstacle>
+Status check_surface(Place place, const Obstacle& obstacle) {
+  const ObstacleMotion& motion = obstacle.motion;
+  Status status = check_friction(place, obstacle.friction);
+  if (status.ok()) status = check_restitution(place, obstacle.restitution);
   if (status.ok()) status = check_finite(place, "linear_m_s", motion.linear_m_s);
   if (status.ok()) status = check_finite(place, "angular_rad_s", motion.angular_rad_s);
   return status;
@@ -59,14 +68,14 @@ Status check_obstacle(const Plane& plane, uint32_t index) noexcept {
   const Place place = {"plane", index};
   Status status = check_finite(place, "point_m", plane.point_m);
   if (status.ok()) status = check_normal(place, plane.normal);
-  return status.ok() ? check_surface(place, plane.friction, plane.motion) : status;
+  return status.ok() ? check_surface(place, plane) : status;
 }
 
 Status check_obstacle(const Sphere& sphere, uint32_t index) noexcept {
   const Place place = {"sphere", index};
   Status status = check_finite(place, "middle_m", sphere.middle_m);
   if (status.ok()) status = check_radius(place, sphere.radius_m);
-  return status.ok() ? check_surface(place, sphere.friction, sphere.motion) : status;
+  return status.ok() ? check_surface(place, sphere) : status;
 }
 
 Status check_obstacle(const Capsule& capsule, uint32_t index) noexcept {
@@ -74,7 +83,7 @@ Status check_obstacle(const Capsule& capsule, uint32_t index) noexcept {
   Status status = check_finite(place, "ends_m", capsule.ends_m[0]);
   if (status.ok()) status = check_finite(place, "ends_m", capsule.ends_m[1]);
   if (status.ok()) status = check_radius(place, capsule.radius_m);
-  return status.ok() ? check_surface(place, capsule.friction, capsule.motion) : status;
+  return status.ok() ? check_surface(place, capsule) : status;
 }
 
 Status check_obstacle(const ContactPoint& point, uint32_t index) noexcept {
@@ -85,7 +94,8 @@ Status check_obstacle(const ContactPoint& point, uint32_t index) noexcept {
   if (!std::isfinite(point.gap_m)) return refuse(place, "gap_m", point.gap_m, "give a finite number");
   Status status = check_normal(place, point.normal);
   if (status.ok()) status = check_finite(place, "velocity_m_s", point.velocity_m_s);
-  return status.ok() ? check_friction(place, point.friction) : status;
+  if (status.ok()) status = check_friction(place, point.friction);
+  return status.ok() ? check_restitution(place, point.restitution) : status;
 }
 
 }  // namespace sinew::rods

@@ -43,6 +43,9 @@ Status check_settings(const ColliderSettings& s) {
   if (s.point_capacity > kMostContacts) {
     return bad_setting("point_capacity", s.point_capacity, "at most 2^24");
   }
+  if (s.source_capacity > kMostContacts) {
+    return bad_setting("source_capacity", s.source_capacity, "at most 2^24");
+  }
   return {};
 }
 
@@ -93,6 +96,13 @@ struct ColliderBuilder {
     if (all) {
       to.scratch_ = arena.take<float>(segments * (simd::kRodFields - simd::kRodKeptFields));
       to.hash_.lay_out(&arena, static_cast<uint32_t>(segments));
+    }
+    if (to.settings_.source_capacity > 0) {
+      to.probes_ = arena.take<ContactProbe>(segments);
+      to.probe_segments_ = arena.take<uint32_t>(segments);
+      to.hits_ = arena.take<ContactHit>(size_t{2} * to.settings_.source_capacity);
+      to.taken_ = arena.take<RodCollider::Taken>(to.settings_.source_capacity);
+      to.pushes_ = arena.take<double>(to.strand_count_);
     }
     *bytes = arena.used_bytes();
   }
@@ -165,6 +175,16 @@ Status RodCollider::set_points(std::span<const ContactPoint> points) noexcept {
                      : status;
 }
 
+Status RodCollider::set_source(ContactSource* source, uint32_t owner) noexcept {
+  if (source && settings_.source_capacity == 0) {
+    return core::make_status(StatusCode::kOutOfCapacity,
+                             "a contact source where the collider has no room for hits; create it with a "
+                             "ColliderSettings::source_capacity");
+  }
+  source_ = source, owner_ = owner;
+  return {};
+}
+
 bool RodCollider::fits(const RodBatch& batch) const noexcept {
   return strand_count_ == batch.strand_count_ && segment_count_ == batch.segment_count_ &&
          width_ == batch.width_;
@@ -192,7 +212,7 @@ void RodCollider::give(simd::RodJob* job, uint32_t group) const noexcept {
   job->touched = touched;
 }
 
-void RodCollider::begin_step() noexcept { contact_count_ = dropped_ = 0; }
+void RodCollider::begin_step() noexcept { contact_count_ = dropped_ = hit_count_ = bad_hits_ = 0; }
 
 void RodCollider::begin_range(const RodBatch& batch, uint32_t first_group, uint32_t groups,
                               float dt_s) noexcept {
@@ -200,6 +220,7 @@ void RodCollider::begin_range(const RodBatch& batch, uint32_t first_group, uint3
   ContactForces{*this, batch}.clear();
   range_ = {first_group, groups};
   first_contact_ = contact_count_;
+  first_hit_ = hit_count_;
   ContactFinder{*this, batch, static_cast<double>(dt_s)}.find();
   ContactForces{*this, batch}.begin();
 }
@@ -211,6 +232,7 @@ void RodCollider::end_range(const RodBatch& batch, float dt_s, RodReport* report
   const ContactForces forces{*this, batch};
   forces.forgive();
   for (int k = 0; k < kMostHolds && finder.find_holds(); ++k) forces.hold();
+  forces.place_hits();
   report->contacts_unconverged += forces.end();
 }
 
@@ -224,6 +246,7 @@ RodCollider::Kept* RodCollider::find_kept(uint64_t name) const noexcept {
 // Forces are what the next step's contacts of the same names start with; not those of strands that did not
 // converge.
 void RodCollider::end_step(float dt_s, RodReport* report) noexcept {
+  push(dt_s);
   ++steps_;
   const double per_square = 1 / (static_cast<double>(dt_s) * static_cast<double>(dt_s));
   for (uint32_t i = 0; i < contact_count_; ++i) {
@@ -237,6 +260,7 @@ void RodCollider::end_step(float dt_s, RodReport* report) noexcept {
   }
   report->contacts = contact_count_;
   report->contacts_dropped = dropped_;
+  report->bad_hits = bad_hits_;
   point_count_ = 0;
 }
 

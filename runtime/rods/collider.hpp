@@ -8,13 +8,13 @@
 // is looked at once more, and a strand whose axis would be in the core of a sphere or capsule stops on its
 // way there and counts as not converged: fast rods are caught, slower than momentum would have them. Between
 // two rods, and at given points, there is no such second look.
-// Forces of the last step are where the next one's begin. They are the collider's, not in
-// RodBatch::save_state: after a restore a step with contacts begins with other forces, and has the same bits
-// only from RodStart::kZero, or with a collider made anew at saving as well as after the restore.
+// Forces of the last step are where the next one's begin. They are the collider's: what is to go on with the
+// same bits saves and restores its state as well as the batch's.
 // One thread at a time with its batch. A step allocates nothing. Memory: some 400 bytes a contact; where rods
 // collide with one another some 800 bytes a segment besides, for all groups then iterate in turn.
 // Cost: each segment is swept in double precision in every step, near an obstacle or not.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
@@ -24,6 +24,7 @@
 #include "rods/spatial_hash.hpp"
 #include "rods/sweep.hpp"
 #include "simd/rod_job.hpp"
+#include "sinew/contact_source.hpp"
 
 namespace sinew::rods {
 
@@ -46,6 +47,9 @@ struct ColliderSettings {
   uint32_t contact_capacity = 0;
   uint32_t obstacle_capacity = 64;  // of planes, of spheres and of capsules; at most 65536
   uint32_t point_capacity = 256;    // given contacts; at most 2^24
+  // Hits of a source that a step takes, at most 2^24; 0: there is no source. Further ones are dropped and
+  // counted with contacts. 300 bytes a hit and, where rods collide, 120 a segment.
+  uint32_t source_capacity = 0;
 };
 
 class RodCollider {
@@ -64,10 +68,27 @@ class RodCollider {
   // point_capacity.
   Status set_points(std::span<const ContactPoint> points) noexcept;
 
+  // Asked in each step, until set again, with the free segments that are stepped at a time: all where rods
+  // collide, else a group of 16 strands or 4. Null: nobody is asked. `owner` goes into each probe.
+  // Again, with half their radius, for segments that were iterated to where they had not been looked for: a
+  // strand that would be through something is stopped on its way, and looked at again, three times at most.
+  // After the step push is told what each hit's contact did: minus what the rod felt; of a strand that did
+  // not converge, no more together than what moved it. Source and what it looks at outlive the steps.
+  // Refused: a source where source_capacity is 0; the last one then stays.
+  Status set_source(ContactSource* source, uint32_t owner = 0) noexcept;
+  // Where in the source's world the batch's places count from, 0 until set; finite. Obstacles and given
+  // points are in the batch's own.
+  void set_origin(const double (&origin_m)[3]) noexcept { std::copy_n(origin_m, 3, origin_m_); }
+
   // The forces that `from`'s contacts came to in its last step, with this one's own settings, obstacles and
   // points; contacts are known by their obstacles' indices. Refused: one made for other strands or segments,
   // one with more contact_capacity; its own forces then stay. Allocates nothing.
   Status take_state(const RodCollider& from) noexcept;
+  // The same as bytes, always state_bytes() of them: for snapshots, next to RodBatch::save_state.
+  size_t state_bytes() const noexcept;
+  void save_state(std::byte* out) const noexcept;
+  // Of what a collider for the same strands with the same contact_capacity saved.
+  void restore_state(const std::byte* from) noexcept;
 
  private:
   friend class RodBatch;
@@ -81,6 +102,13 @@ class RodCollider {
     double force_n;
     Vector drag_n;
   };
+  // What became of a source's hit.
+  struct Taken {
+    uint32_t contact;  // kNoContact: left out
+    Vector felt;       // force on the rod in the last iteration, times the step's square
+    Vector point_m;    // of the rod's surface, at the step's end
+  };
+  static constexpr uint32_t kNoContact = ~0u;
   // Of the strands being stepped: all of them where rods collide, else one group after the other.
   struct Range {
     uint32_t first_group, groups;
@@ -98,6 +126,7 @@ class RodCollider {
   uint32_t settle(const RodBatch& batch) noexcept;  // returns how many strands are not converged
   void end_range(const RodBatch& batch, float dt_s, RodReport* report) noexcept;
   void end_step(float dt_s, RodReport* report) noexcept;
+  void push(float dt_s) const noexcept;
   float* scratch(const RodBatch& batch, uint32_t group) const noexcept;
   // Of one lane; rows are width_ apart.
   float* scratch_row(const RodBatch& batch, uint32_t strand, uint32_t segment, uint32_t field) const noexcept;
@@ -133,6 +162,15 @@ class RodCollider {
   uint8_t* iterated_ = nullptr;  // [strands] moved by the last iteration
   float* scratch_ = nullptr;     // of all groups, where rods collide
   SpatialHash hash_;
+
+  ContactSource* source_ = nullptr;
+  double origin_m_[3] = {0, 0, 0};
+  uint32_t owner_ = 0, hit_count_ = 0, first_hit_ = 0, bad_hits_ = 0;
+  ContactProbe* probes_ = nullptr;      // [segments of a range]
+  uint32_t* probe_segments_ = nullptr;  // alike: as ContactFinder::local
+  ContactHit* hits_ = nullptr;          // [2 source_capacity] of the step; those of a second look behind
+  Taken* taken_ = nullptr;              // [source_capacity]
+  double* pushes_ = nullptr;            // [strands] sizes of what its hits felt
 };
 
 }  // namespace sinew::rods

@@ -11,6 +11,7 @@
 // one of rods that do not. Normals of the iterate were rejected: on a thin obstacle hit at speed they turn
 // faster than Newton follows.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 
 #include "rods/vector.hpp"
@@ -48,5 +49,25 @@ struct Contact {
 
   bool has_two_rods() const { return sides[1].segment != kNoSegment; }
 };
+
+// What a contact does at the last evaluation.
+struct ContactForce {
+  double press;
+  Vector drag;
+  double held;  // drag over what it would be without the limit
+};
+
+// Of friction Macklin et al. 2014, Eq. 24: along the slip, at most friction times the pressing force.
+inline ContactForce forces_of(const Contact& c) {
+  ContactForce f = {std::max(0.0, c.force - c.gain_kg * c.open_m), scaled_sum(-c.gain_kg, c.slip_m, c.drag),
+                    1};
+  const double most = c.friction * f.press, size = length(f.drag);
+  if (size > most) {
+    f.held = most / size;
+    f.drag = scaled(f.held, f.drag);
+  }
+  if (!(most > 0)) f = {f.press, {}, 0};
+  return f;
+}
 
 }  // namespace sinew::rods

@@ -13,24 +13,6 @@ constexpr double kDeep = 0.5;     // of a segment's radius
 constexpr double kAcross = 1.5;   // the same: next to where two rods' axes cross
 constexpr double kForgiven = 10;  // of the rods' tolerance
 
-struct Forces {
-  double press;
-  Vector drag;
-  double held;  // drag over what it would be without the limit
-};
-
-// Of friction Macklin et al. 2014, Eq. 24: along the slip, at most friction times the pressing force.
-Forces forces_of(const Contact& c) {
-  Forces f = {std::max(0.0, c.force - c.gain_kg * c.open_m), scaled_sum(-c.gain_kg, c.slip_m, c.drag), 1};
-  const double most = c.friction * f.press, size = length(f.drag);
-  if (size > most) {
-    f.held = most / size;
-    f.drag = scaled(f.held, f.drag);
-  }
-  if (!(most > 0)) f = {f.press, {}, 0};
-  return f;
-}
-
 }  // namespace
 
 uint32_t ContactForces::end_strand() const {
@@ -94,7 +76,7 @@ double ContactForces::tolerance_m(const Contact& c) const {
 bool ContactForces::take_over(Contact* c) const {
   const double force = c->force;
   const Vector drag = c->drag;
-  const Forces f = forces_of(*c);
+  const ContactForce f = forces_of(*c);
   if (to.changed_[c->sides[0].strand] || (c->has_two_rods() && to.changed_[c->sides[1].strand])) return false;
   c->force = f.press;
   c->drag = f.drag;
@@ -231,6 +213,7 @@ uint32_t ContactForces::settle() const noexcept {
     c.slip_before_m = c.slip_m;
     look(&c);
   }
+  find_felt();
   stop_at_new_contacts();
   for (const Contact& c : contacts()) {
     if (iterated(c)) find_change(c);
@@ -315,7 +298,7 @@ double ContactForces::miss() const noexcept {
   double largest = 0;
   for (uint32_t i = 0; i < to.contact_count_; ++i) {
     const Contact& c = to.contacts_[i];
-    const Forces f = forces_of(c);
+    const ContactForce f = forces_of(c);
     const double off = std::max(std::fabs(f.press - c.force), length(difference(f.drag, c.drag))) / c.gain_kg;
     largest = std::max(largest, off / static_cast<double>(batch.units_[c.sides[0].strand].length_m));
   }
@@ -349,7 +332,7 @@ void ContactForces::assemble_ended() const {
 }
 
 void ContactForces::add(const Contact& c) const {
-  const Forces f = forces_of(c);
+  const ContactForce f = forces_of(c);
   if (!(f.press > 0)) return;
   for (size_t side = 0; side < 2; ++side) {
     const Contact::Side& s = c.sides[side];

@@ -19,6 +19,8 @@ struct ContactForces {
   void forgive() const noexcept;
   // Strands whose way_ is below 1 end there; they count as not converged.
   void hold() const noexcept;
+  // Where the range's hits of a source touch at the iterate, and what they are pushed with.
+  void place_hits() const noexcept;
   // After the last: kLaneActive is again what the rods themselves said. Returns how many strands are not
   // converged by their contacts.
   uint32_t end() const noexcept;
@@ -37,6 +39,9 @@ struct ContactForces {
   float& active(uint32_t strand) const;
   Now now(const Contact& contact, size_t side) const;
   std::span<Contact> contacts() const;
+  void find_felt() const;
+  void limit_felt() const;
+  double moved_kg_m(uint32_t strand) const;
   void find_ways() const;
   void shorten(const Contact& contact, double start) const;
   void take_back(uint32_t strand) const;

@@ -34,8 +34,6 @@ constexpr int kCoreMoments = 256;
 // A gap that does not count as torn yet, of the strand's mean segment.
 constexpr double kHardlyTorn = 0.4;
 
-enum Kind : uint64_t { kPoint = 1, kPlane, kSphere, kCapsule, kRod };
-
 uint64_t mixed(uint64_t h, uint64_t value) {
   h = (h ^ value) * 0x9e3779b97f4a7c15u;
   return h ^ h >> 29;
@@ -83,7 +81,8 @@ double longest_way(const Sweep& s) {
 }
 
 Capsule capsule_of(const Sphere& s) {
-  Capsule point = {.radius_m = s.radius_m, .friction = s.friction, .motion = s.motion};
+  Capsule point = {
+      .radius_m = s.radius_m, .friction = s.friction, .motion = s.motion, .restitution = s.restitution};
   for (auto& end : point.ends_m) std::copy_n(s.middle_m, 3, end);
   return point;
 }
@@ -194,15 +193,39 @@ void ContactFinder::set_gain(Contact* c) const {
   }
 }
 
-// `depth_m` is the gap at the step's start where that is in penetration, else 0 or more.
-void ContactFinder::add(Contact c, double depth_m) const {
+// The least gap at the end of a step in which something hits that bounces: it leaves with its share of the
+// speed with which it came, from where the step began.
+double ContactFinder::rebound_m(const Contact& c, double restitution) const {
+  if (!(restitution > 0)) return 0;
+  const Contact::Side& s = c.sides[0];
+  const double l = static_cast<double>(batch.units_[s.strand].length_m);
+  const auto three = [&](uint32_t field) {
+    const auto value = [&](uint32_t k) {
+      return static_cast<double>(batch.at(s.strand, s.segment, field + k));
+    };
+    return Vector{value(0), value(1), value(2)};
+  };
+  Turn turn;
+  for (uint32_t k = 0; k < 4; ++k)
+    turn[k] = static_cast<double>(batch.at(s.strand, s.segment, simd::kRodTurn + k));
+  const Vector spin = turned(turn, three(simd::kRodSpin));
+  const Vector speed = scaled_sum(l, three(simd::kRodVelocity), scaled(s.along_m, cross(spin, s.axis)));
+  const double closing = dot(c.normal, c.obstacle_move) - dt_s * dot(c.normal, speed);
+  const bool bounces = closing > dt_s * static_cast<double>(kSlowestRebound_m_s) && closing > c.gap_m;
+  return bounces ? restitution * closing : 0;
+}
+
+// `depth_m` is the gap at the step's start where that is in penetration, else 0 or more. Null: no room.
+Contact* ContactFinder::add(Contact c, double depth_m, double restitution) const {
   if (to.contact_count_ == to.capacity_) {
     ++to.dropped_;
-    return;
+    return nullptr;
   }
   const double left = kLeftAlone * static_cast<double>(to.settings_.tolerance) * c.scale_m;
   const double pushed = static_cast<double>(to.settings_.largest_push_out_m_s) * dt_s;
   if (depth_m < 0) c.allowed_m = depth_m + std::min(pushed, std::max(0.0, -depth_m - left));
+  const double rebound = rebound_m(c, restitution);
+  if (rebound > 0) c.allowed_m = std::max(c.allowed_m, std::max(0.0, c.gap_m) + rebound);
   set_gain(&c);
   if (batch.settings_.start != RodStart::kZero) {
     const RodCollider::Kept& kept = *to.find_kept(c.name);
@@ -211,20 +234,29 @@ void ContactFinder::add(Contact c, double depth_m) const {
       c.drag = scaled(dt_s * dt_s, across(kept.drag_n, c.normal));
     }
   }
-  to.contacts_[to.contact_count_++] = c;
+  to.contacts_[to.contact_count_] = c;
+  return to.contacts_ + to.contact_count_++;
 }
 
-void ContactFinder::add_point(const ContactPoint& p) const {
-  if (p.strand < first_strand() || p.strand >= end_strand() || !free(p.strand, p.segment)) return;
+Contact* ContactFinder::add_point(const ContactPoint& p, uint64_t kind) const {
+  if (p.strand < first_strand() || p.strand >= end_strand() || !free(p.strand, p.segment)) return nullptr;
   const Sweep& s = to.sweeps_[local(p.strand, p.segment)];
-  Other other = {kPoint, p.name, 0, kNoSegment, {}, {}, {}, static_cast<double>(p.friction)};
+  const Other other = {kind,
+                       p.name,
+                       0,
+                       kNoSegment,
+                       {},
+                       {},
+                       {},
+                       static_cast<double>(p.friction),
+                       static_cast<double>(p.restitution)};
   const double half = 0.5 * length(difference(s.start.to, s.start.from));
   Contact c = made(p.strand, p.segment, half * static_cast<double>(p.along), other, 0);
   const Vector n = vector_of(p.normal);
   c.normal = scaled(1 / length(n), n);
   c.gap_m = p.gap_m;
   c.obstacle_move = scaled(dt_s, vector_of(p.velocity_m_s));
-  add(c, p.gap_m);
+  return add(c, p.gap_m, other.restitution);
 }
 
 void ContactFinder::add_end(const Plane& plane, const Other& other, uint32_t strand, uint32_t segment,
@@ -243,7 +275,7 @@ void ContactFinder::add_end(const Plane& plane, const Other& other, uint32_t str
   c.normal = n;
   c.gap_m = gap;
   c.obstacle_move = move;
-  add(c, gap);
+  add(c, gap, other.restitution);
 }
 
 // A joint's two ends are one point: the parent's touches, unless the child is thicker.
@@ -255,7 +287,8 @@ void ContactFinder::add_plane(const Plane& plane, uint32_t index) const {
                        {},
                        plane.motion,
                        {plane.point_m[0], plane.point_m[1], plane.point_m[2]},
-                       static_cast<double>(plane.friction)};
+                       static_cast<double>(plane.friction),
+                       static_cast<double>(plane.restitution)};
   for (uint32_t strand = first_strand(); strand < end_strand(); ++strand) {
     const float* radii = batch.radii_m_ + size_t{strand} * batch.segment_count_;
     for (uint32_t i = 0; i < batch.segment_count_; ++i) {
@@ -281,8 +314,15 @@ Sweep ContactFinder::sweep_of(const Capsule& capsule) const {
 void ContactFinder::add_capsule(const Capsule& capsule, uint64_t kind, uint32_t index) const {
   const Sweep sweep = sweep_of(capsule);
   const Vector middle = between(sweep.end.from, sweep.end.to, 0.5);
-  const Other other = {kind,  index,          0,      kNoSegment,
-                       sweep, capsule.motion, middle, static_cast<double>(capsule.friction)};
+  const Other other = {kind,
+                       index,
+                       0,
+                       kNoSegment,
+                       sweep,
+                       capsule.motion,
+                       middle,
+                       static_cast<double>(capsule.friction),
+                       static_cast<double>(capsule.restitution)};
   const SweptBox box = box_of(sweep, sweep.radius_m + kNearWay * longest_way(sweep));
   for (uint32_t strand = first_strand(); strand < end_strand(); ++strand) {
     if (!overlap(to.strand_boxes_[strand - first_strand()], box)) continue;
@@ -354,7 +394,7 @@ void ContactFinder::add_at(uint32_t strand, uint32_t segment, const Other& other
     const Vector slides = surface_move(other.motion, difference(surface, other.middle_m), dt_s);
     c.obstacle_move = scaled_sum(dot(normal, axis_move), normal, across(slides, normal));
   }
-  add(c, time > 0 ? 0 : gap_then_m);
+  add(c, time > 0 ? 0 : gap_then_m, other.restitution);
 }
 
 bool ContactFinder::overlap_at_rest(uint32_t strand, uint32_t i, uint32_t j) const {
@@ -388,7 +428,8 @@ void ContactFinder::add_pair(uint32_t i, uint32_t j) const {
                        to.sweeps_[j],
                        {},
                        {},
-                       static_cast<double>(to.settings_.rod_friction)};
+                       static_cast<double>(to.settings_.rod_friction),
+                       0};
   add_touch(strand_i, a, other);
 }
 
@@ -446,6 +487,7 @@ void ContactFinder::stop_torn(uint32_t strand) const {
 
 bool ContactFinder::find_holds() const noexcept {
   std::fill(to.ways_ + first_strand(), to.ways_ + end_strand(), 1.0);
+  if (to.source_) stop_at_hits();
   for (uint32_t i = 0; i < to.sphere_count_; ++i) stop_at_core(sweep_of(capsule_of(to.spheres_[i])));
   for (uint32_t i = 0; i < to.capsule_count_; ++i) stop_at_core(sweep_of(to.capsules_[i]));
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {
@@ -456,15 +498,16 @@ bool ContactFinder::find_holds() const noexcept {
 
 void ContactFinder::find() const noexcept {
   const uint32_t obstacles = to.point_count_ + to.plane_count_ + to.sphere_count_ + to.capsule_count_;
-  if (obstacles == 0 && !to.settings_.rods_collide) return;
+  if (obstacles == 0 && !to.source_ && !to.settings_.rods_collide) return;
   for (uint32_t strand = first_strand(); strand < end_strand(); ++strand) {
     for (uint32_t i = 0; i < batch.segment_count_; ++i) add_sweep(strand, i);
     to.strand_boxes_[strand - first_strand()] = strand_box(strand);
   }
-  for (uint32_t i = 0; i < to.point_count_; ++i) add_point(to.points_[i]);
+  for (uint32_t i = 0; i < to.point_count_; ++i) add_point(to.points_[i], kPoint);
   for (uint32_t i = 0; i < to.plane_count_; ++i) add_plane(to.planes_[i], i);
   for (uint32_t i = 0; i < to.sphere_count_; ++i) add_capsule(capsule_of(to.spheres_[i]), kSphere, i);
   for (uint32_t i = 0; i < to.capsule_count_; ++i) add_capsule(to.capsules_[i], kCapsule, i);
+  if (to.source_) add_hits();
   if (!to.settings_.rods_collide) return;
   to.hash_.build(to.boxes_, (end_strand() - first_strand()) * batch.segment_count_);
   to.hash_.for_pairs([this](uint32_t i, uint32_t j) { add_pair(i, j); });

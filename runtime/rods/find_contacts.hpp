@@ -26,10 +26,12 @@ struct ContactFinder {
   void find() const noexcept;
   // Of the iterate as the step's end: what share of its way each strand of the range goes before an axis
   // enters the core of a sphere or capsule, or before a strand that something presses on is torn, into ways_;
-  // that core's own move by then, into carries_. Returns whether any is to be held.
+  // that core's own move by then, into carries_. A source, which is asked where `ask`, stops axes at
+  // surfaces. Returns whether any is to be held.
   bool find_holds() const noexcept;
 
  private:
+  enum Kind : uint64_t { kPoint = 1, kPlane, kSphere, kCapsule, kRod, kHit };
   // What a segment touches: a segment, or an obstacle (segment is kNoSegment).
   struct Other {
     uint64_t kind, index;  // for the contact's name
@@ -37,7 +39,7 @@ struct ContactFinder {
     Sweep sweep;
     ObstacleMotion motion;
     Vector middle_m;  // that it turns about, at the step's end
-    double friction;
+    double friction, restitution;
   };
 
   uint32_t first_strand() const { return to.range_.first_group * batch.width_; }
@@ -57,9 +59,15 @@ struct ContactFinder {
   void stop_at_core(uint32_t strand, uint32_t segment, const Sweep& core) const;
   SweptBox strand_box(uint32_t strand) const;
   Contact made(uint32_t strand, uint32_t segment, double along, const Other& other, uint64_t feature) const;
-  void add(Contact contact, double depth_m) const;
+  Contact* add(Contact contact, double depth_m, double restitution) const;
+  double rebound_m(const Contact& contact, double restitution) const;
   void set_gain(Contact* contact) const;
-  void add_point(const ContactPoint& point) const;
+  Contact* add_point(const ContactPoint& point, uint64_t kind) const;
+  void add_hits() const;
+  void stop_at_hits() const;
+  void stop_at_hit(uint32_t strand, uint32_t segment, const ContactHit& hit) const;
+  void probe(uint32_t strand, uint32_t segment, const Sweep& sweep, uint32_t* count) const;
+  std::span<const ContactHit> ask(uint32_t probes, ContactHit* hits, uint32_t room, uint32_t* dropped) const;
   void add_plane(const Plane& plane, uint32_t index) const;
   void add_end(const Plane& plane, const Other& other, uint32_t strand, uint32_t segment, bool end) const;
   void add_capsule(const Capsule& capsule, uint64_t kind, uint32_t index) const;

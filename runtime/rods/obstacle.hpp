@@ -2,8 +2,8 @@
 //
 // All in the world. An obstacle's pose is that at the end of the coming step, and its velocity is what
 // brought it there, as with RodBatch::set_target; step() does not move it. `friction` is Coulomb's
-// coefficient, 0 or more, finite. Nothing bounces. What an obstacle hits it pushes; nothing pushes an
-// obstacle.
+// coefficient, 0 or more, finite. `restitution`, 0 to 1: what hits faster than kSlowestRebound_m_s leaves
+// with that share of its speed. What an obstacle hits it pushes; nothing pushes an obstacle.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -11,6 +11,9 @@
 #include "sinew/status.hpp"
 
 namespace sinew::rods {
+
+// Slower contacts do not bounce.
+inline constexpr float kSlowestRebound_m_s = 0.2f;
 
 struct ObstacleMotion {
   float linear_m_s[3] = {0, 0, 0};     // finite; of the plane's point, the sphere's or capsule's middle
@@ -23,6 +26,7 @@ struct Plane {
   float normal[3] = {0, 1, 0};  // unit vector, out of what is solid
   float friction = 0.5f;
   ObstacleMotion motion = {};
+  float restitution = 0;
 };
 
 struct Sphere {
@@ -30,6 +34,7 @@ struct Sphere {
   float radius_m = 0;  // above 0
   float friction = 0.5f;
   ObstacleMotion motion = {};
+  float restitution = 0;
 };
 
 // Both ends may be the same point: a sphere.
@@ -38,6 +43,7 @@ struct Capsule {
   float radius_m = 0;                            // above 0
   float friction = 0.5f;
   ObstacleMotion motion = {};
+  float restitution = 0;
 };
 
 // The door for other collision detection: one point of a segment against a half-space, at the step's start.
@@ -49,6 +55,7 @@ struct ContactPoint {
   float velocity_m_s[3] = {0, 0, 0};  // of the obstacle's surface there
   float friction = 0.5f;
   uint32_t name = 0;  // the same in the next step: the same contact, which starts with the force it had
+  float restitution = 0;
 };
 
 // kInvalidArgument or kNotFinite with kind, index, number and what to do about it.

@@ -103,8 +103,9 @@ struct RodReport {
   // of contacts' forces, gaps and slips (lengths) too; infinite where a strand had to be recovered. Otherwise
   // 0.
   float residual = 0;
-  // With a collider: contacts near enough to be looked at, and those that had no room.
-  uint32_t contacts = 0, contacts_dropped = 0;
+  // With a collider: contacts near enough to be looked at, and those that had no room; a source's hits that
+  // were left out because a number was out of its range.
+  uint32_t contacts = 0, contacts_dropped = 0, bad_hits = 0;
   uint32_t contacts_unconverged = 0;  // strands whose contacts, at the last iteration, were not exact enough
   // At the step's end, share of the segment's radius, as contacts measure it: along normals of the step.
   float deepest_penetration = 0;
@@ -168,7 +169,7 @@ class RodBatch {
   // dropped.
   void turn_all(const std::array<double, 4>& by_xyzw, const std::array<double, 3>& centre_m) noexcept;
   // What steps change, as bytes: after a restore into a batch of the same strands and settings the same steps
-  // give the same bits. With a collider see there: the forces it keeps are not among them.
+  // give the same bits. A collider has a state of its own.
   size_t state_bytes() const noexcept;
   void save_state(std::byte* out) const noexcept;
   void restore_state(const std::byte* from) noexcept;

@@ -9,6 +9,7 @@
 #include "sinew/types.hpp"
 #include "tissue/network.hpp"
 #include "world/rod_rig.hpp"
+#include "world/surface_patches.hpp"
 
 namespace sinew::world {
 
@@ -18,6 +19,7 @@ struct Asset {
   tissue::Network network;  // without layers where the character has none
   tissue::Graph graph;
   RodRig rods;
+  SurfacePatches patches;  // made with the first instance that has contacts
   double tick_s = 0;
   uint64_t fingerprint = 0;      // of all of the pack's bytes
   uint32_t padded_vertices = 0;  // carried vertices of all regions, each region padded

@@ -13,8 +13,10 @@
 #include "tissue/network.hpp"
 #include "tissue/node_drive.hpp"
 #include "world/publish.hpp"
+#include "world/push_surface.hpp"
 #include "world/rod_batches.hpp"
 #include "world/rod_blend.hpp"
+#include "world/rod_contacts.hpp"
 #include "world/rod_sleep.hpp"
 #include "world/sleep.hpp"
 
@@ -53,7 +55,20 @@ void lay_out_state(const Asset& asset, core::Arena& arena, Instance& to) noexcep
   to.rod_hold_asleep = arena.take<double>(size_t{3} * asset.rods.rod_count);
   for (double*& rest : to.rod_rest) rest = arena.take<double>(4 * slots);
   for (double*& hold : to.rod_hold) hold = arena.take<double>(size_t{3} * asset.rods.rod_count);
+  if (to.contacts.source) {
+    to.pushes = arena.take<float>(size_t{3} * asset.padded_vertices);
+    to.pushed = arena.take<uint32_t>(asset.pack.regions.size());
+  }
   to.state_bytes = arena.used_bytes();
+}
+
+void lay_out_contacts(const Asset& asset, core::Arena& arena, Instance& to) noexcept {
+  to.probes = arena.take<ContactProbe>(kProbesAtOnce);
+  to.hits = arena.take<ContactHit>(kHitsAtOnce);
+  to.touches = arena.take<Touch>(size_t{2} * asset.patches.vertex_count);
+  to.flesh = arena.take<float>(size_t{3} * asset.node_count());
+  to.deepest = arena.take<uint32_t>(asset.node_count());
+  to.carries_pushes = arena.take<uint8_t>(asset.pack.regions.size());
 }
 
 void lay_out_scratch(const Asset& asset, core::Arena& arena, Instance& to) noexcept {
@@ -86,6 +101,7 @@ void lay_out_scratch(const Asset& asset, core::Arena& arena, Instance& to) noexc
 void lay_out(const Asset& asset, core::Arena& arena, Instance& to) noexcept {
   lay_out_state(asset, arena, to);
   lay_out_scratch(asset, arena, to);
+  if (to.contacts.source) lay_out_contacts(asset, arena, to);
 }
 
 }  // namespace
@@ -108,10 +124,13 @@ size_t instance_bytes(const Asset& asset) noexcept {
   return measure.used_bytes() + rod_batch_bytes(asset);
 }
 
-Status make_instance(Asset& asset, AssetId asset_id, const RootTransform& root, float importance,
-                     Instance* out) noexcept {
+Status make_instance(Asset& asset, const InstanceDef& def, Instance* out) noexcept {
   core::Arena measure;
   Instance made;
+  made.contacts = def.contacts;
+  if (made.contacts.source && !asset.patches.first) {
+    if (Status status = make_surface_patches(asset.pack, &asset.patches); !status.ok()) return status;
+  }
   lay_out(asset, measure, made);
   const size_t bytes = measure.used_bytes();
   made.memory = core::AlignedBlock(bytes);
@@ -122,13 +141,14 @@ Status make_instance(Asset& asset, AssetId asset_id, const RootTransform& root, 
   core::Arena arena(made.memory.data());
   lay_out(asset, arena, made);
   made.asset = &asset;
-  made.asset_id = asset_id;
+  made.asset_id = def.asset;
   new (made.state) InstanceState();
-  made.state->root = root;
-  made.state->importance = frame::sane_importance(importance);
+  made.state->root = def.root;
+  made.state->importance = frame::sane_importance(def.importance);
   bind_pose(asset.pack.joints, made.joints);
   std::copy_n(made.joints, asset.pack.character->joint_count, made.joints_before);
   forget_rods(made);
+  if (Status status = make_rod_colliders(made); !status.ok()) return status;
   publish(made);
   *out = std::move(made);
   return {};
@@ -141,6 +161,7 @@ void forget_motion(Instance& instance) noexcept {
   std::memset(instance.tail, 0, bytes);
   std::memset(instance.tail_velocity, 0, bytes);
   forget_rods(instance);
+  forget_pushes(instance);
   state.at_start = 1;
   state.motion_stale = 1;
   state.restarting = 0;
@@ -170,6 +191,12 @@ InstanceReport describe(const Instance& instance, InstanceId id) noexcept {
           .regions_asleep = frame::is_simulated(state.tier) ? regions_asleep(instance) : 0,
           .rod_recoveries = state.rod_recoveries,
           .rods_asleep = frame::is_simulated(state.tier) ? rods_asleep(instance) : 0,
+          .rod_contacts = instance.told.rod_contacts,
+          .vertices_touched = instance.told.vertices,
+          .contacts_refused = instance.told.refused,
+          .contacts_dropped = instance.told.dropped,
+          .contact_volume_m3 = instance.told.volume_m3,
+          .deepest_penetration_m = instance.told.deepest_m,
           .cost_us = core::microseconds(instance.times.total_ns)};
 }
 

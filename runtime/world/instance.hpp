@@ -7,7 +7,9 @@
 
 #include "core/aligned_block.hpp"
 #include "frame/tick_clock.hpp"
+#include "rods/collider.hpp"
 #include "rods/rod_batch.hpp"
+#include "sinew/contact_source.hpp"
 #include "sinew/types.hpp"
 #include "tissue/node_pose.hpp"
 #include "world/asset.hpp"
@@ -28,6 +30,8 @@ inline constexpr uint32_t kRememberedTicks = 2;
 inline constexpr float kCarryDamping = 0.6f;
 // In a row; beyond it the network's state is taken for worthless.
 inline constexpr uint32_t kMostClampedTicks = 60;
+// Of a contact source, in one question.
+inline constexpr uint32_t kProbesAtOnce = 128, kHitsAtOnce = 2 * kProbesAtOnce;
 inline constexpr uint32_t kFallbackTicks = 60;  // on the modal base, after a network's state was given up
 
 // The part of the state that is not an array. Plain bytes: saved and restored as they are.
@@ -66,6 +70,24 @@ struct InstanceTimes {
   uint64_t drive_ns = 0, tissue_ns = 0, rods_ns = 0, publish_ns = 0, total_ns = 0;
 };
 
+// What was touched in the last tick; not state.
+struct Touches {
+  uint32_t rod_contacts = 0;
+  uint32_t vertices = 0;  // touched, or pushed out
+  uint32_t refused = 0;   // the source's answers that were none
+  uint32_t dropped = 0;   // contacts there was no room for
+  float volume_m3 = 0;    // that contacts took from the soft parts
+  float deepest_m = 0;    // that a vertex is left inside
+};
+
+// One vertex against one half-space in a tick.
+struct Touch {
+  uint32_t region, node, vertex;  // of the character; in its surface's patches
+  float normal[3] = {};           // world, out of what is touched
+  float gap_m = 0;                // where nothing presses
+  float place_m[3] = {};          // is there, from the tick's root
+};
+
 // What a step will do with an instance; set before the tasks run.
 struct InstancePlan {
   frame::TickPlan ticks;
@@ -89,7 +111,9 @@ struct Instance {
   bool displaced = false;                                  // published displacement is not zero everywhere
   bool rods_anew = false;   // in this tick: rods are taken to where they are shown before they go on
   bool rods_shown = false;  // published joints are not the pose's
-  std::unique_ptr<rods::RodBatch[]> rod_batches;  // their state is saved beside the run of bytes below
+  ContactDef contacts;      // without a source, the arrays of contacts have no memory
+  std::unique_ptr<rods::RodBatch[]> rod_batches;       // their state is saved beside the run of bytes below
+  std::unique_ptr<rods::RodCollider[]> rod_colliders;  // [batches], theirs too; null: rods touch nothing
 
   // State: one run of bytes from `state` on.
   InstanceState* state = nullptr;
@@ -110,6 +134,10 @@ struct Instance {
   // Of the last two ticks, newest first: [slots][4] segments' orientations in the world at rest, [rods][3]
   // where their holders end, from rod_anchor_m.
   double *rod_rest[2] = {}, *rod_hold[2] = {};
+  // Of soft parts that touch something: how vertices are pushed, laid out and along axes as `carried`, and
+  // whether any of a region's is.
+  float* pushes = nullptr;
+  uint32_t* pushed = nullptr;  // [regions]
   size_t state_bytes = 0;
 
   // Scratch of a step.
@@ -121,6 +149,16 @@ struct Instance {
   float *inputs = nullptr, *network_scratch = nullptr;
   float* region[2] = {};             // [widest_region]: one region's x y z and modes
   tissue::NodeRun* awake = nullptr;  // [regions]
+
+  float tick_rotation[4] = {0, 0, 0, 1};  // of the tick's root
+  ContactProbe* probes = nullptr;         // [kProbesAtOnce]
+  ContactHit* hits = nullptr;             // [kHitsAtOnce]
+  Touch* touches = nullptr;               // [2 carried vertices]
+  uint32_t touch_count = 0;
+  float* flesh = nullptr;             // [nodes][3]: displacement along the axes of the flesh
+  uint32_t* deepest = nullptr;        // [nodes]: of touches
+  uint8_t* carries_pushes = nullptr;  // [regions]: `carried` has pushes in it
+  Touches told;
 
   double* rod_end[2] = {};  // [slots][3] where segments end, as they are taken along
 
@@ -137,10 +175,9 @@ struct Instance {
   float shown_share() const noexcept { return simulated_share() + (1 - simulated_share()) * tail_share(); }
 };
 
-size_t instance_bytes(const Asset& asset) noexcept;
+size_t instance_bytes(const Asset& asset) noexcept;  // without contacts
 // In its bind pose, at rest. kOutOfCapacity when memory is short.
-Status make_instance(Asset& asset, AssetId asset_id, const RootTransform& root, float importance,
-                     Instance* out) noexcept;
+Status make_instance(Asset& asset, const InstanceDef& def, Instance* out) noexcept;
 
 // Forgets motion and displacement; the next pose is taken as having been held for ever. Counters stay.
 void forget_motion(Instance& instance) noexcept;

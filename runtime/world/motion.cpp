@@ -159,6 +159,7 @@ void push_pose(Instance& instance, double share) noexcept {
   pose_nodes(instance, joints, root);
   rest_rods(instance, joints, root);
   std::copy_n(root.position_m, 3, roots[0]);
+  std::copy_n(root.rotation_xyzw, 4, instance.tick_rotation);
 }
 
 }  // namespace

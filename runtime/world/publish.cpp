@@ -24,6 +24,17 @@ bool carry_on(Instance& instance, const pack::RegionRecord& region) noexcept {
   return changed != 0;
 }
 
+// Vertices that touched something in the last tick. True when `carried` has to be made anew for it.
+bool takes_pushes(const Instance& instance, size_t r) noexcept {
+  return instance.contacts.source && (instance.pushed[r] || instance.carries_pushes[r]);
+}
+
+void add_pushes(Instance& instance, size_t r, size_t first, float* carried) noexcept {
+  const size_t floats = size_t{3} * instance.asset->pack.regions[r].padded_vertices;
+  instance.carries_pushes[r] = instance.pushed[r] != 0;
+  for (size_t i = 0; i < floats; ++i) carried[i] += instance.pushes[first + i];
+}
+
 }  // namespace
 
 void publish(Instance& instance) noexcept {
@@ -33,10 +44,13 @@ void publish(Instance& instance) noexcept {
   instance.displaced = instance.shown_share() > 0;
   if (!instance.displaced) return;
   float* carried = instance.carried;
-  for (const pack::RegionRecord& region : pack.regions) {
-    if (carry_on(instance, region))
+  for (size_t r = 0; r < pack.regions.size(); ++r) {
+    const pack::RegionRecord& region = pack.regions[r];
+    const bool moved = carry_on(instance, region), pushed = takes_pushes(instance, r);
+    if (moved || pushed)
       simd::kernels().carry(pack.carry.data() + region.carry, region.node_count, region.padded_vertices,
                             instance.delta + size_t{3} * region.first_node, carried);
+    if (pushed) add_pushes(instance, r, static_cast<size_t>(carried - instance.carried), carried);
     carried += size_t{3} * region.padded_vertices;
   }
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "world/pose.hpp"
+#include "world/rod_contacts.hpp"
 #include "world/rod_sleep.hpp"
 #include "world/rotation.hpp"
 
@@ -183,8 +184,12 @@ void simulate_rods(Instance& instance, float sleep_tolerance) noexcept {
   for (uint32_t rod = 0; rod < rig.rod_count; ++rod) drive_rod(instance, rod);
   for (uint32_t b = 0; b < rig.batch_count; ++b) {
     rods::RodReport report;
-    (void)instance.rod_batches[b].step(static_cast<float>(instance.asset->tick_s), &report);
+    (void)instance.rod_batches[b].step(static_cast<float>(instance.asset->tick_s), rod_collider(instance, b),
+                                       &report);
     instance.state->rod_recoveries += report.rejoined + report.recovered;
+    instance.told.rod_contacts += report.contacts;
+    instance.told.refused += report.bad_hits;
+    instance.told.dropped += report.contacts_dropped;
   }
   read_turns(instance);
   watch_rods(instance, sleep_tolerance);

@@ -83,6 +83,7 @@ void fill_slots(const pack::PackView& pack, uint32_t rod, const Matrix34* bind, 
     slot.joint = joint;
     slot.parent = first + def.parent;
     slot.bone = segments[s].joint;
+    slot.radius_m = def.radius_m;
     slot.length_m = def.length_m;
     slot.damping_s = def.damping_s;
     slot.mass_kg = static_cast<float>(rods::segment_inertia(def).mass_kg);

@@ -18,7 +18,7 @@ struct RodSlot {
   uint32_t joint;         // whose rotation it follows at rest: the bone's, for a link the one it hangs on
   uint32_t parent;        // slot; a holder's is itself
   uint32_t bone;          // its own joint; kNoIndex for holders and links
-  float length_m, mass_kg, damping_s;
+  float length_m, radius_m, mass_kg, damping_s;
 };
 
 // Rods of one shape are strands of one batch.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "world/rod_contacts.hpp"
+
 namespace sinew::world {
 namespace {
 
@@ -63,8 +65,10 @@ uint32_t rods_asleep(const Instance& instance) noexcept {
 
 bool rods_sleep_on(Instance& instance, float tolerance) noexcept {
   uint32_t& quiet_ticks = instance.state->rod_quiet_ticks;
-  if (tolerance > 0 && quiet_ticks > 0 && is_held_alike(instance, static_cast<double>(tolerance)))
-    return quiet_ticks >= kRodsQuietTicks;
+  const bool alike =
+      tolerance > 0 && quiet_ticks > 0 && is_held_alike(instance, static_cast<double>(tolerance));
+  const bool sleeps = alike && quiet_ticks >= kRodsQuietTicks;
+  if (alike && !(sleeps && something_is_near_rods(instance))) return sleeps;
   const RodRig& rig = instance.asset->rods;
   quiet_ticks = 0;
   std::copy_n(instance.rod_rest[0], size_t{4} * rig.slot_count, instance.rod_asleep);
@@ -74,7 +78,8 @@ bool rods_sleep_on(Instance& instance, float tolerance) noexcept {
 
 void watch_rods(Instance& instance, float tolerance) noexcept {
   uint32_t& quiet_ticks = instance.state->rod_quiet_ticks;
-  const bool quiet = tolerance > 0 && stays(instance, static_cast<double>(tolerance));
+  const bool free = instance.told.rod_contacts == 0;
+  const bool quiet = tolerance > 0 && free && stays(instance, static_cast<double>(tolerance));
   quiet_ticks = quiet ? quiet_ticks + 1 : 0;
 }
 

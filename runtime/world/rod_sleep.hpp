@@ -1,8 +1,10 @@
 // rod_sleep.hpp  Rods at rest are not stepped, as regions at rest are not (world/sleep.hpp).
 //
-//   quiet   in a tick: every rod is held and shaped as when the quiet began, within the tolerance times its
+//   quiet   in a tick: no rod touches anything, every one is held and shaped as when the quiet began, within
+//   the tolerance times its
 //           length and in radians, and no segment turned by more than a tenth of the tolerance
-//   asleep  after kRodsQuietTicks quiet ticks in a row, as long as they are held and shaped so
+//   asleep  after kRodsQuietTicks quiet ticks in a row, as long as they are held and shaped so and nothing
+//           comes near (world/rod_contacts.hpp)
 // A tolerance of 0: never.
 #pragma once
 #include "world/instance.hpp"

@@ -15,8 +15,8 @@ using core::make_status;
 
 constexpr uint64_t kMagic = 0x31544154534e5753;  // "SWNSTAT1", little-endian
 // Of InstanceState, the arrays after it and the rods' batches. 4: which regions sleep, and what they felt
-// when they fell asleep. 5: rods.
-constexpr uint32_t kVersion = 5;
+// when they fell asleep. 5: rods. 6: how vertices are pushed, and contacts' forces.
+constexpr uint32_t kVersion = 6;
 
 struct Header {
   uint64_t magic, fingerprint, payload_bytes, checksum;
@@ -32,6 +32,9 @@ void save_rods(const Instance& instance, std::byte* out) noexcept {
   for (uint32_t b = 0; b < instance.asset->rods.batch_count; ++b) {
     instance.rod_batches[b].save_state(out);
     out += instance.rod_batches[b].state_bytes();
+    if (!instance.rod_colliders) continue;
+    instance.rod_colliders[b].save_state(out);
+    out += instance.rod_colliders[b].state_bytes();
   }
 }
 
@@ -39,13 +42,18 @@ void restore_rods(Instance& instance, const std::byte* from) noexcept {
   for (uint32_t b = 0; b < instance.asset->rods.batch_count; ++b) {
     instance.rod_batches[b].restore_state(from);
     from += instance.rod_batches[b].state_bytes();
+    if (!instance.rod_colliders) continue;
+    instance.rod_colliders[b].restore_state(from);
+    from += instance.rod_colliders[b].state_bytes();
   }
 }
 
 size_t payload_bytes(const Instance& instance) noexcept {
   size_t bytes = instance.state_bytes;
-  for (uint32_t b = 0; b < instance.asset->rods.batch_count; ++b)
+  for (uint32_t b = 0; b < instance.asset->rods.batch_count; ++b) {
     bytes += instance.rod_batches[b].state_bytes();
+    if (instance.rod_colliders) bytes += instance.rod_colliders[b].state_bytes();
+  }
   return bytes;
 }
 

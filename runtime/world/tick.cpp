@@ -7,9 +7,11 @@
 #include "world/blend.hpp"
 #include "world/motion.hpp"
 #include "world/publish.hpp"
+#include "world/push_surface.hpp"
 #include "world/rod_motion.hpp"
 #include "world/simulate.hpp"
 #include "world/sleep.hpp"
+#include "world/tissue_contacts.hpp"
 
 namespace sinew::world {
 namespace {
@@ -21,7 +23,10 @@ void simulated_tick(Instance& instance, double time_s, const TickContext& contex
   drive_nodes(instance);
   const uint64_t driven_ns = core::now_ns(clock);
   watch_drive(instance, context.sleep_tolerance);
-  if (!simulate_tick(instance)) restart(instance);
+  if (simulate_tick(instance))
+    touch_tissue(instance);
+  else
+    restart(instance);
   watch_motion(instance, context.sleep_tolerance);
   const uint64_t soft_ns = core::now_ns(clock);
   if (frame::is_simulated(instance.state->tier)) simulate_rods(instance, context.sleep_tolerance);
@@ -42,6 +47,7 @@ void run_ticks(Instance& instance, const TickContext& context) noexcept {
       state.motion_stale = 1;
     state.ticks_since_network = state.tier == Tier::kNetwork ? 0 : state.ticks_since_network + 1;
     show_tick(instance);
+    push_surface(instance);
     state.untouched = 0;
   }
   state.remainder_s = ticks.remainder_s;

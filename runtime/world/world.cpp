@@ -189,15 +189,14 @@ Status World::create_instance(const InstanceDef& def, InstanceId* out) noexcept 
   if (Status status = find_asset(impl_, def.asset, &asset); !status.ok()) return status;
   if (!out) return invalid("create_instance: out is a null pointer");
   if (busy(*impl_)) return refuse_busy();
-  RootTransform root;
-  if (Status status = world::check_root(def.root, &root); !status.ok()) return status;
+  InstanceDef checked = def;
+  if (Status status = world::check_root(def.root, &checked.root); !status.ok()) return status;
   if (impl_->instances.count() == impl_->instances.capacity()) {
     return make_status(StatusCode::kOutOfCapacity, "create_instance: max_instances (%u) live",
                        impl_->instances.capacity());
   }
   Instance made;
-  if (Status status = world::make_instance(*asset, def.asset, root, def.importance, &made); !status.ok())
-    return status;
+  if (Status status = world::make_instance(*asset, checked, &made); !status.ok()) return status;
   const InstanceId id = impl_->instances.create(std::move(made));
   if (is_null(id))
     return make_status(StatusCode::kOutOfCapacity, "create_instance: every slot's generations are used up");

@@ -16,8 +16,10 @@ ALLOWED = {
     "rods": {"core", "pack", "simd"},
     "frame": {"core", "pack", "simd", "tissue", "rods"},
     "world": {"core", "pack", "simd", "tissue", "rods", "frame"},
-    "embree": {"core", "pack", "simd", "tissue", "rods", "frame", "world"},
     "include": set(),
+    # Adapters to other libraries; the core knows none of them.
+    "embree": {"core", "pack", "simd", "tissue", "rods", "frame", "world"},
+    "bullet": {"core", "pack", "simd", "tissue", "rods", "frame", "world"},
 }
 # The offline rooms, in the same way; every one may include baker/common and the runtime.
 BAKER = {

@@ -25,6 +25,8 @@ const Bad<rods::Plane> kPlanes[] = {
     {"plane 3: the length of normal is nan", [](auto& p) { p.normal[0] = kNan; }},
     {"plane 3: friction is -1", [](auto& p) { p.friction = -1; }},
     {"plane 3: friction is inf", [](auto& p) { p.friction = HUGE_VALF; }},
+    {"plane 3: restitution is -0.1; give 0 to 1", [](auto& p) { p.restitution = -0.1f; }},
+    {"plane 3: restitution is nan", [](auto& p) { p.restitution = kNan; }},
     {"plane 3: linear_m_s is inf", [](auto& p) { p.motion.linear_m_s[2] = HUGE_VALF; }},
     {"plane 3: angular_rad_s is nan", [](auto& p) { p.motion.angular_rad_s[0] = kNan; }},
 };
@@ -34,6 +36,7 @@ const Bad<rods::Sphere> kSpheres[] = {
     {"sphere 3: radius_m is -1", [](auto& s) { s.radius_m = -1; }},
     {"sphere 3: radius_m is nan", [](auto& s) { s.radius_m = kNan; }},
     {"sphere 3: friction is nan", [](auto& s) { s.friction = kNan; }},
+    {"sphere 3: restitution is 2", [](auto& s) { s.restitution = 2; }},
     {"sphere 3: linear_m_s is nan", [](auto& s) { s.motion.linear_m_s[0] = kNan; }},
 };
 const Bad<rods::Capsule> kCapsules[] = {
@@ -41,6 +44,7 @@ const Bad<rods::Capsule> kCapsules[] = {
     {"capsule 3: ends_m is inf", [](auto& c) { c.ends_m[1][2] = HUGE_VAL; }},
     {"capsule 3: radius_m is 0", [](auto& c) { c.radius_m = 0; }},
     {"capsule 3: friction is -0.5", [](auto& c) { c.friction = -0.5f; }},
+    {"capsule 3: restitution is 1.5", [](auto& c) { c.restitution = 1.5f; }},
     {"capsule 3: angular_rad_s is inf", [](auto& c) { c.motion.angular_rad_s[1] = HUGE_VALF; }},
 };
 const Bad<rods::ContactPoint> kPoints[] = {
@@ -49,6 +53,7 @@ const Bad<rods::ContactPoint> kPoints[] = {
     {"contact point 3: gap_m is nan", [](auto& p) { p.gap_m = std::nan(""); }},
     {"contact point 3: the length of normal is 3", [](auto& p) { p.normal[1] = 3; }},
     {"contact point 3: velocity_m_s is inf", [](auto& p) { p.velocity_m_s[0] = HUGE_VALF; }},
+    {"contact point 3: restitution is nan", [](auto& p) { p.restitution = kNan; }},
     {"contact point 3: friction is -2", [](auto& p) { p.friction = -2; }},
 };
 

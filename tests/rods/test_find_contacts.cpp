@@ -2,45 +2,9 @@
 #include <array>
 #include <random>
 
-#include "tests/rods/contact_scenes.hpp"
-#include "tests/simd/test_data.hpp"
+#include "tests/rods/passing_scenes.hpp"
 
 using namespace sinew;
-
-namespace {
-
-// A capsule across the way of a rod, and how the rod lies about it.
-struct Bar {
-  double x, turn;
-  rods::Capsule capsule() const {
-    return {.ends_m = {{x - std::sin(turn), 0, -std::cos(turn)}, {x + std::sin(turn), 0, std::cos(turn)}},
-            .radius_m = 0.02f};
-  }
-  // Both ends of each segment, from where the bar is a point.
-  std::vector<std::array<double, 2>> seen_along(const test::RodBatch& batch) const {
-    std::vector<std::array<double, 2>> out;
-    for (uint32_t i = 0; i < batch.segment_count(); ++i) {
-      const rods::SegmentPose pose = batch.pose(0, i);
-      const rods::Vector axis = test::axis_of(pose);
-      for (const double half : {-0.0625, 0.0625}) {
-        const double px = pose.position_m[0] + half * axis[0], pz = pose.position_m[2] + half * axis[2];
-        out.push_back({(px - x) * std::cos(turn) - pz * std::sin(turn), pose.position_m[1] + half * axis[1]});
-      }
-    }
-    return out;
-  }
-};
-
-double angle(const std::array<double, 2>& a, const std::array<double, 2>& b) {
-  return std::atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]);
-}
-double winding(const std::vector<std::array<double, 2>>& points) {
-  double sum = 0;
-  for (size_t i = 1; i < points.size(); ++i) sum += angle(points[i - 1], points[i]);
-  return sum;
-}
-
-}  // namespace
 
 TEST_CASE("crossing_rods_touch_between_their_joints") {
   // 0.55 is the middle of a segment of the first, 0.5 of the second lies on a joint.
@@ -123,39 +87,18 @@ TEST_CASE("the_order_of_contacts_and_with_it_all_bits_are_the_same_in_a_second_r
   }
 }
 
-// What comes at 50 m/s, 0.83 m a step, from anywhere onto a capsule of two centimetres. A rod may slip off,
-// wrap around it or swing its end about it within a step. What it winds about the bar more than its ends did
-// on their ways is a whole turn for each time that the rod went through.
 TEST_CASE("of_a_thousand_rods_at_fifty_metres_a_second_none_passes_through_a_capsule_in_six_steps") {
-  std::mt19937 random(7);
-  const auto any = [&](float most) { return static_cast<double>(test::uniform(random, -most, most)); };
-  int passed = 0, hit = 0;
-  for (int run = 0; run < 1000; ++run) {
-    const test::Segments rod = test::lying_rod(0.45 + any(0.35f), 8, run % 2 ? 1e5f : 1e7f);
-    test::RodBatch batch = test::batch_of({rod}, {.gravity_m_s2 = {0, 0, 0}});
-    rods::RodCollider collider = test::collider_of(batch, {.rods_collide = false});
-    const double x = 0.5 + any(0.3f), turn = any(0.5f);
-    const Bar bar = {x, turn};
-    const rods::Capsule capsule = bar.capsule();
-    REQUIRE(collider.set_capsules({&capsule, 1}).ok());
-    const double side_z = any(5), side_x = any(5);
-    test::throw_rod(batch, 0, static_cast<float>(side_x), -50, static_cast<float>(side_z));
-    auto before = bar.seen_along(batch);
-    double through = 0;
-    for (int i = 0; i < 6; ++i) {
-      test::step(batch, collider);
-      const auto after = bar.seen_along(batch);
-      hit += i == 0 && batch.velocity(0, 0).linear_m_s[1] > -49.9f;
-      through +=
-          winding(after) - winding(before) - angle(before.back(), after.back()) + angle(before[0], after[0]);
-      before = after;
-    }
-    INFO("run " << run);
-    CHECK(std::fabs(through) < 3.14);
-    passed += std::fabs(through) > 3.14;
-  }
-  CHECK(passed == 0);
-  CHECK(hit > 900);
+  const test::Passes passes = test::rods_at_a_bar(1000, test::Through::kObstacle);
+  CHECK(passes.passed == 0);
+  CHECK(passes.hit > 900);
+}
+
+TEST_CASE("of_ten_thousand_rods_at_fifty_metres_a_second_none_passes_through", "[.][slow]") {
+  const auto through = GENERATE(test::Through::kObstacle, test::Through::kSource);
+  const test::Passes passes = test::rods_at_a_bar(10000, through);
+  WARN((through == test::Through::kSource ? "source: " : "obstacle: ")
+       << passes.passed << " of 10000 passed, " << passes.hit << " were hit in the first step");
+  CHECK(passes.passed == 0);
 }
 
 TEST_CASE("rods_that_meet_at_a_hundred_metres_a_second_do_not_pass_through_each_other") {

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "tests/scenes/half_spaces.hpp"
 #include "tests/scenes/thread_pool.hpp"
 #include "tests/world/stage.hpp"
 
@@ -173,6 +174,18 @@ TEST_CASE("a_frame_of_rods_allocates_nothing") {
   const scenes::PackBytes pack = scenes::soft_block({.rods = scenes::RodMatter{}});
   Stage stage(3, {}, pack);
   CHECK(allocations_of_frames(stage) == 0);
+}
+
+TEST_CASE("a_frame_in_contact_allocates_nothing") {
+  const scenes::PackBytes pack = scenes::soft_block({.rods = scenes::RodMatter{}});
+  scenes::HalfSpaces wall;
+  wall.walls = {{{0, 0.55, 0}, {0, -1, 0}}};  // a ceiling
+  Stage stage(0, {}, pack);
+  for (InstanceId& made : stage.blocks = std::vector<InstanceId>(2))
+    CHECK(stage.world.create_instance({.asset = stage.asset, .contacts = {.source = &wall}}, &made).ok());
+  CHECK(allocations_of_frames(stage) == 0);
+  CHECK(stage.report().vertices_touched > 0);
+  CHECK(stage.report().rod_contacts > 0);
 }
 
 TEST_CASE("a_frame_on_worker_threads_allocates_nothing") {

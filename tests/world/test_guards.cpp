@@ -24,7 +24,7 @@ void poison(Stage& stage, const Where& where, const scenes::PackBytes& pack = te
   world::Asset asset;
   world::Instance twin;
   REQUIRE(world::open_asset(pack.bytes(), &asset).ok());
-  REQUIRE(world::make_instance(asset, {}, {}, 1, &twin).ok());
+  REQUIRE(world::make_instance(asset, {}, &twin).ok());
   const auto at = static_cast<size_t>(reinterpret_cast<std::byte*>(where(twin)) -
                                       reinterpret_cast<std::byte*>(twin.state));
   std::vector<std::byte> bytes = stage.save();

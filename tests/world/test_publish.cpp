@@ -24,7 +24,7 @@ struct BentBlock {
   world::Instance instance;
   BentBlock() {
     REQUIRE(world::open_asset(test::block_pack().bytes(), &asset).ok());
-    REQUIRE(world::make_instance(asset, {}, {}, 1, &instance).ok());
+    REQUIRE(world::make_instance(asset, {}, &instance).ok());
     const scenes::BlockPose pose = scenes::bent_pose(2);
     std::copy_n(pose.joints.data(), 2, instance.joints);
     world::take_pose(instance, 1);

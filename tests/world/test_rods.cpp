@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include "tests/scenes/half_spaces.hpp"
 #include "tests/scenes/thread_pool.hpp"
 #include "tests/world/stage.hpp"
 
@@ -453,4 +454,39 @@ TEST_CASE("a_character_of_rods_alone_swings") {
   }
   CHECK(largest > 0.01);
   CHECK(test::all_finite(stage.read()));
+}
+
+TEST_CASE("rods_lie_on_what_a_source_knows_wherever_the_character_stands_and_wake_for_what_comes") {
+  for (const double away_m : {0.0, 1e6}) {
+    // The tail sticks out backwards at the waist, 0.3 m up, and sags under the floor without one.
+    scenes::HalfSpaces floor;
+    RodStage stage({.sag = 1}, {}, 0);
+    InstanceId made;
+    REQUIRE(stage.world.create_instance({.asset = stage.asset, .contacts = {.source = &floor}}, &made).ok());
+    stage.blocks.push_back(made);
+    TailedPose pose = standing();
+    pose.root.position_m[0] = away_m;
+    stage.hold(pose, 20);
+    const double hanging_m = place(stage.joints()[kTail + 3]).y();
+    CHECK(stage.report().rods_asleep > 0);
+    // It comes up under the sleeping tail and stays.
+    const double top_m = hanging_m + 0.05;
+    for (int f = 0; f <= 60; ++f) {
+      floor.walls = {{{0, top_m - 0.1 * (1 - f / 60.0), 0}, {0, 1, 0}, {0, f < 60 ? 0.1f : 0, 0}}};
+      stage.step_pose(pose);
+    }
+    stage.hold(pose, 2);
+    CHECK(stage.report().rods_asleep == 0);
+    CHECK(stage.report().rod_contacts > 0);
+    CHECK(stage.report().contacts_dropped == 0);
+    const Joints joints = stage.joints();
+    for (uint32_t bone = kTail; bone < kTail + 4; ++bone) CHECK(place(joints[bone]).y() > top_m);
+    // Its bits go on after a restore.
+    const std::vector<std::byte> saved = stage.save();
+    stage.hold(pose, 0.5);
+    const Joints after = stage.joints();
+    REQUIRE(stage.world.restore_state(made, saved).ok());
+    stage.hold(pose, 0.5);
+    CHECK(same_bits(after, stage.joints()));
+  }
 }

@@ -1,5 +1,6 @@
 // sinew.hpp  Everything public in one include.
 #pragma once
+#include "sinew/contact_source.hpp"
 #include "sinew/id.hpp"
 #include "sinew/isa.hpp"
 #include "sinew/status.hpp"

@@ -9,6 +9,8 @@
 
 namespace sinew {
 
+class ContactSource;  // contact_source.hpp
+
 // Row-major 3x4 affine matrix: p' = m[r][0..2] p + m[r][3].
 struct Matrix34 {
   float m[3][4];
@@ -83,12 +85,22 @@ struct WorldDef {
   AssertHook assert_hook = {};
 };
 
+// What an instance touches. It is asked tick by tick, where the instance is simulated; the source
+// outlives the instance. Instances are stepped on the world's threads, so find may come from several at a
+// time.
+struct ContactDef {
+  ContactSource* source = nullptr;  // null: nothing is touched, and no memory is taken for it
+  uint32_t owner = 0;               // ContactProbe::owner of all its probes
+  bool tissue = true, rods = true;  // what of the instance touches
+};
+
 struct InstanceDef {
   AssetId asset = {};  // null or stale: refused
   // >= 0, relative weight for the scheduler. 0: gets what the others leave; NaN or negative counts as 0. The
   // rule, and the longest wait of an instance with importance above 0: runtime/frame/scheduler.hpp.
   float importance = 1;
   RootTransform root = {};  // where it enters, in its bind pose, at rest; refused as in a pose
+  ContactDef contacts = {};
 };
 
 // What an instance got in a frame. In rising quality: skinning, extrapolate, spring, modal, network; the last
@@ -120,7 +132,13 @@ struct InstanceReport {
   // Since creation: rods that had to be put together or put back where they are held.
   uint32_t rod_recoveries = 0;
   uint32_t rods_asleep = 0;  // rods at rest, not stepped until they are held or shaped otherwise: all or none
-  float cost_us = 0;         // what this instance took in the last step, on its thread
+  // Of the last tick, where the instance has a contact source. The volume is at most what contacts took from
+  // the soft parts: of vertices that touched something, area times way.
+  uint32_t rod_contacts = 0;  // near enough to be looked at
+  uint32_t vertices_touched = 0, contacts_refused = 0, contacts_dropped = 0;
+  float contact_volume_m3 = 0;
+  float deepest_penetration_m = 0;  // what soft parts are left inside, bounded as they are
+  float cost_us = 0;                // what this instance took in the last step, on its thread
 };
 
 // Filled by step(). All times in microseconds of the world's clock.
@@ -167,7 +185,7 @@ struct AssetInfo {
   uint32_t rod_count = 0;  // chains and trees of bones that swing
   float tick_hz = 0;
   float height_m = 0;           // extent of the bind pose along Y
-  uint64_t instance_bytes = 0;  // memory one instance takes
+  uint64_t instance_bytes = 0;  // memory one instance takes; contacts take more
 };
 
 }  // namespace sinew

@@ -1,0 +1,212 @@
+// bullet_contacts.cpp  see include/sinew/bullet.hpp.
+#include <algorithm>
+#include <new>
+#include <utility>
+
+#include "bullet/impulses.hpp"
+#include "bullet/probe_contacts.hpp"
+#include "core/status.hpp"
+
+namespace sinew {
+namespace {
+
+using namespace bullet;
+using rods::Vector;
+
+constexpr size_t kAtOnce = 16;       // probes that share a question to the broadphase
+constexpr double kSamePoint = 1e-3;  // of the radius
+
+Status bad(const char* name, double value, const char* range) {
+  return core::make_status(StatusCode::kInvalidArgument, "BulletDef::%s is %g; give %s", name, value, range);
+}
+
+Status check_origin(const double (&origin_m)[3]) {
+  for (const double x : origin_m) {
+    if (!std::isfinite(x)) {
+      return core::make_status(StatusCode::kNotFinite, "origin_m has %g; give finite numbers", x);
+    }
+  }
+  return {};
+}
+
+Status check(const BulletDef& def) {
+  if (!def.world) {
+    return core::make_status(StatusCode::kInvalidArgument,
+                             "BulletDef::world is null; give the engine's world");
+  }
+  if (!(def.friction >= 0 && std::isfinite(def.friction))) {
+    return bad("friction", static_cast<double>(def.friction), "a finite number, 0 or more");
+  }
+  if (!(def.restitution >= 0 && def.restitution <= 1)) {
+    return bad("restitution", static_cast<double>(def.restitution), "0 to 1");
+  }
+  if (!(def.fastest_body_m_s >= 0 && std::isfinite(def.fastest_body_m_s))) {
+    return bad("fastest_body_m_s", static_cast<double>(def.fastest_body_m_s), "a finite number, 0 or more");
+  }
+  if (def.push_capacity > 65536) return bad("push_capacity", def.push_capacity, "at most 65536");
+  return check_origin(def.origin_m);
+}
+
+Path path_of(const ContactProbe& probe, const double (&origin_m)[3]) {
+  Path out = {};
+  for (size_t e = 0; e < 2; ++e) {
+    for (size_t k = 0; k < 3; ++k) {
+      out.start[e][k] = probe.start_m[e][k] - origin_m[k];
+      out.end[e][k] = probe.end_m[e][k] - origin_m[k];
+    }
+  }
+  out.radius_m = static_cast<double>(probe.radius_m);
+  return out;
+}
+
+bool is_good(const Path& path) {
+  return path.radius_m >= 0 && std::isfinite(path.radius_m) && rods::finite(path.start[0]) &&
+         rods::finite(path.start[1]) && rods::finite(path.end[0]) && rods::finite(path.end[1]);
+}
+
+bool goes_on(const Path& path, const Path& before) {
+  const double enough = kSamePoint * path.radius_m;
+  return is_good(before) && path.radius_m <= before.radius_m &&
+         rods::length(rods::difference(path.start[0], before.start[1])) <= enough &&
+         rods::length(rods::difference(path.start[0], path.start[1])) > enough;
+}
+
+// The first hits.size() of all, then the deepest of them.
+struct Hits {
+  std::span<ContactHit> to;
+  uint32_t count = 0;
+
+  static bool shallower(const ContactHit& a, const ContactHit& b) { return a.gap_m < b.gap_m; }
+  void add(const ContactHit& hit) {
+    if (count < to.size()) {
+      to[count] = hit;
+      if (++count == to.size()) std::make_heap(to.begin(), to.end(), shallower);
+      return;
+    }
+    ++count;
+    if (to.empty() || !shallower(hit, to[0])) return;
+    std::pop_heap(to.begin(), to.end(), shallower);
+    to.back() = hit;
+    std::push_heap(to.begin(), to.end(), shallower);
+  }
+};
+
+}  // namespace
+
+struct BulletContacts::State {
+  BulletDef def;
+  Problems problems;
+  Impulses impulses;
+
+  void find(std::span<const ContactProbe> all, size_t begin, double dt_s, Hits* hits) noexcept;
+  void find(std::span<const ContactProbe> all, size_t index, const Path& path, std::span<const Body> bodies,
+            double dt_s, Hits* hits) noexcept;
+};
+
+BulletContacts::~BulletContacts() { delete state_; }
+BulletContacts::BulletContacts(BulletContacts&& other) noexcept
+    : state_(std::exchange(other.state_, nullptr)) {}
+BulletContacts& BulletContacts::operator=(BulletContacts&& other) noexcept {
+  std::swap(state_, other.state_);
+  return *this;
+}
+
+Status BulletContacts::create(const BulletDef& def, BulletContacts* out) noexcept {
+  const Status status = check(def);
+  if (!status.ok()) return status;
+  BulletContacts made;
+  made.state_ = new (std::nothrow) State{def, {}, {}};
+  if (!made.state_ || !made.state_->impulses.reserve(def.push_capacity)) {
+    return core::make_status(StatusCode::kOutOfCapacity,
+                             "no memory to push %u bodies; give a smaller push_capacity", def.push_capacity);
+  }
+  *out = std::move(made);
+  return {};
+}
+
+Status BulletContacts::set_origin(const double (&origin_m)[3]) noexcept {
+  const Status status = check_origin(origin_m);
+  if (status.ok() && state_) std::copy_n(origin_m, 3, state_->def.origin_m);
+  return status;
+}
+
+void BulletContacts::State::find(std::span<const ContactProbe> all, size_t index, const Path& path,
+                                 std::span<const Body> bodies, double dt_s, Hits* hits) noexcept {
+  const ContactProbe& probe = all[index];
+  ProbeContacts contacts(path, dt_s, problems);
+  for (const Body& body : bodies) {
+    if (!body.box.overlaps(box_of(path, path.radius_m + 0.25 * path.closing_m(body.motion)))) continue;
+    if (def.accepts && !def.accepts(def.context, probe.owner, *body.object)) continue;
+    contacts.add(body);
+  }
+  contacts.reduce();
+  const bool joined = index > 0 && all[index - 1].owner == probe.owner &&
+                      goes_on(path, path_of(all[index - 1], def.origin_m));
+  for (uint32_t i = 0; i < contacts.size(); ++i) {
+    if (joined && contacts[i].along == -1) continue;
+    ContactHit hit = contacts[i];
+    hit.probe = static_cast<uint32_t>(index);
+    hits->add(hit);
+  }
+}
+
+// Of up to kAtOnce probes from `begin` on.
+void BulletContacts::State::find(std::span<const ContactProbe> all, size_t begin, double dt_s,
+                                 Hits* hits) noexcept {
+  const size_t count = std::min(kAtOnce, all.size() - begin);
+  Path paths[kAtOnce];
+  bool any = false;
+  Box box = {};
+  for (size_t i = 0; i < count; ++i) {
+    paths[i] = path_of(all[begin + i], def.origin_m);
+    if (!is_good(paths[i])) continue;
+    const Motion still = {};
+    const Path& path = paths[i];
+    const double way = path.closing_m(still) + static_cast<double>(def.fastest_body_m_s) * dt_s;
+    const Box own = box_of(path, path.radius_m + 0.25 * way);
+    if (!any) box = own;
+    box.widen(own.low), box.widen(own.high);
+    any = true;
+  }
+  if (!any) return;
+  Body bodies[kMostBodies];
+  const uint32_t near = NearBodies{def, dt_s, problems}.find(box, bodies);
+  for (size_t i = 0; i < count && near > 0; ++i) {
+    if (is_good(paths[i])) find(all, begin + i, paths[i], {bodies, near}, dt_s, hits);
+  }
+}
+
+uint32_t BulletContacts::find(std::span<const ContactProbe> probes, float dt_s,
+                              std::span<ContactHit> hits) noexcept {
+  if (!state_ || !(dt_s > 0 && std::isfinite(dt_s))) return 0;
+  Hits out = {hits};
+  for (size_t i = 0; i < probes.size(); i += kAtOnce) {
+    state_->find(probes, i, static_cast<double>(dt_s), &out);
+  }
+  return out.count;
+}
+
+void BulletContacts::push(const ContactHit& hit, const double (&point_m)[3],
+                          const float (&impulse_n_s)[3]) noexcept {
+  if (!state_) return;
+  Vector point;
+  for (size_t k = 0; k < 3; ++k) point[k] = point_m[k] - state_->def.origin_m[k];
+  state_->impulses.add(hit.body, point, rods::vector_of(impulse_n_s));
+}
+
+uint32_t BulletContacts::apply_impulses() noexcept {
+  return state_ ? state_->impulses.apply(state_->def.world) : 0;
+}
+
+BulletReport BulletContacts::report() const noexcept {
+  if (!state_) return {};
+  BulletReport out = state_->problems.report();
+  out.pushes_dropped = state_->impulses.dropped();
+  return out;
+}
+
+Status BulletContacts::problem(uint32_t index) const noexcept {
+  return state_ ? state_->problems.line(index) : Status{};
+}
+
+}  // namespace sinew

@@ -1,0 +1,46 @@
+// near_bodies.hpp  The bodies that a few probes may meet in a tick, and how they move in it.
+#pragma once
+#include <span>
+
+#include "bullet/moving_place.hpp"
+#include "bullet/problems.hpp"
+#include "bullet/touch.hpp"
+
+namespace sinew::bullet {
+
+struct Box {
+  Vector low, high;
+
+  void widen(const Vector& point) noexcept;
+  void grow(double by_m) noexcept;
+  bool overlaps(const Box& other) const noexcept;
+};
+// Of a path, its radius and `reach_m` around.
+Box box_of(const Path& path, double reach_m) noexcept;
+
+struct Body {
+  const btCollisionObject* object;
+  Motion motion;
+  Box box;          // from the tick's start to its end
+  uint64_t handle;  // 0: nothing moves it
+  uint32_t name;
+  float friction, restitution;
+};
+
+inline constexpr uint32_t kMostBodies = 64;
+
+struct NearBodies {
+  const BulletDef& def;
+  double dt_s;
+  Problems& problems;
+
+  // Those whose way meets the box. Returns how many.
+  uint32_t find(const Box& box, std::span<Body, kMostBodies> out) const noexcept;
+
+ private:
+  friend struct BodyCollector;
+  bool agrees(const btCollisionObject& object) const noexcept;
+  bool describe(const btCollisionObject& object, Body* out) const noexcept;
+};
+
+}  // namespace sinew::bullet

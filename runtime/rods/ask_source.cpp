@@ -1,0 +1,118 @@
+// ask_source.cpp  The range's segments to a contact source, and its hits as contacts.
+#include <algorithm>
+
+#include "rods/find_contacts.hpp"
+
+namespace sinew::rods {
+namespace {
+
+// What of a segment's radius is looked at a second time: a whole one that touches where it begins would not
+// be followed to where another part of it goes through.
+constexpr double kCore = 0.5;
+// How deep that may come, and how far outside it is stopped so that it is the same in the next step, both of
+// its own radius.
+constexpr double kThere = 0.05, kOutside = 0.9;
+
+double longest(const Axis& from, const Axis& to) {
+  return std::max(length(difference(to.from, from.from)), length(difference(to.to, from.to)));
+}
+
+ContactPoint point_of(const ContactHit& hit, uint32_t strand, uint32_t segment) {
+  ContactPoint p = {.strand = strand,
+                    .segment = segment,
+                    .along = hit.along,
+                    .gap_m = hit.gap_m,
+                    .friction = hit.friction,
+                    .name = hit.name,
+                    .restitution = hit.restitution};
+  std::copy_n(hit.normal, 3, p.normal);
+  std::copy_n(hit.velocity_m_s, 3, p.velocity_m_s);
+  return p;
+}
+
+}  // namespace
+
+void ContactFinder::probe(uint32_t strand, uint32_t segment, const Sweep& sweep, uint32_t* count) const {
+  ContactProbe& p = to.probes_[*count];
+  const Vector* ends[2][2] = {{&sweep.start.from, &sweep.start.to}, {&sweep.end.from, &sweep.end.to}};
+  for (size_t e = 0; e < 2; ++e) {
+    for (size_t k = 0; k < 3; ++k) {
+      p.start_m[e][k] = (*ends[0][e])[k] + to.origin_m_[k];
+      p.end_m[e][k] = (*ends[1][e])[k] + to.origin_m_[k];
+    }
+  }
+  p.radius_m = static_cast<float>(sweep.radius_m);
+  p.owner = to.owner_;
+  to.probe_segments_[(*count)++] = static_cast<uint32_t>(local(strand, segment));
+}
+
+// What a source wrote, of hits that a contact can be made of.
+std::span<const ContactHit> ContactFinder::ask(uint32_t probes, ContactHit* hits, uint32_t room,
+                                               uint32_t* dropped) const {
+  const uint32_t found =
+      to.source_->find({to.probes_, probes}, static_cast<float>(dt_s), std::span(hits, room));
+  const uint32_t written = std::min(found, room);
+  *dropped += found - written;
+  const auto bad = [&](const ContactHit& hit) {
+    return hit.probe >= probes || !check_obstacle(point_of(hit, 0, 0), 0).ok();
+  };
+  ContactHit* end = std::remove_if(hits, hits + written, bad);
+  to.bad_hits_ += static_cast<uint32_t>(hits + written - end);
+  return {hits, end};
+}
+
+void ContactFinder::add_hits() const {
+  uint32_t probes = 0;
+  for (uint32_t s = first_strand(); s < end_strand(); ++s) {
+    for (uint32_t i = 0; i < batch.segment_count_; ++i) {
+      if (free(s, i)) probe(s, i, to.sweeps_[local(s, i)], &probes);
+    }
+  }
+  const uint32_t room = to.settings_.source_capacity - to.hit_count_;
+  for (const ContactHit& hit : ask(probes, to.hits_ + to.hit_count_, room, &to.dropped_)) {
+    const uint32_t segment = to.probe_segments_[hit.probe];
+    const uint32_t strand = first_strand() + segment / batch.segment_count_;
+    const Contact* made = add_point(point_of(hit, strand, segment % batch.segment_count_), kHit);
+    const auto contact = static_cast<uint32_t>(made - to.contacts_);
+    to.taken_[to.hit_count_++] = {made ? contact : RodCollider::kNoContact, {}, {}};
+  }
+}
+
+// Segments that moved further than their radius, and ended further than that from where they were looked for.
+void ContactFinder::stop_at_hits() const {
+  uint32_t probes = 0;
+  for (uint32_t s = first_strand(); s < end_strand(); ++s) {
+    for (uint32_t i = 0; i < batch.segment_count_; ++i) {
+      const Sweep& known = to.sweeps_[local(s, i)];
+      Sweep own = taken_sweep(s, i);
+      if (!free(s, i) || !(longest(own.start, own.end) > own.radius_m)) continue;
+      if (!(longest(known.end, own.end) > own.radius_m)) continue;
+      own.radius_m *= kCore;
+      probe(s, i, own, &probes);
+    }
+  }
+  if (probes == 0) return;
+  const uint32_t room = to.settings_.source_capacity;
+  uint32_t dropped = 0;  // of what is only looked at
+  for (const ContactHit& hit : ask(probes, to.hits_ + room, room, &dropped)) {
+    const uint32_t segment = to.probe_segments_[hit.probe];
+    stop_at_hit(first_strand() + segment / batch.segment_count_, segment % batch.segment_count_, hit);
+  }
+}
+
+void ContactFinder::stop_at_hit(uint32_t strand, uint32_t segment, const ContactHit& hit) const {
+  const Sweep own = taken_sweep(strand, segment);
+  const double core = kCore * own.radius_m;
+  const double share = 0.5 + 0.5 * static_cast<double>(hit.along);
+  const Vector move =
+      difference(between(own.end.from, own.end.to, share), between(own.start.from, own.start.to, share));
+  const Vector obstacle_move = scaled(dt_s, vector_of(hit.velocity_m_s));
+  const double gap = hit.gap_m, end = gap + dot(vector_of(hit.normal), difference(move, obstacle_move));
+  if (!(end < -kThere * core) || gap < 0) return;  // or it began deep
+  const double way = std::max(0.0, gap - kOutside * core) / (gap - end);
+  if (way >= to.ways_[strand]) return;
+  to.ways_[strand] = way;
+  to.carries_[strand] = scaled(1 - way, obstacle_move);
+}
+
+}  // namespace sinew::rods

@@ -1,0 +1,42 @@
+// save_contacts.cpp  The contact forces of a collider as bytes.
+#include <cstring>
+
+#include "rods/collider.hpp"
+
+namespace sinew::rods {
+namespace {
+
+struct Saved {
+  uint64_t name;
+  double force_n;
+  Vector drag_n;
+};
+
+}  // namespace
+
+size_t RodCollider::state_bytes() const noexcept { return sizeof(uint64_t) + capacity_ * sizeof(Saved); }
+
+void RodCollider::save_state(std::byte* out) const noexcept {
+  uint64_t count = 0;
+  for (uint32_t i = 0; i < kept_size_; ++i) {
+    const Kept& kept = kept_[i];
+    if (kept.step != steps_) continue;
+    const Saved saved = {kept.name, kept.force_n, kept.drag_n};
+    std::memcpy(out + sizeof count + count++ * sizeof saved, &saved, sizeof saved);
+  }
+  std::memcpy(out, &count, sizeof count);
+  std::memset(out + sizeof count + count * sizeof(Saved), 0, (capacity_ - count) * sizeof(Saved));
+}
+
+void RodCollider::restore_state(const std::byte* from) noexcept {
+  ++steps_;  // forgets its own
+  uint64_t count = 0;
+  std::memcpy(&count, from, sizeof count);
+  for (uint64_t i = 0; i < count && i < capacity_; ++i) {
+    Saved saved;
+    std::memcpy(&saved, from + sizeof count + i * sizeof saved, sizeof saved);
+    *find_kept(saved.name) = {saved.name, steps_, saved.force_n, saved.drag_n};
+  }
+}
+
+}  // namespace sinew::rods

@@ -1,0 +1,153 @@
+// find_touches.cpp  see find_touches.hpp.
+#include "world/find_touches.hpp"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <span>
+
+#include "core/check_hit.hpp"
+#include "world/surface_point.hpp"
+
+namespace sinew::world {
+namespace {
+
+using Eigen::Vector3f;
+using Rows33 = Eigen::Matrix<float, 3, 3, Eigen::RowMajor>;
+using MapVector = Eigen::Map<Vector3f>;
+using ConstVector = Eigen::Map<const Vector3f>;
+
+// Vertices are asked for where they are this near, of their patch's radius: displaced flesh is stretched.
+constexpr float kStretched = 1.5f;
+
+struct Question {
+  Instance& instance;
+  uint32_t count = 0;
+
+  void add(const Vector3f& place, float radius_m) {
+    ContactProbe& probe = instance.probes[count++];
+    for (int k = 0; k < 3; ++k) {
+      const double at = instance.state->tick_root_m[0][k] + static_cast<double>(place[k]);
+      for (auto* ends : {probe.start_m, probe.end_m}) ends[0][k] = ends[1][k] = at;
+    }
+    probe.radius_m = radius_m;
+    probe.owner = instance.contacts.owner;
+  }
+  bool full() const { return count == kProbesAtOnce; }
+
+  // The usable answers; `all` when there were more than fit.
+  std::span<const ContactHit> ask(bool* all) {
+    const auto tick_s = static_cast<float>(instance.asset->tick_s);
+    const uint32_t found =
+        instance.contacts.source->find({instance.probes, count}, tick_s, {instance.hits, kHitsAtOnce});
+    const uint32_t given = std::min(found, kHitsAtOnce);
+    const auto end = std::remove_if(instance.hits, instance.hits + given,
+                                    [&](const ContactHit& hit) { return !core::is_usable(hit, count); });
+    const auto usable = static_cast<size_t>(end - instance.hits);
+    instance.told.refused += given - static_cast<uint32_t>(usable);
+    *all = found > kHitsAtOnce;
+    return {instance.hits, usable};
+  }
+};
+
+Vector3f node_place(const Instance& instance, uint32_t node) {
+  const tissue::NodePose& pose = instance.poses[0][node];
+  return ConstVector(pose.place_m) +
+         Eigen::Map<const Rows33>(pose.rotation) * ConstVector(instance.u[0] + size_t{3} * node);
+}
+
+float reach_m(const Instance& instance, uint32_t node) {
+  return kStretched * instance.asset->patches.radii_m[node];
+}
+
+struct Ball {
+  Vector3f middle;
+  float radius_m;
+};
+
+Ball ball_around(const Instance& instance, const pack::RegionRecord& region) {
+  Eigen::AlignedBox3f box;
+  for (uint32_t n = region.first_node; n < region.first_node + region.node_count; ++n)
+    box.extend(node_place(instance, n));
+  Ball ball{box.center(), 0};
+  for (uint32_t n = region.first_node; n < region.first_node + region.node_count; ++n) {
+    const float far = (node_place(instance, n) - ball.middle).norm() + reach_m(instance, n);
+    ball.radius_m = std::max(ball.radius_m, far);
+  }
+  return ball;
+}
+
+bool touches_anything(Instance& instance, const pack::RegionRecord& region) {
+  const Ball ball = ball_around(instance, region);
+  Question question{instance};
+  question.add(ball.middle, ball.radius_m);
+  bool all = false;
+  return !question.ask(&all).empty();
+}
+
+// Keeps what a vertex's answers say; where it would be is `places` by probe.
+struct Found {
+  uint32_t region, node, vertex;
+  Vector3f place;
+};
+
+void keep(Instance& instance, const Found& found, const ContactHit& hit) {
+  if (instance.touch_count == 2 * instance.asset->patches.vertex_count) {
+    ++instance.told.dropped;
+    return;
+  }
+  Touch& touch = instance.touches[instance.touch_count++];
+  touch = {.region = found.region, .node = found.node, .vertex = found.vertex};
+  const ConstVector normal(hit.normal), velocity(hit.velocity_m_s);
+  MapVector(touch.normal) = normal;
+  MapVector(touch.place_m) = found.place;
+  touch.gap_m =
+      static_cast<float>(hit.gap_m) - normal.dot(velocity) * static_cast<float>(instance.asset->tick_s);
+}
+
+void ask_vertices(Instance& instance, Question& question, const Found* found) {
+  bool all = false;
+  for (const ContactHit& hit : question.ask(&all)) keep(instance, found[hit.probe], hit);
+  instance.told.dropped += all;
+  question.count = 0;
+}
+
+// Nodes whose patch touches something are marked in `deepest`.
+void find_patches(Instance& instance, const pack::RegionRecord& region) {
+  constexpr uint32_t kTouched = 1;
+  const uint32_t end = region.first_node + region.node_count;
+  std::fill(instance.deepest + region.first_node, instance.deepest + end, 0u);
+  Question question{instance};
+  for (uint32_t first = region.first_node, n = first; n < end; ++n) {
+    question.add(node_place(instance, n), reach_m(instance, n));
+    if (!question.full() && n + 1 < end) continue;
+    bool all = false;
+    for (const ContactHit& hit : question.ask(&all)) instance.deepest[first + hit.probe] = kTouched;
+    if (all) std::fill(instance.deepest + first, instance.deepest + n + 1, kTouched);
+    first = n + 1;
+    question.count = 0;
+  }
+}
+
+}  // namespace
+
+void find_touches(Instance& instance, uint32_t r) noexcept {
+  const pack::RegionRecord& region = instance.asset->pack.regions[r];
+  const SurfacePatches& patches = instance.asset->patches;
+  if (!touches_anything(instance, region)) return;
+  find_patches(instance, region);
+  Found found[kProbesAtOnce];
+  Question question{instance};
+  for (uint32_t n = region.first_node; n < region.first_node + region.node_count; ++n) {
+    if (!instance.deepest[n]) continue;
+    for (uint32_t v = patches.first[n]; v < patches.first[n + 1]; ++v) {
+      const Vector3f place = surface_point(instance, r, patches.vertices[v], instance.flesh).place_m;
+      found[question.count] = {r, n, v, place};
+      question.add(place, 0);
+      if (question.full()) ask_vertices(instance, question, found);
+    }
+  }
+  if (question.count > 0) ask_vertices(instance, question, found);
+}
+
+}  // namespace sinew::world

@@ -1,0 +1,97 @@
+// press_region.cpp  see press_region.hpp.
+#include "world/press_region.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+
+#include "tissue/contact_response.hpp"
+#include "tissue/guard.hpp"
+#include "tissue/modal_base.hpp"
+
+namespace sinew::world {
+namespace {
+
+using Eigen::Vector3f;
+using Rows33 = Eigen::Matrix<float, 3, 3, Eigen::RowMajor>;
+using MapVector = Eigen::Map<Vector3f>;
+using ConstVector = Eigen::Map<const Vector3f>;
+
+constexpr float kMostAsked = 0.9f;  // of the displacement limit
+
+// A touch as its node feels it: the normal along l, turned by half of what warping turns.
+tissue::NodeContact contact_of(const Instance& instance, const pack::RegionRecord& region,
+                               const Touch& touch) {
+  const Vector3f in_frame = Eigen::Map<const Rows33>(instance.poses[0][touch.node].rotation).transpose() *
+                            ConstVector(touch.normal);
+  const float half_turn[3] = {0.5f * instance.theta[3 * touch.node],
+                              0.5f * instance.theta[3 * touch.node + 1],
+                              0.5f * instance.theta[3 * touch.node + 2]};
+  tissue::NodeContact contact{.node = touch.node - region.first_node};
+  tissue::turn_back(half_turn, in_frame.data(), 1, contact.normal);
+  const float along = ConstVector(contact.normal).dot(ConstVector(instance.l[0] + size_t{3} * touch.node));
+  const float most = std::max(0.0f, kMostAsked * region.displacement_limit_m - along);
+  contact.gap_m = std::max(touch.gap_m, -most);
+  return contact;
+}
+
+// The deepest touch of each node, of the region's most deeply touched nodes.
+size_t gather(Instance& instance, std::span<const Touch> touches, const Touch** out) {
+  for (const Touch& touch : touches) instance.deepest[touch.node] = 0;
+  for (uint32_t t = 0; t < touches.size(); ++t) {
+    uint32_t& deepest = instance.deepest[touches[t].node];
+    if (deepest == 0 || touches[t].gap_m < touches[deepest - 1].gap_m) deepest = t + 1;
+  }
+  size_t count = 0;
+  for (uint32_t t = 0; t < touches.size(); ++t) {
+    if (instance.deepest[touches[t].node] != t + 1) continue;
+    if (count < tissue::kMostNodeContacts) {
+      out[count++] = &touches[t];
+      continue;
+    }
+    const Touch** shallowest =
+        std::max_element(out, out + count, [](auto* a, auto* b) { return a->gap_m < b->gap_m; });
+    if (touches[t].gap_m < (*shallowest)->gap_m) *shallowest = &touches[t];
+  }
+  return count;
+}
+
+void press_modes(Instance& instance, uint32_t r, std::span<tissue::NodeContact> contacts) {
+  const Asset& asset = *instance.asset;
+  const pack::RegionRecord& region = asset.pack.regions[r];
+  const size_t vector = size_t{3} * region.first_node, mode = asset.pack.region_modes[r].first_mode;
+  tissue::press(tissue::modal_base(asset.pack, r), contacts, instance.felt + vector, instance.region[0],
+                instance.region[1],
+                {.q = instance.q[0] + mode,
+                 .r = instance.r[0] + vector,
+                 .l = instance.l[0] + vector,
+                 .theta = instance.theta + vector,
+                 .u = instance.u[0] + vector});
+  if (instance.state->tier == Tier::kNetwork)
+    tissue::write_output(asset.network, asset.pack.regions.subspan(r, 1), asset.node_count(),
+                         instance.l[0] + vector, instance.network_state);
+}
+
+void press_springs(Instance& instance, const pack::RegionRecord& region,
+                   std::span<const tissue::NodeContact> contacts) {
+  for (const tissue::NodeContact& contact : contacts) {
+    const size_t at = size_t{3} * (region.first_node + contact.node);
+    MapVector(instance.u[0] + at) -= std::min(contact.gap_m, 0.0f) * ConstVector(contact.normal);
+  }
+}
+
+}  // namespace
+
+void press_region(Instance& instance, uint32_t r, std::span<const Touch> touches) noexcept {
+  const pack::RegionRecord& region = instance.asset->pack.regions[r];
+  const Touch* chosen[tissue::kMostNodeContacts];
+  tissue::NodeContact contacts[tissue::kMostNodeContacts];
+  const size_t count = gather(instance, touches, chosen);
+  for (size_t c = 0; c < count; ++c) contacts[c] = contact_of(instance, region, *chosen[c]);
+  if (instance.state->tier == Tier::kSpring)
+    press_springs(instance, region, {contacts, count});
+  else
+    press_modes(instance, r, {contacts, count});
+  instance.quiet_ticks[r] = 0;
+}
+
+}  // namespace sinew::world

@@ -1,0 +1,71 @@
+// push_surface.cpp  see push_surface.hpp.
+#include "world/push_surface.hpp"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "world/surface_point.hpp"
+
+namespace sinew::world {
+namespace {
+
+using Eigen::Matrix3f;
+using Eigen::Vector3f;
+using ConstVector = Eigen::Map<const Vector3f>;
+
+size_t pushes_of(const Asset& asset, uint32_t r) {
+  size_t before = 0;
+  for (uint32_t k = 0; k < r; ++k) before += asset.pack.regions[k].padded_vertices;
+  return 3 * before;
+}
+
+Vector3f in_bind(const Matrix3f& world_from_bind, const Vector3f& v) {
+  constexpr float kCollapsed = 1e-6f;  // of a skin matrix that has no inverse
+  if (!(std::fabs(world_from_bind.determinant()) > kCollapsed)) return world_from_bind.transpose() * v;
+  return world_from_bind.inverse() * v;
+}
+
+void push_vertex(Instance& instance, const Touch& touch) {
+  const Asset& asset = *instance.asset;
+  const pack::RegionRecord& region = asset.pack.regions[touch.region];
+  const SurfacePatches::Vertex& vertex = asset.patches.vertices[touch.vertex];
+  const SurfacePoint now = surface_point(instance, touch.region, vertex, instance.shown[0]);
+  float* push = instance.pushes + pushes_of(asset, touch.region) + vertex.carried;
+  const size_t pitch = region.padded_vertices;
+  const Vector3f before(push[0], push[pitch], push[2 * pitch]);
+  const Vector3f place = now.place_m + now.world_from_bind * before;
+  const ConstVector normal(touch.normal);
+  const float moved = normal.dot(place - ConstVector(touch.place_m));
+  const float out = std::clamp(-touch.gap_m - moved, 0.0f, region.displacement_limit_m);
+  const Vector3f after = before + in_bind(now.world_from_bind, out * normal);
+  for (size_t k = 0; k < 3; ++k) push[k * pitch] = after[static_cast<Eigen::Index>(k)];
+  instance.pushed[touch.region] |= out > 0;
+  Touches& told = instance.told;
+  told.vertices += touch.gap_m < 0 || out > 0;
+  told.volume_m3 += vertex.area_m2 * std::max(0.0f, moved + out);
+  told.deepest_m = std::max(told.deepest_m, -touch.gap_m - moved - out);
+}
+
+}  // namespace
+
+void forget_pushes(Instance& instance) noexcept {
+  if (!instance.contacts.source) return;
+  const pack::PackView& pack = instance.asset->pack;
+  for (uint32_t r = 0; r < pack.regions.size(); ++r) {
+    if (!instance.pushed[r]) continue;
+    std::fill_n(instance.pushes + pushes_of(*instance.asset, r), size_t{3} * pack.regions[r].padded_vertices,
+                0.0f);
+    instance.pushed[r] = 0;
+  }
+}
+
+void push_surface(Instance& instance) noexcept {
+  if (!instance.contacts.source) return;
+  forget_pushes(instance);
+  for (uint32_t t = 0; t < instance.touch_count; ++t) push_vertex(instance, instance.touches[t]);
+  instance.touch_count = 0;
+}
+
+}  // namespace sinew::world

@@ -1,0 +1,15 @@
+// push_surface.hpp  Vertices that are still inside of what they touched, pushed out where they are shown.
+//
+// They lie between nodes, or in parts that their modes do not move. The push is of the picture, not of the
+// tissue; it is kept for the frames that have no tick. No vertex goes further than its region's displacement
+// limit.
+#pragma once
+#include "world/instance.hpp"
+
+namespace sinew::world {
+
+// After show_tick: uses up instance.touches, and tells what contacts did in the tick.
+void push_surface(Instance& instance) noexcept;
+void forget_pushes(Instance& instance) noexcept;
+
+}  // namespace sinew::world

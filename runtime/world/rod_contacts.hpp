@@ -1,0 +1,14 @@
+// rod_contacts.hpp  What an instance's rods touch: a collider for each of its batches.
+#pragma once
+#include "world/instance.hpp"
+
+namespace sinew::world {
+
+// Where contacts.source asks for it. Refused: no memory; *instance untouched.
+Status make_rod_colliders(Instance& instance) noexcept;
+// Null where they touch nothing.
+rods::RodCollider* rod_collider(Instance& instance, uint32_t batch) noexcept;
+// Rods that sleep are woken by what comes near: one question, with a ball around them all.
+bool something_is_near_rods(Instance& instance) noexcept;
+
+}  // namespace sinew::world

@@ -1,0 +1,45 @@
+// surface_point.cpp  see surface_point.hpp.
+#include "world/surface_point.hpp"
+
+#include <Eigen/Geometry>
+
+namespace sinew::world {
+namespace {
+
+using Eigen::Matrix3f;
+using Eigen::Vector3f;
+using Matrix34f = Eigen::Matrix<float, 3, 4, Eigen::RowMajor>;
+
+Vector3f carried(const pack::PackView& pack, uint32_t region, uint32_t column, const float* displacement) {
+  const pack::RegionRecord& record = pack.regions[region];
+  const float* weight = pack.carry.data() + record.carry + column;
+  Vector3f sum = Vector3f::Zero();
+  for (uint32_t n = record.first_node; n < record.first_node + record.node_count;
+       ++n, weight += record.padded_vertices)
+    sum += *weight * Eigen::Map<const Vector3f>(displacement + size_t{3} * n);
+  return sum;
+}
+
+Matrix34f blended(const pack::SkinRecord& skin, const float* matrices) {
+  Matrix34f sum = Matrix34f::Zero();
+  for (uint32_t k = 0; k < pack::kInfluences && skin.weight[k] > 0; ++k)
+    sum += skin.weight[k] * Eigen::Map<const Matrix34f>(matrices + size_t{12} * skin.joint[k]);
+  return sum;
+}
+
+}  // namespace
+
+SurfacePoint surface_point(const Instance& instance, uint32_t region, const SurfacePatches::Vertex& vertex,
+                           const float* displacement) noexcept {
+  const pack::PackView& pack = instance.asset->pack;
+  const SurfacePatches& patches = instance.asset->patches;
+  Vector3f place = Eigen::Map<const Vector3f>(pack.positions.data() + size_t{3} * vertex.index) +
+                   carried(pack, region, vertex.carried, displacement);
+  for (uint32_t o = vertex.also; o < patches.other_count && patches.others[o].index == vertex.index; ++o)
+    place += carried(pack, patches.others[o].region, patches.others[o].carried, displacement);
+  const Matrix34f skin = blended(pack.skin[vertex.index], instance.skin);
+  const Matrix3f root = Eigen::Map<const Eigen::Quaternionf>(instance.tick_rotation).toRotationMatrix();
+  return {root * (skin.leftCols<3>() * place + skin.col(3)), root * skin.leftCols<3>()};
+}
+
+}  // namespace sinew::world

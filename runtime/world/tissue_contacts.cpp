@@ -1,0 +1,22 @@
+// tissue_contacts.cpp  see tissue_contacts.hpp.
+#include "world/tissue_contacts.hpp"
+
+#include "tissue/node_bend.hpp"
+#include "world/find_touches.hpp"
+#include "world/press_region.hpp"
+
+namespace sinew::world {
+
+void touch_tissue(Instance& instance) noexcept {
+  instance.told = {};
+  if (!instance.contacts.source || !instance.contacts.tissue) return;
+  tissue::along_flesh(instance.poses[0], instance.u[0], instance.asset->node_count(), instance.flesh);
+  for (uint32_t r = 0; r < instance.asset->pack.regions.size(); ++r) {
+    const uint32_t first = instance.touch_count;
+    find_touches(instance, r);
+    if (instance.touch_count > first)
+      press_region(instance, r, {instance.touches + first, instance.touch_count - first});
+  }
+}
+
+}  // namespace sinew::world

@@ -1,0 +1,87 @@
+// test_problems.cpp  Bodies that nothing can be done with.
+#include <BulletCollision/CollisionShapes/btSdfCollisionShape.h>
+
+#include "tests/bullet/probes.hpp"
+
+using namespace sinew;
+using namespace sinew::test;
+
+namespace {
+
+uint64_t count(const BulletContacts& contacts, BulletProblem problem) {
+  return contacts.report().counts[static_cast<uint32_t>(problem)];
+}
+
+// A body with the wrong shape or pose at the origin, and a good one beside it.
+void check_left_out(BulletWorld& world, BulletProblem problem, const char* words) {
+  world.body(world.shape<btSphereShape>(1.0f), {2, 0, 0});
+  BulletContacts contacts = contacts_of(world);
+  for (int i = 0; i < 3; ++i) {
+    const std::vector<ContactHit> hits = find(contacts, {probe({1.1, 0.85, 0}, {1.8, 1.05, 0}, 0.1f)});
+    CHECK_FALSE(hits.empty());
+    for (const ContactHit& hit : hits) CHECK(std::isfinite(hit.gap_m));
+  }
+  CHECK(count(contacts, problem) == 3);
+  CHECK(contacts.report().named == 1);
+  INFO(contacts.problem(0).message);
+  CHECK_THAT(contacts.problem(0).message, Catch::Contains("body 0") && Catch::Contains(words));
+  CHECK(contacts.problem(1).ok());
+  CHECK(contacts.problem(1000).ok());
+}
+
+}  // namespace
+
+TEST_CASE("a_body_without_volume_is_left_out") {
+  BulletWorld world;
+  auto* box = world.shape<btBoxShape>(btVector3(1, 1, 1));
+  box->setLocalScaling({1, 0, 1});
+  world.body(box, btVector3(1, 0.9f, 0));
+  check_left_out(world, BulletProblem::kZeroVolume, "no volume");
+}
+
+TEST_CASE("a_hull_of_no_points_is_left_out") {
+  BulletWorld world;
+  auto* hull = world.shape<btConvexHullShape>();
+  hull->setMargin(0);
+  world.body(hull, btVector3(1.2f, 0.9f, 0));
+  check_left_out(world, BulletProblem::kZeroVolume, "no volume");
+}
+
+TEST_CASE("a_body_that_is_nowhere_is_left_out") {
+  for (int what = 0; what < 3; ++what) {
+    BulletWorld world;
+    btRigidBody* body = world.body(world.shape<btBoxShape>(btVector3(1, 1, 1)), {1, 0, 0}, 1);
+    btTransform nowhere = body->getWorldTransform();
+    nowhere.getOrigin().setY(std::nanf(""));
+    if (what == 0) body->setWorldTransform(nowhere);
+    if (what == 1) body->setLinearVelocity({std::nanf(""), 0, 0});
+    if (what == 2) body->setAngularVelocity({0, HUGE_VALF, 0});
+    check_left_out(world, BulletProblem::kNotFinite, "not finite");
+  }
+}
+
+TEST_CASE("a_shape_that_is_not_known_is_left_out") {
+  BulletWorld world;
+  struct Custom : btSphereShape {
+    Custom() : btSphereShape(1) { m_shapeType = CUSTOM_CONCAVE_SHAPE_TYPE; }
+  };
+  world.body(world.shape<Custom>(), btVector3(1, 0, 0));
+  check_left_out(world, BulletProblem::kUnsupportedShape, "not known");
+}
+
+TEST_CASE("a_shape_that_is_meant_to_be_empty_is_no_problem") {
+  BulletWorld world;
+  world.body(world.shape<btEmptyShape>());
+  BulletContacts contacts = contacts_of(world);
+  CHECK(find(contacts, {ball({0, 0, 0}, 0.1f)}).empty());
+  CHECK(contacts.report().named == 0);
+}
+
+TEST_CASE("more_bodies_at_a_place_than_are_looked_at_are_counted") {
+  BulletWorld world;
+  for (int i = 0; i < 70; ++i)
+    world.body(world.shape<btSphereShape>(1.0f), {0.001f * static_cast<float>(i), 0, 0});
+  BulletContacts contacts = contacts_of(world);
+  CHECK_FALSE(find(contacts, {ball({0, 1.1, 0}, 0.1f)}).empty());
+  CHECK(count(contacts, BulletProblem::kTooMany) == 6);
+}

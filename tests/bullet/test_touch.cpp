@@ -1,0 +1,68 @@
+// test_touch.cpp  Nearest points of an axis, and when a way first touches.
+#include "bullet/touch.hpp"
+
+#include <random>
+
+#include "tests/bullet/probes.hpp"
+
+using namespace sinew;
+using namespace sinew::bullet;
+using rods::Vector;
+
+TEST_CASE("an_axis_of_no_length_is_a_point_and_one_through_a_sphere_s_middle_has_a_normal") {
+  const Convex sphere = convex_of(btSphereShape(1));
+  const Axis point = {{0, 3, 0}, {0, 3, 0}};
+  CHECK(nearest(sphere, point, 1e-6).distance.m == 2);
+  Near out[4];
+  CHECK(supports(sphere, point, nearest(sphere, point, 1e-6), 0.1, 1, out) == 1);
+  const Near through = nearest(sphere, {{-1, 0, 0}, {1, 0, 0}}, 1e-6);
+  CHECK(through.distance.m == Approx(-1).margin(1e-6));
+  CHECK(rods::length(through.distance.normal) == Approx(1));
+}
+
+TEST_CASE("the_nearest_point_of_an_axis_is_the_nearest_of_many") {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(-1.5, 1.5);
+  const btBoxShape box(btVector3(0.5f, 0.2f, 0.9f));
+  const btCylinderShape cylinder(btVector3(0.4f, 0.6f, 0.4f));
+  for (int i = 0; i < 200; ++i) {
+    const Axis axis = {{any(random), any(random), any(random)}, {any(random), any(random), any(random)}};
+    for (const btConvexShape* shape :
+         {static_cast<const btConvexShape*>(&box), static_cast<const btConvexShape*>(&cylinder)}) {
+      const Convex convex = convex_of(*shape);
+      double least = 1e9;
+      for (int k = 0; k <= 1000; ++k) least = std::min(least, distance(convex, axis.at(0.001 * k)).m);
+      const double found = nearest(convex, axis, 1e-5).distance.m;
+      CHECK(found <= least + 1e-5);
+      CHECK(found >= least - 0.003);  // the points' spacing
+    }
+  }
+}
+
+TEST_CASE("a_way_first_touches_when_the_surfaces_meet") {
+  const Convex sphere = convex_of(btSphereShape(1));
+  const Motion still = {kHere, {}, {}};
+  const Path down = {{{0, 5, 0}, {0, 5, 0}}, {{0, -5, 0}, {0, -5, 0}}, 0.5};
+  const Touch touch = first_touch(sphere, kHere, still, down);
+  CHECK(touch.time == Approx(0.35).margin(0.001));
+  // A bar that turns by a radian and is ten metres long meets what waits beside it on an arc, not on a chord.
+  const Convex bar = convex_of(btBoxShape(btVector3(10, 0.01f, 0.01f)));
+  const Motion turns = {kHere, {}, {0, 0, 1}};
+  const Vector waits = {9.98 * std::cos(0.5), 9.98 * std::sin(0.5), 0};
+  const Path here = {{waits, waits}, {waits, waits}, 0.01};
+  CHECK(first_touch(bar, kHere, turns, here).time == Approx(0.5).margin(0.005));
+}
+
+TEST_CASE("a_face_carries_what_is_above_it") {
+  const Triangle t = {{Vector{0, 0, 0}, Vector{2, 0, 0}, Vector{0, 0, 2}}, 0};
+  Near out[2];
+  // Winding looks down.
+  CHECK(face_supports(t, -1, {{-1, 0.1, 0.5}, {3, 0.1, 0.5}}, 0.1, 0.01, out) == 2);
+  CHECK(out[0].share == Approx(0.25));
+  CHECK(out[1].share == Approx(0.625));
+  CHECK(out[0].distance.m == Approx(0.1));
+  CHECK(out[0].distance.normal[1] == Approx(1));
+  CHECK(face_supports(t, -1, {{-1, 0.1, -0.5}, {3, 0.1, -0.5}}, 0.1, 0.01, out) == 0);
+  CHECK(face_supports(t, -1, {{0.5, 0.5, 0.5}, {0.5, -0.3, 0.5}}, 0.1, 0.01, out) == 1);
+  CHECK(out[0].distance.m == Approx(-0.3));
+}
