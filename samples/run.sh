@@ -5,7 +5,7 @@ cd "$(dirname "$0")/.."
 
 scripts/install_packages.sh
 cmake --preset release >/dev/null
-cmake --build --preset release --target sinew-bake sinew-demo sinew-hello sinew-rods | { grep -v '^ninja: no work' || true; }
+cmake --build --preset release --target sinew-bake sinew-demo sinew-hello sinew-rods sinew-contacts sinew-hair | { grep -v '^ninja: no work' || true; }
 
 bin=build/release/bin
 out=out
@@ -49,4 +49,7 @@ echo
 echo "Rods without a character:"
 newer "$out/rods/two_rods.png" "$bin/sinew-rods" || "$bin/sinew-rods" -o "$out/rods"
 echo
-echo "Pictures: $out/pictures/contact_sheet.png  $out/pictures_rods/contact_sheet.png  $out/pictures (frames, animation)  $out/budget.png  $out/rods/*.png"
+echo "Soft flesh against a Bullet world:"
+"$bin/sinew-contacts" "$out/creature.sinew" -o "$out/contacts"
+echo
+echo "Pictures: $out/pictures/contact_sheet.png  $out/pictures_rods/contact_sheet.png  $out/pictures (frames, animation)  $out/budget.png  $out/rods/*.png  $out/contacts/*.png"

@@ -55,7 +55,7 @@ ContactScene onto_a_crate() {
 
 ContactScene between_walls() {
   constexpr double kClose_s = 0.3, kClosed_s = 1.3, kOpen_s = 4, kOpened_s = 4.4;
-  const Vector3d half(0.45, 0.3, 0.1);
+  const Vector3d post(0.12, 0.3, 0.1), half(0.45, 0.3, 0.1);
   // Closed, the front one is 5 cm into the belly, the other 10 cm into the tail.
   const auto wall = [=](double open_z, double closed_z) {
     return [=](double t) {
@@ -65,7 +65,7 @@ ContactScene between_walls() {
   };
   return {.name = "walls",
           .title = "Between two walls",
-          .boxes = {{half, wall(0.5, 0.155 + 0.1), kWall}, {half, wall(-0.95, -0.55 - 0.1), kWall}},
+          .boxes = {{post, wall(0.5, 0.155 + 0.1), kWall}, {half, wall(-0.95, -0.55 - 0.1), kWall}},
           .root = [](double) { return RootTransform{}; },
           .seconds = 5.5,
           .moments_s = {0.2, 0.9, 3.9, 4.25, 4.45},
