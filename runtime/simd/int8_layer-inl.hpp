@@ -213,28 +213,6 @@ HWY_INLINE void spread_nan(const QuantizedRows<Dot>& heard, uint32_t count, size
   }
 }
 
-// Asks for numbers of a row that are soon read or written: they come from the last cache, while sums go on.
-template <class T>
-HWY_INLINE void fetch_early(const T* row, size_t count) {
-  for (size_t k = 0; k < count; k += 64 / sizeof(T)) __builtin_prefetch(row + k);
-}
-
-// P h of the range's nodes, quantised.
-template <class Dot>
-HWY_INLINE void hear_byte_hidden(const LayerJob& job, Range range, QuantizedRows<Dot>* heard) {
-  const size_t p = job.padded;
-  const Half *c = static_cast<const Half*>(job.c), *y = static_cast<const Half*>(job.y);
-  const auto take = [&]<size_t kVectors>(uint32_t i, size_t j, const Vector(&sum)[kVectors]) HWY_ATTR {
-    const size_t at = (range.first + i) * p + j, count = kVectors * kLanes;
-    fetch_early(c + at, count);
-    fetch_early(y + at, count);
-    fetch_early(job.output_gate + at, count);
-    heard->put(i, j, sum);
-  };
-  aggregate_into(job.graph, static_cast<const Half*>(job.h), p, range.first, range.first + range.count, take);
-  heard->filled += p;
-}
-
 template <class Dot>
 HWY_INLINE void range_byte_cells(const LayerJob& job, Range range, const float* px) {
   const size_t p = job.padded, first = range.first;
@@ -248,7 +226,10 @@ HWY_INLINE void range_byte_cells(const LayerJob& job, Range range, const float* 
     floats.px = {px, job.x_stride};
     floats.x = own_x(job, range, nullptr);
   }
-  hear_byte_hidden(job, range, &heard);
+  const auto put = [&]<size_t kVectors>(uint32_t i, size_t j, const Vector(&sum)[kVectors])
+                       HWY_ATTR { heard.put(i, j, sum); };
+  hear_hidden<Half>(job, range, put);
+  heard.filled += p;
   heard.append(static_cast<const Half*>(job.y) + first * p, p, range.count);
   for (size_t j = 0; j < p; j += kBlock) {
     for (uint32_t tile = 0; tile < range.count; tile += kTileRows)
@@ -286,34 +267,13 @@ HWY_INLINE void output_byte_columns(const LayerJob& job, Range range, const Quan
   }
 }
 
-// P c of the range's nodes, in pc, and with it P y, quantised too.
-template <class Dot>
-HWY_INLINE void hear_byte_cells(const LayerJob& job, Range range, float* pc, QuantizedRows<Dot>* heard) {
-  const size_t p = job.padded, first = range.first * p;
-  const Vector keep = hn::Set(Floats(), job.y_keep);
-  Half *py = static_cast<Half*>(job.y) + first, *h = static_cast<Half*>(job.h) + first;
-  const auto take = [&]<size_t kVectors>(uint32_t i, size_t j, const Vector(&sum)[kVectors]) HWY_ATTR {
-    const size_t at = i * p + j, count = kVectors * kLanes;
-    if (i + kTileRows < range.count) fetch_early(py + at + kTileRows * p, count);
-    fetch_early(h + at, count);
-    fetch_early(job.output_gate + first + at, count);
-    store_vectors(sum, pc + at);
-    Vector next[kVectors];
-    SINEW_UNROLL
-    for (size_t v = 0; v < kVectors; ++v) {
-      next[v] = hn::MulAdd(keep, load_state(py + at + v * kLanes), sum[v]);
-      store_state(next[v], py + at + v * kLanes);
-    }
-    heard->put(i, j, next);
-  };
-  aggregate_into(job.graph, static_cast<const Half*>(job.c), p, range.first, range.first + range.count, take);
-}
-
 template <class Dot>
 HWY_INLINE void range_byte_output(const LayerJob& job, Range range, float* pc) {
   const size_t p = job.padded;
   auto heard = quantized_rows<Dot>(job, p, job.int8.per_unit + job.int8.depth - p);
-  hear_byte_cells(job, range, pc, &heard);
+  const auto put = [&]<size_t kVectors>(uint32_t i, size_t j, const Vector(&py)[kVectors])
+                       HWY_ATTR { heard.put(i, j, py); };
+  hear_cells<Half>(job, range, pc, put);
   const auto body = [&]<size_t kVectors>(size_t j)
                         HWY_ATTR { output_byte_columns<Dot, kVectors>(job, range, heard, j); };
   for_columns(p, body);

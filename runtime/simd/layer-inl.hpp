@@ -45,6 +45,27 @@ HWY_INLINE Plane aggregated(const LayerJob& job, Range range, const T* x, float*
   return {out, job.padded};
 }
 
+// Asks for numbers of a row that are soon read or written: they come from the last cache, while sums go on.
+template <class T>
+HWY_INLINE void fetch_early(const T* row, size_t count) {
+  for (size_t k = 0; k < count; k += 64 / sizeof(T)) __builtin_prefetch(row + k);
+}
+
+// P h of the range's nodes to use(node of the range, first column, sums); what their cells need is asked for.
+template <class T, class Use>
+HWY_INLINE void hear_hidden(const LayerJob& job, Range range, const Use& use) {
+  const size_t p = job.padded;
+  const T *c = static_cast<const T*>(job.c), *y = static_cast<const T*>(job.y);
+  const auto take = [&]<size_t kVectors>(uint32_t i, size_t j, const Vector(&sum)[kVectors]) HWY_ATTR {
+    const size_t at = (range.first + i) * p + j, count = kVectors * kLanes;
+    fetch_early(c + at, count);
+    fetch_early(y + at, count);
+    fetch_early(job.output_gate + at, count);
+    use(i, j, sum);
+  };
+  aggregate_into(job.graph, static_cast<const T*>(job.h), p, range.first, range.first + range.count, take);
+}
+
 // The range's own rows as floats: where they lie, or in `out`.
 template <class T>
 HWY_INLINE Plane own_rows(Range range, const T* x, size_t stride, float* out) {
@@ -125,9 +146,12 @@ template <class T>
 HWY_INLINE void range_cells(const LayerJob& job, Range range, const float* px) {
   const size_t p = job.padded;
   T* c = static_cast<T*>(job.c);
-  const auto *h = static_cast<const T*>(job.h), *y = static_cast<const T*>(job.y);
+  const T* y = static_cast<const T*>(job.y);
   float* rows = job.tile + kTileRows * 4 * kBlock;
-  const Plane ph = aggregated(job, range, h, rows);
+  const auto store = [&]<size_t kVectors>(uint32_t i, size_t j, const Vector(&sum)[kVectors])
+                         HWY_ATTR { store_vectors(sum, rows + i * p + j); };
+  hear_hidden<T>(job, range, store);
+  const Plane ph = {rows, p};
   float* more = rows + kRangeNodes * p;
   const Plane py = job.y_next ? aggregated(job, range, y, more) : own_rows(range, y, p, more);
   const Heard heard = {{px, job.x_stride}, own_x(job, range, more + kRangeNodes * p), ph, py};
@@ -151,17 +175,37 @@ void layer_cells(const LayerJob& job, uint32_t first, uint32_t last) {
   }
 }
 
-// P c of the range's nodes, in pc, and with it P y, which comes back as floats: where it lies, or in `out`.
+// P c of the range's nodes in pc, and with it P y, which also goes to use(node of the range, first column, P
+// y).
+template <class T, class Use>
+HWY_INLINE void hear_cells(const LayerJob& job, Range range, float* pc, const Use& use) {
+  const size_t p = job.padded, first = range.first * p;
+  const Vector keep = hn::Set(Floats(), job.y_keep);
+  T *py = static_cast<T*>(job.y) + first, *h = static_cast<T*>(job.h) + first;
+  const auto take = [&]<size_t kVectors>(uint32_t i, size_t j, const Vector(&sum)[kVectors]) HWY_ATTR {
+    const size_t at = i * p + j, count = kVectors * kLanes;
+    if (i + kTileRows < range.count) fetch_early(py + at + kTileRows * p, count);
+    fetch_early(h + at, count);
+    fetch_early(job.output_gate + first + at, count);
+    store_vectors(sum, pc + at);
+    Vector next[kVectors];
+    SINEW_UNROLL
+    for (size_t v = 0; v < kVectors; ++v) {
+      next[v] = hn::MulAdd(keep, load_state(py + at + v * kLanes), sum[v]);
+      store_state(next[v], py + at + v * kLanes);
+    }
+    use(i, j, next);
+  };
+  aggregate_into(job.graph, static_cast<const T*>(job.c), p, range.first, range.first + range.count, take);
+}
+
+// P y of t: of the last layer in `out`, of another as floats, where it lies or in `out`, and P c in pc.
 template <class T>
-HWY_INLINE Plane hear_cells(const LayerJob& job, Range range, float* pc, float* out) {
-  const Floats d;
-  const size_t p = job.padded, count = range.count * p;
-  T* py = static_cast<T*>(job.y) + range.first * p;
-  const Vector keep = hn::Set(d, job.y_keep);
-  aggregated(job, range, static_cast<const T*>(job.c), pc);
-  for (size_t j = 0; j < count; j += kLanes)
-    store_state(hn::MulAdd(keep, load_state(py + j), hn::Load(d, pc + j)), py + j);
-  return {floats_of(py, count, out), p};
+HWY_INLINE Plane peepholes(const LayerJob& job, Range range, float* pc, float* out) {
+  if (job.y_next) return aggregated(job, range, job.y_next, out);
+  const auto nothing = []<size_t kVectors>(uint32_t, size_t, const Vector(&)[kVectors]) HWY_ATTR {};
+  hear_cells<T>(job, range, pc, nothing);
+  return own_rows(range, static_cast<const T*>(job.y), job.padded, out);
 }
 
 template <class Curve = FineTanh>
@@ -200,8 +244,7 @@ template <class T>
 HWY_INLINE void range_output(const LayerJob& job, Range range, float* pc) {
   const size_t p = job.padded, at = range.first * p;
   float* rows = job.tile + kTileRows * 4 * kBlock;
-  const Plane py =
-      job.y_next ? aggregated(job, range, job.y_next, rows) : hear_cells<T>(job, range, pc, rows);
+  const Plane py = peepholes<T>(job, range, pc, rows);
   const auto body = [&]<size_t kVectors>(size_t j)
                         HWY_ATTR { output_columns<kVectors, T>(job, range, py, j); };
   for_columns(p, body);

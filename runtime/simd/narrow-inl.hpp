@@ -177,8 +177,7 @@ template <size_t kWidth>
 HWY_INLINE void narrow_range_output(const LayerJob& job, Range range, float* pc) {
   const size_t at = range.first * size_t{kBlock};
   float* rows = job.tile + kTileRows * 4 * kBlock;
-  const Plane py =
-      job.y_next ? aggregated(job, range, job.y_next, rows) : hear_cells<float>(job, range, pc, rows);
+  const Plane py = peepholes<float>(job, range, pc, rows);
   for (uint32_t tile = 0; tile < range.count; tile += kTileRows)
     narrow_tile_output<kWidth>(job, range, py, tile);
   if (job.y_next) copy_floats(job.y_next + at, range.count * size_t{kBlock}, static_cast<float*>(job.y) + at);

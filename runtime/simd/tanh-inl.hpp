@@ -10,7 +10,7 @@
 // in magnitude; exact at 0; NaN stays NaN. Cost: 8 FMA, 2 mul, 1 div, 2 min or max; sigmoid 1 FMA more.
 //
 // CoarseTanh, for int8 layers: degree 2 and |x| <= 5.02, from the same iteration on the absolute error, which
-// is 4.4e-5 for tanh and 2.2e-5 for sigmoid: a fifth of what a cell near 1/2 loses where it is kept as a
+// is 4.4e-5 for tanh and 2.2e-5 for sigmoid: a fifth of what a cell above 1/2 may lose as it is rounded to a
 // half. Never beyond 1 - 4.3e-5; exact at 0; NaN stays NaN. Cost: 4 FMA fewer.
 HWY_BEFORE_NAMESPACE();
 namespace sinew::simd::HWY_NAMESPACE {
