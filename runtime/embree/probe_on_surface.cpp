@@ -2,6 +2,7 @@
 #include "embree/probe_on_surface.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "rods/vector.hpp"
 
@@ -17,6 +18,8 @@ constexpr double kAtEnd = 0.15;
 // A touch between two ends that touch is left out where it is no deeper than their line by this, of the
 // radius.
 constexpr double kDeeper = 0.01;
+// Of the radius: gaps that count as the same.
+constexpr double kSame = 1e-3;
 constexpr double kMeeting = 1e-9;  // m: a distance without a direction
 
 Vector relative_to(const double (&point_m)[3], const double (&origin_m)[3]) {
@@ -34,14 +37,24 @@ Vector unit_or(const Vector& v, const Vector& otherwise) {
   return size > kMeeting ? scaled(1 / size, v) : otherwise;
 }
 
-bool comes_before(const TriangleTouch& a, const TriangleTouch& b, double radius_m) {
-  const bool a_touches = a.gap_m <= 0.02 * radius_m, b_touches = b.gap_m <= 0.02 * radius_m;
-  if (a_touches && b_touches && a.time != b.time) return a.time < b.time;
-  if (a_touches != b_touches) return a_touches;
-  return a.gap_m < b.gap_m;
+Ball ball_about(const Triangle& t) {
+  Ball ball = {scaled(1.0 / 3, sum(t.corners[0], sum(t.corners[1], t.corners[2]))), 0};
+  for (const Vector& c : t.corners) {
+    const Vector arm = difference(c, ball.middle);
+    ball.radius_m = std::max(ball.radius_m, dot(arm, arm));
+  }
+  ball.radius_m = std::sqrt(ball.radius_m);
+  return ball;
+}
+
+bool comes_before(const TriangleTouch& a, const TriangleTouch& b) {
+  if (a.touches && b.touches && (a.time > 0 || b.time > 0)) return a.arrives < b.arrives;
+  return a.touches == b.touches ? a.gap_m < b.gap_m : a.touches;
 }
 
 }  // namespace
+
+double Ball::gap_m(const Vector& point) const { return length(difference(point, middle)) - radius_m; }
 
 ProbeOnSurface::ProbeOnSurface(const Surface& surface, const ContactProbe& probe, const SurfaceFilter& filter,
                                bool grows_here, double reach_m, double dt_s) noexcept
@@ -68,58 +81,98 @@ Sweep ProbeOnSurface::sweep_of_end(uint32_t where) const {
   return {{start, start}, {end, end}, sweep_.radius_m};
 }
 
-// Beyond this from the middle of the axis nothing matters any more.
-double ProbeOnSurface::radius_left() const noexcept {
-  double farthest = half_m_ + (1 + kNearRadius) * sweep_.radius_m + (1 + kNearWay) * way_m_;
-  for (const Nearby& n : samples_) farthest = std::max(farthest, n.distance_m + half_m_);
-  return farthest;
+// An axis that has this much more way than a triangle touches it from no further.
+double ProbeOnSurface::near_m(double speed_m) const noexcept {
+  return (1 + kNearRadius) * sweep_.radius_m + (1 + kNearWay) * speed_m;
 }
 
-void ProbeOnSurface::look_at_sample(uint32_t where, uint32_t triangle, const Triangle& start) noexcept {
+// What comes from further off than this from the middle of the axis does not touch.
+double ProbeOnSurface::farthest_touch() const noexcept { return half_m_ + near_m(way_m_); }
+
+// Beyond this from the middle of the axis nothing matters any more.
+double ProbeOnSurface::radius_left() const noexcept {
+  return std::max({farthest_touch(), samples_[kMiddle].distance_m, samples_[kFrom].distance_m + half_m_,
+                   samples_[kTo].distance_m + half_m_});
+}
+
+// Only the middle, and whether there is anything to touch.
+double ProbeOnSurface::glance(uint32_t triangle) noexcept {
+  if (surface_.groups(triangle) & filter_.groups) {
+    const double distance = look_at_sample(kMiddle, triangle, surface_.start_triangle(triangle));
+    if (!near_ && distance - half_m_ <= near_m(way_m_ + surface_.longest_move_m())) {
+      near_ = distance - half_m_ <= near_m(closing_speed(sweep_, surface_.moving_triangle(triangle, share_)));
+    }
+  }
+  return std::max(farthest_touch(), samples_[kMiddle].distance_m);
+}
+
+double ProbeOnSurface::look_at_sample(uint32_t where, uint32_t triangle, const Triangle& start) noexcept {
   const Vector point = sample(where);
   const OnTriangle on = nearest(start, point);
   const double distance = length(difference(point, on.point));
   Nearby& best = samples_[where];
-  if (distance > best.distance_m || (distance == best.distance_m && triangle > best.triangle)) return;
-  best = {distance, triangle, on};
+  const bool first_of_same = distance == best.distance_m && triangle < best.triangle;
+  if (distance < best.distance_m || first_of_same) best = {distance, triangle, on};
+  return distance;
 }
 
 double ProbeOnSurface::look(uint32_t triangle) noexcept {
   if (!(surface_.groups(triangle) & filter_.groups)) return radius_left();
   const MovingTriangle moving = surface_.moving_triangle(triangle, share_);
-  const Vector middle = sample(kMiddle);
-  const double distance = length(difference(middle, nearest(moving.start, middle).point));
-  for (uint32_t s = 0; s < kSamples; ++s) {
-    if (distance - (s == kMiddle ? 0 : half_m_) <= samples_[s].distance_m) {
-      look_at_sample(s, triangle, moving.start);
-    }
+  const Ball about = ball_about(moving.start);
+  for (const uint32_t end : {kFrom, kTo}) {
     if (round_) break;
+    if (about.gap_m(sample(end)) <= samples_[end].distance_m) look_at_sample(end, triangle, moving.start);
   }
-  look_at_ways(triangle, moving, distance);
+  look_at_ways(triangle, moving, about);
   return radius_left();
 }
 
-void ProbeOnSurface::look_at_ways(uint32_t triangle, const MovingTriangle& moving,
-                                  double distance_m) noexcept {
-  const double way = closing_speed(sweep_, moving);
-  const double near_m = (1 + kNearRadius) * sweep_.radius_m + (1 + kNearWay) * way;
-  if (distance_m - half_m_ > near_m) return;
-  const TriangleTouch touch = first_touch(sweep_, moving);
-  if (axis_.triangle == kNone || comes_before(touch, axis_.touch, sweep_.radius_m)) axis_ = {touch, triangle};
-  if (round_ || touch.gap_m > near_m) return;
-  for (const uint32_t where : {kFrom, kTo}) {
-    const TriangleTouch end = first_touch(sweep_of_end(where), moving);
-    if (ends_[where].triangle == kNone || comes_before(end, ends_[where].touch, sweep_.radius_m)) {
-      ends_[where] = {end, triangle};
-    }
+// Whether a triangle stays behind what is touched best, along that touch's normal, for as long as it matters.
+bool ProbeOnSurface::is_beaten(const Touched& best, const Sweep& sweep,
+                               const MovingTriangle& m) const noexcept {
+  const Vector& n = best.touch.normal;
+  if (best.triangle == kNone || !(dot(n, n) > 0)) return false;
+  for (const double time : {0.0, best.touch.touches ? best.touch.time : 1.0}) {
+    const double axis = std::min(dot(n, between(sweep.start.from, sweep.end.from, time)),
+                                 dot(n, between(sweep.start.to, sweep.end.to, time)));
+    double most = -std::numeric_limits<double>::infinity();
+    for (size_t k = 0; k < 3; ++k)
+      most = std::max(most, dot(n, scaled_sum(time, m.moves[k], m.start.corners[k])));
+    if (axis - most - sweep.radius_m < best.touch.gap_m - kSame * sweep.radius_m) return false;
   }
+  return true;
+}
+
+void ProbeOnSurface::look_at_ways(uint32_t triangle, const MovingTriangle& moving,
+                                  const Ball& about) noexcept {
+  const double speed = closing_speed(sweep_, moving), radius = sweep_.radius_m;
+  const double near = near_m(speed) - radius;
+  const auto look = [&](const Sweep& sweep, Touched* best) {
+    const double along = rods::nearest(sweep.start, about.middle);
+    const double gap = about.gap_m(between(sweep.start.from, sweep.start.to, along)) - radius;
+    if (gap > near || is_beaten(*best, sweep, moving)) return;
+    take_first({first_touch(sweep, moving), triangle}, best);
+  };
+  look(sweep_, &axis_);
+  if (round_) return;
+  look(sweep_of_end(kFrom), &ends_[kFrom]);
+  look(sweep_of_end(kTo), &ends_[kTo]);
+}
+
+void ProbeOnSurface::take_first(const Touched& t, Touched* best) const noexcept {
+  if (best->triangle == kNone || comes_before(t.touch, best->touch)) *best = t;
+}
+
+bool ProbeOnSurface::is_inside(uint32_t where) const noexcept {
+  const Nearby& n = samples_[where];
+  if (n.triangle == kNone || surface_.two_sided()) return false;
+  return side_of(surface_, filter_.groups, n.triangle, n.on, sample(where)) == Side::kInside;
 }
 
 void ProbeOnSurface::tell_sides() noexcept {
-  for (uint32_t s = 0; s < (round_ ? 1u : kSamples); ++s) {
-    Nearby& n = samples_[s];
-    if (n.triangle == kNone || surface_.two_sided()) continue;
-    n.inside = side_of(surface_, filter_.groups, n.triangle, n.on, sample(s)) == Side::kInside;
+  for (uint32_t s = 0; s < kSamples; ++s) {
+    if (!round_ || s == kMiddle) samples_[s].inside = is_inside(s);
   }
 }
 
@@ -197,8 +250,23 @@ void ProbeOnSurface::add_outside() noexcept {
   if (!no_deeper && !at_end && near(axis_)) add(axis_, kMiddle);
 }
 
+// Ends are no further from the surface than the middle and half the axis.
+bool ProbeOnSurface::is_near_or_inside() noexcept {
+  surface_.visit_ball(sample(kMiddle), std::max(farthest_touch(), reach_m_),
+                      [this](uint32_t triangle) { return glance(triangle); });
+  const Nearby& middle = samples_[kMiddle];
+  if (middle.triangle != kNone) {
+    for (const uint32_t end : {kFrom, kTo}) {
+      samples_[end].distance_m = std::min(samples_[end].distance_m, middle.distance_m + half_m_ + kMeeting);
+    }
+    near_ = near_ || is_inside(kMiddle);
+  }
+  return near_;
+}
+
 uint32_t ProbeOnSurface::find(ContactHit (&hits)[kMostContacts]) noexcept {
   hits_ = hits, count_ = 0;
+  if (!is_near_or_inside()) return 0;
   surface_.visit_ball(sample(kMiddle), radius_left(), [this](uint32_t triangle) { return look(triangle); });
   tell_sides();
   if (!samples_[kFrom].inside && !samples_[kTo].inside && !samples_[kMiddle].inside) {

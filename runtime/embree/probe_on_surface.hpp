@@ -1,7 +1,8 @@
 // probe_on_surface.hpp  Where a probe touches one surface in a tick.
 //
-// One walk through the tree looks at every triangle that the probe may come to. Looked at are both ends and
-// the middle of its axis, where the tick begins, and the ends' and the whole axis' first touch on the way. If
+// A first walk through the tree finds what is nearest to the middle of the axis and whether there is anything
+// to touch; most probes end there. A second looks at both ends, where the tick begins, and at the ends' and
+// the whole axis' first touch on the way. If
 // none of the three is inside, the contacts are the axis' touch and those of the ends that touch as well; if
 // one is, the contacts are the shortest ways out of those that are inside, and the touches of the ends that
 // are not.
@@ -10,6 +11,13 @@
 #include "rods/sweep.hpp"
 
 namespace sinew::embree {
+
+// That a triangle lies in: nothing of it is nearer.
+struct Ball {
+  Vector middle;
+  double radius_m;
+  double gap_m(const Vector& point) const;
+};
 
 class ProbeOnSurface {
  public:
@@ -39,10 +47,17 @@ class ProbeOnSurface {
   static double along(uint32_t where) { return where == kFrom ? 0 : where == kTo ? 1 : 0.5; }
   Vector sample(uint32_t where) const;
   Sweep sweep_of_end(uint32_t where) const;
+  bool is_near_or_inside() noexcept;
+  double glance(uint32_t triangle) noexcept;
   double look(uint32_t triangle) noexcept;
-  void look_at_sample(uint32_t where, uint32_t triangle, const Triangle& start) noexcept;
-  void look_at_ways(uint32_t triangle, const MovingTriangle& moving, double distance_m) noexcept;
+  double look_at_sample(uint32_t where, uint32_t triangle, const Triangle& start) noexcept;
+  double near_m(double speed_m) const noexcept;
+  void look_at_ways(uint32_t triangle, const MovingTriangle& moving, const Ball& about) noexcept;
+  bool is_beaten(const Touched& best, const Sweep& sweep, const MovingTriangle& m) const noexcept;
+  void take_first(const Touched& touched, Touched* best) const noexcept;
+  double farthest_touch() const noexcept;
   double radius_left() const noexcept;
+  bool is_inside(uint32_t where) const noexcept;
   void tell_sides() noexcept;
   bool grows_from(uint32_t triangle, const OnTriangle& on) const noexcept;
   bool near(const Touched& touched) const noexcept;
@@ -58,7 +73,8 @@ class ProbeOnSurface {
   bool grows_here_;
   double reach_m_, share_, half_m_, way_m_;
   Sweep sweep_;
-  bool round_;  // a ball: only its beginning counts
+  bool round_;         // a ball: only its middle counts
+  bool near_ = false;  // something may be touched
   Nearby samples_[kSamples];
   Touched ends_[2], axis_;
   ContactHit* hits_ = nullptr;

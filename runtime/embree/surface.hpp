@@ -25,6 +25,7 @@ class Surface {
   const Topology& topology() const noexcept { return topology_; }
   const double (&origin_m() const noexcept)[3] { return origin_m_; }
   double motion_s() const noexcept { return motion_s_; }  // that moves span; 0: it stands
+  double longest_move_m() const noexcept { return longest_move_m_; }
   float friction() const noexcept { return friction_; }
   float restitution() const noexcept { return restitution_; }
   bool two_sided() const noexcept { return two_sided_; }
@@ -76,7 +77,7 @@ class Surface {
   std::vector<uint32_t> groups_;
   std::vector<float> rest_m_, starts_, moves_, last_;  // [vertices][3]; last_: where the last pose put it
   double origin_m_[3] = {0, 0, 0};
-  double motion_s_ = 0;
+  double motion_s_ = 0, longest_move_m_ = 0;
   float friction_ = 0, restitution_ = 0;
   bool two_sided_ = false;
   uint32_t poses_refused_ = 0;

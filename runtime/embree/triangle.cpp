@@ -2,6 +2,7 @@
 #include "embree/triangle.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "rods/vector.hpp"
 
@@ -45,45 +46,64 @@ Axis at(const Sweep& s, double time) {
   return {between(s.start.from, s.end.from, time), between(s.start.to, s.end.to, time)};
 }
 
-void take_nearer(const AxisOnTriangle& candidate, AxisOnTriangle* best) {
-  if (candidate.distance_m < best->distance_m) *best = candidate;
+void take_nearer(double along, const OnTriangle& on, const Vector& point, AxisOnTriangle* best) {
+  const double distance = length(difference(point, on.point));
+  if (distance < best->distance_m) *best = {along, on, distance};
 }
 
-AxisOnTriangle at_point(const Triangle& t, const Axis& axis, double along) {
+// Where a point's foot on the plane is in the face; edges are looked at elsewhere.
+void look_at_face(const Triangle& t, const Axis& axis, double along, AxisOnTriangle* best) {
   const Vector point = between(axis.from, axis.to, along);
-  const OnTriangle on = nearest(t, point);
-  return {along, on, length(difference(point, on.point))};
+  const Vector ab = difference(t.corners[1], t.corners[0]), ac = difference(t.corners[2], t.corners[0]);
+  const Vector ap = difference(point, t.corners[0]), n = cross(ab, ac);
+  const double nn = dot(n, n), v = dot(cross(ap, ac), n), w = dot(cross(ab, ap), n);
+  if (!(v > 0 && w > 0 && v + w < nn)) return;
+  const double vs = v / nn, ws = w / nn;
+  take_nearer(along, {scaled_sum(vs, ab, scaled_sum(ws, ac, t.corners[0])), {1 - vs - ws, vs, ws}, kFace},
+              point, best);
 }
 
-AxisOnTriangle at_edge(const Triangle& t, const Axis& axis, uint32_t edge) {
-  const Nearest n = rods::nearest(axis, Axis{t.corners[edge], t.corners[(edge + 1) % 3]});
-  const OnTriangle on = on_edge(t, edge, n.b);
-  return {n.a, on, length(difference(between(axis.from, axis.to, n.a), on.point))};
+// The most that what the two have between them along n, from the triangle to the axis, shrinks in a tick.
+double closing_along(const Sweep& s, const MovingTriangle& m, const Vector& n) {
+  const double axis =
+      std::min(dot(n, difference(s.end.from, s.start.from)), dot(n, difference(s.end.to, s.start.to)));
+  return std::max({dot(n, m.moves[0]), dot(n, m.moves[1]), dot(n, m.moves[2])}) - axis;
 }
 
 }  // namespace
 
 OnTriangle nearest(const Triangle& t, const Vector& point) noexcept {
-  const Vector ab = difference(t.corners[1], t.corners[0]), ac = difference(t.corners[2], t.corners[0]);
-  const Vector n = cross(ab, ac), ap = difference(point, t.corners[0]);
-  const double nn = dot(n, n);
-  if (!(nn > 0)) return on_nearest_edge(t, point);
-  // Areas over the triangle's, of the point's foot on its plane.
-  const double v = dot(cross(ap, ac), n) / nn, w = dot(cross(ab, ap), n) / nn, u = 1 - v - w;
+  const Vector &a = t.corners[0], &b = t.corners[1], &c = t.corners[2];
+  const Vector ab = difference(b, a), ac = difference(c, a), ap = difference(point, a);
+  const double d1 = dot(ab, ap), d2 = dot(ac, ap);
+  if (d1 <= 0 && d2 <= 0) return {a, {1, 0, 0}, kCorner};
+  const Vector bp = difference(point, b), cp = difference(point, c);
+  const double d3 = dot(ab, bp), d4 = dot(ac, bp), d5 = dot(ab, cp), d6 = dot(ac, cp);
+  if (d3 >= 0 && d4 <= d3) return {b, {0, 1, 0}, kCorner + 1};
+  if (d6 >= 0 && d5 <= d6) return {c, {0, 0, 1}, kCorner + 2};
+  const double u = d3 * d6 - d5 * d4, v = d5 * d2 - d1 * d6, w = d1 * d4 - d3 * d2, sum = u + v + w;
   if (!(u > 0 && v > 0 && w > 0)) return on_nearest_edge(t, point);
-  return {scaled_sum(v, ab, scaled_sum(w, ac, t.corners[0])), {u, v, w}, kFace};
+  const double vs = v / sum, ws = w / sum;
+  return {scaled_sum(vs, ab, scaled_sum(ws, ac, a)), {1 - vs - ws, vs, ws}, kFace};
 }
 
 AxisOnTriangle nearest(const Triangle& t, const Axis& axis) noexcept {
-  AxisOnTriangle best = at_point(t, axis, 0);
   const Vector way = difference(axis.to, axis.from);
-  if (!(dot(way, way) > 0)) return best;
-  take_nearer(at_point(t, axis, 1), &best);
+  AxisOnTriangle best = {0, {}, std::numeric_limits<double>::infinity()};
+  if (!(dot(way, way) > 0)) {
+    take_nearer(0, nearest(t, axis.from), axis.from, &best);
+    return best;
+  }
+  look_at_face(t, axis, 0, &best);
+  look_at_face(t, axis, 1, &best);
   const Vector n = cross(difference(t.corners[1], t.corners[0]), difference(t.corners[2], t.corners[0]));
   const double from = dot(difference(axis.from, t.corners[0]), n);
   const double to = dot(difference(axis.to, t.corners[0]), n);
-  if (from * to < 0) take_nearer(at_point(t, axis, from / (from - to)), &best);
-  for (uint32_t k = 0; k < 3; ++k) take_nearer(at_edge(t, axis, k), &best);
+  if (from * to < 0) look_at_face(t, axis, from / (from - to), &best);
+  for (uint32_t k = 0; k < 3; ++k) {
+    const Nearest at = rods::nearest(axis, Axis{t.corners[k], t.corners[(k + 1) % 3]});
+    take_nearer(at.a, on_edge(t, k, at.b), between(axis.from, axis.to, at.a), &best);
+  }
   return best;
 }
 
@@ -98,21 +118,23 @@ double closing_speed(const Sweep& s, const MovingTriangle& t) noexcept {
   return std::sqrt(fastest);
 }
 
+// Both are convex: along the direction between their nearest points they come no nearer than they close.
 TriangleTouch first_touch(const Sweep& sweep, const MovingTriangle& triangle) noexcept {
-  const double speed = closing_speed(sweep, triangle);
-  const double enough = kTouching * sweep.radius_m + kTouchingWay * speed;
+  const double enough = kTouching * sweep.radius_m + kTouchingWay * closing_speed(sweep, triangle);
   TriangleTouch best = {};
   double time = 0;
   for (int k = 0; k < kMoments; ++k) {
-    const AxisOnTriangle n = nearest(at(triangle, time), at(sweep, time));
+    const Axis axis = at(sweep, time);
+    const AxisOnTriangle n = nearest(at(triangle, time), axis);
     const double gap = n.distance_m - sweep.radius_m;
-    if (k == 0 || gap < best.gap_m) best = {time, n, {}, gap};
-    if (!(gap > enough) || !(time < 1) || gap >= speed) break;
-    time = std::min(1.0, gap >= speed * (1 - time) ? 1.0 : time + gap / speed);
+    const Vector apart = difference(between(axis.from, axis.to, n.along), n.on.point);
+    const Vector normal = n.distance_m > kMeeting ? scaled(1 / n.distance_m, apart) : Vector{};
+    const double closing = closing_along(sweep, triangle, normal);
+    const double arrives = closing > 0 ? time + std::max(gap, 0.0) / closing : time;
+    if (k == 0 || gap < best.gap_m) best = {time, n, normal, gap, gap <= enough, arrives};
+    if (!(gap > enough) || !(time < 1) || !(closing > 0)) break;
+    time = std::min(1.0, time + gap / closing);
   }
-  const Axis axis = at(sweep, best.time);
-  const Vector apart = difference(between(axis.from, axis.to, best.at.along), best.at.on.point);
-  if (best.at.distance_m > kMeeting) best.normal = scaled(1 / best.at.distance_m, apart);
   return best;
 }
 

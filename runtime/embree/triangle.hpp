@@ -45,6 +45,8 @@ struct TriangleTouch {
   AxisOnTriangle at;
   Vector normal;  // to the sweep; zero where the axis meets the triangle
   double gap_m;   // then, between the surfaces
+  bool touches;
+  double arrives;  // when the gap will have closed, along the normal
 };
 TriangleTouch first_touch(const Sweep& sweep, const MovingTriangle& triangle) noexcept;
 

@@ -64,8 +64,10 @@ Hair::Hair(const HairStyle& style, Against against, size_t vertices)
   accept(rods::RodBatch::create(defs, settings, &batch_));
   const uint32_t most = kHitsASegment * style.strands * style.segments;
   accept(rods::RodCollider::create(
-      batch_, {.rods_collide = false, .contact_capacity = most, .point_capacity = most}, &collider_));
+      batch_, {.rods_collide = false, .contact_capacity = most, .point_capacity = 0, .source_capacity = most},
+      &collider_));
   skin_ = skin_of(bust_, &skin_id_);
+  if (against_ == Against::kSkin) accept(collider_.set_source(&skin_));
   looked_at_ = skin_of(bust_, &looked_id_);
   hits_.resize(most);
 }
@@ -92,39 +94,6 @@ void Hair::step(bool measures) {
   if (against_ == Against::kSkin) {
     accept(skin_.move_surface(skin_id_, {.places_m = places, .dt_s = kTick_s}));
     measure_.refit_us.push_back(thread_us() - begin);
-    probes_.clear();
-    const uint32_t n = batch_.segment_count();
-    for (uint32_t s = 0; s < batch_.strand_count(); ++s) {
-      for (uint32_t i = 1; i < n; ++i) {
-        ContactProbe probe;
-        rods::SegmentPose pose = batch_.pose(s, i);
-        const rods::SegmentVelocity v = batch_.velocity(s, i);
-        const double length = static_cast<double>(strands_[s][i].length_m);
-        put_ends(pose, length, probe.start_m);
-        for (size_t k = 0; k < 3; ++k) {
-          pose.position_m[k] +=
-              static_cast<double>(kTick_s * (v.linear_m_s[k] + (k == 1 ? -9.81f * kTick_s : 0)));
-        }
-        put_ends(pose, length, probe.end_m);
-        probe.radius_m = strands_[s][i].radius_m;
-        probes_.push_back(probe);
-      }
-    }
-    const uint32_t found = skin_.find(probes_, kTick_s, hits_);
-    points_.clear();
-    for (uint32_t h = 0; h < std::min<size_t>(found, hits_.size()); ++h) {
-      const ContactHit& hit = hits_[h];
-      rods::ContactPoint p = {.strand = hit.probe / (n - 1),
-                              .segment = 1 + hit.probe % (n - 1),
-                              .along = hit.along,
-                              .gap_m = hit.gap_m,
-                              .friction = hit.friction,
-                              .name = hit.name};
-      std::copy_n(hit.normal, 3, p.normal);
-      std::copy_n(hit.velocity_m_s, 3, p.velocity_m_s);
-      points_.push_back(p);
-    }
-    accept(collider_.set_points(points_));
   }
   rods::RodReport report;
   accept(batch_.step(kTick_s, &collider_, &report));

@@ -45,7 +45,6 @@ class Hair {
   SurfaceId skin_id_, looked_id_;
   std::vector<ContactProbe> probes_;
   std::vector<ContactHit> hits_;
-  std::vector<rods::ContactPoint> points_;
   double time_s_ = 0;
   HairMeasure measure_;
 };
