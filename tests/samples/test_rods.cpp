@@ -86,6 +86,19 @@ TEST_CASE("rods_draws_a_helix_on_a_plane_and_two_rods_that_touch") {
   check_sheet(folder.file("out/two_rods.png"), 3, 2);
 }
 
+#ifdef SINEW_HAS_BULLET
+TEST_CASE("rods_draws_a_rope_on_a_drum_that_it_does_not_sink_into") {
+  TemporaryFolder folder;
+  const ProgramResult result =
+      rods_program({"-o", folder.file("out"), "--scene", "drum", "--seconds", "0.5"});
+  INFO(result.error);
+  REQUIRE(result.exit_code == 0);
+  CHECK_THAT(result.out, Catch::Contains("1 x 108 segments, 60 steps"));
+  CHECK_THAT(result.out, Catch::Contains(" contacts, 0.0") && Catch::Contains(" by contacts, 0.0"));
+  check_sheet(folder.file("out/drum.png"), 3, 2);
+}
+#endif
+
 TEST_CASE("a_tube_is_as_thick_as_its_rod_everywhere_and_closed") {
   sample::Actor actor{test::straight_rod({.segments = 5, .length_m = 1}), {{1, 0, 0}, {0, 1, 0}, 12, 3}, {}};
   sample::Poses poses;
