@@ -62,6 +62,19 @@ Status check(const SurfaceContactsDef& def) {
                      static_cast<double>(def.reach_m));
 }
 
+// Whether a probe goes on where the one before it ends, as segments of a chain do: at a joint one contact is
+// enough, two would share its force.
+bool goes_on(const ContactProbe& before, const ContactProbe& probe) {
+  constexpr double kAtOnePlace = 0.1;  // of the radius
+  double square = 0;
+  for (size_t k = 0; k < 3; ++k) {
+    const double apart = probe.start_m[0][k] - before.start_m[1][k];
+    square += apart * apart;
+  }
+  const double near_m = kAtOnePlace * static_cast<double>(probe.radius_m);
+  return before.owner == probe.owner && square <= near_m * near_m;
+}
+
 bool usable(const ContactProbe& probe) {
   double sum = static_cast<double>(probe.radius_m);
   for (size_t end = 0; end < 2; ++end) {
@@ -181,12 +194,15 @@ uint32_t SurfaceContacts::find(std::span<const ContactProbe> probes, float dt_s,
                                std::span<ContactHit> hits) noexcept {
   if (!impl_ || !(dt_s >= 0)) return 0;
   Collected collected(hits);
+  uint64_t ended = 0;  // a bit for each of the first 64 surfaces: the probe before touched it with its end
   for (uint32_t p = 0; p < probes.size(); ++p) {
     if (!usable(probes[p])) {
       ++impl_->skipped;
       continue;
     }
     const SurfaceFilter& filter = impl_->filter_of(probes[p].owner);
+    const uint64_t told = p > 0 && goes_on(probes[p - 1], probes[p]) ? ended : 0;
+    ended = 0;
     for (uint32_t s = 0; s < impl_->surfaces.end(); ++s) {
       const std::unique_ptr<Surface>* surface = impl_->surfaces.at(s);
       if (!surface) continue;
@@ -196,6 +212,8 @@ uint32_t SurfaceContacts::find(std::span<const ContactProbe> probes, float dt_s,
                           static_cast<double>(dt_s));
       const uint32_t count = look.find(found);
       for (uint32_t i = 0; i < count; ++i) {
+        if (found[i].along == -1 && s < 64 && (told >> s & 1)) continue;
+        if (found[i].along == 1 && s < 64) ended |= uint64_t{1} << s;
         found[i].probe = p;
         found[i].name += 3 * s;
         found[i].body |= uint64_t{s + 1} << 32;

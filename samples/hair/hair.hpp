@@ -11,7 +11,7 @@ namespace sinew::sample {
 enum class Against { kNothing, kProxies, kSkin };
 
 struct HairMeasure {
-  uint64_t steps = 0, unconverged = 0, recovered = 0, contacts = 0, contacts_most = 0, dropped = 0;
+  uint64_t steps = 0, unconverged = 0, contacts_unconverged = 0, recovered = 0, contacts = 0, contacts_most = 0, dropped = 0;
   // Below the skin at a step's end, of a lock's radius: deepest of all, and how many of all ends and nearest
   // points of segments were deeper than a twentieth.
   double deepest = 0;
@@ -34,6 +34,7 @@ class Hair {
 
  private:
   void hold_roots(const Turning& turning);
+  void place_proxies(const Turning& before, const Turning& now);
   void look();
 
   Bust bust_;
