@@ -32,6 +32,10 @@ struct SurfaceContacts::Impl {
     std::unique_ptr<Surface>* found = surfaces.find(id);
     return found ? found->get() : nullptr;
   }
+  // Of one probe; one near more than eight surfaces at a time touches the first eight.
+  static constexpr uint32_t kMostHits = 8 * ProbeOnSurface::kMostContacts;
+  uint32_t find(std::span<const ContactProbe> probes, uint32_t p, double dt_s,
+                ContactHit (&hits)[kMostHits]) const noexcept;
   const SurfaceFilter& filter_of(uint32_t owner) const {
     return owner < filters.size() ? filters[owner] : all;
   }
@@ -190,36 +194,39 @@ Status SurfaceContacts::report(SurfaceId surface, SurfaceReport* out) const noex
 
 uint64_t SurfaceContacts::probes_skipped() const noexcept { return impl_ ? impl_->skipped.load() : 0; }
 
+uint32_t SurfaceContacts::Impl::find(std::span<const ContactProbe> probes, uint32_t p, double dt_s,
+                                     ContactHit (&hits)[kMostHits]) const noexcept {
+  const SurfaceFilter& filter = filter_of(probes[p].owner);
+  const bool goes_on_here = p > 0 && goes_on(probes[p - 1], probes[p]);
+  uint32_t count = 0;
+  for (uint32_t s = 0; s < surfaces.end() && count + ProbeOnSurface::kMostContacts <= kMostHits; ++s) {
+    const std::unique_ptr<Surface>* surface = surfaces.at(s);
+    if (!surface) continue;
+    const bool grows_here = filter.root_surface == surfaces.id_at(s);
+    ContactHit found[ProbeOnSurface::kMostContacts];
+    ProbeOnSurface look(**surface, probes[p], filter, grows_here, static_cast<double>(def.reach_m), dt_s);
+    for (const ContactHit& hit : std::span(found).first(look.find(found))) {
+      if (goes_on_here && hit.along == -1) continue;  // told where the probe before ends
+      hits[count] = hit;
+      hits[count].probe = p, hits[count].name += ProbeOnSurface::kMostContacts * s;
+      hits[count++].body |= uint64_t{s + 1} << 32;
+    }
+  }
+  return count;
+}
+
 uint32_t SurfaceContacts::find(std::span<const ContactProbe> probes, float dt_s,
                                std::span<ContactHit> hits) noexcept {
   if (!impl_ || !(dt_s >= 0)) return 0;
   Collected collected(hits);
-  uint64_t ended = 0;  // a bit for each of the first 64 surfaces: the probe before touched it with its end
   for (uint32_t p = 0; p < probes.size(); ++p) {
     if (!usable(probes[p])) {
       ++impl_->skipped;
       continue;
     }
-    const SurfaceFilter& filter = impl_->filter_of(probes[p].owner);
-    const uint64_t told = p > 0 && goes_on(probes[p - 1], probes[p]) ? ended : 0;
-    ended = 0;
-    for (uint32_t s = 0; s < impl_->surfaces.end(); ++s) {
-      const std::unique_ptr<Surface>* surface = impl_->surfaces.at(s);
-      if (!surface) continue;
-      const bool grows_here = filter.root_surface == impl_->surfaces.id_at(s);
-      ContactHit found[ProbeOnSurface::kMostContacts];
-      ProbeOnSurface look(**surface, probes[p], filter, grows_here, static_cast<double>(impl_->def.reach_m),
-                          static_cast<double>(dt_s));
-      const uint32_t count = look.find(found);
-      for (uint32_t i = 0; i < count; ++i) {
-        if (found[i].along == -1 && s < 64 && (told >> s & 1)) continue;
-        if (found[i].along == 1 && s < 64) ended |= uint64_t{1} << s;
-        found[i].probe = p;
-        found[i].name += 3 * s;
-        found[i].body |= uint64_t{s + 1} << 32;
-        collected.add(found[i]);
-      }
-    }
+    ContactHit found[Impl::kMostHits];
+    const uint32_t count = impl_->find(probes, p, static_cast<double>(dt_s), found);
+    for (uint32_t i = 0; i < count; ++i) collected.add(found[i]);
   }
   return collected.count();
 }

@@ -14,7 +14,8 @@
 namespace sinew::sample {
 namespace {
 
-constexpr float kTick_s = 1.0f / 60;
+constexpr float kTick_s = 1.0f / 120;
+constexpr uint32_t kMostIterations = 40;  // contacts of locks that slide over a ridge take some
 constexpr uint32_t kHitsASegment = 3;
 
 void accept(const Status& status) {
@@ -61,11 +62,11 @@ Hair::Hair(const HairStyle& style, Against against, size_t vertices)
   for (const auto& s : strands_) defs.push_back({s});
   rods::RodSettings settings =
       rods::default_settings({.segments = style.segments, .young_pa = 4e6f, .contacts = true});
-  if (getenv("ITER")) settings.max_iterations = atoi(getenv("ITER"));
+  settings.max_iterations = kMostIterations;
   accept(rods::RodBatch::create(defs, settings, &batch_));
   const uint32_t most = kHitsASegment * style.strands * style.segments;
   accept(rods::RodCollider::create(
-      batch_, {.rods_collide = false, .tolerance = getenv("TOL") ? (float)atof(getenv("TOL")) : 0.01f, .contact_capacity = most, .point_capacity = 0, .source_capacity = most},
+      batch_, {.rods_collide = false, .contact_capacity = most, .point_capacity = 0, .source_capacity = most},
       &collider_));
   skin_ = skin_of(bust_, &skin_id_);
   if (against_ == Against::kSkin) accept(collider_.set_source(&skin_));
@@ -127,7 +128,6 @@ void Hair::step(bool measures) {
   ++measure_.steps;
   measure_.unconverged += report.unconverged;
   measure_.contacts_unconverged += report.contacts_unconverged;
-  if (getenv("DBG") && measure_.steps % 50 == 0) fprintf(stderr, "%lu it %u/%u unc %u cunc %u contacts %u deep %.3f\n", measure_.steps, report.iterations, report.iterations_sum, report.unconverged, report.contacts_unconverged, report.contacts, (double)report.deepest_penetration);
   measure_.recovered += report.recovered + report.rejoined;
   measure_.contacts += report.contacts;
   measure_.contacts_most = std::max<uint64_t>(measure_.contacts_most, report.contacts);

@@ -42,8 +42,8 @@ TEST_CASE("hair_refuses_what_it_cannot_do") {
 
 TEST_CASE("hair_on_a_turning_character_stays_out_of_its_skin") {
   TemporaryFolder folder;
-  const ProgramResult result =
-      hair({"-o", folder.file("out"), "--against", "nothing", "--against", "skin", "--steps", "150", "--vertices", "3000"});
+  const ProgramResult result = hair({"-o", folder.file("out"), "--against", "nothing", "--against", "skin",
+                                     "--steps", "300", "--vertices", "3000"});
   INFO(result.error);
   REQUIRE(result.exit_code == 0);
   const size_t skin = result.out.find("skin");
