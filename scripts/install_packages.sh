@@ -7,6 +7,7 @@ packages=(
   g++ cmake ninja-build                                   # build
   libeigen3-dev libhwy-dev                                # runtime
   libtinygltf-dev nlohmann-json3-dev libcli11-dev libmeshoptimizer-dev libstb-dev # baker
+  libbullet-dev                                           # runtime/bullet
   libembree-dev ffmpeg                                    # samples
   catch2                                                  # tests
   python3-torch python3-numpy python3-matplotlib libopenblas0-pthread # training and plots

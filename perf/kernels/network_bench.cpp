@@ -37,6 +37,9 @@ BENCHMARK_CAPTURE(run_network, paper_int8, paper_shape(), pack::Precision::kInt8
 BENCHMARK_CAPTURE(run_network, paper_in_cache, NetworkShape{9, {32, 64, 128, 64, 32, 3}, false, 15, 10})
     ->Name("alt_conv_lstm_paper_150_vertices")
     ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(run_network, paper_int8_in_cache, NetworkShape{9, {32, 64, 128, 64, 32, 3}, false, 15, 10}, pack::Precision::kInt8)
+    ->Name("alt_conv_lstm_int8_paper_150_vertices")
+    ->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(run_network, control_graph, control_graph_shape())
     ->Name("alt_conv_lstm_control_graph")
     ->Unit(benchmark::kMicrosecond);

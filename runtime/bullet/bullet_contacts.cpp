@@ -14,7 +14,7 @@ using namespace bullet;
 using rods::Vector;
 
 constexpr size_t kAtOnce = 16;       // probes that share a question to the broadphase
-constexpr double kSamePoint = 1e-3;  // of the radius
+constexpr double kSamePoint = 0.05;  // of the radius
 
 Status bad(const char* name, double value, const char* range) {
   return core::make_status(StatusCode::kInvalidArgument, "BulletDef::%s is %g; give %s", name, value, range);
@@ -135,9 +135,10 @@ void BulletContacts::State::find(std::span<const ContactProbe> all, size_t index
   const ContactProbe& probe = all[index];
   ProbeContacts contacts(path, dt_s, problems);
   for (const Body& body : bodies) {
-    if (!body.box.overlaps(box_of(path, path.radius_m + 0.25 * path.closing_m(body.motion)))) continue;
+    const double closing_m = path.closing_m(body.motion);
+    if (!body.box.overlaps(box_of(path, path.radius_m + 0.25 * closing_m))) continue;
     if (def.accepts && !def.accepts(def.context, probe.owner, *body.object)) continue;
-    contacts.add(body);
+    contacts.add(body, closing_m);
   }
   contacts.reduce();
   const bool joined = index > 0 && all[index - 1].owner == probe.owner &&

@@ -51,7 +51,15 @@ Place place_of(const btTransform& transform) noexcept {
 
 Place product(const Place& a, const Place& b) noexcept { return {product(a.turn, b.turn), a.point(b.at_m)}; }
 
+Motion Motion::ending_at(const Place& end, const Vector& move_m, const Vector& spin_rad) noexcept {
+  const Place start = {product(rotation(rods::scaled(-1, spin_rad)), end.turn),
+                       rods::difference(end.at_m, move_m)};
+  return {start, end, move_m, spin_rad};
+}
+
 Place Motion::at(double time, const Place& part) const noexcept {
+  if (time == 0) return product(start, part);
+  if (time == 1) return product(end, part);
   const Vector spin = rods::scaled(time, spin_rad);
   const Place now = {rods::dot(spin, spin) > 0 ? product(rotation(spin), start.turn) : start.turn,
                      rods::scaled_sum(time, move_m, start.at_m)};

@@ -24,9 +24,10 @@ Place product(const Place& a, const Place& b) noexcept;
 
 // Straight on and turning evenly.
 struct Motion {
-  Place start;
+  Place start, end;
   Vector move_m, spin_rad;  // in the tick; about start.at_m
 
+  static Motion ending_at(const Place& end, const Vector& move_m, const Vector& spin_rad) noexcept;
   // Of a part that is fixed to it, at a share of the tick.
   Place at(double time, const Place& part) const noexcept;
 };

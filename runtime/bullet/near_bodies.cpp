@@ -92,8 +92,7 @@ bool NearBodies::describe(const btCollisionObject& object, Body* out) const noex
   }
   const btBroadphaseProxy& proxy = *object.getBroadphaseHandle();
   const Vector move = rods::scaled(dt_s, v.linear_m_s), spin = rods::scaled(dt_s, v.angular_rad_s);
-  const Motion back = {now, rods::scaled(-1, move), rods::scaled(-1, spin)};
-  out->motion = {back.at(1, kHere), move, spin};
+  out->motion = Motion::ending_at(now, move, spin);
   out->object = &object;
   out->box = swept_box(proxy, out->motion);
   const bool dynamic = def.push_capacity > 0 && !object.isStaticOrKinematicObject();

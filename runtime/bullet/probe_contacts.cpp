@@ -16,6 +16,8 @@ namespace {
 // Contacts are given for what comes this near, shares of the radius and of how much body and probe may near
 // each other in the tick.
 constexpr double kNearRadii = 0.25, kNearWay = 0.25;
+// The same of an axis' ends, where another point of it is nearer.
+constexpr double kEndRadii = 0.02;
 // On a mesh: normals and places that are the same, places a share of the radius.
 constexpr double kTouches = 0.05;  // gap at the moment it was found at, share of the radius
 constexpr double kSameNormal = 0.999, kSamePlace = 0.05;
@@ -29,6 +31,12 @@ btVector3 bullet_vector(const Vector& v) {
 uint32_t mixed(uint32_t a, uint32_t b) {
   const uint32_t h = (a ^ b) * 0x85ebca6bu;
   return h ^ h >> 15;
+}
+
+// The same from tick to tick: one of the axis' ends, or before or behind its nearest point.
+uint32_t feature_of(double share, double nearest) {
+  if (share == 0 || share == 1) return share == 0 ? 1 : 2;
+  return share <= nearest ? 3 : 4;
 }
 
 void put(const Vector& from, float (&to)[3]) {
@@ -56,12 +64,15 @@ struct TriangleCollector final : btTriangleCallback {
   }
 };
 
-void ProbeContacts::add(const Body& body) noexcept {
+void ProbeContacts::add(const Body& body, double closing_m) noexcept {
+  closing_m_ = closing_m;
   add_shape(body, {kHere, 0}, *body.object->getCollisionShape());
 }
 
-double ProbeContacts::reach_m(const Body& body) const noexcept {
-  return kNearRadii * path_.radius_m + kNearWay * path_.closing_m(body.motion);
+double ProbeContacts::reach_m() const noexcept { return kNearRadii * path_.radius_m + kNearWay * closing_m_; }
+
+double ProbeContacts::end_reach_m() const noexcept {
+  return kEndRadii * path_.radius_m + kNearWay * closing_m_;
 }
 
 double ProbeContacts::length_m() const noexcept {
@@ -82,7 +93,7 @@ Box ProbeContacts::own_box(const Body& body, const Place& part) const noexcept {
     }
   }
   const double spin = rods::length(body.motion.spin_rad);
-  box.grow(path_.radius_m + reach_m(body) + arm * spin * spin / 32);
+  box.grow(path_.radius_m + reach_m() + arm * spin * spin / 32);
   return box;
 }
 
@@ -133,16 +144,17 @@ void ProbeContacts::add_convex(const Body& body, const Part& part, const Convex&
     const int type = body.object->getCollisionShape()->getShapeType();
     return problems_.note(BulletProblem::kZeroVolume, *body.object, type);
   }
-  const double reach = reach_m(body);
-  const Touch touch = first_touch(shape, part.place, body.motion, path_);
+  const double reach = reach_m();
+  const Touch touch = first_touch(shape, part.place, body.motion, path_, closing_m_, reach);
   if (!(touch.near.distance.m - path_.radius_m <= reach)) return;
   const Axis axis = own_axis(path_, touch.time, body.motion.at(touch.time, part.place));
   Near points[4];
-  const size_t count = supports(shape, axis, touch.near, path_.radius_m, reach, points);
+  const size_t count = supports(shape, axis, touch.near, path_.radius_m, end_reach_m(), points);
   const Axis ends = own_axis(path_, 1, body.motion.at(1, part.place));
   for (size_t i = 0; i < count; ++i) {
     const double at_end_m = distance(shape, ends.at(points[i].share)).m;
-    add_contact(body, part, touch.time, points[i], at_end_m, {static_cast<uint32_t>(i), false, false});
+    add_contact(body, part, touch.time, points[i], at_end_m,
+                {feature_of(points[i].share, touch.near.share), false, false});
   }
 }
 
@@ -167,11 +179,11 @@ void ProbeContacts::add_triangle(const Body& body, const Part& part, const Trian
   const Axis begins = own_axis(path_, 0, body.motion.at(0, part.place));
   const bool solid = rods::dot(up, up) > 0;
   const double height = rods::dot(n, solid ? up : rods::difference(begins.at(0.5), t.corners[0]));
-  const double side = height < 0 ? -1 : 1, reach = reach_m(body), r = path_.radius_m;
+  const double side = height < 0 ? -1 : 1, reach = reach_m(), r = path_.radius_m;
   Near faces[2];
   Touch touch = {};
   const bool behind = solid && face_supports(t, side, begins, r, 0, faces) > 0;
-  if (!behind) touch = first_touch(convex_of(t), part.place, body.motion, path_);
+  if (!behind) touch = first_touch(convex_of(t), part.place, body.motion, path_, closing_m_, reach);
   if (!behind && !(touch.near.distance.m - r <= reach)) return;
   const Axis axis = own_axis(path_, touch.time, body.motion.at(touch.time, part.place));
   const size_t count = face_supports(t, side, axis, r, reach, faces);
@@ -180,11 +192,11 @@ void ProbeContacts::add_triangle(const Body& body, const Part& part, const Trian
   for (size_t i = 0; i < count; ++i) {
     const Vector end = rods::difference(ends.at(faces[i].share), t.corners[0]);
     const double at_end_m = rods::dot(end, faces[i].distance.normal) - t.margin_m;
-    add_contact(body, own, touch.time, faces[i], at_end_m, {static_cast<uint32_t>(i), true, true});
+    add_contact(body, own, touch.time, faces[i], at_end_m, {feature_of(faces[i].share, 0.5), true, true});
   }
   if (count == 0 && touch.near.distance.m + t.margin_m > 0) {
     const double at_end_m = distance(convex_of(t), ends.at(touch.near.share)).m;
-    add_contact(body, own, touch.time, touch.near, at_end_m, {2, true, false});
+    add_contact(body, own, touch.time, touch.near, at_end_m, {0, true, false});
   }
 }
 
@@ -205,8 +217,8 @@ void ProbeContacts::add_contact(const Body& body, const Part& part, double time,
   const Vector own = rods::scaled_sum(-near.distance.m, near.distance.normal, axis.at(near.share));
   const Vector normal = then.direction(near.distance.normal), surface = begin.point(own);
   const double later = time > 0 ? time : 1;
-  Vector velocity =
-      rods::scaled(1 / later, rods::difference(body.motion.at(later, part.place).point(own), surface));
+  const Vector moved = time > 0 ? then.point(own) : body.motion.at(1, part.place).point(own);
+  Vector velocity = rods::scaled(1 / later, rods::difference(moved, surface));
   const Axis start = {path_.start[0], path_.start[1]}, end = {path_.end[0], path_.end[1]};
   const double gap = rods::dot(normal, rods::difference(start.at(near.share), surface)) - path_.radius_m;
   // What passes by would be caught by the plane, which goes straight on: it goes no nearer than the shape.

@@ -13,7 +13,8 @@ class ProbeContacts {
   ProbeContacts(const Path& path, double dt_s, Problems& problems) noexcept
       : path_(path), dt_s_(dt_s), problems_(problems) {}
 
-  void add(const Body& body) noexcept;
+  // Body and probe near each other in the tick by no more than `closing_m`.
+  void add(const Body& body, double closing_m) noexcept;
   // Leaves out what others say as well: on a mesh, of a face's contacts all but its outermost, and edges that
   // a face next to them covers.
   void reduce() noexcept;
@@ -44,7 +45,8 @@ class ProbeContacts {
     bool mesh, face;
   };
 
-  double reach_m(const Body& body) const noexcept;
+  double reach_m() const noexcept;
+  double end_reach_m() const noexcept;
   Box own_box(const Body& body, const Place& part) const noexcept;
   void add_shape(const Body& body, const Part& part, const btCollisionShape& shape) noexcept;
   void add_children(const Body& body, const Part& part, const btCompoundShape& shape) noexcept;
@@ -62,7 +64,7 @@ class ProbeContacts {
   bool said_by_others(uint32_t i) const noexcept;
 
   const Path& path_;
-  double dt_s_;
+  double dt_s_, closing_m_ = 0;  // of the body that is added
   Problems& problems_;
   uint32_t count_ = 0;
   Found found_[kMost];

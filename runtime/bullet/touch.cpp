@@ -65,17 +65,18 @@ Near nearest(const Convex& shape, const Axis& axis, double exact_m) noexcept {
   return low.distance.m < high.distance.m ? low : high;
 }
 
-Touch first_touch(const Convex& shape, const Place& part, const Motion& body, const Path& path) noexcept {
+Touch first_touch(const Convex& shape, const Place& part, const Motion& body, const Path& path,
+                  double closing_m, double reach_m) noexcept {
   const double enough = std::max(kTouching * path.radius_m, kTouching_m);
-  const double closing = path.closing_m(body);
   const auto at = [&](double time) {
     return Touch{time, nearest(shape, own_axis(path, time, body.at(time, part)), 0.1 * enough)};
   };
   Touch now = at(0), best = now;
+  if (now.near.distance.m - path.radius_m > closing_m + reach_m) return now;
   for (int k = 1; k < kMoments && now.time < 1; ++k) {
     const double gap = now.near.distance.m - path.radius_m;
     if (!(gap > enough)) break;
-    now = at(gap >= closing * (1 - now.time) ? 1 : now.time + gap / closing);
+    now = at(gap >= closing_m * (1 - now.time) ? 1 : now.time + gap / closing_m);
     if (now.near.distance.m < best.near.distance.m) best = now;
   }
   return best;

@@ -38,12 +38,14 @@ struct Near {
 Near nearest(const Convex& shape, const Axis& axis, double exact_m) noexcept;
 
 // The first moment at which surfaces touch, by conservative advancement; where they do not, that of the
-// moments looked at when they were nearest.
+// moments looked at when they were nearest. `closing_m` is the path's; what starts further away than that and
+// `reach_m` is looked at once.
 struct Touch {
   double time;  // share of the tick
   Near near;
 };
-Touch first_touch(const Convex& shape, const Place& part, const Motion& body, const Path& path) noexcept;
+Touch first_touch(const Convex& shape, const Place& part, const Motion& body, const Path& path,
+                  double closing_m, double reach_m) noexcept;
 
 // Points that carry an axis that is as near as `near`: both ends of where it lies flat, and what of its own
 // ends is within `reach_m` of touching. At most 4.

@@ -13,12 +13,14 @@ HWY_INLINE void map_floats(const float* x, size_t count, float* out, const Funct
   for (size_t k = 0; i + k < count; ++k) out[i + k] = rest[k];
 }
 
+template <class Curve>
 void sigmoid(const float* x, size_t count, float* out) {
-  map_floats(x, count, out, [](Vector v) HWY_ATTR { return value_of(sigmoid_of(v)); });
+  map_floats(x, count, out, [](Vector v) HWY_ATTR { return value_of(sigmoid_of<Curve>(v)); });
 }
 
+template <class Curve>
 void tanh(const float* x, size_t count, float* out) {
-  map_floats(x, count, out, [](Vector v) HWY_ATTR { return value_of(tanh_of(v)); });
+  map_floats(x, count, out, [](Vector v) HWY_ATTR { return value_of(tanh_of<Curve>(v)); });
 }
 
 }  // namespace sinew::simd::HWY_NAMESPACE

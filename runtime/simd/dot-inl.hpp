@@ -2,14 +2,22 @@
 //
 //   sum[j] += x[0] w[j][0] + x[1] w[j][1] + x[2] w[j][2] + x[3] w[j][3],  one 32-bit lane a column j
 //
-// Each form keeps quantised numbers x as it reads them (Stored), reads weights as they lie in the pack, and
-// is exact, so that all give the same integers: x and w are within +-127, a pair of products within 16 bits.
+// Each form keeps quantised numbers x as it reads them (Stored), from floats that are kWhole + kOffset
+// higher, reads weights as they lie in the pack, and is exact, so that all give the same integers: x and w
+// are within +-127, a pair of products within 16 bits.
 HWY_BEFORE_NAMESPACE();
 namespace sinew::simd::HWY_NAMESPACE {
 
 using Ints = hn::Rebind<int32_t, Floats>;
 using IntVector = hn::Vec<Ints>;
 using Bytes = hn::Rebind<int8_t, Floats>;
+
+// A float from here to 2^22 on either side is this and a whole number, which its low bits hold.
+inline constexpr float kWhole = 0x1.8p23f;
+
+HWY_INLINE IntVector whole_of(Vector x) {
+  return hn::Sub(hn::BitCast(Ints(), x), hn::BitCast(Ints(), hn::Set(Floats(), kWhole)));
+}
 
 #if HWY_ARCH_X86 && HWY_TARGET != HWY_EMU128 && HWY_TARGET != HWY_SCALAR
 
@@ -24,14 +32,15 @@ struct BasicDot {
   static constexpr size_t kVectors = kWide < 4 ? 2 : 4;
   static constexpr int32_t kOffset = 0;
 
-  static HWY_INLINE void store(IntVector x, Stored* out) {
+  static HWY_INLINE void store(Vector x, Stored* out) {
     HWY_ALIGN static constexpr uint8_t kOrder[64] = {0, 1, 4, 5, 2, 3, 6, 7, 8, 9, 12, 13, 10, 11, 14, 15,
                                                      0, 1, 4, 5, 2, 3, 6, 7, 8, 9, 12, 13, 10, 11, 14, 15,
                                                      0, 1, 4, 5, 2, 3, 6, 7, 8, 9, 12, 13, 10, 11, 14, 15,
                                                      0, 1, 4, 5, 2, 3, 6, 7, 8, 9, 12, 13, 10, 11, 14, 15};
     const hn::Rebind<int16_t, Floats> d;
     const hn::Repartition<uint8_t, decltype(d)> db;
-    hn::Store(hn::TableLookupBytes(hn::DemoteTo(d, x), hn::BitCast(d, hn::Load(db, kOrder))), d, out);
+    hn::Store(hn::TableLookupBytes(hn::DemoteTo(d, whole_of(x)), hn::BitCast(d, hn::Load(db, kOrder))), d,
+              out);
   }
   static HWY_INLINE Weights weights(const int8_t* w) {
     const Ints d;
@@ -58,8 +67,8 @@ struct BasicDot {
   static constexpr size_t kVectors = kWide < 4 ? 2 : 4;
   static constexpr int32_t kOffset = 0;
 
-  static HWY_INLINE void store(IntVector x, Stored* out) {
-    hn::Store(hn::DemoteTo(Bytes(), x), Bytes(), out);
+  static HWY_INLINE void store(Vector x, Stored* out) {
+    hn::Store(hn::DemoteTo(Bytes(), whole_of(x)), Bytes(), out);
   }
   static HWY_INLINE Weights weights(const int8_t* w) {
     return hn::Load(Ints(), reinterpret_cast<const int32_t*>(w));
@@ -97,9 +106,9 @@ struct FastDot {
   static constexpr size_t kVectors = kWide;
   static constexpr int32_t kOffset = 128;
 
-  static HWY_INLINE void store(IntVector x, Stored* out) {
+  static HWY_INLINE void store(Vector x, Stored* out) {
     const hn::RebindToUnsigned<Bytes> d;
-    hn::Store(hn::Xor(hn::BitCast(d, hn::DemoteTo(Bytes(), x)), hn::Set(d, 0x80)), d, out);
+    hn::Store(hn::TruncateTo(d, hn::BitCast(hn::RebindToUnsigned<Ints>(), x)), d, out);
   }
   static HWY_INLINE Weights weights(const int8_t* w) {
     return hn::Load(Ints(), reinterpret_cast<const int32_t*>(w));

@@ -10,21 +10,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace sinew::simd::HWY_NAMESPACE {
 
-// One row quantised; false if it holds what is not finite.
-template <class Dot, class T>
-HWY_INLINE bool quantize_row(const T* x, size_t count, const float* per_unit, typename Dot::Stored* out) {
-  const Floats d;
-  const Vector zero = hn::Zero(d), largest = hn::Set(d, 127.0f);
-  Vector zeros = zero;
-  for (size_t j = 0; j < count; j += kLanes) {
-    const Vector value = load_state(x + j);
-    zeros = hn::MulAdd(value, zero, zeros);
-    Dot::store(hn::NearestInt(bounded(hn::Mul(value, hn::Load(d, per_unit + j)), largest)), out + j);
-  }
-  return hn::AllTrue(d, hn::Eq(zeros, zero));
-}
-
-// The quantised rows of a range, filled from left to right.
+// What a range hears in quantised rows, filled from left to right, kVectors vectors at a time.
 template <class Dot>
 struct QuantizedRows {
   typename Dot::Stored* rows;
@@ -32,16 +18,47 @@ struct QuantizedRows {
   const float* per_unit;
   bool finite[kRangeNodes];
 
+  template <size_t kVectors>
+  HWY_INLINE void put(uint32_t i, size_t column, const Vector (&values)[kVectors]) {
+    const Floats d;
+    const float middle = kWhole + Dot::kOffset;
+    Vector zeros = hn::Zero(d);
+    SINEW_UNROLL
+    for (size_t v = 0; v < kVectors; ++v) {
+      const size_t at = filled + column + v * kLanes;
+      const Vector q = hn::MulAdd(values[v], hn::Load(d, per_unit + at), hn::Set(d, middle));
+      Dot::store(hn::Max(hn::Set(d, middle - 127), hn::Min(hn::Set(d, middle + 127), q)),
+                 rows + i * stride + at);
+      zeros = hn::MulAdd(values[v], hn::Zero(d), zeros);
+    }
+    finite[i] = finite[i] && hn::AllTrue(d, hn::Eq(zeros, hn::Zero(d)));
+  }
+
   template <class T>
   HWY_INLINE void append(const T* x, size_t x_stride, uint32_t count) {
-    for (uint32_t i = 0; i < count; ++i) {
-      const bool good =
-          quantize_row<Dot>(x + i * x_stride, x_stride, per_unit + filled, rows + i * stride + filled);
-      finite[i] = good && (filled == 0 || finite[i]);
+    for (uint32_t i = 0; i < count; ++i, x += x_stride) {
+      for_columns(x_stride, [&]<size_t kVectors>(size_t j) HWY_ATTR {
+        Vector values[kVectors];
+        SINEW_UNROLL
+        for (size_t v = 0; v < kVectors; ++v) values[v] = load_state(x + j + v * kLanes);
+        put(i, j, values);
+      });
     }
     filled += x_stride;
   }
 };
+
+// Behind the tile's gates.
+template <class Dot>
+HWY_INLINE QuantizedRows<Dot> quantized_rows(const LayerJob& job, size_t stride, const float* per_unit) {
+  float* rows = job.tile + kTileRows * 4 * kBlock;
+  QuantizedRows<Dot> heard = {.rows = reinterpret_cast<typename Dot::Stored*>(rows),
+                              .stride = stride,
+                              .per_unit = per_unit,
+                              .finite = {}};
+  for (bool& finite : heard.finite) finite = true;
+  return heard;
+}
 
 // Groups of four rows of a matrix of bytes, `step` bytes apart.
 struct ByteRows {
@@ -49,8 +66,8 @@ struct ByteRows {
   size_t groups, step;
 };
 
-// The columns of one call are kVectors vectors, side by side in w, sums, scale and out, start_step floats
-// apart in start. What `more` adds goes to the first kMore.
+// The columns of one call are kVectors vectors, side by side in w, sums and scale, start_step floats apart in
+// start. What `more` adds goes to the first kMore.
 template <class Dot>
 struct ByteProduct {
   const typename Dot::Stored* rows;
@@ -61,29 +78,29 @@ struct ByteProduct {
   const float* scale;
   TileRows start;
   size_t start_step;
-  float* out;  // [kTileRows][out_stride]
-  size_t out_stride;
 };
 
+// `x`: the first number of each row; `offset`: how far into the rows the matrix begins.
 template <class Dot, size_t kUsed, size_t kVectors>
-HWY_INLINE void add_bytes(const ByteRows& matrix, const typename Dot::Stored* (&x)[kTileRows],
-                          IntVector (&sum)[kTileRows][kVectors]) {
+HWY_INLINE void add_bytes(const ByteRows& matrix, const typename Dot::Stored* const (&x)[kTileRows],
+                          size_t offset, IntVector (&sum)[kTileRows][kVectors]) {
   const int8_t* HWY_RESTRICT w = matrix.w;
-  for (size_t group = 0; group < matrix.groups; ++group, w += matrix.step) {
+  const size_t end = offset + 4 * matrix.groups, step = matrix.step;
+  for (size_t k = offset; k < end; k += 4, w += step) {
     typename Dot::Weights weights[kUsed];
     SINEW_UNROLL
     for (size_t v = 0; v < kUsed; ++v) weights[v] = Dot::weights(w + v * 4 * kLanes);
     SINEW_UNROLL
     for (size_t r = 0; r < kTileRows; ++r) {
       SINEW_UNROLL
-      for (size_t v = 0; v < kUsed; ++v) sum[r][v] = Dot::add(x[r] + 4 * group, weights[v], sum[r][v]);
+      for (size_t v = 0; v < kUsed; ++v) sum[r][v] = Dot::add(x[r] + k, weights[v], sum[r][v]);
     }
   }
-  for (size_t r = 0; r < kTileRows; ++r) x[r] += 4 * matrix.groups;
 }
 
-template <class Dot, size_t kVectors, size_t kMore>
-HWY_NOINLINE void multiply_bytes(const ByteProduct<Dot>& job) {
+// Each row's sums go to finish(row, sums).
+template <class Dot, size_t kVectors, size_t kMore, class Finish>
+HWY_NOINLINE void multiply_bytes(const ByteProduct<Dot>& job, const Finish& finish) {
   const Floats d;
   const Ints di;
   IntVector sum[kTileRows][kVectors];
@@ -93,126 +110,163 @@ HWY_NOINLINE void multiply_bytes(const ByteProduct<Dot>& job) {
     SINEW_UNROLL
     for (size_t r = 0; r < kTileRows; ++r) sum[r][v] = from;
   }
-  const typename Dot::Stored* x[kTileRows];
-  for (size_t r = 0; r < kTileRows; ++r) x[r] = job.rows + HWY_MIN(r, job.count - size_t{1}) * job.stride;
-  add_bytes<Dot, kVectors>(job.all, x, sum);
-  if constexpr (kMore > 0) add_bytes<Dot, kMore>(job.more, x, sum);
+  const typename Dot::Stored* x[kTileRows] = {job.rows};
+  SINEW_UNROLL
+  for (size_t r = 1; r < kTileRows; ++r) x[r] = r < job.count ? x[r - 1] + job.stride : x[r - 1];
+  add_bytes<Dot, kVectors>(job.all, x, 0, sum);
+  if constexpr (kMore > 0) add_bytes<Dot, kMore>(job.more, x, 4 * job.all.groups, sum);
+  const size_t start_step = job.start_step, start_stride = job.start.count > 1 ? job.start.stride : 0;
+  const float* start = job.start.first;
+  const float* scale = job.scale;
+  const size_t count = job.count;
   SINEW_UNROLL
   for (size_t r = 0; r < kTileRows; ++r) {
+    if (r >= count) return;
+    Vector gate[kVectors];
     SINEW_UNROLL
     for (size_t v = 0; v < kVectors; ++v) {
-      const Vector start = hn::Load(d, job.start.row(r) + v * job.start_step);
-      const Vector scale = hn::Load(d, job.scale + v * kLanes);
-      hn::Store(hn::MulAdd(hn::ConvertTo(d, sum[r][v]), scale, start), d,
-                job.out + r * job.out_stride + v * kLanes);
+      const Vector from = hn::Load(d, start + v * start_step);
+      gate[v] = hn::MulAdd(hn::ConvertTo(d, sum[r][v]), hn::Load(d, scale + v * kLanes), from);
     }
+    finish(r, gate);
+    start += start_stride;
   }
 }
 
-template <class Dot>
-HWY_INLINE QuantizedRows<Dot> quantized_rows(float* at, size_t stride, const float* per_unit) {
-  return {.rows = reinterpret_cast<typename Dot::Stored*>(at),
-          .stride = stride,
-          .per_unit = per_unit,
-          .finite = {}};
+// Where the four gates of a block of a tile's channels start from, the first row's first gate first.
+struct GateStart {
+  TileRows rows;
+  size_t step;  // from gate to gate
+};
+
+// b, and in the input layer, where `floats` has rows, what x adds to it, which is left in job.tile.
+HWY_INLINE GateStart start_gates(const LayerJob& job, const Heard& floats, uint32_t tile, uint32_t end,
+                                 size_t j) {
+  const size_t p = job.padded, block = 4 * j * job.inputs, row = 4 * kBlock;
+  if (!floats.px.rows) return {{job.bias + j, 0, 1}, p};
+  Term terms[2] = {{floats.px.tile(tile, end), job.inputs, job.w_x + block, row}};
+  if (job.w_s) terms[1] = {floats.x.tile(tile, end), job.inputs, job.w_s + block, row};
+  for (size_t at = 0; at < row; at += kWide * kLanes) {
+    const TileRows bias = {job.bias + at / kBlock * p + j + at % kBlock, 0, 1};
+    const size_t step = kLanes == kBlock ? p : kLanes;
+    multiply<kWide, 0>({bias, terms, job.w_s ? size_t{2} : size_t{1}, step, job.tile + at, row}, at);
+  }
+  return {{job.tile, row, kTileRows}, kBlock};
 }
 
-// Gates i f c o of a block of a tile's channels, in job.tile; `heard` floats are null but in the input layer.
+// Columns from `at` on of those gates.
 template <class Dot>
-HWY_INLINE void sum_byte_gates(const LayerJob& job, const Heard& floats, const QuantizedRows<Dot>& heard,
-                               uint32_t tile, uint32_t end, size_t j) {
+HWY_INLINE ByteProduct<Dot> gate_product(const LayerJob& job, const QuantizedRows<Dot>& heard,
+                                         const GateStart& start, uint32_t tile, uint32_t end, size_t j,
+                                         size_t at) {
   const size_t p = job.padded, depth = heard.filled - p;
-  TileRows start = {job.bias + j, 0, 1};
-  size_t start_step = p;
-  if (floats.px.rows) {
-    const size_t block = 4 * j * job.inputs, row = 4 * kBlock;
-    const Term terms[] = {
-        {floats.px.tile(tile, end), job.inputs, job.w_x + block, row},
-        {job.w_s ? floats.x.tile(tile, end) : TileRows{}, job.inputs, job.w_s + (job.w_s ? block : 0), row}};
-    const size_t count = job.w_s ? 2 : 1;
-    for (size_t at = 0; at < 4 * kBlock; at += kWide * kLanes) {
-      constexpr bool kGateAVector = kLanes == kBlock;
-      const TileRows bias = {job.bias + at / kBlock * p + j + at % kBlock, 0, 1};
-      multiply<kWide, 0>({bias, terms, count, kGateAVector ? p : kLanes, job.tile + at, row}, at);
-    }
-    start = {job.tile, 4 * kBlock, kTileRows};
-    start_step = kBlock;
-  }
-  constexpr size_t kVectors = Dot::kVectors;
   const int8_t* w = job.int8.w + j * (4 * depth + 2 * p);
-  for (size_t at = 0; at < 4 * kBlock; at += kVectors * kLanes) {
-    const size_t gate = at / kBlock, within = at % kBlock;
-    const TileRows from = {start.first + gate * start_step + within, start.stride, start.count};
-    const ByteProduct<Dot> product = {.rows = heard.rows + tile * heard.stride,
-                                      .stride = heard.stride,
-                                      .count = HWY_MIN(kTileRows, end - tile),
-                                      .all = {w + at * 4, depth / 4, 16 * kBlock},
-                                      .more = {w + depth * 4 * kBlock + at * 4, p / 4, 8 * kBlock},
-                                      .sums = job.int8.sums + 4 * j + at,
-                                      .scale = job.int8.scale + 4 * j + at,
-                                      .start = from,
-                                      .start_step = kLanes == kBlock ? start_step : kLanes,
-                                      .out = job.tile + at,
-                                      .out_stride = 4 * kBlock};
-    if constexpr (kVectors * kLanes == 4 * kBlock) {
-      multiply_bytes<Dot, kVectors, kVectors / 2>(product);
-    } else {
-      if (gate < 2) multiply_bytes<Dot, kVectors, kVectors>(product);
-      if (gate >= 2) multiply_bytes<Dot, kVectors, 0>(product);
+  const float* first = start.rows.first + at / kBlock * start.step + at % kBlock;
+  return {.rows = heard.rows + tile * heard.stride,
+          .stride = heard.stride,
+          .count = HWY_MIN(kTileRows, end - tile),
+          .all = {w + at * 4, depth / 4, 16 * kBlock},
+          .more = {w + depth * 4 * kBlock + at * 4, p / 4, 8 * kBlock},
+          .sums = job.int8.sums + 4 * j + at,
+          .scale = job.int8.scale + 4 * j + at,
+          .start = {first, start.rows.stride, start.rows.count},
+          .start_step = kLanes == kBlock ? start.step : kLanes};
+}
+
+// Cells and output gates of a block of a tile's channels: from registers where they hold all four gates.
+template <class Dot>
+HWY_INLINE void tile_byte_cells(const LayerJob& job, Range range, const Heard& floats,
+                                const QuantizedRows<Dot>& heard, uint32_t tile, size_t j) {
+  constexpr size_t kVectors = Dot::kVectors, kRow = 4 * kBlock;
+  const size_t p = job.padded, first = (range.first + tile) * p + j;
+  Half* c = static_cast<Half*>(job.c) + first;
+  float* output_gate = job.output_gate + first;
+  const GateStart start = start_gates(job, floats, tile, range.count, j);
+  if constexpr (kVectors * kLanes == kRow) {
+    const auto finish = [&](size_t r, const Vector(&gates)[kVectors]) HWY_ATTR {
+      const Vector bound = hn::Set(Floats(), job.clamp), old = load_state(c + r * p);
+      store_state(next_cell<CoarseTanh>(gates[0], gates[1], gates[2], old, bound), c + r * p);
+      hn::Store(gates[3], Floats(), output_gate + r * p);
+    };
+    multiply_bytes<Dot, kVectors, kVectors / 2>(gate_product(job, heard, start, tile, range.count, j, 0),
+                                                finish);
+  } else {
+    for (size_t at = 0; at < kRow; at += kVectors * kLanes) {
+      const ByteProduct<Dot> product = gate_product(job, heard, start, tile, range.count, j, at);
+      const auto finish = [&](size_t r, const Vector(&gates)[kVectors])
+                              HWY_ATTR { store_vectors(gates, job.tile + r * kRow + at); };
+      if (at < kRow / 2) multiply_bytes<Dot, kVectors, kVectors>(product, finish);
+      if (at >= kRow / 2) multiply_bytes<Dot, kVectors, 0>(product, finish);
     }
+    for (uint32_t r = 0; r < HWY_MIN(kTileRows, range.count - tile); ++r)
+      update_cells<CoarseTanh>(job.tile + r * kRow, job.clamp, c + r * p, output_gate + r * p);
   }
 }
 
-HWY_INLINE void fill_halves(Half* row, size_t count, float value) {
-  for (size_t j = 0; j < count; j += kLanes) store_state(hn::Set(Floats(), value), row + j);
+// Rows of what is not finite become NaN.
+template <class Dot>
+HWY_INLINE void spread_nan(const QuantizedRows<Dot>& heard, uint32_t count, size_t padded, Half* rows) {
+  for (uint32_t i = 0; i < count; ++i, rows += padded) {
+    if (heard.finite[i]) continue;
+    const Vector nan = hn::Set(Floats(), std::numeric_limits<float>::quiet_NaN());
+    for (size_t j = 0; j < padded; j += kLanes) store_state(nan, rows + j);
+  }
 }
 
-// Where a range's quantised rows lie behind its rows of floats.
-HWY_INLINE float* behind_rows(const LayerJob& job) {
-  return job.tile + kTileRows * 4 * kBlock + kRangeNodes * size_t{job.padded};
+// Asks for numbers of a row that are soon read or written: they come from the last cache, while sums go on.
+template <class T>
+HWY_INLINE void fetch_early(const T* row, size_t count) {
+  for (size_t k = 0; k < count; k += 64 / sizeof(T)) __builtin_prefetch(row + k);
+}
+
+// P h of the range's nodes, quantised.
+template <class Dot>
+HWY_INLINE void hear_byte_hidden(const LayerJob& job, Range range, QuantizedRows<Dot>* heard) {
+  const size_t p = job.padded;
+  const Half *c = static_cast<const Half*>(job.c), *y = static_cast<const Half*>(job.y);
+  const auto take = [&]<size_t kVectors>(uint32_t i, size_t j, const Vector(&sum)[kVectors]) HWY_ATTR {
+    const size_t at = (range.first + i) * p + j, count = kVectors * kLanes;
+    fetch_early(c + at, count);
+    fetch_early(y + at, count);
+    fetch_early(job.output_gate + at, count);
+    heard->put(i, j, sum);
+  };
+  aggregate_into(job.graph, static_cast<const Half*>(job.h), p, range.first, range.first + range.count, take);
+  heard->filled += p;
 }
 
 template <class Dot>
 HWY_INLINE void range_byte_cells(const LayerJob& job, Range range, const float* px) {
   const size_t p = job.padded, first = range.first;
-  Half *c = static_cast<Half*>(job.c), *y = static_cast<Half*>(job.y);
-  float* rows = job.tile + kTileRows * 4 * kBlock;
-  auto heard = quantized_rows<Dot>(behind_rows(job), job.int8.depth, job.int8.per_unit);
+  auto heard = quantized_rows<Dot>(job, job.int8.depth, job.int8.per_unit);
   Heard floats = {};
   if (job.int8.hears_x) {
     heard.append(px, job.x_stride, range.count);
-    if (job.w_s)
-      heard.append(static_cast<const Half*>(job.x) + first * job.x_stride, job.x_stride, range.count);
+    const auto* x = static_cast<const Half*>(job.x);
+    if (job.w_s) heard.append(x + first * job.x_stride, job.x_stride, range.count);
   } else {
     floats.px = {px, job.x_stride};
     floats.x = own_x(job, range, nullptr);
   }
-  heard.append(aggregated(job, range, static_cast<const Half*>(job.h), rows).rows, p, range.count);
-  heard.append(y + first * p, p, range.count);
+  hear_byte_hidden(job, range, &heard);
+  heard.append(static_cast<const Half*>(job.y) + first * p, p, range.count);
   for (size_t j = 0; j < p; j += kBlock) {
-    for (uint32_t tile = 0; tile < range.count; tile += kTileRows) {
-      sum_byte_gates(job, floats, heard, tile, range.count, j);
-      for (uint32_t i = tile; i < HWY_MIN(tile + kTileRows, range.count); ++i) {
-        const size_t at = (first + i) * p + j;
-        update_cells(job.tile + (i - tile) * 4 * kBlock, job.clamp, c + at, job.output_gate + at);
-      }
-    }
+    for (uint32_t tile = 0; tile < range.count; tile += kTileRows)
+      tile_byte_cells(job, range, floats, heard, tile, j);
   }
-  for (uint32_t i = 0; i < range.count; ++i) {
-    if (!heard.finite[i]) fill_halves(c + (first + i) * p, p, std::numeric_limits<float>::quiet_NaN());
-  }
+  spread_nan(heard, range.count, p, static_cast<Half*>(job.c) + first * p);
 }
 
 template <class Dot, size_t kVectors>
 HWY_INLINE void output_byte_columns(const LayerJob& job, Range range, const QuantizedRows<Dot>& py,
                                     size_t j) {
-  constexpr size_t kColumns = kVectors * kLanes;
   const size_t p = job.padded;
   const Plane waiting = {job.output_gate + range.first * p + j, p};
-  const Half* c = static_cast<const Half*>(job.c);
-  Half* h = static_cast<Half*>(job.h);
   for (uint32_t tile = 0; tile < range.count; tile += kTileRows) {
-    multiply_bytes<Dot, kVectors, 0>({.rows = py.rows + tile * py.stride,
+    const size_t first = (range.first + tile) * p + j;
+    const Half* c = static_cast<const Half*>(job.c) + first;
+    Half* h = static_cast<Half*>(job.h) + first;
+    const ByteProduct<Dot> product = {.rows = py.rows + tile * py.stride,
                                       .stride = py.stride,
                                       .count = HWY_MIN(kTileRows, range.count - tile),
                                       .all = {job.int8.w_o + 4 * j, p / 4, 4 * p},
@@ -220,30 +274,50 @@ HWY_INLINE void output_byte_columns(const LayerJob& job, Range range, const Quan
                                       .sums = job.int8.sums + 4 * p + j,
                                       .scale = job.int8.scale + 4 * p + j,
                                       .start = waiting.tile(tile, range.count),
-                                      .start_step = kLanes,
-                                      .out = job.tile,
-                                      .out_stride = kColumns});
-    for (uint32_t i = tile; i < HWY_MIN(tile + kTileRows, range.count); ++i) {
-      const size_t at = (range.first + i) * p + j;
-      update_hidden(job.tile + (i - tile) * kColumns, c + at, kColumns, h + at);
-    }
+                                      .start_step = kLanes};
+    const auto finish = [&](size_t r, const Vector(&gates)[kVectors]) HWY_ATTR {
+      SINEW_UNROLL
+      for (size_t v = 0; v < kVectors; ++v) {
+        const size_t at = r * p + v * kLanes;
+        store_state(next_hidden<CoarseTanh>(gates[v], load_state(c + at)), h + at);
+      }
+    };
+    multiply_bytes<Dot, kVectors, 0>(product, finish);
   }
+}
+
+// P c of the range's nodes, in pc, and with it P y, quantised too.
+template <class Dot>
+HWY_INLINE void hear_byte_cells(const LayerJob& job, Range range, float* pc, QuantizedRows<Dot>* heard) {
+  const size_t p = job.padded, first = range.first * p;
+  const Vector keep = hn::Set(Floats(), job.y_keep);
+  Half *py = static_cast<Half*>(job.y) + first, *h = static_cast<Half*>(job.h) + first;
+  const auto take = [&]<size_t kVectors>(uint32_t i, size_t j, const Vector(&sum)[kVectors]) HWY_ATTR {
+    const size_t at = i * p + j, count = kVectors * kLanes;
+    if (i + kTileRows < range.count) fetch_early(py + at + kTileRows * p, count);
+    fetch_early(h + at, count);
+    fetch_early(job.output_gate + first + at, count);
+    store_vectors(sum, pc + at);
+    Vector next[kVectors];
+    SINEW_UNROLL
+    for (size_t v = 0; v < kVectors; ++v) {
+      next[v] = hn::MulAdd(keep, load_state(py + at + v * kLanes), sum[v]);
+      store_state(next[v], py + at + v * kLanes);
+    }
+    heard->put(i, j, next);
+  };
+  aggregate_into(job.graph, static_cast<const Half*>(job.c), p, range.first, range.first + range.count, take);
 }
 
 template <class Dot>
 HWY_INLINE void range_byte_output(const LayerJob& job, Range range, float* pc) {
   const size_t p = job.padded;
-  const Plane py = hear_cells<Half>(job, range, pc, job.tile + kTileRows * 4 * kBlock);
-  auto heard = quantized_rows<Dot>(behind_rows(job), p, job.int8.per_unit + job.int8.depth - p);
-  heard.append(py.rows, p, range.count);
+  auto heard = quantized_rows<Dot>(job, p, job.int8.per_unit + job.int8.depth - p);
+  hear_byte_cells(job, range, pc, &heard);
   const auto body = [&]<size_t kVectors>(size_t j)
                         HWY_ATTR { output_byte_columns<Dot, kVectors>(job, range, heard, j); };
   for_columns(p, body);
-  for (uint32_t i = 0; i < range.count; ++i) {
-    if (!heard.finite[i])
-      fill_halves(static_cast<Half*>(job.h) + (range.first + i) * p, p,
-                  std::numeric_limits<float>::quiet_NaN());
-  }
+  spread_nan(heard, range.count, p, static_cast<Half*>(job.h) + range.first * p);
 }
 
 template <class Dot>

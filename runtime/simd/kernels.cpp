@@ -67,8 +67,10 @@ constexpr Kernels kernels_with(const char* name, bool (*runs)()) {
       .turn_back = turn_back,
       .warp = warp,
       .pose_frames = pose_frames,
-      .sigmoid = sigmoid,
-      .tanh = tanh,
+      .sigmoid = sigmoid<FineTanh>,
+      .tanh = tanh<FineTanh>,
+      .coarse_sigmoid = sigmoid<CoarseTanh>,
+      .coarse_tanh = tanh<CoarseTanh>,
       .rods = &kRodKernels,
   };
 }

@@ -195,6 +195,8 @@ struct Kernels {
   // Of `count` floats, any count and alignment; NaN stays NaN. Maximum errors: simd/tanh-inl.hpp.
   void (*sigmoid)(const float* x, size_t count, float* out);
   void (*tanh)(const float* x, size_t count, float* out);
+  void (*coarse_sigmoid)(const float* x, size_t count, float* out);
+  void (*coarse_tanh)(const float* x, size_t count, float* out);
   const RodKernels* rods;
 };
 

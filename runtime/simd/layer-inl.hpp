@@ -87,19 +87,22 @@ HWY_INLINE void sum_gates(const LayerJob& job, const Heard& heard, uint32_t tile
 }
 
 // clamp(f c + i tanh(a_c)) with one division.
+template <class Curve = FineTanh>
 HWY_INLINE Vector next_cell(Vector a_i, Vector a_f, Vector a_c, Vector c, Vector bound) {
-  const Quotient i = sigmoid_of(a_i), f = sigmoid_of(a_f), added = product_of(i, tanh_of(a_c));
+  const Quotient i = sigmoid_of<Curve>(a_i), f = sigmoid_of<Curve>(a_f);
+  const Quotient added = product_of(i, tanh_of<Curve>(a_c));
   const Vector sum = hn::MulAdd(hn::Mul(f.over, c), added.under, hn::Mul(added.over, f.under));
   return bounded(hn::Div(sum, hn::Mul(f.under, added.under)), bound);
 }
 
 // gates [4][kBlock]; c and output_gate: a block of the node's.
-template <class T>
+template <class Curve = FineTanh, class T>
 HWY_INLINE void update_cells(const float* gates, float bound, T* c, float* output_gate) {
   const Floats d;
   const auto gate = [&](size_t which, size_t j) HWY_ATTR { return hn::Load(d, gates + which * kBlock + j); };
   for (size_t j = 0; j < kBlock; j += kLanes) {
-    store_state(next_cell(gate(0, j), gate(1, j), gate(2, j), load_state(c + j), hn::Set(d, bound)), c + j);
+    store_state(next_cell<Curve>(gate(0, j), gate(1, j), gate(2, j), load_state(c + j), hn::Set(d, bound)),
+                c + j);
     hn::Store(gate(3, j), d, output_gate + j);
   }
 }
@@ -161,14 +164,17 @@ HWY_INLINE Plane hear_cells(const LayerJob& job, Range range, float* pc, float* 
   return {floats_of(py, count, out), p};
 }
 
+template <class Curve = FineTanh>
+HWY_INLINE Vector next_hidden(Vector a_o, Vector c) {
+  return value_of(product_of(sigmoid_of<Curve>(a_o), tanh_of<Curve>(c)));
+}
+
 // h = o tanh(c) of `count` channels.
 template <class T>
 HWY_INLINE void update_hidden(const float* gate, const T* c, size_t count, T* h) {
   const Floats d;
-  for (size_t j = 0; j < count; j += kLanes) {
-    const Quotient o = sigmoid_of(hn::Load(d, gate + j)), t = tanh_of(load_state(c + j));
-    store_state(value_of(product_of(o, t)), h + j);
-  }
+  for (size_t j = 0; j < count; j += kLanes)
+    store_state(next_hidden(hn::Load(d, gate + j), load_state(c + j)), h + j);
 }
 
 template <size_t kVectors, class T>

@@ -135,8 +135,7 @@ template <size_t kWidth>
 HWY_INLINE void narrow_range_cells(const LayerJob& job, Range range, const float* px) {
   const size_t at = range.first * size_t{kBlock};
   const Plane py = {(job.py ? job.py : static_cast<const float*>(job.y)) + at, kBlock};
-  const auto* x_rows = static_cast<const float*>(job.x);
-  const Plane x = {job.w_s ? x_rows + range.first * job.x_stride : nullptr, job.x_stride};
+  const Plane x = own_x(job, range, job.tile + kRangeNodes * 4 * kWidth);
   narrow_gates<kWidth>(job, {{px, job.x_stride}, x, {job.ph + at, kBlock}, py}, range.count, job.tile);
   narrow_cell_states<kWidth>(job, range, job.tile);
   for (uint32_t i = 0; job.y_next && i < range.count; ++i) update_output_state(job, range.first + i);
@@ -170,8 +169,7 @@ HWY_INLINE void narrow_tile_output(const LayerJob& job, Range range, const Plane
   for_row_vectors<kWidth>(c.count, [&](size_t i, size_t j) HWY_ATTR {
     const Vector gate = load_rows<kWidth>(d, {job.tile + j, kBlock, c.count}, i);
     const Vector cell = load_rows<kWidth>(d, {c.first + j, kBlock, c.count}, i);
-    const Vector next = value_of(product_of(sigmoid_of(gate), tanh_of(cell)));
-    store_rows<kWidth>(d, next, {h.first + j, kBlock, h.count}, i);
+    store_rows<kWidth>(d, next_hidden(gate, cell), {h.first + j, kBlock, h.count}, i);
   });
 }
 

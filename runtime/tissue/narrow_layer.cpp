@@ -10,10 +10,9 @@ using simd::kBlock;
 
 constexpr uint32_t kGates = 4, kPeepholes = 2;  // W_y: gates i and f, o behind them
 
-// Of float32 networks only.
 uint32_t gate_width(const Network& network, uint32_t l) {
   const uint32_t channels = network.layers[l].channels;
-  if (network.record->precision != pack::Precision::kFloat32 || channels > 8) return 0;
+  if (keeps_halves(network, l) || channels > 8) return 0;
   return channels <= 4 ? 4 : 8;
 }
 

@@ -20,15 +20,23 @@ using ConstVector = Eigen::Map<const Vector3f>;
 // Vertices are asked for where they are this near, of their patch's radius: displaced flesh is stretched.
 constexpr float kStretched = 1.5f;
 
+// From a tick's root, world axes: where something was a tick ago, and where it would be now.
+struct Way {
+  Vector3f start, end;
+};
+
 struct Question {
   Instance& instance;
   uint32_t count = 0;
 
-  void add(const Vector3f& place, float radius_m) {
+  void add(const Way& way, float radius_m) {
     ContactProbe& probe = instance.probes[count++];
+    const auto& root = instance.state->tick_root_m;
     for (int k = 0; k < 3; ++k) {
-      const double at = instance.state->tick_root_m[0][k] + static_cast<double>(place[k]);
-      for (auto* ends : {probe.start_m, probe.end_m}) ends[0][k] = ends[1][k] = at;
+      for (int e = 0; e < 2; ++e) {
+        probe.start_m[e][k] = root[1][k] + static_cast<double>(way.start[k]);
+        probe.end_m[e][k] = root[0][k] + static_cast<double>(way.end[k]);
+      }
     }
     probe.radius_m = radius_m;
     probe.owner = instance.contacts.owner;
@@ -50,10 +58,23 @@ struct Question {
   }
 };
 
-Vector3f node_place(const Instance& instance, uint32_t node) {
-  const tissue::NodePose& pose = instance.poses[0][node];
+Vector3f node_place(const Instance& instance, uint32_t node, int age) {
+  const tissue::NodePose& pose = instance.poses[age][node];
   return ConstVector(pose.place_m) +
-         Eigen::Map<const Rows33>(pose.rotation) * ConstVector(instance.u[0] + size_t{3} * node);
+         Eigen::Map<const Rows33>(pose.rotation) * ConstVector(instance.u[age] + size_t{3} * node);
+}
+
+Way node_way(const Instance& instance, uint32_t node) {
+  return {node_place(instance, node, 1), node_place(instance, node, 0)};
+}
+
+// From where it was shown.
+Way vertex_way(const Instance& instance, uint32_t region, const SurfacePatches::Vertex& vertex) {
+  const SurfacePoint before = surface_point(instance, region, vertex, instance.shown[0], 1);
+  size_t pitch = 0;
+  const float* push = push_of(instance, region, vertex, &pitch);
+  return {before.place_m + before.world_from_bind * Vector3f(push[0], push[pitch], push[2 * pitch]),
+          surface_point(instance, region, vertex, instance.flesh, 0).place_m};
 }
 
 float reach_m(const Instance& instance, uint32_t node) {
@@ -61,18 +82,21 @@ float reach_m(const Instance& instance, uint32_t node) {
 }
 
 struct Ball {
-  Vector3f middle;
+  Way middle;
   float radius_m;
 };
 
 Ball ball_around(const Instance& instance, const pack::RegionRecord& region) {
-  Eigen::AlignedBox3f box;
-  for (uint32_t n = region.first_node; n < region.first_node + region.node_count; ++n)
-    box.extend(node_place(instance, n));
-  Ball ball{box.center(), 0};
-  for (uint32_t n = region.first_node; n < region.first_node + region.node_count; ++n) {
-    const float far = (node_place(instance, n) - ball.middle).norm() + reach_m(instance, n);
-    ball.radius_m = std::max(ball.radius_m, far);
+  Eigen::AlignedBox3f boxes[2];
+  const uint32_t end = region.first_node + region.node_count;
+  for (uint32_t n = region.first_node; n < end; ++n) {
+    for (int age = 0; age < 2; ++age) boxes[age].extend(node_place(instance, n, age));
+  }
+  Ball ball{{boxes[1].center(), boxes[0].center()}, 0};
+  for (uint32_t n = region.first_node; n < end; ++n) {
+    const Way way = node_way(instance, n);
+    const float far = std::max((way.start - ball.middle.start).norm(), (way.end - ball.middle.end).norm());
+    ball.radius_m = std::max(ball.radius_m, far + reach_m(instance, n));
   }
   return ball;
 }
@@ -85,7 +109,6 @@ bool touches_anything(Instance& instance, const pack::RegionRecord& region) {
   return !question.ask(&all).empty();
 }
 
-// Keeps what a vertex's answers say; where it would be is `places` by probe.
 struct Found {
   uint32_t region, node, vertex;
   Vector3f place;
@@ -101,8 +124,11 @@ void keep(Instance& instance, const Found& found, const ContactHit& hit) {
   const ConstVector normal(hit.normal), velocity(hit.velocity_m_s);
   MapVector(touch.normal) = normal;
   MapVector(touch.place_m) = found.place;
-  touch.gap_m =
-      static_cast<float>(hit.gap_m) - normal.dot(velocity) * static_cast<float>(instance.asset->tick_s);
+  const ContactProbe& probe = instance.probes[hit.probe];
+  double way_m = -instance.asset->tick_s * static_cast<double>(normal.dot(velocity));
+  for (int k = 0; k < 3; ++k)
+    way_m += static_cast<double>(hit.normal[k]) * (probe.end_m[0][k] - probe.start_m[0][k]);
+  touch.gap_m = static_cast<float>(hit.gap_m + way_m);
 }
 
 void ask_vertices(Instance& instance, Question& question, const Found* found) {
@@ -119,7 +145,7 @@ void find_patches(Instance& instance, const pack::RegionRecord& region) {
   std::fill(instance.deepest + region.first_node, instance.deepest + end, 0u);
   Question question{instance};
   for (uint32_t first = region.first_node, n = first; n < end; ++n) {
-    question.add(node_place(instance, n), reach_m(instance, n));
+    question.add(node_way(instance, n), reach_m(instance, n));
     if (!question.full() && n + 1 < end) continue;
     bool all = false;
     for (const ContactHit& hit : question.ask(&all)) instance.deepest[first + hit.probe] = kTouched;
@@ -141,9 +167,9 @@ void find_touches(Instance& instance, uint32_t r) noexcept {
   for (uint32_t n = region.first_node; n < region.first_node + region.node_count; ++n) {
     if (!instance.deepest[n]) continue;
     for (uint32_t v = patches.first[n]; v < patches.first[n + 1]; ++v) {
-      const Vector3f place = surface_point(instance, r, patches.vertices[v], instance.flesh).place_m;
-      found[question.count] = {r, n, v, place};
-      question.add(place, 0);
+      const Way way = vertex_way(instance, r, patches.vertices[v]);
+      found[question.count] = {r, n, v, way.end};
+      question.add(way, 0);
       if (question.full()) ask_vertices(instance, question, found);
     }
   }

@@ -60,6 +60,9 @@ void lay_out_state(const Asset& asset, core::Arena& arena, Instance& to) noexcep
   if (to.contacts.source) {
     to.pushes = arena.take<float>(size_t{3} * asset.padded_vertices);
     to.pushed = arena.take<uint32_t>(asset.pack.regions.size());
+    for (float*& skin : to.tick_skin)
+      skin = arena.take<float>(size_t{12} * asset.pack.character->joint_count);
+    for (float*& turn : to.tick_turn) turn = arena.take<float>(4);
   }
   to.state_bytes = arena.used_bytes();
 }

@@ -139,6 +139,8 @@ struct Instance {
   // whether any of a region's is.
   float* pushes = nullptr;
   uint32_t* pushed = nullptr;  // [regions]
+  // Of the last two ticks, newest first, where something may be touched: [joints][12], and the root's turn.
+  float *tick_skin[2] = {}, *tick_turn[2] = {};
   size_t state_bytes = 0;
 
   // Scratch of a step.
@@ -151,10 +153,9 @@ struct Instance {
   float* region[2] = {};             // [widest_region]: one region's x y z and modes
   tissue::NodeRun* awake = nullptr;  // [regions]
 
-  float tick_rotation[4] = {0, 0, 0, 1};  // of the tick's root
-  ContactProbe* probes = nullptr;         // [kProbesAtOnce]
-  ContactHit* hits = nullptr;             // [kHitsAtOnce]
-  Touch* touches = nullptr;               // [2 carried vertices]
+  ContactProbe* probes = nullptr;  // [kProbesAtOnce]
+  ContactHit* hits = nullptr;      // [kHitsAtOnce]
+  Touch* touches = nullptr;        // [2 carried vertices]
   uint32_t touch_count = 0;
   float* flesh = nullptr;             // [nodes][3]: displacement along the axes of the flesh
   uint32_t* deepest = nullptr;        // [nodes]: of touches

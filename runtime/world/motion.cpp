@@ -73,6 +73,12 @@ void shift_past(Instance& instance, const RootTransform& root) noexcept {
   }
   for (tissue::NodePose* poses : instance.poses)
     turn_poses(turn.cast<float>(), instance.asset->node_count(), poses);
+  for (float* tick_turn : instance.tick_turn) {
+    if (!tick_turn) continue;
+    const Quaterniond turned =
+        rotation_of(root) * rotation_of(state.root).conjugate() * quaternion(tick_turn);
+    Eigen::Map<Eigen::Vector4f>{tick_turn} = turned.coeffs().cast<float>();
+  }
   move_rods(instance, rotation_of(root) * rotation_of(state.root).conjugate(), from, to);
   state.root = root;
 }
@@ -146,6 +152,15 @@ void pose_nodes(Instance& instance, const Matrix34* joints, const RootTransform&
     tissue::share_bend(region.anchor_node, region.node_count, instance.poses[0] + region.first_node);
 }
 
+void remember_skin(Instance& instance, const RootTransform& root) noexcept {
+  if (!instance.contacts.source) return;
+  const size_t floats = size_t{12} * instance.asset->pack.character->joint_count;
+  std::copy_n(instance.tick_skin[0], floats, instance.tick_skin[1]);
+  std::copy_n(instance.tick_turn[0], 4, instance.tick_turn[1]);
+  std::copy_n(instance.skin, floats, instance.tick_skin[0]);
+  std::copy_n(root.rotation_xyzw, 4, instance.tick_turn[0]);
+}
+
 // Shifts the history by one tick and puts the pose at `share` in front.
 void push_pose(Instance& instance, double share) noexcept {
   auto& roots = instance.state->tick_root_m;
@@ -159,7 +174,7 @@ void push_pose(Instance& instance, double share) noexcept {
   pose_nodes(instance, joints, root);
   rest_rods(instance, joints, root);
   std::copy_n(root.position_m, 3, roots[0]);
-  std::copy_n(root.rotation_xyzw, 4, instance.tick_rotation);
+  remember_skin(instance, root);
 }
 
 }  // namespace

@@ -15,12 +15,6 @@ using Eigen::Matrix3f;
 using Eigen::Vector3f;
 using ConstVector = Eigen::Map<const Vector3f>;
 
-size_t pushes_of(const Asset& asset, uint32_t r) {
-  size_t before = 0;
-  for (uint32_t k = 0; k < r; ++k) before += asset.pack.regions[k].padded_vertices;
-  return 3 * before;
-}
-
 Vector3f in_bind(const Matrix3f& world_from_bind, const Vector3f& v) {
   constexpr float kCollapsed = 1e-6f;  // of a skin matrix that has no inverse
   if (!(std::fabs(world_from_bind.determinant()) > kCollapsed)) return world_from_bind.transpose() * v;
@@ -31,9 +25,9 @@ void push_vertex(Instance& instance, const Touch& touch) {
   const Asset& asset = *instance.asset;
   const pack::RegionRecord& region = asset.pack.regions[touch.region];
   const SurfacePatches::Vertex& vertex = asset.patches.vertices[touch.vertex];
-  const SurfacePoint now = surface_point(instance, touch.region, vertex, instance.shown[0]);
-  float* push = instance.pushes + pushes_of(asset, touch.region) + vertex.carried;
-  const size_t pitch = region.padded_vertices;
+  const SurfacePoint now = surface_point(instance, touch.region, vertex, instance.shown[0], 0);
+  size_t pitch = 0;
+  float* push = push_of(instance, touch.region, vertex, &pitch);
   const Vector3f before(push[0], push[pitch], push[2 * pitch]);
   const Vector3f place = now.place_m + now.world_from_bind * before;
   const ConstVector normal(touch.normal);
@@ -52,12 +46,12 @@ void push_vertex(Instance& instance, const Touch& touch) {
 
 void forget_pushes(Instance& instance) noexcept {
   if (!instance.contacts.source) return;
-  const pack::PackView& pack = instance.asset->pack;
-  for (uint32_t r = 0; r < pack.regions.size(); ++r) {
-    if (!instance.pushed[r]) continue;
-    std::fill_n(instance.pushes + pushes_of(*instance.asset, r), size_t{3} * pack.regions[r].padded_vertices,
-                0.0f);
+  float* pushes = instance.pushes;
+  for (size_t r = 0; r < instance.asset->pack.regions.size(); ++r) {
+    const size_t floats = size_t{3} * instance.asset->pack.regions[r].padded_vertices;
+    if (instance.pushed[r]) std::fill_n(pushes, floats, 0.0f);
     instance.pushed[r] = 0;
+    pushes += floats;
   }
 }
 

@@ -30,16 +30,25 @@ Matrix34f blended(const pack::SkinRecord& skin, const float* matrices) {
 }  // namespace
 
 SurfacePoint surface_point(const Instance& instance, uint32_t region, const SurfacePatches::Vertex& vertex,
-                           const float* displacement) noexcept {
+                           const float* displacement, uint32_t age) noexcept {
   const pack::PackView& pack = instance.asset->pack;
   const SurfacePatches& patches = instance.asset->patches;
   Vector3f place = Eigen::Map<const Vector3f>(pack.positions.data() + size_t{3} * vertex.index) +
                    carried(pack, region, vertex.carried, displacement);
   for (uint32_t o = vertex.also; o < patches.other_count && patches.others[o].index == vertex.index; ++o)
     place += carried(pack, patches.others[o].region, patches.others[o].carried, displacement);
-  const Matrix34f skin = blended(pack.skin[vertex.index], instance.skin);
-  const Matrix3f root = Eigen::Map<const Eigen::Quaternionf>(instance.tick_rotation).toRotationMatrix();
+  const Matrix34f skin = blended(pack.skin[vertex.index], instance.tick_skin[age]);
+  const Matrix3f root = Eigen::Map<const Eigen::Quaternionf>(instance.tick_turn[age]).toRotationMatrix();
   return {root * (skin.leftCols<3>() * place + skin.col(3)), root * skin.leftCols<3>()};
+}
+
+float* push_of(const Instance& instance, uint32_t region, const SurfacePatches::Vertex& vertex,
+               size_t* pitch) noexcept {
+  const pack::PackView& pack = instance.asset->pack;
+  size_t before = 0;
+  for (uint32_t r = 0; r < region; ++r) before += pack.regions[r].padded_vertices;
+  *pitch = pack.regions[region].padded_vertices;
+  return instance.pushes + 3 * before + vertex.carried;
 }
 
 }  // namespace sinew::world

@@ -1,4 +1,4 @@
-// surface_point.hpp  One vertex of the soft surface at the present tick: displaced, skinned, placed.
+// surface_point.hpp  One vertex of the soft surface at one of the last two ticks: displaced, skinned, placed.
 #pragma once
 #include <Eigen/Core>
 
@@ -12,8 +12,12 @@ struct SurfacePoint {
   Eigen::Matrix3f world_from_bind;  // of a small displacement
 };
 
-// Under nodes' displacements along the axes of their flesh, [nodes][3]; instance.skin is the tick's.
+// Under nodes' displacements along the axes of their flesh, [nodes][3]; `age` 0: this tick, 1: the one
+// before.
 SurfacePoint surface_point(const Instance& instance, uint32_t region, const SurfacePatches::Vertex& vertex,
-                           const float* displacement) noexcept;
+                           const float* displacement, uint32_t age) noexcept;
+// How a vertex is pushed (world/push_surface.hpp): its first number, the others `pitch` further each.
+float* push_of(const Instance& instance, uint32_t region, const SurfacePatches::Vertex& vertex,
+               size_t* pitch) noexcept;
 
 }  // namespace sinew::world

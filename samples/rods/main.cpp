@@ -25,9 +25,14 @@ struct NamedScene {
   sample::Story (*run)(double seconds);
 };
 
-constexpr NamedScene kScenes[] = {{"tree", 8, sample::tree_in_wind},
-                                  {"helix", 3, sample::helix_on_plane},
-                                  {"two_rods", 4, sample::two_rods}};
+constexpr NamedScene kScenes[] = {
+    {"tree", 8, sample::tree_in_wind},
+    {"helix", 3, sample::helix_on_plane},
+    {"two_rods", 4, sample::two_rods},
+#ifdef SINEW_HAS_BULLET
+    {"drum", 10, sample::drum},
+#endif
+};
 
 const NamedScene& find_scene(const std::string& name) {
   std::string known;

@@ -63,6 +63,7 @@ std::string caption_of(const Scene& scene, double time_s) {
 
 Moment moment_of(const Scene& scene, double time_s) {
   Moment moment{time_s, caption_of(scene, time_s), {}};
+  if (scene.prop) moment.prop = scene.prop(time_s);
   for (uint32_t k = 0; k < scene.batch->strand_count(); ++k)
     moment.poses.push_back(poses_of(*scene.batch, k));
   return moment;
@@ -90,6 +91,7 @@ void run_scene(const Scene& scene, Story* story) {
     scene.drive(time + scene.dt_s);
     take_step(scene, &m);
     measure_shape(*scene.batch, *story, &m);
+    if (scene.depth) m.deepest_by_shape = std::max(m.deepest_by_shape, scene.depth());
   }
 }
 
@@ -106,7 +108,10 @@ std::string report_line(const Story& story) {
   char contacts[96];
   std::snprintf(contacts, sizeof contacts, ", up to %u contacts, %.2f of a radius deep", m.contacts_most,
                 m.deepest_penetration);
-  return std::string(text) + contacts;
+  if (m.deepest_by_shape == 0) return std::string(text) + contacts;
+  char shape[64];
+  std::snprintf(shape, sizeof shape, " by contacts, %.3f by the shape", m.deepest_by_shape);
+  return std::string(text) + contacts + shape;
 }
 
 }  // namespace sinew::sample

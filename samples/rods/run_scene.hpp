@@ -13,6 +13,10 @@ struct Scene {
   std::vector<double> moments_s;  // rising
   // Before each step, with the time at its end: what drives the scene.
   std::function<void(double time_s)> drive = [](double) {};
+  // Where the prop is, at a time.
+  std::function<Eigen::Isometry3f(double time_s)> prop = {};
+  // How deep rods are in what they touch, of a radius, after a step.
+  std::function<double()> depth = {};
   // Of a moment; without: the time alone.
   std::function<std::string(double time_s)> caption = {};
 };

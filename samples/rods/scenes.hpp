@@ -10,5 +10,7 @@ Story tree_in_wind(double seconds);
 Story helix_on_plane(double seconds);
 // A rope across another that is held at both ends.
 Story two_rods(double seconds);
+// A rope wound on a drum of a Bullet world, which turns and moves. Only where sinew::bullet is built.
+Story drum(double seconds);
 
 }  // namespace sinew::sample

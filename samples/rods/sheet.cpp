@@ -8,8 +8,19 @@
 namespace sinew::sample {
 namespace {
 
+void add_prop(const render::Mesh& prop, const Eigen::Isometry3f& at, render::Mesh* mesh) {
+  const auto first = static_cast<uint32_t>(mesh->positions.size());
+  for (size_t i = 0; i < prop.positions.size(); ++i) {
+    mesh->positions.push_back(at * prop.positions[i]);
+    mesh->normals.push_back(at.linear() * prop.normals[i]);
+    mesh->colors.push_back(prop.colors[i]);
+  }
+  for (const auto& [a, b, c] : prop.triangles) mesh->triangles.push_back({first + a, first + b, first + c});
+}
+
 render::Mesh mesh_of(const Story& story, const Moment& moment) {
   render::Mesh mesh;
+  add_prop(story.prop, moment.prop, &mesh);
   for (size_t k = 0; k < story.actors.size(); ++k) {
     add_tube(story.actors[k], moment.poses[k], &mesh);
     add_leaves(story.actors[k], moment.poses[k], &mesh);

@@ -7,6 +7,7 @@
 #include "rods/rod_batch.hpp"
 #include "samples/render/camera.hpp"
 #include "samples/render/color.hpp"
+#include "samples/render/mesh.hpp"
 
 namespace sinew::sample {
 
@@ -28,6 +29,7 @@ struct Moment {
   double time_s = 0;
   std::string caption;
   std::vector<Poses> poses;  // one an actor
+  Eigen::Isometry3f prop = Eigen::Isometry3f::Identity();
 };
 
 // Of all steps.
@@ -38,13 +40,15 @@ struct Measured {
   double largest_gap = 0;   // at a joint, of its segment's length
   double iterations_sum = 0;  // of all strands and steps
   uint32_t iterations_most = 0, unconverged = 0, recovered = 0, contacts_most = 0;
-  double deepest_penetration = 0;  // of a segment's radius
+  double deepest_penetration = 0;  // of a segment's radius, along contacts' normals
+  double deepest_by_shape = 0;     // the same as the shapes say it; where a scene measures it
   std::vector<double> step_us;     // thread CPU time
 };
 
 struct Story {
   std::string name, title;
   std::vector<Actor> actors;
+  render::Mesh prop = {};  // what rods touch, in its own axes
   std::vector<Moment> moments = {};
   Measured measured = {};
   render::View view;

@@ -41,16 +41,17 @@ TEST_CASE("the_nearest_point_of_an_axis_is_the_nearest_of_many") {
 
 TEST_CASE("a_way_first_touches_when_the_surfaces_meet") {
   const Convex sphere = convex_of(btSphereShape(1));
-  const Motion still = {kHere, {}, {}};
+  const Motion still = Motion::ending_at(kHere, {}, {});
   const Path down = {{{0, 5, 0}, {0, 5, 0}}, {{0, -5, 0}, {0, -5, 0}}, 0.5};
-  const Touch touch = first_touch(sphere, kHere, still, down);
+  const Touch touch = first_touch(sphere, kHere, still, down, down.closing_m(still), 0);
   CHECK(touch.time == Approx(0.35).margin(0.001));
   // A bar that turns by a radian and is ten metres long meets what waits beside it on an arc, not on a chord.
   const Convex bar = convex_of(btBoxShape(btVector3(10, 0.01f, 0.01f)));
-  const Motion turns = {kHere, {}, {0, 0, 1}};
+  const Motion turns =
+      Motion::ending_at(place_of(btTransform(btQuaternion(btVector3(0, 0, 1), 1.0f))), {}, {0, 0, 1});
   const Vector waits = {9.98 * std::cos(0.5), 9.98 * std::sin(0.5), 0};
   const Path here = {{waits, waits}, {waits, waits}, 0.01};
-  CHECK(first_touch(bar, kHere, turns, here).time == Approx(0.5).margin(0.005));
+  CHECK(first_touch(bar, kHere, turns, here, here.closing_m(turns), 0).time == Approx(0.5).margin(0.005));
 }
 
 TEST_CASE("a_face_carries_what_is_above_it") {

@@ -12,7 +12,8 @@ if(HOW STREQUAL "find_package")
   run(${CMAKE_COMMAND} --install ${BINARY} --prefix ${work}/prefix)
   set(arguments -DCMAKE_PREFIX_PATH=${work}/prefix)
 else()
-  set(arguments -DSINEW_SOURCE=${SOURCE})
+  # The core alone: neither adapter, whatever is installed.
+  set(arguments -DSINEW_SOURCE=${SOURCE} -DSINEW_BULLET=OFF -DSINEW_EMBREE=OFF)
 endif()
 run(${CMAKE_COMMAND} -S ${SOURCE}/tests/house/consumer -B ${work}/build -G Ninja -DCMAKE_BUILD_TYPE=${CONFIG}
     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_FLAGS=${FLAGS} ${arguments})

@@ -1,0 +1,62 @@
+// main.cpp  sinew-contacts: soft flesh against a Bullet world, as pictures and a table.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+
+#include "samples/contacts/picture.hpp"
+#include "samples/render/encode.hpp"
+
+namespace {
+
+using namespace sinew;
+
+void print_row(const sample::ContactScene& scene, const sample::ContactMeasured& m) {
+  std::printf("%-8s %8.1f %8.4f %10.5f %10.5f %9.3f %8.2f %8u %8u %9.0f %9.0f\n", scene.name.c_str(),
+              m.deepest_alone_mm, m.deepest_mm, m.jitter_rms_mm, m.jitter_most_mm, m.creep_mm_s,
+              m.volume_most_l, m.vertices_most, m.dropped + m.refused, m.frame_alone_us, m.frame_us);
+}
+
+int run(const std::string& input, const std::string& output, const sample::ContactPicture& size) {
+  const demo::CharacterFile character = demo::open_character(input);
+  std::filesystem::create_directories(output);
+  std::printf("%-8s %8s %8s %10s %10s %9s %8s %8s %8s %9s %9s\n", "scene", "off_mm", "on_mm", "jitter_mm",
+              "most_mm", "creep_mm_s", "volume_l", "vertices", "dropped", "off_us", "on_us");
+  for (const sample::ContactScene& scene : {sample::onto_a_crate(), sample::between_walls()}) {
+    const sample::ContactPlay play = sample::play(character, scene);
+    print_row(scene, play.measured);
+    const std::string path = output + "/" + scene.name + ".png";
+    render::write_png(path, sample::picture(character, scene, play, size));
+  }
+  std::printf(
+      "off_mm, on_mm: deepest soft vertex inside of a box, contacts off and on. At rest in contact: jitter, "
+      "rms\n"
+      "and most, about a straight line in time; creep, the fastest such line. volume: at most what contacts "
+      "take.\n"
+      "off_us, on_us: median step, and while touching.\n"
+      "Pictures: %s/crate.png %s/walls.png\n",
+      output.c_str(), output.c_str());
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::string input, output = "out/contacts";
+  sample::ContactPicture size;
+  CLI::App app("A soft creature leaps onto a crate and is caught between walls, contacts found by Bullet.");
+  app.add_option("input", input, "character, .sinew, without rods")->required();
+  app.add_option("-o,--output", output, "folder of the pictures")->capture_default_str();
+  app.add_option("--width", size.width, "of each picture, pixels")->check(CLI::Range(16, 4096));
+  app.add_option("--height", size.height, "of each picture, pixels")->check(CLI::Range(16, 4096));
+  app.add_option("--samples", size.samples, "a pixel")->check(CLI::Range(1, 4096));
+  app.add_option("--threads", size.threads, "0: all")->check(CLI::Range(0, 256));
+  try {
+    app.parse(argc, argv);
+    return run(input, output, size);
+  } catch (const CLI::CallForHelp& help) {
+    return app.exit(help);
+  } catch (const std::exception& problem) {
+    std::fprintf(stderr, "sinew-contacts: %s\n", problem.what());
+    return 2;
+  }
+}
