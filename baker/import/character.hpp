@@ -58,6 +58,13 @@ struct SpringBones {
   bool collides = false;     // with colliders that the file states
 };
 
+// A sphere or capsule that a VRM file lets springs collide with, in its joint's own space.
+struct BodyCollider {
+  int joint = 0;
+  Vector3 from = Vector3::Zero(), to = Vector3::Zero();
+  double radius_m = 0;
+};
+
 struct Character {
   std::string name;
   std::vector<Node> nodes;
@@ -78,6 +85,7 @@ struct Character {
   std::vector<int> welded;  // vertex -> first vertex at the same place with the same influences
   std::vector<Clip> clips;
   std::vector<SpringBones> springs;
+  std::vector<BodyCollider> colliders;
   std::vector<std::string> notes;  // what was mended or dropped on import, one line each
 };
 

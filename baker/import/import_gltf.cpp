@@ -92,6 +92,7 @@ Character import_file(Source& source, const ImportOptions& options) {
     source.refuse("", "no mesh of this file has triangles", "export the character's mesh as triangles");
   character.clips = read_clips(model, graph, accessors, source);
   character.springs = read_spring_bones(model, graph, joints.node, source);
+  character.colliders = read_body_colliders(model, graph, joints.node, source);
   character.nodes = std::move(graph.nodes);
   character.joint_node = std::move(joints.node);
   character.joint_parent = std::move(joints.parent);

@@ -1,8 +1,7 @@
 // spring_bones.cpp  Spring bones that a VRM file states, version 0 and 1.
 #include "baker/import/spring_bones.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include "baker/import/vrm_values.hpp"
 
 namespace sinew::baker {
 namespace {
@@ -10,21 +9,6 @@ namespace {
 using tinygltf::Value;
 
 constexpr size_t kMostSprings = 1000;
-
-// Null where it is not there.
-const Value& part(const Value& value, const char* key) {
-  static const Value kNothing;
-  return value.IsObject() && value.Has(key) ? value.Get(key) : kNothing;
-}
-
-std::vector<Value> list(const Value& value) {
-  return value.IsArray() ? value.Get<Value::Array>() : std::vector<Value>{};
-}
-
-double number(const Value& value, double otherwise, double low, double high) {
-  const double given = value.IsNumber() ? value.GetNumberAsDouble() : otherwise;
-  return std::isfinite(given) ? std::clamp(given, low, high) : otherwise;
-}
 
 std::string text(const Value& value) { return value.IsString() ? value.Get<std::string>() : ""; }
 
@@ -128,13 +112,7 @@ class SpringReader {
       source_.note("spring '" + spring.name + "'", "its gravityDir is not straight down: taken as down");
   }
 
-  // -1: none.
-  int node_of(const Value& stated) const {
-    if (!stated.IsNumber()) return -1;
-    const double index = stated.GetNumberAsDouble();
-    if (!(index >= 0 && index < static_cast<double>(graph_.node_of_file.size()))) return -1;
-    return graph_.node_of_file[static_cast<size_t>(index)];
-  }
+  int node_of(const Value& stated) const { return baker::node_of(graph_, stated); }
 
   int joint_of(int node) const { return node < 0 ? -1 : joint_of_node_[static_cast<size_t>(node)]; }
 

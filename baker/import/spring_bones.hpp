@@ -14,4 +14,10 @@ namespace sinew::baker {
 std::vector<SpringBones> read_spring_bones(const tinygltf::Model& model, const SceneGraph& graph,
                                            const std::vector<int>& joint_node, Source& source);
 
+// What those spring bones collide with. VRM 0: secondaryAnimation.colliderGroups, spheres. VRM 1:
+// VRMC_springBone.colliders, spheres and capsules. What is damaged, has another shape or names no joint is
+// left out with a note.
+std::vector<BodyCollider> read_body_colliders(const tinygltf::Model& model, const SceneGraph& graph,
+                                              const std::vector<int>& joint_node, Source& source);
+
 }  // namespace sinew::baker

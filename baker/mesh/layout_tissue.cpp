@@ -106,6 +106,8 @@ TissueLayout layout_tissue(Character& character, const Recipe& recipe) {
   const Surface surface = find_surface(character);
   TissueLayout layout;
   layout.rods = find_rods(character, recipe);
+  layout.proxies =
+      find_proxies(character, find_bones(character, {}), joints_on_rods(character, layout.rods), recipe);
   layout.stiffness = find_stiffness(character, surface, recipe);
   hold_on_rods(character, layout.rods, layout.stiffness);
   const SoftParts parts = find_soft_parts(character, surface, recipe, layout.stiffness);

@@ -51,6 +51,14 @@ RegionRecipe read_region(JsonSection& section) {
   return region;
 }
 
+ProxyRecipe read_proxy(JsonSection& section) {
+  ProxyRecipe proxy;
+  proxy.joint = section.text("joint");
+  proxy.radius_m = section.number("radius_m", 0, 1e-3, 10);
+  section.finish();
+  return proxy;
+}
+
 nlohmann::json parse(const std::string& path) {
   nlohmann::json json = nlohmann::json::parse(read_text(path), nullptr, false, true);
   if (json.is_discarded())
@@ -67,6 +75,8 @@ Recipe read_recipe(const std::string& path) {
   read_material(section, recipe);
   read_graph(section, recipe);
   for (JsonSection& region : section.sections("regions")) recipe.regions.push_back(read_region(region));
+  for (JsonSection& proxy : section.sections("proxies")) recipe.proxies.push_back(read_proxy(proxy));
+  recipe.without_proxies = section.texts("without_proxies");
   if (section.has("rods")) recipe.rods = read_rod_recipes(section);
   section.finish();
   return recipe;

@@ -17,6 +17,12 @@ struct RegionRecipe {
   double stiffness = 0.1;           // 0 soft .. 1 rigid at its softest point
 };
 
+// Of a capsule that rods collide with, its bone by name or prefix*.
+struct ProxyRecipe {
+  std::string joint;
+  double radius_m = 0;  // 1e-3 .. 10
+};
+
 struct Recipe {
   // Tissue material. Stiffness s maps to Young's modulus soft^(1-s) stiff^s.
   double young_soft_pa = 6e3;     // > 0
@@ -35,6 +41,8 @@ struct Recipe {
   double unit_m = 0;          // see ImportOptions
   char up = 'y';
   std::optional<std::vector<RodRecipe>> rods;  // absent: from the file's spring bones, where it has any
+  std::vector<ProxyRecipe> proxies;          // radii that take the place of fitted ones
+  std::vector<std::string> without_proxies;  // names or prefix*: bones that rods go through
   std::vector<RegionRecipe>
       regions;  // used where the file paints no _STIFFNESS; empty and unpainted: by flesh thickness
 };

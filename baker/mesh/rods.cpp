@@ -225,7 +225,7 @@ std::vector<Rod> rods_of_springs(Character& character) {
                               " rods; a recipe's \"rods\" takes their place");
   if (collides)
     character.notes.push_back(
-        "spring bones: colliders and hit radii are not used, rods do not meet bodies yet");
+        "spring bones: the file's colliders are what rods collide with; hit radii are not used");
   return rods;
 }
 

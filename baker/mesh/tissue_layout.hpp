@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "baker/import/character.hpp"
+#include "baker/mesh/proxies.hpp"
 #include "baker/mesh/recipe.hpp"
 #include "baker/mesh/rods.hpp"
 
@@ -34,6 +35,7 @@ struct TissueLayout {
   std::vector<Region> regions;
   std::vector<ControlNode> nodes;          // region after region
   std::vector<std::pair<int, int>> edges;  // undirected, no self-loops, each region connected
+  std::vector<Proxy> proxies;              // what rods collide with
   std::vector<Rod> rods;                   // what hangs on their bones is not soft: the rods move it
 };
 

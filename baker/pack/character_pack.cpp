@@ -56,6 +56,7 @@ void add_record(const Character& character, const TissueLayout& layout, PackWrit
   record.clip_count = to_u32(character.clips.size());
   record.height_m = static_cast<float>(height_of(character));
   record.rod_count = to_u32(layout.rods.size());
+  record.proxy_count = to_u32(layout.proxies.size());
   pack.section(SectionKind::kCharacter, std::vector{record});
 }
 
@@ -248,6 +249,7 @@ std::vector<std::byte> pack_character(const Character& character, const TissueLa
       normalized_adjacency(layout.nodes.size(), layout.edges, character.name + ": control graph");
   add_graph(graph, pack);
   add_rods(character, layout.rods, pack);
+  add_proxies(layout.proxies, pack);
   const uint64_t mode_floats =
       add_modes(layout, modes,
                 {.rate_hz = number_of(weights, "rate_hz", kRate_hz, 1, 1000),

@@ -60,4 +60,20 @@ void add_rods(const Character& character, const std::vector<Rod>& rods, PackWrit
   pack.section(SectionKind::kJointRods, carried_joints(character, segments));
 }
 
+void add_proxies(const std::vector<Proxy>& proxies, PackWriter& pack) {
+  if (proxies.empty()) return;
+  std::vector<pack::ProxyRecord> records;
+  for (const Proxy& proxy : proxies) {
+    pack::ProxyRecord record{};
+    record.joint = static_cast<uint32_t>(proxy.joint);
+    for (int axis = 0; axis < 3; ++axis) {
+      record.from_m[axis] = static_cast<float>(proxy.from[axis]);
+      record.to_m[axis] = static_cast<float>(proxy.to[axis]);
+    }
+    record.radius_m = static_cast<float>(proxy.radius_m);
+    records.push_back(record);
+  }
+  pack.section(SectionKind::kProxies, records);
+}
+
 }  // namespace sinew::baker

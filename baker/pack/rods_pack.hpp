@@ -1,5 +1,6 @@
 // rods_pack.hpp  Rods of a character to the sections that the runtime simulates them from.
 #pragma once
+#include "baker/mesh/proxies.hpp"
 #include "baker/mesh/rods.hpp"
 #include "baker/pack/pack_writer.hpp"
 
@@ -7,5 +8,8 @@ namespace sinew::baker {
 
 // Sections kRods, kRodSegments and kJointRods; none of them without rods.
 void add_rods(const Character& character, const std::vector<Rod>& rods, PackWriter& pack);
+
+// Section kProxies; none without proxies.
+void add_proxies(const std::vector<Proxy>& proxies, PackWriter& pack);
 
 }  // namespace sinew::baker

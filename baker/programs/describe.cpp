@@ -152,6 +152,7 @@ Json describe_pack(const LoadedPack& pack) {
   if (is_character) {
     description["regions"] = describe_regions(view);
     if (!view.rods.empty()) description["rods"] = describe_rods(view);
+    if (!view.proxies.empty()) description["proxies"] = view.proxies.size();
     description["clips"] = describe_clips(view);
     description["tiers"] = describe_tiers(view);
   }

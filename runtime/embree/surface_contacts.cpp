@@ -32,6 +32,10 @@ struct SurfaceContacts::Impl {
     std::unique_ptr<Surface>* found = surfaces.find(id);
     return found ? found->get() : nullptr;
   }
+  // Of one probe; one near more than eight surfaces at a time touches the first eight.
+  static constexpr uint32_t kMostHits = 8 * ProbeOnSurface::kMostContacts;
+  uint32_t find(std::span<const ContactProbe> probes, uint32_t p, double dt_s,
+                ContactHit (&hits)[kMostHits]) const noexcept;
   const SurfaceFilter& filter_of(uint32_t owner) const {
     return owner < filters.size() ? filters[owner] : all;
   }
@@ -60,6 +64,19 @@ Status check(const SurfaceContactsDef& def) {
   if (def.reach_m > 0 && std::isfinite(def.reach_m)) return {};
   return make_status(StatusCode::kInvalidArgument, "reach_m is %g; give a finite number above 0",
                      static_cast<double>(def.reach_m));
+}
+
+// Whether a probe goes on where the one before it ends, as segments of a chain do: at a joint one contact is
+// enough, two would share its force.
+bool goes_on(const ContactProbe& before, const ContactProbe& probe) {
+  constexpr double kAtOnePlace = 0.1;  // of the radius
+  double square = 0;
+  for (size_t k = 0; k < 3; ++k) {
+    const double apart = probe.start_m[0][k] - before.start_m[1][k];
+    square += apart * apart;
+  }
+  const double near_m = kAtOnePlace * static_cast<double>(probe.radius_m);
+  return before.owner == probe.owner && square <= near_m * near_m;
 }
 
 bool usable(const ContactProbe& probe) {
@@ -177,6 +194,27 @@ Status SurfaceContacts::report(SurfaceId surface, SurfaceReport* out) const noex
 
 uint64_t SurfaceContacts::probes_skipped() const noexcept { return impl_ ? impl_->skipped.load() : 0; }
 
+uint32_t SurfaceContacts::Impl::find(std::span<const ContactProbe> probes, uint32_t p, double dt_s,
+                                     ContactHit (&hits)[kMostHits]) const noexcept {
+  const SurfaceFilter& filter = filter_of(probes[p].owner);
+  const bool goes_on_here = p > 0 && goes_on(probes[p - 1], probes[p]);
+  uint32_t count = 0;
+  for (uint32_t s = 0; s < surfaces.end() && count + ProbeOnSurface::kMostContacts <= kMostHits; ++s) {
+    const std::unique_ptr<Surface>* surface = surfaces.at(s);
+    if (!surface) continue;
+    const bool grows_here = filter.root_surface == surfaces.id_at(s);
+    ContactHit found[ProbeOnSurface::kMostContacts];
+    ProbeOnSurface look(**surface, probes[p], filter, grows_here, static_cast<double>(def.reach_m), dt_s);
+    for (const ContactHit& hit : std::span(found).first(look.find(found))) {
+      if (goes_on_here && hit.along == -1) continue;  // told where the probe before ends
+      hits[count] = hit;
+      hits[count].probe = p, hits[count].name += ProbeOnSurface::kMostContacts * s;
+      hits[count++].body |= uint64_t{s + 1} << 32;
+    }
+  }
+  return count;
+}
+
 uint32_t SurfaceContacts::find(std::span<const ContactProbe> probes, float dt_s,
                                std::span<ContactHit> hits) noexcept {
   if (!impl_ || !(dt_s >= 0)) return 0;
@@ -186,22 +224,9 @@ uint32_t SurfaceContacts::find(std::span<const ContactProbe> probes, float dt_s,
       ++impl_->skipped;
       continue;
     }
-    const SurfaceFilter& filter = impl_->filter_of(probes[p].owner);
-    for (uint32_t s = 0; s < impl_->surfaces.end(); ++s) {
-      const std::unique_ptr<Surface>* surface = impl_->surfaces.at(s);
-      if (!surface) continue;
-      const bool grows_here = filter.root_surface == impl_->surfaces.id_at(s);
-      ContactHit found[ProbeOnSurface::kMostContacts];
-      ProbeOnSurface look(**surface, probes[p], filter, grows_here, static_cast<double>(impl_->def.reach_m),
-                          static_cast<double>(dt_s));
-      const uint32_t count = look.find(found);
-      for (uint32_t i = 0; i < count; ++i) {
-        found[i].probe = p;
-        found[i].name += 3 * s;
-        found[i].body |= uint64_t{s + 1} << 32;
-        collected.add(found[i]);
-      }
-    }
+    ContactHit found[Impl::kMostHits];
+    const uint32_t count = impl_->find(probes, p, static_cast<double>(dt_s), found);
+    for (uint32_t i = 0; i < count; ++i) collected.add(found[i]);
   }
   return collected.count();
 }

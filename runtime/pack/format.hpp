@@ -25,6 +25,7 @@
 //      since then, likewise: the models kDeepEmulator and kCopingNet with the section kDense
 //   5  weights of Alt-ConvLSTM lie in the order that kernels read them; CharacterRecord::rod_count with the
 //      sections of rods, and a character of rods without soft regions
+//      since then, likewise: CharacterRecord::proxy_count with the section kProxies
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -112,6 +113,7 @@ enum class SectionKind : uint32_t {
   kRodSegments = 61,  // RodSegmentRecord: of all rods, rod after rod
   kJointRods = 62,  // uint32 x joints, where there are rods: the segment in kRodSegments that moves a joint,
                     // its own or its parent's; kNoIndex: none
+  kProxies = 63,    // ProxyRecord x proxies
 };
 
 // kNone: a character of modes and springs alone; no layers, inputs or weights, and of the record only rate_hz
@@ -236,7 +238,8 @@ struct CharacterRecord {
   uint32_t vertex_count, triangle_count, joint_count, region_count, node_count, clip_count;
   float height_m;
   uint32_t rod_count;
-  uint32_t reserved[7];
+  uint32_t proxy_count;  // 0..64
+  uint32_t reserved[6];
 };
 static_assert(sizeof(CharacterRecord) == 64);
 
@@ -340,6 +343,15 @@ struct RodSegmentRecord {
   uint32_t reserved[2];
 };
 static_assert(sizeof(RodSegmentRecord) == 64);
+
+// A capsule about a bone, that rods collide with; bind pose, metres. It moves as its joint does.
+struct ProxyRecord {
+  uint32_t joint;
+  float from_m[3], to_m[3];  // the axis' ends; the same: a sphere
+  float radius_m;            // > 0
+};
+static_assert(sizeof(ProxyRecord) == 32);
+inline constexpr uint32_t kMostProxies = 64;  // a bit each in what a rod passes
 
 struct ClipRecord {
   uint32_t name;

@@ -50,6 +50,7 @@ PackView view_sections(const SectionTable& table) noexcept {
           .tiers = table.get<TierRecord>(kTiers),
           .rods = table.get<RodRecord>(kRods),
           .rod_segments = table.get<RodSegmentRecord>(kRodSegments),
+          .proxies = table.get<ProxyRecord>(kProxies),
           .joint_rods = table.get<uint32_t>(kJointRods)};
 }
 
@@ -65,8 +66,8 @@ Status open_pack(std::span<const std::byte> bytes, PackView* out) noexcept {
   if (Status status = read_section_table(bytes, &table); !status.ok()) return status;
   const PackView view = view_sections(table);
   constexpr Check kModelChecks[] = {check_strings, check_network};
-  constexpr Check kCharacterChecks[] = {check_strings, check_network, check_character,
-                                        check_tissue,  check_modes,   check_rods};
+  constexpr Check kCharacterChecks[] = {check_strings, check_network, check_character, check_tissue,
+                                        check_modes,   check_rods,    check_proxies};
   const bool is_model = view.kind == FileKind::kModel;
   const std::span<const Check> checks = is_model ? std::span<const Check>(kModelChecks) : kCharacterChecks;
   if (Status status = run_checks(checks, view); !status.ok()) return status;

@@ -43,6 +43,7 @@ struct PackView {
   std::span<const TierRecord> tiers;
   std::span<const RodRecord> rods;
   std::span<const RodSegmentRecord> rod_segments;
+  std::span<const ProxyRecord> proxies;
   std::span<const uint32_t> joint_rods;  // a joint; empty without rods
 };
 

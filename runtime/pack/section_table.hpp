@@ -54,6 +54,7 @@ inline constexpr SectionRule kSectionRules[] = {
     {SectionKind::kRods, sizeof(RodRecord), "rods"},
     {SectionKind::kRodSegments, sizeof(RodSegmentRecord), "rod segments"},
     {SectionKind::kJointRods, sizeof(uint32_t), "joint rods"},
+    {SectionKind::kProxies, sizeof(ProxyRecord), "proxies"},
 };
 
 const SectionRule* find_rule(uint32_t kind) noexcept;  // null: not known

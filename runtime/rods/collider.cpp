@@ -77,6 +77,7 @@ struct ColliderBuilder {
     to.planes_ = arena.take<Plane>(to.settings_.obstacle_capacity);
     to.spheres_ = arena.take<Sphere>(to.settings_.obstacle_capacity);
     to.capsules_ = arena.take<Capsule>(to.settings_.obstacle_capacity);
+    to.passed_ = arena.take<uint64_t>(size_t{to.strand_count_} * to.segment_count_);
     to.points_ = arena.take<ContactPoint>(to.settings_.point_capacity);
     to.contacts_ = arena.take<Contact>(to.capacity_);
     to.kept_ = arena.take<RodCollider::Kept>(to.kept_size_);
@@ -156,6 +157,16 @@ Status RodCollider::set_spheres(std::span<const Sphere> spheres) noexcept {
 }
 Status RodCollider::set_capsules(std::span<const Capsule> capsules) noexcept {
   return set(capsules, settings_.obstacle_capacity, "capsules", capsules_, &capsule_count_);
+}
+
+Status RodCollider::set_passed(uint32_t strand, uint32_t segment, uint64_t capsules) noexcept {
+  if (strand >= strand_count_ || segment >= segment_count_) {
+    return core::make_status(StatusCode::kInvalidArgument,
+                             "strand %u, segment %u where the batch has %u strands of %u segments", strand,
+                             segment, strand_count_, segment_count_);
+  }
+  passed_[size_t{strand} * segment_count_ + segment] = capsules;
+  return {};
 }
 
 Status RodCollider::check_points(std::span<const ContactPoint> points) const noexcept {

@@ -64,6 +64,9 @@ class RodCollider {
   Status set_planes(std::span<const Plane> planes) noexcept;
   Status set_spheres(std::span<const Sphere> spheres) noexcept;
   Status set_capsules(std::span<const Capsule> capsules) noexcept;
+  // Capsules that do not touch a segment, until set again: bit k is capsule k, those from 64 on touch all. For
+  // what a rod hangs in. Refused: a strand or segment that is not there.
+  Status set_passed(uint32_t strand, uint32_t segment, uint64_t capsules) noexcept;
   // For the coming step alone. Refused as well: a strand or segment that is not there, more than
   // point_capacity.
   Status set_points(std::span<const ContactPoint> points) noexcept;
@@ -121,6 +124,9 @@ class RodCollider {
   bool fits(const RodBatch& batch) const noexcept;
   Kept* find_kept(uint64_t name) const noexcept;
   // The parts of a step; of each range settle() after each iteration.
+  bool passes(uint32_t strand, uint32_t segment, uint32_t capsule) const noexcept {
+    return capsule < 64 && (passed_[size_t{strand} * segment_count_ + segment] >> capsule & 1) != 0;
+  }
   void begin_step() noexcept;
   void begin_range(const RodBatch& batch, uint32_t first_group, uint32_t groups, float dt_s) noexcept;
   uint32_t settle(const RodBatch& batch) noexcept;  // returns how many strands are not converged
@@ -138,6 +144,7 @@ class RodCollider {
   Sphere* spheres_ = nullptr;
   Capsule* capsules_ = nullptr;
   ContactPoint* points_ = nullptr;
+  uint64_t* passed_ = nullptr;  // [strands][segments]
   uint32_t plane_count_ = 0, sphere_count_ = 0, capsule_count_ = 0, point_count_ = 0;
   uint32_t strand_count_ = 0, segment_count_ = 0, width_ = 0, capacity_ = 0, kept_size_ = 0;
 

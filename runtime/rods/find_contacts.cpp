@@ -327,7 +327,8 @@ void ContactFinder::add_capsule(const Capsule& capsule, uint64_t kind, uint32_t 
   for (uint32_t strand = first_strand(); strand < end_strand(); ++strand) {
     if (!overlap(to.strand_boxes_[strand - first_strand()], box)) continue;
     for (uint32_t i = 0; i < batch.segment_count_; ++i) {
-      if (free(strand, i) && overlap(to.boxes_[local(strand, i)], box)) add_touch(strand, i, other);
+      if (!free(strand, i) || (kind == kCapsule && to.passes(strand, i, index))) continue;
+      if (overlap(to.boxes_[local(strand, i)], box)) add_touch(strand, i, other);
     }
   }
 }
@@ -459,12 +460,13 @@ void ContactFinder::stop_at_core(uint32_t strand, uint32_t segment, const Sweep&
   to.carries_[strand] = scaled(1 - touch.time, moved);
 }
 
-void ContactFinder::stop_at_core(const Sweep& core) const {
+// `capsule` is the core's index among them, or none.
+void ContactFinder::stop_at_core(const Sweep& core, uint32_t capsule) const {
   const SweptBox box = box_of(core, core.radius_m + kNearWay * longest_way(core));
   for (uint32_t strand = first_strand(); strand < end_strand(); ++strand) {
     if (!overlap(to.strand_boxes_[strand - first_strand()], box)) continue;
     for (uint32_t i = 0; i < batch.segment_count_; ++i) {
-      if (free(strand, i)) stop_at_core(strand, i, core);
+      if (free(strand, i) && !to.passes(strand, i, capsule)) stop_at_core(strand, i, core);
     }
   }
 }
@@ -488,8 +490,8 @@ void ContactFinder::stop_torn(uint32_t strand) const {
 bool ContactFinder::find_holds() const noexcept {
   std::fill(to.ways_ + first_strand(), to.ways_ + end_strand(), 1.0);
   if (to.source_) stop_at_hits();
-  for (uint32_t i = 0; i < to.sphere_count_; ++i) stop_at_core(sweep_of(capsule_of(to.spheres_[i])));
-  for (uint32_t i = 0; i < to.capsule_count_; ++i) stop_at_core(sweep_of(to.capsules_[i]));
+  for (uint32_t i = 0; i < to.sphere_count_; ++i) stop_at_core(sweep_of(capsule_of(to.spheres_[i])), ~0u);
+  for (uint32_t i = 0; i < to.capsule_count_; ++i) stop_at_core(sweep_of(to.capsules_[i]), i);
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {
     if (to.turning_[s] && to.pressed_[s]) stop_torn(s);
   }

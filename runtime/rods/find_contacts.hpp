@@ -55,7 +55,7 @@ struct ContactFinder {
   Sweep taken_sweep(uint32_t strand, uint32_t segment) const;
   Sweep sweep_of(const Capsule& capsule) const;
   void stop_torn(uint32_t strand) const;
-  void stop_at_core(const Sweep& core) const;
+  void stop_at_core(const Sweep& core, uint32_t capsule) const;
   void stop_at_core(uint32_t strand, uint32_t segment, const Sweep& core) const;
   SweptBox strand_box(uint32_t strand) const;
   Contact made(uint32_t strand, uint32_t segment, double along, const Other& other, uint64_t feature) const;

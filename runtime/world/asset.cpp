@@ -77,6 +77,7 @@ AssetInfo describe(const Asset& asset) noexcept {
           .region_count = character.region_count,
           .node_count = character.node_count,
           .clip_count = character.clip_count,
+          .proxy_count = character.proxy_count,
           .rod_count = character.rod_count,
           .tick_hz = asset.pack.network->rate_hz,
           .height_m = character.height_m,

@@ -55,6 +55,8 @@ void lay_out_state(const Asset& asset, core::Arena& arena, Instance& to) noexcep
   to.rod_hold_asleep = arena.take<double>(size_t{3} * asset.rods.rod_count);
   for (double*& rest : to.rod_rest) rest = arena.take<double>(4 * slots);
   for (double*& hold : to.rod_hold) hold = arena.take<double>(size_t{3} * asset.rods.rod_count);
+  if (to.contacts.own_body)
+    for (double*& ends : to.proxy_ends) ends = arena.take<double>(6 * asset.pack.proxies.size());
   if (to.contacts.source) {
     to.pushes = arena.take<float>(size_t{3} * asset.padded_vertices);
     to.pushed = arena.take<uint32_t>(asset.pack.regions.size());
@@ -131,6 +133,7 @@ Status make_instance(Asset& asset, const InstanceDef& def, Instance* out) noexce
   core::Arena measure;
   Instance made;
   made.contacts = def.contacts;
+  made.contacts.own_body &= asset.rods.rod_count > 0 && !asset.pack.proxies.empty();
   if (made.contacts.source && !asset.patches.first) {
     if (Status status = make_surface_patches(asset.pack, &asset.patches); !status.ok()) return status;
   }

@@ -134,6 +134,7 @@ struct Instance {
   // Of the last two ticks, newest first: [slots][4] segments' orientations in the world at rest, [rods][3]
   // where their holders end, from rod_anchor_m.
   double *rod_rest[2] = {}, *rod_hold[2] = {};
+  double* proxy_ends[2] = {};  // likewise, [proxies][2][3]; null: rods do not touch the body
   // Of soft parts that touch something: how vertices are pushed, laid out and along axes as `carried`, and
   // whether any of a region's is.
   float* pushes = nullptr;

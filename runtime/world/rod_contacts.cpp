@@ -8,6 +8,7 @@
 
 #include "core/check_hit.hpp"
 #include "core/status.hpp"
+#include "world/rod_proxies.hpp"
 
 namespace sinew::world {
 namespace {
@@ -16,10 +17,15 @@ using Eigen::Vector3d;
 
 constexpr uint32_t kHitsASegment = 4, kMostHits = 1u << 20;
 
-rods::ColliderSettings settings_of(const rods::RodBatch& batch) noexcept {
+bool asks(const Instance& instance) noexcept { return instance.contacts.source && instance.contacts.rods; }
+
+rods::ColliderSettings settings_of(const Instance& instance, const rods::RodBatch& batch) noexcept {
   const uint64_t segments = uint64_t{batch.strand_count()} * batch.segment_count();
   const auto hits = static_cast<uint32_t>(std::min<uint64_t>(kHitsASegment * segments, kMostHits));
-  return {.rods_collide = false, .obstacle_capacity = 0, .point_capacity = 0, .source_capacity = hits};
+  return {.rods_collide = false,
+          .obstacle_capacity = proxy_count(instance),
+          .point_capacity = 0,
+          .source_capacity = asks(instance) ? hits : 0};
 }
 
 Eigen::AlignedBox3d box_of_rods(const Instance& instance) noexcept {
@@ -41,14 +47,15 @@ Eigen::AlignedBox3d box_of_rods(const Instance& instance) noexcept {
 
 Status make_rod_colliders(Instance& instance) noexcept {
   const uint32_t count = instance.asset->rods.batch_count;
-  if (!instance.contacts.source || !instance.contacts.rods || count == 0) return {};
+  if ((!asks(instance) && proxy_count(instance) == 0) || count == 0) return {};
   std::unique_ptr<rods::RodCollider[]> made(new (std::nothrow) rods::RodCollider[count]);
   if (!made) return core::make_status(StatusCode::kOutOfCapacity, "create_instance: no memory for its rods");
   for (uint32_t b = 0; b < count; ++b) {
     const rods::RodBatch& batch = instance.rod_batches[b];
-    const Status status = rods::RodCollider::create(batch, settings_of(batch), &made[b]);
+    const Status status = rods::RodCollider::create(batch, settings_of(instance, batch), &made[b]);
     if (!status.ok()) return core::make_status(status.code, "create_instance: rods: %s", status.message);
-    (void)made[b].set_source(instance.contacts.source, instance.contacts.owner);  // there is room
+    if (asks(instance)) (void)made[b].set_source(instance.contacts.source, instance.contacts.owner);
+    pass_proxies(instance, b, made[b]);
   }
   instance.rod_colliders = std::move(made);
   return {};
@@ -57,11 +64,14 @@ Status make_rod_colliders(Instance& instance) noexcept {
 rods::RodCollider* rod_collider(Instance& instance, uint32_t batch) noexcept {
   if (!instance.rod_colliders) return nullptr;
   instance.rod_colliders[batch].set_origin(instance.state->rod_anchor_m);
+  if (proxy_count(instance) > 0) set_proxies(instance, instance.rod_colliders[batch]);
   return &instance.rod_colliders[batch];
 }
 
 bool something_is_near_rods(Instance& instance) noexcept {
   if (!instance.rod_colliders) return false;
+  if (proxies_move(instance)) return true;
+  if (!asks(instance)) return false;
   const Eigen::AlignedBox3d box = box_of_rods(instance);
   const Vector3d middle = box.center() + Eigen::Map<const Vector3d>(instance.state->rod_anchor_m);
   ContactProbe& probe = instance.probes[0];

@@ -6,6 +6,7 @@
 
 #include "world/pose.hpp"
 #include "world/rod_contacts.hpp"
+#include "world/rod_proxies.hpp"
 #include "world/rod_sleep.hpp"
 #include "world/rotation.hpp"
 
@@ -154,6 +155,7 @@ void rest_rods(Instance& instance, const Matrix34* joints, const RootTransform& 
     MapTurn(instance.rod_rest[0] + size_t{4} * s) =
         (world * joint * Quaterniond(slot.offset_xyzw)).normalized();
   }
+  pose_proxies(instance, joints, world, place);
   for (uint32_t rod = 0; rod < rig.rod_count; ++rod) {
     const Matrix34& first = joints[rig.slots()[rig.seats()[rod].first_slot + 1].bone];
     MapPlace(instance.rod_hold[0] + size_t{3} * rod) =
@@ -168,6 +170,7 @@ void move_rods(Instance& instance, const Quaterniond& turn, const Vector3d& from
   const Vector3d centre = from_m - anchor;
   anchor += to_m - from_m;
   if (turn.vec().isZero(0)) return;
+  turn_proxies(instance, turn, centre);
   for (uint32_t b = 0; b < instance.asset->rods.batch_count; ++b)
     instance.rod_batches[b].turn_all({turn.x(), turn.y(), turn.z(), turn.w()},
                                      {centre.x(), centre.y(), centre.z()});

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "baker/creature/remesh.hpp"
+#include "baker/mesh/fit_capsule.hpp"
 
 namespace sinew::sample {
 namespace {
@@ -47,6 +48,40 @@ std::vector<BodyPart> parts() {
   return out;
 }
 
+struct Bone {
+  Vector3d from, to;
+  double head_share;
+  double distance(const Vector3d& p) const {
+    const double share = std::clamp((p - from).dot(to - from) / (to - from).squaredNorm(), 0.0, 1.0);
+    return (p - from - share * (to - from)).norm();
+  }
+};
+
+std::vector<Bone> bones() {
+  std::vector<Bone> out = {
+      {{0, 1.05, 0}, {0, 1.32, 0}, 0}, {{0, 1.44, 0}, {0, 1.53, 0}, 0.5}, {{0, 1.58, 0.01}, {0, 1.7, 0}, 1}};
+  for (const double side : {-1.0, 1.0}) {
+    out.push_back({{side * 0.05, 1.41, -0.01}, {side * 0.17, 1.385, -0.01}, 0});
+    out.push_back({{side * 0.2, 1.3, -0.01}, {side * 0.23, 1.08, 0}, 0});
+  }
+  return out;
+}
+
+std::vector<BustProxy> fit_proxies(const std::vector<Vector3d>& skin) {
+  const std::vector<Bone> all = bones();
+  std::vector<std::vector<Vector3d>> flesh(all.size());
+  for (const Vector3d& p : skin) {
+    const auto nearest = std::ranges::min_element(all, {}, [&](const Bone& b) { return b.distance(p); });
+    flesh[static_cast<size_t>(nearest - all.begin())].push_back(p);
+  }
+  std::vector<BustProxy> out;
+  for (size_t b = 0; b < all.size(); ++b) {
+    const baker::FittedCapsule fit = baker::fit_capsule(flesh[b], all[b].to - all[b].from);
+    out.push_back({fit.from, fit.to, fit.radius_m, all[b].head_share});
+  }
+  return out;
+}
+
 double smooth(double t) {
   t = std::clamp(t, 0.0, 1.0);
   return t * t * (3 - 2 * t);
@@ -69,11 +104,12 @@ std::vector<float> Bust::places(const Turning& turning) const {
 }
 
 Bust make_bust(size_t vertices) {
-  Bust out{baker::BodyField(parts()), {}, {}};
+  Bust out{baker::BodyField(parts()), {}, {}, {}};
   const auto distance = [&](const Vector3d& p) { return out.field.sample(p).distance; };
   const baker::Surface surface =
       baker::remesh(out.field, baker::contour(distance, out.field.bounds(), kCell_m), vertices);
   out.rest_m = surface.positions;
+  out.proxies = fit_proxies(out.rest_m);
   for (const auto& t : surface.triangles) {
     out.triangles.push_back(
         {static_cast<uint32_t>(t[0]), static_cast<uint32_t>(t[1]), static_cast<uint32_t>(t[2])});

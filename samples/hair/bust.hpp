@@ -12,10 +12,19 @@ struct Turning {
   double chest_rad = 0, head_rad = 0;  // about the vertical; the head's is its own, not added
 };
 
+// About a bone, in the bind pose.
+struct BustProxy {
+  Eigen::Vector3d from, to;
+  double radius_m;
+  double head_share;  // of the way from the chest's turn to the head's
+};
+
 struct Bust {
   baker::BodyField field;  // of the bind pose
   std::vector<Eigen::Vector3d> rest_m;
   std::vector<std::array<uint32_t, 3>> triangles;  // counter-clockwise from outside
+
+  std::vector<BustProxy> proxies;  // fitted to what of the skin is nearest to each bone
 
   // Skinned: the neck's turn goes from the chest's to the head's with height.
   std::vector<float> places(const Turning& turning) const;

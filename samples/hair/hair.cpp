@@ -14,7 +14,8 @@
 namespace sinew::sample {
 namespace {
 
-constexpr float kTick_s = 1.0f / 60;
+constexpr float kTick_s = 1.0f / 120;
+constexpr uint32_t kMostIterations = 40;  // contacts of locks that slide over a ridge take some
 constexpr uint32_t kHitsASegment = 3;
 
 void accept(const Status& status) {
@@ -59,8 +60,9 @@ Hair::Hair(const HairStyle& style, Against against, size_t vertices)
     : bust_(make_bust(vertices)), strands_(groom(bust_, style)), against_(against) {
   std::vector<rods::StrandDef> defs;
   for (const auto& s : strands_) defs.push_back({s});
-  const rods::RodSettings settings =
+  rods::RodSettings settings =
       rods::default_settings({.segments = style.segments, .young_pa = 4e6f, .contacts = true});
+  settings.max_iterations = kMostIterations;
   accept(rods::RodBatch::create(defs, settings, &batch_));
   const uint32_t most = kHitsASegment * style.strands * style.segments;
   accept(rods::RodCollider::create(
@@ -85,12 +87,37 @@ void Hair::hold_roots(const Turning& turning) {
   }
 }
 
+// Turned about the vertical, as the bones are.
+void Hair::place_proxies(const Turning& before, const Turning& now) {
+  std::vector<rods::Capsule> capsules;
+  for (const BustProxy& proxy : bust_.proxies) {
+    const auto angle = [&](const Turning& t) {
+      return t.chest_rad + proxy.head_share * (t.head_rad - t.chest_rad);
+    };
+    const Eigen::AngleAxisd turn(angle(now), Eigen::Vector3d::UnitY());
+    const Eigen::Vector3d spin =
+        (angle(now) - angle(before)) / static_cast<double>(kTick_s) * Eigen::Vector3d::UnitY();
+    const Eigen::Vector3d from = turn * proxy.from, to = turn * proxy.to,
+                          moves = spin.cross(0.5 * (from + to));
+    rods::Capsule capsule = {.radius_m = static_cast<float>(proxy.radius_m), .friction = 0.3f, .motion = {}};
+    for (int k = 0; k < 3; ++k) {
+      capsule.ends_m[0][k] = from[k], capsule.ends_m[1][k] = to[k];
+      capsule.motion.linear_m_s[k] = static_cast<float>(moves[k]);
+      capsule.motion.angular_rad_s[k] = static_cast<float>(spin[k]);
+    }
+    capsules.push_back(capsule);
+  }
+  accept(collider_.set_capsules(capsules));
+}
+
 void Hair::step(bool measures) {
+  const Turning before = turning_at(time_s_);
   time_s_ += static_cast<double>(kTick_s);
   const Turning turning = turning_at(time_s_);
   const std::vector<float> places = bust_.places(turning);
   hold_roots(turning);
   const double begin = thread_us();
+  if (against_ == Against::kProxies) place_proxies(before, turning);
   if (against_ == Against::kSkin) {
     accept(skin_.move_surface(skin_id_, {.places_m = places, .dt_s = kTick_s}));
     measure_.refit_us.push_back(thread_us() - begin);
@@ -99,7 +126,8 @@ void Hair::step(bool measures) {
   accept(batch_.step(kTick_s, &collider_, &report));
   measure_.rods_us.push_back(thread_us() - begin);
   ++measure_.steps;
-  measure_.unconverged += report.unconverged + report.contacts_unconverged;
+  measure_.unconverged += report.unconverged;
+  measure_.contacts_unconverged += report.contacts_unconverged;
   measure_.recovered += report.recovered + report.rejoined;
   measure_.contacts += report.contacts;
   measure_.contacts_most = std::max<uint64_t>(measure_.contacts_most, report.contacts);

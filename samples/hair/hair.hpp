@@ -11,7 +11,8 @@ namespace sinew::sample {
 enum class Against { kNothing, kProxies, kSkin };
 
 struct HairMeasure {
-  uint64_t steps = 0, unconverged = 0, recovered = 0, contacts = 0, contacts_most = 0, dropped = 0;
+  uint64_t steps = 0, unconverged = 0, contacts_unconverged = 0, recovered = 0, contacts = 0,
+           contacts_most = 0, dropped = 0;
   // Below the skin at a step's end, of a lock's radius: deepest of all, and how many of all ends and nearest
   // points of segments were deeper than a twentieth.
   double deepest = 0;
@@ -23,7 +24,8 @@ struct HairMeasure {
 class Hair {
  public:
   Hair(const HairStyle& style, Against against, size_t vertices);
-  // One tick of a sixtieth of a second. `measures`: looks for penetration as well, which is not timed.
+  // One tick of a hundred-and-twentieth of a second. `measures`: looks for penetration as well, which is not
+  // timed.
   void step(bool measures);
 
   double time_s() const { return time_s_; }
@@ -34,6 +36,7 @@ class Hair {
 
  private:
   void hold_roots(const Turning& turning);
+  void place_proxies(const Turning& before, const Turning& now);
   void look();
 
   Bust bust_;

@@ -14,7 +14,7 @@ using namespace sinew;
 struct Request {
   std::string folder;
   std::vector<std::string> against;
-  uint32_t steps = 600;
+  uint32_t steps = 960;
   size_t vertices = 6000;
   sample::HairStyle style;
   sample::HairPicture size;
@@ -68,7 +68,8 @@ int main(int argc, char** argv) {
   app.add_option("-o,--output", request.folder, "folder of the pictures")->required();
   app.add_option("--against", request.against, "nothing, proxies, skin; without: all")
       ->check(CLI::IsMember({"nothing", "proxies", "skin"}));
-  app.add_option("--steps", request.steps, "of a sixtieth of a second")->check(CLI::Range(1, 1000000));
+  app.add_option("--steps", request.steps, "of a hundred-and-twentieth of a second")
+      ->check(CLI::Range(1, 1000000));
   app.add_option("--strands", request.style.strands, "locks of hair")->check(CLI::Range(1, 20000));
   app.add_option("--segments", request.style.segments, "of each")->check(CLI::Range(2, 1000));
   app.add_option("--vertices", request.vertices, "of the skin")->check(CLI::Range(200, 200000));

@@ -212,3 +212,16 @@ TEST_CASE("find_allocates_nothing_and_threads_find_the_same") {
   for (std::thread& t : threads) t.join();
   for (const auto& out : of_threads) CHECK(same(out, hits));
 }
+
+TEST_CASE("where_a_chain_goes_on_its_joint_is_told_once") {
+  SurfaceId id;
+  SurfaceContacts contacts = contacts_of(box({1, 1, 1}), &id);
+  std::vector<ContactProbe> chain = {probe({-0.4, 1.09, 0}, {0, 1.09, 0}, 0.1),
+                                     probe({0, 1.09, 0}, {0.4, 1.09, 0}, 0.1)};
+  CHECK(found(contacts, chain).size() == 3);
+  chain[1].owner = 1;  // another's
+  CHECK(found(contacts, chain).size() == 4);
+  std::swap(chain[0], chain[1]);
+  chain[1].owner = 0, chain[0].owner = 0;
+  CHECK(found(contacts, chain).size() == 4);
+}

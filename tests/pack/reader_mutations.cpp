@@ -95,6 +95,7 @@ double read_rods(const PackView& view) {
       if (s.joint != kNoIndex) sum += view.joint_rods[s.joint];
     }
   }
+  for (const ProxyRecord& p : view.proxies) sum += view.joints[p.joint].inverse_bind[0] * p.radius_m;
   for (const uint32_t carrier : view.joint_rods)
     if (carrier != kNoIndex) sum += view.rod_segments[carrier].radius_m;
   return sum;

@@ -254,6 +254,7 @@ std::vector<std::byte> small_rod_pack() {
   const baker::Character character = small_character();
   baker::TissueLayout layout = small_layout(character);
   layout.rods = small_rods();
+  layout.proxies = {{0, {0, 0.1, 0}, {0, 0.2, 0}, 0.05}};
   return baker::pack_character(character, layout, small_modes(layout));
 }
 

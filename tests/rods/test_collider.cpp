@@ -175,3 +175,18 @@ TEST_CASE("a_collider_that_is_empty_or_far_away_changes_no_bit") {
     }
   }
 }
+
+TEST_CASE("a_segment_goes_through_the_capsules_that_it_passes_and_no_other_does") {
+  test::RodBatch batch = test::batch_of({test::lying_rod(0.1), test::lying_rod(0.1)});
+  rods::RodCollider collider = test::collider_of(batch, {.rods_collide = false});
+  CHECK(collider.set_passed(2, 0, 1).code == StatusCode::kInvalidArgument);
+  CHECK(collider.set_passed(0, 10, 1).code == StatusCode::kInvalidArgument);
+  for (uint32_t i = 0; i < batch.segment_count(); ++i) REQUIRE(collider.set_passed(0, i, 2).ok());
+  const rods::Capsule far = {.ends_m = {{9, 0, 0}, {9, 1, 0}}, .radius_m = 0.05f};
+  const rods::Capsule bar = {.ends_m = {{-1, 0, 0}, {2, 0, 0}}, .radius_m = 0.05f};
+  const rods::Capsule both[] = {far, bar};
+  REQUIRE(collider.set_capsules(both).ok());
+  for (int i = 0; i < 30; ++i) test::step(batch, collider);
+  CHECK(batch.pose(0, 5).position_m[1] < -0.5);  // fell half a second
+  CHECK(batch.pose(1, 5).position_m[1] > 0.05);
+}

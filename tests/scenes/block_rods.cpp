@@ -74,7 +74,7 @@ baker::Rod make_rod(const Chain& chain, const RodMatter& matter) {
     bone.parent = static_cast<int>(i) - 1;
     bone.begin = i == 0 ? begin : rod.bones.back().end;
     bone.end = begin + chain.step;
-    bone.radius_m = 0.02;
+    bone.radius_m = kTailRadius_m;
     bone.density_kg_m3 = 1000;
     bone.young_modulus_pa = bone.torsion_modulus_pa = matter.young_modulus_pa;
     bone.damping_s = 0.01;
@@ -100,6 +100,8 @@ Matrix34 joint(const Eigen::Matrix4d& matrix) {
 
 }  // namespace
 
+Vector3 bar_end(double side) { return {0.2 * side, kBlockJointHeight_m + 0.02, -0.4}; }
+
 void add_rods(const RodMatter& matter, Character& character, baker::TissueLayout& layout) {
   for (const Chain& chain : kChains)
     for (uint32_t i = 0; i < chain.count; ++i) add_joint(chain, i, character);
@@ -107,6 +109,7 @@ void add_rods(const RodMatter& matter, Character& character, baker::TissueLayout
     for (uint32_t i = 0; i < chain.count; ++i) add_flesh(chain, i, character);
     layout.rods.push_back(make_rod(chain, matter));
   }
+  if (matter.bar) layout.proxies = {{1, bar_end(-1), bar_end(1), kBarRadius_m}};
   layout.stiffness = character.stiffness;
 }
 

@@ -15,7 +15,12 @@ inline constexpr uint32_t kTail = 2, kHorns[] = {6, 9}, kTailedJoints = 12;
 struct RodMatter {
   double gravity = 1, sag = 0;
   double young_modulus_pa = 1e6;
+  bool bar = false;  // a capsule across and below the tail, that moves with the waist
 };
+
+inline constexpr double kBarRadius_m = 0.03, kTailRadius_m = 0.02;
+// Of the bar's axis, bind pose.
+baker::Vector3 bar_end(double side);
 
 void add_rods(const RodMatter& matter, baker::Character& character, baker::TissueLayout& layout);
 

@@ -91,7 +91,10 @@ struct WorldDef {
 struct ContactDef {
   ContactSource* source = nullptr;  // null: nothing is touched, and no memory is taken for it
   uint32_t owner = 0;               // ContactProbe::owner of all its probes
-  bool tissue = true, rods = true;  // what of the instance touches
+  bool tissue = true, rods = true;  // what of the instance touches the source
+  // Its rods touch the capsules about its own bones that were baked, too, with a source or without. Costs a
+  // sweep of each segment a tick, and what contacts cost.
+  bool own_body = false;
 };
 
 struct InstanceDef {
@@ -182,7 +185,8 @@ struct ReadDef {
 struct AssetInfo {
   uint32_t vertex_count = 0, triangle_count = 0, joint_count = 0, region_count = 0, node_count = 0,
            clip_count = 0;
-  uint32_t rod_count = 0;  // chains and trees of bones that swing
+  uint32_t proxy_count = 0;  // capsules about bones, for ContactDef::own_body
+  uint32_t rod_count = 0;    // chains and trees of bones that swing
   float tick_hz = 0;
   float height_m = 0;           // extent of the bind pose along Y
   uint64_t instance_bytes = 0;  // memory one instance takes; contacts take more

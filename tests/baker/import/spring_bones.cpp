@@ -54,6 +54,26 @@ TEST_CASE("springs_of_version_0_are_roots_with_all_below") {
   CHECK(noted(character, "gravityDir is not straight down"));
 }
 
+TEST_CASE("colliders_are_spheres_in_version_0_and_capsules_too_in_version_1") {
+  const Character old = with("VRM", nlohmann::json::parse(R"({"secondaryAnimation": {"colliderGroups": [
+    {"node": 1, "colliders": [{"offset": {"x": 0.1, "y": 0.2, "z": 0.3}, "radius": 0.05}, {"radius": "x"}]},
+    {"node": 99, "colliders": [{"radius": 1}]}, 7]}})"),
+                             "colliders_0");
+  REQUIRE(old.colliders.size() == 1);
+  CHECK((old.colliders[0].from - Vector3(0.1, 0.2, -0.3)).norm() < 1e-12);  // Unity's z looks the other way
+  CHECK(old.colliders[0].from == old.colliders[0].to);
+  CHECK(old.colliders[0].radius_m == 0.05);
+  CHECK(noted(old, "has no radius: left out"));
+  CHECK(noted(old, "is on no joint of the character's skin: left out"));
+  const Character now = with("VRMC_springBone", nlohmann::json::parse(R"({"colliders": [
+    {"node": 1, "shape": {"capsule": {"offset": [0, 0.1, 0.2], "radius": 0.5, "tail": [0, 0.4, 0.2]}}},
+    {"node": 0, "shape": {"sphere": {"offset": [1, 0, 0], "radius": 0.25}}}, {"node": 0, "shape": {"plane": {}}}]})"),
+                             "colliders_1");
+  REQUIRE(now.colliders.size() == 2);
+  CHECK((now.colliders[0].to - Vector3(0, 0.4, 0.2)).norm() < 1e-12);
+  CHECK(now.colliders[1].radius_m == 0.25);
+}
+
 namespace {
 
 // The bar with joints to spare: nodes 1, 3 and 4 in a row, of which "tip" is in the skin and "tip_end" is

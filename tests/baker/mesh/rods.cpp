@@ -231,7 +231,7 @@ TEST_CASE("springs_of_the_file_become_rods_unless_the_recipe_says_otherwise") {
   CHECK(noted(character, "'bone_2' is moved by rod 'bone_2' as well; let it be in one of them: left out"));
   CHECK(noted(character, "'bone_0' hangs on no bone; name one below it: left out"));
   CHECK(noted(character, "became 1 rods"));
-  CHECK(noted(character, "colliders and hit radii are not used"));
+  CHECK(noted(character, "the file's colliders are what rods collide with"));
   CHECK(find_rods(other, with({})).empty());
   CHECK(find_rods(other, with({rooted("bone_1")}))[0].bones.size() == 3);
 }

@@ -1,0 +1,36 @@
+// vrm_values.hpp  Values of a VRM extension, damaged or not.
+#pragma once
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "baker/import/scene_graph.hpp"
+
+namespace sinew::baker {
+
+// Null where it is not there.
+inline const tinygltf::Value& part(const tinygltf::Value& value, const char* key) {
+  static const tinygltf::Value kNothing;
+  return value.IsObject() && value.Has(key) ? value.Get(key) : kNothing;
+}
+
+inline std::vector<tinygltf::Value> list(const tinygltf::Value& value) {
+  return value.IsArray() ? value.Get<tinygltf::Value::Array>() : std::vector<tinygltf::Value>{};
+}
+
+inline double number(const tinygltf::Value& value, double otherwise, double low, double high) {
+  const double given = value.IsNumber() ? value.GetNumberAsDouble() : otherwise;
+  return std::isfinite(given) ? std::clamp(given, low, high) : otherwise;
+}
+
+// The graph's node that a file's index names; -1: none.
+inline int node_of(const SceneGraph& graph, const tinygltf::Value& stated) {
+  if (!stated.IsNumber()) return -1;
+  const double index = stated.GetNumberAsDouble();
+  if (!(index >= 0 && index < static_cast<double>(graph.node_of_file.size()))) return -1;
+  return graph.node_of_file[static_cast<size_t>(index)];
+}
+
+}  // namespace sinew::baker

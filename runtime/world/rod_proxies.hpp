@@ -1,0 +1,29 @@
+// rod_proxies.hpp  Capsules about an instance's own bones, that its rods collide with.
+//
+// Baked (pack::ProxyRecord). Each moves as its bone's skin does. What a rod grows
+// out of it goes through for ever: a capsule that a segment and all between it and the rod's root touch in
+// the bind pose. Turning about a capsule's own axis moves nothing.
+#pragma once
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "world/instance.hpp"
+
+namespace sinew::world {
+
+// 0 where the instance's rods do not collide with its body.
+uint32_t proxy_count(const Instance& instance) noexcept;
+// Of what each segment goes through, once, of a batch's collider.
+void pass_proxies(const Instance& instance, uint32_t batch, rods::RodCollider& collider) noexcept;
+// Shifts proxy_ends by one tick and puts the pose's in front; place_m counts from rod_anchor_m.
+void pose_proxies(Instance& instance, const Matrix34* joints, const Eigen::Quaterniond& turn,
+                  const Eigen::Vector3d& place_m) noexcept;
+// As the rods are turned in a teleport.
+void turn_proxies(Instance& instance, const Eigen::Quaterniond& turn,
+                  const Eigen::Vector3d& centre_m) noexcept;
+// For the coming tick, with their velocities.
+void set_proxies(Instance& instance, rods::RodCollider& collider) noexcept;
+// Rods that sleep are woken.
+bool proxies_move(const Instance& instance) noexcept;
+
+}  // namespace sinew::world
