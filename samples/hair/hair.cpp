@@ -168,15 +168,15 @@ std::string report_line(const Hair& hair, const char* name) {
       text, sizeof text,
       "%-8s %zu locks x %u segments on %zu triangles, %llu steps: deepest %.3f of a radius, %.4f %% deeper "
       "than a twentieth, l/l0 %.5f, %.0f contacts (most %llu, dropped %llu), not converged %.2f strands a "
-      "step, "
-      "put together %llu, %.0f us a step (refit %.0f)",
+      "step and %.2f by contacts, put together %llu, %.0f us a step (refit %.0f)",
       name, hair.strands().size(), hair.batch().segment_count(), hair.bust().triangles.size(),
       static_cast<unsigned long long>(m.steps), m.deepest,
       100.0 * static_cast<double>(m.deeper_than_a_twentieth) /
           static_cast<double>(std::max<uint64_t>(m.looked_at, 1)),
       m.longest, static_cast<double>(m.contacts) / steps, static_cast<unsigned long long>(m.contacts_most),
       static_cast<unsigned long long>(m.dropped), static_cast<double>(m.unconverged) / steps,
-      static_cast<unsigned long long>(m.recovered), median(m.rods_us), median(m.refit_us));
+      static_cast<double>(m.contacts_unconverged) / steps, static_cast<unsigned long long>(m.recovered),
+      median(m.rods_us), median(m.refit_us));
   return text;
 }
 
