@@ -14,7 +14,7 @@ class HairOnHead {
  public:
   static constexpr float kHead_m = 0.1f;
 
-  explicit HairOnHead(uint32_t strands, uint32_t segments = 16, float young_pa = 1e7f) {
+  explicit HairOnHead(uint32_t strands, uint32_t segments = 16, float young_pa = 1e6f) {
     const Segments one = straight_rod({.segments = segments,
                                        .young_pa = young_pa,
                                        .length_m = 0.015 * segments,
