@@ -4,12 +4,12 @@
 //   force  p = max(0, force - gain C), an augmented Lagrangian (Hestenes 1969, Powell 1969)
 //   slip   s = what of move_a - move_b, at the surfaces, is across n (Macklin et al. 2014, Section 6.1)
 //   drag   t = drag - gain s, shortened to friction p
-// After each iteration force <- p and drag <- t, each by the share of the iteration's change that was taken;
-// what is iterated to has C = 0 or p = 0, s = 0 or |t| = friction p, exactly, whatever the gain and whatever
-// it began with. The gain only says how fast: an iteration divides force's error by 1 + gain w, w the inverse
-// mass that the contact feels. Normal and points belong to the step: the constraint is linear in the moves,
-// and an iteration of rods that touch converges as one of rods that do not. Normals of the iterate were
-// rejected: on a thin obstacle hit at speed they turn faster than Newton follows.
+// After each iteration force <- p and drag <- t; what is iterated to has C = 0 or p = 0, s = 0 or |t| =
+// friction p, exactly, whatever the gain and whatever it began with. The gain only says how fast: an
+// iteration divides force's error by 1 + gain w, w the inverse mass that the contact feels. Normal and points
+// belong to the step: the constraint is linear in the moves, and an iteration of rods that touch converges as
+// one of rods that do not. Normals of the iterate were rejected: on a thin obstacle hit at speed they turn
+// faster than Newton follows.
 #pragma once
 #include <algorithm>
 #include <cstdint>

@@ -72,30 +72,11 @@ double ContactForces::tolerance_m(const Contact& c) const {
   return static_cast<double>(to.settings_.tolerance) * c.scale_m;
 }
 
-// Of the iteration's change, what was taken by the strands of a contact.
-double ContactForces::share_of(const Contact& c) const {
-  const auto share = [&](size_t side) {
-    return static_cast<double>(lane(c.sides[side].strand, simd::kLaneShare));
-  };
-  return c.has_two_rods() ? std::min(share(0), share(1)) : share(0);
-}
-
-// Forces of the gap and slip that a share of an iteration's forces came to: with the whole gap, one left by a
-// half step would be pressed out again by a thousand masses.
-ContactForce ContactForces::taken_forces(const Contact& c) const {
-  const double rest = 1 - share_of(c);
-  Contact taken = c;
-  taken.force = std::max(0.0, c.force - c.gain_kg * (c.open_m - rest * c.open_before_m));
-  taken.open_m = 0;
-  taken.slip_m = scaled_sum(-rest, c.slip_before_m, c.slip_m);
-  return forces_of(taken);
-}
-
 // Returns whether the contact is as exact as wanted.
 bool ContactForces::take_over(Contact* c) const {
   const double force = c->force;
   const Vector drag = c->drag;
-  const ContactForce f = taken_forces(*c);
+  const ContactForce f = forces_of(*c);
   if (to.changed_[c->sides[0].strand] || (c->has_two_rods() && to.changed_[c->sides[1].strand])) return false;
   c->force = f.press;
   c->drag = f.drag;

@@ -52,8 +52,6 @@ struct ContactForces {
   bool iterated(const Contact& contact) const;
   void find_change(const Contact& contact) const;
   double tolerance_m(const Contact& contact) const;
-  double share_of(const Contact& contact) const;
-  ContactForce taken_forces(const Contact& contact) const;
   bool take_over(Contact* contact) const;
   double last_turn(uint32_t strand) const;
   void hold(uint32_t strand, uint32_t segment) const;
