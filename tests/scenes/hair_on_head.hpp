@@ -75,7 +75,8 @@ class HairOnHead {
     for (SegmentDef& s : out) {
       s.damping_s = 0.01f;
       s.length_m *= static_cast<float>(longer);
-      for (int k = 0; k < 3; ++k) s.position_m[k] = longer * s.position_m[k] + static_cast<double>(kHead_m) * normal[k];
+      for (int k = 0; k < 3; ++k)
+        s.position_m[k] = longer * s.position_m[k] + static_cast<double>(kHead_m) * normal[k];
     }
     return out;
   }
