@@ -83,6 +83,8 @@ struct ColliderBuilder {
     to.kept_ = arena.take<RodCollider::Kept>(to.kept_size_);
     to.sweeps_ = arena.take<Sweep>(segments);
     to.boxes_ = arena.take<SweptBox>(segments);
+    to.swept_ = arena.take<uint8_t>(segments);
+    to.reaches_ = arena.take<double>(segments * RodCollider::kReachRows);
     to.strand_boxes_ = arena.take<SweptBox>(size_t{range} * to.width_);
     to.rows_ = arena.take<float>(segments * simd::kRodContactRows);
     to.touched_ = arena.take<uint8_t>(size_t{range} * to.segment_count_);

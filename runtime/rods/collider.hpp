@@ -12,7 +12,8 @@
 // same bits saves and restores its state as well as the batch's.
 // One thread at a time with its batch. A step allocates nothing. Memory: some 400 bytes a contact; where rods
 // collide with one another some 800 bytes a segment besides, for all groups then iterate in turn.
-// Cost: each segment is swept in double precision in every step, near an obstacle or not.
+// Cost: a bound of each segment's way in every step (broad_phase.cpp); sweeps in double precision of what may
+// touch, of all segments where rods collide or a source is asked.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -112,6 +113,9 @@ class RodCollider {
     Vector point_m;    // of the rod's surface, at the step's end
   };
   static constexpr uint32_t kNoContact = ~0u;
+  // Of a segment in the world: its middle, how far from there it may touch something that stands still, and
+  // how far it reaches at the step's start.
+  enum ReachRow : uint32_t { kReachMiddle = 0, kReachTouch = 3, kReachHalf, kReachRows };
   // Of the strands being stepped: all of them where rods collide, else one group after the other.
   struct Range {
     uint32_t first_group, groups;
@@ -155,6 +159,8 @@ class RodCollider {
   Range range_ = {0, 0};
   Sweep* sweeps_ = nullptr;           // [segments of a range]
   SweptBox* boxes_ = nullptr;         // alike
+  uint8_t* swept_ = nullptr;          // alike: its sweep is of this step
+  double* reaches_ = nullptr;         // [groups of a range][segments][kReachRows][width]
   SweptBox* strand_boxes_ = nullptr;  // [strands of a range]
   float* rows_ = nullptr;             // [groups of a range][segments][kRodContactRows][width]
   uint8_t* touched_ = nullptr;        // [groups of a range][segments]: rows are not zero

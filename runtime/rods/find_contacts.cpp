@@ -146,23 +146,15 @@ void ContactFinder::add_sweep(uint32_t strand, uint32_t segment) const {
     const Vector by = {radius, radius, radius};
     widen(difference(end, by), &box), widen(sum(end, by), &box);
   }
+  to.swept_[local(strand, segment)] = 1;
   to.sweeps_[local(strand, segment)] = s;
   to.boxes_[local(strand, segment)] = box;
-}
-
-SweptBox ContactFinder::strand_box(uint32_t strand) const {
-  SweptBox box = to.boxes_[local(strand, 0)];
-  for (uint32_t i = 1; i < batch.segment_count_; ++i) {
-    const SweptBox& own = to.boxes_[local(strand, i)];
-    widen(own.low, &box), widen(own.high, &box);
-  }
-  return box;
 }
 
 // `along` from the segment's middle, metres; normal, gap and obstacle's move are left to the caller.
 Contact ContactFinder::made(uint32_t strand, uint32_t segment, double along, const Other& other,
                             uint64_t feature) const {
-  const Sweep& s = to.sweeps_[local(strand, segment)];
+  const Sweep& s = sweep(strand, segment);
   const Vector way = difference(s.start.to, s.start.from);
   Contact c = {};
   c.name = mixed(mixed(mixed(mixed(mixed(0, other.kind), other.index), strand), segment), feature) | 1;
@@ -240,7 +232,7 @@ Contact* ContactFinder::add(Contact c, double depth_m, double restitution) const
 
 Contact* ContactFinder::add_point(const ContactPoint& p, uint64_t kind) const {
   if (p.strand < first_strand() || p.strand >= end_strand() || !free(p.strand, p.segment)) return nullptr;
-  const Sweep& s = to.sweeps_[local(p.strand, p.segment)];
+  const Sweep& s = sweep(p.strand, p.segment);
   const Other other = {kind,
                        p.name,
                        0,
@@ -261,7 +253,7 @@ Contact* ContactFinder::add_point(const ContactPoint& p, uint64_t kind) const {
 
 void ContactFinder::add_end(const Plane& plane, const Other& other, uint32_t strand, uint32_t segment,
                             bool end) const {
-  const Sweep& s = to.sweeps_[local(strand, segment)];
+  const Sweep& s = sweep(strand, segment);
   const Vector before = end ? s.start.to : s.start.from, after = end ? s.end.to : s.end.from;
   const Vector n = scaled(1 / length(vector_of(plane.normal)), vector_of(plane.normal));
   const double height = dot(difference(before, other.middle_m), n) - s.radius_m;
@@ -292,7 +284,7 @@ void ContactFinder::add_plane(const Plane& plane, uint32_t index) const {
   for (uint32_t strand = first_strand(); strand < end_strand(); ++strand) {
     const float* radii = batch.radii_m_ + size_t{strand} * batch.segment_count_;
     for (uint32_t i = 0; i < batch.segment_count_; ++i) {
-      if (!free(strand, i)) continue;
+      if (!free(strand, i) || !near(strand, i, plane)) continue;
       if (i == 0 || radii[i] > radii[batch.parents_[i]]) add_end(plane, other, strand, i, false);
       add_end(plane, other, strand, i, true);
     }
@@ -328,13 +320,13 @@ void ContactFinder::add_capsule(const Capsule& capsule, uint64_t kind, uint32_t 
     if (!overlap(to.strand_boxes_[strand - first_strand()], box)) continue;
     for (uint32_t i = 0; i < batch.segment_count_; ++i) {
       if (!free(strand, i) || (kind == kCapsule && to.passes(strand, i, index))) continue;
-      if (overlap(to.boxes_[local(strand, i)], box)) add_touch(strand, i, other);
+      if (near(strand, i, sweep)) add_touch(strand, i, other);
     }
   }
 }
 
 void ContactFinder::add_touch(uint32_t strand, uint32_t segment, const Other& other) const {
-  const Sweep& a = to.sweeps_[local(strand, segment)];
+  const Sweep& a = sweep(strand, segment);
   const Touch touch = first_touch(a, other.sweep);
   const Vector way_a = difference(at(a.end, touch.at.a), at(a.start, touch.at.a));
   const Vector way_b = difference(at(other.sweep.end, touch.at.b), at(other.sweep.start, touch.at.b));
@@ -360,7 +352,7 @@ bool ContactFinder::add_side_by_side(uint32_t strand, uint32_t segment, const Ot
   const Vector v = difference(touch.axis_b.to, touch.axis_b.from), across_both = cross(u, v);
   const double uu = dot(u, u), vv = dot(v, v), sine = dot(across_both, across_both);
   if (!(sine < kSideBySide * uu * vv)) return false;
-  const double radii = to.sweeps_[local(strand, segment)].radius_m + other.sweep.radius_m;
+  const double radii = sweep(strand, segment).radius_m + other.sweep.radius_m;
   const double ends[2] = {nearest(touch.axis_a, touch.axis_b.from), nearest(touch.axis_a, touch.axis_b.to)};
   const double overlap_m = std::fabs(ends[1] - ends[0]) * std::sqrt(uu);
   if (!(overlap_m > kOverlap * radii)) return false;
@@ -379,7 +371,7 @@ bool ContactFinder::add_side_by_side(uint32_t strand, uint32_t segment, const Ot
 
 void ContactFinder::add_at(uint32_t strand, uint32_t segment, const Other& other, const Nearest& place,
                            const Vector& normal, double gap_then_m, double time, uint64_t feature) const {
-  const Sweep &a = to.sweeps_[local(strand, segment)], &b = other.sweep;
+  const Sweep &a = sweep(strand, segment), &b = other.sweep;
   const double length_a = length(difference(a.start.to, a.start.from));
   const Vector point_b = at(b.start, place.b), end_b = at(b.end, place.b);
   Contact c = made(strand, segment, (place.a - 0.5) * length_a, other, feature);
@@ -441,7 +433,7 @@ Sweep ContactFinder::taken_sweep(uint32_t strand, uint32_t segment) const {
     now[k] = static_cast<double>(*to.scratch_row(batch, strand, segment, simd::kRodNow + k));
   }
   const double l = static_cast<double>(batch.units_[strand].length_m);
-  const Sweep& known = to.sweeps_[local(strand, segment)];
+  const Sweep& known = sweep(strand, segment);
   const Vector move = scaled(l, iterate3(strand, segment, simd::kRodMove));
   return {known.start, axis(strand, segment, move, axis_of(now)), known.radius_m};
 }
@@ -466,7 +458,8 @@ void ContactFinder::stop_at_core(const Sweep& core, uint32_t capsule) const {
   for (uint32_t strand = first_strand(); strand < end_strand(); ++strand) {
     if (!overlap(to.strand_boxes_[strand - first_strand()], box)) continue;
     for (uint32_t i = 0; i < batch.segment_count_; ++i) {
-      if (free(strand, i) && !to.passes(strand, i, capsule)) stop_at_core(strand, i, core);
+      if (!free(strand, i) || to.passes(strand, i, capsule)) continue;
+      if (may_reach(strand, i, core)) stop_at_core(strand, i, core);
     }
   }
 }
@@ -501,9 +494,11 @@ bool ContactFinder::find_holds() const noexcept {
 void ContactFinder::find() const noexcept {
   const uint32_t obstacles = to.point_count_ + to.plane_count_ + to.sphere_count_ + to.capsule_count_;
   if (obstacles == 0 && !to.source_ && !to.settings_.rods_collide) return;
-  for (uint32_t strand = first_strand(); strand < end_strand(); ++strand) {
-    for (uint32_t i = 0; i < batch.segment_count_; ++i) add_sweep(strand, i);
-    to.strand_boxes_[strand - first_strand()] = strand_box(strand);
+  find_reaches();
+  if (to.source_ || to.settings_.rods_collide) {
+    for (uint32_t s = first_strand(); s < end_strand(); ++s) {
+      for (uint32_t i = 0; i < batch.segment_count_; ++i) add_sweep(s, i);
+    }
   }
   for (uint32_t i = 0; i < to.point_count_; ++i) add_point(to.points_[i], kPoint);
   for (uint32_t i = 0; i < to.plane_count_; ++i) add_plane(to.planes_[i], i);

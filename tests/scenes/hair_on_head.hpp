@@ -14,7 +14,7 @@ class HairOnHead {
  public:
   static constexpr float kHead_m = 0.1f;
 
-  explicit HairOnHead(uint32_t strands, uint32_t segments = 16, float young_pa = 1e7f) {
+  explicit HairOnHead(uint32_t strands, uint32_t segments = 16, float young_pa = 1e6f) {
     const Segments one = straight_rod({.segments = segments,
                                        .young_pa = young_pa,
                                        .length_m = 0.015 * segments,
@@ -75,7 +75,8 @@ class HairOnHead {
     for (SegmentDef& s : out) {
       s.damping_s = 0.01f;
       s.length_m *= static_cast<float>(longer);
-      for (int k = 0; k < 3; ++k) s.position_m[k] = longer * s.position_m[k] + static_cast<double>(kHead_m) * normal[k];
+      for (int k = 0; k < 3; ++k)
+        s.position_m[k] = longer * s.position_m[k] + static_cast<double>(kHead_m) * normal[k];
     }
     return out;
   }
