@@ -24,9 +24,9 @@ sample::ContactScene beside_a_box() {
                 root.position_m[0] = std::min(0.18, 0.5 * t_s);
                 return root;
               },
-          .seconds = 3,
+          .seconds = 11,
           .moments_s = {0.5},
-          .rest_from_s = 2,
+          .rest_from_s = 10,
           .view = {}};
 }
 
