@@ -41,8 +41,8 @@ struct Recipe {
   double unit_m = 0;          // see ImportOptions
   char up = 'y';
   std::optional<std::vector<RodRecipe>> rods;  // absent: from the file's spring bones, where it has any
-  std::vector<ProxyRecipe> proxies;          // radii that take the place of fitted ones
-  std::vector<std::string> without_proxies;  // names or prefix*: bones that rods go through
+  std::vector<ProxyRecipe> proxies;            // radii that take the place of fitted ones
+  std::vector<std::string> without_proxies;    // names or prefix*: bones that rods go through
   std::vector<RegionRecipe>
       regions;  // used where the file paints no _STIFFNESS; empty and unpainted: by flesh thickness
 };

@@ -65,8 +65,8 @@ class RodCollider {
   Status set_planes(std::span<const Plane> planes) noexcept;
   Status set_spheres(std::span<const Sphere> spheres) noexcept;
   Status set_capsules(std::span<const Capsule> capsules) noexcept;
-  // Capsules that do not touch a segment, until set again: bit k is capsule k, those from 64 on touch all. For
-  // what a rod hangs in. Refused: a strand or segment that is not there.
+  // Capsules that do not touch a segment, until set again: bit k is capsule k, those from 64 on touch all.
+  // For what a rod hangs in. Refused: a strand or segment that is not there.
   Status set_passed(uint32_t strand, uint32_t segment, uint64_t capsules) noexcept;
   // For the coming step alone. Refused as well: a strand or segment that is not there, more than
   // point_capacity.

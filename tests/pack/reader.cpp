@@ -572,14 +572,17 @@ TEST_CASE("capsules_about_bones_that_are_none_are_refused_by_name") {
   const auto proxy = [](auto apply) {
     return change<ProxyRecord>(kProxies, 0, [=](ProxyRecord& r) { apply(r); });
   };
-  check_refused(good, {
-      {"proxies: 1 there", change<CharacterRecord>(kCharacter, 0, [](CharacterRecord& c) { c.proxy_count = 2; })},
-      {"proxies: 1 there", change<CharacterRecord>(kCharacter, 0, [](CharacterRecord& c) { c.proxy_count = 0; })},
-      {"more than 64", change<CharacterRecord>(kCharacter, 0, [](CharacterRecord& c) { c.proxy_count = 65; })},
-      {"moves with joint 3 of 3", proxy([](ProxyRecord& r) { r.joint = 3; })},
-      {"ends are not finite", proxy([](ProxyRecord& r) { r.to_m[1] = kNan; })},
-      {"radius 0", proxy([](ProxyRecord& r) { r.radius_m = 0; })},
-      {"radius", proxy([](ProxyRecord& r) { r.radius_m = kNan; })}});
+  check_refused(good,
+                {{"proxies: 1 there",
+                  change<CharacterRecord>(kCharacter, 0, [](CharacterRecord& c) { c.proxy_count = 2; })},
+                 {"proxies: 1 there",
+                  change<CharacterRecord>(kCharacter, 0, [](CharacterRecord& c) { c.proxy_count = 0; })},
+                 {"more than 64",
+                  change<CharacterRecord>(kCharacter, 0, [](CharacterRecord& c) { c.proxy_count = 65; })},
+                 {"moves with joint 3 of 3", proxy([](ProxyRecord& r) { r.joint = 3; })},
+                 {"ends are not finite", proxy([](ProxyRecord& r) { r.to_m[1] = kNan; })},
+                 {"radius 0", proxy([](ProxyRecord& r) { r.radius_m = 0; })},
+                 {"radius", proxy([](ProxyRecord& r) { r.radius_m = kNan; })}});
 }
 
 TEST_CASE("a_pack_without_rods_has_none") {

@@ -105,9 +105,9 @@ class SurfaceContacts final : public ContactSource {
 
   // A probe with a NaN, an infinity or a negative radius is skipped and counted. body is the surface's index1
   // in the upper half and the triangle's index in the lower. A dt_s beyond the last pose's counts as that; a
-  // shorter one sees the first part of the surface's way. Where a probe begins at the end of the one before it
-  // and has the same owner, a chain's joint, its beginning is not told again. A probe touches at most eight
-  // surfaces.
+  // shorter one sees the first part of the surface's way. Where a probe begins at the end of the one before
+  // it and has the same owner, a chain's joint, its beginning is not told again. A probe touches at most
+  // eight surfaces.
   uint32_t find(std::span<const ContactProbe> probes, float dt_s,
                 std::span<ContactHit> hits) noexcept override;
   uint64_t probes_skipped() const noexcept;
