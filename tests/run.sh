@@ -19,8 +19,8 @@ run_preset "${SINEW_PRESET:-release}" "$@"
 if [ -n "${SINEW_PRESET:-}" ] || [ $# -gt 0 ]; then
   exit
 elif has_arm_tools; then
-  # Emulated, ten thousand steps and a thousand rods take minutes; each kernel has its other tests.
-  run_preset aarch64 -E 'ten_thousand_steps|of_a_thousand_rods'
+  # Emulated, ten thousand steps, thousands of rods and damage all over a file take minutes; each kernel has its other tests.
+  run_preset aarch64 -E 'ten_thousand_steps|of_a_thousand_rods|two_thousand_segments|where_its_iteration_starts|hostile_words|random_damage'
 else
   echo "The tests on 64-bit Arm were left out: the tools are not installed; scripts/install_packages.sh aarch64"
 fi
