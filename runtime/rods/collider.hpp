@@ -88,6 +88,8 @@ class RodCollider {
   // points; contacts are known by their obstacles' indices. Refused: one made for other strands or segments,
   // one with more contact_capacity; its own forces then stay. Allocates nothing.
   Status take_state(const RodCollider& from) noexcept;
+  // What stepped on without it begins without forces again.
+  void forget_forces() noexcept { ++steps_; }
   // The same as bytes, always state_bytes() of them: for snapshots, next to RodBatch::save_state.
   size_t state_bytes() const noexcept;
   void save_state(std::byte* out) const noexcept;

@@ -12,6 +12,7 @@ namespace {
 // Sweeps end early once no contact asks for more than this share of the largest gap.
 constexpr int kMostSweeps = 64;
 constexpr float kSettled = 1e-4f;
+constexpr float kHardly = 1e-3f;  // of the node that answers most
 
 float dot3(const float* a, const float* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
@@ -52,10 +53,12 @@ void fill(const ModalBase& base, std::span<const NodeContact> contacts, float* s
   }
 }
 
-// Returns the largest change of a gap.
-float sweep(const Matrix& matrix, std::span<NodeContact> contacts) {
+// Returns the largest change of a gap. A node that hardly answers, less than `least`, is not held: to move it
+// would fling its neighbours.
+float sweep(const Matrix& matrix, float least, std::span<NodeContact> contacts) {
   float largest = 0;
   for (size_t i = 0; i < contacts.size(); ++i) {
+    if (!(matrix.at[i][i] > least)) continue;
     NodeContact& contact = contacts[i];
     float gap = contact.gap_m;
     for (size_t j = 0; j < contacts.size(); ++j) gap += matrix.at[i][j] * contacts[j].press;
@@ -66,22 +69,15 @@ float sweep(const Matrix& matrix, std::span<NodeContact> contacts) {
   return largest;
 }
 
-// A node that its modes hardly move is not held.
-bool answers(const Matrix& matrix, size_t count) {
-  for (size_t i = 0; i < count; ++i) {
-    if (!(matrix.at[i][i] > 0)) return false;
-  }
-  return true;
-}
-
 bool solve(const Matrix& matrix, std::span<NodeContact> contacts) {
-  float deepest = 0;
-  for (NodeContact& contact : contacts) {
-    contact.press = 0;
-    deepest = std::max(deepest, -contact.gap_m);
+  float deepest = 0, most = 0;
+  for (size_t i = 0; i < contacts.size(); ++i) {
+    contacts[i].press = 0;
+    deepest = std::max(deepest, -contacts[i].gap_m);
+    most = std::max(most, matrix.at[i][i]);
   }
-  if (!(deepest > 0) || !answers(matrix, contacts.size())) return false;
-  for (int k = 0; k < kMostSweeps && sweep(matrix, contacts) > kSettled * deepest; ++k) {
+  if (!(deepest > 0 && most > 0)) return false;
+  for (int k = 0; k < kMostSweeps && sweep(matrix, kHardly * most, contacts) > kSettled * deepest; ++k) {
   }
   return true;
 }

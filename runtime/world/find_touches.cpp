@@ -114,13 +114,19 @@ struct Found {
   Vector3f place;
 };
 
-void keep(Instance& instance, const Found& found, const ContactHit& hit) {
-  if (instance.touch_count == 2 * instance.asset->patches.vertex_count) {
-    ++instance.told.dropped;
-    return;
+// Both ends of a probe are the same point: what is answered twice is one.
+bool is_known(const Instance& instance, uint32_t first, const Touch& touch) {
+  constexpr float kSame = 0.999f;  // cosine
+  for (uint32_t t = first; t < instance.touch_count; ++t) {
+    const Touch& known = instance.touches[t];
+    const bool alike = ConstVector(known.normal).dot(ConstVector(touch.normal)) > kSame;
+    if (known.vertex == touch.vertex && alike && known.gap_m <= touch.gap_m) return true;
   }
-  Touch& touch = instance.touches[instance.touch_count++];
-  touch = {.region = found.region, .node = found.node, .vertex = found.vertex};
+  return false;
+}
+
+void keep(Instance& instance, uint32_t first, const Found& found, const ContactHit& hit) {
+  Touch touch{.region = found.region, .node = found.node, .vertex = found.vertex};
   const ConstVector normal(hit.normal), velocity(hit.velocity_m_s);
   MapVector(touch.normal) = normal;
   MapVector(touch.place_m) = found.place;
@@ -129,11 +135,17 @@ void keep(Instance& instance, const Found& found, const ContactHit& hit) {
   for (int k = 0; k < 3; ++k)
     way_m += static_cast<double>(hit.normal[k]) * (probe.end_m[0][k] - probe.start_m[0][k]);
   touch.gap_m = static_cast<float>(hit.gap_m + way_m);
+  if (is_known(instance, first, touch)) return;
+  if (instance.touch_count == 2 * instance.asset->patches.vertex_count)
+    ++instance.told.dropped;
+  else
+    instance.touches[instance.touch_count++] = touch;
 }
 
 void ask_vertices(Instance& instance, Question& question, const Found* found) {
   bool all = false;
-  for (const ContactHit& hit : question.ask(&all)) keep(instance, found[hit.probe], hit);
+  const uint32_t first = instance.touch_count;
+  for (const ContactHit& hit : question.ask(&all)) keep(instance, first, found[hit.probe], hit);
   instance.told.dropped += all;
   question.count = 0;
 }

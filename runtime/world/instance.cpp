@@ -168,6 +168,7 @@ void forget_motion(Instance& instance) noexcept {
   std::memset(instance.tail_velocity, 0, bytes);
   forget_rods(instance);
   forget_pushes(instance);
+  instance.told = {};
   state.at_start = 1;
   state.motion_stale = 1;
   state.restarting = 0;

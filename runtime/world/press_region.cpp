@@ -23,12 +23,16 @@ tissue::NodeContact contact_of(const Instance& instance, const pack::RegionRecor
                                const Touch& touch) {
   const Vector3f in_frame = Eigen::Map<const Rows33>(instance.poses[0][touch.node].rotation).transpose() *
                             ConstVector(touch.normal);
-  const float half_turn[3] = {0.5f * instance.theta[3 * touch.node],
-                              0.5f * instance.theta[3 * touch.node + 1],
-                              0.5f * instance.theta[3 * touch.node + 2]};
+  // Springs have neither theta nor l.
+  const bool spring = instance.state->tier == Tier::kSpring;
+  const float half = spring ? 0 : 0.5f;
+  const float half_turn[3] = {half * instance.theta[3 * touch.node],
+                              half * instance.theta[3 * touch.node + 1],
+                              half * instance.theta[3 * touch.node + 2]};
   tissue::NodeContact contact{.node = touch.node - region.first_node};
   tissue::turn_back(half_turn, in_frame.data(), 1, contact.normal);
-  const float along = ConstVector(contact.normal).dot(ConstVector(instance.l[0] + size_t{3} * touch.node));
+  const float* displaced = (spring ? instance.u[0] : instance.l[0]) + size_t{3} * touch.node;
+  const float along = ConstVector(contact.normal).dot(ConstVector(displaced));
   const float most = std::max(0.0f, kMostAsked * region.displacement_limit_m - along);
   contact.gap_m = std::max(touch.gap_m, -most);
   return contact;

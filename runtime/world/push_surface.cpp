@@ -21,6 +21,12 @@ Vector3f in_bind(const Matrix3f& world_from_bind, const Vector3f& v) {
   return world_from_bind.inverse() * v;
 }
 
+// No further than the limit, all pushes of a vertex together.
+Vector3f held(const SurfacePoint& at, const Vector3f& push, float limit_m) {
+  const float length_m = (at.world_from_bind * push).norm();
+  return length_m > limit_m ? Vector3f(limit_m / length_m * push) : push;
+}
+
 void push_vertex(Instance& instance, const Touch& touch) {
   const Asset& asset = *instance.asset;
   const pack::RegionRecord& region = asset.pack.regions[touch.region];
@@ -29,17 +35,29 @@ void push_vertex(Instance& instance, const Touch& touch) {
   size_t pitch = 0;
   float* push = push_of(instance, touch.region, vertex, &pitch);
   const Vector3f before(push[0], push[pitch], push[2 * pitch]);
-  const Vector3f place = now.place_m + now.world_from_bind * before;
   const ConstVector normal(touch.normal);
-  const float moved = normal.dot(place - ConstVector(touch.place_m));
-  const float out = std::clamp(-touch.gap_m - moved, 0.0f, region.displacement_limit_m);
-  const Vector3f after = before + in_bind(now.world_from_bind, out * normal);
+  const float carried = normal.dot(now.place_m - ConstVector(touch.place_m));
+  const float pushed = normal.dot(now.world_from_bind * before);
+  const float out = std::max(0.0f, -touch.gap_m - carried - pushed);
+  const Vector3f after =
+      held(now, before + in_bind(now.world_from_bind, out * normal), region.displacement_limit_m);
   for (size_t k = 0; k < 3; ++k) push[k * pitch] = after[static_cast<Eigen::Index>(k)];
   instance.pushed[touch.region] |= out > 0;
-  Touches& told = instance.told;
-  told.vertices += touch.gap_m < 0 || out > 0;
-  told.volume_m3 += vertex.area_m2 * std::max(0.0f, moved + out);
-  told.deepest_m = std::max(told.deepest_m, -touch.gap_m - moved - out);
+  if (!(touch.gap_m < 0)) return;
+  ++instance.told.vertices;
+  instance.told.volume_m3 +=
+      vertex.area_m2 * std::max(0.0f, carried + normal.dot(now.world_from_bind * after));
+}
+
+// Where it is shown in the end.
+void look_at_vertex(Instance& instance, const Touch& touch) {
+  const SurfacePatches::Vertex& vertex = instance.asset->patches.vertices[touch.vertex];
+  const SurfacePoint now = surface_point(instance, touch.region, vertex, instance.shown[0], 0);
+  size_t pitch = 0;
+  const float* push = push_of(instance, touch.region, vertex, &pitch);
+  const Vector3f place = now.place_m + now.world_from_bind * Vector3f(push[0], push[pitch], push[2 * pitch]);
+  const float moved = ConstVector(touch.normal).dot(place - ConstVector(touch.place_m));
+  instance.told.deepest_m = std::max(instance.told.deepest_m, -touch.gap_m - moved);
 }
 
 }  // namespace
@@ -59,6 +77,7 @@ void push_surface(Instance& instance) noexcept {
   if (!instance.contacts.source) return;
   forget_pushes(instance);
   for (uint32_t t = 0; t < instance.touch_count; ++t) push_vertex(instance, instance.touches[t]);
+  for (uint32_t t = 0; t < instance.touch_count; ++t) look_at_vertex(instance, instance.touches[t]);
   instance.touch_count = 0;
 }
 

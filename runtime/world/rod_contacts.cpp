@@ -68,6 +68,11 @@ rods::RodCollider* rod_collider(Instance& instance, uint32_t batch) noexcept {
   return &instance.rod_colliders[batch];
 }
 
+void forget_rod_contacts(Instance& instance) noexcept {
+  if (!instance.rod_colliders) return;
+  for (uint32_t b = 0; b < instance.asset->rods.batch_count; ++b) instance.rod_colliders[b].forget_forces();
+}
+
 bool something_is_near_rods(Instance& instance) noexcept {
   if (!instance.rod_colliders) return false;
   if (proxies_move(instance)) return true;

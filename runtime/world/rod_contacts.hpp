@@ -8,6 +8,8 @@ namespace sinew::world {
 Status make_rod_colliders(Instance& instance) noexcept;
 // Null where they touch nothing.
 rods::RodCollider* rod_collider(Instance& instance, uint32_t batch) noexcept;
+// After ticks that were not followed.
+void forget_rod_contacts(Instance& instance) noexcept;
 // Rods that sleep are woken by what comes near: one question, with a ball around them all.
 bool something_is_near_rods(Instance& instance) noexcept;
 

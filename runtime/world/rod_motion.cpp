@@ -182,6 +182,7 @@ void simulate_rods(Instance& instance, float sleep_tolerance) noexcept {
   if (std::exchange(instance.rods_anew, false)) {
     take_along(instance);
     wake_rods(instance);
+    forget_rod_contacts(instance);
   }
   if (rods_sleep_on(instance, sleep_tolerance)) return;
   for (uint32_t rod = 0; rod < rig.rod_count; ++rod) drive_rod(instance, rod);

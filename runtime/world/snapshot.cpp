@@ -94,6 +94,7 @@ Status restore(Instance& instance, std::span<const std::byte> bytes) noexcept {
   std::memcpy(instance.state, payload.data(), instance.state_bytes);
   restore_rods(instance, payload.data() + instance.state_bytes);
   instance.rods_anew = false;
+  instance.told = {};
   const core::FlushDenormals flush;  // as in a step: the same bits are shown
   publish(instance);
   return {};

@@ -41,6 +41,7 @@ void run_ticks(Instance& instance, const TickContext& context) noexcept {
   if (ticks.dropped_s > 0) state.motion_stale = 1;
   for (uint32_t k = 0; k < ticks.ticks; ++k) {
     state.fallback_ticks -= state.fallback_ticks > 0;
+    instance.told = {};
     if (frame::is_simulated(state.tier))
       simulated_tick(instance, ticks.first_tick_s + k * instance.asset->tick_s, context);
     else

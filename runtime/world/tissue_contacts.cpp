@@ -8,7 +8,6 @@
 namespace sinew::world {
 
 void touch_tissue(Instance& instance) noexcept {
-  instance.told = {};
   if (!instance.contacts.source || !instance.contacts.tissue) return;
   tissue::along_flesh(instance.poses[0], instance.u[0], instance.asset->node_count(), instance.flesh);
   for (uint32_t r = 0; r < instance.asset->pack.regions.size(); ++r) {

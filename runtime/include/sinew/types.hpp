@@ -135,8 +135,9 @@ struct InstanceReport {
   // Since creation: rods that had to be put together or put back where they are held.
   uint32_t rod_recoveries = 0;
   uint32_t rods_asleep = 0;  // rods at rest, not stepped until they are held or shaped otherwise: all or none
-  // Of the last tick, where the instance has a contact source. The volume is at most what contacts took from
-  // the soft parts: of vertices that touched something, area times way.
+  // Of the last tick, where the instance has a contact source or own_body. A vertex counts once for each
+  // thing it touches. The volume is at most what contacts took from the soft parts: of vertices that touched
+  // something, area times way.
   uint32_t rod_contacts = 0;  // near enough to be looked at
   uint32_t vertices_touched = 0, contacts_refused = 0, contacts_dropped = 0;
   float contact_volume_m3 = 0;
