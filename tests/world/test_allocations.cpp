@@ -184,6 +184,7 @@ TEST_CASE("a_frame_in_contact_allocates_nothing") {
   for (InstanceId& made : stage.blocks = std::vector<InstanceId>(2))
     CHECK(stage.world.create_instance({.asset = stage.asset, .contacts = {.source = &wall}}, &made).ok());
   CHECK(allocations_of_frames(stage) == 0);
+  stage.world.step(1.0f / 60);  // the frames end with a restore, which forgets what was told
   CHECK(stage.report().vertices_touched > 0);
   CHECK(stage.report().rod_contacts > 0);
 }
