@@ -137,6 +137,7 @@ void read_turns(Instance& instance) noexcept {
 
 void begin_rods(Instance& instance) noexcept {
   instance.rods_anew = true;
+  wake_rods(instance);
   std::copy_n(instance.state->next_root.position_m, 3, instance.state->rod_anchor_m);
 }
 

@@ -6,6 +6,7 @@
 
 #include "rods/sweep.hpp"
 #include "rods/vector.hpp"
+#include "world/rod_sleep.hpp"
 
 namespace sinew::world {
 namespace {
@@ -15,12 +16,12 @@ using Eigen::Vector3d;
 using MapPlace = Eigen::Map<Vector3d>;
 
 constexpr float kFriction = 0.3f;
-constexpr double kStill = 1e-3;     // of a capsule's radius, a tick
+constexpr double kStill = 1e-3;     // of a capsule's radius, in a tick, or all the while that rods sleep
 constexpr double kTouching = 1.05;  // of the sum of radii
 
 Vector3d vector(const float (&v)[3]) noexcept { return Eigen::Map<const Eigen::Vector3f>(v).cast<double>(); }
 
-MapPlace end_of(const Instance& instance, int tick, uint32_t proxy, uint32_t end) noexcept {
+MapPlace end_of(const Instance& instance, uint32_t tick, uint32_t proxy, uint32_t end) noexcept {
   return MapPlace(instance.proxy_ends[tick] + size_t{6} * proxy + size_t{3} * end);
 }
 
@@ -103,7 +104,8 @@ void pass_proxies(const Instance& instance, uint32_t batch, rods::RodCollider& c
 void pose_proxies(Instance& instance, const Matrix34* joints, const Quaterniond& turn,
                   const Vector3d& place_m) noexcept {
   const uint32_t count = proxy_count(instance);
-  if (count > 0) std::copy_n(instance.proxy_ends[0], size_t{6} * count, instance.proxy_ends[1]);
+  if (count > 0 && rods_asleep(instance) == 0)
+    std::copy_n(instance.proxy_ends[0], size_t{6} * count, instance.proxy_ends[1]);
   for (uint32_t i = 0; i < count; ++i) {
     const pack::ProxyRecord& proxy = instance.asset->pack.proxies[i];
     const Matrix34 bind = inverse_bind(instance.asset->pack.joints[proxy.joint]);
@@ -116,8 +118,8 @@ void pose_proxies(Instance& instance, const Matrix34* joints, const Quaterniond&
 
 void turn_proxies(Instance& instance, const Quaterniond& turn, const Vector3d& centre_m) noexcept {
   for (uint32_t i = 0; i < proxy_count(instance); ++i) {
-    for (uint32_t end = 0; end < 2; ++end) {
-      MapPlace place = end_of(instance, 0, i, end);
+    for (uint32_t end = 0; end < 4; ++end) {
+      MapPlace place = end_of(instance, end / 2, i, end % 2);
       place = (centre_m + turn * (place - centre_m)).eval();
     }
   }

@@ -15,7 +15,8 @@ namespace sinew::world {
 uint32_t proxy_count(const Instance& instance) noexcept;
 // Of what each segment goes through, once, of a batch's collider.
 void pass_proxies(const Instance& instance, uint32_t batch, rods::RodCollider& collider) noexcept;
-// Shifts proxy_ends by one tick and puts the pose's in front; place_m counts from rod_anchor_m.
+// Puts the pose's ends in front; behind it stay those of the tick before or, where rods sleep, of when they
+// fell asleep, so that what creeps wakes them too. place_m counts from rod_anchor_m.
 void pose_proxies(Instance& instance, const Matrix34* joints, const Eigen::Quaterniond& turn,
                   const Eigen::Vector3d& place_m) noexcept;
 // As the rods are turned in a teleport.

@@ -44,7 +44,9 @@ struct TailStage : Stage {
       return p;
     };
     const float lift = pose.joints[1].m[1][3] - static_cast<float>(scenes::kBlockJointHeight_m);
-    rods::Axis bar = {{-0.2, scenes::bar_end(-1)[1] + static_cast<double>(lift), scenes::bar_end(-1)[2]}, {}};
+    const auto way_m = static_cast<double>(pose.joints[1].m[2][3]);
+    rods::Axis bar = {
+        {-0.2, scenes::bar_end(-1)[1] + static_cast<double>(lift), scenes::bar_end(-1)[2] + way_m}, {}};
     bar.to = {0.2, bar.from[1], bar.from[2]};
     double least = 1;
     for (uint32_t j = scenes::kTail; j < scenes::kTail + 4; ++j) {
@@ -87,4 +89,23 @@ TEST_CASE("a_tail_on_its_own_body_goes_on_with_the_same_bits_after_a_restore") {
   REQUIRE(stage.world.restore_state(stage.blocks[0], saved).ok());
   for (int f = 0; f < 60; ++f) stage.hold(scenes::with_rods(scenes::bind_pose(), 0.002 * f), 1);
   CHECK(stage.save() == first);
+}
+
+TEST_CASE("a_bone_that_creeps_wakes_a_sleeping_tail_before_it_is_through") {
+  TailStage stage(true);
+  const auto moved = [](double way_m) {
+    TailedPose pose = scenes::with_rods(scenes::bind_pose());
+    pose.joints[1].m[1][3] -= 0.3f;  // out of the tail's way as it falls
+    pose.joints[1].m[2][3] += static_cast<float>(way_m);
+    return pose;
+  };
+  stage.hold(moved(0), 1500);
+  REQUIRE(stage.report().rods_asleep > 0);
+  // A third of what counts as still, of the bar's radius, in each tick.
+  constexpr double kCreep_m = 3e-4 * scenes::kBarRadius_m;
+  for (double way_m = 0; way_m < 0.3; way_m += kCreep_m) {
+    stage.hold(moved(way_m), 1);
+    REQUIRE(stage.nearest_m(moved(way_m)) > kSum_m - 0.1 * scenes::kTailRadius_m);
+  }
+  CHECK(stage.report().rod_contacts > 0);
 }
