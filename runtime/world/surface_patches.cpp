@@ -56,6 +56,15 @@ void add_areas(const pack::PackView& pack, float* areas_m2) {
   }
 }
 
+bool hangs_on_rods(const pack::PackView& pack, uint32_t vertex) {
+  if (pack.rods.empty()) return false;
+  const pack::SkinRecord& skin = pack.skin[vertex];
+  for (uint32_t k = 0; k < pack::kInfluences && skin.weight[k] > 0; ++k) {
+    if (pack.joint_rods[skin.joint[k]] != pack::kNoIndex) return true;
+  }
+  return false;
+}
+
 // Puts vertices in their nodes' order; `shares` are sorted.
 void lay_out(const pack::PackView& pack, std::span<const Share> shares, const float* areas_m2,
              SurfacePatches& to) {
@@ -63,7 +72,8 @@ void lay_out(const pack::PackView& pack, std::span<const Share> shares, const fl
     for (size_t begin = 0, end = 0; begin < shares.size(); begin = end) {
       float sum = 0;
       for (; end < shares.size() && shares[end].index == shares[begin].index; ++end) sum += shares[end].sum;
-      if (sum > kHardlyCarried) work(shares.subspan(begin, end - begin));
+      if (sum > kHardlyCarried && !hangs_on_rods(pack, shares[begin].index))
+        work(shares.subspan(begin, end - begin));
     }
   };
   each_vertex([&](std::span<const Share> of) { ++to.first[of[0].node + 1], ++to.vertex_count; });

@@ -2,7 +2,7 @@
 // contacts.
 //
 // A vertex belongs to the node that carries most of it, of all regions. Vertices that are hardly carried
-// belong to none: nothing pushes what is rigid.
+// belong to none: nothing pushes what is rigid, nor what a rod's bone moves.
 #pragma once
 #include <cstdint>
 #include <memory>
