@@ -20,12 +20,20 @@ constexpr uint32_t kVersion = 6;
 
 struct Header {
   uint64_t magic, fingerprint, payload_bytes, checksum;
-  uint32_t version, reserved;
+  uint32_t version, contacts;
 };
 static_assert(sizeof(Header) == 40);
 
+// What of an instance may touch, and so which arrays it has.
+uint32_t contacts_of(const Instance& instance) noexcept {
+  const ContactDef& def = instance.contacts;
+  const bool source = def.source != nullptr, rods = instance.rod_colliders != nullptr;
+  return uint32_t{source} | uint32_t{rods} << 1 | uint32_t{def.own_body} << 2;
+}
+
 Header header_of(const Instance& instance, std::span<const std::byte> payload) noexcept {
-  return {kMagic, instance.asset->fingerprint, payload.size(), core::hash64(payload), kVersion, 0};
+  return {kMagic,   instance.asset->fingerprint, payload.size(), core::hash64(payload),
+          kVersion, contacts_of(instance)};
 }
 
 void save_rods(const Instance& instance, std::byte* out) noexcept {
@@ -79,15 +87,17 @@ Status save(const Instance& instance, std::span<std::byte> out) noexcept {
 }
 
 Status restore(Instance& instance, std::span<const std::byte> bytes) noexcept {
-  if (bytes.size() < snapshot_bytes(instance))
-    return corrupt("fewer bytes than state_bytes; another asset's, or cut");
+  if (bytes.size() < sizeof(Header)) return corrupt("fewer bytes than state_bytes; cut");
   Header given;
   std::memcpy(&given, bytes.data(), sizeof given);
-  const std::span<const std::byte> payload = bytes.subspan(sizeof given, payload_bytes(instance));
   if (given.magic != kMagic) return corrupt("not a snapshot of an instance");
   if (given.version != kVersion) return corrupt("saved by another version of the library");
   if (given.fingerprint != instance.asset->fingerprint)
     return corrupt("saved from an instance of another asset");
+  if (given.contacts != contacts_of(instance))
+    return corrupt("saved from an instance with another ContactDef: a source or none, rods, own_body");
+  if (bytes.size() < snapshot_bytes(instance)) return corrupt("fewer bytes than state_bytes; cut");
+  const std::span<const std::byte> payload = bytes.subspan(sizeof given, payload_bytes(instance));
   if (given.payload_bytes != payload.size() || given.checksum != core::hash64(payload)) {
     return corrupt("the bytes changed since they were saved");
   }

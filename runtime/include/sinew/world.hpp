@@ -99,7 +99,8 @@ class World {
   Status report(InstanceId instance, InstanceReport* out) const noexcept;
 
   // Rollback. state_bytes is fixed for an instance's life, 0 for a stale id; a smaller span: save_state
-  // refuses. Bytes of another asset or version, or changed ones: kCorrupt, the instance untouched. After
+  // refuses. Bytes of another asset, version or kind of ContactDef (a source or none, rods, own_body), or
+  // changed ones: kCorrupt, the instance untouched. After
   // a restore the same poses, steps and tiers give the same bits; importance and waiting time are part
   // of the state.
   size_t state_bytes(InstanceId instance) const noexcept;
