@@ -75,10 +75,7 @@ class ColliderReader {
 std::vector<BodyCollider> read_body_colliders(const tinygltf::Model& model, const SceneGraph& graph,
                                               const std::vector<int>& joint_node, Source& source) {
   ColliderReader reader(graph, joint_node, source);
-  if (const auto at = model.extensions.find("VRM"); at != model.extensions.end())
-    reader.read_version_0(at->second);
-  if (const auto at = model.extensions.find("VRMC_springBone"); at != model.extensions.end())
-    reader.read_version_1(at->second);
+  read_vrm(model, reader);
   return reader.take();
 }
 

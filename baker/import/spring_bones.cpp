@@ -135,10 +135,7 @@ class SpringReader {
 std::vector<SpringBones> read_spring_bones(const tinygltf::Model& model, const SceneGraph& graph,
                                            const std::vector<int>& joint_node, Source& source) {
   SpringReader reader(graph, joint_node, source);
-  if (const auto at = model.extensions.find("VRM"); at != model.extensions.end())
-    reader.read_version_0(at->second);
-  if (const auto at = model.extensions.find("VRMC_springBone"); at != model.extensions.end())
-    reader.read_version_1(at->second);
+  read_vrm(model, reader);
   return reader.take();
 }
 

@@ -33,4 +33,13 @@ inline int node_of(const SceneGraph& graph, const tinygltf::Value& stated) {
   return graph.node_of_file[static_cast<size_t>(index)];
 }
 
+// Both versions of VRM, where the file has them.
+template <class Reader>
+void read_vrm(const tinygltf::Model& model, Reader& reader) {
+  if (const auto at = model.extensions.find("VRM"); at != model.extensions.end())
+    reader.read_version_0(at->second);
+  if (const auto at = model.extensions.find("VRMC_springBone"); at != model.extensions.end())
+    reader.read_version_1(at->second);
+}
+
 }  // namespace sinew::baker
