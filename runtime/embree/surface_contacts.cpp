@@ -66,17 +66,20 @@ Status check(const SurfaceContactsDef& def) {
                      static_cast<double>(def.reach_m));
 }
 
+double square_between(const double (&a)[3], const double (&b)[3]) {
+  double square = 0;
+  for (size_t k = 0; k < 3; ++k) square += (a[k] - b[k]) * (a[k] - b[k]);
+  return square;
+}
+
 // Whether a probe goes on where the one before it ends, as segments of a chain do: at a joint one contact is
-// enough, two would share its force.
+// enough, two would share its force. A point goes nowhere: twins at a seam are each their own.
 bool goes_on(const ContactProbe& before, const ContactProbe& probe) {
   constexpr double kAtOnePlace = 0.1;  // of the radius
-  double square = 0;
-  for (size_t k = 0; k < 3; ++k) {
-    const double apart = probe.start_m[0][k] - before.start_m[1][k];
-    square += apart * apart;
-  }
   const double near_m = kAtOnePlace * static_cast<double>(probe.radius_m);
-  return before.owner == probe.owner && square <= near_m * near_m;
+  return before.owner == probe.owner &&
+         square_between(probe.start_m[0], before.start_m[1]) <= near_m * near_m &&
+         square_between(probe.start_m[0], probe.start_m[1]) > near_m * near_m;
 }
 
 bool usable(const ContactProbe& probe) {

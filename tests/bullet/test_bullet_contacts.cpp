@@ -302,3 +302,15 @@ TEST_CASE("a_joint_of_two_segments_is_one_contact") {
   chain[2].owner = 1;  // of another strand
   CHECK(find(contacts, chain).size() == 7);
 }
+
+TEST_CASE("points_at_one_place_are_each_told_their_contacts") {
+  BulletWorld world;
+  world.body(world.shape<btBoxShape>(btVector3(5, 0.5f, 1)));
+  BulletContacts contacts = contacts_of(world);
+  for (const float radius_m : {0.0f, 0.1f}) {
+    const ContactProbe point = ball({0.2, 0.45, 0}, radius_m);
+    const size_t alone = find(contacts, {point}).size();
+    CHECK(alone > 0);
+    CHECK(find(contacts, {point, point, point}).size() == 3 * alone);
+  }
+}

@@ -225,3 +225,14 @@ TEST_CASE("where_a_chain_goes_on_its_joint_is_told_once") {
   chain[1].owner = 0, chain[0].owner = 0;
   CHECK(found(contacts, chain).size() == 4);
 }
+
+TEST_CASE("points_at_one_place_are_each_told_their_contacts") {
+  SurfaceId id;
+  SurfaceContacts contacts = contacts_of(box({1, 1, 1}), &id);
+  for (const double radius_m : {0.0, 0.1}) {
+    const ContactProbe point = probe({0.2, 0.95, 0}, {0.2, 0.95, 0}, radius_m);
+    const size_t alone = found(contacts, std::vector{point}).size();
+    CHECK(alone > 0);
+    CHECK(found(contacts, std::vector{point, point, point}).size() == 3 * alone);
+  }
+}
