@@ -218,6 +218,43 @@ TEST_CASE("a_snapshot_without_contacts_is_refused_by_an_instance_with_them") {
   CHECK(stage.world.restore_state(stage.blocks[0], alone.save()).code == StatusCode::kCorrupt);
 }
 
+TEST_CASE("springs_that_come_after_modes_are_pressed_by_where_they_are") {
+  HalfSpaces wall;
+  Touching stage(&wall, {.budget_mode = BudgetMode::kWorkUnits});
+  // Wild modes leave their last l and theta behind.
+  stage.play([](double t) { return scenes::shake(t, 3); }, 1.03);
+  REQUIRE(stage.world.set_budget_us(1.01f * test::tier_cost_us(Tier::kSpring)).ok());
+  stage.play(stands, 1);
+  REQUIRE(stage.report().tier == Tier::kSpring);
+  wall.walls = {right_wall(0.02)};
+  stage.play(stands, 0.5);
+  const std::vector<float> pressed = stage.read();
+  wall.walls.clear();
+  stage.step(stands, kFrame_s);
+  // It was the springs that were pushed: a tick later they are not yet back.
+  Stage alone(1, {.budget_mode = BudgetMode::kWorkUnits});
+  REQUIRE(alone.world.set_budget_us(1.01f * test::tier_cost_us(Tier::kSpring)).ok());
+  alone.play(stands, 0.5);
+  CHECK(test::largest_distance(stage.read(), alone.read()) >
+        0.5 * test::largest_distance(pressed, alone.read()));
+}
+
+TEST_CASE("what_was_touched_is_forgotten_where_nothing_is_simulated_and_after_a_reset") {
+  HalfSpaces wall;
+  wall.walls = {right_wall(0.02)};
+  Touching stage(&wall, {.budget_mode = BudgetMode::kWorkUnits});
+  stage.play(stands, 0.5);
+  REQUIRE(stage.report().vertices_touched > 0);
+  REQUIRE(stage.world.reset(stage.blocks[0]).ok());
+  CHECK(stage.report().vertices_touched == 0);
+  stage.play(stands, 0.5);
+  REQUIRE(stage.report().vertices_touched > 0);
+  REQUIRE(stage.world.set_budget_us(0).ok());
+  stage.play(stands, 0.1);
+  CHECK(stage.report().vertices_touched == 0);
+  CHECK(stage.report().contact_volume_m3 == 0);
+}
+
 TEST_CASE("contacts_have_the_same_bits_on_any_number_of_workers") {
   uint64_t seen[2];
   for (int workers = 0; workers < 2; ++workers) {
