@@ -60,9 +60,12 @@ struct InstanceState {
   uint32_t untouched = 1;       // no tick since the first pose: displacement is exactly zero
   double rod_anchor_m[3] = {};  // of the world, where rods' places count from: near, so that they stay exact
   uint32_t rod_recoveries = 0;
-  uint32_t rod_quiet_ticks = 0;  // world/rod_sleep.hpp
-  uint32_t teleported = 0;       // in the last step
-  uint32_t reserved = 0;         // no padding
+  uint32_t rod_quiet_ticks = 0;           // world/rod_sleep.hpp
+  uint32_t teleported = 0;                // in the last step
+  uint32_t blind_looks = 0;               // in a row (world/look.hpp)
+  uint32_t hidden = 0, hidden_ticks = 0;  // world/hidden.hpp
+  uint32_t hidden_by_caller = 0;
+  uint32_t reserved = 0;  // no padding
 };
 
 // What the last step measured; not state.
@@ -106,6 +109,9 @@ struct Instance {
   Asset* asset = nullptr;
   InstancePlan plan;
   InstanceTimes times;
+  float bound_middle_m[3] = {}, bound_radius_m = 0;        // world/pose_bound.hpp
+  float size = 1;                                          // share of a view's height
+  bool seen = true, came_back = false;                     // in this step
   bool cut = false, restarted = false, fell_back = false;  // in the last step
   bool parts_ready = false;                                // in this step: the parts are filled in
   bool displaced = false;                                  // published displacement is not zero everywhere
