@@ -52,6 +52,8 @@ class Floor {
     for (uint32_t i = 0; i < instances_.size(); ++i)
       require(world_.create_instance({.asset = asset_, .root = place(i)}, &instances_[i]));
     entered_ = true;
+    const bool hidden = scene_.trouble == Trouble::kHidden;
+    for (const InstanceId instance : instances_) require(world_.set_hidden(instance, hidden));
     look_from(0);
   }
 
@@ -73,9 +75,10 @@ class Floor {
   }
 
   void pose() {
+    const double moving = scene_.trouble == Trouble::kAsleep ? 0 : 1;
     for (uint32_t i = 0; i < instances_.size(); ++i)
-      require(
-          world_.set_pose(instances_[i], {.joints = tape_.joints(time_s_ + kPhase_s * i), .root = place(i)}));
+      require(world_.set_pose(instances_[i],
+                              {.joints = tape_.joints(moving * time_s_ + kPhase_s * i), .root = place(i)}));
   }
 
   FrameCost timed_step(double dt_s) {

@@ -78,7 +78,8 @@ int main(int argc, char** argv) {
       "of the budget");
   app.add_option("pack", options.pack, "C.sinew")->required();
   app.add_option("--frames", options.frames, "of each scene")->check(CLI::Range(60, 1'000'000));
-  app.add_option("--only", options.only, "steady, cuts, entrance, hitch, worker lost or neighbour");
+  app.add_option("--only", options.only,
+                 "steady, cuts, entrance, hitch, worker lost, neighbour, hidden or asleep");
   CLI11_PARSE(app, argc, argv);
   try {
     run(options);

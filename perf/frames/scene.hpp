@@ -13,6 +13,8 @@ enum class Trouble : uint32_t {
   kHitch,       // a frame of 200 ms every second
   kWorkerLost,  // of two workers, one is away for a second in every two
   kNeighbour,   // another process takes half of the core
+  kHidden,      // nobody sees them, and poses are set all the same
+  kAsleep,      // they stand still, and the same pose is set
 };
 
 struct Scene {
