@@ -100,9 +100,8 @@ void write_file(const std::string& path, std::string_view text) {
 void make_folder(const std::string& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
-  if (!error && std::filesystem::is_directory(path)) return;
-  throw BadInput(path + ": cannot be made a folder (" + (error ? error.message() : "a file is there") +
-                 "); name another place");
+  if (!error) return;
+  throw BadInput(path + ": cannot be made a folder (" + error.message() + "); name another place");
 }
 
 }  // namespace sinew::baker

@@ -64,12 +64,6 @@ void find_source(Options* o) {
                    " beside it to simulate; give --source IN.glb --recipe R.json, or --truth T.safetensors");
 }
 
-void make_folder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw BadInput("-o " + folder + ": cannot be made: " + error.message());
-}
-
 std::vector<TrueSurface> read_truth(const std::vector<std::string>& paths, const LoadedPack& character) {
   std::vector<TrueSurface> out;
   for (const std::string& path : paths) out.emplace_back(path, character.view());
