@@ -39,7 +39,14 @@ std::vector<pack::TierRecord> make_tiers(const TierWork& work, float error_mm, f
   const uint64_t modal = spring + work.nodes * kModalOps + work.mode_floats;
   const float skinning_mm = error_ratio > 0 ? error_mm / error_ratio : kNotMeasured;
   const auto record = [](Tier tier, uint64_t ops, float mm = kNotMeasured, float ratio = kNotMeasured) {
-    return pack::TierRecord{static_cast<uint32_t>(tier), cost_us(ops), mm, ratio};
+    return pack::TierRecord{.tier = static_cast<uint32_t>(tier),
+                            .every = 1,
+                            .cost_us = cost_us(ops),
+                            .cost_p99_us = kNotMeasured,
+                            .error_mm = mm,
+                            .error_ratio = ratio,
+                            .error_p95_mm = kNotMeasured,
+                            .reserved = 0};
   };
   std::vector<pack::TierRecord> tiers = {record(Tier::kSkinning, 0, skinning_mm, 1),  // 1 by definition
                                          record(Tier::kExtrapolate, work.nodes * kExtrapolationOps)};

@@ -9,8 +9,8 @@
 
 namespace sinew::baker {
 
-// Baked costs must be the same on every machine, so they are not timed: multiply-adds at this rate on one
-// core. The runtime measures and corrects them.
+// What is baked must be the same on every machine, so costs are not timed here: multiply-adds at this rate on
+// one core. The runtime corrects them; sinew-trade puts measured ones in their place.
 inline constexpr double kBakedCostFlops = 60e9;
 
 // Of one network step; graph_entries: non-zeros of the aggregation matrix. Padding that the kernels compute
@@ -24,7 +24,8 @@ struct TierWork {
   size_t rod_segments = 0;             // in every simulated tier
 };
 
-// Every tier that the work allows; the errors are the network's, NaN where not measured.
+// Every tier that the work allows, simulated every tick; the errors are the network's, NaN where not
+// measured.
 std::vector<pack::TierRecord> make_tiers(const TierWork& work, float error_mm, float error_ratio);
 
 }  // namespace sinew::baker

@@ -128,9 +128,12 @@ Json describe_tiers(const pack::PackView& view) {
   Json tiers = Json::array();
   for (const pack::TierRecord& tier : view.tiers)
     tiers.push_back({{"tier", kNames[tier.tier]},
+                     {"every", tier.every},
                      {"cost_us", tier.cost_us},
+                     {"cost_p99_us", tier.cost_p99_us},
                      {"error_mm", tier.error_mm},
-                     {"error_ratio", tier.error_ratio}});
+                     {"error_ratio", tier.error_ratio},
+                     {"error_p95_mm", tier.error_p95_mm}});
   return tiers;
 }
 

@@ -115,24 +115,45 @@ Status check_clips(const PackView& pack) noexcept {
   return check_finite(pack.clip_frames, "clip frames");
 }
 
-bool is_error(float value) noexcept { return std::isnan(value) || (std::isfinite(value) && value >= 0); }
+bool is_known_or_nan(float value) noexcept {
+  return std::isnan(value) || (std::isfinite(value) && value >= 0);
+}
+
+Status check_tier(const TierRecord& record, size_t index) noexcept {
+  constexpr auto kFirstSimulated = static_cast<uint32_t>(Tier::kNetwork);
+  if (record.tier >= kTierCount) return corrupt("tier %zu: %u is not known", index, record.tier);
+  if (!is_every(record.every) || (record.every > 1 && record.tier < kFirstSimulated))
+    return corrupt("tier %zu: every %u ticks", index, record.every);
+  if (!std::isfinite(record.cost_us) || record.cost_us < 0 || !is_known_or_nan(record.cost_p99_us))
+    return corrupt("tier %zu: cost %g us, p99 %g us", index, double{record.cost_us},
+                   double{record.cost_p99_us});
+  for (const float error : {record.error_mm, record.error_ratio, record.error_p95_mm})
+    if (!is_known_or_nan(error)) return corrupt("tier %zu: an error is negative or infinite", index);
+  return check_zero(std::span(&record.reserved, 1), "tier", index);
+}
+
+uint64_t tier_order(const TierRecord& record) noexcept { return uint64_t{record.tier} << 32 | record.every; }
+
+// With every 1.
+uint32_t needed_tiers(const PackView& pack) noexcept {
+  const auto bit = [](Tier tier) { return 1u << static_cast<uint32_t>(tier); };
+  return bit(Tier::kSkinning) | bit(Tier::kExtrapolate) | bit(Tier::kModal) |
+         (has_network(pack) ? bit(Tier::kNetwork) : 0);
+}
 
 Status check_tiers(const PackView& pack) noexcept {
-  uint32_t seen = 0, next = 0;
+  uint32_t seen = 0;
   for (size_t index = 0; index < pack.tiers.size(); ++index) {
     const TierRecord& record = pack.tiers[index];
-    if (record.tier < next || record.tier >= kTierCount)
-      return corrupt("tier %zu: %u is not known, or does not ascend", index, record.tier);
-    if (!std::isfinite(record.cost_us) || record.cost_us < 0)
-      return corrupt("tier %zu: cost %g us", index, double{record.cost_us});
-    if (!is_error(record.error_mm) || !is_error(record.error_ratio))
-      return corrupt("tier %zu: an error is negative or infinite", index);
-    next = record.tier + 1;
-    seen |= 1u << record.tier;
+    if (Status status = check_tier(record, index); !status.ok()) return status;
+    if (index > 0 && tier_order(record) <= tier_order(pack.tiers[index - 1]))
+      return corrupt("tier %zu: %u every %u does not ascend", index, record.tier, record.every);
+    if (record.tier == static_cast<uint32_t>(Tier::kNetwork) && !has_network(pack))
+      return corrupt("tier %zu: a network that the character does not have", index);
+    if (record.every == 1) seen |= 1u << record.tier;
   }
-  constexpr uint32_t kAll = (1u << kTierCount) - 1, kNetworkBit = 1u << static_cast<uint32_t>(Tier::kNetwork);
-  const uint32_t needed = has_network(pack) ? kAll : kAll & ~kNetworkBit;
-  return seen == needed ? Status{} : corrupt("tiers: not those that the character has");
+  const uint32_t needed = needed_tiers(pack);
+  return (seen & needed) == needed ? Status{} : corrupt("tiers: not all that the character has");
 }
 
 }  // namespace

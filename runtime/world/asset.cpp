@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include "core/status.hpp"
@@ -13,9 +14,13 @@ namespace {
 
 using core::make_status;
 
+// Springs that are not worth having are not in the pack: nothing pays for them.
 frame::CostModel baked_costs(const pack::PackView& pack) noexcept {
   frame::CostModel cost;
+  for (frame::CostEstimate& tick : cost.tick)
+    tick = frame::CostEstimate(std::numeric_limits<float>::infinity());
   for (const pack::TierRecord& record : pack.tiers) {
+    if (record.every > 1) continue;
     if (record.tier == static_cast<uint32_t>(Tier::kSkinning))
       cost.base = frame::CostEstimate(record.cost_us);
     else

@@ -19,7 +19,7 @@ TierShare tier_share(const Run& run, const CharacterFile& character, Tier tier, 
   for (const FrameRecord& frame : run.frames) sum += frame.step.*instances;
   TierShare out{name, sum / (run.instances * static_cast<double>(run.frames.size())), kUnknown, kUnknown};
   for (const pack::TierRecord& record : character.view.tiers) {
-    if (record.tier != static_cast<uint32_t>(tier)) continue;
+    if (record.tier != static_cast<uint32_t>(tier) || record.every != 1) continue;
     out.baked_cost_us = static_cast<double>(record.cost_us);
     out.baked_error_mm = static_cast<double>(record.error_mm);
   }

@@ -329,45 +329,73 @@ TEST_CASE("character_faults_are_refused_by_name") {
   const auto joint = [](auto apply) { return change<JointRecord>(kJoints, 1, apply); };
   const auto skin = [](auto apply) { return change<SkinRecord>(kSkin, 3, apply); };
   const auto clip = [](auto apply) { return change<ClipRecord>(kClips, 0, apply); };
-  const auto tier = [](auto apply) { return change<TierRecord>(kTiers, 2, apply); };
-  check_refused(
-      character_pack(),
-      {{"no vertices", record([](auto& c) { c.vertex_count = 0; })},
-       {"positions", record([](auto& c) { c.vertex_count = 13; })},
-       {"positions", record([](auto& c) { c.vertex_count = 0xffffffff; })},
-       {"triangles", record([](auto& c) { c.triangle_count += 1; })},
-       {"joints", record([](auto& c) { c.joint_count = 65536; })},
-       {"joints", record([](auto& c) { c.joint_count = 2; })},
-       {"regions", record([](auto& c) { c.region_count = 1; })},
-       {"nodes", record([](auto& c) { c.node_count = 4; })},
-       {"clips", record([](auto& c) { c.clip_count = 0; })},
-       {"height", record([](auto& c) { c.height_m = kNan; })},
-       {"name lies outside", record([](auto& c) { c.name = 100000; })},
-       {"character 0: reserved", record([](auto& c) { c.reserved[0] = 1; })},
-       {"joint 1: its name", joint([](auto& j) { j.name = kNoIndex; })},
-       {"joint 1: parent 1", joint([](auto& j) { j.parent = 1; })},
-       {"joint 1: inverse bind", joint([](auto& j) { j.inverse_bind[7] = kInfinity; })},
-       {"positions: number 4", set<float>(kPositions, 4, kNan)},
-       {"vertex 2: normal", set<float>(kNormals, 7, 1.5f)},
-       {"triangle 1: vertex 12 of 12", set<uint32_t>(kTriangles, 5, 12u)},
-       {"vertex 3: skinned to joint 3", skin([](auto& s) { s.joint[1] = 3; })},
-       {"vertex 3: skin weights sum", skin([](auto& s) { s.weight[0] = 0.8f; })},
-       {"vertex 3: skin weights are not descending", skin([](auto& s) { s.weight[0] = 0.1f; })},
-       {"vertex 3: skin weights are not descending", skin([](auto& s) { s.weight[1] = kNan; })},
-       {"vertex 3: skin weights are not descending", skin([](auto& s) { s.weight[7] = -0.5f; })},
-       {"vertex 3: a joint without", skin([](auto& s) { s.joint[7] = 1; })},
-       {"vertex 5: welded to 6", set<uint32_t>(kWelded, 5, 6u)},
-       {"clip 0: frames", clip([](auto& c) { c.first_frame = 1; })},
-       {"clip 0: frames", clip([](auto& c) { c.frame_count = 0; })},
-       {"clip frames", clip([](auto& c) { c.frame_count = 0xffffffff; })},
-       {"clip 0: rate", clip([](auto& c) { c.rate_hz = -60; })},
-       {"clip frames: number 30", set<float>(kClipFrames, 30, kNan)},
-       {"tier 2: 5 is not known", tier([](auto& t) { t.tier = 5; })},
-       {"tier 2: 1 is not known, or does not ascend", tier([](auto& t) { t.tier = 1; })},
-       {"tier 4: 3 is not known, or does not", change<TierRecord>(kTiers, 4, [](auto& t) { t.tier = 3; })},
-       {"tier 2: cost", tier([](auto& t) { t.cost_us = kNan; })},
-       {"tier 2: an error", tier([](auto& t) { t.error_mm = -1; })},
-       {"strings", [](PackEditor& e) { e.section<char>(kStrings).back() = 'x'; }}});
+  check_refused(character_pack(),
+                {{"no vertices", record([](auto& c) { c.vertex_count = 0; })},
+                 {"positions", record([](auto& c) { c.vertex_count = 13; })},
+                 {"positions", record([](auto& c) { c.vertex_count = 0xffffffff; })},
+                 {"triangles", record([](auto& c) { c.triangle_count += 1; })},
+                 {"joints", record([](auto& c) { c.joint_count = 65536; })},
+                 {"joints", record([](auto& c) { c.joint_count = 2; })},
+                 {"regions", record([](auto& c) { c.region_count = 1; })},
+                 {"nodes", record([](auto& c) { c.node_count = 4; })},
+                 {"clips", record([](auto& c) { c.clip_count = 0; })},
+                 {"height", record([](auto& c) { c.height_m = kNan; })},
+                 {"name lies outside", record([](auto& c) { c.name = 100000; })},
+                 {"character 0: reserved", record([](auto& c) { c.reserved[0] = 1; })},
+                 {"joint 1: its name", joint([](auto& j) { j.name = kNoIndex; })},
+                 {"joint 1: parent 1", joint([](auto& j) { j.parent = 1; })},
+                 {"joint 1: inverse bind", joint([](auto& j) { j.inverse_bind[7] = kInfinity; })},
+                 {"positions: number 4", set<float>(kPositions, 4, kNan)},
+                 {"vertex 2: normal", set<float>(kNormals, 7, 1.5f)},
+                 {"triangle 1: vertex 12 of 12", set<uint32_t>(kTriangles, 5, 12u)},
+                 {"vertex 3: skinned to joint 3", skin([](auto& s) { s.joint[1] = 3; })},
+                 {"vertex 3: skin weights sum", skin([](auto& s) { s.weight[0] = 0.8f; })},
+                 {"vertex 3: skin weights are not descending", skin([](auto& s) { s.weight[0] = 0.1f; })},
+                 {"vertex 3: skin weights are not descending", skin([](auto& s) { s.weight[1] = kNan; })},
+                 {"vertex 3: skin weights are not descending", skin([](auto& s) { s.weight[7] = -0.5f; })},
+                 {"vertex 3: a joint without", skin([](auto& s) { s.joint[7] = 1; })},
+                 {"vertex 5: welded to 6", set<uint32_t>(kWelded, 5, 6u)},
+                 {"clip 0: frames", clip([](auto& c) { c.first_frame = 1; })},
+                 {"clip 0: frames", clip([](auto& c) { c.frame_count = 0; })},
+                 {"clip frames", clip([](auto& c) { c.frame_count = 0xffffffff; })},
+                 {"clip 0: rate", clip([](auto& c) { c.rate_hz = -60; })},
+                 {"clip frames: number 30", set<float>(kClipFrames, 30, kNan)},
+                 {"strings", [](PackEditor& e) { e.section<char>(kStrings).back() = 'x'; }}});
+}
+
+// skinning, extrapolate, network, spring, modal.
+TEST_CASE("tier_faults_are_refused_by_name") {
+  using enum SectionKind;
+  const auto tier = [](size_t index, auto apply) { return change<TierRecord>(kTiers, index, apply); };
+  check_refused(character_pack(),
+                {{"tier 2: 5 is not known", tier(2, [](auto& t) { t.tier = 5; })},
+                 {"tier 2: 1 every 1 does not ascend", tier(2, [](auto& t) { t.tier = 1; })},
+                 {"tier 4: 3 every 1 does not ascend", tier(4, [](auto& t) { t.tier = 3; })},
+                 {"tier 3: every 0", tier(3, [](auto& t) { t.every = 0; })},
+                 {"tier 3: every 3", tier(3, [](auto& t) { t.every = 3; })},
+                 {"tier 3: every 8", tier(3, [](auto& t) { t.every = 8; })},
+                 {"tier 1: every 2", tier(1, [](auto& t) { t.every = 2; })},
+                 {"tiers: not all", tier(4, [](auto& t) { t.every = 2; })},
+                 {"tiers: not all", tier(2, [](auto& t) { t.every = 4; })},
+                 {"tier 2: cost nan", tier(2, [](auto& t) { t.cost_us = kNan; })},
+                 {"tier 2: cost -1", tier(2, [](auto& t) { t.cost_us = -1; })},
+                 {"p99 inf", tier(2, [](auto& t) { t.cost_p99_us = kInfinity; })},
+                 {"tier 2: an error", tier(2, [](auto& t) { t.error_mm = -1; })},
+                 {"tier 2: an error", tier(2, [](auto& t) { t.error_ratio = kInfinity; })},
+                 {"tier 2: an error", tier(2, [](auto& t) { t.error_p95_mm = -1; })},
+                 {"tier 2: reserved", tier(2, [](auto& t) { t.reserved = 1; })}});
+}
+
+// Measured, springs may not be worth having, and tiers may be worth it at a lower rate.
+TEST_CASE("tiers_that_are_not_needed_may_be_left_out_or_be_simulated_less_often") {
+  PackEditor editor(character_pack());
+  editor.section<TierRecord>(SectionKind::kTiers)[3].every = 4;
+  editor.seal();
+  CHECK(editor.open().ok());
+  editor.section<TierRecord>(SectionKind::kTiers)[3] = editor.section<TierRecord>(SectionKind::kTiers)[2];
+  editor.section<TierRecord>(SectionKind::kTiers)[3].every = 2;
+  editor.seal();
+  CHECK(editor.open().ok());
 }
 
 TEST_CASE("tissue_faults_are_refused_by_name") {
@@ -470,7 +498,7 @@ TEST_CASE("a_character_without_a_network_is_taken_and_must_be_without_all_of_it"
                         {"network that is not there", network([](auto& n) { n.length_unit = 1; })},
                         {"rate", network([](auto& n) { n.rate_hz = 0; })},
                         {"reserved", network([](auto& n) { n.reserved[0] = 1; })},
-                        {"tiers: not those", change<TierRecord>(kTiers, 2, [](auto& t) { t.tier = 2; })}});
+                        {"tier 2: a network", change<TierRecord>(kTiers, 2, [](auto& t) { t.tier = 2; })}});
   check_refused(character_pack(), {{"not there", network([](auto& n) { n.model = ModelKind::kNone; })}});
 }
 
