@@ -34,19 +34,18 @@ void CostModel::settle() noexcept {
   publish.settle();
 }
 
-void Capacity::observe(float spent, bool denied, bool late) noexcept {
-  constexpr float kFull = 0.985f, kEmptiest = 0.5f, kGain = 0.1f, kLate = 0.99f;
+void Capacity::observe(float spent, float undone, bool denied) noexcept {
+  constexpr float kFull = 0.985f, kNearlyFull = 0.9f, kEmptiest = 0.5f;
+  constexpr float kGain = 0.1f, kFineGain = 0.01f, kLate = 0.98f, kCatchUp = 0.5f;
   constexpr float kLeast = 0.05f, kMost = 64;
-  const float whole = kFull / std::clamp(spent, kEmptiest, 1 / kEmptiest);
-  float wanted = 1;
-  if (late || spent > 1)
-    wanted = std::min(kLate, 1 + 2 * kGain * (whole - 1));
-  else if (denied && whole > 1)
-    wanted = 1 + kGain * (whole - 1);
-  wanted_[std::exchange(next_, (next_ + 1) % 3)] = wanted;
-  const float middle = std::max(std::min(wanted_[0], wanted_[1]),
-                                std::min(std::max(wanted_[0], wanted_[1]), wanted_[2]));
-  scale_ = std::clamp(scale_ * middle, kLeast, kMost);
+  undone_[std::exchange(next_, (next_ + 1) % 3)] = undone;
+  const float middle =
+      std::max(std::min(undone_[0], undone_[1]), std::min(std::max(undone_[0], undone_[1]), undone_[2]));
+  if (undone > 0 || spent > 1)
+    scale_ *= kLate * (1 - kCatchUp * std::min(middle, undone));
+  else if (denied && spent < kFull)
+    scale_ *= 1 + (spent < kNearlyFull ? kGain : kFineGain) * (kFull / std::max(spent, kEmptiest) - 1);
+  scale_ = std::clamp(scale_, kLeast, kMost);
 }
 
 }  // namespace sinew::frame

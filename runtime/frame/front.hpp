@@ -42,7 +42,8 @@ struct Front {
   uint32_t level_of(Tier tier, uint32_t every) const noexcept;
 };
 
-// Points in any order; those that are no numbers or not simulated are left out, as is what beyond kMostLevels.
+// Points in any order; those that are no numbers or not simulated are left out, as is what beyond
+// kMostLevels.
 void make_front(std::span<const Level> points, float publish_us, Front* out) noexcept;
 
 }  // namespace sinew::frame

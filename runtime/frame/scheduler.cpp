@@ -20,8 +20,8 @@ float bonus(const Candidate& c, uint32_t level) noexcept {
   return c.held_s < kHold_s ? kHoldBonus : kHysteresis;
 }
 
-// Of a level above the one it has been given: its steps one by one, each as good as the one before at most, while
-// they cost no more than `most`. Work(level, key, cost) says whether to go on.
+// Of a level above the one it has been given: its steps one by one, each as good as the one before at most,
+// while they cost no more than `most`. Work(level, key, cost) says whether to go on.
 template <class Work>
 void for_each_step_up(const Candidate& c, double most, Work work) noexcept {
   const float weight = weight_of(c), ticks = c.ticks * c.cost_factor;

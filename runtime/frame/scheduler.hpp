@@ -1,18 +1,21 @@
 // scheduler.hpp  Which tier each instance gets in this step.
 //
 // Everything is decided before any work starts, from the numbers below alone: same candidates, same answer.
-// Bought is the most of weight x error saved that the budget pays for, on the assets' fronts (frame/front.hpp):
+// Bought is the most of weight x error saved that the budget pays for, on the assets' fronts
+// (frame/front.hpp):
 //   1. Every instance's unavoidable cost comes off the budget.
-//   2. Turns: one that is not simulated for longer than kLongestWait_s is overdue and gets the cheapest simulated
-//      level, the longest wait first; it keeps it for kHold_s. Turns take a kTurnShare of the budget at most, or
-//      that of one where more than the whole budget pays for one: they cannot crowd out what matters.
-//   3. Levels are bought one by one, most error saved a microsecond first, each counted by its instance's weight x
-//      (1 + wait / kStaleness_s). What an instance has already counts kHysteresis times as much, kHoldBonus times
-//      in the first kHold_s, so that tiers do not flicker. What does not fit is passed over, and the rest of the
-//      budget goes to what fits behind it.
-// Longest wait: with n instances of weight > 0, and turns that pay for k of the costliest, none goes unsimulated
-// longer than kLongestWait_s + ceil(n / k) (kHold_s + dt). Weight 0 has no turn and gets what is left over.
-// Cost: O(candidates x levels), some 20 ns a candidate; no memory is taken.
+//   2. Turns: one that is not simulated for longer than kLongestWait_s is overdue and gets the cheapest
+//   simulated
+//      level, the longest wait first; it keeps it for kHold_s. Turns take a kTurnShare of the budget at most,
+//      or that of one where more than the whole budget pays for one: they cannot crowd out what matters.
+//   3. Levels are bought one by one, most error saved a microsecond first, each counted by its instance's
+//   weight x
+//      (1 + wait / kStaleness_s). What an instance has already counts kHysteresis times as much, kHoldBonus
+//      times in the first kHold_s, so that tiers do not flicker. What does not fit is passed over, and the
+//      rest of the budget goes to what fits behind it.
+// Longest wait: with n instances of weight > 0, and turns that pay for k of the costliest, none goes
+// unsimulated longer than kLongestWait_s + ceil(n / k) (kHold_s + dt). Weight 0 has no turn and gets what is
+// left over. Cost: O(candidates x levels), some 20 ns a candidate; no memory is taken.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -24,9 +27,9 @@ namespace sinew::frame {
 
 inline constexpr float kHold_s = 0.5f;
 inline constexpr float kLongestWait_s = 2;
-inline constexpr float kStaleness_s = 0.5f;
+inline constexpr float kStaleness_s = 2;
 inline constexpr float kHysteresis = 1.25f, kHoldBonus = 4;
-inline constexpr float kTurnShare = 0.25f;
+inline constexpr float kTurnShare = 0.1f;
 
 // Why an instance has the level it has.
 enum class Reason : uint32_t { kBest, kBudget, kHeld, kTurn };

@@ -1,4 +1,5 @@
-// weight_buckets.hpp  Positive floats sorted into drawers of a sixteenth of an octave, largest first, in one pass.
+// weight_buckets.hpp  Positive floats sorted into drawers of a sixteenth of an octave, largest first, in one
+// pass.
 #pragma once
 #include <algorithm>
 #include <bit>
@@ -25,8 +26,8 @@ class WeightBuckets {
     first_ = std::min(first_, drawer);
     last_ = std::max(last_, drawer);
   }
-  // The lowest drawer such that it and all above it add up to `most` at most, and what is left of that; one above
-  // the highest where not even that fits.
+  // The lowest drawer such that it and all above it add up to `most` at most, and what is left of that; one
+  // above the highest where not even that fits.
   uint32_t lowest_within(double most, double* left) const noexcept {
     uint32_t lowest = last_ + 1;
     for (*left = most; lowest > first_ && sums_[lowest - 1] <= *left; --lowest) *left -= sums_[lowest - 1];

@@ -21,8 +21,10 @@ constexpr float kUsualSkinningError = 5e-3f;
 
 void read_point(const pack::TierRecord& record, Asset& asset) noexcept {
   const auto tier = static_cast<Tier>(record.tier);
-  if (!frame::is_simulated(tier) || record.every > kMostEvery || asset.point_count == frame::kMostLevels) return;
-  const float error = std::isnan(record.error_ratio) ? frame::usual_error(tier, record.every) : record.error_ratio;
+  if (!frame::is_simulated(tier) || record.every > kMostEvery || asset.point_count == frame::kMostLevels)
+    return;
+  const float error =
+      std::isnan(record.error_ratio) ? frame::usual_error(tier, record.every) : record.error_ratio;
   asset.points[asset.point_count++] = {tier, record.every, record.cost_us, error};
   if (record.every == 1) asset.cost.tick[record.tier] = frame::CostEstimate(record.cost_us);
 }
@@ -32,7 +34,8 @@ void read_tiers(const pack::PackView& pack, Asset& asset) noexcept {
   asset.skinning_mm = kUsualSkinningError * 1e3f * pack.character->height_m;
   for (const pack::TierRecord& record : pack.tiers) {
     read_point(record, asset);
-    if (record.tier == static_cast<uint32_t>(Tier::kExtrapolate)) asset.cost.publish = frame::CostEstimate(record.cost_us);
+    if (record.tier == static_cast<uint32_t>(Tier::kExtrapolate))
+      asset.cost.publish = frame::CostEstimate(record.cost_us);
     if (record.tier != static_cast<uint32_t>(Tier::kSkinning)) continue;
     asset.idle_us = record.cost_us;
     if (record.error_mm > 0) asset.skinning_mm = record.error_mm;

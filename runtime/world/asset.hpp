@@ -29,9 +29,9 @@ struct Asset {
   frame::CostModel cost;
   frame::Level points[frame::kMostLevels];  // as baked
   uint32_t point_count = 0;
-  frame::Front front;   // of the points, at what they cost now (world/plan.hpp)
+  frame::Front front;     // of the points, at what they cost now (world/plan.hpp)
   float skinning_mm = 1;  // skinning's error
-  float idle_us = 0;    // baked: a step, of what is neither simulated nor displaced
+  float idle_us = 0;      // baked: a step, of what is neither simulated nor displaced
 
   uint32_t node_count() const noexcept { return pack.character->node_count; }
   uint32_t mode_count() const noexcept { return static_cast<uint32_t>(pack.modes.size()); }

@@ -73,6 +73,7 @@ float add_active(const Instance& instance, FrameReport& report) noexcept {
 void fold_results(WorldState& world, FrameReport& report) noexcept {
   double errors = 0;
   uint32_t visible = 0;
+  world.undone_us = 0;
   for (uint32_t slot = 0; slot < world.instances.end(); ++slot) {
     Instance* instance = world.instances.at(slot);
     if (!instance) continue;
@@ -85,6 +86,7 @@ void fold_results(WorldState& world, FrameReport& report) noexcept {
       continue;
     }
     if (costs_are_measured(world)) learn_costs(*instance);
+    if (instance->cut || instance->held) world.undone_us += instance->plan.cost_us;
     errors += static_cast<double>(add_active(*instance, report));
   }
   if (visible > 0) report.expected_error = static_cast<float>(errors / visible);

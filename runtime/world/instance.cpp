@@ -210,7 +210,8 @@ TierReason reason_of(const Instance& instance, uint32_t asleep) noexcept {
   if (state.hidden) return TierReason::kHidden;
   if (instance.cut || instance.held) return TierReason::kCut;
   if (state.restarting || state.fallback_ticks > 0) return TierReason::kGuard;
-  if (frame::is_simulated(state.tier) && asleep == instance.asset->pack.regions.size()) return TierReason::kStill;
+  if (frame::is_simulated(state.tier) && asleep == instance.asset->pack.regions.size())
+    return TierReason::kStill;
   const bool overdue = !frame::is_simulated(state.tier) && state.waited_s > frame::kLongestWait_s;
   return overdue ? TierReason::kWaiting : instance.plan.why;
 }

@@ -44,15 +44,15 @@ struct InstanceState {
   double tick_root_m[3][3] = {};    // of the last three ticks, newest first
   float importance = 1;
   float waited_s = 0, held_s = 0, turn_left_s = 0;  // frame/scheduler.hpp
-  float excitation = 1;            // world/excitation.hpp
-  float render_fraction = 0;       // remainder in ticks: how far the shown displacement is carried on
-  Tier tier = Tier::kSkinning;     // in the last step
-  uint32_t has_next = 0;           // set_pose since the last step
-  uint32_t at_start = 1;           // no pose yet: the first one is taken as having been held for ever
-  uint32_t motion_stale = 1;       // ticks were not followed: the motion history is rebuilt before use
-  uint32_t restarting = 0;         // fading out after a guard: not simulated until faded
-  uint32_t forgotten = 1;          // the network's state is no memory of this motion: a start, a guard
-  uint32_t fallback_ticks = 0;     // left until the network may be tried again
+  float excitation = 1;                             // world/excitation.hpp
+  float render_fraction = 0;    // remainder in ticks: how far the shown displacement is carried on
+  Tier tier = Tier::kSkinning;  // in the last step
+  uint32_t has_next = 0;        // set_pose since the last step
+  uint32_t at_start = 1;        // no pose yet: the first one is taken as having been held for ever
+  uint32_t motion_stale = 1;    // ticks were not followed: the motion history is rebuilt before use
+  uint32_t restarting = 0;      // fading out after a guard: not simulated until faded
+  uint32_t forgotten = 1;       // the network's state is no memory of this motion: a start, a guard
+  uint32_t fallback_ticks = 0;  // left until the network may be tried again
   uint32_t tail_ticks = kCarryTicks + kFadeTicks;  // since the tail began
   uint32_t blend_ticks = 0;                        // since simulation came back, at most kBlendInTicks
   uint32_t clamped_ticks = 0;                      // in a row
@@ -98,9 +98,9 @@ struct InstancePlan {
   double dt_s = 0;
   Tier tier = Tier::kSkinning;
   uint32_t every = 1;
-  float error = 1;       // a share of skinning's
-  float cost_us = 0;     // expected
-  float behind_us = 0;   // that those which run later take at least
+  float error = 1;      // a share of skinning's
+  float cost_us = 0;    // expected
+  float behind_us = 0;  // that those which run later take at least
   TierReason why = TierReason::kBudget;
 };
 
@@ -115,8 +115,8 @@ struct Instance {
   Asset* asset = nullptr;
   InstancePlan plan;
   InstanceTimes times;
-  bool idle = false;   // in the last step: neither simulated nor displaced
-  bool held = false;   // in the last step: shown as it was, for the deadline
+  bool idle = false;  // in the last step: neither simulated nor displaced
+  bool held = false;  // in the last step: shown as it was, for the deadline
   bool cut = false, restarted = false, fell_back = false;  // in the last step
   bool parts_ready = false;                                // in this step: the parts are filled in
   bool displaced = false;                                  // published displacement is not zero everywhere
@@ -177,15 +177,15 @@ struct Instance {
   double* rod_end[2] = {};  // [slots][3] where segments end, as they are taken along
 
   // Published by a step, read by read_*.
-  float* skin = nullptr;           // [joints][12], where they are too many for a reader's stack; scratch of a tick
-  float carried_share = 1;         // of `carried`, in what is read: a tail that fades is not carried anew
-  float* delta = nullptr;          // [nodes][3], bind-pose axes
-  float* carried = nullptr;        // of delta: a region after the other [3][padded_vertices], bind-pose axes
-  float* surface = nullptr;        // [vertices][3], scratch of read_normals
+  float* skin = nullptr;     // [joints][12], where they are too many for a reader's stack; scratch of a tick
+  float carried_share = 1;   // of `carried`, in what is read: a tail that fades is not carried anew
+  float* delta = nullptr;    // [nodes][3], bind-pose axes
+  float* carried = nullptr;  // of delta: a region after the other [3][padded_vertices], bind-pose axes
+  float* surface = nullptr;  // [vertices][3], scratch of read_normals
   Matrix34* rod_motion = nullptr;  // [slots]: how rods move the pose's bones, in the character's space
   Matrix34* rod_joints = nullptr;  // [joints], where there are rods: the pose's, moved by them
 
-  float simulated_share() const noexcept;  // b
+  float simulated_share() const noexcept;            // b
   float tail_share(float ahead = 0) const noexcept;  // 1 while carried, then falling smoothly to 0; in ticks
   float shown_share() const noexcept { return simulated_share() + (1 - simulated_share()) * tail_share(); }
 };

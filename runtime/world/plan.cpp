@@ -43,7 +43,8 @@ uint32_t highest(const Instance& instance) noexcept {
   const frame::Front& front = instance.asset->front;
   if (instance.state->restarting) return 0;
   uint32_t level = front.best();
-  while (instance.state->fallback_ticks > 0 && level > 0 && front.levels[level].tier == Tier::kNetwork) --level;
+  while (instance.state->fallback_ticks > 0 && level > 0 && front.levels[level].tier == Tier::kNetwork)
+    --level;
   return level;
 }
 
@@ -65,16 +66,36 @@ Candidate candidate_of(const WorldState& world, const Instance& instance, uint32
           .keeps_level = ticks == 0 && world.budget_us > 0};
 }
 
+// Instances of an age have the same ticks: they are worked out once.
+class TickPlans {
+ public:
+  TickPlans(double dt_s, uint32_t most) noexcept : dt_s_(dt_s), most_(most) {}
+  const frame::TickPlan& of(const Instance& instance) noexcept {
+    const double remainder_s = instance.state->remainder_s, tick_s = instance.asset->tick_s;
+    if (remainder_s != remainder_s_ || tick_s != tick_s_) {
+      plan_ = frame::plan_ticks(remainder_s, dt_s_, tick_s, most_);
+      remainder_s_ = remainder_s;
+      tick_s_ = tick_s;
+    }
+    return plan_;
+  }
+
+ private:
+  double dt_s_, remainder_s_ = -1, tick_s_ = 0;
+  uint32_t most_;
+  frame::TickPlan plan_;
+};
+
 std::span<Candidate> gather_candidates(WorldState& world, double dt_s) noexcept {
   uint32_t count = 0;
+  TickPlans plans(dt_s, world.def.max_ticks_per_step);
   world.idle_count = 0;
   for (uint32_t slot = 0; slot < world.instances.end(); ++slot) {
     if (slot + 4 < world.instances.end())
       if (const Instance* ahead = world.instances.at(slot + 4)) __builtin_prefetch(ahead->state);
     Instance* instance = world.instances.at(slot);
     if (!instance) continue;
-    instance->plan.ticks = frame::plan_ticks(instance->state->remainder_s, dt_s, instance->asset->tick_s,
-                                             world.def.max_ticks_per_step);
+    instance->plan.ticks = plans.of(*instance);
     instance->plan.dt_s = dt_s;
     if (instance->state->hidden)
       world.idle_slots[world.idle_count++] = slot;
@@ -85,7 +106,8 @@ std::span<Candidate> gather_candidates(WorldState& world, double dt_s) noexcept 
 }
 
 TierReason told(frame::Reason reason) noexcept {
-  constexpr TierReason kTold[] = {TierReason::kBest, TierReason::kBudget, TierReason::kHeld, TierReason::kTurn};
+  constexpr TierReason kTold[] = {TierReason::kBest, TierReason::kBudget, TierReason::kHeld,
+                                  TierReason::kTurn};
   return kTold[static_cast<size_t>(reason)];
 }
 
@@ -100,9 +122,9 @@ void take_answer(const WorldState& world, const Candidate& c, Instance& instance
     return;
   }
   const bool denied = c.level == 0;
-  plan.tier = !denied                                      ? level.tier
+  plan.tier = !denied                                              ? level.tier
               : world.budget_us > 0 && !instance.state->restarting ? Tier::kExtrapolate
-                                                           : Tier::kSkinning;
+                                                                   : Tier::kSkinning;
   plan.every = denied ? 1 : level.every;
   plan.error = level.error;
   plan.cost_us = c.cost_us(c.level);
@@ -160,7 +182,9 @@ void add_up_behind(WorldState& world, std::span<const uint32_t> order) noexcept 
 
 }  // namespace
 
-bool costs_are_measured(const WorldState& world) noexcept { return world.def.budget_mode == BudgetMode::kTime; }
+bool costs_are_measured(const WorldState& world) noexcept {
+  return world.def.budget_mode == BudgetMode::kTime;
+}
 
 frame::ScheduleResult plan_step(WorldState& world, double dt_s) noexcept {
   for (uint32_t slot = 0; slot < world.assets.end(); ++slot)

@@ -19,8 +19,8 @@ bool put(float value, float& to) noexcept {
   return changed;
 }
 
-// delta = u + (r/h)(u - u_before); of a tail, what is left once its fading is left out: carried_share has that. True
-// when any bit of it is new.
+// delta = u + (r/h)(u - u_before); of a tail, what is left once its fading is left out: carried_share has
+// that. True when any bit of it is new.
 bool carry_on(Instance& instance, const pack::RegionRecord& region) noexcept {
   const float ahead = instance.state->render_fraction;
   const size_t begin = size_t{3} * region.first_node, end = begin + size_t{3} * region.node_count;
@@ -63,9 +63,8 @@ void publish(Instance& instance) noexcept {
   const bool displaced = instance.shown_share() > 0;
   if (std::exchange(instance.displaced, displaced) && !displaced) clear_shown(instance);
   if (!displaced) return;
-  instance.carried_share = frame::is_simulated(instance.state->tier)
-                               ? 1
-                               : instance.tail_share(instance.state->render_fraction);
+  instance.carried_share =
+      frame::is_simulated(instance.state->tier) ? 1 : instance.tail_share(instance.state->render_fraction);
   float* carried = instance.carried;
   for (size_t r = 0; r < pack.regions.size(); ++r) {
     const pack::RegionRecord& region = pack.regions[r];

@@ -4,8 +4,8 @@
 
 namespace sinew::world {
 
-// Fills delta and carried from what is shown, and skin from the present pose where there are too many joints for
-// whoever reads to skin them on its stack: what nobody reads is not skinned.
+// Fills delta and carried from what is shown, and skin from the present pose where there are too many joints
+// for whoever reads to skin them on its stack: what nobody reads is not skinned.
 //
 // Between ticks the displacement is carried on at its last velocity: u + (r/h)(u_t - u_{t-1}), r the time
 // since the last tick. Interpolating one tick late instead would be exact in shape but late by h: at 4 Hz a

@@ -37,7 +37,9 @@ void run_one(void* argument, uint32_t index) {
   step_instance(*world.instances.at(slot), world.context, slot);
 }
 
-uint32_t idle_chunks(const WorldState& world) noexcept { return (world.idle_count + kIdleChunk - 1) / kIdleChunk; }
+uint32_t idle_chunks(const WorldState& world) noexcept {
+  return (world.idle_count + kIdleChunk - 1) / kIdleChunk;
+}
 
 bool is_limited(const WorldState& world) noexcept {
   return costs_are_measured(world) && world.budget_us > 0 && world.budget_us < 1e12f;
@@ -71,21 +73,24 @@ void learn(WorldState& world, const Moments& at, const frame::ScheduleResult& pl
   world.reporting.observe(at.end_us - at.ran_us);
   world.overhead.observe(at.planned_us + at.end_us - at.ran_us);
   if (world.idle_count > 0) {
-    const uint64_t idle_ns = std::accumulate(world.idle_ns.get(), world.idle_ns.get() + idle_chunks(world), uint64_t{0});
+    const uint64_t idle_ns =
+        std::accumulate(world.idle_ns.get(), world.idle_ns.get() + idle_chunks(world), uint64_t{0});
     world.idle.observe(core::microseconds(idle_ns) / static_cast<float>(world.idle_count));
   }
   for (frame::CostEstimate* estimate : {&world.reporting, &world.overhead, &world.idle}) estimate->settle();
   if (!is_limited(world) || report.ticks == 0) return;
   const float had_us = world.budget_us - at.planned_us - (at.end_us - at.ran_us);
   const float spent = had_us > 0 ? (at.ran_us - at.planned_us) / had_us : 2;
-  world.capacity.observe(spent, plan.denied, report.instances_cut > 0);
+  const float planned_us = plan.planned_us, undone = planned_us > 0 ? world.undone_us / planned_us : 0;
+  world.capacity.observe(spent, std::min(undone, 1.0f), plan.denied);
 }
 
 void tell_spending(const WorldState& world, const frame::ScheduleResult& plan, FrameReport& report) noexcept {
   const float spent_us = costs_are_measured(world) ? report.total_us : plan.planned_us;
   report.over_budget = spent_us > report.budget_us;
   const bool wanting = plan.denied || report.instances_cut > 0;
-  if (wanting && std::isfinite(report.budget_us)) report.unspent_us = std::max(0.0f, report.budget_us - spent_us);
+  if (wanting && std::isfinite(report.budget_us))
+    report.unspent_us = std::max(0.0f, report.budget_us - spent_us);
 }
 
 void remember(WorldState& world, const FrameReport& report) noexcept {

@@ -9,8 +9,8 @@ namespace sinew::world {
 struct TickContext {
   ClockHook clock;
   ProfilerHook profiler;
-  // What would not be done by then is not begun: a cheaper tier that would, else the instance is carried on, else it
-  // is shown as it was.
+  // What would not be done by then is not begun: a cheaper tier that would, else the instance is carried on,
+  // else it is shown as it was.
   uint64_t deadline_ns = UINT64_MAX;
   float behind_scale = 1;  // of InstancePlan::behind_us: workers share it
   float teleport_distance_m = 2;

@@ -22,7 +22,7 @@ struct WorldState {
   core::SlotTable<Instance, InstanceId> instances;
   // Of a step, [max_instances] unless said otherwise.
   std::unique_ptr<frame::Candidate[]> candidates;  // of all that are visible, by slot
-  std::unique_ptr<uint32_t[]> order;               // slots of what is not idle, in the order in which they run
+  std::unique_ptr<uint32_t[]> order;  // slots of what is not idle, in the order in which they run
   std::unique_ptr<uint32_t[]> idle_slots;
   std::unique_ptr<uint64_t[]> idle_ns;        // [chunks] of idle instances: what they took
   std::unique_ptr<uint32_t[]> drawer_begins;  // [WeightBuckets::kCount + 1]
@@ -30,12 +30,13 @@ struct WorldState {
   std::unique_ptr<frame::Purchase[]> purchases;
   std::unique_ptr<frame::ScheduleScratch> scratch;
   std::span<uint32_t> running;  // of order
+  float undone_us = 0;          // that was planned for what was cut
   uint32_t idle_count = 0;
   TickContext context;  // of the step that runs
   frame::Capacity capacity;
-  frame::CostEstimate idle{0.2f};      // of one idle instance
-  frame::CostEstimate overhead{10};    // of a step: scheduling and reports
-  frame::CostEstimate reporting{5};    // the latter's part
+  frame::CostEstimate idle{0.2f};          // of one idle instance
+  frame::CostEstimate overhead{10};        // of a step: scheduling and reports
+  frame::CostEstimate reporting{5};        // the latter's part
   std::unique_ptr<FrameReport[]> history;  // [def.report_history], the last at frames - 1 modulo that
   float budget_us = std::numeric_limits<float>::infinity();
   uint64_t frames = 0;

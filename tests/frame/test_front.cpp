@@ -41,7 +41,9 @@ TEST_CASE("points_that_are_no_numbers_are_left_out") {
 TEST_CASE("more_points_than_a_front_holds_are_left_out") {
   std::vector<Level> points;
   for (int i = 0; i < 40; ++i)
-    points.push_back({.tier = Tier::kModal, .tick_us = 1 + static_cast<float>(i), .error = 0.9f / (1 + static_cast<float>(i))});
+    points.push_back({.tier = Tier::kModal,
+                      .tick_us = 1 + static_cast<float>(i),
+                      .error = 0.9f / (1 + static_cast<float>(i))});
   CHECK(front_of(points).count <= frame::kMostLevels);
 }
 
@@ -81,7 +83,8 @@ TEST_CASE("worth_falls_from_level_to_level_and_no_point_lies_below_the_front") {
   constexpr float kRounding = 1e-5f;
   for (int trial = 0; trial < 300; ++trial) {
     std::vector<Level> points(8);
-    for (Level& point : points) point = {.tier = Tier::kModal, .tick_us = cost(random), .error = error(random)};
+    for (Level& point : points)
+      point = {.tier = Tier::kModal, .tick_us = cost(random), .error = error(random)};
     const float publish_us = cost(random) / 10;
     const Front front = front_of(points, publish_us);
     for (uint32_t k = 1; k < front.count; ++k) {

@@ -34,9 +34,10 @@ struct Pose {
 
 // Threads come from the caller. Contract: enqueue may run task(argument, index) for index 0..count-1 on any
 // threads, in any order, each exactly once, and may return at once; finish returns when all of that call's
-// indices have run. Both are called from the thread that calls step(), at most once a step. Low indices matter more.
-// An index touches instances that no other does, and the results have the same bits for any number of threads and any order. Null enqueue:
-// serial, on the stepping thread; enqueue without finish: World::create refuses.
+// indices have run. Both are called from the thread that calls step(), at most once a step. Low indices
+// matter more. An index touches instances that no other does, and the results have the same bits for any
+// number of threads and any order. Null enqueue: serial, on the stepping thread; enqueue without finish:
+// World::create refuses.
 struct TaskHook {
   using Task = void (*)(void* argument, uint32_t index);
   // Returns a ticket for finish.
@@ -61,17 +62,19 @@ struct AssertHook {
 
 enum class BudgetMode : uint32_t {
   // The budget is microseconds of the world's clock from the start of step(). Costs are corrected online. An
-  // instance whose planned tier would not be done before the deadline gets the best cheaper one that would, or is
+  // instance whose planned tier would not be done before the deadline gets the best cheaper one that would,
+  // or is
   // carried on as it was; it is counted as cut, and is the first to run in the next step.
   kTime = 0,
   // The budget is baked microseconds: the same inputs give the same tiers and bits whatever the clock says.
   kWorkUnits = 1,
 };
 
-// Markers for a profiler (Tracy, Perfetto): begin and end in pairs, nested, on the thread that runs what they name;
-// called from several threads at a time, inside a step, so they neither block nor call the world. name lives as long
-// as the program: "schedule", "instance", "drive", "tissue", "rods", "publish", "idle", "report". instance: its slot
-// (InstanceId::index1 less one), kNoInstance where it is of none. Null begin or end: none.
+// Markers for a profiler (Tracy, Perfetto): begin and end in pairs, nested, on the thread that runs what they
+// name; called from several threads at a time, inside a step, so they neither block nor call the world. name
+// lives as long as the program: "schedule", "instance", "drive", "tissue", "rods", "publish", "idle",
+// "report". instance: its slot (InstanceId::index1 less one), kNoInstance where it is of none. Null begin or
+// end: none.
 inline constexpr uint32_t kNoInstance = 0xffffffffu;
 struct ProfilerHook {
   void (*begin)(const char* name, uint32_t instance, void* context) = nullptr;
@@ -113,9 +116,9 @@ struct ContactDef {
 
 struct InstanceDef {
   AssetId asset = {};  // null or stale: refused
-  // >= 0, relative weight for the scheduler: of a visible millimetre of error. 0: gets what the others leave; NaN
-  // or negative counts as 0. The rule, and how long an instance with importance above 0 may go unsimulated at most:
-  // runtime/frame/scheduler.hpp.
+  // >= 0, relative weight for the scheduler: of a visible millimetre of error. 0: gets what the others leave;
+  // NaN or negative counts as 0. The rule, and how long an instance with importance above 0 may go
+  // unsimulated at most: runtime/frame/scheduler.hpp.
   float importance = 1;
   RootTransform root = {};  // where it enters, in its bind pose, at rest; refused as in a pose
   ContactDef contacts = {};
@@ -150,7 +153,7 @@ struct InstanceReport {
   InstanceId instance = {};
   Tier tier = Tier::kSkinning;
   TierReason why = TierReason::kBudget;
-  float error = 1;  // estimated of this tier, a share of skinning's; 1 where not simulated
+  float error = 1;                   // estimated of this tier, a share of skinning's; 1 where not simulated
   float blend = 0;                   // 0..1, weight of the simulated displacement in what is read back
   uint32_t ticks_since_network = 0;  // 0: its last tick was the network's; counts on where the asset has none
   // Counters since creation.
@@ -173,7 +176,8 @@ struct InstanceReport {
   uint32_t vertices_touched = 0, contacts_refused = 0, contacts_dropped = 0;
   float contact_volume_m3 = 0;
   float deepest_penetration_m = 0;  // what soft parts are left inside, bounded as they are
-  float cost_us = 0;     // what this instance took in the last step, on its thread; 0: next to nothing, not measured
+  float cost_us =
+      0;  // what this instance took in the last step, on its thread; 0: next to nothing, not measured
   float planned_us = 0;  // what it was expected to take; kWorkUnits: of the baked costs
 };
 
@@ -192,13 +196,13 @@ struct FrameReport {
   uint32_t instances_network = 0, instances_modal = 0, instances_spring = 0, instances_extrapolated = 0,
            instances_skinned = 0;
   uint32_t instances_cut = 0;  // got a cheaper tier than planned, or are shown as they were, for the deadline
-  uint32_t instances_hidden = 0;  // of the skinned
+  uint32_t instances_hidden = 0;         // of the skinned
   uint32_t restarts = 0, fallbacks = 0;  // instances in this frame
   uint32_t regions_asleep = 0;           // soft parts at rest, of all instances
   uint32_t rejected_poses = 0;           // set_pose calls refused since the last step
   float unspent_us = 0;  // of the budget while a budget kept an instance below its best; else 0
-  // Mean over the visible instances of their tiers' errors, a share of skinning's; 1: all are skinned, or none is
-  // visible. As baked; where nothing was measured, usual ones (runtime/frame/front.hpp).
+  // Mean over the visible instances of their tiers' errors, a share of skinning's; 1: all are skinned, or
+  // none is visible. As baked; where nothing was measured, usual ones (runtime/frame/front.hpp).
   float expected_error = 1;
   bool over_budget = false;  // kTime: total_us > budget_us; kWorkUnits: the baked cost of what ran is
 };

@@ -13,8 +13,8 @@
 //   }
 //
 // Thread rule: one thread at a time calls a world's functions, except where a function says otherwise.
-// Nothing here throws or prints. step, set_pose, set_importance, set_visible, set_budget_us, reset, read_*, report, history,
-// save_state and restore_state never allocate or block; the others may allocate.
+// Nothing here throws or prints. step, set_pose, set_importance, set_visible, set_budget_us, reset, read_*,
+// report, history, save_state and restore_state never allocate or block; the others may allocate.
 //
 // Every function answers kInvalidArgument on a null world or for a null out, and kStaleId for an id that is
 // null or whose object is gone (a programmer error: the assert hook hears of it). After a refusal nothing has
@@ -69,10 +69,10 @@ class World {
   Status set_pose(InstanceId instance, const Pose& pose) noexcept;
   // Mended as in InstanceDef.
   Status set_importance(InstanceId instance, float importance) noexcept;
-  // An instance that is not visible (out of view, occluded) is neither simulated nor fades: it is skinned from the
-  // next step on and costs about a tenth of a microsecond a step. Its poses are followed; once visible it starts at
-  // rest in the pose it has, as a new one does, and is where it would have been when what it missed has died down.
-  // True for a new instance. Part of the state that is saved.
+  // An instance that is not visible (out of view, occluded) is neither simulated nor fades: it is skinned
+  // from the next step on and costs about a tenth of a microsecond a step. Its poses are followed; once
+  // visible it starts at rest in the pose it has, as a new one does, and is where it would have been when
+  // what it missed has died down. True for a new instance. Part of the state that is saved.
   Status set_visible(InstanceId instance, bool visible) noexcept;
   // Forgets motion: the tissue is at rest in the next pose that is set. What is read back changes with
   // the next step.
@@ -87,8 +87,8 @@ class World {
   // 1e6 s as 1e6 s. Never fails.
   FrameReport step(float dt_s) noexcept;
 
-  // The reports of the last steps, newest first: as many as out and WorldDef::report_history hold and there were.
-  // Returns how many; 0 for a null world. From any number of threads at a time, as read_positions.
+  // The reports of the last steps, newest first: as many as out and WorldDef::report_history hold and there
+  // were. Returns how many; 0 for a null world. From any number of threads at a time, as read_positions.
   size_t history(std::span<FrameReport> out) const noexcept;
 
   // Positions, at the time of the last step, of all of the asset's vertices. Cost O(vertices x
