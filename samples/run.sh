@@ -49,7 +49,10 @@ echo
 echo "Rods without a character:"
 newer "$out/rods/two_rods.png" "$bin/sinew-rods" || "$bin/sinew-rods" -o "$out/rods"
 echo
+echo "Hair over the shoulders of a turning character, against nothing, capsules of its bones, and its skin:"
+newer "$out/hair/hair_skin.png" "$bin/sinew-hair" || "$bin/sinew-hair" -o "$out/hair"
+echo
 echo "Soft flesh against a Bullet world:"
 "$bin/sinew-contacts" "$out/creature.sinew" -o "$out/contacts"
 echo
-echo "Pictures: $out/pictures/contact_sheet.png  $out/pictures_rods/contact_sheet.png  $out/pictures (frames, animation)  $out/budget.png  $out/rods/*.png  $out/contacts/*.png"
+echo "Pictures: $out/pictures/contact_sheet.png  $out/pictures_rods/contact_sheet.png  $out/pictures (frames, animation)  $out/budget.png  $out/rods/*.png  $out/hair/*.png  $out/contacts/*.png"

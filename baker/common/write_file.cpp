@@ -97,4 +97,11 @@ void write_file(const std::string& path, std::string_view text) {
   write_file(path, std::as_bytes(std::span(text.data(), text.size())));
 }
 
+void make_folder(const std::string& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (!error) return;
+  throw BadInput(path + ": cannot be made a folder (" + error.message() + "); name another place");
+}
+
 }  // namespace sinew::baker

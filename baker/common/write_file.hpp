@@ -11,5 +11,7 @@ namespace sinew::baker {
 // Throws BadInput naming the path when it cannot be written; nothing half-written is left behind.
 void write_file(const std::string& path, std::span<const std::byte> bytes);
 void write_file(const std::string& path, std::string_view text);
+// With the folders above it. Throws BadInput when it is none afterwards.
+void make_folder(const std::string& path);
 
 }  // namespace sinew::baker

@@ -14,6 +14,22 @@ constexpr size_t align_up(size_t value) {
 
 }  // namespace
 
+PackWriter PackWriter::from_pack(std::span<const std::byte> bytes) {
+  pack::FileHeader header;
+  std::memcpy(&header, bytes.data(), sizeof header);
+  PackWriter writer(header.kind);
+  for (uint32_t i = 0; i < header.section_count; ++i) {
+    pack::SectionEntry entry;
+    std::memcpy(&entry, bytes.data() + sizeof header + i * sizeof entry, sizeof entry);
+    writer.add(static_cast<pack::SectionKind>(entry.kind), entry.element_bytes, bytes.data() + entry.offset,
+               entry.count * entry.element_bytes);
+    const auto* text = reinterpret_cast<const char*>(bytes.data() + entry.offset);
+    if (entry.kind == static_cast<uint32_t>(pack::SectionKind::kStrings))
+      writer.strings_.assign(text, entry.count);
+  }
+  return writer;
+}
+
 void PackWriter::add(pack::SectionKind kind, uint32_t element_bytes, const void* data, size_t bytes) {
   const auto* first = static_cast<const std::byte*>(data);
   sections_[static_cast<uint32_t>(kind)] = {element_bytes, std::vector<std::byte>(first, first + bytes)};

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,8 @@ class PackWriter {
  public:
   explicit PackWriter(pack::FileKind kind) : kind_(kind) {}
   // Plain numbers make elements of `per_element` numbers: 3, 12 ...
+  // What a whole, checked pack holds, to put other sections in the place of some.
+  static PackWriter from_pack(std::span<const std::byte> bytes);
   template <class T>
   void section(pack::SectionKind kind, const std::vector<T>& elements, size_t per_element = 1);
   uint32_t string(const std::string& text);  // offset in kStrings; equal texts share one

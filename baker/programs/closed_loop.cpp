@@ -1,36 +1,67 @@
 // closed_loop.cpp  see closed_loop.hpp.
 #include "baker/programs/closed_loop.hpp"
 
+#include <time.h>
+
 #include <algorithm>
 
 #include "baker/common/bad_input.hpp"
+#include "world/snapshot.hpp"
 #include "world/tick.hpp"
 
 namespace sinew::baker {
+namespace {
+
+uint64_t thread_ns() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<uint64_t>(now.tv_sec) * 1'000'000'000u + static_cast<uint64_t>(now.tv_nsec);
+}
+
+}  // namespace
 
 ClosedLoop::ClosedLoop(const LoadedPack& character, const TrueMotion& motion) : motion_(motion) {
   Status status = world::open_asset(character.bytes(), &asset_);
   if (status.ok()) status = world::make_instance(asset_, {}, &instance_);
   if (!status.ok()) throw BadInput(status.message);
-  step(Tier::kSkinning);  // the first pose was held; what the tissue feels begins with the next
+  step(Tier::kSkinning, 1);  // the first pose was held; what the tissue feels begins with the next
 }
 
-void ClosedLoop::tick() {
+void ClosedLoop::tick() { tick(asset_.best()); }
+
+void ClosedLoop::tick(Tier tier, uint32_t every) {
   ++tick_;
-  step(asset_.best());
+  step(tier, every);
+}
+
+void ClosedLoop::save(Checkpoint* to) const {
+  to->tick = tick_;
+  to->state.resize(world::snapshot_bytes(instance_));
+  const Status status = world::save(instance_, to->state);
+  if (!status.ok()) throw BadInput(status.message);
+}
+
+void ClosedLoop::restore(const Checkpoint& from) {
+  tick_ = from.tick;
+  const Status status = world::restore(instance_, from.state);
+  if (!status.ok()) throw BadInput(status.message);
 }
 
 // A step of one tick, ending at the pose of tick_; a guard may have ruled the tier out, as in world/step.cpp.
-void ClosedLoop::step(Tier tier) {
+void ClosedLoop::step(Tier tier, uint32_t every) {
   world::InstanceState& state = *instance_.state;
   std::ranges::copy(motion_.joints(tick_), instance_.next_joints);
   state.next_root = motion_.root(tick_);
   state.has_next = 1;
   if (tier == Tier::kNetwork && state.fallback_ticks > 0) tier = Tier::kModal;
   if (state.restarting != 0) tier = Tier::kSkinning;
-  instance_.plan = {
-      .ticks = {.ticks = 1, .first_tick_s = asset_.tick_s}, .dt_s = asset_.tick_s, .tier = tier};
+  instance_.plan = {.ticks = {.ticks = 1, .first_tick_s = asset_.tick_s},
+                    .dt_s = asset_.tick_s,
+                    .tier = tier,
+                    .every = every};
+  const uint64_t start_ns = thread_ns();
   world::step_instance(instance_, {});
+  step_ns_ = thread_ns() - start_ns;
 }
 
 }  // namespace sinew::baker

@@ -2,6 +2,7 @@
 // fed back.
 #pragma once
 #include <cstddef>
+#include <vector>
 
 #include "baker/programs/loaded_pack.hpp"
 #include "baker/programs/true_motion.hpp"
@@ -9,8 +10,8 @@
 
 namespace sinew::baker {
 
-// At the motion's start, at rest on the skinning, as the truth starts. Regions never sleep; there is no
-// budget. The pack and the motion must outlive it.
+// At the motion's start, at rest on the skinning, as the truth starts; by default in the best tier. Regions
+// never sleep; there is no budget. The pack and the motion must outlive it.
 class ClosedLoop {
  public:
   ClosedLoop(const LoadedPack& character, const TrueMotion& motion);
@@ -18,6 +19,17 @@ class ClosedLoop {
   ClosedLoop& operator=(const ClosedLoop&) = delete;
 
   void tick();  // to the motion's next tick; as many as it has
+  // In this tier, which may change from tick to tick; every: see world::InstancePlan.
+  void tick(Tier tier, uint32_t every = 1);
+  // Where it stands, to go back to.
+  struct Checkpoint {
+    size_t tick = 0;
+    std::vector<std::byte> state;
+  };
+  void save(Checkpoint* to) const;
+  void restore(const Checkpoint& from);
+  const world::Instance& instance() const { return instance_; }
+  uint64_t step_ns() const { return step_ns_; }  // of the last tick, the thread's own time
   // [nodes][3], metres along each node's frame.
   const float* displacement() const { return instance_.u[0]; }
   const tissue::Network& network() const { return asset_.network; }
@@ -27,12 +39,13 @@ class ClosedLoop {
   uint32_t fallbacks() const { return instance_.state->fallbacks + instance_.state->restarts; }
 
  private:
-  void step(Tier tier);
+  void step(Tier tier, uint32_t every);
 
   const TrueMotion& motion_;
   world::Asset asset_;
   world::Instance instance_;
   size_t tick_ = 0;
+  uint64_t step_ns_ = 0;
 };
 
 }  // namespace sinew::baker

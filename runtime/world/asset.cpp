@@ -8,6 +8,7 @@
 
 #include "core/status.hpp"
 #include "world/instance.hpp"
+#include "world/pose_bound.hpp"
 
 namespace sinew::world {
 namespace {
@@ -85,6 +86,7 @@ Status open_asset(std::span<const std::byte> bytes, Asset* out) noexcept {
     asset.widest_region = std::max(asset.widest_region,
                                    modes.padded + static_cast<uint32_t>(pack::round_up_16(modes.mode_count)));
   read_tiers(view, asset);
+  asset.reach_m = reach_of(asset);
   return {};
 }
 

@@ -72,24 +72,25 @@ float add_active(const Instance& instance, FrameReport& report) noexcept {
 
 void fold_results(WorldState& world, FrameReport& report) noexcept {
   double errors = 0;
-  uint32_t visible = 0;
+  uint32_t seen = 0;
   world.undone_us = 0;
   for (uint32_t slot = 0; slot < world.instances.end(); ++slot) {
     Instance* instance = world.instances.at(slot);
     if (!instance) continue;
+    report.instances_hidden += !instance->seen;
+    if (!instance->seen) continue;
     add_ticks(*instance, report);
-    visible += !instance->state->hidden;
-    report.instances_hidden += instance->state->hidden;
+    ++seen;
     if (instance->idle) {
       ++report.instances_skinned;
-      errors += !instance->state->hidden;
+      ++errors;
       continue;
     }
     if (costs_are_measured(world)) learn_costs(*instance);
     if (instance->cut || instance->held) world.undone_us += instance->plan.cost_us;
     errors += static_cast<double>(add_active(*instance, report));
   }
-  if (visible > 0) report.expected_error = static_cast<float>(errors / visible);
+  if (seen > 0) report.expected_error = static_cast<float>(errors / seen);
   for (uint32_t slot = 0; costs_are_measured(world) && slot < world.assets.end(); ++slot)
     if (Asset* asset = world.assets.at(slot)) asset->cost.settle();
 }

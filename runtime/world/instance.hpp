@@ -61,11 +61,12 @@ struct InstanceState {
   uint32_t untouched = 1;       // no tick since the first pose: displacement is exactly zero
   double rod_anchor_m[3] = {};  // of the world, where rods' places count from: near, so that they stay exact
   uint32_t rod_recoveries = 0;
-  uint32_t rod_quiet_ticks = 0;  // world/rod_sleep.hpp
-  uint32_t teleported = 0;       // in the last step
-  uint32_t hidden = 0;
+  uint32_t rod_quiet_ticks = 0;           // world/rod_sleep.hpp
+  uint32_t teleported = 0;                // in the last step
+  uint32_t blind_looks = 0;               // in a row (world/look.hpp)
+  uint32_t hidden = 0, hidden_ticks = 0;  // world/hidden.hpp
+  uint32_t hidden_by_caller = 0;
   uint32_t first_joints = 0;  // which of pose_joints is the pose before the present one
-  uint32_t reserved = 0;      // no padding
 };
 
 // What the last step measured; not state.
@@ -97,7 +98,7 @@ struct InstancePlan {
   frame::TickPlan ticks;
   double dt_s = 0;
   Tier tier = Tier::kSkinning;
-  uint32_t every = 1;
+  uint32_t every = 1;   // 1, 2 or 4: ticks from one that is simulated to the next, in a simulated tier
   float error = 1;      // a share of skinning's
   float cost_us = 0;    // expected
   float behind_us = 0;  // that those which run later take at least
@@ -115,8 +116,11 @@ struct Instance {
   Asset* asset = nullptr;
   InstancePlan plan;
   InstanceTimes times;
-  bool idle = false;  // in the last step: neither simulated nor displaced
-  bool held = false;  // in the last step: shown as it was, for the deadline
+  bool idle = false;                                 // in the last step: neither simulated nor displaced
+  bool held = false;                                 // in the last step: shown as it was, for the deadline
+  float bound_middle_m[3] = {}, bound_radius_m = 0;  // world/pose_bound.hpp
+  float size = 1;                                    // share of a view's height
+  bool seen = true, came_back = false;               // in this step
   bool cut = false, restarted = false, fell_back = false;  // in the last step
   bool parts_ready = false;                                // in this step: the parts are filled in
   bool displaced = false;                                  // published displacement is not zero everywhere
@@ -199,9 +203,6 @@ void point_to_joints(Instance& instance) noexcept;
 
 // Displacement, shown and carried on, is zero from now on; simulation would start anew.
 void forget_displacement(Instance& instance) noexcept;
-
-// Out of sight from now on: what is read back is the skinned pose.
-void hide(Instance& instance) noexcept;
 
 // Forgets motion and displacement; the next pose is taken as having been held for ever. Counters stay.
 void forget_motion(Instance& instance) noexcept;

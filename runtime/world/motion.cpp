@@ -205,7 +205,8 @@ void take_pose(Instance& instance, float teleport_distance_m) noexcept {
 void keep_pose(Instance& instance) noexcept {
   instance.state->first_joints = (instance.state->first_joints + 1) % 3;
   point_to_joints(instance);
-  instance.state->dt_before_s = instance.plan.dt_s;
+  // A pose that only counts as held says nothing of how the next is reached.
+  instance.state->dt_before_s = instance.came_back ? 0 : instance.plan.dt_s;
   instance.state->root = instance.state->next_root;
   instance.state->has_next = 0;
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "world/hidden.hpp"
+
 namespace sinew::world {
 namespace {
 
@@ -35,13 +37,15 @@ float base_us(const WorldState& world, const Instance& instance) noexcept {
 float weight_of(const Instance& instance) noexcept {
   constexpr float kLargest = 1e30f;
   const InstanceState& state = *instance.state;
-  return std::min(kLargest, state.importance * state.excitation * instance.asset->skinning_mm);
+  return std::min(kLargest,
+                  state.importance * instance.size * state.excitation * instance.asset->skinning_mm);
 }
 
-// The network is not to be had for a while after a guard; nothing is while a restart fades.
+// The network is not to be had for a while after a guard; nothing is while a restart fades, or in the step in
+// which one comes into view: how it moves is known a step later.
 uint32_t highest(const Instance& instance) noexcept {
   const frame::Front& front = instance.asset->front;
-  if (instance.state->restarting) return 0;
+  if (instance.state->restarting || instance.state->hidden) return 0;
   uint32_t level = front.best();
   while (instance.state->fallback_ticks > 0 && level > 0 && front.levels[level].tier == Tier::kNetwork)
     --level;
@@ -95,12 +99,13 @@ std::span<Candidate> gather_candidates(WorldState& world, double dt_s) noexcept 
       if (const Instance* ahead = world.instances.at(slot + 4)) __builtin_prefetch(ahead->state);
     Instance* instance = world.instances.at(slot);
     if (!instance) continue;
+    if (!instance->seen) {
+      pass_by(*instance, dt_s, world.def.max_ticks_per_step);
+      continue;
+    }
     instance->plan.ticks = plans.of(*instance);
     instance->plan.dt_s = dt_s;
-    if (instance->state->hidden)
-      world.idle_slots[world.idle_count++] = slot;
-    else
-      world.candidates[count++] = candidate_of(world, *instance, slot);
+    world.candidates[count++] = candidate_of(world, *instance, slot);
   }
   return {world.candidates.get(), count};
 }
@@ -122,9 +127,10 @@ void take_answer(const WorldState& world, const Candidate& c, Instance& instance
     return;
   }
   const bool denied = c.level == 0;
-  plan.tier = !denied                                              ? level.tier
-              : world.budget_us > 0 && !instance.state->restarting ? Tier::kExtrapolate
-                                                                   : Tier::kSkinning;
+  plan.tier = !denied ? level.tier
+              : world.budget_us > 0 && !instance.state->restarting && !instance.state->hidden
+                  ? Tier::kExtrapolate
+                  : Tier::kSkinning;
   plan.every = denied ? 1 : level.every;
   plan.error = level.error;
   plan.cost_us = c.cost_us(c.level);
@@ -133,7 +139,7 @@ void take_answer(const WorldState& world, const Candidate& c, Instance& instance
 // Nothing of it is simulated, nothing of it is displaced.
 bool is_idle(const Instance& instance) noexcept {
   return !frame::is_simulated(instance.plan.tier) && !instance.displaced && instance.shown_share() == 0 &&
-         !instance.state->restarting;
+         !instance.state->restarting && !instance.state->hidden;
 }
 
 // ---- order ----

@@ -1,5 +1,6 @@
 // snapshot.cpp  An instance's state as bytes, for rollback.
 #include "world/snapshot.hpp"
+#include "world/pose_bound.hpp"
 
 #include <cstring>
 
@@ -107,6 +108,7 @@ Status restore(Instance& instance, std::span<const std::byte> bytes) noexcept {
   point_to_joints(instance);
   instance.rods_anew = false;
   instance.told = {};
+  bound_pose(instance);
   const core::FlushDenormals flush;  // as in a step: the same bits are shown
   publish(instance);
   return {};

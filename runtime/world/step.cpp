@@ -10,6 +10,7 @@
 #include "core/clock.hpp"
 #include "core/run_tasks.hpp"
 #include "world/fold.hpp"
+#include "world/look.hpp"
 #include "world/marker.hpp"
 #include "world/plan.hpp"
 
@@ -105,6 +106,7 @@ FrameReport step(WorldState& world, float dt_s) noexcept {
   FrameReport report{.frame = world.frames++, .budget_us = world.budget_us};
   Moments at{};
   Marker scheduling(world.def.profiler, "schedule", kNoInstance);
+  look(world);
   const frame::ScheduleResult plan = plan_step(world, frame::exact_seconds(dt_s));
   world.context = context_of(world, start_ns);
   scheduling.end();

@@ -8,6 +8,7 @@
 #include "frame/scheduler.hpp"
 #include "world/blend.hpp"
 #include "world/excitation.hpp"
+#include "world/hidden.hpp"
 #include "world/marker.hpp"
 #include "world/motion.hpp"
 #include "world/publish.hpp"
@@ -125,6 +126,8 @@ void step_instance(Instance& instance, const TickContext& context, uint32_t slot
   const Tier tier = instance.plan.tier;
   const bool rose = quality(tier) > quality(instance.state->tier);
   instance.times = {.cost_factor = instance.times.cost_factor};
+  instance.came_back = instance.state->hidden != 0;
+  if (instance.came_back) come_back(instance);
   instance.restarted = instance.fell_back = false;
   enter_tier(instance, tier);
   take_pose(instance, context.teleport_distance_m);
@@ -150,9 +153,9 @@ void step_idle(Instance& instance, const TickContext& context) noexcept {
   if (ticks.ticks > 0) {
     instance.told = {};
     state.motion_stale = 1;
-    state.untouched &= state.hidden;
+    state.untouched = 0;
   }
-  state.tier = state.hidden ? Tier::kSkinning : instance.plan.tier;
+  state.tier = instance.plan.tier;
   state.fallback_ticks -= std::min(state.fallback_ticks, ticks.ticks);
   state.ticks_since_network += ticks.ticks;
   state.remainder_s = ticks.remainder_s;

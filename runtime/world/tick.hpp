@@ -19,7 +19,7 @@ struct TickContext {
 
 // instance.plan says what is to be done.
 void step_instance(Instance& instance, const TickContext& context, uint32_t slot = kNoInstance) noexcept;
-// The same for one that is neither simulated nor displaced, or hidden.
+// The same for one that is neither simulated nor displaced.
 void step_idle(Instance& instance, const TickContext& context) noexcept;
 
 }  // namespace sinew::world

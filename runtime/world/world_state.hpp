@@ -7,6 +7,7 @@
 #include "core/slot_table.hpp"
 #include "frame/cost_model.hpp"
 #include "frame/scheduler.hpp"
+#include "frame/sight.hpp"
 #include "sinew/types.hpp"
 #include "world/asset.hpp"
 #include "world/instance.hpp"
@@ -39,6 +40,9 @@ struct WorldState {
   frame::CostEstimate reporting{5};        // the latter's part
   std::unique_ptr<FrameReport[]> history;  // [def.report_history], the last at frames - 1 modulo that
   float budget_us = std::numeric_limits<float>::infinity();
+  frame::Sight sights[kMostViews];
+  uint32_t sight_count = 0;
+  uint32_t next_look = 0;  // slot of the instance that was looked at last
   uint64_t frames = 0;
   uint32_t rejected_poses = 0;  // since the last step
   bool stepping = false;

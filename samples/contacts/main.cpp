@@ -1,8 +1,8 @@
 // main.cpp  sinew-contacts: soft flesh against a Bullet world, as pictures and a table.
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <filesystem>
 
+#include "baker/common/write_file.hpp"
 #include "samples/contacts/picture.hpp"
 #include "samples/render/encode.hpp"
 
@@ -18,7 +18,7 @@ void print_row(const sample::ContactScene& scene, const sample::ContactMeasured&
 
 int run(const std::string& input, const std::string& output, const sample::ContactPicture& size) {
   const demo::CharacterFile character = demo::open_character(input);
-  std::filesystem::create_directories(output);
+  baker::make_folder(output);
   std::printf("%-8s %8s %8s %10s %10s %9s %8s %8s %8s %9s %9s\n", "scene", "off_mm", "on_mm", "jitter_mm",
               "most_mm", "creep_mm_s", "volume_l", "vertices", "dropped", "off_us", "on_us");
   for (const sample::ContactScene& scene : {sample::onto_a_crate(), sample::between_walls()}) {

@@ -3,6 +3,7 @@
 #include <exception>
 
 #include "baker/common/bad_input.hpp"
+#include "baker/common/write_file.hpp"
 #include "samples/demo/options.hpp"
 #include "samples/demo/pictures.hpp"
 #include "samples/demo/summary.hpp"
@@ -29,7 +30,7 @@ void run(const Options& asked) {
   const std::unique_ptr<Motion> motion = make_motion(character, asked.clip);
   const auto truth = asked.truth.empty() ? nullptr : std::make_unique<Trajectory>(asked.truth, character);
   const Options options = completed(asked, truth.get());
-  if (!options.frames.empty()) make_folder(options.frames);
+  if (!options.frames.empty()) baker::make_folder(options.frames);
   const Run result = simulate(character, *motion, truth.get(), options);
   const Summary summary = summarise(result, character);
   print_table(summary, result, character, options);

@@ -5,20 +5,12 @@
 #include <cmath>
 
 #include "baker/common/bad_input.hpp"
+#include "baker/common/within.hpp"
 
 namespace sinew::demo {
 namespace {
 
-// NaN is outside every range.
-CLI::Validator within(double low, double high, const std::string& words) {
-  return CLI::Validator(
-      [=](std::string& text) {
-        double value = 0;
-        const bool good = CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
-        return good ? std::string() : "must be " + words + ", not " + text;
-      },
-      "");
-}
+using baker::within;
 
 void add_options(CLI::App& app, Options* o) {
   app.add_option("pack", o->pack, "baked character, .sinew")->required();

@@ -84,14 +84,6 @@ void write_films(const std::filesystem::path& folder, double fps) {
 
 }  // namespace
 
-void make_folder(const std::string& path) {
-  std::error_code error;
-  std::filesystem::create_directories(path, error);
-  if (!error && std::filesystem::is_directory(path)) return;
-  throw baker::BadInput(path + ": cannot be made a folder (" + (error ? error.message() : "a file is there") +
-                        "); give --frames another place");
-}
-
 void make_pictures(const Run& run, const CharacterFile& character, const Options& options) {
   const std::filesystem::path folder = options.frames;
   remove_old_frames(folder);

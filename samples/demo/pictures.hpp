@@ -5,9 +5,6 @@
 
 namespace sinew::demo {
 
-// Throws baker::BadInput when it cannot be made or is not a folder.
-void make_folder(const std::string& path);
-
 // Into options.frames: frame_0000.png ..., animation.mp4 and animation.gif (with ffmpeg), contact_sheet.png,
 // still.png, and crowd.png when there are several instances. Prints where they are.
 void make_pictures(const Run& run, const CharacterFile& character, const Options& options);

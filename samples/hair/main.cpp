@@ -1,9 +1,9 @@
 // main.cpp  sinew-hair: hair over the shoulders of a turning character, as pictures and a line of figures.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 
-#include "baker/common/bad_input.hpp"
+#include "baker/common/within.hpp"
+#include "baker/common/write_file.hpp"
 #include "samples/hair/picture.hpp"
 #include "samples/render/layout.hpp"
 
@@ -29,13 +29,6 @@ struct Named {
 constexpr Named kAll[] = {{"nothing", sample::Against::kNothing, "Hair that collides with nothing"},
                           {"proxies", sample::Against::kProxies, "Hair against capsules of the bones"},
                           {"skin", sample::Against::kSkin, "Hair against the skinned mesh"}};
-
-void make_folder(const std::string& path) {
-  std::error_code error;
-  std::filesystem::create_directories(path, error);
-  if (!error && std::filesystem::is_directory(path)) return;
-  throw baker::BadInput(path + ": cannot be made a folder; give -o another place");
-}
 
 void run(const Request& request, const Named& named) {
   sample::Hair hair(request.style, named.against, request.vertices);
@@ -76,10 +69,11 @@ int main(int argc, char** argv) {
   app.add_option("--width", request.size.width, "of each moment, pixels")->check(CLI::Range(16, 8192));
   app.add_option("--height", request.size.height, "of each moment, pixels")->check(CLI::Range(16, 8192));
   app.add_option("--samples", request.size.samples, "a pixel")->check(CLI::Range(1, 4096));
-  app.add_option("--yaw", request.size.yaw_deg, "0: from the front, 180: from behind");
+  app.add_option("--yaw", request.size.yaw_deg, "0: from the front, 180: from behind")
+      ->check(baker::within(-360, 360, "-360 to 360 degrees"));
   try {
     app.parse(argc, argv);
-    make_folder(request.folder);
+    baker::make_folder(request.folder);
     for (const Named& named : kAll) {
       const bool wanted =
           std::find(request.against.begin(), request.against.end(), named.name) != request.against.end();

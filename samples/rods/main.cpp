@@ -1,9 +1,10 @@
 // main.cpp  sinew-rods: scenes of rods without a window, as pictures and a line of figures each.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 
 #include "baker/common/bad_input.hpp"
+#include "baker/common/within.hpp"
+#include "baker/common/write_file.hpp"
 #include "samples/rods/run_scene.hpp"
 #include "samples/rods/scenes.hpp"
 #include "samples/rods/sheet.hpp"
@@ -43,19 +44,12 @@ const NamedScene& find_scene(const std::string& name) {
   throw baker::BadInput("no scene '" + name + "'; there are " + known);
 }
 
-void make_folder(const std::string& path) {
-  std::error_code error;
-  std::filesystem::create_directories(path, error);
-  if (!error && std::filesystem::is_directory(path)) return;
-  throw baker::BadInput(path + ": cannot be made a folder; give -o another place");
-}
-
 int run(Request request) {
   if (request.scenes.empty()) {
     for (const NamedScene& scene : kScenes) request.scenes.push_back(scene.name);
   }
   for (const std::string& name : request.scenes) find_scene(name);
-  make_folder(request.folder);
+  baker::make_folder(request.folder);
   for (const std::string& name : request.scenes) {
     const NamedScene& scene = find_scene(name);
     const sample::Story story = scene.run(request.seconds > 0 ? request.seconds : scene.seconds);
@@ -75,7 +69,7 @@ int main(int argc, char** argv) {
   app.add_option("-o,--output", request.folder, "folder of the pictures")->required();
   app.add_option("--scene", request.scenes, "only these; without: all");
   app.add_option("--seconds", request.seconds, "simulated; without: as long as each scene lasts")
-      ->check(CLI::Range(0.1, 600.0));
+      ->check(baker::within(0.1, 600, "0.1 to 600 s"));
   app.add_option("--width", request.size.width, "of each moment, pixels")->check(CLI::Range(16, 8192));
   app.add_option("--height", request.size.height, "of each moment, pixels")->check(CLI::Range(16, 8192));
   app.add_option("--samples", request.size.samples, "a pixel")->check(CLI::Range(1, 4096));

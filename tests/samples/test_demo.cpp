@@ -140,7 +140,7 @@ TEST_CASE("demo_refuses_a_truth_that_does_not_fit") {
 TEST_CASE("demo_refuses_places_it_cannot_write_to") {
   TemporaryFolder folder;
   const std::string block = write_block(folder);
-  check_refused({block, "--frames", block}, {"--frames"});
+  check_refused({block, "--frames", block}, {block, "cannot be made a folder"});
   const ProgramResult result = demo({block, "--seconds", "0.1", "--report", folder.file("none/report.json")});
   CHECK(result.exit_code == 2);
   CHECK_THAT(result.error, Catch::Contains("report.json"));

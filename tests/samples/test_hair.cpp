@@ -31,6 +31,7 @@ TEST_CASE("hair_refuses_what_it_cannot_do") {
   const std::vector<std::vector<std::string>> bad = {{},
                                                      {"-o", folder.file("out"), "--against", "wind"},
                                                      {"-o", folder.file("out"), "--steps", "0"},
+                                                     {"-o", folder.file("out"), "--yaw", "nan"},
                                                      {"-o", "/dev/null/out"}};
   for (const auto& arguments : bad) {
     const ProgramResult result = hair(arguments);

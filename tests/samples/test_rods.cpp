@@ -56,6 +56,7 @@ TEST_CASE("rods_refuses_what_it_cannot_draw") {
   check_refused({"-o", folder.file("out"), "--scene", "castle"},
                 {"castle", "there are tree, helix, two_rods"});
   check_refused({"-o", folder.file("out"), "--seconds", "0"}, {"--seconds"});
+  check_refused({"-o", folder.file("out"), "--seconds", "nan"}, {"--seconds", "nan"});
   check_refused({"-o", "/dev/null/out"}, {"/dev/null/out"});
   CHECK(folder.entries() == 0);
 }

@@ -201,10 +201,7 @@ TEST_CASE("budgets_and_ids_that_are_none_are_refused_and_change_nothing") {
   for (const float budget_us : {-1.0f, -kInfinity, std::numeric_limits<float>::quiet_NaN()})
     CHECK(stage.world.set_budget_us(budget_us).code == StatusCode::kInvalidArgument);
   CHECK(stage.step(scenes::walk, 1.0 / 60).budget_us == kInfinity);
-  CHECK(stage.world.set_visible({}, false).code == StatusCode::kStaleId);
-  CHECK(stage.faults.faults == 1);
   World null;
-  CHECK(null.set_visible(stage.blocks[0], false).code == StatusCode::kInvalidArgument);
   CHECK(null.history({}) == 0);
 }
 
@@ -215,44 +212,6 @@ TEST_CASE("defs_of_reports_and_profilers_out_of_range_are_refused") {
   CHECK(World::create({.profiler = {.begin = mark}}, &world).code == StatusCode::kInvalidArgument);
   CHECK(World::create({.profiler = {.end = mark}}, &world).code == StatusCode::kInvalidArgument);
   CHECK(World::create({.report_history = 0}, &world).ok());
-}
-
-TEST_CASE("what_is_hidden_is_skinned_at_no_cost_and_comes_back_at_rest") {
-  FakeClock clock;
-  Stage stage(2, {.clock = clock.hook()});
-  stage.play(scenes::walk, 1);
-  REQUIRE(stage.world.set_visible(stage.blocks[0], false).ok());
-  FrameReport report = stage.step(scenes::walk, 1.0 / 60);
-  CHECK(report.instances_hidden == 1);
-  CHECK(stage.report(0).why == TierReason::kHidden);
-  CHECK(stage.report(0).tier == Tier::kSkinning);
-  CHECK(stage.report(0).cost_us == 0);
-  CHECK(test::largest_length(stage.read(0, Space::kBind)) == 0);
-  CHECK(stage.report(1).tier == Tier::kNetwork);
-  stage.play(scenes::walk, 1);
-  REQUIRE(stage.world.set_visible(stage.blocks[0], true).ok());
-  report = stage.step(scenes::walk, 1.0 / 60);
-  CHECK(report.instances_hidden == 0);
-  CHECK(stage.report(0).tier == Tier::kNetwork);
-  CHECK(stage.report(0).blend == 1);
-  stage.play(scenes::walk, 3);
-  Stage never(2);
-  never.play(scenes::walk, 1 + 1.0 / 60 + 1 + 1.0 / 60 + 3);
-  const double off_m = test::largest_distance(stage.read(0), never.read(0));
-  CHECK(off_m < 0.05 * test::largest_length(never.read(0, Space::kBind)));
-}
-
-TEST_CASE("hidden_is_part_of_the_state_that_is_saved") {
-  Stage stage(1);
-  stage.play(scenes::walk, 0.5);
-  REQUIRE(stage.world.set_visible(stage.blocks[0], false).ok());
-  stage.step(scenes::walk, 1.0 / 60);
-  const std::vector<std::byte> hidden = stage.save();
-  REQUIRE(stage.world.set_visible(stage.blocks[0], true).ok());
-  stage.step(scenes::walk, 1.0 / 60);
-  REQUIRE(stage.report().tier == Tier::kNetwork);
-  REQUIRE(stage.world.restore_state(stage.blocks[0], hidden).ok());
-  CHECK(stage.step(scenes::walk, 1.0 / 60).instances_hidden == 1);
 }
 
 TEST_CASE("history_holds_the_last_reports_newest_first") {
@@ -284,7 +243,7 @@ TEST_CASE("profiler_hears_of_pairs_that_are_nested") {
     to.open.pop_back();
   };
   Stage stage(3, {.profiler = {.begin = begin, .end = end, .context = &heard}});
-  REQUIRE(stage.world.set_visible(stage.blocks[2], false).ok());
+  REQUIRE(stage.world.set_hidden(stage.blocks[2], true).ok());
   stage.step(scenes::walk, 1.0 / 60);
   CHECK(heard.open.empty());
   const auto times = [&](const char* name, uint32_t instance) {
@@ -292,7 +251,6 @@ TEST_CASE("profiler_hears_of_pairs_that_are_nested") {
   };
   CHECK(times("schedule", kNoInstance) == 1);
   CHECK(times("report", kNoInstance) == 1);
-  CHECK(times("idle", kNoInstance) == 1);
   for (const uint32_t slot : {0u, 1u}) {
     CHECK(times("instance", slot) == 1);
     for (const char* part : {"drive", "tissue", "rods", "publish"}) CHECK(times(part, slot) == 1);
@@ -327,7 +285,7 @@ TEST_CASE("adding_and_removing_between_frames_goes_on_and_inside_a_step_is_refus
     InstanceId made;
     m.refused += !m.stage->world.create_instance({.asset = m.stage->asset}, &made).ok();
     m.refused += !m.stage->world.destroy_instance(m.stage->blocks[0]).ok();
-    m.refused += !m.stage->world.set_visible(m.stage->blocks[0], false).ok();
+    m.refused += !m.stage->world.set_hidden(m.stage->blocks[0], true).ok();
     for (uint32_t i = 0; i < count; ++i) task(argument, i);
     return nullptr;
   };

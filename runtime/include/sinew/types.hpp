@@ -9,7 +9,8 @@
 
 namespace sinew {
 
-class ContactSource;  // contact_source.hpp
+class ContactSource;    // contact_source.hpp
+class OcclusionSource;  // view.hpp
 
 // Row-major 3x4 affine matrix: p' = m[r][0..2] p + m[r][3].
 struct Matrix34 {
@@ -96,6 +97,10 @@ struct WorldDef {
   float sleep_tolerance = 5e-4f;
   uint32_t report_history = 120;  // 0..65535 FrameReports kept for World::history
   BudgetMode budget_mode = BudgetMode::kTime;
+  // Asked whether something hides what views show (World::set_views); null: nothing does. Outlives the world.
+  OcclusionSource* occlusion = nullptr;
+  uint32_t sight_rays_per_step =
+      64;  // at most so many questions a step, eight for an instance and view; < 8: none
   TaskHook tasks = {};
   ClockHook clock = {};
   AssertHook assert_hook = {};
@@ -143,7 +148,7 @@ enum class TierReason : uint32_t {
   kTurn = 3,     // as kBudget; simulated because it had waited too long
   kWaiting = 4,  // not simulated for longer than the scheduler wants; its turn comes
   kCut = 5,      // was to get more, but the deadline came too near
-  kHidden = 6,   // World::set_visible
+  kHidden = 6,   // nobody sees it: World::set_views, set_hidden
   kGuard = 7,    // a guard fired: on its modal base, or fading to skinning, for now
   kStill = 8,    // simulated, and all of its soft parts are asleep
 };
@@ -179,6 +184,7 @@ struct InstanceReport {
   float cost_us =
       0;  // what this instance took in the last step, on its thread; 0: next to nothing, not measured
   float planned_us = 0;  // what it was expected to take; kWorkUnits: of the baked costs
+  bool hidden = false;   // nobody saw it in the last step: nothing was done for it
 };
 
 // Filled by step(). All times in microseconds of the world's clock.
@@ -195,14 +201,14 @@ struct FrameReport {
   // Each instance once; one whose extrapolation has faded away counts as skinned.
   uint32_t instances_network = 0, instances_modal = 0, instances_spring = 0, instances_extrapolated = 0,
            instances_skinned = 0;
+  uint32_t instances_hidden = 0;  // nobody sees them; in none of the counts above
   uint32_t instances_cut = 0;  // got a cheaper tier than planned, or are shown as they were, for the deadline
-  uint32_t instances_hidden = 0;         // of the skinned
   uint32_t restarts = 0, fallbacks = 0;  // instances in this frame
   uint32_t regions_asleep = 0;           // soft parts at rest, of all instances
   uint32_t rejected_poses = 0;           // set_pose calls refused since the last step
   float unspent_us = 0;  // of the budget while a budget kept an instance below its best; else 0
-  // Mean over the visible instances of their tiers' errors, a share of skinning's; 1: all are skinned, or
-  // none is visible. As baked; where nothing was measured, usual ones (runtime/frame/front.hpp).
+  // Mean over the instances that are seen of their tiers' errors, a share of skinning's; 1: all are skinned,
+  // or none is seen. As baked; where nothing was measured, usual ones (runtime/frame/front.hpp).
   float expected_error = 1;
   bool over_budget = false;  // kTime: total_us > budget_us; kWorkUnits: the baked cost of what ran is
 };

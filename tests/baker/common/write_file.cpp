@@ -92,3 +92,13 @@ TEST_CASE("read_file_names_what_it_cannot_read") {
   write_file(folder.file("empty"), std::string_view(""));
   CHECK(read_file(folder.file("empty")).empty());
 }
+
+TEST_CASE("a_folder_is_made_with_those_above_it_and_refused_where_a_file_is_or_nothing_may_be") {
+  const TemporaryFolder folder;
+  const std::string deep = folder.path() + "/a/b/c";
+  make_folder(deep);
+  make_folder(deep);  // it is there already
+  write_file(deep + "/file", "here");
+  CHECK_THROWS_WITH(make_folder(deep + "/file"), Contains(deep + "/file: cannot be made a folder"));
+  CHECK_THROWS_WITH(make_folder("/proc/none"), Contains("/proc/none: cannot be made a folder"));
+}

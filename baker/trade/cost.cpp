@@ -1,0 +1,89 @@
+// cost.cpp  see cost.hpp.
+#include "baker/trade/cost.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "baker/trade/error.hpp"
+
+namespace sinew::baker {
+namespace {
+
+constexpr size_t kWarmUpTicks = 24;
+constexpr size_t kColdSteps = 2400;  // of all instances together
+
+double quantile(std::vector<double>& values, double share) {
+  if (values.empty()) return 0;
+  const auto at = values.begin() + static_cast<ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::ranges::nth_element(values, at);
+  return *at;
+}
+
+class Steps {
+ public:
+  void add(const ClosedLoop& loop) {
+    const bool simulated = loop.instance().times.tissue_ns > 0;
+    (simulated ? simulated_ : between_).push_back(static_cast<double>(loop.step_ns()) * 1e-3);
+  }
+  Cost cost() {
+    std::vector<double>& told = simulated_.empty() ? between_ : simulated_;
+    const double many = static_cast<double>(simulated_.size()), few = static_cast<double>(between_.size());
+    return {.p50_us = quantile(told, 0.5),
+            .p99_us = quantile(told, 0.99),
+            .mean_us = (many * quantile(simulated_, 0.5) + few * quantile(between_, 0.5)) / (many + few)};
+  }
+
+ private:
+  std::vector<double> simulated_, between_;
+};
+
+// True where the step counts.
+bool step(ClosedLoop& loop, size_t tick, Tier tier, uint32_t every) {
+  const bool begins = tier == Tier::kExtrapolate && tick % (kCarriedTicks + 1) == 0;
+  if (begins)
+    loop.tick();
+  else
+    loop.tick(tier, every);
+  return !begins;
+}
+
+size_t crowd_of(const LoadedPack& character, const TrueMotion& motion) {
+  constexpr size_t kUsualBytes = 32u << 20, kMost = 2000;
+  const long stated = sysconf(_SC_LEVEL3_CACHE_SIZE);
+  const size_t cache = stated > 0 ? static_cast<size_t>(stated) : kUsualBytes;
+  const ClosedLoop one(character, motion);
+  return std::min(kMost, 1 + 3 * cache / 2 / world::instance_bytes(*one.instance().asset));
+}
+
+}  // namespace
+
+Cost warm_cost(const LoadedPack& character, const TrueMotion& motion, Tier tier, uint32_t every) {
+  ClosedLoop loop(character, motion);
+  Steps steps;
+  const size_t last = std::min(motion.ticks(), kMostTicks);
+  for (size_t tick = 1; tick <= last; ++tick) {
+    const bool counts = step(loop, tick - 1, tier, every);
+    if (counts && tick > std::min(kWarmUpTicks, last / 2)) steps.add(loop);
+  }
+  return steps.cost();
+}
+
+Cost cold_cost(const LoadedPack& character, const TrueMotion& motion, Tier tier, uint32_t every) {
+  const size_t count = crowd_of(character, motion);
+  std::vector<std::unique_ptr<ClosedLoop>> crowd;
+  for (size_t i = 0; i < count; ++i) crowd.push_back(std::make_unique<ClosedLoop>(character, motion));
+  const size_t rounds = std::min(motion.ticks(), kWarmUpTicks / 2 + std::max<size_t>(12, kColdSteps / count));
+  Steps steps;
+  for (size_t tick = 1; tick <= rounds; ++tick) {
+    for (const auto& loop : crowd) {
+      const bool counts = step(*loop, tick - 1, tier, every);
+      if (counts && tick > std::min(kWarmUpTicks / 2, rounds / 2)) steps.add(*loop);
+    }
+  }
+  return steps.cost();
+}
+
+}  // namespace sinew::baker

@@ -1,0 +1,167 @@
+// error.cpp  see error.hpp.
+#include "baker/trade/error.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "baker/common/bad_input.hpp"
+#include "world/read.hpp"
+
+namespace sinew::baker {
+namespace {
+
+using Affine = Eigen::Matrix<float, 3, 4, Eigen::RowMajor>;
+using Eigen::Matrix3f;
+using Eigen::Vector3f;
+
+constexpr float kMillimetres = 1e3f;
+constexpr size_t kShortTicks = 50;
+
+std::vector<float> positions_of(const ClosedLoop& loop) {
+  const uint32_t count = loop.instance().asset->vertex_count();
+  std::vector<float> out(size_t{3} * count);
+  world::read_positions(loop.instance(), {.out = out.data(), .capacity = count});
+  return out;
+}
+
+float distance_mm(const float* a, const float* b) {
+  return kMillimetres * std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+size_t ticks_of(const TrueSurface& surface) { return std::min(surface.motion().ticks(), kMostTicks); }
+
+Vector3f at(const float* positions, uint32_t vertex) {
+  return Eigen::Map<const Vector3f>(positions + size_t{3} * vertex);
+}
+
+// How skinning turns and stretches what is at the vertex, bind pose to posed.
+Matrix3f skin_of(const ClosedLoop& loop, uint32_t vertex) {
+  const pack::SkinRecord& skin = loop.instance().asset->pack.skin[vertex];
+  Matrix3f sum = Matrix3f::Zero();
+  for (uint32_t i = 0; i < pack::kInfluences; ++i) {
+    const Eigen::Map<const Affine> joint(loop.instance().skin + size_t{12} * skin.joint[i]);
+    sum += skin.weight[i] * joint.leftCols<3>();
+  }
+  return sum;
+}
+
+}  // namespace
+
+// Distances of one way, and what skinning was off there.
+class Yardstick::Sums {
+ public:
+  void add(size_t tick, float mm, float skinning_mm) {
+    all_.push_back(mm);
+    skinning_ += static_cast<double>(skinning_mm);
+    if (tick > kShortTicks) return;
+    short_ += static_cast<double>(mm);
+    short_skinning_ += static_cast<double>(skinning_mm);
+  }
+  Error error() {
+    Error out;
+    double sum = 0, squares = 0;
+    for (const float mm : all_) sum += static_cast<double>(mm);
+    out.mean_mm = sum / static_cast<double>(all_.size());
+    for (const float mm : all_) squares += std::pow(static_cast<double>(mm) - out.mean_mm, 2);
+    out.sd_mm = std::sqrt(squares / static_cast<double>(all_.size()));
+    const auto p95 = all_.begin() + static_cast<ptrdiff_t>(0.95 * static_cast<double>(all_.size()));
+    std::ranges::nth_element(all_, p95);
+    out.p95_mm = static_cast<double>(*p95);
+    out.worst_mm = static_cast<double>(std::ranges::max(all_));
+    out.ratio = sum / skinning_;
+    out.ratio_50 = short_ / short_skinning_;
+    return out;
+  }
+
+ private:
+  std::vector<float> all_;
+  double skinning_ = 0, short_ = 0, short_skinning_ = 0;
+};
+
+Yardstick::Yardstick(const LoadedPack& character, std::span<const TrueSurface> surfaces)
+    : surfaces_(surfaces) {
+  const std::set<uint32_t> moved(character.view().region_vertices.begin(),
+                                 character.view().region_vertices.end());
+  vertices_.assign(moved.begin(), moved.end());
+  double whole = 0;
+  for (size_t m = 0; m < surfaces_.size(); ++m) {
+    skin(character, m);
+    for (const float mm : skinning_mm_[m]) whole += static_cast<double>(mm);
+  }
+  if (!(whole > 0)) throw BadInput("--truth: nothing moves in these motions; give others");
+}
+
+void Yardstick::skin(const LoadedPack& character, size_t m) {
+  const TrueSurface& surface = surfaces_[m];
+  ClosedLoop loop(character, surface.motion());
+  std::vector<Vector3f> bound(vertices_.size());  // the truth's displacement before skinning turns it
+  std::vector<float>&skinning = skinning_mm_.emplace_back(), &previous = previous_mm_.emplace_back();
+  for (size_t tick = 0; tick <= ticks_of(surface); ++tick) {
+    if (tick > 0) loop.tick(Tier::kSkinning);
+    const std::vector<float> skinned = positions_of(loop);
+    for (size_t i = 0; i < vertices_.size(); ++i) {
+      const Vector3f here = at(skinned.data(), vertices_[i]),
+                     truth = at(surface.positions(tick), vertices_[i]);
+      const Matrix3f turn = skin_of(loop, vertices_[i]);
+      skinning.push_back(kMillimetres * (truth - here).norm());
+      previous.push_back(kMillimetres * (truth - here - turn * bound[i]).norm());
+      bound[i] = turn.inverse() * (truth - here);
+    }
+  }
+}
+
+Error Yardstick::of_skinning() const {
+  Sums sums;
+  for (size_t m = 0; m < surfaces_.size(); ++m)
+    for (size_t k = vertices_.size(); k < skinning_mm_[m].size(); ++k)
+      sums.add(k / vertices_.size(), skinning_mm_[m][k], skinning_mm_[m][k]);
+  return sums.error();
+}
+
+Error Yardstick::of_previous_frame() const {
+  Sums sums;
+  for (size_t m = 0; m < surfaces_.size(); ++m)
+    for (size_t k = vertices_.size(); k < previous_mm_[m].size(); ++k)
+      sums.add(k / vertices_.size(), previous_mm_[m][k], skinning_mm_[m][k]);
+  return sums.error();
+}
+
+Error Yardstick::of(const LoadedPack& character, Tier tier, uint32_t every) const {
+  Sums sums;
+  for (size_t m = 0; m < surfaces_.size(); ++m) {
+    ClosedLoop loop(character, surfaces_[m].motion());
+    for (size_t tick = 1; tick <= ticks_of(surfaces_[m]); ++tick) {
+      loop.tick(tier, every);
+      const std::vector<float> places = positions_of(loop);
+      for (size_t i = 0; i < vertices_.size(); ++i)
+        sums.add(tick,
+                 distance_mm(&places[3 * vertices_[i]], surfaces_[m].positions(tick) + 3 * vertices_[i]),
+                 skinning_mm_[m][tick * vertices_.size() + i]);
+    }
+  }
+  return sums.error();
+}
+
+Error Yardstick::of_extrapolation(const LoadedPack& character) const {
+  Sums sums;
+  for (size_t m = 0; m < surfaces_.size(); ++m) {
+    ClosedLoop loop(character, surfaces_[m].motion());
+    ClosedLoop::Checkpoint left;
+    for (size_t tick = kCarriedTicks + 1; tick <= ticks_of(surfaces_[m]); ++tick) {
+      loop.tick();
+      loop.save(&left);
+      for (size_t k = 0; k < kCarriedTicks; ++k) loop.tick(Tier::kExtrapolate);
+      const std::vector<float> places = positions_of(loop);
+      for (size_t i = 0; i < vertices_.size(); ++i)
+        sums.add(tick,
+                 distance_mm(&places[3 * vertices_[i]], surfaces_[m].positions(tick) + 3 * vertices_[i]),
+                 skinning_mm_[m][tick * vertices_.size() + i]);
+      loop.restore(left);
+    }
+  }
+  return sums.error();
+}
+
+}  // namespace sinew::baker

@@ -1,0 +1,40 @@
+// error.hpp  How far a way to run a character is from the truth.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "baker/programs/closed_loop.hpp"
+#include "baker/trade/row.hpp"
+#include "baker/trade/true_surface.hpp"
+
+namespace sinew::baker {
+
+inline constexpr size_t kMostTicks = 600;
+// Extrapolate is told of so many ticks after the last simulated one: where its fade to skinning begins.
+inline constexpr size_t kCarriedTicks = 12;
+
+// What all ways are measured against. The surfaces must outlive it.
+class Yardstick {
+ public:
+  // Throws BadInput when nothing of the motions moves.
+  Yardstick(const LoadedPack& character, std::span<const TrueSurface> surfaces);
+
+  Error of_skinning() const;
+  // The true displacement of the tick before, turned with the skin.
+  Error of_previous_frame() const;
+  // In closed loop from the motions' start.
+  Error of(const LoadedPack& character, Tier tier, uint32_t every) const;
+  // kCarriedTicks after a character in its best tier was left alone, again and again.
+  Error of_extrapolation(const LoadedPack& character) const;
+
+ private:
+  class Sums;
+  void skin(const LoadedPack& character, size_t motion);
+
+  std::span<const TrueSurface> surfaces_;
+  std::vector<uint32_t> vertices_;               // that tissue moves
+  std::vector<std::vector<float>> skinning_mm_;  // [motion][tick][vertex]
+  std::vector<std::vector<float>> previous_mm_;  // likewise
+};
+
+}  // namespace sinew::baker

@@ -1,0 +1,124 @@
+// sinew-trade  Every tier of a character against ground truth: what it costs, how far it is off, which are
+// worth having; and the character with those baked. See `sinew-trade --help`.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+
+#include "baker/common/bad_input.hpp"
+#include "baker/common/write_file.hpp"
+#include "baker/trade/chart.hpp"
+#include "baker/trade/measure.hpp"
+#include "baker/trade/table.hpp"
+#include "baker/trade/truths.hpp"
+#include "baker/trade/write_tiers.hpp"
+
+namespace {
+
+using namespace sinew::baker;
+
+constexpr int kUnusableInput = 2;
+
+struct Options {
+  std::string character, folder;
+  std::vector<std::string> truth, clips;
+  Source source;
+};
+
+int refuse(std::string message) {
+  for (char& c : message)
+    if (c == '\n') c = ' ';
+  std::fprintf(stderr, "sinew-trade: %s\n", message.c_str());
+  return kUnusableInput;
+}
+
+void add_options(CLI::App& app, Options* o) {
+  app.add_option("character", o->character, "C.sinew")->required();
+  app.add_option("-o,--output", o->folder, "folder of the tables, pictures, the character, and what is kept")
+      ->required();
+  app.add_option("--truth", o->truth, "trajectories of sinew-bake truth --positions");
+  app.add_option(
+      "--source", o->source.glb,
+      "the glTF it was baked from: without --truth its clips are simulated; and it is baked otherwise "
+      "to compare; by default C.glb beside C.sinew");
+  app.add_option("--recipe", o->source.recipe, "as it was baked");
+  app.add_option("--tissue", o->source.weights, "weights to bake it with otherwise: its own, then others");
+  app.add_option("--clip", o->clips,
+                 "a clip to simulate, best one that its weights were not trained on; by default all");
+}
+
+LoadedPack load(const std::string& path) {
+  LoadedPack pack = LoadedPack::from_file(path);
+  if (pack.view().kind != sinew::pack::FileKind::kCharacter)
+    throw BadInput(path + ": is a model without a character; give what sinew-bake character made");
+  if (pack.view().regions.empty()) throw BadInput(path + ": has no soft part, and so no tiers to measure");
+  return pack;
+}
+
+void find_source(Options* o) {
+  const std::string beside = std::filesystem::path(o->character).replace_extension(".glb").string();
+  if (o->source.glb.empty() && o->truth.empty() && std::filesystem::exists(beside)) o->source.glb = beside;
+  if (o->source.glb.empty() && o->truth.empty())
+    throw BadInput(o->character + ": has no " + beside +
+                   " beside it to simulate; give --source IN.glb --recipe R.json, or --truth T.safetensors");
+}
+
+std::vector<TrueSurface> read_truth(const std::vector<std::string>& paths, const LoadedPack& character) {
+  std::vector<TrueSurface> out;
+  for (const std::string& path : paths) out.emplace_back(path, character.view());
+  return out;
+}
+
+std::string processor() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  return "this machine";
+}
+
+void run(Options options) {
+  const LoadedPack character = load(options.character);
+  find_source(&options);
+  std::vector<TrueSurface> surfaces = read_truth(options.truth, character);
+  make_folder(options.folder);
+  if (surfaces.empty())
+    surfaces =
+        read_truth(simulate_clips(options.source, options.clips, character.view(), options.folder + "/truth"),
+                   character);
+  const std::vector<Variant> variants = variants_of(options.source);
+  Measured measured{.character = std::filesystem::path(options.character).stem().string(),
+                    .processor = processor(),
+                    .motions = {},
+                    .vertices = character.view().region_vertices.size(),
+                    .rows = measure(character, surfaces, variants, options.folder + "/measured.json")};
+  for (const TrueSurface& surface : surfaces) measured.motions.push_back(surface.name());
+  write_file(options.folder + "/trade.csv", std::string_view(as_csv(measured)));
+  write_file(options.folder + "/trade.json", std::string_view(as_json(measured)));
+  write_chart(options.folder + "/trade", measured);
+  write_with_tiers(options.folder + "/" + measured.character + ".sinew", character,
+                   tier_records(measured.rows));
+  std::fputs(as_table(measured).c_str(), stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Measures every tier of a character: time a step against error to ground truth."};
+  Options options;
+  add_options(app, &options);
+  try {
+    app.parse(argc, argv);
+    run(options);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help
+    return refuse(std::string(error.what()) + "; see sinew-trade --help");
+  } catch (const BadInput& error) {
+    return refuse(error.what());
+  } catch (const std::bad_alloc&) {
+    return refuse("out of memory; the input is too large for this machine");
+  } catch (const std::exception& error) {
+    return refuse(std::string("internal error: ") + error.what());
+  }
+  return 0;
+}

@@ -1,0 +1,152 @@
+// measure.cpp  see measure.hpp.
+#include "baker/trade/measure.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+#include "baker/common/progress.hpp"
+#include "baker/common/read_file.hpp"
+#include "baker/common/write_file.hpp"
+#include "baker/trade/cost.hpp"
+#include "baker/trade/error.hpp"
+#include "baker/trade/front.hpp"
+#include "core/hash.hpp"
+
+namespace sinew::baker {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr uint32_t kRates[] = {1, 2, 4};
+
+struct Way {
+  std::string name, kind;
+  Tier tier;
+  uint32_t every;
+  std::function<void(Row*)> measure;
+};
+
+std::string name_of(Tier tier, uint32_t every) {
+  constexpr const char* kNames[] = {"skinning", "extrapolate", "network", "spring", "modal"};
+  const std::string name = kNames[static_cast<size_t>(tier)];
+  return every == 1 ? name : name + " every " + std::to_string(every);
+}
+
+// The rows that a file holds under this key.
+class Cache {
+ public:
+  Cache(std::string path, std::string key) : path_(std::move(path)), key_(std::move(key)) {
+    if (!std::filesystem::exists(path_)) return;
+    const nlohmann::json held = nlohmann::json::parse(read_text(path_), nullptr, false);
+    if (!held.is_object() || held.value("key", "") != key_) return;
+    for (const auto& row : held.at("rows")) rows_.push_back(row_from(row));
+  }
+  std::optional<Row> find(const std::string& name) const {
+    const auto found = std::ranges::find(rows_, name, &Row::name);
+    return found == rows_.end() ? std::nullopt : std::optional(*found);
+  }
+  void add(const Row& row) {
+    rows_.push_back(row);
+    Json out = {{"key", key_}, {"rows", Json::array()}};
+    for (const Row& held : rows_) out["rows"].push_back(to_json(held));
+    write_file(path_, out.dump());
+  }
+
+ private:
+  std::string path_, key_;
+  std::vector<Row> rows_;
+};
+
+std::string key_of(const LoadedPack& character, std::span<const TrueSurface> surfaces) {
+  uint64_t key = core::hash64(character.bytes());
+  for (const TrueSurface& surface : surfaces) key = key * 31 + surface.fingerprint();
+  return std::to_string(key);
+}
+
+class Ways {
+ public:
+  Ways(const Yardstick& yardstick, const TrueMotion& motion) : yardstick_(yardstick), motion_(motion) {}
+
+  void add_tier(const LoadedPack& character, Tier tier, uint32_t every) {
+    ways_.push_back({name_of(tier, every), "tier", tier, every, [=, this, &character](Row* row) {
+                       tell_cost(character, row);
+                       row->error = tier == Tier::kSkinning      ? yardstick_.of_skinning()
+                                    : tier == Tier::kExtrapolate ? yardstick_.of_extrapolation(character)
+                                                                 : yardstick_.of(character, tier, every);
+                     }});
+  }
+  void add_baseline() {
+    ways_.push_back({"previous frame's displacement", "baseline", Tier::kSkinning, 1,
+                     [this](Row* row) { row->error = yardstick_.of_previous_frame(); }});
+  }
+  void add_variant(const Variant& variant, Tier tier) {
+    ways_.push_back({name_of(tier, 1) + ", " + variant.name, "variant", tier, 1, [=, this](Row* row) {
+                       const LoadedPack baked = variant.bake();
+                       tell_cost(baked, row);
+                       row->error = yardstick_.of(baked, tier, 1);
+                     }});
+  }
+  const std::vector<Way>& all() const { return ways_; }
+
+ private:
+  void tell_cost(const LoadedPack& character, Row* row) const {
+    row->warm = warm_cost(character, motion_, row->tier, row->every);
+    row->cold = cold_cost(character, motion_, row->tier, row->every);
+  }
+
+  const Yardstick& yardstick_;
+  const TrueMotion& motion_;
+  std::vector<Way> ways_;
+};
+
+void add_tiers(const LoadedPack& character, Ways* to) {
+  to->add_tier(character, Tier::kSkinning, 1);
+  to->add_tier(character, Tier::kExtrapolate, 1);
+  for (const Tier tier : {Tier::kSpring, Tier::kModal, Tier::kNetwork}) {
+    if (tier == Tier::kNetwork && !pack::has_network(character.view())) continue;
+    for (const uint32_t every : kRates) to->add_tier(character, tier, every);
+  }
+}
+
+void add_variants(std::span<const Variant> variants, Ways* to) {
+  for (const Variant& variant : variants) {
+    to->add_variant(variant, Tier::kNetwork);
+    if (variant.name.ends_with("nodes a region")) to->add_variant(variant, Tier::kModal);
+  }
+}
+
+Row measured(const Way& way) {
+  Row row;
+  row.name = way.name;
+  row.kind = way.kind;
+  row.tier = way.tier;
+  row.every = way.every;
+  way.measure(&row);
+  return row;
+}
+
+}  // namespace
+
+std::vector<Row> measure(const LoadedPack& character, std::span<const TrueSurface> surfaces,
+                         std::span<const Variant> variants, const std::string& cache_path) {
+  const Yardstick yardstick(character, surfaces);
+  Ways ways(yardstick, surfaces.front().motion());
+  add_tiers(character, &ways);
+  ways.add_baseline();
+  add_variants(variants, &ways);
+  Cache cache(cache_path, key_of(character, surfaces));
+  Progress progress("measuring", ways.all().size());
+  std::vector<Row> rows;
+  for (const Way& way : ways.all()) {
+    std::optional<Row> row = cache.find(way.name);
+    if (!row) cache.add(*(row = measured(way)));
+    rows.push_back(*row);
+    progress.update(rows.size());
+  }
+  find_dominated(&rows);
+  return rows;
+}
+
+}  // namespace sinew::baker

@@ -1,0 +1,38 @@
+// row.hpp  A way to run a character, and what was measured of it.
+#pragma once
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "sinew/types.hpp"
+
+namespace sinew::baker {
+
+// Of one step of one instance, microseconds of the thread's own time: p50 and p99 of the steps that simulate
+// (of all, where none does), and the mean step in the long run, p50 each of those that do and those between.
+struct Cost {
+  double p50_us = 0, p99_us = 0, mean_us = 0;
+};
+
+// Over all vertices that tissue moves, ticks 1 .. 600 of all motions, millimetres. ratio: to what skinning
+// alone is off at the same ticks; ratio_50: of the first 50. Extrapolate: of the ticks told of it.
+struct Error {
+  double mean_mm = 0, sd_mm = 0, p95_mm = 0, worst_mm = 0, ratio = 0, ratio_50 = 0;
+};
+
+struct Row {
+  std::string name;
+  std::string kind;  // "tier": of the character itself; "variant": of one baked otherwise; "baseline": none
+  Tier tier = Tier::kSkinning;
+  uint32_t every = 1;
+  Cost warm, cold;
+  Error error;
+  std::string dominated_by;  // empty: on the front
+
+  bool costs() const { return kind != "baseline"; }
+};
+
+nlohmann::ordered_json to_json(const Row& row);
+Row row_from(const nlohmann::json& json);
+
+}  // namespace sinew::baker

@@ -1,0 +1,19 @@
+// source.hpp  What a character was baked from.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "baker/import/character.hpp"
+#include "baker/mesh/recipe.hpp"
+
+namespace sinew::baker {
+
+struct Source {
+  std::string glb, recipe;           // no glb: nothing is simulated or baked anew
+  std::vector<std::string> weights;  // the character's own first
+
+  Recipe read() const { return recipe.empty() ? Recipe{} : read_recipe(recipe); }
+  Character import(const Recipe& as) const;
+};
+
+}  // namespace sinew::baker

@@ -1,0 +1,77 @@
+// table.cpp  see table.hpp.
+#include "baker/trade/table.hpp"
+
+#include <cstdio>
+
+namespace sinew::baker {
+namespace {
+
+template <class... Values>
+std::string printed(const char* format, Values... values) {
+  char text[512];
+  std::snprintf(text, sizeof text, format, values...);
+  return text;
+}
+
+std::string costs_of(const Row& row) {
+  if (!row.costs()) return printed("%8s %8s %8s %9s %9s", "-", "-", "-", "-", "-");
+  return printed("%8.1f %8.1f %8.1f %9.1f %9.1f", row.warm.mean_us, row.warm.p50_us, row.warm.p99_us,
+                 row.cold.mean_us, row.cold.p99_us);
+}
+
+std::string verdict_of(const Row& row) {
+  if (row.kind == "baseline") return "baseline";
+  const std::string verdict = row.dominated_by.empty() ? "" : "dominated by " + row.dominated_by;
+  return row.kind == "variant" ? "variant; " + (verdict.empty() ? "on the front" : verdict) : verdict;
+}
+
+std::string quoted(const std::string& text) {
+  return text.find(',') == std::string::npos ? text : "\"" + text + "\"";
+}
+
+}  // namespace
+
+std::string as_table(const Measured& measured) {
+  std::string out = printed("%s on %s: a step of one instance, us; errors over %zu vertices\n",
+                            measured.character.c_str(), measured.processor.c_str(), measured.vertices);
+  for (const std::string& motion : measured.motions) out += "against " + motion + "\n";
+  out += printed("%-30s %8s %8s %8s %9s %9s  %8s %8s %8s %8s  %7s %7s\n", "", "mean", "p50", "p99",
+                 "cold mean", "cold p99", "error mm", "sd", "p95", "worst", "of skin.", "50 tk.");
+  for (const Row& row : measured.rows) {
+    const Error& e = row.error;
+    out += printed("%-30s %s  %8.3f %8.3f %8.3f %8.2f  %7.4f %7.4f  %s\n", row.name.c_str(),
+                   costs_of(row).c_str(), e.mean_mm, e.sd_mm, e.p95_mm, e.worst_mm, e.ratio, e.ratio_50,
+                   verdict_of(row).c_str());
+  }
+  return out;
+}
+
+std::string as_csv(const Measured& measured) {
+  std::string out = printed("# %s, %s, %zu vertices\n", measured.character.c_str(),
+                            measured.processor.c_str(), measured.vertices);
+  for (const std::string& motion : measured.motions) out += "# " + motion + "\n";
+  out +=
+      "name,kind,every,warm_mean_us,warm_p50_us,warm_p99_us,cold_mean_us,cold_p50_us,cold_p99_us,mean_mm,sd_"
+      "mm,"
+      "p95_mm,worst_mm,ratio,ratio_50,dominated_by\n";
+  for (const Row& row : measured.rows) {
+    const Error& e = row.error;
+    out += printed("%s,%s,%u,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%.4f,%.4f,%.4f,%.3f,%.5f,%.5f,%s\n",
+                   quoted(row.name).c_str(), row.kind.c_str(), row.every, row.warm.mean_us, row.warm.p50_us,
+                   row.warm.p99_us, row.cold.mean_us, row.cold.p50_us, row.cold.p99_us, e.mean_mm, e.sd_mm,
+                   e.p95_mm, e.worst_mm, e.ratio, e.ratio_50, quoted(row.dominated_by).c_str());
+  }
+  return out;
+}
+
+std::string as_json(const Measured& measured) {
+  nlohmann::ordered_json out = {{"character", measured.character},
+                                {"processor", measured.processor},
+                                {"motions", measured.motions},
+                                {"vertices", measured.vertices},
+                                {"rows", nlohmann::json::array()}};
+  for (const Row& row : measured.rows) out["rows"].push_back(to_json(row));
+  return out.dump(1) + "\n";
+}
+
+}  // namespace sinew::baker

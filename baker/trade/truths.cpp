@@ -1,0 +1,136 @@
+// truths.cpp  see truths.hpp.
+#include "baker/trade/truths.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <filesystem>
+#include <mutex>
+#include <thread>
+
+#include "baker/common/bad_input.hpp"
+#include "baker/common/progress.hpp"
+#include "baker/import/import_gltf.hpp"
+#include "baker/mesh/tissue_layout.hpp"
+#include "baker/programs/true_motion.hpp"
+#include "baker/trade/error.hpp"
+#include "baker/truth/trajectory.hpp"
+
+namespace sinew::baker {
+namespace {
+
+constexpr uint64_t kOtherSeed = 7001;  // no plan of the trainer reaches it
+constexpr int kSubsteps = 4;
+
+struct Work {
+  const Clip* clip;
+  uint64_t seed;
+  std::string path;
+};
+
+struct Body {
+  const Character& character;
+  const TissueLayout& layout;
+  const Recipe& recipe;
+  double rate_hz;
+};
+
+std::vector<const Clip*> chosen(const Character& character, const std::vector<std::string>& names,
+                                const std::string& glb) {
+  std::vector<const Clip*> out;
+  for (const Clip& clip : character.clips)
+    if (names.empty()) out.push_back(&clip);
+  for (const std::string& name : names) {
+    const auto found = std::ranges::find(character.clips, name, &Clip::name);
+    if (found == character.clips.end())
+      throw BadInput("--clip " + name + ": " + glb + " has no such clip; sinew-bake info shows those it has");
+    out.push_back(&*found);
+  }
+  if (out.empty()) throw BadInput(glb + ": has no clips; give trajectories by --truth");
+  return out;
+}
+
+std::vector<Work> work_of(const std::vector<const Clip*>& clips, const std::string& folder) {
+  std::vector<Work> out;
+  for (const uint64_t seed : {uint64_t{0}, kOtherSeed})
+    for (const Clip* clip : clips)
+      out.push_back({clip, seed,
+                     folder + "/" + std::to_string(clip - clips.front()) + "_" + std::to_string(seed) +
+                         ".safetensors"});
+  return out;
+}
+
+void simulate(const Body& body, const Work& work, std::atomic<size_t>& done) {
+  TissueTruth truth(body.character, body.layout, body.recipe);
+  TrajectoryRecorder recorder(body.character, body.layout,
+                              {.rate_hz = body.rate_hz, .surface = false, .positions = true},
+                              truth.modal_bases(body.layout, kMostModes));
+  recorder.add(truth.start(clip_motion(body.character, *work.clip, work.seed)));
+  for (size_t tick = 1; tick <= kMostTicks; ++tick) {
+    recorder.add(truth.advance(body.rate_hz, kSubsteps));
+    ++done;
+  }
+  const auto rate = static_cast<long>(std::lround(body.rate_hz));
+  write_safetensors(work.path, recorder.finish({{"motion", "clip:" + work.clip->name},
+                                                {"seed", std::to_string(work.seed)},
+                                                {"strength", "1"},
+                                                {"rate_hz", std::to_string(rate)}}));
+}
+
+// One trajectory a core at a time; the first fault is thrown when all have ended.
+void simulate_all(const Body& body, const std::vector<Work>& work) {
+  std::atomic<size_t> next{0}, done{0}, running{0};
+  std::exception_ptr fault;
+  std::mutex lock;
+  const auto run = [&] {
+    try {
+      for (size_t i = next++; i < work.size(); i = next++) simulate(body, work[i], done);
+    } catch (...) {
+      const std::lock_guard guard(lock);
+      if (!fault) fault = std::current_exception();
+    }
+    --running;
+  };
+  std::vector<std::thread> threads;
+  const size_t cores = std::max(1u, std::thread::hardware_concurrency());
+  running = std::min(work.size(), cores);
+  for (size_t t = 0, count = running; t < count; ++t) threads.emplace_back(run);
+  Progress progress("ground truth", work.size() * kMostTicks);
+  while (running > 0) {
+    progress.update(done);
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  for (std::thread& thread : threads) thread.join();
+  if (fault) std::rethrow_exception(fault);
+}
+
+}  // namespace
+
+Character Source::import(const Recipe& as) const {
+  ImportOptions import;
+  import.unit_m = as.unit_m;
+  import.up = as.up;
+  return import_gltf(glb, import);
+}
+
+std::vector<std::string> simulate_clips(const Source& source, const std::vector<std::string>& clips,
+                                        const pack::PackView& character, const std::string& folder) {
+  const Recipe recipe = source.read();
+  Character body = source.import(recipe);
+  const TissueLayout layout = layout_tissue(body, recipe);
+  if (layout.nodes.size() != character.nodes.size() ||
+      body.positions.size() != character.character->vertex_count)
+    throw BadInput(source.glb +
+                   ": with this recipe it is another character than the pack; give what it was baked from");
+  std::vector<Work> wanted = work_of(chosen(body, clips, source.glb), folder);
+  std::vector<std::string> paths;
+  for (const Work& work : wanted) paths.push_back(work.path);
+  std::erase_if(wanted, [](const Work& work) { return std::filesystem::exists(work.path); });
+  if (wanted.empty()) return paths;
+  std::filesystem::create_directories(folder);
+  simulate_all({body, layout, recipe, static_cast<double>(character.network->rate_hz)}, wanted);
+  return paths;
+}
+
+}  // namespace sinew::baker

@@ -1,0 +1,17 @@
+// truths.hpp  Ground truth of a character's own clips, simulated once and kept.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "baker/trade/source.hpp"
+#include "pack/reader.hpp"
+
+namespace sinew::baker {
+
+// Each clip as it is, then at another speed and from another start (motion.hpp); ten seconds at the
+// character's rate, all cores. Those that lie in the folder already are taken as they are. Throws BadInput:
+// no such clip, no clips, another character's source.
+std::vector<std::string> simulate_clips(const Source& source, const std::vector<std::string>& clips,
+                                        const pack::PackView& character, const std::string& folder);
+
+}  // namespace sinew::baker

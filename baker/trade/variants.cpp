@@ -1,0 +1,50 @@
+// variants.cpp  see variants.hpp.
+#include "baker/trade/variants.hpp"
+
+#include <filesystem>
+
+#include "baker/mesh/tissue_layout.hpp"
+#include "baker/pack/character_pack.hpp"
+#include "baker/programs/calibrate.hpp"
+#include "baker/truth/tissue_truth.hpp"
+
+namespace sinew::baker {
+namespace {
+
+constexpr int kLevels[] = {10, 20, 60};  // nodes a region
+
+LoadedPack bake(const Source& source, int nodes_per_region, const std::string& weights_path,
+                pack::Precision precision) {
+  Recipe recipe = source.read();
+  if (nodes_per_region > 0) recipe.nodes_per_region = nodes_per_region;
+  Character character = source.import(recipe);
+  const TissueLayout layout = layout_tissue(character, recipe);
+  const std::vector<ModalBasis> modes =
+      TissueTruth(character, layout, recipe).modal_bases(layout, kMostModes);
+  std::vector<HeardRanges> ranges;
+  const Safetensors weights = read_safetensors(weights_path);
+  if (precision == pack::Precision::kInt8)
+    ranges = widened(ranges_for(weights, precision, ""), kBeyondVectors);
+  return LoadedPack::from_bytes(pack_character(character, layout, modes, &weights, precision, ranges),
+                                source.glb);
+}
+
+}  // namespace
+
+std::vector<Variant> variants_of(const Source& source) {
+  std::vector<Variant> out;
+  if (source.glb.empty() || source.weights.empty()) return out;
+  const std::string own = source.weights.front();
+  for (const int nodes : kLevels)
+    out.push_back({std::to_string(nodes) + " nodes a region",
+                   [&source, nodes, own] { return bake(source, nodes, own, pack::Precision::kFloat32); }});
+  for (const auto precision : {pack::Precision::kHalfStates, pack::Precision::kInt8})
+    out.push_back({pack::kPrecisionNames[static_cast<uint32_t>(precision)],
+                   [&source, precision, own] { return bake(source, 0, own, precision); }});
+  for (size_t w = 1; w < source.weights.size(); ++w)
+    out.push_back({std::filesystem::path(source.weights[w]).stem().string(),
+                   [&source, w] { return bake(source, 0, source.weights[w], pack::Precision::kFloat32); }});
+  return out;
+}
+
+}  // namespace sinew::baker

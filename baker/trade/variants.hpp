@@ -1,0 +1,20 @@
+// variants.hpp  The character baked otherwise: control graphs of other sizes, precisions, other networks.
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "baker/programs/loaded_pack.hpp"
+#include "baker/trade/source.hpp"
+
+namespace sinew::baker {
+
+struct Variant {
+  std::string name;
+  std::function<LoadedPack()> bake;  // throws BadInput as sinew-bake character does
+};
+
+// None without a glb; of networks none without weights. The source must outlive them.
+std::vector<Variant> variants_of(const Source& source);
+
+}  // namespace sinew::baker
