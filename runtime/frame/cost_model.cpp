@@ -8,25 +8,43 @@
 namespace sinew::frame {
 
 void CostEstimate::observe(float sample_us) noexcept {
-  constexpr float kWeight = 0.125f, kFarthest = 2, kSmallest_us = 1e-3f;
+  constexpr float kFarthest = 2, kSmallest_us = 1e-3f, kStep = 0.02f, kAbove = 0.95f;
   if (!std::isfinite(sample_us) || sample_us < 0) return;
-  observed_ = true;
-  const float held = std::clamp(sample_us, estimate_us_ / kFarthest, estimate_us_ * kFarthest);
   // From an estimate of zero (nothing baked) a ratio cannot be formed.
-  estimate_us_ = estimate_us_ < kSmallest_us ? sample_us : estimate_us_ + kWeight * (held - estimate_us_);
+  if (estimate_us_ < kSmallest_us) estimate_us_ = sample_us;
+  sum_us_ += std::clamp(sample_us, estimate_us_ / kFarthest, estimate_us_ * kFarthest);
+  tail_ *= 1 + kStep * (sample_us > p95_us() ? kAbove : kAbove - 1);
+  tail_ = std::clamp(tail_, 1.0f, kWidest);
+  ++samples_;
+  measured_ = true;
 }
 
-void CostEstimate::relax() noexcept {
-  constexpr float kShare = 0.01f;
-  if (!std::exchange(observed_, false)) estimate_us_ += kShare * (baked_us_ - estimate_us_);
+void CostEstimate::settle() noexcept {
+  constexpr float kWeight = 0.125f, kDrift = 0.01f;
+  if (samples_ > 0)
+    estimate_us_ += kWeight * (sum_us_ / static_cast<float>(samples_) - estimate_us_);
+  else if (baked_us_ > 0)
+    estimate_us_ += kDrift * (baked_us_ - estimate_us_);
+  sum_us_ = 0;
+  samples_ = 0;
 }
 
-void Capacity::observe(float total_us, float budget_us, bool denied) noexcept {
-  constexpr float kEarly = 0.85f, kRaise = 0.02f, kLower = 0.95f, kLeast = 0.25f, kMost = 64;
-  if (total_us > budget_us)
-    scale_ *= kLower;
-  else if (denied && total_us < kEarly * budget_us)
-    scale_ += kRaise;
+void CostModel::settle() noexcept {
+  for (CostEstimate& estimate : tick) estimate.settle();
+  publish.settle();
+}
+
+void Capacity::observe(float spent, float undone, bool denied) noexcept {
+  constexpr float kFull = 0.985f, kNearlyFull = 0.9f, kEmptiest = 0.5f;
+  constexpr float kGain = 0.1f, kFineGain = 0.01f, kLate = 0.98f, kCatchUp = 0.5f;
+  constexpr float kLeast = 0.05f, kMost = 64;
+  undone_[std::exchange(next_, (next_ + 1) % 3)] = undone;
+  const float middle =
+      std::max(std::min(undone_[0], undone_[1]), std::min(std::max(undone_[0], undone_[1]), undone_[2]));
+  if (undone > 0 || spent > 1)
+    scale_ *= kLate * (1 - kCatchUp * std::min(middle, undone));
+  else if (denied && spent < kFull)
+    scale_ *= 1 + (spent < kNearlyFull ? kGain : kFineGain) * (kFull / std::max(spent, kEmptiest) - 1);
   scale_ = std::clamp(scale_, kLeast, kMost);
 }
 

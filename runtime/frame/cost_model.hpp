@@ -2,43 +2,58 @@
 #pragma once
 #include <cstdint>
 
+#include "frame/front.hpp"
 #include "sinew/types.hpp"
 
 namespace sinew::frame {
 
-// A running estimate that one preempted measurement cannot move far: a sample counts as at most twice and at
-// least half of the estimate, with weight 1/8.
+// A running estimate that a preempted measurement cannot move far: a sample counts as at most twice and at
+// least half of the estimate; the mean of a step's samples has weight 1/8. Beside it what 95 of 100 samples
+// do not exceed, by their ranks alone, at most kWidest times the estimate.
 class CostEstimate {
  public:
+  static constexpr float kWidest = 3;
+
   CostEstimate() noexcept = default;
   explicit CostEstimate(float baked_us) noexcept : baked_us_(baked_us), estimate_us_(baked_us) {}
   float baked_us() const noexcept { return baked_us_; }
   float estimate_us() const noexcept { return estimate_us_; }
+  float p95_us() const noexcept { return estimate_us_ * tail_; }
+  bool is_known() const noexcept { return measured_ || baked_us_ > 0; }
   void observe(float sample_us) noexcept;  // not finite or negative: ignored
-  // Once a step. Without an observation since the last call: drifts back to the baked number, so that an
-  // estimate that is too high to be scheduled is tried again.
-  void relax() noexcept;
+  // Once a step. Without a sample since the last call: drifts back to the baked number, so that an estimate
+  // that is too high to be scheduled is tried again.
+  void settle() noexcept;
 
  private:
-  float baked_us_ = 0, estimate_us_ = 0;
-  bool observed_ = false;
+  float baked_us_ = 0, estimate_us_ = 0, tail_ = 2;
+  float sum_us_ = 0;
+  uint32_t samples_ = 0;
+  bool measured_ = false;
 };
 
 struct CostModel {                // of one asset
-  CostEstimate tick[kTierCount];  // by Tier; of the simulated ones: poses, drive, tissue, guard
-  CostEstimate base;  // what each instance takes in a step whatever its tier: pose, extrapolation, publishing
+  CostEstimate tick[kTierCount];  // by Tier; of the simulated ones: poses, drive, tissue, rods, guard
+  CostEstimate publish;           // a step, of what is displaced: pose, extrapolation, publishing
+  void settle() noexcept;
 };
 
-// The share of the budget that may be handed out in time mode. On one thread the estimates add up to the
-// step's time (scale 1); on several they overlap. How far is not asked but found: a step that ended early
-// although instances were denied raises the scale a little, a step over budget lowers it more.
+// The share of the budget that may be handed out in time mode: on one thread the estimates add up to the
+// step's time (scale 1, and a little below it), on several they overlap. How far is not asked but found. A
+// frame that ended early although a budget denied one raises the scale; one whose deadline came before all
+// was done lowers it: a little for each, for fewer shall be late than one in twenty, and by what was left
+// undone in the middle one of the last three frames, so that a lost worker is noticed at once and a single
+// preemption is not taken for one.
 class Capacity {
  public:
   float scale() const noexcept { return scale_; }
-  void observe(float total_us, float budget_us, bool denied) noexcept;
+  // spent: of what the tasks had, 1 in time. undone: of what was planned, 0 in time.
+  void observe(float spent, float undone, bool denied) noexcept;
 
  private:
-  float scale_ = 1;
+  float scale_ = 0.95f;
+  float undone_[3] = {};
+  uint32_t next_ = 0;
 };
 
 }  // namespace sinew::frame

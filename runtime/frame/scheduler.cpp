@@ -2,75 +2,183 @@
 #include "frame/scheduler.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace sinew::frame {
 namespace {
 
-enum class Rank { kHolding, kOverdue, kWaiting };
+float staleness(const Candidate& c) noexcept { return 1 + c.waited_s / kStaleness_s; }
 
-float cost_of(const Candidate& c, Tier tier) noexcept { return c.cost_us[static_cast<size_t>(tier)]; }
-
-Rank rank_of(const Candidate& c) noexcept {
-  if (c.on_best && c.held_s < kHold_s) return Rank::kHolding;
-  const bool overdue =
-      !c.on_best && c.eligible && c.has_best && c.importance > 0 && c.waited_s > kLongestWait_s;
-  return overdue ? Rank::kOverdue : Rank::kWaiting;
+// What has no weight comes behind all that has.
+float weight_of(const Candidate& c) noexcept {
+  constexpr float kLeast = 1e-30f;
+  return std::max(kLeast, c.weight * staleness(c));
 }
 
-double priority(const Candidate& c) noexcept {
-  constexpr double kSmallestCost_us = 1e-3;
-  const double staleness = c.on_best ? kHysteresis : 1 + c.waited_s / kStaleness_s;
-  return c.importance * staleness / std::max<double>(cost_of(c, c.best), kSmallestCost_us);
+float bonus(const Candidate& c, uint32_t level) noexcept {
+  if (level > c.has) return 1;
+  return c.held_s < kHold_s ? kHoldBonus : kHysteresis;
 }
 
-// A total order, so that the answer does not depend on the sorting algorithm.
-bool runs_before(const Candidate& a, const Candidate& b) noexcept {
-  const Rank rank_a = rank_of(a), rank_b = rank_of(b);
-  if (rank_a != rank_b) return rank_a < rank_b;
-  if (rank_a == Rank::kOverdue && a.waited_s != b.waited_s) return a.waited_s > b.waited_s;
-  const double priority_a = priority(a), priority_b = priority(b);
-  if (priority_a != priority_b) return priority_a > priority_b;
-  if (a.waited_s != b.waited_s) return a.waited_s > b.waited_s;
-  return a.slot < b.slot;
+// Of a level above the one it has been given: its steps one by one, each as good as the one before at most,
+// while they cost no more than `most`. Work(level, key, cost) says whether to go on.
+template <class Work>
+void for_each_step_up(const Candidate& c, double most, Work work) noexcept {
+  const float weight = weight_of(c), ticks = c.ticks * c.cost_factor;
+  float key = std::numeric_limits<float>::max(), cost_below = c.cost_us(c.level);
+  for (uint32_t level = c.level + 1; level <= c.top; ++level) {
+    const float whole = c.front->step_us(level, ticks), cost = std::max(0.0f, whole - cost_below);
+    if (static_cast<double>(cost) > most) return;
+    key = std::min(key, weight * bonus(c, level) * c.front->worth[level] / std::max(ticks, 1e-3f));
+    if (!work(level, key, cost)) return;
+    cost_below = whole;
+  }
 }
 
-double tick_budget(std::span<const Candidate> candidates, float budget_us) noexcept {
-  double left = budget_us;
-  for (const Candidate& c : candidates) left -= c.base_us;
-  return left;
+bool chooses(const Candidate& c) noexcept { return !c.keeps_level && c.top > 0; }
+
+// ---- turns ----
+
+bool is_overdue(const Candidate& c) noexcept {
+  if (!chooses(c) || !(c.weight > 0)) return false;
+  return c.has > 0 ? c.turn_left_s > 0 : c.waited_s > kLongestWait_s;
 }
 
-bool chooses(const Candidate& c, float budget_us) noexcept {
-  return c.eligible && budget_us > 0 && !c.keeps_tier;
+struct ShorterWait {
+  std::span<const Candidate> all;
+  bool operator()(uint32_t a, uint32_t b) const noexcept {
+    const Candidate &x = all[a], &y = all[b];
+    if ((x.has > 0) != (y.has > 0)) return y.has > 0;  // a turn that has begun is not broken off
+    return x.waited_s != y.waited_s ? x.waited_s < y.waited_s : x.slot > y.slot;
+  }
+};
+
+uint32_t find_overdue(std::span<const Candidate> candidates, std::span<uint32_t> overdue) noexcept {
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < candidates.size(); ++i)
+    if (is_overdue(candidates[i])) overdue[count++] = i;
+  return count;
 }
 
-// Takes the tier if what is left pays for it.
-bool take(Candidate& c, Tier tier, double& left) noexcept {
-  if (!(cost_of(c, tier) <= left)) return false;
-  left -= cost_of(c, tier);
-  c.tier = tier;
-  return true;
+void hand_out_turns(std::span<Candidate> candidates, std::span<uint32_t> memory, double& left) noexcept {
+  const std::span<uint32_t> overdue = memory.first(find_overdue(candidates, memory));
+  const ShorterWait shorter{candidates};
+  std::make_heap(overdue.begin(), overdue.end(), shorter);
+  double turns_left = left * static_cast<double>(kTurnShare);
+  bool first = true;
+  for (auto end = overdue.end(); end != overdue.begin(); --end) {
+    std::pop_heap(overdue.begin(), end, shorter);
+    Candidate& c = candidates[*(end - 1)];
+    const double cost = static_cast<double>(c.cost_us(1) - c.cost_us(0));
+    if (cost > left) continue;  // dearer than all there is: nobody waits for it
+    if (cost > turns_left && !first) return;
+    first = false;
+    turns_left -= cost;
+    left -= cost;
+    if (c.has == 0) c.turn_left_s = kHold_s;
+    c.level = 1;
+    c.reason = Reason::kTurn;
+  }
 }
 
-// True when one was denied.
-bool hand_out_seats(std::span<Candidate> candidates, float budget_us, double& left) noexcept {
-  const double whole = left;
-  bool closed = false, denied = false;  // closed: an overdue one does not fit yet
+// ---- buying ----
+
+struct Dearer {
+  std::span<const Candidate> all;
+  bool operator()(const Purchase& a, const Purchase& b) const noexcept {
+    if (a.key != b.key) return a.key < b.key;
+    const uint32_t x = all[a.candidate].slot, y = all[b.candidate].slot;
+    return x != y ? x > y : a.level > b.level;
+  }
+};
+
+void sum_up(std::span<const Candidate> candidates, double left, WeightBuckets& buckets) noexcept {
+  buckets.clear();
+  for (const Candidate& c : candidates) {
+    if (!chooses(c)) continue;
+    for_each_step_up(c, left, [&](uint32_t, float key, float cost) {
+      buckets.add(WeightBuckets::drawer_of(key), cost);
+      return true;
+    });
+  }
+}
+
+// Takes what lies in the drawers from `lowest` on; gathers what lies in the one below.
+uint32_t take_above(std::span<Candidate> candidates, double left, uint32_t lowest,
+                    std::span<Purchase> purchases) noexcept {
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < candidates.size(); ++i) {
+    Candidate& c = candidates[i];
+    if (!chooses(c)) continue;
+    uint32_t reached = c.level;
+    for_each_step_up(c, left, [&](uint32_t level, float key, float) {
+      const uint32_t drawer = WeightBuckets::drawer_of(key);
+      if (drawer >= lowest) return reached = level, true;
+      if (drawer + 1 == lowest && count < purchases.size()) purchases[count++] = {key, i, level};
+      return drawer + 1 == lowest;
+    });
+    c.level = reached;
+  }
+  return count;
+}
+
+// The drawer that not all of fits: by its keys.
+void take_best(std::span<Candidate> candidates, std::span<Purchase> purchases, double& left) noexcept {
+  const Dearer dearer{candidates};
+  std::make_heap(purchases.begin(), purchases.end(), dearer);
+  for (auto end = purchases.end(); end != purchases.begin(); --end) {
+    std::pop_heap(purchases.begin(), end, dearer);
+    const Purchase& best = *(end - 1);
+    Candidate& c = candidates[best.candidate];
+    const double cost = static_cast<double>(c.cost_us(best.level) - c.cost_us(c.level));
+    if (c.level + 1 != best.level || cost > left) continue;
+    left -= cost;
+    c.level = best.level;
+  }
+}
+
+// True when something was bought.
+bool buy(std::span<Candidate> candidates, ScheduleScratch& scratch, double& left) noexcept {
+  const double before = left;
+  sum_up(candidates, left, scratch.buckets);
+  double rest = left;
+  const uint32_t lowest = scratch.buckets.lowest_within(left, &rest);
+  const uint32_t gathered = take_above(candidates, left, lowest, scratch.purchases);
+  left = rest;
+  take_best(candidates, scratch.purchases.first(gathered), left);
+  return left < before;
+}
+
+// ---- the whole ----
+
+double reset_levels(std::span<Candidate> candidates) noexcept {
+  double base_us = 0;
   for (Candidate& c : candidates) {
-    if (!chooses(c, budget_us) || !c.has_best) continue;
-    if (!closed && take(c, c.best, left)) continue;
-    denied = true;
-    closed = closed || (rank_of(c) == Rank::kOverdue && cost_of(c, c.best) <= whole);
+    c.level = c.keeps_level ? c.has : 0;
+    c.reason = Reason::kBudget;
+    base_us += static_cast<double>(c.base_us);
   }
-  return denied;
+  return base_us;
 }
 
-void hand_out_rest(Candidate& c, double& left) noexcept {
-  for (const Tier tier : {Tier::kModal, Tier::kSpring}) {
-    if (tier != c.best && take(c, tier, left)) return;
+void tell_reason(Candidate& c) noexcept {
+  if (c.level == c.top || c.keeps_level)
+    c.reason = Reason::kBest;
+  else if (c.level > 0 && c.level == c.has && c.held_s < kHold_s && c.reason != Reason::kTurn)
+    c.reason = Reason::kHeld;
+  if (c.level == 0) c.turn_left_s = 0;
+}
+
+ScheduleResult close(std::span<Candidate> candidates) noexcept {
+  ScheduleResult result;
+  double planned_us = 0;
+  for (Candidate& c : candidates) {
+    tell_reason(c);
+    result.denied |= c.level < c.top && !c.keeps_level;
+    planned_us += static_cast<double>(c.keeps_level ? c.base_us : c.cost_us(c.level));
   }
+  result.planned_us = static_cast<float>(planned_us);
+  return result;
 }
 
 }  // namespace
@@ -79,18 +187,21 @@ float sane_importance(float importance) noexcept {
   return importance > 0 ? std::min(importance, std::numeric_limits<float>::max()) : 0;
 }
 
-bool schedule(std::span<Candidate> candidates, float budget_us) noexcept {
-  std::sort(candidates.begin(), candidates.end(), runs_before);
-  for (Candidate& c : candidates) {
-    if (c.keeps_tier && budget_us > 0) continue;
-    c.tier = chooses(c, budget_us) ? Tier::kExtrapolate : Tier::kSkinning;
+ScheduleResult schedule(std::span<Candidate> candidates, float budget_us, ScheduleScratch& scratch) noexcept {
+  constexpr float kNoLimit_us = 1e30f;
+  constexpr int kMostRounds = 4;
+  double left = static_cast<double>(budget_us) - reset_levels(candidates);
+  if (budget_us >= kNoLimit_us) {
+    for (Candidate& c : candidates)
+      if (chooses(c)) c.level = c.top;
+    return close(candidates);
   }
-  double left = tick_budget(candidates, budget_us);
-  const bool denied = hand_out_seats(candidates, budget_us, left);
-  for (Candidate& c : candidates) {
-    if (chooses(c, budget_us) && c.tier == Tier::kExtrapolate) hand_out_rest(c, left);
+  if (left > 0) {
+    hand_out_turns(candidates, scratch.overdue, left);
+    for (int round = 0; round < kMostRounds && buy(candidates, scratch, left); ++round) {
+    }
   }
-  return denied;
+  return close(candidates);
 }
 
 }  // namespace sinew::frame

@@ -1,53 +1,82 @@
 // scheduler.hpp  Which tier each instance gets in this step.
 //
 // Everything is decided before any work starts, from the numbers below alone: same candidates, same answer.
-// First the best tiers are handed out, an asset's network, or its modes where it has none ("a seat"):
-//   1. An instance that got a seat keeps it for kHold_s, so that seats do not flicker.
-//   2. One that waited longer than kLongestWait_s is overdue and comes next, the longest wait first. While an
-//   overdue one does
-//      not fit, nobody behind it is let in.
-//   3. The others by importance x (1 + wait / kStaleness_s) / cost; those on a seat with a bonus
-//   (hysteresis).
-// Then, in the same order, those without a seat get the best that what is left pays for: modes, springs, else
-// extrapolation.
-// Longest wait: with n instances of importance > 0, and a budget for at least k of the costliest beside what
-// all of them cost anyway, none waits longer than kLongestWait_s + ceil(n / k) (kHold_s + dt). Importance 0
-// gets what is left over.
+// Bought is the most of weight x error saved that the budget pays for, on the assets' fronts
+// (frame/front.hpp):
+//   1. Every instance's unavoidable cost comes off the budget.
+//   2. Turns: one that is not simulated for longer than kLongestWait_s is overdue and gets the cheapest
+//   simulated
+//      level, the longest wait first; it keeps it for kHold_s. Turns take a kTurnShare of the budget at most,
+//      or that of one where more than the whole budget pays for one: they cannot crowd out what matters.
+//   3. Levels are bought one by one, most error saved a microsecond first, each counted by its instance's
+//   weight x
+//      (1 + wait / kStaleness_s). What an instance has already counts kHysteresis times as much, kHoldBonus
+//      times in the first kHold_s, so that tiers do not flicker. What does not fit is passed over, and the
+//      rest of the budget goes to what fits behind it.
+// Longest wait: with n instances of weight > 0, and turns that pay for k of the costliest, none goes
+// unsimulated longer than kLongestWait_s + ceil(n / k) (kHold_s + dt). Weight 0 has no turn and gets what is
+// left over. Cost: O(candidates x levels), some 20 ns a candidate; no memory is taken.
 #pragma once
 #include <cstdint>
 #include <span>
 
-#include "sinew/types.hpp"
+#include "frame/front.hpp"
+#include "frame/weight_buckets.hpp"
 
 namespace sinew::frame {
 
 inline constexpr float kHold_s = 0.5f;
 inline constexpr float kLongestWait_s = 2;
-inline constexpr float kStaleness_s = 0.5f;
-inline constexpr float kHysteresis = 1.25f;
+inline constexpr float kStaleness_s = 2;
+inline constexpr float kHysteresis = 1.25f, kHoldBonus = 4;
+inline constexpr float kTurnShare = 0.1f;
+
+// Why an instance has the level it has.
+enum class Reason : uint32_t { kBest, kBudget, kHeld, kTurn };
 
 struct Candidate {
-  uint32_t slot = 0;               // ties go to the smaller
-  float importance = 0;            // >= 0
-  float waited_s = 0;              // since it last had its seat
-  float held_s = 0;                // since it got it
-  float cost_us[kTierCount] = {};  // by Tier, of a simulated tier in this step
-  float base_us = 0;               // what it takes whatever its tier
-  Tier best = Tier::kNetwork;      // the seat
-  bool on_best = false;
-  bool has_best = true;         // false: the seat is not to be had for now, the tiers below are
-  bool eligible = true;         // false: fading out after a restart, skinning for now
-  bool keeps_tier = false;      // no tick in this step: tier is as before, unless the budget is 0
-  Tier tier = Tier::kSkinning;  // the answer
+  uint32_t slot = 0;             // ties go to the smaller
+  const Front* front = nullptr;  // of its asset
+  float weight = 0;              // >= 0, finite: what a share of skinning's error matters
+  float waited_s = 0;            // since it was last simulated
+  float held_s = 0;              // since its level last rose
+  float ticks = 0;               // in this step
+  float cost_factor = 1;         // what its ticks take as a multiple of its asset's
+  float base_us = 0;             // what it takes in this step if it is not simulated
+  uint32_t has = 0;              // its level in the last step
+  uint32_t top = 0;              // the highest it may have now
+  float turn_left_s = 0;         // > 0: what it has came by a turn, and stays so long
+  bool keeps_level = false;      // no tick in this step: all is as it was
+  uint32_t level = 0;            // the answer, of its front
+  Reason reason = Reason::kBudget;
+
+  // What a level takes in this step, whole.
+  float cost_us(uint32_t of_level) const noexcept {
+    return of_level == 0 ? base_us : front->step_us(of_level, ticks * cost_factor);
+  }
 };
 
 float sane_importance(float importance) noexcept;  // NaN, negative: 0; infinity: the largest finite
 
-// Springs, modes and networks: what is simulated tick by tick.
-constexpr bool is_simulated(Tier tier) noexcept { return tier >= Tier::kNetwork; }
+// One level of one candidate, bought from the level below.
+struct Purchase {
+  float key;  // weight x error saved a microsecond
+  uint32_t candidate, level;
+};
 
-// Fills in tier and sorts candidates into the order in which they should run. Returns true when a budget
-// denied its seat to one. budget_us >= 0; infinity: the best for all that are eligible; 0: skinning for all.
-bool schedule(std::span<Candidate> candidates, float budget_us) noexcept;
+// Memory of one schedule() after another, taken once.
+struct ScheduleScratch {
+  WeightBuckets buckets;
+  std::span<uint32_t> overdue;    // room for all candidates
+  std::span<Purchase> purchases;  // likewise
+};
+
+struct ScheduleResult {
+  float planned_us = 0;  // what all of it takes
+  bool denied = false;   // a budget kept one below its top
+};
+
+// Fills in level, reason and turn_left_s. budget_us: infinity: the top for all; 0 or less: level 0 for all.
+ScheduleResult schedule(std::span<Candidate> candidates, float budget_us, ScheduleScratch& scratch) noexcept;
 
 }  // namespace sinew::frame

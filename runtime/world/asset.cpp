@@ -2,8 +2,8 @@
 #include "world/asset.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
-#include <limits>
 #include <utility>
 
 #include "core/status.hpp"
@@ -15,19 +15,33 @@ namespace {
 
 using core::make_status;
 
-// Springs that are not worth having are not in the pack: nothing pays for them.
-frame::CostModel baked_costs(const pack::PackView& pack) noexcept {
-  frame::CostModel cost;
-  for (frame::CostEstimate& tick : cost.tick)
-    tick = frame::CostEstimate(std::numeric_limits<float>::infinity());
+// Errors of a network that was not judged are not known in millimetres: a usual share of the height then.
+// Update rates that this runtime knows.
+constexpr uint32_t kMostEvery = 1;
+constexpr float kUsualSkinningError = 5e-3f;
+
+void read_point(const pack::TierRecord& record, Asset& asset) noexcept {
+  const auto tier = static_cast<Tier>(record.tier);
+  if (!frame::is_simulated(tier) || record.every > kMostEvery || asset.point_count == frame::kMostLevels)
+    return;
+  const float error =
+      std::isnan(record.error_ratio) ? frame::usual_error(tier, record.every) : record.error_ratio;
+  asset.points[asset.point_count++] = {tier, record.every, record.cost_us, error};
+  if (record.every == 1) asset.cost.tick[record.tier] = frame::CostEstimate(record.cost_us);
+}
+
+void read_tiers(const pack::PackView& pack, Asset& asset) noexcept {
+  asset.point_count = 0;
+  asset.skinning_mm = kUsualSkinningError * 1e3f * pack.character->height_m;
   for (const pack::TierRecord& record : pack.tiers) {
-    if (record.every > 1) continue;
-    if (record.tier == static_cast<uint32_t>(Tier::kSkinning))
-      cost.base = frame::CostEstimate(record.cost_us);
-    else
-      cost.tick[record.tier] = frame::CostEstimate(record.cost_us);
+    read_point(record, asset);
+    if (record.tier == static_cast<uint32_t>(Tier::kExtrapolate))
+      asset.cost.publish = frame::CostEstimate(record.cost_us);
+    if (record.tier != static_cast<uint32_t>(Tier::kSkinning)) continue;
+    asset.idle_us = record.cost_us;
+    if (record.error_mm > 0) asset.skinning_mm = record.error_mm;
   }
-  return cost;
+  frame::make_front({asset.points, asset.point_count}, asset.idle_us, &asset.front);
 }
 
 // The section table holds every section's checksum, so its own checksum stands for the whole file.
@@ -71,9 +85,15 @@ Status open_asset(std::span<const std::byte> bytes, Asset* out) noexcept {
   for (const pack::RegionModesRecord& modes : view.region_modes)
     asset.widest_region = std::max(asset.widest_region,
                                    modes.padded + static_cast<uint32_t>(pack::round_up_16(modes.mode_count)));
-  asset.cost = baked_costs(view);
+  read_tiers(view, asset);
   asset.reach_m = reach_of(asset);
   return {};
+}
+
+float error_of(const Asset& asset, Tier tier, uint32_t every) noexcept {
+  for (uint32_t i = 0; i < asset.point_count; ++i)
+    if (asset.points[i].tier == tier && asset.points[i].every == every) return asset.points[i].error;
+  return 1;
 }
 
 AssetInfo describe(const Asset& asset) noexcept {

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "frame/cost_model.hpp"
+#include "frame/front.hpp"
 #include "pack/mapped_file.hpp"
 #include "pack/reader.hpp"
 #include "sinew/types.hpp"
@@ -27,12 +28,20 @@ struct Asset {
   float reach_m = 0;             // world/pose_bound.hpp
   uint32_t live_instances = 0;
   frame::CostModel cost;
+  frame::Level points[frame::kMostLevels];  // as baked
+  uint32_t point_count = 0;
+  frame::Front front;     // of the points, at what they cost now (world/plan.hpp)
+  float skinning_mm = 1;  // skinning's error
+  float idle_us = 0;      // baked: a step, of what is neither simulated nor displaced
 
   uint32_t node_count() const noexcept { return pack.character->node_count; }
   uint32_t mode_count() const noexcept { return static_cast<uint32_t>(pack.modes.size()); }
   Tier best() const noexcept { return pack::has_network(pack) ? Tier::kNetwork : Tier::kModal; }
   uint32_t vertex_count() const noexcept { return pack.character->vertex_count; }
 };
+
+// A tier's baked error, a share of skinning's; 1 of what is not simulated.
+float error_of(const Asset& asset, Tier tier, uint32_t every) noexcept;
 
 // On refusal *out is untouched.
 Status open_asset(std::span<const std::byte> bytes, Asset* out) noexcept;

@@ -69,6 +69,17 @@ void hold_at_limit(float* u, float* velocity, float limit_m) noexcept {
   }
 }
 
+// So that a tail that has run out costs nothing to publish.
+void stop_what_creeps(Instance& instance) noexcept {
+  constexpr float kCreep = 1e-4f;  // of the region's radius, a tick
+  for (const pack::RegionRecord& region : instance.asset->pack.regions) {
+    const float slow_m = kCreep * region.radius_m;
+    float* velocity = instance.tail_velocity + size_t{3} * region.first_node;
+    for (float* end = velocity + size_t{3} * region.node_count; velocity != end; ++velocity)
+      if (std::abs(*velocity) < slow_m) *velocity = 0;
+  }
+}
+
 void advance_tail(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   constexpr uint32_t kOver = kCarryTicks + kFadeTicks;
@@ -78,6 +89,7 @@ void advance_tail(Instance& instance) noexcept {
     instance.tail[i] += instance.tail_velocity[i];
     instance.tail_velocity[i] *= kCarryDamping;
   }
+  stop_what_creeps(instance);
   for (const pack::RegionRecord& region : instance.asset->pack.regions) {
     for (uint32_t n = region.first_node; n < region.first_node + region.node_count; ++n) {
       hold_at_limit(instance.tail + size_t{3} * n, instance.tail_velocity + size_t{3} * n,

@@ -37,7 +37,7 @@ void pass_by(Instance& instance, double dt_s, uint32_t max_ticks) noexcept {
   state.waited_s = state.held_s = 0;
   instance.times = {};
   instance.told = {};
-  instance.cut = instance.restarted = instance.fell_back = false;
+  instance.cut = instance.held = instance.restarted = instance.fell_back = false;
 }
 
 void come_back(Instance& instance) noexcept {

@@ -25,7 +25,7 @@ namespace sinew::world {
 namespace {
 
 static_assert(std::is_trivially_copyable_v<InstanceState>, "saved as bytes");
-static_assert(sizeof(InstanceState) == 352, "no padding: equal states are equal bytes");
+static_assert(sizeof(InstanceState) == 360, "no padding: equal states are equal bytes");
 
 float smooth_step(float t) noexcept { return t * t * (3 - 2 * t); }
 
@@ -33,9 +33,7 @@ void lay_out_state(const Asset& asset, core::Arena& arena, Instance& to) noexcep
   const uint32_t joints = asset.pack.character->joint_count;
   const size_t vectors = size_t{3} * asset.node_count();
   to.state = arena.take<InstanceState>(1);
-  to.joints_before = arena.take<Matrix34>(joints);
-  to.joints = arena.take<Matrix34>(joints);
-  to.next_joints = arena.take<Matrix34>(joints);
+  for (Matrix34*& pose : to.pose_joints) pose = arena.take<Matrix34>(joints);
   for (tissue::NodePose*& pose : to.poses) pose = arena.take<tissue::NodePose>(asset.node_count());
   to.network_state = arena.take<float>(tissue::state_floats(asset.network, asset.node_count()));
   for (float*& u : to.u) u = arena.take<float>(vectors);
@@ -117,10 +115,10 @@ float Instance::simulated_share() const noexcept {
   return smooth_step(static_cast<float>(state->blend_ticks) / kBlendInTicks);
 }
 
-float Instance::tail_share() const noexcept {
-  if (state->tail_ticks <= kCarryTicks) return 1;
-  const uint32_t faded = std::min(state->tail_ticks - kCarryTicks, kFadeTicks);
-  return smooth_step(1 - static_cast<float>(faded) / kFadeTicks);
+float Instance::tail_share(float ahead) const noexcept {
+  const float faded = static_cast<float>(state->tail_ticks) + ahead - static_cast<float>(kCarryTicks);
+  if (state->tail_ticks < kCarryTicks || faded <= 0) return 1;
+  return smooth_step(1 - std::min(faded / static_cast<float>(kFadeTicks), 1.0f));
 }
 
 size_t instance_bytes(const Asset& asset) noexcept {
@@ -150,6 +148,7 @@ Status make_instance(Asset& asset, const InstanceDef& def, Instance* out) noexce
   made.asset = &asset;
   made.asset_id = def.asset;
   new (made.state) InstanceState();
+  point_to_joints(made);
   made.state->root = def.root;
   made.state->importance = frame::sane_importance(def.importance);
   bind_pose(asset.pack.joints, made.joints);
@@ -163,7 +162,14 @@ Status make_instance(Asset& asset, const InstanceDef& def, Instance* out) noexce
   return {};
 }
 
-void forget_motion(Instance& instance) noexcept {
+void point_to_joints(Instance& instance) noexcept {
+  const uint32_t first = instance.state->first_joints % 3;
+  instance.joints_before = instance.pose_joints[first];
+  instance.joints = instance.pose_joints[(first + 1) % 3];
+  instance.next_joints = instance.pose_joints[(first + 2) % 3];
+}
+
+void forget_displacement(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   const size_t bytes = sizeof(float) * 3 * instance.asset->node_count();
   for (float* shown : instance.shown) std::memset(shown, 0, bytes);
@@ -172,7 +178,6 @@ void forget_motion(Instance& instance) noexcept {
   forget_rods(instance);
   forget_pushes(instance);
   instance.told = {};
-  state.at_start = 1;
   state.motion_stale = 1;
   state.restarting = 0;
   state.forgotten = 1;
@@ -181,26 +186,52 @@ void forget_motion(Instance& instance) noexcept {
   state.fallback_ticks = 0;
   state.tail_ticks = kCarryTicks + kFadeTicks;
   state.clamped_ticks = 0;
+}
+
+void forget_motion(Instance& instance) noexcept {
+  InstanceState& state = *instance.state;
+  forget_displacement(instance);
+  state.at_start = 1;
   state.render_fraction = 0;
   state.teleported = 0;
+  state.excitation = 1;
   std::fill_n(state.velocity_m_s, 3, 0.0);
   std::fill_n(state.angular_velocity, 3, 0.0);
 }
 
+namespace {
+
+TierReason reason_of(const Instance& instance, uint32_t asleep) noexcept {
+  const InstanceState& state = *instance.state;
+  if (state.hidden) return TierReason::kHidden;
+  if (instance.cut || instance.held) return TierReason::kCut;
+  if (state.restarting || state.fallback_ticks > 0) return TierReason::kGuard;
+  if (frame::is_simulated(state.tier) && asleep == instance.asset->pack.regions.size())
+    return TierReason::kStill;
+  const bool overdue = !frame::is_simulated(state.tier) && state.waited_s > frame::kLongestWait_s;
+  return overdue ? TierReason::kWaiting : instance.plan.why;
+}
+
+}  // namespace
+
 InstanceReport describe(const Instance& instance, InstanceId id) noexcept {
   const InstanceState& state = *instance.state;
   const float blend = instance.shown_share();
+  const bool simulated = frame::is_simulated(state.tier);
+  const uint32_t asleep = simulated ? regions_asleep(instance) : 0;
   return {.instance = id,
-          .tier = frame::is_simulated(state.tier) || blend > 0 ? state.tier : Tier::kSkinning,
+          .tier = simulated || blend > 0 ? state.tier : Tier::kSkinning,
+          .why = reason_of(instance, asleep),
+          .error = error_of(*instance.asset, state.tier, instance.plan.every),
           .blend = blend,
           .ticks_since_network = state.ticks_since_network,
           .input_clamps = state.input_clamps,
           .displacement_clamps = state.displacement_clamps,
           .fallbacks = state.fallbacks,
           .restarts = state.restarts,
-          .regions_asleep = frame::is_simulated(state.tier) ? regions_asleep(instance) : 0,
+          .regions_asleep = asleep,
           .rod_recoveries = state.rod_recoveries,
-          .rods_asleep = frame::is_simulated(state.tier) ? rods_asleep(instance) : 0,
+          .rods_asleep = simulated ? rods_asleep(instance) : 0,
           .rod_contacts = instance.told.rod_contacts,
           .vertices_touched = instance.told.vertices,
           .contacts_refused = instance.told.refused,
@@ -208,6 +239,7 @@ InstanceReport describe(const Instance& instance, InstanceId id) noexcept {
           .contact_volume_m3 = instance.told.volume_m3,
           .deepest_penetration_m = instance.told.deepest_m,
           .cost_us = core::microseconds(instance.times.total_ns),
+          .planned_us = instance.plan.cost_us,
           .hidden = state.hidden != 0};
 }
 

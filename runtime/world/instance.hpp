@@ -43,15 +43,16 @@ struct InstanceState {
   double angular_velocity[3] = {};  // rad/s, character axes
   double tick_root_m[3][3] = {};    // of the last three ticks, newest first
   float importance = 1;
-  float waited_s = 0, held_s = 0;  // frame/scheduler.hpp
-  float render_fraction = 0;       // remainder in ticks: how far the shown displacement is carried on
-  Tier tier = Tier::kSkinning;     // in the last step
-  uint32_t has_next = 0;           // set_pose since the last step
-  uint32_t at_start = 1;           // no pose yet: the first one is taken as having been held for ever
-  uint32_t motion_stale = 1;       // ticks were not followed: the motion history is rebuilt before use
-  uint32_t restarting = 0;         // fading out after a guard: not simulated until faded
-  uint32_t forgotten = 1;          // the network's state is no memory of this motion: a start, a guard
-  uint32_t fallback_ticks = 0;     // left until the network may be tried again
+  float waited_s = 0, held_s = 0, turn_left_s = 0;  // frame/scheduler.hpp
+  float excitation = 1;                             // world/excitation.hpp
+  float render_fraction = 0;    // remainder in ticks: how far the shown displacement is carried on
+  Tier tier = Tier::kSkinning;  // in the last step
+  uint32_t has_next = 0;        // set_pose since the last step
+  uint32_t at_start = 1;        // no pose yet: the first one is taken as having been held for ever
+  uint32_t motion_stale = 1;    // ticks were not followed: the motion history is rebuilt before use
+  uint32_t restarting = 0;      // fading out after a guard: not simulated until faded
+  uint32_t forgotten = 1;       // the network's state is no memory of this motion: a start, a guard
+  uint32_t fallback_ticks = 0;  // left until the network may be tried again
   uint32_t tail_ticks = kCarryTicks + kFadeTicks;  // since the tail began
   uint32_t blend_ticks = 0;                        // since simulation came back, at most kBlendInTicks
   uint32_t clamped_ticks = 0;                      // in a row
@@ -65,11 +66,12 @@ struct InstanceState {
   uint32_t blind_looks = 0;               // in a row (world/look.hpp)
   uint32_t hidden = 0, hidden_ticks = 0;  // world/hidden.hpp
   uint32_t hidden_by_caller = 0;
-  uint32_t reserved = 0;  // no padding
+  uint32_t first_joints = 0;  // which of pose_joints is the pose before the present one
 };
 
 // What the last step measured; not state.
 struct InstanceTimes {
+  float cost_factor = 1;  // what its ticks take as a multiple of its asset's, smoothed
   uint64_t drive_ns = 0, tissue_ns = 0, rods_ns = 0, publish_ns = 0, total_ns = 0;
 };
 
@@ -96,7 +98,11 @@ struct InstancePlan {
   frame::TickPlan ticks;
   double dt_s = 0;
   Tier tier = Tier::kSkinning;
-  uint32_t every = 1;  // 1, 2 or 4: ticks from one that is simulated to the next, in a simulated tier
+  uint32_t every = 1;   // 1, 2 or 4: ticks from one that is simulated to the next, in a simulated tier
+  float error = 1;      // a share of skinning's
+  float cost_us = 0;    // expected
+  float behind_us = 0;  // that those which run later take at least
+  TierReason why = TierReason::kBudget;
 };
 
 // Arrays are [nodes][3] in metres along each node's frame (tissue/node_bend.hpp) unless said otherwise; l,
@@ -110,9 +116,11 @@ struct Instance {
   Asset* asset = nullptr;
   InstancePlan plan;
   InstanceTimes times;
-  float bound_middle_m[3] = {}, bound_radius_m = 0;        // world/pose_bound.hpp
-  float size = 1;                                          // share of a view's height
-  bool seen = true, came_back = false;                     // in this step
+  bool idle = false;                                 // in the last step: neither simulated nor displaced
+  bool held = false;                                 // in the last step: shown as it was, for the deadline
+  float bound_middle_m[3] = {}, bound_radius_m = 0;  // world/pose_bound.hpp
+  float size = 1;                                    // share of a view's height
+  bool seen = true, came_back = false;               // in this step
   bool cut = false, restarted = false, fell_back = false;  // in the last step
   bool parts_ready = false;                                // in this step: the parts are filled in
   bool displaced = false;                                  // published displacement is not zero everywhere
@@ -124,7 +132,8 @@ struct Instance {
 
   // State: one run of bytes from `state` on.
   InstanceState* state = nullptr;
-  Matrix34 *joints_before = nullptr, *joints = nullptr, *next_joints = nullptr;  // [joints]
+  Matrix34* pose_joints[3] = {};                                                 // [joints], in turn:
+  Matrix34 *joints_before = nullptr, *joints = nullptr, *next_joints = nullptr;  // point there
   tissue::NodePose* poses[3] = {};  // [nodes] of the last three ticks, newest first
   float* network_state = nullptr;
   float *u[2] = {}, *l[2] = {}, *theta = nullptr;   // newest first
@@ -172,21 +181,28 @@ struct Instance {
   double* rod_end[2] = {};  // [slots][3] where segments end, as they are taken along
 
   // Published by a step, read by read_*.
-  float* skin = nullptr;           // [joints][12]
-  float* delta = nullptr;          // [nodes][3], bind-pose axes
-  float* carried = nullptr;        // of delta: a region after the other [3][padded_vertices], bind-pose axes
-  float* surface = nullptr;        // [vertices][3], scratch of read_normals
+  float* skin = nullptr;     // [joints][12], where they are too many for a reader's stack; scratch of a tick
+  float carried_share = 1;   // of `carried`, in what is read: a tail that fades is not carried anew
+  float* delta = nullptr;    // [nodes][3], bind-pose axes
+  float* carried = nullptr;  // of delta: a region after the other [3][padded_vertices], bind-pose axes
+  float* surface = nullptr;  // [vertices][3], scratch of read_normals
   Matrix34* rod_motion = nullptr;  // [slots]: how rods move the pose's bones, in the character's space
   Matrix34* rod_joints = nullptr;  // [joints], where there are rods: the pose's, moved by them
 
-  float simulated_share() const noexcept;  // b
-  float tail_share() const noexcept;       // 1 while carried, then falling smoothly to 0
+  float simulated_share() const noexcept;            // b
+  float tail_share(float ahead = 0) const noexcept;  // 1 while carried, then falling smoothly to 0; in ticks
   float shown_share() const noexcept { return simulated_share() + (1 - simulated_share()) * tail_share(); }
 };
 
 size_t instance_bytes(const Asset& asset) noexcept;  // without contacts
 // In its bind pose, at rest. kOutOfCapacity when memory is short.
 Status make_instance(Asset& asset, const InstanceDef& def, Instance* out) noexcept;
+
+// Points joints_before, joints and next_joints to where the state says.
+void point_to_joints(Instance& instance) noexcept;
+
+// Displacement, shown and carried on, is zero from now on; simulation would start anew.
+void forget_displacement(Instance& instance) noexcept;
 
 // Forgets motion and displacement; the next pose is taken as having been held for ever. Counters stay.
 void forget_motion(Instance& instance) noexcept;

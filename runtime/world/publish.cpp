@@ -2,7 +2,10 @@
 #include "world/publish.hpp"
 
 #include <bit>
+#include <cstring>
+#include <utility>
 
+#include "frame/scheduler.hpp"
 #include "simd/kernels.hpp"
 #include "world/pose.hpp"
 #include "world/rod_publish.hpp"
@@ -10,18 +13,28 @@
 namespace sinew::world {
 namespace {
 
-// delta = u + (r/h)(u - u_before). True when any bit of it is new.
+bool put(float value, float& to) noexcept {
+  const bool changed = std::bit_cast<uint32_t>(value) != std::bit_cast<uint32_t>(to);
+  to = value;
+  return changed;
+}
+
+// delta = u + (r/h)(u - u_before); of a tail, what is left once its fading is left out: carried_share has
+// that. True when any bit of it is new.
 bool carry_on(Instance& instance, const pack::RegionRecord& region) noexcept {
   const float ahead = instance.state->render_fraction;
   const size_t begin = size_t{3} * region.first_node, end = begin + size_t{3} * region.node_count;
-  uint32_t changed = 0;
-  for (size_t i = begin; i < end; ++i) {
-    const float now = instance.shown[0][i];
-    const float delta = now + ahead * (now - instance.shown[1][i]);
-    changed |= std::bit_cast<uint32_t>(delta) ^ std::bit_cast<uint32_t>(instance.delta[i]);
-    instance.delta[i] = delta;
+  bool changed = false;
+  if (frame::is_simulated(instance.state->tier)) {
+    for (size_t i = begin; i < end; ++i) {
+      const float now = instance.shown[0][i];
+      changed |= put(now + ahead * (now - instance.shown[1][i]), instance.delta[i]);
+    }
+  } else {
+    for (size_t i = begin; i < end; ++i)
+      changed |= put(instance.tail[i] + ahead * instance.tail_velocity[i], instance.delta[i]);
   }
-  return changed != 0;
+  return changed;
 }
 
 // Vertices that touched something in the last tick. True when `carried` has to be made anew for it.
@@ -35,14 +48,23 @@ void add_pushes(Instance& instance, size_t r, size_t first, float* carried) noex
   for (size_t i = 0; i < floats; ++i) carried[i] += instance.pushes[first + i];
 }
 
+// Nothing is left of it, so that coming back starts from rest.
+void clear_shown(Instance& instance) noexcept {
+  const size_t bytes = sizeof(float) * 3 * instance.asset->node_count();
+  for (float* shown : instance.shown) std::memset(shown, 0, bytes);
+}
+
 }  // namespace
 
 void publish(Instance& instance) noexcept {
   const pack::PackView& pack = instance.asset->pack;
   publish_rods(instance);
-  skin_matrices(pack.joints, shown_joints(instance), instance.skin);
-  instance.displaced = instance.shown_share() > 0;
-  if (!instance.displaced) return;
+  if (!skins_on_reading(instance)) skin_matrices(pack.joints, shown_joints(instance), instance.skin);
+  const bool displaced = instance.shown_share() > 0;
+  if (std::exchange(instance.displaced, displaced) && !displaced) clear_shown(instance);
+  if (!displaced) return;
+  instance.carried_share =
+      frame::is_simulated(instance.state->tier) ? 1 : instance.tail_share(instance.state->render_fraction);
   float* carried = instance.carried;
   for (size_t r = 0; r < pack.regions.size(); ++r) {
     const pack::RegionRecord& region = pack.regions[r];

@@ -10,6 +10,9 @@
 #include "core/status.hpp"
 #include "simd/kernels.hpp"
 #include "simd/vertex_normals.hpp"
+#include "world/pose.hpp"
+#include "world/publish.hpp"
+#include "world/rod_publish.hpp"
 
 namespace sinew::world {
 namespace {
@@ -39,14 +42,31 @@ void bind_chunk(const Instance& instance, Chunk& chunk) noexcept {
   std::memcpy(chunk.points, positions, sizeof(float) * 3 * chunk.count);
 }
 
-void skin_chunk(const Instance& instance, Chunk& chunk) noexcept {
+// The present pose's matrices, made where they are read.
+class SkinMatrices {
+ public:
+  explicit SkinMatrices(const Instance& instance) noexcept : data_(instance.skin) {
+    if (!skins_on_reading(instance)) return;
+    skin_matrices(instance.asset->pack.joints, shown_joints(instance), here_);
+    data_ = here_;
+  }
+  SkinMatrices(const SkinMatrices&) = delete;
+  SkinMatrices& operator=(const SkinMatrices&) = delete;
+  const float* data() const noexcept { return data_; }
+
+ private:
+  float here_[12 * kJointsOnStack];
+  const float* data_;
+};
+
+void skin_chunk(const Instance& instance, const SkinMatrices& matrices, Chunk& chunk) noexcept {
   const pack::PackView& pack = instance.asset->pack;
   simd::kernels().skin({.points = chunk.points[0],
                         .point_stride = 3 * sizeof(float),
                         .joints = pack.skin[chunk.first].joint,
                         .weights = pack.skin[chunk.first].weight,
                         .skin_stride = sizeof(pack::SkinRecord),
-                        .matrices = instance.skin,
+                        .matrices = matrices.data(),
                         .out = chunk.points[0],
                         .out_stride = 3 * sizeof(float),
                         .count = chunk.count});
@@ -65,7 +85,7 @@ void add_carried(const Instance& instance, Chunk& chunk) noexcept {
     for (; vertex != end && *vertex < chunk.first + chunk.count; ++vertex) {
       const float* delta = carried + (vertex - begin);
       float* point = chunk.points[*vertex - chunk.first];
-      for (size_t k = 0; k < 3; ++k) point[k] += delta[k * padded];
+      for (size_t k = 0; k < 3; ++k) point[k] += instance.carried_share * delta[k * padded];
     }
     carried += 3 * padded;
   }
@@ -99,10 +119,11 @@ Placement placement_of(const Instance& instance, const ReadDef& def) noexcept {
 
 void write_places(const Instance& instance, const ReadDef& def) noexcept {
   const Placement to = placement_of(instance, def);
+  const SkinMatrices matrices(instance);
   for_each_chunk(instance, [&](Chunk& chunk) {
     bind_chunk(instance, chunk);
     add_carried(instance, chunk);
-    skin_chunk(instance, chunk);
+    skin_chunk(instance, matrices, chunk);
     for (uint32_t i = 0; i < chunk.count; ++i) {
       const Vector3f point(chunk.points[i]);
       store(def, chunk.first + i, def.space == Space::kWorld ? to.rotation * point + to.offset : point);

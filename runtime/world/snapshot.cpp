@@ -17,6 +17,7 @@ using core::make_status;
 constexpr uint64_t kMagic = 0x31544154534e5753;  // "SWNSTAT1", little-endian
 // Of InstanceState, the arrays after it and the rods' batches. 4: which regions sleep, and what they felt
 // when they fell asleep. 5: rods. 6: how vertices are pushed, and contacts' forces.
+// 7: what the scheduler goes by, and who is hidden.
 constexpr uint32_t kVersion = 7;
 
 struct Header {
@@ -104,6 +105,7 @@ Status restore(Instance& instance, std::span<const std::byte> bytes) noexcept {
   }
   std::memcpy(instance.state, payload.data(), instance.state_bytes);
   restore_rods(instance, payload.data() + instance.state_bytes);
+  point_to_joints(instance);
   instance.rods_anew = false;
   instance.told = {};
   bound_pose(instance);

@@ -1,183 +1,125 @@
-// step.cpp  One step of the world: plan, schedule, run, report.
+// step.cpp  One step of the world: plan, run, report.
 #include "world/step.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 #include <utility>
 
 #include "core/clock.hpp"
 #include "core/run_tasks.hpp"
-#include "world/hidden.hpp"
+#include "world/fold.hpp"
 #include "world/look.hpp"
+#include "world/marker.hpp"
+#include "world/plan.hpp"
 
 namespace sinew::world {
 namespace {
 
-using frame::Candidate;
-
-Instance& instance_of(WorldState& world, const Candidate& candidate) noexcept {
-  return *world.instances.at(candidate.slot);
-}
-
-bool costs_are_measured(const WorldState& world) noexcept {
-  return world.def.budget_mode == BudgetMode::kTime;
-}
-
-float cost_us(const WorldState& world, const frame::CostEstimate& estimate) noexcept {
-  return costs_are_measured(world) ? estimate.estimate_us() : estimate.baked_us();
-}
-
-Candidate plan_instance(const WorldState& world, Instance& instance, uint32_t slot, double dt_s) noexcept {
-  const InstanceState& state = *instance.state;
-  const Asset& asset = *instance.asset;
-  instance.plan = {
-      .ticks = frame::plan_ticks(state.remainder_s, dt_s, asset.tick_s, world.def.max_ticks_per_step),
-      .dt_s = dt_s};
-  const uint32_t ticks = instance.plan.ticks.ticks;
-  Candidate candidate{
-      .slot = slot,
-      .importance = state.importance * instance.size,
-      .waited_s = state.waited_s,
-      .held_s = state.held_s,
-      .base_us = cost_us(world, asset.cost.base),
-      .best = asset.best(),
-      .on_best = state.tier == asset.best(),
-      .has_best = asset.best() != Tier::kNetwork || state.fallback_ticks == 0,
-      .eligible = state.restarting == 0 && state.hidden == 0,  // how it moves is known a step later
-      .keeps_tier = ticks == 0,
-      .tier = state.tier};
-  for (size_t tier = 0; tier < kTierCount; ++tier)
-    candidate.cost_us[tier] = static_cast<float>(ticks) * cost_us(world, asset.cost.tick[tier]);
-  return candidate;
-}
-
-std::span<Candidate> plan_instances(WorldState& world, double dt_s) noexcept {
-  uint32_t count = 0;
-  for (uint32_t slot = 0; slot < world.instances.end(); ++slot) {
-    Instance* instance = world.instances.at(slot);
-    if (!instance) continue;
-    if (instance->seen)
-      world.candidates[count++] = plan_instance(world, *instance, slot, dt_s);
-    else
-      pass_by(*instance, dt_s, world.def.max_ticks_per_step);
+void run_idle_chunk(WorldState& world, uint32_t chunk) noexcept {
+  constexpr uint32_t kAhead = 4;  // memory comes in while others are worked on
+  const Marker marker(world.def.profiler, "idle", kNoInstance);
+  const uint64_t start_ns = core::now_ns(world.def.clock);
+  const uint32_t first = chunk * kIdleChunk, last = std::min(first + kIdleChunk, world.idle_count);
+  for (uint32_t i = first; i < last; ++i) {
+    if (i + kAhead < last) __builtin_prefetch(world.instances.at(world.idle_slots[i + kAhead])->state);
+    step_idle(*world.instances.at(world.idle_slots[i]), world.context);
   }
-  return {world.candidates.get(), count};
+  world.idle_ns[chunk] = core::now_ns(world.def.clock) - start_ns;
 }
 
-// True when the budget denied its best tier to an instance.
-bool schedule_instances(WorldState& world, std::span<Candidate> candidates) noexcept {
-  const float scale = costs_are_measured(world) ? world.capacity.scale() : 1;
-  const bool denied = frame::schedule(candidates, world.budget_us * scale);
-  for (const Candidate& candidate : candidates) instance_of(world, candidate).plan.tier = candidate.tier;
-  return denied;
+// Idle chunks come behind what is in order.
+void run_one(void* argument, uint32_t index) {
+  WorldState& world = *static_cast<WorldState*>(argument);
+  const auto active = static_cast<uint32_t>(world.running.size());
+  if (index >= active) return run_idle_chunk(world, index - active);
+  const uint32_t slot = world.running[index];
+  step_instance(*world.instances.at(slot), world.context, slot);
 }
 
-// Work units are spent when they are planned; time is spent when the clock says so.
-float planned_us(std::span<const Candidate> candidates) noexcept {
-  float sum = 0;
-  for (const Candidate& c : candidates) {
-    const bool ticks = frame::is_simulated(c.tier) && !c.keeps_tier;
-    sum += c.base_us + (ticks ? c.cost_us[static_cast<size_t>(c.tier)] : 0);
-  }
-  return sum;
+uint32_t idle_chunks(const WorldState& world) noexcept {
+  return (world.idle_count + kIdleChunk - 1) / kIdleChunk;
+}
+
+bool is_limited(const WorldState& world) noexcept {
+  return costs_are_measured(world) && world.budget_us > 0 && world.budget_us < 1e12f;
 }
 
 TickContext context_of(const WorldState& world, uint64_t start_ns) noexcept {
   TickContext context{.clock = world.def.clock,
+                      .profiler = world.def.profiler,
                       .teleport_distance_m = world.def.teleport_distance_m,
                       .sleep_tolerance = world.def.sleep_tolerance};
-  const bool limited = costs_are_measured(world) && world.budget_us > 0 && world.budget_us < 1e12f;
-  if (limited) context.deadline_ns = start_ns + static_cast<uint64_t>(world.budget_us * 1e3);
+  if (!is_limited(world)) return context;
+  const float tasks_us = std::max(0.0f, world.budget_us - world.reporting.p95_us());
+  context.deadline_ns = start_ns + static_cast<uint64_t>(tasks_us * 1e3);
+  context.behind_scale = 1 / std::max(1.0f, world.capacity.scale());
   return context;
 }
 
-void run_one(void* argument, uint32_t index) {
-  WorldState& world = *static_cast<WorldState*>(argument);
-  step_instance(instance_of(world, world.candidates[index]), world.context);
+void run(WorldState& world) noexcept {
+  core::run_tasks(world.def.tasks, run_one, &world,
+                  static_cast<uint32_t>(world.running.size()) + idle_chunks(world));
 }
 
-void age(Instance& instance) noexcept {
-  InstanceState& state = *instance.state;
-  const bool seated = state.tier == instance.asset->best();
-  const float dt_s = static_cast<float>(instance.plan.dt_s);
-  state.waited_s = seated ? 0 : state.waited_s + dt_s;
-  state.held_s = seated ? state.held_s + dt_s : 0;
-}
+// In microseconds of the world's clock since the step began.
+struct Moments {
+  float planned_us, ran_us, end_us;
+};
 
-void correct_costs(Instance& instance) noexcept {
-  frame::CostModel& cost = instance.asset->cost;
-  const InstanceTimes& times = instance.times;
-  const uint64_t ticked_ns = times.drive_ns + times.tissue_ns + times.rods_ns;
-  cost.base.observe(core::microseconds(times.total_ns - ticked_ns));
-  const Tier tier = instance.state->tier;
-  const auto ticks = static_cast<float>(instance.plan.ticks.ticks);
-  const bool told = frame::is_simulated(tier) && tier == instance.plan.tier && ticks > 0;  // no guard fired
-  if (told) cost.tick[static_cast<size_t>(tier)].observe(core::microseconds(ticked_ns) / ticks);
-}
-
-void relax_costs(WorldState& world) noexcept {
-  for (uint32_t slot = 0; slot < world.assets.end(); ++slot) {
-    if (Asset* asset = world.assets.at(slot))
-      std::ranges::for_each(asset->cost.tick, &frame::CostEstimate::relax);
+void learn(WorldState& world, const Moments& at, const frame::ScheduleResult& plan,
+           const FrameReport& report) noexcept {
+  if (!costs_are_measured(world)) return;
+  world.reporting.observe(at.end_us - at.ran_us);
+  world.overhead.observe(at.planned_us + at.end_us - at.ran_us);
+  if (world.idle_count > 0) {
+    const uint64_t idle_ns =
+        std::accumulate(world.idle_ns.get(), world.idle_ns.get() + idle_chunks(world), uint64_t{0});
+    world.idle.observe(core::microseconds(idle_ns) / static_cast<float>(world.idle_count));
   }
+  for (frame::CostEstimate* estimate : {&world.reporting, &world.overhead, &world.idle}) estimate->settle();
+  if (!is_limited(world) || report.ticks == 0) return;
+  const float had_us = world.budget_us - at.planned_us - (at.end_us - at.ran_us);
+  const float spent = had_us > 0 ? (at.ran_us - at.planned_us) / had_us : 2;
+  const float planned_us = plan.planned_us, undone = planned_us > 0 ? world.undone_us / planned_us : 0;
+  world.capacity.observe(spent, std::min(undone, 1.0f), plan.denied);
 }
 
-void count_tier(const Instance& instance, FrameReport& report) noexcept {
-  const Tier tier = describe(instance, {}).tier;
-  report.instances_network += tier == Tier::kNetwork;
-  report.instances_modal += tier == Tier::kModal;
-  report.instances_spring += tier == Tier::kSpring;
-  report.instances_extrapolated += tier == Tier::kExtrapolate;
-  report.instances_skinned += tier == Tier::kSkinning;
+void tell_spending(const WorldState& world, const frame::ScheduleResult& plan, FrameReport& report) noexcept {
+  const float spent_us = costs_are_measured(world) ? report.total_us : plan.planned_us;
+  report.over_budget = spent_us > report.budget_us;
+  const bool wanting = plan.denied || report.instances_cut > 0;
+  if (wanting && std::isfinite(report.budget_us))
+    report.unspent_us = std::max(0.0f, report.budget_us - spent_us);
 }
 
-void add_to_report(const Instance& instance, FrameReport& report) noexcept {
-  const frame::TickPlan& ticks = instance.plan.ticks;
-  report.ticks = std::max(report.ticks, ticks.ticks);
-  report.dropped_s = std::max(report.dropped_s, static_cast<float>(ticks.dropped_s));
-  report.drive_us += core::microseconds(instance.times.drive_ns);
-  report.tissue_us += core::microseconds(instance.times.tissue_ns);
-  report.rods_us += core::microseconds(instance.times.rods_ns);
-  report.publish_us += core::microseconds(instance.times.publish_ns);
-  report.instances_cut += instance.cut;
-  report.restarts += instance.restarted;
-  report.fallbacks += instance.fell_back;
-  report.regions_asleep += describe(instance, {}).regions_asleep;
-  count_tier(instance, report);
-}
-
-// Serial and in slot order, so that sums do not depend on who ran when.
-void fold_results(WorldState& world, FrameReport& report) noexcept {
-  if (costs_are_measured(world)) relax_costs(world);
-  for (uint32_t slot = 0; slot < world.instances.end(); ++slot) {
-    Instance* instance = world.instances.at(slot);
-    if (!instance) continue;
-    report.instances_hidden += !instance->seen;
-    if (!instance->seen) continue;
-    age(*instance);
-    if (costs_are_measured(world)) correct_costs(*instance);
-    add_to_report(*instance, report);
-  }
+void remember(WorldState& world, const FrameReport& report) noexcept {
+  if (world.def.report_history > 0) world.history[report.frame % world.def.report_history] = report;
 }
 
 }  // namespace
 
 FrameReport step(WorldState& world, float dt_s) noexcept {
   const uint64_t start_ns = core::now_ns(world.def.clock);
+  const auto since_start_us = [&] { return core::microseconds(core::now_ns(world.def.clock) - start_ns); };
   FrameReport report{.frame = world.frames++, .budget_us = world.budget_us};
+  Moments at{};
+  Marker scheduling(world.def.profiler, "schedule", kNoInstance);
   look(world);
-  const std::span<Candidate> candidates = plan_instances(world, frame::exact_seconds(dt_s));
-  const bool denied = schedule_instances(world, candidates);
+  const frame::ScheduleResult plan = plan_step(world, frame::exact_seconds(dt_s));
   world.context = context_of(world, start_ns);
-  report.schedule_us = core::microseconds(core::now_ns(world.def.clock) - start_ns);
-  core::run_tasks(world.def.tasks, run_one, &world, static_cast<uint32_t>(candidates.size()));
+  scheduling.end();
+  report.schedule_us = at.planned_us = since_start_us();
+  run(world);
+  at.ran_us = since_start_us();
+  Marker reporting(world.def.profiler, "report", kNoInstance);
   fold_results(world, report);
   report.rejected_poses = std::exchange(world.rejected_poses, 0u);
-  report.total_us = core::microseconds(core::now_ns(world.def.clock) - start_ns);
-  report.over_budget =
-      (costs_are_measured(world) ? report.total_us : planned_us(candidates)) > report.budget_us;
-  world.capacity.observe(report.total_us, report.budget_us, denied);
+  report.total_us = at.end_us = since_start_us();
+  learn(world, at, plan, report);
+  tell_spending(world, plan, report);
+  remember(world, report);
   return report;
 }
 

@@ -1,11 +1,15 @@
 // tick.cpp  An instance's share of a step: its ticks, then publishing.
 #include "world/tick.hpp"
 
+#include <algorithm>
+
 #include "core/clock.hpp"
 #include "core/flush_denormals.hpp"
 #include "frame/scheduler.hpp"
 #include "world/blend.hpp"
+#include "world/excitation.hpp"
 #include "world/hidden.hpp"
+#include "world/marker.hpp"
 #include "world/motion.hpp"
 #include "world/publish.hpp"
 #include "world/push_surface.hpp"
@@ -17,26 +21,32 @@
 namespace sinew::world {
 namespace {
 
-void simulated_tick(Instance& instance, double time_s, const TickContext& context) noexcept {
+void simulated_tick(Instance& instance, double time_s, const TickContext& context, uint32_t slot) noexcept {
   const ClockHook& clock = context.clock;
   const uint64_t start_ns = core::now_ns(clock);
+  Marker driving(context.profiler, "drive", slot);
   follow_motion(instance, time_s);
   drive_nodes(instance);
+  driving.end();
   const uint64_t driven_ns = core::now_ns(clock);
+  Marker tissue(context.profiler, "tissue", slot);
   watch_drive(instance, context.sleep_tolerance);
   if (simulate_tick(instance))
     touch_tissue(instance);
   else
     restart(instance);
   watch_motion(instance, context.sleep_tolerance);
+  tissue.end();
   const uint64_t soft_ns = core::now_ns(clock);
+  Marker rods(context.profiler, "rods", slot);
   if (frame::is_simulated(instance.state->tier)) simulate_rods(instance, context.sleep_tolerance);
+  rods.end();
   instance.times.drive_ns += driven_ns - start_ns;
   instance.times.tissue_ns += soft_ns - driven_ns;
   instance.times.rods_ns += core::now_ns(clock) - soft_ns;
 }
 
-void run_ticks(Instance& instance, const TickContext& context) noexcept {
+void run_ticks(Instance& instance, const TickContext& context, uint32_t slot) noexcept {
   InstanceState& state = *instance.state;
   const frame::TickPlan& ticks = instance.plan.ticks;
   if (ticks.dropped_s > 0) state.motion_stale = 1;
@@ -44,7 +54,7 @@ void run_ticks(Instance& instance, const TickContext& context) noexcept {
     state.fallback_ticks -= state.fallback_ticks > 0;
     instance.told = {};
     if (frame::is_simulated(state.tier))
-      simulated_tick(instance, ticks.first_tick_s + k * instance.asset->tick_s, context);
+      simulated_tick(instance, ticks.first_tick_s + k * instance.asset->tick_s, context, slot);
     else
       state.motion_stale = 1;
     state.ticks_since_network = state.tier == Tier::kNetwork ? 0 : state.ticks_since_network + 1;
@@ -56,32 +66,104 @@ void run_ticks(Instance& instance, const TickContext& context) noexcept {
   state.render_fraction = static_cast<float>(ticks.remainder_s / instance.asset->tick_s);
 }
 
-// The deadline counts only where something would be simulated.
-Tier tier_at(const Instance& instance, uint64_t now_ns, uint64_t deadline_ns) noexcept {
-  const bool late = instance.plan.ticks.ticks > 0 && now_ns >= deadline_ns;
-  return frame::is_simulated(instance.plan.tier) && late ? Tier::kExtrapolate : instance.plan.tier;
+// ---- the deadline ----
+
+// What one of a hundred may take is known too rarely to plan by, what one of twenty does is.
+float most_us(const Instance& instance, Tier tier) noexcept {
+  const frame::CostModel& cost = instance.asset->cost;
+  const float ticks = static_cast<float>(instance.plan.ticks.ticks) * instance.times.cost_factor;
+  return cost.publish.p95_us() + ticks * cost.tick[static_cast<size_t>(tier)].p95_us();
+}
+
+// The next cheaper one that it may fall to at once.
+Tier below(Tier tier) noexcept {
+  if (tier == Tier::kNetwork) return Tier::kModal;
+  return tier == Tier::kModal ? Tier::kSpring : Tier::kExtrapolate;
+}
+
+bool has(const Asset& asset, Tier tier) noexcept {
+  return !frame::is_simulated(tier) || asset.cost.tick[static_cast<size_t>(tier)].is_known();
+}
+
+// Decides between the plan and what there is time for.
+void meet_deadline(Instance& instance, const TickContext& context, uint64_t now_ns) noexcept {
+  InstancePlan& plan = instance.plan;
+  instance.cut = instance.held = false;
+  if (context.deadline_ns == UINT64_MAX) return;
+  const double left_us = (static_cast<double>(context.deadline_ns) - static_cast<double>(now_ns)) * 1e-3 -
+                         static_cast<double>(plan.behind_us * context.behind_scale);
+  const Tier planned = plan.tier;
+  while (plan.ticks.ticks > 0 && frame::is_simulated(plan.tier) &&
+         (!has(*instance.asset, plan.tier) || static_cast<double>(most_us(instance, plan.tier)) > left_us))
+    plan.tier = below(plan.tier);
+  instance.cut = plan.tier != planned;
+  const bool late = static_cast<double>(instance.asset->cost.publish.p95_us()) > left_us;
+  instance.held = late && !frame::is_simulated(plan.tier) && instance.displaced;
+  if (instance.cut) plan.every = 1;
+}
+
+void age(Instance& instance, bool rose) noexcept {
+  InstanceState& state = *instance.state;
+  const auto dt_s = static_cast<float>(instance.plan.dt_s);
+  state.waited_s = frame::is_simulated(state.tier) ? 0 : state.waited_s + dt_s;
+  state.held_s = rose ? 0 : state.held_s + dt_s;
+  state.turn_left_s = std::max(0.0f, state.turn_left_s - dt_s);
+}
+
+// In rising quality.
+uint32_t quality(Tier tier) noexcept {
+  constexpr uint32_t kQuality[kTierCount] = {0, 0, 3, 1, 2};
+  return kQuality[static_cast<size_t>(tier)];
 }
 
 }  // namespace
 
-void step_instance(Instance& instance, const TickContext& context) noexcept {
+void step_instance(Instance& instance, const TickContext& context, uint32_t slot) noexcept {
   const core::FlushDenormals flush;
+  const Marker marker(context.profiler, "instance", slot);
   const uint64_t start_ns = core::now_ns(context.clock);
-  const Tier tier = tier_at(instance, start_ns, context.deadline_ns);
-  instance.times = {};
+  meet_deadline(instance, context, start_ns);
+  const Tier tier = instance.plan.tier;
+  const bool rose = quality(tier) > quality(instance.state->tier);
+  instance.times = {.cost_factor = instance.times.cost_factor};
   instance.came_back = instance.state->hidden != 0;
   if (instance.came_back) come_back(instance);
   instance.restarted = instance.fell_back = false;
-  instance.cut = tier != instance.plan.tier;
   enter_tier(instance, tier);
   take_pose(instance, context.teleport_distance_m);
-  run_ticks(instance, context);
+  run_ticks(instance, context, slot);
   keep_pose(instance);
+  age(instance, rose);
+  if (instance.plan.ticks.ticks > 0) follow_excitation(instance);
   const uint64_t ticked_ns = core::now_ns(context.clock);
-  publish(instance);
+  if (!instance.held) {
+    const Marker publishing(context.profiler, "publish", slot);
+    publish(instance);
+  }
   const uint64_t end_ns = core::now_ns(context.clock);
   instance.times.publish_ns = end_ns - ticked_ns;
   instance.times.total_ns = end_ns - start_ns;
+}
+
+void step_idle(Instance& instance, const TickContext& context) noexcept {
+  InstanceState& state = *instance.state;
+  const frame::TickPlan& ticks = instance.plan.ticks;
+  instance.times = {.cost_factor = instance.times.cost_factor};
+  instance.cut = instance.held = instance.restarted = instance.fell_back = false;
+  if (ticks.ticks > 0) {
+    instance.told = {};
+    state.motion_stale = 1;
+    state.untouched = 0;
+  }
+  state.tier = instance.plan.tier;
+  state.fallback_ticks -= std::min(state.fallback_ticks, ticks.ticks);
+  state.ticks_since_network += ticks.ticks;
+  state.remainder_s = ticks.remainder_s;
+  state.render_fraction = static_cast<float>(ticks.remainder_s / instance.asset->tick_s);
+  take_pose(instance, context.teleport_distance_m);
+  keep_pose(instance);
+  age(instance, false);
+  if (ticks.ticks > 0) follow_excitation(instance);
 }
 
 }  // namespace sinew::world

@@ -8,12 +8,18 @@ namespace sinew::world {
 
 struct TickContext {
   ClockHook clock;
-  uint64_t deadline_ns = UINT64_MAX;  // a simulated task that would begin later is cut: extrapolated instead
+  ProfilerHook profiler;
+  // What would not be done by then is not begun: a cheaper tier that would, else the instance is carried on,
+  // else it is shown as it was.
+  uint64_t deadline_ns = UINT64_MAX;
+  float behind_scale = 1;  // of InstancePlan::behind_us: workers share it
   float teleport_distance_m = 2;
   float sleep_tolerance = 0;  // WorldDef; 0: regions never sleep
 };
 
 // instance.plan says what is to be done.
-void step_instance(Instance& instance, const TickContext& context) noexcept;
+void step_instance(Instance& instance, const TickContext& context, uint32_t slot = kNoInstance) noexcept;
+// The same for one that is neither simulated nor displaced.
+void step_idle(Instance& instance, const TickContext& context) noexcept;
 
 }  // namespace sinew::world

@@ -30,7 +30,7 @@ Status invalid(const char* line) noexcept { return make_status(StatusCode::kInva
 Status null_world() noexcept { return invalid("this World is null; make one with World::create"); }
 
 Status check_def(const WorldDef& def) noexcept {
-  constexpr uint32_t kMostAssets = 65535, kMostInstances = 100000, kMostTicks = 64;
+  constexpr uint32_t kMostAssets = 65535, kMostInstances = 100000, kMostTicks = 64, kMostReports = 65535;
   if (def.max_assets < 1 || def.max_assets > kMostAssets)
     return invalid("WorldDef: max_assets must be 1..65535");
   if (def.max_instances < 1 || def.max_instances > kMostInstances) {
@@ -42,6 +42,9 @@ Status check_def(const WorldDef& def) noexcept {
   if (!(def.teleport_distance_m > 0)) return invalid("WorldDef: teleport_distance_m must be > 0");
   if (!(def.sleep_tolerance >= 0 && def.sleep_tolerance <= 1))
     return invalid("WorldDef: sleep_tolerance must be 0..1, a share of a region's radius");
+  if (def.report_history > kMostReports) return invalid("WorldDef: report_history must be 0..65535");
+  if (!def.profiler.begin != !def.profiler.end)
+    return invalid("WorldDef: of profiler.begin and profiler.end one is set, the other is null");
   if (def.budget_mode != BudgetMode::kTime && def.budget_mode != BudgetMode::kWorkUnits) {
     return invalid("WorldDef: budget_mode is neither kTime nor kWorkUnits");
   }
@@ -97,12 +100,8 @@ Status World::create(const WorldDef& def, World* out) noexcept {
   if (Status status = simd::check_environment(); !status.ok()) return status;
   World made;
   made.impl_ = new (std::nothrow) Impl();
-  const bool complete = made.impl_ && made.impl_->assets.reserve(def.max_assets) &&
-                        made.impl_->instances.reserve(def.max_instances) &&
-                        (made.impl_->candidates.reset(new (std::nothrow) frame::Candidate[def.max_instances]),
-                         made.impl_->candidates != nullptr);
-  if (!complete) return make_status(StatusCode::kOutOfCapacity, "World::create: no memory for the tables");
-  made.impl_->def = def;
+  if (!made.impl_ || !world::reserve(*made.impl_, def))
+    return make_status(StatusCode::kOutOfCapacity, "World::create: no memory for the tables");
   (void)simd::kernels();  // the instruction set is chosen here, not inside the first step
   *out = std::move(made);
   return {};
@@ -283,6 +282,15 @@ FrameReport World::step(float dt_s) noexcept {
   const FrameReport report = world::step(*impl_, dt_s);
   impl_->stepping = false;
   return report;
+}
+
+size_t World::history(std::span<FrameReport> out) const noexcept {
+  if (!impl_) return 0;
+  const uint64_t kept = std::min<uint64_t>(impl_->frames, impl_->def.report_history);
+  const auto count = std::min<size_t>(kept, out.size());
+  for (size_t back = 0; back < count; ++back)
+    out[back] = impl_->history[(impl_->frames - 1 - back) % impl_->def.report_history];
+  return count;
 }
 
 Status World::read_positions(InstanceId id, const ReadDef& def) const noexcept {

@@ -2,6 +2,7 @@
 #pragma once
 #include <limits>
 #include <memory>
+#include <span>
 
 #include "core/slot_table.hpp"
 #include "frame/cost_model.hpp"
@@ -14,13 +15,30 @@
 
 namespace sinew::world {
 
+inline constexpr uint32_t kIdleChunk = 64;  // idle instances in one task
+
 struct WorldState {
   WorldDef def;
   core::SlotTable<Asset, AssetId> assets;
   core::SlotTable<Instance, InstanceId> instances;
-  std::unique_ptr<frame::Candidate[]> candidates;  // [max_instances], in running order once scheduled
-  TickContext context;                             // of the step that runs
+  // Of a step, [max_instances] unless said otherwise.
+  std::unique_ptr<frame::Candidate[]> candidates;  // of all that are visible, by slot
+  std::unique_ptr<uint32_t[]> order;  // slots of what is not idle, in the order in which they run
+  std::unique_ptr<uint32_t[]> idle_slots;
+  std::unique_ptr<uint64_t[]> idle_ns;        // [chunks] of idle instances: what they took
+  std::unique_ptr<uint32_t[]> drawer_begins;  // [WeightBuckets::kCount + 1]
+  std::unique_ptr<uint32_t[]> overdue;
+  std::unique_ptr<frame::Purchase[]> purchases;
+  std::unique_ptr<frame::ScheduleScratch> scratch;
+  std::span<uint32_t> running;  // of order
+  float undone_us = 0;          // that was planned for what was cut
+  uint32_t idle_count = 0;
+  TickContext context;  // of the step that runs
   frame::Capacity capacity;
+  frame::CostEstimate idle{0.2f};          // of one idle instance
+  frame::CostEstimate overhead{10};        // of a step: scheduling and reports
+  frame::CostEstimate reporting{5};        // the latter's part
+  std::unique_ptr<FrameReport[]> history;  // [def.report_history], the last at frames - 1 modulo that
   float budget_us = std::numeric_limits<float>::infinity();
   frame::Sight sights[kMostViews];
   uint32_t sight_count = 0;
@@ -29,5 +47,8 @@ struct WorldState {
   uint32_t rejected_poses = 0;  // since the last step
   bool stepping = false;
 };
+
+// The tables' memory. False: there is none.
+bool reserve(WorldState& world, const WorldDef& def) noexcept;
 
 }  // namespace sinew::world

@@ -24,6 +24,8 @@ void add_options(CLI::App& app, Options* o) {
   app.add_option("--clip", o->clip, "play only this clip");
   app.add_option("--truth", o->truth, "trajectory to follow and to measure against");
   app.add_option("--report", o->report, "write every frame's times and tiers, .json");
+  app.add_option("--trace", o->trace,
+                 "write what ran when, .json for Perfetto or chrome://tracing; the last 300 frames");
   app.add_option("--frames", o->frames, "write pictures into this folder");
   app.add_option("--width", o->width, "of a panel, pixels")->check(within(64, 4096, "64 to 4096 pixels"));
   app.add_option("--height", o->height, "of a panel, pixels")->check(within(64, 4096, "64 to 4096 pixels"));

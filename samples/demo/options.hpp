@@ -15,6 +15,7 @@ struct Options {
   std::string clip;    // empty: one clip after the other
   std::string truth;   // a trajectory with positions, see `sinew-bake truth --positions`
   std::string report;  // JSON
+  std::string trace;   // JSON of Chrome's trace viewer and of Perfetto
   std::string frames;  // folder of pictures
   int width = 360, height = 400, samples = 8;  // of each panel
   double picture_fps = 30;

@@ -64,6 +64,17 @@ void print_budget(const Summary& summary, const Run& run, const Options& options
   std::printf("\n");
 }
 
+void print_reasons(const Summary& summary) {
+  std::printf("\n  why:");
+  for (const ReasonShare& reason : summary.reasons)
+    std::printf(" %s %.1f %%", reason.name.c_str(), 100 * reason.share);
+  std::printf(
+      "\n  expected error, of skinning's: mean %.2f, worst frame %.2f; left unspent while one was denied: "
+      "median %.1f %%, p99 %.1f %%\n",
+      summary.expected_error.mean, summary.expected_error.max, 100 * summary.unspent.median,
+      100 * summary.unspent.p99);
+}
+
 void print_error(const char* name, const Spread& error, double of_skinning) {
   std::printf("  %-16s %10.2f %10.2f %10.2f", name, error.mean, error.p99, error.max);
   if (of_skinning > 0) std::printf(" %13.0f %%", 100 * error.mean / of_skinning);
@@ -87,6 +98,7 @@ void print_table(const Summary& summary, const Run& run, const CharacterFile& ch
   std::printf("  around it:\n");
   for (const StageTime& stage : summary.engine) print_stage(stage);
   print_tiers(summary);
+  print_reasons(summary);
   print_budget(summary, run, options);
   if (!options.truth.empty()) print_errors(summary);
 }

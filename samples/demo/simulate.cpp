@@ -8,6 +8,7 @@
 #include "baker/common/bad_input.hpp"
 #include "baker/common/progress.hpp"
 #include "samples/demo/thread_pool.hpp"
+#include "samples/demo/trace.hpp"
 
 namespace sinew::demo {
 namespace {
@@ -166,6 +167,10 @@ void count_guards(const Stage& stage, Run& run) {
   }
 }
 
+void count_reasons(const Stage& stage, Run& run) {
+  for (size_t i = 0; i < stage.size(); ++i) ++run.reasons[static_cast<size_t>(stage.report(i).why)];
+}
+
 std::vector<CrowdMember> look_at_crowd(const Stage& stage) {
   std::vector<CrowdMember> crowd(std::min(stage.size(), kLargestCrowd));
   for (size_t i = 0; i < crowd.size(); ++i) {
@@ -181,7 +186,10 @@ Run simulate(const CharacterFile& character, const Motion& motion, const Traject
              const Options& options) {
   ThreadPool pool(options.threads);
   const auto count = static_cast<uint32_t>(options.instances);
-  Stage stage(character, {.max_assets = 1, .max_instances = count, .tasks = pool.hook()}, options.budget_us);
+  Trace trace(!options.trace.empty());
+  Stage stage(character,
+              {.max_assets = 1, .max_instances = count, .tasks = pool.hook(), .profiler = trace.hook()},
+              options.budget_us);
   fill_stage(stage, options.instances, spacing_of(character));
   const Motion& first = truth != nullptr ? *truth : motion;
   Witness witness(character, first, truth);
@@ -195,7 +203,9 @@ Run simulate(const CharacterFile& character, const Motion& motion, const Traject
   baker::Progress progress("simulating", frames);
   for (size_t frame = 0; frame < frames; ++frame) {
     const double dt_s = 1 / options.fps, t_s = static_cast<double>(frame) / options.fps;
+    trace.begin_frame();
     run.frames.push_back(run_frame(stage, first, motion, t_s, dt_s, positions));
+    count_reasons(stage, run);
     const bool picture = pictures && frame % every == 0;
     if (picture || truth != nullptr) {
       Snapshot snapshot = witness.look(t_s, dt_s, positions);
@@ -205,6 +215,7 @@ Run simulate(const CharacterFile& character, const Motion& motion, const Traject
     progress.update(frame + 1);
   }
   count_guards(stage, run);
+  if (!options.trace.empty()) trace.write(options.trace);
   if (pictures && stage.size() > 1) run.crowd = look_at_crowd(stage);
   return run;
 }

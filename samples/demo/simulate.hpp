@@ -1,6 +1,7 @@
 // simulate.hpp  The character loop: poses in, one step, surfaces out, every frame timed. No picture is made
 // here.
 #pragma once
+#include <array>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,7 @@ struct Run {
   std::vector<FrameRecord> frames{};
   std::vector<Snapshot> snapshots{};  // empty unless pictures were asked for
   std::vector<CrowdMember> crowd{};   // all instances (at most 100) after the last frame, with pictures
+  std::array<uint64_t, kTierReasonCount> reasons{};                  // all instances, all frames
   uint64_t input_clamps = 0, displacement_clamps = 0, restarts = 0;  // all instances, all frames
 };
 

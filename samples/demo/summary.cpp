@@ -26,6 +26,24 @@ TierShare tier_share(const Run& run, const CharacterFile& character, Tier tier, 
   return out;
 }
 
+std::vector<ReasonShare> reason_shares(const Run& run) {
+  constexpr const char* kNames[kTierReasonCount] = {"best", "budget", "held",  "turn", "waiting",
+                                                    "cut",  "hidden", "guard", "still"};
+  std::vector<ReasonShare> out;
+  const double all = run.instances * static_cast<double>(run.frames.size());
+  for (size_t r = 0; r < kTierReasonCount; ++r)
+    if (run.reasons[r] > 0) out.push_back({kNames[r], static_cast<double>(run.reasons[r]) / all});
+  return out;
+}
+
+Spread unspent_of(const Run& run) {
+  std::vector<double> shares;
+  for (const FrameRecord& frame : run.frames)
+    if (frame.step.unspent_us > 0)
+      shares.push_back(static_cast<double>(frame.step.unspent_us / frame.step.budget_us));
+  return spread_of(std::move(shares));
+}
+
 }  // namespace
 
 Summary summarise(const Run& run, const CharacterFile& character) {
@@ -47,6 +65,10 @@ Summary summarise(const Run& run, const CharacterFile& character) {
   for (const TierShare& tier : out.tiers) {
     if (tier.share > 0) out.expected_error_mm += tier.share * tier.baked_error_mm;
   }
+  out.reasons = reason_shares(run);
+  out.unspent = unspent_of(run);
+  out.expected_error =
+      spread_of(column(run.frames, [](const FrameRecord& f) { return f.step.expected_error; }));
   for (const FrameRecord& frame : run.frames) {
     out.over_budget += frame.step.over_budget;
     out.cut += frame.step.instances_cut;

@@ -19,8 +19,16 @@ struct TierShare {
   double baked_cost_us = 0, baked_error_mm = 0;  // NaN: not in the pack, or not measured
 };
 
+struct ReasonShare {
+  std::string name;
+  double share = 0;  // of instances x frames
+};
+
 struct Summary {
-  std::vector<StageTime> step;    // the step's stages, then the whole step
+  std::vector<ReasonShare> reasons;
+  Spread expected_error;        // a share of skinning's, mean of the instances, over frames
+  Spread unspent;               // of the budget, over the frames in which it kept an instance below its best
+  std::vector<StageTime> step;  // the step's stages, then the whole step
   std::vector<StageTime> engine;  // what the engine does around it
   std::vector<TierShare> tiers;
   uint64_t over_budget = 0, cut = 0, restarts = 0, input_clamps = 0, displacement_clamps = 0,

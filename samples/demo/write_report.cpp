@@ -33,11 +33,20 @@ Json tiers(const std::vector<TierShare>& list) {
   return out;
 }
 
+Json reasons(const std::vector<ReasonShare>& list) {
+  Json out = Json::object();
+  for (const ReasonShare& reason : list) out[reason.name] = reason.share;
+  return out;
+}
+
 Json summary_json(const Summary& s, bool truth) {
   Json out = {{"step_us", stages(s.step)},
               {"engine_us", stages(s.engine)},
               {"tiers", tiers(s.tiers)},
               {"expected_error_mm", number(s.expected_error_mm)},
+              {"why", reasons(s.reasons)},
+              {"expected_error", spread(s.expected_error)},
+              {"unspent", spread(s.unspent)},
               {"frames_over_budget", s.over_budget},
               {"instances_cut", s.cut},
               {"restarts", s.restarts},
@@ -74,6 +83,8 @@ Json frame_json(const FrameRecord& frame, bool truth) {
               {"extrapolated", r.instances_extrapolated},
               {"skinning", r.instances_skinned},
               {"cut", r.instances_cut},
+              {"expected_error", r.expected_error},
+              {"unspent_us", r.unspent_us},
               {"restarts", r.restarts},
               {"over_budget", r.over_budget},
               {"first", {{"tier", name_of(frame.first.tier)}, {"blend", frame.first.blend}}}};

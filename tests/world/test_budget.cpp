@@ -1,6 +1,9 @@
 // test_budget.cpp  What a budget buys, seen through a clock that the test turns.
+#include <algorithm>
 #include <atomic>
 #include <limits>
+#include <string>
+#include <utility>
 
 #include "tests/world/stage.hpp"
 
@@ -24,18 +27,11 @@ struct FakeClock {
   }
 };
 
-// What one network instance adds to a step of this clock, in looks: begin, drive, tissue, end of it, ticked,
-// published.
-constexpr double kLooks = 6;
+// Between looks at this clock lie, of a simulated instance, its begin, drive, tissue, rods, end of ticks and
+// publishing; and what comes before the next.
+constexpr double kLooks = 7;
 
-// Work units that pay for `seats` blocks' tick and not for one more.
-float budget_for_us(uint32_t seats) {
-  Stage stage(1, {.budget_mode = BudgetMode::kWorkUnits});
-  float one_us = 100;
-  const auto affordable = [&] { return stage.step(scenes::walk, 1.0 / 60).instances_network == 1; };
-  while (stage.world.set_budget_us(one_us).ok() && affordable()) one_us *= 0.95f;
-  return one_us / 0.95f * (static_cast<float>(seats) + 0.05f);
-}
+bool is_simulated(Tier tier) { return tier != Tier::kSkinning && tier != Tier::kExtrapolate; }
 
 }  // namespace
 
@@ -70,29 +66,54 @@ TEST_CASE("late_instances_are_cut_counted_and_extrapolated") {
   const FrameReport report = stage.step(scenes::walk, 1.0 / 60);
   CHECK(report.instances_network == 2);
   CHECK(report.instances_cut == 3);
-  CHECK(report.over_budget);
+  CHECK(stage.report(4).why == TierReason::kCut);
+  CHECK(stage.report(0).why == TierReason::kBest);
 }
 
-TEST_CASE("costs_are_corrected_until_nobody_is_cut") {
+// Twelve frames of a second may be late; what they are late by is one instance's rounding, not a tier.
+TEST_CASE("costs_are_corrected_until_hardly_anybody_is_cut") {
   FakeClock clock;
   Stage stage(8, {.clock = clock.hook()});
-  const double network_us = 3 * clock.look_us, base_us = 3 * clock.look_us;
-  const double budget_us = 8 * base_us + 3.5 * network_us + 4 * clock.look_us;
+  const double budget_us = 5 * kLooks * clock.look_us + 8 * clock.look_us;
   REQUIRE(stage.world.set_budget_us(static_cast<float>(budget_us)).ok());
   stage.play(scenes::walk, 5);
-  uint32_t cut = 0, over = 0, network = 0;
+  uint32_t cut = 0, over = 0, simulated = 0;
   constexpr uint32_t kFrames = 120;
   for (uint32_t f = 0; f < kFrames; ++f) {
     const FrameReport report = stage.step(scenes::walk, 1.0 / 60);
     cut += report.instances_cut;
-    over += report.over_budget;
-    network += report.instances_network;
+    over += report.total_us > 1.05f * report.budget_us;
+    simulated += report.instances_network + report.instances_modal + report.instances_spring;
   }
-  WARN("of " << kFrames << " frames over budget " << over << ", cut instances " << cut << ", network a frame "
-             << static_cast<double>(network) / kFrames);
-  CHECK(cut == 0);
-  CHECK(over <= kFrames / 20);
-  CHECK(network >= 2 * kFrames);
+  WARN("of " << kFrames << " frames more than 5 % over budget " << over << ", cut instances " << cut
+             << ", simulated a frame " << static_cast<double>(simulated) / kFrames);
+  CHECK(cut <= kFrames / 5);
+  CHECK(over == 0);
+  CHECK(simulated >= 2 * kFrames);
+}
+
+// What was cut is the first to run in the next step.
+TEST_CASE("what_was_cut_is_served_first_in_the_next_step") {
+  FakeClock clock;
+  Stage stage(5, {.clock = clock.hook()});
+  REQUIRE(stage.world.set_budget_us(static_cast<float>(2 * kLooks * clock.look_us)).ok());
+  stage.step(scenes::walk, 1.0 / 60);
+  REQUIRE(stage.report(4).why == TierReason::kCut);
+  stage.step(scenes::walk, 1.0 / 60);
+  CHECK(is_simulated(stage.report(2).tier));
+  CHECK(stage.report(2).why != TierReason::kCut);
+}
+
+TEST_CASE("what_there_is_no_time_to_publish_is_shown_as_it_was") {
+  FakeClock clock;
+  Stage stage(3, {.clock = clock.hook()});
+  stage.play(scenes::walk, 1);
+  const std::vector<float> before = stage.read(2, Space::kBind);
+  REQUIRE(test::largest_length(before) > 0);
+  REQUIRE(stage.world.set_budget_us(static_cast<float>(clock.look_us)).ok());
+  const FrameReport report = stage.step(scenes::walk, 1.0 / 60);
+  CHECK(report.instances_cut == 3);
+  CHECK(stage.read(2, Space::kBind) == before);
 }
 
 TEST_CASE("report_counts_every_instance_once_and_measures_its_stages") {
@@ -116,34 +137,193 @@ TEST_CASE("in_work_units_the_clock_does_not_matter") {
   FakeClock slow{.look_us = 1000}, fast{.look_us = 0.1};
   Stage a(7, {.budget_mode = BudgetMode::kWorkUnits, .clock = slow.hook()});
   Stage b(7, {.budget_mode = BudgetMode::kWorkUnits, .clock = fast.hook()});
-  for (Stage* stage : {&a, &b}) REQUIRE(stage->world.set_budget_us(budget_for_us(3)).ok());
-  uint32_t network = 0;
+  const float budget_us = 3.5f * test::tier_cost_us(Tier::kModal);
+  for (Stage* stage : {&a, &b}) REQUIRE(stage->world.set_budget_us(budget_us).ok());
+  uint32_t simulated = 0;
   for (int f = 0; f < 300; ++f) {
     const FrameReport report_a = a.step(scenes::walk, 1.0 / 60), report_b = b.step(scenes::walk, 1.0 / 60);
-    CHECK(report_a.instances_network == report_b.instances_network);
-    CHECK(report_a.over_budget == report_b.over_budget);
-    network += report_a.instances_network;
-    for (size_t i = 0; i < 7; ++i) CHECK(a.read(i) == b.read(i));
+    CHECK_FALSE(report_a.over_budget);
+    CHECK_FALSE(report_b.over_budget);
+    for (size_t i = 0; i < 7; ++i) {
+      CHECK(a.report(i).tier == b.report(i).tier);
+      CHECK(a.read(i) == b.read(i));
+      simulated += is_simulated(a.report(i).tier);
+    }
   }
-  CHECK(network == 3 * 300);
+  CHECK(simulated > 2 * 300);
+  CHECK(simulated < 7 * 300);
 }
 
-// The rule of frame/scheduler.hpp, through the world: every instance comes to its turn.
-TEST_CASE("nobody_waits_longer_than_the_stated_bound") {
-  constexpr size_t kCount = 9, kSeats = 2;
+// The rule of frame/scheduler.hpp, through the world: every instance comes to its turn. The budget pays for
+// two of nine, a tenth of it for none: turns are one at a time.
+TEST_CASE("nobody_goes_unsimulated_longer_than_the_stated_bound") {
+  constexpr size_t kCount = 9;
   Stage stage(0, {.budget_mode = BudgetMode::kWorkUnits});
   for (size_t i = 0; i < kCount; ++i) stage.add(i == 0 ? 1e-3f : 1000);
-  REQUIRE(stage.world.set_budget_us(budget_for_us(kSeats)).ok());
-  const double bound_s = 2 + std::ceil(double{kCount} / kSeats) * (0.5 + 1.0 / 60);
+  const float cheapest_us = std::min(test::tier_cost_us(Tier::kSpring), test::tier_cost_us(Tier::kModal));
+  REQUIRE(stage.world.set_budget_us(2.1f * cheapest_us).ok());
+  const double bound_s = 2 + double{kCount} * (0.5 + 1.0 / 60);
+  std::vector<uint32_t> waited(kCount);
   uint32_t longest_ticks = 0;
   for (int f = 0; f < 60 * 30; ++f) {
     stage.step(scenes::walk, 1.0 / 60);
-    for (size_t i = 0; i < kCount; ++i)
-      longest_ticks = std::max(longest_ticks, stage.report(i).ticks_since_network);
+    for (size_t i = 0; i < kCount; ++i) {
+      waited[i] = is_simulated(stage.report(i).tier) ? 0 : waited[i] + 1;
+      longest_ticks = std::max(longest_ticks, waited[i]);
+    }
   }
   WARN("longest wait " << longest_ticks / 60.0 << " s, bound " << bound_s << " s");
   CHECK(longest_ticks / 60.0 <= bound_s);
   CHECK(longest_ticks > 60);
+}
+
+// All else equal, what moves is worth simulating and what stands is not.
+TEST_CASE("a_budget_goes_where_tissue_moves") {
+  Stage stage(2, {.budget_mode = BudgetMode::kWorkUnits});
+  uint32_t moving = 0, standing = 0;
+  for (int f = 0; f < 60 * 6; ++f) {
+    const float budget_us = f < 60 ? kInfinity : 1.1f * test::tier_cost_us(Tier::kNetwork);
+    REQUIRE(stage.world.set_budget_us(budget_us).ok());
+    const double now_s = f / 60.0;
+    stage.pose(stage.blocks[0], scenes::walk(0));
+    stage.pose(stage.blocks[1], scenes::walk(now_s));
+    stage.world.step(1.0f / 60);
+    if (f < 60) continue;
+    standing += stage.report(0).tier == Tier::kNetwork;
+    moving += stage.report(1).tier == Tier::kNetwork;
+  }
+  WARN("network: moving " << moving << " of 300 frames, standing " << standing);
+  CHECK(moving > 4 * standing);
+}
+
+TEST_CASE("budgets_and_ids_that_are_none_are_refused_and_change_nothing") {
+  Stage stage(2);
+  for (const float budget_us : {-1.0f, -kInfinity, std::numeric_limits<float>::quiet_NaN()})
+    CHECK(stage.world.set_budget_us(budget_us).code == StatusCode::kInvalidArgument);
+  CHECK(stage.step(scenes::walk, 1.0 / 60).budget_us == kInfinity);
+  World null;
+  CHECK(null.history({}) == 0);
+}
+
+TEST_CASE("defs_of_reports_and_profilers_out_of_range_are_refused") {
+  const auto mark = [](const char*, uint32_t, void*) {};
+  World world;
+  CHECK(World::create({.report_history = 65536}, &world).code == StatusCode::kInvalidArgument);
+  CHECK(World::create({.profiler = {.begin = mark}}, &world).code == StatusCode::kInvalidArgument);
+  CHECK(World::create({.profiler = {.end = mark}}, &world).code == StatusCode::kInvalidArgument);
+  CHECK(World::create({.report_history = 0}, &world).ok());
+}
+
+TEST_CASE("history_holds_the_last_reports_newest_first") {
+  Stage stage(1, {.report_history = 4});
+  std::vector<FrameReport> out(10);
+  CHECK(stage.world.history(out) == 0);
+  for (uint64_t f = 0; f < 7; ++f) {
+    stage.step(scenes::walk, 1.0 / 60);
+    const size_t count = stage.world.history(out);
+    REQUIRE(count == std::min<uint64_t>(f + 1, 4));
+    for (size_t back = 0; back < count; ++back) CHECK(out[back].frame == f - back);
+  }
+  CHECK(stage.world.history(std::span(out).first(2)) == 2);
+}
+
+TEST_CASE("profiler_hears_of_pairs_that_are_nested") {
+  struct Heard {
+    std::vector<std::pair<std::string, uint32_t>> open, all;
+  } heard;
+  const auto begin = [](const char* name, uint32_t instance, void* context) {
+    auto& to = *static_cast<Heard*>(context);
+    to.open.emplace_back(name, instance);
+    to.all.emplace_back(name, instance);
+  };
+  const auto end = [](const char* name, uint32_t instance, void* context) {
+    auto& to = *static_cast<Heard*>(context);
+    REQUIRE(!to.open.empty());
+    CHECK(to.open.back() == std::pair<std::string, uint32_t>(name, instance));
+    to.open.pop_back();
+  };
+  Stage stage(3, {.profiler = {.begin = begin, .end = end, .context = &heard}});
+  REQUIRE(stage.world.set_hidden(stage.blocks[2], true).ok());
+  stage.step(scenes::walk, 1.0 / 60);
+  CHECK(heard.open.empty());
+  const auto times = [&](const char* name, uint32_t instance) {
+    return std::ranges::count(heard.all, std::pair<std::string, uint32_t>(name, instance));
+  };
+  CHECK(times("schedule", kNoInstance) == 1);
+  CHECK(times("report", kNoInstance) == 1);
+  for (const uint32_t slot : {0u, 1u}) {
+    CHECK(times("instance", slot) == 1);
+    for (const char* part : {"drive", "tissue", "rods", "publish"}) CHECK(times(part, slot) == 1);
+  }
+  CHECK(times("instance", 2) == 0);
+}
+
+TEST_CASE("unspent_is_told_while_a_budget_denies_and_expected_error_follows_the_tiers") {
+  Stage stage(4, {.budget_mode = BudgetMode::kWorkUnits});
+  FrameReport report = stage.step(scenes::walk, 1.0 / 60);
+  CHECK(report.unspent_us == 0);
+  CHECK(report.expected_error == Approx(stage.report().error));
+  CHECK(report.expected_error < 0.5f);
+  REQUIRE(stage.world.set_budget_us(0).ok());
+  report = stage.step(scenes::walk, 1.0 / 60);
+  CHECK(report.expected_error == 1);
+  const float budget_us = 2.5f * test::tier_cost_us(Tier::kNetwork);
+  REQUIRE(stage.world.set_budget_us(budget_us).ok());
+  report = stage.step(scenes::walk, 1.0 / 60);
+  CHECK(report.unspent_us > 0);
+  CHECK(report.unspent_us < 0.5f * budget_us);
+  for (size_t i = 0; i < 4; ++i) CHECK(stage.report(i).planned_us <= budget_us);
+}
+
+TEST_CASE("adding_and_removing_between_frames_goes_on_and_inside_a_step_is_refused") {
+  struct Meddler {
+    Stage* stage = nullptr;
+    uint32_t refused = 0;
+  } meddler;
+  const auto enqueue = [](TaskHook::Task task, void* argument, uint32_t count, void* context) -> void* {
+    auto& m = *static_cast<Meddler*>(context);
+    InstanceId made;
+    m.refused += !m.stage->world.create_instance({.asset = m.stage->asset}, &made).ok();
+    m.refused += !m.stage->world.destroy_instance(m.stage->blocks[0]).ok();
+    m.refused += !m.stage->world.set_hidden(m.stage->blocks[0], true).ok();
+    for (uint32_t i = 0; i < count; ++i) task(argument, i);
+    return nullptr;
+  };
+  Stage stage(3, {.tasks = {.enqueue = enqueue, .finish = [](void*, void*) {}, .context = &meddler}});
+  meddler.stage = &stage;
+  REQUIRE(stage.world.set_budget_us(1e6f).ok());
+  for (uint32_t f = 0; f < 40; ++f) {
+    stage.step(scenes::walk, 1.0 / 60);
+    CHECK(meddler.refused == 3 * (f + 1));
+    REQUIRE(stage.world.destroy_instance(stage.blocks[f % 2]).ok());
+    stage.blocks.erase(stage.blocks.begin() + f % 2);
+    stage.add();
+  }
+  CHECK(stage.faults.faults == 3 * 40);
+  CHECK(stage.world.step(1.0f / 60).instances_network == 3);
+}
+
+// The table takes them; nothing in a step grows faster than their number.
+TEST_CASE("a_hundred_thousand_instances_are_a_table_s_limit") {
+  World world;
+  CHECK(World::create({.max_instances = 100001}, &world).code == StatusCode::kInvalidArgument);
+  REQUIRE(World::create({.max_instances = 100000, .budget_mode = BudgetMode::kWorkUnits}, &world).ok());
+  AssetId asset;
+  REQUIRE(world.load_asset(test::weightless_pack().bytes(), &asset).ok());
+  constexpr uint32_t kMany = 2000;  // memory is an instance's, not the table's
+  for (uint32_t i = 0; i < kMany; ++i) {
+    InstanceId made;
+    REQUIRE(world.create_instance({.asset = asset}, &made).ok());
+  }
+  REQUIRE(world.set_budget_us(50).ok());
+  for (int f = 0; f < 5; ++f) {
+    const FrameReport report = world.step(1.0f / 60);
+    CHECK_FALSE(report.over_budget);
+    CHECK(report.instances_modal + report.instances_spring > 0);
+    CHECK(report.instances_modal + report.instances_spring + report.instances_extrapolated +
+              report.instances_skinned ==
+          kMany);
+  }
 }
 
 TEST_CASE("importance_that_is_no_weight_counts_as_zero") {
@@ -151,7 +331,7 @@ TEST_CASE("importance_that_is_no_weight_counts_as_zero") {
   stage.add(std::numeric_limits<float>::quiet_NaN());
   stage.add(-5);
   stage.add(1);
-  REQUIRE(stage.world.set_budget_us(budget_for_us(1)).ok());
+  REQUIRE(stage.world.set_budget_us(1.05f * test::tier_cost_us(Tier::kNetwork)).ok());
   stage.step(scenes::walk, 1.0 / 60);
   CHECK(stage.report(2).tier == Tier::kNetwork);
   REQUIRE(stage.world.set_importance(stage.blocks[2], -kInfinity).ok());

@@ -100,10 +100,10 @@ TEST_CASE("who_is_nearer_to_the_eye_gets_what_the_budget_pays_for") {
     stage.blocks.push_back(made);
   }
   see(stage, true);
-  REQUIRE(stage.world.set_budget_us(1.3f * test::tier_cost_us(Tier::kNetwork)).ok());
+  REQUIRE(stage.world.set_budget_us(1.1f * test::tier_cost_us(Tier::kModal)).ok());
   for (int f = 0; f < 30; ++f) stage.world.step(1.0f / 60);
-  CHECK(stage.report(1).tier == Tier::kNetwork);
-  CHECK(stage.report(0).tier != Tier::kNetwork);
+  CHECK(stage.report(1).tier == Tier::kModal);
+  CHECK(stage.report(0).tier != Tier::kModal);
 }
 
 // Against one that was seen all the while: a second later within a tenth of how far the flesh swings, and in

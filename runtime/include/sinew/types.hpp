@@ -35,9 +35,10 @@ struct Pose {
 
 // Threads come from the caller. Contract: enqueue may run task(argument, index) for index 0..count-1 on any
 // threads, in any order, each exactly once, and may return at once; finish returns when all of that call's
-// indices have run. Both are called from the thread that calls step(), at most once a step. One index touches
-// one instance, and the results have the same bits for any number of threads and any order. Null enqueue:
-// serial, on the stepping thread; enqueue without finish: World::create refuses.
+// indices have run. Both are called from the thread that calls step(), at most once a step. Low indices
+// matter more. An index touches instances that no other does, and the results have the same bits for any
+// number of threads and any order. Null enqueue: serial, on the stepping thread; enqueue without finish:
+// World::create refuses.
 struct TaskHook {
   using Task = void (*)(void* argument, uint32_t index);
   // Returns a ticket for finish.
@@ -61,11 +62,25 @@ struct AssertHook {
 };
 
 enum class BudgetMode : uint32_t {
-  // The budget is microseconds of the world's clock from the start of step(). Costs are corrected online; an
-  // instance whose turn comes after the deadline is cut: extrapolated, and counted.
+  // The budget is microseconds of the world's clock from the start of step(). Costs are corrected online. An
+  // instance whose planned tier would not be done before the deadline gets the best cheaper one that would,
+  // or is
+  // carried on as it was; it is counted as cut, and is the first to run in the next step.
   kTime = 0,
   // The budget is baked microseconds: the same inputs give the same tiers and bits whatever the clock says.
   kWorkUnits = 1,
+};
+
+// Markers for a profiler (Tracy, Perfetto): begin and end in pairs, nested, on the thread that runs what they
+// name; called from several threads at a time, inside a step, so they neither block nor call the world. name
+// lives as long as the program: "schedule", "instance", "drive", "tissue", "rods", "publish", "idle",
+// "report". instance: its slot (InstanceId::index1 less one), kNoInstance where it is of none. Null begin or
+// end: none.
+inline constexpr uint32_t kNoInstance = 0xffffffffu;
+struct ProfilerHook {
+  void (*begin)(const char* name, uint32_t instance, void* context) = nullptr;
+  void (*end)(const char* name, uint32_t instance, void* context) = nullptr;
+  void* context = nullptr;
 };
 
 // A field outside its range: World::create refuses.
@@ -80,6 +95,7 @@ struct WorldDef {
   // for half a swing falls asleep: it keeps its shape at next to no cost until it feels more
   // (runtime/world/sleep.hpp). 0: never.
   float sleep_tolerance = 5e-4f;
+  uint32_t report_history = 120;  // 0..65535 FrameReports kept for World::history
   BudgetMode budget_mode = BudgetMode::kTime;
   // Asked whether something hides what views show (World::set_views); null: nothing does. Outlives the world.
   OcclusionSource* occlusion = nullptr;
@@ -88,6 +104,7 @@ struct WorldDef {
   TaskHook tasks = {};
   ClockHook clock = {};
   AssertHook assert_hook = {};
+  ProfilerHook profiler = {};
 };
 
 // What an instance touches. It is asked tick by tick, where the instance is simulated; the source
@@ -104,8 +121,9 @@ struct ContactDef {
 
 struct InstanceDef {
   AssetId asset = {};  // null or stale: refused
-  // >= 0, relative weight for the scheduler. 0: gets what the others leave; NaN or negative counts as 0. The
-  // rule, and the longest wait of an instance with importance above 0: runtime/frame/scheduler.hpp.
+  // >= 0, relative weight for the scheduler: of a visible millimetre of error. 0: gets what the others leave;
+  // NaN or negative counts as 0. The rule, and how long an instance with importance above 0 may go
+  // unsimulated at most: runtime/frame/scheduler.hpp.
   float importance = 1;
   RootTransform root = {};  // where it enters, in its bind pose, at rest; refused as in a pose
   ContactDef contacts = {};
@@ -122,9 +140,25 @@ enum class Tier : uint32_t {
 };
 inline constexpr uint32_t kTierCount = 5;
 
+// Why an instance got what it got.
+enum class TierReason : uint32_t {
+  kBest = 0,     // there is nothing better
+  kBudget = 1,   // more is not affordable, or better spent on others
+  kHeld = 2,     // as kBudget, and what it has is held for a while
+  kTurn = 3,     // as kBudget; simulated because it had waited too long
+  kWaiting = 4,  // not simulated for longer than the scheduler wants; its turn comes
+  kCut = 5,      // was to get more, but the deadline came too near
+  kHidden = 6,   // nobody sees it: World::set_views, set_hidden
+  kGuard = 7,    // a guard fired: on its modal base, or fading to skinning, for now
+  kStill = 8,    // simulated, and all of its soft parts are asleep
+};
+inline constexpr uint32_t kTierReasonCount = 9;
+
 struct InstanceReport {
   InstanceId instance = {};
   Tier tier = Tier::kSkinning;
+  TierReason why = TierReason::kBudget;
+  float error = 1;                   // estimated of this tier, a share of skinning's; 1 where not simulated
   float blend = 0;                   // 0..1, weight of the simulated displacement in what is read back
   uint32_t ticks_since_network = 0;  // 0: its last tick was the network's; counts on where the asset has none
   // Counters since creation.
@@ -147,8 +181,10 @@ struct InstanceReport {
   uint32_t vertices_touched = 0, contacts_refused = 0, contacts_dropped = 0;
   float contact_volume_m3 = 0;
   float deepest_penetration_m = 0;  // what soft parts are left inside, bounded as they are
-  float cost_us = 0;                // what this instance took in the last step, on its thread
-  bool hidden = false;              // nobody saw it in the last step: nothing was done for it
+  float cost_us =
+      0;  // what this instance took in the last step, on its thread; 0: next to nothing, not measured
+  float planned_us = 0;  // what it was expected to take; kWorkUnits: of the baked costs
+  bool hidden = false;   // nobody saw it in the last step: nothing was done for it
 };
 
 // Filled by step(). All times in microseconds of the world's clock.
@@ -165,11 +201,15 @@ struct FrameReport {
   // Each instance once; one whose extrapolation has faded away counts as skinned.
   uint32_t instances_network = 0, instances_modal = 0, instances_spring = 0, instances_extrapolated = 0,
            instances_skinned = 0;
-  uint32_t instances_hidden = 0;         // nobody sees them; in none of the counts above
-  uint32_t instances_cut = 0;            // to be simulated, but the deadline came first: extrapolated instead
+  uint32_t instances_hidden = 0;  // nobody sees them; in none of the counts above
+  uint32_t instances_cut = 0;  // got a cheaper tier than planned, or are shown as they were, for the deadline
   uint32_t restarts = 0, fallbacks = 0;  // instances in this frame
   uint32_t regions_asleep = 0;           // soft parts at rest, of all instances
   uint32_t rejected_poses = 0;           // set_pose calls refused since the last step
+  float unspent_us = 0;  // of the budget while a budget kept an instance below its best; else 0
+  // Mean over the instances that are seen of their tiers' errors, a share of skinning's; 1: all are skinned,
+  // or none is seen. As baked; where nothing was measured, usual ones (runtime/frame/front.hpp).
+  float expected_error = 1;
   bool over_budget = false;  // kTime: total_us > budget_us; kWorkUnits: the baked cost of what ran is
 };
 

@@ -14,7 +14,7 @@
 //
 // Thread rule: one thread at a time calls a world's functions, except where a function says otherwise.
 // Nothing here throws or prints. step, set_pose, set_importance, set_views, set_hidden, set_budget_us, reset,
-// read_*, report, save_state and restore_state never allocate or block; the others may allocate.
+// read_*, report, history, save_state and restore_state never allocate or block; the others may allocate.
 //
 // Every function answers kInvalidArgument on a null world or for a null out, and kStaleId for an id that is
 // null or whose object is gone (a programmer error: the assert hook hears of it). After a refusal nothing has
@@ -82,7 +82,7 @@ class World {
   // the next step.
   Status reset(InstanceId instance) noexcept;
 
-  // Microseconds a step may take (BudgetMode). Infinity, the default: the network for all; 0: skinning
+  // Microseconds a step may take (BudgetMode). Infinity, the default: the best tier for all; 0: skinning
   // for all; negative or NaN: kInvalidArgument. Reading back is not part of it.
   Status set_budget_us(float budget_us) noexcept;
 
@@ -90,6 +90,10 @@ class World {
   // exactly that. NaN or negative counts as 0 (a pause: the pose moves, the tissue does not), more than
   // 1e6 s as 1e6 s. Never fails.
   FrameReport step(float dt_s) noexcept;
+
+  // The reports of the last steps, newest first: as many as out and WorldDef::report_history hold and there
+  // were. Returns how many; 0 for a null world. From any number of threads at a time, as read_positions.
+  size_t history(std::span<FrameReport> out) const noexcept;
 
   // Positions, at the time of the last step, of all of the asset's vertices. Cost O(vertices x
   // influences). Between ticks the displacement is carried on at its last velocity. From any number of

@@ -1,0 +1,69 @@
+// front.cpp  see front.hpp.
+#include "frame/front.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sinew::frame {
+namespace {
+
+bool counts(const Level& point) noexcept {
+  return is_simulated(point.tier) && point.tick_us >= 0 && std::isfinite(point.tick_us) && point.error >= 0 &&
+         point.error < 1;
+}
+
+float cost_between(const Front& front, const Level& from, const Level& to) noexcept {
+  constexpr float kLeast_us = 1e-6f;
+  const float entry_us = is_simulated(from.tier) ? 0 : front.publish_us;
+  return std::max(kLeast_us, to.tick_us - from.tick_us + entry_us);
+}
+
+float worth_between(const Front& front, const Level& from, const Level& to) noexcept {
+  return (from.error - to.error) / cost_between(front, from, to);
+}
+
+// The last level is no better bought than what comes behind it.
+bool is_passed_over(const Front& front, const Level& next) noexcept {
+  if (front.count < 2) return false;
+  const Level &below = front.levels[front.count - 2], &last = front.levels[front.count - 1];
+  return worth_between(front, below, next) >= worth_between(front, below, last);
+}
+
+}  // namespace
+
+float usual_error(Tier tier, uint32_t every) noexcept {
+  if (every != 1) return std::numeric_limits<float>::quiet_NaN();
+  constexpr float kNetwork = 0.08f, kModal = 0.15f, kSpring = 0.4f;
+  if (tier == Tier::kNetwork) return kNetwork;
+  if (tier == Tier::kModal) return kModal;
+  return tier == Tier::kSpring ? kSpring : 1;
+}
+
+uint32_t Front::level_of(Tier tier, uint32_t every) const noexcept {
+  for (uint32_t level = count; is_simulated(tier) && level-- > 1;)
+    if (levels[level].tier == tier && levels[level].every == every) return level;
+  return is_simulated(tier) && count > 1 ? 1 : 0;
+}
+
+void make_front(std::span<const Level> points, float publish_us, Front* out) noexcept {
+  Level sorted[kMostLevels];
+  uint32_t count = 0;
+  for (const Level& point : points)
+    if (counts(point) && count < kMostLevels - 1) sorted[count++] = point;
+  std::sort(sorted, sorted + count, [](const Level& a, const Level& b) {
+    return a.tick_us != b.tick_us ? a.tick_us < b.tick_us : a.error < b.error;
+  });
+  out->publish_us = publish_us;
+  out->count = 1;
+  out->levels[0] = {};
+  for (uint32_t i = 0; i < count; ++i) {
+    if (sorted[i].error >= out->levels[out->count - 1].error) continue;
+    while (is_passed_over(*out, sorted[i])) --out->count;
+    out->levels[out->count++] = sorted[i];
+  }
+  for (uint32_t level = 1; level < out->count; ++level)
+    out->worth[level] = worth_between(*out, out->levels[level - 1], out->levels[level]);
+}
+
+}  // namespace sinew::frame

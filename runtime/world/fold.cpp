@@ -1,0 +1,98 @@
+// fold.cpp  see fold.hpp.
+#include "world/fold.hpp"
+
+#include <algorithm>
+
+#include "core/clock.hpp"
+#include "world/plan.hpp"
+#include "world/sleep.hpp"
+
+namespace sinew::world {
+namespace {
+
+bool ran_as_planned(const Instance& instance) noexcept {
+  return instance.state->tier == instance.plan.tier && !instance.restarted && !instance.fell_back;
+}
+
+// A sleeper's or a toucher's own cost is its factor; the asset's is that of those who are awake.
+void learn_tick_cost(Instance& instance, float tick_us) noexcept {
+  constexpr float kWeight = 0.125f, kFarthest = 2, kLeast = 0.1f, kMost = 10;
+  frame::CostEstimate& estimate = instance.asset->cost.tick[static_cast<size_t>(instance.state->tier)];
+  float& factor = instance.times.cost_factor;
+  if (regions_asleep(instance) == 0) estimate.observe(tick_us);
+  const float seen = tick_us / std::max(1e-3f, estimate.estimate_us());
+  factor += kWeight * (std::clamp(seen, factor / kFarthest, factor * kFarthest) - factor);
+  factor = std::clamp(factor, kLeast, kMost);
+}
+
+void learn_costs(Instance& instance) noexcept {
+  const InstanceTimes& times = instance.times;
+  const uint64_t ticked_ns = times.drive_ns + times.tissue_ns + times.rods_ns;
+  if (instance.displaced && !instance.held)
+    instance.asset->cost.publish.observe(core::microseconds(times.total_ns - ticked_ns));
+  const auto ticks = static_cast<float>(instance.plan.ticks.ticks);
+  if (frame::is_simulated(instance.state->tier) && ticks > 0 && (ran_as_planned(instance) || instance.cut))
+    learn_tick_cost(instance, core::microseconds(ticked_ns) / ticks);
+}
+
+void count_tier(const InstanceReport& instance, FrameReport& report) noexcept {
+  report.instances_network += instance.tier == Tier::kNetwork;
+  report.instances_modal += instance.tier == Tier::kModal;
+  report.instances_spring += instance.tier == Tier::kSpring;
+  report.instances_extrapolated += instance.tier == Tier::kExtrapolate;
+  report.instances_skinned += instance.tier == Tier::kSkinning;
+}
+
+void add_times(const Instance& instance, FrameReport& report) noexcept {
+  report.drive_us += core::microseconds(instance.times.drive_ns);
+  report.tissue_us += core::microseconds(instance.times.tissue_ns);
+  report.rods_us += core::microseconds(instance.times.rods_ns);
+  report.publish_us += core::microseconds(instance.times.publish_ns);
+}
+
+void add_ticks(const Instance& instance, FrameReport& report) noexcept {
+  const frame::TickPlan& ticks = instance.plan.ticks;
+  report.ticks = std::max(report.ticks, ticks.ticks);
+  report.dropped_s = std::max(report.dropped_s, static_cast<float>(ticks.dropped_s));
+}
+
+// Returns its expected error.
+float add_active(const Instance& instance, FrameReport& report) noexcept {
+  const InstanceReport told = describe(instance, {});
+  add_times(instance, report);
+  report.instances_cut += instance.cut || instance.held;
+  report.restarts += instance.restarted;
+  report.fallbacks += instance.fell_back;
+  report.regions_asleep += told.regions_asleep;
+  count_tier(told, report);
+  return told.error;
+}
+
+}  // namespace
+
+void fold_results(WorldState& world, FrameReport& report) noexcept {
+  double errors = 0;
+  uint32_t seen = 0;
+  world.undone_us = 0;
+  for (uint32_t slot = 0; slot < world.instances.end(); ++slot) {
+    Instance* instance = world.instances.at(slot);
+    if (!instance) continue;
+    report.instances_hidden += !instance->seen;
+    if (!instance->seen) continue;
+    add_ticks(*instance, report);
+    ++seen;
+    if (instance->idle) {
+      ++report.instances_skinned;
+      ++errors;
+      continue;
+    }
+    if (costs_are_measured(world)) learn_costs(*instance);
+    if (instance->cut || instance->held) world.undone_us += instance->plan.cost_us;
+    errors += static_cast<double>(add_active(*instance, report));
+  }
+  if (seen > 0) report.expected_error = static_cast<float>(errors / seen);
+  for (uint32_t slot = 0; costs_are_measured(world) && slot < world.assets.end(); ++slot)
+    if (Asset* asset = world.assets.at(slot)) asset->cost.settle();
+}
+
+}  // namespace sinew::world

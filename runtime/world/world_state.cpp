@@ -1,0 +1,33 @@
+// world_state.cpp  The tables' memory.
+#include "world/world_state.hpp"
+
+#include <new>
+
+namespace sinew::world {
+namespace {
+
+template <class T>
+bool take(std::unique_ptr<T[]>& to, size_t count) noexcept {
+  to.reset(new (std::nothrow) T[count]());
+  return to != nullptr;
+}
+
+}  // namespace
+
+bool reserve(WorldState& world, const WorldDef& def) noexcept {
+  const uint32_t most = def.max_instances;
+  world.def = def;
+  world.scratch.reset(new (std::nothrow) frame::ScheduleScratch());
+  const bool complete =
+      world.scratch && world.assets.reserve(def.max_assets) && world.instances.reserve(most) &&
+      take(world.candidates, most) && take(world.order, most) && take(world.idle_slots, most) &&
+      take(world.idle_ns, (most + kIdleChunk - 1) / kIdleChunk) &&
+      take(world.drawer_begins, frame::WeightBuckets::kCount + 1) && take(world.overdue, most) &&
+      take(world.purchases, most) && take(world.history, def.report_history);
+  if (!complete) return false;
+  world.scratch->overdue = {world.overdue.get(), most};
+  world.scratch->purchases = {world.purchases.get(), most};
+  return true;
+}
+
+}  // namespace sinew::world
