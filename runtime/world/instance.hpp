@@ -62,7 +62,12 @@ struct InstanceState {
   uint32_t rod_recoveries = 0;
   uint32_t rod_quiet_ticks = 0;  // world/rod_sleep.hpp
   uint32_t teleported = 0;       // in the last step
-  uint32_t reserved = 0;         // no padding
+  // world/update_rate.hpp:
+  uint32_t ticks = 0;          // counts on for ever: whose turn it is
+  uint32_t since_ticks = 1;    // from the last tick that was heard to this one
+  uint32_t spacing_ticks = 1;  // between the last two of them, and so between poses
+  uint32_t heard_by = 0;       // HeardBy: whose `heard` is
+  uint32_t reserved = 0;       // no padding
 };
 
 // What the last step measured; not state.
@@ -108,6 +113,7 @@ struct Instance {
   InstancePlan plan;
   InstanceTimes times;
   bool cut = false, restarted = false, fell_back = false;  // in the last step
+  bool heard_now = false;                                  // in the last tick: it was simulated whole
   bool parts_ready = false;                                // in this step: the parts are filled in
   bool displaced = false;                                  // published displacement is not zero everywhere
   bool rods_anew = false;   // in this tick: rods are taken to where they are shown before they go on
@@ -121,8 +127,9 @@ struct Instance {
   Matrix34 *joints_before = nullptr, *joints = nullptr, *next_joints = nullptr;  // [joints]
   tissue::NodePose* poses[3] = {};  // [nodes] of the last three ticks, newest first
   float* network_state = nullptr;
-  float *u[2] = {}, *l[2] = {}, *theta = nullptr;   // newest first
-  float *q[2] = {}, *r[2] = {};                     // q: [modes of all regions]
+  float *u[2] = {}, *l[2] = {}, *theta = nullptr;  // newest first
+  float *q[2] = {}, *r[2] = {};                    // q: [modes of all regions]
+  float* heard = nullptr;  // of the last tick that was heard: a region after the other, as it goes on by it
   float *tail = nullptr, *tail_velocity = nullptr;  // velocity a tick
   float* shown[2] = {};                             // newest first
   float* felt_asleep = nullptr;                     // m/s^2, when the region's quiet began (world/sleep.hpp)

@@ -1,6 +1,7 @@
 // simulate.cpp  One tick of springs, of modes, or of modes under a network.
 #include "world/simulate.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "simd/kernels.hpp"
@@ -11,6 +12,7 @@
 #include "tissue/node_drive.hpp"
 #include "tissue/spring.hpp"
 #include "world/sleep.hpp"
+#include "world/update_rate.hpp"
 
 namespace sinew::world {
 namespace {
@@ -19,16 +21,19 @@ namespace {
 struct Part {
   const pack::RegionRecord& record;
   tissue::ModalBase base;
-  size_t index, node, vector, mode;
+  size_t index, node, vector, mode, heard;
 };
 
 template <class Work>
 void for_each_part(const Instance& instance, Work work) noexcept {
   const pack::PackView& pack = instance.asset->pack;
+  size_t heard = 0;
   for (size_t r = 0; r < pack.regions.size(); ++r) {
     const size_t node = pack.regions[r].first_node;
-    work(Part{pack.regions[r], tissue::modal_base(pack, r), r, node, 3 * node,
-              pack.region_modes[r].first_mode});
+    const Part part{pack.regions[r], tissue::modal_base(pack, r),     r,    node,
+                    3 * node,        pack.region_modes[r].first_mode, heard};
+    work(part);
+    heard += part.base.padded + part.base.padded_modes;
   }
 }
 
@@ -41,6 +46,16 @@ void for_each_awake_part(const Instance& instance, Work work) noexcept {
 
 size_t floats_of(const Instance& instance) noexcept { return size_t{3} * instance.asset->node_count(); }
 
+// Ticks that what was heard has grown over; 1 where nothing was.
+uint32_t grown_ticks(const Instance& instance) noexcept {
+  const InstanceState& state = *instance.state;
+  return state.heard_by == static_cast<uint32_t>(hearer(state.tier)) ? state.since_ticks : 1;
+}
+
+void remember_hearer(Instance& instance) noexcept {
+  instance.state->heard_by = static_cast<uint32_t>(hearer(instance.state->tier));
+}
+
 // `by_tier`: by what the tier itself put out, which gives it up in the end; a network is not to blame for its
 // base.
 void count_clamps(Instance& instance, uint32_t held, uint32_t by_tier) noexcept {
@@ -51,12 +66,36 @@ void count_clamps(Instance& instance, uint32_t held, uint32_t by_tier) noexcept 
 
 // ---- springs ----
 
+// What grew while nobody listened, and what is heard from here on.
+void hear_springs(Instance& instance) noexcept {
+  const pack::PackView& pack = instance.asset->pack;
+  const uint32_t k = grown_ticks(instance);
+  for_each_part(instance, [&](const Part& part) {
+    const pack::SpringRecord& spring = pack.springs[part.index];
+    const tissue::Ramp grown = tissue::ramp(spring.a1, spring.a2, k);
+    for (size_t i = 0; i < part.record.node_count; ++i) {
+      const float* felt = instance.drive + tissue::kNodeDriveWidth * (part.node + i);
+      const float* row = pack.compliance.data() + 9 * (part.node + i);
+      float* held = instance.heard + part.heard + 3 * i;
+      const float change[3] = {felt[0] - held[0], felt[1] - held[1], felt[2] - held[2]};
+      for (size_t axis = 0; axis < 3 && k > 1; ++axis, row += 3) {
+        const float at_rest = spring.gain * (row[0] * change[0] + row[1] * change[1] + row[2] * change[2]);
+        instance.u[0][part.vector + 3 * i + axis] += grown.now * at_rest;
+        instance.u[1][part.vector + 3 * i + axis] += grown.before * at_rest;
+      }
+      std::copy_n(felt, 3, held);
+    }
+  });
+  remember_hearer(instance);
+}
+
 bool spring_tick(Instance& instance) noexcept {
   const pack::PackView& pack = instance.asset->pack;
+  if (instance.heard_now) hear_springs(instance);
   for_each_part(instance, [&](const Part& part) {
     tissue::spring_step(pack.springs[part.index], pack.compliance.data() + 9 * part.node,
-                        instance.drive + tissue::kNodeDriveWidth * part.node, tissue::kNodeDriveWidth,
-                        part.record.node_count, instance.u[0] + part.vector, instance.u[1] + part.vector);
+                        instance.heard + part.heard, 3, part.record.node_count, instance.u[0] + part.vector,
+                        instance.u[1] + part.vector);
   });
   if (!tissue::all_finite(instance.u[0], floats_of(instance))) return false;
   uint32_t held = 0;
@@ -69,13 +108,36 @@ bool spring_tick(Instance& instance) noexcept {
 
 // ---- modes ----
 
-// f + phi.
-void feel(Instance& instance, const Part& part) noexcept {
+// phi of frames whose last poses lie several ticks apart: what turning adds to what moves at v in them,
+// -(alpha x u + 2 omega x v + omega x (omega x u)).
+void turning_term(Instance& instance, const Part& part) noexcept {
+  using Eigen::Vector3f;
+  const auto rate = static_cast<float>(1 / instance.asset->tick_s);
+  const auto at = [](const float* v) { return Eigen::Map<const Vector3f>(v); };
+  for (size_t n = part.node; n < part.node + part.record.node_count; ++n) {
+    const float* drive = instance.drive + tissue::kNodeDriveWidth * n;
+    const Vector3f omega = at(drive + 6), alpha = at(drive + 9), u = at(instance.u[0] + 3 * n);
+    const Vector3f v = rate * (u - at(instance.u[1] + 3 * n));
+    Eigen::Map<Vector3f>(instance.felt + 3 * n) =
+        -(alpha.cross(u) + 2 * omega.cross(v) + omega.cross(omega.cross(u)));
+  }
+}
+
+// Exact for poses of each tick.
+void frame_term(Instance& instance, const Part& part) noexcept {
   const tissue::NodePose* const poses[3] = {instance.poses[0] + part.node, instance.poses[1] + part.node,
                                             instance.poses[2] + part.node};
   tissue::frame_term(poses, instance.u[0] + part.vector, instance.u[1] + part.vector,
                      static_cast<float>(instance.asset->tick_s), part.record.node_count,
                      instance.felt + part.vector);
+}
+
+// f + phi.
+void feel(Instance& instance, const Part& part) noexcept {
+  if (instance.state->spacing_ticks == 1)
+    frame_term(instance, part);
+  else
+    turning_term(instance, part);
   for (size_t n = part.node; n < part.node + part.record.node_count; ++n) {
     for (size_t k = 0; k < 3; ++k)
       instance.felt[3 * n + k] += instance.drive[tissue::kNodeDriveWidth * n + k];
@@ -89,20 +151,50 @@ void answer_as_before(Instance& instance) noexcept {
   std::copy_n(instance.l[0], floats_of(instance), instance.l_hat);
 }
 
-// felt = f + phi, then e; q_hat, r_hat and l_hat. False where they are not finite.
-bool base_step(Instance& instance) noexcept {
-  const Asset& asset = *instance.asset;
-  if (regions_asleep(instance) > 0) answer_as_before(instance);
+// q and r of the last two ticks, as they had been had what was heard since grown evenly to `heard`.
+void grow(Instance& instance, const Part& part, uint32_t k, const float* heard) noexcept {
+  const tissue::ModalBase& base = part.base;
+  const float* held = instance.heard + part.heard;
+  const tissue::Ramp rest = tissue::ramp(base.rest_a1, base.rest_a2, k);
+  for (size_t i = 0; i < size_t{3} * base.node_count; ++i) {
+    const float change = base.rest_gain * (heard[i] - held[i]);
+    instance.r[0][part.vector + i] += rest.now * change;
+    instance.r[1][part.vector + i] += rest.before * change;
+  }
+  for (size_t m = 0; m < base.modes.size(); ++m) {
+    const pack::ModeRecord& mode = base.modes[m];
+    const tissue::Ramp grown = tissue::ramp(mode.a1, mode.a2, k);
+    const float change = mode.gain * (heard[base.padded + m] - held[base.padded + m]);
+    instance.q[0][part.mode + m] += grown.now * change;
+    instance.q[1][part.mode + m] += grown.before * change;
+  }
+}
+
+// felt = f + phi, then e; what is heard.
+void hear_modes(Instance& instance) noexcept {
+  const uint32_t k = grown_ticks(instance);
   for_each_awake_part(instance, [&](const Part& part) {
     feel(instance, part);
+    float *felt = instance.felt + part.vector, *heard = instance.region[0];
+    tissue::modal_hear(part.base, felt, instance.theta + part.vector, felt, heard);
+    if (k > 1) grow(instance, part, k, heard);
+    std::copy_n(heard, part.base.padded + part.base.padded_modes, instance.heard + part.heard);
+  });
+  remember_hearer(instance);
+}
+
+// q_hat, r_hat and l_hat. False where they are not finite.
+bool base_step(Instance& instance) noexcept {
+  const Asset& asset = *instance.asset;
+  if (instance.heard_now) hear_modes(instance);
+  if (regions_asleep(instance) > 0) answer_as_before(instance);
+  for_each_awake_part(instance, [&](const Part& part) {
     const tissue::ModalState state{.q = instance.q[0] + part.mode,
                                    .q_before = instance.q[1] + part.mode,
                                    .r = instance.r[0] + part.vector,
-                                   .r_before = instance.r[1] + part.vector,
-                                   .theta = instance.theta + part.vector};
-    float* felt = instance.felt + part.vector;
-    tissue::modal_step(
-        part.base, felt, state, instance.region[0], felt,
+                                   .r_before = instance.r[1] + part.vector};
+    tissue::modal_answer(
+        part.base, instance.heard + part.heard, state,
         {.q = instance.q_hat + part.mode, .r = instance.r_hat + part.vector, .l = instance.region[1]});
     std::copy_n(instance.region[1], 3 * part.record.node_count, instance.l_hat + part.vector);
   });
@@ -244,7 +336,8 @@ void drive_nodes(Instance& instance) noexcept {
     motion.pose[tick] = instance.poses[tick];
     std::copy_n(instance.state->tick_root_m[tick], 3, motion.root_position_m[tick]);
   }
-  tissue::compute_node_drive(motion, static_cast<float>(instance.asset->tick_s), instance.asset->node_count(),
+  const double step_s = instance.state->spacing_ticks * instance.asset->tick_s;
+  tissue::compute_node_drive(motion, static_cast<float>(step_s), instance.asset->node_count(),
                              instance.drive);
 }
 

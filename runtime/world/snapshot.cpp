@@ -16,7 +16,8 @@ using core::make_status;
 constexpr uint64_t kMagic = 0x31544154534e5753;  // "SWNSTAT1", little-endian
 // Of InstanceState, the arrays after it and the rods' batches. 4: which regions sleep, and what they felt
 // when they fell asleep. 5: rods. 6: how vertices are pushed, and contacts' forces.
-constexpr uint32_t kVersion = 6;
+// 7: what is gone on by between ticks that are simulated whole.
+constexpr uint32_t kVersion = 7;
 
 struct Header {
   uint64_t magic, fingerprint, payload_bytes, checksum;

@@ -45,8 +45,9 @@ struct Body {
   float& projection(size_t mode, size_t i) { return project[i * padded_modes + mode]; }
   // One tick of the modal tier.
   void step(const float* felt) {
-    tissue::modal_step(base(), felt, {q.data(), q_before.data(), r.data(), r_before.data(), theta.data()},
-                       scratch.data(), felt_in_flesh.data(), {q_hat.data(), r_hat.data(), l.data()});
+    tissue::modal_hear(base(), felt, theta.data(), felt_in_flesh.data(), scratch.data());
+    tissue::modal_answer(base(), scratch.data(), {q.data(), q_before.data(), r.data(), r_before.data()},
+                         {q_hat.data(), r_hat.data(), l.data()});
     q_before = q;
     q = q_hat;
     r_before = r;
