@@ -94,7 +94,7 @@ void modal_answer(const ModalBase& base, const float* heard, const ModalState& s
 
 Ramp ramp(float a1, float a2, uint32_t k) noexcept {
   Ramp at{0, 0};
-  for (uint32_t j = 1; j < k; ++j) {
+  for (uint32_t j = 1; j < 2 * k - 1; ++j) {
     const float share = static_cast<float>(j) / static_cast<float>(k);
     at = {a1 * at.now + a2 * at.before + share, at.now};
   }

@@ -42,7 +42,7 @@ void lay_out_state(const Asset& asset, core::Arena& arena, Instance& to) noexcep
   to.theta = arena.take<float>(vectors);
   for (float*& q : to.q) q = arena.take<float>(asset.mode_count());
   for (float*& r : to.r) r = arena.take<float>(vectors);
-  to.heard = arena.take<float>(asset.heard_floats);
+  for (float*& heard : to.heard) heard = arena.take<float>(asset.heard_floats);
   to.tail = arena.take<float>(vectors);
   to.tail_velocity = arena.take<float>(vectors);
   for (float*& shown : to.shown) shown = arena.take<float>(vectors);

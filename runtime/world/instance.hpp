@@ -67,7 +67,7 @@ struct InstanceState {
   uint32_t since_ticks = 1;    // from the last tick that was heard to this one
   uint32_t spacing_ticks = 1;  // between the last two of them, and so between poses
   uint32_t heard_by = 0;       // HeardBy: whose `heard` is
-  uint32_t reserved = 0;       // no padding
+  float heard_stretch = 1;     // this spacing over that of the two ticks of `heard`
 };
 
 // What the last step measured; not state.
@@ -129,7 +129,7 @@ struct Instance {
   float* network_state = nullptr;
   float *u[2] = {}, *l[2] = {}, *theta = nullptr;  // newest first
   float *q[2] = {}, *r[2] = {};                    // q: [modes of all regions]
-  float* heard = nullptr;  // of the last tick that was heard: a region after the other, as it goes on by it
+  float* heard[2] = {};  // of the last two ticks that were simulated whole: a region after the other
   float *tail = nullptr, *tail_velocity = nullptr;  // velocity a tick
   float* shown[2] = {};                             // newest first
   float* felt_asleep = nullptr;                     // m/s^2, when the region's quiet began (world/sleep.hpp)

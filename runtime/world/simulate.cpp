@@ -46,10 +46,30 @@ void for_each_awake_part(const Instance& instance, Work work) noexcept {
 
 size_t floats_of(const Instance& instance) noexcept { return size_t{3} * instance.asset->node_count(); }
 
-// Ticks that what was heard has grown over; 1 where nothing was.
-uint32_t grown_ticks(const Instance& instance) noexcept {
+// What was heard in the tick that is simulated whole; then `heard` is how it differs from what was expected
+// of it, per k ticks: of what came evenly since the one before.
+void hear(Instance& instance, const Part& part, size_t floats, float* heard) noexcept {
+  float *last = instance.heard[0] + part.heard, *before = instance.heard[1] + part.heard;
   const InstanceState& state = *instance.state;
-  return state.heard_by == static_cast<uint32_t>(hearer(state.tier)) ? state.since_ticks : 1;
+  const bool knows = state.heard_by == static_cast<uint32_t>(hearer(state.tier));
+  const float stretch = state.heard_stretch;
+  for (size_t i = 0; i < floats; ++i) {
+    const float now = heard[i], slope = knows ? stretch * (last[i] - before[i]) : 0;
+    before[i] = knows ? last[i] : now;
+    last[i] = now;
+    heard[i] = now - before[i] - slope;
+  }
+}
+
+// What this tick hears: what was heard k ticks apart is of k ticks ago, and goes on as it did.
+const float* listen(Instance& instance, const Part& part, size_t floats) noexcept {
+  const InstanceState& state = *instance.state;
+  const float *last = instance.heard[0] + part.heard, *before = instance.heard[1] + part.heard;
+  const uint32_t k = state.spacing_ticks, since = instance.heard_now ? 0 : state.since_ticks;
+  if (k - 1 + since == 0) return last;
+  const float on = static_cast<float>(k - 1 + since) / static_cast<float>(k);
+  for (size_t i = 0; i < floats; ++i) instance.region[0][i] = last[i] + on * (last[i] - before[i]);
+  return instance.region[0];
 }
 
 void remember_hearer(Instance& instance) noexcept {
@@ -69,21 +89,21 @@ void count_clamps(Instance& instance, uint32_t held, uint32_t by_tier) noexcept 
 // What grew while nobody listened, and what is heard from here on.
 void hear_springs(Instance& instance) noexcept {
   const pack::PackView& pack = instance.asset->pack;
-  const uint32_t k = grown_ticks(instance);
   for_each_part(instance, [&](const Part& part) {
+    for (size_t i = 0; i < part.record.node_count; ++i)
+      std::copy_n(instance.drive + tissue::kNodeDriveWidth * (part.node + i), 3, instance.region[0] + 3 * i);
+    hear(instance, part, 3 * part.record.node_count, instance.region[0]);
+    const uint32_t k = instance.state->spacing_ticks;
+    if (k == 1) return;
     const pack::SpringRecord& spring = pack.springs[part.index];
-    const tissue::Ramp grown = tissue::ramp(spring.a1, spring.a2, k);
+    const tissue::Ramp missed = tissue::ramp(spring.a1, spring.a2, k);
     for (size_t i = 0; i < part.record.node_count; ++i) {
-      const float* felt = instance.drive + tissue::kNodeDriveWidth * (part.node + i);
-      const float* row = pack.compliance.data() + 9 * (part.node + i);
-      float* held = instance.heard + part.heard + 3 * i;
-      const float change[3] = {felt[0] - held[0], felt[1] - held[1], felt[2] - held[2]};
-      for (size_t axis = 0; axis < 3 && k > 1; ++axis, row += 3) {
+      const float *change = instance.region[0] + 3 * i, *row = pack.compliance.data() + 9 * (part.node + i);
+      for (size_t axis = 0; axis < 3; ++axis, row += 3) {
         const float at_rest = spring.gain * (row[0] * change[0] + row[1] * change[1] + row[2] * change[2]);
-        instance.u[0][part.vector + 3 * i + axis] += grown.now * at_rest;
-        instance.u[1][part.vector + 3 * i + axis] += grown.before * at_rest;
+        instance.u[0][part.vector + 3 * i + axis] += missed.now * at_rest;
+        instance.u[1][part.vector + 3 * i + axis] += missed.before * at_rest;
       }
-      std::copy_n(felt, 3, held);
     }
   });
   remember_hearer(instance);
@@ -94,8 +114,8 @@ bool spring_tick(Instance& instance) noexcept {
   if (instance.heard_now) hear_springs(instance);
   for_each_part(instance, [&](const Part& part) {
     tissue::spring_step(pack.springs[part.index], pack.compliance.data() + 9 * part.node,
-                        instance.heard + part.heard, 3, part.record.node_count, instance.u[0] + part.vector,
-                        instance.u[1] + part.vector);
+                        listen(instance, part, 3 * part.record.node_count), 3, part.record.node_count,
+                        instance.u[0] + part.vector, instance.u[1] + part.vector);
   });
   if (!tissue::all_finite(instance.u[0], floats_of(instance))) return false;
   uint32_t held = 0;
@@ -151,34 +171,31 @@ void answer_as_before(Instance& instance) noexcept {
   std::copy_n(instance.l[0], floats_of(instance), instance.l_hat);
 }
 
-// q and r of the last two ticks, as they had been had what was heard since grown evenly to `heard`.
-void grow(Instance& instance, const Part& part, uint32_t k, const float* heard) noexcept {
+// q and r of the last two ticks, as they had been had they heard this much more in the end.
+void make_up(Instance& instance, const Part& part, const float* change) noexcept {
   const tissue::ModalBase& base = part.base;
-  const float* held = instance.heard + part.heard;
+  const uint32_t k = instance.state->spacing_ticks;
   const tissue::Ramp rest = tissue::ramp(base.rest_a1, base.rest_a2, k);
   for (size_t i = 0; i < size_t{3} * base.node_count; ++i) {
-    const float change = base.rest_gain * (heard[i] - held[i]);
-    instance.r[0][part.vector + i] += rest.now * change;
-    instance.r[1][part.vector + i] += rest.before * change;
+    instance.r[0][part.vector + i] += rest.now * base.rest_gain * change[i];
+    instance.r[1][part.vector + i] += rest.before * base.rest_gain * change[i];
   }
   for (size_t m = 0; m < base.modes.size(); ++m) {
     const pack::ModeRecord& mode = base.modes[m];
-    const tissue::Ramp grown = tissue::ramp(mode.a1, mode.a2, k);
-    const float change = mode.gain * (heard[base.padded + m] - held[base.padded + m]);
-    instance.q[0][part.mode + m] += grown.now * change;
-    instance.q[1][part.mode + m] += grown.before * change;
+    const tissue::Ramp missed = tissue::ramp(mode.a1, mode.a2, k);
+    instance.q[0][part.mode + m] += missed.now * mode.gain * change[base.padded + m];
+    instance.q[1][part.mode + m] += missed.before * mode.gain * change[base.padded + m];
   }
 }
 
 // felt = f + phi, then e; what is heard.
 void hear_modes(Instance& instance) noexcept {
-  const uint32_t k = grown_ticks(instance);
   for_each_awake_part(instance, [&](const Part& part) {
     feel(instance, part);
     float *felt = instance.felt + part.vector, *heard = instance.region[0];
     tissue::modal_hear(part.base, felt, instance.theta + part.vector, felt, heard);
-    if (k > 1) grow(instance, part, k, heard);
-    std::copy_n(heard, part.base.padded + part.base.padded_modes, instance.heard + part.heard);
+    hear(instance, part, part.base.padded + part.base.padded_modes, heard);
+    if (instance.state->spacing_ticks > 1) make_up(instance, part, heard);
   });
   remember_hearer(instance);
 }
@@ -194,7 +211,7 @@ bool base_step(Instance& instance) noexcept {
                                    .r = instance.r[0] + part.vector,
                                    .r_before = instance.r[1] + part.vector};
     tissue::modal_answer(
-        part.base, instance.heard + part.heard, state,
+        part.base, listen(instance, part, part.base.padded + part.base.padded_modes), state,
         {.q = instance.q_hat + part.mode, .r = instance.r_hat + part.vector, .l = instance.region[1]});
     std::copy_n(instance.region[1], 3 * part.record.node_count, instance.l_hat + part.vector);
   });

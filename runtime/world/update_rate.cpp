@@ -75,6 +75,7 @@ bool begin_tick(Instance& instance) noexcept {
 
 void respace_past(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
+  state.heard_stretch = static_cast<float>(state.since_ticks) / static_cast<float>(state.spacing_ticks);
   if (state.since_ticks == state.spacing_ticks) return;
   const Respacing as = respacing(state.spacing_ticks, state.since_ticks);
   respace_root(as, state.tick_root_m);
