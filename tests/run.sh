@@ -4,9 +4,12 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
+precompile=ON
+[ -z "${CMAKE_CXX_COMPILER_LAUNCHER:-}" ] || precompile=OFF
+
 run_preset() {
   scripts/install_packages.sh "$1"
-  cmake --preset "$1" >/dev/null
+  cmake --preset "$1" -DSINEW_PRECOMPILE="$precompile" >/dev/null
   cmake --build --preset "$1"
   ctest --test-dir "build/$1" --output-on-failure -j "$(nproc)" "${@:2}"
 }

@@ -8,6 +8,7 @@
 
 #include "core/status.hpp"
 #include "world/instance.hpp"
+#include "world/pose_bound.hpp"
 
 namespace sinew::world {
 namespace {
@@ -74,6 +75,7 @@ Status open_asset(std::span<const std::byte> bytes, Asset* out) noexcept {
     asset.heard_floats += floats;
   }
   asset.cost = baked_costs(view);
+  asset.reach_m = reach_of(asset);
   return {};
 }
 

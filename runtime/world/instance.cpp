@@ -12,6 +12,7 @@
 #include "tissue/inputs.hpp"
 #include "tissue/network.hpp"
 #include "tissue/node_drive.hpp"
+#include "world/pose_bound.hpp"
 #include "world/publish.hpp"
 #include "world/push_surface.hpp"
 #include "world/rod_batches.hpp"
@@ -24,7 +25,7 @@ namespace sinew::world {
 namespace {
 
 static_assert(std::is_trivially_copyable_v<InstanceState>, "saved as bytes");
-static_assert(sizeof(InstanceState) == 352, "no padding: equal states are equal bytes");
+static_assert(sizeof(InstanceState) == 368, "no padding: equal states are equal bytes");
 
 float smooth_step(float t) noexcept { return t * t * (3 - 2 * t); }
 
@@ -155,6 +156,8 @@ Status make_instance(Asset& asset, const InstanceDef& def, Instance* out) noexce
   made.state->importance = frame::sane_importance(def.importance);
   bind_pose(asset.pack.joints, made.joints);
   std::copy_n(made.joints, asset.pack.character->joint_count, made.joints_before);
+  std::copy_n(made.joints, asset.pack.character->joint_count, made.next_joints);
+  bound_pose(made);
   forget_rods(made);
   if (Status status = make_rod_colliders(made); !status.ok()) return status;
   publish(made);
@@ -206,7 +209,8 @@ InstanceReport describe(const Instance& instance, InstanceId id) noexcept {
           .contacts_dropped = instance.told.dropped,
           .contact_volume_m3 = instance.told.volume_m3,
           .deepest_penetration_m = instance.told.deepest_m,
-          .cost_us = core::microseconds(instance.times.total_ns)};
+          .cost_us = core::microseconds(instance.times.total_ns),
+          .hidden = state.hidden != 0};
 }
 
 }  // namespace sinew::world

@@ -60,8 +60,11 @@ struct InstanceState {
   uint32_t untouched = 1;       // no tick since the first pose: displacement is exactly zero
   double rod_anchor_m[3] = {};  // of the world, where rods' places count from: near, so that they stay exact
   uint32_t rod_recoveries = 0;
-  uint32_t rod_quiet_ticks = 0;  // world/rod_sleep.hpp
-  uint32_t teleported = 0;       // in the last step
+  uint32_t rod_quiet_ticks = 0;           // world/rod_sleep.hpp
+  uint32_t teleported = 0;                // in the last step
+  uint32_t blind_looks = 0;               // in a row (world/look.hpp)
+  uint32_t hidden = 0, hidden_ticks = 0;  // world/hidden.hpp
+  uint32_t hidden_by_caller = 0;
   // world/update_rate.hpp:
   uint32_t ticks = 0;          // counts on for ever: whose turn it is
   uint32_t since_ticks = 1;    // from the last tick that was heard to this one
@@ -112,6 +115,9 @@ struct Instance {
   Asset* asset = nullptr;
   InstancePlan plan;
   InstanceTimes times;
+  float bound_middle_m[3] = {}, bound_radius_m = 0;        // world/pose_bound.hpp
+  float size = 1;                                          // share of a view's height
+  bool seen = true, came_back = false;                     // in this step
   bool cut = false, restarted = false, fell_back = false;  // in the last step
   bool heard_now = false;                                  // in the last tick: it was simulated whole
   bool parts_ready = false;                                // in this step: the parts are filled in

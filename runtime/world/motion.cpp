@@ -205,7 +205,8 @@ void take_pose(Instance& instance, float teleport_distance_m) noexcept {
 void keep_pose(Instance& instance) noexcept {
   copy_joints(instance, instance.joints, instance.joints_before);
   copy_joints(instance, instance.next_joints, instance.joints);
-  instance.state->dt_before_s = instance.plan.dt_s;
+  // A pose that only counts as held says nothing of how the next is reached.
+  instance.state->dt_before_s = instance.came_back ? 0 : instance.plan.dt_s;
   instance.state->root = instance.state->next_root;
   instance.state->has_next = 0;
 }

@@ -1,5 +1,6 @@
 // snapshot.cpp  An instance's state as bytes, for rollback.
 #include "world/snapshot.hpp"
+#include "world/pose_bound.hpp"
 
 #include <cstring>
 
@@ -16,7 +17,7 @@ using core::make_status;
 constexpr uint64_t kMagic = 0x31544154534e5753;  // "SWNSTAT1", little-endian
 // Of InstanceState, the arrays after it and the rods' batches. 4: which regions sleep, and what they felt
 // when they fell asleep. 5: rods. 6: how vertices are pushed, and contacts' forces.
-// 7: what is gone on by between ticks that are simulated whole.
+// 7: who is hidden; what is gone on by between ticks that are simulated whole.
 constexpr uint32_t kVersion = 7;
 
 struct Header {
@@ -106,6 +107,7 @@ Status restore(Instance& instance, std::span<const std::byte> bytes) noexcept {
   restore_rods(instance, payload.data() + instance.state_bytes);
   instance.rods_anew = false;
   instance.told = {};
+  bound_pose(instance);
   const core::FlushDenormals flush;  // as in a step: the same bits are shown
   publish(instance);
   return {};

@@ -8,6 +8,8 @@
 
 #include "core/clock.hpp"
 #include "core/run_tasks.hpp"
+#include "world/hidden.hpp"
+#include "world/look.hpp"
 
 namespace sinew::world {
 namespace {
@@ -33,17 +35,18 @@ Candidate plan_instance(const WorldState& world, Instance& instance, uint32_t sl
       .ticks = frame::plan_ticks(state.remainder_s, dt_s, asset.tick_s, world.def.max_ticks_per_step),
       .dt_s = dt_s};
   const uint32_t ticks = instance.plan.ticks.ticks;
-  Candidate candidate{.slot = slot,
-                      .importance = state.importance,
-                      .waited_s = state.waited_s,
-                      .held_s = state.held_s,
-                      .base_us = cost_us(world, asset.cost.base),
-                      .best = asset.best(),
-                      .on_best = state.tier == asset.best(),
-                      .has_best = asset.best() != Tier::kNetwork || state.fallback_ticks == 0,
-                      .eligible = state.restarting == 0,
-                      .keeps_tier = ticks == 0,
-                      .tier = state.tier};
+  Candidate candidate{
+      .slot = slot,
+      .importance = state.importance * instance.size,
+      .waited_s = state.waited_s,
+      .held_s = state.held_s,
+      .base_us = cost_us(world, asset.cost.base),
+      .best = asset.best(),
+      .on_best = state.tier == asset.best(),
+      .has_best = asset.best() != Tier::kNetwork || state.fallback_ticks == 0,
+      .eligible = state.restarting == 0 && state.hidden == 0,  // how it moves is known a step later
+      .keeps_tier = ticks == 0,
+      .tier = state.tier};
   for (size_t tier = 0; tier < kTierCount; ++tier)
     candidate.cost_us[tier] = static_cast<float>(ticks) * cost_us(world, asset.cost.tick[tier]);
   return candidate;
@@ -53,7 +56,11 @@ std::span<Candidate> plan_instances(WorldState& world, double dt_s) noexcept {
   uint32_t count = 0;
   for (uint32_t slot = 0; slot < world.instances.end(); ++slot) {
     Instance* instance = world.instances.at(slot);
-    if (instance) world.candidates[count++] = plan_instance(world, *instance, slot, dt_s);
+    if (!instance) continue;
+    if (instance->seen)
+      world.candidates[count++] = plan_instance(world, *instance, slot, dt_s);
+    else
+      pass_by(*instance, dt_s, world.def.max_ticks_per_step);
   }
   return {world.candidates.get(), count};
 }
@@ -146,6 +153,8 @@ void fold_results(WorldState& world, FrameReport& report) noexcept {
   for (uint32_t slot = 0; slot < world.instances.end(); ++slot) {
     Instance* instance = world.instances.at(slot);
     if (!instance) continue;
+    report.instances_hidden += !instance->seen;
+    if (!instance->seen) continue;
     age(*instance);
     if (costs_are_measured(world)) correct_costs(*instance);
     add_to_report(*instance, report);
@@ -157,6 +166,7 @@ void fold_results(WorldState& world, FrameReport& report) noexcept {
 FrameReport step(WorldState& world, float dt_s) noexcept {
   const uint64_t start_ns = core::now_ns(world.def.clock);
   FrameReport report{.frame = world.frames++, .budget_us = world.budget_us};
+  look(world);
   const std::span<Candidate> candidates = plan_instances(world, frame::exact_seconds(dt_s));
   const bool denied = schedule_instances(world, candidates);
   world.context = context_of(world, start_ns);

@@ -5,6 +5,7 @@
 #include "core/flush_denormals.hpp"
 #include "frame/scheduler.hpp"
 #include "world/blend.hpp"
+#include "world/hidden.hpp"
 #include "world/motion.hpp"
 #include "world/publish.hpp"
 #include "world/push_surface.hpp"
@@ -81,6 +82,8 @@ void step_instance(Instance& instance, const TickContext& context) noexcept {
   const uint64_t start_ns = core::now_ns(context.clock);
   const Tier tier = tier_at(instance, start_ns, context.deadline_ns);
   instance.times = {};
+  instance.came_back = instance.state->hidden != 0;
+  if (instance.came_back) come_back(instance);
   instance.restarted = instance.fell_back = false;
   instance.cut = tier != instance.plan.tier;
   enter_tier(instance, tier);

@@ -10,6 +10,7 @@
 #include "simd/isa.hpp"
 #include "simd/kernels.hpp"
 #include "world/pose.hpp"
+#include "world/pose_bound.hpp"
 #include "world/read.hpp"
 #include "world/rod_publish.hpp"
 #include "world/snapshot.hpp"
@@ -227,6 +228,7 @@ Status World::set_pose(InstanceId id, const Pose& pose) noexcept {
   std::copy(pose.joints.begin(), pose.joints.end(), instance->next_joints);
   instance->state->next_root = root;
   instance->state->has_next = 1;
+  world::bound_pose(*instance);
   return {};
 }
 
@@ -235,6 +237,28 @@ Status World::set_importance(InstanceId id, float importance) noexcept {
   if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
   if (busy(*impl_)) return refuse_busy();
   instance->state->importance = frame::sane_importance(importance);
+  return {};
+}
+
+Status World::set_views(std::span<const View> views) noexcept {
+  if (!impl_) return null_world();
+  if (busy(*impl_)) return refuse_busy();
+  if (views.size() > kMostViews)
+    return make_status(StatusCode::kInvalidArgument, "set_views: %zu views; give at most %u", views.size(),
+                       kMostViews);
+  frame::Sight sights[kMostViews];
+  for (size_t v = 0; v < views.size(); ++v)
+    if (Status status = frame::make_sight(views[v], &sights[v]); !status.ok()) return status;
+  std::copy_n(sights, views.size(), impl_->sights);
+  impl_->sight_count = static_cast<uint32_t>(views.size());
+  return {};
+}
+
+Status World::set_hidden(InstanceId id, bool hidden) noexcept {
+  Instance* instance = nullptr;
+  if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
+  if (busy(*impl_)) return refuse_busy();
+  instance->state->hidden_by_caller = hidden;
   return {};
 }
 

@@ -6,6 +6,7 @@
 #include "core/slot_table.hpp"
 #include "frame/cost_model.hpp"
 #include "frame/scheduler.hpp"
+#include "frame/sight.hpp"
 #include "sinew/types.hpp"
 #include "world/asset.hpp"
 #include "world/instance.hpp"
@@ -21,6 +22,9 @@ struct WorldState {
   TickContext context;                             // of the step that runs
   frame::Capacity capacity;
   float budget_us = std::numeric_limits<float>::infinity();
+  frame::Sight sights[kMostViews];
+  uint32_t sight_count = 0;
+  uint32_t next_look = 0;  // slot of the instance that was looked at last
   uint64_t frames = 0;
   uint32_t rejected_poses = 0;  // since the last step
   bool stepping = false;

@@ -9,7 +9,8 @@
 
 namespace sinew {
 
-class ContactSource;  // contact_source.hpp
+class ContactSource;    // contact_source.hpp
+class OcclusionSource;  // view.hpp
 
 // Row-major 3x4 affine matrix: p' = m[r][0..2] p + m[r][3].
 struct Matrix34 {
@@ -80,6 +81,10 @@ struct WorldDef {
   // (runtime/world/sleep.hpp). 0: never.
   float sleep_tolerance = 5e-4f;
   BudgetMode budget_mode = BudgetMode::kTime;
+  // Asked whether something hides what views show (World::set_views); null: nothing does. Outlives the world.
+  OcclusionSource* occlusion = nullptr;
+  uint32_t sight_rays_per_step =
+      64;  // at most so many questions a step, eight for an instance and view; < 8: none
   TaskHook tasks = {};
   ClockHook clock = {};
   AssertHook assert_hook = {};
@@ -143,6 +148,7 @@ struct InstanceReport {
   float contact_volume_m3 = 0;
   float deepest_penetration_m = 0;  // what soft parts are left inside, bounded as they are
   float cost_us = 0;                // what this instance took in the last step, on its thread
+  bool hidden = false;              // nobody saw it in the last step: nothing was done for it
 };
 
 // Filled by step(). All times in microseconds of the world's clock.
@@ -159,6 +165,7 @@ struct FrameReport {
   // Each instance once; one whose extrapolation has faded away counts as skinned.
   uint32_t instances_network = 0, instances_modal = 0, instances_spring = 0, instances_extrapolated = 0,
            instances_skinned = 0;
+  uint32_t instances_hidden = 0;         // nobody sees them; in none of the counts above
   uint32_t instances_cut = 0;            // to be simulated, but the deadline came first: extrapolated instead
   uint32_t restarts = 0, fallbacks = 0;  // instances in this frame
   uint32_t regions_asleep = 0;           // soft parts at rest, of all instances

@@ -13,14 +13,15 @@
 //   }
 //
 // Thread rule: one thread at a time calls a world's functions, except where a function says otherwise.
-// Nothing here throws or prints. step, set_pose, set_importance, set_budget_us, reset, read_*, report,
-// save_state and restore_state never allocate or block; the others may allocate.
+// Nothing here throws or prints. step, set_pose, set_importance, set_views, set_hidden, set_budget_us, reset,
+// read_*, report, save_state and restore_state never allocate or block; the others may allocate.
 //
 // Every function answers kInvalidArgument on a null world or for a null out, and kStaleId for an id that is
 // null or whose object is gone (a programmer error: the assert hook hears of it). After a refusal nothing has
 // changed.
 #pragma once
 #include "sinew/types.hpp"
+#include "sinew/view.hpp"
 
 namespace sinew {
 
@@ -69,6 +70,14 @@ class World {
   Status set_pose(InstanceId instance, const Pose& pose) noexcept;
   // Mended as in InstanceDef.
   Status set_importance(InstanceId instance, float importance) noexcept;
+  // Where the world is seen from, at most kMostViews, until the next call. An instance that none shows is
+  // hidden: it costs next to nothing and what is read of it stays as it was; coming back:
+  // runtime/world/hidden.hpp. Of the others the importance counts times the share of the view's height that
+  // they take. No views, the default: all are seen, as large as any. A field outside its range:
+  // kInvalidArgument or kNotFinite, the views stay.
+  Status set_views(std::span<const View> views) noexcept;
+  // The engine's own culling: hidden whatever the views show, until it says otherwise.
+  Status set_hidden(InstanceId instance, bool hidden) noexcept;
   // Forgets motion: the tissue is at rest in the next pose that is set. What is read back changes with
   // the next step.
   Status reset(InstanceId instance) noexcept;

@@ -1,0 +1,91 @@
+// main.cpp  perf_frames: whole frames under a budget, in scenes that try to break it; CSV to stdout.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+
+#include "perf/frames/frame_run.hpp"
+
+namespace {
+
+using namespace sinew;
+using namespace sinew::perf;
+
+struct Options {
+  std::string pack;
+  uint32_t frames = 6000;
+  std::string only;
+};
+
+// The smallest value that `share` of all do not exceed.
+double quantile(std::vector<double>& sorted, double share) {
+  const auto rank = static_cast<size_t>(std::ceil(share * static_cast<double>(sorted.size())));
+  return sorted[std::max<size_t>(rank, 1) - 1];
+}
+
+template <class Get>
+void put_quantiles(const std::vector<FrameCost>& frames, Get get) {
+  std::vector<double> values;
+  for (const FrameCost& frame : frames) values.push_back(static_cast<double>(get(frame)));
+  std::ranges::sort(values);
+  for (const double share : {0.5, 0.99, 0.999, 1.0}) std::printf(",%.4g", quantile(values, share));
+}
+
+double share_of_tier(const std::vector<FrameCost>& frames, uint32_t FrameReport::*count, uint32_t instances) {
+  double sum = 0;
+  for (const FrameCost& frame : frames) sum += frame.report.*count;
+  return sum / static_cast<double>(frames.size() * instances);
+}
+
+void put_scene(const Scene& scene, const std::vector<FrameCost>& frames) {
+  std::printf("%s,%u,%g,%zu", name_of(scene.trouble), scene.instances, double{scene.budget_us},
+              frames.size());
+  put_quantiles(frames, [&](const FrameCost& f) { return f.cpu_us / scene.budget_us; });
+  put_quantiles(frames, [&](const FrameCost& f) { return f.wall_us / scene.budget_us; });
+  put_quantiles(frames, [](const FrameCost& f) { return f.report.schedule_us; });
+  for (const auto count :
+       {&FrameReport::instances_network, &FrameReport::instances_modal, &FrameReport::instances_spring,
+        &FrameReport::instances_extrapolated, &FrameReport::instances_skinned, &FrameReport::instances_cut})
+    std::printf(",%.4f", share_of_tier(frames, count, scene.instances));
+  std::puts("");
+  std::fflush(stdout);
+}
+
+void put_header() {
+  std::printf("trouble,instances,budget_us,frames");
+  for (const char* of : {"cpu", "wall", "schedule_us"})
+    std::printf(",%s_p50,%s_p99,%s_p999,%s_worst", of, of, of, of);
+  std::puts(",network,modal,spring,extrapolated,skinned,cut");
+}
+
+void run(const Options& options) {
+  const demo::CharacterFile character = demo::open_character(options.pack);
+  const PoseTape tape(character, 30);
+  put_header();
+  for (const Scene& scene : all_scenes()) {
+    if (options.only.empty() || options.only == name_of(scene.trouble))
+      put_scene(scene, run_frames(character, tape, scene, options.frames));
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app(
+      "Steps crowds under a budget in scenes that try to break it; CSV to standard output, times as shares "
+      "of the budget");
+  app.add_option("pack", options.pack, "C.sinew")->required();
+  app.add_option("--frames", options.frames, "of each scene")->check(CLI::Range(60, 1'000'000));
+  app.add_option("--only", options.only,
+                 "steady, cuts, entrance, hitch, worker lost, neighbour, hidden or asleep");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    run(options);
+    return 0;
+  } catch (const std::exception& problem) {
+    std::fprintf(stderr, "perf_frames: %s\n", problem.what());
+    return 2;
+  }
+}

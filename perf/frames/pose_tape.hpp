@@ -1,0 +1,22 @@
+// pose_tape.hpp  A character's motion, sampled once: playing it costs next to nothing beside what is timed.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "samples/demo/character_file.hpp"
+#include "samples/demo/motion.hpp"
+
+namespace sinew::perf {
+
+class PoseTape {
+ public:
+  // All of its clips in turn, looped with a cross-fade by the motion itself. Throws baker::BadInput.
+  PoseTape(const demo::CharacterFile& character, double seconds);
+  std::span<const Matrix34> joints(double time_s) const;  // the nearest frame of 60 a second; loops
+
+ private:
+  size_t joint_count_, frames_;
+  std::vector<Matrix34> joints_;
+};
+
+}  // namespace sinew::perf

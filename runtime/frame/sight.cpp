@@ -1,0 +1,97 @@
+// sight.cpp  see sight.hpp.
+#include "frame/sight.hpp"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "core/status.hpp"
+
+namespace sinew::frame {
+namespace {
+
+using core::make_status;
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+
+constexpr double kFarthest_m = 1e12;
+constexpr float kHalfTurn_rad = 3.14159265f;
+
+Status check_place(const double (&place_m)[3]) noexcept {
+  for (const double x : place_m) {
+    if (!std::isfinite(x))
+      return make_status(StatusCode::kNotFinite, "view: position_m holds NaN or infinity");
+    if (std::fabs(x) > kFarthest_m)
+      return make_status(StatusCode::kInvalidArgument, "view: position_m %g lies beyond +-1e12 m", x);
+  }
+  return {};
+}
+
+Status check_edges(const View& view) noexcept {
+  if (!(view.height_rad > 0 && view.height_rad < kHalfTurn_rad))
+    return make_status(StatusCode::kInvalidArgument, "view: height_rad is %g; give an angle between 0 and pi",
+                       static_cast<double>(view.height_rad));
+  if (!(view.aspect > 0) || !std::isfinite(view.aspect))
+    return make_status(StatusCode::kInvalidArgument, "view: aspect is %g; give width over height, above 0",
+                       static_cast<double>(view.aspect));
+  if (view.far_m > 0) return {};
+  return make_status(StatusCode::kInvalidArgument, "view: far_m is %g; give metres above 0, or infinity",
+                     static_cast<double>(view.far_m));
+}
+
+// From the eye, along the camera's axes.
+Vector3f seen_from(const Sight& sight, const Ball& ball) noexcept {
+  const Vector3d away = Eigen::Map<const Vector3d>(ball.middle_m) - Eigen::Map<const Vector3d>(sight.eye_m);
+  return Eigen::Map<const Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(&sight.axes[0][0]) *
+         away.cast<float>();
+}
+
+// Whether a ball is wholly beyond an edge of the view: `across` of it lies along the edge's axis.
+bool is_beyond(float across, float depth, float half, float radius) noexcept {
+  return std::fabs(across) - half * depth > radius * std::sqrt(1 + half * half);
+}
+
+}  // namespace
+
+Status make_sight(const View& view, Sight* out) noexcept {
+  if (Status status = check_place(view.position_m); !status.ok()) return status;
+  if (Status status = check_edges(view); !status.ok()) return status;
+  const Eigen::Quaternionf turn = Eigen::Map<const Eigen::Quaternionf>(view.rotation_xyzw);
+  if (!(turn.norm() > 1e-6f) || !std::isfinite(turn.norm()))
+    return make_status(StatusCode::kInvalidArgument,
+                       "view: rotation_xyzw is no rotation; the identity is 0 0 0 1");
+  Sight made;
+  std::copy_n(view.position_m, 3, made.eye_m);
+  Eigen::Map<Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(&made.axes[0][0]) =
+      turn.normalized().toRotationMatrix().transpose();
+  made.half_height = std::tan(view.height_rad / 2);
+  made.half_width = made.half_height * view.aspect;
+  made.far_m = view.far_m;
+  *out = made;
+  return {};
+}
+
+float seen_size(const Sight& sight, const Ball& ball) noexcept {
+  const Vector3f at = seen_from(sight, ball);
+  const float depth = -at.z(), radius = ball.radius_m, away = at.norm();
+  if (away <= radius) return 1;
+  const bool outside = depth < -radius || depth - radius > sight.far_m ||
+                       is_beyond(at.x(), depth, sight.half_width, radius) ||
+                       is_beyond(at.y(), depth, sight.half_height, radius);
+  return outside ? 0 : std::min(1.0f, radius / (away * sight.half_height));
+}
+
+// A spiral by the golden angle over a disc, its radius by a sequence that never repeats.
+void point_on(const Sight& sight, const Ball& ball, uint32_t number, double (&point_m)[3]) noexcept {
+  constexpr double kGoldenAngle = 2.39996323, kGoldenShare = 0.61803398875;
+  const Vector3d middle = Eigen::Map<const Vector3d>(ball.middle_m);
+  const Vector3d back = (Eigen::Map<const Vector3d>(sight.eye_m) - middle).normalized();
+  const Vector3d side = back.unitOrthogonal(), up = back.cross(side);
+  const double angle = kGoldenAngle * number;
+  const double share = kGoldenShare * number - std::floor(kGoldenShare * number);
+  const double radius = static_cast<double>(ball.radius_m) * std::sqrt(share);
+  Eigen::Map<Vector3d>{point_m} = middle + radius * (std::cos(angle) * side + std::sin(angle) * up);
+}
+
+}  // namespace sinew::frame

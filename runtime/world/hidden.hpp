@@ -1,0 +1,17 @@
+// hidden.hpp  Instances that nobody sees: nothing is done for them but to count the ticks that go by.
+//
+// What is read of one is what it showed last. When it is seen again, the pose set then counts as having been
+// held: how it got there is not known, and tissue feels nothing of it. How fast it moves is known a step
+// later, and simulation begins then. The displacement it had is carried on and faded as if it had been
+// extrapolated meanwhile (kCarryTicks, kFadeTicks), and simulation is blended in from there over
+// kBlendInTicks, with a network's memory only if it missed no more than kRememberedTicks.
+#pragma once
+#include "world/instance.hpp"
+
+namespace sinew::world {
+
+void pass_by(Instance& instance, double dt_s, uint32_t max_ticks) noexcept;
+// Before its step, of an instance that was passed by.
+void come_back(Instance& instance) noexcept;
+
+}  // namespace sinew::world

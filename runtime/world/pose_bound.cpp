@@ -1,0 +1,71 @@
+// pose_bound.cpp  see pose_bound.hpp.
+#include "world/pose_bound.hpp"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <vector>
+
+#include "world/pose.hpp"
+#include "world/rotation.hpp"
+
+namespace sinew::world {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+
+constexpr float kStretch = 1.2f;
+
+Vector3f place_of(const Matrix34& joint) noexcept { return {joint.m[0][3], joint.m[1][3], joint.m[2][3]}; }
+
+float longest_rod_m(const RodRig& rig) noexcept {
+  float longest = 0;
+  for (const RodSeat& seat : rig.seats()) {
+    float length = 0;
+    for (const RodSlot& slot : rig.slots().subspan(seat.first_slot, seat.slot_count)) length += slot.length_m;
+    longest = std::max(longest, length);
+  }
+  return longest;
+}
+
+// Skin weights descend: the first joint moves a vertex most.
+float farthest_vertex_m(const pack::PackView& pack) {
+  std::vector<Matrix34> bind(pack.joints.size());
+  bind_pose(pack.joints, bind.data());
+  float farthest = 0;
+  for (size_t v = 0; v < pack.skin.size(); ++v) {
+    const Vector3f place = Eigen::Map<const Vector3f>(&pack.positions[3 * v]);
+    farthest = std::max(farthest, (place - place_of(bind[pack.skin[v].joint[0]])).norm());
+  }
+  return farthest;
+}
+
+}  // namespace
+
+float reach_of(const Asset& asset) noexcept {
+  float displaced = 0;
+  for (const pack::RegionRecord& region : asset.pack.regions)
+    displaced = std::max(displaced, region.displacement_limit_m);
+  return farthest_vertex_m(asset.pack) + displaced + 2 * longest_rod_m(asset.rods);
+}
+
+void bound_pose(Instance& instance) noexcept {
+  const uint32_t joints = instance.asset->pack.character->joint_count;
+  Eigen::AlignedBox3f box;
+  for (uint32_t j = 0; j < joints; ++j) box.extend(place_of(instance.next_joints[j]));
+  Eigen::Map<Vector3f>{instance.bound_middle_m} = box.center();
+  instance.bound_radius_m = box.diagonal().norm() / 2 + kStretch * instance.asset->reach_m;
+}
+
+frame::Ball ball_of(const Instance& instance) noexcept {
+  const InstanceState& state = *instance.state;
+  const RootTransform& root = state.has_next ? state.next_root : state.root;
+  frame::Ball ball{.radius_m = instance.bound_radius_m};
+  Eigen::Map<Vector3d>{ball.middle_m} =
+      Eigen::Map<const Vector3d>(root.position_m) +
+      quaternion(root.rotation_xyzw) * Eigen::Map<const Vector3f>(instance.bound_middle_m).cast<double>();
+  return ball;
+}
+
+}  // namespace sinew::world

@@ -1,0 +1,18 @@
+// pose_bound.hpp  A ball about a character in the pose that was set last.
+#pragma once
+#include "frame/sight.hpp"
+#include "world/instance.hpp"
+
+namespace sinew::world {
+
+// How far a vertex may be from the joint that moves it most: its distance in the bind pose, what soft parts
+// may be displaced by, and both ways of the longest rod.
+float reach_of(const Asset& asset) noexcept;
+
+// Of next_joints, in the character's space: the middle of the joints' box, and its half diagonal with the
+// asset's reach and a fifth of it for joints that stretch.
+void bound_pose(Instance& instance) noexcept;
+// The same in the world, at the root that was set last.
+frame::Ball ball_of(const Instance& instance) noexcept;
+
+}  // namespace sinew::world
