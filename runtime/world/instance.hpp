@@ -101,7 +101,7 @@ struct InstancePlan {
   frame::TickPlan ticks;
   double dt_s = 0;
   Tier tier = Tier::kSkinning;
-  uint32_t every = 1;  // 1, 2 or 4: ticks from one that is simulated to the next, in a simulated tier
+  uint32_t every = 1;  // 1 or 2: ticks from one that is simulated whole to the next (world/update_rate.hpp)
 };
 
 // Arrays are [nodes][3] in metres along each node's frame (tissue/node_bend.hpp) unless said otherwise; l,

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "tests/world/stage.hpp"
+#include "world/sleep.hpp"
 #include "world/snapshot.hpp"
 #include "world/tick.hpp"
 
@@ -79,31 +80,30 @@ constexpr Tier kRated[] = {Tier::kSpring, Tier::kModal};
 
 TEST_CASE("networks_contacts_and_rods_are_simulated_in_every_tick") {
   Block block;
-  block.play(scenes::walk, Tier::kNetwork, 4, 3);
+  block.play(scenes::walk, Tier::kNetwork, 2, 3);
   CHECK(world::every_of(block.instance()) == 1);
-  block.play(scenes::walk, Tier::kModal, 4, 3);
-  CHECK(world::every_of(block.instance()) == 4);
+  block.play(scenes::walk, Tier::kModal, 2, 3);
+  CHECK(world::every_of(block.instance()) == 2);
   const scenes::PackBytes pack = scenes::soft_block({.rods = scenes::RodMatter{}});
   Block with_rods(pack);
-  with_rods.play(scenes::walk, Tier::kModal, 4, 3);
+  with_rods.play(scenes::walk, Tier::kModal, 2, 3);
   CHECK(world::every_of(with_rods.instance()) == 1);
 }
 
-// Steps of a twentieth to a third of the shown displacement would be missed phases: two ticks late at 3.5 Hz
-// is 0.7 rad. What is not made up, or not carried on, is at least twice these bounds.
-TEST_CASE("fewer_ticks_are_near_to_all_of_them") {
+// Walking, and shaking near resonance. A tick late at 3.5 Hz is 0.37 rad, and so 0.3 or so of what is shown:
+// without what is missed being made up or what is heard going on as it did, it is 0.4 and more.
+TEST_CASE("every_second_tick_is_near_to_all_of_them") {
   for (const Tier tier : kRated) {
-    const Apart two = apart_from_every_tick(tier, 2), four = apart_from_every_tick(tier, 4);
-    INFO(static_cast<int>(tier) << ": of what is shown " << two.of_shown << " " << four.of_shown);
-    CHECK(two.of_shown < 0.06);
-    CHECK(four.of_shown < 0.4);
+    const Apart two = apart_from_every_tick(tier, 2);
+    INFO(static_cast<int>(tier) << ": of what is shown " << two.of_shown);
+    CHECK(two.of_shown < 0.1);
     CHECK(two.of_shown > 1e-4);  // they are fewer
   }
 }
 
 TEST_CASE("a_block_that_stands_still_has_no_displacement_at_any_rate") {
   for (const Tier tier : kRated) {
-    for (const uint32_t every : {1u, 2u, 4u}) {
+    for (const uint32_t every : {1u, 2u}) {
       Block block;
       block.play([](double) { return scenes::bind_pose(); }, tier, every, 30);
       CHECK(test::largest_length(block.shown()) < 1e-6);
@@ -117,10 +117,10 @@ TEST_CASE("at_rest_in_a_bent_pose_all_rates_end_in_the_same_place") {
   for (const Tier tier : kRated) {
     Block whole;
     whole.play(bent, tier, 1, 600);
-    for (const uint32_t every : {2u, 4u}) {
+    {
       Block fewer;
-      fewer.play(bent, tier, every, 600);
-      INFO(every << " " << test::largest_length(whole.shown()));
+      fewer.play(bent, tier, 2, 600);
+      INFO(test::largest_length(whole.shown()));
       CHECK(test::largest_distance(whole.shown(), fewer.shown()) <
             1e-3 * test::largest_length(whole.shown()));
     }
@@ -131,7 +131,7 @@ TEST_CASE("at_rest_in_a_bent_pose_all_rates_end_in_the_same_place") {
 // the project's bound.
 TEST_CASE("a_change_of_rate_makes_no_jump") {
   for (const Tier tier : kRated) {
-    for (const auto& [from, to] : {std::pair{1u, 2u}, {2u, 1u}, {1u, 4u}, {4u, 1u}, {2u, 4u}, {4u, 2u}}) {
+    for (const auto& [from, to] : {std::pair{1u, 2u}, {2u, 1u}}) {
       double worst = 0;
       for (int at = 70; at < 110; at += 7) {
         Block stays, changes;
@@ -157,34 +157,27 @@ TEST_CASE("a_change_of_rate_makes_no_jump") {
 }
 
 TEST_CASE("instances_take_turns") {
-  for (const uint32_t every : {2u, 4u}) {
-    std::vector<std::unique_ptr<Block>> blocks;
-    for (uint32_t i = 0; i < every; ++i) blocks.push_back(std::make_unique<Block>(test::block_pack(), i));
-    for (const auto& block : blocks) block->play(scenes::walk, Tier::kModal, every, 8);
-    for (int t = 0; t < 12; ++t) {
-      uint32_t heard = 0;
-      for (const auto& block : blocks) {
-        block->tick(scenes::walk, Tier::kModal, every);
-        heard += block->instance().heard_now;
-      }
-      CHECK(heard == 1);
-    }
+  Block first(test::block_pack(), 0), second(test::block_pack(), 1);
+  for (int t = 0; t < 20; ++t) {
+    first.tick(scenes::walk, Tier::kModal, 2);
+    second.tick(scenes::walk, Tier::kModal, 2);
+    if (t > 2) CHECK(first.instance().heard_now != second.instance().heard_now);
   }
 }
 
 TEST_CASE("a_block_between_its_ticks_is_restored_to_the_same_bits") {
   for (const Tier tier : kRated) {
-    for (int more = 0; more < 4; ++more) {
+    for (int more = 0; more < 2; ++more) {
       Block saved;
-      saved.play(scenes::walk, tier, 4, 60 + more);
+      saved.play(scenes::walk, tier, 2, 60 + more);
       std::vector<std::byte> bytes(world::snapshot_bytes(saved.instance()));
       REQUIRE(world::save(saved.instance(), bytes).ok());
       Block other;
-      other.play(scenes::walk, tier, 4, 60 + more);
+      other.play(scenes::walk, tier, 2, 60 + more);
       for (float* heard : other.instance().heard) std::fill_n(heard, 3, 1.0f);
       REQUIRE(world::restore(other.instance(), bytes).ok());
-      saved.play(scenes::walk, tier, 4, 20);
-      other.play(scenes::walk, tier, 4, 20);
+      saved.play(scenes::walk, tier, 2, 20);
+      other.play(scenes::walk, tier, 2, 20);
       CHECK(test::hash_of(saved.shown()) == test::hash_of(other.shown()));
     }
   }
@@ -198,7 +191,7 @@ TEST_CASE("a_block_at_rest_falls_asleep_as_soon_at_any_rate") {
     Block block;
     block.sleep_tolerance = 5e-3f;
     int& ticks = asleep_after[every - 1];
-    for (; ticks < 1200 && block.instance().quiet_ticks[0] < 10; ++ticks)
+    for (; ticks < 1200 && !world::is_asleep(block.instance(), 0); ++ticks)
       block.tick(stop, Tier::kModal, every);
   }
   CHECK(asleep_after[0] < 1200);
