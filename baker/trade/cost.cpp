@@ -25,7 +25,7 @@ double quantile(std::vector<double>& values, double share) {
 class Steps {
  public:
   void add(const ClosedLoop& loop) {
-    const bool simulated = loop.instance().times.tissue_ns > 0;
+    const bool simulated = loop.instance().heard_now;
     (simulated ? simulated_ : between_).push_back(static_cast<double>(loop.step_ns()) * 1e-3);
   }
   Cost cost() {

@@ -144,15 +144,15 @@ Error Yardstick::of(const LoadedPack& character, Tier tier, uint32_t every) cons
   return sums.error();
 }
 
-Error Yardstick::of_extrapolation(const LoadedPack& character) const {
+Error Yardstick::of_extrapolation(const LoadedPack& character, size_t ticks) const {
   Sums sums;
   for (size_t m = 0; m < surfaces_.size(); ++m) {
     ClosedLoop loop(character, surfaces_[m].motion());
     ClosedLoop::Checkpoint left;
-    for (size_t tick = kCarriedTicks + 1; tick <= ticks_of(surfaces_[m]); ++tick) {
+    for (size_t tick = ticks + 1; tick <= ticks_of(surfaces_[m]); ++tick) {
       loop.tick();
       loop.save(&left);
-      for (size_t k = 0; k < kCarriedTicks; ++k) loop.tick(Tier::kExtrapolate);
+      for (size_t k = 0; k < ticks; ++k) loop.tick(Tier::kExtrapolate);
       const std::vector<float> places = positions_of(loop);
       for (size_t i = 0; i < vertices_.size(); ++i)
         sums.add(tick,

@@ -24,8 +24,8 @@ class Yardstick {
   Error of_previous_frame() const;
   // In closed loop from the motions' start.
   Error of(const LoadedPack& character, Tier tier, uint32_t every) const;
-  // kCarriedTicks after a character in its best tier was left alone, again and again.
-  Error of_extrapolation(const LoadedPack& character) const;
+  // So many ticks after a character in its best tier was left alone, again and again.
+  Error of_extrapolation(const LoadedPack& character, size_t ticks) const;
 
  private:
   class Sums;

@@ -23,6 +23,7 @@ constexpr int kUnusableInput = 2;
 struct Options {
   std::string character, folder;
   std::vector<std::string> truth, clips;
+  double seconds = 10;
   Source source;
 };
 
@@ -46,6 +47,7 @@ void add_options(CLI::App& app, Options* o) {
   app.add_option("--tissue", o->source.weights, "weights to bake it with otherwise: its own, then others");
   app.add_option("--clip", o->clips,
                  "a clip to simulate, best one that its weights were not trained on; by default all");
+  app.add_option("--seconds", o->seconds, "of each that is simulated, 0.1 to 60; by default 10");
 }
 
 LoadedPack load(const std::string& path) {
@@ -78,14 +80,15 @@ std::string processor() {
 }
 
 void run(Options options) {
+  if (!(options.seconds >= 0.1 && options.seconds <= 60)) throw BadInput("--seconds: must be from 0.1 to 60");
   const LoadedPack character = load(options.character);
   find_source(&options);
   std::vector<TrueSurface> surfaces = read_truth(options.truth, character);
   make_folder(options.folder);
   if (surfaces.empty())
-    surfaces =
-        read_truth(simulate_clips(options.source, options.clips, character.view(), options.folder + "/truth"),
-                   character);
+    surfaces = read_truth(simulate_clips(options.source, options.clips, options.seconds, character.view(),
+                                         options.folder + "/truth"),
+                          character);
   const std::vector<Variant> variants = variants_of(options.source);
   Measured measured{.character = std::filesystem::path(options.character).stem().string(),
                     .processor = processor(),

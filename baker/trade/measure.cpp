@@ -19,8 +19,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr uint32_t kRates[] = {1, 2, 4};
-
 struct Way {
   std::string name, kind;
   Tier tier;
@@ -72,14 +70,19 @@ class Ways {
   void add_tier(const LoadedPack& character, Tier tier, uint32_t every) {
     ways_.push_back({name_of(tier, every), "tier", tier, every, [=, this, &character](Row* row) {
                        tell_cost(character, row);
-                       row->error = tier == Tier::kSkinning      ? yardstick_.of_skinning()
-                                    : tier == Tier::kExtrapolate ? yardstick_.of_extrapolation(character)
-                                                                 : yardstick_.of(character, tier, every);
+                       row->error = tier == Tier::kSkinning ? yardstick_.of_skinning()
+                                    : tier == Tier::kExtrapolate
+                                        ? yardstick_.of_extrapolation(character, kCarriedTicks)
+                                        : yardstick_.of(character, tier, every);
                      }});
   }
-  void add_baseline() {
+  void add_baselines(const LoadedPack& character) {
     ways_.push_back({"previous frame's displacement", "baseline", Tier::kSkinning, 1,
                      [this](Row* row) { row->error = yardstick_.of_previous_frame(); }});
+    for (const size_t ticks : {1, 2, 4})
+      ways_.push_back(
+          {"extrapolate, after " + std::to_string(ticks), "baseline", Tier::kExtrapolate, 1,
+           [=, this, &character](Row* row) { row->error = yardstick_.of_extrapolation(character, ticks); }});
   }
   void add_variant(const Variant& variant, Tier tier) {
     ways_.push_back({name_of(tier, 1) + ", " + variant.name, "variant", tier, 1, [=, this](Row* row) {
@@ -106,7 +109,8 @@ void add_tiers(const LoadedPack& character, Ways* to) {
   to->add_tier(character, Tier::kExtrapolate, 1);
   for (const Tier tier : {Tier::kSpring, Tier::kModal, Tier::kNetwork}) {
     if (tier == Tier::kNetwork && !pack::has_network(character.view())) continue;
-    for (const uint32_t every : kRates) to->add_tier(character, tier, every);
+    to->add_tier(character, tier, 1);
+    if (tier != Tier::kNetwork) to->add_tier(character, tier, 2);
   }
 }
 
@@ -134,7 +138,7 @@ std::vector<Row> measure(const LoadedPack& character, std::span<const TrueSurfac
   const Yardstick yardstick(character, surfaces);
   Ways ways(yardstick, surfaces.front().motion());
   add_tiers(character, &ways);
-  ways.add_baseline();
+  ways.add_baselines(character);
   add_variants(variants, &ways);
   Cache cache(cache_path, key_of(character, surfaces));
   Progress progress("measuring", ways.all().size());

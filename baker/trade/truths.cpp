@@ -14,7 +14,6 @@
 #include "baker/import/import_gltf.hpp"
 #include "baker/mesh/tissue_layout.hpp"
 #include "baker/programs/true_motion.hpp"
-#include "baker/trade/error.hpp"
 #include "baker/truth/trajectory.hpp"
 
 namespace sinew::baker {
@@ -34,6 +33,7 @@ struct Body {
   const TissueLayout& layout;
   const Recipe& recipe;
   double rate_hz;
+  size_t ticks;
 };
 
 std::vector<const Clip*> chosen(const Character& character, const std::vector<std::string>& names,
@@ -67,7 +67,7 @@ void simulate(const Body& body, const Work& work, std::atomic<size_t>& done) {
                               {.rate_hz = body.rate_hz, .surface = false, .positions = true},
                               truth.modal_bases(body.layout, kMostModes));
   recorder.add(truth.start(clip_motion(body.character, *work.clip, work.seed)));
-  for (size_t tick = 1; tick <= kMostTicks; ++tick) {
+  for (size_t tick = 1; tick <= body.ticks; ++tick) {
     recorder.add(truth.advance(body.rate_hz, kSubsteps));
     ++done;
   }
@@ -96,7 +96,7 @@ void simulate_all(const Body& body, const std::vector<Work>& work) {
   const size_t cores = std::max(1u, std::thread::hardware_concurrency());
   running = std::min(work.size(), cores);
   for (size_t t = 0, count = running; t < count; ++t) threads.emplace_back(run);
-  Progress progress("ground truth", work.size() * kMostTicks);
+  Progress progress("ground truth", work.size() * body.ticks);
   while (running > 0) {
     progress.update(done);
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
@@ -115,7 +115,8 @@ Character Source::import(const Recipe& as) const {
 }
 
 std::vector<std::string> simulate_clips(const Source& source, const std::vector<std::string>& clips,
-                                        const pack::PackView& character, const std::string& folder) {
+                                        double seconds, const pack::PackView& character,
+                                        const std::string& folder) {
   const Recipe recipe = source.read();
   Character body = source.import(recipe);
   const TissueLayout layout = layout_tissue(body, recipe);
@@ -129,7 +130,8 @@ std::vector<std::string> simulate_clips(const Source& source, const std::vector<
   std::erase_if(wanted, [](const Work& work) { return std::filesystem::exists(work.path); });
   if (wanted.empty()) return paths;
   std::filesystem::create_directories(folder);
-  simulate_all({body, layout, recipe, static_cast<double>(character.network->rate_hz)}, wanted);
+  const double rate_hz = static_cast<double>(character.network->rate_hz);
+  simulate_all({body, layout, recipe, rate_hz, static_cast<size_t>(std::lround(seconds * rate_hz))}, wanted);
   return paths;
 }
 

@@ -8,10 +8,11 @@
 
 namespace sinew::baker {
 
-// Each clip as it is, then at another speed and from another start (motion.hpp); ten seconds at the
-// character's rate, all cores. Those that lie in the folder already are taken as they are. Throws BadInput:
+// Each clip as it is, then at another speed and from another start (motion.hpp), at the character's rate, on
+// all cores. Those that lie in the folder already are taken as they are. Throws BadInput:
 // no such clip, no clips, another character's source.
 std::vector<std::string> simulate_clips(const Source& source, const std::vector<std::string>& clips,
-                                        const pack::PackView& character, const std::string& folder);
+                                        double seconds, const pack::PackView& character,
+                                        const std::string& folder);
 
 }  // namespace sinew::baker

@@ -27,7 +27,7 @@
 //      sections of rods, and a character of rods without soft regions
 //      since then, likewise: CharacterRecord::proxy_count with the section kProxies
 //   6  what a tier costs and how far it is off may be measured, its tail with it, and tiers simulated every
-//      second and fourth tick stand beside those of every tick
+//      second tick stand beside those of every tick
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -368,17 +368,17 @@ static_assert(sizeof(ClipRecord) == 32);
 // Baked without sinew-trade: costs are the tier's operations at 60 GFLOP/s, and the errors the weights' own.
 // Measured: errors over vertices that tissue moves, of extrapolate 12 ticks after the last simulated one.
 struct TierRecord {
-  uint32_t tier;      // sinew::Tier
-  uint32_t every;     // ticks from one that is simulated to the next: 1, 2 or 4; 1 where nothing is simulated
-  float cost_us;      // a tick that it simulates, and instance, on one core, beyond skinning's; corrected
-                      // online. skinning: what an instance takes in every step
-  float cost_p99_us;  // the same in one of a hundred; NaN: not measured
-  float error_mm;     // mean against ground truth on held-out motion; NaN: not measured
-  float error_ratio;  // the same as a share of skinning's error; NaN: not measured
+  uint32_t tier;   // sinew::Tier
+  uint32_t every;  // ticks from one that is simulated whole to the next: 1 or 2; 1 where nothing is simulated
+  float cost_us;   // a tick and instance on one core, in the long run, beyond skinning's; corrected online.
+                   // skinning: what an instance takes in every step
+  float cost_p99_us;   // in one of a hundred of the ticks that are simulated whole; NaN: not measured
+  float error_mm;      // mean against ground truth on held-out motion; NaN: not measured
+  float error_ratio;   // the same as a share of skinning's error; NaN: not measured
   float error_p95_mm;  // in one of twenty of the vertices and ticks; NaN: not measured
   uint32_t reserved;
 };
 static_assert(sizeof(TierRecord) == 32);
-constexpr bool is_every(uint32_t every) noexcept { return every == 1 || every == 2 || every == 4; }
+constexpr bool is_every(uint32_t every) noexcept { return every == 1 || every == 2; }
 
 }  // namespace sinew::pack

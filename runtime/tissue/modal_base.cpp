@@ -70,23 +70,35 @@ void warp(const float* theta, const float* l, uint32_t count, float* out) noexce
   simd::kernels().warp({.turns = theta, .turn_stride = 3, .in = l, .out = out, .count = count});
 }
 
-void modal_step(const ModalBase& base, const float* felt, const ModalState& state, float* scratch, float* e,
-                const ModalAnswer& answer) noexcept {
-  const simd::Kernels& kernels = simd::kernels();
+void modal_hear(const ModalBase& base, const float* felt, const float* theta, float* e,
+                float* heard) noexcept {
+  turn_back(theta, felt, base.node_count, e);
+  simd::kernels().add_rows(base.response, 3 * base.node_count, base.padded + base.padded_modes, e, heard);
+}
+
+void modal_answer(const ModalBase& base, const float* heard, const ModalState& state,
+                  const ModalAnswer& answer) noexcept {
   const auto modes = static_cast<uint32_t>(base.modes.size());
   const uint32_t floats = 3 * base.node_count;
-  const float *rest = scratch, *force = scratch + base.padded;
-  turn_back(state.theta, felt, base.node_count, e);
-  kernels.add_rows(base.response, floats, base.padded + base.padded_modes, e, scratch);
+  const float *rest = heard, *force = heard + base.padded;
   for (uint32_t k = 0; k < modes; ++k) {
     const pack::ModeRecord& mode = base.modes[k];
     answer.q[k] = mode.a1 * state.q[k] + mode.a2 * state.q_before[k] + mode.gain * force[k];
   }
-  kernels.add_rows(base.shape, modes, base.padded, answer.q, answer.l);
+  simd::kernels().add_rows(base.shape, modes, base.padded, answer.q, answer.l);
   for (uint32_t i = 0; i < floats; ++i) {
     answer.r[i] = base.rest_a1 * state.r[i] + base.rest_a2 * state.r_before[i] + base.rest_gain * rest[i];
     answer.l[i] += answer.r[i];
   }
+}
+
+Ramp ramp(float a1, float a2, uint32_t k) noexcept {
+  Ramp at{0, 0};
+  for (uint32_t j = 1; j < 2 * k - 1; ++j) {
+    const float share = static_cast<float>(j) / static_cast<float>(k);
+    at = {a1 * at.now + a2 * at.before + share, at.now};
+  }
+  return at;
 }
 
 void modal_project(const ModalBase& base, const float* l, float* q) noexcept {

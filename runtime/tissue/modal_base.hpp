@@ -46,20 +46,30 @@ void frame_term(const NodePose* const pose[3], const float* u, const float* u_be
 void turn_back(const float* theta, const float* v, uint32_t count, float* out) noexcept;  // exp([theta]x)^T v
 void warp(const float* theta, const float* l, uint32_t count, float* out) noexcept;       // W(theta) l
 
-// What a tick goes on from: q [modes] and r [node_count][3] of the last two, theta [node_count][3] of the
-// last.
+// What a tick goes on from: q [modes] and r [node_count][3] of the last two.
 struct ModalState {
-  const float *q, *q_before, *r, *r_before, *theta;
+  const float *q, *q_before, *r, *r_before;
 };
 // Where it leads: q^ [modes], r [node_count][3], l^ [padded].
 struct ModalAnswer {
   float *q, *r, *l;
 };
 
-// Below, scratch is [padded + padded_modes], 64-byte aligned as l^ is. felt, e, l: [node_count][3]; felt is
-// f + phi, and e comes out as above. e and felt may be the same.
-void modal_step(const ModalBase& base, const float* felt, const ModalState& state, float* scratch, float* e,
-                const ModalAnswer& answer) noexcept;
+// Below, heard and scratch are [padded + padded_modes], 64-byte aligned as l^ is. felt, e, l:
+// [node_count][3].
+
+// What a tick hears: rest e, then force e. felt is f + phi, and e comes out as above; they may be the same.
+void modal_hear(const ModalBase& base, const float* felt, const float* theta, float* e,
+                float* heard) noexcept;
+// And what it answers.
+void modal_answer(const ModalBase& base, const float* heard, const ModalState& state,
+                  const ModalAnswer& answer) noexcept;
+// Where an oscillator stands, in units of gain, that heard 1/k, 2/k ... (2k - 2)/k: in the last of these ticks
+// and in the one before. k = 1: 0 and 0.
+struct Ramp {
+  float now, before;
+};
+Ramp ramp(float a1, float a2, uint32_t k) noexcept;
 // q += project l.
 void modal_project(const ModalBase& base, const float* l, float* q) noexcept;
 // theta = turn q, held.

@@ -82,9 +82,12 @@ Status open_asset(std::span<const std::byte> bytes, Asset* out) noexcept {
   asset.padded_vertices = 0;
   for (const pack::RegionRecord& region : view.regions) asset.padded_vertices += region.padded_vertices;
   asset.widest_region = 0;
-  for (const pack::RegionModesRecord& modes : view.region_modes)
-    asset.widest_region = std::max(asset.widest_region,
-                                   modes.padded + static_cast<uint32_t>(pack::round_up_16(modes.mode_count)));
+  asset.heard_floats = 0;
+  for (const pack::RegionModesRecord& modes : view.region_modes) {
+    const uint32_t floats = modes.padded + static_cast<uint32_t>(pack::round_up_16(modes.mode_count));
+    asset.widest_region = std::max(asset.widest_region, floats);
+    asset.heard_floats += floats;
+  }
   read_tiers(view, asset);
   asset.reach_m = reach_of(asset);
   return {};

@@ -25,6 +25,7 @@ struct Asset {
   uint64_t fingerprint = 0;      // of all of the pack's bytes
   uint32_t padded_vertices = 0;  // carried vertices of all regions, each region padded
   uint32_t widest_region = 0;    // floats of its nodes' x y z and of its modes, each padded
+  uint32_t heard_floats = 0;     // of its nodes' x y z and of its modes, each padded, of all regions
   float reach_m = 0;             // world/pose_bound.hpp
   uint32_t live_instances = 0;
   frame::CostModel cost;

@@ -25,7 +25,7 @@ namespace sinew::world {
 namespace {
 
 static_assert(std::is_trivially_copyable_v<InstanceState>, "saved as bytes");
-static_assert(sizeof(InstanceState) == 360, "no padding: equal states are equal bytes");
+static_assert(sizeof(InstanceState) == 384, "no padding: equal states are equal bytes");
 
 float smooth_step(float t) noexcept { return t * t * (3 - 2 * t); }
 
@@ -41,6 +41,7 @@ void lay_out_state(const Asset& asset, core::Arena& arena, Instance& to) noexcep
   to.theta = arena.take<float>(vectors);
   for (float*& q : to.q) q = arena.take<float>(asset.mode_count());
   for (float*& r : to.r) r = arena.take<float>(vectors);
+  for (float*& heard : to.heard) heard = arena.take<float>(asset.heard_floats);
   to.tail = arena.take<float>(vectors);
   to.tail_velocity = arena.take<float>(vectors);
   for (float*& shown : to.shown) shown = arena.take<float>(vectors);
@@ -150,6 +151,7 @@ Status make_instance(Asset& asset, const InstanceDef& def, Instance* out) noexce
   new (made.state) InstanceState();
   point_to_joints(made);
   made.state->root = def.root;
+  made.state->ticks = asset.live_instances;  // not all in the same tick
   made.state->importance = frame::sane_importance(def.importance);
   bind_pose(asset.pack.joints, made.joints);
   std::copy_n(made.joints, asset.pack.character->joint_count, made.joints_before);

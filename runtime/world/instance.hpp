@@ -67,6 +67,13 @@ struct InstanceState {
   uint32_t hidden = 0, hidden_ticks = 0;  // world/hidden.hpp
   uint32_t hidden_by_caller = 0;
   uint32_t first_joints = 0;  // which of pose_joints is the pose before the present one
+  // world/update_rate.hpp:
+  uint32_t ticks = 0;          // counts on for ever: whose turn it is
+  uint32_t since_ticks = 1;    // from the last tick that was heard to this one
+  uint32_t spacing_ticks = 1;  // between the last two of them, and so between poses
+  uint32_t heard_by = 0;       // HeardBy: whose `heard` is
+  float heard_stretch = 1;     // this spacing over that of the two ticks of `heard`
+  uint32_t reserved = 0;       // no padding
 };
 
 // What the last step measured; not state.
@@ -98,7 +105,7 @@ struct InstancePlan {
   frame::TickPlan ticks;
   double dt_s = 0;
   Tier tier = Tier::kSkinning;
-  uint32_t every = 1;   // 1, 2 or 4: ticks from one that is simulated to the next, in a simulated tier
+  uint32_t every = 1;   // 1 or 2: ticks from one that is simulated whole to the next (world/update_rate.hpp)
   float error = 1;      // a share of skinning's
   float cost_us = 0;    // expected
   float behind_us = 0;  // that those which run later take at least
@@ -122,6 +129,7 @@ struct Instance {
   float size = 1;                                    // share of a view's height
   bool seen = true, came_back = false;               // in this step
   bool cut = false, restarted = false, fell_back = false;  // in the last step
+  bool heard_now = false;                                  // in the last tick: it was simulated whole
   bool parts_ready = false;                                // in this step: the parts are filled in
   bool displaced = false;                                  // published displacement is not zero everywhere
   bool rods_anew = false;   // in this tick: rods are taken to where they are shown before they go on
@@ -136,8 +144,9 @@ struct Instance {
   Matrix34 *joints_before = nullptr, *joints = nullptr, *next_joints = nullptr;  // point there
   tissue::NodePose* poses[3] = {};  // [nodes] of the last three ticks, newest first
   float* network_state = nullptr;
-  float *u[2] = {}, *l[2] = {}, *theta = nullptr;   // newest first
-  float *q[2] = {}, *r[2] = {};                     // q: [modes of all regions]
+  float *u[2] = {}, *l[2] = {}, *theta = nullptr;  // newest first
+  float *q[2] = {}, *r[2] = {};                    // q: [modes of all regions]
+  float* heard[2] = {};  // of the last two ticks that were simulated whole: a region after the other
   float *tail = nullptr, *tail_velocity = nullptr;  // velocity a tick
   float* shown[2] = {};                             // newest first
   float* felt_asleep = nullptr;                     // m/s^2, when the region's quiet began (world/sleep.hpp)

@@ -101,8 +101,8 @@ void watch_motion(Instance& instance, float tolerance) noexcept {
   for_each_region(instance, tolerance, [&](size_t r, const Region& region, uint32_t& quiet_ticks) {
     const uint32_t enough = ticks_to_sleep(region);
     if (quiet_ticks >= enough) return;
-    quiet_ticks = tolerance > 0 && stays(instance, region) ? quiet_ticks + 1 : 0;
-    if (quiet_ticks == enough) fall_asleep(instance, r, region);
+    quiet_ticks = tolerance > 0 && stays(instance, region) ? quiet_ticks + instance.state->since_ticks : 0;
+    if (quiet_ticks >= enough) fall_asleep(instance, r, region);
   });
 }
 

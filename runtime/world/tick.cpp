@@ -17,15 +17,26 @@
 #include "world/simulate.hpp"
 #include "world/sleep.hpp"
 #include "world/tissue_contacts.hpp"
+#include "world/update_rate.hpp"
 
 namespace sinew::world {
 namespace {
 
+// Between ticks that are simulated whole.
+void carried_tick(Instance& instance, const ClockHook& clock) noexcept {
+  const uint64_t start_ns = core::now_ns(clock);
+  if (!simulate_tick(instance)) restart(instance);
+  ++instance.state->since_ticks;
+  instance.times.tissue_ns += core::now_ns(clock) - start_ns;
+}
+
 void simulated_tick(Instance& instance, double time_s, const TickContext& context, uint32_t slot) noexcept {
   const ClockHook& clock = context.clock;
+  if (!begin_tick(instance)) return carried_tick(instance, clock);
   const uint64_t start_ns = core::now_ns(clock);
   Marker driving(context.profiler, "drive", slot);
   follow_motion(instance, time_s);
+  respace_past(instance);
   drive_nodes(instance);
   driving.end();
   const uint64_t driven_ns = core::now_ns(clock);
@@ -37,6 +48,7 @@ void simulated_tick(Instance& instance, double time_s, const TickContext& contex
     restart(instance);
   watch_motion(instance, context.sleep_tolerance);
   tissue.end();
+  instance.state->since_ticks = 1;
   const uint64_t soft_ns = core::now_ns(clock);
   Marker rods(context.profiler, "rods", slot);
   if (frame::is_simulated(instance.state->tier)) simulate_rods(instance, context.sleep_tolerance);
@@ -56,11 +68,12 @@ void run_ticks(Instance& instance, const TickContext& context, uint32_t slot) no
     if (frame::is_simulated(state.tier))
       simulated_tick(instance, ticks.first_tick_s + k * instance.asset->tick_s, context, slot);
     else
-      state.motion_stale = 1;
+      state.motion_stale = 1, instance.heard_now = false;
     state.ticks_since_network = state.tier == Tier::kNetwork ? 0 : state.ticks_since_network + 1;
     show_tick(instance);
     push_surface(instance);
     state.untouched = 0;
+    ++state.ticks;
   }
   state.remainder_s = ticks.remainder_s;
   state.render_fraction = static_cast<float>(ticks.remainder_s / instance.asset->tick_s);

@@ -373,10 +373,10 @@ TEST_CASE("tier_faults_are_refused_by_name") {
                  {"tier 4: 3 every 1 does not ascend", tier(4, [](auto& t) { t.tier = 3; })},
                  {"tier 3: every 0", tier(3, [](auto& t) { t.every = 0; })},
                  {"tier 3: every 3", tier(3, [](auto& t) { t.every = 3; })},
-                 {"tier 3: every 8", tier(3, [](auto& t) { t.every = 8; })},
+                 {"tier 3: every 4", tier(3, [](auto& t) { t.every = 4; })},
                  {"tier 1: every 2", tier(1, [](auto& t) { t.every = 2; })},
                  {"tiers: not all", tier(4, [](auto& t) { t.every = 2; })},
-                 {"tiers: not all", tier(2, [](auto& t) { t.every = 4; })},
+                 {"tiers: not all", tier(2, [](auto& t) { t.every = 2; })},
                  {"tier 2: cost nan", tier(2, [](auto& t) { t.cost_us = kNan; })},
                  {"tier 2: cost -1", tier(2, [](auto& t) { t.cost_us = -1; })},
                  {"p99 inf", tier(2, [](auto& t) { t.cost_p99_us = kInfinity; })},
@@ -389,7 +389,7 @@ TEST_CASE("tier_faults_are_refused_by_name") {
 // Measured, springs may not be worth having, and tiers may be worth it at a lower rate.
 TEST_CASE("tiers_that_are_not_needed_may_be_left_out_or_be_simulated_less_often") {
   PackEditor editor(character_pack());
-  editor.section<TierRecord>(SectionKind::kTiers)[3].every = 4;
+  editor.section<TierRecord>(SectionKind::kTiers)[3].every = 2;
   editor.seal();
   CHECK(editor.open().ok());
   editor.section<TierRecord>(SectionKind::kTiers)[3] = editor.section<TierRecord>(SectionKind::kTiers)[2];

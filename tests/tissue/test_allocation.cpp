@@ -82,8 +82,9 @@ TEST_CASE("a_tick_of_drive_base_inputs_network_and_guard_allocates_nothing") {
     tissue::along_flesh(poses.data(), u.data(), kNodes, u.data());
     tissue::compute_node_drive(motion, 1.0f / 60, kNodes, drive.data());
     tissue::frame_term(history, u.data(), u_before.data(), 1.0f / 60, kNodes, felt.data());
-    tissue::modal_step(base, felt.data(), {q.data(), q_before.data(), r.data(), r.data(), theta.data()},
-                       room.data(), felt.data(), {q_hat.data(), r_hat.data(), l.data()});
+    tissue::modal_hear(base, felt.data(), theta.data(), felt.data(), room.data());
+    tissue::modal_answer(base, room.data(), {q.data(), q_before.data(), r.data(), r.data()},
+                         {q_hat.data(), r_hat.data(), l.data()});
     tissue::assemble_inputs(network,
                             {&region, nodes.data(), drive.data(), felt.data(), u.data(), u_before.data(),
                              l.data(), theta.data(), 20, 1.0f / 60},

@@ -45,8 +45,9 @@ struct Body {
   float& projection(size_t mode, size_t i) { return project[i * padded_modes + mode]; }
   // One tick of the modal tier.
   void step(const float* felt) {
-    tissue::modal_step(base(), felt, {q.data(), q_before.data(), r.data(), r_before.data(), theta.data()},
-                       scratch.data(), felt_in_flesh.data(), {q_hat.data(), r_hat.data(), l.data()});
+    tissue::modal_hear(base(), felt, theta.data(), felt_in_flesh.data(), scratch.data());
+    tissue::modal_answer(base(), scratch.data(), {q.data(), q_before.data(), r.data(), r_before.data()},
+                         {q_hat.data(), r_hat.data(), l.data()});
     q_before = q;
     q = q_hat;
     r_before = r;
@@ -186,7 +187,7 @@ TEST_CASE("a_free_node_in_a_spinning_frame_moves_in_a_straight_line") {
 
 // ---- modes ----
 
-TEST_CASE("modal_step_answers_a_constant_acceleration_with_its_static_shape") {
+TEST_CASE("modal_base_answers_a_constant_acceleration_with_its_static_shape") {
   Body body = point(mode(25, 0.2));
   const float felt[3] = {3, -9.8f, 1};
   for (int t = 0; t < 600; ++t) body.step(felt);
@@ -257,7 +258,7 @@ TEST_CASE("modal_energy_never_grows_without_drive") {
   }
 }
 
-TEST_CASE("modal_step_has_the_same_bits_on_all_targets_with_fma") {
+TEST_CASE("modal_base_has_the_same_bits_on_all_targets_with_fma") {
   test::require_same_bits_where_fused(0xa27f324eea79cbfc, [](const simd::Kernels&) {
     Body body = rod();
     std::mt19937 random(1);  // not a sine: its last bit differs between processors

@@ -1,0 +1,46 @@
+"""Writes perf/results/<processor>_tiers.csv, perf/trade/tiers.png, .svg and the table of tiers in perf/trade/README.md.
+
+usage: summarise_tiers.py DIR      what sinew-trade wrote
+"""
+import json
+import pathlib
+import shutil
+import sys
+
+from summarise import HERE, file_name, processor, put_between, table
+
+PAGE = HERE / "trade" / "README.md"
+COLUMNS = ["", "mean us", "p50", "p99", "cold mean", "cold p99", "error mm", "sd", "p95", "worst", "of skinning's", "in 50 ticks", ""]
+
+
+def costs(row):
+    if row["kind"] == "baseline":
+        return [""] * 5
+    warm, cold = row["warm"], row["cold"]
+    return [f"{us:.1f}" for us in (warm["mean_us"], warm["p50_us"], warm["p99_us"], cold["mean_us"], cold["p99_us"])]
+
+
+def verdict(row):
+    if row["kind"] == "baseline":
+        return "baseline"
+    words = ["variant"] if row["kind"] == "variant" else []
+    return "; ".join(words + ([f"dominated by {row['dominated_by']}"] if row["dominated_by"] else []))
+
+
+def line(row):
+    errors = [f"{row[key]:.2f}" for key in ("mean_mm", "sd_mm", "p95_mm")] + [f"{row['worst_mm']:.1f}"]
+    return [row["name"]] + costs(row) + errors + [f"{row['ratio']:.3f}", f"{row['ratio_50']:.3f}", verdict(row)]
+
+
+def main(folder):
+    measured = json.loads((folder / "trade.json").read_text())
+    name = file_name(processor())
+    shutil.copy(folder / "trade.csv", HERE / "results" / f"{name}_tiers.csv")
+    for kind in ("png", "svg"):
+        shutil.copy(folder / f"trade.{kind}", HERE / "trade" / f"tiers.{kind}")
+    text = [f"Processor: {processor()}, one thread; {measured['vertices']} vertices; {'; '.join(measured['motions'])}.", ""]
+    put_between("tiers", text + table(COLUMNS, [line(row) for row in measured["rows"]]), PAGE)
+
+
+if __name__ == "__main__":
+    main(pathlib.Path(sys.argv[1]))
