@@ -91,7 +91,6 @@ struct ColliderBuilder {
     to.touched_list_ = arena.take<uint32_t>(size_t{range} * to.segment_count_);
     to.turning_ = arena.take<uint8_t>(to.strand_count_);
     to.pending_ = arena.take<uint8_t>(to.strand_count_);
-    to.changed_ = arena.take<uint8_t>(to.strand_count_);
     to.ways_ = arena.take<double>(to.strand_count_);
     to.carries_ = arena.take<Vector>(to.strand_count_);
     to.pressed_ = arena.take<uint8_t>(to.strand_count_);

@@ -172,7 +172,6 @@ class RodCollider {
   uint8_t* pending_ = nullptr;   // [strands] not converged by a contact
   double* ways_ = nullptr;       // [strands] where the first iterate is, from the step's start to free motion
   Vector* carries_ = nullptr;    // [strands] how far a core takes a strand along that it stops
-  uint8_t* changed_ = nullptr;   // [strands] a contact opened or closed in the last iteration
   uint8_t* pressed_ = nullptr;   // [strands] a contact with a force, at the last iteration
   uint8_t* iterated_ = nullptr;  // [strands] moved by the last iteration
   float* scratch_ = nullptr;     // of all groups, where rods collide
