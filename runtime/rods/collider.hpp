@@ -152,7 +152,7 @@ class RodCollider {
   ContactPoint* points_ = nullptr;
   uint64_t* passed_ = nullptr;  // [strands][segments]
   uint32_t plane_count_ = 0, sphere_count_ = 0, capsule_count_ = 0, point_count_ = 0;
-  uint32_t strand_count_ = 0, segment_count_ = 0, width_ = 0, capacity_ = 0, kept_size_ = 0;
+  uint32_t strand_count_ = 0, segment_count_ = 0, width_ = 0, capacity_ = 0, kept_size_ = 0, kept_in_use_ = 1;
 
   Contact* contacts_ = nullptr;  // [capacity_] of this step; those of the range from first_contact_
   uint32_t contact_count_ = 0, first_contact_ = 0, dropped_ = 0;

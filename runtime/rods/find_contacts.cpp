@@ -277,6 +277,7 @@ void ContactFinder::add_plane(const Plane& plane, uint32_t index) const {
                        static_cast<double>(plane.friction),
                        static_cast<double>(plane.restitution)};
   for (uint32_t strand = first_strand(); strand < end_strand(); ++strand) {
+    if (!near(strand, plane)) continue;
     const float* radii = batch.radii_m_ + size_t{strand} * batch.segment_count_;
     for (uint32_t i = 0; i < batch.segment_count_; ++i) {
       if (!free(strand, i) || !near(strand, i, plane)) continue;
