@@ -30,7 +30,7 @@ class Block {
                    .dt_s = asset_.tick_s,
                    .tier = tier,
                    .every = every};
-    world::step_instance(block_, {.clock = {}, .sleep_tolerance = sleep_tolerance});
+    world::step_instance(block_, {.clock = {}, .profiler = {}, .sleep_tolerance = sleep_tolerance});
   }
   void play(const test::Motion& motion, Tier tier, uint32_t every, int ticks) {
     for (int t = 0; t < ticks; ++t) tick(motion, tier, every);
