@@ -186,7 +186,9 @@ void write_chart(const std::string& stem, const Measured& measured) {
     costs.push_back(std::max(row.warm.mean_us, 1e-3));
     ratios.push_back(std::max(row.error.ratio, 1e-6));
   }
-  const Axis x = axis_of(costs, kLeft, kRight), y = axis_of(ratios, kBottom, kTop);
+  const Axis x = axis_of(costs, kLeft, kRight);
+  Axis y = axis_of(ratios, kBottom, kTop);
+  y.low /= 2;  // room for the names of those that lie near each other at the lower end
   Paper paper;
   draw_axes(paper, x, y);
   std::vector<std::pair<Point, const Row*>> dots;

@@ -13,6 +13,7 @@ namespace sinew::baker {
 namespace {
 
 constexpr size_t kWarmUpTicks = 24;
+constexpr int kWarmPasses = 7;
 constexpr size_t kColdSteps = 2400;  // of all instances together
 
 double quantile(std::vector<double>& values, double share) {
@@ -60,7 +61,9 @@ size_t crowd_of(const LoadedPack& character, const TrueMotion& motion) {
 
 }  // namespace
 
-Cost warm_cost(const LoadedPack& character, const TrueMotion& motion, Tier tier, uint32_t every) {
+namespace {
+
+Cost along(const LoadedPack& character, const TrueMotion& motion, Tier tier, uint32_t every) {
   ClosedLoop loop(character, motion);
   Steps steps;
   const size_t last = std::min(motion.ticks(), kMostTicks);
@@ -69,6 +72,17 @@ Cost warm_cost(const LoadedPack& character, const TrueMotion& motion, Tier tier,
     if (counts && tick > std::min(kWarmUpTicks, last / 2)) steps.add(loop);
   }
   return steps.cost();
+}
+
+}  // namespace
+
+Cost warm_cost(const LoadedPack& character, const TrueMotion& motion, Tier tier, uint32_t every) {
+  Cost best = along(character, motion, tier, every);
+  for (int pass = 1; pass < kWarmPasses; ++pass) {
+    const Cost cost = along(character, motion, tier, every);
+    if (cost.mean_us < best.mean_us) best = cost;
+  }
+  return best;
 }
 
 Cost cold_cost(const LoadedPack& character, const TrueMotion& motion, Tier tier, uint32_t every) {

@@ -6,7 +6,8 @@
 
 namespace sinew::baker {
 
-// One thread, the thread's own time, along the motion. warm: the same instance again. Extrapolate: between
+// One thread, the thread's own time, along the motion. warm: the same instance again; of
+// several passes the quickest, for a busy neighbour slows down all that share its core. Extrapolate: between
 // ticks of the best tier, which do not count.
 Cost warm_cost(const LoadedPack& character, const TrueMotion& motion, Tier tier, uint32_t every);
 // cold: instances enough to fill the last-level cache one and a half times, each stepped once a round.

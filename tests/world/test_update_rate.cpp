@@ -91,7 +91,7 @@ TEST_CASE("networks_contacts_and_rods_are_simulated_in_every_tick") {
 }
 
 // Walking, and shaking near resonance. A tick late at 3.5 Hz is 0.37 rad, and so 0.3 or so of what is shown:
-// without what is missed being made up or what is heard going on as it did, it is 0.4 and more.
+// without what is missed being made up it is 0.2.
 TEST_CASE("every_second_tick_is_near_to_all_of_them") {
   for (const Tier tier : kRated) {
     const Apart two = apart_from_every_tick(tier, 2);
