@@ -73,11 +73,8 @@ void ContactFinder::add_hits() const {
     const uint32_t segment = to.probe_segments_[hit.probe];
     const uint32_t strand = first_strand() + segment / batch.segment_count_;
     const Contact* made = add_point(point_of(hit, strand, segment % batch.segment_count_), kHit);
-    RodCollider::Taken& taken = to.taken_[to.hit_count_++];
-    taken = {RodCollider::kNoContact, {}, {}};
-    if (!made) continue;
-    taken.contact = static_cast<uint32_t>(made - to.contacts_);
-    taken.felt = scaled_sum(made->force, made->normal, made->drag);
+    to.taken_[to.hit_count_++] = {
+        made ? static_cast<uint32_t>(made - to.contacts_) : RodCollider::kNoContact, {}, {}};
   }
 }
 

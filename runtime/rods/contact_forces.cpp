@@ -9,13 +9,8 @@ namespace {
 
 constexpr size_t triangle(size_t row, size_t column) { return row * (row + 1) / 2 + column; }
 
-constexpr double kDeep = 0.5;    // of a segment's radius
-constexpr double kAcross = 1.5;  // the same: next to where two rods' axes cross
-constexpr uint32_t kMostChanges = 1;
-// What of its limit a drag is at it; how far off a limit may be, of itself, and what that moves, of the
-// tolerance; how fast two contacts' forces
-// swing by friction's square.
-constexpr double kAtLimit = 0.999, kLimitMiss = 0.02, kFeltMiss = 0.1, kSwing = 1.2;
+constexpr double kDeep = 0.5;     // of a segment's radius
+constexpr double kAcross = 1.5;   // the same: next to where two rods' axes cross
 constexpr double kForgiven = 10;  // of the rods' tolerance
 
 }  // namespace
@@ -65,91 +60,31 @@ bool ContactForces::iterated(const Contact& c) const {
   return to.iterated_[c.sides[0].strand] || (c.has_two_rods() && to.iterated_[c.sides[1].strand]);
 }
 
+// Marks the strands of a contact that has opened or closed by more than its tolerance.
+void ContactForces::find_change(const Contact& c) const {
+  const double press = forces_of(c).press, before = std::max(0.0, c.force - c.gain_kg * c.open_before_m);
+  if ((press > 0) == (before > 0) || std::max(press, before) < tolerance_m(c) * c.gain_kg) return;
+  to.changed_[c.sides[0].strand] = 1;
+  if (c.has_two_rods()) to.changed_[c.sides[1].strand] = 1;
+}
+
 double ContactForces::tolerance_m(const Contact& c) const {
   return static_cast<double>(to.settings_.tolerance) * c.scale_m;
 }
 
-// Of the iteration's change, what was taken by the strands of a contact.
-double ContactForces::share_of(const Contact& c) const {
-  const auto share = [&](size_t side) {
-    return static_cast<double>(lane(c.sides[side].strand, simd::kLaneShare));
-  };
-  return c.has_two_rods() ? std::min(share(0), share(1)) : share(0);
-}
-
-double ContactForces::limit_of_new(const Contact& c) const {
-  const double mass = c.gain_kg / (c.has_two_rods() ? kRodGain : kObstacleGain);
-  return c.friction * mass * std::max(0.0, -c.open_m);
-}
-
-// One that was not part of the last system. Returns whether it stays so.
-bool ContactForces::begin_anew(Contact* c) const {
-  const bool was_pressed = c->force > 0;
-  c->force = 0, c->drag = {};
-  c->limit = limit_of_new(*c);
-  c->state = Friction::kSlides, c->changes = 0;
-  return !was_pressed && c->open_m >= -tolerance_m(*c);
-}
-
-// What slides and is carried back, or drags less than its limit, sticks; what drags more slides. Returns
-// whether that is a change.
-bool ContactForces::update_friction(Contact* c, const Vector& slip) const {
-  if (c->state == Friction::kEither) return false;
-  const double drag = length(scaled_sum(-c->gain_kg, slip, c->drag));
-  const bool slides = c->state == Friction::kSlides;
-  const bool changes = slides ? dot(slip, c->drag) > 0 || drag < c->limit : drag > c->limit;
-  if (!changes) return false;
-  c->state = ++c->changes > kMostChanges ? Friction::kEither : slides ? Friction::kSticks : Friction::kSlides;
-  return true;
-}
-
-// Of what slipped so, from the drag it had.
-Vector ContactForces::taken_drag(const Contact& c, const Vector& slip, bool comes_to_rest) const {
-  Contact taken = c;
-  taken.open_m = 0;
-  taken.slip_m = slip;
-  if (!comes_to_rest) return forces_of(taken).drag;
-  const double size = length(c.drag);
-  return size > c.limit ? scaled(c.limit / size, c.drag) : c.drag;
-}
-
-// Whether forces, gap, slip and the limit that the last system had are as exact as wanted.
-bool ContactForces::is_exact(const Contact& c, const Contact& before) const {
-  const double off =
-      std::max(std::fabs(c.force - before.force), length(difference(c.drag, before.drag))) / c.gain_kg;
-  const double moved = std::max(std::fabs(c.open_m - c.open_before_m),
-                                c.friction > 0 ? length(difference(c.slip_m, c.slip_before_m)) : 0.0);
-  if (std::max(off, c.slowness * moved) > tolerance_m(c)) return false;
-  const double limit = c.friction * c.force, miss = std::fabs(limit - before.limit);
-  const bool at_limit = length(c.drag) >= kAtLimit * std::min(limit, before.limit);
-  const double felt_m = miss * (c.has_two_rods() ? kRodGain : kObstacleGain) / c.gain_kg;
-  return !at_limit || miss <= kLimitMiss * limit || felt_m <= kFeltMiss * tolerance_m(c);
-}
-
-// The forces of an iteration, as far as it was taken: with the whole gap, one left by a half step would be
-// pressed out again by a thousand masses. The limit is of a force that a system came to, not of what a gap
-// asks for, a hundred times that; it follows by less where friction is strong, for two contacts side by side
-// then throw each other's force to and fro. Returns whether the contact is as exact as wanted.
+// Returns whether the contact is as exact as wanted.
 bool ContactForces::take_over(Contact* c) const {
-  if (!is_active(*c, c->open_before_m)) return begin_anew(c);
-  const Contact before = *c;
-  const double left = 1 - share_of(*c);
-  const Vector slip = scaled_sum(-left, c->slip_before_m, c->slip_m);
-  c->force = std::max(0.0, c->force - c->gain_kg * (c->open_m - left * c->open_before_m));
-  c->limit += (c->friction * c->force - c->limit) / (1 + kSwing * c->friction * c->friction);
-  const bool changed = c->force > 0 && update_friction(c, slip);
-  const bool rests = changed && before.state == Friction::kSlides;
-  c->drag = taken_drag(*c, slip, rests);
-  return !changed && is_exact(*c, before);
-}
-
-// What was at its limit slides, and so does what is new and too fast to be held.
-void ContactForces::begin_friction(Contact* c) const {
-  const bool known = c->force > 0;
-  c->limit = known ? c->friction * c->force : limit_of_new(*c);
-  const double mass = c->gain_kg / (c->has_two_rods() ? kRodGain : kObstacleGain);
-  const bool slides = known ? length(c->drag) >= kAtLimit * c->limit : mass * length(c->slip_m) > c->limit;
-  c->state = slides ? Friction::kSlides : Friction::kSticks;
+  const double force = c->force;
+  const Vector drag = c->drag;
+  const ContactForce f = forces_of(*c);
+  if (to.changed_[c->sides[0].strand] || (c->has_two_rods() && to.changed_[c->sides[1].strand])) return false;
+  c->force = f.press;
+  c->drag = f.drag;
+  if (!(force > 0) && !(f.press > 0)) return true;
+  const double off = std::max(std::fabs(f.press - force), length(difference(f.drag, drag))) / c->gain_kg;
+  const double moved = std::max(std::fabs(c->open_m - c->open_before_m),
+                                c->friction > 0 ? length(difference(c->slip_m, c->slip_before_m)) : 0.0);
+  return std::max(off, c->slowness * moved) <= tolerance_m(*c);
 }
 
 std::span<Contact> ContactForces::contacts() const {
@@ -212,10 +147,7 @@ void ContactForces::begin() const noexcept {
     to.pending_[s] = 1;
     for (uint32_t i = 0; to.ways_[s] < 1 && i < batch.segment_count_; ++i) step_back(s, i);
   }
-  for (Contact& c : contacts()) {
-    look(&c);
-    begin_friction(&c);
-  }
+  for (Contact& c : contacts()) look(&c);
   assemble();
 }
 
@@ -273,7 +205,7 @@ uint32_t ContactForces::settle() const noexcept {
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {
     to.iterated_[s] = to.turning_[s] | to.pending_[s];
     to.turning_[s] = active(s) != 0;
-    to.pending_[s] = 0;
+    to.pending_[s] = to.changed_[s] = 0;
   }
   for (Contact& c : contacts()) {
     if (!iterated(c)) continue;
@@ -283,6 +215,9 @@ uint32_t ContactForces::settle() const noexcept {
   }
   find_felt();
   stop_at_new_contacts();
+  for (const Contact& c : contacts()) {
+    if (iterated(c)) find_change(c);
+  }
   for (Contact& c : contacts()) {
     if (!iterated(c) || take_over(&c)) continue;
     to.pending_[c.sides[0].strand] = 1;
@@ -382,8 +317,6 @@ void ContactForces::clear() const noexcept {
 
 void ContactForces::assemble() const {
   clear();
-  for (uint32_t s = first_strand(); s < end_strand(); ++s)
-    lane(s, simd::kLaneLargestShare) = simd::kRodLargestShare;
   for (const Contact& c : contacts()) add(c);
 }
 
@@ -400,14 +333,13 @@ void ContactForces::assemble_ended() const {
 
 void ContactForces::add(const Contact& c) const {
   const ContactForce f = forces_of(c);
-  if (!f.active) return;
+  if (!(f.press > 0)) return;
   for (size_t side = 0; side < 2; ++side) {
     const Contact::Side& s = c.sides[side];
     if (s.segment == kNoSegment || !(s.stiffness_kg > 0)) continue;
     if (!(to.turning_[s.strand] | to.pending_[s.strand])) continue;
     const Vector force = scaled_sum(f.press, c.normal, f.drag);
-    lane(s.strand, simd::kLaneLargestShare) = 1;
-    add_to_side(c, side, f, side == 0 ? force : scaled(-1, force));
+    add_to_side(c, side, side == 0 ? force : scaled(-1, force), s.stiffness_kg, f.held * s.stiffness_kg);
   }
 }
 
@@ -423,10 +355,9 @@ float* ContactForces::touched_rows(uint32_t strand, uint32_t segment) const {
 
 // J^T K J and J^T force of a side's point, K = pressed n n^T + held (1 - n n^T), J = (1, -[arm] R): in units
 // of the strand's own.
-void ContactForces::add_to_side(const Contact& c, size_t side, const ContactForce& f,
-                                const Vector& force) const {
+void ContactForces::add_to_side(const Contact& c, size_t side, const Vector& force, double pressed,
+                                double held) const {
   const Contact::Side& s = c.sides[side];
-  const double pressed = s.stiffness_kg, held = f.across * pressed, along_held = f.along * pressed;
   const RodBatch::Units& units = batch.units_[s.strand];
   const double m = units.mass_kg, l = units.length_m;
   const Now own = now(c, side);
@@ -437,9 +368,8 @@ void ContactForces::add_to_side(const Contact& c, size_t side, const ContactForc
   const auto put = [&](size_t row, double value) { rows[row * batch.width_] += static_cast<float>(value); };
   for (size_t r = 0; r < 6; ++r) {
     const double along = dot(moves[r], c.normal);
-    const Vector held_all =
-        scaled_sum((along_held - held) * dot(moves[r], f.direction), f.direction, scaled(held, moves[r]));
-    const Vector stiff = scaled(1 / m, scaled_sum((pressed - held) * along, c.normal, held_all));
+    const Vector stiff =
+        scaled(1 / m, scaled_sum((pressed - held) * along, c.normal, scaled(held, moves[r])));
     for (size_t k = 0; k <= r; ++k) put(simd::kContactMatrix + triangle(r, k), dot(stiff, moves[k]));
     put(simd::kContactForce + r, dot(force, moves[r]) / (m * l));
   }

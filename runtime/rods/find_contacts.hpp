@@ -54,15 +54,9 @@ struct ContactFinder {
   void add_sweep(uint32_t strand, uint32_t segment) const;
   const Sweep& sweep(uint32_t strand, uint32_t segment) const;
   void find_reaches() const;
-  template <size_t kWidth>
-  struct Lanes;
-  template <size_t kWidth>
-  void find_reaches(uint32_t group) const;
-  template <size_t kWidth>
-  void find_reaches(const Lanes<kWidth>& lanes, double* out) const;
+  void find_reaches(uint32_t group, uint32_t segment) const;
   const double* reach(uint32_t strand, uint32_t segment) const;
   double nearest_m(uint32_t strand, uint32_t segment, const Sweep& obstacle) const;
-  bool near(uint32_t strand, const Plane& plane) const;
   bool near(uint32_t strand, uint32_t segment, const Plane& plane) const;
   bool near(uint32_t strand, uint32_t segment, const Sweep& obstacle) const;
   bool may_reach(uint32_t strand, uint32_t segment, const Sweep& core) const;

@@ -30,7 +30,6 @@ void RodCollider::save_state(std::byte* out) const noexcept {
 
 void RodCollider::restore_state(const std::byte* from) noexcept {
   ++steps_;  // forgets its own
-  kept_in_use_ = kept_size_;
   uint64_t count = 0;
   std::memcpy(&count, from, sizeof count);
   for (uint64_t i = 0; i < count && i < capacity_; ++i) {
