@@ -25,7 +25,7 @@ namespace sinew::world {
 namespace {
 
 static_assert(std::is_trivially_copyable_v<InstanceState>, "saved as bytes");
-static_assert(sizeof(InstanceState) == 360, "no padding: equal states are equal bytes");
+static_assert(sizeof(InstanceState) == 368, "no padding: equal states are equal bytes");
 
 float smooth_step(float t) noexcept { return t * t * (3 - 2 * t); }
 

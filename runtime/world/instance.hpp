@@ -66,6 +66,8 @@ struct InstanceState {
   uint32_t blind_looks = 0;               // in a row (world/look.hpp)
   uint32_t hidden = 0, hidden_ticks = 0;  // world/hidden.hpp
   uint32_t hidden_by_caller = 0;
+  uint32_t lifted = 0;        // the blend is from springs: rods went on
+  uint32_t reserved = 0;      // no padding
   uint32_t first_joints = 0;  // which of pose_joints is the pose before the present one
 };
 
