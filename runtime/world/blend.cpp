@@ -58,8 +58,8 @@ void begin_network(Instance& instance) noexcept {
   state.clamped_ticks = 0;
 }
 
-// A spring's place need not be a shape of the modes: what they leave of it snaps back within a tick. What was shown
-// is carried on and blended into them.
+// A spring's place need not be a shape of the modes: what they leave of it snaps back within a tick. What was
+// shown is carried on and blended into them.
 void begin_base(Instance& instance) noexcept {
   lift_displacement(instance);
   if (instance.state->tier != Tier::kSpring) return;
