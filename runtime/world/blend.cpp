@@ -44,6 +44,7 @@ void begin_simulation(Instance& instance) noexcept {
   state.motion_stale = 1;
   state.clamped_ticks = 0;
   state.blend_ticks = state.untouched ? kBlendInTicks : 0;
+  state.lifted = 0;
 }
 
 // A network that missed a moment keeps its memory, of everything but where the tissue is.
@@ -55,6 +56,16 @@ void begin_network(Instance& instance) noexcept {
   take_place(asset.network, asset.pack.regions, asset.node_count(), instance.l[0], instance.network_state);
   state.forgotten = 0;
   state.clamped_ticks = 0;
+}
+
+// A spring's place need not be a shape of the modes: what they leave of it snaps back within a tick. What was
+// shown is carried on and blended into them.
+void begin_base(Instance& instance) noexcept {
+  lift_displacement(instance);
+  if (instance.state->tier != Tier::kSpring) return;
+  begin_tail(instance, 1);
+  instance.state->blend_ticks = 0;
+  instance.state->lifted = 1;
 }
 
 bool has_base(Tier tier) noexcept { return tier == Tier::kModal || tier == Tier::kNetwork; }
@@ -105,7 +116,7 @@ void enter_tier(Instance& instance, Tier tier) noexcept {
   const bool simulated = frame::is_simulated(tier), was_simulated = frame::is_simulated(state.tier);
   if (simulated && !was_simulated) begin_simulation(instance);
   if (!simulated && was_simulated) begin_tail(instance, 1);
-  if (has_base(tier) && !has_base(state.tier)) lift_displacement(instance);
+  if (has_base(tier) && !has_base(state.tier)) begin_base(instance);
   if (tier == Tier::kNetwork && state.tier != Tier::kNetwork) begin_network(instance);
   if (tier != state.tier) wake_regions(instance);
   if (tier == Tier::kSkinning) state.tail_ticks = std::max(state.tail_ticks, kCarryTicks);
@@ -133,7 +144,7 @@ void show_tick(Instance& instance) noexcept {
   const float simulated = instance.simulated_share();
   const float tail = (1 - simulated) * instance.tail_share();
   copy(instance, instance.shown[0], instance.shown[1]);
-  show_rods(instance, simulated);
+  show_rods(instance, state.lifted && frame::is_simulated(state.tier) ? 1 : simulated);
   if (simulated > 0)
     tissue::along_flesh(instance.poses[0], instance.u[0], instance.asset->node_count(), instance.shown[0]);
   if (simulated == 1) return;

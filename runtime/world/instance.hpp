@@ -66,6 +66,7 @@ struct InstanceState {
   uint32_t blind_looks = 0;               // in a row (world/look.hpp)
   uint32_t hidden = 0, hidden_ticks = 0;  // world/hidden.hpp
   uint32_t hidden_by_caller = 0;
+  uint32_t lifted = 0;        // the blend is from springs: rods went on
   uint32_t first_joints = 0;  // which of pose_joints is the pose before the present one
   // world/update_rate.hpp:
   uint32_t ticks = 0;          // counts on for ever: whose turn it is
@@ -73,7 +74,6 @@ struct InstanceState {
   uint32_t spacing_ticks = 1;  // between the last two of them, and so between poses
   uint32_t heard_by = 0;       // HeardBy: whose `heard` is
   float heard_stretch = 1;     // this spacing over that of the two ticks of `heard`
-  uint32_t reserved = 0;       // no padding
 };
 
 // What the last step measured; not state.

@@ -192,3 +192,43 @@ TEST_CASE("tissue_comes_back_to_what_it_would_have_been") {
   WARN("3 s after it came back, " << off_m * 1e3 << " mm off of " << size_m * 1e3 << " mm");
   CHECK(off_m < 0.05 * size_m);  // damped by exp(-0.1 x 2 pi x 3.5 x 3) = 0.0014 of what was missed
 }
+
+// What a change alone moves: the same frame with it and without, at each frame of two seconds of a walk.
+TEST_CASE("a_change_of_tiers_moves_no_vertex_far") {
+  constexpr double kMost = 0.003;  // of the height, in a frame
+  struct Offer {
+    const char* name;
+    float budget_us;
+  };
+  const Offer offers[] = {{"network", kAll},
+                          {"modal", test::tier_cost_us(Tier::kModal) * 1.01f},
+                          {"spring", test::tier_cost_us(Tier::kSpring) * 1.01f},
+                          {"extrapolated", kNothing_us},
+                          {"skinning", 0}};
+  for (const Offer& from : offers) {
+    for (const Offer& to : offers) {
+      if (&from == &to) continue;
+      Stage stage(1, {.budget_mode = BudgetMode::kWorkUnits});
+      REQUIRE(stage.world.set_budget_us(from.budget_us).ok());
+      settle(stage);
+      double largest_m = 0;
+      const auto look = [&](float budget_us, const std::vector<std::byte>& state) {
+        REQUIRE(stage.world.restore_state(stage.blocks[0], state).ok());
+        REQUIRE(stage.world.set_budget_us(budget_us).ok());
+        stage.step(scenes::walk, kFrame_s);
+        stage.time_s -= kFrame_s;
+        return stage.read(0, Space::kBind);
+      };
+      for (int f = 0; f < 120; ++f) {
+        const std::vector<std::byte> state = stage.save();
+        const std::vector<float> changed = look(to.budget_us, state), kept = look(from.budget_us, state);
+        stage.time_s += kFrame_s;
+        largest_m = std::max(largest_m, test::largest_distance(changed, kept));
+      }
+      const double share = largest_m / static_cast<double>(stage.info.height_m);
+      UNSCOPED_INFO(from.name << " to " << to.name << ": " << largest_m * 1e3 << " mm, " << 100 * share
+                              << " % of the height");
+      CHECK(share < kMost);
+    }
+  }
+}
