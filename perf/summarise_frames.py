@@ -30,9 +30,11 @@ def frames_table(rows):
     tiers = ("network", "modal", "spring", "extrapolated", "skinned")
     lines = [[row["trouble"], row["instances"], f"{float(row['budget_us']):g}", row["frames"], *shares(row, "cpu"),
               *shares(row, "wall"), f"{float(row['schedule_us_p50']):.1f}",
-              *[f"{100 * float(row[tier]):.0f}" for tier in tiers]] for row in rows]
+              *[f"{100 * float(row[tier]):.0f}" for tier in tiers], f"{100 * float(row['unspent_p50']):.1f}",
+              f"{float(row['expected_error']):.2f}"] for row in rows]
     heads = [f"{clock} {label}" for clock in ("CPU", "wall") for _, label, _ in TAILS]
-    return table(["trouble", "characters", "budget, us", "frames", *heads, "schedule, us", *[f"{t} %" for t in tiers]], lines)
+    return table(["trouble", "characters", "budget, us", "frames", *heads, "schedule, us", *[f"{t} %" for t in tiers], "unspent %",
+                  "error expected"], lines)
 
 
 def idle_table(rows):

@@ -38,6 +38,22 @@ double share_of_tier(const std::vector<FrameCost>& frames, uint32_t FrameReport:
   return sum / static_cast<double>(frames.size() * instances);
 }
 
+// Of the frames that left somebody below its best tier: the middle one's share of the budget left unspent.
+double unspent(const std::vector<FrameCost>& frames, float budget_us) {
+  std::vector<double> shares;
+  for (const FrameCost& frame : frames)
+    if (frame.report.unspent_us > 0)
+      shares.push_back(static_cast<double>(frame.report.unspent_us / budget_us));
+  std::ranges::sort(shares);
+  return shares.empty() ? 0 : quantile(shares, 0.5);
+}
+
+double mean_error(const std::vector<FrameCost>& frames) {
+  double sum = 0;
+  for (const FrameCost& frame : frames) sum += static_cast<double>(frame.report.expected_error);
+  return sum / static_cast<double>(frames.size());
+}
+
 void put_scene(const Scene& scene, const std::vector<FrameCost>& frames) {
   std::printf("%s,%u,%g,%zu", name_of(scene.trouble), scene.instances, double{scene.budget_us},
               frames.size());
@@ -48,7 +64,7 @@ void put_scene(const Scene& scene, const std::vector<FrameCost>& frames) {
        {&FrameReport::instances_network, &FrameReport::instances_modal, &FrameReport::instances_spring,
         &FrameReport::instances_extrapolated, &FrameReport::instances_skinned, &FrameReport::instances_cut})
     std::printf(",%.4f", share_of_tier(frames, count, scene.instances));
-  std::puts("");
+  std::printf(",%.4f,%.4f\n", unspent(frames, scene.budget_us), mean_error(frames));
   std::fflush(stdout);
 }
 
@@ -56,7 +72,7 @@ void put_header() {
   std::printf("trouble,instances,budget_us,frames");
   for (const char* of : {"cpu", "wall", "schedule_us"})
     std::printf(",%s_p50,%s_p99,%s_p999,%s_worst", of, of, of, of);
-  std::puts(",network,modal,spring,extrapolated,skinned,cut");
+  std::puts(",network,modal,spring,extrapolated,skinned,cut,unspent_p50,expected_error");
 }
 
 void run(const Options& options) {
