@@ -7,7 +7,9 @@
 #include <set>
 
 #include "baker/common/bad_input.hpp"
+#include "world/pose.hpp"
 #include "world/read.hpp"
+#include "world/rod_publish.hpp"
 
 namespace sinew::baker {
 namespace {
@@ -36,12 +38,19 @@ Vector3f at(const float* positions, uint32_t vertex) {
   return Eigen::Map<const Vector3f>(positions + size_t{3} * vertex);
 }
 
+// [joints][12]
+std::vector<float> matrices_of(const ClosedLoop& loop) {
+  const pack::PackView& pack = loop.instance().asset->pack;
+  std::vector<float> out(size_t{12} * pack.joints.size());
+  world::skin_matrices(pack.joints, world::shown_joints(loop.instance()), out.data());
+  return out;
+}
+
 // How skinning turns and stretches what is at the vertex, bind pose to posed.
-Matrix3f skin_of(const ClosedLoop& loop, uint32_t vertex) {
-  const pack::SkinRecord& skin = loop.instance().asset->pack.skin[vertex];
+Matrix3f skin_of(const pack::SkinRecord& skin, const float* matrices) {
   Matrix3f sum = Matrix3f::Zero();
   for (uint32_t i = 0; i < pack::kInfluences; ++i) {
-    const Eigen::Map<const Affine> joint(loop.instance().skin + size_t{12} * skin.joint[i]);
+    const Eigen::Map<const Affine> joint(matrices + size_t{12} * skin.joint[i]);
     sum += skin.weight[i] * joint.leftCols<3>();
   }
   return sum;
@@ -100,11 +109,11 @@ void Yardstick::skin(const LoadedPack& character, size_t m) {
   std::vector<float>&skinning = skinning_mm_.emplace_back(), &previous = previous_mm_.emplace_back();
   for (size_t tick = 0; tick <= ticks_of(surface); ++tick) {
     if (tick > 0) loop.tick(Tier::kSkinning);
-    const std::vector<float> skinned = positions_of(loop);
+    const std::vector<float> skinned = positions_of(loop), matrices = matrices_of(loop);
     for (size_t i = 0; i < vertices_.size(); ++i) {
       const Vector3f here = at(skinned.data(), vertices_[i]),
                      truth = at(surface.positions(tick), vertices_[i]);
-      const Matrix3f turn = skin_of(loop, vertices_[i]);
+      const Matrix3f turn = skin_of(character.view().skin[vertices_[i]], matrices.data());
       skinning.push_back(kMillimetres * (truth - here).norm());
       previous.push_back(kMillimetres * (truth - here - turn * bound[i]).norm());
       bound[i] = turn.inverse() * (truth - here);
