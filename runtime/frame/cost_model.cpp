@@ -20,11 +20,13 @@ void CostEstimate::observe(float sample_us) noexcept {
 }
 
 void CostEstimate::settle() noexcept {
-  constexpr float kWeight = 0.125f, kDrift = 0.01f;
-  if (samples_ > 0)
+  constexpr float kWeight = 0.125f, kDrift = 0.01f, kUsualTail = 1.2f;
+  if (samples_ > 0) {
     estimate_us_ += kWeight * (sum_us_ / static_cast<float>(samples_) - estimate_us_);
-  else if (baked_us_ > 0)
-    estimate_us_ += kDrift * (baked_us_ - estimate_us_);
+  } else {
+    if (baked_us_ > 0) estimate_us_ += kDrift * (baked_us_ - estimate_us_);
+    tail_ += kDrift * (kUsualTail - tail_);
+  }
   sum_us_ = 0;
   samples_ = 0;
 }

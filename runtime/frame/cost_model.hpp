@@ -21,8 +21,8 @@ class CostEstimate {
   float p95_us() const noexcept { return estimate_us_ * tail_; }
   bool is_known() const noexcept { return measured_ || baked_us_ > 0; }
   void observe(float sample_us) noexcept;  // not finite or negative: ignored
-  // Once a step. Without a sample since the last call: drifts back to the baked number, so that an estimate
-  // that is too high to be scheduled is tried again.
+  // Once a step. Without a sample since the last call: drifts back to the baked number and a usual tail, so
+  // that what is too high to be scheduled is tried again.
   void settle() noexcept;
 
  private:

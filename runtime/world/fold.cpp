@@ -31,7 +31,8 @@ void learn_costs(Instance& instance) noexcept {
   if (instance.displaced && !instance.held)
     instance.asset->cost.publish.observe(core::microseconds(times.total_ns - ticked_ns));
   const auto ticks = static_cast<float>(instance.plan.ticks.ticks);
-  if (frame::is_simulated(instance.state->tier) && ticks > 0 && (ran_as_planned(instance) || instance.cut))
+  if (frame::is_simulated(instance.state->tier) && ticks > 0 && !instance.entered &&
+      (ran_as_planned(instance) || instance.cut))
     learn_tick_cost(instance, core::microseconds(ticked_ns) / ticks);
 }
 

@@ -123,11 +123,12 @@ struct Instance {
   Asset* asset = nullptr;
   InstancePlan plan;
   InstanceTimes times;
-  bool idle = false;                                 // in the last step: neither simulated nor displaced
-  bool held = false;                                 // in the last step: shown as it was, for the deadline
-  float bound_middle_m[3] = {}, bound_radius_m = 0;  // world/pose_bound.hpp
-  float size = 1;                                    // share of a view's height
-  bool seen = true, came_back = false;               // in this step
+  bool idle = false;     // in the last step: neither simulated nor displaced
+  bool entered = false;  // in the last step: simulation began anew, which costs more than to go on
+  bool held = false;     // in the last step: shown as it was, for the deadline
+  float bound_middle_m[3] = {}, bound_radius_m = 0;        // world/pose_bound.hpp
+  float size = 1;                                          // share of a view's height
+  bool seen = true, came_back = false;                     // in this step
   bool cut = false, restarted = false, fell_back = false;  // in the last step
   bool heard_now = false;                                  // in the last tick: it was simulated whole
   bool parts_ready = false;                                // in this step: the parts are filled in

@@ -142,6 +142,8 @@ void step_instance(Instance& instance, const TickContext& context, uint32_t slot
   instance.came_back = instance.state->hidden != 0;
   if (instance.came_back) come_back(instance);
   instance.restarted = instance.fell_back = false;
+  instance.entered = frame::is_simulated(tier) &&
+                     (!frame::is_simulated(instance.state->tier) || instance.state->motion_stale);
   enter_tier(instance, tier);
   take_pose(instance, context.teleport_distance_m);
   run_ticks(instance, context, slot);

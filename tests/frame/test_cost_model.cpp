@@ -137,3 +137,14 @@ TEST_CASE("capacity_stays_where_nothing_was_denied") {
   for (int f = 0; f < 100; ++f) capacity.observe(0.3f, 0, false);
   CHECK(capacity.scale() == before);
 }
+
+TEST_CASE("a_tail_too_wide_to_be_scheduled_is_forgotten_and_tried_again") {
+  CostEstimate estimate(10);
+  for (int step = 0; step < 400; ++step) {
+    estimate.observe(step % 2 == 0 ? 10 : 30);
+    estimate.settle();
+  }
+  REQUIRE(estimate.p95_us() > 1.4f * estimate.estimate_us());
+  for (int step = 0; step < 300; ++step) estimate.settle();  // five seconds
+  CHECK(estimate.p95_us() < 1.3f * estimate.estimate_us());
+}
