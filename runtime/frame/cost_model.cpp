@@ -16,7 +16,7 @@ void CostEstimate::observe(float sample_us) noexcept {
   tail_ *= 1 + kStep * (sample_us > p95_us() ? kAbove : kAbove - 1);
   tail_ = std::clamp(tail_, 1.0f, kWidest);
   ++samples_;
-  measured_ = true;
+  known_ = true;
 }
 
 void CostEstimate::settle() noexcept {

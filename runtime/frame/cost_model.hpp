@@ -15,11 +15,12 @@ class CostEstimate {
   static constexpr float kWidest = 3;
 
   CostEstimate() noexcept = default;
-  explicit CostEstimate(float baked_us) noexcept : baked_us_(baked_us), estimate_us_(baked_us) {}
+  explicit CostEstimate(float baked_us) noexcept
+      : baked_us_(baked_us), estimate_us_(baked_us), known_(true) {}
   float baked_us() const noexcept { return baked_us_; }
   float estimate_us() const noexcept { return estimate_us_; }
   float p95_us() const noexcept { return estimate_us_ * tail_; }
-  bool is_known() const noexcept { return measured_ || baked_us_ > 0; }
+  bool is_known() const noexcept { return known_; }
   void observe(float sample_us) noexcept;  // not finite or negative: ignored
   // Once a step. Without a sample since the last call: drifts back to the baked number and a usual tail, so
   // that what is too high to be scheduled is tried again.
@@ -29,7 +30,7 @@ class CostEstimate {
   float baked_us_ = 0, estimate_us_ = 0, tail_ = 2;
   float sum_us_ = 0;
   uint32_t samples_ = 0;
-  bool measured_ = false;
+  bool known_ = false;  // baked, at whatever cost, or measured
 };
 
 struct CostModel {                // of one asset

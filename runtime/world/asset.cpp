@@ -15,9 +15,9 @@ namespace {
 
 using core::make_status;
 
-// Errors of a network that was not judged are not known in millimetres: a usual share of the height then.
-// Update rates that this runtime knows.
+// What the scheduler buys: what a tick between costs is not learnt online yet.
 constexpr uint32_t kMostEvery = 1;
+// Errors of a network that was not judged are not known in millimetres: a usual share of the height then.
 constexpr float kUsualSkinningError = 5e-3f;
 
 void read_point(const pack::TierRecord& record, Asset& asset) noexcept {

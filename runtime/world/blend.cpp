@@ -64,8 +64,8 @@ void begin_base(Instance& instance) noexcept {
   lift_displacement(instance);
   if (instance.state->tier != Tier::kSpring) return;
   begin_tail(instance, 1);
+  instance.state->lifted |= instance.state->blend_ticks >= kBlendInTicks;  // else rods are on their way, too
   instance.state->blend_ticks = 0;
-  instance.state->lifted = 1;
 }
 
 bool has_base(Tier tier) noexcept { return tier == Tier::kModal || tier == Tier::kNetwork; }

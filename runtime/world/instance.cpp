@@ -224,7 +224,7 @@ InstanceReport describe(const Instance& instance, InstanceId id) noexcept {
   return {.instance = id,
           .tier = simulated || blend > 0 ? state.tier : Tier::kSkinning,
           .why = reason_of(instance, asleep),
-          .error = error_of(*instance.asset, state.tier, instance.plan.every),
+          .error = state.hidden ? 1 : error_of(*instance.asset, state.tier, instance.plan.every),
           .blend = blend,
           .ticks_since_network = state.ticks_since_network,
           .input_clamps = state.input_clamps,
@@ -241,7 +241,7 @@ InstanceReport describe(const Instance& instance, InstanceId id) noexcept {
           .contact_volume_m3 = instance.told.volume_m3,
           .deepest_penetration_m = instance.told.deepest_m,
           .cost_us = core::microseconds(instance.times.total_ns),
-          .planned_us = instance.plan.cost_us,
+          .planned_us = state.hidden ? 0 : instance.plan.cost_us,
           .hidden = state.hidden != 0};
 }
 

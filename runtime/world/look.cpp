@@ -24,7 +24,8 @@ float size_of(const WorldState& world, const Instance& instance) noexcept {
 // Whether any of this look's rays gets through.
 bool gets_through(WorldState& world, const Instance& instance, const frame::Sight& sight) noexcept {
   const frame::Ball ball = ball_of(instance);
-  if (!(frame::seen_size(sight, ball) > 0)) return false;
+  const float size = frame::seen_size(sight, ball);
+  if (size == 0 || size == 1) return size == 1;  // not in this view; so near that nothing is between
   for (uint32_t ray = 0; ray < kRaysALook; ++ray) {
     double point_m[3];
     frame::point_on(sight, ball, instance.state->blind_looks * kRaysALook + ray, point_m);
@@ -57,13 +58,16 @@ void look_behind_things(WorldState& world) noexcept {
 }  // namespace
 
 void look(WorldState& world) noexcept {
+  const bool looks =
+      world.def.occlusion && world.sight_count > 0 && world.def.sight_rays_per_step >= kRaysALook;
   const auto each = [&](auto work) {
     for (uint32_t slot = 0; slot < world.instances.end(); ++slot)
       if (Instance* instance = world.instances.at(slot)) work(*instance);
   };
   each([&](Instance& instance) {
     instance.size = size_of(world, instance);
-    if (instance.size == 0) instance.state->blind_looks = 0;  // comes into view as seen
+    // Comes into view as seen, and nothing is hidden by what was once in front of it.
+    if (!looks || instance.size == 0 || instance.state->hidden_by_caller) instance.state->blind_looks = 0;
   });
   look_behind_things(world);
   each([&](Instance& instance) {

@@ -3,7 +3,7 @@
 // Seen is what some view shows and nothing is found to hide. What hides is asked about a few instances a
 // step, in turn: kRaysALook rays to points of the ball about the character, others each time. It is hidden
 // after kBlindLooks looks in a row without a ray that gets through, and seen again with the first that does.
-// With n instances in view, each is looked at every ceil(n kRaysALook / sight_rays_per_step) steps.
+// With n instances in view, each is looked at every ceil(n kRaysALook views / sight_rays_per_step) steps.
 #pragma once
 #include "world/world_state.hpp"
 

@@ -67,7 +67,7 @@ Candidate candidate_of(const WorldState& world, const Instance& instance, uint32
           .has = front.level_of(state.tier, instance.plan.every),
           .top = highest(instance),
           .turn_left_s = state.turn_left_s,
-          .keeps_level = ticks == 0 && world.budget_us > 0};
+          .keeps_level = ticks == 0 && world.budget_us > 0 && !state.hidden};
 }
 
 // Instances of an age have the same ticks: they are worked out once.

@@ -53,7 +53,8 @@ float reach_of(const Asset& asset) noexcept {
 void bound_pose(Instance& instance) noexcept {
   const uint32_t joints = instance.asset->pack.character->joint_count;
   Eigen::AlignedBox3f box;
-  for (uint32_t j = 0; j < joints; ++j) box.extend(place_of(instance.next_joints[j]));
+  const Matrix34* pose = instance.state->has_next ? instance.next_joints : instance.joints;
+  for (uint32_t j = 0; j < joints; ++j) box.extend(place_of(pose[j]));
   Eigen::Map<Vector3f>{instance.bound_middle_m} = box.center();
   instance.bound_radius_m = box.diagonal().norm() / 2 + kStretch * instance.asset->reach_m;
 }

@@ -164,7 +164,7 @@ void step_idle(Instance& instance, const TickContext& context) noexcept {
   InstanceState& state = *instance.state;
   const frame::TickPlan& ticks = instance.plan.ticks;
   instance.times = {.cost_factor = instance.times.cost_factor};
-  instance.cut = instance.held = instance.restarted = instance.fell_back = false;
+  instance.cut = instance.held = instance.restarted = instance.fell_back = instance.came_back = false;
   if (ticks.ticks > 0) {
     instance.told = {};
     state.motion_stale = 1;
@@ -179,6 +179,7 @@ void step_idle(Instance& instance, const TickContext& context) noexcept {
   keep_pose(instance);
   age(instance, false);
   if (ticks.ticks > 0) follow_excitation(instance);
+  if (!skins_on_reading(instance)) publish(instance);
 }
 
 }  // namespace sinew::world

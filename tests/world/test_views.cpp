@@ -234,3 +234,30 @@ TEST_CASE("a_hidden_block_goes_on_with_the_same_bits_after_a_restore") {
   CHECK(stage.read() == shown);
   CHECK(go_on() == first);
 }
+
+TEST_CASE("what_was_hidden_by_something_is_seen_once_there_are_no_views") {
+  Wall wall;
+  wall.there = true;
+  Stage stage(1, {.occlusion = &wall});
+  see(stage, true);
+  stage.play(scenes::walk, 0.2);
+  REQUIRE(stage.report().why == TierReason::kHidden);
+  CHECK(stage.report().error == 1);
+  REQUIRE(stage.world.set_views({}).ok());
+  stage.step(scenes::walk, 1.0 / 60);
+  CHECK(stage.report().why != TierReason::kHidden);
+}
+
+// A pose that travels in the character's space, restored when no pose is waiting.
+TEST_CASE("a_restored_pose_that_has_travelled_is_looked_for_where_it_is") {
+  Stage stage(1);
+  scenes::BlockPose away = scenes::bind_pose();
+  for (Matrix34& joint : away.joints) joint.m[0][3] += 500;
+  stage.step([](double) { return scenes::bind_pose(); }, 1.0 / 60);
+  stage.step([&](double) { return away; }, 1.0 / 60);
+  const std::vector<std::byte> saved = stage.save();
+  REQUIRE(stage.world.restore_state(stage.blocks[0], saved).ok());
+  see(stage, true);
+  stage.world.step(1.0f / 60);
+  CHECK(stage.report().why == TierReason::kHidden);
+}

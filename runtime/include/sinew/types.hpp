@@ -74,8 +74,8 @@ enum class BudgetMode : uint32_t {
 // Markers for a profiler (Tracy, Perfetto): begin and end in pairs, nested, on the thread that runs what they
 // name; called from several threads at a time, inside a step, so they neither block nor call the world. name
 // lives as long as the program: "schedule", "instance", "drive", "tissue", "rods", "publish", "idle",
-// "report". instance: its slot (InstanceId::index1 less one), kNoInstance where it is of none. Null begin or
-// end: none.
+// "report". instance: its slot (InstanceId::index1 less one), kNoInstance where it is of none. Both null:
+// none; one alone: World::create refuses.
 inline constexpr uint32_t kNoInstance = 0xffffffffu;
 struct ProfilerHook {
   void (*begin)(const char* name, uint32_t instance, void* context) = nullptr;
@@ -99,8 +99,8 @@ struct WorldDef {
   BudgetMode budget_mode = BudgetMode::kTime;
   // Asked whether something hides what views show (World::set_views); null: nothing does. Outlives the world.
   OcclusionSource* occlusion = nullptr;
-  uint32_t sight_rays_per_step =
-      64;  // at most so many questions a step, eight for an instance and view; < 8: none
+  uint32_t sight_rays_per_step = 64;  // so many questions a step, and what one instance takes in all views,
+                                      // eight for an instance and view; < 8: none
   TaskHook tasks = {};
   ClockHook clock = {};
   AssertHook assert_hook = {};
