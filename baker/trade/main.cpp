@@ -1,12 +1,10 @@
 // sinew-trade  Every tier of a character against ground truth: what it costs, how far it is off, which are
 // worth having; and the character with those baked. See `sinew-trade --help`.
-#include <CLI/CLI.hpp>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <fstream>
 
-#include "baker/common/bad_input.hpp"
+#include "baker/common/program.hpp"
 #include "baker/common/write_file.hpp"
 #include "baker/trade/chart.hpp"
 #include "baker/trade/measure.hpp"
@@ -18,21 +16,12 @@ namespace {
 
 using namespace sinew::baker;
 
-constexpr int kUnusableInput = 2;
-
 struct Options {
   std::string character, folder;
   std::vector<std::string> truth, clips;
   double seconds = 10;
   Source source;
 };
-
-int refuse(std::string message) {
-  for (char& c : message)
-    if (c == '\n') c = ' ';
-  std::fprintf(stderr, "sinew-trade: %s\n", message.c_str());
-  return kUnusableInput;
-}
 
 void add_options(CLI::App& app, Options* o) {
   app.add_option("character", o->character, "C.sinew")->required();
@@ -110,18 +99,8 @@ int main(int argc, char** argv) {
   CLI::App app{"Measures every tier of a character: time a step against error to ground truth."};
   Options options;
   add_options(app, &options);
-  try {
-    app.parse(argc, argv);
+  return run_program("sinew-trade", app, argc, argv, [&] {
     run(options);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help
-    return refuse(std::string(error.what()) + "; see sinew-trade --help");
-  } catch (const BadInput& error) {
-    return refuse(error.what());
-  } catch (const std::bad_alloc&) {
-    return refuse("out of memory; the input is too large for this machine");
-  } catch (const std::exception& error) {
-    return refuse(std::string("internal error: ") + error.what());
-  }
-  return 0;
+    return 0;
+  });
 }

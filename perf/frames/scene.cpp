@@ -11,7 +11,7 @@ constexpr Scene kScenes[] = {
     {Trouble::kCuts, 500, 4000},       {Trouble::kEntrance, 16, 500},    {Trouble::kEntrance, 100, 4000},
     {Trouble::kEntrance, 500, 4000},   {Trouble::kHitch, 16, 500},       {Trouble::kHitch, 100, 4000},
     {Trouble::kWorkerLost, 100, 2000}, {Trouble::kNeighbour, 100, 2000}, {Trouble::kHidden, 500, 4000},
-    {Trouble::kAsleep, 500, 8000},
+    {Trouble::kAsleep, 500, 1e6f},
 };
 
 }  // namespace

@@ -14,7 +14,7 @@ enum class Trouble : uint32_t {
   kWorkerLost,  // of two workers, one is away for a second in every two
   kNeighbour,   // another process takes half of the core
   kHidden,      // nobody sees them, and poses are set all the same
-  kAsleep,      // they stand still, and the same pose is set
+  kAsleep,      // they stand still, and the same pose is set; there is time for all, so that they fall asleep
 };
 
 struct Scene {
