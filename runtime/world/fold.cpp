@@ -36,12 +36,12 @@ void learn_costs(Instance& instance) noexcept {
     learn_tick_cost(instance, core::microseconds(ticked_ns) / ticks);
 }
 
-void count_tier(const InstanceReport& instance, FrameReport& report) noexcept {
-  report.instances_network += instance.tier == Tier::kNetwork;
-  report.instances_modal += instance.tier == Tier::kModal;
-  report.instances_spring += instance.tier == Tier::kSpring;
-  report.instances_extrapolated += instance.tier == Tier::kExtrapolate;
-  report.instances_skinned += instance.tier == Tier::kSkinning;
+void count_tier(Tier tier, FrameReport& report) noexcept {
+  report.instances_network += tier == Tier::kNetwork;
+  report.instances_modal += tier == Tier::kModal;
+  report.instances_spring += tier == Tier::kSpring;
+  report.instances_extrapolated += tier == Tier::kExtrapolate;
+  report.instances_skinned += tier == Tier::kSkinning;
 }
 
 void add_times(const Instance& instance, FrameReport& report) noexcept {
@@ -65,8 +65,17 @@ float add_active(const Instance& instance, FrameReport& report) noexcept {
   report.restarts += instance.restarted;
   report.fallbacks += instance.fell_back;
   report.regions_asleep += told.regions_asleep;
-  count_tier(told, report);
+  count_tier(told.tier, report);
   return told.error;
+}
+
+// Likewise, of one that is dormant.
+float add_dormant(const Instance& instance, FrameReport& report) noexcept {
+  const Tier tier = instance.state->tier;
+  ++report.instances_dormant;
+  report.regions_asleep += static_cast<uint32_t>(instance.asset->pack.regions.size());
+  count_tier(tier, report);
+  return error_of(*instance.asset, tier, instance.plan.every);
 }
 
 }  // namespace
@@ -85,6 +94,10 @@ void fold_results(WorldState& world, FrameReport& report) noexcept {
     if (instance->idle) {
       ++report.instances_skinned;
       ++errors;
+      continue;
+    }
+    if (instance->passed) {
+      errors += static_cast<double>(add_dormant(*instance, report));
       continue;
     }
     if (costs_are_measured(world)) learn_costs(*instance);

@@ -5,6 +5,7 @@
 
 #include "frame/scheduler.hpp"
 #include "world/blend.hpp"
+#include "world/dormant.hpp"
 
 namespace sinew::world {
 namespace {
@@ -34,6 +35,7 @@ void pass_by(Instance& instance, double dt_s, uint32_t max_ticks) noexcept {
   if (plan.dropped_s > 0) state.hidden_ticks = std::max(state.hidden_ticks, kCarryTicks + kFadeTicks);
   if (state.hidden) return;
   state.hidden = 1;
+  wake(instance);
   state.waited_s = state.held_s = 0;
   instance.times = {};
   instance.told = {};

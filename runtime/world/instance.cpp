@@ -12,6 +12,7 @@
 #include "tissue/inputs.hpp"
 #include "tissue/network.hpp"
 #include "tissue/node_drive.hpp"
+#include "world/dormant.hpp"
 #include "world/pose_bound.hpp"
 #include "world/publish.hpp"
 #include "world/push_surface.hpp"
@@ -25,7 +26,7 @@ namespace sinew::world {
 namespace {
 
 static_assert(std::is_trivially_copyable_v<InstanceState>, "saved as bytes");
-static_assert(sizeof(InstanceState) == 384, "no padding: equal states are equal bytes");
+static_assert(sizeof(InstanceState) == 392, "no padding: equal states are equal bytes");
 
 float smooth_step(float t) noexcept { return t * t * (3 - 2 * t); }
 
@@ -194,6 +195,8 @@ void forget_motion(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   forget_displacement(instance);
   state.at_start = 1;
+  state.still_steps = 0;
+  wake(instance);
   state.render_fraction = 0;
   state.teleported = 0;
   state.excitation = 1;
@@ -242,7 +245,8 @@ InstanceReport describe(const Instance& instance, InstanceId id) noexcept {
           .deepest_penetration_m = instance.told.deepest_m,
           .cost_us = core::microseconds(instance.times.total_ns),
           .planned_us = state.hidden ? 0 : instance.plan.cost_us,
-          .hidden = state.hidden != 0};
+          .hidden = state.hidden != 0,
+          .dormant = state.dormant != 0};
 }
 
 }  // namespace sinew::world

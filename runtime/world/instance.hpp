@@ -69,11 +69,12 @@ struct InstanceState {
   uint32_t lifted = 0;        // the blend is from springs: rods went on
   uint32_t first_joints = 0;  // which of pose_joints is the pose before the present one
   // world/update_rate.hpp:
-  uint32_t ticks = 0;          // counts on for ever: whose turn it is
-  uint32_t since_ticks = 1;    // from the last tick that was heard to this one
-  uint32_t spacing_ticks = 1;  // between the last two of them, and so between poses
-  uint32_t heard_by = 0;       // HeardBy: whose `heard` is
-  float heard_stretch = 1;     // this spacing over that of the two ticks of `heard`
+  uint32_t ticks = 0;                     // counts on for ever: whose turn it is
+  uint32_t since_ticks = 1;               // from the last tick that was heard to this one
+  uint32_t spacing_ticks = 1;             // between the last two of them, and so between poses
+  uint32_t heard_by = 0;                  // HeardBy: whose `heard` is
+  float heard_stretch = 1;                // this spacing over that of the two ticks of `heard`
+  uint32_t still_steps = 0, dormant = 0;  // world/dormant.hpp
 };
 
 // What the last step measured; not state.
@@ -124,6 +125,7 @@ struct Instance {
   InstancePlan plan;
   InstanceTimes times;
   bool idle = false;     // in the last step: neither simulated nor displaced
+  bool passed = false;   // in the last step: dormant, not stepped
   bool entered = false;  // in the last step: simulation began anew, which costs more than to go on
   bool held = false;     // in the last step: shown as it was, for the deadline
   float bound_middle_m[3] = {}, bound_radius_m = 0;        // world/pose_bound.hpp

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
+#include "world/dormant.hpp"
 #include "world/hidden.hpp"
 
 namespace sinew::world {
@@ -90,8 +92,29 @@ class TickPlans {
   frame::TickPlan plan_;
 };
 
-std::span<Candidate> gather_candidates(WorldState& world, double dt_s) noexcept {
-  uint32_t count = 0;
+constexpr uint32_t kNone = UINT32_MAX;
+
+// Dormant, and below its best for longer than the one in that slot.
+bool waits_longer(const WorldState& world, const InstanceState& state, uint32_t than) noexcept {
+  if (state.dormant != static_cast<uint32_t>(Dormancy::kBelowBest)) return false;
+  return than == kNone || state.held_s > world.instances.at(than)->state->held_s;
+}
+
+struct Gathered {
+  uint32_t candidates = 0;
+  uint32_t waiting = kNone;  // slot of the one that has had less than its best for longest
+};
+
+// All but the one that waits: what becomes of it is seen once the others are provided for.
+void pass_dormant(WorldState& world, uint32_t slot, Gathered& gathered) noexcept {
+  uint32_t passed = slot;
+  if (waits_longer(world, *world.instances.at(slot)->state, gathered.waiting))
+    passed = std::exchange(gathered.waiting, slot);
+  if (passed != kNone) stay_dormant(*world.instances.at(passed));
+}
+
+Gathered gather_candidates(WorldState& world, double dt_s) noexcept {
+  Gathered gathered;
   TickPlans plans(dt_s, world.def.max_ticks_per_step);
   world.idle_count = 0;
   for (uint32_t slot = 0; slot < world.instances.end(); ++slot) {
@@ -105,9 +128,27 @@ std::span<Candidate> gather_candidates(WorldState& world, double dt_s) noexcept 
     }
     instance->plan.ticks = plans.of(*instance);
     instance->plan.dt_s = dt_s;
-    world.candidates[count++] = candidate_of(world, *instance, slot);
+    instance->passed = instance->state->dormant && world.budget_us > 0;
+    if (instance->passed)
+      pass_dormant(world, slot, gathered);
+    else
+      world.candidates[gathered.candidates++] = candidate_of(world, *instance, slot);
   }
-  return {world.candidates.get(), count};
+  return gathered;
+}
+
+// At its best once there is room for it beside all that is awake.
+void raise_waiting(WorldState& world, float budget_us, Gathered& gathered,
+                   frame::ScheduleResult& result) noexcept {
+  Instance& instance = *world.instances.at(gathered.waiting);
+  Candidate c = candidate_of(world, instance, gathered.waiting);
+  c.level = c.top;
+  c.reason = frame::Reason::kBest;
+  const bool fits = !result.denied && result.planned_us + c.cost_us(c.top) <= budget_us;
+  if (!fits || c.keeps_level) return stay_dormant(instance);
+  instance.passed = false;
+  result.planned_us += c.cost_us(c.top);
+  world.candidates[gathered.candidates++] = c;
 }
 
 TierReason told(frame::Reason reason) noexcept {
@@ -195,12 +236,15 @@ bool costs_are_measured(const WorldState& world) noexcept {
 frame::ScheduleResult plan_step(WorldState& world, double dt_s) noexcept {
   for (uint32_t slot = 0; slot < world.assets.end(); ++slot)
     if (Asset* asset = world.assets.at(slot)) refresh_front(world, *asset);
-  const std::span<Candidate> candidates = gather_candidates(world, dt_s);
+  Gathered gathered = gather_candidates(world, dt_s);
   frame::ScheduleScratch& scratch = *world.scratch;
   float budget_us = world.budget_us;
   if (costs_are_measured(world) && budget_us > 0)
     budget_us = std::max(0.0f, budget_us - world.overhead.p95_us()) * world.capacity.scale();
-  const frame::ScheduleResult result = frame::schedule(candidates, budget_us, scratch);
+  frame::ScheduleResult result =
+      frame::schedule({world.candidates.get(), gathered.candidates}, budget_us, scratch);
+  if (gathered.waiting != kNone) raise_waiting(world, budget_us, gathered, result);
+  const std::span<const Candidate> candidates{world.candidates.get(), gathered.candidates};
   for (const Candidate& c : candidates) take_answer(world, c, *world.instances.at(c.slot));
   world.running = put_in_order(world, candidates);
   add_up_behind(world, world.running);

@@ -18,7 +18,8 @@ constexpr uint64_t kMagic = 0x31544154534e5753;  // "SWNSTAT1", little-endian
 // Of InstanceState, the arrays after it and the rods' batches. 4: which regions sleep, and what they felt
 // when they fell asleep. 5: rods. 6: how vertices are pushed, and contacts' forces.
 // 7: who is hidden. 8: what the scheduler goes by, what is gone on by between ticks that are simulated whole.
-constexpr uint32_t kVersion = 8;
+// 9: who is dormant.
+constexpr uint32_t kVersion = 9;
 
 struct Header {
   uint64_t magic, fingerprint, payload_bytes, checksum;

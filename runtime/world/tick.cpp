@@ -7,6 +7,7 @@
 #include "core/flush_denormals.hpp"
 #include "frame/scheduler.hpp"
 #include "world/blend.hpp"
+#include "world/dormant.hpp"
 #include "world/excitation.hpp"
 #include "world/hidden.hpp"
 #include "world/marker.hpp"
@@ -139,6 +140,7 @@ void step_instance(Instance& instance, const TickContext& context, uint32_t slot
   const Tier tier = instance.plan.tier;
   const bool rose = quality(tier) > quality(instance.state->tier);
   instance.times = {.cost_factor = instance.times.cost_factor};
+  wake(instance);
   instance.came_back = instance.state->hidden != 0;
   if (instance.came_back) come_back(instance);
   instance.restarted = instance.fell_back = false;
@@ -146,10 +148,12 @@ void step_instance(Instance& instance, const TickContext& context, uint32_t slot
                      (!frame::is_simulated(instance.state->tier) || instance.state->motion_stale);
   enter_tier(instance, tier);
   take_pose(instance, context.teleport_distance_m);
+  watch_pose(instance);
   run_ticks(instance, context, slot);
   keep_pose(instance);
   age(instance, rose);
   if (instance.plan.ticks.ticks > 0) follow_excitation(instance);
+  fall_dormant(instance);
   const uint64_t ticked_ns = core::now_ns(context.clock);
   if (!instance.held) {
     const Marker publishing(context.profiler, "publish", slot);
@@ -165,6 +169,7 @@ void step_idle(Instance& instance, const TickContext& context) noexcept {
   const frame::TickPlan& ticks = instance.plan.ticks;
   instance.times = {.cost_factor = instance.times.cost_factor};
   instance.cut = instance.held = instance.restarted = instance.fell_back = instance.came_back = false;
+  wake(instance);
   if (ticks.ticks > 0) {
     instance.told = {};
     state.motion_stale = 1;

@@ -9,6 +9,7 @@
 #include "core/status.hpp"
 #include "simd/isa.hpp"
 #include "simd/kernels.hpp"
+#include "world/dormant.hpp"
 #include "world/pose.hpp"
 #include "world/pose_bound.hpp"
 #include "world/read.hpp"
@@ -224,6 +225,8 @@ Status World::set_pose(InstanceId id, const Pose& pose) noexcept {
     ++impl_->rejected_poses;
     return status;
   }
+  if (instance->state->dormant && world::has_pose(*instance, pose.joints, root)) return {};
+  world::wake(*instance);
   std::copy(pose.joints.begin(), pose.joints.end(), instance->next_joints);
   instance->state->next_root = root;
   instance->state->has_next = 1;

@@ -177,9 +177,10 @@ TEST_CASE("nobody_goes_unsimulated_longer_than_the_stated_bound") {
   CHECK(longest_ticks > 60);
 }
 
-// All else equal, what moves is worth simulating and what stands is not.
+// All else equal, what moves is worth simulating and what stands is not. Nothing sleeps: it would cost
+// nothing.
 TEST_CASE("a_budget_goes_where_tissue_moves") {
-  Stage stage(2, {.budget_mode = BudgetMode::kWorkUnits});
+  Stage stage(2, {.sleep_tolerance = 0, .budget_mode = BudgetMode::kWorkUnits});
   uint32_t moving = 0, standing = 0;
   for (int f = 0; f < 60 * 6; ++f) {
     const float budget_us = f < 60 ? kInfinity : 1.1f * test::tier_cost_us(Tier::kNetwork);

@@ -91,8 +91,9 @@ TEST_CASE("a_camera_inside_a_character_sees_it") {
   }
 }
 
+// They stand, and would sleep at no cost.
 TEST_CASE("who_is_nearer_to_the_eye_gets_what_the_budget_pays_for") {
-  Stage stage(0, {.budget_mode = BudgetMode::kWorkUnits});
+  Stage stage(0, {.sleep_tolerance = 0, .budget_mode = BudgetMode::kWorkUnits});
   for (const double z : {-30.0, 0.0}) {
     InstanceId made;
     REQUIRE(

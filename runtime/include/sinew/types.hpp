@@ -185,6 +185,7 @@ struct InstanceReport {
       0;  // what this instance took in the last step, on its thread; 0: next to nothing, not measured
   float planned_us = 0;  // what it was expected to take; kWorkUnits: of the baked costs
   bool hidden = false;   // nobody saw it in the last step: nothing was done for it
+  bool dormant = false;  // asleep under an unchanged pose: from the next step on nothing is done for it
 };
 
 // Filled by step(). All times in microseconds of the world's clock.
@@ -202,6 +203,8 @@ struct FrameReport {
   uint32_t instances_network = 0, instances_modal = 0, instances_spring = 0, instances_extrapolated = 0,
            instances_skinned = 0;
   uint32_t instances_hidden = 0;  // nobody sees them; in none of the counts above
+  uint32_t instances_dormant =
+      0;                       // asleep under an unchanged pose and not stepped; in the counts of their tiers
   uint32_t instances_cut = 0;  // got a cheaper tier than planned, or are shown as they were, for the deadline
   uint32_t restarts = 0, fallbacks = 0;  // instances in this frame
   uint32_t regions_asleep = 0;           // soft parts at rest, of all instances

@@ -1,0 +1,98 @@
+// dormant.cpp  see dormant.hpp.
+#include "world/dormant.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "frame/scheduler.hpp"
+#include "world/rod_sleep.hpp"
+#include "world/sleep.hpp"
+
+namespace sinew::world {
+namespace {
+
+// Poses of the last three ticks, and the one that the first of them was reached from, are then the same.
+constexpr uint32_t kStillSteps = 4;
+
+bool is_same(const RootTransform& a, const RootTransform& b) noexcept {
+  return std::equal(a.position_m, a.position_m + 3, b.position_m) &&
+         std::equal(a.rotation_xyzw, a.rotation_xyzw + 4, b.rotation_xyzw);
+}
+
+bool may_be_dormant(const Instance& instance) noexcept {
+  const InstanceState& state = *instance.state;
+  const Asset& asset = *instance.asset;
+  return frame::is_simulated(state.tier) && state.still_steps >= kStillSteps && !state.motion_stale &&
+         !instance.cut && state.blend_ticks == kBlendInTicks && state.fallback_ticks == 0 &&
+         !instance.contacts.source && regions_asleep(instance) == asset.pack.regions.size() &&
+         rods_asleep(instance) == asset.rods.rod_count;
+}
+
+template <class T>
+void hold(const T* now, size_t count, T* before) noexcept {
+  std::copy_n(now, count, before);
+}
+
+void hold_rods(Instance& instance) noexcept {
+  const size_t slots = instance.asset->rods.slot_count;
+  if (slots == 0) return;
+  hold(instance.rod_rest[0], 4 * slots, instance.rod_rest[1]);
+  hold(instance.rod_hold[0], size_t{3} * instance.asset->rods.rod_count, instance.rod_hold[1]);
+  hold(instance.rod_shown[0], 4 * slots, instance.rod_shown[1]);
+  if (instance.proxy_ends[0])
+    hold(instance.proxy_ends[0], 6 * instance.asset->pack.proxies.size(), instance.proxy_ends[1]);
+}
+
+void hold_still(Instance& instance) noexcept {
+  const size_t nodes = instance.asset->node_count();
+  InstanceState& state = *instance.state;
+  for (int back = 1; back < 3; ++back) {
+    hold(instance.poses[0], nodes, instance.poses[back]);
+    hold(state.tick_root_m[0], 3, state.tick_root_m[back]);
+  }
+  hold(instance.shown[0], 3 * nodes, instance.shown[1]);
+  hold_rods(instance);
+}
+
+}  // namespace
+
+bool has_pose(const Instance& instance, std::span<const Matrix34> joints,
+              const RootTransform& root) noexcept {
+  return is_same(instance.state->root, root) &&
+         std::memcmp(instance.joints, joints.data(), joints.size_bytes()) == 0;
+}
+
+void watch_pose(Instance& instance) noexcept {
+  InstanceState& state = *instance.state;
+  if (instance.plan.ticks.ticks == 0) return;
+  const size_t joints = instance.asset->pack.character->joint_count;
+  const bool still = has_pose(instance, {instance.next_joints, joints}, state.next_root);
+  state.still_steps = still ? std::min(state.still_steps + 1, kStillSteps) : 0;
+}
+
+void fall_dormant(Instance& instance) noexcept {
+  if (!may_be_dormant(instance)) return;
+  hold_still(instance);
+  const bool at_best = instance.plan.why == TierReason::kBest;
+  instance.state->dormant = static_cast<uint32_t>(at_best ? Dormancy::kAtBest : Dormancy::kBelowBest);
+}
+
+void stay_dormant(Instance& instance) noexcept {
+  InstanceState& state = *instance.state;
+  const frame::TickPlan& ticks = instance.plan.ticks;
+  const auto dt_s = static_cast<float>(instance.plan.dt_s);
+  instance.idle = instance.entered = false;
+  instance.cut = instance.held = instance.restarted = instance.fell_back = instance.came_back = false;
+  instance.times = {};
+  instance.plan.cost_us = 0;
+  state.remainder_s = ticks.remainder_s;
+  state.render_fraction = static_cast<float>(ticks.remainder_s / instance.asset->tick_s);
+  state.ticks += ticks.ticks;
+  state.dt_before_s = instance.plan.dt_s;
+  state.held_s += dt_s;
+  state.has_next = 0;
+}
+
+void wake(Instance& instance) noexcept { instance.state->dormant = static_cast<uint32_t>(Dormancy::kNone); }
+
+}  // namespace sinew::world
