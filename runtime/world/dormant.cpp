@@ -11,8 +11,7 @@
 namespace sinew::world {
 namespace {
 
-// Poses of the last three ticks, and the one that the first of them was reached from, are then the same.
-constexpr uint32_t kStillSteps = 4;
+constexpr uint32_t kStillTicks = 8;  // poses of the last three, and the two that led there, are then the same
 
 bool is_same(const RootTransform& a, const RootTransform& b) noexcept {
   return std::equal(a.position_m, a.position_m + 3, b.position_m) &&
@@ -22,7 +21,7 @@ bool is_same(const RootTransform& a, const RootTransform& b) noexcept {
 bool may_be_dormant(const Instance& instance) noexcept {
   const InstanceState& state = *instance.state;
   const Asset& asset = *instance.asset;
-  return frame::is_simulated(state.tier) && state.still_steps >= kStillSteps && !state.motion_stale &&
+  return frame::is_simulated(state.tier) && state.still_ticks >= kStillTicks && !state.motion_stale &&
          !instance.cut && state.blend_ticks == kBlendInTicks && state.fallback_ticks == 0 &&
          !instance.contacts.source && regions_asleep(instance) == asset.pack.regions.size() &&
          rods_asleep(instance) == asset.rods.rod_count;
@@ -64,10 +63,10 @@ bool has_pose(const Instance& instance, std::span<const Matrix34> joints,
 
 void watch_pose(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
-  if (instance.plan.ticks.ticks == 0) return;
   const size_t joints = instance.asset->pack.character->joint_count;
   const bool still = has_pose(instance, {instance.next_joints, joints}, state.next_root);
-  state.still_steps = still ? std::min(state.still_steps + 1, kStillSteps) : 0;
+  constexpr uint32_t kLongest = UINT32_MAX / 2;
+  state.still_ticks = still ? std::min(state.still_ticks + instance.plan.ticks.ticks, kLongest) : 0;
 }
 
 void fall_dormant(Instance& instance) noexcept {

@@ -1,9 +1,8 @@
 // dormant.hpp  A character that is asleep under a pose that does not change is not stepped.
 //
-//   dormant  every region and rod sleeps, nothing may touch it, nothing fades, and for kStillSteps steps the
-//   pose
-//            set was bit for bit the present one, or none was set. What is left of the past then becomes the
-//            present: no velocity, nothing to carry on.
+//   dormant  every region and rod sleeps, nothing may touch it, nothing fades, and for kStillTicks ticks the
+//            pose set was bit for bit the present one, or none was set. What is left of the past then becomes
+//            the present: no velocity, nothing to carry on.
 //   up again with another pose, a budget of 0, a reset, or out of sight; it goes on as if it had been stepped
 //            meanwhile. Where a budget once kept it below its best tier, it is also simulated at that when a
 //            step has room for it: the one that has waited longest, one a step.
@@ -18,7 +17,7 @@ enum class Dormancy : uint32_t { kNone = 0, kAtBest = 1, kBelowBest = 2 };
 // The pose last set is the one the instance has.
 bool has_pose(const Instance& instance, std::span<const Matrix34> joints, const RootTransform& root) noexcept;
 
-// In its step, after take_pose: counts steps under an unchanged pose.
+// In its step, after take_pose: counts ticks under an unchanged pose.
 void watch_pose(Instance& instance) noexcept;
 // After its ticks: dormant from the next step on, where it may be.
 void fall_dormant(Instance& instance) noexcept;

@@ -36,6 +36,7 @@ void pass_by(Instance& instance, double dt_s, uint32_t max_ticks) noexcept {
   if (state.hidden) return;
   state.hidden = 1;
   wake(instance);
+  state.still_ticks = 0;
   state.waited_s = state.held_s = 0;
   instance.times = {};
   instance.told = {};

@@ -195,7 +195,7 @@ void forget_motion(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   forget_displacement(instance);
   state.at_start = 1;
-  state.still_steps = 0;
+  state.still_ticks = 0;
   wake(instance);
   state.render_fraction = 0;
   state.teleported = 0;

@@ -74,7 +74,7 @@ struct InstanceState {
   uint32_t spacing_ticks = 1;             // between the last two of them, and so between poses
   uint32_t heard_by = 0;                  // HeardBy: whose `heard` is
   float heard_stretch = 1;                // this spacing over that of the two ticks of `heard`
-  uint32_t still_steps = 0, dormant = 0;  // world/dormant.hpp
+  uint32_t still_ticks = 0, dormant = 0;  // world/dormant.hpp
 };
 
 // What the last step measured; not state.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "tissue/node_drive.hpp"
@@ -47,6 +48,19 @@ void remember_drive(Instance& instance, const Region& region) noexcept {
     std::copy_n(instance.drive + tissue::kNodeDriveWidth * n, 3, instance.felt_asleep + 3 * n);
 }
 
+// Never, of a mode without damping and of a region without modes.
+bool is_settled(const Instance& instance, size_t index) noexcept {
+  constexpr float kSettled = 1e-3f, kLessDamped = 3;
+  if (instance.contacts.source) return false;
+  const pack::PackView& pack = instance.asset->pack;
+  const pack::RegionModesRecord& region = pack.region_modes[index];
+  float slowest_per_s = region.mode_count > 0 ? std::numeric_limits<float>::infinity() : 0;
+  for (const pack::ModeRecord& mode : pack.modes.subspan(region.first_mode, region.mode_count))
+    slowest_per_s = std::min(slowest_per_s, mode.damping_ratio * mode.rad_per_s);
+  const float still_s = static_cast<float>(instance.state->still_ticks * instance.asset->tick_s);
+  return still_s * slowest_per_s > -kLessDamped * std::log(kSettled);
+}
+
 bool stays(const Instance& instance, const Region& region) noexcept {
   const float most = region.rest_m * region.w1_tick;
   for (size_t n = region.record.first_node; n < region.record.first_node + region.record.node_count; ++n) {
@@ -76,6 +90,7 @@ bool may_sleep(const Instance& instance) noexcept {
 
 void wake_regions(Instance& instance) noexcept {
   std::fill_n(instance.quiet_ticks, instance.asset->pack.regions.size(), 0u);
+  instance.state->still_ticks = 0;
 }
 
 bool is_asleep(const Instance& instance, size_t region) noexcept {
@@ -101,7 +116,8 @@ void watch_motion(Instance& instance, float tolerance) noexcept {
   for_each_region(instance, tolerance, [&](size_t r, const Region& region, uint32_t& quiet_ticks) {
     const uint32_t enough = ticks_to_sleep(region);
     if (quiet_ticks >= enough) return;
-    quiet_ticks = tolerance > 0 && stays(instance, region) ? quiet_ticks + instance.state->since_ticks : 0;
+    const bool quiet = tolerance > 0 && (stays(instance, region) || is_settled(instance, r));
+    quiet_ticks = quiet ? quiet_ticks + instance.state->since_ticks : 0;
     if (quiet_ticks >= enough) fall_asleep(instance, r, region);
   });
 }
