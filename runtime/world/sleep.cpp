@@ -61,8 +61,9 @@ bool is_settled(const Instance& instance, size_t index) noexcept {
   return still_s * slowest_per_s > -kLessDamped * std::log(kSettled);
 }
 
-bool stays(const Instance& instance, const Region& region) noexcept {
-  const float most = region.rest_m * region.w1_tick;
+bool stays(const Instance& instance, size_t index, const Region& region) noexcept {
+  constexpr float kHum = 16;
+  const float most = region.rest_m * region.w1_tick * (is_settled(instance, index) ? kHum : 1);
   for (size_t n = region.record.first_node; n < region.record.first_node + region.record.node_count; ++n) {
     if (!is_near(instance.l[0] + 3 * n, instance.l[1] + 3 * n, most)) return false;
   }
@@ -116,7 +117,7 @@ void watch_motion(Instance& instance, float tolerance) noexcept {
   for_each_region(instance, tolerance, [&](size_t r, const Region& region, uint32_t& quiet_ticks) {
     const uint32_t enough = ticks_to_sleep(region);
     if (quiet_ticks >= enough) return;
-    const bool quiet = tolerance > 0 && (stays(instance, region) || is_settled(instance, r));
+    const bool quiet = tolerance > 0 && stays(instance, r, region);
     quiet_ticks = quiet ? quiet_ticks + instance.state->since_ticks : 0;
     if (quiet_ticks >= enough) fall_asleep(instance, r, region);
   });
