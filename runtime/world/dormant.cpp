@@ -27,32 +27,6 @@ bool may_be_dormant(const Instance& instance) noexcept {
          rods_asleep(instance) == asset.rods.rod_count;
 }
 
-template <class T>
-void hold(const T* now, size_t count, T* before) noexcept {
-  std::copy_n(now, count, before);
-}
-
-void hold_rods(Instance& instance) noexcept {
-  const size_t slots = instance.asset->rods.slot_count;
-  if (slots == 0) return;
-  hold(instance.rod_rest[0], 4 * slots, instance.rod_rest[1]);
-  hold(instance.rod_hold[0], size_t{3} * instance.asset->rods.rod_count, instance.rod_hold[1]);
-  hold(instance.rod_shown[0], 4 * slots, instance.rod_shown[1]);
-  if (instance.proxy_ends[0])
-    hold(instance.proxy_ends[0], 6 * instance.asset->pack.proxies.size(), instance.proxy_ends[1]);
-}
-
-void hold_still(Instance& instance) noexcept {
-  const size_t nodes = instance.asset->node_count();
-  InstanceState& state = *instance.state;
-  for (int back = 1; back < 3; ++back) {
-    hold(instance.poses[0], nodes, instance.poses[back]);
-    hold(state.tick_root_m[0], 3, state.tick_root_m[back]);
-  }
-  hold(instance.shown[0], 3 * nodes, instance.shown[1]);
-  hold_rods(instance);
-}
-
 }  // namespace
 
 bool has_pose(const Instance& instance, std::span<const Matrix34> joints,
@@ -71,7 +45,6 @@ void watch_pose(Instance& instance) noexcept {
 
 void fall_dormant(Instance& instance) noexcept {
   if (!may_be_dormant(instance)) return;
-  hold_still(instance);
   const bool at_best = instance.plan.why == TierReason::kBest;
   instance.state->dormant = static_cast<uint32_t>(at_best ? Dormancy::kAtBest : Dormancy::kBelowBest);
 }
