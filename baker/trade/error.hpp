@@ -11,7 +11,7 @@ namespace sinew::baker {
 
 inline constexpr size_t kMostTicks = 600;
 // Extrapolate is told of so many ticks after the last simulated one: where its fade to skinning begins.
-inline constexpr size_t kCarriedTicks = 12;
+inline constexpr size_t kCarriedTicks = 4;
 
 // What all ways are measured against. The surfaces must outlive it.
 class Yardstick {

@@ -79,7 +79,7 @@ class Ways {
   void add_baselines(const LoadedPack& character) {
     ways_.push_back({"previous frame's displacement", "baseline", Tier::kSkinning, 1,
                      [this](Row* row) { row->error = yardstick_.of_previous_frame(); }});
-    for (const size_t ticks : {1, 2, 4})
+    for (const size_t ticks : {1, 2, 8})
       ways_.push_back(
           {"extrapolate, after " + std::to_string(ticks), "baseline", Tier::kExtrapolate, 1,
            [=, this, &character](Row* row) { row->error = yardstick_.of_extrapolation(character, ticks); }});

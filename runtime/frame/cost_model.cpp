@@ -6,26 +6,37 @@
 #include <utility>
 
 namespace sinew::frame {
+namespace {
+
+// Rests where the share `rank` of all samples lies below it.
+void follow_rank(float sample, float rank, float* tail) noexcept {
+  constexpr float kStep = 0.02f;
+  *tail *= 1 + kStep * (sample > *tail ? rank : rank - 1);
+  *tail = std::clamp(*tail, 1.0f, CostEstimate::kWidest);
+}
+
+}  // namespace
 
 void CostEstimate::observe(float sample_us) noexcept {
-  constexpr float kFarthest = 2, kSmallest_us = 1e-3f, kStep = 0.02f, kAbove = 0.95f;
+  constexpr float kFarthest = 2, kSmallest_us = 1e-3f;
   if (!std::isfinite(sample_us) || sample_us < 0) return;
   // From an estimate of zero (nothing baked) a ratio cannot be formed.
-  if (estimate_us_ < kSmallest_us) estimate_us_ = sample_us;
+  if (estimate_us_ < kSmallest_us) estimate_us_ = std::max(sample_us, kSmallest_us);
   sum_us_ += std::clamp(sample_us, estimate_us_ / kFarthest, estimate_us_ * kFarthest);
-  tail_ *= 1 + kStep * (sample_us > p95_us() ? kAbove : kAbove - 1);
-  tail_ = std::clamp(tail_, 1.0f, kWidest);
+  follow_rank(sample_us / estimate_us_, 0.95f, &tail_);
+  follow_rank(sample_us / estimate_us_, 0.99f, &far_tail_);
   ++samples_;
   known_ = true;
 }
 
 void CostEstimate::settle() noexcept {
-  constexpr float kWeight = 0.125f, kDrift = 0.01f, kUsualTail = 1.2f;
+  constexpr float kWeight = 0.125f, kDrift = 0.01f, kUsualTail = 1.2f, kUsualFarTail = 1.4f;
   if (samples_ > 0) {
     estimate_us_ += kWeight * (sum_us_ / static_cast<float>(samples_) - estimate_us_);
   } else {
     if (baked_us_ > 0) estimate_us_ += kDrift * (baked_us_ - estimate_us_);
     tail_ += kDrift * (kUsualTail - tail_);
+    far_tail_ += kDrift * (kUsualFarTail - far_tail_);
   }
   sum_us_ = 0;
   samples_ = 0;
@@ -34,6 +45,7 @@ void CostEstimate::settle() noexcept {
 void CostModel::settle() noexcept {
   for (CostEstimate& estimate : tick) estimate.settle();
   publish.settle();
+  enter.settle();
 }
 
 void Capacity::observe(float spent, float undone, bool denied) noexcept {

@@ -8,8 +8,8 @@
 namespace sinew::frame {
 
 // A running estimate that a preempted measurement cannot move far: a sample counts as at most twice and at
-// least half of the estimate; the mean of a step's samples has weight 1/8. Beside it what 95 of 100 samples
-// do not exceed, by their ranks alone, at most kWidest times the estimate.
+// least half of the estimate; the mean of a step's samples has weight 1/8. Beside it what 95 and what 99 of
+// 100 samples do not exceed, by their ranks alone, at most kWidest times the estimate.
 class CostEstimate {
  public:
   static constexpr float kWidest = 3;
@@ -20,6 +20,7 @@ class CostEstimate {
   float baked_us() const noexcept { return baked_us_; }
   float estimate_us() const noexcept { return estimate_us_; }
   float p95_us() const noexcept { return estimate_us_ * tail_; }
+  float p99_us() const noexcept { return estimate_us_ * far_tail_; }
   bool is_known() const noexcept { return known_; }
   void observe(float sample_us) noexcept;  // not finite or negative: ignored
   // Once a step. Without a sample since the last call: drifts back to the baked number and a usual tail, so
@@ -27,7 +28,7 @@ class CostEstimate {
   void settle() noexcept;
 
  private:
-  float baked_us_ = 0, estimate_us_ = 0, tail_ = 2;
+  float baked_us_ = 0, estimate_us_ = 0, tail_ = 2, far_tail_ = 2.5f;
   float sum_us_ = 0;
   uint32_t samples_ = 0;
   bool known_ = false;  // baked, at whatever cost, or measured
@@ -36,6 +37,7 @@ class CostEstimate {
 struct CostModel {                // of one asset
   CostEstimate tick[kTierCount];  // by Tier; of the simulated ones: poses, drive, tissue, rods, guard
   CostEstimate publish;           // a step, of what is displaced: pose, extrapolation, publishing
+  CostEstimate enter;  // what the first tick of a simulation takes beyond a tick: cold memory, a history
   void settle() noexcept;
 };
 

@@ -27,7 +27,7 @@ void for_each_step_up(const Candidate& c, double most, Work work) noexcept {
   const float weight = weight_of(c), ticks = c.ticks * c.cost_factor;
   float key = std::numeric_limits<float>::max(), cost_below = c.cost_us(c.level);
   for (uint32_t level = c.level + 1; level <= c.top; ++level) {
-    const float whole = c.front->step_us(level, ticks), cost = std::max(0.0f, whole - cost_below);
+    const float whole = c.cost_us(level), cost = std::max(0.0f, whole - cost_below);
     if (static_cast<double>(cost) > most) return;
     key = std::min(key, weight * bonus(c, level) * c.front->worth[level] / std::max(ticks, 1e-3f));
     if (!work(level, key, cost)) return;

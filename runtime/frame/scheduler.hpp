@@ -43,6 +43,7 @@ struct Candidate {
   float ticks = 0;               // in this step
   float cost_factor = 1;         // what its ticks take as a multiple of its asset's
   float base_us = 0;             // what it takes in this step if it is not simulated
+  float enter_us = 0;            // what its first simulated tick takes beyond a tick
   uint32_t has = 0;              // its level in the last step
   uint32_t top = 0;              // the highest it may have now
   float turn_left_s = 0;         // > 0: what it has came by a turn, and stays so long
@@ -52,7 +53,8 @@ struct Candidate {
 
   // What a level takes in this step, whole.
   float cost_us(uint32_t of_level) const noexcept {
-    return of_level == 0 ? base_us : front->step_us(of_level, ticks * cost_factor);
+    if (of_level == 0) return base_us;
+    return front->step_us(of_level, ticks * cost_factor) + (has == 0 ? enter_us : 0);
   }
 };
 

@@ -91,16 +91,32 @@ void stop_what_creeps(Instance& instance) noexcept {
   }
 }
 
+// What is not driven swings freely as its first mode does, u_t = a1 u_{t-1} + a2 u_{t-2}. What it was driven
+// by is let go of over the ticks until the fade, for a force that ends at once is seen as a jump; then it
+// runs out.
+void swing_tail(Instance& instance, size_t r) noexcept {
+  const pack::RegionRecord& region = instance.asset->pack.regions[r];
+  const pack::SpringRecord& spring = instance.asset->pack.springs[r];
+  const uint32_t tick = instance.state->tail_ticks;
+  const bool swings = tick <= kCarryTicks;
+  const float free = swings ? static_cast<float>(tick) / kCarryTicks : 0, kept = swings ? 1 : kCarryDamping;
+  const float pull = free * (spring.a1 + spring.a2 - 1), drag = free * (1 + spring.a2);
+  const size_t begin = size_t{3} * region.first_node, end = begin + size_t{3} * region.node_count;
+  for (size_t i = begin; i < end; ++i) {
+    float &u = instance.tail[i], &velocity = instance.tail_velocity[i];
+    velocity += pull * u - drag * velocity;
+    u += velocity;
+    velocity *= kept;
+  }
+}
+
 void advance_tail(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   constexpr uint32_t kOver = kCarryTicks + kFadeTicks;
   if (state.tail_ticks < kOver) ++state.tail_ticks;
   if (state.tail_ticks == kOver) state.restarting = 0;
-  for (size_t i = 0; i < floats_of(instance); ++i) {
-    instance.tail[i] += instance.tail_velocity[i];
-    instance.tail_velocity[i] *= kCarryDamping;
-  }
-  stop_what_creeps(instance);
+  for (size_t r = 0; r < instance.asset->pack.regions.size(); ++r) swing_tail(instance, r);
+  if (state.tail_ticks > kCarryTicks) stop_what_creeps(instance);
   for (const pack::RegionRecord& region : instance.asset->pack.regions) {
     for (uint32_t n = region.first_node; n < region.first_node + region.node_count; ++n) {
       hold_at_limit(instance.tail + size_t{3} * n, instance.tail_velocity + size_t{3} * n,

@@ -25,14 +25,24 @@ void learn_tick_cost(Instance& instance, float tick_us) noexcept {
   factor = std::clamp(factor, kLeast, kMost);
 }
 
+void learn_entering(Instance& instance, float ticked_us) noexcept {
+  frame::CostModel& cost = instance.asset->cost;
+  const float tick_us = cost.tick[static_cast<size_t>(instance.state->tier)].estimate_us();
+  const auto ticks = static_cast<float>(instance.plan.ticks.ticks);
+  cost.enter.observe(std::max(0.0f, ticked_us - ticks * tick_us));
+}
+
 void learn_costs(Instance& instance) noexcept {
   const InstanceTimes& times = instance.times;
   const uint64_t ticked_ns = times.drive_ns + times.tissue_ns + times.rods_ns;
   if (instance.displaced && !instance.held)
     instance.asset->cost.publish.observe(core::microseconds(times.total_ns - ticked_ns));
   const auto ticks = static_cast<float>(instance.plan.ticks.ticks);
-  if (frame::is_simulated(instance.state->tier) && ticks > 0 && !instance.entered &&
-      (ran_as_planned(instance) || instance.cut))
+  const bool ran =
+      frame::is_simulated(instance.state->tier) && ticks > 0 && (ran_as_planned(instance) || instance.cut);
+  if (ran && instance.entered)
+    learn_entering(instance, core::microseconds(ticked_ns));
+  else if (ran)
     learn_tick_cost(instance, core::microseconds(ticked_ns) / ticks);
 }
 

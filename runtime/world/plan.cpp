@@ -66,6 +66,7 @@ Candidate candidate_of(const WorldState& world, const Instance& instance, uint32
           .ticks = static_cast<float>(ticks),
           .cost_factor = costs_are_measured(world) ? instance.times.cost_factor : 1,
           .base_us = base_us(world, instance),
+          .enter_us = costs_are_measured(world) ? instance.asset->cost.enter.estimate_us() : 0,
           .has = front.level_of(state.tier, instance.plan.every),
           .top = highest(instance),
           .turn_left_s = state.turn_left_s,

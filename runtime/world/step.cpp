@@ -54,6 +54,7 @@ TickContext context_of(const WorldState& world, uint64_t start_ns) noexcept {
   if (!is_limited(world)) return context;
   const float tasks_us = std::max(0.0f, world.budget_us - world.reporting.p95_us());
   context.deadline_ns = start_ns + static_cast<uint64_t>(tasks_us * 1e3);
+  context.tasks_us = tasks_us;
   context.behind_scale = 1 / std::max(1.0f, world.capacity.scale());
   return context;
 }

@@ -82,11 +82,17 @@ void run_ticks(Instance& instance, const TickContext& context, uint32_t slot) no
 
 // ---- the deadline ----
 
-// What one of a hundred may take is known too rarely to plan by, what one of twenty does is.
-float most_us(const Instance& instance, Tier tier) noexcept {
+// By what one of twenty takes; where that is much of the step, and nobody behind it makes up for what it is
+// late by, by what one of a hundred does.
+float most_us(const Instance& instance, const TickContext& context, Tier tier) noexcept {
+  constexpr float kMuch = 0.04f;
   const frame::CostModel& cost = instance.asset->cost;
+  const frame::CostEstimate& tick = cost.tick[static_cast<size_t>(tier)];
   const float ticks = static_cast<float>(instance.plan.ticks.ticks) * instance.times.cost_factor;
-  return cost.publish.p95_us() + ticks * cost.tick[static_cast<size_t>(tier)].p95_us();
+  const bool enters = !frame::is_simulated(instance.state->tier);
+  const bool much = ticks * tick.estimate_us() > kMuch * context.tasks_us;
+  return cost.publish.p95_us() + ticks * (much ? tick.p99_us() : tick.p95_us()) +
+         (enters ? cost.enter.p95_us() : 0);
 }
 
 // The next cheaper one that it may fall to at once.
@@ -108,7 +114,8 @@ void meet_deadline(Instance& instance, const TickContext& context, uint64_t now_
                          static_cast<double>(plan.behind_us * context.behind_scale);
   const Tier planned = plan.tier;
   while (plan.ticks.ticks > 0 && frame::is_simulated(plan.tier) &&
-         (!has(*instance.asset, plan.tier) || static_cast<double>(most_us(instance, plan.tier)) > left_us))
+         (!has(*instance.asset, plan.tier) ||
+          static_cast<double>(most_us(instance, context, plan.tier)) > left_us))
     plan.tier = below(plan.tier);
   instance.cut = plan.tier != planned;
   const bool late = static_cast<double>(instance.asset->cost.publish.p95_us()) > left_us;

@@ -12,6 +12,7 @@ struct TickContext {
   // What would not be done by then is not begun: a cheaper tier that would, else the instance is carried on,
   // else it is shown as it was.
   uint64_t deadline_ns = UINT64_MAX;
+  float tasks_us = 0;      // from the step's start to there
   float behind_scale = 1;  // of InstancePlan::behind_us: workers share it
   float teleport_distance_m = 2;
   float sleep_tolerance = 0;  // WorldDef; 0: regions never sleep

@@ -156,8 +156,9 @@ TEST_CASE("where_it_went_unseen_is_not_felt") {
   }
 }
 
+// Carried on, it swings: at 3.5 Hz through zero after four ticks.
 TEST_CASE("what_was_away_for_long_comes_back_without_displacement_and_what_was_not_carries_it_on") {
-  for (const double away_s : {0.05, 1.0}) {
+  for (const double away_s : {0.017, 1.0}) {
     Stage stage(1);
     stage.play(scenes::walk, 2);
     const double before = test::largest_length(stage.read(0, Space::kBind));
