@@ -15,6 +15,7 @@ from summarise import HERE, file_name, processor, put_between, table
 
 # These hardly do anything: what matters is what an instance costs them.
 IDLE = ("hidden", "asleep")
+YARDSTICK = "yardstick"
 TAILS = (("p50", "median", "o"), ("p99", "p99", "s"), ("p999", "p99.9", "^"), ("worst", "worst", "x"))
 
 
@@ -46,6 +47,14 @@ def idle_table(rows):
     return table(["all are", "characters", "us an instance, median", "p99", "at least", "aim"], lines)
 
 
+def yardstick_table(rows):
+    lines = [[f"{float(row['budget_us']):g}", row["frames"],
+              *[f"{float(row[f'{clock}_{tail}']) / float(row[f'{clock}_p50']):.2f}" for clock in ("cpu", "wall") for tail in ("p99", "p999", "worst")]]
+             for row in rows]
+    heads = [f"{clock} {label}" for clock in ("CPU", "wall") for label in ("p99", "p99.9", "worst")]
+    return table(["multiply-adds of 0.9 of, us", "times", *[f"{head}, of its median" for head in heads]], lines)
+
+
 def draw(rows, machine):
     figure, axes = plt.subplots(figsize=(10, 0.36 * len(rows) + 1.6))
     places = range(len(rows))
@@ -67,9 +76,10 @@ def main(path):
     machine = processor()
     shutil.copyfile(path, HERE / "results" / f"{file_name(machine)}_frames.csv")
     rows = list(csv.DictReader(open(path)))
-    busy = [row for row in rows if row["trouble"] not in IDLE]
+    busy = [row for row in rows if row["trouble"] not in (*IDLE, YARDSTICK)]
+    fixed = [row for row in rows if row["trouble"] == YARDSTICK]
     idle = [row for row in rows if row["trouble"] in IDLE]
-    lines = [f"Processor: {machine}; one thread, but for the lost worker's two.", ""] + frames_table(busy) + [""] + idle_table(idle)
+    lines = [f"Processor: {machine}; one thread, but for the lost worker's two.", ""] + frames_table(busy) + [""] + yardstick_table(fixed) + [""] + idle_table(idle)
     put_between("frames", lines)
     draw(busy, machine)
     print("\n".join(lines))

@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "perf/frames/frame_run.hpp"
+#include "perf/frames/yardstick.hpp"
 
 namespace {
 
@@ -35,7 +36,7 @@ void put_quantiles(const std::vector<FrameCost>& frames, Get get) {
 double share_of_tier(const std::vector<FrameCost>& frames, uint32_t FrameReport::*count, uint32_t instances) {
   double sum = 0;
   for (const FrameCost& frame : frames) sum += frame.report.*count;
-  return sum / static_cast<double>(frames.size() * instances);
+  return instances > 0 ? sum / static_cast<double>(frames.size() * instances) : 0;
 }
 
 // Of the frames that left somebody below its best tier: the middle one's share of the budget left unspent.
@@ -82,7 +83,9 @@ void run(const Options& options) {
   put_header();
   for (const Scene& scene : all_scenes()) {
     if (options.only.empty() || options.only == name_of(scene.trouble))
-      put_scene(scene, run_frames(character, tape, scene, options.frames));
+      put_scene(scene, scene.trouble == Trouble::kYardstick
+                           ? run_yardstick(scene.budget_us, options.frames)
+                           : run_frames(character, tape, scene, options.frames));
   }
 }
 
@@ -96,7 +99,7 @@ int main(int argc, char** argv) {
   app.add_option("pack", options.pack, "C.sinew")->required();
   app.add_option("--frames", options.frames, "of each scene")->check(CLI::Range(60, 1'000'000));
   app.add_option("--only", options.only,
-                 "steady, cuts, entrance, hitch, worker lost, neighbour, hidden or asleep");
+                 "steady, cuts, entrance, hitch, worker lost, neighbour, hidden, asleep or yardstick");
   CLI11_PARSE(app, argc, argv);
   try {
     run(options);

@@ -11,14 +11,15 @@ constexpr Scene kScenes[] = {
     {Trouble::kCuts, 500, 4000},       {Trouble::kEntrance, 16, 500},    {Trouble::kEntrance, 100, 4000},
     {Trouble::kEntrance, 500, 4000},   {Trouble::kHitch, 16, 500},       {Trouble::kHitch, 100, 4000},
     {Trouble::kWorkerLost, 100, 2000}, {Trouble::kNeighbour, 100, 2000}, {Trouble::kHidden, 500, 4000},
-    {Trouble::kAsleep, 500, 1e6f},
+    {Trouble::kAsleep, 500, 1e6f},     {Trouble::kYardstick, 0, 100},    {Trouble::kYardstick, 0, 500},
+    {Trouble::kYardstick, 0, 1000},    {Trouble::kYardstick, 0, 4000},
 };
 
 }  // namespace
 
 const char* name_of(Trouble trouble) {
-  constexpr const char* kNames[] = {"steady",      "cuts",      "entrance", "hitch",
-                                    "worker lost", "neighbour", "hidden",   "asleep"};
+  constexpr const char* kNames[] = {"steady",    "cuts",   "entrance", "hitch",    "worker lost",
+                                    "neighbour", "hidden", "asleep",   "yardstick"};
   return kNames[static_cast<size_t>(trouble)];
 }
 

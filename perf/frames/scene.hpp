@@ -15,6 +15,7 @@ enum class Trouble : uint32_t {
   kNeighbour,   // another process takes half of the core
   kHidden,      // nobody sees them, and poses are set all the same
   kAsleep,      // they stand still, and the same pose is set; there is time for all, so that they fall asleep
+  kYardstick,   // no characters, but work that is always the same (perf/frames/yardstick.hpp)
 };
 
 struct Scene {
