@@ -1,9 +1,12 @@
 // slot_table.hpp  Objects in an array of fixed capacity, named by value ids with a generation.
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <new>
 #include <utility>
+
+#include "core/bring_near.hpp"
 
 namespace sinew::core {
 
@@ -49,16 +52,20 @@ class SlotTable {
   // Slots 0 .. end()-1 have been used; at() is null where the slot is free.
   uint32_t end() const noexcept { return end_; }
   T* at(uint32_t index) const noexcept { return slots_[index].live ? &slots_[index].item : nullptr; }
+  // The first `bytes` of a slot, where there is one, come into the cache meanwhile.
+  void bring_near(uint32_t index, size_t bytes) const noexcept {
+    if (index < end_) core::bring_near(&slots_[index], bytes);
+  }
   Id id_at(uint32_t index) const noexcept { return {index + 1, slots_[index].generation}; }
   uint32_t count() const noexcept { return count_; }
   uint32_t capacity() const noexcept { return capacity_; }
 
  private:
   struct Slot {
-    T item{};
     uint32_t generation = 0;
     uint32_t next_free = 0;  // slot + 1
     bool live = false;
+    T item{};
   };
 
   uint32_t take_index() noexcept {

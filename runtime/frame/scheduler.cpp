@@ -92,15 +92,18 @@ struct Dearer {
   }
 };
 
-void sum_up(std::span<const Candidate> candidates, double left, WeightBuckets& buckets) noexcept {
+// False when nothing can be paid for.
+bool sum_up(std::span<const Candidate> candidates, double left, WeightBuckets& buckets) noexcept {
   buckets.clear();
+  bool any = false;
   for (const Candidate& c : candidates) {
     if (!chooses(c)) continue;
     for_each_step_up(c, left, [&](uint32_t, float key, float cost) {
       buckets.add(WeightBuckets::drawer_of(key), cost);
-      return true;
+      return any = true;
     });
   }
+  return any;
 }
 
 // Takes what lies in the drawers from `lowest` on; gathers what lies in the one below.
@@ -140,7 +143,7 @@ void take_best(std::span<Candidate> candidates, std::span<Purchase> purchases, d
 // True when something was bought.
 bool buy(std::span<Candidate> candidates, ScheduleScratch& scratch, double& left) noexcept {
   const double before = left;
-  sum_up(candidates, left, scratch.buckets);
+  if (!sum_up(candidates, left, scratch.buckets)) return false;
   double rest = left;
   const uint32_t lowest = scratch.buckets.lowest_within(left, &rest);
   const uint32_t gathered = take_above(candidates, left, lowest, scratch.purchases);

@@ -88,32 +88,32 @@ float add_dormant(const Instance& instance, FrameReport& report) noexcept {
   return error_of(*instance.asset, tier, instance.plan.every);
 }
 
+float add_idle(FrameReport& report) noexcept {
+  ++report.instances_skinned;
+  return 1;
+}
+
+float add(WorldState& world, Instance& instance, FrameReport& report) noexcept {
+  if (instance.idle) return add_idle(report);
+  if (instance.passed) return add_dormant(instance, report);
+  if (costs_are_measured(world)) learn_costs(instance);
+  if (instance.cut || instance.held) world.undone_us += instance.plan.cost_us;
+  return add_active(instance, report);
+}
+
 }  // namespace
 
 void fold_results(WorldState& world, FrameReport& report) noexcept {
   double errors = 0;
   uint32_t seen = 0;
   world.undone_us = 0;
-  for (uint32_t slot = 0; slot < world.instances.end(); ++slot) {
-    Instance* instance = world.instances.at(slot);
-    if (!instance) continue;
-    report.instances_hidden += !instance->seen;
-    if (!instance->seen) continue;
-    add_ticks(*instance, report);
+  for_each_instance(world, [&](Instance& instance, uint32_t) {
+    report.instances_hidden += !instance.seen;
+    if (!instance.seen) return;
     ++seen;
-    if (instance->idle) {
-      ++report.instances_skinned;
-      ++errors;
-      continue;
-    }
-    if (instance->passed) {
-      errors += static_cast<double>(add_dormant(*instance, report));
-      continue;
-    }
-    if (costs_are_measured(world)) learn_costs(*instance);
-    if (instance->cut || instance->held) world.undone_us += instance->plan.cost_us;
-    errors += static_cast<double>(add_active(*instance, report));
-  }
+    add_ticks(instance, report);
+    errors += static_cast<double>(add(world, instance, report));
+  });
   if (seen > 0) report.expected_error = static_cast<float>(errors / seen);
   for (uint32_t slot = 0; costs_are_measured(world) && slot < world.assets.end(); ++slot)
     if (Asset* asset = world.assets.at(slot)) asset->cost.settle();

@@ -60,20 +60,19 @@ void look_behind_things(WorldState& world) noexcept {
 void look(WorldState& world) noexcept {
   const bool looks =
       world.def.occlusion && world.sight_count > 0 && world.def.sight_rays_per_step >= kRaysALook;
-  const auto each = [&](auto work) {
-    for (uint32_t slot = 0; slot < world.instances.end(); ++slot)
-      if (Instance* instance = world.instances.at(slot)) work(*instance);
+  const auto decide = [](Instance& instance, uint32_t) {
+    const InstanceState& state = *instance.state;
+    instance.seen = !state.hidden_by_caller && instance.size > 0 && state.blind_looks < kBlindLooks;
   };
-  each([&](Instance& instance) {
+  for_each_instance(world, [&](Instance& instance, uint32_t slot) {
     instance.size = size_of(world, instance);
     // Comes into view as seen, and nothing is hidden by what was once in front of it.
     if (!looks || instance.size == 0 || instance.state->hidden_by_caller) instance.state->blind_looks = 0;
+    decide(instance, slot);
   });
+  if (!looks) return;
   look_behind_things(world);
-  each([&](Instance& instance) {
-    const InstanceState& state = *instance.state;
-    instance.seen = !state.hidden_by_caller && instance.size > 0 && state.blind_looks < kBlindLooks;
-  });
+  for_each_instance(world, decide);
 }
 
 }  // namespace sinew::world

@@ -118,23 +118,16 @@ Gathered gather_candidates(WorldState& world, double dt_s) noexcept {
   Gathered gathered;
   TickPlans plans(dt_s, world.def.max_ticks_per_step);
   world.idle_count = 0;
-  for (uint32_t slot = 0; slot < world.instances.end(); ++slot) {
-    if (slot + 4 < world.instances.end())
-      if (const Instance* ahead = world.instances.at(slot + 4)) __builtin_prefetch(ahead->state);
-    Instance* instance = world.instances.at(slot);
-    if (!instance) continue;
-    if (!instance->seen) {
-      pass_by(*instance, dt_s, world.def.max_ticks_per_step);
-      continue;
-    }
-    instance->plan.ticks = plans.of(*instance);
-    instance->plan.dt_s = dt_s;
-    instance->passed = instance->state->dormant && world.budget_us > 0;
-    if (instance->passed)
+  for_each_instance(world, [&](Instance& instance, uint32_t slot) {
+    if (!instance.seen) return pass_by(instance, dt_s, world.def.max_ticks_per_step);
+    instance.plan.ticks = plans.of(instance);
+    instance.plan.dt_s = dt_s;
+    instance.passed = instance.state->dormant && world.budget_us > 0;
+    if (instance.passed)
       pass_dormant(world, slot, gathered);
     else
-      world.candidates[gathered.candidates++] = candidate_of(world, *instance, slot);
-  }
+      world.candidates[gathered.candidates++] = candidate_of(world, instance, slot);
+  });
   return gathered;
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 
+#include "core/bring_near.hpp"
 #include "core/slot_table.hpp"
 #include "frame/cost_model.hpp"
 #include "frame/scheduler.hpp"
@@ -47,6 +48,21 @@ struct WorldState {
   uint32_t rejected_poses = 0;  // since the last step
   bool stepping = false;
 };
+
+// Calls work(instance, slot) for each, in the slots' order. After a step of all of them hardly anything of an
+// instance is in a cache: what is looked at here comes in while those before it are worked on.
+template <class Work>
+void for_each_instance(const WorldState& world, Work work) noexcept {
+  constexpr uint32_t kFar = 12, kNear = 6;
+  constexpr size_t kLookedAt = 384;  // bytes at the start of an instance
+  for (uint32_t slot = 0; slot < world.instances.end(); ++slot) {
+    world.instances.bring_near(slot + kFar, kLookedAt);
+    if (slot + kNear < world.instances.end())
+      if (const Instance* ahead = world.instances.at(slot + kNear))
+        core::bring_near(ahead->state, sizeof(InstanceState));
+    if (Instance* instance = world.instances.at(slot)) work(*instance, slot);
+  }
+}
 
 // The tables' memory. False: there is none.
 bool reserve(WorldState& world, const WorldDef& def) noexcept;
