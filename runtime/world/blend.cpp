@@ -110,13 +110,15 @@ void swing_tail(Instance& instance, size_t r) noexcept {
   }
 }
 
-void advance_tail(Instance& instance) noexcept {
-  InstanceState& state = *instance.state;
+void count_tail(InstanceState& state) noexcept {
   constexpr uint32_t kOver = kCarryTicks + kFadeTicks;
   if (state.tail_ticks < kOver) ++state.tail_ticks;
   if (state.tail_ticks == kOver) state.restarting = 0;
+}
+
+void advance_tail(Instance& instance) noexcept {
   for (size_t r = 0; r < instance.asset->pack.regions.size(); ++r) swing_tail(instance, r);
-  if (state.tail_ticks > kCarryTicks) stop_what_creeps(instance);
+  if (instance.state->tail_ticks > kCarryTicks) stop_what_creeps(instance);
   for (const pack::RegionRecord& region : instance.asset->pack.regions) {
     for (uint32_t n = region.first_node; n < region.first_node + region.node_count; ++n) {
       hold_at_limit(instance.tail + size_t{3} * n, instance.tail_velocity + size_t{3} * n,
@@ -155,9 +157,10 @@ void restart(Instance& instance) noexcept {
 
 void show_tick(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
-  advance_tail(instance);
+  count_tail(state);
   if (frame::is_simulated(state.tier) && state.blend_ticks < kBlendInTicks) ++state.blend_ticks;
   const float simulated = instance.simulated_share();
+  if (simulated < 1) advance_tail(instance);
   const float tail = (1 - simulated) * instance.tail_share();
   copy(instance, instance.shown[0], instance.shown[1]);
   show_rods(instance, state.lifted && frame::is_simulated(state.tier) ? 1 : simulated);
