@@ -7,7 +7,7 @@ namespace sinew::rods {
 namespace {
 
 // Over the ways and radii that a touch is kept for (find_contacts.cpp), and what float leaves of a place.
-constexpr double kWays = 1.25, kRadii = 1.25, kRounding = 1e-6;
+constexpr double kWays = 1.25001, kRadii = 1.25, kRounding = 1e-6;
 // Of the sum of radii, a little more than what counts as a core (hold_strands).
 constexpr double kCores = 0.55;
 
@@ -36,59 +36,110 @@ const double* ContactFinder::reach(uint32_t strand, uint32_t segment) const {
   return to.reaches_ + (group * batch.segment_count_ + segment) * RodCollider::kReachRows * w + strand % w;
 }
 
-void ContactFinder::find_reaches(uint32_t group, uint32_t segment) const {
-  const size_t w = batch.width_;
-  const uint32_t first = group * batch.width_, count = std::min(batch.width_, batch.strand_count_ - first);
-  for (uint32_t k = 0; k < count; ++k) {
-    const uint32_t strand = first + k;
-    const RodBatch::Units& units = batch.units_[strand];
-    const double l = static_cast<double>(units.length_m);
-    const float* kept = &batch.at(strand, segment, 0);
-    const float* scratch = to.scratch_row(batch, strand, segment, simd::kRodKeptFields);
-    const auto at = [&](uint32_t field) { return static_cast<double>(kept[field * w]); };
-    const auto now = [&](uint32_t field) {
-      return static_cast<double>(scratch[(field - simd::kRodKeptFields) * w]);
-    };
-    double* out = to.reaches_ +
-                  (size_t{group - to.range_.first_group} * batch.segment_count_ + segment) *
-                      RodCollider::kReachRows * w +
-                  k;
-    const double half = at(simd::kRodHalfLength);
-    double move[3], turn[4], first_move = 0, far = 0;
+// Of a group and a segment, lane by lane: rows of fields, and what a lane's strand measures in.
+template <size_t kWidth>
+struct ContactFinder::Lanes {
+  const float *kept, *scratch;
+  float length_m[kWidth], radius_m[kWidth];
+  double origin_m[3][kWidth];
+
+  float at(uint32_t field, size_t k) const { return kept[field * kWidth + k]; }
+  float now(uint32_t field, size_t k) const { return scratch[(field - simd::kRodKeptFields) * kWidth + k]; }
+  // Shares of the strand's mean segment, as way_of.
+  void add_ways(float (&ways)[kWidth]) const {
+    for (size_t k = 0; k < kWidth; ++k) {
+      float move = 0, turn = 0, first = 0;
+      for (uint32_t i = 0; i < 3; ++i) {
+        move += now(simd::kRodFreeMove + i, k) * now(simd::kRodFreeMove + i, k);
+        first += now(simd::kRodMove + i, k) * now(simd::kRodMove + i, k);
+      }
+      for (uint32_t i = 0; i < 4; ++i) {
+        const float by = now(simd::kRodFreeTurn + i, k) - at(simd::kRodTurn + i, k);
+        turn += by * by;
+      }
+      const float half = at(simd::kRodHalfLength, k);
+      const float way = static_cast<float>(kWays) * (std::sqrt(move) + 2 * half * std::sqrt(turn));
+      const float to_first = std::sqrt(first);
+      ways[k] = way > to_first ? way : to_first;
+    }
+  }
+};
+
+template <size_t kWidth>
+void ContactFinder::find_reaches(const Lanes<kWidth>& lanes, double* out) const {
+  float ways[kWidth];
+  lanes.add_ways(ways);
+  for (size_t k = 0; k < kWidth; ++k) {
+    const double l = static_cast<double>(lanes.length_m[k]);
+    double far = 0;
     for (uint32_t i = 0; i < 3; ++i) {
-      const double place = at(simd::kRodPlace + i), begin = now(simd::kRodMove + i);
-      out[i * w] = units.origin_m[i] + l * place;
-      move[i] = now(simd::kRodFreeMove + i);
-      first_move += begin * begin;
+      const double place = static_cast<double>(lanes.at(simd::kRodPlace + i, k));
+      out[i * kWidth + k] = lanes.origin_m[i][k] + l * place;
       far += std::fabs(place);
     }
-    for (uint32_t i = 0; i < 4; ++i) turn[i] = now(simd::kRodFreeTurn + i) - at(simd::kRodTurn + i);
-    const double radius =
-        static_cast<double>(batch.radii_m_[size_t{strand} * batch.segment_count_ + segment]);
-    const double way = std::max(kWays * way_of(move, turn, half), std::sqrt(first_move));
-    out[RodCollider::kReachHalf * w] = l * (half + kRounding * far);
-    out[RodCollider::kReachTouch * w] = l * (half + kRounding * far + way) + kRadii * radius;
+    const double half = l * (static_cast<double>(lanes.at(simd::kRodHalfLength, k)) + kRounding * far);
+    out[RodCollider::kReachHalf * kWidth + k] = half;
+    out[RodCollider::kReachTouch * kWidth + k] =
+        half + l * static_cast<double>(ways[k]) + kRadii * static_cast<double>(lanes.radius_m[k]);
   }
 }
 
-// And boxes about strands.
-void ContactFinder::find_reaches() const {
-  for (uint32_t g = 0; g < to.range_.groups; ++g) {
-    for (uint32_t i = 0; i < batch.segment_count_; ++i) find_reaches(to.range_.first_group + g, i);
+// And boxes about the group's strands.
+template <size_t kWidth>
+void ContactFinder::find_reaches(uint32_t group) const {
+  Lanes<kWidth> lanes;
+  const uint32_t first = group * batch.width_;
+  const auto strand = [&](size_t k) {
+    return std::min<uint32_t>(first + static_cast<uint32_t>(k), batch.strand_count_ - 1);
+  };
+  for (size_t k = 0; k < kWidth; ++k) {
+    const RodBatch::Units& units = batch.units_[strand(k)];
+    lanes.length_m[k] = units.length_m;
+    for (size_t i = 0; i < 3; ++i) lanes.origin_m[i][k] = units.origin_m[i];
   }
-  std::fill_n(to.swept_, size_t{end_strand() - first_strand()} * batch.segment_count_, uint8_t{0});
-  const size_t w = batch.width_;
-  for (uint32_t s = first_strand(); s < end_strand(); ++s) {
-    SweptBox& box = to.strand_boxes_[s - first_strand()];
-    box.low.fill(HUGE_VAL), box.high.fill(-HUGE_VAL);
-    for (uint32_t i = 0; i < batch.segment_count_; ++i) {
-      const double* at = reach(s, i);
-      for (size_t k = 0; k < 3; ++k) {
-        box.low[k] = std::min(box.low[k], at[k * w] - at[RodCollider::kReachTouch * w]);
-        box.high[k] = std::max(box.high[k], at[k * w] + at[RodCollider::kReachTouch * w]);
+  double low[3][kWidth], high[3][kWidth];
+  std::fill_n(&low[0][0], 3 * kWidth, HUGE_VAL), std::fill_n(&high[0][0], 3 * kWidth, -HUGE_VAL);
+  double* out = to.reaches_ + size_t{group - to.range_.first_group} * batch.segment_count_ *
+                                  RodCollider::kReachRows * kWidth;
+  for (uint32_t i = 0; i < batch.segment_count_; ++i, out += RodCollider::kReachRows * kWidth) {
+    lanes.kept = &batch.at(first, i, 0),
+    lanes.scratch = to.scratch_row(batch, first, i, simd::kRodKeptFields);
+    for (size_t k = 0; k < kWidth; ++k) {
+      lanes.radius_m[k] = batch.radii_m_[size_t{strand(k)} * batch.segment_count_ + i];
+    }
+    find_reaches(lanes, out);
+    for (size_t axis = 0; axis < 3; ++axis) {
+      for (size_t k = 0; k < kWidth; ++k) {
+        const double at = out[axis * kWidth + k], touch = out[RodCollider::kReachTouch * kWidth + k];
+        low[axis][k] = at - touch < low[axis][k] ? at - touch : low[axis][k];
+        high[axis][k] = at + touch > high[axis][k] ? at + touch : high[axis][k];
       }
     }
   }
+  for (uint32_t s = first; s < std::min(first + batch.width_, batch.strand_count_); ++s) {
+    const size_t k = s - first;
+    to.strand_boxes_[s - first_strand()] = {{low[0][k], low[1][k], low[2][k]},
+                                            {high[0][k], high[1][k], high[2][k]}};
+  }
+}
+
+void ContactFinder::find_reaches() const {
+  for (uint32_t g = 0; g < to.range_.groups; ++g) {
+    const uint32_t group = to.range_.first_group + g;
+    batch.width_ == 16 ? find_reaches<16>(group) : find_reaches<4>(group);
+  }
+  std::fill_n(to.swept_, size_t{end_strand() - first_strand()} * batch.segment_count_, uint8_t{0});
+}
+
+// Of all its segments together; the box is none where the plane turns, for its way then grows without end.
+bool ContactFinder::near(uint32_t strand, const Plane& plane) const {
+  const SweptBox& box = to.strand_boxes_[strand - first_strand()];
+  const Vector n = vector_of(plane.normal), linear = vector_of(plane.motion.linear_m_s);
+  const Vector spin = vector_of(plane.motion.angular_rad_s);
+  if (dot(spin, spin) > 0) return true;
+  double height = 0;
+  for (size_t k = 0; k < 3; ++k) height += n[k] * ((n[k] > 0 ? box.low : box.high)[k] - plane.point_m[k]);
+  return !(height > 2 * kWays * dt_s * length(linear) * length(n));
 }
 
 bool ContactFinder::near(uint32_t strand, uint32_t segment, const Plane& plane) const {

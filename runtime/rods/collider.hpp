@@ -152,7 +152,7 @@ class RodCollider {
   ContactPoint* points_ = nullptr;
   uint64_t* passed_ = nullptr;  // [strands][segments]
   uint32_t plane_count_ = 0, sphere_count_ = 0, capsule_count_ = 0, point_count_ = 0;
-  uint32_t strand_count_ = 0, segment_count_ = 0, width_ = 0, capacity_ = 0, kept_size_ = 0;
+  uint32_t strand_count_ = 0, segment_count_ = 0, width_ = 0, capacity_ = 0, kept_size_ = 0, kept_in_use_ = 1;
 
   Contact* contacts_ = nullptr;  // [capacity_] of this step; those of the range from first_contact_
   uint32_t contact_count_ = 0, first_contact_ = 0, dropped_ = 0;
@@ -171,9 +171,8 @@ class RodCollider {
   uint8_t* turning_ = nullptr;   // [strands] not converged by themselves
   uint8_t* pending_ = nullptr;   // [strands] not converged by a contact
   double* ways_ = nullptr;       // [strands] where the first iterate is, from the step's start to free motion
-  Vector* carries_ = nullptr;    // [strands] how far a core takes a strand along that it stops
-  uint8_t* changed_ = nullptr;   // [strands] a contact opened or closed in the last iteration
-  uint8_t* pressed_ = nullptr;   // [strands] a contact with a force, at the last iteration
+  Vector* carries_ = nullptr;    // [strands] what a core moves that stops a strand
+  uint8_t* near_ = nullptr;      // [strands] it has contacts, pressed or not
   uint8_t* iterated_ = nullptr;  // [strands] moved by the last iteration
   float* scratch_ = nullptr;     // of all groups, where rods collide
   SpatialHash hash_;

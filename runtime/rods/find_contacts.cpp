@@ -8,11 +8,6 @@ namespace {
 
 // Contacts are kept for what comes this near, shares of the radii and of the way.
 constexpr double kNearRadii = 0.25, kNearWay = 0.25;
-// An obstacle's gain over the segment's mass: an iteration divides a contact's error by some hundreds.
-constexpr double kObstacleGain = 1e3;
-// Between rods, over their reduced mass: more would slow down what both do together, less the force. An
-// iteration leaves 2/3 of a common motion's error and, of a force's, 1/3 or more where rods are stiff.
-constexpr double kRodGain = 2;
 // Penetration that is left alone, of the tolerance.
 constexpr double kLeftAlone = 2;
 // Capsules are side by side where the squared sine of their angle is below this, and overlap by more than
@@ -282,6 +277,7 @@ void ContactFinder::add_plane(const Plane& plane, uint32_t index) const {
                        static_cast<double>(plane.friction),
                        static_cast<double>(plane.restitution)};
   for (uint32_t strand = first_strand(); strand < end_strand(); ++strand) {
+    if (!near(strand, plane)) continue;
     const float* radii = batch.radii_m_ + size_t{strand} * batch.segment_count_;
     for (uint32_t i = 0; i < batch.segment_count_; ++i) {
       if (!free(strand, i) || !near(strand, i, plane)) continue;
@@ -449,7 +445,7 @@ void ContactFinder::stop_at_core(uint32_t strand, uint32_t segment, const Sweep&
   if (!(touch.gap_m < kThere * core.radius_m) || touch.time >= to.ways_[strand]) return;
   const Vector moved = difference(at(core.end, touch.at.b), at(core.start, touch.at.b));
   to.ways_[strand] = touch.time;
-  to.carries_[strand] = scaled(1 - touch.time, moved);
+  to.carries_[strand] = moved;
 }
 
 // `capsule` is the core's index among them, or none.
@@ -464,8 +460,9 @@ void ContactFinder::stop_at_core(const Sweep& core, uint32_t capsule) const {
   }
 }
 
-// Gaps grow at most in proportion to the way, from what they are where fixed segments are already there.
-void ContactFinder::stop_torn(uint32_t strand) const {
+// Gaps grow about in proportion to the way, from what they are where fixed segments are already there. Half a
+// turn leaves gaps too, so what is torn again stays where it began.
+void ContactFinder::stop_torn(uint32_t strand, bool again) const {
   const double most = kHardlyTorn * static_cast<double>(batch.units_[strand].length_m);
   for (uint32_t i = 1; i < batch.segment_count_; ++i) {
     const uint32_t p = batch.parents_[i];
@@ -475,18 +472,18 @@ void ContactFinder::stop_torn(uint32_t strand) const {
     const double began = length(difference(from, to_here));
     const double ends = length(difference(parent.end.to, own.end.from));
     if (!(ends > most) || !(began < most)) continue;
-    const double way = (most - began) / (ends - began);
-    if (way < to.ways_[strand]) to.ways_[strand] = way, to.carries_[strand] = {};
+    const double way = again ? 0 : (most - began) / (ends - began);
+    to.ways_[strand] = std::min(to.ways_[strand], way);
   }
 }
 
-bool ContactFinder::find_holds() const noexcept {
+bool ContactFinder::find_holds(bool again) const noexcept {
   std::fill(to.ways_ + first_strand(), to.ways_ + end_strand(), 1.0);
   if (to.source_) stop_at_hits();
   for (uint32_t i = 0; i < to.sphere_count_; ++i) stop_at_core(sweep_of(capsule_of(to.spheres_[i])), ~0u);
   for (uint32_t i = 0; i < to.capsule_count_; ++i) stop_at_core(sweep_of(to.capsules_[i]), i);
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {
-    if (to.turning_[s] && to.pressed_[s]) stop_torn(s);
+    if (to.turning_[s] && to.near_[s]) stop_torn(s, again);
   }
   return std::any_of(to.ways_ + first_strand(), to.ways_ + end_strand(), [](double w) { return w < 1; });
 }
