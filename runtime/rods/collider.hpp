@@ -115,9 +115,20 @@ class RodCollider {
     Vector point_m;    // of the rod's surface, at the step's end
   };
   static constexpr uint32_t kNoContact = ~0u;
-  // Of a segment in the world: its middle, how far from there it may touch something that stands still, and
-  // how far it reaches at the step's start.
-  enum ReachRow : uint32_t { kReachMiddle = 0, kReachTouch = 3, kReachHalf, kReachRows };
+  // Of a segment in the world, at the step's start: its middle, half its axis, how long that is, how exact
+  // the numbers are, how far from its axis it may touch something that stands still, its radius; what is left
+  // of its way before it enters a core; from its axis to the obstacle that is looked at, later its way.
+  enum ReachRow : uint32_t {
+    kReachMiddle = 0,
+    kReachAxis = 3,
+    kReachHalf = 6,
+    kReachMargin,
+    kReachTouch,
+    kReachRadius,
+    kReachClear,
+    kReachDistance,
+    kReachRows
+  };
   // Of the strands being stepped: all of them where rods collide, else one group after the other.
   struct Range {
     uint32_t first_group, groups;

@@ -312,8 +312,12 @@ void ContactFinder::add_capsule(const Capsule& capsule, uint64_t kind, uint32_t 
                        static_cast<double>(capsule.friction),
                        static_cast<double>(capsule.restitution)};
   const SweptBox box = box_of(sweep, sweep.radius_m + kNearWay * longest_way(sweep));
+  uint32_t known = ~0u;  // the group whose distances are
   for (uint32_t strand = first_strand(); strand < end_strand(); ++strand) {
     if (!overlap(to.strand_boxes_[strand - first_strand()], box)) continue;
+    const uint32_t group = strand / batch.width_;
+    if (group != known) find_distances(group, sweep);
+    known = group;
     for (uint32_t i = 0; i < batch.segment_count_; ++i) {
       if (!free(strand, i) || (kind == kCapsule && to.passes(strand, i, index))) continue;
       if (near(strand, i, sweep)) add_touch(strand, i, other);
@@ -448,14 +452,23 @@ void ContactFinder::stop_at_core(uint32_t strand, uint32_t segment, const Sweep&
   to.carries_[strand] = moved;
 }
 
-// `capsule` is the core's index among them, or none.
-void ContactFinder::stop_at_core(const Sweep& core, uint32_t capsule) const {
-  const SweptBox box = box_of(core, core.radius_m + kNearWay * longest_way(core));
-  for (uint32_t strand = first_strand(); strand < end_strand(); ++strand) {
-    if (!overlap(to.strand_boxes_[strand - first_strand()], box)) continue;
-    for (uint32_t i = 0; i < batch.segment_count_; ++i) {
-      if (!free(strand, i) || to.passes(strand, i, capsule)) continue;
-      if (may_reach(strand, i, core)) stop_at_core(strand, i, core);
+void ContactFinder::stop_at_cores(uint32_t strand, uint32_t segment) const {
+  for (uint32_t i = 0; i < to.sphere_count_; ++i) {
+    stop_at_core(strand, segment, sweep_of(capsule_of(to.spheres_[i])));
+  }
+  for (uint32_t i = 0; i < to.capsule_count_; ++i) {
+    if (!to.passes(strand, segment, i)) stop_at_core(strand, segment, sweep_of(to.capsules_[i]));
+  }
+}
+
+void ContactFinder::stop_at_cores() const {
+  for (uint32_t g = 0; g < to.range_.groups; ++g) {
+    const uint32_t group = to.range_.first_group + g, first = group * batch.width_;
+    if (!find_ways(group)) continue;
+    for (uint32_t s = first; s < std::min(first + batch.width_, batch.strand_count_); ++s) {
+      for (uint32_t i = 0; i < batch.segment_count_; ++i) {
+        if (may_enter(s, i)) stop_at_cores(s, i);
+      }
     }
   }
 }
@@ -480,8 +493,7 @@ void ContactFinder::stop_torn(uint32_t strand, bool again) const {
 bool ContactFinder::find_holds(bool again) const noexcept {
   std::fill(to.ways_ + first_strand(), to.ways_ + end_strand(), 1.0);
   if (to.source_) stop_at_hits();
-  for (uint32_t i = 0; i < to.sphere_count_; ++i) stop_at_core(sweep_of(capsule_of(to.spheres_[i])), ~0u);
-  for (uint32_t i = 0; i < to.capsule_count_; ++i) stop_at_core(sweep_of(to.capsules_[i]), i);
+  if (to.sphere_count_ + to.capsule_count_ > 0) stop_at_cores();
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {
     if (to.turning_[s] && to.near_[s]) stop_torn(s, again);
   }

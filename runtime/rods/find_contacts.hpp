@@ -60,16 +60,22 @@ struct ContactFinder {
   void find_reaches(uint32_t group) const;
   template <size_t kWidth>
   void find_reaches(const Lanes<kWidth>& lanes, double* out) const;
-  const double* reach(uint32_t strand, uint32_t segment) const;
-  double nearest_m(uint32_t strand, uint32_t segment, const Sweep& obstacle) const;
+  double* reach(uint32_t strand, uint32_t segment) const;
+  template <size_t kWidth>
+  void find_distances(uint32_t group, const Sweep& obstacle) const;
+  void find_distances(uint32_t group, const Sweep& obstacle) const;
+  template <size_t kWidth>
+  bool find_ways(uint32_t group) const;
+  bool find_ways(uint32_t group) const;
   bool near(uint32_t strand, const Plane& plane) const;
   bool near(uint32_t strand, uint32_t segment, const Plane& plane) const;
   bool near(uint32_t strand, uint32_t segment, const Sweep& obstacle) const;
-  bool may_reach(uint32_t strand, uint32_t segment, const Sweep& core) const;
+  bool may_enter(uint32_t strand, uint32_t segment) const;
   Sweep taken_sweep(uint32_t strand, uint32_t segment) const;
   Sweep sweep_of(const Capsule& capsule) const;
   void stop_torn(uint32_t strand, bool again) const;
-  void stop_at_core(const Sweep& core, uint32_t capsule) const;
+  void stop_at_cores(uint32_t strand, uint32_t segment) const;
+  void stop_at_cores() const;
   void stop_at_core(uint32_t strand, uint32_t segment, const Sweep& core) const;
   Contact made(uint32_t strand, uint32_t segment, double along, const Other& other, uint64_t feature) const;
   Contact* add(Contact contact, double depth_m, double restitution) const;
