@@ -166,6 +166,7 @@ bool ContactFinder::near(uint32_t strand, uint32_t segment, const Plane& plane) 
 }
 
 // Of a group's segments, at the step's start: from their axes to the obstacle's, at least; exact to a point.
+// Distance from an axis is convex along another one: no less than along the tangent in the middle.
 // What is left of that before an axis is in the obstacle's core stays with all obstacles before.
 template <size_t kWidth>
 void ContactFinder::find_distances(uint32_t group, const Sweep& obstacle) const {
@@ -186,7 +187,10 @@ void ContactFinder::find_distances(uint32_t group, const Sweep& obstacle) const 
         const double along = per_square * (x * u[0] + y * u[1] + z * u[2]);
         const double above = along > 0 ? along : 0, share = above < 1 ? above : 1;
         const double ax = x - share * u[0], ay = y - share * u[1], az = z - share * u[2];
-        distance[k] = std::sqrt(ax * ax + ay * ay + az * az) - half[k] - margin[k];
+        const double away = std::sqrt(ax * ax + ay * ay + az * az);
+        const double slope = std::fabs(ax * axis[k] + ay * axis[kWidth + k] + az * axis[2 * kWidth + k]);
+        const double nearer = slope < half[k] * away ? slope / away : half[k];
+        distance[k] = away - nearer - margin[k];
       }
     } else {
       for (size_t k = 0; k < kWidth; ++k) {
@@ -210,12 +214,15 @@ void ContactFinder::find_distances(uint32_t group, const Sweep& obstacle) const 
   batch.width_ == 16 ? find_distances<16>(group, obstacle) : find_distances<4>(group, obstacle);
 }
 
-// By find_distances to this obstacle.
-bool ContactFinder::near(uint32_t strand, uint32_t segment, const Sweep& obstacle) const {
+double ContactFinder::reach_of(const Sweep& obstacle) const {
+  return obstacle.radius_m + kWays * way_of(obstacle);
+}
+
+// By find_distances to an obstacle of this reach.
+bool ContactFinder::near(uint32_t strand, uint32_t segment, double reach_m) const {
   const double* at = reach(strand, segment);
   const size_t w = batch.width_;
-  return at[RodCollider::kReachDistance * w] <
-         at[RodCollider::kReachTouch * w] + obstacle.radius_m + kWays * way_of(obstacle);
+  return at[RodCollider::kReachDistance * w] < at[RodCollider::kReachTouch * w] + reach_m;
 }
 
 // Ways to the iterate, into kReachDistance. Returns whether one of the group may lead into a core.

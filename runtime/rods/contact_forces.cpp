@@ -29,6 +29,17 @@ float& ContactForces::lane(uint32_t strand, uint32_t field) const {
 
 float& ContactForces::active(uint32_t strand) const { return lane(strand, simd::kLaneActive); }
 
+ContactForces::Now ContactForces::axes_of(const Turn& q) {
+  const double xx = 2 * q[0] * q[0], yy = 2 * q[1] * q[1], zz = 2 * q[2] * q[2];
+  const double xy = 2 * q[0] * q[1], xz = 2 * q[0] * q[2], yz = 2 * q[1] * q[2];
+  const double xw = 2 * q[0] * q[3], yw = 2 * q[1] * q[3], zw = 2 * q[2] * q[3];
+  return {{},
+          {},
+          {1 - yy - zz, xy + zw, xz - yw},
+          {xy - zw, 1 - xx - zz, yz + xw},
+          {xz + yw, yz - xw, 1 - xx - yy}};
+}
+
 ContactForces::Now ContactForces::now(const Contact& c, size_t side) const {
   const Contact::Side& s = c.sides[side];
   if (s.segment == kNoSegment) return {c.obstacle_move, c.obstacle_move, {}, {}, {}};
@@ -36,14 +47,15 @@ ContactForces::Now ContactForces::now(const Contact& c, size_t side) const {
   const size_t w = batch.width_;
   const float *q = row(simd::kRodNow), *d = row(simd::kRodMove);
   const Turn turn = {q[0], q[w], q[2 * w], q[3 * w]};
-  Now out = {{}, {}, turned(turn, {1, 0, 0}), turned(turn, {0, 1, 0}), turned(turn, {0, 0, 1})};
+  Now out = axes_of(turn);
   const Vector move = scaled(batch.units_[s.strand].length_m, {d[0], d[w], d[2 * w]});
   out.move = scaled_sum(s.along_m, difference(out.z, s.axis), move);
   Turn before;
   for (uint32_t k = 0; k < 4; ++k) before[k] = batch.at(s.strand, s.segment, simd::kRodTurn + k);
   const Turn by = product(conjugate(before), turn);
   const double side_of = by[3] < 0 ? -2 : 2;
-  const Vector turned_by = turned(turn, {side_of * by[0], side_of * by[1], side_of * by[2]});
+  const Vector turned_by =
+      scaled(side_of, scaled_sum(by[0], out.x, scaled_sum(by[1], out.y, scaled(by[2], out.z))));
   out.surface_move = scaled_sum(s.radius_m, cross(turned_by, c.normal), out.move);
   return out;
 }
@@ -115,8 +127,9 @@ Vector ContactForces::taken_drag(const Contact& c, const Vector& slip, bool come
   return size > c.limit ? scaled(c.limit / size, c.drag) : c.drag;
 }
 
-// Whether forces, gap, slip and the limit that the last system had are as exact as wanted: a limit that is
-// off by that share of itself, or moves the segment by no more than a gap may be.
+// Whether forces, gap, slip and the limit that the last system had are as exact as wanted. A gap that is off
+// is mended by the next step, a force that is off adds up: of a limit the tolerance is a share of itself, or
+// of what would move the segment by a tolerance.
 bool ContactForces::is_exact(const Contact& c, const Contact& before) const {
   const double off =
       std::max(std::fabs(c.force - before.force), length(difference(c.drag, before.drag))) / c.gain_kg;
@@ -125,8 +138,8 @@ bool ContactForces::is_exact(const Contact& c, const Contact& before) const {
   if (std::max(off, c.slowness * moved) > tolerance_m(c)) return false;
   const double limit = c.friction * c.force, miss = std::fabs(limit - before.limit);
   const bool at_limit = length(c.drag) >= kAtLimit * std::min(limit, before.limit);
-  return !at_limit || miss <= static_cast<double>(to.settings_.tolerance) * limit ||
-         miss <= tolerance_m(c) * mass_kg(c);
+  const double counts = std::max(limit, tolerance_m(c) * mass_kg(c));
+  return !at_limit || miss <= static_cast<double>(to.settings_.tolerance) * counts;
 }
 
 // The forces of an iteration, as far as it was taken: with the whole gap, one left by a half step would be
@@ -167,6 +180,10 @@ void ContactForces::find_ways() const {
     if (!(c.open_m < -kDeep * c.scale_m)) continue;
     shorten(c, std::max(c.gap_m - c.allowed_m, 0.0));
   }
+}
+
+bool ContactForces::stepped_back(const Contact& c) const {
+  return to.ways_[c.sides[0].strand] < 1 || (c.has_two_rods() && to.ways_[c.sides[1].strand] < 1);
 }
 
 // A way that opened at `start` and leads deep into a contact ends where the contact has just closed; one that
@@ -217,7 +234,7 @@ void ContactForces::begin() const noexcept {
     for (uint32_t i = 0; to.ways_[s] < 1 && i < batch.segment_count_; ++i) step_back(s, i);
   }
   for (Contact& c : contacts()) {
-    look(&c);
+    if (stepped_back(c)) look(&c);
     begin_friction(&c);
   }
   assemble();
@@ -267,9 +284,7 @@ void ContactForces::stop_at_new_contacts() const {
     if (to.ways_[s] < 1 && to.iterated_[s]) take_back(s);
   }
   for (Contact& c : contacts()) {
-    const bool moved =
-        to.ways_[c.sides[0].strand] < 1 || (c.has_two_rods() && to.ways_[c.sides[1].strand] < 1);
-    if (moved) look(&c);
+    if (stepped_back(c)) look(&c);
   }
 }
 

@@ -37,12 +37,14 @@ struct ContactForces {
   uint32_t end_strand() const;
   float& lane(uint32_t strand, uint32_t field) const;
   float& active(uint32_t strand) const;
+  static Now axes_of(const Turn& turn);  // without moves
   Now now(const Contact& contact, size_t side) const;
   std::span<Contact> contacts() const;
   void find_felt() const;
   void limit_felt() const;
   double moved_kg_m(uint32_t strand) const;
   void find_ways() const;
+  bool stepped_back(const Contact& contact) const;
   void shorten(const Contact& contact, double start) const;
   void take_back(uint32_t strand) const;
   void stop_at_new_contacts() const;

@@ -132,6 +132,9 @@ void ContactFinder::add_sweep(uint32_t strand, uint32_t segment) const {
   const Vector move = scaled(l, iterate3(strand, segment, simd::kRodFreeMove));
   const Sweep s = {axis(strand, segment, {}, axis_of(before)), axis(strand, segment, move, axis_of(after)),
                    radius};
+  to.swept_[local(strand, segment)] = 1;
+  to.sweeps_[local(strand, segment)] = s;
+  if (!to.settings_.rods_collide) return;
   const double margin = (1 + kNearRadii) * radius + kNearWay * longest_way(s);
   SweptBox box = box_of(s, margin);
   // The first iterate, by its middle: where forces of the last step would bring it.
@@ -141,8 +144,6 @@ void ContactFinder::add_sweep(uint32_t strand, uint32_t segment) const {
     const Vector by = {radius, radius, radius};
     widen(difference(end, by), &box), widen(sum(end, by), &box);
   }
-  to.swept_[local(strand, segment)] = 1;
-  to.sweeps_[local(strand, segment)] = s;
   to.boxes_[local(strand, segment)] = box;
 }
 
@@ -203,7 +204,7 @@ double ContactFinder::rebound_m(const Contact& c, double restitution) const {
 }
 
 // `depth_m` is the gap at the step's start where that is in penetration, else 0 or more. Null: no room.
-Contact* ContactFinder::add(Contact c, double depth_m, double restitution) const {
+Contact* ContactFinder::add(Contact& c, double depth_m, double restitution) const {
   if (to.contact_count_ == to.capacity_) {
     ++to.dropped_;
     return nullptr;
@@ -312,6 +313,7 @@ void ContactFinder::add_capsule(const Capsule& capsule, uint64_t kind, uint32_t 
                        static_cast<double>(capsule.friction),
                        static_cast<double>(capsule.restitution)};
   const SweptBox box = box_of(sweep, sweep.radius_m + kNearWay * longest_way(sweep));
+  const double reach_m = reach_of(sweep);
   uint32_t known = ~0u;  // the group whose distances are
   for (uint32_t strand = first_strand(); strand < end_strand(); ++strand) {
     if (!overlap(to.strand_boxes_[strand - first_strand()], box)) continue;
@@ -320,7 +322,7 @@ void ContactFinder::add_capsule(const Capsule& capsule, uint64_t kind, uint32_t 
     known = group;
     for (uint32_t i = 0; i < batch.segment_count_; ++i) {
       if (!free(strand, i) || (kind == kCapsule && to.passes(strand, i, index))) continue;
-      if (near(strand, i, sweep)) add_touch(strand, i, other);
+      if (near(strand, i, reach_m)) add_touch(strand, i, other);
     }
   }
 }

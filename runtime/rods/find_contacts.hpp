@@ -69,7 +69,8 @@ struct ContactFinder {
   bool find_ways(uint32_t group) const;
   bool near(uint32_t strand, const Plane& plane) const;
   bool near(uint32_t strand, uint32_t segment, const Plane& plane) const;
-  bool near(uint32_t strand, uint32_t segment, const Sweep& obstacle) const;
+  double reach_of(const Sweep& obstacle) const;
+  bool near(uint32_t strand, uint32_t segment, double reach_m) const;
   bool may_enter(uint32_t strand, uint32_t segment) const;
   Sweep taken_sweep(uint32_t strand, uint32_t segment) const;
   Sweep sweep_of(const Capsule& capsule) const;
@@ -78,7 +79,7 @@ struct ContactFinder {
   void stop_at_cores() const;
   void stop_at_core(uint32_t strand, uint32_t segment, const Sweep& core) const;
   Contact made(uint32_t strand, uint32_t segment, double along, const Other& other, uint64_t feature) const;
-  Contact* add(Contact contact, double depth_m, double restitution) const;
+  Contact* add(Contact& contact, double depth_m, double restitution) const;
   double rebound_m(const Contact& contact, double restitution) const;
   void set_gain(Contact* contact) const;
   Contact* add_point(const ContactPoint& point, uint64_t kind) const;
