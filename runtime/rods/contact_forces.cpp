@@ -13,6 +13,8 @@ constexpr double kDeep = 0.5;    // of a segment's radius
 constexpr double kAcross = 1.5;  // the same: next to where two rods' axes cross
 // Of friction's state in a step: a first one mends the guess, a second takes it back and would go on so.
 constexpr uint32_t kMostChanges = 1;
+// Of a segment's length, what of a gap no iteration closes: a turn in float, at half of it.
+constexpr double kRounding = 3e-8;
 constexpr double kAtLimit = 0.999;  // of the limit: less is not a rounding
 constexpr double kForgiven = 10;    // of the rods' tolerance
 
@@ -129,7 +131,7 @@ Vector ContactForces::taken_drag(const Contact& c, const Vector& slip, bool come
 
 // Whether forces, gap, slip and the limit that the last system had are as exact as wanted. A gap that is off
 // is mended by the next step, a force that is off adds up: of a limit the tolerance is a share of itself, or
-// of what would move the segment by a tolerance.
+// of what would move the segment by a tolerance; the gain makes a force of each gap's rounding.
 bool ContactForces::is_exact(const Contact& c, const Contact& before) const {
   const double off =
       std::max(std::fabs(c.force - before.force), length(difference(c.drag, before.drag))) / c.gain_kg;
@@ -138,8 +140,10 @@ bool ContactForces::is_exact(const Contact& c, const Contact& before) const {
   if (std::max(off, c.slowness * moved) > tolerance_m(c)) return false;
   const double limit = c.friction * c.force, miss = std::fabs(limit - before.limit);
   const bool at_limit = length(c.drag) >= kAtLimit * std::min(limit, before.limit);
-  const double counts = std::max(limit, tolerance_m(c) * mass_kg(c));
-  return !at_limit || miss <= static_cast<double>(to.settings_.tolerance) * counts;
+  const double counts =
+      static_cast<double>(to.settings_.tolerance) * std::max(limit, tolerance_m(c) * mass_kg(c));
+  const double length_m = static_cast<double>(batch.units_[c.sides[0].strand].length_m);
+  return !at_limit || miss <= std::max(counts, kRounding * length_m * c.gain_kg);
 }
 
 // The forces of an iteration, as far as it was taken: with the whole gap, one left by a half step would be

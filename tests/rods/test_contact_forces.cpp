@@ -116,6 +116,17 @@ TEST_CASE("cg_slides_as_direct_slides") {
   CHECK(slide(angle, 0.5f, {.solver = rods::RodSolver::kCg}).acceleration == Approx(expected).margin(0.02));
 }
 
+TEST_CASE("a_rod_at_rest_on_a_plane_goes_on_converging_at_the_finest_tolerance") {
+  test::RodBatch batch =
+      test::batch_of({test::lying_rod(0.01)}, {.max_iterations = 100, .tolerance_rad = 1e-6f});
+  rods::RodCollider collider = on_floor(batch, {}, {.rods_collide = false, .tolerance = 1e-4f});
+  for (int i = 0; i < 200; ++i) {
+    const test::RodReport report = test::step(batch, collider);
+    CHECK(report.contacts_unconverged == 0);
+    CHECK(report.iterations <= 4);
+  }
+}
+
 // Where it ends was integrated apart from this library: four links in joint angles, explicit steps of 4e-6 s,
 // the contact a stiff spring, friction a bristle of bounded force. From 0.6 on it stays, its tip at
 // (0.325, -0.104) with 0.6 and (0.320, -0.112) with 0.8; up to 0.4 it slides off, however slowly it is laid
