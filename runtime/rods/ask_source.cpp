@@ -9,7 +9,7 @@ namespace {
 // What of a segment's radius is looked at a second time: a whole one that touches where it begins would not
 // be followed to where another part of it goes through.
 constexpr double kCore = 0.5;
-// How deep that may come, and how far outside it is stopped so that it is the same in the next step, both of
+// How near that may come, and how far outside it is stopped so that it is the same in the next step, both of
 // its own radius.
 constexpr double kThere = 0.05, kOutside = 0.9;
 
@@ -73,8 +73,11 @@ void ContactFinder::add_hits() const {
     const uint32_t segment = to.probe_segments_[hit.probe];
     const uint32_t strand = first_strand() + segment / batch.segment_count_;
     const Contact* made = add_point(point_of(hit, strand, segment % batch.segment_count_), kHit);
-    to.taken_[to.hit_count_++] = {
-        made ? static_cast<uint32_t>(made - to.contacts_) : RodCollider::kNoContact, {}, {}};
+    RodCollider::Taken& taken = to.taken_[to.hit_count_++];
+    taken = {RodCollider::kNoContact, {}, {}};
+    if (!made) continue;
+    taken.contact = static_cast<uint32_t>(made - to.contacts_);
+    taken.felt = scaled_sum(made->force, made->normal, made->drag);
   }
 }
 
@@ -108,11 +111,11 @@ void ContactFinder::stop_at_hit(uint32_t strand, uint32_t segment, const Contact
       difference(between(own.end.from, own.end.to, share), between(own.start.from, own.start.to, share));
   const Vector obstacle_move = scaled(dt_s, vector_of(hit.velocity_m_s));
   const double gap = hit.gap_m, end = gap + dot(vector_of(hit.normal), difference(move, obstacle_move));
-  if (!(end < -kThere * core) || gap < 0) return;  // or it began deep
+  if (!(end < kThere * core) || gap < 0) return;  // or it began deep
   const double way = std::max(0.0, gap - kOutside * core) / (gap - end);
   if (way >= to.ways_[strand]) return;
   to.ways_[strand] = way;
-  to.carries_[strand] = scaled(1 - way, obstacle_move);
+  to.carries_[strand] = obstacle_move;
 }
 
 }  // namespace sinew::rods

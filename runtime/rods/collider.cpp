@@ -66,7 +66,7 @@ struct ColliderBuilder {
     const auto by_default =
         static_cast<uint32_t>(std::clamp<uint64_t>(four_each, kLeastContacts, kMostContacts));
     to.capacity_ = to.settings_.contact_capacity ? to.settings_.contact_capacity : by_default;
-    to.kept_size_ = std::bit_ceil(2 * to.capacity_);
+    to.kept_size_ = to.kept_in_use_ = std::bit_ceil(2 * to.capacity_);
   }
 
   void lay_out(std::byte* base, size_t* bytes) {
@@ -91,10 +91,9 @@ struct ColliderBuilder {
     to.touched_list_ = arena.take<uint32_t>(size_t{range} * to.segment_count_);
     to.turning_ = arena.take<uint8_t>(to.strand_count_);
     to.pending_ = arena.take<uint8_t>(to.strand_count_);
-    to.changed_ = arena.take<uint8_t>(to.strand_count_);
     to.ways_ = arena.take<double>(to.strand_count_);
     to.carries_ = arena.take<Vector>(to.strand_count_);
-    to.pressed_ = arena.take<uint8_t>(to.strand_count_);
+    to.near_ = arena.take<uint8_t>(to.strand_count_);
     to.iterated_ = arena.take<uint8_t>(to.strand_count_);
     if (all) {
       to.scratch_ = arena.take<float>(segments * (simd::kRodFields - simd::kRodKeptFields));
@@ -203,18 +202,6 @@ bool RodCollider::fits(const RodBatch& batch) const noexcept {
          width_ == batch.width_;
 }
 
-float* RodCollider::scratch(const RodBatch& batch, uint32_t group) const noexcept {
-  if (!settings_.rods_collide) return batch.scratch_;
-  return scratch_ + size_t{group} * segment_count_ * (simd::kRodFields - simd::kRodKeptFields) * width_;
-}
-
-float* RodCollider::scratch_row(const RodBatch& batch, uint32_t strand, uint32_t segment,
-                                uint32_t field) const noexcept {
-  const size_t row = size_t{batch.slots_[segment]} * (simd::kRodFields - simd::kRodKeptFields) + field -
-                     simd::kRodKeptFields;
-  return scratch(batch, strand / width_) + row * width_ + strand % width_;
-}
-
 void RodCollider::give(simd::RodJob* job, uint32_t group) const noexcept {
   const size_t first = size_t{group - range_.first_group} * segment_count_;
   const uint8_t* touched = touched_ + first;
@@ -244,15 +231,16 @@ void RodCollider::end_range(const RodBatch& batch, float dt_s, RodReport* report
   const ContactFinder finder{*this, batch, static_cast<double>(dt_s)};
   const ContactForces forces{*this, batch};
   forces.forgive();
-  for (int k = 0; k < kMostHolds && finder.find_holds(); ++k) forces.hold();
+  std::fill_n(carries_, strand_count_, Vector{});
+  for (int k = 0; k < kMostHolds && finder.find_holds(k > 0); ++k) forces.hold();
   forces.place_hits();
   report->contacts_unconverged += forces.end();
 }
 
 // Where it is, or where it would be put.
 RodCollider::Kept* RodCollider::find_kept(uint64_t name) const noexcept {
-  size_t at = name >> 20 & (kept_size_ - 1);
-  while (kept_[at].step == steps_ && kept_[at].name != name) at = (at + 1) & (kept_size_ - 1);
+  size_t at = name >> 20 & (kept_in_use_ - 1);
+  while (kept_[at].step == steps_ && kept_[at].name != name) at = (at + 1) & (kept_in_use_ - 1);
   return kept_ + at;
 }
 
@@ -261,6 +249,8 @@ RodCollider::Kept* RodCollider::find_kept(uint64_t name) const noexcept {
 void RodCollider::end_step(float dt_s, RodReport* report) noexcept {
   push(dt_s);
   ++steps_;
+  // Few contacts lie close together.
+  kept_in_use_ = std::bit_ceil(2 * std::max(contact_count_, 1u));
   const double per_square = 1 / (static_cast<double>(dt_s) * static_cast<double>(dt_s));
   for (uint32_t i = 0; i < contact_count_; ++i) {
     const Contact& c = contacts_[i];

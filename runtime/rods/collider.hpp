@@ -115,9 +115,20 @@ class RodCollider {
     Vector point_m;    // of the rod's surface, at the step's end
   };
   static constexpr uint32_t kNoContact = ~0u;
-  // Of a segment in the world: its middle, how far from there it may touch something that stands still, and
-  // how far it reaches at the step's start.
-  enum ReachRow : uint32_t { kReachMiddle = 0, kReachTouch = 3, kReachHalf, kReachRows };
+  // Of a segment in the world, at the step's start: its middle, half its axis, how long that is, how exact
+  // the numbers are, how far from its axis it may touch something that stands still, its radius; what is left
+  // of its way before it enters a core; from its axis to the obstacle that is looked at, later its way.
+  enum ReachRow : uint32_t {
+    kReachMiddle = 0,
+    kReachAxis = 3,
+    kReachHalf = 6,
+    kReachMargin,
+    kReachTouch,
+    kReachRadius,
+    kReachClear,
+    kReachDistance,
+    kReachRows
+  };
   // Of the strands being stepped: all of them where rods collide, else one group after the other.
   struct Range {
     uint32_t first_group, groups;
@@ -152,7 +163,7 @@ class RodCollider {
   ContactPoint* points_ = nullptr;
   uint64_t* passed_ = nullptr;  // [strands][segments]
   uint32_t plane_count_ = 0, sphere_count_ = 0, capsule_count_ = 0, point_count_ = 0;
-  uint32_t strand_count_ = 0, segment_count_ = 0, width_ = 0, capacity_ = 0, kept_size_ = 0;
+  uint32_t strand_count_ = 0, segment_count_ = 0, width_ = 0, capacity_ = 0, kept_size_ = 0, kept_in_use_ = 1;
 
   Contact* contacts_ = nullptr;  // [capacity_] of this step; those of the range from first_contact_
   uint32_t contact_count_ = 0, first_contact_ = 0, dropped_ = 0;
@@ -171,9 +182,8 @@ class RodCollider {
   uint8_t* turning_ = nullptr;   // [strands] not converged by themselves
   uint8_t* pending_ = nullptr;   // [strands] not converged by a contact
   double* ways_ = nullptr;       // [strands] where the first iterate is, from the step's start to free motion
-  Vector* carries_ = nullptr;    // [strands] how far a core takes a strand along that it stops
-  uint8_t* changed_ = nullptr;   // [strands] a contact opened or closed in the last iteration
-  uint8_t* pressed_ = nullptr;   // [strands] a contact with a force, at the last iteration
+  Vector* carries_ = nullptr;    // [strands] what a core moves that stops a strand
+  uint8_t* near_ = nullptr;      // [strands] it has contacts, pressed or not
   uint8_t* iterated_ = nullptr;  // [strands] moved by the last iteration
   float* scratch_ = nullptr;     // of all groups, where rods collide
   SpatialHash hash_;

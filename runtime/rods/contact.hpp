@@ -1,15 +1,16 @@
 // contact.hpp  One contact of a step: two points, a normal and the force between them.
 //
 //   gap    C = gap_m + n . (move_a - move_b) - allowed_m >= 0
-//   force  p = max(0, force - gain C), an augmented Lagrangian (Hestenes 1969, Powell 1969)
+//   force  p = force - gain C where that is active, an augmented Lagrangian (Hestenes 1969, Powell 1969)
 //   slip   s = what of move_a - move_b, at the surfaces, is across n (Macklin et al. 2014, Section 6.1)
-//   drag   t = drag - gain s, shortened to friction p
-// After each iteration force <- p and drag <- t; what is iterated to has C = 0 or p = 0, s = 0 or |t| =
-// friction p, exactly, whatever the gain and whatever it began with. The gain only says how fast: an
-// iteration divides force's error by 1 + gain w, w the inverse mass that the contact feels. Normal and points
-// belong to the step: the constraint is linear in the moves, and an iteration of rods that touch converges as
-// one of rods that do not. Normals of the iterate were rejected: on a thin obstacle hit at speed they turn
-// faster than Newton follows.
+//   drag   t = drag - gain s, shortened to a limit where it slides
+// After each iteration force and drag become what its linear system made of p and t, by the share of its
+// change that was taken, and the limit follows friction times that force (contact_forces.cpp). What is
+// iterated to has C = 0 or p = 0, s = 0 or |t| = friction p, exactly, whatever the gain and whatever it began
+// with. The gain only says how fast: an iteration divides force's error by 1 + gain w, w the inverse mass
+// that the contact feels. Normal and points belong to the step: the constraint is linear in the moves, and an
+// iteration of rods that touch converges as one of rods that do not. Normals of the iterate were rejected: on
+// a thin obstacle hit at speed they turn faster than Newton follows.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -19,6 +20,10 @@
 namespace sinew::rods {
 
 inline constexpr uint32_t kNoSegment = ~0u;
+
+// How friction enters an iteration: with all of the gain; with its limit's force against the slip; or by the
+// slip's own size, which comes to either, slowly.
+enum class Friction : uint32_t { kSticks, kSlides, kEither };
 
 // Masses in kg, forces times the step's square (kg m), lengths in m.
 struct Contact {
@@ -39,7 +44,10 @@ struct Contact {
   double gain_kg;
   double slowness;  // what is left to go, over an iteration's change
   double friction;
-  double scale_m;  // the segment's radius, that tolerance and penetration are shares of
+  double limit;  // of drag: friction times the pressing force
+  Friction state;
+  uint32_t changes;  // of the state in this step
+  double scale_m;    // the segment's radius, that tolerance and penetration are shares of
   double force;
   Vector drag;
   double open_m;  // C and slip of the last evaluation
@@ -50,23 +58,43 @@ struct Contact {
   bool has_two_rods() const { return sides[1].segment != kNoSegment; }
 };
 
-// What a contact does at the last evaluation.
+// What a contact does at the last evaluation, and how much of the gain holds against slip, along the drag and
+// across it.
 struct ContactForce {
   double press;
-  Vector drag;
-  double held;  // drag over what it would be without the limit
+  bool active;
+  Vector drag, direction;
+  double along, across;
 };
 
-// Of friction Macklin et al. 2014, Eq. 24: along the slip, at most friction times the pressing force.
+// An obstacle's gain over the segment's mass: an iteration divides a contact's error by some hundreds.
+inline constexpr double kObstacleGain = 1e3;
+// Between rods, over their reduced mass: more would slow down what both do together, less the force. An
+// iteration leaves 2/3 of a common motion's error and, of a force's, 1/3 or more where rods are stiff.
+inline constexpr double kRodGain = 2;
+// Of an obstacle's gain, what a gap counts against a force that presses: the segment's own mass lets go where
+// the force would not close the gap in the step; all of the gain, of what an iteration leaves open by a
+// rounding.
+inline constexpr double kLetsGo = 1 / kObstacleGain;
+
+inline bool is_active(const Contact& c, double open_m) {
+  return c.force - (c.has_two_rods() ? 1 : kLetsGo) * c.gain_kg * open_m > 0;
+}
+
+// Of friction Macklin et al. 2014, Eq. 24: along the slip, at most the limit.
 inline ContactForce forces_of(const Contact& c) {
-  ContactForce f = {std::max(0.0, c.force - c.gain_kg * c.open_m), scaled_sum(-c.gain_kg, c.slip_m, c.drag),
-                    1};
-  const double most = c.friction * f.press, size = length(f.drag);
-  if (size > most) {
-    f.held = most / size;
-    f.drag = scaled(f.held, f.drag);
-  }
-  if (!(most > 0)) f = {f.press, {}, 0};
+  const bool active = is_active(c, c.open_m);
+  ContactForce f = {active ? c.force - c.gain_kg * c.open_m : 0, active, {}, {}, 0, 0};
+  const bool sticks = c.state == Friction::kSticks;
+  if (!(active && c.friction > 0 && (sticks || c.limit > 0))) return f;
+  f.drag = scaled_sum(-c.gain_kg, c.slip_m, c.drag);
+  f.along = f.across = 1;
+  const double size = length(f.drag);
+  if (sticks || !(size > c.limit)) return f;
+  f.across = c.limit / size;
+  f.along = c.state == Friction::kSlides ? 0 : f.across;
+  f.direction = scaled(1 / size, f.drag);
+  f.drag = scaled(c.limit, f.direction);
   return f;
 }
 

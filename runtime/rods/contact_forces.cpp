@@ -9,9 +9,14 @@ namespace {
 
 constexpr size_t triangle(size_t row, size_t column) { return row * (row + 1) / 2 + column; }
 
-constexpr double kDeep = 0.5;     // of a segment's radius
-constexpr double kAcross = 1.5;   // the same: next to where two rods' axes cross
-constexpr double kForgiven = 10;  // of the rods' tolerance
+constexpr double kDeep = 0.5;    // of a segment's radius
+constexpr double kAcross = 1.5;  // the same: next to where two rods' axes cross
+// Of friction's state in a step: a first one mends the guess, a second takes it back and would go on so.
+constexpr uint32_t kMostChanges = 1;
+// Of a segment's length, what of a gap no iteration closes: a turn in float, at half of it.
+constexpr double kRounding = 3e-8;
+constexpr double kAtLimit = 0.999;  // of the limit: less is not a rounding
+constexpr double kForgiven = 10;    // of the rods' tolerance
 
 }  // namespace
 
@@ -26,6 +31,17 @@ float& ContactForces::lane(uint32_t strand, uint32_t field) const {
 
 float& ContactForces::active(uint32_t strand) const { return lane(strand, simd::kLaneActive); }
 
+ContactForces::Now ContactForces::axes_of(const Turn& q) {
+  const double xx = 2 * q[0] * q[0], yy = 2 * q[1] * q[1], zz = 2 * q[2] * q[2];
+  const double xy = 2 * q[0] * q[1], xz = 2 * q[0] * q[2], yz = 2 * q[1] * q[2];
+  const double xw = 2 * q[0] * q[3], yw = 2 * q[1] * q[3], zw = 2 * q[2] * q[3];
+  return {{},
+          {},
+          {1 - yy - zz, xy + zw, xz - yw},
+          {xy - zw, 1 - xx - zz, yz + xw},
+          {xz + yw, yz - xw, 1 - xx - yy}};
+}
+
 ContactForces::Now ContactForces::now(const Contact& c, size_t side) const {
   const Contact::Side& s = c.sides[side];
   if (s.segment == kNoSegment) return {c.obstacle_move, c.obstacle_move, {}, {}, {}};
@@ -33,14 +49,15 @@ ContactForces::Now ContactForces::now(const Contact& c, size_t side) const {
   const size_t w = batch.width_;
   const float *q = row(simd::kRodNow), *d = row(simd::kRodMove);
   const Turn turn = {q[0], q[w], q[2 * w], q[3 * w]};
-  Now out = {{}, {}, turned(turn, {1, 0, 0}), turned(turn, {0, 1, 0}), turned(turn, {0, 0, 1})};
+  Now out = axes_of(turn);
   const Vector move = scaled(batch.units_[s.strand].length_m, {d[0], d[w], d[2 * w]});
   out.move = scaled_sum(s.along_m, difference(out.z, s.axis), move);
   Turn before;
   for (uint32_t k = 0; k < 4; ++k) before[k] = batch.at(s.strand, s.segment, simd::kRodTurn + k);
   const Turn by = product(conjugate(before), turn);
   const double side_of = by[3] < 0 ? -2 : 2;
-  const Vector turned_by = turned(turn, {side_of * by[0], side_of * by[1], side_of * by[2]});
+  const Vector turned_by =
+      scaled(side_of, scaled_sum(by[0], out.x, scaled_sum(by[1], out.y, scaled(by[2], out.z))));
   out.surface_move = scaled_sum(s.radius_m, cross(turned_by, c.normal), out.move);
   return out;
 }
@@ -60,31 +77,100 @@ bool ContactForces::iterated(const Contact& c) const {
   return to.iterated_[c.sides[0].strand] || (c.has_two_rods() && to.iterated_[c.sides[1].strand]);
 }
 
-// Marks the strands of a contact that has opened or closed by more than its tolerance.
-void ContactForces::find_change(const Contact& c) const {
-  const double press = forces_of(c).press, before = std::max(0.0, c.force - c.gain_kg * c.open_before_m);
-  if ((press > 0) == (before > 0) || std::max(press, before) < tolerance_m(c) * c.gain_kg) return;
-  to.changed_[c.sides[0].strand] = 1;
-  if (c.has_two_rods()) to.changed_[c.sides[1].strand] = 1;
-}
-
 double ContactForces::tolerance_m(const Contact& c) const {
   return static_cast<double>(to.settings_.tolerance) * c.scale_m;
 }
 
-// Returns whether the contact is as exact as wanted.
+// Of the iteration's change, what was taken by the strands of a contact.
+double ContactForces::share_of(const Contact& c) const {
+  const auto share = [&](size_t side) {
+    return static_cast<double>(lane(c.sides[side].strand, simd::kLaneShare));
+  };
+  return c.has_two_rods() ? std::min(share(0), share(1)) : share(0);
+}
+
+// That a contact's force moves, of the pair.
+double ContactForces::mass_kg(const Contact& c) const {
+  return c.gain_kg / (c.has_two_rods() ? kRodGain : kObstacleGain);
+}
+
+double ContactForces::limit_of_new(const Contact& c) const {
+  return c.friction * mass_kg(c) * std::max(0.0, -c.open_m);
+}
+
+// One that was not part of the last system. Returns whether it stays so.
+bool ContactForces::begin_anew(Contact* c) const {
+  const bool was_pressed = c->force > 0;
+  c->force = 0, c->drag = {};
+  c->limit = limit_of_new(*c);
+  c->state = Friction::kSlides, c->changes = 0;
+  return !was_pressed && c->open_m >= -tolerance_m(*c);
+}
+
+// What slides and is carried back, or drags less than its limit, sticks; what drags more slides. Returns
+// whether that is a change.
+bool ContactForces::update_friction(Contact* c, const Vector& slip) const {
+  if (c->state == Friction::kEither) return false;
+  const double drag = length(scaled_sum(-c->gain_kg, slip, c->drag));
+  const bool slides = c->state == Friction::kSlides;
+  const bool changes = slides ? dot(slip, c->drag) > 0 || drag < c->limit : drag > c->limit;
+  if (!changes) return false;
+  c->state = ++c->changes > kMostChanges ? Friction::kEither : slides ? Friction::kSticks : Friction::kSlides;
+  return true;
+}
+
+// Of what slipped so, from the drag it had.
+Vector ContactForces::taken_drag(const Contact& c, const Vector& slip, bool comes_to_rest) const {
+  Contact taken = c;
+  taken.open_m = 0;
+  taken.slip_m = slip;
+  if (!comes_to_rest) return forces_of(taken).drag;
+  const double size = length(c.drag);
+  return size > c.limit ? scaled(c.limit / size, c.drag) : c.drag;
+}
+
+// Whether forces, gap, slip and the limit that the last system had are as exact as wanted. A gap that is off
+// is mended by the next step, a force that is off adds up: of a limit the tolerance is a share of itself, or
+// of what would move the segment by a tolerance; the gain makes a force of each gap's rounding.
+bool ContactForces::is_exact(const Contact& c, const Contact& before) const {
+  const double off =
+      std::max(std::fabs(c.force - before.force), length(difference(c.drag, before.drag))) / c.gain_kg;
+  const double moved = std::max(std::fabs(c.open_m - c.open_before_m),
+                                c.friction > 0 ? length(difference(c.slip_m, c.slip_before_m)) : 0.0);
+  if (std::max(off, c.slowness * moved) > tolerance_m(c)) return false;
+  const double limit = c.friction * c.force, miss = std::fabs(limit - before.limit);
+  const bool at_limit = length(c.drag) >= kAtLimit * std::min(limit, before.limit);
+  const double counts =
+      static_cast<double>(to.settings_.tolerance) * std::max(limit, tolerance_m(c) * mass_kg(c));
+  const double length_m = static_cast<double>(batch.units_[c.sides[0].strand].length_m);
+  return !at_limit || miss <= std::max(counts, kRounding * length_m * c.gain_kg);
+}
+
+// The forces of an iteration, as far as it was taken: with the whole gap, one left by a half step would be
+// pressed out again by a thousand masses. The limit is of a force that a system came to, not of what a gap
+// asks for, a hundred times that. Two contacts at right angles throw each other's force to and fro, what one
+// drags presses the other: errors turn by i friction an iteration, and of all shares of a change
+// 1 / (1 + friction^2) leaves least of them. Returns whether the contact is as exact as wanted.
 bool ContactForces::take_over(Contact* c) const {
-  const double force = c->force;
-  const Vector drag = c->drag;
-  const ContactForce f = forces_of(*c);
-  if (to.changed_[c->sides[0].strand] || (c->has_two_rods() && to.changed_[c->sides[1].strand])) return false;
-  c->force = f.press;
-  c->drag = f.drag;
-  if (!(force > 0) && !(f.press > 0)) return true;
-  const double off = std::max(std::fabs(f.press - force), length(difference(f.drag, drag))) / c->gain_kg;
-  const double moved = std::max(std::fabs(c->open_m - c->open_before_m),
-                                c->friction > 0 ? length(difference(c->slip_m, c->slip_before_m)) : 0.0);
-  return std::max(off, c->slowness * moved) <= tolerance_m(*c);
+  if (!is_active(*c, c->open_before_m)) return begin_anew(c);
+  const Contact before = *c;
+  const double left = 1 - share_of(*c);
+  const Vector slip = scaled_sum(-left, c->slip_before_m, c->slip_m);
+  c->force = std::max(0.0, c->force - c->gain_kg * (c->open_m - left * c->open_before_m));
+  c->limit += (c->friction * c->force - c->limit) / (1 + c->friction * c->friction);
+  const bool changed = c->force > 0 && update_friction(c, slip);
+  const bool rests = changed && before.state == Friction::kSlides;
+  c->drag = taken_drag(*c, slip, rests);
+  return !changed && is_exact(*c, before);
+}
+
+// What was at its limit slides, and so does what is new and too fast to be held.
+void ContactForces::begin_friction(Contact* c) const {
+  const bool known = c->force > 0;
+  c->limit = known ? c->friction * c->force : limit_of_new(*c);
+  const bool slides =
+      known ? length(c->drag) >= kAtLimit * c->limit : mass_kg(*c) * length(c->slip_m) > c->limit;
+  c->state = slides ? Friction::kSlides : Friction::kSticks;
 }
 
 std::span<Contact> ContactForces::contacts() const {
@@ -98,6 +184,10 @@ void ContactForces::find_ways() const {
     if (!(c.open_m < -kDeep * c.scale_m)) continue;
     shorten(c, std::max(c.gap_m - c.allowed_m, 0.0));
   }
+}
+
+bool ContactForces::stepped_back(const Contact& c) const {
+  return to.ways_[c.sides[0].strand] < 1 || (c.has_two_rods() && to.ways_[c.sides[1].strand] < 1);
 }
 
 // A way that opened at `start` and leads deep into a contact ends where the contact has just closed; one that
@@ -147,7 +237,10 @@ void ContactForces::begin() const noexcept {
     to.pending_[s] = 1;
     for (uint32_t i = 0; to.ways_[s] < 1 && i < batch.segment_count_; ++i) step_back(s, i);
   }
-  for (Contact& c : contacts()) look(&c);
+  for (Contact& c : contacts()) {
+    if (stepped_back(c)) look(&c);
+    begin_friction(&c);
+  }
   assemble();
 }
 
@@ -195,9 +288,7 @@ void ContactForces::stop_at_new_contacts() const {
     if (to.ways_[s] < 1 && to.iterated_[s]) take_back(s);
   }
   for (Contact& c : contacts()) {
-    const bool moved =
-        to.ways_[c.sides[0].strand] < 1 || (c.has_two_rods() && to.ways_[c.sides[1].strand] < 1);
-    if (moved) look(&c);
+    if (stepped_back(c)) look(&c);
   }
 }
 
@@ -205,7 +296,7 @@ uint32_t ContactForces::settle() const noexcept {
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {
     to.iterated_[s] = to.turning_[s] | to.pending_[s];
     to.turning_[s] = active(s) != 0;
-    to.pending_[s] = to.changed_[s] = 0;
+    to.pending_[s] = 0;
   }
   for (Contact& c : contacts()) {
     if (!iterated(c)) continue;
@@ -215,9 +306,6 @@ uint32_t ContactForces::settle() const noexcept {
   }
   find_felt();
   stop_at_new_contacts();
-  for (const Contact& c : contacts()) {
-    if (iterated(c)) find_change(c);
-  }
   for (Contact& c : contacts()) {
     if (!iterated(c) || take_over(&c)) continue;
     to.pending_[c.sides[0].strand] = 1;
@@ -250,13 +338,12 @@ double ContactForces::last_turn(uint32_t strand) const {
 
 void ContactForces::forgive() const noexcept {
   const double most = kForgiven * static_cast<double>(batch.settings_.tolerance_rad);
-  std::fill(to.pressed_ + first_strand(), to.pressed_ + end_strand(), uint8_t{0});
+  std::fill(to.near_ + first_strand(), to.near_ + end_strand(), uint8_t{0});
   for (const Contact& c : contacts()) {
-    if (!(c.force > 0)) continue;
     for (const Contact::Side& side : c.sides) {
-      if (side.segment != kNoSegment) to.pressed_[side.strand] = 1;
-      if (side.segment == kNoSegment || !to.turning_[side.strand] || !(last_turn(side.strand) < most))
-        continue;
+      if (side.segment == kNoSegment) continue;
+      to.near_[side.strand] = 1;
+      if (!(c.force > 0) || !to.turning_[side.strand] || !(last_turn(side.strand) < most)) continue;
       to.turning_[side.strand] = 0;
       to.pending_[side.strand] = 1;
     }
@@ -268,7 +355,7 @@ void ContactForces::hold(uint32_t strand, uint32_t segment) const {
   const double way = to.ways_[strand], l = static_cast<double>(batch.units_[strand].length_m);
   for (uint32_t k = 0; k < 3; ++k) {
     float& move = *to.scratch_row(batch, strand, segment, simd::kRodMove + k);
-    move = static_cast<float>(way * static_cast<double>(move) + to.carries_[strand][k] / l);
+    move = static_cast<float>(way * static_cast<double>(move) + (1 - way) * to.carries_[strand][k] / l);
   }
   turn_part(strand, segment, simd::kRodNow);
 }
@@ -317,6 +404,8 @@ void ContactForces::clear() const noexcept {
 
 void ContactForces::assemble() const {
   clear();
+  for (uint32_t s = first_strand(); s < end_strand(); ++s)
+    lane(s, simd::kLaneLargestShare) = simd::kRodLargestShare;
   for (const Contact& c : contacts()) add(c);
 }
 
@@ -333,13 +422,14 @@ void ContactForces::assemble_ended() const {
 
 void ContactForces::add(const Contact& c) const {
   const ContactForce f = forces_of(c);
-  if (!(f.press > 0)) return;
+  if (!f.active) return;
   for (size_t side = 0; side < 2; ++side) {
     const Contact::Side& s = c.sides[side];
     if (s.segment == kNoSegment || !(s.stiffness_kg > 0)) continue;
     if (!(to.turning_[s.strand] | to.pending_[s.strand])) continue;
     const Vector force = scaled_sum(f.press, c.normal, f.drag);
-    add_to_side(c, side, side == 0 ? force : scaled(-1, force), s.stiffness_kg, f.held * s.stiffness_kg);
+    lane(s.strand, simd::kLaneLargestShare) = 1;
+    add_to_side(c, side, f, side == 0 ? force : scaled(-1, force));
   }
 }
 
@@ -355,9 +445,10 @@ float* ContactForces::touched_rows(uint32_t strand, uint32_t segment) const {
 
 // J^T K J and J^T force of a side's point, K = pressed n n^T + held (1 - n n^T), J = (1, -[arm] R): in units
 // of the strand's own.
-void ContactForces::add_to_side(const Contact& c, size_t side, const Vector& force, double pressed,
-                                double held) const {
+void ContactForces::add_to_side(const Contact& c, size_t side, const ContactForce& f,
+                                const Vector& force) const {
   const Contact::Side& s = c.sides[side];
+  const double pressed = s.stiffness_kg, held = f.across * pressed, along_held = f.along * pressed;
   const RodBatch::Units& units = batch.units_[s.strand];
   const double m = units.mass_kg, l = units.length_m;
   const Now own = now(c, side);
@@ -368,8 +459,9 @@ void ContactForces::add_to_side(const Contact& c, size_t side, const Vector& for
   const auto put = [&](size_t row, double value) { rows[row * batch.width_] += static_cast<float>(value); };
   for (size_t r = 0; r < 6; ++r) {
     const double along = dot(moves[r], c.normal);
-    const Vector stiff =
-        scaled(1 / m, scaled_sum((pressed - held) * along, c.normal, scaled(held, moves[r])));
+    const Vector held_all =
+        scaled_sum((along_held - held) * dot(moves[r], f.direction), f.direction, scaled(held, moves[r]));
+    const Vector stiff = scaled(1 / m, scaled_sum((pressed - held) * along, c.normal, held_all));
     for (size_t k = 0; k <= r; ++k) put(simd::kContactMatrix + triangle(r, k), dot(stiff, moves[k]));
     put(simd::kContactForce + r, dot(force, moves[r]) / (m * l));
   }

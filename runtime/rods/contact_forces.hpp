@@ -17,7 +17,7 @@ struct ContactForces {
   // A strand that touches something and still turns a little each iteration keeps its forces: it counts as
   // one whose contacts did not converge.
   void forgive() const noexcept;
-  // Strands whose way_ is below 1 end there; they count as not converged.
+  // Strands whose way is below 1 end there; they count as not converged.
   void hold() const noexcept;
   // Where the range's hits of a source touch at the iterate, and what they are pushed with.
   void place_hits() const noexcept;
@@ -37,12 +37,14 @@ struct ContactForces {
   uint32_t end_strand() const;
   float& lane(uint32_t strand, uint32_t field) const;
   float& active(uint32_t strand) const;
+  static Now axes_of(const Turn& turn);  // without moves
   Now now(const Contact& contact, size_t side) const;
   std::span<Contact> contacts() const;
   void find_felt() const;
   void limit_felt() const;
   double moved_kg_m(uint32_t strand) const;
   void find_ways() const;
+  bool stepped_back(const Contact& contact) const;
   void shorten(const Contact& contact, double start) const;
   void take_back(uint32_t strand) const;
   void stop_at_new_contacts() const;
@@ -50,16 +52,22 @@ struct ContactForces {
   void step_back(uint32_t strand, uint32_t segment) const;
   void look(Contact* contact) const;
   bool iterated(const Contact& contact) const;
-  void find_change(const Contact& contact) const;
   double tolerance_m(const Contact& contact) const;
+  double share_of(const Contact& contact) const;
+  double mass_kg(const Contact& contact) const;
+  double limit_of_new(const Contact& contact) const;
+  bool begin_anew(Contact* contact) const;
+  bool update_friction(Contact* contact, const Vector& slip) const;
+  Vector taken_drag(const Contact& contact, const Vector& slip, bool comes_to_rest) const;
+  bool is_exact(const Contact& contact, const Contact& before) const;
+  void begin_friction(Contact* contact) const;
   bool take_over(Contact* contact) const;
   double last_turn(uint32_t strand) const;
   void hold(uint32_t strand, uint32_t segment) const;
   void assemble() const;
   void assemble_ended() const;
   void add(const Contact& contact) const;
-  void add_to_side(const Contact& contact, size_t side, const Vector& force, double pressed,
-                   double held) const;
+  void add_to_side(const Contact& contact, size_t side, const ContactForce& f, const Vector& force) const;
   float* touched_rows(uint32_t strand, uint32_t segment) const;
 };
 

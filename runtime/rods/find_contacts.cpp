@@ -8,11 +8,6 @@ namespace {
 
 // Contacts are kept for what comes this near, shares of the radii and of the way.
 constexpr double kNearRadii = 0.25, kNearWay = 0.25;
-// An obstacle's gain over the segment's mass: an iteration divides a contact's error by some hundreds.
-constexpr double kObstacleGain = 1e3;
-// Between rods, over their reduced mass: more would slow down what both do together, less the force. An
-// iteration leaves 2/3 of a common motion's error and, of a force's, 1/3 or more where rods are stiff.
-constexpr double kRodGain = 2;
 // Penetration that is left alone, of the tolerance.
 constexpr double kLeftAlone = 2;
 // Capsules are side by side where the squared sine of their angle is below this, and overlap by more than
@@ -137,6 +132,9 @@ void ContactFinder::add_sweep(uint32_t strand, uint32_t segment) const {
   const Vector move = scaled(l, iterate3(strand, segment, simd::kRodFreeMove));
   const Sweep s = {axis(strand, segment, {}, axis_of(before)), axis(strand, segment, move, axis_of(after)),
                    radius};
+  to.swept_[local(strand, segment)] = 1;
+  to.sweeps_[local(strand, segment)] = s;
+  if (!to.settings_.rods_collide) return;
   const double margin = (1 + kNearRadii) * radius + kNearWay * longest_way(s);
   SweptBox box = box_of(s, margin);
   // The first iterate, by its middle: where forces of the last step would bring it.
@@ -146,8 +144,6 @@ void ContactFinder::add_sweep(uint32_t strand, uint32_t segment) const {
     const Vector by = {radius, radius, radius};
     widen(difference(end, by), &box), widen(sum(end, by), &box);
   }
-  to.swept_[local(strand, segment)] = 1;
-  to.sweeps_[local(strand, segment)] = s;
   to.boxes_[local(strand, segment)] = box;
 }
 
@@ -208,7 +204,7 @@ double ContactFinder::rebound_m(const Contact& c, double restitution) const {
 }
 
 // `depth_m` is the gap at the step's start where that is in penetration, else 0 or more. Null: no room.
-Contact* ContactFinder::add(Contact c, double depth_m, double restitution) const {
+Contact* ContactFinder::add(Contact& c, double depth_m, double restitution) const {
   if (to.contact_count_ == to.capacity_) {
     ++to.dropped_;
     return nullptr;
@@ -282,6 +278,7 @@ void ContactFinder::add_plane(const Plane& plane, uint32_t index) const {
                        static_cast<double>(plane.friction),
                        static_cast<double>(plane.restitution)};
   for (uint32_t strand = first_strand(); strand < end_strand(); ++strand) {
+    if (!near(strand, plane)) continue;
     const float* radii = batch.radii_m_ + size_t{strand} * batch.segment_count_;
     for (uint32_t i = 0; i < batch.segment_count_; ++i) {
       if (!free(strand, i) || !near(strand, i, plane)) continue;
@@ -316,11 +313,16 @@ void ContactFinder::add_capsule(const Capsule& capsule, uint64_t kind, uint32_t 
                        static_cast<double>(capsule.friction),
                        static_cast<double>(capsule.restitution)};
   const SweptBox box = box_of(sweep, sweep.radius_m + kNearWay * longest_way(sweep));
+  const double reach_m = reach_of(sweep);
+  uint32_t known = ~0u;  // the group whose distances are
   for (uint32_t strand = first_strand(); strand < end_strand(); ++strand) {
     if (!overlap(to.strand_boxes_[strand - first_strand()], box)) continue;
+    const uint32_t group = strand / batch.width_;
+    if (group != known) find_distances(group, sweep);
+    known = group;
     for (uint32_t i = 0; i < batch.segment_count_; ++i) {
       if (!free(strand, i) || (kind == kCapsule && to.passes(strand, i, index))) continue;
-      if (near(strand, i, sweep)) add_touch(strand, i, other);
+      if (near(strand, i, reach_m)) add_touch(strand, i, other);
     }
   }
 }
@@ -449,23 +451,33 @@ void ContactFinder::stop_at_core(uint32_t strand, uint32_t segment, const Sweep&
   if (!(touch.gap_m < kThere * core.radius_m) || touch.time >= to.ways_[strand]) return;
   const Vector moved = difference(at(core.end, touch.at.b), at(core.start, touch.at.b));
   to.ways_[strand] = touch.time;
-  to.carries_[strand] = scaled(1 - touch.time, moved);
+  to.carries_[strand] = moved;
 }
 
-// `capsule` is the core's index among them, or none.
-void ContactFinder::stop_at_core(const Sweep& core, uint32_t capsule) const {
-  const SweptBox box = box_of(core, core.radius_m + kNearWay * longest_way(core));
-  for (uint32_t strand = first_strand(); strand < end_strand(); ++strand) {
-    if (!overlap(to.strand_boxes_[strand - first_strand()], box)) continue;
-    for (uint32_t i = 0; i < batch.segment_count_; ++i) {
-      if (!free(strand, i) || to.passes(strand, i, capsule)) continue;
-      if (may_reach(strand, i, core)) stop_at_core(strand, i, core);
+void ContactFinder::stop_at_cores(uint32_t strand, uint32_t segment) const {
+  for (uint32_t i = 0; i < to.sphere_count_; ++i) {
+    stop_at_core(strand, segment, sweep_of(capsule_of(to.spheres_[i])));
+  }
+  for (uint32_t i = 0; i < to.capsule_count_; ++i) {
+    if (!to.passes(strand, segment, i)) stop_at_core(strand, segment, sweep_of(to.capsules_[i]));
+  }
+}
+
+void ContactFinder::stop_at_cores() const {
+  for (uint32_t g = 0; g < to.range_.groups; ++g) {
+    const uint32_t group = to.range_.first_group + g, first = group * batch.width_;
+    if (!find_ways(group)) continue;
+    for (uint32_t s = first; s < std::min(first + batch.width_, batch.strand_count_); ++s) {
+      for (uint32_t i = 0; i < batch.segment_count_; ++i) {
+        if (may_enter(s, i)) stop_at_cores(s, i);
+      }
     }
   }
 }
 
-// Gaps grow at most in proportion to the way, from what they are where fixed segments are already there.
-void ContactFinder::stop_torn(uint32_t strand) const {
+// Gaps grow about in proportion to the way, from what they are where fixed segments are already there. Half a
+// turn leaves gaps too, so what is torn again stays where it began.
+void ContactFinder::stop_torn(uint32_t strand, bool again) const {
   const double most = kHardlyTorn * static_cast<double>(batch.units_[strand].length_m);
   for (uint32_t i = 1; i < batch.segment_count_; ++i) {
     const uint32_t p = batch.parents_[i];
@@ -475,18 +487,17 @@ void ContactFinder::stop_torn(uint32_t strand) const {
     const double began = length(difference(from, to_here));
     const double ends = length(difference(parent.end.to, own.end.from));
     if (!(ends > most) || !(began < most)) continue;
-    const double way = (most - began) / (ends - began);
-    if (way < to.ways_[strand]) to.ways_[strand] = way, to.carries_[strand] = {};
+    const double way = again ? 0 : (most - began) / (ends - began);
+    to.ways_[strand] = std::min(to.ways_[strand], way);
   }
 }
 
-bool ContactFinder::find_holds() const noexcept {
+bool ContactFinder::find_holds(bool again) const noexcept {
   std::fill(to.ways_ + first_strand(), to.ways_ + end_strand(), 1.0);
   if (to.source_) stop_at_hits();
-  for (uint32_t i = 0; i < to.sphere_count_; ++i) stop_at_core(sweep_of(capsule_of(to.spheres_[i])), ~0u);
-  for (uint32_t i = 0; i < to.capsule_count_; ++i) stop_at_core(sweep_of(to.capsules_[i]), i);
+  if (to.sphere_count_ + to.capsule_count_ > 0) stop_at_cores();
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {
-    if (to.turning_[s] && to.pressed_[s]) stop_torn(s);
+    if (to.turning_[s] && to.near_[s]) stop_torn(s, again);
   }
   return std::any_of(to.ways_ + first_strand(), to.ways_ + end_strand(), [](double w) { return w < 1; });
 }

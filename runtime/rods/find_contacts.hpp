@@ -25,10 +25,10 @@ struct ContactFinder {
   // The iterate in scratch is the step's first.
   void find() const noexcept;
   // Of the iterate as the step's end: what share of its way each strand of the range goes before an axis
-  // enters the core of a sphere or capsule, or before a strand that something presses on is torn, into ways_;
-  // that core's own move by then, into carries_. A source, which is asked where `ask`, stops axes at
-  // surfaces. Returns whether any is to be held.
-  bool find_holds() const noexcept;
+  // enters the core of a sphere or capsule, or before a strand that is near something is torn, into ways_;
+  // that core's own move in the step, into carries_. A source, which is asked where `ask`, stops axes at
+  // surfaces. Returns whether any is to be held; `again`: some were.
+  bool find_holds(bool again) const noexcept;
 
  private:
   enum Kind : uint64_t { kPoint = 1, kPlane, kSphere, kCapsule, kRod, kHit };
@@ -54,19 +54,32 @@ struct ContactFinder {
   void add_sweep(uint32_t strand, uint32_t segment) const;
   const Sweep& sweep(uint32_t strand, uint32_t segment) const;
   void find_reaches() const;
-  void find_reaches(uint32_t group, uint32_t segment) const;
-  const double* reach(uint32_t strand, uint32_t segment) const;
-  double nearest_m(uint32_t strand, uint32_t segment, const Sweep& obstacle) const;
+  template <size_t kWidth>
+  struct Lanes;
+  template <size_t kWidth>
+  void find_reaches(uint32_t group) const;
+  template <size_t kWidth>
+  void find_reaches(const Lanes<kWidth>& lanes, double* out) const;
+  double* reach(uint32_t strand, uint32_t segment) const;
+  template <size_t kWidth>
+  void find_distances(uint32_t group, const Sweep& obstacle) const;
+  void find_distances(uint32_t group, const Sweep& obstacle) const;
+  template <size_t kWidth>
+  bool find_ways(uint32_t group) const;
+  bool find_ways(uint32_t group) const;
+  bool near(uint32_t strand, const Plane& plane) const;
   bool near(uint32_t strand, uint32_t segment, const Plane& plane) const;
-  bool near(uint32_t strand, uint32_t segment, const Sweep& obstacle) const;
-  bool may_reach(uint32_t strand, uint32_t segment, const Sweep& core) const;
+  double reach_of(const Sweep& obstacle) const;
+  bool near(uint32_t strand, uint32_t segment, double reach_m) const;
+  bool may_enter(uint32_t strand, uint32_t segment) const;
   Sweep taken_sweep(uint32_t strand, uint32_t segment) const;
   Sweep sweep_of(const Capsule& capsule) const;
-  void stop_torn(uint32_t strand) const;
-  void stop_at_core(const Sweep& core, uint32_t capsule) const;
+  void stop_torn(uint32_t strand, bool again) const;
+  void stop_at_cores(uint32_t strand, uint32_t segment) const;
+  void stop_at_cores() const;
   void stop_at_core(uint32_t strand, uint32_t segment, const Sweep& core) const;
   Contact made(uint32_t strand, uint32_t segment, double along, const Other& other, uint64_t feature) const;
-  Contact* add(Contact contact, double depth_m, double restitution) const;
+  Contact* add(Contact& contact, double depth_m, double restitution) const;
   double rebound_m(const Contact& contact, double restitution) const;
   void set_gain(Contact* contact) const;
   Contact* add_point(const ContactPoint& point, uint64_t kind) const;

@@ -1,9 +1,17 @@
 // push_source.cpp  What a step's contacts did to the obstacles of a contact source.
+#include <algorithm>
+
 #include "rods/contact_forces.hpp"
 
 namespace sinew::rods {
+namespace {
 
-// What the iteration's linear system made of each hit's force, before its contact is looked at again.
+constexpr double kLeastShare = 1e-6;
+
+}  // namespace
+
+// What the iteration's linear system made of each hit's force, as far as the iteration was taken, before its
+// contact is looked at again.
 void ContactForces::find_felt() const {
   for (uint32_t i = to.first_hit_; i < to.hit_count_; ++i) {
     RodCollider::Taken& taken = to.taken_[i];
@@ -13,25 +21,36 @@ void ContactForces::find_felt() const {
     Contact before = c;
     before.open_m = c.open_before_m, before.slip_m = c.slip_before_m;
     const ContactForce f = forces_of(before);
-    const double press = f.press - c.gain_kg * (c.open_m - c.open_before_m);
-    const Vector drag = scaled_sum(-f.held * c.gain_kg, difference(c.slip_m, c.slip_before_m), f.drag);
-    taken.felt = f.press > 0 ? scaled_sum(press, c.normal, drag) : Vector{};
+    const double share = share_of(c), per_share = 1 / std::max(share, kLeastShare);
+    const double press = f.press - per_share * c.gain_kg * (c.open_m - c.open_before_m);
+    const Vector slipped = scaled(per_share, difference(c.slip_m, c.slip_before_m));
+    const Vector held =
+        scaled_sum((f.along - f.across) * dot(slipped, f.direction), f.direction, scaled(f.across, slipped));
+    const Vector drag = scaled_sum(-c.gain_kg, held, f.drag);
+    const Vector whole = f.active ? scaled_sum(press, c.normal, drag) : Vector{};
+    taken.felt = between(taken.felt, whole, share);
   }
 }
 
-// What all that pulled and pushed the strand's segments came to at least, times the step's square.
+// What all that pulled and pushed the strand's segments came to at least, times the step's square. Of a
+// strand that nothing holds its joints' forces cancel.
 double ContactForces::moved_kg_m(uint32_t strand) const {
-  double sum = 0;
+  double sizes = 0;
+  Vector whole = {};
+  bool held = false;
   for (uint32_t i = 0; i < batch.segment_count_; ++i) {
+    held = held || batch.at(strand, i, simd::kRodFree) == 0;
+    if (batch.at(strand, i, simd::kRodFree) == 0) continue;
     const auto by = [&](uint32_t k) {
       return static_cast<double>(*to.scratch_row(batch, strand, i, simd::kRodMove + k)) -
              static_cast<double>(*to.scratch_row(batch, strand, i, simd::kRodFreeMove + k));
     };
-    const bool free = batch.at(strand, i, simd::kRodFree) != 0;
-    const double mass = static_cast<double>(batch.at(strand, i, simd::kRodMass));
-    if (free) sum += mass * length({by(0), by(1), by(2)});
+    const Vector moved =
+        scaled(static_cast<double>(batch.at(strand, i, simd::kRodMass)), {by(0), by(1), by(2)});
+    sizes += length(moved);
+    whole = sum(whole, moved);
   }
-  return sum * static_cast<double>(batch.units_[strand].mass_kg) *
+  return (held ? sizes : length(whole)) * static_cast<double>(batch.units_[strand].mass_kg) *
          static_cast<double>(batch.units_[strand].length_m);
 }
 

@@ -48,11 +48,6 @@ double largest_of(const Vector& v) { return std::max({std::fabs(v[0]), std::fabs
 
 }  // namespace
 
-size_t RodBatch::row(uint32_t strand, uint32_t segment, uint32_t field) const noexcept {
-  const size_t group = strand / width_, lane = strand % width_;
-  return ((group * segment_count_ + slots_[segment]) * simd::kRodKeptFields + field) * width_ + lane;
-}
-
 Status RodBatch::check_place(uint32_t strand, uint32_t segment) const noexcept {
   if (strand < strand_count_ && segment < segment_count_) return {};
   return core::make_status(StatusCode::kInvalidArgument,

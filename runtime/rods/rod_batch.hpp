@@ -186,7 +186,10 @@ class RodBatch {
     double origin_m[3];
     float length_m, mass_kg, total_lengths;
   };
-  size_t row(uint32_t strand, uint32_t segment, uint32_t field) const noexcept;
+  size_t row(uint32_t strand, uint32_t segment, uint32_t field) const noexcept {
+    const size_t group = strand / width_, lane = strand % width_;
+    return ((group * segment_count_ + slots_[segment]) * simd::kRodKeptFields + field) * width_ + lane;
+  }
   // -1 where the record tells the joint to the parent from its other end: its force is minus that on the
   // parent.
   float joint_side(uint32_t segment) const noexcept { return joint_segments_[segment] == segment ? 1 : -1; }
@@ -263,5 +266,17 @@ class RodBatch {
   simd::RodStartExamples examples_{};
   uint32_t strand_count_ = 0, segment_count_ = 0, width_ = 0, teleported_ = 0, newest_ = 0;
 };
+
+inline float* RodCollider::scratch(const RodBatch& batch, uint32_t group) const noexcept {
+  if (!settings_.rods_collide) return batch.scratch_;
+  return scratch_ + size_t{group} * segment_count_ * (simd::kRodFields - simd::kRodKeptFields) * width_;
+}
+
+inline float* RodCollider::scratch_row(const RodBatch& batch, uint32_t strand, uint32_t segment,
+                                       uint32_t field) const noexcept {
+  const size_t row = size_t{batch.slots_[segment]} * (simd::kRodFields - simd::kRodKeptFields) + field -
+                     simd::kRodKeptFields;
+  return scratch(batch, strand / width_) + row * width_ + strand % width_;
+}
 
 }  // namespace sinew::rods

@@ -1,4 +1,6 @@
 // save_contacts.cpp  The contact forces of a collider as bytes.
+#include <algorithm>
+#include <cstddef>
 #include <cstring>
 
 #include "rods/collider.hpp"
@@ -12,10 +14,23 @@ struct Saved {
   Vector drag_n;
 };
 
+// A saved one where it lies, at any address.
+struct SavedBytes {
+  std::byte at[sizeof(Saved)];
+  uint64_t name() const {
+    uint64_t out;
+    std::memcpy(&out, at, sizeof out);
+    return out;
+  }
+};
+static_assert(offsetof(Saved, name) == 0);
+
 }  // namespace
 
 size_t RodCollider::state_bytes() const noexcept { return sizeof(uint64_t) + capacity_ * sizeof(Saved); }
 
+// By name: where a force lies in the table depends on how many there were, and the same forces have the same
+// bytes.
 void RodCollider::save_state(std::byte* out) const noexcept {
   uint64_t count = 0;
   for (uint32_t i = 0; i < kept_size_; ++i) {
@@ -25,11 +40,15 @@ void RodCollider::save_state(std::byte* out) const noexcept {
     std::memcpy(out + sizeof count + count++ * sizeof saved, &saved, sizeof saved);
   }
   std::memcpy(out, &count, sizeof count);
+  auto* saved = reinterpret_cast<SavedBytes*>(out + sizeof count);
+  std::sort(saved, saved + count,
+            [](const SavedBytes& a, const SavedBytes& b) { return a.name() < b.name(); });
   std::memset(out + sizeof count + count * sizeof(Saved), 0, (capacity_ - count) * sizeof(Saved));
 }
 
 void RodCollider::restore_state(const std::byte* from) noexcept {
   ++steps_;  // forgets its own
+  kept_in_use_ = kept_size_;
   uint64_t count = 0;
   std::memcpy(&count, from, sizeof count);
   for (uint64_t i = 0; i < count && i < capacity_; ++i) {

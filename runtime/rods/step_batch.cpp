@@ -42,6 +42,7 @@ void RodBatch::begin_group(uint32_t group, const simd::RodJob& job) const noexce
   const simd::RodCalls& call = calls(width_);
   const uint32_t count = std::min(width_, strand_count_ - group * width_);
   for (uint32_t i = 0; i < width_; ++i) job.lanes[simd::kLaneActive * width_ + i] = i < count ? 1.0f : 0.0f;
+  std::fill_n(job.lanes + simd::kLaneLargestShare * width_, width_, simd::kRodLargestShare);
   make_start(group, job);
   call.predict(job);
   if (settings_.solver == RodSolver::kCg) call.measure_cg(job);

@@ -21,6 +21,7 @@ Status RodCollider::take_state(const RodCollider& from) noexcept {
   }
   if (&from == this) return {};
   ++steps_;  // forgets its own
+  kept_in_use_ = kept_size_;
   for (uint32_t i = 0; i < from.kept_size_; ++i) {
     Kept kept = from.kept_[i];
     if (kept.step != from.steps_) continue;

@@ -15,6 +15,8 @@ namespace sinew::simd {
 
 // Of a segment in one step: faster spins are slowed down; and in one iteration: longer steps are shortened.
 inline constexpr float kRodLargestSpin_rad = 3, kRodLargestTurn_rad = 0.5f;
+// Of a change that an iteration takes, where nothing is touched.
+inline constexpr float kRodLargestShare = 8;
 
 enum RodField : uint32_t {
   // Fixed at creation.
@@ -80,6 +82,7 @@ enum RodLaneField : uint32_t {
   kLaneActive = kLaneGravity + 3,  // 1 while a strand is not converged, 0 afterwards and where there is none
   kLaneHeldMiss,                   // largest gap or bend squared left at joints whose child's pose is given
   kLaneShare,                      // of its change that the iteration before took
+  kLaneLargestShare,               // that the next may take
   kLaneIterations,
   kLaneCgIterations,
   kLaneCgScale,     // what kCg's residuals are measured by, squared: its zero start's first

@@ -7,7 +7,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace sinew::simd::HWY_NAMESPACE {
 
-inline constexpr float kLeastShare = 0.3f, kLargestShare = 8;
+inline constexpr float kLeastShare = 0.3f;
 
 template <class G>
 HWY_INLINE typename G::V relaxation(const G& g, const RodJob& job,
@@ -24,7 +24,7 @@ HWY_INLINE typename G::V relaxation(const G& g, const RodJob& job,
     square = hn::Add(square, dot(change, change));
   }
   const V secant = hn::Div(hn::Mul(g.lane(kLaneShare), along), hn::Max(square, hn::Set(d, 1e-30f)));
-  const V share = hn::Min(hn::Max(secant, hn::Set(d, kLeastShare)), hn::Set(d, kLargestShare));
+  const V share = hn::Min(hn::Max(secant, hn::Set(d, kLeastShare)), g.lane(kLaneLargestShare));
   return hn::IfThenElse(compares, share, one);
 }
 

@@ -119,12 +119,23 @@ TEST_CASE("a_source_of_a_capsule_holds_a_rod_as_the_capsule_does") {
   REQUIRE(own.collider.set_capsules({&bar, 1}).ok());
   test::CapsuleSource source({bar});
   REQUIRE(asked.collider.set_source(&source).ok());
+  int compared = 0;
+  bool ended = true, ended_before;
   for (int i = 0; i < 90; ++i) {
-    test::step(own.batch, own.collider);
-    CHECK(test::step(asked.batch, asked.collider).deepest_penetration < 0.05f);
+    // Each step from the same state: two bones on a bar with a friction of 1 stick or slide by a hair, and
+    // the same scene begun a tenth of a micrometre higher ends half a millimetre off.
+    REQUIRE(asked.batch.take_state(own.batch).ok());
+    const test::RodReport one = test::step(own.batch, own.collider),
+                          other = test::step(asked.batch, asked.collider);
+    CHECK(other.deepest_penetration < 0.05f);
+    // Or goes on from forces that depend on their start.
+    ended_before = ended, ended = one.contacts_unconverged + other.contacts_unconverged == 0;
+    if (!ended || !ended_before) continue;
+    ++compared;
     // Both find one contact a segment, of the same normal up to how far the bar's own sweep is advanced.
     CHECK(asked.batch.pose(0, 4).position_m[1] == Approx(own.batch.pose(0, 4).position_m[1]).margin(1e-4));
   }
+  CHECK(compared >= 70);
   CHECK(test::end_of(own.batch, test::lying_rod(0.2), 4)[1] > 0.06);
 }
 

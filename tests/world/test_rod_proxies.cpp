@@ -12,11 +12,16 @@ namespace {
 
 constexpr double kSum_m = scenes::kBarRadius_m + scenes::kTailRadius_m;
 
+// As stiff as to lie on the bar without any friction; at a fifth of that, 0.3 is too little and it slides off
+// (rods/a_limp_tail_slides_off_a_bar_unless_friction_holds_it).
+constexpr double kYoung_pa = 1e5;
+
 const scenes::PackBytes& soft_tail(bool bar) {
   static const scenes::PackBytes packs[] = {
-      scenes::soft_block({.network = false, .rods = scenes::RodMatter{.sag = 1, .young_modulus_pa = 2e4}}),
       scenes::soft_block(
-          {.network = false, .rods = scenes::RodMatter{.sag = 1, .young_modulus_pa = 2e4, .bar = true}})};
+          {.network = false, .rods = scenes::RodMatter{.sag = 1, .young_modulus_pa = kYoung_pa}}),
+      scenes::soft_block({.network = false,
+                          .rods = scenes::RodMatter{.sag = 1, .young_modulus_pa = kYoung_pa, .bar = true}})};
   return packs[bar];
 }
 
