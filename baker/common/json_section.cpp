@@ -98,6 +98,17 @@ Eigen::VectorXd JsonSection::numbers(const std::string& key, long count, double 
   return numbers;
 }
 
+std::vector<int> JsonSection::whole_numbers(const std::string& key, int low, int high) {
+  const nlohmann::json& value = need(key);
+  if (!value.is_array()) complain(key, "must be a list of whole numbers");
+  std::vector<int> out;
+  for (const double number : numbers(key, static_cast<long>(value.size()), low, high)) {
+    if (number != std::floor(number)) complain(key, "must be a list of whole numbers");
+    out.push_back(static_cast<int>(number));
+  }
+  return out;
+}
+
 Eigen::Vector3d JsonSection::vector3(const std::string& key, const Eigen::Vector3d& otherwise, double low,
                                      double high) {
   if (!has(key)) return otherwise;

@@ -21,6 +21,7 @@ class JsonSection {
   std::string text(const std::string& key, const std::string& otherwise);
   std::vector<std::string> texts(const std::string& key);                                // absent: none
   Eigen::VectorXd numbers(const std::string& key, long count, double low, double high);  // must be there
+  std::vector<int> whole_numbers(const std::string& key, int low, int high);             // must be there
   Eigen::Vector3d vector3(const std::string& key, const Eigen::Vector3d& otherwise, double low, double high);
   Eigen::Vector3d color(const std::string& key);  // "#rrggbb"; 0 .. 1 each
   std::vector<Eigen::VectorXd> rows(const std::string& key, long count, double low,

@@ -63,27 +63,61 @@ void order_for_cache(std::vector<int>& nodes, Edges& edges) {
   std::ranges::sort(edges);
 }
 
-void append_region(const Character& character, const Surface& surface, const Recipe& recipe,
-                   const SoftParts& parts, int id, TissueLayout& layout) {
-  const std::vector<int> vertices = part_vertices(parts, id), rim = rim_vertices(surface, parts, id);
-  const PartSurface part{character, surface, parts.part, id, vertices, rim};
-  std::vector<int> nodes = sample_nodes(part, layout.stiffness, recipe.nodes_per_region);
-  Edges edges = connect_nodes(part, nodes, recipe.neighbours);
-  order_for_cache(nodes, edges);
+// A part of the surface that becomes a region.
+struct Part {
+  const Character& character;
+  const Surface& surface;
+  const SoftParts& parts;
+  int id;
+  std::vector<int> vertices = part_vertices(parts, id), rim = rim_vertices(surface, parts, id);
+  PartSurface view() const { return {character, surface, parts.part, id, vertices, rim}; }
+};
 
+void append_region(const Part& part, const Recipe& recipe, const std::vector<int>& nodes, const Edges& edges,
+                   TissueLayout& layout) {
+  const Character& character = part.character;
   Region region;
-  region.name = region_name(character, recipe, layout.stiffness, vertices);
-  region.frame_joint = frame_joint(character, rim, vertices);
+  region.name = region_name(character, recipe, layout.stiffness, part.vertices);
+  region.frame_joint = frame_joint(character, part.rim, part.vertices);
   region.first_node = static_cast<int>(layout.nodes.size());
   region.node_count = static_cast<int>(nodes.size());
-  region.vertices = carried_vertices(character, parts, id);
+  region.vertices = carried_vertices(character, part.parts, part.id);
   const std::vector<Vector3> node_places = places(character, nodes);
   measure(node_places, region);
-  region.carry = carry_weights(node_places, places(character, sample_rim(character, rim, kRimAnchors)),
+  region.carry = carry_weights(node_places, places(character, sample_rim(character, part.rim, kRimAnchors)),
                                places(character, region.vertices));
   for (const auto& [a, b] : edges) layout.edges.emplace_back(region.first_node + a, region.first_node + b);
   append_nodes(character, nodes, static_cast<int>(layout.regions.size()), layout);
   layout.regions.push_back(std::move(region));
+}
+
+void append_finest(const Part& part, const Recipe& recipe, TissueLayout& layout) {
+  std::vector<int> nodes = sample_nodes(part.view(), layout.stiffness, recipe.nodes_per_region);
+  Edges edges = connect_nodes(part.view(), nodes, recipe.neighbours);
+  order_for_cache(nodes, edges);
+  append_region(part, recipe, nodes, edges, layout);
+}
+
+// In the order in which the finest region has them.
+void put_in_order_of(const TissueLayout& finest, const Region& region, std::vector<int>& nodes) {
+  const auto begin = finest.nodes.begin() + region.first_node;
+  const auto place = [&](int vertex) {
+    return std::find_if(begin, begin + region.node_count,
+                        [&](const ControlNode& node) { return node.vertex == vertex; });
+  };
+  std::ranges::sort(nodes, {}, place);
+}
+
+void append_coarser(const Part& part, const Recipe& recipe, const TissueLayout& finest, int held, int count,
+                    TissueLayout& layout) {
+  const Region& region = finest.regions[static_cast<size_t>(part.id)];
+  std::vector<int> nodes = sample_nodes(part.view(), layout.stiffness, std::min(count, region.node_count));
+  if (std::ranges::find(nodes, held) == nodes.end()) nodes.back() = held;
+  put_in_order_of(finest, region, nodes);
+  append_region(part, recipe, nodes, connect_nodes(part.view(), nodes, recipe.neighbours), layout);
+  layout.regions.back().name = region.name;
+  layout.regions.back().center = region.center;
+  layout.regions.back().radius_m = region.radius_m;
 }
 
 // Flesh that a rod's bones move by more than this is not soft: rim of both, it would swing twice.
@@ -115,8 +149,21 @@ TissueLayout layout_tissue(Character& character, const Recipe& recipe) {
     throw BadInput(character.name + ": no part of the surface is soft (stiffness below " +
                    std::to_string(recipe.rigid_stiffness) +
                    "); paint _STIFFNESS, or name soft joints in the recipe's regions");
-  for (int id = 0; id < parts.count; ++id) append_region(character, surface, recipe, parts, id, layout);
+  for (int id = 0; id < parts.count; ++id) append_finest({character, surface, parts, id}, recipe, layout);
   distinguish_names(layout.regions);
+  return layout;
+}
+
+TissueLayout coarser_layout(const Character& character, const Recipe& recipe, const TissueLayout& finest,
+                            const std::vector<int>& held, int nodes_per_region) {
+  Character again = character;  // its notes were made with the finest
+  const Surface surface = find_surface(again);
+  TissueLayout layout;
+  layout.stiffness = finest.stiffness;
+  const SoftParts parts = find_soft_parts(again, surface, recipe, layout.stiffness);
+  for (int id = 0; id < parts.count; ++id)
+    append_coarser({again, surface, parts, id}, recipe, finest, held[static_cast<size_t>(id)],
+                   nodes_per_region, layout);
   return layout;
 }
 

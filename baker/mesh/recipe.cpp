@@ -1,12 +1,15 @@
 // recipe.cpp  The tissue recipe's JSON, every key checked.
 #include "baker/mesh/recipe.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "baker/common/bad_input.hpp"
 #include "baker/common/json_section.hpp"
 #include "baker/common/read_file.hpp"
+#include "pack/format.hpp"
 
 namespace sinew::baker {
 namespace {
@@ -32,8 +35,26 @@ void read_material(JsonSection& section, Recipe& recipe) {
   recipe.coreless_joints = section.texts("coreless_joints");
 }
 
+constexpr int kFewestNodes = 4, kMostNodes = 4096;
+
+// "levels": [40, 20, 10] in the place of "nodes_per_region".
+void read_levels(JsonSection& section, Recipe& recipe) {
+  if (section.has("nodes_per_region")) section.complain("levels", "states nodes_per_region too; give one");
+  std::vector<int> levels = section.whole_numbers("levels", kFewestNodes, kMostNodes);
+  if (levels.empty() || levels.size() > pack::kMostGraphLevels)
+    section.complain("levels", "must list 1 .. 4 numbers of nodes a region");
+  if (std::ranges::adjacent_find(levels, std::less_equal<>()) != levels.end())
+    section.complain("levels", "must descend: the finest control graph comes first");
+  recipe.nodes_per_region = levels.front();
+  recipe.coarser_nodes.assign(levels.begin() + 1, levels.end());
+}
+
 void read_graph(JsonSection& section, Recipe& recipe) {
-  recipe.nodes_per_region = whole_number(section, "nodes_per_region", recipe.nodes_per_region, 4, 4096);
+  if (section.has("levels"))
+    read_levels(section, recipe);
+  else
+    recipe.nodes_per_region =
+        whole_number(section, "nodes_per_region", recipe.nodes_per_region, kFewestNodes, kMostNodes);
   recipe.neighbours = whole_number(section, "neighbours", recipe.neighbours, 2, 16);
   recipe.unit_m = section.number("unit_m", recipe.unit_m, 0, 1e6);
   const std::string up = section.text("up", std::string(1, recipe.up));

@@ -43,4 +43,10 @@ struct TissueLayout {
 // vertices is dropped with a note, a recipe's joint that does not exist (named).
 TissueLayout layout_tissue(Character& character, const Recipe& recipe);
 
+// The same soft parts under fewer control nodes: the first that layout_tissue chose in each region, and the
+// one that it is held at, for a region's nodes are told against that one at every level. Regions keep their
+// centre and radius. held: of each region of `finest`, its vertex. Rods and proxies are left out.
+TissueLayout coarser_layout(const Character& character, const Recipe& recipe, const TissueLayout& finest,
+                            const std::vector<int>& held, int nodes_per_region);
+
 }  // namespace sinew::baker

@@ -45,7 +45,7 @@ double height_of(const Character& character) {
   return high->y() - low->y();
 }
 
-void add_record(const Character& character, const TissueLayout& layout, PackWriter& pack) {
+void add_record(const Character& character, const TissueLayout& layout, size_t coarser, PackWriter& pack) {
   pack::CharacterRecord record{};
   record.name = pack.string(character.name);
   record.vertex_count = to_u32(character.positions.size());
@@ -57,6 +57,7 @@ void add_record(const Character& character, const TissueLayout& layout, PackWrit
   record.height_m = static_cast<float>(height_of(character));
   record.rod_count = to_u32(layout.rods.size());
   record.proxy_count = to_u32(layout.proxies.size());
+  record.coarser_count = to_u32(coarser);
   pack.section(SectionKind::kCharacter, std::vector{record});
 }
 
@@ -143,8 +144,9 @@ pack::RegionRecord to_record(const Region& region, const ModalBasis& basis, floa
   return record;
 }
 
-void add_regions(const TissueLayout& layout, const std::vector<ModalBasis>& modes, float displacement_limit,
-                 PackWriter& pack) {
+// Returns the floats of the carrying weights.
+uint64_t add_regions(const TissueLayout& layout, const std::vector<ModalBasis>& modes,
+                     float displacement_limit, bool first, PackWriter& pack) {
   std::vector<pack::RegionRecord> regions;
   std::vector<uint32_t> vertices;
   std::vector<float> carry;
@@ -158,21 +160,102 @@ void add_regions(const TissueLayout& layout, const std::vector<ModalBasis>& mode
     append_carry(region, record.padded_vertices, &carry);
     regions.push_back(record);
   }
-  pack.section(SectionKind::kRegions, regions);
-  pack.section(SectionKind::kRegionVertices, vertices);
-  pack.section(SectionKind::kCarry, carry);
+  pack.append(SectionKind::kRegions, regions);
+  pack.append(SectionKind::kCarry, carry);
+  if (first) pack.section(SectionKind::kRegionVertices, vertices);
+  return carry.size();
 }
 
 void add_nodes(const TissueLayout& layout, PackWriter& pack) {
   std::vector<pack::NodeRecord> nodes;
   for (const ControlNode& node : layout.nodes) nodes.push_back(node_record(node));
-  pack.section(SectionKind::kNodes, nodes);
+  pack.append(SectionKind::kNodes, nodes);
 }
 
 void add_graph(const GraphRows& graph, PackWriter& pack) {
-  pack.section(SectionKind::kGraphRows, graph.rows);
-  pack.section(SectionKind::kGraphColumns, graph.columns);
-  pack.section(SectionKind::kGraphValues, graph.values);
+  pack.append(SectionKind::kGraphRows, graph.rows);
+  pack.append(SectionKind::kGraphColumns, graph.columns);
+  pack.append(SectionKind::kGraphValues, graph.values);
+}
+
+// ---- its levels ----
+
+struct TissueOptions {
+  float displacement_limit;
+  TickGrid grid;
+  std::string where;  // of complaints
+};
+
+pack::LevelRecord add_tissue(const TissueLayout& layout, const std::vector<ModalBasis>& modes,
+                             const TissueOptions& options, bool first, PackWriter& pack) {
+  check_modes(layout, modes);
+  pack::LevelRecord record{};
+  record.node_count = to_u32(layout.nodes.size());
+  record.carry_floats = add_regions(layout, modes, options.displacement_limit, first, pack);
+  add_nodes(layout, pack);
+  const GraphRows graph = normalized_adjacency(layout.nodes.size(), layout.edges, options.where);
+  record.graph_entries = to_u32(graph.columns.size());
+  add_graph(graph, pack);
+  record.matrix_floats = add_modes(layout, modes, options.grid, first, pack);
+  return record;
+}
+
+void check_fits(const TissueLayout& finer, const TissueLayout& coarser) {
+  bool fits = finer.regions.size() == coarser.regions.size();
+  for (size_t r = 0; fits && r < finer.regions.size(); ++r)
+    fits = finer.regions[r].vertices == coarser.regions[r].vertices;
+  if (!fits) throw BadInput("a coarser control graph has other regions than the finer one");
+}
+
+size_t node_on(const TissueLayout& layout, const ControlNode& node) {
+  const Region& region = layout.regions[static_cast<size_t>(node.region)];
+  for (int n = region.first_node; n < region.first_node + region.node_count; ++n)
+    if (layout.nodes[static_cast<size_t>(n)].vertex == node.vertex) return static_cast<size_t>(n);
+  throw BadInput("region '" + region.name + "': a coarser control graph has a node on vertex " +
+                 std::to_string(node.vertex) + ", where the finer one has none");
+}
+
+void add_picks(const TissueLayout& finer, const TissueLayout& coarser, PackWriter& pack) {
+  std::vector<uint32_t> picks;
+  for (const ControlNode& node : coarser.nodes) picks.push_back(to_u32(node_on(finer, node)));
+  pack.append(SectionKind::kPicks, picks);
+}
+
+// A coarser node's weights on a finer region's nodes: those on the vertices that they stand on.
+void append_spread(const TissueLayout& finer, const Region& region, const std::vector<double>& carry,
+                   std::vector<float>* spread) {
+  for (int n = region.first_node; n < region.first_node + region.node_count; ++n) {
+    const int vertex = finer.nodes[static_cast<size_t>(n)].vertex;
+    const auto at = std::ranges::lower_bound(region.vertices, vertex) - region.vertices.begin();
+    spread->push_back(static_cast<float>(carry[static_cast<size_t>(at)]));
+  }
+  spread->resize((spread->size() + 15) / 16 * 16, 0.0f);
+}
+
+// Returns its floats.
+uint64_t add_spread(const TissueLayout& finer, const TissueLayout& coarser, PackWriter& pack) {
+  std::vector<float> spread;
+  for (size_t r = 0; r < coarser.regions.size(); ++r)
+    for (const std::vector<double>& carry : coarser.regions[r].carry)
+      append_spread(finer, finer.regions[r], carry, &spread);
+  pack.append(SectionKind::kSpread, spread);
+  return spread.size();
+}
+
+std::vector<pack::LevelRecord> add_levels(const TissueLayout& layout, const std::vector<ModalBasis>& modes,
+                                          std::span<const GraphLevel> coarser, const TissueOptions& options,
+                                          PackWriter& pack) {
+  std::vector<pack::LevelRecord> records = {add_tissue(layout, modes, options, true, pack)};
+  const TissueLayout* finer = &layout;
+  for (const GraphLevel& level : coarser) {
+    check_fits(*finer, level.layout);
+    records.push_back(add_tissue(level.layout, level.modes, options, false, pack));
+    add_picks(*finer, level.layout, pack);
+    records.back().spread_floats = add_spread(*finer, level.layout, pack);
+    finer = &level.layout;
+  }
+  if (!coarser.empty()) pack.section(SectionKind::kLevels, records);
+  return records;
 }
 
 // ---- weights ----
@@ -206,10 +289,17 @@ float number_of(const Safetensors* weights, const std::string& key, float fallba
   return weights == nullptr ? fallback : metadata_number(*weights, key, fallback, low, high);
 }
 
-void add_tiers(const Safetensors* weights, const TierWork& work, PackWriter& pack) {
+void add_tiers(const Safetensors* weights, const std::vector<pack::LevelRecord>& levels,
+               const std::vector<pack::LayerRecord>& layers, size_t rod_segments, PackWriter& pack) {
   constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN(), kLargest = 1e6f;
   const float error_mm = number_of(weights, "error_mm", kUnknown, 0, kLargest);
   const float error_ratio = number_of(weights, "error_ratio", kUnknown, 0, kLargest);
+  std::vector<TierWork> work;
+  for (const pack::LevelRecord& level : levels)
+    work.push_back({.nodes = level.node_count,
+                    .mode_floats = level.matrix_floats,
+                    .network_multiply_adds = multiply_adds(layers, level.node_count, level.graph_entries),
+                    .rod_segments = rod_segments});
   pack.section(SectionKind::kTiers, make_tiers(work, error_mm, error_ratio));
 }
 
@@ -232,35 +322,26 @@ std::vector<pack::LayerRecord> add_no_network(PackWriter& pack) {
 
 std::vector<std::byte> pack_character(const Character& character, const TissueLayout& layout,
                                       const std::vector<ModalBasis>& modes, const Safetensors* weights,
-                                      pack::Precision precision, std::span<const HeardRanges> ranges) {
+                                      pack::Precision precision, std::span<const HeardRanges> ranges,
+                                      std::span<const GraphLevel> coarser) {
   if (weights != nullptr) check_wiring(*weights);
   check_joint_count(character);
   PackWriter pack(pack::FileKind::kCharacter);
   const std::vector<pack::LayerRecord> layers =
       weights != nullptr ? add_network(*weights, pack, precision, ranges) : add_no_network(pack);
-  add_record(character, layout, pack);
+  add_record(character, layout, coarser.size(), pack);
   add_joints(character, pack);
   add_mesh(character, pack);
   add_clips(character, pack);
-  check_modes(layout, modes);
-  add_regions(layout, modes, number_of(weights, "displacement_limit", kDisplacementLimit, 1e-3f, 100), pack);
-  add_nodes(layout, pack);
-  const GraphRows graph =
-      normalized_adjacency(layout.nodes.size(), layout.edges, character.name + ": control graph");
-  add_graph(graph, pack);
+  const TissueOptions options{
+      .displacement_limit = number_of(weights, "displacement_limit", kDisplacementLimit, 1e-3f, 100),
+      .grid = {.rate_hz = number_of(weights, "rate_hz", kRate_hz, 1, 1000),
+               .substeps = static_cast<int>(number_of(weights, "base_substeps", kSubsteps, 1, 64))},
+      .where = character.name + ": control graph"};
+  const std::vector<pack::LevelRecord> levels = add_levels(layout, modes, coarser, options, pack);
   add_rods(character, layout.rods, pack);
   add_proxies(layout.proxies, pack);
-  const uint64_t mode_floats =
-      add_modes(layout, modes,
-                {.rate_hz = number_of(weights, "rate_hz", kRate_hz, 1, 1000),
-                 .substeps = static_cast<int>(number_of(weights, "base_substeps", kSubsteps, 1, 64))},
-                pack);
-  add_tiers(weights,
-            {.nodes = layout.nodes.size(),
-             .mode_floats = mode_floats,
-             .network_multiply_adds = multiply_adds(layers, layout.nodes.size(), graph.columns.size()),
-             .rod_segments = rod_segments(layout)},
-            pack);
+  add_tiers(weights, levels, layers, rod_segments(layout), pack);
   return pack.finish();
 }
 

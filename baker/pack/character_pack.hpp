@@ -8,24 +8,26 @@
 #include "baker/import/character.hpp"
 #include "baker/mesh/tissue_layout.hpp"
 #include "baker/pack/int8_pack.hpp"
-#include "baker/truth/modal_basis.hpp"
+#include "baker/truth/graph_level.hpp"
 
 namespace sinew::baker {
 
 inline constexpr double kClipRateHz = 60;
-// The whole file; `modes`: one basis a region. Without weights (null) it has the tiers modal and spring, at
-// 60 Hz. precision, ranges: as add_network takes them. Beyond network_pack's keys, reads from the weights'
-// metadata:
+// The whole file; `modes`: one basis a region; `coarser`: control graphs beside it, each with fewer nodes
+// than the one before. Without weights (null) it has the tiers modal and spring, at 60 Hz. precision, ranges:
+// as add_network takes them. Beyond network_pack's keys, reads from the weights' metadata:
 //   frame, base          must be "bent" and "modal": what the network was trained on
 //   base_substeps        of the truth that it was trained on (default 4)
 //   displacement_limit   share of a region's radius (default 0.75)
 //   error_mm, error_ratio   of the network on held-out motion; absent: not measured
 // Throws BadInput: weights without `inputs`, or of another frame or base; more than 65,535 joints, a clip of
-// more than ten minutes, a basis that does not fit its region, and what add_network refuses.
+// more than ten minutes, a basis that does not fit its region, a coarser graph that is not part of the finer
+// one, and what add_network refuses.
 std::vector<std::byte> pack_character(const Character& character, const TissueLayout& layout,
                                       const std::vector<ModalBasis>& modes,
                                       const Safetensors* weights = nullptr,
                                       pack::Precision precision = pack::Precision::kFloat32,
-                                      std::span<const HeardRanges> ranges = {});
+                                      std::span<const HeardRanges> ranges = {},
+                                      std::span<const GraphLevel> coarser = {});
 
 }  // namespace sinew::baker

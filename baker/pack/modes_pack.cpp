@@ -134,15 +134,17 @@ void check_modes(const TissueLayout& layout, const std::vector<ModalBasis>& mode
 }
 
 uint64_t add_modes(const TissueLayout& layout, const std::vector<ModalBasis>& modes, const TickGrid& grid,
-                   PackWriter& pack) {
+                   bool first, PackWriter& pack) {
   check_modes(layout, modes);
   Sections sections;
   for (size_t r = 0; r < modes.size(); ++r) append_region(layout.regions[r], modes[r], grid, &sections);
-  pack.section(SectionKind::kRegionModes, sections.regions);
-  pack.section(SectionKind::kModes, sections.modes);
-  pack.section(SectionKind::kModeMatrices, sections.matrices);
-  pack.section(SectionKind::kCompliance, sections.compliance, 9);
-  pack.section(SectionKind::kSprings, sections.springs);
+  pack.append(SectionKind::kRegionModes, sections.regions);
+  pack.append(SectionKind::kModeMatrices, sections.matrices);
+  pack.append(SectionKind::kCompliance, sections.compliance, 9);
+  if (first) {
+    pack.section(SectionKind::kModes, sections.modes);
+    pack.section(SectionKind::kSprings, sections.springs);
+  }
   return sections.matrices.size();
 }
 

@@ -36,9 +36,10 @@ inline constexpr double kRidge = 1e-3;
 // numbers that are not finite.
 void check_modes(const TissueLayout& layout, const std::vector<ModalBasis>& modes);
 
-// Sections kRegionModes, kModes, kModeMatrices, kCompliance and kSprings; `modes` has one basis a region.
-// Returns the floats of the matrices. Throws BadInput as check_modes does.
+// Behind what the sections kRegionModes, kModeMatrices and kCompliance hold, a control graph's part; with the
+// first, kModes and kSprings. `modes` has one basis a region. Returns the floats of the matrices. Throws
+// BadInput as check_modes does.
 uint64_t add_modes(const TissueLayout& layout, const std::vector<ModalBasis>& modes, const TickGrid& grid,
-                   PackWriter& pack);
+                   bool first, PackWriter& pack);
 
 }  // namespace sinew::baker

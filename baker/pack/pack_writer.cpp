@@ -35,6 +35,13 @@ void PackWriter::add(pack::SectionKind kind, uint32_t element_bytes, const void*
   sections_[static_cast<uint32_t>(kind)] = {element_bytes, std::vector<std::byte>(first, first + bytes)};
 }
 
+void PackWriter::add_behind(pack::SectionKind kind, uint32_t element_bytes, const void* data, size_t bytes) {
+  Section& section = sections_[static_cast<uint32_t>(kind)];
+  const auto* first = static_cast<const std::byte*>(data);
+  section.element_bytes = element_bytes;
+  section.bytes.insert(section.bytes.end(), first, first + bytes);
+}
+
 uint32_t PackWriter::string(const std::string& text) {
   const std::string stored = text.substr(0, text.find('\0')) + '\0';
   for (size_t at = 0; at < strings_.size(); at = strings_.find('\0', at) + 1)

@@ -18,11 +18,15 @@ class PackWriter {
   static PackWriter from_pack(std::span<const std::byte> bytes);
   template <class T>
   void section(pack::SectionKind kind, const std::vector<T>& elements, size_t per_element = 1);
+  // Behind what the section holds already.
+  template <class T>
+  void append(pack::SectionKind kind, const std::vector<T>& elements, size_t per_element = 1);
   uint32_t string(const std::string& text);  // offset in kStrings; equal texts share one
   std::vector<std::byte> finish() const;     // a section without elements is left out
 
  private:
   void add(pack::SectionKind kind, uint32_t element_bytes, const void* data, size_t bytes);
+  void add_behind(pack::SectionKind kind, uint32_t element_bytes, const void* data, size_t bytes);
   struct Section {
     uint32_t element_bytes;
     std::vector<std::byte> bytes;
@@ -35,6 +39,12 @@ class PackWriter {
 template <class T>
 void PackWriter::section(pack::SectionKind kind, const std::vector<T>& elements, size_t per_element) {
   add(kind, static_cast<uint32_t>(sizeof(T) * per_element), elements.data(), elements.size() * sizeof(T));
+}
+
+template <class T>
+void PackWriter::append(pack::SectionKind kind, const std::vector<T>& elements, size_t per_element) {
+  add_behind(kind, static_cast<uint32_t>(sizeof(T) * per_element), elements.data(),
+             elements.size() * sizeof(T));
 }
 
 }  // namespace sinew::baker

@@ -31,29 +31,47 @@ uint64_t multiply_adds(std::span<const pack::LayerRecord> layers, size_t nodes, 
   return total + graph_entries * outputs;
 }
 
-std::vector<pack::TierRecord> make_tiers(const TierWork& work, float error_mm, float error_ratio) {
+namespace {
+
+struct TierOps {
+  uint64_t extrapolation, spring, modal, network;
+};
+
+TierOps ops_of(const TierWork& work) {
   // A node's share: its damped coordinates; its frame, drive and spring; its terms and warp. The last two are
   // scalar code: so many multiply-adds of the kernels take as long.
   constexpr uint64_t kExtrapolationOps = 3, kSpringOps = 1900, kModalOps = 1100, kRodSegmentOps = 30000;
   const uint64_t spring = work.nodes * kSpringOps + work.rod_segments * kRodSegmentOps;
   const uint64_t modal = spring + work.nodes * kModalOps + work.mode_floats;
+  return {work.nodes * kExtrapolationOps, spring, modal, modal + work.network_multiply_adds};
+}
+
+pack::TierRecord record_of(Tier tier, uint32_t level, uint64_t ops, float mm = kNotMeasured,
+                           float ratio = kNotMeasured) {
+  return {.tier = static_cast<uint32_t>(tier),
+          .every = 1,
+          .cost_us = cost_us(ops),
+          .cost_p99_us = kNotMeasured,
+          .error_mm = mm,
+          .error_ratio = ratio,
+          .error_p95_mm = kNotMeasured,
+          .level = level};
+}
+
+}  // namespace
+
+std::vector<pack::TierRecord> make_tiers(std::span<const TierWork> work, float error_mm, float error_ratio) {
   const float skinning_mm = error_ratio > 0 ? error_mm / error_ratio : kNotMeasured;
-  const auto record = [](Tier tier, uint64_t ops, float mm = kNotMeasured, float ratio = kNotMeasured) {
-    return pack::TierRecord{.tier = static_cast<uint32_t>(tier),
-                            .every = 1,
-                            .cost_us = cost_us(ops),
-                            .cost_p99_us = kNotMeasured,
-                            .error_mm = mm,
-                            .error_ratio = ratio,
-                            .error_p95_mm = kNotMeasured,
-                            .reserved = 0};
-  };
-  std::vector<pack::TierRecord> tiers = {record(Tier::kSkinning, 0, skinning_mm, 1),  // 1 by definition
-                                         record(Tier::kExtrapolate, work.nodes * kExtrapolationOps)};
-  if (work.network_multiply_adds > 0)
-    tiers.push_back(record(Tier::kNetwork, modal + work.network_multiply_adds, error_mm, error_ratio));
-  tiers.push_back(record(Tier::kSpring, spring));
-  tiers.push_back(record(Tier::kModal, modal));
+  std::vector<TierOps> ops;
+  for (const TierWork& level : work) ops.push_back(ops_of(level));
+  std::vector<pack::TierRecord> tiers = {record_of(Tier::kSkinning, 0, 0, skinning_mm, 1),  // 1 by definition
+                                         record_of(Tier::kExtrapolate, 0, ops[0].extrapolation)};
+  if (work[0].network_multiply_adds > 0) {
+    tiers.push_back(record_of(Tier::kNetwork, 0, ops[0].network, error_mm, error_ratio));
+    for (uint32_t l = 1; l < ops.size(); ++l) tiers.push_back(record_of(Tier::kNetwork, l, ops[l].network));
+  }
+  for (uint32_t l = 0; l < ops.size(); ++l) tiers.push_back(record_of(Tier::kSpring, l, ops[l].spring));
+  for (uint32_t l = 0; l < ops.size(); ++l) tiers.push_back(record_of(Tier::kModal, l, ops[l].modal));
   return tiers;
 }
 

@@ -24,8 +24,8 @@ struct TierWork {
   size_t rod_segments = 0;             // in every simulated tier
 };
 
-// Every tier that the work allows, simulated every tick; the errors are the network's, NaN where not
-// measured.
-std::vector<pack::TierRecord> make_tiers(const TierWork& work, float error_mm, float error_ratio);
+// Every tier that the work allows at every level of control graphs, `work`'s finest first, simulated every
+// tick; the errors are the network's at the finest, NaN where not measured.
+std::vector<pack::TierRecord> make_tiers(std::span<const TierWork> work, float error_mm, float error_ratio);
 
 }  // namespace sinew::baker

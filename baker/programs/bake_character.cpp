@@ -64,11 +64,18 @@ std::vector<HeardRanges> int8_ranges(const CharacterOptions& options, const Safe
                  kBeyondVectors);
 }
 
+struct Bases {
+  std::vector<ModalBasis> finest;
+  std::vector<GraphLevel> coarser;
+};
+
 // A character of rods alone has no tissue.
-std::vector<ModalBasis> modal_bases(const Character& character, const TissueLayout& layout,
-                                    const Recipe& recipe) {
+Bases modal_bases(const Character& character, const TissueLayout& layout, const Recipe& recipe) {
   if (layout.regions.empty()) return {};
-  return TissueTruth(character, layout, recipe).modal_bases(layout, kMostModes);
+  TissueTruth truth(character, layout, recipe);
+  Bases bases{truth.modal_bases(layout, kMostModes), {}};
+  bases.coarser = coarser_levels(character, recipe, truth, layout, bases.finest);
+  return bases;
 }
 
 void run_character(const CharacterOptions& options) {
@@ -78,9 +85,10 @@ void run_character(const CharacterOptions& options) {
   if (!options.tissue.empty()) weights = read_safetensors(options.tissue);
   Character character = import_character(options, recipe);
   const TissueLayout layout = layout_tissue(character, recipe);
-  const std::vector<ModalBasis> modes = modal_bases(character, layout, recipe);
+  const Bases bases = modal_bases(character, layout, recipe);
   const auto packed = [&](pack::Precision in, std::span<const HeardRanges> ranges) {
-    return pack_character(character, layout, modes, weights ? &*weights : nullptr, in, ranges);
+    return pack_character(character, layout, bases.finest, weights ? &*weights : nullptr, in, ranges,
+                          bases.coarser);
   };
   std::vector<HeardRanges> ranges;
   if (precision == pack::Precision::kInt8)

@@ -24,14 +24,14 @@ ClosedLoop::ClosedLoop(const LoadedPack& character, const TrueMotion& motion) : 
   Status status = world::open_asset(character.bytes(), &asset_);
   if (status.ok()) status = world::make_instance(asset_, {}, &instance_);
   if (!status.ok()) throw BadInput(status.message);
-  step(Tier::kSkinning, 1);  // the first pose was held; what the tissue feels begins with the next
+  step(Tier::kSkinning, 1, 0);  // the first pose was held; what the tissue feels begins with the next
 }
 
 void ClosedLoop::tick() { tick(asset_.best()); }
 
-void ClosedLoop::tick(Tier tier, uint32_t every) {
+void ClosedLoop::tick(Tier tier, uint32_t every, uint32_t level) {
   ++tick_;
-  step(tier, every);
+  step(tier, every, level);
 }
 
 void ClosedLoop::save(Checkpoint* to) const {
@@ -48,7 +48,7 @@ void ClosedLoop::restore(const Checkpoint& from) {
 }
 
 // A step of one tick, ending at the pose of tick_; a guard may have ruled the tier out, as in world/step.cpp.
-void ClosedLoop::step(Tier tier, uint32_t every) {
+void ClosedLoop::step(Tier tier, uint32_t every, uint32_t level) {
   world::InstanceState& state = *instance_.state;
   std::ranges::copy(motion_.joints(tick_), instance_.next_joints);
   state.next_root = motion_.root(tick_);
@@ -58,6 +58,7 @@ void ClosedLoop::step(Tier tier, uint32_t every) {
   instance_.plan = {.ticks = {.ticks = 1, .first_tick_s = asset_.tick_s},
                     .dt_s = asset_.tick_s,
                     .tier = tier,
+                    .level = level,
                     .every = every};
   const uint64_t start_ns = thread_ns();
   world::step_instance(instance_, {});

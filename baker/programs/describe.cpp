@@ -86,6 +86,21 @@ Json describe_regions(const pack::PackView& view) {
   return regions;
 }
 
+Json describe_levels(const pack::PackView& view) {
+  Json levels = Json::array();
+  for (uint32_t l = 0; l < view.level_count; ++l) {
+    const pack::LevelView& level = view.levels[l];
+    uint32_t most = 0;
+    for (const pack::RegionRecord& region : level.regions) most = std::max(most, region.node_count);
+    levels.push_back({{"nodes", level.nodes.size()},
+                      {"nodes_a_region", most},
+                      {"graph_entries", level.graph_columns.size()},
+                      {"multiply_adds_a_tick",
+                       multiply_adds(view.layers, level.nodes.size(), level.graph_columns.size())}});
+  }
+  return levels;
+}
+
 Json describe_rods(const pack::PackView& view) {
   Json rods = Json::array();
   for (const pack::RodRecord& rod : view.rods) {
@@ -128,6 +143,7 @@ Json describe_tiers(const pack::PackView& view) {
   Json tiers = Json::array();
   for (const pack::TierRecord& tier : view.tiers)
     tiers.push_back({{"tier", kNames[tier.tier]},
+                     {"level", tier.level},
                      {"every", tier.every},
                      {"cost_us", tier.cost_us},
                      {"cost_p99_us", tier.cost_p99_us},
@@ -154,6 +170,7 @@ Json describe_pack(const LoadedPack& pack) {
   description["network"] = describe_network(view);
   if (is_character) {
     description["regions"] = describe_regions(view);
+    if (view.level_count > 1) description["levels"] = describe_levels(view);
     if (!view.rods.empty()) description["rods"] = describe_rods(view);
     if (!view.proxies.empty()) description["proxies"] = view.proxies.size();
     description["clips"] = describe_clips(view);

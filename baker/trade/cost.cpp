@@ -42,12 +42,12 @@ class Steps {
 };
 
 // True where the step counts.
-bool step(ClosedLoop& loop, size_t tick, Tier tier, uint32_t every) {
+bool step(ClosedLoop& loop, size_t tick, Tier tier, uint32_t every, uint32_t level) {
   const bool begins = tier == Tier::kExtrapolate && tick % (kCarriedTicks + 1) == 0;
   if (begins)
     loop.tick();
   else
-    loop.tick(tier, every);
+    loop.tick(tier, every, level);
   return !begins;
 }
 
@@ -63,12 +63,12 @@ size_t crowd_of(const LoadedPack& character, const TrueMotion& motion) {
 
 namespace {
 
-Cost along(const LoadedPack& character, const TrueMotion& motion, Tier tier, uint32_t every) {
+Cost along(const LoadedPack& character, const TrueMotion& motion, Tier tier, uint32_t every, uint32_t level) {
   ClosedLoop loop(character, motion);
   Steps steps;
   const size_t last = std::min(motion.ticks(), kMostTicks);
   for (size_t tick = 1; tick <= last; ++tick) {
-    const bool counts = step(loop, tick - 1, tier, every);
+    const bool counts = step(loop, tick - 1, tier, every, level);
     if (counts && tick > std::min(kWarmUpTicks, last / 2)) steps.add(loop);
   }
   return steps.cost();
@@ -76,16 +76,18 @@ Cost along(const LoadedPack& character, const TrueMotion& motion, Tier tier, uin
 
 }  // namespace
 
-Cost warm_cost(const LoadedPack& character, const TrueMotion& motion, Tier tier, uint32_t every) {
-  Cost best = along(character, motion, tier, every);
+Cost warm_cost(const LoadedPack& character, const TrueMotion& motion, Tier tier, uint32_t every,
+               uint32_t level) {
+  Cost best = along(character, motion, tier, every, level);
   for (int pass = 1; pass < kWarmPasses; ++pass) {
-    const Cost cost = along(character, motion, tier, every);
+    const Cost cost = along(character, motion, tier, every, level);
     if (cost.mean_us < best.mean_us) best = cost;
   }
   return best;
 }
 
-Cost cold_cost(const LoadedPack& character, const TrueMotion& motion, Tier tier, uint32_t every) {
+Cost cold_cost(const LoadedPack& character, const TrueMotion& motion, Tier tier, uint32_t every,
+               uint32_t level) {
   const size_t count = crowd_of(character, motion);
   std::vector<std::unique_ptr<ClosedLoop>> crowd;
   for (size_t i = 0; i < count; ++i) crowd.push_back(std::make_unique<ClosedLoop>(character, motion));
@@ -93,7 +95,7 @@ Cost cold_cost(const LoadedPack& character, const TrueMotion& motion, Tier tier,
   Steps steps;
   for (size_t tick = 1; tick <= rounds; ++tick) {
     for (const auto& loop : crowd) {
-      const bool counts = step(*loop, tick - 1, tier, every);
+      const bool counts = step(*loop, tick - 1, tier, every, level);
       if (counts && tick > std::min(kWarmUpTicks / 2, rounds / 2)) steps.add(*loop);
     }
   }

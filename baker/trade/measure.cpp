@@ -22,14 +22,22 @@ using Json = nlohmann::ordered_json;
 struct Way {
   std::string name, kind;
   Tier tier;
-  uint32_t every;
+  uint32_t every, level;
   std::function<void(Row*)> measure;
 };
 
-std::string name_of(Tier tier, uint32_t every) {
+uint32_t nodes_a_region(const LoadedPack& character, uint32_t level) {
+  uint32_t most = 0;
+  for (const pack::RegionRecord& region : character.view().levels[level].regions)
+    most = std::max(most, region.node_count);
+  return most;
+}
+
+std::string name_of(const LoadedPack& character, Tier tier, uint32_t every, uint32_t level) {
   constexpr const char* kNames[] = {"skinning", "extrapolate", "network", "spring", "modal"};
-  const std::string name = kNames[static_cast<size_t>(tier)];
-  return every == 1 ? name : name + " every " + std::to_string(every);
+  std::string name = kNames[static_cast<size_t>(tier)];
+  if (every > 1) name += " every " + std::to_string(every);
+  return level == 0 ? name : name + " on " + std::to_string(nodes_a_region(character, level)) + " nodes";
 }
 
 // The rows that a file holds under this key.
@@ -67,36 +75,37 @@ class Ways {
  public:
   Ways(const Yardstick& yardstick, const TrueMotion& motion) : yardstick_(yardstick), motion_(motion) {}
 
-  void add_tier(const LoadedPack& character, Tier tier, uint32_t every) {
-    ways_.push_back({name_of(tier, every), "tier", tier, every, [=, this, &character](Row* row) {
-                       tell_cost(character, row);
-                       row->error = tier == Tier::kSkinning ? yardstick_.of_skinning()
-                                    : tier == Tier::kExtrapolate
-                                        ? yardstick_.of_extrapolation(character, kCarriedTicks)
-                                        : yardstick_.of(character, tier, every);
-                     }});
+  void add_tier(const LoadedPack& character, Tier tier, uint32_t every, uint32_t level) {
+    ways_.push_back(
+        {name_of(character, tier, every, level), "tier", tier, every, level, [=, this, &character](Row* row) {
+           tell_cost(character, row);
+           row->error = tier == Tier::kSkinning      ? yardstick_.of_skinning()
+                        : tier == Tier::kExtrapolate ? yardstick_.of_extrapolation(character, kCarriedTicks)
+                                                     : yardstick_.of(character, tier, every, level);
+         }});
   }
   void add_baselines(const LoadedPack& character) {
-    ways_.push_back({"previous frame's displacement", "baseline", Tier::kSkinning, 1,
+    ways_.push_back({"previous frame's displacement", "baseline", Tier::kSkinning, 1, 0,
                      [this](Row* row) { row->error = yardstick_.of_previous_frame(); }});
     for (const size_t ticks : {1, 2, 8})
       ways_.push_back(
-          {"extrapolate, after " + std::to_string(ticks), "baseline", Tier::kExtrapolate, 1,
+          {"extrapolate, after " + std::to_string(ticks), "baseline", Tier::kExtrapolate, 1, 0,
            [=, this, &character](Row* row) { row->error = yardstick_.of_extrapolation(character, ticks); }});
   }
-  void add_variant(const Variant& variant, Tier tier) {
-    ways_.push_back({name_of(tier, 1) + ", " + variant.name, "variant", tier, 1, [=, this](Row* row) {
+  void add_variant(const LoadedPack& character, const Variant& variant, Tier tier) {
+    const std::string name = name_of(character, tier, 1, 0) + ", " + variant.name;
+    ways_.push_back({name, "variant", tier, 1, 0, [=, this](Row* row) {
                        const LoadedPack baked = variant.bake();
                        tell_cost(baked, row);
-                       row->error = yardstick_.of(baked, tier, 1);
+                       row->error = yardstick_.of(baked, tier, 1, 0);
                      }});
   }
   const std::vector<Way>& all() const { return ways_; }
 
  private:
   void tell_cost(const LoadedPack& character, Row* row) const {
-    row->warm = warm_cost(character, motion_, row->tier, row->every);
-    row->cold = cold_cost(character, motion_, row->tier, row->every);
+    row->warm = warm_cost(character, motion_, row->tier, row->every, row->level);
+    row->cold = cold_cost(character, motion_, row->tier, row->every, row->level);
   }
 
   const Yardstick& yardstick_;
@@ -105,19 +114,24 @@ class Ways {
 };
 
 void add_tiers(const LoadedPack& character, Ways* to) {
-  to->add_tier(character, Tier::kSkinning, 1);
-  to->add_tier(character, Tier::kExtrapolate, 1);
+  to->add_tier(character, Tier::kSkinning, 1, 0);
+  to->add_tier(character, Tier::kExtrapolate, 1, 0);
   for (const Tier tier : {Tier::kSpring, Tier::kModal, Tier::kNetwork}) {
     if (tier == Tier::kNetwork && !pack::has_network(character.view())) continue;
-    to->add_tier(character, tier, 1);
-    if (tier != Tier::kNetwork) to->add_tier(character, tier, 2);
+    for (uint32_t level = 0; level < character.view().level_count; ++level) {
+      to->add_tier(character, tier, 1, level);
+      if (tier != Tier::kNetwork) to->add_tier(character, tier, 2, level);
+    }
   }
 }
 
-void add_variants(std::span<const Variant> variants, Ways* to) {
+// A character with coarser control graphs of its own is not baked with others to compare.
+void add_variants(const LoadedPack& character, std::span<const Variant> variants, Ways* to) {
   for (const Variant& variant : variants) {
-    to->add_variant(variant, Tier::kNetwork);
-    if (variant.name.ends_with("nodes a region")) to->add_variant(variant, Tier::kModal);
+    const bool is_graph = variant.name.ends_with("nodes a region");
+    if (is_graph && character.view().level_count > 1) continue;
+    to->add_variant(character, variant, Tier::kNetwork);
+    if (is_graph) to->add_variant(character, variant, Tier::kModal);
   }
 }
 
@@ -127,6 +141,7 @@ Row measured(const Way& way) {
   row.kind = way.kind;
   row.tier = way.tier;
   row.every = way.every;
+  row.level = way.level;
   way.measure(&row);
   return row;
 }
@@ -139,7 +154,7 @@ std::vector<Row> measure(const LoadedPack& character, std::span<const TrueSurfac
   Ways ways(yardstick, surfaces.front().motion());
   add_tiers(character, &ways);
   ways.add_baselines(character);
-  add_variants(variants, &ways);
+  add_variants(character, variants, &ways);
   Cache cache(cache_path, key_of(character, surfaces));
   Progress progress("measuring", ways.all().size());
   std::vector<Row> rows;

@@ -25,6 +25,7 @@ struct Row {
   std::string kind;  // "tier": of the character itself; "variant": of one baked otherwise; "baseline": none
   Tier tier = Tier::kSkinning;
   uint32_t every = 1;
+  uint32_t level = 0;  // of control graphs
   Cost warm, cold;
   Error error;
   std::string dominated_by;  // empty: on the front

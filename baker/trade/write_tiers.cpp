@@ -11,7 +11,7 @@ namespace sinew::baker {
 namespace {
 
 bool is_kept(const Row& row) {
-  const bool needed = row.every == 1 && row.tier != Tier::kSpring;
+  const bool needed = row.every == 1 && row.level == 0 && row.tier != Tier::kSpring;
   return row.kind == "tier" && (needed || row.dominated_by.empty());
 }
 
@@ -25,7 +25,7 @@ pack::TierRecord to_record(const Row& row, double base_us) {
           .error_mm = number(row.error.mean_mm),
           .error_ratio = number(row.error.ratio),
           .error_p95_mm = number(row.error.p95_mm),
-          .reserved = 0};
+          .level = row.level};
 }
 
 }  // namespace
@@ -37,7 +37,7 @@ std::vector<pack::TierRecord> tier_records(const std::vector<Row>& rows) {
   std::vector<pack::TierRecord> out;
   for (const Row& row : rows)
     if (is_kept(row)) out.push_back(to_record(row, row.tier == Tier::kSkinning ? 0 : base_us));
-  std::ranges::sort(out, {}, [](const pack::TierRecord& r) { return std::tuple(r.tier, r.every); });
+  std::ranges::sort(out, {}, [](const pack::TierRecord& r) { return std::tuple(r.tier, r.level, r.every); });
   return out;
 }
 

@@ -216,26 +216,43 @@ struct Gathered {
   MatrixXd compliance;  // (3 nodes, 3 nodes), s^2: the answer to a steady felt acceleration
 };
 
-void append_modes(const Part& part, const MatrixXd& loads, const TissueLayout& layout, const Region& region,
-                  const Cage& cage, std::vector<Mode>* modes) {
+// A region in the layout that is baked, and in the finest, whose nodes say how large a mode is.
+struct Seen {
+  const TissueLayout &layout, &finest;
+  size_t index;
+  const Region& region() const { return layout.regions[index]; }
+};
+
+VectorXd sizes_of(const MatrixXd& everywhere, const Seen& seen, const Cage& cage) {
+  const Region& region = seen.finest.regions[seen.index];
+  const MatrixXd shape = at_control_nodes(everywhere, seen.finest, region, cage);
+  return shape.colwise().norm().transpose() / std::sqrt(static_cast<double>(region.node_count));
+}
+
+void append_modes(const Part& part, const MatrixXd& loads, const Seen& seen, const Cage& cage,
+                  std::vector<Mode>* modes) {
+  const TissueLayout& layout = seen.layout;
+  const Region& region = seen.region();
   const MatrixXd everywhere = in_cage(part, part.modes.shape, cage);
   const MatrixXd shape = at_control_nodes(everywhere, layout, region, cage);
+  const VectorXd sizes = sizes_of(everywhere, seen, cage);
   const Turning turning = turning_in_cage(everywhere, part, cage);
   const MatrixXd turn = at_control_nodes(warping_turn(turning), layout, region, cage);
   const MatrixXd force = part.modes.shape.transpose() * loads;
   for (Index k = 0; k < shape.cols(); ++k) {
     const double w = std::sqrt(part.modes.squared_rad_per_s[k]);
-    const double size = shape.col(k).norm() / std::sqrt(static_cast<double>(region.node_count));
+    const double size = sizes[k];
     if (!(w > 0) || !(size > 0)) continue;
     modes->push_back({w, 0.5 * (part.rayleigh_mass_per_s / w + part.rayleigh_stiffness_s * w),
                       shape.col(k) / size, turn.col(k) / size, force.row(k) * size});
   }
 }
 
-void gather(const Part& part, const TissueLayout& layout, const Region& region, const Cage& cage,
-            Gathered* to) {
+void gather(const Part& part, const Seen& seen, const Cage& cage, Gathered* to) {
+  const TissueLayout& layout = seen.layout;
+  const Region& region = seen.region();
   const MatrixXd loads = loads_from_nodes(part, layout, region, cage);
-  append_modes(part, loads, layout, region, cage, &to->modes);
+  append_modes(part, loads, seen, cage, &to->modes);
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> cholesky(part.stiffness);
   to->compliance += at_control_nodes(in_cage(part, cholesky.solve(loads), cage), layout, region, cage);
 }
@@ -289,15 +306,17 @@ ModalBasis basis_of(Gathered gathered, int nodes, int count) {
 
 std::vector<ModalBasis> modal_bases(const TissueLayout& layout, const Cage& cage,
                                     const std::vector<FemLinear>& bodies, const std::vector<int>& cage_node,
-                                    int count) {
+                                    int count, const TissueLayout* finest) {
   if (count < 1) throw BadInput("modal basis: " + std::to_string(count) + " modes: ask for 1 or more");
   std::vector<Gathered> gathered;
   for (const Region& region : layout.regions)
     gathered.push_back({{}, MatrixXd::Zero(3 * region.node_count, 3 * region.node_count)});
+  const TissueLayout& of = finest != nullptr ? *finest : layout;
   for (const FemLinear& body : bodies)
-    for (const auto& [region, nodes] : split_by_region(body, layout, cage, cage_node))
-      gather(solve_part(body, nodes, cage_node, count + 1), layout,
-             layout.regions[static_cast<size_t>(region)], cage, &gathered[static_cast<size_t>(region)]);
+    for (const auto& [region, nodes] : split_by_region(body, of, cage, cage_node)) {
+      const auto index = static_cast<size_t>(region);
+      gather(solve_part(body, nodes, cage_node, count + 1), {layout, of, index}, cage, &gathered[index]);
+    }
   std::vector<ModalBasis> bases;
   for (size_t r = 0; r < layout.regions.size(); ++r)
     bases.push_back(basis_of(std::move(gathered[r]), layout.regions[r].node_count, count));

@@ -20,7 +20,7 @@ inline constexpr double kTurnShare = 0.75;  // of half a bending mode's curl: wh
 struct ModalBasis {
   Eigen::VectorXd rad_per_s;      // w, ascending
   Eigen::VectorXd damping_ratio;  // zeta, of the Rayleigh damping
-  Eigen::MatrixXd shape;          // (3 nodes, modes), bind-pose axes; the nodes' root mean square is 1
+  Eigen::MatrixXd shape;          // (3 nodes, modes), bind-pose axes; the finest nodes' root mean square is 1
   Eigen::MatrixXd turn;   // (3 nodes, modes), rotation vectors that shape is warped by: half its curl through
                           // the flesh, times kTurnShare, less where the mode is shear rather than bending
   Eigen::MatrixXd force;  // (modes, 3 nodes)
@@ -31,10 +31,11 @@ struct ModalBasis {
 };
 
 // cage_node: a node of `bodies` -> of the cage. One basis a region; fewer than `count` modes where a region
-// has fewer (none: nothing of it is free to move) or, beyond the first six, fewer below 30 Hz. Throws
-// BadInput: count below 1.
+// has fewer (none: nothing of it is free to move) or, beyond the first six, fewer below 30 Hz. Of a coarser
+// control graph the modes are the finest's, split among its regions, of its nodes' size and held where it is,
+// and so are their q. Throws BadInput: count below 1.
 std::vector<ModalBasis> modal_bases(const TissueLayout& layout, const Cage& cage,
                                     const std::vector<FemLinear>& bodies, const std::vector<int>& cage_node,
-                                    int count);
+                                    int count, const TissueLayout* finest = nullptr);
 
 }  // namespace sinew::baker

@@ -168,8 +168,10 @@ TruthFrame TissueTruth::advance(double rate_hz, int substeps) {
 }
 
 const Cage& TissueTruth::cage() const { return impl_->cage; }
-std::vector<ModalBasis> TissueTruth::modal_bases(const TissueLayout& layout, int count) {
-  return sinew::baker::modal_bases(layout, impl_->cage, impl_->fem.linear(), impl_->part.cage_node, count);
+std::vector<ModalBasis> TissueTruth::modal_bases(const TissueLayout& layout, int count,
+                                                 const TissueLayout* finest) {
+  return sinew::baker::modal_bases(layout, impl_->cage, impl_->fem.linear(), impl_->part.cage_node, count,
+                                   finest);
 }
 std::vector<double> TissueTruth::frequencies_hz(int count) const { return impl_->fem.frequencies_hz(count); }
 

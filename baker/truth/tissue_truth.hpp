@@ -44,7 +44,9 @@ class TissueTruth {
   const Cage& cage() const;
   std::vector<double> frequencies_hz(int count) const;
   // A basis a region of the layout, about the shape that was last simulated: the bind pose before start().
-  std::vector<ModalBasis> modal_bases(const TissueLayout& layout, int count);
+  // finest: see modal_basis.hpp.
+  std::vector<ModalBasis> modal_bases(const TissueLayout& layout, int count,
+                                      const TissueLayout* finest = nullptr);
 
  private:
   struct Impl;

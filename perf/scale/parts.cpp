@@ -65,7 +65,7 @@ class Subject {
     world::simulate_tick(instance_);
   }
   void network() {
-    tissue::network_step(asset_.network, asset_.graph, instance_.inputs, instance_.carry,
+    tissue::network_step(asset_.network, asset_.levels[0].graph, instance_.inputs, instance_.carry,
                          instance_.network_state, instance_.network_scratch);
   }
   void show() { world::show_tick(instance_); }

@@ -43,7 +43,8 @@ void CostEstimate::settle() noexcept {
 }
 
 void CostModel::settle() noexcept {
-  for (CostEstimate& estimate : tick) estimate.settle();
+  for (auto& levels : tick)
+    for (CostEstimate& estimate : levels) estimate.settle();
   publish.settle();
   enter.settle();
 }

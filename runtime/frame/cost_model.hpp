@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "frame/front.hpp"
+#include "pack/format.hpp"
 #include "sinew/types.hpp"
 
 namespace sinew::frame {
@@ -34,10 +35,15 @@ class CostEstimate {
   bool known_ = false;  // baked, at whatever cost, or measured
 };
 
-struct CostModel {                // of one asset
-  CostEstimate tick[kTierCount];  // by Tier; of the simulated ones: poses, drive, tissue, rods, guard
-  CostEstimate publish;           // a step, of what is displaced: pose, extrapolation, publishing
-  CostEstimate enter;  // what the first tick of a simulation takes beyond a tick: cold memory, a history
+struct CostModel {  // of one asset
+  // Of the simulated tiers, at a level of control graphs: poses, drive, tissue, rods, guard.
+  CostEstimate& of(Tier tier, uint32_t level) noexcept { return tick[static_cast<size_t>(tier)][level]; }
+  const CostEstimate& of(Tier tier, uint32_t level) const noexcept {
+    return tick[static_cast<size_t>(tier)][level];
+  }
+  CostEstimate tick[kTierCount][pack::kMostGraphLevels];
+  CostEstimate publish;  // a step, of what is displaced: pose, extrapolation, publishing
+  CostEstimate enter;    // what the first tick of a simulation takes beyond a tick: cold memory, a history
   void settle() noexcept;
 };
 

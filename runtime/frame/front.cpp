@@ -32,17 +32,20 @@ bool is_passed_over(const Front& front, const Level& next) noexcept {
 
 }  // namespace
 
-float usual_error(Tier tier, uint32_t every) noexcept {
+float usual_error(Tier tier, uint32_t every, uint32_t graph) noexcept {
   if (every != 1) return std::numeric_limits<float>::quiet_NaN();
-  constexpr float kNetwork = 0.08f, kModal = 0.15f, kSpring = 0.4f;
-  if (tier == Tier::kNetwork) return kNetwork;
-  if (tier == Tier::kModal) return kModal;
-  return tier == Tier::kSpring ? kSpring : 1;
+  constexpr float kNetwork = 0.08f, kModal = 0.15f, kSpring = 0.4f, kCoarser = 1.15f;
+  float coarser = 1;
+  for (uint32_t level = 0; level < graph; ++level) coarser *= kCoarser;
+  if (tier == Tier::kNetwork) return kNetwork * coarser;
+  if (tier == Tier::kModal) return kModal * coarser;
+  return tier == Tier::kSpring ? kSpring * coarser : 1;
 }
 
-uint32_t Front::level_of(Tier tier, uint32_t every) const noexcept {
+uint32_t Front::level_of(Tier tier, uint32_t every, uint32_t graph) const noexcept {
   for (uint32_t level = count; is_simulated(tier) && level-- > 1;)
-    if (levels[level].tier == tier && levels[level].every == every) return level;
+    if (levels[level].tier == tier && levels[level].graph == graph && levels[level].every == every)
+      return level;
   return is_simulated(tier) && count > 1 ? 1 : 0;
 }
 

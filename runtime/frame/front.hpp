@@ -10,19 +10,21 @@ namespace sinew::frame {
 // Springs, modes and networks: what is simulated tick by tick.
 constexpr bool is_simulated(Tier tier) noexcept { return tier >= Tier::kNetwork; }
 
-// A tier at a rate, as it was baked or corrected. Level 0 of a front is not simulated: no cost, all of the
-// error.
+// A tier on a control graph at a rate, as it was baked or corrected. Level 0 of a front is not simulated: no
+// cost, all of the error.
 struct Level {
   Tier tier = Tier::kExtrapolate;
   uint32_t every = 1;  // ticks from one that is simulated to the next
   float tick_us = 0;   // a tick, the long run's average: of one in `every`
   float error = 1;     // a share of skinning's
+  uint32_t graph = 0;  // level of control graphs, 0 the finest
 };
 
-inline constexpr uint32_t kMostLevels = 17;  // skinning, and as many points as a pack may hold, and to spare
+inline constexpr uint32_t kMostLevels = 25;  // skinning, and as many points as a pack may hold, and to spare
 
-// Where an error was not measured: of the tier at every tick; NaN at other rates, which are then left out.
-float usual_error(Tier tier, uint32_t every) noexcept;
+// Where an error was not measured: of the tier at every tick, a little more at each coarser control graph;
+// NaN at other rates, which are then left out.
+float usual_error(Tier tier, uint32_t every, uint32_t graph) noexcept;
 
 // Cost rises and error falls from level to level, and what an error's unit costs rises too: the lower convex
 // hull of cost against error. Publishing, which whatever is displaced takes once a step, is part of what the
@@ -39,7 +41,7 @@ struct Front {
     return publish_us + ticks * levels[level].tick_us;
   }
   // The highest level that costs no more than the tier does; 0 for one that is not simulated.
-  uint32_t level_of(Tier tier, uint32_t every) const noexcept;
+  uint32_t level_of(Tier tier, uint32_t every, uint32_t graph) const noexcept;
 };
 
 // Points in any order; those that are no numbers or not simulated are left out, as is what beyond

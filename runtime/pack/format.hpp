@@ -28,6 +28,8 @@
 //      since then, likewise: CharacterRecord::proxy_count with the section kProxies
 //   6  what a tier costs and how far it is off may be measured, its tail with it, and tiers simulated every
 //      second tick stand beside those of every tick
+//      since then, likewise: CharacterRecord::coarser_count with the sections kLevels, kPicks and kSpread,
+//      and TierRecord::level
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -108,6 +110,11 @@ enum class SectionKind : uint32_t {
 
   kCompliance = 45,  // float[9] x nodes: C, row-major 3x3, s^2 (metres of displacement a felt m/s^2)
   kSprings = 46,     // SpringRecord x regions
+
+  // Of a character with coarser control graphs beside its own; see LevelRecord.
+  kLevels = 47,  // LevelRecord x 1 + coarser_count, finest first
+  kPicks = 48,   // uint32 x nodes of the coarser levels: the node of the next finer level that each is
+  kSpread = 49,  // float: see LevelRecord
 
   kTiers = 50,  // TierRecord x tiers
 
@@ -240,8 +247,9 @@ struct CharacterRecord {
   uint32_t vertex_count, triangle_count, joint_count, region_count, node_count, clip_count;
   float height_m;
   uint32_t rod_count;
-  uint32_t proxy_count;  // 0..64
-  uint32_t reserved[6];
+  uint32_t proxy_count;    // 0..64
+  uint32_t coarser_count;  // 0..3: control graphs of fewer nodes, beside the one that node_count counts
+  uint32_t reserved[5];
 };
 static_assert(sizeof(CharacterRecord) == 64);
 
@@ -283,6 +291,24 @@ struct NodeRecord {
   SkinRecord skin;
 };
 static_assert(sizeof(NodeRecord) == 80);
+
+inline constexpr uint32_t kMostGraphLevels = 4;  // of control graphs
+
+// A control graph. Each level is a whole one: kRegions, kNodes, kGraphRows, kGraphColumns, kGraphValues,
+// kCarry, kRegionModes, kModeMatrices and kCompliance hold one level's part after the other, finest first,
+// and what is an index or an offset there counts from the beginning of its level's part. Regions, the
+// vertices that each carries, kModes and kSprings are the same for all: a level's modes are the finest
+// level's, seen at its own nodes, and nodes are held and turned alike. A level's nodes are nodes of the next
+// finer one, ascending in kPicks, region by region. In kSpread, level after level of the coarser ones and
+// region after region, how their displacement spreads over the next finer level's: [nodes of the
+// region][nodes of the finer region, rounded up to 16], padding zero.
+struct LevelRecord {
+  uint32_t node_count;
+  uint32_t graph_entries;  // of kGraphColumns and kGraphValues
+  uint64_t carry_floats, matrix_floats;
+  uint64_t spread_floats;  // 0 of the finest
+};
+static_assert(sizeof(LevelRecord) == 32);
 
 inline constexpr uint32_t kMaxModes = 64;  // of a region
 
@@ -363,8 +389,9 @@ struct ClipRecord {
 };
 static_assert(sizeof(ClipRecord) == 32);
 
-// What a tier is worth. Ascending by tier, then by every; each pair at most once. With every 1 there are
-// skinning, extrapolate, modal, and network where the pack has one; what else is there is worth having.
+// What a tier is worth. Ascending by tier, then by level, then by every; each once at most. With level 0 and
+// every 1 there are skinning, extrapolate, modal, and network where the pack has one; what else is there is
+// worth having.
 // Baked without sinew-trade: costs are the tier's operations at 60 GFLOP/s, and the errors the weights' own.
 // Measured: errors over vertices that tissue moves, of extrapolate 12 ticks after the last simulated one.
 struct TierRecord {
@@ -376,7 +403,7 @@ struct TierRecord {
   float error_mm;      // mean against ground truth on held-out motion; NaN: not measured
   float error_ratio;   // the same as a share of skinning's error; NaN: not measured
   float error_p95_mm;  // in one of twenty of the vertices and ticks; NaN: not measured
-  uint32_t reserved;
+  uint32_t level;      // of control graphs, 0 the finest; 0 where nothing is simulated
 };
 static_assert(sizeof(TierRecord) == 32);
 constexpr bool is_every(uint32_t every) noexcept { return every == 1 || every == 2; }

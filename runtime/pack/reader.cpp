@@ -12,46 +12,57 @@ const T* only(std::span<const T> records) noexcept {
   return records.size() == 1 ? records.data() : nullptr;
 }
 
-PackView view_sections(const SectionTable& table) noexcept {
+LevelView view_tissue(const SectionTable& table) noexcept {
   using enum SectionKind;
-  return {.kind = table.kind,
-          .strings = table.get<char>(kStrings),
-          .metadata = table.get<char>(kMetadata),
-          .network = only(table.get<NetworkRecord>(kNetwork)),
-          .layers = table.get<LayerRecord>(kLayers),
-          .inputs = table.get<InputRecord>(kInputs),
-          .weights = table.get<float>(kWeights),
-          .int8_weights = table.get<int8_t>(kInt8Weights),
-          .int8_sums = table.get<int32_t>(kInt8Sums),
-          .int8_scales = table.get<float>(kInt8Scales),
-          .dense = table.get<DenseRecord>(kDense),
-          .character = only(table.get<CharacterRecord>(kCharacter)),
-          .joints = table.get<JointRecord>(kJoints),
-          .positions = table.get<float>(kPositions),
-          .normals = table.get<float>(kNormals),
-          .triangles = table.get<uint32_t>(kTriangles),
-          .skin = table.get<SkinRecord>(kSkin),
-          .colors = table.get<uint8_t>(kColors),
-          .welded = table.get<uint32_t>(kWelded),
-          .regions = table.get<RegionRecord>(kRegions),
+  return {.regions = table.get<RegionRecord>(kRegions),
           .nodes = table.get<NodeRecord>(kNodes),
           .graph_rows = table.get<uint32_t>(kGraphRows),
           .graph_columns = table.get<uint32_t>(kGraphColumns),
           .graph_values = table.get<float>(kGraphValues),
-          .region_vertices = table.get<uint32_t>(kRegionVertices),
           .carry = table.get<float>(kCarry),
           .region_modes = table.get<RegionModesRecord>(kRegionModes),
-          .modes = table.get<ModeRecord>(kModes),
           .mode_matrices = table.get<float>(kModeMatrices),
           .compliance = table.get<float>(kCompliance),
-          .springs = table.get<SpringRecord>(kSprings),
-          .clips = table.get<ClipRecord>(kClips),
-          .clip_frames = table.get<float>(kClipFrames),
-          .tiers = table.get<TierRecord>(kTiers),
-          .rods = table.get<RodRecord>(kRods),
-          .rod_segments = table.get<RodSegmentRecord>(kRodSegments),
-          .proxies = table.get<ProxyRecord>(kProxies),
-          .joint_rods = table.get<uint32_t>(kJointRods)};
+          .picks = table.get<uint32_t>(kPicks),
+          .spread = table.get<float>(kSpread)};
+}
+
+// All levels' parts in view.
+PackView view_sections(const SectionTable& table) noexcept {
+  using enum SectionKind;
+  PackView view;
+  static_cast<LevelView&>(view) = view_tissue(table);
+  view.kind = table.kind;
+  view.strings = table.get<char>(kStrings);
+  view.metadata = table.get<char>(kMetadata);
+  view.network = only(table.get<NetworkRecord>(kNetwork));
+  view.layers = table.get<LayerRecord>(kLayers);
+  view.inputs = table.get<InputRecord>(kInputs);
+  view.weights = table.get<float>(kWeights);
+  view.int8_weights = table.get<int8_t>(kInt8Weights);
+  view.int8_sums = table.get<int32_t>(kInt8Sums);
+  view.int8_scales = table.get<float>(kInt8Scales);
+  view.dense = table.get<DenseRecord>(kDense);
+  view.character = only(table.get<CharacterRecord>(kCharacter));
+  view.joints = table.get<JointRecord>(kJoints);
+  view.positions = table.get<float>(kPositions);
+  view.normals = table.get<float>(kNormals);
+  view.triangles = table.get<uint32_t>(kTriangles);
+  view.skin = table.get<SkinRecord>(kSkin);
+  view.colors = table.get<uint8_t>(kColors);
+  view.welded = table.get<uint32_t>(kWelded);
+  view.region_vertices = table.get<uint32_t>(kRegionVertices);
+  view.modes = table.get<ModeRecord>(kModes);
+  view.springs = table.get<SpringRecord>(kSprings);
+  view.clips = table.get<ClipRecord>(kClips);
+  view.clip_frames = table.get<float>(kClipFrames);
+  view.tiers = table.get<TierRecord>(kTiers);
+  view.rods = table.get<RodRecord>(kRods);
+  view.rod_segments = table.get<RodSegmentRecord>(kRodSegments);
+  view.proxies = table.get<ProxyRecord>(kProxies);
+  view.joint_rods = table.get<uint32_t>(kJointRods);
+  view.level_records = table.get<LevelRecord>(kLevels);
+  return view;
 }
 
 Status check_strings(const PackView& pack) noexcept {
@@ -64,15 +75,23 @@ Status check_strings(const PackView& pack) noexcept {
 Status open_pack(std::span<const std::byte> bytes, PackView* out) noexcept {
   SectionTable table;
   if (Status status = read_section_table(bytes, &table); !status.ok()) return status;
-  const PackView view = view_sections(table);
+  PackView view = view_sections(table);
   constexpr Check kModelChecks[] = {check_strings, check_network};
-  constexpr Check kCharacterChecks[] = {check_strings, check_network, check_character, check_tissue,
-                                        check_modes,   check_rods,    check_proxies};
+  constexpr Check kCharacterChecks[] = {check_strings, check_network, check_character,
+                                        check_levels,  check_rods,    check_proxies};
   const bool is_model = view.kind == FileKind::kModel;
+  if (!is_model)
+    if (Status status = cut_levels(&view); !status.ok()) return status;
   const std::span<const Check> checks = is_model ? std::span<const Check>(kModelChecks) : kCharacterChecks;
   if (Status status = run_checks(checks, view); !status.ok()) return status;
   *out = view;
   return {};
+}
+
+PackView at_level(const PackView& pack, uint32_t level) noexcept {
+  PackView view = pack;
+  static_cast<LevelView&>(view) = pack.levels[level];
+  return view;
 }
 
 const char* string_at(const PackView& pack, uint32_t offset) noexcept {

@@ -8,7 +8,22 @@
 
 namespace sinew::pack {
 
-struct PackView {
+// What of a character's tissue belongs to one control graph (LevelRecord).
+struct LevelView {
+  std::span<const RegionRecord> regions;
+  std::span<const NodeRecord> nodes;
+  std::span<const uint32_t> graph_rows, graph_columns;
+  std::span<const float> graph_values;
+  std::span<const float> carry;
+  std::span<const RegionModesRecord> region_modes;
+  std::span<const float> mode_matrices;
+  std::span<const float> compliance;  // 9 a node
+  std::span<const uint32_t> picks;    // a node; of the finest none, as the next
+  std::span<const float> spread;
+};
+
+// Of the levels, the one in view has its parts here: the finest, as it is opened.
+struct PackView : LevelView {
   FileKind kind{};
   std::span<const char> strings, metadata;
   const NetworkRecord* network = nullptr;
@@ -27,16 +42,8 @@ struct PackView {
   std::span<const SkinRecord> skin;
   std::span<const uint8_t> colors;  // 4 a vertex
   std::span<const uint32_t> welded;
-  std::span<const RegionRecord> regions;
-  std::span<const NodeRecord> nodes;
-  std::span<const uint32_t> graph_rows, graph_columns;
-  std::span<const float> graph_values;
   std::span<const uint32_t> region_vertices;
-  std::span<const float> carry;
-  std::span<const RegionModesRecord> region_modes;
   std::span<const ModeRecord> modes;
-  std::span<const float> mode_matrices;
-  std::span<const float> compliance;  // 9 a node
   std::span<const SpringRecord> springs;
   std::span<const ClipRecord> clips;
   std::span<const float> clip_frames;  // 12 a joint and frame
@@ -44,8 +51,14 @@ struct PackView {
   std::span<const RodRecord> rods;
   std::span<const RodSegmentRecord> rod_segments;
   std::span<const ProxyRecord> proxies;
-  std::span<const uint32_t> joint_rods;  // a joint; empty without rods
+  std::span<const uint32_t> joint_rods;        // a joint; empty without rods
+  std::span<const LevelRecord> level_records;  // empty where there is one level
+  LevelView levels[kMostGraphLevels];          // finest first
+  uint32_t level_count = 1;
 };
+
+// The same pack with another level in view; level < level_count.
+PackView at_level(const PackView& pack, uint32_t level) noexcept;
 
 inline bool has_network(const PackView& pack) noexcept { return pack.network->model != ModelKind::kNone; }
 

@@ -24,10 +24,10 @@ void read_point(const pack::TierRecord& record, Asset& asset) noexcept {
   const auto tier = static_cast<Tier>(record.tier);
   if (!frame::is_simulated(tier) || record.every > kMostEvery || asset.point_count == frame::kMostLevels)
     return;
-  const float error =
-      std::isnan(record.error_ratio) ? frame::usual_error(tier, record.every) : record.error_ratio;
-  asset.points[asset.point_count++] = {tier, record.every, record.cost_us, error};
-  if (record.every == 1) asset.cost.tick[record.tier] = frame::CostEstimate(record.cost_us);
+  const float error = std::isnan(record.error_ratio) ? frame::usual_error(tier, record.every, record.level)
+                                                     : record.error_ratio;
+  asset.points[asset.point_count++] = {tier, record.every, record.cost_us, error, record.level};
+  if (record.every == 1) asset.cost.of(tier, record.level) = frame::CostEstimate(record.cost_us);
 }
 
 void read_tiers(const pack::PackView& pack, Asset& asset) noexcept {
@@ -59,6 +59,30 @@ Status check_runnable(const pack::PackView& pack) noexcept {
   return {};
 }
 
+void measure_level(const pack::PackView& pack, Asset& asset) noexcept {
+  uint32_t heard_floats = 0;
+  for (const pack::RegionModesRecord& modes : pack.region_modes) {
+    const uint32_t floats = modes.padded + static_cast<uint32_t>(pack::round_up_16(modes.mode_count));
+    asset.widest_region = std::max(asset.widest_region, floats);
+    heard_floats += floats;
+  }
+  asset.heard_floats = std::max(asset.heard_floats, heard_floats);
+}
+
+void read_levels(const pack::PackView& pack, Asset& asset) noexcept {
+  asset.level_count = pack.level_count;
+  asset.widest_region = asset.heard_floats = 0;
+  for (uint32_t l = 0; l < pack.level_count; ++l) {
+    GraphLevel& level = asset.levels[l];
+    level.pack = pack::at_level(pack, l);
+    level.graph = {level.node_count(), level.pack.graph_rows.data(), level.pack.graph_columns.data(),
+                   level.pack.graph_values.data()};
+    measure_level(level.pack, asset);
+  }
+  asset.padded_vertices = 0;  // the same at all levels
+  for (const pack::RegionRecord& region : pack.regions) asset.padded_vertices += region.padded_vertices;
+}
+
 }  // namespace
 
 Status open_asset(std::span<const std::byte> bytes, Asset* out) noexcept {
@@ -75,27 +99,19 @@ Status open_asset(std::span<const std::byte> bytes, Asset* out) noexcept {
                    view.inputs,
                    view.weights.data(),
                    {view.int8_weights.data(), view.int8_sums.data(), view.int8_scales.data()}};
-  asset.graph = {view.character->node_count, view.graph_rows.data(), view.graph_columns.data(),
-                 view.graph_values.data()};
   asset.tick_s = 1 / static_cast<double>(view.network->rate_hz);
   asset.fingerprint = fingerprint_of(bytes);
-  asset.padded_vertices = 0;
-  for (const pack::RegionRecord& region : view.regions) asset.padded_vertices += region.padded_vertices;
-  asset.widest_region = 0;
-  asset.heard_floats = 0;
-  for (const pack::RegionModesRecord& modes : view.region_modes) {
-    const uint32_t floats = modes.padded + static_cast<uint32_t>(pack::round_up_16(modes.mode_count));
-    asset.widest_region = std::max(asset.widest_region, floats);
-    asset.heard_floats += floats;
-  }
+  read_levels(view, asset);
   read_tiers(view, asset);
   asset.reach_m = reach_of(asset);
   return {};
 }
 
-float error_of(const Asset& asset, Tier tier, uint32_t every) noexcept {
-  for (uint32_t i = 0; i < asset.point_count; ++i)
-    if (asset.points[i].tier == tier && asset.points[i].every == every) return asset.points[i].error;
+float error_of(const Asset& asset, Tier tier, uint32_t every, uint32_t level) noexcept {
+  for (uint32_t i = 0; i < asset.point_count; ++i) {
+    const frame::Level& point = asset.points[i];
+    if (point.tier == tier && point.graph == level && point.every == every) return point.error;
+  }
   return 1;
 }
 
@@ -109,6 +125,7 @@ AssetInfo describe(const Asset& asset) noexcept {
           .clip_count = character.clip_count,
           .proxy_count = character.proxy_count,
           .rod_count = character.rod_count,
+          .graph_levels = asset.level_count,
           .tick_hz = asset.pack.network->rate_hz,
           .height_m = character.height_m,
           .instance_bytes = instance_bytes(asset)};

@@ -9,24 +9,25 @@
 #include "pack/reader.hpp"
 #include "sinew/types.hpp"
 #include "tissue/network.hpp"
+#include "world/graph_level.hpp"
 #include "world/rod_rig.hpp"
-#include "world/surface_patches.hpp"
 
 namespace sinew::world {
 
 struct Asset {
-  pack::MappedFile file;  // empty when the caller keeps the bytes
-  pack::PackView pack;
+  pack::MappedFile file;    // empty when the caller keeps the bytes
+  pack::PackView pack;      // the finest level in view
   tissue::Network network;  // without layers where the character has none
-  tissue::Graph graph;
+  GraphLevel levels[pack::kMostGraphLevels];
+  uint32_t level_count = 1;
   RodRig rods;
-  SurfacePatches patches;  // made with the first instance that has contacts
   double tick_s = 0;
   uint64_t fingerprint = 0;      // of all of the pack's bytes
   uint32_t padded_vertices = 0;  // carried vertices of all regions, each region padded
-  uint32_t widest_region = 0;    // floats of its nodes' x y z and of its modes, each padded
-  uint32_t heard_floats = 0;     // of its nodes' x y z and of its modes, each padded, of all regions
-  float reach_m = 0;             // world/pose_bound.hpp
+  // Of the level that takes the most:
+  uint32_t widest_region = 0;  // floats of its nodes' x y z and of its modes, each padded
+  uint32_t heard_floats = 0;   // of its nodes' x y z and of its modes, each padded, of all regions
+  float reach_m = 0;           // world/pose_bound.hpp
   uint32_t live_instances = 0;
   frame::CostModel cost;
   frame::Level points[frame::kMostLevels];  // as baked
@@ -35,14 +36,14 @@ struct Asset {
   float skinning_mm = 1;  // skinning's error
   float idle_us = 0;      // baked: a step, of what is neither simulated nor displaced
 
-  uint32_t node_count() const noexcept { return pack.character->node_count; }
+  uint32_t node_count() const noexcept { return pack.character->node_count; }  // of the finest level
   uint32_t mode_count() const noexcept { return static_cast<uint32_t>(pack.modes.size()); }
   Tier best() const noexcept { return pack::has_network(pack) ? Tier::kNetwork : Tier::kModal; }
   uint32_t vertex_count() const noexcept { return pack.character->vertex_count; }
 };
 
 // A tier's baked error, a share of skinning's; 1 of what is not simulated.
-float error_of(const Asset& asset, Tier tier, uint32_t every) noexcept;
+float error_of(const Asset& asset, Tier tier, uint32_t every, uint32_t level) noexcept;
 
 // On refusal *out is untouched.
 Status open_asset(std::span<const std::byte> bytes, Asset* out) noexcept;

@@ -17,7 +17,7 @@
 namespace sinew::world {
 namespace {
 
-size_t floats_of(const Instance& instance) noexcept { return size_t{3} * instance.asset->node_count(); }
+size_t floats_of(const Instance& instance) noexcept { return size_t{3} * instance.level->node_count(); }
 
 void copy(const Instance& instance, const float* from, float* to) noexcept {
   std::memcpy(to, from, sizeof(float) * floats_of(instance));
@@ -38,7 +38,7 @@ void begin_simulation(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   pose_at_start(instance);
   for (int tick = 0; tick < 2; ++tick)
-    tissue::along_frame(instance.poses[0], instance.shown[tick], instance.asset->node_count(),
+    tissue::along_frame(instance.poses[0], instance.shown[tick], instance.level->node_count(),
                         instance.u[tick]);
   take_rods_as_shown(instance);
   state.motion_stale = 1;
@@ -50,10 +50,11 @@ void begin_simulation(Instance& instance) noexcept {
 // A network that missed a moment keeps its memory, of everything but where the tissue is.
 void begin_network(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
-  const Asset& asset = *instance.asset;
+  const GraphLevel& level = *instance.level;
   const bool remembered = !state.forgotten && state.ticks_since_network <= kRememberedTicks;
   const auto take_place = remembered ? tissue::write_output : tissue::rebase_state;
-  take_place(asset.network, asset.pack.regions, asset.node_count(), instance.l[0], instance.network_state);
+  take_place(instance.asset->network, level.pack.regions, level.node_count(), instance.l[0],
+             instance.network_state);
   state.forgotten = 0;
   state.clamped_ticks = 0;
 }
@@ -83,7 +84,7 @@ void hold_at_limit(float* u, float* velocity, float limit_m) noexcept {
 // So that a tail that has run out costs nothing to publish.
 void stop_what_creeps(Instance& instance) noexcept {
   constexpr float kCreep = 1e-4f;  // of the region's radius, a tick
-  for (const pack::RegionRecord& region : instance.asset->pack.regions) {
+  for (const pack::RegionRecord& region : instance.level->pack.regions) {
     const float slow_m = kCreep * region.radius_m;
     float* velocity = instance.tail_velocity + size_t{3} * region.first_node;
     for (float* end = velocity + size_t{3} * region.node_count; velocity != end; ++velocity)
@@ -95,8 +96,8 @@ void stop_what_creeps(Instance& instance) noexcept {
 // by is let go of over the ticks until the fade, for a force that ends at once is seen as a jump; then it
 // runs out.
 void swing_tail(Instance& instance, size_t r) noexcept {
-  const pack::RegionRecord& region = instance.asset->pack.regions[r];
-  const pack::SpringRecord& spring = instance.asset->pack.springs[r];
+  const pack::RegionRecord& region = instance.level->pack.regions[r];
+  const pack::SpringRecord& spring = instance.level->pack.springs[r];
   const uint32_t tick = instance.state->tail_ticks;
   const bool swings = tick <= kCarryTicks;
   const float free = swings ? static_cast<float>(tick) / kCarryTicks : 0, kept = swings ? 1 : kCarryDamping;
@@ -117,9 +118,9 @@ void count_tail(InstanceState& state) noexcept {
 }
 
 void advance_tail(Instance& instance) noexcept {
-  for (size_t r = 0; r < instance.asset->pack.regions.size(); ++r) swing_tail(instance, r);
+  for (size_t r = 0; r < instance.level->pack.regions.size(); ++r) swing_tail(instance, r);
   if (instance.state->tail_ticks > kCarryTicks) stop_what_creeps(instance);
-  for (const pack::RegionRecord& region : instance.asset->pack.regions) {
+  for (const pack::RegionRecord& region : instance.level->pack.regions) {
     for (uint32_t n = region.first_node; n < region.first_node + region.node_count; ++n) {
       hold_at_limit(instance.tail + size_t{3} * n, instance.tail_velocity + size_t{3} * n,
                     region.displacement_limit_m);
@@ -159,13 +160,14 @@ void show_tick(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   count_tail(state);
   if (frame::is_simulated(state.tier) && state.blend_ticks < kBlendInTicks) ++state.blend_ticks;
+  if (state.seam_ticks < kBlendInTicks) ++state.seam_ticks;
   const float simulated = instance.simulated_share();
   if (simulated < 1) advance_tail(instance);
   const float tail = (1 - simulated) * instance.tail_share();
   copy(instance, instance.shown[0], instance.shown[1]);
   show_rods(instance, state.lifted && frame::is_simulated(state.tier) ? 1 : simulated);
   if (simulated > 0)
-    tissue::along_flesh(instance.poses[0], instance.u[0], instance.asset->node_count(), instance.shown[0]);
+    tissue::along_flesh(instance.poses[0], instance.u[0], instance.level->node_count(), instance.shown[0]);
   if (simulated == 1) return;
   for (size_t i = 0; i < floats_of(instance); ++i) {
     instance.shown[0][i] = simulated * instance.shown[0][i] + tail * instance.tail[i];

@@ -22,8 +22,9 @@ bool may_be_dormant(const Instance& instance) noexcept {
   const InstanceState& state = *instance.state;
   const Asset& asset = *instance.asset;
   return frame::is_simulated(state.tier) && state.still_ticks >= kStillTicks && !state.motion_stale &&
-         !instance.cut && state.blend_ticks == kBlendInTicks && state.fallback_ticks == 0 &&
-         !instance.contacts.source && regions_asleep(instance) == asset.pack.regions.size() &&
+         !instance.cut && state.blend_ticks == kBlendInTicks && state.seam_ticks == kBlendInTicks &&
+         state.fallback_ticks == 0 && !instance.contacts.source &&
+         regions_asleep(instance) == asset.pack.regions.size() &&
          rods_asleep(instance) == asset.rods.rod_count;
 }
 
@@ -37,7 +38,7 @@ bool has_pose(const Instance& instance, std::span<const Matrix34> joints,
 
 void watch_pose(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
-  const size_t joints = instance.asset->pack.character->joint_count;
+  const size_t joints = instance.level->pack.character->joint_count;
   const bool still = has_pose(instance, {instance.next_joints, joints}, state.next_root);
   constexpr uint32_t kLongest = UINT32_MAX / 2;
   state.still_ticks = still ? std::min(state.still_ticks + instance.plan.ticks.ticks, kLongest) : 0;
@@ -53,7 +54,7 @@ void stay_dormant(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   const frame::TickPlan& ticks = instance.plan.ticks;
   const auto dt_s = static_cast<float>(instance.plan.dt_s);
-  instance.idle = instance.entered = false;
+  instance.idle = instance.entered = instance.changed_level = false;
   instance.cut = instance.held = instance.restarted = instance.fell_back = instance.came_back = false;
   instance.times = {};
   instance.plan.cost_us = 0;

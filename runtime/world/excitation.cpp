@@ -8,12 +8,12 @@ namespace sinew::world {
 namespace {
 
 float root_mean_square_mm(const Instance& instance) noexcept {
-  const size_t floats = size_t{3} * instance.asset->node_count();
+  const size_t floats = size_t{3} * instance.level->node_count();
   float squares = 0;
   for (size_t i = 0; i < floats; ++i) squares += instance.shown[0][i] * instance.shown[0][i];
   constexpr float kMillimetres = 1e3f;
   return kMillimetres *
-         std::sqrt(squares / static_cast<float>(std::max<size_t>(1, instance.asset->node_count())));
+         std::sqrt(squares / static_cast<float>(std::max<size_t>(1, instance.level->node_count())));
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ Way vertex_way(const Instance& instance, uint32_t region, const SurfacePatches::
 }
 
 float reach_m(const Instance& instance, uint32_t node) {
-  return kStretched * instance.asset->patches.radii_m[node];
+  return kStretched * instance.level->patches.radii_m[node];
 }
 
 struct Ball {
@@ -136,7 +136,7 @@ void keep(Instance& instance, uint32_t first, const Found& found, const ContactH
     way_m += static_cast<double>(hit.normal[k]) * (probe.end_m[0][k] - probe.start_m[0][k]);
   touch.gap_m = static_cast<float>(hit.gap_m + way_m);
   if (is_known(instance, first, touch)) return;
-  if (instance.touch_count == 2 * instance.asset->patches.vertex_count)
+  if (instance.touch_count == 2 * instance.level->patches.vertex_count)
     ++instance.told.dropped;
   else
     instance.touches[instance.touch_count++] = touch;
@@ -170,8 +170,8 @@ void find_patches(Instance& instance, const pack::RegionRecord& region) {
 }  // namespace
 
 void find_touches(Instance& instance, uint32_t r) noexcept {
-  const pack::RegionRecord& region = instance.asset->pack.regions[r];
-  const SurfacePatches& patches = instance.asset->patches;
+  const pack::RegionRecord& region = instance.level->pack.regions[r];
+  const SurfacePatches& patches = instance.level->patches;
   if (!touches_anything(instance, region)) return;
   find_patches(instance, region);
   Found found[kProbesAtOnce];

@@ -17,7 +17,7 @@ bool ran_as_planned(const Instance& instance) noexcept {
 // A sleeper's or a toucher's own cost is its factor; the asset's is that of those who are awake.
 void learn_tick_cost(Instance& instance, float tick_us) noexcept {
   constexpr float kWeight = 0.125f, kFarthest = 2, kLeast = 0.1f, kMost = 10;
-  frame::CostEstimate& estimate = instance.asset->cost.tick[static_cast<size_t>(instance.state->tier)];
+  frame::CostEstimate& estimate = instance.asset->cost.of(instance.state->tier, instance.state->level);
   float& factor = instance.times.cost_factor;
   if (regions_asleep(instance) == 0) estimate.observe(tick_us);
   const float seen = tick_us / std::max(1e-3f, estimate.estimate_us());
@@ -27,7 +27,7 @@ void learn_tick_cost(Instance& instance, float tick_us) noexcept {
 
 void learn_entering(Instance& instance, float ticked_us) noexcept {
   frame::CostModel& cost = instance.asset->cost;
-  const float tick_us = cost.tick[static_cast<size_t>(instance.state->tier)].estimate_us();
+  const float tick_us = cost.of(instance.state->tier, instance.state->level).estimate_us();
   const auto ticks = static_cast<float>(instance.plan.ticks.ticks);
   cost.enter.observe(std::max(0.0f, ticked_us - ticks * tick_us));
 }
@@ -38,8 +38,8 @@ void learn_costs(Instance& instance) noexcept {
   if (instance.displaced && !instance.held)
     instance.asset->cost.publish.observe(core::microseconds(times.total_ns - ticked_ns));
   const auto ticks = static_cast<float>(instance.plan.ticks.ticks);
-  const bool ran =
-      frame::is_simulated(instance.state->tier) && ticks > 0 && (ran_as_planned(instance) || instance.cut);
+  const bool ran = frame::is_simulated(instance.state->tier) && ticks > 0 && !instance.changed_level &&
+                   (ran_as_planned(instance) || instance.cut);
   if (ran && instance.entered)
     learn_entering(instance, core::microseconds(ticked_ns));
   else if (ran)
@@ -83,9 +83,9 @@ float add_active(const Instance& instance, FrameReport& report) noexcept {
 float add_dormant(const Instance& instance, FrameReport& report) noexcept {
   const Tier tier = instance.state->tier;
   ++report.instances_dormant;
-  report.regions_asleep += static_cast<uint32_t>(instance.asset->pack.regions.size());
+  report.regions_asleep += static_cast<uint32_t>(instance.level->pack.regions.size());
   count_tier(tier, report);
-  return error_of(*instance.asset, tier, instance.plan.every);
+  return error_of(*instance.asset, tier, instance.plan.every, instance.state->level);
 }
 
 float add_idle(FrameReport& report) noexcept {

@@ -14,7 +14,7 @@ namespace {
 void hold_pose(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   if (!state.has_next || state.at_start) return;
-  const uint32_t joints = instance.asset->pack.character->joint_count;
+  const uint32_t joints = instance.level->pack.character->joint_count;
   std::copy_n(instance.next_joints, joints, instance.joints);
   std::copy_n(instance.next_joints, joints, instance.joints_before);
   state.root = state.next_root;

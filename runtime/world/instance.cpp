@@ -12,6 +12,7 @@
 #include "tissue/inputs.hpp"
 #include "tissue/network.hpp"
 #include "tissue/node_drive.hpp"
+#include "world/change_level.hpp"
 #include "world/dormant.hpp"
 #include "world/pose_bound.hpp"
 #include "world/publish.hpp"
@@ -26,7 +27,7 @@ namespace sinew::world {
 namespace {
 
 static_assert(std::is_trivially_copyable_v<InstanceState>, "saved as bytes");
-static_assert(sizeof(InstanceState) == 392, "no padding: equal states are equal bytes");
+static_assert(sizeof(InstanceState) == 400, "no padding: equal states are equal bytes");
 
 float smooth_step(float t) noexcept { return t * t * (3 - 2 * t); }
 
@@ -65,13 +66,16 @@ void lay_out_state(const Asset& asset, core::Arena& arena, Instance& to) noexcep
       skin = arena.take<float>(size_t{12} * asset.pack.character->joint_count);
     for (float*& turn : to.tick_turn) turn = arena.take<float>(4);
   }
+  if (asset.level_count > 1) to.seam = arena.take<float>(size_t{3} * asset.padded_vertices);
   to.state_bytes = arena.used_bytes();
 }
 
 void lay_out_contacts(const Asset& asset, core::Arena& arena, Instance& to) noexcept {
   to.probes = arena.take<ContactProbe>(kProbesAtOnce);
   to.hits = arena.take<ContactHit>(kHitsAtOnce);
-  to.touches = arena.take<Touch>(size_t{2} * asset.patches.vertex_count);
+  uint32_t vertices = 0;
+  for (const GraphLevel& level : asset.levels) vertices = std::max(vertices, level.patches.vertex_count);
+  to.touches = arena.take<Touch>(size_t{2} * vertices);
   to.flesh = arena.take<float>(size_t{3} * asset.node_count());
   to.deepest = arena.take<uint32_t>(asset.node_count());
   to.carries_pushes = arena.take<uint8_t>(asset.pack.regions.size());
@@ -90,6 +94,7 @@ void lay_out_scratch(const Asset& asset, core::Arena& arena, Instance& to) noexc
   to.q_hat = arena.take<float>(asset.mode_count());
   for (float*& region : to.region) region = arena.take<float>(asset.widest_region);
   to.awake = arena.take<tissue::NodeRun>(asset.pack.regions.size());
+  if (asset.level_count > 1) to.level_scratch = arena.take<float>(change_scratch_floats(asset));
   to.inputs = arena.take<float>(tissue::input_stride(asset.network) * nodes);
   to.network_scratch = arena.take<float>(tissue::scratch_floats(asset.network, nodes));
   to.skin = arena.take<float>(size_t{12} * joints);
@@ -123,6 +128,12 @@ float Instance::tail_share(float ahead) const noexcept {
   return smooth_step(1 - std::min(faded / static_cast<float>(kFadeTicks), 1.0f));
 }
 
+float Instance::seam_share() const noexcept {
+  if (!seam || state->seam_ticks >= kBlendInTicks) return 0;
+  const float faded = (static_cast<float>(state->seam_ticks) + state->render_fraction) / kBlendInTicks;
+  return smooth_step(1 - std::min(faded, 1.0f));
+}
+
 size_t instance_bytes(const Asset& asset) noexcept {
   core::Arena measure;
   Instance unused;
@@ -135,8 +146,10 @@ Status make_instance(Asset& asset, const InstanceDef& def, Instance* out) noexce
   Instance made;
   made.contacts = def.contacts;
   made.contacts.own_body &= asset.rods.rod_count > 0 && !asset.pack.proxies.empty();
-  if (made.contacts.source && !asset.patches.first) {
-    if (Status status = make_surface_patches(asset.pack, &asset.patches); !status.ok()) return status;
+  for (uint32_t l = 0; made.contacts.source && l < asset.level_count; ++l) {
+    GraphLevel& level = asset.levels[l];
+    if (level.patches.first) continue;
+    if (Status status = make_surface_patches(level.pack, &level.patches); !status.ok()) return status;
   }
   lay_out(asset, measure, made);
   const size_t bytes = measure.used_bytes();
@@ -150,7 +163,7 @@ Status make_instance(Asset& asset, const InstanceDef& def, Instance* out) noexce
   made.asset = &asset;
   made.asset_id = def.asset;
   new (made.state) InstanceState();
-  point_to_joints(made);
+  point_to_state(made);
   made.state->root = def.root;
   made.state->ticks = asset.live_instances;  // not all in the same tick
   made.state->importance = frame::sane_importance(def.importance);
@@ -165,7 +178,8 @@ Status make_instance(Asset& asset, const InstanceDef& def, Instance* out) noexce
   return {};
 }
 
-void point_to_joints(Instance& instance) noexcept {
+void point_to_state(Instance& instance) noexcept {
+  instance.level = &instance.asset->levels[instance.state->level];
   const uint32_t first = instance.state->first_joints % 3;
   instance.joints_before = instance.pose_joints[first];
   instance.joints = instance.pose_joints[(first + 1) % 3];
@@ -174,7 +188,7 @@ void point_to_joints(Instance& instance) noexcept {
 
 void forget_displacement(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
-  const size_t bytes = sizeof(float) * 3 * instance.asset->node_count();
+  const size_t bytes = sizeof(float) * 3 * instance.level->node_count();
   for (float* shown : instance.shown) std::memset(shown, 0, bytes);
   std::memset(instance.tail, 0, bytes);
   std::memset(instance.tail_velocity, 0, bytes);
@@ -189,6 +203,7 @@ void forget_displacement(Instance& instance) noexcept {
   state.fallback_ticks = 0;
   state.tail_ticks = kCarryTicks + kFadeTicks;
   state.clamped_ticks = 0;
+  state.seam_ticks = kBlendInTicks;
 }
 
 void forget_motion(Instance& instance) noexcept {
@@ -211,7 +226,7 @@ TierReason reason_of(const Instance& instance, uint32_t asleep) noexcept {
   if (state.hidden) return TierReason::kHidden;
   if (instance.cut || instance.held) return TierReason::kCut;
   if (state.restarting || state.fallback_ticks > 0) return TierReason::kGuard;
-  if (frame::is_simulated(state.tier) && asleep == instance.asset->pack.regions.size())
+  if (frame::is_simulated(state.tier) && asleep == instance.level->pack.regions.size())
     return TierReason::kStill;
   const bool overdue = !frame::is_simulated(state.tier) && state.waited_s > frame::kLongestWait_s;
   return overdue ? TierReason::kWaiting : instance.plan.why;
@@ -227,7 +242,8 @@ InstanceReport describe(const Instance& instance, InstanceId id) noexcept {
   return {.instance = id,
           .tier = simulated || blend > 0 ? state.tier : Tier::kSkinning,
           .why = reason_of(instance, asleep),
-          .error = state.hidden ? 1 : error_of(*instance.asset, state.tier, instance.plan.every),
+          .error = state.hidden ? 1 : error_of(*instance.asset, state.tier, instance.plan.every, state.level),
+          .graph_level = state.level,
           .blend = blend,
           .ticks_since_network = state.ticks_since_network,
           .input_clamps = state.input_clamps,

@@ -76,6 +76,9 @@ struct InstanceState {
   uint32_t heard_by = 0;                  // HeardBy: whose `heard` is
   float heard_stretch = 1;                // this spacing over that of the two ticks of `heard`
   uint32_t still_ticks = 0, dormant = 0;  // world/dormant.hpp
+  // world/change_level.hpp:
+  uint32_t level = 0;                   // of control graphs
+  uint32_t seam_ticks = kBlendInTicks;  // since it changed, at most kBlendInTicks
 };
 
 // What the last step measured; not state.
@@ -107,6 +110,7 @@ struct InstancePlan {
   frame::TickPlan ticks;
   double dt_s = 0;
   Tier tier = Tier::kSkinning;
+  uint32_t level = 0;   // of control graphs
   uint32_t every = 1;   // 1 or 2: ticks from one that is simulated whole to the next (world/update_rate.hpp)
   float error = 1;      // a share of skinning's
   float cost_us = 0;    // expected
@@ -123,6 +127,7 @@ struct Instance {
   core::AlignedBlock memory;
   AssetId asset_id;
   Asset* asset = nullptr;
+  const GraphLevel* level = nullptr;  // of the asset: state->level
   InstancePlan plan;
   InstanceTimes times;
   bool idle = false;     // in the last step: neither simulated nor displaced
@@ -136,9 +141,12 @@ struct Instance {
   bool heard_now = false;                                  // in the last tick: it was simulated whole
   bool parts_ready = false;                                // in this step: the parts are filled in
   bool displaced = false;                                  // published displacement is not zero everywhere
-  bool rods_anew = false;   // in this tick: rods are taken to where they are shown before they go on
-  bool rods_shown = false;  // published joints are not the pose's
-  ContactDef contacts;      // without a source, the arrays of contacts have no memory
+  bool changed_level = false;                              // in the last step
+  bool level_raised = false;  // in this step: its nodes' past poses are not known
+  bool settles = false;       // likewise, and its r is what was spread
+  bool rods_anew = false;     // in this tick: rods are taken to where they are shown before they go on
+  bool rods_shown = false;    // published joints are not the pose's
+  ContactDef contacts;        // without a source, the arrays of contacts have no memory
   std::unique_ptr<rods::RodBatch[]> rod_batches;       // their state is saved beside the run of bytes below
   std::unique_ptr<rods::RodCollider[]> rod_colliders;  // [batches], theirs too; null: rods touch nothing
 
@@ -168,6 +176,7 @@ struct Instance {
   // whether any of a region's is.
   float* pushes = nullptr;
   uint32_t* pushed = nullptr;  // [regions]
+  float* seam = nullptr;       // laid out as `carried`: what a change of level left, null: one level
   // Of the last two ticks, newest first, where something may be touched: [joints][12], and the root's turn.
   float *tick_skin[2] = {}, *tick_turn[2] = {};
   size_t state_bytes = 0;
@@ -181,6 +190,7 @@ struct Instance {
   float *inputs = nullptr, *network_scratch = nullptr;
   float* region[2] = {};             // [widest_region]: one region's x y z and modes
   tissue::NodeRun* awake = nullptr;  // [regions]
+  float* level_scratch = nullptr;    // world/change_level.cpp; null: one level
 
   ContactProbe* probes = nullptr;  // [kProbesAtOnce]
   ContactHit* hits = nullptr;      // [kHitsAtOnce]
@@ -194,16 +204,19 @@ struct Instance {
   double* rod_end[2] = {};  // [slots][3] where segments end, as they are taken along
 
   // Published by a step, read by read_*.
-  float* skin = nullptr;     // [joints][12], where they are too many for a reader's stack; scratch of a tick
-  float carried_share = 1;   // of `carried`, in what is read: a tail that fades is not carried anew
-  float* delta = nullptr;    // [nodes][3], bind-pose axes
-  float* carried = nullptr;  // of delta: a region after the other [3][padded_vertices], bind-pose axes
-  float* surface = nullptr;  // [vertices][3], scratch of read_normals
+  float* skin = nullptr;      // [joints][12], where they are too many for a reader's stack; scratch of a tick
+  float carried_share = 1;    // of `carried`, in what is read: a tail that fades is not carried anew
+  float* delta = nullptr;     // [nodes][3], bind-pose axes
+  bool carries_seam = false;  // `carried` has some of the seam in it
+  uint32_t carried_level = 0;      // by whose weights it was carried
+  float* carried = nullptr;        // of delta: a region after the other [3][padded_vertices], bind-pose axes
+  float* surface = nullptr;        // [vertices][3], scratch of read_normals
   Matrix34* rod_motion = nullptr;  // [slots]: how rods move the pose's bones, in the character's space
   Matrix34* rod_joints = nullptr;  // [joints], where there are rods: the pose's, moved by them
 
   float simulated_share() const noexcept;            // b
   float tail_share(float ahead = 0) const noexcept;  // 1 while carried, then falling smoothly to 0; in ticks
+  float seam_share() const noexcept;                 // 1 as a level changes, then falling smoothly to 0
   float shown_share() const noexcept { return simulated_share() + (1 - simulated_share()) * tail_share(); }
 };
 
@@ -211,8 +224,8 @@ size_t instance_bytes(const Asset& asset) noexcept;  // without contacts
 // In its bind pose, at rest. kOutOfCapacity when memory is short.
 Status make_instance(Asset& asset, const InstanceDef& def, Instance* out) noexcept;
 
-// Points joints_before, joints and next_joints to where the state says.
-void point_to_joints(Instance& instance) noexcept;
+// Points joints_before, joints and next_joints, and the level, to what the state says.
+void point_to_state(Instance& instance) noexcept;
 
 // Displacement, shown and carried on, is zero from now on; simulation would start anew.
 void forget_displacement(Instance& instance) noexcept;

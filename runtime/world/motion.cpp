@@ -72,7 +72,7 @@ void shift_past(Instance& instance, const RootTransform& root) noexcept {
     place = (turn * (place - from) + to).eval();
   }
   for (tissue::NodePose* poses : instance.poses)
-    turn_poses(turn.cast<float>(), instance.asset->node_count(), poses);
+    turn_poses(turn.cast<float>(), instance.level->node_count(), poses);
   for (float* tick_turn : instance.tick_turn) {
     if (!tick_turn) continue;
     const Quaterniond turned =
@@ -107,12 +107,12 @@ void forget_velocity(InstanceState& state) noexcept {
 }
 
 void copy_joints(const Instance& instance, const Matrix34* from, Matrix34* to) noexcept {
-  std::copy_n(from, instance.asset->pack.character->joint_count, to);
+  std::copy_n(from, instance.level->pack.character->joint_count, to);
 }
 
 void split_poses(Instance& instance) noexcept {
   if (std::exchange(instance.parts_ready, true)) return;
-  for (uint32_t j = 0; j < instance.asset->pack.character->joint_count; ++j) {
+  for (uint32_t j = 0; j < instance.level->pack.character->joint_count; ++j) {
     instance.parts_before[j] = split_joint(instance.joints_before[j]);
     instance.parts[j] = split_joint(instance.joints[j]);
     instance.next_parts[j] = split_joint(instance.next_joints[j]);
@@ -130,7 +130,7 @@ const Matrix34* joints_at(Instance& instance, double share) noexcept {
   if (share == 1) return instance.next_joints;
   split_poses(instance);
   const PathWeights weights = path_weights(share, instance.plan.dt_s, instance.state->dt_before_s);
-  for (uint32_t j = 0; j < instance.asset->pack.character->joint_count; ++j) {
+  for (uint32_t j = 0; j < instance.level->pack.character->joint_count; ++j) {
     instance.tick_joints[j] =
         joint_between(instance.parts_before[j], instance.parts[j], instance.next_parts[j], weights);
   }
@@ -145,7 +145,7 @@ RootTransform root_at(const Instance& instance, double share) noexcept {
 }
 
 void pose_nodes(Instance& instance, const Matrix34* joints, const RootTransform& root) noexcept {
-  const pack::PackView& pack = instance.asset->pack;
+  const pack::PackView& pack = instance.level->pack;
   skin_matrices(pack.joints, joints, instance.skin);
   tissue::pose_nodes(pack.nodes, instance.skin, root.rotation_xyzw, instance.poses[0]);
   for (const pack::RegionRecord& region : pack.regions)
@@ -154,7 +154,7 @@ void pose_nodes(Instance& instance, const Matrix34* joints, const RootTransform&
 
 void remember_skin(Instance& instance, const RootTransform& root) noexcept {
   if (!instance.contacts.source) return;
-  const size_t floats = size_t{12} * instance.asset->pack.character->joint_count;
+  const size_t floats = size_t{12} * instance.level->pack.character->joint_count;
   std::copy_n(instance.tick_skin[0], floats, instance.tick_skin[1]);
   std::copy_n(instance.tick_turn[0], 4, instance.tick_turn[1]);
   std::copy_n(instance.skin, floats, instance.tick_skin[0]);
@@ -164,7 +164,7 @@ void remember_skin(Instance& instance, const RootTransform& root) noexcept {
 // Shifts the history by one tick and puts the pose at `share` in front.
 void push_pose(Instance& instance, double share) noexcept {
   auto& roots = instance.state->tick_root_m;
-  const size_t bytes = sizeof(tissue::NodePose) * instance.asset->node_count();
+  const size_t bytes = sizeof(tissue::NodePose) * instance.level->node_count();
   for (int back = 2; back > 0; --back) {
     std::memcpy(instance.poses[back], instance.poses[back - 1], bytes);
     std::copy_n(roots[back - 1], 3, roots[back]);
@@ -175,6 +175,13 @@ void push_pose(Instance& instance, double share) noexcept {
   rest_rods(instance, joints, root);
   std::copy_n(root.position_m, 3, roots[0]);
   remember_skin(instance, root);
+}
+
+// Of the last two ticks, of nodes that were not followed: as after ticks that were not followed.
+void pose_past_nodes(Instance& instance, double share, double back) noexcept {
+  pose_nodes(instance, joints_at(instance, share - 2 * back), root_at(instance, share - 2 * back));
+  std::memcpy(instance.poses[1], instance.poses[0], sizeof(tissue::NodePose) * instance.level->node_count());
+  pose_nodes(instance, joints_at(instance, share - back), root_at(instance, share - back));
 }
 
 }  // namespace
@@ -204,7 +211,7 @@ void take_pose(Instance& instance, float teleport_distance_m) noexcept {
 
 void keep_pose(Instance& instance) noexcept {
   instance.state->first_joints = (instance.state->first_joints + 1) % 3;
-  point_to_joints(instance);
+  point_to_state(instance);
   // A pose that only counts as held says nothing of how the next is reached.
   instance.state->dt_before_s = instance.came_back ? 0 : instance.plan.dt_s;
   instance.state->root = instance.state->next_root;
@@ -213,12 +220,15 @@ void keep_pose(Instance& instance) noexcept {
 
 void follow_motion(Instance& instance, double time_s) noexcept {
   const double share = share_at(instance, time_s);
+  const double tick = instance.plan.dt_s > 0 ? instance.asset->tick_s / instance.plan.dt_s : 0;
+  const double back = tick <= kFarthestBack ? tick : 0;
+  const bool raised = std::exchange(instance.level_raised, false);
   if (std::exchange(instance.state->motion_stale, 0u)) {
-    const double tick = instance.plan.dt_s > 0 ? instance.asset->tick_s / instance.plan.dt_s : 0;
-    const double back = tick <= kFarthestBack ? tick : 0;
     begin_rods(instance);
     push_pose(instance, share - 2 * back);
     push_pose(instance, share - back);
+  } else if (raised) {
+    pose_past_nodes(instance, share, back);
   }
   push_pose(instance, share);
 }

@@ -18,7 +18,7 @@ void refresh_front(const WorldState& world, Asset& asset) noexcept {
   frame::Level now[frame::kMostLevels];
   for (uint32_t i = 0; i < asset.point_count; ++i) {
     now[i] = asset.points[i];
-    const frame::CostEstimate& tick = asset.cost.tick[static_cast<size_t>(now[i].tier)];
+    const frame::CostEstimate& tick = asset.cost.of(now[i].tier, now[i].graph);
     now[i].tick_us = tick.estimate_us() / static_cast<float>(now[i].every);
   }
   frame::make_front({now, asset.point_count}, asset.cost.publish.estimate_us(), &asset.front);
@@ -67,7 +67,7 @@ Candidate candidate_of(const WorldState& world, const Instance& instance, uint32
           .cost_factor = costs_are_measured(world) ? instance.times.cost_factor : 1,
           .base_us = base_us(world, instance),
           .enter_us = costs_are_measured(world) ? instance.asset->cost.enter.estimate_us() : 0,
-          .has = front.level_of(state.tier, instance.plan.every),
+          .has = front.level_of(state.tier, instance.plan.every, state.level),
           .top = highest(instance),
           .turn_left_s = state.turn_left_s,
           .keeps_level = ticks == 0 && world.budget_us > 0 && !state.hidden};
@@ -156,6 +156,7 @@ void take_answer(const WorldState& world, const Candidate& c, Instance& instance
   InstancePlan& plan = instance.plan;
   plan.why = told(c.reason);
   instance.state->turn_left_s = c.turn_left_s;
+  plan.level = instance.state->level;
   if (c.keeps_level) {
     plan.tier = instance.state->tier;
     plan.cost_us = c.base_us;
@@ -167,6 +168,7 @@ void take_answer(const WorldState& world, const Candidate& c, Instance& instance
                   ? Tier::kExtrapolate
                   : Tier::kSkinning;
   plan.every = denied ? 1 : level.every;
+  if (!denied) plan.level = level.graph;
   plan.error = level.error;
   plan.cost_us = c.cost_us(c.level);
 }

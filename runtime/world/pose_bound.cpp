@@ -51,7 +51,7 @@ float reach_of(const Asset& asset) noexcept {
 }
 
 void bound_pose(Instance& instance) noexcept {
-  const uint32_t joints = instance.asset->pack.character->joint_count;
+  const uint32_t joints = instance.level->pack.character->joint_count;
   Eigen::AlignedBox3f box;
   const Matrix34* pose = instance.state->has_next ? instance.next_joints : instance.joints;
   for (uint32_t j = 0; j < joints; ++j) box.extend(place_of(pose[j]));

@@ -60,10 +60,10 @@ size_t gather(Instance& instance, std::span<const Touch> touches, const Touch** 
 }
 
 void press_modes(Instance& instance, uint32_t r, std::span<tissue::NodeContact> contacts) {
-  const Asset& asset = *instance.asset;
-  const pack::RegionRecord& region = asset.pack.regions[r];
-  const size_t vector = size_t{3} * region.first_node, mode = asset.pack.region_modes[r].first_mode;
-  tissue::press(tissue::modal_base(asset.pack, r), contacts, instance.felt + vector, instance.region[0],
+  const GraphLevel& level = *instance.level;
+  const pack::RegionRecord& region = level.pack.regions[r];
+  const size_t vector = size_t{3} * region.first_node, mode = level.pack.region_modes[r].first_mode;
+  tissue::press(tissue::modal_base(level.pack, r), contacts, instance.felt + vector, instance.region[0],
                 instance.region[1],
                 {.q = instance.q[0] + mode,
                  .r = instance.r[0] + vector,
@@ -71,7 +71,7 @@ void press_modes(Instance& instance, uint32_t r, std::span<tissue::NodeContact> 
                  .theta = instance.theta + vector,
                  .u = instance.u[0] + vector});
   if (instance.state->tier == Tier::kNetwork)
-    tissue::write_output(asset.network, asset.pack.regions.subspan(r, 1), asset.node_count(),
+    tissue::write_output(instance.asset->network, level.pack.regions.subspan(r, 1), level.node_count(),
                          instance.l[0] + vector, instance.network_state);
 }
 
@@ -86,7 +86,7 @@ void press_springs(Instance& instance, const pack::RegionRecord& region,
 }  // namespace
 
 void press_region(Instance& instance, uint32_t r, std::span<const Touch> touches) noexcept {
-  const pack::RegionRecord& region = instance.asset->pack.regions[r];
+  const pack::RegionRecord& region = instance.level->pack.regions[r];
   const Touch* chosen[tissue::kMostNodeContacts];
   tissue::NodeContact contacts[tissue::kMostNodeContacts];
   const size_t count = gather(instance, touches, chosen);

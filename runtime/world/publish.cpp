@@ -42,22 +42,33 @@ bool takes_pushes(const Instance& instance, size_t r) noexcept {
   return instance.contacts.source && (instance.pushed[r] || instance.carries_pushes[r]);
 }
 
+// True when `carried` has to be made anew for what a change of level left, or for its level itself.
+bool takes_seam(Instance& instance, float share) noexcept {
+  const bool had = std::exchange(instance.carries_seam, share > 0);
+  return std::exchange(instance.carried_level, instance.state->level) != instance.state->level || had ||
+         share > 0;
+}
+
+void add_seam(const Instance& instance, float share, size_t first, size_t floats, float* carried) noexcept {
+  for (size_t i = 0; i < floats; ++i) carried[i] += share * instance.seam[first + i];
+}
+
 void add_pushes(Instance& instance, size_t r, size_t first, float* carried) noexcept {
-  const size_t floats = size_t{3} * instance.asset->pack.regions[r].padded_vertices;
+  const size_t floats = size_t{3} * instance.level->pack.regions[r].padded_vertices;
   instance.carries_pushes[r] = instance.pushed[r] != 0;
   for (size_t i = 0; i < floats; ++i) carried[i] += instance.pushes[first + i];
 }
 
 // Nothing is left of it, so that coming back starts from rest.
 void clear_shown(Instance& instance) noexcept {
-  const size_t bytes = sizeof(float) * 3 * instance.asset->node_count();
+  const size_t bytes = sizeof(float) * 3 * instance.level->node_count();
   for (float* shown : instance.shown) std::memset(shown, 0, bytes);
 }
 
 }  // namespace
 
 void publish(Instance& instance) noexcept {
-  const pack::PackView& pack = instance.asset->pack;
+  const pack::PackView& pack = instance.level->pack;
   publish_rods(instance);
   if (!skins_on_reading(instance)) skin_matrices(pack.joints, shown_joints(instance), instance.skin);
   const bool displaced = instance.shown_share() > 0;
@@ -66,13 +77,17 @@ void publish(Instance& instance) noexcept {
   instance.carried_share =
       frame::is_simulated(instance.state->tier) ? 1 : instance.tail_share(instance.state->render_fraction);
   float* carried = instance.carried;
+  const float seam = instance.seam_share();
+  const bool seamed = takes_seam(instance, seam);
   for (size_t r = 0; r < pack.regions.size(); ++r) {
     const pack::RegionRecord& region = pack.regions[r];
     const bool moved = carry_on(instance, region), pushed = takes_pushes(instance, r);
-    if (moved || pushed)
+    const size_t first = static_cast<size_t>(carried - instance.carried);
+    if (moved || pushed || seamed)
       simd::kernels().carry(pack.carry.data() + region.carry, region.node_count, region.padded_vertices,
                             instance.delta + size_t{3} * region.first_node, carried);
-    if (pushed) add_pushes(instance, r, static_cast<size_t>(carried - instance.carried), carried);
+    if (seam > 0) add_seam(instance, seam, first, size_t{3} * region.padded_vertices, carried);
+    if (pushed) add_pushes(instance, r, first, carried);
     carried += size_t{3} * region.padded_vertices;
   }
 }

@@ -15,7 +15,7 @@ void publish(Instance& instance) noexcept;
 
 inline constexpr uint32_t kJointsOnStack = 256;  // 12 KB
 inline bool skins_on_reading(const Instance& instance) noexcept {
-  return instance.asset->pack.character->joint_count <= kJointsOnStack;
+  return instance.level->pack.character->joint_count <= kJointsOnStack;
 }
 
 }  // namespace sinew::world

@@ -28,9 +28,9 @@ Vector3f held(const SurfacePoint& at, const Vector3f& push, float limit_m) {
 }
 
 void push_vertex(Instance& instance, const Touch& touch) {
-  const Asset& asset = *instance.asset;
-  const pack::RegionRecord& region = asset.pack.regions[touch.region];
-  const SurfacePatches::Vertex& vertex = asset.patches.vertices[touch.vertex];
+  const GraphLevel& level = *instance.level;
+  const pack::RegionRecord& region = level.pack.regions[touch.region];
+  const SurfacePatches::Vertex& vertex = level.patches.vertices[touch.vertex];
   const SurfacePoint now = surface_point(instance, touch.region, vertex, instance.shown[0], 0);
   size_t pitch = 0;
   float* push = push_of(instance, touch.region, vertex, &pitch);
@@ -51,7 +51,7 @@ void push_vertex(Instance& instance, const Touch& touch) {
 
 // Where it is shown in the end.
 void look_at_vertex(Instance& instance, const Touch& touch) {
-  const SurfacePatches::Vertex& vertex = instance.asset->patches.vertices[touch.vertex];
+  const SurfacePatches::Vertex& vertex = instance.level->patches.vertices[touch.vertex];
   const SurfacePoint now = surface_point(instance, touch.region, vertex, instance.shown[0], 0);
   size_t pitch = 0;
   const float* push = push_of(instance, touch.region, vertex, &pitch);
@@ -65,8 +65,8 @@ void look_at_vertex(Instance& instance, const Touch& touch) {
 void forget_pushes(Instance& instance) noexcept {
   if (!instance.contacts.source) return;
   float* pushes = instance.pushes;
-  for (size_t r = 0; r < instance.asset->pack.regions.size(); ++r) {
-    const size_t floats = size_t{3} * instance.asset->pack.regions[r].padded_vertices;
+  for (size_t r = 0; r < instance.level->pack.regions.size(); ++r) {
+    const size_t floats = size_t{3} * instance.level->pack.regions[r].padded_vertices;
     if (instance.pushed[r]) std::fill_n(pushes, floats, 0.0f);
     instance.pushed[r] = 0;
     pushes += floats;

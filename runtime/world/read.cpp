@@ -38,7 +38,7 @@ void store(const ReadDef& def, size_t vertex, const Vector3f& value) noexcept {
 }
 
 void bind_chunk(const Instance& instance, Chunk& chunk) noexcept {
-  const float* positions = instance.asset->pack.positions.data() + size_t{3} * chunk.first;
+  const float* positions = instance.level->pack.positions.data() + size_t{3} * chunk.first;
   std::memcpy(chunk.points, positions, sizeof(float) * 3 * chunk.count);
 }
 
@@ -47,7 +47,7 @@ class SkinMatrices {
  public:
   explicit SkinMatrices(const Instance& instance) noexcept : data_(instance.skin) {
     if (!skins_on_reading(instance)) return;
-    skin_matrices(instance.asset->pack.joints, shown_joints(instance), here_);
+    skin_matrices(instance.level->pack.joints, shown_joints(instance), here_);
     data_ = here_;
   }
   SkinMatrices(const SkinMatrices&) = delete;
@@ -60,7 +60,7 @@ class SkinMatrices {
 };
 
 void skin_chunk(const Instance& instance, const SkinMatrices& matrices, Chunk& chunk) noexcept {
-  const pack::PackView& pack = instance.asset->pack;
+  const pack::PackView& pack = instance.level->pack;
   simd::kernels().skin({.points = chunk.points[0],
                         .point_stride = 3 * sizeof(float),
                         .joints = pack.skin[chunk.first].joint,
@@ -75,7 +75,7 @@ void skin_chunk(const Instance& instance, const SkinMatrices& matrices, Chunk& c
 // Adds what the regions carry to the chunk's vertices, in bind-pose axes.
 void add_carried(const Instance& instance, Chunk& chunk) noexcept {
   if (!instance.displaced) return;
-  const pack::PackView& pack = instance.asset->pack;
+  const pack::PackView& pack = instance.level->pack;
   const float* carried = instance.carried;
   for (const pack::RegionRecord& region : pack.regions) {
     const uint32_t* begin = pack.region_vertices.data() + region.first_vertex;
@@ -175,7 +175,7 @@ void read_positions(const Instance& instance, const ReadDef& def) noexcept {
 }
 
 void read_normals(const Instance& instance, const ReadDef& def) noexcept {
-  const pack::PackView& pack = instance.asset->pack;
+  const pack::PackView& pack = instance.level->pack;
   const uint32_t vertices = instance.asset->vertex_count();
   write_places(instance, {.out = instance.surface, .capacity = vertices});
   simd::vertex_normals({.positions = instance.surface,

@@ -80,7 +80,7 @@ void take_along(Instance& instance) noexcept {
 }
 
 Vector3d felt_gravity(const Instance& instance, uint32_t rod, const RodSeat& seat) noexcept {
-  const pack::RodRecord& record = instance.asset->pack.rods[rod];
+  const pack::RodRecord& record = instance.level->pack.rods[rod];
   const Quaterniond bind(instance.asset->rods.slots()[seat.first_slot].bind_xyzw);
   const Quaterniond turned = rest_of(instance, 0, seat.first_slot) * bind.conjugate();
   const Vector3d g(0, -kGravity_m_s2, 0);

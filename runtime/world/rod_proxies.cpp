@@ -72,7 +72,7 @@ rods::Capsule capsule_of(const Instance& instance, uint32_t proxy) noexcept {
   rods::Capsule capsule;
   std::copy_n(from.data(), 3, capsule.ends_m[0]);
   std::copy_n(to.data(), 3, capsule.ends_m[1]);
-  capsule.radius_m = instance.asset->pack.proxies[proxy].radius_m;
+  capsule.radius_m = instance.level->pack.proxies[proxy].radius_m;
   capsule.friction = kFriction;
   const double tick_s = instance.asset->tick_s;
   const Vector3d linear = (from + to - was_from - was_to) / (2 * tick_s);
@@ -87,11 +87,11 @@ rods::Capsule capsule_of(const Instance& instance, uint32_t proxy) noexcept {
 }  // namespace
 
 uint32_t proxy_count(const Instance& instance) noexcept {
-  return instance.proxy_ends[0] ? static_cast<uint32_t>(instance.asset->pack.proxies.size()) : 0;
+  return instance.proxy_ends[0] ? static_cast<uint32_t>(instance.level->pack.proxies.size()) : 0;
 }
 
 void pass_proxies(const Instance& instance, uint32_t batch, rods::RodCollider& collider) noexcept {
-  const pack::PackView& pack = instance.asset->pack;
+  const pack::PackView& pack = instance.level->pack;
   for (uint32_t rod = 0; rod < instance.asset->rods.rod_count; ++rod) {
     const RodSeat& seat = instance.asset->rods.seats()[rod];
     if (seat.batch != batch) continue;
@@ -107,8 +107,8 @@ void pose_proxies(Instance& instance, const Matrix34* joints, const Quaterniond&
   if (count > 0 && rods_asleep(instance) == 0)
     std::copy_n(instance.proxy_ends[0], size_t{6} * count, instance.proxy_ends[1]);
   for (uint32_t i = 0; i < count; ++i) {
-    const pack::ProxyRecord& proxy = instance.asset->pack.proxies[i];
-    const Matrix34 bind = inverse_bind(instance.asset->pack.joints[proxy.joint]);
+    const pack::ProxyRecord& proxy = instance.level->pack.proxies[i];
+    const Matrix34 bind = inverse_bind(instance.level->pack.joints[proxy.joint]);
     for (uint32_t end = 0; end < 2; ++end) {
       const Vector3d rest = vector(end == 0 ? proxy.from_m : proxy.to_m);
       end_of(instance, 0, i, end) = place_m + turn * moved(joints[proxy.joint], moved(bind, rest));
@@ -135,7 +135,7 @@ void set_proxies(Instance& instance, rods::RodCollider& collider) noexcept {
 
 bool proxies_move(const Instance& instance) noexcept {
   for (uint32_t i = 0; i < proxy_count(instance); ++i) {
-    const double still = kStill * double{instance.asset->pack.proxies[i].radius_m};
+    const double still = kStill * double{instance.level->pack.proxies[i].radius_m};
     for (uint32_t end = 0; end < 2; ++end)
       if (!((end_of(instance, 0, i, end) - end_of(instance, 1, i, end)).norm() <= still)) return true;
   }

@@ -54,7 +54,7 @@ void publish_rods(Instance& instance) noexcept {
     map(instance.rod_motion[seat.first_slot]).setIdentity();
     for (uint32_t k = 1; k < seat.slot_count; ++k) move_bone(instance, seat.first_slot + k);
   }
-  for (uint32_t j = 0; j < instance.asset->pack.character->joint_count; ++j) {
+  for (uint32_t j = 0; j < instance.level->pack.character->joint_count; ++j) {
     const uint32_t carrier = rig.joint_slots[j];
     instance.rod_joints[j] = instance.joints[j];
     if (carrier == pack::kNoIndex) continue;

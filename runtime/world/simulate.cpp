@@ -11,6 +11,7 @@
 #include "tissue/network.hpp"
 #include "tissue/node_drive.hpp"
 #include "tissue/spring.hpp"
+#include "world/change_level.hpp"
 #include "world/sleep.hpp"
 #include "world/update_rate.hpp"
 
@@ -22,16 +23,18 @@ struct Part {
   const pack::RegionRecord& record;
   tissue::ModalBase base;
   size_t index, node, vector, mode, heard;
+  float first_rad_per_s;
 };
 
 template <class Work>
 void for_each_part(const Instance& instance, Work work) noexcept {
-  const pack::PackView& pack = instance.asset->pack;
+  const pack::PackView& pack = instance.level->pack;
   size_t heard = 0;
   for (size_t r = 0; r < pack.regions.size(); ++r) {
     const size_t node = pack.regions[r].first_node;
-    const Part part{pack.regions[r], tissue::modal_base(pack, r),     r,    node,
-                    3 * node,        pack.region_modes[r].first_mode, heard};
+    const Part part{
+        pack.regions[r], tissue::modal_base(pack, r),     r,     node,
+        3 * node,        pack.region_modes[r].first_mode, heard, pack.region_modes[r].first_rad_per_s};
     work(part);
     heard += part.base.padded + part.base.padded_modes;
   }
@@ -44,7 +47,7 @@ void for_each_awake_part(const Instance& instance, Work work) noexcept {
   });
 }
 
-size_t floats_of(const Instance& instance) noexcept { return size_t{3} * instance.asset->node_count(); }
+size_t floats_of(const Instance& instance) noexcept { return size_t{3} * instance.level->node_count(); }
 
 // What was heard in the tick that is simulated whole; then `heard` is how it differs from what was expected
 // of it, per k ticks: of what came evenly since the one before.
@@ -88,7 +91,7 @@ void count_clamps(Instance& instance, uint32_t held, uint32_t by_tier) noexcept 
 
 // What grew while nobody listened, and what is heard from here on.
 void hear_springs(Instance& instance) noexcept {
-  const pack::PackView& pack = instance.asset->pack;
+  const pack::PackView& pack = instance.level->pack;
   for_each_part(instance, [&](const Part& part) {
     for (size_t i = 0; i < part.record.node_count; ++i)
       std::copy_n(instance.drive + tissue::kNodeDriveWidth * (part.node + i), 3, instance.region[0] + 3 * i);
@@ -110,7 +113,7 @@ void hear_springs(Instance& instance) noexcept {
 }
 
 bool spring_tick(Instance& instance) noexcept {
-  const pack::PackView& pack = instance.asset->pack;
+  const pack::PackView& pack = instance.level->pack;
   if (instance.heard_now) hear_springs(instance);
   for_each_part(instance, [&](const Part& part) {
     tissue::spring_step(pack.springs[part.index], pack.compliance.data() + 9 * part.node,
@@ -166,7 +169,7 @@ void feel(Instance& instance, const Part& part) noexcept {
 
 // What sleeps answers with what it is.
 void answer_as_before(Instance& instance) noexcept {
-  std::copy_n(instance.q[0], instance.asset->mode_count(), instance.q_hat);
+  std::copy_n(instance.q[0], instance.level->mode_count(), instance.q_hat);
   std::copy_n(instance.r[0], floats_of(instance), instance.r_hat);
   std::copy_n(instance.l[0], floats_of(instance), instance.l_hat);
 }
@@ -188,21 +191,32 @@ void make_up(Instance& instance, const Part& part, const float* change) noexcept
   }
 }
 
+// r of the last two ticks, and l with it, as what is heard would hold them. Tells by how much.
+void begin_at_rest(Instance& instance, const Part& part, const float* rest) noexcept {
+  for (size_t i = 0; i < size_t{3} * part.record.node_count; ++i) {
+    const size_t at = part.vector + i;
+    instance.carry[at] = rest[i] - instance.r[0][at];
+    for (float* l : instance.l) l[at] += instance.carry[at];
+    for (float* r : instance.r) r[at] = rest[i];
+  }
+}
+
 // felt = f + phi, then e; what is heard.
 void hear_modes(Instance& instance) noexcept {
   for_each_awake_part(instance, [&](const Part& part) {
     feel(instance, part);
     float *felt = instance.felt + part.vector, *heard = instance.region[0];
     tissue::modal_hear(part.base, felt, instance.theta + part.vector, felt, heard);
+    if (instance.settles) begin_at_rest(instance, part, heard);
     hear(instance, part, part.base.padded + part.base.padded_modes, heard);
     if (instance.state->spacing_ticks > 1) make_up(instance, part, heard);
   });
+  if (instance.settles) settle_rest(instance, instance.carry);
   remember_hearer(instance);
 }
 
 // q_hat, r_hat and l_hat. False where they are not finite.
 bool base_step(Instance& instance) noexcept {
-  const Asset& asset = *instance.asset;
   if (instance.heard_now) hear_modes(instance);
   if (regions_asleep(instance) > 0) answer_as_before(instance);
   for_each_awake_part(instance, [&](const Part& part) {
@@ -216,7 +230,7 @@ bool base_step(Instance& instance) noexcept {
     std::copy_n(instance.region[1], 3 * part.record.node_count, instance.l_hat + part.vector);
   });
   return tissue::all_finite(instance.l_hat, floats_of(instance)) &&
-         tissue::all_finite(instance.q_hat, asset.mode_count());
+         tissue::all_finite(instance.q_hat, instance.level->mode_count());
 }
 
 // What is the last tick's now, and this tick's before, in q and r: overwritten where a region is stopped.
@@ -251,13 +265,13 @@ void shift_back(Instance& instance) noexcept {
   std::copy_n(instance.u[0], floats, instance.u[1]);
   std::copy_n(instance.l[0], floats, instance.l[1]);
   std::copy_n(instance.r[0], floats, instance.r[1]);
-  std::copy_n(instance.q[0], instance.asset->mode_count(), instance.q[1]);
+  std::copy_n(instance.q[0], instance.level->mode_count(), instance.q[1]);
 }
 
 // q and r of this tick are the base's.
 void take_base_answer(Instance& instance) noexcept {
   std::copy_n(instance.r_hat, floats_of(instance), instance.r[0]);
-  std::copy_n(instance.q_hat, instance.asset->mode_count(), instance.q[0]);
+  std::copy_n(instance.q_hat, instance.level->mode_count(), instance.q[0]);
 }
 
 // l of this tick is the base's; theta and u follow.
@@ -273,14 +287,14 @@ void assemble(Instance& instance) noexcept {
   const size_t stride = tissue::input_stride(asset.network);
   for_each_awake_part(instance, [&](const Part& part) {
     const tissue::NodeSources sources{.region = &part.record,
-                                      .nodes = asset.pack.nodes.data() + part.node,
+                                      .nodes = instance.level->pack.nodes.data() + part.node,
                                       .drive = instance.drive + tissue::kNodeDriveWidth * part.node,
                                       .felt = instance.felt + part.vector,
                                       .l = instance.l[0] + part.vector,
                                       .l_before = instance.l[1] + part.vector,
                                       .l_hat = instance.l_hat + part.vector,
                                       .theta = instance.theta + part.vector,
-                                      .first_rad_per_s = asset.pack.region_modes[part.index].first_rad_per_s,
+                                      .first_rad_per_s = part.first_rad_per_s,
                                       .tick_s = static_cast<float>(asset.tick_s)};
     instance.state->input_clamps +=
         tissue::assemble_inputs(asset.network, sources, instance.inputs + stride * part.node);
@@ -303,10 +317,10 @@ void give_up_network(Instance& instance) noexcept {
 
 // l of this tick is the network's; q, theta and u follow. Returns the nodes held.
 uint32_t settle_on_network(Instance& instance) noexcept {
-  const Asset& asset = *instance.asset;
-  const tissue::NodeMemory memory{&asset.network, asset.node_count(), instance.network_state};
-  tissue::read_output(asset.network, asset.pack.regions, asset.node_count(), instance.network_state,
-                      instance.l[0]);
+  const GraphLevel& level = *instance.level;
+  const tissue::Network& network = instance.asset->network;
+  const tissue::NodeMemory memory{&network, level.node_count(), instance.network_state};
+  tissue::read_output(network, level.pack.regions, level.node_count(), instance.network_state, instance.l[0]);
   uint32_t held = 0;
   for_each_awake_part(instance, [&](const Part& part) {
     float *now = instance.l[0] + part.vector, *before = instance.l[1] + part.vector;
@@ -334,12 +348,12 @@ std::span<const tissue::NodeRun> awake_nodes(Instance& instance) noexcept {
 
 // True when the network's state is sound after its step.
 bool network_step(Instance& instance) noexcept {
-  const Asset& asset = *instance.asset;
+  const tissue::Network& network = instance.asset->network;
   assemble(instance);
-  tissue::network_step(asset.network, asset.graph, awake_nodes(instance), instance.inputs, instance.carry,
+  tissue::network_step(network, instance.level->graph, awake_nodes(instance), instance.inputs, instance.carry,
                        instance.network_state, instance.network_scratch);
   if (instance.state->clamped_ticks <= kMostClampedTicks &&
-      tissue::network_is_finite(asset.network, asset.node_count(), instance.network_state))
+      tissue::network_is_finite(network, instance.level->node_count(), instance.network_state))
     return true;
   give_up_network(instance);
   return false;
@@ -354,7 +368,7 @@ void drive_nodes(Instance& instance) noexcept {
     std::copy_n(instance.state->tick_root_m[tick], 3, motion.root_position_m[tick]);
   }
   const double step_s = instance.state->spacing_ticks * instance.asset->tick_s;
-  tissue::compute_node_drive(motion, static_cast<float>(step_s), instance.asset->node_count(),
+  tissue::compute_node_drive(motion, static_cast<float>(step_s), instance.level->node_count(),
                              instance.drive);
 }
 
@@ -391,7 +405,7 @@ void lift_displacement(Instance& instance) noexcept {
   for (int tick = 0; tick < 2; ++tick) {
     std::copy_n(instance.u[tick], floats_of(instance), instance.l[tick]);
     std::fill_n(instance.r[tick], floats_of(instance), 0.0f);
-    std::fill_n(instance.q[tick], instance.asset->mode_count(), 0.0f);
+    std::fill_n(instance.q[tick], instance.level->mode_count(), 0.0f);
   }
   for_each_part(instance, [&](const Part& part) {
     for (int tick = 0; tick < 2; ++tick) {

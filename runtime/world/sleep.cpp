@@ -17,7 +17,7 @@ struct Region {
 };
 
 Region region_at(const Instance& instance, size_t index, float tolerance) noexcept {
-  const pack::PackView& pack = instance.asset->pack;
+  const pack::PackView& pack = instance.level->pack;
   const float w1 = pack.region_modes[index].first_rad_per_s;
   return {pack.regions[index], w1, w1 * static_cast<float>(instance.asset->tick_s),
           tolerance * pack.regions[index].radius_m};
@@ -52,7 +52,7 @@ void remember_drive(Instance& instance, const Region& region) noexcept {
 bool is_settled(const Instance& instance, size_t index) noexcept {
   constexpr float kSettled = 1e-3f, kLessDamped = 3;
   if (instance.contacts.source) return false;
-  const pack::PackView& pack = instance.asset->pack;
+  const pack::PackView& pack = instance.level->pack;
   const pack::RegionModesRecord& region = pack.region_modes[index];
   float slowest_per_s = region.mode_count > 0 ? std::numeric_limits<float>::infinity() : 0;
   for (const pack::ModeRecord& mode : pack.modes.subspan(region.first_mode, region.mode_count))
@@ -72,7 +72,7 @@ bool stays(const Instance& instance, size_t index, const Region& region) noexcep
 
 template <class Work>
 void for_each_region(Instance& instance, float tolerance, Work work) noexcept {
-  for (size_t r = 0; r < instance.asset->pack.regions.size(); ++r)
+  for (size_t r = 0; r < instance.level->pack.regions.size(); ++r)
     work(r, region_at(instance, r, tolerance), instance.quiet_ticks[r]);
 }
 
@@ -90,7 +90,7 @@ bool may_sleep(const Instance& instance) noexcept {
 }  // namespace
 
 void wake_regions(Instance& instance) noexcept {
-  std::fill_n(instance.quiet_ticks, instance.asset->pack.regions.size(), 0u);
+  std::fill_n(instance.quiet_ticks, instance.level->pack.regions.size(), 0u);
   instance.state->still_ticks = 0;
 }
 
@@ -100,7 +100,7 @@ bool is_asleep(const Instance& instance, size_t region) noexcept {
 
 uint32_t regions_asleep(const Instance& instance) noexcept {
   uint32_t count = 0;
-  for (size_t r = 0; r < instance.asset->pack.regions.size(); ++r) count += is_asleep(instance, r);
+  for (size_t r = 0; r < instance.level->pack.regions.size(); ++r) count += is_asleep(instance, r);
   return count;
 }
 
@@ -124,7 +124,7 @@ void watch_motion(Instance& instance, float tolerance) noexcept {
 }
 
 void stop_region(Instance& instance, size_t region) noexcept {
-  const pack::PackView& pack = instance.asset->pack;
+  const pack::PackView& pack = instance.level->pack;
   const pack::RegionModesRecord& modes = pack.region_modes[region];
   const size_t vector = size_t{3} * pack.regions[region].first_node,
                floats = size_t{3} * pack.regions[region].node_count;

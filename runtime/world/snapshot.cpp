@@ -19,7 +19,8 @@ constexpr uint64_t kMagic = 0x31544154534e5753;  // "SWNSTAT1", little-endian
 // when they fell asleep. 5: rods. 6: how vertices are pushed, and contacts' forces.
 // 7: who is hidden. 8: what the scheduler goes by, what is gone on by between ticks that are simulated whole.
 // 9: who is dormant.
-constexpr uint32_t kVersion = 9;
+// 10: the level of control graphs, and what its last change left.
+constexpr uint32_t kVersion = 10;
 
 struct Header {
   uint64_t magic, fingerprint, payload_bytes, checksum;
@@ -106,7 +107,8 @@ Status restore(Instance& instance, std::span<const std::byte> bytes) noexcept {
   }
   std::memcpy(instance.state, payload.data(), instance.state_bytes);
   restore_rods(instance, payload.data() + instance.state_bytes);
-  point_to_joints(instance);
+  instance.level_raised = instance.settles = false;
+  point_to_state(instance);
   instance.rods_anew = false;
   instance.told = {};
   bound_pose(instance);

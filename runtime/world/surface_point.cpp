@@ -27,16 +27,35 @@ Matrix34f blended(const pack::SkinRecord& skin, const float* matrices) {
   return sum;
 }
 
+// Where a region's columns begin in what is laid out as `carried`.
+size_t columns_before(const pack::PackView& pack, uint32_t region) noexcept {
+  size_t before = 0;
+  for (uint32_t r = 0; r < region; ++r) before += size_t{3} * pack.regions[r].padded_vertices;
+  return before;
+}
+
+// What is left of a change of level.
+Vector3f seam(const Instance& instance, uint32_t region, uint32_t column) noexcept {
+  const float share = instance.seam_share();
+  if (share == 0) return Vector3f::Zero();
+  const pack::PackView& pack = instance.level->pack;
+  const float* at = instance.seam + columns_before(pack, region) + column;
+  const size_t pitch = pack.regions[region].padded_vertices;
+  return share * Vector3f(at[0], at[pitch], at[2 * pitch]);
+}
+
 }  // namespace
 
 SurfacePoint surface_point(const Instance& instance, uint32_t region, const SurfacePatches::Vertex& vertex,
                            const float* displacement, uint32_t age) noexcept {
-  const pack::PackView& pack = instance.asset->pack;
-  const SurfacePatches& patches = instance.asset->patches;
+  const pack::PackView& pack = instance.level->pack;
+  const SurfacePatches& patches = instance.level->patches;
   Vector3f place = Eigen::Map<const Vector3f>(pack.positions.data() + size_t{3} * vertex.index) +
-                   carried(pack, region, vertex.carried, displacement);
+                   carried(pack, region, vertex.carried, displacement) +
+                   seam(instance, region, vertex.carried);
   for (uint32_t o = vertex.also; o < patches.other_count && patches.others[o].index == vertex.index; ++o)
-    place += carried(pack, patches.others[o].region, patches.others[o].carried, displacement);
+    place += carried(pack, patches.others[o].region, patches.others[o].carried, displacement) +
+             seam(instance, patches.others[o].region, patches.others[o].carried);
   const Matrix34f skin = blended(pack.skin[vertex.index], instance.tick_skin[age]);
   const Matrix3f root = Eigen::Map<const Eigen::Quaternionf>(instance.tick_turn[age]).toRotationMatrix();
   return {root * (skin.leftCols<3>() * place + skin.col(3)), root * skin.leftCols<3>()};
@@ -44,11 +63,9 @@ SurfacePoint surface_point(const Instance& instance, uint32_t region, const Surf
 
 float* push_of(const Instance& instance, uint32_t region, const SurfacePatches::Vertex& vertex,
                size_t* pitch) noexcept {
-  const pack::PackView& pack = instance.asset->pack;
-  size_t before = 0;
-  for (uint32_t r = 0; r < region; ++r) before += pack.regions[r].padded_vertices;
+  const pack::PackView& pack = instance.level->pack;
   *pitch = pack.regions[region].padded_vertices;
-  return instance.pushes + 3 * before + vertex.carried;
+  return instance.pushes + columns_before(pack, region) + vertex.carried;
 }
 
 }  // namespace sinew::world

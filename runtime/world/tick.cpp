@@ -7,6 +7,7 @@
 #include "core/flush_denormals.hpp"
 #include "frame/scheduler.hpp"
 #include "world/blend.hpp"
+#include "world/change_level.hpp"
 #include "world/dormant.hpp"
 #include "world/excitation.hpp"
 #include "world/hidden.hpp"
@@ -84,10 +85,10 @@ void run_ticks(Instance& instance, const TickContext& context, uint32_t slot) no
 
 // By what one of twenty takes; where that is much of the step, and nobody behind it makes up for what it is
 // late by, by what one of a hundred does.
-float most_us(const Instance& instance, const TickContext& context, Tier tier) noexcept {
+float most_us(const Instance& instance, const TickContext& context) noexcept {
   constexpr float kMuch = 0.04f;
   const frame::CostModel& cost = instance.asset->cost;
-  const frame::CostEstimate& tick = cost.tick[static_cast<size_t>(tier)];
+  const frame::CostEstimate& tick = cost.of(instance.plan.tier, instance.plan.level);
   const float ticks = static_cast<float>(instance.plan.ticks.ticks) * instance.times.cost_factor;
   const bool enters = !frame::is_simulated(instance.state->tier);
   const bool much = ticks * tick.estimate_us() > kMuch * context.tasks_us;
@@ -101,8 +102,12 @@ Tier below(Tier tier) noexcept {
   return tier == Tier::kModal ? Tier::kSpring : Tier::kExtrapolate;
 }
 
-bool has(const Asset& asset, Tier tier) noexcept {
-  return !frame::is_simulated(tier) || asset.cost.tick[static_cast<size_t>(tier)].is_known();
+// Nothing of it is known that says it will be late.
+bool is_in_time(const Instance& instance, const TickContext& context, double left_us) noexcept {
+  const InstancePlan& plan = instance.plan;
+  if (plan.ticks.ticks == 0 || !frame::is_simulated(plan.tier)) return true;
+  return instance.asset->cost.of(plan.tier, plan.level).is_known() &&
+         static_cast<double>(most_us(instance, context)) <= left_us;
 }
 
 // Decides between the plan and what there is time for.
@@ -113,11 +118,11 @@ void meet_deadline(Instance& instance, const TickContext& context, uint64_t now_
   const double left_us = (static_cast<double>(context.deadline_ns) - static_cast<double>(now_ns)) * 1e-3 -
                          static_cast<double>(plan.behind_us * context.behind_scale);
   const Tier planned = plan.tier;
-  while (plan.ticks.ticks > 0 && frame::is_simulated(plan.tier) &&
-         (!has(*instance.asset, plan.tier) ||
-          static_cast<double>(most_us(instance, context, plan.tier)) > left_us))
-    plan.tier = below(plan.tier);
-  instance.cut = plan.tier != planned;
+  const uint32_t level = plan.level;
+  if (!is_in_time(instance, context, left_us))
+    plan.level = std::max(level, instance.state->level);  // no finer one now
+  while (!is_in_time(instance, context, left_us)) plan.tier = below(plan.tier);
+  instance.cut = plan.tier != planned || plan.level != level;
   const bool late = static_cast<double>(instance.asset->cost.publish.p95_us()) > left_us;
   instance.held = late && !frame::is_simulated(plan.tier) && instance.displaced;
   if (instance.cut) plan.every = 1;
@@ -137,6 +142,17 @@ uint32_t quality(Tier tier) noexcept {
   return kQuality[static_cast<size_t>(tier)];
 }
 
+// To a better tier, or a finer level of the same.
+bool rises(const Instance& instance) noexcept {
+  const uint32_t planned = quality(instance.plan.tier), has = quality(instance.state->tier);
+  return planned > has || (planned == has && instance.plan.level < instance.state->level);
+}
+
+bool changes_level(const Instance& instance) noexcept {
+  return frame::is_simulated(instance.plan.tier) && instance.plan.ticks.ticks > 0 &&
+         instance.plan.level != instance.state->level;
+}
+
 }  // namespace
 
 void step_instance(Instance& instance, const TickContext& context, uint32_t slot) noexcept {
@@ -145,7 +161,7 @@ void step_instance(Instance& instance, const TickContext& context, uint32_t slot
   const uint64_t start_ns = core::now_ns(context.clock);
   meet_deadline(instance, context, start_ns);
   const Tier tier = instance.plan.tier;
-  const bool rose = quality(tier) > quality(instance.state->tier);
+  const bool rose = rises(instance);
   instance.times = {.cost_factor = instance.times.cost_factor};
   wake(instance);
   instance.came_back = instance.state->hidden != 0;
@@ -153,6 +169,8 @@ void step_instance(Instance& instance, const TickContext& context, uint32_t slot
   instance.restarted = instance.fell_back = false;
   instance.entered = frame::is_simulated(tier) &&
                      (!frame::is_simulated(instance.state->tier) || instance.state->motion_stale);
+  instance.changed_level = changes_level(instance);
+  if (instance.changed_level) change_level(instance, instance.plan.level);
   enter_tier(instance, tier);
   take_pose(instance, context.teleport_distance_m);
   watch_pose(instance);

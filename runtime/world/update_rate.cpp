@@ -79,7 +79,7 @@ void respace_past(Instance& instance) noexcept {
   if (state.since_ticks == state.spacing_ticks) return;
   const Respacing as = respacing(state.spacing_ticks, state.since_ticks);
   respace_root(as, state.tick_root_m);
-  for (uint32_t n = 0; n < instance.asset->node_count(); ++n)
+  for (uint32_t n = 0; n < instance.level->node_count(); ++n)
     respace_node(as, instance.poses[0][n], instance.poses[1][n], instance.poses[2][n]);
   state.spacing_ticks = state.since_ticks;
 }

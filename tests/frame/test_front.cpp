@@ -53,9 +53,9 @@ TEST_CASE("usual_tiers_are_all_on_their_front") {
   CHECK(front.levels[1].tier == Tier::kSpring);
   CHECK(front.levels[2].tier == Tier::kModal);
   CHECK(front.levels[3].tier == Tier::kNetwork);
-  CHECK(front.level_of(Tier::kModal, 1) == 2);
-  CHECK(front.level_of(Tier::kExtrapolate, 1) == 0);
-  CHECK(front.level_of(Tier::kModal, 2) == 1);
+  CHECK(front.level_of(Tier::kModal, 1, 0) == 2);
+  CHECK(front.level_of(Tier::kExtrapolate, 1, 0) == 0);
+  CHECK(front.level_of(Tier::kModal, 2, 0) == 1);
 }
 
 TEST_CASE("dearer_and_no_better_is_dropped") {

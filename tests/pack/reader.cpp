@@ -369,8 +369,8 @@ TEST_CASE("tier_faults_are_refused_by_name") {
   const auto tier = [](size_t index, auto apply) { return change<TierRecord>(kTiers, index, apply); };
   check_refused(character_pack(),
                 {{"tier 2: 5 is not known", tier(2, [](auto& t) { t.tier = 5; })},
-                 {"tier 2: 1 every 1 does not ascend", tier(2, [](auto& t) { t.tier = 1; })},
-                 {"tier 4: 3 every 1 does not ascend", tier(4, [](auto& t) { t.tier = 3; })},
+                 {"tier 2: 1 at level 0 every 1 does not ascend", tier(2, [](auto& t) { t.tier = 1; })},
+                 {"tier 4: 3 at level 0 every 1 does not ascend", tier(4, [](auto& t) { t.tier = 3; })},
                  {"tier 3: every 0", tier(3, [](auto& t) { t.every = 0; })},
                  {"tier 3: every 3", tier(3, [](auto& t) { t.every = 3; })},
                  {"tier 3: every 4", tier(3, [](auto& t) { t.every = 4; })},
@@ -383,7 +383,7 @@ TEST_CASE("tier_faults_are_refused_by_name") {
                  {"tier 2: an error", tier(2, [](auto& t) { t.error_mm = -1; })},
                  {"tier 2: an error", tier(2, [](auto& t) { t.error_ratio = kInfinity; })},
                  {"tier 2: an error", tier(2, [](auto& t) { t.error_p95_mm = -1; })},
-                 {"tier 2: reserved", tier(2, [](auto& t) { t.reserved = 1; })}});
+                 {"tier 2: level 1", tier(2, [](auto& t) { t.level = 1; })}});
 }
 
 // Measured, springs may not be worth having, and tiers may be worth it at a lower rate.

@@ -101,10 +101,24 @@ double read_rods(const PackView& view) {
   return sum;
 }
 
+double read_levels(const PackView& view) {
+  double sum = 0;
+  for (uint32_t l = 1; l < view.level_count; ++l) {
+    const PackView coarse = at_level(view, l), fine = at_level(view, l - 1);
+    sum += read_regions(coarse) + read_modes(coarse);
+    for (const uint32_t pick : coarse.picks) sum += fine.nodes[pick].stiffness;
+    size_t floats = 0;
+    for (size_t r = 0; r < fine.regions.size(); ++r)
+      floats += coarse.regions[r].node_count * round_up_16(fine.regions[r].node_count);
+    sum += coarse.spread[floats - 1];
+  }
+  return sum;
+}
+
 // Reads everything that indexes something, as the runtime would. Spans are not checked: the sanitizers are.
 double read_all(const PackView& view) {
   return read_strings(view) + read_mesh(view) + read_regions(view) + read_modes(view) + read_network(view) +
-         read_rods(view);
+         read_rods(view) + read_levels(view);
 }
 
 // Whether the damaged pack is taken; one that is must be safe to read.
@@ -186,12 +200,14 @@ TEST_CASE("hostile_words_with_right_checksums_are_refused_or_harmless") {
   check_hostile_words(character_pack());
   check_hostile_words(test::small_chain_model());
   check_hostile_words(test::small_rod_pack());
+  check_hostile_words(test::small_levels_pack());
 }
 
 TEST_CASE("random_damage_with_right_checksums_is_refused_or_harmless") {
   check_random_damage(character_pack());
   check_random_damage(test::small_chain_model());
   check_random_damage(test::small_rod_pack());
+  check_random_damage(test::small_levels_pack());
 }
 
 TEST_CASE("random_tables_with_right_checksums_are_refused_or_harmless") {

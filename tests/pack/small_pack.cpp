@@ -238,6 +238,25 @@ std::vector<std::byte> small_weightless_pack() {
   return baker::pack_character(character, layout, small_modes(layout));
 }
 
+baker::GraphLevel small_coarser_level(const baker::TissueLayout& layout) {
+  baker::TissueLayout coarse;
+  coarse.stiffness = layout.stiffness;
+  coarse.nodes = {layout.nodes[0], layout.nodes[1], layout.nodes[3]};
+  coarse.regions = {make_region("belly", 0, {layout.nodes[0], layout.nodes[1]}, layout.regions[0].vertices),
+                    make_region("tip", 2, {layout.nodes[3]}, layout.regions[1].vertices)};
+  for (size_t r = 0; r < 2; ++r) coarse.regions[r].radius_m = layout.regions[r].radius_m;
+  coarse.edges = {{0, 1}};
+  return {coarse, small_modes(coarse)};
+}
+
+std::vector<std::byte> small_levels_pack() {
+  const baker::Character character = small_character();
+  const baker::TissueLayout layout = small_layout(character);
+  const std::vector<baker::GraphLevel> coarser = {small_coarser_level(layout)};
+  return baker::pack_character(character, layout, small_modes(layout), nullptr, pack::Precision::kFloat32, {},
+                               coarser);
+}
+
 std::vector<baker::Rod> small_rods() {
   baker::Rod rod;
   rod.name = "top";

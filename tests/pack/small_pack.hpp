@@ -7,7 +7,7 @@
 #include "baker/common/safetensors.hpp"
 #include "baker/import/character.hpp"
 #include "baker/mesh/tissue_layout.hpp"
-#include "baker/truth/modal_basis.hpp"
+#include "baker/truth/graph_level.hpp"
 #include "pack/format.hpp"
 
 namespace sinew::test {
@@ -25,6 +25,9 @@ std::vector<std::byte> small_model();
 std::vector<std::byte> small_chain_model();  // of small_coping_net
 std::vector<std::byte> small_character_pack(pack::Precision precision = pack::Precision::kFloat32);
 std::vector<std::byte> small_weightless_pack();
+// The same with a coarser control graph: two nodes of three, one of two.
+baker::GraphLevel small_coarser_level(const baker::TissueLayout& layout);
+std::vector<std::byte> small_levels_pack();
 std::vector<baker::Rod> small_rods();     // one, of the two upper joints and a link between them
 std::vector<std::byte> small_rod_pack();  // the weightless one with it
 

@@ -36,7 +36,16 @@ Vector3 half_curl(double slope, int axis) {
   return axis == 0 ? Vector3(0, 0, -slope / 2) : axis == 2 ? Vector3(slope / 2, 0, 0) : Vector3(0, 0, 0);
 }
 
-ModalBasis region_modes(const baker::TissueLayout& layout, const baker::Region& region) {
+// Root mean square over the region's nodes.
+double size_of(const BlockMode& mode, const baker::TissueLayout& layout, const baker::Region& region) {
+  double squares = 0;
+  for (int n = region.first_node; n < region.first_node + region.node_count; ++n)
+    squares += std::pow(profile(layout.nodes[static_cast<size_t>(n)].position.y(), mode.whole), 2);
+  return std::sqrt(squares / region.node_count);
+}
+
+ModalBasis region_modes(const baker::TissueLayout& layout, const baker::Region& region,
+                        const baker::TissueLayout& finest, const baker::Region& of) {
   const auto count = static_cast<Eigen::Index>(std::size(kModes));
   const Eigen::Index rows = 3 * region.node_count;
   ModalBasis basis{Eigen::VectorXd(count),
@@ -55,7 +64,7 @@ ModalBasis region_modes(const baker::TissueLayout& layout, const baker::Region& 
       basis.shape(3 * n + mode.axis, k) = profile(y_m, mode.whole);
       basis.turn.col(k).segment<3>(3 * n) = half_curl(slope(y_m, mode.whole), mode.axis);
     }
-    const double size = basis.shape.col(k).norm() / std::sqrt(static_cast<double>(region.node_count));
+    const double size = size_of(mode, finest, of);
     basis.shape.col(k) /= size;
     basis.turn.col(k) /= size;
     basis.force.row(k) = basis.shape.col(k).transpose() / basis.shape.col(k).squaredNorm();
@@ -65,9 +74,11 @@ ModalBasis region_modes(const baker::TissueLayout& layout, const baker::Region& 
 
 }  // namespace
 
-std::vector<ModalBasis> block_modes(const baker::TissueLayout& layout) {
+std::vector<ModalBasis> block_modes(const baker::TissueLayout& layout, const baker::TissueLayout* finest) {
+  const baker::TissueLayout& of = finest ? *finest : layout;
   std::vector<ModalBasis> modes;
-  for (const baker::Region& region : layout.regions) modes.push_back(region_modes(layout, region));
+  for (size_t r = 0; r < layout.regions.size(); ++r)
+    modes.push_back(region_modes(layout, layout.regions[r], of, of.regions[r]));
   return modes;
 }
 

@@ -212,6 +212,23 @@ TissueLayout block_tissue(const Character& character, const BlockOptions& option
   return layout;
 }
 
+// Farthest points first: a coarser graph's nodes are the finest's first, node 0, where regions are held, too.
+std::vector<baker::GraphLevel> coarser_levels(const Character& character, const BlockOptions& options,
+                                              const TissueLayout& finest) {
+  std::vector<baker::GraphLevel> levels;
+  for (const int nodes : options.coarser_nodes) {
+    BlockOptions coarser = options;
+    coarser.nodes = nodes;
+    TissueLayout layout = block_tissue(character, coarser);
+    for (size_t r = 0; r < layout.regions.size(); ++r) {
+      layout.regions[r].center = finest.regions[r].center;
+      layout.regions[r].radius_m = finest.regions[r].radius_m;
+    }
+    levels.push_back({layout, block_modes(layout, &finest)});
+  }
+  return levels;
+}
+
 }  // namespace
 
 PackBytes::PackBytes(const std::byte* data, size_t size) : memory_(size), size_(size) {
@@ -222,11 +239,12 @@ PackBytes::PackBytes(const std::byte* data, size_t size) : memory_(size), size_(
 PackBytes soft_block(const BlockOptions& options) {
   Character character = block_character(options);
   TissueLayout layout = block_tissue(character, options);
+  const std::vector<baker::GraphLevel> coarser = coarser_levels(character, options, layout);
   if (options.rods) add_rods(*options.rods, character, layout);
   const baker::Safetensors weights = block_network(options);
   const std::vector<std::byte> bytes =
       baker::pack_character(character, layout, block_modes(layout), options.network ? &weights : nullptr,
-                            options.precision, block_ranges());
+                            options.precision, block_ranges(), coarser);
   return PackBytes(bytes.data(), bytes.size());
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/aligned_block.hpp"
 #include "pack/format.hpp"
@@ -31,6 +32,7 @@ struct BlockOptions {
   bool network = true;               // false: modes and springs alone
   pack::Precision precision = pack::Precision::kFloat32;
   std::optional<RodMatter> rods = std::nullopt;  // a tail and horns (block_rods.hpp)
+  std::vector<int> coarser_nodes = {};           // a region, of coarser control graphs
 };
 
 class PackBytes {  // 64-byte aligned, as load_asset wants them

@@ -34,6 +34,12 @@ inline const scenes::PackBytes& weightless_pack() {
   return pack;
 }
 
+// With control graphs of 40, 20 and 10 nodes a region.
+inline const scenes::PackBytes& levels_pack() {
+  static const scenes::PackBytes pack = scenes::soft_block({.nodes = 40, .coarser_nodes = {20, 10}});
+  return pack;
+}
+
 // Baked, of a tick of one block: a budget in work units that pays for this tier and for none above.
 inline float tier_cost_us(Tier tier) {
   pack::PackView view;

@@ -189,6 +189,25 @@ TEST_CASE("a_frame_in_contact_allocates_nothing") {
   CHECK(stage.report().rod_contacts > 0);
 }
 
+TEST_CASE("a_frame_that_changes_levels_allocates_nothing") {
+  Stage stage(3, {.budget_mode = BudgetMode::kWorkUnits}, test::levels_pack());
+  Frame frame{stage};
+  frame.run(0, 1e9f, 1.0 / 60);
+  uint32_t changes = 0, level = 0;
+  const size_t count = allocations_of([&] {
+    for (int f = 1; f < 120; ++f) {
+      frame.run(f / 60.0, f % 40 < 20 ? 1e9f : 45.0f, 1.0 / 60);
+      InstanceReport report;
+      frame.expect(stage.world.report(stage.blocks[0], &report));
+      changes += report.graph_level != level;
+      level = report.graph_level;
+    }
+  });
+  CHECK(frame.ok);
+  CHECK(count == 0);
+  CHECK(changes >= 2);  // there and back
+}
+
 TEST_CASE("a_frame_on_worker_threads_allocates_nothing") {
   scenes::ThreadPool pool(3);
   Stage stage(5, {.tasks = pool.hook()});

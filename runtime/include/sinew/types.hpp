@@ -159,6 +159,7 @@ struct InstanceReport {
   Tier tier = Tier::kSkinning;
   TierReason why = TierReason::kBudget;
   float error = 1;                   // estimated of this tier, a share of skinning's; 1 where not simulated
+  uint32_t graph_level = 0;          // of control graphs, 0 the finest: AssetInfo::graph_levels
   float blend = 0;                   // 0..1, weight of the simulated displacement in what is read back
   uint32_t ticks_since_network = 0;  // 0: its last tick was the network's; counts on where the asset has none
   // Counters since creation.
@@ -236,8 +237,9 @@ struct ReadDef {
 struct AssetInfo {
   uint32_t vertex_count = 0, triangle_count = 0, joint_count = 0, region_count = 0, node_count = 0,
            clip_count = 0;
-  uint32_t proxy_count = 0;  // capsules about bones, for ContactDef::own_body
-  uint32_t rod_count = 0;    // chains and trees of bones that swing
+  uint32_t proxy_count = 0;   // capsules about bones, for ContactDef::own_body
+  uint32_t rod_count = 0;     // chains and trees of bones that swing
+  uint32_t graph_levels = 1;  // control graphs, each coarser than the one before, that tiers are simulated on
   float tick_hz = 0;
   float height_m = 0;           // extent of the bind pose along Y
   uint64_t instance_bytes = 0;  // memory one instance takes; contacts take more

@@ -141,6 +141,37 @@ TEST_CASE("painted_rings_become_regions_with_connected_nodes_inside") {
   CHECK(layout.regions[0].vertices.size() == 5 * 25);
 }
 
+// Held at the finest level's last node, which none of the coarser ones would choose by itself.
+TEST_CASE("nodes_of_a_coarser_layout_are_nodes_of_the_finer_one_and_the_one_that_holds_is_among_them") {
+  for (const int finest_nodes : {40, 600}) {  // more than a few are put in another order
+    Character character = painted_column(0.22, 1.78);
+    Recipe recipe;
+    recipe.nodes_per_region = finest_nodes;
+    const TissueLayout finest = layout_tissue(character, recipe);
+    REQUIRE(finest.regions.size() == 1);
+    const int held = finest.nodes.back().vertex;
+    std::vector<int> finer;
+    for (const ControlNode& node : finest.nodes) finer.push_back(node.vertex);
+    for (const int nodes : {20, 10, 4}) {
+      const TissueLayout coarse = coarser_layout(character, recipe, finest, {held}, nodes);
+      check_layout(character, coarse, recipe);
+      REQUIRE(coarse.nodes.size() == static_cast<size_t>(nodes));
+      CHECK(coarse.regions[0].name == finest.regions[0].name);
+      CHECK(coarse.regions[0].vertices == finest.regions[0].vertices);
+      CHECK(coarse.regions[0].radius_m == finest.regions[0].radius_m);
+      std::vector<int> vertices;
+      for (const ControlNode& node : coarse.nodes) vertices.push_back(node.vertex);
+      CHECK(std::ranges::count(vertices, held) == 1);
+      auto next = finer.begin();  // in the finer one's order
+      for (const int vertex : vertices) {
+        next = std::find(next, finer.end(), vertex);
+        REQUIRE(next != finer.end());
+      }
+      finer = vertices;
+    }
+  }
+}
+
 // Sampled from all over the part, the nodes of half the edges would be a third of the region apart.
 TEST_CASE("many_nodes_of_a_region_stand_near_their_neighbours") {
   Character character = painted_column(0.22, 1.78);

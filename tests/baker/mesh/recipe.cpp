@@ -53,6 +53,15 @@ TEST_CASE("wrong_recipes_are_refused_by_key") {
       {R"({"coreless_joints": "ear_*"})", "coreless_joints"},
       {R"({"nodes_per_region": 4097})", "nodes_per_region"},
       {R"({"neighbours": 1})", "neighbours"},
+      {R"({"levels": 40})", "\"levels\" must be a list"},
+      {R"({"levels": []})", "\"levels\" must list 1 .. 4"},
+      {R"({"levels": [80, 40, 20, 10, 5]})", "\"levels\" must list 1 .. 4"},
+      {R"({"levels": [40, 40]})", "\"levels\" must descend"},
+      {R"({"levels": [20, 40]})", "\"levels\" must descend"},
+      {R"({"levels": [40, 3]})", "\"levels\" holds 3"},
+      {R"({"levels": [40, 20.5]})", "\"levels\" must be a list of whole numbers"},
+      {R"({"levels": [40, "20"]})", "\"levels\""},
+      {R"({"levels": [40], "nodes_per_region": 40})", "\"levels\" states nodes_per_region too"},
       {R"({"unit_m": -1})", "unit_m"},
       {R"({"up": "x"})", "\"up\""},
       {R"({"regions": [{"name": "belly"}]})", "joints"},
@@ -110,6 +119,15 @@ TEST_CASE("every_key_of_a_recipe_is_read_and_absent_ones_keep_their_default") {
   CHECK(recipe.regions[0].name == "belly");
   CHECK(recipe.regions[0].joints == std::vector<std::string>{"spine_*", "pelvis"});
   CHECK(recipe.regions[0].stiffness == 0.3);
+}
+
+TEST_CASE("levels_take_the_place_of_one_number_of_nodes") {
+  const Recipe recipe = read_recipe(write(R"({"levels": [40, 20, 10]})"));
+  CHECK(recipe.nodes_per_region == 40);
+  CHECK(recipe.coarser_nodes == std::vector<int>{20, 10});
+  const Recipe one = read_recipe(write(R"({"levels": [12]})"));
+  CHECK(one.nodes_per_region == 12);
+  CHECK(one.coarser_nodes.empty());
 }
 
 TEST_CASE("every_key_of_a_rod_is_read_and_absent_ones_keep_their_default") {

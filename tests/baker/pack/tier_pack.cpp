@@ -33,7 +33,8 @@ TEST_CASE("multiply_adds_count_padded_products_and_aggregation") {
 }
 
 TEST_CASE("tiers_ascend_and_errors_that_were_not_measured_stay_nan") {
-  const TierWork work{.nodes = 40, .mode_floats = 5000, .network_multiply_adds = 1000000};
+  const TierWork one{.nodes = 40, .mode_floats = 5000, .network_multiply_adds = 1000000};
+  const std::span work(&one, 1);
   const std::vector<pack::TierRecord> tiers = make_tiers(work, 0.5f, 0.25f);
   REQUIRE(tiers.size() == kTierCount);
   for (uint32_t tier = 0; tier < kTierCount; ++tier) CHECK(tiers[tier].tier == tier);
@@ -52,7 +53,22 @@ TEST_CASE("tiers_ascend_and_errors_that_were_not_measured_stay_nan") {
 }
 
 TEST_CASE("without_a_network_there_is_no_tier_of_it") {
-  const std::vector<pack::TierRecord> tiers = make_tiers({.nodes = 40, .mode_floats = 5000}, kNan, kNan);
+  const TierWork work{.nodes = 40, .mode_floats = 5000};
+  const std::vector<pack::TierRecord> tiers = make_tiers({&work, 1}, kNan, kNan);
   REQUIRE(tiers.size() == kTierCount - 1);
   for (const pack::TierRecord& tier : tiers) CHECK(tier.tier != static_cast<uint32_t>(Tier::kNetwork));
+}
+
+TEST_CASE("every_level_has_its_own_tiers_and_a_coarser_one_costs_less") {
+  const TierWork work[] = {{.nodes = 40, .mode_floats = 5000, .network_multiply_adds = 1000000},
+                           {.nodes = 10, .mode_floats = 1200, .network_multiply_adds = 200000}};
+  const std::vector<pack::TierRecord> tiers = make_tiers(work, 0.5f, 0.25f);
+  REQUIRE(tiers.size() == kTierCount + 3);
+  for (size_t i = 1; i < tiers.size(); ++i) {
+    if (tiers[i].level == 0) continue;
+    CHECK(tiers[i].tier == tiers[i - 1].tier);
+    CHECK(tiers[i].level == 1);
+    CHECK(tiers[i].cost_us < tiers[i - 1].cost_us);
+    CHECK(std::isnan(tiers[i].error_ratio));
+  }
 }

@@ -263,3 +263,27 @@ TEST_CASE("a_region_without_free_flesh_has_no_modes") {
   CHECK(bases[1].shape.rows() == 3 * foot.node_count);
   CHECK(bases[1].rest.isZero());
 }
+
+// Every third node of the post, as if it were a coarser control graph.
+TEST_CASE("a_coarser_graph_s_modes_are_the_finest_s_at_its_own_nodes") {
+  const Post post;
+  TissueLayout coarse = post.layout;
+  coarse.nodes.clear();
+  for (size_t n = 0; n < post.layout.nodes.size(); n += 3) coarse.nodes.push_back(post.layout.nodes[n]);
+  coarse.regions[0].node_count = static_cast<int>(coarse.nodes.size());
+  constexpr int kModes = 12;
+  const ModalBasis finest = post.bases(kModes)[0];
+  const ModalBasis coarser =
+      modal_bases(coarse, post.cage, post.fem().linear(), post.same, kModes, &post.layout)[0];
+  CHECK(coarser.rad_per_s == finest.rad_per_s);
+  CHECK(coarser.damping_ratio == finest.damping_ratio);
+  for (Index n = 0; n < coarser.shape.rows() / 3; ++n) {
+    CHECK(coarser.shape.middleRows<3>(3 * n) == finest.shape.middleRows<3>(9 * n));
+    CHECK(coarser.turn.middleRows<3>(3 * n) == finest.turn.middleRows<3>(9 * n));
+  }
+  // What pushes all flesh alike pushes a mode alike, however many nodes tell of it.
+  const Vector3 felt(1, 2, 3);
+  const VectorXd of_finest = finest.force * everywhere(felt, post.layout.regions[0].node_count),
+                 of_coarser = coarser.force * everywhere(felt, coarse.regions[0].node_count);
+  CHECK((of_finest - of_coarser).norm() < 1e-6 * of_finest.norm());
+}

@@ -1,0 +1,37 @@
+// graph_level.cpp  see graph_level.hpp.
+#include "baker/truth/graph_level.hpp"
+
+#include "baker/truth/tissue_truth.hpp"
+
+namespace sinew::baker {
+namespace {
+
+int held_vertex(const TissueLayout& layout, const std::vector<ModalBasis>& modes, size_t region) {
+  const int node = layout.regions[region].first_node + modes[region].anchor_node;
+  return layout.nodes[static_cast<size_t>(node)].vertex;
+}
+
+int node_on(const TissueLayout& layout, const Region& region, int vertex) {
+  int n = 0;
+  while (layout.nodes[static_cast<size_t>(region.first_node + n)].vertex != vertex) ++n;
+  return n;
+}
+
+}  // namespace
+
+std::vector<GraphLevel> coarser_levels(const Character& character, const Recipe& recipe, TissueTruth& truth,
+                                       const TissueLayout& finest, const std::vector<ModalBasis>& modes) {
+  std::vector<int> held;
+  for (size_t r = 0; r < finest.regions.size(); ++r) held.push_back(held_vertex(finest, modes, r));
+  std::vector<GraphLevel> levels;
+  for (const int nodes : recipe.coarser_nodes) {
+    GraphLevel level{coarser_layout(character, recipe, finest, held, nodes), {}};
+    level.modes = truth.modal_bases(level.layout, kMostModes, &finest);
+    for (size_t r = 0; r < held.size(); ++r)
+      level.modes[r].anchor_node = node_on(level.layout, level.layout.regions[r], held[r]);
+    levels.push_back(std::move(level));
+  }
+  return levels;
+}
+
+}  // namespace sinew::baker

@@ -1,0 +1,140 @@
+// check_levels.cpp  Control graphs: cut out of the sections they share, each whole, coarser ones parts of
+// finer.
+#include <algorithm>
+
+#include "pack/checks.hpp"
+
+namespace sinew::pack {
+namespace {
+
+// Takes the next `count` from what is left of a section. False: there are not so many.
+template <class T>
+bool take(std::span<const T>& rest, uint64_t count, std::span<const T>* out) noexcept {
+  if (count > rest.size()) return false;
+  *out = rest.first(count);
+  rest = rest.subspan(count);
+  return true;
+}
+
+bool take_level(const PackView& pack, uint32_t index, LevelView& rest, LevelView* out) noexcept {
+  const LevelRecord& record = pack.level_records[index];
+  const uint64_t nodes = record.node_count, regions = pack.character->region_count;
+  return take(rest.regions, regions, &out->regions) && take(rest.nodes, nodes, &out->nodes) &&
+         take(rest.graph_rows, nodes + 1, &out->graph_rows) &&
+         take(rest.graph_columns, record.graph_entries, &out->graph_columns) &&
+         take(rest.graph_values, record.graph_entries, &out->graph_values) &&
+         take(rest.carry, record.carry_floats, &out->carry) &&
+         take(rest.region_modes, regions, &out->region_modes) &&
+         take(rest.mode_matrices, record.matrix_floats, &out->mode_matrices) &&
+         take(rest.compliance, 9 * nodes, &out->compliance) &&
+         take(rest.picks, index > 0 ? nodes : 0, &out->picks) &&
+         take(rest.spread, record.spread_floats, &out->spread);
+}
+
+bool is_used_up(const LevelView& rest) noexcept {
+  return rest.regions.empty() && rest.nodes.empty() && rest.graph_rows.empty() &&
+         rest.graph_columns.empty() && rest.graph_values.empty() && rest.carry.empty() &&
+         rest.region_modes.empty() && rest.mode_matrices.empty() && rest.compliance.empty() &&
+         rest.picks.empty() && rest.spread.empty();
+}
+
+// ---- a coarser level against the next finer one ----
+
+Status check_same_regions(const LevelView& fine, const LevelView& coarse, uint32_t level) noexcept {
+  for (size_t r = 0; r < fine.regions.size(); ++r) {
+    const RegionRecord &of = fine.regions[r], &region = coarse.regions[r];
+    const RegionModesRecord &modes_of = fine.region_modes[r], &modes = coarse.region_modes[r];
+    if (region.first_vertex != of.first_vertex || region.vertex_count != of.vertex_count)
+      return corrupt("level %u: region %zu carries other vertices than in the finer level", level, r);
+    if (modes.first_mode != modes_of.first_mode || modes.mode_count != modes_of.mode_count)
+      return corrupt("level %u: region %zu has other modes than in the finer level", level, r);
+  }
+  return {};
+}
+
+bool is_same_place(const NodeRecord& a, const NodeRecord& b) noexcept {
+  return std::ranges::equal(a.position_m, b.position_m);
+}
+
+Status check_picks(const LevelView& fine, const LevelView& coarse, uint32_t level) noexcept {
+  for (size_t n = 0; n < coarse.nodes.size(); ++n) {
+    const uint32_t pick = coarse.picks[n];
+    if (pick >= fine.nodes.size() || (n > 0 && pick <= coarse.picks[n - 1]))
+      return corrupt("level %u: node %zu is node %u of the finer level: not there, or not ascending", level,
+                     n, pick);
+    if (fine.nodes[pick].region != coarse.nodes[n].region ||
+        !is_same_place(fine.nodes[pick], coarse.nodes[n]))
+      return corrupt("level %u: node %zu is not where node %u of the finer level is", level, n, pick);
+  }
+  return {};
+}
+
+Status check_held_alike(const LevelView& fine, const LevelView& coarse, uint32_t level) noexcept {
+  for (size_t r = 0; r < fine.regions.size(); ++r) {
+    const RegionRecord &of = fine.regions[r], &region = coarse.regions[r];
+    if (coarse.picks[region.first_node + region.anchor_node] != of.first_node + of.anchor_node)
+      return corrupt("level %u: region %zu is held elsewhere than in the finer level", level, r);
+  }
+  return {};
+}
+
+Status check_spread(const LevelView& fine, const LevelView& coarse, uint32_t level) noexcept {
+  std::span<const float> rest = coarse.spread;
+  for (size_t r = 0; r < fine.regions.size(); ++r) {
+    const uint64_t used = fine.regions[r].node_count, padded = round_up_16(used);
+    for (uint32_t n = 0; n < coarse.regions[r].node_count; ++n) {
+      std::span<const float> row;
+      if (!take(rest, padded, &row)) return corrupt("level %u: spread ends early", level);
+      if (first_not_finite(row) != row.size())
+        return corrupt("level %u: a weight of spread is not finite", level);
+      if (std::ranges::any_of(row.subspan(used), [](float v) { return v != 0; }))
+        return corrupt("level %u: padding of spread is not zero", level);
+    }
+  }
+  return rest.empty() ? Status{} : corrupt("level %u: spread that no region owns", level);
+}
+
+Status check_coarser(const PackView& pack, uint32_t level) noexcept {
+  using CheckLevel = Status (*)(const LevelView&, const LevelView&, uint32_t) noexcept;
+  constexpr CheckLevel kChecks[] = {check_same_regions, check_picks, check_held_alike, check_spread};
+  for (const CheckLevel check : kChecks) {
+    const Status status = check(pack.levels[level - 1], pack.levels[level], level);
+    if (!status.ok()) return status;
+  }
+  return {};
+}
+
+}  // namespace
+
+Status cut_levels(PackView* pack) noexcept {
+  pack->levels[0] = *pack;
+  const uint32_t coarser = pack->character != nullptr ? pack->character->coarser_count : 0;
+  if (coarser >= kMostGraphLevels)
+    return corrupt("the character has %u coarser levels, outside 0..3", coarser);
+  if (pack->level_records.size() != (coarser > 0 ? coarser + 1 : 0))
+    return corrupt("levels: %zu records for %u coarser ones", pack->level_records.size(), coarser);
+  if (coarser == 0) {
+    const bool none = pack->picks.empty() && pack->spread.empty();
+    return none ? Status{} : corrupt("picks or spread without a coarser level");
+  }
+  LevelView rest = *pack, cut[kMostGraphLevels];
+  for (uint32_t level = 0; level <= coarser; ++level)
+    if (!take_level(*pack, level, rest, &cut[level])) return corrupt("level %u: a section ends early", level);
+  if (!is_used_up(rest)) return corrupt("levels: a section holds more than they state");
+  std::ranges::copy(cut, pack->levels);
+  static_cast<LevelView&>(*pack) = cut[0];
+  pack->level_count = coarser + 1;
+  return {};
+}
+
+Status check_levels(const PackView& pack) noexcept {
+  constexpr Check kChecks[] = {check_tissue, check_modes};
+  for (uint32_t level = 0; level < pack.level_count; ++level) {
+    if (Status status = run_checks(kChecks, at_level(pack, level)); !status.ok()) return status;
+    if (level == 0) continue;
+    if (Status status = check_coarser(pack, level); !status.ok()) return status;
+  }
+  return {};
+}
+
+}  // namespace sinew::pack

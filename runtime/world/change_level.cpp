@@ -1,0 +1,255 @@
+// change_level.cpp  see change_level.hpp.
+#include "world/change_level.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "simd/kernels.hpp"
+#include "tissue/guard.hpp"
+#include "tissue/memory_rows.hpp"
+#include "tissue/modal_base.hpp"
+#include "tissue/node_bend.hpp"
+#include "world/motion.hpp"
+#include "world/sleep.hpp"
+#include "world/update_rate.hpp"
+
+namespace sinew::world {
+namespace {
+
+// ---- the seam ----
+
+void carry_delta(Instance& instance) noexcept {
+  const pack::PackView& pack = instance.level->pack;
+  float* carried = instance.carried;
+  for (const pack::RegionRecord& region : pack.regions) {
+    simd::kernels().carry(pack.carry.data() + region.carry, region.node_count, region.padded_vertices,
+                          instance.delta + size_t{3} * region.first_node, carried);
+    carried += size_t{3} * region.padded_vertices;
+  }
+}
+
+// As it would be published now.
+void carry_shown(Instance& instance) noexcept {
+  const float ahead = instance.state->render_fraction;
+  for (size_t i = 0; i < size_t{3} * instance.level->node_count(); ++i)
+    instance.delta[i] = instance.shown[0][i] + ahead * (instance.shown[0][i] - instance.shown[1][i]);
+  carry_delta(instance);
+}
+
+void take_from_seam(Instance& instance) noexcept {
+  for (size_t i = 0; i < size_t{3} * instance.asset->padded_vertices; ++i)
+    instance.seam[i] -= instance.carried[i];
+}
+
+void begin_seam(Instance& instance) noexcept {
+  const float left = instance.seam_share();
+  carry_shown(instance);
+  for (size_t i = 0; i < size_t{3} * instance.asset->padded_vertices; ++i)
+    instance.seam[i] = (left > 0 ? left * instance.seam[i] : 0) + instance.carried[i];
+}
+
+void end_seam(Instance& instance) noexcept {
+  carry_shown(instance);
+  take_from_seam(instance);
+  instance.state->seam_ticks = 0;
+  instance.carries_seam = true;  // `carried` is nothing that may be shown
+}
+
+// ---- to the next coarser level ----
+
+template <class T>
+void pick(std::span<const uint32_t> picks, size_t width, T* rows) noexcept {
+  for (size_t n = 0; n < picks.size(); ++n)  // picks ascend: nothing is written that is still to be read
+    std::memmove(rows + width * n, rows + width * picks[n], width * sizeof(T));
+}
+
+void lower(Instance& instance) noexcept {
+  const uint32_t nodes = instance.level->node_count();
+  const std::span<const uint32_t> picks = instance.level[1].pack.picks;
+  for (float* const* ticks : {instance.u, instance.l, instance.r, instance.shown})
+    for (int tick = 0; tick < 2; ++tick) pick(picks, 3, ticks[tick]);
+  for (float* vectors : {instance.theta, instance.tail, instance.tail_velocity}) pick(picks, 3, vectors);
+  for (tissue::NodePose* poses : instance.poses) pick(picks, 1, poses);
+  tissue::pick_memory(instance.asset->network, nodes, picks, instance.network_state);
+}
+
+// ---- to the next finer level ----
+
+struct Scratch {
+  float *before, *carried;
+  uint32_t* sources;
+};
+
+// A plane of the network's memory or an array of vectors; a region as `carry` leaves it; a number a node.
+size_t plane_floats(const Asset& asset) noexcept {
+  size_t widest = 16;
+  for (const pack::LayerRecord& layer : asset.network.layers) widest = std::max<size_t>(widest, layer.padded);
+  return widest * asset.node_count();
+}
+
+Scratch scratch_of(const Instance& instance) noexcept {
+  float* at = instance.level_scratch;
+  const size_t plane = pack::round_up_16(plane_floats(*instance.asset));
+  return {at, at + plane, reinterpret_cast<uint32_t*>(at + plane + 3 * instance.asset->widest_region)};
+}
+
+// Work(region of the coarser level, region of the finer one, weights, their stride).
+template <class Work>
+void for_each_region(const GraphLevel& coarse, const GraphLevel& fine, Work work) noexcept {
+  const float* weights = coarse.pack.spread.data();
+  for (size_t r = 0; r < fine.pack.regions.size(); ++r) {
+    const pack::RegionRecord &from = coarse.pack.regions[r], &to = fine.pack.regions[r];
+    const auto stride = static_cast<size_t>(pack::round_up_16(to.node_count));
+    work(from, to, weights, stride);
+    weights += stride * from.node_count;
+  }
+}
+
+// [coarser nodes][3] to [finer nodes][3], in place.
+void spread(const Instance& instance, const GraphLevel& fine, float* vectors) noexcept {
+  const GraphLevel& coarse = *instance.level;
+  const Scratch scratch = scratch_of(instance);
+  std::copy_n(vectors, size_t{3} * coarse.node_count(), scratch.before);
+  for_each_region(coarse, fine, [&](const auto& from, const auto& to, const float* weights, size_t stride) {
+    simd::kernels().carry(weights, from.node_count, stride, scratch.before + size_t{3} * from.first_node,
+                          scratch.carried);
+    float* out = vectors + size_t{3} * to.first_node;
+    for (size_t n = 0; n < to.node_count; ++n)
+      for (size_t axis = 0; axis < 3; ++axis) out[3 * n + axis] = scratch.carried[axis * stride + n];
+  });
+}
+
+// l += sign shape q, at a level.
+void add_modes(const Instance& instance, const GraphLevel& level, const float* q, float sign,
+               float* l) noexcept {
+  float* held = instance.region[0];
+  for (size_t r = 0; r < level.pack.regions.size(); ++r) {
+    const tissue::ModalBase base = tissue::modal_base(level.pack, r);
+    simd::kernels().add_rows(base.shape, static_cast<uint32_t>(base.modes.size()), base.padded,
+                             q + level.pack.region_modes[r].first_mode, held);
+    float* at = l + size_t{3} * level.pack.regions[r].first_node;
+    for (size_t i = 0; i < size_t{3} * base.node_count; ++i) at[i] += sign * held[i];
+  }
+}
+
+void turn_and_warp(const Instance& instance, const GraphLevel& level, int tick) noexcept {
+  for (size_t r = 0; r < level.pack.regions.size(); ++r) {
+    const size_t vector = size_t{3} * level.pack.regions[r].first_node;
+    tissue::modal_turn(tissue::modal_base(level.pack, r),
+                       instance.q[tick] + level.pack.region_modes[r].first_mode, instance.region[0],
+                       instance.theta + vector);
+    tissue::warp(instance.theta + vector, instance.l[tick] + vector, level.pack.regions[r].node_count,
+                 instance.u[tick] + vector);
+  }
+}
+
+void raise_base(Instance& instance, const GraphLevel& fine) noexcept {
+  for (int tick = 1; tick >= 0; --tick) {  // theta is the newer tick's
+    add_modes(instance, *instance.level, instance.q[tick], -1, instance.l[tick]);
+    spread(instance, fine, instance.l[tick]);
+    spread(instance, fine, instance.r[tick]);
+    add_modes(instance, fine, instance.q[tick], 1, instance.l[tick]);
+    turn_and_warp(instance, fine, tick);
+  }
+}
+
+// Of the coarser nodes of its region the one with the largest weight on each.
+void find_sources(const Instance& instance, const GraphLevel& fine, uint32_t* sources) noexcept {
+  for_each_region(*instance.level, fine,
+                  [&](const auto& from, const auto& to, const float* weights, size_t stride) {
+                    for (uint32_t n = 0; n < to.node_count; ++n) {
+                      uint32_t most = 0;
+                      for (uint32_t c = 1; c < from.node_count; ++c)
+                        if (weights[c * stride + n] > weights[most * stride + n]) most = c;
+                      sources[to.first_node + n] = from.first_node + most;
+                    }
+                  });
+}
+
+void raise_memory(Instance& instance, const GraphLevel& fine) noexcept {
+  const Scratch scratch = scratch_of(instance);
+  const tissue::Network& network = instance.asset->network;
+  find_sources(instance, fine, scratch.sources);
+  tissue::copy_memory(network, instance.level->node_count(), {scratch.sources, fine.node_count()},
+                      instance.network_state, scratch.before);
+  if (instance.state->tier == Tier::kNetwork)
+    tissue::write_output(network, fine.pack.regions, fine.node_count(), instance.l[0],
+                         instance.network_state);
+}
+
+void raise(Instance& instance) noexcept {
+  const GraphLevel& fine = instance.level[-1];
+  for (float* vectors : {instance.shown[0], instance.shown[1], instance.tail, instance.tail_velocity})
+    spread(instance, fine, vectors);
+  if (instance.state->tier == Tier::kSpring)
+    for (float* u : instance.u) spread(instance, fine, u);
+  else if (frame::is_simulated(instance.state->tier))
+    raise_base(instance, fine);
+  raise_memory(instance, fine);
+  instance.level_raised = true;
+}
+
+// What is shown at the level it has now, of what is simulated.
+void show_anew(Instance& instance) noexcept {
+  const float simulated = instance.simulated_share(), tail = (1 - simulated) * instance.tail_share();
+  const uint32_t nodes = instance.level->node_count();
+  pose_at_start(instance);
+  for (int tick = 0; tick < 2; ++tick) {
+    tissue::along_flesh(instance.poses[0], instance.u[tick], nodes, instance.shown[tick]);
+    for (size_t i = 0; simulated < 1 && i < size_t{3} * nodes; ++i)
+      instance.shown[tick][i] = simulated * instance.shown[tick][i] + tail * instance.tail[i];
+  }
+}
+
+void go_one_level(Instance& instance, bool finer) noexcept {
+  if (finer)
+    raise(instance);
+  else
+    lower(instance);
+  instance.state->level += finer ? -1u : 1u;
+  point_to_state(instance);
+}
+
+bool has_base(Tier tier) noexcept { return tier == Tier::kModal || tier == Tier::kNetwork; }
+
+}  // namespace
+
+void settle_rest(Instance& instance, float* moved) noexcept {
+  const uint32_t nodes = instance.level->node_count();
+  instance.settles = false;
+  tissue::warp(instance.theta, moved, nodes, moved);
+  tissue::along_flesh(instance.poses[1], moved, nodes, instance.delta);  // those of u: a tick ago
+  for (int tick = 0; tick < 2; ++tick)
+    for (size_t i = 0; i < size_t{3} * nodes; ++i) {
+      instance.u[tick][i] += moved[i];
+      instance.shown[tick][i] += instance.delta[i];
+    }
+  carry_delta(instance);
+  if (instance.state->seam_ticks < kBlendInTicks) take_from_seam(instance);
+  if (instance.state->tier == Tier::kNetwork)
+    tissue::write_output(instance.asset->network, instance.level->pack.regions, nodes, instance.l[0],
+                         instance.network_state);
+}
+
+size_t change_scratch_floats(const Asset& asset) noexcept {
+  return pack::round_up_16(plane_floats(asset)) + size_t{3} * asset.widest_region + asset.node_count();
+}
+
+void change_level(Instance& instance, uint32_t level) noexcept {
+  InstanceState& state = *instance.state;
+  if (state.level == level) return;
+  const bool shows = instance.displaced;
+  if (shows) begin_seam(instance);
+  while (state.level != level) go_one_level(instance, level < state.level);
+  if (instance.level_raised && frame::is_simulated(state.tier)) show_anew(instance);
+  if (shows)
+    end_seam(instance);
+  else
+    state.seam_ticks = kBlendInTicks;
+  wake_regions(instance);
+  state.heard_by = static_cast<uint32_t>(HeardBy::kNobody);
+  instance.settles = instance.level_raised && has_base(state.tier);
+  if (instance.level_raised && state.spacing_ticks > 1) state.motion_stale = 1;
+}
+
+}  // namespace sinew::world

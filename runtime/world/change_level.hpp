@@ -1,0 +1,30 @@
+// change_level.hpp  An instance goes on on another control graph of its asset.
+//
+// Levels have the same regions, modes and frames, and a coarser level's nodes are nodes of the finer one
+// (pack::LevelRecord). One level at a time:
+//   coarser  each node keeps what it had: u, l, r, theta, poses, network's memory
+//   finer    q stays. With S how a coarser level spreads over a finer one (kSpread), of both ticks:
+//            r = S r,  l = shape q + S (l - shape q before), until r is told anew by the next tick,  theta
+//            and u as in tissue/modal_base.hpp; on springs u = S u. Past poses are the new nodes' own, along
+//            the path of the pose. A node remembers of the network what the coarser node did that carries
+//            most of it
+//   shown    the tail is picked, or spread; what is shown follows from it and u. What the surface differs by
+//            then is its *seam*: added to what is carried, vertex by vertex, and faded out in kBlendInTicks
+// So no vertex jumps, whatever is changed and however often; from there on levels part by what they hear.
+#pragma once
+#include "world/instance.hpp"
+
+namespace sinew::world {
+
+// To a level of its asset, before a step in which it is simulated.
+void change_level(Instance& instance, uint32_t level) noexcept;
+
+// In the first tick on a finer level, once it is heard what the new nodes' rest is: r begins there, for both
+// ticks. What was spread would swing, for what the modes leave is not smooth from node to node. moved: by how
+// much r moved, [nodes][3], overwritten; l has moved with it.
+void settle_rest(Instance& instance, float* moved) noexcept;
+
+// Floats of Instance::level_scratch.
+size_t change_scratch_floats(const Asset& asset) noexcept;
+
+}  // namespace sinew::world

@@ -1,0 +1,18 @@
+// graph_level.hpp  One control graph of a character: a whole tissue of its own, finest first in the asset.
+#pragma once
+#include "pack/reader.hpp"
+#include "tissue/network.hpp"
+#include "world/surface_patches.hpp"
+
+namespace sinew::world {
+
+struct GraphLevel {
+  pack::PackView pack;  // with this level in view
+  tissue::Graph graph;
+  SurfacePatches patches;  // made with the first instance that has contacts
+
+  uint32_t node_count() const noexcept { return static_cast<uint32_t>(pack.nodes.size()); }
+  uint32_t mode_count() const noexcept { return static_cast<uint32_t>(pack.modes.size()); }
+};
+
+}  // namespace sinew::world
