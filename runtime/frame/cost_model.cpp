@@ -34,7 +34,7 @@ void CostEstimate::settle() noexcept {
   if (samples_ > 0) {
     estimate_us_ += kWeight * (sum_us_ / static_cast<float>(samples_) - estimate_us_);
   } else {
-    if (baked_us_ > 0) estimate_us_ += kDrift * (baked_us_ - estimate_us_);
+    if (is_baked_) estimate_us_ += kDrift * (baked_us_ - estimate_us_);
     tail_ += kDrift * (kUsualTail - tail_);
     far_tail_ += kDrift * (kUsualFarTail - far_tail_);
   }

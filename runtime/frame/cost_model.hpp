@@ -17,7 +17,7 @@ class CostEstimate {
 
   CostEstimate() noexcept = default;
   explicit CostEstimate(float baked_us) noexcept
-      : baked_us_(baked_us), estimate_us_(baked_us), known_(true) {}
+      : baked_us_(baked_us), estimate_us_(baked_us), known_(true), is_baked_(true) {}
   float baked_us() const noexcept { return baked_us_; }
   float estimate_us() const noexcept { return estimate_us_; }
   float p95_us() const noexcept { return estimate_us_ * tail_; }
@@ -33,6 +33,7 @@ class CostEstimate {
   float sum_us_ = 0;
   uint32_t samples_ = 0;
   bool known_ = false;  // baked, at whatever cost, or measured
+  bool is_baked_ = false;
 };
 
 struct CostModel {  // of one asset
@@ -42,8 +43,8 @@ struct CostModel {  // of one asset
     return tick[static_cast<size_t>(tier)][level];
   }
   CostEstimate tick[kTierCount][pack::kMostGraphLevels];
-  CostEstimate publish;  // a step, of what is displaced: pose, extrapolation, publishing
-  CostEstimate enter;    // what the first tick of a simulation takes beyond a tick: cold memory, a history
+  CostEstimate publish;   // a step, of what is displaced: pose, extrapolation, publishing
+  CostEstimate enter{0};  // what the first tick of a simulation takes beyond a tick: cold memory, a history
   void settle() noexcept;
 };
 

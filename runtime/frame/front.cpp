@@ -32,14 +32,18 @@ bool is_passed_over(const Front& front, const Level& next) noexcept {
 
 }  // namespace
 
-float usual_error(Tier tier, uint32_t every, uint32_t graph) noexcept {
+float usual_error(Tier tier, uint32_t every) noexcept {
   if (every != 1) return std::numeric_limits<float>::quiet_NaN();
-  constexpr float kNetwork = 0.08f, kModal = 0.15f, kSpring = 0.4f, kCoarser = 1.15f;
-  float coarser = 1;
-  for (uint32_t level = 0; level < graph; ++level) coarser *= kCoarser;
-  if (tier == Tier::kNetwork) return kNetwork * coarser;
-  if (tier == Tier::kModal) return kModal * coarser;
-  return tier == Tier::kSpring ? kSpring * coarser : 1;
+  constexpr float kNetwork = 0.08f, kModal = 0.15f, kSpring = 0.4f;
+  if (tier == Tier::kNetwork) return kNetwork;
+  if (tier == Tier::kModal) return kModal;
+  return tier == Tier::kSpring ? kSpring : 1;
+}
+
+float coarser_error(float finest, uint32_t graph) noexcept {
+  constexpr float kCoarser = 1.15f;
+  for (uint32_t level = 0; level < graph; ++level) finest *= kCoarser;
+  return finest;
 }
 
 uint32_t Front::level_of(Tier tier, uint32_t every, uint32_t graph) const noexcept {

@@ -22,9 +22,10 @@ struct Level {
 
 inline constexpr uint32_t kMostLevels = 25;  // skinning, and as many points as a pack may hold, and to spare
 
-// Where an error was not measured: of the tier at every tick, a little more at each coarser control graph;
-// NaN at other rates, which are then left out.
-float usual_error(Tier tier, uint32_t every, uint32_t graph) noexcept;
+// Where an error was not measured: of the tier at every tick; NaN at other rates, which are then left out.
+float usual_error(Tier tier, uint32_t every) noexcept;
+// On a coarser control graph, of what it is on the finest: a little more on each.
+float coarser_error(float finest, uint32_t graph) noexcept;
 
 // Cost rises and error falls from level to level, and what an error's unit costs rises too: the lower convex
 // hull of cost against error. Publishing, which whatever is displaced takes once a step, is part of what the

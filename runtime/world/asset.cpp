@@ -20,13 +20,23 @@ constexpr uint32_t kMostEvery = 1;
 // Errors of a network that was not judged are not known in millimetres: a usual share of the height then.
 constexpr float kUsualSkinningError = 5e-3f;
 
-void read_point(const pack::TierRecord& record, Asset& asset) noexcept {
+// What was not measured on a coarser graph follows from what was on the finest.
+float told_error(const pack::PackView& pack, const pack::TierRecord& record) noexcept {
+  if (!std::isnan(record.error_ratio)) return record.error_ratio;
+  float finest = frame::usual_error(static_cast<Tier>(record.tier), record.every);
+  for (const pack::TierRecord& other : pack.tiers) {
+    const bool same = other.tier == record.tier && other.every == record.every && other.level == 0;
+    if (same && !std::isnan(other.error_ratio)) finest = other.error_ratio;
+  }
+  return frame::coarser_error(finest, record.level);
+}
+
+void read_point(const pack::PackView& pack, const pack::TierRecord& record, Asset& asset) noexcept {
   const auto tier = static_cast<Tier>(record.tier);
   if (!frame::is_simulated(tier) || record.every > kMostEvery || asset.point_count == frame::kMostLevels)
     return;
-  const float error = std::isnan(record.error_ratio) ? frame::usual_error(tier, record.every, record.level)
-                                                     : record.error_ratio;
-  asset.points[asset.point_count++] = {tier, record.every, record.cost_us, error, record.level};
+  asset.points[asset.point_count++] = {tier, record.every, record.cost_us, told_error(pack, record),
+                                       record.level};
   if (record.every == 1) asset.cost.of(tier, record.level) = frame::CostEstimate(record.cost_us);
 }
 
@@ -34,7 +44,7 @@ void read_tiers(const pack::PackView& pack, Asset& asset) noexcept {
   asset.point_count = 0;
   asset.skinning_mm = kUsualSkinningError * 1e3f * pack.character->height_m;
   for (const pack::TierRecord& record : pack.tiers) {
-    read_point(record, asset);
+    read_point(pack, record, asset);
     if (record.tier == static_cast<uint32_t>(Tier::kExtrapolate))
       asset.cost.publish = frame::CostEstimate(record.cost_us);
     if (record.tier != static_cast<uint32_t>(Tier::kSkinning)) continue;

@@ -138,6 +138,7 @@ void enter_tier(Instance& instance, Tier tier) noexcept {
   if (has_base(tier) && !has_base(state.tier)) begin_base(instance);
   if (tier == Tier::kNetwork && state.tier != Tier::kNetwork) begin_network(instance);
   if (tier != state.tier) wake_regions(instance);
+  instance.settles &= has_base(tier);
   if (tier == Tier::kSkinning) state.tail_ticks = std::max(state.tail_ticks, kCarryTicks);
   state.tier = tier;
 }
@@ -150,6 +151,7 @@ void restart(Instance& instance) noexcept {
   state.tail_ticks = kCarryTicks;
   state.tier = Tier::kSkinning;
   state.restarting = 1;
+  instance.settles = false;
   state.forgotten = 1;
   wake_regions(instance);
   ++state.restarts;

@@ -219,6 +219,8 @@ void settle_rest(Instance& instance, float* moved) noexcept {
   instance.settles = false;
   tissue::warp(instance.theta, moved, nodes, moved);
   tissue::along_flesh(instance.poses[1], moved, nodes, instance.delta);  // those of u: a tick ago
+  const float simulated = instance.simulated_share();
+  for (size_t i = 0; i < size_t{3} * nodes; ++i) instance.delta[i] *= simulated;
   for (int tick = 0; tick < 2; ++tick)
     for (size_t i = 0; i < size_t{3} * nodes; ++i) {
       instance.u[tick][i] += moved[i];

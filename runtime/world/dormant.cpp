@@ -18,14 +18,29 @@ bool is_same(const RootTransform& a, const RootTransform& b) noexcept {
          std::equal(a.rotation_xyzw, a.rotation_xyzw + 4, b.rotation_xyzw);
 }
 
+// What is shown does not depend on how far into a tick it is.
+bool is_shown_still(const Instance& instance) noexcept {
+  const size_t floats = size_t{3} * instance.level->node_count(),
+               turns = size_t{4} * instance.asset->rods.slot_count;
+  return std::equal(instance.shown[0], instance.shown[0] + floats, instance.shown[1]) &&
+         std::equal(instance.rod_shown[0], instance.rod_shown[0] + turns, instance.rod_shown[1]);
+}
+
+// By its front, not by what the step was told: that may have been less for a reason that is over.
+bool has_its_best(const Instance& instance) noexcept {
+  const InstanceState& state = *instance.state;
+  const frame::Front& front = instance.asset->front;
+  return front.level_of(state.tier, instance.plan.every, state.level) == front.best();
+}
+
 bool may_be_dormant(const Instance& instance) noexcept {
   const InstanceState& state = *instance.state;
   const Asset& asset = *instance.asset;
   return frame::is_simulated(state.tier) && state.still_ticks >= kStillTicks && !state.motion_stale &&
-         !instance.cut && state.blend_ticks == kBlendInTicks && state.seam_ticks == kBlendInTicks &&
-         state.fallback_ticks == 0 && !instance.contacts.source &&
+         !state.at_start && !instance.cut && state.blend_ticks == kBlendInTicks &&
+         state.seam_ticks == kBlendInTicks && state.fallback_ticks == 0 && !instance.contacts.source &&
          regions_asleep(instance) == asset.pack.regions.size() &&
-         rods_asleep(instance) == asset.rods.rod_count;
+         rods_asleep(instance) == asset.rods.rod_count && is_shown_still(instance);
 }
 
 }  // namespace
@@ -46,8 +61,8 @@ void watch_pose(Instance& instance) noexcept {
 
 void fall_dormant(Instance& instance) noexcept {
   if (!may_be_dormant(instance)) return;
-  const bool at_best = instance.plan.why == TierReason::kBest;
-  instance.state->dormant = static_cast<uint32_t>(at_best ? Dormancy::kAtBest : Dormancy::kBelowBest);
+  const Dormancy dormancy = has_its_best(instance) ? Dormancy::kAtBest : Dormancy::kBelowBest;
+  instance.state->dormant = static_cast<uint32_t>(dormancy);
 }
 
 void stay_dormant(Instance& instance) noexcept {
@@ -63,6 +78,8 @@ void stay_dormant(Instance& instance) noexcept {
   state.ticks += ticks.ticks;
   state.dt_before_s = instance.plan.dt_s;
   state.held_s += dt_s;
+  state.turn_left_s = std::max(0.0f, state.turn_left_s - dt_s);
+  if (state.tier != Tier::kNetwork) state.ticks_since_network += ticks.ticks;
   state.has_next = 0;
 }
 

@@ -29,7 +29,8 @@ void learn_entering(Instance& instance, float ticked_us) noexcept {
   frame::CostModel& cost = instance.asset->cost;
   const float tick_us = cost.of(instance.state->tier, instance.state->level).estimate_us();
   const auto ticks = static_cast<float>(instance.plan.ticks.ticks);
-  cost.enter.observe(std::max(0.0f, ticked_us - ticks * tick_us));
+  constexpr float kMost = 10;  // of a tick: a first sample is not clipped by those before it
+  cost.enter.observe(std::clamp(ticked_us - ticks * tick_us, 0.0f, kMost * tick_us));
 }
 
 void learn_costs(Instance& instance) noexcept {

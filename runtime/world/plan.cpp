@@ -48,10 +48,9 @@ float weight_of(const Instance& instance) noexcept {
 uint32_t highest(const Instance& instance) noexcept {
   const frame::Front& front = instance.asset->front;
   if (instance.state->restarting || instance.state->hidden) return 0;
-  uint32_t level = front.best();
-  while (instance.state->fallback_ticks > 0 && level > 0 && front.levels[level].tier == Tier::kNetwork)
-    --level;
-  return level;
+  for (uint32_t level = 1; instance.state->fallback_ticks > 0 && level < front.count; ++level)
+    if (front.levels[level].tier == Tier::kNetwork) return level - 1;
+  return front.best();
 }
 
 Candidate candidate_of(const WorldState& world, const Instance& instance, uint32_t slot) noexcept {
@@ -139,7 +138,12 @@ void raise_waiting(WorldState& world, float budget_us, Gathered& gathered,
   c.level = c.top;
   c.reason = frame::Reason::kBest;
   const bool fits = !result.denied && result.planned_us + c.cost_us(c.top) <= budget_us;
-  if (!fits || c.keeps_level) return stay_dormant(instance);
+  if (c.keeps_level) return stay_dormant(instance);
+  if (!fits) {
+    instance.state->held_s = 0;  // the next one's turn
+    result.denied = true;
+    return stay_dormant(instance);
+  }
   instance.passed = false;
   result.planned_us += c.cost_us(c.top);
   world.candidates[gathered.candidates++] = c;

@@ -63,6 +63,7 @@ void add_pushes(Instance& instance, size_t r, size_t first, float* carried) noex
 void clear_shown(Instance& instance) noexcept {
   const size_t bytes = sizeof(float) * 3 * instance.level->node_count();
   for (float* shown : instance.shown) std::memset(shown, 0, bytes);
+  instance.state->seam_ticks = kBlendInTicks;
 }
 
 }  // namespace

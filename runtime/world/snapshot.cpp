@@ -105,6 +105,10 @@ Status restore(Instance& instance, std::span<const std::byte> bytes) noexcept {
   if (given.payload_bytes != payload.size() || given.checksum != core::hash64(payload)) {
     return corrupt("the bytes changed since they were saved");
   }
+  InstanceState state;
+  std::memcpy(&state, payload.data(), sizeof state);
+  if (state.level >= instance.asset->level_count || static_cast<uint32_t>(state.tier) >= kTierCount)
+    return corrupt("names a control graph or a tier that there is not");
   std::memcpy(instance.state, payload.data(), instance.state_bytes);
   restore_rods(instance, payload.data() + instance.state_bytes);
   instance.level_raised = instance.settles = false;
