@@ -58,6 +58,14 @@ TEST_CASE("usual_tiers_are_all_on_their_front") {
   CHECK(front.level_of(Tier::kModal, 2, 0) == 1);
 }
 
+TEST_CASE("on_a_coarser_graph_a_tier_is_a_little_further_off_than_on_the_finest") {
+  CHECK(frame::coarser_error(0.3f, 0) == 0.3f);
+  for (uint32_t graph = 1; graph < 4; ++graph) {
+    CHECK(frame::coarser_error(0.3f, graph) > frame::coarser_error(0.3f, graph - 1));
+    CHECK(frame::coarser_error(0.3f, graph) < 0.6f);
+  }
+}
+
 TEST_CASE("dearer_and_no_better_is_dropped") {
   const Front front = front_of({{.tier = Tier::kSpring, .tick_us = 5, .error = 0.3f},
                                 {.tier = Tier::kModal, .tick_us = 4, .error = 0.3f},

@@ -145,6 +145,39 @@ TEST_CASE("what_fell_asleep_below_its_best_has_it_once_there_is_room") {
   for (uint32_t raised = 1; raised <= 3; ++raised) CHECK(stand(stage).instances_network == raised);
 }
 
+// Nothing is decided in a step without a tick; that is no reason to take what it has for its best.
+TEST_CASE("one_below_its_best_that_is_woken_and_sleeps_on_is_still_below_it") {
+  Stage stage(1, in_work_units());
+  REQUIRE(stage.world.set_budget_us(0.95f * test::tier_cost_us(Tier::kNetwork)).ok());
+  stage.play(walk_and_stand, 12);
+  REQUIRE(stage.report().dormant);
+  stage.pose(stage.blocks[0], moved(0.3));
+  stage.pose(stage.blocks[0], walk_and_stand(2));
+  stage.world.step(1e-4f);
+  REQUIRE(stage.report().dormant);
+  REQUIRE(stage.world.set_budget_us(std::numeric_limits<float>::infinity()).ok());
+  CHECK(stand(stage).instances_network == 1);
+}
+
+TEST_CASE("before_its_first_pose_nothing_is_dormant") {
+  Stage stage(1, in_work_units());
+  for (int f = 0; f < 300; ++f) stage.world.step(static_cast<float>(kFrame_s));
+  CHECK(stage.report().regions_asleep == 2);
+  CHECK_FALSE(stage.report().dormant);
+}
+
+// Wherever in a tick the frame ends: what is restored is published anew.
+TEST_CASE("what_is_restored_is_shown_as_it_was") {
+  Stage stage(1, in_work_units());
+  for (int f = 0; f < 1500; ++f) {
+    stage.step(walk_and_stand, 1.0 / 144);
+    const std::vector<float> before = stage.read();
+    REQUIRE(stage.world.restore_state(stage.blocks[0], stage.save()).ok());
+    if (stage.report().dormant) CHECK(stage.read() == before);
+  }
+  CHECK(stage.report().dormant);
+}
+
 TEST_CASE("it_is_part_of_the_snapshot") {
   Stage stage(1, in_work_units());
   put_to_rest(stage);
