@@ -10,7 +10,7 @@
 //            most of it
 //   shown    the tail is picked, or spread; what is shown follows from it and u. What the surface differs by
 //            then is its *seam*: added to what is carried, vertex by vertex, and faded out in kBlendInTicks
-// So no vertex jumps, whatever is changed and however often; from there on levels part by what they hear.
+// So no vertex moves by the change itself, however often; from there on levels part by what they hear.
 #pragma once
 #include "world/instance.hpp"
 
