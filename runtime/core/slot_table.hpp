@@ -61,7 +61,7 @@ class SlotTable {
   uint32_t capacity() const noexcept { return capacity_; }
 
  private:
-  struct Slot {
+  struct alignas(64) Slot {  // a cache line
     uint32_t generation = 0;
     uint32_t next_free = 0;  // slot + 1
     bool live = false;

@@ -69,8 +69,10 @@ void make_front(std::span<const Level> points, float publish_us, Front* out) noe
     while (is_passed_over(*out, sorted[i])) --out->count;
     out->levels[out->count++] = sorted[i];
   }
-  for (uint32_t level = 1; level < out->count; ++level)
+  for (uint32_t level = 1; level < out->count; ++level) {
     out->worth[level] = worth_between(*out, out->levels[level - 1], out->levels[level]);
+    out->rise_us[level] = out->levels[level].tick_us - out->levels[level - 1].tick_us;
+  }
 }
 
 }  // namespace sinew::frame

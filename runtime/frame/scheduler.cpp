@@ -10,28 +10,27 @@ namespace {
 float staleness(const Candidate& c) noexcept { return 1 + c.waited_s / kStaleness_s; }
 
 // What has no weight comes behind all that has.
-float weight_of(const Candidate& c) noexcept {
-  constexpr float kLeast = 1e-30f;
-  return std::max(kLeast, c.weight * staleness(c));
+void weigh(Candidate& c) noexcept {
+  constexpr float kLeast = 1e-30f, kFewest = 1e-3f;
+  c.rate = std::max(kLeast, c.weight * staleness(c)) / std::max(kFewest, c.ticks * c.cost_factor);
+  c.bonus = c.held_s < kHold_s ? kHoldBonus : kHysteresis;
 }
 
-float bonus(const Candidate& c, uint32_t level) noexcept {
-  if (level > c.has) return 1;
-  return c.held_s < kHold_s ? kHoldBonus : kHysteresis;
+// Weight x error saved a microsecond.
+float key_of(const Candidate& c, uint32_t level) noexcept {
+  return c.rate * (level > c.has ? 1 : c.bonus) * c.front->worth[level];
 }
 
 // Of a level above the one it has been given: its steps one by one, each as good as the one before at most,
 // while they cost no more than `most`. Work(level, key, cost) says whether to go on.
 template <class Work>
 void for_each_step_up(const Candidate& c, double most, Work work) noexcept {
-  const float weight = weight_of(c), ticks = c.ticks * c.cost_factor;
-  float key = std::numeric_limits<float>::max(), cost_below = c.cost_us(c.level);
+  float key = std::numeric_limits<float>::max();
   for (uint32_t level = c.level + 1; level <= c.top; ++level) {
-    const float whole = c.cost_us(level), cost = std::max(0.0f, whole - cost_below);
+    const float cost = c.rise_us(level);
     if (static_cast<double>(cost) > most) return;
-    key = std::min(key, weight * bonus(c, level) * c.front->worth[level] / std::max(ticks, 1e-3f));
+    key = std::min(key, key_of(c, level));
     if (!work(level, key, cost)) return;
-    cost_below = whole;
   }
 }
 
@@ -106,50 +105,66 @@ bool sum_up(std::span<const Candidate> candidates, double left, WeightBuckets& b
   return any;
 }
 
-// Takes what lies in the drawers from `lowest` on; gathers what lies in the one below.
-uint32_t take_above(std::span<Candidate> candidates, double left, uint32_t lowest,
+// Takes what lies in the drawers from `lowest` on; gathers the next step of each, where `rest` pays for it.
+uint32_t take_above(std::span<Candidate> candidates, double left, uint32_t lowest, double rest,
                     std::span<Purchase> purchases) noexcept {
   uint32_t count = 0;
   for (uint32_t i = 0; i < candidates.size(); ++i) {
     Candidate& c = candidates[i];
     if (!chooses(c)) continue;
     uint32_t reached = c.level;
-    for_each_step_up(c, left, [&](uint32_t level, float key, float) {
-      const uint32_t drawer = WeightBuckets::drawer_of(key);
-      if (drawer >= lowest) return reached = level, true;
-      if (drawer + 1 == lowest && count < purchases.size()) purchases[count++] = {key, i, level};
-      return drawer + 1 == lowest;
+    for_each_step_up(c, left, [&](uint32_t level, float key, float cost) {
+      if (WeightBuckets::drawer_of(key) >= lowest) return reached = level, true;
+      if (static_cast<double>(cost) <= rest) purchases[count++] = {key, cost, i, level};
+      return false;
     });
     c.level = reached;
   }
   return count;
 }
 
-// The drawer that not all of fits: by its keys.
-void take_best(std::span<Candidate> candidates, std::span<Purchase> purchases, double& left) noexcept {
+// The next of the same candidate, as good as this one at most. False: there is none.
+bool next_of(const Candidate& c, Purchase& purchase) noexcept {
+  if (purchase.level == c.top) return false;
+  ++purchase.level;
+  purchase.key = std::min(purchase.key, key_of(c, purchase.level));
+  purchase.cost_us = c.rise_us(purchase.level);
+  return true;
+}
+
+float least_cost(std::span<const Purchase> purchases) noexcept {
+  float least = std::numeric_limits<float>::max();
+  for (const Purchase& p : purchases) least = std::min(least, p.cost_us);
+  return least;
+}
+
+// What is left over, by the keys themselves.
+void take_best(std::span<Candidate> candidates, std::span<Purchase> purchases, double left) noexcept {
   const Dearer dearer{candidates};
+  float least_us = least_cost(purchases);
   std::make_heap(purchases.begin(), purchases.end(), dearer);
-  for (auto end = purchases.end(); end != purchases.begin(); --end) {
+  for (auto end = purchases.end(); end != purchases.begin() && static_cast<double>(least_us) <= left;) {
     std::pop_heap(purchases.begin(), end, dearer);
-    const Purchase& best = *(end - 1);
+    Purchase& best = *(end - 1);
     Candidate& c = candidates[best.candidate];
-    const double cost = static_cast<double>(c.cost_us(best.level) - c.cost_us(c.level));
-    if (c.level + 1 != best.level || cost > left) continue;
-    left -= cost;
-    c.level = best.level;
+    const auto cost = static_cast<double>(best.cost_us);
+    const bool fits = cost <= left;
+    if (fits) left -= cost, c.level = best.level;
+    if (!fits || !next_of(c, best)) {
+      --end;
+      continue;
+    }
+    least_us = std::min(least_us, best.cost_us);
+    std::push_heap(purchases.begin(), end, dearer);
   }
 }
 
-// True when something was bought.
-bool buy(std::span<Candidate> candidates, ScheduleScratch& scratch, double& left) noexcept {
-  const double before = left;
-  if (!sum_up(candidates, left, scratch.buckets)) return false;
+void buy(std::span<Candidate> candidates, ScheduleScratch& scratch, double left) noexcept {
+  if (!sum_up(candidates, left, scratch.buckets)) return;
   double rest = left;
   const uint32_t lowest = scratch.buckets.lowest_within(left, &rest);
-  const uint32_t gathered = take_above(candidates, left, lowest, scratch.purchases);
-  left = rest;
-  take_best(candidates, scratch.purchases.first(gathered), left);
-  return left < before;
+  const uint32_t gathered = take_above(candidates, left, lowest, rest, scratch.purchases);
+  take_best(candidates, scratch.purchases.first(gathered), rest);
 }
 
 // ---- the whole ----
@@ -159,6 +174,7 @@ double reset_levels(std::span<Candidate> candidates) noexcept {
   for (Candidate& c : candidates) {
     c.level = c.keeps_level ? c.has : 0;
     c.reason = Reason::kBudget;
+    weigh(c);
     base_us += static_cast<double>(c.base_us);
   }
   return base_us;
@@ -192,7 +208,6 @@ float sane_importance(float importance) noexcept {
 
 ScheduleResult schedule(std::span<Candidate> candidates, float budget_us, ScheduleScratch& scratch) noexcept {
   constexpr float kNoLimit_us = 1e30f;
-  constexpr int kMostRounds = 4;
   double left = static_cast<double>(budget_us) - reset_levels(candidates);
   if (budget_us >= kNoLimit_us) {
     for (Candidate& c : candidates)
@@ -201,8 +216,7 @@ ScheduleResult schedule(std::span<Candidate> candidates, float budget_us, Schedu
   }
   if (left > 0) {
     hand_out_turns(candidates, scratch.overdue, left);
-    for (int round = 0; round < kMostRounds && buy(candidates, scratch, left); ++round) {
-    }
+    buy(candidates, scratch, left);
   }
   return close(candidates);
 }

@@ -48,6 +48,7 @@ struct Candidate {
   uint32_t top = 0;              // the highest it may have now
   float turn_left_s = 0;         // > 0: what it has came by a turn, and stays so long
   bool keeps_level = false;      // no tick in this step: all is as it was
+  float rate = 0, bonus = 1;     // worked out: weight a tick's time, and of levels up to what it has
   uint32_t level = 0;            // the answer, of its front
   Reason reason = Reason::kBudget;
 
@@ -56,6 +57,11 @@ struct Candidate {
     if (of_level == 0) return base_us;
     return front->step_us(of_level, ticks * cost_factor) + (has == 0 ? enter_us : 0);
   }
+  // More than the level below it takes.
+  float rise_us(uint32_t to_level) const noexcept {
+    const float rise = to_level > 1 ? ticks * cost_factor * front->rise_us[to_level] : cost_us(1) - base_us;
+    return rise > 0 ? rise : 0;
+  }
 };
 
 float sane_importance(float importance) noexcept;  // NaN, negative: 0; infinity: the largest finite
@@ -63,6 +69,7 @@ float sane_importance(float importance) noexcept;  // NaN, negative: 0; infinity
 // One level of one candidate, bought from the level below.
 struct Purchase {
   float key;  // weight x error saved a microsecond
+  float cost_us;
   uint32_t candidate, level;
 };
 

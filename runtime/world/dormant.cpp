@@ -72,6 +72,7 @@ void stay_dormant(Instance& instance) noexcept {
   instance.idle = instance.entered = instance.changed_level = false;
   instance.cut = instance.held = instance.restarted = instance.fell_back = instance.came_back = false;
   instance.times = {};
+  instance.cost_factor = 1;
   instance.plan.cost_us = 0;
   state.remainder_s = ticks.remainder_s;
   state.render_fraction = static_cast<float>(ticks.remainder_s / instance.asset->tick_s);

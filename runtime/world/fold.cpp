@@ -18,7 +18,7 @@ bool ran_as_planned(const Instance& instance) noexcept {
 void learn_tick_cost(Instance& instance, float tick_us) noexcept {
   constexpr float kWeight = 0.125f, kFarthest = 2, kLeast = 0.1f, kMost = 10;
   frame::CostEstimate& estimate = instance.asset->cost.of(instance.state->tier, instance.state->level);
-  float& factor = instance.times.cost_factor;
+  float& factor = instance.cost_factor;
   if (regions_asleep(instance) == 0) estimate.observe(tick_us);
   const float seen = tick_us / std::max(1e-3f, estimate.estimate_us());
   factor += kWeight * (std::clamp(seen, factor / kFarthest, factor * kFarthest) - factor);

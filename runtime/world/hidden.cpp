@@ -39,6 +39,7 @@ void pass_by(Instance& instance, double dt_s, uint32_t max_ticks) noexcept {
   state.still_ticks = 0;
   state.waited_s = state.held_s = 0;
   instance.times = {};
+  instance.cost_factor = 1;
   instance.told = {};
   instance.cut = instance.held = instance.restarted = instance.fell_back = false;
 }

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/aligned_block.hpp"
+#include "frame/sight.hpp"
 #include "frame/tick_clock.hpp"
 #include "rods/collider.hpp"
 #include "rods/rod_batch.hpp"
@@ -37,53 +38,55 @@ inline constexpr uint32_t kFallbackTicks = 60;  // on the modal base, after a ne
 
 // The part of the state that is not an array. Plain bytes: saved and restored as they are.
 struct InstanceState {
+  // What every step's plan asks of each instance comes first: kPlannedStateBytes of it.
+  double remainder_s = 0;  // frame/tick_clock.hpp
+  float importance = 1;
+  float excitation = 1;                             // world/excitation.hpp
+  float waited_s = 0, held_s = 0, turn_left_s = 0;  // frame/scheduler.hpp
+  Tier tier = Tier::kSkinning;                      // in the last step
+  uint32_t level = 0;                               // of control graphs (world/change_level.hpp)
+  uint32_t restarting = 0;                          // fading out after a guard: not simulated until faded
+  uint32_t fallback_ticks = 0;                      // left until the network may be tried again
+  uint32_t dormant = 0;                             // world/dormant.hpp
+  uint32_t hidden = 0, hidden_by_caller = 0;        // world/hidden.hpp
+  uint32_t blind_looks = 0;                         // in a row (world/look.hpp)
+  uint32_t blend_ticks = 0;                         // since simulation came back, at most kBlendInTicks
+
   RootTransform root, next_root;    // at the end of the last step; of the pose set since
   double dt_before_s = 0;           // of the last step; 0: none, or none to compare with
-  double remainder_s = 0;           // frame/tick_clock.hpp
   double velocity_m_s[3] = {};      // of the root over the last step, world
   double angular_velocity[3] = {};  // rad/s, character axes
   double tick_root_m[3][3] = {};    // of the last three ticks, newest first
-  float importance = 1;
-  float waited_s = 0, held_s = 0, turn_left_s = 0;  // frame/scheduler.hpp
-  float excitation = 1;                             // world/excitation.hpp
-  float render_fraction = 0;    // remainder in ticks: how far the shown displacement is carried on
-  Tier tier = Tier::kSkinning;  // in the last step
-  uint32_t has_next = 0;        // set_pose since the last step
-  uint32_t at_start = 1;        // no pose yet: the first one is taken as having been held for ever
-  uint32_t motion_stale = 1;    // ticks were not followed: the motion history is rebuilt before use
-  uint32_t restarting = 0;      // fading out after a guard: not simulated until faded
-  uint32_t forgotten = 1;       // the network's state is no memory of this motion: a start, a guard
-  uint32_t fallback_ticks = 0;  // left until the network may be tried again
+  float render_fraction = 0;        // remainder in ticks: how far the shown displacement is carried on
+  uint32_t has_next = 0;            // set_pose since the last step
+  uint32_t at_start = 1;            // no pose yet: the first one is taken as having been held for ever
+  uint32_t motion_stale = 1;        // ticks were not followed: the motion history is rebuilt before use
+  uint32_t forgotten = 1;           // the network's state is no memory of this motion: a start, a guard
   uint32_t tail_ticks = kCarryTicks + kFadeTicks;  // since the tail began
-  uint32_t blend_ticks = 0;                        // since simulation came back, at most kBlendInTicks
   uint32_t clamped_ticks = 0;                      // in a row
   uint32_t ticks_since_network = 0;
   uint32_t input_clamps = 0, displacement_clamps = 0, fallbacks = 0, restarts = 0;
-  uint32_t untouched = 1;       // no tick since the first pose: displacement is exactly zero
-  double rod_anchor_m[3] = {};  // of the world, where rods' places count from: near, so that they stay exact
+  uint32_t untouched = 1;  // no tick since the first pose: displacement is exactly zero
   uint32_t rod_recoveries = 0;
-  uint32_t rod_quiet_ticks = 0;           // world/rod_sleep.hpp
-  uint32_t teleported = 0;                // in the last step
-  uint32_t blind_looks = 0;               // in a row (world/look.hpp)
-  uint32_t hidden = 0, hidden_ticks = 0;  // world/hidden.hpp
-  uint32_t hidden_by_caller = 0;
-  uint32_t lifted = 0;        // the blend is from springs: rods went on
-  uint32_t first_joints = 0;  // which of pose_joints is the pose before the present one
+  double rod_anchor_m[3] = {};   // of the world, where rods' places count from: near, so that they stay exact
+  uint32_t rod_quiet_ticks = 0;  // world/rod_sleep.hpp
+  uint32_t teleported = 0;       // in the last step
+  uint32_t hidden_ticks = 0;     // world/hidden.hpp
+  uint32_t lifted = 0;           // the blend is from springs: rods went on
+  uint32_t first_joints = 0;     // which of pose_joints is the pose before the present one
   // world/update_rate.hpp:
-  uint32_t ticks = 0;                     // counts on for ever: whose turn it is
-  uint32_t since_ticks = 1;               // from the last tick that was heard to this one
-  uint32_t spacing_ticks = 1;             // between the last two of them, and so between poses
-  uint32_t heard_by = 0;                  // HeardBy: whose `heard` is
-  float heard_stretch = 1;                // this spacing over that of the two ticks of `heard`
-  uint32_t still_ticks = 0, dormant = 0;  // world/dormant.hpp
-  // world/change_level.hpp:
-  uint32_t level = 0;                   // of control graphs
-  uint32_t seam_ticks = kBlendInTicks;  // since it changed, at most kBlendInTicks
+  uint32_t ticks = 0;                   // counts on for ever: whose turn it is
+  uint32_t since_ticks = 1;             // from the last tick that was heard to this one
+  uint32_t spacing_ticks = 1;           // between the last two of them, and so between poses
+  uint32_t heard_by = 0;                // HeardBy: whose `heard` is
+  float heard_stretch = 1;              // this spacing over that of the two ticks of `heard`
+  uint32_t still_ticks = 0;             // world/dormant.hpp
+  uint32_t seam_ticks = kBlendInTicks;  // since the level changed, at most kBlendInTicks
 };
+inline constexpr size_t kPlannedStateBytes = 64;
 
 // What the last step measured; not state.
 struct InstanceTimes {
-  float cost_factor = 1;  // what its ticks take as a multiple of its asset's, smoothed
   uint64_t drive_ns = 0, tissue_ns = 0, rods_ns = 0, publish_ns = 0, total_ns = 0;
 };
 
@@ -124,24 +127,28 @@ struct InstancePlan {
 // rising smoothly from 0 to 1 in kBlendInTicks. The tail is the displacement shown when simulation was last
 // left, carried on with damped velocity and then faded to zero.
 struct Instance {
-  core::AlignedBlock memory;
-  AssetId asset_id;
+  // What every step's plan asks of each instance comes first: kPlannedBytes of it.
+  InstanceState* state = nullptr;
   Asset* asset = nullptr;
-  const GraphLevel* level = nullptr;  // of the asset: state->level
-  InstancePlan plan;
-  InstanceTimes times;
-  bool idle = false;     // in the last step: neither simulated nor displaced
-  bool passed = false;   // in the last step: dormant, not stepped
-  bool entered = false;  // in the last step: simulation began anew, which costs more than to go on
-  bool held = false;     // in the last step: shown as it was, for the deadline
-  float bound_middle_m[3] = {}, bound_radius_m = 0;        // world/pose_bound.hpp
-  float size = 1;                                          // share of a view's height
+  frame::Ball bound;      // world/pose_bound.hpp
+  float size = 1;         // share of a view's height
+  float cost_factor = 1;  // what its ticks take as a multiple of its asset's, smoothed; not state
   bool seen = true, came_back = false;                     // in this step
   bool cut = false, restarted = false, fell_back = false;  // in the last step
-  bool heard_now = false;                                  // in the last tick: it was simulated whole
-  bool parts_ready = false;                                // in this step: the parts are filled in
-  bool displaced = false;                                  // published displacement is not zero everywhere
-  bool changed_level = false;                              // in the last step
+  bool held = false;       // in the last step: shown as it was, for the deadline
+  bool displaced = false;  // published displacement is not zero everywhere
+  bool idle = false;       // in the last step: neither simulated nor displaced
+  bool passed = false;     // in the last step: dormant, not stepped
+  InstancePlan plan;
+
+  bool entered = false;        // in the last step: simulation began anew, which costs more than to go on
+  bool heard_now = false;      // in the last tick: it was simulated whole
+  bool parts_ready = false;    // in this step: the parts are filled in
+  bool changed_level = false;  // in the last step
+  core::AlignedBlock memory;
+  AssetId asset_id;
+  const GraphLevel* level = nullptr;  // of the asset: state->level
+  InstanceTimes times;
   bool level_raised = false;  // in this step: its nodes' past poses are not known
   bool settles = false;       // likewise, and its r is what was spread
   bool rods_anew = false;     // in this tick: rods are taken to where they are shown before they go on
@@ -151,7 +158,6 @@ struct Instance {
   std::unique_ptr<rods::RodCollider[]> rod_colliders;  // [batches], theirs too; null: rods touch nothing
 
   // State: one run of bytes from `state` on.
-  InstanceState* state = nullptr;
   Matrix34* pose_joints[3] = {};                                                 // [joints], in turn:
   Matrix34 *joints_before = nullptr, *joints = nullptr, *next_joints = nullptr;  // point there
   tissue::NodePose* poses[3] = {};  // [nodes] of the last three ticks, newest first
@@ -219,6 +225,8 @@ struct Instance {
   float seam_share() const noexcept;                 // 1 as a level changes, then falling smoothly to 0
   float shown_share() const noexcept { return simulated_share() + (1 - simulated_share()) * tail_share(); }
 };
+
+inline constexpr size_t kPlannedBytes = 192;  // and what the table of instances has before it
 
 size_t instance_bytes(const Asset& asset) noexcept;  // without contacts
 // In its bind pose, at rest. kOutOfCapacity when memory is short.

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <span>
 
-#include "world/pose_bound.hpp"
-
 namespace sinew::world {
 namespace {
 
@@ -15,15 +13,15 @@ std::span<const frame::Sight> sights_of(const WorldState& world) noexcept {
 
 float size_of(const WorldState& world, const Instance& instance) noexcept {
   if (world.sight_count == 0) return 1;
-  const frame::Ball ball = ball_of(instance);
   float size = 0;
-  for (const frame::Sight& sight : sights_of(world)) size = std::max(size, frame::seen_size(sight, ball));
+  for (const frame::Sight& sight : sights_of(world))
+    size = std::max(size, frame::seen_size(sight, instance.bound));
   return size;
 }
 
 // Whether any of this look's rays gets through.
 bool gets_through(WorldState& world, const Instance& instance, const frame::Sight& sight) noexcept {
-  const frame::Ball ball = ball_of(instance);
+  const frame::Ball& ball = instance.bound;
   const float size = frame::seen_size(sight, ball);
   if (size == 0 || size == 1) return size == 1;  // not in this view; so near that nothing is between
   for (uint32_t ray = 0; ray < kRaysALook; ++ray) {

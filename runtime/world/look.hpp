@@ -11,7 +11,7 @@ namespace sinew::world {
 
 inline constexpr uint32_t kRaysALook = 8, kBlindLooks = 3;
 
-// Sets `hidden` and `size` of every instance. Costs some tens of nanoseconds an instance and view, and the
+// Sets `seen` and `size` of every instance. Costs some tens of nanoseconds an instance and view, and the
 // rays.
 void look(WorldState& world) noexcept;
 

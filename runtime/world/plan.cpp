@@ -63,7 +63,7 @@ Candidate candidate_of(const WorldState& world, const Instance& instance, uint32
           .waited_s = state.waited_s,
           .held_s = state.held_s,
           .ticks = static_cast<float>(ticks),
-          .cost_factor = costs_are_measured(world) ? instance.times.cost_factor : 1,
+          .cost_factor = costs_are_measured(world) ? instance.cost_factor : 1,
           .base_us = base_us(world, instance),
           .enter_us = costs_are_measured(world) ? instance.asset->cost.enter.estimate_us() : 0,
           .has = front.level_of(state.tier, instance.plan.every, state.level),
@@ -189,15 +189,15 @@ uint32_t rank_of(const Candidate& c, const Instance& instance) noexcept {
   const bool simulated = frame::is_simulated(instance.plan.tier);
   constexpr float kCutLast = 1e20f;  // ahead of all the others, in their own order
   const float weight = std::clamp(c.weight, 1e-18f, 1e17f) * (instance.cut || instance.held ? kCutLast : 1);
-  return simulated || instance.cut || instance.held ? frame::WeightBuckets::drawer_of(weight) : 0;
+  constexpr uint32_t kDrawersARank = frame::WeightBuckets::kCount / kRanks;
+  const bool ranks = simulated || instance.cut || instance.held;
+  return ranks ? frame::WeightBuckets::drawer_of(weight) / kDrawersARank : 0;
 }
 
-// Counting sort, largest first.
+// Counting sort, largest first, to a quarter of an octave.
 std::span<uint32_t> put_in_order(WorldState& world, std::span<const Candidate> candidates) noexcept {
-  constexpr uint32_t kDrawers = frame::WeightBuckets::kCount;
-  uint32_t* begins = world.drawer_begins.get();  // [kDrawers + 1]
-  std::fill_n(begins, kDrawers + 1, 0u);
-  const auto behind = [](uint32_t rank) { return kDrawers - 1 - rank; };
+  uint32_t* begins = world.rank_begins.get();  // [kRanks + 1]
+  std::fill_n(begins, kRanks + 1, 0u);
   uint32_t count = 0;
   for (const Candidate& c : candidates) {
     Instance& instance = *world.instances.at(c.slot);
@@ -206,14 +206,12 @@ std::span<uint32_t> put_in_order(WorldState& world, std::span<const Candidate> c
       world.idle_slots[world.idle_count++] = c.slot;
       continue;
     }
-    ++begins[behind(rank_of(c, instance)) + 1];
-    ++count;
+    const uint32_t behind = kRanks - 1 - rank_of(c, instance);
+    world.ranked[count++] = {c.slot, behind};
+    ++begins[behind + 1];
   }
-  for (uint32_t d = 0; d < kDrawers; ++d) begins[d + 1] += begins[d];
-  for (const Candidate& c : candidates) {
-    const Instance& instance = *world.instances.at(c.slot);
-    if (!instance.idle) world.order[begins[behind(rank_of(c, instance))]++] = c.slot;
-  }
+  for (uint32_t d = 0; d < kRanks; ++d) begins[d + 1] += begins[d];
+  for (const Ranked& r : std::span(world.ranked.get(), count)) world.order[begins[r.behind]++] = r.slot;
   return {world.order.get(), count};
 }
 

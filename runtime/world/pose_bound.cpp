@@ -55,18 +55,12 @@ void bound_pose(Instance& instance) noexcept {
   Eigen::AlignedBox3f box;
   const Matrix34* pose = instance.state->has_next ? instance.next_joints : instance.joints;
   for (uint32_t j = 0; j < joints; ++j) box.extend(place_of(pose[j]));
-  Eigen::Map<Vector3f>{instance.bound_middle_m} = box.center();
-  instance.bound_radius_m = box.diagonal().norm() / 2 + kStretch * instance.asset->reach_m;
-}
-
-frame::Ball ball_of(const Instance& instance) noexcept {
   const InstanceState& state = *instance.state;
   const RootTransform& root = state.has_next ? state.next_root : state.root;
-  frame::Ball ball{.radius_m = instance.bound_radius_m};
-  Eigen::Map<Vector3d>{ball.middle_m} =
+  Eigen::Map<Vector3d>{instance.bound.middle_m} =
       Eigen::Map<const Vector3d>(root.position_m) +
-      quaternion(root.rotation_xyzw) * Eigen::Map<const Vector3f>(instance.bound_middle_m).cast<double>();
-  return ball;
+      quaternion(root.rotation_xyzw) * Vector3d(box.center().cast<double>());
+  instance.bound.radius_m = box.diagonal().norm() / 2 + kStretch * instance.asset->reach_m;
 }
 
 }  // namespace sinew::world

@@ -9,10 +9,8 @@ namespace sinew::world {
 // may be displaced by, and both ways of the longest rod.
 float reach_of(const Asset& asset) noexcept;
 
-// Of the pose that was set last, in the character's space: the middle of the joints' box, and its half
-// diagonal with the asset's reach and a fifth of it for joints that stretch.
+// Of the pose that was set last, in the world: about the middle of the joints' box, its half diagonal with
+// the asset's reach and a fifth of it for joints that stretch. Into `bound`.
 void bound_pose(Instance& instance) noexcept;
-// The same in the world, at the root that was set last.
-frame::Ball ball_of(const Instance& instance) noexcept;
 
 }  // namespace sinew::world

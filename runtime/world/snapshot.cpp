@@ -19,8 +19,8 @@ constexpr uint64_t kMagic = 0x31544154534e5753;  // "SWNSTAT1", little-endian
 // when they fell asleep. 5: rods. 6: how vertices are pushed, and contacts' forces.
 // 7: who is hidden. 8: what the scheduler goes by, what is gone on by between ticks that are simulated whole.
 // 9: who is dormant.
-// 10: the level of control graphs, and what its last change left.
-constexpr uint32_t kVersion = 10;
+// 10: the level of control graphs, and what its last change left. 11: the same in another order.
+constexpr uint32_t kVersion = 11;
 
 struct Header {
   uint64_t magic, fingerprint, payload_bytes, checksum;

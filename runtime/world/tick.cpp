@@ -89,7 +89,7 @@ float most_us(const Instance& instance, const TickContext& context) noexcept {
   constexpr float kMuch = 0.04f;
   const frame::CostModel& cost = instance.asset->cost;
   const frame::CostEstimate& tick = cost.of(instance.plan.tier, instance.plan.level);
-  const float ticks = static_cast<float>(instance.plan.ticks.ticks) * instance.times.cost_factor;
+  const float ticks = static_cast<float>(instance.plan.ticks.ticks) * instance.cost_factor;
   const bool enters = !frame::is_simulated(instance.state->tier);
   const bool much = ticks * tick.estimate_us() > kMuch * context.tasks_us;
   return cost.publish.p95_us() + ticks * (much ? tick.p99_us() : tick.p95_us()) +
@@ -162,7 +162,7 @@ void step_instance(Instance& instance, const TickContext& context, uint32_t slot
   meet_deadline(instance, context, start_ns);
   const Tier tier = instance.plan.tier;
   const bool rose = rises(instance);
-  instance.times = {.cost_factor = instance.times.cost_factor};
+  instance.times = {};
   wake(instance);
   instance.came_back = instance.state->hidden != 0;
   if (instance.came_back) come_back(instance);
@@ -192,7 +192,7 @@ void step_instance(Instance& instance, const TickContext& context, uint32_t slot
 void step_idle(Instance& instance, const TickContext& context) noexcept {
   InstanceState& state = *instance.state;
   const frame::TickPlan& ticks = instance.plan.ticks;
-  instance.times = {.cost_factor = instance.times.cost_factor};
+  instance.times = {};
   instance.cut = instance.held = instance.restarted = instance.fell_back = instance.came_back = false;
   wake(instance);
   if (ticks.ticks > 0) {

@@ -21,9 +21,9 @@ bool reserve(WorldState& world, const WorldDef& def) noexcept {
   const bool complete =
       world.scratch && world.assets.reserve(def.max_assets) && world.instances.reserve(most) &&
       take(world.candidates, most) && take(world.order, most) && take(world.idle_slots, most) &&
-      take(world.idle_ns, (most + kIdleChunk - 1) / kIdleChunk) &&
-      take(world.drawer_begins, frame::WeightBuckets::kCount + 1) && take(world.overdue, most) &&
-      take(world.purchases, most) && take(world.history, def.report_history);
+      take(world.idle_ns, (most + kIdleChunk - 1) / kIdleChunk) && take(world.ranked, most) &&
+      take(world.rank_begins, kRanks + 1) && take(world.overdue, most) && take(world.purchases, most) &&
+      take(world.history, def.report_history);
   if (!complete) return false;
   world.scratch->overdue = {world.overdue.get(), most};
   world.scratch->purchases = {world.purchases.get(), most};

@@ -17,6 +17,12 @@
 namespace sinew::world {
 
 inline constexpr uint32_t kIdleChunk = 64;  // idle instances in one task
+inline constexpr uint32_t kRanks = 1024;    // of weights, a quarter of an octave each
+
+// Of what is not idle: how many ranks are before its own.
+struct Ranked {
+  uint32_t slot, behind;
+};
 
 struct WorldState {
   WorldDef def;
@@ -26,8 +32,9 @@ struct WorldState {
   std::unique_ptr<frame::Candidate[]> candidates;  // of all that are visible, by slot
   std::unique_ptr<uint32_t[]> order;  // slots of what is not idle, in the order in which they run
   std::unique_ptr<uint32_t[]> idle_slots;
-  std::unique_ptr<uint64_t[]> idle_ns;        // [chunks] of idle instances: what they took
-  std::unique_ptr<uint32_t[]> drawer_begins;  // [WeightBuckets::kCount + 1]
+  std::unique_ptr<uint64_t[]> idle_ns;  // [chunks] of idle instances: what they took
+  std::unique_ptr<Ranked[]> ranked;
+  std::unique_ptr<uint32_t[]> rank_begins;  // [kRanks + 1]
   std::unique_ptr<uint32_t[]> overdue;
   std::unique_ptr<frame::Purchase[]> purchases;
   std::unique_ptr<frame::ScheduleScratch> scratch;
@@ -54,12 +61,11 @@ struct WorldState {
 template <class Work>
 void for_each_instance(const WorldState& world, Work work) noexcept {
   constexpr uint32_t kFar = 12, kNear = 6;
-  constexpr size_t kLookedAt = 384;  // bytes at the start of an instance
   for (uint32_t slot = 0; slot < world.instances.end(); ++slot) {
-    world.instances.bring_near(slot + kFar, kLookedAt);
+    world.instances.bring_near(slot + kFar, kPlannedBytes);
     if (slot + kNear < world.instances.end())
       if (const Instance* ahead = world.instances.at(slot + kNear))
-        core::bring_near(ahead->state, sizeof(InstanceState));
+        core::bring_near(ahead->state, kPlannedStateBytes);
     if (Instance* instance = world.instances.at(slot)) work(*instance, slot);
   }
 }
