@@ -93,21 +93,20 @@ void stop_what_creeps(Instance& instance) noexcept {
 }
 
 // What is not driven swings freely as its first mode does, u_t = a1 u_{t-1} + a2 u_{t-2}. What it was driven
-// by is let go of over the ticks until the fade, for a force that ends at once is seen as a jump; then it
-// runs out.
+// by is let go of over the ticks until the fade, for a force that ends at once is seen as a jump; it is damped
+// from the first on, for what is let go of where it was pressed hardest would fling faster than it ever moved.
 void swing_tail(Instance& instance, size_t r) noexcept {
   const pack::RegionRecord& region = instance.level->pack.regions[r];
   const pack::SpringRecord& spring = instance.level->pack.springs[r];
   const uint32_t tick = instance.state->tail_ticks;
-  const bool swings = tick <= kCarryTicks;
-  const float free = swings ? static_cast<float>(tick) / kCarryTicks : 0, kept = swings ? 1 : kCarryDamping;
+  const float free = tick <= kCarryTicks ? static_cast<float>(tick) / kCarryTicks : 0;
   const float pull = free * (spring.a1 + spring.a2 - 1), drag = free * (1 + spring.a2);
   const size_t begin = size_t{3} * region.first_node, end = begin + size_t{3} * region.node_count;
   for (size_t i = begin; i < end; ++i) {
     float &u = instance.tail[i], &velocity = instance.tail_velocity[i];
     velocity += pull * u - drag * velocity;
     u += velocity;
-    velocity *= kept;
+    velocity *= kCarryDamping;
   }
 }
 

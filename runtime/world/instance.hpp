@@ -19,16 +19,16 @@
 namespace sinew::world {
 
 // In ticks of the asset's rate; at 60 Hz 0.07 s, 0.2 s and 0.33 s.
-inline constexpr uint32_t kCarryTicks = 4;  // swings on freely before the fade begins: by then it is half as
-                                            // far off as skinning, and soon as far
+inline constexpr uint32_t kCarryTicks = 4;  // swings on before the fade begins: by then it is more than half
+                                            // as far off as skinning, and soon as far
 inline constexpr uint32_t kFadeTicks = 12;  // from there to skinning
 inline constexpr uint32_t kBlendInTicks = 20;  // from that to simulation, when it comes back: by then most
                                                // of the swing of starting from the wrong place has died down
 // A network that missed at most so many ticks keeps its memory when it comes back; after more, its velocities
 // are of another phase of the wobble and it starts anew from where it is.
 inline constexpr uint32_t kRememberedTicks = 2;
-// Share of its velocity that a tail keeps each tick once it fades: it stands still soon, and costs nothing to
-// publish.
+// Share of its velocity that a tail keeps each tick: nothing flings, it stands still soon, and then costs
+// nothing to publish.
 inline constexpr float kCarryDamping = 0.6f;
 // In a row; beyond it the network's state is taken for worthless.
 inline constexpr uint32_t kMostClampedTicks = 60;
