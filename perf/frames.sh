@@ -8,15 +8,7 @@ cmake --preset release -DSINEW_BUILD_PERF=ON | grep "^-- perf:" || true
 cmake --build --preset release --target perf_frames sinew-bake sinew-trade
 measured=$(mktemp -d)
 trap 'rm -rf "$measured"' EXIT
-character=${SINEW_CHARACTER:-$measured/trade/creature.sinew}
-if [ -z "${SINEW_CHARACTER:-}" ]; then
-  build/release/bin/sinew-bake creature assets/creature/creature.json -o "$measured/creature.glb"
-  build/release/bin/sinew-bake character "$measured/creature.glb" --recipe assets/creature/tissue_crowd.json \
-    --tissue assets/weights/creature.safetensors -o "$measured/creature.sinew" >/dev/null
-  # Its tiers measured and baked; the hop is held out of all training.
-  build/release/bin/sinew-trade "$measured/creature.sinew" --recipe assets/creature/tissue_crowd.json \
-    --tissue assets/weights/creature.safetensors --clip hop -o "$measured/trade" >/dev/null
-fi
+character=${SINEW_CHARACTER:-$(perf/traded_creature.sh "$measured")}
 build/release/bin/perf_frames "$character" --frames "${FRAMES:-5300}" >"$measured/frames.csv"
 python=python3
 "$python" -c 'import matplotlib' 2>/dev/null || python=/usr/bin/python3

@@ -28,7 +28,7 @@ constexpr size_t kApart = 7, kWatched = 24;  // ticks
 
 struct Way {
   Tier tier;
-  uint32_t level;
+  uint32_t level, every;
 };
 
 void must(const Status& status) {
@@ -48,7 +48,8 @@ class Player {
     instance_.plan = {.ticks = {.ticks = 1, .first_tick_s = asset_.tick_s},
                       .dt_s = asset_.tick_s,
                       .tier = way.tier,
-                      .level = way.level};
+                      .level = way.level,
+                      .every = way.every};
     world::step_instance(instance_, {});
   }
   std::vector<float> surface() const {
@@ -130,25 +131,30 @@ void follow_change(Player& player, const Run& from, const Run& to, const Way& wa
   }
 }
 
-// What the scheduler may choose: the points of the front, and to be left alone.
-std::vector<Way> ways_of(const world::Asset& asset) {
-  std::vector<Way> ways = {{Tier::kExtrapolate, 0}};
+// What the scheduler may choose: the points of the front, and to be left alone. With `rates` also what it
+// does not buy, modes in every second tick.
+std::vector<Way> ways_of(const world::Asset& asset, bool rates) {
+  std::vector<Way> ways = {{Tier::kExtrapolate, 0, 1}};
   for (uint32_t l = 1; l < asset.front.count; ++l)
-    ways.push_back({asset.front.levels[l].tier, asset.front.levels[l].graph});
+    ways.push_back({asset.front.levels[l].tier, asset.front.levels[l].graph, asset.front.levels[l].every});
+  for (size_t w = ways.size(); rates && w-- > 1;)
+    if (ways[w].tier == Tier::kModal) ways.push_back({Tier::kModal, ways[w].level, 2});
+
   return ways;
 }
 
 std::string name_of(const world::Asset& asset, const Way& way) {
   constexpr const char* kNames[] = {"skinning", "extrapolate", "network", "spring", "modal"};
-  const std::string name = kNames[static_cast<size_t>(way.tier)];
+  std::string name = kNames[static_cast<size_t>(way.tier)];
+  if (way.every > 1) name += " every " + std::to_string(way.every);
   if (way.tier == Tier::kExtrapolate || asset.level_count == 1) return name;
   return name + " on " + std::to_string(asset.levels[way.level].pack.regions[0].node_count);
 }
 
-void run(const std::string& path) {
+void run(const std::string& path, bool rates) {
   const demo::CharacterFile character = demo::open_character(path);
   Player player(character);
-  const std::vector<Way> ways = ways_of(player.asset());
+  const std::vector<Way> ways = ways_of(player.asset(), rates);
   std::vector<Run> runs;
   for (const Way& way : ways) runs.push_back(run_in(character, way));
   std::puts("from,to,at_once_mm,at_once_percent,beyond_both_mm,beyond_both_percent");
@@ -173,9 +179,11 @@ int main(int count, char** arguments) {
       "How far a change of tier moves a vertex at once, of all pairs that the scheduler may choose."};
   std::string path;
   app.add_option("pack", path, "C.sinew")->required();
+  bool rates = false;
+  app.add_flag("--rates", rates, "and of modes in every second tick, which it does not buy");
   CLI11_PARSE(app, count, arguments);
   try {
-    run(path);
+    run(path, rates);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "perf_jumps: %s\n", error.what());
     return 2;
