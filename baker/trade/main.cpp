@@ -73,11 +73,11 @@ void run(Options options) {
   const LoadedPack character = load(options.character);
   find_source(&options);
   std::vector<TrueSurface> surfaces = read_truth(options.truth, character);
-  make_folder(options.folder);
   if (surfaces.empty())
     surfaces = read_truth(simulate_clips(options.source, options.clips, options.seconds, character.view(),
                                          options.folder + "/truth"),
                           character);
+  make_folder(options.folder);  // not before what is given was found good: nothing is left of a mistake
   const std::vector<Variant> variants = variants_of(options.source);
   Measured measured{.character = std::filesystem::path(options.character).stem().string(),
                     .processor = processor(),

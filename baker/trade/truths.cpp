@@ -11,6 +11,7 @@
 
 #include "baker/common/bad_input.hpp"
 #include "baker/common/progress.hpp"
+#include "baker/common/write_file.hpp"
 #include "baker/import/import_gltf.hpp"
 #include "baker/mesh/tissue_layout.hpp"
 #include "baker/programs/true_motion.hpp"
@@ -129,7 +130,7 @@ std::vector<std::string> simulate_clips(const Source& source, const std::vector<
   for (const Work& work : wanted) paths.push_back(work.path);
   std::erase_if(wanted, [](const Work& work) { return std::filesystem::exists(work.path); });
   if (wanted.empty()) return paths;
-  std::filesystem::create_directories(folder);
+  make_folder(folder);
   const double rate_hz = static_cast<double>(character.network->rate_hz);
   simulate_all({body, layout, recipe, rate_hz, static_cast<size_t>(std::lround(seconds * rate_hz))}, wanted);
   return paths;

@@ -126,8 +126,9 @@ TEST_CASE("an_unknown_clip_or_another_character_s_source_is_refused") {
     INFO(result.error);
     CHECK(result.exit_code == 2);
     CHECK_THAT(result.error, Catch::Contains(word));
-    CHECK(fs::is_empty(out));
+    CHECK_FALSE(fs::exists(out));
   };
+  refused({"--source", hop().folder.file("nowhere.glb"), "--recipe", hop().recipe}, "nowhere.glb");
   refused({"--source", hop().glb, "--recipe", hop().recipe, "--clip", "swim"}, "no such clip");
   const std::string other = hop().folder.file("other.glb");
   must(bake({"creature", kAssets + "creature/creature.json", "-o", other, "--vertices", "700"}));
