@@ -56,7 +56,9 @@ void watch_pose(Instance& instance) noexcept {
   const size_t joints = instance.level->pack.character->joint_count;
   const bool still = has_pose(instance, {instance.next_joints, joints}, state.next_root);
   constexpr uint32_t kLongest = UINT32_MAX / 2;
-  state.still_ticks = still ? std::min(state.still_ticks + instance.plan.ticks.ticks, kLongest) : 0;
+  // In the first such step, however long, the pose may still be on its way.
+  const uint32_t ticks = state.still_ticks > 0 ? instance.plan.ticks.ticks : 1;
+  state.still_ticks = still ? std::min(state.still_ticks + ticks, kLongest) : 0;
 }
 
 void fall_dormant(Instance& instance) noexcept {

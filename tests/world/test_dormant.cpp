@@ -71,6 +71,24 @@ TEST_CASE("any_other_pose_wakes_it_in_that_step") {
   CHECK(stage.world.step(static_cast<float>(kFrame_s)).instances_dormant == 0);
 }
 
+// Half a micrometre wakes no region, and in the step after it the pose is on its way.
+TEST_CASE("one_long_step_under_an_unchanged_pose_is_no_stillness") {
+  WorldDef def = in_work_units();
+  def.max_ticks_per_step = 8;
+  Stage stage(1, def);
+  put_to_rest(stage);
+  const auto long_step = [&] {
+    stage.pose(stage.blocks[0], moved(5e-7));
+    stage.world.step(8 / 60.0f);
+    return stage.report();
+  };
+  CHECK_FALSE(long_step().dormant);
+  const InstanceReport second = long_step();
+  CHECK(second.regions_asleep == 2);
+  CHECK_FALSE(second.dormant);
+  CHECK(long_step().dormant);
+}
+
 TEST_CASE("a_pose_that_was_set_and_taken_back_before_a_step_changes_nothing_shown") {
   Stage stage(1, in_work_units());
   put_to_rest(stage);
