@@ -153,6 +153,12 @@ bool changes_level(const Instance& instance) noexcept {
          instance.plan.level != instance.state->level;
 }
 
+// One that is asleep was to have better; late, it keeps what it has.
+void sleep_on(Instance& instance) noexcept {
+  instance.passed = true;
+  stay_dormant(instance);
+}
+
 }  // namespace
 
 void step_instance(Instance& instance, const TickContext& context, uint32_t slot) noexcept {
@@ -160,6 +166,7 @@ void step_instance(Instance& instance, const TickContext& context, uint32_t slot
   const Marker marker(context.profiler, "instance", slot);
   const uint64_t start_ns = core::now_ns(context.clock);
   meet_deadline(instance, context, start_ns);
+  if (instance.cut && instance.state->dormant) return sleep_on(instance);
   const Tier tier = instance.plan.tier;
   const bool rose = rises(instance);
   instance.times = {};

@@ -1,6 +1,9 @@
 // test_dormant.cpp  What sleeps under a pose that does not change is not stepped, and nobody can tell.
 #include "tests/scenes/half_spaces.hpp"
 #include "tests/world/stage.hpp"
+#include "world/dormant.hpp"
+#include "world/sleep.hpp"
+#include "world/tick.hpp"
 
 using namespace sinew;
 using test::Stage;
@@ -161,6 +164,29 @@ TEST_CASE("what_fell_asleep_below_its_best_has_it_once_there_is_room") {
   REQUIRE(poor.instances_modal == 3);
   REQUIRE(stage.world.set_budget_us(std::numeric_limits<float>::infinity()).ok());
   for (uint32_t raised = 1; raised <= 3; ++raised) CHECK(stand(stage).instances_network == raised);
+}
+
+TEST_CASE("one_that_was_to_be_raised_and_is_late_sleeps_on_as_it_was") {
+  world::Asset asset;
+  world::Instance block;
+  REQUIRE(world::open_asset(test::block_pack().bytes(), &asset).ok());
+  REQUIRE(world::make_instance(asset, {}, &block).ok());
+  const auto step = [&](Tier tier, uint64_t deadline_ns) {
+    block.plan = {
+        .ticks = {.ticks = 1, .first_tick_s = asset.tick_s}, .dt_s = asset.tick_s, .tier = tier, .every = 1};
+    world::step_instance(
+        block, {.clock = {}, .profiler = {}, .deadline_ns = deadline_ns, .sleep_tolerance = kTolerance});
+  };
+  std::ranges::copy(scenes::bind_pose().joints, block.next_joints);
+  block.state->has_next = 1;
+  for (int tick = 0; tick < 600; ++tick) step(Tier::kModal, UINT64_MAX);
+  REQUIRE(block.state->dormant == static_cast<uint32_t>(world::Dormancy::kBelowBest));
+  step(Tier::kNetwork, 0);
+  CHECK(block.passed);
+  CHECK_FALSE(block.cut);
+  CHECK(block.state->tier == Tier::kModal);
+  CHECK(block.state->dormant == static_cast<uint32_t>(world::Dormancy::kBelowBest));
+  CHECK(world::regions_asleep(block) == 2);
 }
 
 // Nothing is decided in a step without a tick; that is no reason to take what it has for its best.
