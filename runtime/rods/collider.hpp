@@ -181,6 +181,8 @@ class RodCollider {
   uint32_t touched_count_ = 0;
   uint8_t* turning_ = nullptr;   // [strands] not converged by themselves
   uint8_t* pending_ = nullptr;   // [strands] not converged by a contact
+  double* misses_ = nullptr;     // [strands] what its contacts' forces miss their laws by, kg m
+  double* presses_ = nullptr;    // [strands] sum of what presses it, kg m
   double* ways_ = nullptr;       // [strands] where the first iterate is, from the step's start to free motion
   Vector* carries_ = nullptr;    // [strands] what a core moves that stops a strand
   uint8_t* near_ = nullptr;      // [strands] it has contacts, pressed or not

@@ -11,8 +11,9 @@ constexpr size_t triangle(size_t row, size_t column) { return row * (row + 1) / 
 
 constexpr double kDeep = 0.5;    // of a segment's radius
 constexpr double kAcross = 1.5;  // the same: next to where two rods' axes cross
-// Of friction's state in a step: a first one mends the guess, a second takes it back and would go on so.
-constexpr uint32_t kMostChanges = 1;
+// Of friction's state in a step: a first one mends the guess, a second mends it again with the limit that was
+// found; a third takes that back and would go on so.
+constexpr uint32_t kMostChanges = 2;
 // Of a segment's length, what of a gap no iteration closes: a turn in float, at half of it.
 constexpr double kRounding = 3e-8;
 constexpr double kAtLimit = 0.999;  // of the limit: less is not a rounding
@@ -89,6 +90,11 @@ double ContactForces::share_of(const Contact& c) const {
   return c.has_two_rods() ? std::min(share(0), share(1)) : share(0);
 }
 
+// Less moves nothing: a tolerance of the tolerance.
+double ContactForces::nothing_m(const Contact& c) const {
+  return static_cast<double>(to.settings_.tolerance) * tolerance_m(c);
+}
+
 // That a contact's force moves, of the pair.
 double ContactForces::mass_kg(const Contact& c) const {
   return c.gain_kg / (c.has_two_rods() ? kRodGain : kObstacleGain);
@@ -107,10 +113,21 @@ bool ContactForces::begin_anew(Contact* c) const {
   return !was_pressed && c->open_m >= -tolerance_m(*c);
 }
 
-// What slides and is carried back, or drags less than its limit, sticks; what drags more slides. Returns
-// whether that is a change.
+// Against its drag, twice beyond its limit, the way it slid before and further.
+bool ContactForces::slides_on(const Contact& c, const Vector& slip) const {
+  if (!(dot(slip, c.drag) < 0) || !(dot(slip, c.slip_before_m) > 0)) return false;
+  if (!(dot(slip, slip) > dot(c.slip_before_m, c.slip_before_m))) return false;
+  return length(scaled_sum(-c.gain_kg, slip, c.drag)) > 2 * c.limit;
+}
+
+// What slides and is carried back, or drags less than its limit, sticks; what drags more slides. What may be
+// either slides where it goes on sliding, and further: by the slip's own size it would get there only slowly.
+// Returns whether it came to stick or to slide.
 bool ContactForces::update_friction(Contact* c, const Vector& slip) const {
-  if (c->state == Friction::kEither) return false;
+  if (c->state == Friction::kEither) {
+    if (slides_on(*c, slip)) c->state = Friction::kSlides;
+    return false;
+  }
   const double drag = length(scaled_sum(-c->gain_kg, slip, c->drag));
   const bool slides = c->state == Friction::kSlides;
   const bool changes = slides ? dot(slip, c->drag) > 0 || drag < c->limit : drag > c->limit;
@@ -129,21 +146,59 @@ Vector ContactForces::taken_drag(const Contact& c, const Vector& slip, bool come
   return size > c.limit ? scaled(c.limit / size, c.drag) : c.drag;
 }
 
-// Whether forces, gap, slip and the limit that the last system had are as exact as wanted. A gap that is off
-// is mended by the next step, a force that is off adds up: of a limit the tolerance is a share of itself, or
-// of what would move the segment by a tolerance; the gain makes a force of each gap's rounding.
+// The drag that a system came to, from how it was linearised.
+Vector ContactForces::solved_drag(const Contact& before) const {
+  Contact then = before;
+  then.open_m = before.open_before_m, then.slip_m = before.slip_before_m;
+  const ContactForce f = forces_of(then);
+  const Vector change = difference(before.slip_m, before.slip_before_m);
+  const double along = (f.along - f.across) * dot(change, f.direction);
+  return scaled_sum(-before.gain_kg, scaled_sum(along, f.direction, scaled(f.across, change)), f.drag);
+}
+
+// What the forces that a system came to miss contact's laws by, kg m: a pull, drag that is more than friction
+// gives, or that does not go against the slip. Nothing where the iteration moved nothing: where friction is
+// at its limit and nothing slides, drags are not unique. The gain makes a force of each gap's rounding.
+double ContactForces::law_miss(const Contact& c, const Contact& before) const {
+  const double moved =
+      std::max(std::fabs(c.open_m - c.open_before_m), length(difference(c.slip_m, c.slip_before_m)));
+  const bool sticks = before.state == Friction::kSticks;
+  if (!sticks && moved <= nothing_m(c)) return 0;
+  const double pull = std::max(0.0, before.gain_kg * c.open_m - before.force);
+  const double length_m = static_cast<double>(batch.units_[c.sides[0].strand].length_m);
+  const double rounding = kRounding * length_m * c.gain_kg;
+  if (!(c.friction > 0)) return std::max(0.0, pull - rounding);
+  const Vector drag = solved_drag(before);
+  const double limit = c.friction * c.force;
+  Vector lawful = sticks ? drag : scaled_sum(-c.gain_kg, c.slip_m, drag);
+  const double size = length(lawful);
+  if (size > limit) lawful = scaled(limit / size, lawful);
+  return std::max(0.0, pull + length(difference(lawful, drag)) - rounding);
+}
+
+// Whether gap and slip are as exact as wanted. Against what does not iterate they are what is left of them;
+// between rods, which iterate in turn, what an iteration still changes.
 bool ContactForces::is_exact(const Contact& c, const Contact& before) const {
+  if (!c.has_two_rods()) {
+    const bool sticks = before.state == Friction::kSticks && c.friction > 0;
+    return std::max(std::fabs(c.open_m), sticks ? length(c.slip_m) : 0.0) <= tolerance_m(c);
+  }
   const double off =
       std::max(std::fabs(c.force - before.force), length(difference(c.drag, before.drag))) / c.gain_kg;
   const double moved = std::max(std::fabs(c.open_m - c.open_before_m),
                                 c.friction > 0 ? length(difference(c.slip_m, c.slip_before_m)) : 0.0);
-  if (std::max(off, c.slowness * moved) > tolerance_m(c)) return false;
-  const double limit = c.friction * c.force, miss = std::fabs(limit - before.limit);
-  const bool at_limit = length(c.drag) >= kAtLimit * std::min(limit, before.limit);
-  const double counts =
-      static_cast<double>(to.settings_.tolerance) * std::max(limit, tolerance_m(c) * mass_kg(c));
-  const double length_m = static_cast<double>(batch.units_[c.sides[0].strand].length_m);
-  return !at_limit || miss <= std::max(counts, kRounding * length_m * c.gain_kg);
+  return std::max(off, c.slowness * moved) <= tolerance_m(c);
+}
+
+// Of a strand together, against what friction gives, or what presses where there is none: small forces next
+// to large ones need not be as exact.
+void ContactForces::add_miss(const Contact& c, const Contact& before) const {
+  const double miss = law_miss(c, before);
+  for (const Contact::Side& side : c.sides) {
+    if (side.segment == kNoSegment) continue;
+    to.misses_[side.strand] += miss;
+    to.presses_[side.strand] += (c.friction > 0 ? c.friction : 1.0) * c.force;
+  }
 }
 
 // The forces of an iteration, as far as it was taken: with the whole gap, one left by a half step would be
@@ -161,15 +216,21 @@ bool ContactForces::take_over(Contact* c) const {
   const bool changed = c->force > 0 && update_friction(c, slip);
   const bool rests = changed && before.state == Friction::kSlides;
   c->drag = taken_drag(*c, slip, rests);
-  return !changed && is_exact(*c, before);
+  add_miss(*c, before);
+  return is_exact(*c, before);
 }
 
-// What was at its limit slides, and so does what is new and too fast to be held.
+// At its limit, and on its way against its drag where the step begins.
+bool ContactForces::slid(const Contact& c) const {
+  const double drag = length(c.drag);
+  return drag >= kAtLimit * c.limit && -dot(c.slip_m, c.drag) > nothing_m(c) * drag;
+}
+
+// What slid goes on, and what is new slides where it is too fast to be held.
 void ContactForces::begin_friction(Contact* c) const {
   const bool known = c->force > 0;
   c->limit = known ? c->friction * c->force : limit_of_new(*c);
-  const bool slides =
-      known ? length(c->drag) >= kAtLimit * c->limit : mass_kg(*c) * length(c->slip_m) > c->limit;
+  const bool slides = known ? slid(*c) : mass_kg(*c) * length(c->slip_m) > c->limit;
   c->state = slides ? Friction::kSlides : Friction::kSticks;
 }
 
@@ -297,6 +358,7 @@ uint32_t ContactForces::settle() const noexcept {
     to.iterated_[s] = to.turning_[s] | to.pending_[s];
     to.turning_[s] = active(s) != 0;
     to.pending_[s] = 0;
+    to.misses_[s] = to.presses_[s] = 0;
   }
   for (Contact& c : contacts()) {
     if (!iterated(c)) continue;
@@ -313,6 +375,7 @@ uint32_t ContactForces::settle() const noexcept {
   }
   uint32_t count = 0;
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {
+    to.pending_[s] |= to.misses_[s] > static_cast<double>(to.settings_.tolerance) * to.presses_[s];
     active(s) = to.turning_[s] | to.pending_[s] ? 1.0f : 0.0f;
     count += active(s) != 0;
   }
