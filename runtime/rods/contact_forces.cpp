@@ -32,42 +32,53 @@ float& ContactForces::lane(uint32_t strand, uint32_t field) const {
 
 float& ContactForces::active(uint32_t strand) const { return lane(strand, simd::kLaneActive); }
 
-ContactForces::Now ContactForces::axes_of(const Turn& q) {
+ContactForces::Axes ContactForces::axes_of(const Turn& q) {
   const double xx = 2 * q[0] * q[0], yy = 2 * q[1] * q[1], zz = 2 * q[2] * q[2];
   const double xy = 2 * q[0] * q[1], xz = 2 * q[0] * q[2], yz = 2 * q[1] * q[2];
   const double xw = 2 * q[0] * q[3], yw = 2 * q[1] * q[3], zw = 2 * q[2] * q[3];
-  return {{},
-          {},
-          {1 - yy - zz, xy + zw, xz - yw},
-          {xy - zw, 1 - xx - zz, yz + xw},
-          {xz + yw, yz - xw, 1 - xx - yy}};
+  return {{1 - yy - zz, xy + zw, xz - yw}, {xy - zw, 1 - xx - zz, yz + xw}, {xz + yw, yz - xw, 1 - xx - yy}};
 }
 
-ContactForces::Now ContactForces::now(const Contact& c, size_t side) const {
-  const Contact::Side& s = c.sides[side];
-  if (s.segment == kNoSegment) return {c.obstacle_move, c.obstacle_move, {}, {}, {}};
-  const auto row = [&](uint32_t field) { return to.scratch_row(batch, s.strand, s.segment, field); };
+Turn ContactForces::turn_now(const Contact::Side& s) const {
+  const float* q = to.scratch_row(batch, s.strand, s.segment, simd::kRodNow);
   const size_t w = batch.width_;
-  const float *q = row(simd::kRodNow), *d = row(simd::kRodMove);
-  const Turn turn = {q[0], q[w], q[2 * w], q[3 * w]};
-  Now out = axes_of(turn);
-  const Vector move = scaled(batch.units_[s.strand].length_m, {d[0], d[w], d[2 * w]});
-  out.move = scaled_sum(s.along_m, difference(out.z, s.axis), move);
-  Turn before;
-  for (uint32_t k = 0; k < 4; ++k) before[k] = batch.at(s.strand, s.segment, simd::kRodTurn + k);
+  return {q[0], q[w], q[2 * w], q[3 * w]};
+}
+
+// What a side's point moved in this step.
+Vector ContactForces::move(const Contact& c, size_t side) const {
+  const Contact::Side& s = c.sides[side];
+  if (s.segment == kNoSegment) return c.obstacle_move;
+  const float* d = to.scratch_row(batch, s.strand, s.segment, simd::kRodMove);
+  const size_t w = batch.width_;
+  const Vector middle = scaled(batch.units_[s.strand].length_m, {d[0], d[w], d[2 * w]});
+  return scaled_sum(s.along_m, difference(axes_of(turn_now(s)).z, s.axis), middle);
+}
+
+// And its surface there, of a point that moved so.
+Vector ContactForces::surface_move(const Contact& c, size_t side, const Vector& move) const {
+  const Contact::Side& s = c.sides[side];
+  if (s.segment == kNoSegment) return move;
+  const float* q = &batch.at(s.strand, s.segment, simd::kRodTurn);
+  const size_t w = batch.width_;
+  const Turn before = {q[0], q[w], q[2 * w], q[3 * w]}, turn = turn_now(s);
   const Turn by = product(conjugate(before), turn);
+  const Axes own = axes_of(turn);
   const double side_of = by[3] < 0 ? -2 : 2;
   const Vector turned_by =
-      scaled(side_of, scaled_sum(by[0], out.x, scaled_sum(by[1], out.y, scaled(by[2], out.z))));
-  out.surface_move = scaled_sum(s.radius_m, cross(turned_by, c.normal), out.move);
-  return out;
+      scaled(side_of, scaled_sum(by[0], own.x, scaled_sum(by[1], own.y, scaled(by[2], own.z))));
+  return scaled_sum(s.radius_m, cross(turned_by, c.normal), move);
 }
 
-// Gap and slip at the iterate. A strand that is lost touches nothing: others are not to be lost with it.
+// Gap and, where it is or was pressed, slip at the iterate. A strand that is lost touches
+// nothing: others are not to be lost with it.
 void ContactForces::look(Contact* c) const {
-  const Now a = now(*c, 0), b = now(*c, 1);
-  c->open_m = c->gap_m + dot(c->normal, difference(a.move, b.move)) - c->allowed_m;
-  c->slip_m = across(difference(a.surface_move, b.surface_move), c->normal);
+  const Vector a = move(*c, 0), b = move(*c, 1);
+  c->open_m = c->gap_m + dot(c->normal, difference(a, b)) - c->allowed_m;
+  c->slip_m = {};
+  if (is_active(*c, c->open_m) || is_active(*c, c->open_before_m)) {
+    c->slip_m = across(difference(surface_move(*c, 0, a), surface_move(*c, 1, b)), c->normal);
+  }
   if (std::isfinite(c->open_m) && finite(c->slip_m)) return;
   c->open_m = std::numeric_limits<double>::max();
   c->force = 0;
@@ -514,7 +525,7 @@ void ContactForces::add_to_side(const Contact& c, size_t side, const ContactForc
   const double pressed = s.stiffness_kg, held = f.across * pressed, along_held = f.along * pressed;
   const RodBatch::Units& units = batch.units_[s.strand];
   const double m = units.mass_kg, l = units.length_m;
-  const Now own = now(c, side);
+  const Axes own = axes_of(turn_now(s));
   const Vector arm = scaled(1 / l, scaled_sum(s.radius_m, c.normal, scaled(s.along_m, own.z)));
   const Vector moves[6] = {{1, 0, 0},         {0, 1, 0},         {0, 0, 1},
                            cross(own.x, arm), cross(own.y, arm), cross(own.z, arm)};

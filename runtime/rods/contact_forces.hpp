@@ -29,16 +29,17 @@ struct ContactForces {
   double miss() const noexcept;
 
  private:
-  // A side as it stands: what its point and its surface moved in this step, and its axes.
-  struct Now {
-    Vector move, surface_move, x, y, z;
+  struct Axes {
+    Vector x, y, z;
   };
   uint32_t first_strand() const { return to.range_.first_group * batch.width_; }
   uint32_t end_strand() const;
   float& lane(uint32_t strand, uint32_t field) const;
   float& active(uint32_t strand) const;
-  static Now axes_of(const Turn& turn);  // without moves
-  Now now(const Contact& contact, size_t side) const;
+  static Axes axes_of(const Turn& turn);
+  Turn turn_now(const Contact::Side& side) const;
+  Vector move(const Contact& contact, size_t side) const;
+  Vector surface_move(const Contact& contact, size_t side, const Vector& move) const;
   std::span<Contact> contacts() const;
   void find_felt() const;
   void limit_felt() const;

@@ -83,7 +83,7 @@ void ContactForces::place_hits() const noexcept {
     const RodBatch::Units& units = batch.units_[s.strand];
     const Vector middle = scaled_sum(static_cast<double>(units.length_m), batch.place(s.strand, s.segment),
                                      {units.origin_m[0], units.origin_m[1], units.origin_m[2]});
-    const Vector on_axis = sum(scaled_sum(s.along_m, s.axis, middle), now(c, 0).move);
+    const Vector on_axis = sum(scaled_sum(s.along_m, s.axis, middle), move(c, 0));
     taken.point_m = scaled_sum(s.radius_m, c.normal, on_axis);
   }
 }
