@@ -149,22 +149,9 @@ bool ContactForces::update_friction(Contact* c, const Vector& slip) const {
 
 // Of what slipped so, from the drag it had.
 Vector ContactForces::taken_drag(const Contact& c, const Vector& slip, bool comes_to_rest) const {
-  Contact taken = c;
-  taken.open_m = 0;
-  taken.slip_m = slip;
-  if (!comes_to_rest) return forces_of(taken).drag;
+  if (!comes_to_rest) return forces_of(c, 0, slip).drag;
   const double size = length(c.drag);
   return size > c.limit ? scaled(c.limit / size, c.drag) : c.drag;
-}
-
-// The drag that a system came to, from how it was linearised.
-Vector ContactForces::solved_drag(const Contact& before) const {
-  Contact then = before;
-  then.open_m = before.open_before_m, then.slip_m = before.slip_before_m;
-  const ContactForce f = forces_of(then);
-  const Vector change = difference(before.slip_m, before.slip_before_m);
-  const double along = (f.along - f.across) * dot(change, f.direction);
-  return scaled_sum(-before.gain_kg, scaled_sum(along, f.direction, scaled(f.across, change)), f.drag);
 }
 
 // What the forces that a system came to miss contact's laws by, kg m: a pull, drag that is more than friction
@@ -179,7 +166,8 @@ double ContactForces::law_miss(const Contact& c, const Contact& before) const {
   const double length_m = static_cast<double>(batch.units_[c.sides[0].strand].length_m);
   const double rounding = kRounding * length_m * c.gain_kg;
   if (!(c.friction > 0)) return std::max(0.0, pull - rounding);
-  const Vector drag = solved_drag(before);
+  const ContactForce then = forces_of(before, c.open_before_m, c.slip_before_m);
+  const Vector drag = drag_after(before, then, difference(c.slip_m, c.slip_before_m));
   const double limit = c.friction * c.force;
   Vector lawful = sticks ? drag : scaled_sum(-c.gain_kg, c.slip_m, drag);
   const double size = length(lawful);

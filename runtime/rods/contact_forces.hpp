@@ -62,7 +62,6 @@ struct ContactForces {
   bool slides_on(const Contact& contact, const Vector& slip) const;
   bool update_friction(Contact* contact, const Vector& slip) const;
   Vector taken_drag(const Contact& contact, const Vector& slip, bool comes_to_rest) const;
-  Vector solved_drag(const Contact& before) const;
   double law_miss(const Contact& contact, const Contact& before) const;
   bool is_exact(const Contact& contact, const Contact& before) const;
   void add_miss(const Contact& contact, const Contact& before) const;
