@@ -36,8 +36,9 @@ struct ColliderSettings {
   // Strands of the batch with one another and with themselves, but for segments that overlap at rest.
   bool rods_collide = true;
   float rod_friction = 0.3f;  // 0 or more, finite; between rods
-  // 1e-4 to 1, share of a segment's radius: contacts have converged when gaps and slips are this exact. Twice
-  // this much of penetration is left alone.
+  // 1e-4 to 1, share of a segment's radius: contacts have converged when gaps and slips are this exact, and
+  // a strand's forces together, as a share of what friction gives. Twice this much of penetration is left
+  // alone.
   float tolerance = 0.01f;
   // What is found in penetration is pushed out no faster at a contact. No bound of a strand's speed: what
   // lies deep in something round is pushed apart, part against part, and has left five times as fast in the
