@@ -91,6 +91,8 @@ struct ColliderBuilder {
     to.touched_list_ = arena.take<uint32_t>(size_t{range} * to.segment_count_);
     to.turning_ = arena.take<uint8_t>(to.strand_count_);
     to.pending_ = arena.take<uint8_t>(to.strand_count_);
+    to.misses_ = arena.take<double>(to.strand_count_);
+    to.presses_ = arena.take<double>(to.strand_count_);
     to.ways_ = arena.take<double>(to.strand_count_);
     to.carries_ = arena.take<Vector>(to.strand_count_);
     to.near_ = arena.take<uint8_t>(to.strand_count_);

@@ -36,8 +36,9 @@ struct ColliderSettings {
   // Strands of the batch with one another and with themselves, but for segments that overlap at rest.
   bool rods_collide = true;
   float rod_friction = 0.3f;  // 0 or more, finite; between rods
-  // 1e-4 to 1, share of a segment's radius: contacts have converged when gaps and slips are this exact. Twice
-  // this much of penetration is left alone.
+  // 1e-4 to 1, share of a segment's radius: contacts have converged when gaps and slips are this exact, and
+  // a strand's forces together, as a share of what friction gives. Twice this much of penetration is left
+  // alone.
   float tolerance = 0.01f;
   // What is found in penetration is pushed out no faster at a contact. No bound of a strand's speed: what
   // lies deep in something round is pushed apart, part against part, and has left five times as fast in the
@@ -181,6 +182,8 @@ class RodCollider {
   uint32_t touched_count_ = 0;
   uint8_t* turning_ = nullptr;   // [strands] not converged by themselves
   uint8_t* pending_ = nullptr;   // [strands] not converged by a contact
+  double* misses_ = nullptr;     // [strands] what its contacts' forces miss their laws by, kg m
+  double* presses_ = nullptr;    // [strands] sum of what presses it, kg m
   double* ways_ = nullptr;       // [strands] where the first iterate is, from the step's start to free motion
   Vector* carries_ = nullptr;    // [strands] what a core moves that stops a strand
   uint8_t* near_ = nullptr;      // [strands] it has contacts, pressed or not

@@ -81,13 +81,13 @@ inline bool is_active(const Contact& c, double open_m) {
   return c.force - (c.has_two_rods() ? 1 : kLetsGo) * c.gain_kg * open_m > 0;
 }
 
-// Of friction Macklin et al. 2014, Eq. 24: along the slip, at most the limit.
-inline ContactForce forces_of(const Contact& c) {
-  const bool active = is_active(c, c.open_m);
-  ContactForce f = {active ? c.force - c.gain_kg * c.open_m : 0, active, {}, {}, 0, 0};
+// Where gap and slip are these. Of friction Macklin et al. 2014, Eq. 24: along the slip, at most the limit.
+inline ContactForce forces_of(const Contact& c, double open_m, const Vector& slip_m) {
+  const bool active = is_active(c, open_m);
+  ContactForce f = {active ? c.force - c.gain_kg * open_m : 0, active, {}, {}, 0, 0};
   const bool sticks = c.state == Friction::kSticks;
   if (!(active && c.friction > 0 && (sticks || c.limit > 0))) return f;
-  f.drag = scaled_sum(-c.gain_kg, c.slip_m, c.drag);
+  f.drag = scaled_sum(-c.gain_kg, slip_m, c.drag);
   f.along = f.across = 1;
   const double size = length(f.drag);
   if (sticks || !(size > c.limit)) return f;
@@ -96,6 +96,13 @@ inline ContactForce forces_of(const Contact& c) {
   f.direction = scaled(1 / size, f.drag);
   f.drag = scaled(c.limit, f.direction);
   return f;
+}
+inline ContactForce forces_of(const Contact& c) { return forces_of(c, c.open_m, c.slip_m); }
+
+// The drag that forces which were linearised come to where the slip changes.
+inline Vector drag_after(const Contact& c, const ContactForce& f, const Vector& change) {
+  const double along = (f.along - f.across) * dot(change, f.direction);
+  return scaled_sum(-c.gain_kg, scaled_sum(along, f.direction, scaled(f.across, change)), f.drag);
 }
 
 }  // namespace sinew::rods

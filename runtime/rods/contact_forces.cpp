@@ -11,8 +11,9 @@ constexpr size_t triangle(size_t row, size_t column) { return row * (row + 1) / 
 
 constexpr double kDeep = 0.5;    // of a segment's radius
 constexpr double kAcross = 1.5;  // the same: next to where two rods' axes cross
-// Of friction's state in a step: a first one mends the guess, a second takes it back and would go on so.
-constexpr uint32_t kMostChanges = 1;
+// Of friction's state in a step: a first one mends the guess, a second mends it again with the limit that was
+// found; a third takes that back and would go on so.
+constexpr uint32_t kMostChanges = 2;
 // Of a segment's length, what of a gap no iteration closes: a turn in float, at half of it.
 constexpr double kRounding = 3e-8;
 constexpr double kAtLimit = 0.999;  // of the limit: less is not a rounding
@@ -31,42 +32,53 @@ float& ContactForces::lane(uint32_t strand, uint32_t field) const {
 
 float& ContactForces::active(uint32_t strand) const { return lane(strand, simd::kLaneActive); }
 
-ContactForces::Now ContactForces::axes_of(const Turn& q) {
+ContactForces::Axes ContactForces::axes_of(const Turn& q) {
   const double xx = 2 * q[0] * q[0], yy = 2 * q[1] * q[1], zz = 2 * q[2] * q[2];
   const double xy = 2 * q[0] * q[1], xz = 2 * q[0] * q[2], yz = 2 * q[1] * q[2];
   const double xw = 2 * q[0] * q[3], yw = 2 * q[1] * q[3], zw = 2 * q[2] * q[3];
-  return {{},
-          {},
-          {1 - yy - zz, xy + zw, xz - yw},
-          {xy - zw, 1 - xx - zz, yz + xw},
-          {xz + yw, yz - xw, 1 - xx - yy}};
+  return {{1 - yy - zz, xy + zw, xz - yw}, {xy - zw, 1 - xx - zz, yz + xw}, {xz + yw, yz - xw, 1 - xx - yy}};
 }
 
-ContactForces::Now ContactForces::now(const Contact& c, size_t side) const {
-  const Contact::Side& s = c.sides[side];
-  if (s.segment == kNoSegment) return {c.obstacle_move, c.obstacle_move, {}, {}, {}};
-  const auto row = [&](uint32_t field) { return to.scratch_row(batch, s.strand, s.segment, field); };
+Turn ContactForces::turn_now(const Contact::Side& s) const {
+  const float* q = to.scratch_row(batch, s.strand, s.segment, simd::kRodNow);
   const size_t w = batch.width_;
-  const float *q = row(simd::kRodNow), *d = row(simd::kRodMove);
-  const Turn turn = {q[0], q[w], q[2 * w], q[3 * w]};
-  Now out = axes_of(turn);
-  const Vector move = scaled(batch.units_[s.strand].length_m, {d[0], d[w], d[2 * w]});
-  out.move = scaled_sum(s.along_m, difference(out.z, s.axis), move);
-  Turn before;
-  for (uint32_t k = 0; k < 4; ++k) before[k] = batch.at(s.strand, s.segment, simd::kRodTurn + k);
+  return {q[0], q[w], q[2 * w], q[3 * w]};
+}
+
+// What a side's point moved in this step.
+Vector ContactForces::move(const Contact& c, size_t side) const {
+  const Contact::Side& s = c.sides[side];
+  if (s.segment == kNoSegment) return c.obstacle_move;
+  const float* d = to.scratch_row(batch, s.strand, s.segment, simd::kRodMove);
+  const size_t w = batch.width_;
+  const Vector middle = scaled(batch.units_[s.strand].length_m, {d[0], d[w], d[2 * w]});
+  return scaled_sum(s.along_m, difference(axes_of(turn_now(s)).z, s.axis), middle);
+}
+
+// And its surface there, of a point that moved so.
+Vector ContactForces::surface_move(const Contact& c, size_t side, const Vector& move) const {
+  const Contact::Side& s = c.sides[side];
+  if (s.segment == kNoSegment) return move;
+  const float* q = &batch.at(s.strand, s.segment, simd::kRodTurn);
+  const size_t w = batch.width_;
+  const Turn before = {q[0], q[w], q[2 * w], q[3 * w]}, turn = turn_now(s);
   const Turn by = product(conjugate(before), turn);
+  const Axes own = axes_of(turn);
   const double side_of = by[3] < 0 ? -2 : 2;
   const Vector turned_by =
-      scaled(side_of, scaled_sum(by[0], out.x, scaled_sum(by[1], out.y, scaled(by[2], out.z))));
-  out.surface_move = scaled_sum(s.radius_m, cross(turned_by, c.normal), out.move);
-  return out;
+      scaled(side_of, scaled_sum(by[0], own.x, scaled_sum(by[1], own.y, scaled(by[2], own.z))));
+  return scaled_sum(s.radius_m, cross(turned_by, c.normal), move);
 }
 
-// Gap and slip at the iterate. A strand that is lost touches nothing: others are not to be lost with it.
+// Gap and, where it is or was pressed, slip at the iterate. A strand that is lost touches
+// nothing: others are not to be lost with it.
 void ContactForces::look(Contact* c) const {
-  const Now a = now(*c, 0), b = now(*c, 1);
-  c->open_m = c->gap_m + dot(c->normal, difference(a.move, b.move)) - c->allowed_m;
-  c->slip_m = across(difference(a.surface_move, b.surface_move), c->normal);
+  const Vector a = move(*c, 0), b = move(*c, 1);
+  c->open_m = c->gap_m + dot(c->normal, difference(a, b)) - c->allowed_m;
+  c->slip_m = {};
+  if (is_active(*c, c->open_m) || is_active(*c, c->open_before_m)) {
+    c->slip_m = across(difference(surface_move(*c, 0, a), surface_move(*c, 1, b)), c->normal);
+  }
   if (std::isfinite(c->open_m) && finite(c->slip_m)) return;
   c->open_m = std::numeric_limits<double>::max();
   c->force = 0;
@@ -89,6 +101,11 @@ double ContactForces::share_of(const Contact& c) const {
   return c.has_two_rods() ? std::min(share(0), share(1)) : share(0);
 }
 
+// Less moves nothing: a tolerance of the tolerance.
+double ContactForces::nothing_m(const Contact& c) const {
+  return static_cast<double>(to.settings_.tolerance) * tolerance_m(c);
+}
+
 // That a contact's force moves, of the pair.
 double ContactForces::mass_kg(const Contact& c) const {
   return c.gain_kg / (c.has_two_rods() ? kRodGain : kObstacleGain);
@@ -107,10 +124,21 @@ bool ContactForces::begin_anew(Contact* c) const {
   return !was_pressed && c->open_m >= -tolerance_m(*c);
 }
 
-// What slides and is carried back, or drags less than its limit, sticks; what drags more slides. Returns
-// whether that is a change.
+// Against its drag, twice beyond its limit, the way it slid before and further.
+bool ContactForces::slides_on(const Contact& c, const Vector& slip) const {
+  if (!(dot(slip, c.drag) < 0) || !(dot(slip, c.slip_before_m) > 0)) return false;
+  if (!(dot(slip, slip) > dot(c.slip_before_m, c.slip_before_m))) return false;
+  return length(scaled_sum(-c.gain_kg, slip, c.drag)) > 2 * c.limit;
+}
+
+// What slides and is carried back, or drags less than its limit, sticks; what drags more slides. What may be
+// either slides where it goes on sliding, and further: by the slip's own size it would get there only slowly.
+// Returns whether it came to stick or to slide.
 bool ContactForces::update_friction(Contact* c, const Vector& slip) const {
-  if (c->state == Friction::kEither) return false;
+  if (c->state == Friction::kEither) {
+    if (slides_on(*c, slip)) c->state = Friction::kSlides;
+    return false;
+  }
   const double drag = length(scaled_sum(-c->gain_kg, slip, c->drag));
   const bool slides = c->state == Friction::kSlides;
   const bool changes = slides ? dot(slip, c->drag) > 0 || drag < c->limit : drag > c->limit;
@@ -121,29 +149,55 @@ bool ContactForces::update_friction(Contact* c, const Vector& slip) const {
 
 // Of what slipped so, from the drag it had.
 Vector ContactForces::taken_drag(const Contact& c, const Vector& slip, bool comes_to_rest) const {
-  Contact taken = c;
-  taken.open_m = 0;
-  taken.slip_m = slip;
-  if (!comes_to_rest) return forces_of(taken).drag;
+  if (!comes_to_rest) return forces_of(c, 0, slip).drag;
   const double size = length(c.drag);
   return size > c.limit ? scaled(c.limit / size, c.drag) : c.drag;
 }
 
-// Whether forces, gap, slip and the limit that the last system had are as exact as wanted. A gap that is off
-// is mended by the next step, a force that is off adds up: of a limit the tolerance is a share of itself, or
-// of what would move the segment by a tolerance; the gain makes a force of each gap's rounding.
+// What the forces that a system came to miss contact's laws by, kg m: a pull, drag that is more than friction
+// gives, or that does not go against the slip. Nothing where the iteration moved nothing: where friction is
+// at its limit and nothing slides, drags are not unique. The gain makes a force of each gap's rounding.
+double ContactForces::law_miss(const Contact& c, const Contact& before) const {
+  const double moved =
+      std::max(std::fabs(c.open_m - c.open_before_m), length(difference(c.slip_m, c.slip_before_m)));
+  const bool sticks = before.state == Friction::kSticks;
+  if (!sticks && moved <= nothing_m(c)) return 0;
+  const double pull = std::max(0.0, before.gain_kg * c.open_m - before.force);
+  const double length_m = static_cast<double>(batch.units_[c.sides[0].strand].length_m);
+  const double rounding = kRounding * length_m * c.gain_kg;
+  if (!(c.friction > 0)) return std::max(0.0, pull - rounding);
+  const ContactForce then = forces_of(before, c.open_before_m, c.slip_before_m);
+  const Vector drag = drag_after(before, then, difference(c.slip_m, c.slip_before_m));
+  const double limit = c.friction * c.force;
+  Vector lawful = sticks ? drag : scaled_sum(-c.gain_kg, c.slip_m, drag);
+  const double size = length(lawful);
+  if (size > limit) lawful = scaled(limit / size, lawful);
+  return std::max(0.0, pull + length(difference(lawful, drag)) - rounding);
+}
+
+// Whether gap and slip are as exact as wanted. Against what does not iterate they are what is left of them;
+// between rods, which iterate in turn, what an iteration still changes.
 bool ContactForces::is_exact(const Contact& c, const Contact& before) const {
+  if (!c.has_two_rods()) {
+    const bool sticks = before.state == Friction::kSticks && c.friction > 0;
+    return std::max(std::fabs(c.open_m), sticks ? length(c.slip_m) : 0.0) <= tolerance_m(c);
+  }
   const double off =
       std::max(std::fabs(c.force - before.force), length(difference(c.drag, before.drag))) / c.gain_kg;
   const double moved = std::max(std::fabs(c.open_m - c.open_before_m),
                                 c.friction > 0 ? length(difference(c.slip_m, c.slip_before_m)) : 0.0);
-  if (std::max(off, c.slowness * moved) > tolerance_m(c)) return false;
-  const double limit = c.friction * c.force, miss = std::fabs(limit - before.limit);
-  const bool at_limit = length(c.drag) >= kAtLimit * std::min(limit, before.limit);
-  const double counts =
-      static_cast<double>(to.settings_.tolerance) * std::max(limit, tolerance_m(c) * mass_kg(c));
-  const double length_m = static_cast<double>(batch.units_[c.sides[0].strand].length_m);
-  return !at_limit || miss <= std::max(counts, kRounding * length_m * c.gain_kg);
+  return std::max(off, c.slowness * moved) <= tolerance_m(c);
+}
+
+// Of a strand together, against what friction gives, or what presses where there is none: small forces next
+// to large ones need not be as exact.
+void ContactForces::add_miss(const Contact& c, const Contact& before) const {
+  const double miss = law_miss(c, before);
+  for (const Contact::Side& side : c.sides) {
+    if (side.segment == kNoSegment) continue;
+    to.misses_[side.strand] += miss;
+    to.presses_[side.strand] += (c.friction > 0 ? c.friction : 1.0) * c.force;
+  }
 }
 
 // The forces of an iteration, as far as it was taken: with the whole gap, one left by a half step would be
@@ -161,15 +215,21 @@ bool ContactForces::take_over(Contact* c) const {
   const bool changed = c->force > 0 && update_friction(c, slip);
   const bool rests = changed && before.state == Friction::kSlides;
   c->drag = taken_drag(*c, slip, rests);
-  return !changed && is_exact(*c, before);
+  add_miss(*c, before);
+  return is_exact(*c, before);
 }
 
-// What was at its limit slides, and so does what is new and too fast to be held.
+// At its limit, and on its way against its drag where the step begins.
+bool ContactForces::slid(const Contact& c) const {
+  const double drag = length(c.drag);
+  return drag >= kAtLimit * c.limit && -dot(c.slip_m, c.drag) > nothing_m(c) * drag;
+}
+
+// What slid goes on, and what is new slides where it is too fast to be held.
 void ContactForces::begin_friction(Contact* c) const {
   const bool known = c->force > 0;
   c->limit = known ? c->friction * c->force : limit_of_new(*c);
-  const bool slides =
-      known ? length(c->drag) >= kAtLimit * c->limit : mass_kg(*c) * length(c->slip_m) > c->limit;
+  const bool slides = known ? slid(*c) : mass_kg(*c) * length(c->slip_m) > c->limit;
   c->state = slides ? Friction::kSlides : Friction::kSticks;
 }
 
@@ -297,6 +357,7 @@ uint32_t ContactForces::settle() const noexcept {
     to.iterated_[s] = to.turning_[s] | to.pending_[s];
     to.turning_[s] = active(s) != 0;
     to.pending_[s] = 0;
+    to.misses_[s] = to.presses_[s] = 0;
   }
   for (Contact& c : contacts()) {
     if (!iterated(c)) continue;
@@ -313,6 +374,7 @@ uint32_t ContactForces::settle() const noexcept {
   }
   uint32_t count = 0;
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {
+    to.pending_[s] |= to.misses_[s] > static_cast<double>(to.settings_.tolerance) * to.presses_[s];
     active(s) = to.turning_[s] | to.pending_[s] ? 1.0f : 0.0f;
     count += active(s) != 0;
   }
@@ -451,7 +513,7 @@ void ContactForces::add_to_side(const Contact& c, size_t side, const ContactForc
   const double pressed = s.stiffness_kg, held = f.across * pressed, along_held = f.along * pressed;
   const RodBatch::Units& units = batch.units_[s.strand];
   const double m = units.mass_kg, l = units.length_m;
-  const Now own = now(c, side);
+  const Axes own = axes_of(turn_now(s));
   const Vector arm = scaled(1 / l, scaled_sum(s.radius_m, c.normal, scaled(s.along_m, own.z)));
   const Vector moves[6] = {{1, 0, 0},         {0, 1, 0},         {0, 0, 1},
                            cross(own.x, arm), cross(own.y, arm), cross(own.z, arm)};

@@ -29,16 +29,17 @@ struct ContactForces {
   double miss() const noexcept;
 
  private:
-  // A side as it stands: what its point and its surface moved in this step, and its axes.
-  struct Now {
-    Vector move, surface_move, x, y, z;
+  struct Axes {
+    Vector x, y, z;
   };
   uint32_t first_strand() const { return to.range_.first_group * batch.width_; }
   uint32_t end_strand() const;
   float& lane(uint32_t strand, uint32_t field) const;
   float& active(uint32_t strand) const;
-  static Now axes_of(const Turn& turn);  // without moves
-  Now now(const Contact& contact, size_t side) const;
+  static Axes axes_of(const Turn& turn);
+  Turn turn_now(const Contact::Side& side) const;
+  Vector move(const Contact& contact, size_t side) const;
+  Vector surface_move(const Contact& contact, size_t side, const Vector& move) const;
   std::span<Contact> contacts() const;
   void find_felt() const;
   void limit_felt() const;
@@ -53,13 +54,18 @@ struct ContactForces {
   void look(Contact* contact) const;
   bool iterated(const Contact& contact) const;
   double tolerance_m(const Contact& contact) const;
+  double nothing_m(const Contact& contact) const;
   double share_of(const Contact& contact) const;
   double mass_kg(const Contact& contact) const;
   double limit_of_new(const Contact& contact) const;
   bool begin_anew(Contact* contact) const;
+  bool slides_on(const Contact& contact, const Vector& slip) const;
   bool update_friction(Contact* contact, const Vector& slip) const;
   Vector taken_drag(const Contact& contact, const Vector& slip, bool comes_to_rest) const;
+  double law_miss(const Contact& contact, const Contact& before) const;
   bool is_exact(const Contact& contact, const Contact& before) const;
+  void add_miss(const Contact& contact, const Contact& before) const;
+  bool slid(const Contact& contact) const;
   void begin_friction(Contact* contact) const;
   bool take_over(Contact* contact) const;
   double last_turn(uint32_t strand) const;

@@ -18,15 +18,11 @@ void ContactForces::find_felt() const {
     if (taken.contact == RodCollider::kNoContact) continue;
     const Contact& c = to.contacts_[taken.contact];
     if (!iterated(c)) continue;
-    Contact before = c;
-    before.open_m = c.open_before_m, before.slip_m = c.slip_before_m;
-    const ContactForce f = forces_of(before);
+    const ContactForce f = forces_of(c, c.open_before_m, c.slip_before_m);
     const double share = share_of(c), per_share = 1 / std::max(share, kLeastShare);
     const double press = f.press - per_share * c.gain_kg * (c.open_m - c.open_before_m);
     const Vector slipped = scaled(per_share, difference(c.slip_m, c.slip_before_m));
-    const Vector held =
-        scaled_sum((f.along - f.across) * dot(slipped, f.direction), f.direction, scaled(f.across, slipped));
-    const Vector drag = scaled_sum(-c.gain_kg, held, f.drag);
+    const Vector drag = drag_after(c, f, slipped);
     const Vector whole = f.active ? scaled_sum(press, c.normal, drag) : Vector{};
     taken.felt = between(taken.felt, whole, share);
   }
@@ -83,7 +79,7 @@ void ContactForces::place_hits() const noexcept {
     const RodBatch::Units& units = batch.units_[s.strand];
     const Vector middle = scaled_sum(static_cast<double>(units.length_m), batch.place(s.strand, s.segment),
                                      {units.origin_m[0], units.origin_m[1], units.origin_m[2]});
-    const Vector on_axis = sum(scaled_sum(s.along_m, s.axis, middle), now(c, 0).move);
+    const Vector on_axis = sum(scaled_sum(s.along_m, s.axis, middle), move(c, 0));
     taken.point_m = scaled_sum(s.radius_m, c.normal, on_axis);
   }
 }
