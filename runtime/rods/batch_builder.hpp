@@ -25,7 +25,7 @@ struct RodBatchBuilder {
   // `slot` may lie behind the last strand: lanes that nobody looks at repeat the first strand's numbers.
   void fill(const StrandDef& strand, uint32_t slot, uint32_t index);
   void keep_rest(uint32_t strand);
-  void keep_radii(const StrandDef& strand, uint32_t index);
+  void keep_radii(const StrandDef& strand, uint32_t slot);
   // Of the strand's units, before they divide.
   Status check_units(const StrandDef& strand, uint32_t index) const;
   // Of what fill() left of a strand.

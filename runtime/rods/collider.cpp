@@ -66,7 +66,6 @@ struct ColliderBuilder {
     const auto by_default =
         static_cast<uint32_t>(std::clamp<uint64_t>(four_each, kLeastContacts, kMostContacts));
     to.capacity_ = to.settings_.contact_capacity ? to.settings_.contact_capacity : by_default;
-    to.kept_size_ = to.kept_in_use_ = std::bit_ceil(2 * to.capacity_);
   }
 
   void lay_out(std::byte* base, size_t* bytes) {
@@ -80,12 +79,16 @@ struct ColliderBuilder {
     to.passed_ = arena.take<uint64_t>(size_t{to.strand_count_} * to.segment_count_);
     to.points_ = arena.take<ContactPoint>(to.settings_.point_capacity);
     to.contacts_ = arena.take<Contact>(to.capacity_);
-    to.kept_ = arena.take<RodCollider::Kept>(to.kept_size_);
+    to.kept_ = arena.take<RodCollider::Kept>(to.capacity_);
+    to.kept_places_ = arena.take<uint32_t>(std::bit_ceil(2 * to.capacity_));
     to.sweeps_ = arena.take<Sweep>(segments);
     to.boxes_ = arena.take<SweptBox>(segments);
     to.swept_ = arena.take<uint8_t>(segments);
-    to.reaches_ = arena.take<double>(segments * RodCollider::kReachRows);
-    to.strand_boxes_ = arena.take<SweptBox>(size_t{range} * to.width_);
+    to.reaches_ = arena.take<float>(segments * simd::kReachRows);
+    to.reach_boxes_ = arena.take<float>(size_t{range} * simd::kBoxRows * to.width_);
+    to.lengths_m_ = arena.take<float>(size_t{range} * to.width_);
+    to.origins_m_ = arena.take<double>(size_t{range} * 3 * to.width_);
+    to.near_lanes_ = arena.take<uint16_t>(to.segment_count_);
     to.rows_ = arena.take<float>(segments * simd::kRodContactRows);
     to.touched_ = arena.take<uint8_t>(size_t{range} * to.segment_count_);
     to.touched_list_ = arena.take<uint32_t>(size_t{range} * to.segment_count_);
@@ -169,6 +172,7 @@ Status RodCollider::set_passed(uint32_t strand, uint32_t segment, uint64_t capsu
                              segment, strand_count_, segment_count_);
   }
   passed_[size_t{strand} * segment_count_ + segment] = capsules;
+  passed_any_ |= capsules != 0;
   return {};
 }
 
@@ -239,20 +243,35 @@ void RodCollider::end_range(const RodBatch& batch, float dt_s, RodReport* report
   report->contacts_unconverged += forces.end();
 }
 
-// Where it is, or where it would be put.
-RodCollider::Kept* RodCollider::find_kept(uint64_t name) const noexcept {
-  size_t at = name >> 20 & (kept_in_use_ - 1);
-  while (kept_[at].step == steps_ && kept_[at].name != name) at = (at + 1) & (kept_in_use_ - 1);
-  return kept_ + at;
+const RodCollider::Kept* RodCollider::find_kept(uint64_t name) const noexcept {
+  const uint32_t last = kept_in_use_ - 1;
+  for (size_t at = name >> 20 & last; kept_places_[at] != 0; at = (at + 1) & last) {
+    const Kept& kept = kept_[kept_places_[at] - 1];
+    if (kept.name == name) return &kept;
+  }
+  return nullptr;
+}
+
+// Of several of a name the last.
+void RodCollider::keep(const Kept& kept) noexcept {
+  const uint32_t last = kept_in_use_ - 1;
+  size_t at = kept.name >> 20 & last;
+  while (kept_places_[at] != 0 && kept_[kept_places_[at] - 1].name != kept.name) at = (at + 1) & last;
+  if (kept_places_[at] == 0) kept_places_[at] = ++kept_count_;
+  kept_[kept_places_[at] - 1] = kept;
+}
+
+void RodCollider::keep_nothing(uint32_t room_for) noexcept {
+  kept_count_ = 0;
+  kept_in_use_ = std::bit_ceil(2 * std::max(room_for, 1u));
+  if (capacity_ > 0) std::fill_n(kept_places_, kept_in_use_, 0u);
 }
 
 // Forces are what the next step's contacts of the same names start with; not those of strands that did not
 // converge.
 void RodCollider::end_step(float dt_s, RodReport* report) noexcept {
   push(dt_s);
-  ++steps_;
-  // Few contacts lie close together.
-  kept_in_use_ = std::bit_ceil(2 * std::max(contact_count_, 1u));
+  keep_nothing(contact_count_);
   const double per_square = 1 / (static_cast<double>(dt_s) * static_cast<double>(dt_s));
   for (uint32_t i = 0; i < contact_count_; ++i) {
     const Contact& c = contacts_[i];
@@ -261,7 +280,7 @@ void RodCollider::end_step(float dt_s, RodReport* report) noexcept {
     const bool lost =
         turning_[c.sides[0].strand] || (c.sides[1].segment != kNoSegment && turning_[c.sides[1].strand]);
     if (!(c.force > 0) || lost) continue;
-    *find_kept(c.name) = {c.name, steps_, c.force * per_square, scaled(per_square, c.drag)};
+    keep({c.name, c.force * per_square, scaled(per_square, c.drag)});
   }
   report->contacts = contact_count_;
   report->contacts_dropped = dropped_;

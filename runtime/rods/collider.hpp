@@ -12,8 +12,9 @@
 // same bits saves and restores its state as well as the batch's.
 // One thread at a time with its batch. A step allocates nothing. Memory: some 400 bytes a contact; where rods
 // collide with one another some 800 bytes a segment besides, for all groups then iterate in turn.
-// Cost: a bound of each segment's way in every step (broad_phase.cpp); sweeps in double precision of what may
-// touch, of all segments where rods collide or a source is asked.
+// Cost: a bound of each segment's way and of its distance from each obstacle near its group, a strand a lane
+// in float (simd/rod_reach-inl.hpp); sweeps of what may touch, a strand a lane in double
+// (simd/rod_touch-inl.hpp), and one at a time of all segments where rods collide or a source is asked.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -25,6 +26,7 @@
 #include "rods/spatial_hash.hpp"
 #include "rods/sweep.hpp"
 #include "simd/rod_job.hpp"
+#include "simd/rod_touch_job.hpp"
 #include "sinew/contact_source.hpp"
 
 namespace sinew::rods {
@@ -45,7 +47,8 @@ struct ColliderSettings {
   // mean, a single segment fifteen times. Finite, above 0.
   float largest_push_out_m_s = 1;
   // Contacts at a time; further ones are dropped and counted, in the order given points, planes, spheres,
-  // capsules, rods, each by strand and segment. 0: four a segment, at least 64. At most 2^24.
+  // capsules, rods, each by group of strands, segment and strand. 0: four a segment, at least 64. At most
+  // 2^24.
   uint32_t contact_capacity = 0;
   uint32_t obstacle_capacity = 64;  // of planes, of spheres and of capsules; at most 65536
   uint32_t point_capacity = 256;    // given contacts; at most 2^24
@@ -90,7 +93,7 @@ class RodCollider {
   // one with more contact_capacity; its own forces then stay. Allocates nothing.
   Status take_state(const RodCollider& from) noexcept;
   // What stepped on without it begins without forces again.
-  void forget_forces() noexcept { ++steps_; }
+  void forget_forces() noexcept { keep_nothing(0); }
   // The same as bytes, always state_bytes() of them: for snapshots, next to RodBatch::save_state.
   size_t state_bytes() const noexcept;
   void save_state(std::byte* out) const noexcept;
@@ -105,7 +108,7 @@ class RodCollider {
 
   // A contact's force in newtons, from step to step.
   struct Kept {
-    uint64_t name, step;  // of another step: none
+    uint64_t name;
     double force_n;
     Vector drag_n;
   };
@@ -116,20 +119,6 @@ class RodCollider {
     Vector point_m;    // of the rod's surface, at the step's end
   };
   static constexpr uint32_t kNoContact = ~0u;
-  // Of a segment in the world, at the step's start: its middle, half its axis, how long that is, how exact
-  // the numbers are, how far from its axis it may touch something that stands still, its radius; what is left
-  // of its way before it enters a core; from its axis to the obstacle that is looked at, later its way.
-  enum ReachRow : uint32_t {
-    kReachMiddle = 0,
-    kReachAxis = 3,
-    kReachHalf = 6,
-    kReachMargin,
-    kReachTouch,
-    kReachRadius,
-    kReachClear,
-    kReachDistance,
-    kReachRows
-  };
   // Of the strands being stepped: all of them where rods collide, else one group after the other.
   struct Range {
     uint32_t first_group, groups;
@@ -140,7 +129,9 @@ class RodCollider {
              uint32_t* count) noexcept;
   Status check_points(std::span<const ContactPoint> points) const noexcept;
   bool fits(const RodBatch& batch) const noexcept;
-  Kept* find_kept(uint64_t name) const noexcept;
+  const Kept* find_kept(uint64_t name) const noexcept;  // null: there is none
+  void keep(const Kept& kept) noexcept;
+  void keep_nothing(uint32_t room_for) noexcept;
   // The parts of a step; of each range settle() after each iteration.
   bool passes(uint32_t strand, uint32_t segment, uint32_t capsule) const noexcept {
     return capsule < 64 && (passed_[size_t{strand} * segment_count_ + segment] >> capsule & 1) != 0;
@@ -164,20 +155,26 @@ class RodCollider {
   ContactPoint* points_ = nullptr;
   uint64_t* passed_ = nullptr;  // [strands][segments]
   uint32_t plane_count_ = 0, sphere_count_ = 0, capsule_count_ = 0, point_count_ = 0;
-  uint32_t strand_count_ = 0, segment_count_ = 0, width_ = 0, capacity_ = 0, kept_size_ = 0, kept_in_use_ = 1;
+  uint32_t strand_count_ = 0, segment_count_ = 0, width_ = 0, capacity_ = 0;
+  bool passed_any_ = false;
 
   Contact* contacts_ = nullptr;  // [capacity_] of this step; those of the range from first_contact_
   uint32_t contact_count_ = 0, first_contact_ = 0, dropped_ = 0;
-  Kept* kept_ = nullptr;  // [kept_size_] a table by name
-  uint64_t steps_ = 1;    // a zeroed table is empty
+  Kept* kept_ = nullptr;  // [capacity_] in the order of the last step's contacts
+  // [twice capacity_, a power of two] of it in use; where a name's is in kept_, from 1 on, 0: nowhere.
+  uint32_t* kept_places_ = nullptr;
+  uint32_t kept_count_ = 0, kept_in_use_ = 1;
   Range range_ = {0, 0};
-  Sweep* sweeps_ = nullptr;           // [segments of a range]
-  SweptBox* boxes_ = nullptr;         // alike
-  uint8_t* swept_ = nullptr;          // alike: its sweep is of this step
-  double* reaches_ = nullptr;         // [groups of a range][segments][kReachRows][width]
-  SweptBox* strand_boxes_ = nullptr;  // [strands of a range]
-  float* rows_ = nullptr;             // [groups of a range][segments][kRodContactRows][width]
-  uint8_t* touched_ = nullptr;        // [groups of a range][segments]: rows are not zero
+  Sweep* sweeps_ = nullptr;         // [segments of a range]
+  SweptBox* boxes_ = nullptr;       // alike
+  uint8_t* swept_ = nullptr;        // alike: its sweep is of this step
+  float* reaches_ = nullptr;        // [groups of a range][slots][kReachRows][width]
+  float* reach_boxes_ = nullptr;    // [groups of a range][kBoxRows][width]
+  float* lengths_m_ = nullptr;      // [groups of a range][width]
+  double* origins_m_ = nullptr;     // [groups of a range][3][width]
+  uint16_t* near_lanes_ = nullptr;  // [slots] of the group that is looked at
+  float* rows_ = nullptr;           // [groups of a range][segments][kRodContactRows][width]
+  uint8_t* touched_ = nullptr;      // [groups of a range][segments]: rows are not zero
   uint32_t* touched_list_ = nullptr;
   uint32_t touched_count_ = 0;
   uint8_t* turning_ = nullptr;   // [strands] not converged by themselves

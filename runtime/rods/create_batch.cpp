@@ -21,7 +21,7 @@ void RodBatchBuilder::lay_out(std::byte* base, size_t* bytes) {
   lay_out_start(arena);
   batch.rest_ =
       arena.take<float>(size_t{batch.strand_count_} * batch.segment_count_ * RodBatch::kRestNumbers);
-  batch.radii_m_ = arena.take<float>(size_t{batch.strand_count_} * batch.segment_count_);
+  batch.radii_m_ = arena.take<float>(groups() * batch.segment_count_ * batch.width_);
   batch.units_ = arena.take<RodBatch::Units>(batch.strand_count_);
   for (uint32_t** list : {&batch.parents_, &batch.slots_, &batch.joint_segments_, &batch.slot_parents_}) {
     *list = arena.take<uint32_t>(batch.segment_count_);
@@ -54,9 +54,9 @@ Status RodBatchBuilder::fill_all(std::span<const StrandDef> strands) {
   for (uint32_t slot = 0; status.ok() && slot < groups() * batch.width_; ++slot) {
     const uint32_t strand = slot < batch.strand_count_ ? slot : 0;
     fill(strands[strand], slot, strand);
+    keep_radii(strands[strand], slot);
     if (slot >= batch.strand_count_) continue;
     keep_rest(slot);
-    keep_radii(strands[slot], slot);
     status = check_filled(strands[slot], slot);
   }
   return status;

@@ -98,9 +98,8 @@ void RodBatchBuilder::keep_rest(uint32_t strand) {
   }
 }
 
-void RodBatchBuilder::keep_radii(const StrandDef& strand, uint32_t index) {
-  float* out = batch.radii_m_ + size_t{index} * batch.segment_count_;
-  for (const SegmentDef& s : strand.segments) *out++ = s.radius_m;
+void RodBatchBuilder::keep_radii(const StrandDef& strand, uint32_t slot) {
+  for (uint32_t i = 0; i < batch.segment_count_; ++i) batch.radius_m(slot, i) = strand.segments[i].radius_m;
 }
 
 }  // namespace sinew::rods

@@ -2,20 +2,17 @@
 #include "rods/find_contacts.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace sinew::rods {
 namespace {
 
-// Contacts are kept for what comes this near, shares of the radii and of the way.
-constexpr double kNearRadii = 0.25, kNearWay = 0.25;
+constexpr double kNearRadii = simd::kRodNearRadii, kNearWay = simd::kRodNearWay;
 // Penetration that is left alone, of the tolerance.
 constexpr double kLeftAlone = 2;
-// Capsules are side by side where the squared sine of their angle is below this, and overlap by more than
-// this share of their radii; between its ends such an overlap is touched too, unless the axes' angle bends it
-// away by less than the last.
-constexpr double kSideBySide = 0.1, kOverlap = 0.5, kFlat = 0.3;
-// Deep, of a segment's radius; end on, of a unit normal along the segment.
-constexpr double kDeep = 0.5, kEndOn = 0.7;
+// Capsules that are side by side overlap by more than this share of their radii; between its ends such an
+// overlap is touched too, unless the axes' angle bends it away by less than the last.
+constexpr double kOverlap = 0.5, kFlat = 0.3;
 // Segments of a strand that at rest are nearer than this, over the sum of their radii, never touch.
 constexpr double kRestDistance = 1.2;
 
@@ -64,13 +61,6 @@ SweptBox box_of(const Sweep& s, double margin_m) {
   return box;
 }
 
-bool overlap(const SweptBox& a, const SweptBox& b) {
-  for (size_t k = 0; k < 3; ++k) {
-    if (!(a.low[k] <= b.high[k] && b.low[k] <= a.high[k])) return false;
-  }
-  return true;
-}
-
 double longest_way(const Sweep& s) {
   return std::max(length(difference(s.end.from, s.start.from)), length(difference(s.end.to, s.start.to)));
 }
@@ -81,6 +71,8 @@ Capsule capsule_of(const Sphere& s) {
   for (auto& end : point.ends_m) std::copy_n(s.middle_m, 3, end);
   return point;
 }
+
+void put(const Vector& from, double (&out)[3]) { std::copy_n(from.begin(), 3, out); }
 
 // How far an obstacle's surface moves in the step at a point of it.
 Vector surface_move(const ObstacleMotion& motion, const Vector& arm, double dt_s) {
@@ -95,6 +87,15 @@ uint32_t ContactFinder::end_strand() const {
 
 bool ContactFinder::free(uint32_t strand, uint32_t segment) const {
   return batch.at(strand, segment, simd::kRodFree) != 0;
+}
+
+template <class Found>
+void ContactFinder::for_near(uint32_t group, const Found& found) const {
+  for (uint32_t i = 0; i < batch.segment_count_; ++i) {
+    for (uint32_t left = to.near_lanes_[batch.slots_[i]]; left != 0; left &= left - 1) {
+      found(group * batch.width_ + static_cast<uint32_t>(std::countr_zero(left)), i);
+    }
+  }
 }
 
 double ContactFinder::mass_kg(uint32_t strand, uint32_t segment) const {
@@ -123,7 +124,7 @@ Axis ContactFinder::axis(uint32_t strand, uint32_t segment, const Vector& move, 
 
 void ContactFinder::add_sweep(uint32_t strand, uint32_t segment) const {
   const double l = static_cast<double>(batch.units_[strand].length_m);
-  const double radius = static_cast<double>(batch.radii_m_[size_t{strand} * batch.segment_count_ + segment]);
+  const double radius = static_cast<double>(batch.radius_m(strand, segment));
   Turn before, after;
   for (uint32_t k = 0; k < 4; ++k) {
     before[k] = static_cast<double>(batch.at(strand, segment, simd::kRodTurn + k));
@@ -147,13 +148,17 @@ void ContactFinder::add_sweep(uint32_t strand, uint32_t segment) const {
   to.boxes_[local(strand, segment)] = box;
 }
 
+uint64_t ContactFinder::name_of(const Other& other, uint32_t strand, uint32_t segment, uint64_t feature) {
+  return mixed(mixed(mixed(mixed(mixed(0, other.kind), other.index), strand), segment), feature) | 1;
+}
+
 // `along` from the segment's middle, metres; normal, gap and obstacle's move are left to the caller.
 Contact ContactFinder::made(uint32_t strand, uint32_t segment, double along, const Other& other,
                             uint64_t feature) const {
   const Sweep& s = sweep(strand, segment);
   const Vector way = difference(s.start.to, s.start.from);
   Contact c = {};
-  c.name = mixed(mixed(mixed(mixed(mixed(0, other.kind), other.index), strand), segment), feature) | 1;
+  c.name = name_of(other, strand, segment, feature);
   c.sides[0] = {strand, segment, along, -s.radius_m, 0, scaled(1 / length(way), way)};
   c.sides[1] = {other.strand, other.segment, 0, other.sweep.radius_m, 0, {}};
   c.friction = other.friction;
@@ -203,27 +208,34 @@ double ContactFinder::rebound_m(const Contact& c, double restitution) const {
   return bounces ? restitution * closing : 0;
 }
 
-// `depth_m` is the gap at the step's start where that is in penetration, else 0 or more. Null: no room.
-Contact* ContactFinder::add(Contact& c, double depth_m, double restitution) const {
-  if (to.contact_count_ == to.capacity_) {
-    ++to.dropped_;
-    return nullptr;
-  }
-  const double left = kLeftAlone * static_cast<double>(to.settings_.tolerance) * c.scale_m;
+// Null: no room.
+Contact* ContactFinder::take() const {
+  if (to.contact_count_ < to.capacity_) return to.contacts_ + to.contact_count_++;
+  ++to.dropped_;
+  return nullptr;
+}
+
+Contact* ContactFinder::add(const Contact& contact, double depth_m, double restitution) const {
+  Contact* c = take();
+  if (!c) return nullptr;
+  *c = contact;
+  complete(c, depth_m, restitution);
+  return c;
+}
+
+// `depth_m` is the gap at the step's start where that is in penetration, else 0 or more.
+void ContactFinder::complete(Contact* c, double depth_m, double restitution) const {
+  const double left = kLeftAlone * static_cast<double>(to.settings_.tolerance) * c->scale_m;
   const double pushed = static_cast<double>(to.settings_.largest_push_out_m_s) * dt_s;
-  if (depth_m < 0) c.allowed_m = depth_m + std::min(pushed, std::max(0.0, -depth_m - left));
-  const double rebound = rebound_m(c, restitution);
-  if (rebound > 0) c.allowed_m = std::max(c.allowed_m, std::max(0.0, c.gap_m) + rebound);
-  set_gain(&c);
-  if (batch.settings_.start != RodStart::kZero) {
-    const RodCollider::Kept& kept = *to.find_kept(c.name);
-    if (kept.step == to.steps_) {
-      c.force = kept.force_n * dt_s * dt_s;
-      c.drag = scaled(dt_s * dt_s, across(kept.drag_n, c.normal));
-    }
-  }
-  to.contacts_[to.contact_count_] = c;
-  return to.contacts_ + to.contact_count_++;
+  if (depth_m < 0) c->allowed_m = depth_m + std::min(pushed, std::max(0.0, -depth_m - left));
+  const double rebound = rebound_m(*c, restitution);
+  if (rebound > 0) c->allowed_m = std::max(c->allowed_m, std::max(0.0, c->gap_m) + rebound);
+  set_gain(c);
+  if (batch.settings_.start == RodStart::kZero) return;
+  const RodCollider::Kept* kept = to.find_kept(c->name);
+  if (!kept) return;
+  c->force = kept->force_n * dt_s * dt_s;
+  c->drag = scaled(dt_s * dt_s, across(kept->drag_n, c->normal));
 }
 
 Contact* ContactFinder::add_point(const ContactPoint& p, uint64_t kind) const {
@@ -277,14 +289,14 @@ void ContactFinder::add_plane(const Plane& plane, uint32_t index) const {
                        {plane.point_m[0], plane.point_m[1], plane.point_m[2]},
                        static_cast<double>(plane.friction),
                        static_cast<double>(plane.restitution)};
-  for (uint32_t strand = first_strand(); strand < end_strand(); ++strand) {
-    if (!near(strand, plane)) continue;
-    const float* radii = batch.radii_m_ + size_t{strand} * batch.segment_count_;
-    for (uint32_t i = 0; i < batch.segment_count_; ++i) {
-      if (!free(strand, i) || !near(strand, i, plane)) continue;
-      if (i == 0 || radii[i] > radii[batch.parents_[i]]) add_end(plane, other, strand, i, false);
+  const simd::RodFlat flat = flat_of(plane);
+  for (uint32_t g = to.range_.first_group; g < to.range_.first_group + to.range_.groups; ++g) {
+    if (!near(g, flat)) continue;
+    for_near(g, [&](uint32_t strand, uint32_t i) {
+      const bool thicker = i > 0 && batch.radius_m(strand, i) > batch.radius_m(strand, batch.parents_[i]);
+      if (i == 0 || thicker) add_end(plane, other, strand, i, false);
       add_end(plane, other, strand, i, true);
-    }
+    });
   }
 }
 
@@ -300,31 +312,89 @@ Sweep ContactFinder::sweep_of(const Capsule& capsule) const {
           static_cast<double>(capsule.radius_m)};
 }
 
-void ContactFinder::add_capsule(const Capsule& capsule, uint64_t kind, uint32_t index) const {
+simd::RodFlat ContactFinder::flat_of(const Plane& plane) const {
+  const Vector n = vector_of(plane.normal);
+  simd::RodFlat flat;
+  flat.way_m = dt_s * length(vector_of(plane.motion.linear_m_s));
+  flat.turn_rad = dt_s * length(vector_of(plane.motion.angular_rad_s));
+  std::copy_n(plane.point_m, 3, flat.point_m);
+  put(scaled(1 / length(n), n), flat.normal);
+  return flat;
+}
+
+simd::RodRound ContactFinder::round_of(const Other& other) const {
+  simd::RodRound round;
+  round.radius_m = other.sweep.radius_m, round.way_m = longest_way(other.sweep), round.dt_s = dt_s;
+  put(other.sweep.start.from, round.start_m[0]), put(other.sweep.start.to, round.start_m[1]);
+  put(other.sweep.end.from, round.end_m[0]), put(other.sweep.end.to, round.end_m[1]);
+  put(vector_of(other.motion.linear_m_s), round.linear_m_s);
+  put(vector_of(other.motion.angular_rad_s), round.angular_rad_s);
+  put(other.middle_m, round.middle_m);
+  return round;
+}
+
+void ContactFinder::add_round(const Capsule& capsule, uint64_t kind, uint32_t index) const {
   const Sweep sweep = sweep_of(capsule);
-  const Vector middle = between(sweep.end.from, sweep.end.to, 0.5);
   const Other other = {kind,
                        index,
                        0,
                        kNoSegment,
                        sweep,
                        capsule.motion,
-                       middle,
+                       between(sweep.end.from, sweep.end.to, 0.5),
                        static_cast<double>(capsule.friction),
                        static_cast<double>(capsule.restitution)};
-  const SweptBox box = box_of(sweep, sweep.radius_m + kNearWay * longest_way(sweep));
-  const double reach_m = reach_of(sweep);
-  uint32_t known = ~0u;  // the group whose distances are
-  for (uint32_t strand = first_strand(); strand < end_strand(); ++strand) {
-    if (!overlap(to.strand_boxes_[strand - first_strand()], box)) continue;
-    const uint32_t group = strand / batch.width_;
-    if (group != known) find_distances(group, sweep);
-    known = group;
-    for (uint32_t i = 0; i < batch.segment_count_; ++i) {
-      if (!free(strand, i) || (kind == kCapsule && to.passes(strand, i, index))) continue;
-      if (near(strand, i, reach_m)) add_touch(strand, i, other);
+  const simd::RodRound round = round_of(other);
+  for (uint32_t g = to.range_.first_group; g < to.range_.first_group + to.range_.groups; ++g) {
+    if (near(g, round)) add_near(g, other, round);
+  }
+}
+
+// Of the lanes that are near.
+uint32_t ContactFinder::not_passing(uint32_t group, uint32_t segment, const Other& other) const {
+  uint32_t lanes = to.near_lanes_[batch.slots_[segment]];
+  if (other.kind != kCapsule || !to.passed_any_) return lanes;
+  for (uint32_t left = lanes; left != 0; left &= left - 1) {
+    const auto lane = static_cast<uint32_t>(std::countr_zero(left));
+    if (to.passes(group * batch.width_ + lane, segment, static_cast<uint32_t>(other.index)))
+      lanes &= ~(1u << lane);
+  }
+  return lanes;
+}
+
+void ContactFinder::add_near(uint32_t group, const Other& other, const simd::RodRound& round) const {
+  simd::RodTouches touches;
+  for (uint32_t i = 0; i < batch.segment_count_; ++i) {
+    const uint32_t lanes = not_passing(group, i, other);
+    if (lanes == 0) continue;
+    touch(group, i, lanes, round, &touches);
+    for (uint32_t left = touches.touch | touches.other; left != 0; left &= left - 1) {
+      const auto lane = static_cast<uint32_t>(std::countr_zero(left));
+      const uint32_t strand = group * batch.width_ + lane;
+      touches.other >> lane & 1 ? add_touch(strand, i, other) : add_lane(strand, i, other, touches);
     }
   }
+}
+
+// What add_at would make of the touch.
+void ContactFinder::add_lane(uint32_t strand, uint32_t segment, const Other& other,
+                             const simd::RodTouches& touches) const {
+  Contact* c = take();
+  if (!c) return;
+  const size_t lane = strand % batch.width_;
+  const auto row = [&](size_t r) { return touches.rows[r][lane]; };
+  const auto row3 = [&](size_t r) { return Vector{row(r), row(r + 1), row(r + 2)}; };
+  const double radius = static_cast<double>(batch.radius_m(strand, segment));
+  *c = {};
+  c->name = name_of(other, strand, segment, 0);
+  c->sides[0] = {strand, segment, row(simd::kTouchAlong), -radius, 0, row3(simd::kTouchAxis)};
+  c->sides[1] = {other.strand, kNoSegment, 0, other.sweep.radius_m, 0, {}};
+  c->normal = row3(simd::kTouchNormal);
+  c->obstacle_move = row3(simd::kTouchMove);
+  c->gap_m = row(simd::kTouchGap);
+  c->friction = other.friction;
+  c->scale_m = radius;
+  complete(c, row(simd::kTouchDepth), other.restitution);
 }
 
 void ContactFinder::add_touch(uint32_t strand, uint32_t segment, const Other& other) const {
@@ -336,8 +406,8 @@ void ContactFinder::add_touch(uint32_t strand, uint32_t segment, const Other& ot
   if (!(touch.gap_m < kNearRadii * radii + kNearWay * length(difference(way_a, way_b)))) return;
   // A chain's segments, deep in something, would be pushed out along themselves, away from each other.
   const Vector z = difference(a.start.to, a.start.from);
-  if (touch.time == 0 && touch.gap_m < -kDeep * a.radius_m &&
-      std::fabs(dot(touch.normal, z)) > kEndOn * length(z)) {
+  if (touch.time == 0 && touch.gap_m < -simd::kRodDeep * a.radius_m &&
+      std::fabs(dot(touch.normal, z)) > simd::kRodEndOn * length(z)) {
     const Vector n = way_out(touch.axis_a, touch.axis_b, touch.normal);
     const Vector apart = difference(at(touch.axis_a, touch.at.a), at(touch.axis_b, touch.at.b));
     add_at(strand, segment, other, touch.at, n, dot(apart, n) - a.radius_m - other.sweep.radius_m, 0, 0);
@@ -353,7 +423,7 @@ bool ContactFinder::add_side_by_side(uint32_t strand, uint32_t segment, const Ot
   const Vector u = difference(touch.axis_a.to, touch.axis_a.from);
   const Vector v = difference(touch.axis_b.to, touch.axis_b.from), across_both = cross(u, v);
   const double uu = dot(u, u), vv = dot(v, v), sine = dot(across_both, across_both);
-  if (!(sine < kSideBySide * uu * vv)) return false;
+  if (!(sine < simd::kRodSideBySide * uu * vv)) return false;
   const double radii = sweep(strand, segment).radius_m + other.sweep.radius_m;
   const double ends[2] = {nearest(touch.axis_a, touch.axis_b.from), nearest(touch.axis_a, touch.axis_b.to)};
   const double overlap_m = std::fabs(ends[1] - ends[0]) * std::sqrt(uu);
@@ -404,7 +474,7 @@ bool ContactFinder::overlap_at_rest(uint32_t strand, uint32_t i, uint32_t j) con
     const double half = static_cast<double>(batch.at(strand, s, simd::kRodHalfLength));
     const Vector along = axis_of({rest[6], rest[7], rest[8], rest[9]});
     axes[s == j] = {scaled_sum(-half, along, middle), scaled_sum(half, along, middle)};
-    radii += static_cast<double>(batch.radii_m_[size_t{strand} * batch.segment_count_ + s]);
+    radii += static_cast<double>(batch.radius_m(strand, s));
   }
   const Nearest n = nearest(axes[0], axes[1]);
   return length(difference(at(axes[0], n.a), at(axes[1], n.b))) * l < kRestDistance * radii;
@@ -465,13 +535,9 @@ void ContactFinder::stop_at_cores(uint32_t strand, uint32_t segment) const {
 
 void ContactFinder::stop_at_cores() const {
   for (uint32_t g = 0; g < to.range_.groups; ++g) {
-    const uint32_t group = to.range_.first_group + g, first = group * batch.width_;
-    if (!find_ways(group)) continue;
-    for (uint32_t s = first; s < std::min(first + batch.width_, batch.strand_count_); ++s) {
-      for (uint32_t i = 0; i < batch.segment_count_; ++i) {
-        if (may_enter(s, i)) stop_at_cores(s, i);
-      }
-    }
+    const uint32_t group = to.range_.first_group + g;
+    if (!may_enter(group)) continue;
+    for_near(group, [this](uint32_t s, uint32_t i) { stop_at_cores(s, i); });
   }
 }
 
@@ -513,8 +579,8 @@ void ContactFinder::find() const noexcept {
   }
   for (uint32_t i = 0; i < to.point_count_; ++i) add_point(to.points_[i], kPoint);
   for (uint32_t i = 0; i < to.plane_count_; ++i) add_plane(to.planes_[i], i);
-  for (uint32_t i = 0; i < to.sphere_count_; ++i) add_capsule(capsule_of(to.spheres_[i]), kSphere, i);
-  for (uint32_t i = 0; i < to.capsule_count_; ++i) add_capsule(to.capsules_[i], kCapsule, i);
+  for (uint32_t i = 0; i < to.sphere_count_; ++i) add_round(capsule_of(to.spheres_[i]), kSphere, i);
+  for (uint32_t i = 0; i < to.capsule_count_; ++i) add_round(to.capsules_[i], kCapsule, i);
   if (to.source_) add_hits();
   if (!to.settings_.rods_collide) return;
   to.hash_.build(to.boxes_, (end_strand() - first_strand()) * batch.segment_count_);

@@ -54,32 +54,30 @@ struct ContactFinder {
   void add_sweep(uint32_t strand, uint32_t segment) const;
   const Sweep& sweep(uint32_t strand, uint32_t segment) const;
   void find_reaches() const;
-  template <size_t kWidth>
-  struct Lanes;
-  template <size_t kWidth>
-  void find_reaches(uint32_t group) const;
-  template <size_t kWidth>
-  void find_reaches(const Lanes<kWidth>& lanes, double* out) const;
-  double* reach(uint32_t strand, uint32_t segment) const;
-  template <size_t kWidth>
-  void find_distances(uint32_t group, const Sweep& obstacle) const;
-  void find_distances(uint32_t group, const Sweep& obstacle) const;
-  template <size_t kWidth>
-  bool find_ways(uint32_t group) const;
-  bool find_ways(uint32_t group) const;
-  bool near(uint32_t strand, const Plane& plane) const;
-  bool near(uint32_t strand, uint32_t segment, const Plane& plane) const;
-  double reach_of(const Sweep& obstacle) const;
-  bool near(uint32_t strand, uint32_t segment, double reach_m) const;
-  bool may_enter(uint32_t strand, uint32_t segment) const;
+  simd::RodReachJob reach_job(uint32_t group) const;
+  void place_lanes(uint32_t group) const;
+  // Into near_lanes_, of one group; false: none.
+  bool near(uint32_t group, const simd::RodRound& round) const;
+  bool near(uint32_t group, const simd::RodFlat& flat) const;
+  bool may_enter(uint32_t group) const;
+  // found(strand, segment) of near_lanes_.
+  template <class Found>
+  void for_near(uint32_t group, const Found& found) const;
+  void touch(uint32_t group, uint32_t segment, uint32_t lanes, const simd::RodRound& round,
+             simd::RodTouches* out) const;
   Sweep taken_sweep(uint32_t strand, uint32_t segment) const;
   Sweep sweep_of(const Capsule& capsule) const;
   void stop_torn(uint32_t strand, bool again) const;
   void stop_at_cores(uint32_t strand, uint32_t segment) const;
   void stop_at_cores() const;
   void stop_at_core(uint32_t strand, uint32_t segment, const Sweep& core) const;
+  simd::RodRound round_of(const Other& other) const;
+  simd::RodFlat flat_of(const Plane& plane) const;
+  static uint64_t name_of(const Other& other, uint32_t strand, uint32_t segment, uint64_t feature);
   Contact made(uint32_t strand, uint32_t segment, double along, const Other& other, uint64_t feature) const;
-  Contact* add(Contact& contact, double depth_m, double restitution) const;
+  Contact* take() const;
+  Contact* add(const Contact& contact, double depth_m, double restitution) const;
+  void complete(Contact* contact, double depth_m, double restitution) const;
   double rebound_m(const Contact& contact, double restitution) const;
   void set_gain(Contact* contact) const;
   Contact* add_point(const ContactPoint& point, uint64_t kind) const;
@@ -90,7 +88,10 @@ struct ContactFinder {
   std::span<const ContactHit> ask(uint32_t probes, ContactHit* hits, uint32_t room, uint32_t* dropped) const;
   void add_plane(const Plane& plane, uint32_t index) const;
   void add_end(const Plane& plane, const Other& other, uint32_t strand, uint32_t segment, bool end) const;
-  void add_capsule(const Capsule& capsule, uint64_t kind, uint32_t index) const;
+  void add_round(const Capsule& capsule, uint64_t kind, uint32_t index) const;
+  void add_near(uint32_t group, const Other& other, const simd::RodRound& round) const;
+  uint32_t not_passing(uint32_t group, uint32_t segment, const Other& other) const;
+  void add_lane(uint32_t strand, uint32_t segment, const Other& other, const simd::RodTouches& touches) const;
   void add_pair(uint32_t i, uint32_t j) const;
   bool overlap_at_rest(uint32_t strand, uint32_t i, uint32_t j) const;
   void add_touch(uint32_t strand, uint32_t segment, const Other& other) const;

@@ -196,6 +196,10 @@ class RodBatch {
   float& at(uint32_t strand, uint32_t segment, uint32_t field) const noexcept {
     return records_[row(strand, segment, field)];
   }
+  float& radius_m(uint32_t strand, uint32_t segment) const noexcept {
+    const size_t slot = size_t{strand / width_} * segment_count_ + slots_[segment];
+    return radii_m_[slot * width_ + strand % width_];
+  }
   // Steps that its start may go back to.
   float& known_steps(uint32_t strand) const noexcept {
     return lanes_[(size_t{strand / width_} * simd::kLaneFields + simd::kLaneKnownSteps) * width_ +
@@ -255,7 +259,7 @@ class RodBatch {
   float* encodings_ = nullptr;  // [groups][segments][latent][width]
   float* planes_ = nullptr;     // of one group
   float* rest_ = nullptr;  // [strands][segments][kRestNumbers] place, high and low, and orientation at rest
-  float* radii_m_ = nullptr;            // [strands][segments]
+  float* radii_m_ = nullptr;            // [groups][slots][width]
   Units* units_ = nullptr;              // [strands]
   uint32_t* parents_ = nullptr;         // [segments] as listed
   uint32_t* slots_ = nullptr;           // [segments] where a segment's record is; slot 0 is held if one is

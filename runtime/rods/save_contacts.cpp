@@ -29,15 +29,12 @@ static_assert(offsetof(Saved, name) == 0);
 
 size_t RodCollider::state_bytes() const noexcept { return sizeof(uint64_t) + capacity_ * sizeof(Saved); }
 
-// By name: where a force lies in the table depends on how many there were, and the same forces have the same
-// bytes.
+// By name: in what order contacts were found depends on others, and the same forces have the same bytes.
 void RodCollider::save_state(std::byte* out) const noexcept {
-  uint64_t count = 0;
-  for (uint32_t i = 0; i < kept_size_; ++i) {
-    const Kept& kept = kept_[i];
-    if (kept.step != steps_) continue;
-    const Saved saved = {kept.name, kept.force_n, kept.drag_n};
-    std::memcpy(out + sizeof count + count++ * sizeof saved, &saved, sizeof saved);
+  const uint64_t count = kept_count_;
+  for (uint32_t i = 0; i < kept_count_; ++i) {
+    const Saved one = {kept_[i].name, kept_[i].force_n, kept_[i].drag_n};
+    std::memcpy(out + sizeof count + i * sizeof one, &one, sizeof one);
   }
   std::memcpy(out, &count, sizeof count);
   auto* saved = reinterpret_cast<SavedBytes*>(out + sizeof count);
@@ -47,14 +44,13 @@ void RodCollider::save_state(std::byte* out) const noexcept {
 }
 
 void RodCollider::restore_state(const std::byte* from) noexcept {
-  ++steps_;  // forgets its own
-  kept_in_use_ = kept_size_;
+  keep_nothing(capacity_);
   uint64_t count = 0;
   std::memcpy(&count, from, sizeof count);
   for (uint64_t i = 0; i < count && i < capacity_; ++i) {
     Saved saved;
     std::memcpy(&saved, from + sizeof count + i * sizeof saved, sizeof saved);
-    *find_kept(saved.name) = {saved.name, steps_, saved.force_n, saved.drag_n};
+    keep({saved.name, saved.force_n, saved.drag_n});
   }
 }
 

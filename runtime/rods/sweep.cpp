@@ -3,14 +3,14 @@
 
 #include <algorithm>
 
+#include "simd/rod_touch_job.hpp"
+
 namespace sinew::rods {
 namespace {
 
-constexpr double kTouching = 1e-2;    // gap over the sum of radii
-constexpr double kMeeting = 1e-6;     // distance of axes over the sum of radii: it has no direction
-constexpr double kKnownWay = 0.1;     // of a unit vector, that which is across an axis
-constexpr double kParallel = 1e-8;    // sine squared
-constexpr double kNoLength2 = 1e-60;  // m^2
+// What looks at a strand a lane goes by the same.
+using simd::kRodMeeting, simd::kRodNoLength2, simd::kRodParallel, simd::kRodTouching;
+constexpr double kKnownWay = 0.1;  // of a unit vector, that which is across an axis
 
 Axis at(const Sweep& s, double time) {
   return {between(s.start.from, s.end.from, time), between(s.start.to, s.end.to, time)};
@@ -36,7 +36,7 @@ Vector any_across(const Vector& v) {
                                                                                                 : 2;
   Vector axis = {};
   axis[least] = 1;
-  const Vector n = dot(v, v) > kNoLength2 ? cross(v, axis) : axis;
+  const Vector n = dot(v, v) > kRodNoLength2 ? cross(v, axis) : axis;
   return scaled(1 / length(n), n);
 }
 
@@ -44,7 +44,7 @@ Vector any_across(const Vector& v) {
 Vector normal_of_meeting(const Axis& a, const Axis& b, const Vector& way) {
   const Vector u = difference(a.to, a.from), v = difference(b.to, b.from), n = cross(u, v);
   const double size = length(n);
-  const bool crossing = size * size > kParallel * dot(u, u) * dot(v, v) && size * size > kNoLength2;
+  const bool crossing = size * size > kRodParallel * dot(u, u) * dot(v, v) && size * size > kRodNoLength2;
   const Vector unit = crossing ? scaled(1 / size, n) : any_across(dot(u, u) > dot(v, v) ? u : v);
   return dot(unit, way) > 0 ? scaled(-1, unit) : unit;
 }
@@ -55,7 +55,7 @@ Touch touch_at(const Sweep& a, const Sweep& b, double time) {
   const Vector apart = difference(at(now_a, n.a), at(now_b, n.b));
   const double distance = length(apart), sum_m = a.radius_m + b.radius_m;
   Vector normal = scaled(1 / distance, apart);
-  if (!(distance > kMeeting * sum_m)) {
+  if (!(distance > kRodMeeting * sum_m)) {
     const Vector way_a = difference(at(a.end, n.a), at(a.start, n.a));
     normal = normal_of_meeting(now_a, now_b, difference(way_a, difference(at(b.end, n.b), at(b.start, n.b))));
   }
@@ -74,17 +74,17 @@ Vector way_out(const Axis& a, const Axis& b, const Vector& normal) noexcept {
 double nearest(const Axis& axis, const Vector& point) noexcept {
   const Vector d = difference(axis.to, axis.from);
   const double square = dot(d, d);
-  return square > kNoLength2 ? std::clamp(dot(difference(point, axis.from), d) / square, 0.0, 1.0) : 0.0;
+  return square > kRodNoLength2 ? std::clamp(dot(difference(point, axis.from), d) / square, 0.0, 1.0) : 0.0;
 }
 
 Nearest nearest(const Axis& a, const Axis& b) noexcept {
   const Vector u = difference(a.to, a.from), v = difference(b.to, b.from), r = difference(a.from, b.from);
   const double uu = dot(u, u), vv = dot(v, v), uv = dot(u, v);
-  if (!(uu > kNoLength2)) return {0, nearest(b, a.from)};
-  if (!(vv > kNoLength2)) return {nearest(a, b.from), 0};
+  if (!(uu > kRodNoLength2)) return {0, nearest(b, a.from)};
+  if (!(vv > kRodNoLength2)) return {nearest(a, b.from), 0};
   const double ur = dot(u, r), vr = dot(v, r), sine = uu * vv - uv * uv;
   double s;
-  if (sine > kParallel * uu * vv) {
+  if (sine > kRodParallel * uu * vv) {
     s = std::clamp((uv * vr - ur * vv) / sine, 0.0, 1.0);
   } else {
     const double begin = nearest(a, b.from), end = nearest(a, b.to);
@@ -95,7 +95,7 @@ Nearest nearest(const Axis& a, const Axis& b) noexcept {
 }
 
 Touch first_touch(const Sweep& a, const Sweep& b, int moments) noexcept {
-  const double speed = closing_speed(a, b), enough = kTouching * (a.radius_m + b.radius_m);
+  const double speed = closing_speed(a, b), enough = kRodTouching * (a.radius_m + b.radius_m);
   Touch best = touch_at(a, b, 0), now = best;
   for (int k = 1; k < moments && now.gap_m > enough && now.time < 1; ++k) {
     const double next = now.gap_m >= speed * (1 - now.time) ? 1.0 : now.time + now.gap_m / speed;

@@ -20,14 +20,8 @@ Status RodCollider::take_state(const RodCollider& from) noexcept {
         from.capacity_, capacity_);
   }
   if (&from == this) return {};
-  ++steps_;  // forgets its own
-  kept_in_use_ = kept_size_;
-  for (uint32_t i = 0; i < from.kept_size_; ++i) {
-    Kept kept = from.kept_[i];
-    if (kept.step != from.steps_) continue;
-    kept.step = steps_;
-    *find_kept(kept.name) = kept;
-  }
+  keep_nothing(capacity_);
+  for (uint32_t i = 0; i < from.kept_count_; ++i) keep(from.kept_[i]);
   return {};
 }
 

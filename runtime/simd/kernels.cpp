@@ -42,7 +42,8 @@
 
 namespace sinew::simd::HWY_NAMESPACE {
 
-extern const RodKernels kRodKernels;  // rod_kernels.cpp
+extern const RodKernels kRodKernels;            // rod_kernels.cpp
+extern const RodTouchKernels kRodTouchKernels;  // rod_touch_kernels.cpp
 
 template <class Dot>
 constexpr Kernels kernels_with(const char* name, bool (*runs)()) {
@@ -72,6 +73,7 @@ constexpr Kernels kernels_with(const char* name, bool (*runs)()) {
       .coarse_sigmoid = sigmoid<CoarseTanh>,
       .coarse_tanh = tanh<CoarseTanh>,
       .rods = &kRodKernels,
+      .rod_touches = &kRodTouchKernels,
   };
 }
 

@@ -10,6 +10,7 @@
 
 #include "pack/format.hpp"
 #include "simd/rod_job.hpp"
+#include "simd/rod_touch_job.hpp"
 
 namespace sinew::simd {
 
@@ -198,6 +199,7 @@ struct Kernels {
   void (*coarse_sigmoid)(const float* x, size_t count, float* out);
   void (*coarse_tanh)(const float* x, size_t count, float* out);
   const RodKernels* rods;
+  const RodTouchKernels* rod_touches;
 };
 
 // The table of the active instruction set. Thread-safe.
