@@ -3,7 +3,7 @@
 // One thread's CPU time. 1,000 strands of 16 segments at 60 Hz after three seconds, then two seconds:
 // `still`, and `turning` to and fro. Without a collider the same hair hangs through the head. `over_rods` is
 // what the collider adds over what the rods cost alone, of the medians of a step. --rods: of 200 strands,
-// with one another too; --quick: that everything runs.
+// with one another too; --long: 25 seconds, for the deepest; --quick: that everything runs.
 #include <cstdio>
 #include <cstring>
 
@@ -87,5 +87,5 @@ void run(int strands, int steps, bool rods) {
 int main(int argc, char** argv) {
   const auto asked = [&](const char* what) { return argc > 1 && std::strcmp(argv[1], what) == 0; };
   const bool quick = asked("--quick"), rods = asked("--rods");
-  sinew::perf::run(quick ? 20 : rods ? 200 : 1000, quick ? 5 : 120, quick || rods);
+  sinew::perf::run(quick ? 20 : rods ? 200 : 1000, quick ? 5 : asked("--long") ? 1500 : 120, quick || rods);
 }
