@@ -77,7 +77,7 @@ void run(Options options) {
     surfaces = read_truth(simulate_clips(options.source, options.clips, options.seconds, character.view(),
                                          options.folder + "/truth"),
                           character);
-  make_folder(options.folder);  // not before what is given was found good: nothing is left of a mistake
+  make_folder(options.folder);  // not before truth and clips were found good
   const std::vector<Variant> variants = variants_of(options.source);
   Measured measured{.character = std::filesystem::path(options.character).stem().string(),
                     .processor = processor(),

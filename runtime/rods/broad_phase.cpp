@@ -32,11 +32,11 @@ simd::RodReachJob ContactFinder::reach_job(uint32_t group) const {
           .strands = std::min(batch.width_, batch.strand_count_ - group * batch.width_)};
 }
 
-// Lanes without a strand repeat the last one's.
+// Lanes without a strand repeat the first one's, as the batch's records do.
 void ContactFinder::place_lanes(uint32_t group) const {
   const size_t w = batch.width_, g = group - to.range_.first_group;
   for (size_t k = 0; k < w; ++k) {
-    const size_t strand = std::min<size_t>(group * w + k, batch.strand_count_ - 1);
+    const size_t strand = group * w + k < batch.strand_count_ ? group * w + k : 0;
     const RodBatch::Units& units = batch.units_[strand];
     to.lengths_m_[g * w + k] = units.length_m;
     for (size_t i = 0; i < 3; ++i) to.origins_m_[(g * 3 + i) * w + k] = units.origin_m[i];

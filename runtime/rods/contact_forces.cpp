@@ -133,7 +133,7 @@ bool ContactForces::slides_on(const Contact& c, const Vector& slip) const {
 
 // What slides and is carried back, or drags less than its limit, sticks; what drags more slides. What may be
 // either slides where it goes on sliding, and further: by the slip's own size it would get there only slowly.
-// Returns whether it came to stick or to slide.
+// Returns whether it changed; to go on sliding is none.
 bool ContactForces::update_friction(Contact* c, const Vector& slip) const {
   if (c->state == Friction::kEither) {
     if (slides_on(*c, slip)) c->state = Friction::kSlides;
@@ -155,8 +155,9 @@ Vector ContactForces::taken_drag(const Contact& c, const Vector& slip, bool come
 }
 
 // What the forces that a system came to miss contact's laws by, kg m: a pull, drag that is more than friction
-// gives, or that does not go against the slip. Nothing where the iteration moved nothing: where friction is
-// at its limit and nothing slides, drags are not unique. The gain makes a force of each gap's rounding.
+// gives, or that does not go against the slip. Nothing where nothing stuck and the iteration moved nothing:
+// where friction is at its limit and nothing slides, drags are not unique. The gain makes a force of each
+// gap's rounding.
 double ContactForces::law_miss(const Contact& c, const Contact& before) const {
   const double moved =
       std::max(std::fabs(c.open_m - c.open_before_m), length(difference(c.slip_m, c.slip_before_m)));

@@ -1,9 +1,9 @@
 // rod_reach-inl.hpp  Which segments of a group may touch an obstacle, and which may enter its core.
 //
-//   reach     1.25 (way + r), way the most that an end of the segment goes
+//   reach     1.25 r and 1.25 of the way that an end goes freely, or the way to the first iterate if longer
 //   sphere    least |p + s a|, -1 <= s <= 1, p its middle from the sphere's, a half its axis
-//   capsule   |d| - |d . a| / |d|, d from the nearest point of its axis to p: distance along an axis is
-//   convex plane     n . p - |n . a|
+//   capsule   |d| - |d . a| / |d|, d from the nearest point of its axis to p, as distance is convex along a
+//   plane     n . p - |n . a|
 // Each less what float may have rounded off. What leaves float's range counts as near.
 HWY_BEFORE_NAMESPACE();
 namespace sinew::simd::HWY_NAMESPACE {
@@ -296,8 +296,9 @@ bool rod_enter(const RodReachJob& job, uint16_t* lanes) {
     const auto all_clear = g.box(kBoxClear);
     for (size_t i = 0; i < job.segments; ++i) {
       const auto way = hn::Mul(hn::Set(d, 1.00001f), reach_way(g, i, kRodMove, kRodNow));
-      // The box goes that far beyond the axis.
-      const auto far_clear = hn::Add(all_clear, g.reach(i, kReachTouch));
+      // The box goes that far beyond the axis; its own share of a core is not in it.
+      const auto own_core = hn::Mul(hn::Set(d, kReachCore), g.reach(i, kReachRadius));
+      const auto far_clear = hn::Sub(hn::Add(all_clear, g.reach(i, kReachTouch)), own_core);
       const auto clear = hn::And(hn::Lt(way, g.reach(i, kReachClear)), hn::Lt(way, far_clear));
       const auto enters = hn::Not(clear);
       const uint32_t bits = lane_bits(d, hn::And(enters, hn::Gt(g.get(i, kRodFree), hn::Zero(d))), g.first);

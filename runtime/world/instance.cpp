@@ -28,6 +28,7 @@ namespace {
 
 static_assert(std::is_trivially_copyable_v<InstanceState>, "saved as bytes");
 static_assert(sizeof(InstanceState) == 400, "no padding: equal states are equal bytes");
+static_assert(offsetof(InstanceState, root) == kPlannedStateBytes, "what is planned by comes first");
 
 float smooth_step(float t) noexcept { return t * t * (3 - 2 * t); }
 

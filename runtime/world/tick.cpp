@@ -153,10 +153,11 @@ bool changes_level(const Instance& instance) noexcept {
          instance.plan.level != instance.state->level;
 }
 
-// One that is asleep was to have better; late, it keeps what it has.
+// One that is asleep was to have better; late, it keeps what it has, and it is the next one's turn.
 void sleep_on(Instance& instance) noexcept {
   instance.passed = true;
   stay_dormant(instance);
+  instance.state->held_s = 0;
 }
 
 }  // namespace

@@ -183,6 +183,7 @@ TEST_CASE("one_that_was_to_be_raised_and_is_late_sleeps_on_as_it_was") {
   REQUIRE(block.state->dormant == static_cast<uint32_t>(world::Dormancy::kBelowBest));
   step(Tier::kNetwork, 0);
   CHECK(block.passed);
+  CHECK(block.state->held_s == 0);  // the next one's turn
   CHECK_FALSE(block.cut);
   CHECK(block.state->tier == Tier::kModal);
   CHECK(block.state->dormant == static_cast<uint32_t>(world::Dormancy::kBelowBest));

@@ -133,7 +133,7 @@ struct InstanceDef {
 // three are simulated. Values are baked into packs: never renumbered.
 enum class Tier : uint32_t {
   kSkinning = 0,     // displacement is zero, or fading to it (12 ticks, 0.2 s at 60 Hz)
-  kExtrapolate = 1,  // the last displacement swings on freely (4 ticks), then fades
+  kExtrapolate = 1,  // the last displacement swings on, damped (4 ticks), then fades
   kNetwork = 2,      // the modal base, corrected by the asset's network
   kSpring = 3,       // a damped spring at each control node
   kModal = 4,        // the modes of each soft part, from its flesh: no training
