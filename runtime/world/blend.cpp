@@ -93,8 +93,9 @@ void stop_what_creeps(Instance& instance) noexcept {
 }
 
 // What is not driven swings as its first mode does, u_t = a1 u_{t-1} + a2 u_{t-2}. What it was driven
-// by is let go of over the ticks until the fade, for a force that ends at once is seen as a jump; it is damped
-// from the first on, for what is let go of where it was pressed hardest would fling faster than it ever moved.
+// by is let go of over the ticks until the fade, for a force that ends at once is seen as a jump; it is
+// damped from the first on, for what is let go of where it was pressed hardest would fling faster than it
+// ever moved.
 void swing_tail(Instance& instance, size_t r) noexcept {
   const pack::RegionRecord& region = instance.level->pack.regions[r];
   const pack::SpringRecord& spring = instance.level->pack.springs[r];
