@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 
 #include "rods/vector.hpp"
 
@@ -13,10 +14,9 @@ using namespace rods;
 
 // What comes this near is a contact: shares of the radius and of the way relative to the surface.
 constexpr double kNearRadius = 0.25, kNearWay = 0.25;
-// An axis' touch nearer to an end than this share of the axis is that end's.
+// A touch nearer to another one than this share of the axis is the same, unless it is deeper.
 constexpr double kAtEnd = 0.15;
-// A touch between two ends that touch is left out where it is no deeper than their line by this, of the
-// radius.
+// A touch is left out where it is no deeper by this, of the radius, than the line between those beside it.
 constexpr double kDeeper = 0.01;
 // Of the radius: gaps that count as the same.
 constexpr double kSame = 1e-3;
@@ -36,6 +36,8 @@ Vector unit_or(const Vector& v, const Vector& otherwise) {
   const double size = length(v);
   return size > kMeeting ? scaled(1 / size, v) : otherwise;
 }
+
+double share_of(const ContactHit& hit) { return 0.5 + 0.5 * static_cast<double>(hit.along); }
 
 Ball ball_about(const Triangle& t) {
   Ball ball = {scaled(1.0 / 3, sum(t.corners[0], sum(t.corners[1], t.corners[2]))), 0};
@@ -69,6 +71,7 @@ ProbeOnSurface::ProbeOnSurface(const Surface& surface, const ContactProbe& probe
                     length(difference(sweep_.end.to, sweep_.start.to)));
   round_ = !(half_m_ > 0) && std::equal(probe.end_m[0], probe.end_m[0] + 3, probe.end_m[1]);
   for (Nearby& n : samples_) n.distance_m = reach_m_;
+  samples_[kMiddle].distance_m = std::max(reach_m_, farthest_touch());
 }
 
 Vector ProbeOnSurface::sample(uint32_t where) const {
@@ -166,7 +169,7 @@ void ProbeOnSurface::take_first(const Touched& t, Touched* best) const noexcept 
 
 bool ProbeOnSurface::is_inside(uint32_t where) const noexcept {
   const Nearby& n = samples_[where];
-  if (n.triangle == kNone || surface_.two_sided()) return false;
+  if (n.triangle == kNone || n.distance_m > reach_m_ || surface_.two_sided()) return false;
   return side_of(surface_, filter_.groups, n.triangle, n.on, sample(where)) == Side::kInside;
 }
 
@@ -190,10 +193,15 @@ Vector ProbeOnSurface::relative_way(uint32_t triangle, const std::array<double, 
   return difference(way, weighted(surface_.moving_triangle(triangle, share_).moves, weights));
 }
 
+bool ProbeOnSurface::near(uint32_t triangle, const OnTriangle& on, double along,
+                          double gap_m) const noexcept {
+  if (grows_from(triangle, on)) return false;
+  const double way = length(relative_way(triangle, on.weights, along));
+  return gap_m <= kNearRadius * sweep_.radius_m + kNearWay * way;
+}
+
 bool ProbeOnSurface::near(const Touched& t) const noexcept {
-  if (t.triangle == kNone || grows_from(t.triangle, t.touch.at.on)) return false;
-  const double way = length(relative_way(t.triangle, t.touch.at.on.weights, t.touch.at.along));
-  return t.touch.gap_m <= kNearRadius * sweep_.radius_m + kNearWay * way;
+  return t.triangle != kNone && near(t.triangle, t.touch.at.on, t.touch.at.along, t.touch.gap_m);
 }
 
 void ProbeOnSurface::put(uint32_t triangle, const std::array<double, 3>& weights, double along,
@@ -216,18 +224,21 @@ void ProbeOnSurface::put(uint32_t triangle, const std::array<double, 3>& weights
 }
 
 // The gap is along the touch's normal, where the tick begins.
-void ProbeOnSurface::add(const Touched& t, uint32_t name) noexcept {
+ProbeOnSurface::AtStart ProbeOnSurface::at_start(const Touched& t, uint32_t name) const noexcept {
   const double along = name == kMiddle ? t.touch.at.along : Where{name} == kFrom ? 0 : 1;
   const Vector point = between(sweep_.start.from, sweep_.start.to, along);
-  const OnTriangle& on = t.touch.at.on;
-  const Vector there = weighted(surface_.start_triangle(t.triangle).corners, on.weights);
+  const Vector there = weighted(surface_.start_triangle(t.triangle).corners, t.touch.at.on.weights);
   Vector normal = t.touch.normal;
   if (t.touch.at.distance_m <= kMeeting) {  // the axis crosses something thin, or lies on it
     const Vector out = pseudonormal(surface_, filter_.groups, t.triangle, kFace);
     normal = dot(difference(sample(kMiddle), there), out) < -kMeeting ? scaled(-1, out) : out;
   }
-  if (!(dot(normal, normal) > 0)) return;
-  put(t.triangle, on.weights, along, normal, dot(difference(point, there), normal) - sweep_.radius_m, name);
+  return {along, normal, dot(difference(point, there), normal) - sweep_.radius_m};
+}
+
+void ProbeOnSurface::add(const Touched& t, const AtStart& s, uint32_t name) noexcept {
+  if (!(dot(s.normal, s.normal) > 0)) return;
+  put(t.triangle, t.touch.at.on.weights, s.along, s.normal, s.gap_m, name);
 }
 
 void ProbeOnSurface::add_way_out(uint32_t where) noexcept {
@@ -239,15 +250,50 @@ void ProbeOnSurface::add_way_out(uint32_t where) noexcept {
   put(n.triangle, n.on.weights, along(where), normal, -n.distance_m - sweep_.radius_m, where);
 }
 
+// The gap that contacts told so far leave the axis there: on the line between those on both sides of it, or,
+// next to one, that one's.
+double ProbeOnSurface::told_gap_m(double along) const noexcept {
+  const ContactHit *before = nullptr, *after = nullptr;
+  for (const ContactHit& hit : std::span(hits_, count_)) {
+    if (share_of(hit) <= along && (!before || hit.along > before->along)) before = &hit;
+    if (share_of(hit) >= along && (!after || hit.along < after->along)) after = &hit;
+  }
+  if (before && after) {
+    const double way = share_of(*after) - share_of(*before);
+    const double share = way > 0 ? (along - share_of(*before)) / way : 0;
+    return (1 - share) * before->gap_m + share * after->gap_m;
+  }
+  const ContactHit* beside = before ? before : after;
+  const bool is_near = beside && std::fabs(share_of(*beside) - along) < kAtEnd;
+  return is_near ? beside->gap_m : std::numeric_limits<double>::infinity();
+}
+
+bool ProbeOnSurface::is_told(double along, double gap_m) const noexcept {
+  return gap_m > told_gap_m(along) - kDeeper * sweep_.radius_m;
+}
+
+void ProbeOnSurface::add_axis() noexcept {
+  if (!near(axis_)) return;
+  const AtStart start = at_start(axis_, kMiddle);
+  if (!is_told(start.along, start.gap_m)) add(axis_, start, kMiddle);
+}
+
+// An axis on its way to lie on a ridge or a bulge touches it first near one end.
+void ProbeOnSurface::add_middle() noexcept {
+  const Nearby& n = samples_[kMiddle];
+  const double gap = n.distance_m - sweep_.radius_m;
+  if (round_ || n.triangle == kNone || is_told(0.5, gap) || !near(n.triangle, n.on, 0.5, gap)) return;
+  const Vector face = pseudonormal(surface_, filter_.groups, n.triangle, kFace);
+  const Vector normal = unit_or(difference(sample(kMiddle), n.on.point), face);
+  if (dot(normal, normal) > 0) put(n.triangle, n.on.weights, 0.5, normal, gap, kSamples);
+}
+
 void ProbeOnSurface::add_outside() noexcept {
-  const double at = axis_.touch.at.along, gap = axis_.touch.gap_m;
-  const bool from = !round_ && near(ends_[kFrom]), to = !round_ && near(ends_[kTo]);
-  const double of_from = ends_[kFrom].touch.gap_m, of_to = ends_[kTo].touch.gap_m;
-  const bool no_deeper = from && to && gap > (1 - at) * of_from + at * of_to - kDeeper * sweep_.radius_m;
-  const bool at_end = (from && at < kAtEnd) || (to && at > 1 - kAtEnd);
-  if (from) add(ends_[kFrom], kFrom);
-  if (to) add(ends_[kTo], kTo);
-  if (!no_deeper && !at_end && near(axis_)) add(axis_, kMiddle);
+  for (const uint32_t end : {kFrom, kTo}) {
+    if (!round_ && near(ends_[end])) add(ends_[end], at_start(ends_[end], end), end);
+  }
+  add_axis();
+  add_middle();
 }
 
 // Ends are no further from the surface than the middle and half the axis.
@@ -277,7 +323,7 @@ uint32_t ProbeOnSurface::find(ContactHit (&hits)[kMostContacts]) noexcept {
     if (samples_[where].inside) {
       add_way_out(where);
     } else if (where != kMiddle && !round_ && near(ends_[where])) {
-      add(ends_[where], where);
+      add(ends_[where], at_start(ends_[where], where), where);
     }
   }
   return count_;

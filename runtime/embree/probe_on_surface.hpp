@@ -21,7 +21,7 @@ struct Ball {
 
 class ProbeOnSurface {
  public:
-  static constexpr uint32_t kMostContacts = 3;
+  static constexpr uint32_t kMostContacts = 4;
 
   // dt_s is the tick, the probe is checked.
   ProbeOnSurface(const Surface& surface, const ContactProbe& probe, const SurfaceFilter& filter,
@@ -32,7 +32,8 @@ class ProbeOnSurface {
 
  private:
   static constexpr uint32_t kNone = ~0u;
-  enum Where : uint32_t { kFrom, kTo, kMiddle, kSamples };  // of the axis; a contact's name as well
+  // Of the axis. A contact's name as well: the axis' touch is kMiddle's, its middle's beside that kSamples'.
+  enum Where : uint32_t { kFrom, kTo, kMiddle, kSamples };
 
   struct Nearby {
     double distance_m;
@@ -43,6 +44,12 @@ class ProbeOnSurface {
   struct Touched {
     TriangleTouch touch = {};
     uint32_t triangle = kNone;
+  };
+  // A touch as it is where the tick begins.
+  struct AtStart {
+    double along;
+    Vector normal;
+    double gap_m;
   };
   static double along(uint32_t where) { return where == kFrom ? 0 : where == kTo ? 1 : 0.5; }
   Vector sample(uint32_t where) const;
@@ -60,8 +67,14 @@ class ProbeOnSurface {
   bool is_inside(uint32_t where) const noexcept;
   void tell_sides() noexcept;
   bool grows_from(uint32_t triangle, const OnTriangle& on) const noexcept;
+  bool near(uint32_t triangle, const OnTriangle& on, double along, double gap_m) const noexcept;
   bool near(const Touched& touched) const noexcept;
-  void add(const Touched& touched, uint32_t name) noexcept;
+  AtStart at_start(const Touched& touched, uint32_t name) const noexcept;
+  void add(const Touched& touched, const AtStart& start, uint32_t name) noexcept;
+  double told_gap_m(double along) const noexcept;
+  bool is_told(double along, double gap_m) const noexcept;
+  void add_axis() noexcept;
+  void add_middle() noexcept;
   void add_way_out(uint32_t where) noexcept;
   void add_outside() noexcept;
   void put(uint32_t triangle, const std::array<double, 3>& weights, double along, const Vector& normal,
