@@ -14,7 +14,7 @@ using namespace rods;
 
 // What comes this near is a contact: shares of the radius and of the way relative to the surface.
 constexpr double kNearRadius = 0.25, kNearWay = 0.25;
-// A touch nearer to another one than this share of the axis is the same, unless it is deeper.
+// A touch nearer to another than this share of the axis is left out unless it is deeper.
 constexpr double kAtEnd = 0.15;
 // A touch is left out where it is no deeper by this, of the radius, than the line between those beside it.
 constexpr double kDeeper = 0.01;
@@ -250,42 +250,72 @@ void ProbeOnSurface::add_way_out(uint32_t where) noexcept {
   put(n.triangle, n.on.weights, along(where), normal, -n.distance_m - sweep_.radius_m, where);
 }
 
-// The gap that contacts told so far leave the axis there: on the line between those on both sides of it, or,
-// next to one, that one's.
-double ProbeOnSurface::told_gap_m(double along) const noexcept {
+// As deep as this is told next to it already, but for a little.
+bool ProbeOnSurface::is_told_beside(double along, double gap_m) const noexcept {
+  return std::ranges::any_of(std::span(hits_, count_), [&](const ContactHit& hit) {
+    return std::fabs(share_of(hit) - along) < kAtEnd && hit.gap_m < gap_m + kDeeper * sweep_.radius_m;
+  });
+}
+
+// Contacts on both sides keep the axis from going deeper there, but for a little.
+bool ProbeOnSurface::is_told_between(double along, double gap_m) const noexcept {
   const ContactHit *before = nullptr, *after = nullptr;
   for (const ContactHit& hit : std::span(hits_, count_)) {
     if (share_of(hit) <= along && (!before || hit.along > before->along)) before = &hit;
     if (share_of(hit) >= along && (!after || hit.along < after->along)) after = &hit;
   }
-  if (before && after) {
-    const double way = share_of(*after) - share_of(*before);
-    const double share = way > 0 ? (along - share_of(*before)) / way : 0;
-    return (1 - share) * before->gap_m + share * after->gap_m;
-  }
-  const ContactHit* beside = before ? before : after;
-  const bool is_near = beside && std::fabs(share_of(*beside) - along) < kAtEnd;
-  return is_near ? beside->gap_m : std::numeric_limits<double>::infinity();
-}
-
-bool ProbeOnSurface::is_told(double along, double gap_m) const noexcept {
-  return gap_m > told_gap_m(along) - kDeeper * sweep_.radius_m;
+  if (!before || !after || before == after) return is_told_beside(along, gap_m);
+  const double share = (along - share_of(*before)) / (share_of(*after) - share_of(*before));
+  return (1 - share) * before->gap_m + share * after->gap_m < gap_m + kDeeper * sweep_.radius_m;
 }
 
 void ProbeOnSurface::add_axis() noexcept {
   if (!near(axis_)) return;
   const AtStart start = at_start(axis_, kMiddle);
-  if (!is_told(start.along, start.gap_m)) add(axis_, start, kMiddle);
+  if (is_told_beside(start.along, start.gap_m) || is_told_between(start.along, start.gap_m)) return;
+  add(axis_, start, kMiddle);
 }
 
 // An axis on its way to lie on a ridge or a bulge touches it first near one end.
 void ProbeOnSurface::add_middle() noexcept {
   const Nearby& n = samples_[kMiddle];
   const double gap = n.distance_m - sweep_.radius_m;
-  if (round_ || n.triangle == kNone || is_told(0.5, gap) || !near(n.triangle, n.on, 0.5, gap)) return;
+  if (round_ || n.triangle == kNone || is_told_between(0.5, gap) || !near(n.triangle, n.on, 0.5, gap)) return;
   const Vector face = pseudonormal(surface_, filter_.groups, n.triangle, kFace);
   const Vector normal = unit_or(difference(sample(kMiddle), n.on.point), face);
   if (dot(normal, normal) > 0) put(n.triangle, n.on.weights, 0.5, normal, gap, kSamples);
+}
+
+HeldPoint ProbeOnSurface::held_by(const ContactHit& hit) const noexcept {
+  const Vector start = between(sweep_.start.from, sweep_.start.to, share_of(hit));
+  const Vector end = between(sweep_.end.from, sweep_.end.to, share_of(hit));
+  const Vector plane_move = scaled(share_ * surface_.motion_s(), vector_of(hit.velocity_m_s));
+  const double open = hit.gap_m + dot(vector_of(hit.normal), difference(difference(end, start), plane_move));
+  const Vector slid = scaled_sum(std::max(0.0, -open), vector_of(hit.normal), end);
+  return {start, slid, sweep_.radius_m, vector_of(hit.normal), hit.gap_m};
+}
+
+// Of several faces the one that is reached first.
+void ProbeOnSurface::add_fold(const ContactHit& first) noexcept {
+  const HeldPoint held = held_by(first);
+  const double reach = 0.5 * length(difference(held.end, held.start)) + sweep_.radius_m;
+  FoldTouch best = {};
+  uint32_t face = kNone;
+  surface_.visit_ball(between(held.start, held.end, 0.5), reach, [&](uint32_t triangle) {
+    if (!(surface_.groups(triangle) & filter_.groups)) return reach;
+    const auto touch = touch_in_fold(held, surface_.moving_triangle(triangle, share_), surface_.two_sided());
+    if (!touch || grows_from(triangle, touch->on)) return reach;
+    const bool first_of_same = touch->time == best.time && triangle < face;
+    if (face == kNone || touch->time < best.time || first_of_same) best = *touch, face = triangle;
+    return reach;
+  });
+  if (face == kNone) return;
+  put(face, best.on.weights, share_of(first), best.normal, best.gap_m, kFolds + first.name);
+}
+
+void ProbeOnSurface::add_folds() noexcept {
+  const uint32_t told = count_;
+  for (uint32_t i = 0; i < told; ++i) add_fold(hits_[i]);
 }
 
 void ProbeOnSurface::add_outside() noexcept {
@@ -294,6 +324,7 @@ void ProbeOnSurface::add_outside() noexcept {
   }
   add_axis();
   add_middle();
+  add_folds();
 }
 
 // Ends are no further from the surface than the middle and half the axis.

@@ -7,6 +7,7 @@
 // one is, the contacts are the shortest ways out of those that are inside, and the touches of the ends that
 // are not.
 #pragma once
+#include "embree/fold.hpp"
 #include "embree/side.hpp"
 #include "rods/sweep.hpp"
 
@@ -21,7 +22,7 @@ struct Ball {
 
 class ProbeOnSurface {
  public:
-  static constexpr uint32_t kMostContacts = 4;
+  static constexpr uint32_t kMostContacts = 8;
 
   // dt_s is the tick, the probe is checked.
   ProbeOnSurface(const Surface& surface, const ContactProbe& probe, const SurfaceFilter& filter,
@@ -34,6 +35,7 @@ class ProbeOnSurface {
   static constexpr uint32_t kNone = ~0u;
   // Of the axis. A contact's name as well: the axis' touch is kMiddle's, its middle's beside that kSamples'.
   enum Where : uint32_t { kFrom, kTo, kMiddle, kSamples };
+  static constexpr uint32_t kFolds = 4;  // what a fold adds to a contact's name
 
   struct Nearby {
     double distance_m;
@@ -71,10 +73,13 @@ class ProbeOnSurface {
   bool near(const Touched& touched) const noexcept;
   AtStart at_start(const Touched& touched, uint32_t name) const noexcept;
   void add(const Touched& touched, const AtStart& start, uint32_t name) noexcept;
-  double told_gap_m(double along) const noexcept;
-  bool is_told(double along, double gap_m) const noexcept;
+  bool is_told_beside(double along, double gap_m) const noexcept;
+  bool is_told_between(double along, double gap_m) const noexcept;
   void add_axis() noexcept;
   void add_middle() noexcept;
+  HeldPoint held_by(const ContactHit& hit) const noexcept;
+  void add_fold(const ContactHit& first) noexcept;
+  void add_folds() noexcept;
   void add_way_out(uint32_t where) noexcept;
   void add_outside() noexcept;
   void put(uint32_t triangle, const std::array<double, 3>& weights, double along, const Vector& normal,

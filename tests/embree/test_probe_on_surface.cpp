@@ -139,6 +139,28 @@ TEST_CASE("an_axis_that_comes_to_lie_on_a_ball_is_kept_off_between_its_ends_too"
   }
 }
 
+TEST_CASE("a_capsule_that_slides_into_a_corner_is_held_by_floor_and_wall") {
+  MeshData corner;
+  for (const Vector& p : {Vector{-1, 0, -1}, {-1, 0, 1}, {0, 0, -1}, {0, 0, 1}, {0, 1, -1}, {0, 1, 1}}) {
+    corner.add_vertex(p);
+  }
+  corner.triangles = {0, 1, 2, 1, 3, 2, 2, 3, 4, 3, 5, 4};
+  SurfaceId id;
+  SurfaceContacts contacts = contacts_of(corner, &id);
+  // Along the corner, 0.25 away from the wall; falls by 0.02 and slides by 0.4.
+  const double low = 1.1 * kRadius_m;
+  const ContactProbe slides = probe({-0.35, low, -0.2}, {-0.35, low, 0.2}, kRadius_m, {0.4, -0.02, 0});
+  const std::vector<ContactHit> hits = found(contacts, slides);
+  REQUIRE(hits.size() == 4);
+  for (const ContactHit& hit : hits) {
+    const bool floor = hit.normal[1] == Approx(1);
+    CHECK((floor || hit.normal[0] == Approx(-1)));
+    CHECK(hit.gap_m == Approx(floor ? 0.1 * kRadius_m : 0.35 - kRadius_m));
+    CHECK(std::fabs(hit.along) == 1);
+    for (const ContactHit& other : hits) CHECK((&hit == &other || hit.name != other.name));
+  }
+}
+
 TEST_CASE("what_is_inside_is_pushed_out_the_shortest_way") {
   SurfaceId id;
   SurfaceContacts contacts = contacts_of(box({1, 1, 1}), &id, {.reach_m = 0.2f});
