@@ -2,10 +2,10 @@
 //
 // A first walk through the tree finds what is nearest to the middle of the axis and whether there is anything
 // to touch; most probes end there. A second looks at both ends, where the tick begins, and at the ends' and
-// the whole axis' first touch on the way. If
-// none of the three is inside, the contacts are the axis' touch and those of the ends that touch as well; if
-// one is, the contacts are the shortest ways out of those that are inside, and the touches of the ends that
-// are not.
+// the whole axis' first touch on the way. If none of the three is inside, the contacts are the touches of the
+// ends, that of the axis and that of its middle, each of the latter where it is deeper than those beside it
+// keep the axis; and in a valley the other side of it (embree/fold.hpp). If one is inside, they are the
+// shortest ways out of those that are, and the touches of the ends that are not.
 #pragma once
 #include "embree/fold.hpp"
 #include "embree/side.hpp"
