@@ -161,6 +161,27 @@ TEST_CASE("a_capsule_that_slides_into_a_corner_is_held_by_floor_and_wall") {
   }
 }
 
+TEST_CASE("what_touches_next_to_an_end_is_told_only_where_it_is_deeper_than_the_end") {
+  MeshData roof;  // flat, its ridge along z
+  for (const Vector& p :
+       {Vector{-1, -0.02, -1}, {-1, -0.02, 1}, {0, 0, -1}, {0, 0, 1}, {1, -0.02, -1}, {1, -0.02, 1}}) {
+    roof.add_vertex(p);
+  }
+  roof.triangles = {0, 1, 2, 1, 3, 2, 2, 3, 4, 3, 5, 4};
+  SurfaceId id;
+  SurfaceContacts contacts = contacts_of(roof, &id);
+  // Across the ridge at a tenth of the way: 0.4 mm deeper there than at the end beside it, where 0.5 are
+  // left, then 0.64.
+  const double height = kRadius_m - 0.0004;
+  const ContactProbe level = probe({-0.02, height, 0}, {0.2, height, 0}, kRadius_m);
+  const std::vector<ContactHit> once = found(contacts, level);
+  REQUIRE(once.size() == 2);
+  CHECK(once[0].along == -1);
+  CHECK(once[1].along == 1);
+  const ContactProbe tilted = probe({-0.02, height + 0.0006, 0}, {0.2, height - 0.002, 0}, kRadius_m);
+  CHECK(found(contacts, tilted).size() == 3);
+}
+
 TEST_CASE("what_is_inside_is_pushed_out_the_shortest_way") {
   SurfaceId id;
   SurfaceContacts contacts = contacts_of(box({1, 1, 1}), &id, {.reach_m = 0.2f});
