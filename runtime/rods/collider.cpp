@@ -231,7 +231,9 @@ void RodCollider::begin_range(const RodBatch& batch, uint32_t first_group, uint3
   ContactForces{*this, batch}.begin();
 }
 
-uint32_t RodCollider::settle(const RodBatch& batch) noexcept { return ContactForces{*this, batch}.settle(); }
+uint32_t RodCollider::settle(const RodBatch& batch, uint32_t left) noexcept {
+  return ContactForces{*this, batch}.settle(left);
+}
 
 void RodCollider::end_range(const RodBatch& batch, float dt_s, RodReport* report) noexcept {
   const ContactFinder finder{*this, batch, static_cast<double>(dt_s)};
@@ -267,6 +269,12 @@ void RodCollider::keep_nothing(uint32_t room_for) noexcept {
   if (capacity_ > 0) std::fill_n(kept_places_, kept_in_use_, 0u);
 }
 
+RodCollider::Kept RodCollider::kept_of(const Contact& c, double per_square) {
+  const ForceInNewtons force = {per_square * c.force, scaled(per_square, c.drag)};
+  if (!(c.last.press > 0)) return {c.name, force, {}};
+  return {c.name, force, {force.press - c.last.press, difference(force.drag, c.last.drag)}};
+}
+
 // Forces are what the next step's contacts of the same names start with; not those of strands that did not
 // converge.
 void RodCollider::end_step(float dt_s, RodReport* report) noexcept {
@@ -280,7 +288,7 @@ void RodCollider::end_step(float dt_s, RodReport* report) noexcept {
     const bool lost =
         turning_[c.sides[0].strand] || (c.sides[1].segment != kNoSegment && turning_[c.sides[1].strand]);
     if (!(c.force > 0) || lost) continue;
-    keep({c.name, c.force * per_square, scaled(per_square, c.drag)});
+    keep(kept_of(c, per_square));
   }
   report->contacts = contact_count_;
   report->contacts_dropped = dropped_;

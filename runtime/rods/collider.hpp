@@ -8,9 +8,9 @@
 // is looked at once more, and a strand whose axis would be in the core of a sphere or capsule stops on its
 // way there and counts as not converged: fast rods are caught, slower than momentum would have them. Between
 // two rods, and at given points, there is no such second look.
-// Forces of the last step are where the next one's begin. They are the collider's: what is to go on with the
-// same bits saves and restores its state as well as the batch's.
-// One thread at a time with its batch. A step allocates nothing. Memory: some 400 bytes a contact; where rods
+// Forces go on from the last step, as they changed in it where the rods' start is continued. They are the
+// collider's: what is to go on with the same bits saves and restores its state as well as the batch's.
+// One thread at a time with its batch. A step allocates nothing. Memory: some 450 bytes a contact; where rods
 // collide with one another some 800 bytes a segment besides, for all groups then iterate in turn.
 // Cost: a bound of each segment's way and of its distance from each obstacle near its group, a strand a lane
 // in float (simd/rod_reach-inl.hpp); sweeps of what may touch, a strand a lane in double
@@ -106,11 +106,10 @@ class RodCollider {
   friend struct ContactFinder;
   friend struct ContactForces;
 
-  // A contact's force in newtons, from step to step.
+  // A contact's force from step to step, and by how much the last one changed it; 0 where that was its first.
   struct Kept {
     uint64_t name;
-    double force_n;
-    Vector drag_n;
+    ForceInNewtons force, change;
   };
   // What became of a source's hit.
   struct Taken {
@@ -131,6 +130,7 @@ class RodCollider {
   bool fits(const RodBatch& batch) const noexcept;
   const Kept* find_kept(uint64_t name) const noexcept;  // null: there is none
   void keep(const Kept& kept) noexcept;
+  static Kept kept_of(const Contact& contact, double per_square);
   void keep_nothing(uint32_t room_for) noexcept;
   // The parts of a step; of each range settle() after each iteration.
   bool passes(uint32_t strand, uint32_t segment, uint32_t capsule) const noexcept {
@@ -138,7 +138,8 @@ class RodCollider {
   }
   void begin_step() noexcept;
   void begin_range(const RodBatch& batch, uint32_t first_group, uint32_t groups, float dt_s) noexcept;
-  uint32_t settle(const RodBatch& batch) noexcept;  // returns how many strands are not converged
+  // `left`: iterations that may follow. Returns how many strands are not converged.
+  uint32_t settle(const RodBatch& batch, uint32_t left) noexcept;
   void end_range(const RodBatch& batch, float dt_s, RodReport* report) noexcept;
   void end_step(float dt_s, RodReport* report) noexcept;
   void push(float dt_s) const noexcept;

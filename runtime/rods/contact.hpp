@@ -25,6 +25,12 @@ inline constexpr uint32_t kNoSegment = ~0u;
 // slip's own size, which comes to either, slowly.
 enum class Friction : uint32_t { kSticks, kSlides, kEither };
 
+// A contact's force, of a step of any length.
+struct ForceInNewtons {
+  double press;
+  Vector drag;
+};
+
 // Masses in kg, forces times the step's square (kg m), lengths in m.
 struct Contact {
   // One of two bodies; the second may be an obstacle, which has no segment.
@@ -46,8 +52,9 @@ struct Contact {
   double friction;
   double limit;  // of drag: friction times the pressing force
   Friction state;
-  uint32_t changes;  // of the state in this step
-  double scale_m;    // the segment's radius, that tolerance and penetration are shares of
+  uint32_t changes;     // of the state in this step
+  double scale_m;       // the segment's radius, that tolerance and penetration are shares of
+  ForceInNewtons last;  // that the last step came to, 0 where it did not press
   double force;
   Vector drag;
   double open_m;  // C and slip of the last evaluation
@@ -72,6 +79,8 @@ inline constexpr double kObstacleGain = 1e3;
 // Between rods, over their reduced mass: more would slow down what both do together, less the force. An
 // iteration leaves 2/3 of a common motion's error and, of a force's, 1/3 or more where rods are stiff.
 inline constexpr double kRodGain = 2;
+// Penetration that is left alone, of the tolerance.
+inline constexpr double kLeftAlone = 2;
 // Of an obstacle's gain, what a gap counts against a force that presses: the segment's own mass lets go where
 // the force would not close the gap in the step; all of the gain, of what an iteration leaves open by a
 // rounding.

@@ -2,6 +2,7 @@
 #include "rods/contact_forces.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace sinew::rods {
@@ -243,7 +244,7 @@ void ContactForces::find_ways() const {
   std::fill(to.ways_ + first_strand(), to.ways_ + end_strand(), 1.0);
   for (const Contact& c : contacts()) {
     if (!(c.open_m < -kDeep * c.scale_m)) continue;
-    shorten(c, std::max(c.gap_m - c.allowed_m, 0.0));
+    shorten(c, std::max(c.gap_m - c.allowed_m, 0.0), kDeep);
   }
 }
 
@@ -253,8 +254,8 @@ bool ContactForces::stepped_back(const Contact& c) const {
 
 // A way that opened at `start` and leads deep into a contact ends where the contact has just closed; one that
 // began in it where it is deep, or at once.
-void ContactForces::shorten(const Contact& c, double start) const {
-  const double least = (start > 0 ? 0.25 * kDeep : kAcross) * c.scale_m;
+void ContactForces::shorten(const Contact& c, double start, double deep) const {
+  const double least = (start > 0 ? 0.25 * deep : kAcross) * c.scale_m;
   const double way = std::max(0.0, start + least) / (start - c.open_m);
   to.ways_[c.sides[0].strand] = std::min(to.ways_[c.sides[0].strand], way);
   if (c.has_two_rods()) to.ways_[c.sides[1].strand] = std::min(to.ways_[c.sides[1].strand], way);
@@ -333,15 +334,23 @@ void ContactForces::take_back(uint32_t strand) const {
   }
 }
 
+// The fewer are left to push out again what an iteration goes into, the less deep it may go: the last no
+// deeper than is left alone, each before it twice as deep.
+double ContactForces::deep_after(uint32_t left) const {
+  const double last = kLeftAlone * static_cast<double>(to.settings_.tolerance);
+  return std::min(kDeep, std::ldexp(last, static_cast<int>(std::min(left, 32u))));
+}
+
 // No iteration goes deep, or deeper, into anything: ways end there.
-void ContactForces::stop_at_new_contacts() const {
+void ContactForces::stop_at_new_contacts(uint32_t left) const {
+  const double deep = deep_after(left);
   std::fill(to.ways_ + first_strand(), to.ways_ + end_strand(), 1.0);
   bool any = false;
   for (const Contact& c : contacts()) {
     if (!(c.open_before_m > 0) && c.allowed_m < 0) continue;  // it began deep
-    const double deep = c.open_before_m > 0 ? kDeep : kAcross;
-    if (!iterated(c) || !(c.open_m < -deep * c.scale_m) || c.open_m >= c.open_before_m) continue;
-    shorten(c, c.open_before_m);
+    const double most = c.open_before_m > 0 ? deep : kAcross;
+    if (!iterated(c) || !(c.open_m < -most * c.scale_m) || c.open_m >= c.open_before_m) continue;
+    shorten(c, c.open_before_m, deep);
     any = true;
   }
   if (!any) return;
@@ -353,7 +362,7 @@ void ContactForces::stop_at_new_contacts() const {
   }
 }
 
-uint32_t ContactForces::settle() const noexcept {
+uint32_t ContactForces::settle(uint32_t left) const noexcept {
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {
     to.iterated_[s] = to.turning_[s] | to.pending_[s];
     to.turning_[s] = active(s) != 0;
@@ -367,7 +376,7 @@ uint32_t ContactForces::settle() const noexcept {
     look(&c);
   }
   find_felt();
-  stop_at_new_contacts();
+  stop_at_new_contacts(left);
   for (Contact& c : contacts()) {
     if (!iterated(c) || take_over(&c)) continue;
     to.pending_[c.sides[0].strand] = 1;

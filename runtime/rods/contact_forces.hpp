@@ -12,8 +12,9 @@ struct ContactForces {
   void clear() const noexcept;
   // Of the range, at the step's first iterate; all its strands are to be iterated.
   void begin() const noexcept;
-  // After an iteration: takes forces over, and says which strands go on, in kLaneActive. Returns how many.
-  uint32_t settle() const noexcept;
+  // After an iteration that so many may follow: takes forces over, and says which strands go on, in
+  // kLaneActive. Returns how many.
+  uint32_t settle(uint32_t left) const noexcept;
   // A strand that touches something and still turns a little each iteration keeps its forces: it counts as
   // one whose contacts did not converge.
   void forgive() const noexcept;
@@ -46,9 +47,10 @@ struct ContactForces {
   double moved_kg_m(uint32_t strand) const;
   void find_ways() const;
   bool stepped_back(const Contact& contact) const;
-  void shorten(const Contact& contact, double start) const;
+  double deep_after(uint32_t left) const;
+  void shorten(const Contact& contact, double start, double deep) const;
   void take_back(uint32_t strand) const;
-  void stop_at_new_contacts() const;
+  void stop_at_new_contacts(uint32_t left) const;
   void turn_part(uint32_t strand, uint32_t segment, uint32_t field) const;
   void step_back(uint32_t strand, uint32_t segment) const;
   void look(Contact* contact) const;

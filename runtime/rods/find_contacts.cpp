@@ -8,8 +8,6 @@ namespace sinew::rods {
 namespace {
 
 constexpr double kNearRadii = simd::kRodNearRadii, kNearWay = simd::kRodNearWay;
-// Penetration that is left alone, of the tolerance.
-constexpr double kLeftAlone = 2;
 // Capsules that are side by side overlap by more than this share of their radii; between its ends such an
 // overlap is touched too, unless the axes' angle bends it away by less than the last.
 constexpr double kOverlap = 0.5, kFlat = 0.3;
@@ -231,11 +229,20 @@ void ContactFinder::complete(Contact* c, double depth_m, double restitution) con
   const double rebound = rebound_m(*c, restitution);
   if (rebound > 0) c->allowed_m = std::max(c->allowed_m, std::max(0.0, c->gap_m) + rebound);
   set_gain(c);
+  begin_force(c);
+}
+
+// Where the rods' own start continues the last steps, contacts' forces go on as they changed.
+void ContactFinder::begin_force(Contact* c) const {
   if (batch.settings_.start == RodStart::kZero) return;
   const RodCollider::Kept* kept = to.find_kept(c->name);
   if (!kept) return;
-  c->force = kept->force_n * dt_s * dt_s;
-  c->drag = scaled(dt_s * dt_s, across(kept->drag_n, c->normal));
+  c->last = kept->force;
+  const double share = batch.settings_.start >= RodStart::kContinued ? 1 : 0, square = dt_s * dt_s;
+  const double press = kept->force.press + share * kept->change.press;
+  if (!(press > 0)) return;
+  c->force = square * press;
+  c->drag = scaled(square, across(scaled_sum(share, kept->change.drag, kept->force.drag), c->normal));
 }
 
 Contact* ContactFinder::add_point(const ContactPoint& p, uint64_t kind) const {

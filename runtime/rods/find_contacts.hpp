@@ -78,6 +78,7 @@ struct ContactFinder {
   Contact* take() const;
   Contact* add(const Contact& contact, double depth_m, double restitution) const;
   void complete(Contact* contact, double depth_m, double restitution) const;
+  void begin_force(Contact* contact) const;
   double rebound_m(const Contact& contact, double restitution) const;
   void set_gain(Contact* contact) const;
   Contact* add_point(const ContactPoint& point, uint64_t kind) const;

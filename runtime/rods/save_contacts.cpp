@@ -10,8 +10,7 @@ namespace {
 
 struct Saved {
   uint64_t name;
-  double force_n;
-  Vector drag_n;
+  ForceInNewtons force, change;
 };
 
 // A saved one where it lies, at any address.
@@ -33,7 +32,7 @@ size_t RodCollider::state_bytes() const noexcept { return sizeof(uint64_t) + cap
 void RodCollider::save_state(std::byte* out) const noexcept {
   const uint64_t count = kept_count_;
   for (uint32_t i = 0; i < kept_count_; ++i) {
-    const Saved one = {kept_[i].name, kept_[i].force_n, kept_[i].drag_n};
+    const Saved one = {kept_[i].name, kept_[i].force, kept_[i].change};
     std::memcpy(out + sizeof count + i * sizeof one, &one, sizeof one);
   }
   std::memcpy(out, &count, sizeof count);
@@ -50,7 +49,7 @@ void RodCollider::restore_state(const std::byte* from) noexcept {
   for (uint64_t i = 0; i < count && i < capacity_; ++i) {
     Saved saved;
     std::memcpy(&saved, from + sizeof count + i * sizeof saved, sizeof saved);
-    keep({saved.name, saved.force_n, saved.drag_n});
+    keep({saved.name, saved.force, saved.change});
   }
 }
 

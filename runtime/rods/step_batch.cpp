@@ -97,7 +97,7 @@ void RodBatch::step_groups(uint32_t first_group, uint32_t groups, float dt_s, Ro
   if (collider) collider->begin_range(*this, first_group, groups, dt_s);
   for (uint32_t k = 0; k < settings_.max_iterations; ++k) {
     uint32_t active = iterate(first_group, groups, dt_s, collider);
-    if (collider) active = collider->settle(*this);
+    if (collider) active = collider->settle(*this, settings_.max_iterations - 1 - k);
     if (active == 0) break;
   }
   if (collider) collider->end_range(*this, dt_s, report);

@@ -20,7 +20,7 @@ constexpr uint64_t kMagic = 0x31544154534e5753;  // "SWNSTAT1", little-endian
 // 7: who is hidden. 8: what the scheduler goes by, what is gone on by between ticks that are simulated whole.
 // 9: who is dormant.
 // 10: the level of control graphs, and what its last change left. 11: the same in another order.
-constexpr uint32_t kVersion = 11;
+constexpr uint32_t kVersion = 12;
 
 struct Header {
   uint64_t magic, fingerprint, payload_bytes, checksum;

@@ -18,6 +18,11 @@ rods::RodCollider on_floor(const test::RodBatch& batch, const rods::Plane& floor
   return collider;
 }
 
+float weight_n(const rods::SegmentDef& s) {
+  const double square = static_cast<double>(s.radius_m) * static_cast<double>(s.radius_m);
+  return static_cast<float>(kGravity * M_PI * square * static_cast<double>(s.length_m * s.density_kg_m3));
+}
+
 struct Slide {
   double acceleration, way;
 };
@@ -243,6 +248,50 @@ TEST_CASE("hair_that_slides_over_a_head_that_turns_hardly_ever_ends_at_the_cap")
     if (i >= 120) unconverged += report.contacts_unconverged;
   }
   CHECK(unconverged < 0.002 * 300 * 120);
+}
+
+// What slides where it did not touch before has the fewer iterations left to be pushed out the later that is.
+TEST_CASE("hair_that_ends_at_the_cap_is_left_no_deeper_than_an_iteration_may_go_last") {
+  const test::HairOnHead hair(300);
+  test::RodBatch batch = hair.batch({.start = rods::RodStart::kContinued, .max_iterations = 6});
+  rods::RodCollider collider = test::collider_of(batch, {.rods_collide = false});
+  uint32_t unconverged = 0;
+  float deepest = 0;
+  for (int i = 0; i < 360; ++i) {
+    const double now = i * static_cast<double>(test::kFrame_s),
+                 then = now + static_cast<double>(test::kFrame_s);
+    const double turn = hair.angle(then, true) - hair.angle(now, true);
+    hair.turn(&batch, then);
+    REQUIRE(test::HairOnHead::put(&collider, turn / static_cast<double>(test::kFrame_s)).ok());
+    const test::RodReport report = test::step(batch, collider);
+    if (i < 120) continue;
+    unconverged += report.contacts_unconverged;
+    deepest = std::max(deepest, report.deepest_penetration);
+  }
+  CHECK(unconverged > 100);
+  CHECK(deepest < kDeepest);
+}
+
+// Pressed by ten per cent of its weight more in each step: what friction gives grows as steadily.
+TEST_CASE("contact_forces_go_on_as_they_changed_where_the_rods_own_start_continues") {
+  const auto iterations = [](rods::RodStart start) {
+    const test::Segments rod = test::lying_rod(0.01);
+    test::RodBatch batch = test::batch_of({rod}, {.start = start});
+    rods::RodCollider collider = on_floor(batch, {.friction = 0.2f});
+    test::throw_rod(batch, 0, 20, 0, 0);
+    uint32_t sum = 0;
+    for (int i = 0; i < 30; ++i) {
+      for (uint32_t k = 0; k < batch.segment_count(); ++k) {
+        REQUIRE(batch.set_force(0, k, {0, -0.1f * static_cast<float>(i) * weight_n(rod[k]), 0}).ok());
+      }
+      const test::RodReport report = test::step(batch, collider);
+      CHECK(report.unconverged + report.contacts_unconverged == 0);
+      if (i >= 10) sum += report.iterations;
+    }
+    return sum;
+  };
+  CHECK(iterations(rods::RodStart::kContinued) == 20);  // one a step
+  CHECK(iterations(rods::RodStart::kPrevious) > 30);
 }
 
 TEST_CASE("what_starts_in_penetration_leaves_at_a_bounded_speed") {

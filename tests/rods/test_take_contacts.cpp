@@ -35,6 +35,9 @@ class Lying {
     return test::straight_rod({.segments = 12, .young_pa = 1e7f, .length_m = 1, .radius_m = 0.01f});
   }
   static constexpr rods::RodSettings kRods = {.max_iterations = 40, .tolerance_rad = 1e-4f};
+  // Where contacts' forces go on as they changed as well.
+  static constexpr rods::RodSettings kContinued = {
+      .start = rods::RodStart::kContinued, .max_iterations = 40, .tolerance_rad = 1e-4f};
 
   test::RodBatch batch;
   rods::RodCollider collider;
@@ -78,8 +81,10 @@ TEST_CASE("contact_forces_are_taken_only_from_a_collider_for_the_same_batch_with
 
 TEST_CASE("a_batch_and_a_collider_that_take_anothers_state_take_the_same_steps") {
   const uint32_t capacity = GENERATE(0u, 500u);  // another size of table
-  Lying from, to({.contact_capacity = capacity});
+  const rods::RodSettings settings = GENERATE(Lying::kRods, Lying::kContinued);
+  Lying from({}, settings), to({.contact_capacity = capacity}, settings);
   from.touch();
+  from.fall(4);
   to.fall(3);
   REQUIRE(to.batch.take_state(from.batch).ok());
   REQUIRE(to.collider.take_state(from.collider).ok());
@@ -91,8 +96,10 @@ TEST_CASE("a_batch_and_a_collider_that_take_anothers_state_take_the_same_steps")
 }
 
 TEST_CASE("a_batch_and_a_collider_that_are_restored_take_the_same_steps_again") {
-  Lying lying;
+  const rods::RodSettings settings = GENERATE(Lying::kRods, Lying::kContinued);
+  Lying lying({}, settings);
   lying.touch();
+  lying.fall(4);
   std::vector<std::byte> batch(lying.batch.state_bytes()), forces(lying.collider.state_bytes());
   lying.batch.save_state(batch.data());
   lying.collider.save_state(forces.data());
@@ -108,7 +115,7 @@ TEST_CASE("a_batch_and_a_collider_that_are_restored_take_the_same_steps_again") 
     lying.collider.restore_state(forces.data());
   }
   // The forces matter: without them the same state goes elsewhere.
-  Lying fresh;
+  Lying fresh({}, settings);
   REQUIRE(fresh.batch.take_state(lying.batch).ok());
   fresh.fall(1);
   CHECK(test::distance(first[0].position_m, fresh.batch.pose(0, 11).position_m) > 0);
