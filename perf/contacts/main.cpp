@@ -4,6 +4,7 @@
 // `still`, and `turning` to and fro. Without a collider the same hair hangs through the head. `over_rods` is
 // what the collider adds over what the rods cost alone, of the medians of a step. --rods: of 200 strands,
 // with one another too; --long: 25 seconds, for the deepest; --quick: that everything runs.
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 
@@ -24,6 +25,7 @@ struct Result {
 
 constexpr float kStep_s = 1.0f / 60;
 constexpr int kSettle = 180;
+constexpr int kInTurn = 20;
 
 Status place(With with, double velocity_rad_s, rods::RodCollider* collider) {
   const rods::Plane floor = {.point_m = {0, -10, 0}};
@@ -31,34 +33,76 @@ Status place(With with, double velocity_rad_s, rods::RodCollider* collider) {
   return test::HairOnHead::put(collider, velocity_rad_s);
 }
 
-Result measure(const test::HairOnHead& hair, With with, bool turning, int steps) {
-  rods::RodBatch batch =
-      hair.batch(rods::default_settings({.segments = 16, .young_pa = 1e6f, .contacts = true}));
-  rods::RodCollider collider;
-  if (!rods::RodCollider::create(batch, {.rods_collide = with == With::kHeadAndRods}, &collider).ok())
-    return {};
-  Result out;
-  std::vector<double> times;
-  for (int i = 0; i < kSettle + steps; ++i) {
+// One batch with its collider, that steps through the motion.
+class Run {
+ public:
+  Run(const test::HairOnHead& hair, With with, bool turning)
+      : hair_(hair),
+        with_(with),
+        turning_(turning),
+        batch_(hair.batch(rods::default_settings({.segments = 16, .young_pa = 1e6f, .contacts = true}))) {
+    ok_ = rods::RodCollider::create(batch_, {.rods_collide = with == With::kHeadAndRods}, &collider_).ok();
+  }
+
+  void step(int i) {
     const double now = i * static_cast<double>(kStep_s), then = now + static_cast<double>(kStep_s);
-    const double speed =
-        (hair.angle(then, turning) - hair.angle(now, turning)) / static_cast<double>(kStep_s);
-    if (turning) hair.turn(&batch, then);
-    if (with != With::kNothing && !place(with, speed, &collider).ok()) return {};
+    const double turn = hair_.angle(then, turning_) - hair_.angle(now, turning_);
+    if (turning_) hair_.turn(&batch_, then);
+    if (with_ != With::kNothing) ok_ &= place(with_, turn / static_cast<double>(kStep_s), &collider_).ok();
     rods::RodReport report;
     const double begin = clock_us(CLOCK_THREAD_CPUTIME_ID);
-    const Status status = batch.step(kStep_s, with == With::kNothing ? nullptr : &collider, &report);
-    const double us = clock_us(CLOCK_THREAD_CPUTIME_ID) - begin;
-    if (!status.ok() || i < kSettle) continue;
-    times.push_back(us);
-    out.iterations += static_cast<double>(report.iterations_sum) / batch.strand_count() / steps;
-    out.contacts += static_cast<double>(report.contacts) / steps;
-    out.unconverged += static_cast<double>(report.unconverged) / steps;
-    out.contacts_unconverged += static_cast<double>(report.contacts_unconverged) / steps;
-    out.deepest = std::max(out.deepest, static_cast<double>(report.deepest_penetration));
+    ok_ &= batch_.step(kStep_s, with_ == With::kNothing ? nullptr : &collider_, &report).ok();
+    if (i >= kSettle) add(clock_us(CLOCK_THREAD_CPUTIME_ID) - begin, report);
   }
-  out.step_us = median(times);
-  return out;
+
+  // NaN where a step was refused.
+  Result result() const {
+    Result out = sum_;
+    const auto steps = static_cast<double>(times_us_.size());
+    for (double* value : {&out.iterations, &out.contacts, &out.unconverged, &out.contacts_unconverged})
+      *value /= steps;
+    out.step_us = ok_ ? median(times_us_) : std::nan("");
+    return out;
+  }
+
+ private:
+  void add(double us, const rods::RodReport& report) {
+    times_us_.push_back(us);
+    sum_.iterations += static_cast<double>(report.iterations_sum) / batch_.strand_count();
+    sum_.contacts += report.contacts;
+    sum_.unconverged += report.unconverged;
+    sum_.contacts_unconverged += report.contacts_unconverged;
+    sum_.deepest = std::max(sum_.deepest, static_cast<double>(report.deepest_penetration));
+  }
+
+  const test::HairOnHead& hair_;
+  With with_;
+  bool turning_, ok_ = false;
+  rods::RodBatch batch_;
+  rods::RodCollider collider_;
+  std::vector<double> times_us_;
+  Result sum_;
+};
+
+void print(const char* motion, With with, const Result& r, double alone_us) {
+  std::printf("%s,%s,%.0f,%.2f,%.2f,%.0f,%.1f,%.1f,%.3f\n", motion, kNames[static_cast<int>(with)], r.step_us,
+              (r.step_us - alone_us) / alone_us, r.iterations, r.contacts, r.unconverged,
+              r.contacts_unconverged, r.deepest);
+}
+
+// In turn, a few steps each: what the machine is slowed down by, all are.
+void run(const test::HairOnHead& hair, bool turning, int steps, bool rods) {
+  std::vector<With> kinds = {With::kNothing, With::kFarPlane, With::kHead};
+  if (rods) kinds.push_back(With::kHeadAndRods);
+  std::vector<Run> runs;
+  for (const With with : kinds) runs.emplace_back(hair, with, turning);
+  for (int first = 0; first < kSettle + steps; first += kInTurn) {
+    for (Run& one : runs) {
+      for (int i = first; i < std::min(first + kInTurn, kSettle + steps); ++i) one.step(i);
+    }
+  }
+  for (size_t k = 0; k < kinds.size(); ++k)
+    print(turning ? "turning" : "still", kinds[k], runs[k].result(), runs[0].result().step_us);
 }
 
 void run(int strands, int steps, bool rods) {
@@ -67,18 +111,7 @@ void run(int strands, int steps, bool rods) {
   std::puts(
       "motion,with,us_a_step,over_rods,iterations_a_strand,contacts,unconverged,contacts_unconverged,"
       "deepest");
-  for (const bool turning : {false, true}) {
-    double alone = 0;
-    for (const With with : {With::kNothing, With::kFarPlane, With::kHead, With::kHeadAndRods}) {
-      if (with == With::kHeadAndRods && !rods) continue;
-      const Result r = measure(hair, with, turning, steps);
-      if (with == With::kNothing) alone = r.step_us;
-      std::printf("%s,%s,%.0f,%.2f,%.2f,%.0f,%.1f,%.1f,%.3f\n", turning ? "turning" : "still",
-                  kNames[static_cast<int>(with)], r.step_us, (r.step_us - alone) / alone, r.iterations,
-                  r.contacts, r.unconverged, r.contacts_unconverged, r.deepest);
-      std::fflush(stdout);
-    }
-  }
+  for (const bool turning : {false, true}) run(hair, turning, steps, rods);
 }
 
 }  // namespace
