@@ -5,7 +5,7 @@
 //   slip   s = what of move_a - move_b, at the surfaces, is across n (Macklin et al. 2014, Section 6.1)
 //   drag   t = drag - gain s, shortened to a limit where it slides
 // After each iteration force and drag become what its linear system made of p and t, by the share of its
-// change that was taken, and the limit follows friction times that force (contact_forces.cpp). What is
+// change that was taken, and the limit follows friction times that force (contact_laws.cpp). What is
 // iterated to has C = 0 or p = 0, s = 0 or |t| = friction p, exactly, whatever the gain and whatever it began
 // with. The gain only says how fast: an iteration divides force's error by 1 + gain w, w the inverse mass
 // that the contact feels. Normal and points belong to the step: the constraint is linear in the moves, and an

@@ -30,31 +30,29 @@ struct ContactForces {
   double miss() const noexcept;
 
  private:
-  struct Axes {
-    Vector x, y, z;
-  };
   uint32_t first_strand() const { return to.range_.first_group * batch.width_; }
   uint32_t end_strand() const;
-  float& lane(uint32_t strand, uint32_t field) const;
-  float& active(uint32_t strand) const;
-  static Axes axes_of(const Turn& turn);
-  Turn turn_now(const Contact::Side& side) const;
+  float& lane(uint32_t strand, uint32_t field) const {
+    const size_t group = strand / batch.width_;
+    return batch.lanes_[(group * simd::kLaneFields + field) * batch.width_ + strand % batch.width_];
+  }
+  float& active(uint32_t strand) const { return lane(strand, simd::kLaneActive); }
+  Turn turn_now(const Contact::Side& side) const {
+    const float* q = to.scratch_row(batch, side.strand, side.segment, simd::kRodNow);
+    const size_t w = batch.width_;
+    return {q[0], q[w], q[2 * w], q[3 * w]};
+  }
+  std::span<Contact> contacts() const;
+  bool iterated(const Contact& contact) const;
+  // Gap and slip at the iterate.
+  void look(Contact* contact) const;
   Vector move(const Contact& contact, size_t side) const;
   Vector surface_move(const Contact& contact, size_t side, const Vector& move) const;
-  std::span<Contact> contacts() const;
-  void find_felt() const;
-  void limit_felt() const;
-  double moved_kg_m(uint32_t strand) const;
-  void find_ways() const;
-  bool stepped_back(const Contact& contact) const;
-  double deep_after(uint32_t left) const;
-  void shorten(const Contact& contact, double start, double deep) const;
-  void take_back(uint32_t strand) const;
-  void stop_at_new_contacts(uint32_t left) const;
-  void turn_part(uint32_t strand, uint32_t segment, uint32_t field) const;
-  void step_back(uint32_t strand, uint32_t segment) const;
-  void look(Contact* contact) const;
-  bool iterated(const Contact& contact) const;
+  double last_turn(uint32_t strand) const;
+
+  // contact_laws.cpp
+  void begin_friction(Contact* contact) const;
+  bool take_over(Contact* contact) const;
   double tolerance_m(const Contact& contact) const;
   double nothing_m(const Contact& contact) const;
   double share_of(const Contact& contact) const;
@@ -62,16 +60,30 @@ struct ContactForces {
   double limit_of_new(const Contact& contact) const;
   bool begin_anew(Contact* contact) const;
   bool slides_on(const Contact& contact, const Vector& slip) const;
+  bool slid(const Contact& contact) const;
   bool update_friction(Contact* contact, const Vector& slip) const;
   Vector taken_drag(const Contact& contact, const Vector& slip, bool comes_to_rest) const;
   double law_miss(const Contact& contact, const Contact& before) const;
-  bool is_exact(const Contact& contact, const Contact& before) const;
   void add_miss(const Contact& contact, const Contact& before) const;
-  bool slid(const Contact& contact) const;
-  void begin_friction(Contact* contact) const;
-  bool take_over(Contact* contact) const;
-  double last_turn(uint32_t strand) const;
+  bool is_exact(const Contact& contact, const Contact& before) const;
+
+  // contact_ways.cpp
+  void find_ways() const;
+  void stop_at_new_contacts(uint32_t left) const;
+  double deep_after(uint32_t left) const;
+  bool stepped_back(const Contact& contact) const;
+  void shorten(const Contact& contact, double start, double deep) const;
+  void step_back(uint32_t strand, uint32_t segment) const;
+  void take_back(uint32_t strand) const;
+  void turn_part(uint32_t strand, uint32_t segment, uint32_t field) const;
   void hold(uint32_t strand, uint32_t segment) const;
+
+  // push_source.cpp
+  void find_felt() const;
+  void limit_felt() const;
+  double moved_kg_m(uint32_t strand) const;
+
+  // contact_rows.cpp
   void assemble() const;
   void assemble_ended() const;
   void add(const Contact& contact) const;

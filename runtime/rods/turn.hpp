@@ -27,6 +27,17 @@ inline Turn product(const Turn& a, const Turn& b) {
           a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2]};
 }
 
+// Where it turns x, y and z to.
+struct Axes {
+  Vector x, y, z;
+};
+inline Axes axes_of(const Turn& q) {
+  const double xx = 2 * q[0] * q[0], yy = 2 * q[1] * q[1], zz = 2 * q[2] * q[2];
+  const double xy = 2 * q[0] * q[1], xz = 2 * q[0] * q[2], yz = 2 * q[1] * q[2];
+  const double xw = 2 * q[0] * q[3], yw = 2 * q[1] * q[3], zw = 2 * q[2] * q[3];
+  return {{1 - yy - zz, xy + zw, xz - yw}, {xy - zw, 1 - xx - zz, yz + xw}, {xz + yw, yz - xw, 1 - xx - yy}};
+}
+
 inline Vector turned(const Turn& q, const Vector& v) {
   const Turn out = product(product(q, {v[0], v[1], v[2], 0}), conjugate(q));
   return {out[0], out[1], out[2]};
