@@ -19,12 +19,13 @@ struct TierLook {
   RgbBytes ink;  // of its line in the picture
 };
 
-// By Tier. The network's instances keep their own colours.
-constexpr TierLook kLooks[] = {{"skinning", {128, 138, 152}, 0.75f, {96, 104, 118}},
-                               {"extrapolated", {236, 190, 60}, 0.6f, {150, 104, 0}},
+// By Tier. The network's instances keep their own colours; little of these is left in the others', or blue on
+// orange would be pink.
+constexpr TierLook kLooks[] = {{"skinning", {128, 138, 152}, 0.9f, {96, 104, 118}},
+                               {"extrapolated", {236, 190, 60}, 0.8f, {150, 104, 0}},
                                {"network", {0, 0, 0}, 0, {38, 44, 54}},
-                               {"spring", {196, 84, 40}, 0.5f, {150, 60, 24}},
-                               {"modal", {44, 111, 187}, 0.45f, {24, 84, 150}}};
+                               {"spring", {132, 70, 160}, 0.8f, {112, 50, 140}},
+                               {"modal", {44, 111, 187}, 0.8f, {24, 84, 150}}};
 
 const TierLook& look_of(Tier tier) { return kLooks[static_cast<size_t>(tier)]; }
 
