@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/turn_between.hpp"
 #include "rods/sweep.hpp"
 #include "rods/vector.hpp"
 #include "world/rod_sleep.hpp"
@@ -78,7 +79,7 @@ rods::Capsule capsule_of(const Instance& instance, uint32_t proxy) noexcept {
   const Vector3d linear = (from + to - was_from - was_to) / (2 * tick_s);
   Eigen::Map<Eigen::Vector3f>(capsule.motion.linear_m_s) = linear.cast<float>();
   if (!((to - from).norm() > 0) || !((was_to - was_from).norm() > 0)) return capsule;
-  const Eigen::AngleAxisd turn(Quaterniond::FromTwoVectors(was_to - was_from, to - from));
+  const Eigen::AngleAxisd turn(core::turn_between(was_to - was_from, to - from));
   const Vector3d spin = turn.angle() / tick_s * turn.axis();
   Eigen::Map<Eigen::Vector3f>(capsule.motion.angular_rad_s) = spin.cast<float>();
   return capsule;

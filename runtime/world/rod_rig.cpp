@@ -7,6 +7,7 @@
 #include <new>
 
 #include "core/status.hpp"
+#include "core/turn_between.hpp"
 #include "rods/section.hpp"
 #include "world/pose.hpp"
 
@@ -27,7 +28,7 @@ std::span<const pack::RodSegmentRecord> segments_of(const pack::PackView& pack, 
 // start neighbours would be rolled against each other, where that start points away from them by half a turn.
 Quaterniond axes_of(const pack::RodSegmentRecord& segment, const Quaterniond& parent) noexcept {
   const Vector3d along = vector(segment.end_m) - vector(segment.begin_m);
-  return (Quaterniond::FromTwoVectors(parent * Vector3d::UnitZ(), along) * parent).normalized();
+  return (core::turn_between(parent * Vector3d::UnitZ(), along) * parent).normalized();
 }
 
 rods::SegmentDef define_segment(const pack::RodSegmentRecord& record) noexcept {

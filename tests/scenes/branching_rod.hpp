@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/turn_between.hpp"
 #include "rods/strand.hpp"
 
 namespace sinew::test {
@@ -42,7 +43,7 @@ class TreeGrower {
       : orders_(orders), timber_(timber), random_(seed), up_(up) {}
 
   BranchingRod grow() {
-    branch(0, rods::kNoParent, Vector::Zero(), Eigen::Quaterniond::FromTwoVectors(Vector::UnitZ(), up_), 1);
+    branch(0, rods::kNoParent, Vector::Zero(), core::turn_between(Vector::UnitZ(), up_), 1);
     made_.segments[0].fixed = true;
     return std::move(made_);
   }
@@ -81,7 +82,7 @@ class TreeGrower {
     const Vector aim = tip.turn * (Eigen::AngleAxisd(around, Vector::UnitZ()) *
                                    (Eigen::AngleAxisd(lean, Vector::UnitX()) * Vector::UnitZ()));
     // The smallest turn there: a joint whose rest twists by half a turn has no stiffness.
-    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(axis(tip.turn), aim) * tip.turn;
+    const Eigen::Quaterniond turn = core::turn_between(axis(tip.turn), aim) * tip.turn;
     branch(order + 1, tip.segment, tip.end, turn, (1.15 - 0.65 * tip.share) * (0.9 + 0.2 * uniform()));
   }
 
@@ -89,7 +90,7 @@ class TreeGrower {
   Eigen::Quaterniond bent(uint32_t order, const Eigen::Quaterniond& turn) {
     const double crooked = order == 0 ? 0.05 : 0.10, lift = order == 0 ? 0.02 : 0.07;
     const Vector aim = axis(turn) + crooked * Vector(signed_one(), signed_one(), signed_one()) + lift * up_;
-    return Eigen::Quaterniond::FromTwoVectors(axis(turn), aim) * turn;
+    return core::turn_between(axis(turn), aim) * turn;
   }
 
   void add(uint32_t order, uint32_t parent, const Vector& middle, const Eigen::Quaterniond& turn,

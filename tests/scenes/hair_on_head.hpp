@@ -2,6 +2,7 @@
 #pragma once
 #include <Eigen/Geometry>
 
+#include "core/turn_between.hpp"
 #include "rods/collider.hpp"
 #include "rods/rod_batch.hpp"
 #include "tests/rods/rod_scenes.hpp"
@@ -70,7 +71,7 @@ class HairOnHead {
     const Eigen::Vector3d down(height * std::cos(turn), -flat, height * std::sin(turn));
     const Eigen::Vector3d along = (normal + 1.2 * down).normalized();
     Segments out = one;
-    turn_strand(&out, Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), along));
+    turn_strand(&out, core::turn_between(Eigen::Vector3d::UnitX(), along));
     const double longer = 1 + 0.05 * scattered(n, 0);
     for (SegmentDef& s : out) {
       s.damping_s = 0.01f;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/turn_between.hpp"
 #include "rods/strand.hpp"
 
 namespace sinew::test {
@@ -17,7 +18,7 @@ inline std::vector<rods::SegmentDef> rod_through(std::span<const Eigen::Vector3d
   Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
   for (uint32_t i = 0; i + 1 < points.size(); ++i) {
     const Eigen::Vector3d along = points[i + 1] - points[i], middle = 0.5 * (points[i] + points[i + 1]);
-    turn = (Eigen::Quaterniond::FromTwoVectors(turn * Eigen::Vector3d::UnitZ(), along) * turn).normalized();
+    turn = (core::turn_between(turn * Eigen::Vector3d::UnitZ(), along) * turn).normalized();
     rods::SegmentDef s = like;
     for (int k = 0; k < 3; ++k) s.position_m[k] = middle[k];
     for (int k = 0; k < 4; ++k) s.orientation[k] = static_cast<float>(turn.coeffs()[k]);
