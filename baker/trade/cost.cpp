@@ -4,8 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <memory>
-#include <vector>
 
 #include "baker/trade/error.hpp"
 
@@ -86,17 +84,20 @@ Cost warm_cost(const LoadedPack& character, const TrueMotion& motion, Tier tier,
   return best;
 }
 
-Cost cold_cost(const LoadedPack& character, const TrueMotion& motion, Tier tier, uint32_t every,
-               uint32_t level) {
+Crowd::Crowd(const LoadedPack& character, const TrueMotion& motion) {
   const size_t count = crowd_of(character, motion);
-  std::vector<std::unique_ptr<ClosedLoop>> crowd;
-  for (size_t i = 0; i < count; ++i) crowd.push_back(std::make_unique<ClosedLoop>(character, motion));
-  const size_t rounds = std::min(motion.ticks(), kWarmUpTicks / 2 + std::max<size_t>(12, kColdSteps / count));
+  for (size_t i = 0; i < count; ++i) loops_.push_back(std::make_unique<ClosedLoop>(character, motion));
+  loops_.front()->save(&start_);
+  rounds_ = std::min(motion.ticks(), kWarmUpTicks / 2 + std::max<size_t>(12, kColdSteps / count));
+}
+
+Cost Crowd::cold_cost(Tier tier, uint32_t every, uint32_t level) {
+  for (const auto& loop : loops_) loop->restore(start_);
   Steps steps;
-  for (size_t tick = 1; tick <= rounds; ++tick) {
-    for (const auto& loop : crowd) {
+  for (size_t tick = 1; tick <= rounds_; ++tick) {
+    for (const auto& loop : loops_) {
       const bool counts = step(*loop, tick - 1, tier, every, level);
-      if (counts && tick > std::min(kWarmUpTicks / 2, rounds / 2)) steps.add(*loop);
+      if (counts && tick > std::min(kWarmUpTicks / 2, rounds_ / 2)) steps.add(*loop);
     }
   }
   return steps.cost();

@@ -78,7 +78,8 @@ class Ways {
   void add_tier(const LoadedPack& character, Tier tier, uint32_t every, uint32_t level) {
     ways_.push_back(
         {name_of(character, tier, every, level), "tier", tier, every, level, [=, this, &character](Row* row) {
-           tell_cost(character, row);
+           if (!crowd_) crowd_.emplace(character, motion_);
+           tell_cost(character, *crowd_, row);
            row->error = tier == Tier::kSkinning      ? yardstick_.of_skinning()
                         : tier == Tier::kExtrapolate ? yardstick_.of_extrapolation(character, kCarriedTicks)
                                                      : yardstick_.of(character, tier, every, level);
@@ -96,20 +97,23 @@ class Ways {
     const std::string name = name_of(character, tier, 1, 0) + ", " + variant.name;
     ways_.push_back({name, "variant", tier, 1, 0, [=, this](Row* row) {
                        const LoadedPack baked = variant.bake();
-                       tell_cost(baked, row);
+                       crowd_.reset();  // memory for one at a time
+                       Crowd crowd(baked, motion_);
+                       tell_cost(baked, crowd, row);
                        row->error = yardstick_.of(baked, tier, 1, 0);
                      }});
   }
   const std::vector<Way>& all() const { return ways_; }
 
  private:
-  void tell_cost(const LoadedPack& character, Row* row) const {
+  void tell_cost(const LoadedPack& character, Crowd& crowd, Row* row) const {
     row->warm = warm_cost(character, motion_, row->tier, row->every, row->level);
-    row->cold = cold_cost(character, motion_, row->tier, row->every, row->level);
+    row->cold = crowd.cold_cost(row->tier, row->every, row->level);
   }
 
   const Yardstick& yardstick_;
   const TrueMotion& motion_;
+  std::optional<Crowd> crowd_;  // of the character itself, from the first tier that is measured on
   std::vector<Way> ways_;
 };
 
