@@ -6,6 +6,7 @@
 #include "baker/common/write_file.hpp"
 #include "tests/baker/common/temporary_folder.hpp"
 #include "tests/baker/programs/bake.hpp"
+#include "tests/baker/programs/fill_once.hpp"
 #include "tests/pack/small_pack.hpp"
 
 using namespace sinew::baker;
@@ -20,7 +21,9 @@ struct Creature {
   std::string glb = folder.file("creature.glb"), weights = folder.file("w.safetensors"),
               pack = folder.file("c.sinew");
   Creature() {
-    REQUIRE(bake({"creature", kAssets + "creature.json", "-o", glb, "--vertices", "800"}).exit_code == 0);
+    fill_once(folder, "creature", {SINEW_BAKE, __FILE__, kAssets + "creature.json"}, [this] {
+      REQUIRE(bake({"creature", kAssets + "creature.json", "-o", glb, "--vertices", "800"}).exit_code == 0);
+    });
     write_safetensors(weights, small_weights());
   }
   std::vector<std::string> bake_arguments(const std::string& output) const {

@@ -6,6 +6,7 @@
 #include "simd/isa.hpp"
 #include "tests/baker/common/temporary_folder.hpp"
 #include "tests/baker/programs/bake.hpp"
+#include "tests/baker/programs/fill_once.hpp"
 
 using namespace sinew;
 using namespace sinew::baker;
@@ -25,20 +26,26 @@ void must(const ProgramResult& result) {
 struct Hop {
   TemporaryFolder folder;
   std::string glb = folder.file("c.glb"), truth = folder.file("t.safetensors");
+  const std::string recipe = kAssets + "creature/tissue.json",
+                    weights = kAssets + "weights/creature.safetensors";
   Hop() {
+    fill_once(folder, "hop_of_judge",
+              {SINEW_BAKE, __FILE__, kAssets + "creature/creature.json", recipe, weights},
+              [this] { make(); });
+  }
+  void make() const {
     must(bake({"creature", kAssets + "creature/creature.json", "-o", glb, "--vertices", "800"}));
     must(bake({"truth", glb, "--recipe", recipe, "--motion", "clip:hop", "--seconds", "0.834", "-o", truth}));
     for (const char* precision : {"fp32", "fp16", "int8"})
-      character(precision, {"--tissue", kAssets + "weights/creature.safetensors", "--precision", precision});
+      character(precision, {"--tissue", weights, "--precision", precision});
     character("modes", {});
   }
-  void character(const std::string& name, std::vector<std::string> more) {
+  void character(const std::string& name, std::vector<std::string> more) const {
     std::vector<std::string> arguments = {"character", glb, "--recipe", recipe, "-o", pack(name)};
     arguments.insert(arguments.end(), more.begin(), more.end());
     must(bake(arguments));
   }
   std::string pack(const std::string& name) const { return folder.file(name + ".sinew"); }
-  const std::string recipe = kAssets + "creature/tissue.json";
 };
 
 const Hop& hop() {

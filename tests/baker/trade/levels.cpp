@@ -8,6 +8,7 @@
 #include "baker/programs/closed_loop.hpp"
 #include "tests/baker/common/temporary_folder.hpp"
 #include "tests/baker/programs/bake.hpp"
+#include "tests/baker/programs/fill_once.hpp"
 #include "world/read.hpp"
 
 using namespace sinew;
@@ -27,11 +28,16 @@ void must(const ProgramResult& result) {
 struct Hop {
   TemporaryFolder folder;
   std::string glb = folder.file("c.glb"), truth = folder.file("t.safetensors"), pack = folder.file("c.sinew");
+  const std::string recipe = kAssets + "creature/tissue_crowd.json",
+                    weights = kAssets + "weights/creature.safetensors";
   Hop() {
-    const std::string recipe = kAssets + "creature/tissue_crowd.json";
+    fill_once(folder, "hop_of_levels",
+              {SINEW_BAKE, __FILE__, kAssets + "creature/creature.json", recipe, weights},
+              [this] { make(); });
+  }
+  void make() const {
     must(bake({"creature", kAssets + "creature/creature.json", "-o", glb, "--vertices", "800"}));
-    must(bake({"character", glb, "--recipe", recipe, "--tissue", kAssets + "weights/creature.safetensors",
-               "-o", pack}));
+    must(bake({"character", glb, "--recipe", recipe, "--tissue", weights, "-o", pack}));
     must(bake({"truth", glb, "--recipe", recipe, "--motion", "clip:hop", "--seconds", "0.667", "--positions",
                "-o", truth}));
   }

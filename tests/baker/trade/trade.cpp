@@ -9,6 +9,7 @@
 #include "baker/programs/loaded_pack.hpp"
 #include "tests/baker/common/temporary_folder.hpp"
 #include "tests/baker/programs/bake.hpp"
+#include "tests/baker/programs/fill_once.hpp"
 #include "tests/pack/small_pack.hpp"
 
 using namespace sinew;
@@ -51,6 +52,11 @@ struct Hop {
   const std::string recipe = kAssets + "creature/tissue.json",
                     weights = kAssets + "weights/creature.safetensors";
   Hop() {
+    fill_once(folder, "hop_of_trade",
+              {SINEW_BAKE, __FILE__, kAssets + "creature/creature.json", recipe, weights},
+              [this] { make(); });
+  }
+  void make() const {
     must(bake({"creature", kAssets + "creature/creature.json", "-o", glb, "--vertices", "800"}));
     must(bake({"character", glb, "--recipe", recipe, "--tissue", weights, "-o", pack}));
     must(bake({"truth", glb, "--recipe", recipe, "--motion", "clip:hop", "--seconds", "0.667", "--positions",
