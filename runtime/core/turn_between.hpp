@@ -6,9 +6,9 @@
 
 namespace sinew::core {
 
-// Lengths do not matter. Opposite directions have no smallest turn: half a turn about some axis across them.
-// The bits of Eigen's FromTwoVectors in all other cases, without the decomposition that costs each file that
-// calls it six seconds to compile.
+// Lengths do not matter; from or to no direction at all it is no turn, of norm sqrt(1/2). Opposite directions
+// have no smallest turn: half a turn about some axis across them. The bits of Eigen's FromTwoVectors in all
+// other cases, without the decomposition that each file that calls it would compile.
 inline Eigen::Quaterniond turn_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) noexcept {
   constexpr double kOpposite = 1e-12;  // a millionth of a radian
   const Eigen::Vector3d a = from.normalized(), b = to.normalized();

@@ -11,8 +11,6 @@ namespace {
 using namespace rods;
 
 constexpr double kFlat = 1e-3;  // of the radius
-// Of the radius: a fold that takes less of it is left alone. A second contact at one point costs iterations.
-constexpr double kDeeper = 0.05;
 
 Triangle at(const MovingTriangle& m, double time) {
   Triangle out;
@@ -40,7 +38,7 @@ double highest(const Triangle& t, const HeldPoint& held) {
 std::optional<FoldTouch> touch_in_fold(const HeldPoint& held, const MovingTriangle& triangle,
                                        bool two_sided) noexcept {
   const Triangle& t = triangle.start;
-  const double radius = held.radius_m, deep = kDeeper * radius;
+  const double radius = held.radius_m, deep = kFoldDeeper * radius;
   const Vector n = normal_to(t, held.start, two_sided);
   const double gap = dot(n, difference(held.start, t.corners[0])) - radius;
   const double left = dot(n, difference(held.end, at(triangle, 1).corners[0])) - radius;

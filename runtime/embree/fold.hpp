@@ -6,6 +6,9 @@
 
 namespace sinew::embree {
 
+// Of the radius: a fold that takes less of it is left alone. A second contact at one point costs iterations.
+inline constexpr double kFoldDeeper = 0.05;
+
 // A point of an axis on its way through a tick, as far as a contact lets it.
 struct HeldPoint {
   Vector start, end;

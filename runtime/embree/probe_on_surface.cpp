@@ -298,7 +298,7 @@ HeldPoint ProbeOnSurface::held_by(const ContactHit& hit) const noexcept {
 // Of several faces the one that is reached first.
 void ProbeOnSurface::add_fold(const ContactHit& first) noexcept {
   const HeldPoint held = held_by(first);
-  const double reach = 0.5 * length(difference(held.end, held.start)) + sweep_.radius_m;
+  const double reach = 0.5 * length(difference(held.end, held.start)) + (1 + kFoldDeeper) * sweep_.radius_m;
   FoldTouch best = {};
   uint32_t face = kNone;
   surface_.visit_ball(between(held.start, held.end, 0.5), reach, [&](uint32_t triangle) {
@@ -313,7 +313,9 @@ void ProbeOnSurface::add_fold(const ContactHit& first) noexcept {
   put(face, best.on.weights, share_of(first), best.normal, best.gap_m, kFolds + first.name);
 }
 
+// A ball is pushed out of one side after the other; so many are asked about that it has to do.
 void ProbeOnSurface::add_folds() noexcept {
+  if (round_ || !(sweep_.radius_m > 0)) return;
   const uint32_t told = count_;
   for (uint32_t i = 0; i < told; ++i) add_fold(hits_[i]);
 }

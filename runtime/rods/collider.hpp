@@ -3,7 +3,7 @@
 // Handed to RodBatch::step. Rods are capsules, their whole length touches. Each step finds contacts once, on
 // the way from where segments are to where they would go freely (find_contacts.cpp), so that what passes
 // through something within a step touches it. Forces are part of the step's Newton iteration
-// (contact_forces.cpp): a step that converges, RodReport::unconverged and contacts_unconverged both 0, ends
+// (contact_laws.cpp): a step that converges, RodReport::unconverged and contacts_unconverged both 0, ends
 // where it does whatever it started from; one that ends at the cap depends on its start. What was iterated to
 // is looked at once more, and a strand whose axis would be in the core of a sphere or capsule stops on its
 // way there and counts as not converged: fast rods are caught, slower than momentum would have them. Between
@@ -106,7 +106,8 @@ class RodCollider {
   friend struct ContactFinder;
   friend struct ContactForces;
 
-  // A contact's force from step to step, and by how much the last one changed it; 0 where that was its first.
+  // A contact's force from step to step, and by how much the last one changed it, whatever its length; 0
+  // where that was its first, and where it did not converge.
   struct Kept {
     uint64_t name;
     ForceInNewtons force, change;

@@ -54,7 +54,7 @@ struct Contact {
   Friction state;
   uint32_t changes;     // of the state in this step
   double scale_m;       // the segment's radius, that tolerance and penetration are shares of
-  ForceInNewtons last;  // that the last step came to, 0 where it did not press
+  ForceInNewtons last;  // that the last step came to; 0 where it did not press, or its change is not known
   double force;
   Vector drag;
   double open_m;  // C and slip of the last evaluation

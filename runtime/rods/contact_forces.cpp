@@ -102,6 +102,7 @@ uint32_t ContactForces::settle(uint32_t left) const noexcept {
   }
   uint32_t count = 0;
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {
+    to.pending_[s] |= to.iterated_[s] && to.ways_[s] < 1;  // what is cut short has not got to its end
     to.pending_[s] |= to.misses_[s] > static_cast<double>(to.settings_.tolerance) * to.presses_[s];
     active(s) = to.turning_[s] | to.pending_[s] ? 1.0f : 0.0f;
     count += active(s) != 0;
@@ -150,6 +151,11 @@ void ContactForces::hold() const noexcept {
 }
 
 uint32_t ContactForces::end() const noexcept {
+  for (Contact& c : contacts()) {
+    const bool ended =
+        !to.pending_[c.sides[0].strand] && !(c.has_two_rods() && to.pending_[c.sides[1].strand]);
+    if (!ended) c.last = {};  // no change to go on with
+  }
   uint32_t count = 0;
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {
     active(s) = to.turning_[s] ? 1.0f : 0.0f;

@@ -88,16 +88,17 @@ void ContactForces::take_back(uint32_t strand) const {
       less(row(i, simd::kRodForceNow + k), back * static_cast<double>(*row(i, simd::kRodMiss + k)));
     }
   }
+  lane(strand, simd::kLaneShare) = static_cast<float>(way * taken);
 }
 
-// The fewer are left to push out again what an iteration goes into, the less deep it may go: the last no
-// deeper than is left alone, each before it twice as deep.
+// How deep an iteration may go, of a radius, into what it did not touch: the fewer are left to push it out
+// again, the less. The last no deeper than is left alone, each before it twice as deep, up to kDeep.
 double ContactForces::deep_after(uint32_t left) const {
   const double last = kLeftAlone * static_cast<double>(to.settings_.tolerance);
   return std::min(kDeep, std::ldexp(last, static_cast<int>(std::min(left, 32u))));
 }
 
-// No iteration goes deep, or deeper, into anything: ways end there.
+// No iteration goes deep into what it did not touch, nor deeper into what it did: ways end there.
 void ContactForces::stop_at_new_contacts(uint32_t left) const {
   const double deep = deep_after(left);
   std::fill(to.ways_ + first_strand(), to.ways_ + end_strand(), 1.0);

@@ -36,7 +36,8 @@ enum class RodStart : uint32_t {
   kPrevious = 1,
   kGiven = 2,  // what set_start gave since the last step; segments given nothing as with kPrevious
   // The last steps' forces continued: by how much they change, and how that changed, in the shares that would
-  // have served the last step best (simd/rod_start-inl.hpp). As kPrevious until four steps converged.
+  // have served the last step best (simd/rod_start-inl.hpp). As kPrevious until four steps converged;
+  // contacts' forces from two on, as the last step changed them.
   kContinued = 3,
   kKnn = 4,      // kContinued, corrected by the nearest of RodSettings::examples: a baseline, for comparing
   kLearned = 5,  // kContinued, corrected by RodSettings::network

@@ -15,6 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
+// Of all together: one segment in a fold has up to eight.
 constexpr uint32_t kHitsASegment = 4, kMostHits = 1u << 20;
 
 bool asks(const Instance& instance) noexcept { return instance.contacts.source && instance.contacts.rods; }

@@ -19,7 +19,8 @@ constexpr uint64_t kMagic = 0x31544154534e5753;  // "SWNSTAT1", little-endian
 // when they fell asleep. 5: rods. 6: how vertices are pushed, and contacts' forces.
 // 7: who is hidden. 8: what the scheduler goes by, what is gone on by between ticks that are simulated whole.
 // 9: who is dormant.
-// 10: the level of control graphs, and what its last change left. 11: the same in another order.
+// 10: the level of control graphs, and what its last change left. 11: the same in another order. 12: how
+// contacts' forces changed.
 constexpr uint32_t kVersion = 12;
 
 struct Header {

@@ -250,8 +250,9 @@ TEST_CASE("hair_that_slides_over_a_head_that_turns_hardly_ever_ends_at_the_cap")
   CHECK(unconverged < 0.002 * 300 * 120);
 }
 
-// What slides where it did not touch before has the fewer iterations left to be pushed out the later that is.
-TEST_CASE("hair_that_ends_at_the_cap_is_left_no_deeper_than_an_iteration_may_go_last") {
+// What comes to touch late has few iterations left to be pushed out again: the last one goes no deeper than
+// 0.02, those before it twice as deep each, of which the ones after it may be cut short by other contacts.
+TEST_CASE("hair_that_ends_at_the_cap_is_left_no_deeper_than_a_tenth_of_its_radius") {
   const test::HairOnHead hair(300);
   test::RodBatch batch = hair.batch({.start = rods::RodStart::kContinued, .max_iterations = 6});
   rods::RodCollider collider = test::collider_of(batch, {.rods_collide = false});
@@ -269,7 +270,7 @@ TEST_CASE("hair_that_ends_at_the_cap_is_left_no_deeper_than_an_iteration_may_go_
     deepest = std::max(deepest, report.deepest_penetration);
   }
   CHECK(unconverged > 100);
-  CHECK(deepest < kDeepest);
+  CHECK(deepest < 0.1f);
 }
 
 // Pressed by ten per cent of its weight more in each step: what friction gives grows as steadily.

@@ -32,12 +32,13 @@ inline void fill_once(const TemporaryFolder& folder, const std::string& name,
   namespace fs = std::filesystem;
   const fs::path shelf = fs::path(SINEW_BINARY_DIR) / "made_for_tests" / name;
   const fs::path kept = shelf / fingerprint(made_from);
-  if (fs::exists(kept)) return fs::copy(kept, folder.path());
+  if (fs::exists(kept)) return fs::copy(kept, folder.path(), fs::copy_options::recursive);
   make();
   const fs::path draft = shelf / ("draft" + std::to_string(::getpid()));
   std::error_code another_was_first;
   fs::create_directories(shelf);
-  fs::copy(folder.path(), draft);
+  fs::remove_all(draft);  // of a process that was ended
+  fs::copy(folder.path(), draft, fs::copy_options::recursive);
   fs::rename(draft, kept, another_was_first);
   if (another_was_first) fs::remove_all(draft);
 }

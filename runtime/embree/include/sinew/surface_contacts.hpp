@@ -11,11 +11,11 @@
 //   }
 //
 // A probe touches the surface at its ends, where its axis comes nearest and, where the surface bulges between
-// these, in its middle; each of them in a valley on both sides. A chain of probes is touched along all of its
-// length. What begins outside is swept against triangles on their way through the tick.
-// Within reach_m of the surface, inside is told by the angle-weighted pseudonormal of the nearest face, edge
-// or vertex (Baerentzen, Aanaes 2005), and the way out is the shortest. Deeper, nothing is found. At a border
-// and where more than two triangles share an edge everything counts as outside.
+// these, in its middle; each of them in a valley on both sides, but for a ball or a line. A chain of probes
+// is touched along all of its length. What begins outside is swept against triangles on their way through the
+// tick. Within reach_m of the surface, inside is told by the angle-weighted pseudonormal of the nearest face,
+// edge or vertex (Baerentzen, Aanaes 2005), and the way out is the shortest. Deeper, nothing is found. At a
+// border and where more than two triangles share an edge everything counts as outside.
 //
 // Thread rule: find from any number of threads at a time while no function that is not const runs; the others
 // one thread at a time. find and move_surface do not throw; find allocates nothing. move_surface refits the
