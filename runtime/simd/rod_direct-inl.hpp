@@ -306,8 +306,8 @@ HWY_INLINE typename G::V substitute(const G& g, size_t i, size_t parent) {
 template <size_t kWidth>
 uint32_t rod_direct(const RodJob& job) {
   uint32_t active = 0;
-  for_lanes<kWidth>(job, [&](const auto& g) HWY_ATTR {
-    using V = hn::Vec<LanesOf<kWidth>>;
+  for_active_lanes<kWidth>(job, [&](const auto& g) HWY_ATTR {
+    using V = typename std::decay_t<decltype(g)>::V;
     linearise(g, job);
     add_contact_forces(g, job);
     for (size_t i = 0; i < job.segments; ++i) start_segment(g, i);
@@ -321,7 +321,7 @@ uint32_t rod_direct(const RodJob& job) {
     set_block(g, 0, kRodInertiaFactor, root);
     set_six(g, 0, kRodImpulse, z);
     SINEW_UNROLL
-    for (size_t k = 0; k < 6; ++k) none[k] = hn::Zero(LanesOf<kWidth>());
+    for (size_t k = 0; k < 6; ++k) none[k] = hn::Zero(hn::DFromV<V>());
     V largest = solve_segment(g, 0, none);
     for (size_t i = 1; i < job.segments; ++i) largest = hn::Max(largest, substitute(g, i, job.parents[i]));
     active += apply_changes(g, job, largest);

@@ -119,13 +119,40 @@ struct Group {
 template <size_t kWidth>
 using LanesOf = hn::CappedTag<float, kWidth>;
 
+template <class D, size_t kWidth>
+HWY_INLINE Group<D, kWidth> lanes_from(const RodJob& job, size_t first) {
+  return {job.records + first, job.scratch + first, job.lanes + first,
+          job.contacts ? job.contacts + first : nullptr, job.touched};
+}
+
 // body(group) for each vector of the group's lanes.
 template <size_t kWidth, class Body>
 HWY_INLINE void for_lanes(const RodJob& job, const Body& body) {
   using D = LanesOf<kWidth>;
-  for (size_t i = 0; i < kWidth; i += hn::MaxLanes(D())) {
-    body(Group<D, kWidth>{job.records + i, job.scratch + i, job.lanes + i,
-                          job.contacts ? job.contacts + i : nullptr, job.touched});
+  for (size_t i = 0; i < kWidth; i += hn::MaxLanes(D())) body(lanes_from<D, kWidth>(job, i));
+}
+
+// Whether any of these strands is to be iterated.
+template <class D, size_t kWidth>
+HWY_INLINE bool any_active(const RodJob& job, size_t first) {
+  const auto active = lanes_from<D, kWidth>(job, first).lane(kLaneActive);
+  return !hn::AllFalse(D(), hn::Gt(active, hn::Zero(D())));
+}
+
+// The same for those vectors alone in which a strand is to be iterated, sixteen lanes as eight where the others
+// rest: of strands that touch something few go on, and a processor may take half the time for half the lanes.
+template <size_t kWidth, class Body>
+HWY_INLINE void for_active_lanes(const RodJob& job, const Body& body) {
+  using D = LanesOf<kWidth>;
+  if constexpr (hn::MaxLanes(D()) == 16) {
+    using Half = hn::CappedTag<float, 8>;
+    const bool low = any_active<Half, kWidth>(job, 0), high = any_active<Half, kWidth>(job, 8);
+    if (low && high) return body(lanes_from<D, kWidth>(job, 0));
+    if (low || high) body(lanes_from<Half, kWidth>(job, low ? 0 : 8));
+  } else {
+    for (size_t i = 0; i < kWidth; i += hn::MaxLanes(D())) {
+      if (any_active<D, kWidth>(job, i)) body(lanes_from<D, kWidth>(job, i));
+    }
   }
 }
 
