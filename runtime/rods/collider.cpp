@@ -245,11 +245,14 @@ void RodCollider::end_range(const RodBatch& batch, float dt_s, RodReport* report
   report->contacts_unconverged += forces.end();
 }
 
-const RodCollider::Kept* RodCollider::find_kept(uint64_t name) const noexcept {
+const RodCollider::Kept* RodCollider::find_kept(uint64_t name) noexcept {
+  if (kept_next_ < kept_count_ && kept_[kept_next_].name == name) return &kept_[kept_next_++];
   const uint32_t last = kept_in_use_ - 1;
   for (size_t at = name >> 20 & last; kept_places_[at] != 0; at = (at + 1) & last) {
     const Kept& kept = kept_[kept_places_[at] - 1];
-    if (kept.name == name) return &kept;
+    if (kept.name != name) continue;
+    kept_next_ = kept_places_[at];
+    return &kept;
   }
   return nullptr;
 }
@@ -264,7 +267,7 @@ void RodCollider::keep(const Kept& kept) noexcept {
 }
 
 void RodCollider::keep_nothing(uint32_t room_for) noexcept {
-  kept_count_ = 0;
+  kept_count_ = kept_next_ = 0;
   kept_in_use_ = std::bit_ceil(2 * std::max(room_for, 1u));
   if (capacity_ > 0) std::fill_n(kept_places_, kept_in_use_, 0u);
 }

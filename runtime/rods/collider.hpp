@@ -129,7 +129,8 @@ class RodCollider {
              uint32_t* count) noexcept;
   Status check_points(std::span<const ContactPoint> points) const noexcept;
   bool fits(const RodBatch& batch) const noexcept;
-  const Kept* find_kept(uint64_t name) const noexcept;  // null: there is none
+  // Null: there is none. Quick where names are asked for in the order in which they were kept.
+  const Kept* find_kept(uint64_t name) noexcept;
   void keep(const Kept& kept) noexcept;
   static Kept kept_of(const Contact& contact, double per_square);
   void keep_nothing(uint32_t room_for) noexcept;
@@ -165,7 +166,7 @@ class RodCollider {
   Kept* kept_ = nullptr;  // [capacity_] in the order of the last step's contacts
   // [twice capacity_, a power of two] of it in use; where a name's is in kept_, from 1 on, 0: nowhere.
   uint32_t* kept_places_ = nullptr;
-  uint32_t kept_count_ = 0, kept_in_use_ = 1;
+  uint32_t kept_count_ = 0, kept_in_use_ = 1, kept_next_ = 0;  // the last: behind what was found last
   Range range_ = {0, 0};
   Sweep* sweeps_ = nullptr;         // [segments of a range]
   SweptBox* boxes_ = nullptr;       // alike

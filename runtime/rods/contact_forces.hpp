@@ -33,8 +33,8 @@ struct ContactForces {
   uint32_t first_strand() const { return to.range_.first_group * batch.width_; }
   uint32_t end_strand() const;
   float& lane(uint32_t strand, uint32_t field) const {
-    const size_t group = strand / batch.width_;
-    return batch.lanes_[(group * simd::kLaneFields + field) * batch.width_ + strand % batch.width_];
+    const size_t group = batch.group_of(strand);
+    return batch.lanes_[(group * simd::kLaneFields + field) * batch.width_ + batch.lane_of(strand)];
   }
   float& active(uint32_t strand) const { return lane(strand, simd::kLaneActive); }
   Turn turn_now(const Contact::Side& side) const {
@@ -63,9 +63,16 @@ struct ContactForces {
   bool slid(const Contact& contact) const;
   bool update_friction(Contact* contact, const Vector& slip) const;
   Vector taken_drag(const Contact& contact, const Vector& slip, bool comes_to_rest) const;
-  double law_miss(const Contact& contact, const Contact& before) const;
-  void add_miss(const Contact& contact, const Contact& before) const;
-  bool is_exact(const Contact& contact, const Contact& before) const;
+  // What a contact went into an iteration with.
+  struct Before {
+    double force;
+    Vector drag;
+    Friction state;
+    ContactForce linearised;  // of its linear system
+  };
+  double law_miss(const Contact& contact, const Before& before) const;
+  void add_miss(const Contact& contact, const Before& before) const;
+  bool is_exact(const Contact& contact, const Before& before) const;
 
   // contact_ways.cpp
   void find_ways() const;
@@ -86,6 +93,8 @@ struct ContactForces {
   // contact_rows.cpp
   void assemble() const;
   void assemble_ended() const;
+  bool goes_on(uint32_t strand) const;
+  bool goes_on(const Contact& contact) const;
   void add(const Contact& contact) const;
   void add_to_side(const Contact& contact, size_t side, const ContactForce& f, const Vector& force) const;
   float* touched_rows(uint32_t strand, uint32_t segment) const;

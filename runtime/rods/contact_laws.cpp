@@ -84,17 +84,16 @@ Vector ContactForces::taken_drag(const Contact& c, const Vector& slip, bool come
 // gives, or that does not go against the slip. Nothing where nothing stuck and the iteration moved nothing:
 // where friction is at its limit and nothing slides, drags are not unique. The gain makes a force of each
 // gap's rounding.
-double ContactForces::law_miss(const Contact& c, const Contact& before) const {
+double ContactForces::law_miss(const Contact& c, const Before& before) const {
   const double moved =
       std::max(std::fabs(c.open_m - c.open_before_m), length(difference(c.slip_m, c.slip_before_m)));
   const bool sticks = before.state == Friction::kSticks;
   if (!sticks && moved <= nothing_m(c)) return 0;
-  const double pull = std::max(0.0, before.gain_kg * c.open_m - before.force);
+  const double pull = std::max(0.0, c.gain_kg * c.open_m - before.force);
   const double length_m = static_cast<double>(batch.units_[c.sides[0].strand].length_m);
   const double rounding = kRounding * length_m * c.gain_kg;
   if (!(c.friction > 0)) return std::max(0.0, pull - rounding);
-  const ContactForce then = forces_of(before, c.open_before_m, c.slip_before_m);
-  const Vector drag = drag_after(before, then, difference(c.slip_m, c.slip_before_m));
+  const Vector drag = drag_after(c, before.linearised, difference(c.slip_m, c.slip_before_m));
   const double limit = c.friction * c.force;
   Vector lawful = sticks ? drag : scaled_sum(-c.gain_kg, c.slip_m, drag);
   const double size = length(lawful);
@@ -104,7 +103,7 @@ double ContactForces::law_miss(const Contact& c, const Contact& before) const {
 
 // Whether gap and slip are as exact as wanted. Against what does not iterate they are what is left of them;
 // between rods, which iterate in turn, what an iteration still changes.
-bool ContactForces::is_exact(const Contact& c, const Contact& before) const {
+bool ContactForces::is_exact(const Contact& c, const Before& before) const {
   if (!c.has_two_rods()) {
     const bool sticks = before.state == Friction::kSticks && c.friction > 0;
     return std::max(std::fabs(c.open_m), sticks ? length(c.slip_m) : 0.0) <= tolerance_m(c);
@@ -118,7 +117,7 @@ bool ContactForces::is_exact(const Contact& c, const Contact& before) const {
 
 // Of a strand together, against what friction gives, or what presses where there is none: small forces next
 // to large ones need not be as exact.
-void ContactForces::add_miss(const Contact& c, const Contact& before) const {
+void ContactForces::add_miss(const Contact& c, const Before& before) const {
   const double miss = law_miss(c, before);
   for (const Contact::Side& side : c.sides) {
     if (side.segment == kNoSegment) continue;
@@ -134,7 +133,7 @@ void ContactForces::add_miss(const Contact& c, const Contact& before) const {
 // 1 / (1 + friction^2) leaves least of them. Returns whether the contact is as exact as wanted.
 bool ContactForces::take_over(Contact* c) const {
   if (!is_active(*c, c->open_before_m)) return begin_anew(c);
-  const Contact before = *c;
+  const Before before = {c->force, c->drag, c->state, forces_of(*c, c->open_before_m, c->slip_before_m)};
   const double left = 1 - share_of(*c);
   const Vector slip = scaled_sum(-left, c->slip_before_m, c->slip_m);
   c->force = std::max(0.0, c->force - c->gain_kg * (c->open_m - left * c->open_before_m));

@@ -38,13 +38,20 @@ void ContactForces::assemble_ended() const {
   }
 }
 
+bool ContactForces::goes_on(uint32_t strand) const {
+  return (to.turning_[strand] | to.pending_[strand]) != 0;
+}
+bool ContactForces::goes_on(const Contact& c) const {
+  return goes_on(c.sides[0].strand) || (c.has_two_rods() && goes_on(c.sides[1].strand));
+}
+
 void ContactForces::add(const Contact& c) const {
+  if (!goes_on(c)) return;
   const ContactForce f = forces_of(c);
   if (!f.active) return;
   for (size_t side = 0; side < 2; ++side) {
     const Contact::Side& s = c.sides[side];
-    if (s.segment == kNoSegment || !(s.stiffness_kg > 0)) continue;
-    if (!(to.turning_[s.strand] | to.pending_[s.strand])) continue;
+    if (s.segment == kNoSegment || !(s.stiffness_kg > 0) || !goes_on(s.strand)) continue;
     const Vector force = scaled_sum(f.press, c.normal, f.drag);
     lane(s.strand, simd::kLaneLargestShare) = 1;
     add_to_side(c, side, f, side == 0 ? force : scaled(-1, force));
@@ -52,13 +59,13 @@ void ContactForces::add(const Contact& c) const {
 }
 
 float* ContactForces::touched_rows(uint32_t strand, uint32_t segment) const {
-  const uint32_t group = strand / batch.width_ - to.range_.first_group;
+  const uint32_t group = batch.group_of(strand) - to.range_.first_group;
   const uint32_t place = group * batch.segment_count_ + batch.slots_[segment];
   if (!to.touched_[place]) {
     to.touched_[place] = 1;
     to.touched_list_[to.touched_count_++] = place;
   }
-  return to.rows_ + size_t{place} * simd::kRodContactRows * batch.width_ + strand % batch.width_;
+  return to.rows_ + size_t{place} * simd::kRodContactRows * batch.width_ + batch.lane_of(strand);
 }
 
 // J^T K J and J^T force of a side's point, K = pressed n n^T + held (1 - n n^T), J = (1, -[arm] R): in units

@@ -388,7 +388,7 @@ void ContactFinder::add_lane(uint32_t strand, uint32_t segment, const Other& oth
                              const simd::RodTouches& touches) const {
   Contact* c = take();
   if (!c) return;
-  const size_t lane = strand % batch.width_;
+  const size_t lane = batch.lane_of(strand);
   const auto row = [&](size_t r) { return touches.rows[r][lane]; };
   const auto row3 = [&](size_t r) { return Vector{row(r), row(r + 1), row(r + 2)}; };
   const double radius = static_cast<double>(batch.radius_m(strand, segment));

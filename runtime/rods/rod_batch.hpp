@@ -187,9 +187,12 @@ class RodBatch {
     double origin_m[3];
     float length_m, mass_kg, total_lengths;
   };
+  // Without a division: contacts ask at every row.
+  uint32_t group_of(uint32_t strand) const noexcept { return width_ == 16 ? strand / 16 : strand / 4; }
+  uint32_t lane_of(uint32_t strand) const noexcept { return strand & (width_ - 1); }
   size_t row(uint32_t strand, uint32_t segment, uint32_t field) const noexcept {
-    const size_t group = strand / width_, lane = strand % width_;
-    return ((group * segment_count_ + slots_[segment]) * simd::kRodKeptFields + field) * width_ + lane;
+    const size_t record = size_t{group_of(strand)} * segment_count_ + slots_[segment];
+    return (record * simd::kRodKeptFields + field) * width_ + lane_of(strand);
   }
   // -1 where the record tells the joint to the parent from its other end: its force is minus that on the
   // parent.
@@ -198,13 +201,13 @@ class RodBatch {
     return records_[row(strand, segment, field)];
   }
   float& radius_m(uint32_t strand, uint32_t segment) const noexcept {
-    const size_t slot = size_t{strand / width_} * segment_count_ + slots_[segment];
-    return radii_m_[slot * width_ + strand % width_];
+    const size_t slot = size_t{group_of(strand)} * segment_count_ + slots_[segment];
+    return radii_m_[slot * width_ + lane_of(strand)];
   }
   // Steps that its start may go back to.
   float& known_steps(uint32_t strand) const noexcept {
-    return lanes_[(size_t{strand / width_} * simd::kLaneFields + simd::kLaneKnownSteps) * width_ +
-                  strand % width_];
+    return lanes_[(size_t{group_of(strand)} * simd::kLaneFields + simd::kLaneKnownSteps) * width_ +
+                  lane_of(strand)];
   }
   void put_place(uint32_t strand, uint32_t segment, uint32_t axis, double place) const noexcept {
     const float high = static_cast<float>(place);
@@ -281,7 +284,7 @@ inline float* RodCollider::scratch_row(const RodBatch& batch, uint32_t strand, u
                                        uint32_t field) const noexcept {
   const size_t row = size_t{batch.slots_[segment]} * (simd::kRodFields - simd::kRodKeptFields) + field -
                      simd::kRodKeptFields;
-  return scratch(batch, strand / width_) + row * width_ + strand % width_;
+  return scratch(batch, batch.group_of(strand)) + row * width_ + batch.lane_of(strand);
 }
 
 }  // namespace sinew::rods

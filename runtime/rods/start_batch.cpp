@@ -72,8 +72,8 @@ void RodBatch::tell_fixed_inputs() noexcept {
 void RodBatch::tell_joint(uint32_t strand, uint32_t slot,
                           float (&out)[simd::kRodJointInputs]) const noexcept {
   const float* record = records_ +
-                        (size_t{strand / width_} * segment_count_ + slot) * simd::kRodKeptFields * width_ +
-                        strand % width_;
+                        (size_t{group_of(strand)} * segment_count_ + slot) * simd::kRodKeptFields * width_ +
+                        lane_of(strand);
   float rest[3];
   for (uint32_t k = 0; k < 3; ++k) rest[k] = record[(simd::kRodRest + k) * width_];
   joint_inputs(rest, record[simd::kRodBendCompliance * width_], record[simd::kRodTwistCompliance * width_],
@@ -83,8 +83,8 @@ void RodBatch::tell_joint(uint32_t strand, uint32_t slot,
 StartInputs RodBatch::start_inputs(uint32_t strand, uint32_t segment) const noexcept {
   StartInputs out{};
   if (!inputs_) return out;
-  const simd::RodStartJob job = start_job(strand / width_);
-  const uint32_t lane = strand % width_, slot = slots_[segment];
+  const simd::RodStartJob job = start_job(group_of(strand));
+  const uint32_t lane = lane_of(strand), slot = slots_[segment];
   const auto read = [&](const float* rows, size_t row, uint32_t count, float* to) {
     for (uint32_t k = 0; k < count; ++k) to[k] = rows[(row * count + k) * width_ + lane];
   };

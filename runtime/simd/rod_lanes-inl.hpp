@@ -139,8 +139,9 @@ HWY_INLINE bool any_active(const RodJob& job, size_t first) {
   return !hn::AllFalse(D(), hn::Gt(active, hn::Zero(D())));
 }
 
-// The same for those vectors alone in which a strand is to be iterated, sixteen lanes as eight where the others
-// rest: of strands that touch something few go on, and a processor may take half the time for half the lanes.
+// The same for those vectors alone in which a strand is to be iterated, sixteen lanes as eight where the
+// others rest: of strands that touch something few go on, and a processor may take half the time for half the
+// lanes.
 template <size_t kWidth, class Body>
 HWY_INLINE void for_active_lanes(const RodJob& job, const Body& body) {
   using D = LanesOf<kWidth>;
