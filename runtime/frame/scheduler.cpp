@@ -43,41 +43,43 @@ bool is_overdue(const Candidate& c) noexcept {
   return c.has > 0 ? c.turn_left_s > 0 : c.waited_s > kLongestWait_s;
 }
 
-struct ShorterWait {
+struct LongerWait {
   std::span<const Candidate> all;
   bool operator()(uint32_t a, uint32_t b) const noexcept {
     const Candidate &x = all[a], &y = all[b];
-    if ((x.has > 0) != (y.has > 0)) return y.has > 0;  // a turn that has begun is not broken off
-    return x.waited_s != y.waited_s ? x.waited_s < y.waited_s : x.slot > y.slot;
+    if ((x.has > 0) != (y.has > 0)) return x.has > 0;  // a turn that has begun is not broken off
+    return x.waited_s != y.waited_s ? x.waited_s > y.waited_s : x.slot < y.slot;
   }
 };
 
-uint32_t find_overdue(std::span<const Candidate> candidates, std::span<uint32_t> overdue) noexcept {
-  uint32_t count = 0;
-  for (uint32_t i = 0; i < candidates.size(); ++i)
-    if (is_overdue(candidates[i])) overdue[count++] = i;
-  return count;
+// Calls work for each, the longest wait first, until it says no: after a few, and no more are sorted.
+template <class Work>
+void for_each_by_wait(std::span<uint32_t> overdue, const LongerWait& longer, Work work) noexcept {
+  for (size_t few = 8; !overdue.empty(); few *= 8) {
+    const auto some = overdue.first(std::min(overdue.size(), few));
+    std::partial_sort(overdue.begin(), some.end(), overdue.end(), longer);
+    for (const uint32_t candidate : some)
+      if (!work(candidate)) return;
+    overdue = overdue.subspan(some.size());
+  }
 }
 
-void hand_out_turns(std::span<Candidate> candidates, std::span<uint32_t> memory, double& left) noexcept {
-  const std::span<uint32_t> overdue = memory.first(find_overdue(candidates, memory));
-  const ShorterWait shorter{candidates};
-  std::make_heap(overdue.begin(), overdue.end(), shorter);
+void hand_out_turns(std::span<Candidate> candidates, std::span<uint32_t> overdue, double& left) noexcept {
   double turns_left = left * static_cast<double>(kTurnShare);
   bool first = true;
-  for (auto end = overdue.end(); end != overdue.begin(); --end) {
-    std::pop_heap(overdue.begin(), end, shorter);
-    Candidate& c = candidates[*(end - 1)];
-    const double cost = static_cast<double>(c.cost_us(1) - c.cost_us(0));
-    if (cost > left) continue;  // dearer than all there is: nobody waits for it
-    if (cost > turns_left && !first) return;
+  for_each_by_wait(overdue, {candidates}, [&](uint32_t candidate) {
+    Candidate& c = candidates[candidate];
+    const auto cost = static_cast<double>(c.cost_us(1) - c.cost_us(0));
+    if (cost > left) return true;  // dearer than all there is: nobody waits for it
+    if (cost > turns_left && !first) return false;
     first = false;
     turns_left -= cost;
     left -= cost;
     if (c.has == 0) c.turn_left_s = kHold_s;
     c.level = 1;
     c.reason = Reason::kTurn;
-  }
+    return true;
+  });
 }
 
 // ---- buying ----
@@ -91,18 +93,40 @@ struct Dearer {
   }
 };
 
-// False when nothing can be paid for.
-bool sum_up(std::span<const Candidate> candidates, double left, WeightBuckets& buckets) noexcept {
+// Sums of what lies in the drawers from `lowest` on. False when nothing can be paid for.
+bool sum_up(std::span<const Candidate> candidates, double left, uint32_t lowest,
+            WeightBuckets& buckets) noexcept {
   buckets.clear();
   bool any = false;
   for (const Candidate& c : candidates) {
     if (!chooses(c)) continue;
     for_each_step_up(c, left, [&](uint32_t, float key, float cost) {
-      buckets.add(WeightBuckets::drawer_of(key), cost);
-      return any = true;
+      const uint32_t drawer = WeightBuckets::drawer_of(key);
+      any = true;
+      if (drawer < lowest) return false;
+      buckets.add(drawer, cost);
+      return true;
     });
   }
   return any;
+}
+
+constexpr uint32_t kNothing = UINT32_MAX;
+
+// What the budget pays for changes little from a step to the next: drawers far below the last step's lowest
+// are opened only where those above them leave something.
+uint32_t find_lowest(std::span<const Candidate> candidates, double left, ScheduleScratch& scratch,
+                     double* rest) noexcept {
+  constexpr uint32_t kOctave = 16;
+  const uint32_t floor = scratch.lowest > kOctave ? scratch.lowest - kOctave : 0;
+  bool any = sum_up(candidates, left, floor, scratch.buckets);
+  uint32_t lowest = scratch.buckets.lowest_within(left, rest);
+  if (any && floor > 0 && !scratch.buckets.has_below(lowest)) {
+    any = sum_up(candidates, left, 0, scratch.buckets);
+    lowest = scratch.buckets.lowest_within(left, rest);
+  }
+  scratch.lowest = lowest;
+  return any ? lowest : kNothing;
 }
 
 // Takes what lies in the drawers from `lowest` on; gathers the next step of each, where `rest` pays for it.
@@ -132,52 +156,62 @@ bool next_of(const Candidate& c, Purchase& purchase) noexcept {
   return true;
 }
 
-float least_cost(std::span<const Purchase> purchases) noexcept {
-  float least = std::numeric_limits<float>::max();
-  for (const Purchase& p : purchases) least = std::min(least, p.cost_us);
-  return least;
+// In the order of Dearer, without what is not to be had for `left`.
+std::span<Purchase> heap_within(std::span<Purchase> purchases, double left, const Dearer& dearer) noexcept {
+  const auto end = std::remove_if(purchases.begin(), purchases.end(),
+                                  [&](const Purchase& p) { return static_cast<double>(p.cost_us) > left; });
+  std::make_heap(purchases.begin(), end, dearer);
+  return {purchases.begin(), end};
 }
 
 // What is left over, by the keys themselves.
 void take_best(std::span<Candidate> candidates, std::span<Purchase> purchases, double left) noexcept {
+  constexpr size_t kSorted = 16;  // as many are sorted again for each that is found to be too dear
   const Dearer dearer{candidates};
-  float least_us = least_cost(purchases);
-  std::make_heap(purchases.begin(), purchases.end(), dearer);
-  for (auto end = purchases.end(); end != purchases.begin() && static_cast<double>(least_us) <= left;) {
-    std::pop_heap(purchases.begin(), end, dearer);
-    Purchase& best = *(end - 1);
+  std::span<Purchase> heap = heap_within(purchases, left, dearer);
+  for (size_t too_dear = 0; !heap.empty();) {
+    std::pop_heap(heap.begin(), heap.end(), dearer);
+    Purchase& best = heap.back();
     Candidate& c = candidates[best.candidate];
     const auto cost = static_cast<double>(best.cost_us);
     const bool fits = cost <= left;
     if (fits) left -= cost, c.level = best.level;
-    if (!fits || !next_of(c, best)) {
-      --end;
+    if (fits && next_of(c, best)) {
+      std::push_heap(heap.begin(), heap.end(), dearer);
       continue;
     }
-    least_us = std::min(least_us, best.cost_us);
-    std::push_heap(purchases.begin(), end, dearer);
+    heap = heap.first(heap.size() - 1);
+    too_dear += !fits;
+    if (too_dear * kSorted > heap.size()) heap = heap_within(heap, left, dearer), too_dear = 0;
   }
 }
 
 void buy(std::span<Candidate> candidates, ScheduleScratch& scratch, double left) noexcept {
-  if (!sum_up(candidates, left, scratch.buckets)) return;
   double rest = left;
-  const uint32_t lowest = scratch.buckets.lowest_within(left, &rest);
+  const uint32_t lowest = find_lowest(candidates, left, scratch, &rest);
+  if (lowest == kNothing) return;
   const uint32_t gathered = take_above(candidates, left, lowest, rest, scratch.purchases);
   take_best(candidates, scratch.purchases.first(gathered), rest);
 }
 
 // ---- the whole ----
 
-double reset_levels(std::span<Candidate> candidates) noexcept {
+struct Begun {
   double base_us = 0;
-  for (Candidate& c : candidates) {
+  uint32_t overdue = 0;
+};
+
+Begun begin(std::span<Candidate> candidates, std::span<uint32_t> overdue) noexcept {
+  Begun begun;
+  for (uint32_t i = 0; i < candidates.size(); ++i) {
+    Candidate& c = candidates[i];
     c.level = c.keeps_level ? c.has : 0;
     c.reason = Reason::kBudget;
     weigh(c);
-    base_us += static_cast<double>(c.base_us);
+    begun.base_us += static_cast<double>(c.base_us);
+    if (is_overdue(c)) overdue[begun.overdue++] = i;
   }
-  return base_us;
+  return begun;
 }
 
 void tell_reason(Candidate& c) noexcept {
@@ -208,14 +242,15 @@ float sane_importance(float importance) noexcept {
 
 ScheduleResult schedule(std::span<Candidate> candidates, float budget_us, ScheduleScratch& scratch) noexcept {
   constexpr float kNoLimit_us = 1e30f;
-  double left = static_cast<double>(budget_us) - reset_levels(candidates);
+  const Begun begun = begin(candidates, scratch.overdue);
+  double left = static_cast<double>(budget_us) - begun.base_us;
   if (budget_us >= kNoLimit_us) {
     for (Candidate& c : candidates)
       if (chooses(c)) c.level = c.top;
     return close(candidates);
   }
   if (left > 0) {
-    hand_out_turns(candidates, scratch.overdue, left);
+    hand_out_turns(candidates, scratch.overdue.first(begun.overdue), left);
     buy(candidates, scratch, left);
   }
   return close(candidates);

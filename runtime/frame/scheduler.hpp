@@ -79,6 +79,7 @@ struct ScheduleScratch {
   WeightBuckets buckets;
   std::span<uint32_t> overdue;    // room for all candidates
   std::span<Purchase> purchases;  // likewise
+  uint32_t lowest = 0;            // drawer that was bought of last; where it is looked for first
 };
 
 struct ScheduleResult {

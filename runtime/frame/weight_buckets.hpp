@@ -33,6 +33,7 @@ class WeightBuckets {
     for (*left = most; lowest > first_ && sums_[lowest - 1] <= *left; --lowest) *left -= sums_[lowest - 1];
     return lowest;
   }
+  bool has_below(uint32_t drawer) const noexcept { return drawer > first_; }
 
  private:
   float sums_[kCount] = {};

@@ -211,6 +211,22 @@ TEST_CASE("a_crowd_s_budget_is_spent_to_the_last_level_that_fits") {
   CHECK(worst < 0.03);
 }
 
+// Where the last step's budget ended is where the search begins.
+TEST_CASE("answer_does_not_depend_on_the_budget_of_the_step_before") {
+  std::mt19937 random(17);
+  std::uniform_real_distribution<float> unit(0, 1);
+  Crowd crowd(80, kUsual);
+  for (int step = 0; step < 300; ++step) {
+    for (Candidate& c : crowd.all) c.weight = std::pow(10.0f, 4 * unit(random));
+    const float budget_us = std::pow(10.0f, 3.2f * unit(random));
+    Crowd fresh(80, kUsual);
+    fresh.all = crowd.all;
+    crowd.schedule(budget_us);
+    fresh.schedule(budget_us);
+    for (size_t i = 0; i < 80; ++i) CHECK(crowd[i].level == fresh[i].level);
+  }
+}
+
 TEST_CASE("what_one_has_is_not_taken_for_a_little_more") {
   const Front front = single_front(10);
   Crowd crowd(2, front);
