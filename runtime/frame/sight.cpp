@@ -48,8 +48,8 @@ Vector3f seen_from(const Sight& sight, const Ball& ball) noexcept {
 }
 
 // Whether a ball is wholly beyond an edge of the view: `across` of it lies along the edge's axis.
-bool is_beyond(float across, float depth, float half, float radius) noexcept {
-  return std::fabs(across) - half * depth > radius * std::sqrt(1 + half * half);
+bool is_beyond(float across, float depth, float half, float slant, float radius) noexcept {
+  return std::fabs(across) - half * depth > radius * slant;
 }
 
 }  // namespace
@@ -67,6 +67,8 @@ Status make_sight(const View& view, Sight* out) noexcept {
       turn.normalized().toRotationMatrix().transpose();
   made.half_height = std::tan(view.height_rad / 2);
   made.half_width = made.half_height * view.aspect;
+  made.slant_width = std::sqrt(1 + made.half_width * made.half_width);
+  made.slant_height = std::sqrt(1 + made.half_height * made.half_height);
   made.far_m = view.far_m;
   *out = made;
   return {};
@@ -77,8 +79,8 @@ float seen_size(const Sight& sight, const Ball& ball) noexcept {
   const float depth = -at.z(), radius = ball.radius_m, away = at.norm();
   if (away <= radius) return 1;
   const bool outside = depth < -radius || depth - radius > sight.far_m ||
-                       is_beyond(at.x(), depth, sight.half_width, radius) ||
-                       is_beyond(at.y(), depth, sight.half_height, radius);
+                       is_beyond(at.x(), depth, sight.half_width, sight.slant_width, radius) ||
+                       is_beyond(at.y(), depth, sight.half_height, sight.slant_height, radius);
   return outside ? 0 : std::min(1.0f, radius / (away * sight.half_height));
 }
 

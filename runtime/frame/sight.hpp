@@ -15,8 +15,9 @@ struct Ball {
 // A view as its axes and edges.
 struct Sight {
   double eye_m[3] = {};
-  float axes[3][3] = {};                  // camera's right, up and back, in the world
-  float half_width = 0, half_height = 0;  // tangents of half the angles
+  float axes[3][3] = {};                    // camera's right, up and back, in the world
+  float half_width = 0, half_height = 0;    // tangents of half the angles
+  float slant_width = 1, slant_height = 1;  // over their cosines
   float far_m = 0;
 };
 
