@@ -22,4 +22,23 @@ double exact_seconds(float dt_s) noexcept;
 
 TickPlan plan_ticks(double remainder_s, double dt_s, double tick_s, uint32_t max_ticks) noexcept;
 
+// The same for one after another: instances of an age have the same ticks, which are worked out once.
+class TickPlans {
+ public:
+  TickPlans(double dt_s, uint32_t most) noexcept : dt_s_(dt_s), most_(most) {}
+  const TickPlan& of(double remainder_s, double tick_s) noexcept {
+    if (remainder_s != remainder_s_ || tick_s != tick_s_) {
+      plan_ = plan_ticks(remainder_s, dt_s_, tick_s, most_);
+      remainder_s_ = remainder_s;
+      tick_s_ = tick_s;
+    }
+    return plan_;
+  }
+
+ private:
+  double dt_s_, remainder_s_ = -1, tick_s_ = 0;
+  uint32_t most_;
+  TickPlan plan_;
+};
+
 }  // namespace sinew::frame

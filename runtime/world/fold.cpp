@@ -62,12 +62,6 @@ void add_times(const Instance& instance, FrameReport& report) noexcept {
   report.publish_us += core::microseconds(instance.times.publish_ns);
 }
 
-void add_ticks(const Instance& instance, FrameReport& report) noexcept {
-  const frame::TickPlan& ticks = instance.plan.ticks;
-  report.ticks = std::max(report.ticks, ticks.ticks);
-  report.dropped_s = std::max(report.dropped_s, static_cast<float>(ticks.dropped_s));
-}
-
 // Returns its expected error.
 float add_active(const Instance& instance, FrameReport& report) noexcept {
   const InstanceReport told = describe(instance, {});
@@ -94,12 +88,22 @@ float add_idle(FrameReport& report) noexcept {
   return 1;
 }
 
-float add(WorldState& world, Instance& instance, FrameReport& report) noexcept {
-  if (instance.idle) return add_idle(report);
+float add(WorldState& world, uint32_t slot, FrameReport& report) noexcept {
+  if (world.answers[slot].idle) return add_idle(report);
+  Instance& instance = *world.instances.at(slot);
   if (instance.passed) return add_dormant(instance, report);
   if (costs_are_measured(world)) learn_costs(instance);
+  world.rows[slot].cost_factor = instance.cost_factor;
   if (instance.cut || instance.held) world.undone_us += instance.plan.cost_us;
   return add_active(instance, report);
+}
+
+void bring_counted_near(const WorldState& world, uint32_t slot) noexcept {
+  constexpr uint32_t kAhead = 8;
+  const uint32_t ahead = slot + kAhead;
+  if (ahead >= world.instances.end()) return;
+  const PlanRow& row = world.rows[ahead];
+  if (row.asset && row.seen && !world.answers[ahead].idle) bring_instance_near(world, ahead);
 }
 
 }  // namespace
@@ -108,12 +112,14 @@ void fold_results(WorldState& world, FrameReport& report) noexcept {
   double errors = 0;
   uint32_t seen = 0;
   world.undone_us = 0;
-  for_each_instance(world, [&](Instance& instance, uint32_t) {
-    report.instances_hidden += !instance.seen;
-    if (!instance.seen) return;
+  report.ticks = world.ticks;
+  report.dropped_s = world.dropped_s;
+  for_each_row(world, [&](const PlanRow& row, uint32_t slot) {
+    bring_counted_near(world, slot);
+    report.instances_hidden += !row.seen;
+    if (!row.seen) return;
     ++seen;
-    add_ticks(instance, report);
-    errors += static_cast<double>(add(world, instance, report));
+    errors += static_cast<double>(add(world, slot, report));
   });
   if (seen > 0) report.expected_error = static_cast<float>(errors / seen);
   for (uint32_t slot = 0; costs_are_measured(world) && slot < world.assets.end(); ++slot)

@@ -38,7 +38,7 @@ inline constexpr uint32_t kFallbackTicks = 60;  // on the modal base, after a ne
 
 // The part of the state that is not an array. Plain bytes: saved and restored as they are.
 struct InstanceState {
-  // What every step's plan asks of each instance comes first: kPlannedStateBytes of it.
+  // What a plan asks of each instance (world/plan_row.hpp) comes first: kPlannedStateBytes of it.
   double remainder_s = 0;  // frame/tick_clock.hpp
   float importance = 1;
   float excitation = 1;                             // world/excitation.hpp
@@ -115,7 +115,6 @@ struct InstancePlan {
   Tier tier = Tier::kSkinning;
   uint32_t level = 0;   // of control graphs
   uint32_t every = 1;   // 1 or 2: ticks from one that is simulated whole to the next (world/update_rate.hpp)
-  float error = 1;      // a share of skinning's
   float cost_us = 0;    // expected
   float behind_us = 0;  // that those which run later take at least
   TierReason why = TierReason::kBudget;
@@ -127,17 +126,15 @@ struct InstancePlan {
 // rising smoothly from 0 to 1 in kBlendInTicks. The tail is the displacement shown when simulation was last
 // left, carried on with damped velocity and then faded to zero.
 struct Instance {
-  // What every step's plan asks of each instance comes first: kPlannedBytes of it.
+  // What a plan asks of each instance (world/plan_row.hpp) comes first: kPlannedBytes of it.
   InstanceState* state = nullptr;
   Asset* asset = nullptr;
-  frame::Ball bound;      // world/pose_bound.hpp
-  float size = 1;         // share of a view's height
-  float cost_factor = 1;  // what its ticks take as a multiple of its asset's, smoothed; not state
-  bool seen = true, came_back = false;                     // in this step
+  frame::Ball bound;       // world/pose_bound.hpp
+  float cost_factor = 1;   // what its ticks take as a multiple of its asset's, smoothed; not state
+  bool came_back = false;  // in this step
   bool cut = false, restarted = false, fell_back = false;  // in the last step
   bool held = false;       // in the last step: shown as it was, for the deadline
   bool displaced = false;  // published displacement is not zero everywhere
-  bool idle = false;       // in the last step: neither simulated nor displaced
   bool passed = false;     // in the last step: dormant, not stepped
   InstancePlan plan;
 

@@ -11,32 +11,34 @@ std::span<const frame::Sight> sights_of(const WorldState& world) noexcept {
   return {world.sights, world.sight_count};
 }
 
-float size_of(const WorldState& world, const Instance& instance) noexcept {
+float size_of(const WorldState& world, uint32_t slot) noexcept {
   if (world.sight_count == 0) return 1;
   float size = 0;
   for (const frame::Sight& sight : sights_of(world))
-    size = std::max(size, frame::seen_size(sight, instance.bound));
+    size = std::max(size, frame::seen_size(sight, world.bounds[slot]));
   return size;
 }
 
 // Whether any of this look's rays gets through.
-bool gets_through(WorldState& world, const Instance& instance, const frame::Sight& sight) noexcept {
-  const frame::Ball& ball = instance.bound;
+bool gets_through(WorldState& world, uint32_t slot, const frame::Sight& sight) noexcept {
+  const frame::Ball& ball = world.bounds[slot];
   const float size = frame::seen_size(sight, ball);
   if (size == 0 || size == 1) return size == 1;  // not in this view; so near that nothing is between
   for (uint32_t ray = 0; ray < kRaysALook; ++ray) {
     double point_m[3];
-    frame::point_on(sight, ball, instance.state->blind_looks * kRaysALook + ray, point_m);
+    frame::point_on(sight, ball, world.rows[slot].state->blind_looks * kRaysALook + ray, point_m);
     if (!world.def.occlusion->is_blocked(sight.eye_m, point_m)) return true;
   }
   return false;
 }
 
-void look_at(WorldState& world, Instance& instance) noexcept {
-  uint32_t& blind = instance.state->blind_looks;
+void look_at(WorldState& world, uint32_t slot) noexcept {
+  PlanRow& row = world.rows[slot];
+  uint32_t& blind = row.state->blind_looks;
   const bool seen = std::ranges::any_of(
-      sights_of(world), [&](const frame::Sight& sight) { return gets_through(world, instance, sight); });
+      sights_of(world), [&](const frame::Sight& sight) { return gets_through(world, slot, sight); });
   blind = seen ? 0 : blind + 1;
+  row.blind = !seen;
 }
 
 // A few of those in view, where the last step left off.
@@ -46,11 +48,16 @@ void look_behind_things(WorldState& world) noexcept {
   uint32_t rays = world.def.sight_rays_per_step;
   for (uint32_t passed = 0; passed < end && rays >= kRaysALook; ++passed) {
     world.next_look = world.next_look + 1 < end ? world.next_look + 1 : 0;
-    Instance* instance = world.instances.at(world.next_look);
-    if (!instance || instance->size == 0 || instance->state->hidden_by_caller) continue;
-    look_at(world, *instance);
+    const PlanRow& row = world.rows[world.next_look];
+    if (!row.asset || row.size == 0 || row.hidden_by_caller) continue;
+    look_at(world, world.next_look);
     rays -= std::min(rays, kRaysALook * world.sight_count);
   }
+}
+
+void forget_looks(PlanRow& row) noexcept {
+  row.state->blind_looks = 0;
+  row.blind = false;
 }
 
 }  // namespace
@@ -58,19 +65,19 @@ void look_behind_things(WorldState& world) noexcept {
 void look(WorldState& world) noexcept {
   const bool looks =
       world.def.occlusion && world.sight_count > 0 && world.def.sight_rays_per_step >= kRaysALook;
-  const auto decide = [](Instance& instance, uint32_t) {
-    const InstanceState& state = *instance.state;
-    instance.seen = !state.hidden_by_caller && instance.size > 0 && state.blind_looks < kBlindLooks;
+  const auto decide = [](PlanRow& row, uint32_t) {
+    const bool blind = row.blind && row.state->blind_looks >= kBlindLooks;
+    row.seen = !row.hidden_by_caller && row.size > 0 && !blind;
   };
-  for_each_instance(world, [&](Instance& instance, uint32_t slot) {
-    instance.size = size_of(world, instance);
+  for_each_row(world, [&](PlanRow& row, uint32_t slot) {
+    row.size = size_of(world, slot);
     // Comes into view as seen, and nothing is hidden by what was once in front of it.
-    if (!looks || instance.size == 0 || instance.state->hidden_by_caller) instance.state->blind_looks = 0;
-    decide(instance, slot);
+    if (row.blind && (!looks || row.size == 0 || row.hidden_by_caller)) forget_looks(row);
+    decide(row, slot);
   });
   if (!looks) return;
   look_behind_things(world);
-  for_each_instance(world, decide);
+  for_each_row(world, decide);
 }
 
 }  // namespace sinew::world

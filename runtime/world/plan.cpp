@@ -24,80 +24,62 @@ void refresh_front(const WorldState& world, Asset& asset) noexcept {
   frame::make_front({now, asset.point_count}, asset.cost.publish.estimate_us(), &asset.front);
 }
 
-float idle_us(const WorldState& world, const Asset& asset) noexcept {
-  return costs_are_measured(world) ? world.idle.estimate_us() : asset.idle_us;
+// What is asked of all candidates of a step alike.
+struct Terms {
+  bool measured, has_budget;
+  float idle_us;  // measured
+};
+
+Terms terms_of(const WorldState& world) noexcept {
+  return {costs_are_measured(world), world.budget_us > 0, world.idle.estimate_us()};
 }
 
 // What it takes in this step if it is not simulated.
-float base_us(const WorldState& world, const Instance& instance) noexcept {
-  const Asset& asset = *instance.asset;
-  if (!instance.displaced) return idle_us(world, asset);
-  if (costs_are_measured(world)) return asset.cost.publish.estimate_us();
+float base_us(const Terms& terms, const PlanRow& row) noexcept {
+  const Asset& asset = *row.asset;
+  if (!row.displaced) return terms.measured ? terms.idle_us : asset.idle_us;
+  if (terms.measured) return asset.cost.publish.estimate_us();
   return asset.idle_us + asset.cost.publish.baked_us();
 }
 
-float weight_of(const Instance& instance) noexcept {
+float weight_of(const PlanRow& row) noexcept {
   constexpr float kLargest = 1e30f;
-  const InstanceState& state = *instance.state;
-  return std::min(kLargest,
-                  state.importance * instance.size * state.excitation * instance.asset->skinning_mm);
+  return std::min(kLargest, row.importance * row.size * row.excitation * row.asset->skinning_mm);
 }
 
 // The network is not to be had for a while after a guard; nothing is while a restart fades, or in the step in
 // which one comes into view: how it moves is known a step later.
-uint32_t highest(const Instance& instance) noexcept {
-  const frame::Front& front = instance.asset->front;
-  if (instance.state->restarting || instance.state->hidden) return 0;
-  for (uint32_t level = 1; instance.state->fallback_ticks > 0 && level < front.count; ++level)
+uint32_t highest(const PlanRow& row) noexcept {
+  const frame::Front& front = row.asset->front;
+  if (row.restarting || row.hidden) return 0;
+  for (uint32_t level = 1; row.falls_back && level < front.count; ++level)
     if (front.levels[level].tier == Tier::kNetwork) return level - 1;
   return front.best();
 }
 
-Candidate candidate_of(const WorldState& world, const Instance& instance, uint32_t slot) noexcept {
-  const InstanceState& state = *instance.state;
-  const frame::Front& front = instance.asset->front;
-  const uint32_t ticks = instance.plan.ticks.ticks;
+Candidate candidate_of(const Terms& terms, const PlanRow& row, uint32_t ticks, uint32_t slot) noexcept {
+  const frame::Front& front = row.asset->front;
   return {.slot = slot,
           .front = &front,
-          .weight = weight_of(instance),
-          .waited_s = state.waited_s,
-          .held_s = state.held_s,
+          .weight = weight_of(row),
+          .waited_s = row.waited_s,
+          .held_s = row.held_s,
           .ticks = static_cast<float>(ticks),
-          .cost_factor = costs_are_measured(world) ? instance.cost_factor : 1,
-          .base_us = base_us(world, instance),
-          .enter_us = costs_are_measured(world) ? instance.asset->cost.enter.estimate_us() : 0,
-          .has = front.level_of(state.tier, instance.plan.every, state.level),
-          .top = highest(instance),
-          .turn_left_s = state.turn_left_s,
-          .keeps_level = ticks == 0 && world.budget_us > 0 && !state.hidden};
+          .cost_factor = terms.measured ? row.cost_factor : 1,
+          .base_us = base_us(terms, row),
+          .enter_us = terms.measured ? row.asset->cost.enter.estimate_us() : 0,
+          .has = front.level_of(row.tier, row.every, row.level),
+          .top = highest(row),
+          .turn_left_s = row.turn_left_s,
+          .keeps_level = ticks == 0 && terms.has_budget && !row.hidden};
 }
-
-// Instances of an age have the same ticks: they are worked out once.
-class TickPlans {
- public:
-  TickPlans(double dt_s, uint32_t most) noexcept : dt_s_(dt_s), most_(most) {}
-  const frame::TickPlan& of(const Instance& instance) noexcept {
-    const double remainder_s = instance.state->remainder_s, tick_s = instance.asset->tick_s;
-    if (remainder_s != remainder_s_ || tick_s != tick_s_) {
-      plan_ = frame::plan_ticks(remainder_s, dt_s_, tick_s, most_);
-      remainder_s_ = remainder_s;
-      tick_s_ = tick_s;
-    }
-    return plan_;
-  }
-
- private:
-  double dt_s_, remainder_s_ = -1, tick_s_ = 0;
-  uint32_t most_;
-  frame::TickPlan plan_;
-};
 
 constexpr uint32_t kNone = UINT32_MAX;
 
 // Dormant, and below its best for longer than the one in that slot.
-bool waits_longer(const WorldState& world, const InstanceState& state, uint32_t than) noexcept {
-  if (state.dormant != static_cast<uint32_t>(Dormancy::kBelowBest)) return false;
-  return than == kNone || state.held_s > world.instances.at(than)->state->held_s;
+bool waits_longer(const WorldState& world, const PlanRow& row, uint32_t than) noexcept {
+  if (row.dormant != static_cast<uint8_t>(Dormancy::kBelowBest)) return false;
+  return than == kNone || row.held_s > world.rows[than].held_s;
 }
 
 struct Gathered {
@@ -105,27 +87,65 @@ struct Gathered {
   uint32_t waiting = kNone;  // slot of the one that has had less than its best for longest
 };
 
+void sleep_on(WorldState& world, uint32_t slot) noexcept {
+  Instance& instance = *world.instances.at(slot);
+  frame::TickPlans ticks = tick_plans(world);
+  instance.plan.ticks = ticks.of(world.rows[slot].remainder_s, instance.asset->tick_s);
+  instance.plan.dt_s = world.dt_s;
+  instance.passed = true;
+  stay_dormant(instance);
+  copy_to_row(instance, &world.rows[slot]);
+}
+
 // All but the one that waits: what becomes of it is seen once the others are provided for.
 void pass_dormant(WorldState& world, uint32_t slot, Gathered& gathered) noexcept {
   uint32_t passed = slot;
-  if (waits_longer(world, *world.instances.at(slot)->state, gathered.waiting))
-    passed = std::exchange(gathered.waiting, slot);
-  if (passed != kNone) stay_dormant(*world.instances.at(passed));
+  if (waits_longer(world, world.rows[slot], gathered.waiting)) passed = std::exchange(gathered.waiting, slot);
+  if (passed != kNone) sleep_on(world, passed);
 }
 
-Gathered gather_candidates(WorldState& world, double dt_s) noexcept {
+void pass_unseen(WorldState& world, uint32_t slot) noexcept {
+  Instance& instance = *world.instances.at(slot);
+  PlanRow& row = world.rows[slot];
+  const bool was_hidden = row.hidden;
+  pass_by(instance, world.dt_s, world.def.max_ticks_per_step);
+  row.remainder_s = instance.state->remainder_s;
+  if (!was_hidden) copy_to_row(instance, &row);
+}
+
+// What comes next is waited for by then: rows in any case, of those that are passed over also they
+// themselves.
+void bring_next_near(const WorldState& world, uint32_t slot, uint32_t candidate) noexcept {
+  constexpr uint32_t kRowsAhead = 16, kAhead = 8;
+  if (slot + kRowsAhead >= world.instances.end()) return;
+  __builtin_prefetch(&world.rows[slot + kRowsAhead]);
+  __builtin_prefetch(&world.answers[slot + kRowsAhead], 1);
+  core::bring_near(&world.candidates[candidate + kAhead], sizeof(Candidate));
+  const PlanRow& row = world.rows[slot + kAhead];
+  if (row.dormant || !row.seen) bring_instance_near(world, slot + kAhead);
+}
+
+void count_ticks(const frame::TickPlan& plan, WorldState& world) noexcept {
+  world.ticks = std::max(world.ticks, plan.ticks);
+  world.dropped_s = std::max(world.dropped_s, static_cast<float>(plan.dropped_s));
+}
+
+Gathered gather_candidates(WorldState& world) noexcept {
   Gathered gathered;
-  TickPlans plans(dt_s, world.def.max_ticks_per_step);
-  world.idle_count = 0;
-  for_each_instance(world, [&](Instance& instance, uint32_t slot) {
-    if (!instance.seen) return pass_by(instance, dt_s, world.def.max_ticks_per_step);
-    instance.plan.ticks = plans.of(instance);
-    instance.plan.dt_s = dt_s;
-    instance.passed = instance.state->dormant && world.budget_us > 0;
-    if (instance.passed)
+  frame::TickPlans plans = tick_plans(world);
+  const Terms terms = terms_of(world);
+  world.idle_count = world.ticks = 0;
+  world.dropped_s = 0;
+  for_each_row(world, [&](PlanRow& row, uint32_t slot) {
+    bring_next_near(world, slot, gathered.candidates);
+    if (!row.seen) return pass_unseen(world, slot);
+    const frame::TickPlan& ticks = plans.of(row.remainder_s, row.asset->tick_s);
+    count_ticks(ticks, world);
+    world.answers[slot].idle = false;
+    if (row.dormant && terms.has_budget)
       pass_dormant(world, slot, gathered);
     else
-      world.candidates[gathered.candidates++] = candidate_of(world, instance, slot);
+      world.candidates[gathered.candidates++] = candidate_of(terms, row, ticks.ticks, slot);
   });
   return gathered;
 }
@@ -133,18 +153,19 @@ Gathered gather_candidates(WorldState& world, double dt_s) noexcept {
 // At its best once there is room for it beside all that is awake.
 void raise_waiting(WorldState& world, float budget_us, Gathered& gathered,
                    frame::ScheduleResult& result) noexcept {
-  Instance& instance = *world.instances.at(gathered.waiting);
-  Candidate c = candidate_of(world, instance, gathered.waiting);
+  const uint32_t slot = gathered.waiting;
+  const PlanRow& row = world.rows[slot];
+  const frame::TickPlan ticks = tick_plans(world).of(row.remainder_s, row.asset->tick_s);
+  Candidate c = candidate_of(terms_of(world), row, ticks.ticks, slot);
   c.level = c.top;
   c.reason = frame::Reason::kBest;
   const bool fits = !result.denied && result.planned_us + c.cost_us(c.top) <= budget_us;
-  if (c.keeps_level) return stay_dormant(instance);
+  if (c.keeps_level) return sleep_on(world, slot);
   if (!fits) {
-    instance.state->held_s = 0;  // the next one's turn
+    world.instances.at(slot)->state->held_s = 0;  // the next one's turn
     result.denied = true;
-    return stay_dormant(instance);
+    return sleep_on(world, slot);
   }
-  instance.passed = false;
   result.planned_us += c.cost_us(c.top);
   world.candidates[gathered.candidates++] = c;
 }
@@ -155,42 +176,39 @@ TierReason told(frame::Reason reason) noexcept {
   return kTold[static_cast<size_t>(reason)];
 }
 
-void take_answer(const WorldState& world, const Candidate& c, Instance& instance) noexcept {
+void take_answer(const WorldState& world, const Candidate& c) noexcept {
   const frame::Level& level = c.front->levels[c.level];
-  InstancePlan& plan = instance.plan;
+  const PlanRow& row = world.rows[c.slot];
+  PlanAnswer& plan = world.answers[c.slot];
   plan.why = told(c.reason);
-  instance.state->turn_left_s = c.turn_left_s;
-  plan.level = instance.state->level;
+  plan.turn_left_s = c.turn_left_s;
+  plan.level = row.level;
+  plan.every = row.every;
   if (c.keeps_level) {
-    plan.tier = instance.state->tier;
+    plan.tier = row.tier;
     plan.cost_us = c.base_us;
     return;
   }
   const bool denied = c.level == 0;
-  plan.tier = !denied ? level.tier
-              : world.budget_us > 0 && !instance.state->restarting && !instance.state->hidden
-                  ? Tier::kExtrapolate
-                  : Tier::kSkinning;
-  plan.every = denied ? 1 : level.every;
-  if (!denied) plan.level = level.graph;
-  plan.error = level.error;
+  const bool carried = world.budget_us > 0 && !row.restarting && !row.hidden;
+  plan.tier = !denied ? level.tier : carried ? Tier::kExtrapolate : Tier::kSkinning;
+  plan.every = static_cast<uint8_t>(denied ? 1 : level.every);
+  if (!denied) plan.level = static_cast<uint8_t>(level.graph);
   plan.cost_us = c.cost_us(c.level);
 }
 
 // Nothing of it is simulated, nothing of it is displaced.
-bool is_idle(const Instance& instance) noexcept {
-  return !frame::is_simulated(instance.plan.tier) && !instance.displaced && instance.shown_share() == 0 &&
-         !instance.state->restarting && !instance.state->hidden;
+bool is_idle(const PlanRow& row, const PlanAnswer& plan) noexcept {
+  return !frame::is_simulated(plan.tier) && !row.displaced && !row.shows && !row.restarting && !row.hidden;
 }
 
 // ---- order ----
 
-uint32_t rank_of(const Candidate& c, const Instance& instance) noexcept {
-  const bool simulated = frame::is_simulated(instance.plan.tier);
+uint32_t rank_of(const Candidate& c, const PlanRow& row, const PlanAnswer& plan) noexcept {
   constexpr float kCutLast = 1e20f;  // ahead of all the others, in their own order
-  const float weight = std::clamp(c.weight, 1e-18f, 1e17f) * (instance.cut || instance.held ? kCutLast : 1);
+  const float weight = std::clamp(c.weight, 1e-18f, 1e17f) * (row.was_cut ? kCutLast : 1);
   constexpr uint32_t kDrawersARank = frame::WeightBuckets::kCount / kRanks;
-  const bool ranks = simulated || instance.cut || instance.held;
+  const bool ranks = frame::is_simulated(plan.tier) || row.was_cut;
   return ranks ? frame::WeightBuckets::drawer_of(weight) / kDrawersARank : 0;
 }
 
@@ -200,13 +218,14 @@ std::span<uint32_t> put_in_order(WorldState& world, std::span<const Candidate> c
   std::fill_n(begins, kRanks + 1, 0u);
   uint32_t count = 0;
   for (const Candidate& c : candidates) {
-    Instance& instance = *world.instances.at(c.slot);
-    instance.idle = is_idle(instance);
-    if (instance.idle) {
+    const PlanRow& row = world.rows[c.slot];
+    PlanAnswer& plan = world.answers[c.slot];
+    plan.idle = is_idle(row, plan);
+    if (plan.idle) {
       world.idle_slots[world.idle_count++] = c.slot;
       continue;
     }
-    const uint32_t behind = kRanks - 1 - rank_of(c, instance);
+    const uint32_t behind = kRanks - 1 - rank_of(c, row, plan);
     world.ranked[count++] = {c.slot, behind};
     ++begins[behind + 1];
   }
@@ -219,9 +238,9 @@ std::span<uint32_t> put_in_order(WorldState& world, std::span<const Candidate> c
 void add_up_behind(WorldState& world, std::span<const uint32_t> order) noexcept {
   float behind_us = static_cast<float>(world.idle_count) * world.idle.estimate_us();
   for (size_t i = order.size(); i-- > 0;) {
-    Instance& instance = *world.instances.at(order[i]);
-    instance.plan.behind_us = behind_us;
-    if (instance.displaced) behind_us += instance.asset->cost.publish.estimate_us();
+    const PlanRow& row = world.rows[order[i]];
+    world.answers[order[i]].behind_us = behind_us;
+    if (row.displaced) behind_us += row.asset->cost.publish.estimate_us();
   }
 }
 
@@ -232,9 +251,10 @@ bool costs_are_measured(const WorldState& world) noexcept {
 }
 
 frame::ScheduleResult plan_step(WorldState& world, double dt_s) noexcept {
+  world.dt_s = dt_s;
   for (uint32_t slot = 0; slot < world.assets.end(); ++slot)
     if (Asset* asset = world.assets.at(slot)) refresh_front(world, *asset);
-  Gathered gathered = gather_candidates(world, dt_s);
+  Gathered gathered = gather_candidates(world);
   frame::ScheduleScratch& scratch = *world.scratch;
   float budget_us = world.budget_us;
   if (costs_are_measured(world) && budget_us > 0)
@@ -243,7 +263,7 @@ frame::ScheduleResult plan_step(WorldState& world, double dt_s) noexcept {
       frame::schedule({world.candidates.get(), gathered.candidates}, budget_us, scratch);
   if (gathered.waiting != kNone) raise_waiting(world, budget_us, gathered, result);
   const std::span<const Candidate> candidates{world.candidates.get(), gathered.candidates};
-  for (const Candidate& c : candidates) take_answer(world, c, *world.instances.at(c.slot));
+  for (const Candidate& c : candidates) take_answer(world, c);
   world.running = put_in_order(world, candidates);
   add_up_behind(world, world.running);
   return result;

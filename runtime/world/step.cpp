@@ -17,14 +17,39 @@
 namespace sinew::world {
 namespace {
 
+Instance& take_answer(const WorldState& world, uint32_t slot, frame::TickPlans& ticks) noexcept {
+  Instance& instance = *world.instances.at(slot);
+  const PlanAnswer& answer = world.answers[slot];
+  instance.plan = {.ticks = ticks.of(instance.state->remainder_s, instance.asset->tick_s),
+                   .dt_s = world.dt_s,
+                   .tier = answer.tier,
+                   .level = answer.level,
+                   .every = answer.every,
+                   .cost_us = answer.cost_us,
+                   .behind_us = answer.behind_us,
+                   .why = answer.why};
+  instance.state->turn_left_s = answer.turn_left_s;
+  instance.passed = false;
+  return instance;
+}
+
+void bring_whole_near(const WorldState& world, uint32_t slot) noexcept {
+  world.instances.bring_near(slot, sizeof(Instance));
+  core::bring_near(world.rows[slot].state, sizeof(InstanceState));
+}
+
 void run_idle_chunk(WorldState& world, uint32_t chunk) noexcept {
-  constexpr uint32_t kAhead = 4;  // memory comes in while others are worked on
+  constexpr uint32_t kAhead = 6;
   const Marker marker(world.def.profiler, "idle", kNoInstance);
   const uint64_t start_ns = core::now_ns(world.def.clock);
+  frame::TickPlans ticks = tick_plans(world);
   const uint32_t first = chunk * kIdleChunk, last = std::min(first + kIdleChunk, world.idle_count);
   for (uint32_t i = first; i < last; ++i) {
-    if (i + kAhead < last) __builtin_prefetch(world.instances.at(world.idle_slots[i + kAhead])->state);
-    step_idle(*world.instances.at(world.idle_slots[i]), world.context);
+    if (i + kAhead < last) bring_whole_near(world, world.idle_slots[i + kAhead]);
+    const uint32_t slot = world.idle_slots[i];
+    Instance& instance = take_answer(world, slot, ticks);
+    step_idle(instance, world.context);
+    copy_to_row(instance, &world.rows[slot]);
   }
   world.idle_ns[chunk] = core::now_ns(world.def.clock) - start_ns;
 }
@@ -35,7 +60,11 @@ void run_one(void* argument, uint32_t index) {
   const auto active = static_cast<uint32_t>(world.running.size());
   if (index >= active) return run_idle_chunk(world, index - active);
   const uint32_t slot = world.running[index];
-  step_instance(*world.instances.at(slot), world.context, slot);
+  if (index + 1 < active) bring_whole_near(world, world.running[index + 1]);
+  frame::TickPlans ticks = tick_plans(world);
+  Instance& instance = take_answer(world, slot, ticks);
+  step_instance(instance, world.context, slot);
+  copy_to_row(instance, &world.rows[slot]);
 }
 
 uint32_t idle_chunks(const WorldState& world) noexcept {

@@ -75,6 +75,9 @@ Status find_instance(const WorldState* state, InstanceId id, Instance** out) noe
               out);
 }
 
+// After its instance was made, changed or unmade.
+void keep_row(WorldState& state, InstanceId id) noexcept { world::keep_row(state, id.index1 - 1); }
+
 // A world's objects may not be made or unmade, nor a step begun, while its tasks run.
 bool busy(const WorldState& state) noexcept {
   if (state.stepping) core::report_fault(state.def.assert_hook, "the world is inside a step");
@@ -202,6 +205,7 @@ Status World::create_instance(const InstanceDef& def, InstanceId* out) noexcept 
   if (is_null(id))
     return make_status(StatusCode::kOutOfCapacity, "create_instance: every slot's generations are used up");
   ++asset->live_instances;
+  keep_row(*impl_, id);
   *out = id;
   return {};
 }
@@ -212,6 +216,7 @@ Status World::destroy_instance(InstanceId id) noexcept {
   if (busy(*impl_)) return refuse_busy();
   --instance->asset->live_instances;
   impl_->instances.destroy(id);
+  keep_row(*impl_, id);
   return {};
 }
 
@@ -231,6 +236,7 @@ Status World::set_pose(InstanceId id, const Pose& pose) noexcept {
   instance->state->next_root = root;
   instance->state->has_next = 1;
   world::bound_pose(*instance);
+  keep_row(*impl_, id);
   return {};
 }
 
@@ -239,6 +245,7 @@ Status World::set_importance(InstanceId id, float importance) noexcept {
   if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
   if (busy(*impl_)) return refuse_busy();
   instance->state->importance = frame::sane_importance(importance);
+  keep_row(*impl_, id);
   return {};
 }
 
@@ -261,6 +268,7 @@ Status World::set_hidden(InstanceId id, bool hidden) noexcept {
   if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
   if (busy(*impl_)) return refuse_busy();
   instance->state->hidden_by_caller = hidden;
+  keep_row(*impl_, id);
   return {};
 }
 
@@ -269,6 +277,7 @@ Status World::reset(InstanceId id) noexcept {
   if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
   if (busy(*impl_)) return refuse_busy();
   world::forget_motion(*instance);
+  keep_row(*impl_, id);
   return {};
 }
 
@@ -350,7 +359,9 @@ Status World::restore_state(InstanceId id, std::span<const std::byte> bytes) noe
   Instance* instance = nullptr;
   if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
   if (busy(*impl_)) return refuse_busy();
-  return world::restore(*instance, bytes);
+  Status status = world::restore(*instance, bytes);
+  keep_row(*impl_, id);
+  return status;
 }
 
 }  // namespace sinew

@@ -20,6 +20,7 @@ bool reserve(WorldState& world, const WorldDef& def) noexcept {
   world.scratch.reset(new (std::nothrow) frame::ScheduleScratch());
   const bool complete =
       world.scratch && world.assets.reserve(def.max_assets) && world.instances.reserve(most) &&
+      take(world.rows, most) && take(world.bounds, most) && take(world.answers, most) &&
       take(world.candidates, most) && take(world.order, most) && take(world.idle_slots, most) &&
       take(world.idle_ns, (most + kIdleChunk - 1) / kIdleChunk) && take(world.ranked, most) &&
       take(world.rank_begins, kRanks + 1) && take(world.overdue, most) && take(world.purchases, most) &&
@@ -28,6 +29,16 @@ bool reserve(WorldState& world, const WorldDef& def) noexcept {
   world.scratch->overdue = {world.overdue.get(), most};
   world.scratch->purchases = {world.purchases.get(), most};
   return true;
+}
+
+void keep_row(WorldState& world, uint32_t slot) noexcept {
+  const Instance* instance = world.instances.at(slot);
+  if (!instance) {
+    world.rows[slot] = {};
+    return;
+  }
+  copy_to_row(*instance, &world.rows[slot]);
+  world.bounds[slot] = instance->bound;
 }
 
 }  // namespace sinew::world

@@ -12,6 +12,7 @@
 #include "sinew/types.hpp"
 #include "world/asset.hpp"
 #include "world/instance.hpp"
+#include "world/plan_row.hpp"
 #include "world/tick.hpp"
 
 namespace sinew::world {
@@ -28,7 +29,11 @@ struct WorldState {
   WorldDef def;
   core::SlotTable<Asset, AssetId> assets;
   core::SlotTable<Instance, InstanceId> instances;
+  // [max_instances], by slot: what plans ask of instances, and where they are.
+  std::unique_ptr<PlanRow[]> rows;
+  std::unique_ptr<frame::Ball[]> bounds;
   // Of a step, [max_instances] unless said otherwise.
+  std::unique_ptr<PlanAnswer[]> answers;           // by slot
   std::unique_ptr<frame::Candidate[]> candidates;  // of all that are visible, by slot
   std::unique_ptr<uint32_t[]> order;  // slots of what is not idle, in the order in which they run
   std::unique_ptr<uint32_t[]> idle_slots;
@@ -41,6 +46,9 @@ struct WorldState {
   std::span<uint32_t> running;  // of order
   float undone_us = 0;          // that was planned for what was cut
   uint32_t idle_count = 0;
+  double dt_s = 0;
+  uint32_t ticks = 0;   // the most that one has
+  float dropped_s = 0;  // likewise
   TickContext context;  // of the step that runs
   frame::Capacity capacity;
   frame::CostEstimate idle{0.2f};          // of one idle instance
@@ -56,19 +64,26 @@ struct WorldState {
   bool stepping = false;
 };
 
-// Calls work(instance, slot) for each, in the slots' order. After a step of all of them hardly anything of an
-// instance is in a cache: what is looked at here comes in while those before it are worked on.
+// Calls work(row, slot) for each instance, in the slots' order.
 template <class Work>
-void for_each_instance(const WorldState& world, Work work) noexcept {
-  constexpr uint32_t kFar = 12, kNear = 6;
-  for (uint32_t slot = 0; slot < world.instances.end(); ++slot) {
-    world.instances.bring_near(slot + kFar, kPlannedBytes);
-    if (slot + kNear < world.instances.end())
-      if (const Instance* ahead = world.instances.at(slot + kNear))
-        core::bring_near(ahead->state, kPlannedStateBytes);
-    if (Instance* instance = world.instances.at(slot)) work(*instance, slot);
-  }
+void for_each_row(const WorldState& world, Work work) noexcept {
+  for (uint32_t slot = 0; slot < world.instances.end(); ++slot)
+    if (PlanRow& row = world.rows[slot]; row.asset) work(row, slot);
 }
+
+// Hardly anything of an instance is in a cache when a step or its tasks are over: what is wanted of those
+// that come next comes in while others are worked on.
+inline void bring_instance_near(const WorldState& world, uint32_t slot) noexcept {
+  world.instances.bring_near(slot, kPlannedBytes);
+  core::bring_near(world.rows[slot].state, kPlannedStateBytes);
+}
+
+inline frame::TickPlans tick_plans(const WorldState& world) noexcept {
+  return {world.dt_s, world.def.max_ticks_per_step};
+}
+
+// Rows are kept as the instances are: after whatever changed one.
+void keep_row(WorldState& world, uint32_t slot) noexcept;
 
 // The tables' memory. False: there is none.
 bool reserve(WorldState& world, const WorldDef& def) noexcept;

@@ -107,3 +107,19 @@ TEST_CASE("rollback_while_fading_and_blending_keeps_bits") {
   stage.time_s = time_s;
   CHECK(interrupted() == first);
 }
+
+TEST_CASE("what_is_restored_is_planned_by_what_it_was_saved_as") {
+  Stage stage(0, {.budget_mode = BudgetMode::kWorkUnits});
+  stage.add(1000);
+  stage.add(1);
+  REQUIRE(stage.world.set_budget_us(1.05f * test::tier_cost_us(Tier::kNetwork)).ok());
+  stage.play(scenes::walk, 1);
+  REQUIRE(stage.report(0).tier == Tier::kNetwork);
+  REQUIRE(stage.report(1).tier != Tier::kNetwork);
+  const std::vector<std::byte> first = stage.save(0), second = stage.save(1);
+  REQUIRE(stage.world.restore_state(stage.blocks[0], second).ok());
+  REQUIRE(stage.world.restore_state(stage.blocks[1], first).ok());
+  stage.world.step(static_cast<float>(kFrame_s));
+  CHECK(stage.report(0).tier != Tier::kNetwork);
+  CHECK(stage.report(1).tier == Tier::kNetwork);
+}

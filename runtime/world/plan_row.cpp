@@ -1,0 +1,31 @@
+// plan_row.cpp  see plan_row.hpp.
+#include "world/plan_row.hpp"
+
+namespace sinew::world {
+
+void copy_to_row(const Instance& instance, PlanRow* row) noexcept {
+  const InstanceState& state = *instance.state;
+  row->asset = instance.asset;
+  row->state = instance.state;
+  row->remainder_s = state.remainder_s;
+  row->importance = state.importance;
+  row->excitation = state.excitation;
+  row->waited_s = state.waited_s;
+  row->held_s = state.held_s;
+  row->turn_left_s = state.turn_left_s;
+  row->cost_factor = instance.cost_factor;
+  row->tier = state.tier;
+  row->level = static_cast<uint8_t>(state.level);
+  row->every = static_cast<uint8_t>(instance.plan.every);
+  row->dormant = static_cast<uint8_t>(state.dormant);
+  row->restarting = state.restarting != 0;
+  row->hidden = state.hidden != 0;
+  row->hidden_by_caller = state.hidden_by_caller != 0;
+  row->displaced = instance.displaced;
+  row->falls_back = state.fallback_ticks > 0;
+  row->was_cut = instance.cut || instance.held;
+  row->shows = instance.shown_share() != 0;
+  row->blind = state.blind_looks > 0;
+}
+
+}  // namespace sinew::world

@@ -1,0 +1,44 @@
+// plan_row.hpp  What a step's plan asks of each instance, a cache line each, and what it answers.
+//
+// After a step of hundreds hardly anything of an instance is in a cache, and a plan that looked at each would
+// wait for memory at each. So whoever changed one last copies here what the next plan asks of it: the task
+// that stepped it, the call that set something. A task takes the answer over.
+#pragma once
+#include "world/instance.hpp"
+
+namespace sinew::world {
+
+struct alignas(64) PlanRow {
+  Asset* asset = nullptr;  // null: the slot is free
+  InstanceState* state = nullptr;
+  // Of InstanceState and Instance, under the same names:
+  double remainder_s = 0;
+  float importance = 1, excitation = 1;
+  float waited_s = 0, held_s = 0, turn_left_s = 0;
+  float cost_factor = 1;
+  Tier tier = Tier::kSkinning;
+  uint8_t level = 0, every = 1, dormant = 0;
+  bool restarting : 1 = false, hidden : 1 = false, hidden_by_caller : 1 = false, displaced : 1 = false;
+  bool falls_back : 1 = false;  // the network is not to be had
+  bool was_cut : 1 = false;     // cut or held
+  bool shows : 1 = false;       // some of a displacement, be it zero
+  bool blind : 1 = false;       // rays were stopped in the last look
+  bool seen : 1 = true;         // in this step (world/look.hpp)
+  float size = 1;               // likewise: share of a view's height
+};
+static_assert(sizeof(PlanRow) == 64);
+
+// Of InstancePlan.
+struct PlanAnswer {
+  float cost_us = 0, behind_us = 0;
+  float turn_left_s = 0;  // of InstanceState
+  Tier tier = Tier::kSkinning;
+  TierReason why = TierReason::kBudget;
+  uint8_t level = 0, every = 1;
+  bool idle = false;  // neither simulated nor displaced
+};
+
+// All but what a look finds.
+void copy_to_row(const Instance& instance, PlanRow* row) noexcept;
+
+}  // namespace sinew::world
