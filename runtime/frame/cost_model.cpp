@@ -47,6 +47,7 @@ void CostModel::settle() noexcept {
     for (CostEstimate& estimate : levels) estimate.settle();
   publish.settle();
   enter.settle();
+  change.settle();
 }
 
 void Capacity::observe(float spent, float undone, bool denied) noexcept {

@@ -33,14 +33,27 @@ void learn_entering(Instance& instance, float ticked_us) noexcept {
   cost.enter.observe(std::clamp(ticked_us - ticks * tick_us, 0.0f, kMost * tick_us));
 }
 
+void learn_changing(Instance& instance, float step_us) noexcept {
+  frame::CostModel& cost = instance.asset->cost;
+  const float tick_us = cost.of(instance.state->tier, instance.state->level).estimate_us();
+  const auto ticks = static_cast<float>(instance.plan.ticks.ticks);
+  constexpr float kMost = 10;
+  const float beyond_us = step_us - cost.publish.estimate_us() - ticks * tick_us;
+  cost.change.observe(std::clamp(beyond_us, 0.0f, kMost * tick_us));
+}
+
 void learn_costs(Instance& instance) noexcept {
   const InstanceTimes& times = instance.times;
   const uint64_t ticked_ns = times.drive_ns + times.tissue_ns + times.rods_ns;
+  const bool ran = frame::is_simulated(instance.state->tier) && instance.plan.ticks.ticks > 0 &&
+                   (ran_as_planned(instance) || instance.cut);
+  if (instance.changed_level) {
+    if (ran && !instance.entered) learn_changing(instance, core::microseconds(times.total_ns));
+    return;
+  }
   if (instance.displaced && !instance.held)
     instance.asset->cost.publish.observe(core::microseconds(times.total_ns - ticked_ns));
   const auto ticks = static_cast<float>(instance.plan.ticks.ticks);
-  const bool ran = frame::is_simulated(instance.state->tier) && ticks > 0 && !instance.changed_level &&
-                   (ran_as_planned(instance) || instance.cut);
   if (ran && instance.entered)
     learn_entering(instance, core::microseconds(ticked_ns));
   else if (ran)

@@ -68,6 +68,7 @@ Candidate candidate_of(const Terms& terms, const PlanRow& row, uint32_t ticks, u
           .cost_factor = terms.measured ? row.cost_factor : 1,
           .base_us = base_us(terms, row),
           .enter_us = terms.measured ? row.asset->cost.enter.estimate_us() : 0,
+          .change_us = terms.measured ? row.asset->cost.change.estimate_us() : 0,
           .has = front.level_of(row.tier, row.every, row.level),
           .top = highest(row),
           .turn_left_s = row.turn_left_s,

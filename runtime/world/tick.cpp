@@ -83,6 +83,11 @@ void run_ticks(Instance& instance, const TickContext& context, uint32_t slot) no
 
 // ---- the deadline ----
 
+bool changes_level(const Instance& instance) noexcept {
+  return frame::is_simulated(instance.plan.tier) && instance.plan.ticks.ticks > 0 &&
+         instance.plan.level != instance.state->level;
+}
+
 // By what one of twenty takes; where that is much of the step, and nobody behind it makes up for what it is
 // late by, by what one of a hundred does.
 float most_us(const Instance& instance, const TickContext& context) noexcept {
@@ -93,7 +98,7 @@ float most_us(const Instance& instance, const TickContext& context) noexcept {
   const bool enters = !frame::is_simulated(instance.state->tier);
   const bool much = ticks * tick.estimate_us() > kMuch * context.tasks_us;
   return cost.publish.p95_us() + ticks * (much ? tick.p99_us() : tick.p95_us()) +
-         (enters ? cost.enter.p95_us() : 0);
+         (enters ? cost.enter.p95_us() : 0) + (changes_level(instance) && !enters ? cost.change.p95_us() : 0);
 }
 
 // The next cheaper one that it may fall to at once.
@@ -146,11 +151,6 @@ uint32_t quality(Tier tier) noexcept {
 bool rises(const Instance& instance) noexcept {
   const uint32_t planned = quality(instance.plan.tier), has = quality(instance.state->tier);
   return planned > has || (planned == has && instance.plan.level < instance.state->level);
-}
-
-bool changes_level(const Instance& instance) noexcept {
-  return frame::is_simulated(instance.plan.tier) && instance.plan.ticks.ticks > 0 &&
-         instance.plan.level != instance.state->level;
 }
 
 // One that is asleep was to have better; late, it keeps what it has, and it is the next one's turn.

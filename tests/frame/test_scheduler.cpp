@@ -324,6 +324,25 @@ TEST_CASE("one_dearer_than_the_whole_budget_is_not_waited_for") {
   CHECK(crowd.count(1) == 2);
 }
 
+// A level on another control graph takes more in the step that changes to it: once, and only on the way up.
+TEST_CASE("a_finer_control_graph_is_paid_for_as_it_is_taken") {
+  const Level points[] = {{.tier = Tier::kModal, .tick_us = 4, .error = 0.3f, .graph = 1},
+                          {.tier = Tier::kModal, .tick_us = 6, .error = 0.2f},
+                          {.tier = Tier::kNetwork, .tick_us = 10, .error = 0.1f}};
+  Front front;
+  make_front(points, 0, &front);
+  Crowd crowd(1, front);
+  crowd[0].change_us = 20;
+  crowd.schedule(10);
+  CHECK(crowd[0].level == 3);  // what is not simulated has no graph to change from
+  crowd[0].has = 1;
+  CHECK(crowd.schedule(25).planned_us == 4);
+  CHECK(crowd.schedule(30).planned_us == 30);
+  crowd[0].has = 2;
+  CHECK(crowd.schedule(10).planned_us == 10);
+  CHECK(crowd.schedule(5).planned_us == 4);
+}
+
 TEST_CASE("half_a_thousand_are_scheduled_in_tens_of_microseconds") {
   Crowd crowd(500, kUsual);
   std::mt19937 random(9);

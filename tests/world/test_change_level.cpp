@@ -5,6 +5,7 @@
 #include "tests/scenes/half_spaces.hpp"
 #include "tests/scenes/thread_pool.hpp"
 #include "tests/world/stage.hpp"
+#include "world/fold.hpp"
 #include "world/read.hpp"
 #include "world/snapshot.hpp"
 #include "world/tick.hpp"
@@ -303,4 +304,26 @@ TEST_CASE("a_wall_holds_a_block_off_at_every_level_and_while_it_changes") {
     CHECK(block.instance().told.vertices > 0);
     CHECK(deepest < 1e-3);
   }
+}
+
+TEST_CASE("what_a_change_of_level_takes_is_learnt_and_not_taken_for_publishing") {
+  world::WorldState state;
+  REQUIRE(world::reserve(state, {.max_assets = 1, .max_instances = 1}));
+  world::Asset opened;
+  REQUIRE(world::open_asset(test::levels_pack().bytes(), &opened).ok());
+  world::Asset& asset = *state.assets.find(state.assets.create(std::move(opened)));
+  world::Instance made;
+  REQUIRE(world::make_instance(asset, {}, &made).ok());
+  world::Instance& block = *state.instances.find(state.instances.create(std::move(made)));
+  world::keep_row(state, 0);
+  block.plan = {.ticks = {.ticks = 1}, .tier = Tier::kModal};
+  block.state->tier = Tier::kModal;
+  block.displaced = block.changed_level = true;
+  const float publish_us = asset.cost.publish.estimate_us(),
+              tick_us = asset.cost.of(Tier::kModal, 0).estimate_us();
+  block.times.total_ns = static_cast<uint64_t>(1e3f * (publish_us + 6 * tick_us));
+  FrameReport report;
+  world::fold_results(state, report);
+  CHECK(asset.cost.change.estimate_us() == Approx(5 * tick_us).margin(2e-3));  // to a nanosecond or two
+  CHECK(asset.cost.publish.estimate_us() == publish_us);
 }
