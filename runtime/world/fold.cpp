@@ -5,59 +5,56 @@
 
 #include "core/clock.hpp"
 #include "world/plan.hpp"
-#include "world/sleep.hpp"
 
 namespace sinew::world {
 namespace {
 
-bool ran_as_planned(const Instance& instance) noexcept {
-  return instance.state->tier == instance.plan.tier && !instance.restarted && !instance.fell_back;
+bool ran_as_planned(const Instance& instance, const PlanRow& row) noexcept {
+  return row.tier == instance.plan.tier && !instance.restarted && !instance.fell_back;
+}
+
+frame::CostEstimate& tick_cost(const PlanRow& row) noexcept {
+  return row.asset->cost.of(row.tier, row.level);
 }
 
 // A sleeper's or a toucher's own cost is its factor; the asset's is that of those who are awake.
-void learn_tick_cost(Instance& instance, float tick_us) noexcept {
+void learn_tick_cost(Instance& instance, const PlanRow& row, float tick_us) noexcept {
   constexpr float kWeight = 0.125f, kFarthest = 2, kLeast = 0.1f, kMost = 10;
-  frame::CostEstimate& estimate = instance.asset->cost.of(instance.state->tier, instance.state->level);
+  frame::CostEstimate& estimate = tick_cost(row);
   float& factor = instance.cost_factor;
-  if (regions_asleep(instance) == 0) estimate.observe(tick_us);
+  if (row.regions_asleep == 0) estimate.observe(tick_us);
   const float seen = tick_us / std::max(1e-3f, estimate.estimate_us());
   factor += kWeight * (std::clamp(seen, factor / kFarthest, factor * kFarthest) - factor);
   factor = std::clamp(factor, kLeast, kMost);
 }
 
-void learn_entering(Instance& instance, float ticked_us) noexcept {
-  frame::CostModel& cost = instance.asset->cost;
-  const float tick_us = cost.of(instance.state->tier, instance.state->level).estimate_us();
+// What it took beyond its ticks.
+void learn_beyond(const Instance& instance, const PlanRow& row, float took_us,
+                  frame::CostEstimate& to) noexcept {
+  const float tick_us = tick_cost(row).estimate_us();
   const auto ticks = static_cast<float>(instance.plan.ticks.ticks);
   constexpr float kMost = 10;  // of a tick: a first sample is not clipped by those before it
-  cost.enter.observe(std::clamp(ticked_us - ticks * tick_us, 0.0f, kMost * tick_us));
+  to.observe(std::clamp(took_us - ticks * tick_us, 0.0f, kMost * tick_us));
 }
 
-void learn_changing(Instance& instance, float step_us) noexcept {
-  frame::CostModel& cost = instance.asset->cost;
-  const float tick_us = cost.of(instance.state->tier, instance.state->level).estimate_us();
-  const auto ticks = static_cast<float>(instance.plan.ticks.ticks);
-  constexpr float kMost = 10;
-  const float beyond_us = step_us - cost.publish.estimate_us() - ticks * tick_us;
-  cost.change.observe(std::clamp(beyond_us, 0.0f, kMost * tick_us));
-}
-
-void learn_costs(Instance& instance) noexcept {
+void learn_costs(Instance& instance, const PlanRow& row) noexcept {
   const InstanceTimes& times = instance.times;
+  frame::CostModel& cost = row.asset->cost;
   const uint64_t ticked_ns = times.drive_ns + times.tissue_ns + times.rods_ns;
-  const bool ran = frame::is_simulated(instance.state->tier) && instance.plan.ticks.ticks > 0 &&
-                   (ran_as_planned(instance) || instance.cut);
+  const float ticked_us = core::microseconds(ticked_ns);
+  const bool ran = frame::is_simulated(row.tier) && instance.plan.ticks.ticks > 0 &&
+                   (ran_as_planned(instance, row) || instance.cut);
   if (instance.changed_level) {
-    if (ran && !instance.entered) learn_changing(instance, core::microseconds(times.total_ns));
+    const float took_us = core::microseconds(times.total_ns) - cost.publish.estimate_us();
+    if (ran && !instance.entered) learn_beyond(instance, row, took_us, cost.change);
     return;
   }
   if (instance.displaced && !instance.held)
-    instance.asset->cost.publish.observe(core::microseconds(times.total_ns - ticked_ns));
-  const auto ticks = static_cast<float>(instance.plan.ticks.ticks);
+    cost.publish.observe(core::microseconds(times.total_ns - ticked_ns));
   if (ran && instance.entered)
-    learn_entering(instance, core::microseconds(ticked_ns));
+    learn_beyond(instance, row, ticked_us, cost.enter);
   else if (ran)
-    learn_tick_cost(instance, core::microseconds(ticked_ns) / ticks);
+    learn_tick_cost(instance, row, ticked_us / static_cast<float>(instance.plan.ticks.ticks));
 }
 
 void count_tier(Tier tier, FrameReport& report) noexcept {
@@ -76,15 +73,14 @@ void add_times(const Instance& instance, FrameReport& report) noexcept {
 }
 
 // Returns its expected error.
-float add_active(const Instance& instance, FrameReport& report) noexcept {
-  const InstanceReport told = describe(instance, {});
+float add_active(const Instance& instance, const PlanRow& row, FrameReport& report) noexcept {
   add_times(instance, report);
-  report.instances_cut += instance.cut || instance.held;
+  report.instances_cut += row.was_cut;
   report.restarts += instance.restarted;
   report.fallbacks += instance.fell_back;
-  report.regions_asleep += told.regions_asleep;
-  count_tier(told.tier, report);
-  return told.error;
+  report.regions_asleep += row.regions_asleep;
+  count_tier(frame::is_simulated(row.tier) || row.shows ? row.tier : Tier::kSkinning, report);
+  return error_of(*row.asset, row.tier, row.every, row.level);
 }
 
 // Likewise, of one that is dormant.
@@ -105,18 +101,19 @@ float add(WorldState& world, uint32_t slot, FrameReport& report) noexcept {
   if (world.answers[slot].idle) return add_idle(report);
   Instance& instance = *world.instances.at(slot);
   if (instance.passed) return add_dormant(instance, report);
-  if (costs_are_measured(world)) learn_costs(instance);
+  if (costs_are_measured(world)) learn_costs(instance, world.rows[slot]);
   world.rows[slot].cost_factor = instance.cost_factor;
   if (instance.cut || instance.held) world.undone_us += instance.plan.cost_us;
-  return add_active(instance, report);
+  return add_active(instance, world.rows[slot], report);
 }
 
 void bring_counted_near(const WorldState& world, uint32_t slot) noexcept {
   constexpr uint32_t kAhead = 8;
+  constexpr size_t kUpToTimes = 256;
   const uint32_t ahead = slot + kAhead;
   if (ahead >= world.instances.end()) return;
   const PlanRow& row = world.rows[ahead];
-  if (row.asset && row.seen && !world.answers[ahead].idle) bring_instance_near(world, ahead);
+  if (row.asset && row.seen && !world.answers[ahead].idle) world.instances.bring_near(ahead, kUpToTimes);
 }
 
 }  // namespace

@@ -1,12 +1,13 @@
 // plan_row.cpp  see plan_row.hpp.
 #include "world/plan_row.hpp"
 
+#include "frame/front.hpp"
+#include "world/sleep.hpp"
+
 namespace sinew::world {
 
 void copy_to_row(const Instance& instance, PlanRow* row) noexcept {
   const InstanceState& state = *instance.state;
-  row->asset = instance.asset;
-  row->state = instance.state;
   row->remainder_s = state.remainder_s;
   row->importance = state.importance;
   row->excitation = state.excitation;
@@ -26,6 +27,8 @@ void copy_to_row(const Instance& instance, PlanRow* row) noexcept {
   row->was_cut = instance.cut || instance.held;
   row->shows = instance.shown_share() != 0;
   row->blind = state.blind_looks > 0;
+  row->regions_asleep =
+      frame::is_simulated(state.tier) ? static_cast<uint16_t>(regions_asleep(instance)) : uint16_t{0};
 }
 
 }  // namespace sinew::world

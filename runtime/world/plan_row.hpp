@@ -1,4 +1,5 @@
-// plan_row.hpp  What a step's plan asks of each instance, a cache line each, and what it answers.
+// plan_row.hpp  What a step's plan and report ask of each instance, a cache line each, and the plan's
+// answers.
 //
 // After a step of hundreds hardly anything of an instance is in a cache, and a plan that looked at each would
 // wait for memory at each. So whoever changed one last copies here what the next plan asks of it: the task
@@ -9,6 +10,7 @@
 namespace sinew::world {
 
 struct alignas(64) PlanRow {
+  // As long as the instance lives: they are looked at while its task writes the rest.
   Asset* asset = nullptr;  // null: the slot is free
   InstanceState* state = nullptr;
   // Of InstanceState and Instance, under the same names:
@@ -24,7 +26,8 @@ struct alignas(64) PlanRow {
   bool shows : 1 = false;       // some of a displacement, be it zero
   bool blind : 1 = false;       // rays were stopped in the last look
   bool seen : 1 = true;         // in this step (world/look.hpp)
-  float size = 1;               // likewise: share of a view's height
+  uint16_t regions_asleep = 0;
+  float size = 1;  // in this step: share of a view's height
 };
 static_assert(sizeof(PlanRow) == 64);
 
@@ -38,7 +41,7 @@ struct PlanAnswer {
   bool idle = false;  // neither simulated nor displaced
 };
 
-// All but what a look finds.
+// All but what stays and what a look finds.
 void copy_to_row(const Instance& instance, PlanRow* row) noexcept;
 
 }  // namespace sinew::world

@@ -236,7 +236,7 @@ Status World::set_pose(InstanceId id, const Pose& pose) noexcept {
   instance->state->next_root = root;
   instance->state->has_next = 1;
   world::bound_pose(*instance);
-  keep_row(*impl_, id);
+  world::keep_pose_row(*impl_, id.index1 - 1);
   return {};
 }
 

@@ -37,8 +37,16 @@ void keep_row(WorldState& world, uint32_t slot) noexcept {
     world.rows[slot] = {};
     return;
   }
+  world.rows[slot].asset = instance->asset;
+  world.rows[slot].state = instance->state;
   copy_to_row(*instance, &world.rows[slot]);
   world.bounds[slot] = instance->bound;
+}
+
+void keep_pose_row(WorldState& world, uint32_t slot) noexcept {
+  const Instance& instance = *world.instances.at(slot);
+  world.rows[slot].dormant = static_cast<uint8_t>(instance.state->dormant);
+  world.bounds[slot] = instance.bound;
 }
 
 }  // namespace sinew::world

@@ -84,6 +84,8 @@ inline frame::TickPlans tick_plans(const WorldState& world) noexcept {
 
 // Rows are kept as the instances are: after whatever changed one.
 void keep_row(WorldState& world, uint32_t slot) noexcept;
+// Likewise after a pose was set, which wakes.
+void keep_pose_row(WorldState& world, uint32_t slot) noexcept;
 
 // The tables' memory. False: there is none.
 bool reserve(WorldState& world, const WorldDef& def) noexcept;

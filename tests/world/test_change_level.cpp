@@ -315,10 +315,10 @@ TEST_CASE("what_a_change_of_level_takes_is_learnt_and_not_taken_for_publishing")
   world::Instance made;
   REQUIRE(world::make_instance(asset, {}, &made).ok());
   world::Instance& block = *state.instances.find(state.instances.create(std::move(made)));
-  world::keep_row(state, 0);
   block.plan = {.ticks = {.ticks = 1}, .tier = Tier::kModal};
   block.state->tier = Tier::kModal;
   block.displaced = block.changed_level = true;
+  world::keep_row(state, 0);
   const float publish_us = asset.cost.publish.estimate_us(),
               tick_us = asset.cost.of(Tier::kModal, 0).estimate_us();
   block.times.total_ns = static_cast<uint64_t>(1e3f * (publish_us + 6 * tick_us));
