@@ -88,21 +88,25 @@ struct Gathered {
   uint32_t waiting = kNone;  // slot of the one that has had less than its best for longest
 };
 
-void sleep_on(WorldState& world, uint32_t slot) noexcept {
+void sleep_on(WorldState& world, uint32_t slot, frame::TickPlans& plans) noexcept {
   Instance& instance = *world.instances.at(slot);
-  frame::TickPlans ticks = tick_plans(world);
-  instance.plan.ticks = ticks.of(world.rows[slot].remainder_s, instance.asset->tick_s);
+  PlanRow& row = world.rows[slot];
+  instance.plan.ticks = plans.of(row.remainder_s, row.asset->tick_s);
   instance.plan.dt_s = world.dt_s;
   instance.passed = true;
   stay_dormant(instance);
-  copy_to_row(instance, &world.rows[slot]);
+  row.remainder_s = row.state->remainder_s;
+  row.held_s = row.state->held_s;
+  row.turn_left_s = row.state->turn_left_s;
+  row.cost_factor = instance.cost_factor;
+  row.was_cut = false;
 }
 
 // All but the one that waits: what becomes of it is seen once the others are provided for.
-void pass_dormant(WorldState& world, uint32_t slot, Gathered& gathered) noexcept {
+void pass_dormant(WorldState& world, uint32_t slot, frame::TickPlans& plans, Gathered& gathered) noexcept {
   uint32_t passed = slot;
   if (waits_longer(world, world.rows[slot], gathered.waiting)) passed = std::exchange(gathered.waiting, slot);
-  if (passed != kNone) sleep_on(world, passed);
+  if (passed != kNone) sleep_on(world, passed, plans);
 }
 
 void pass_unseen(WorldState& world, uint32_t slot) noexcept {
@@ -144,7 +148,7 @@ Gathered gather_candidates(WorldState& world) noexcept {
     count_ticks(ticks, world);
     world.answers[slot].idle = false;
     if (row.dormant && terms.has_budget)
-      pass_dormant(world, slot, gathered);
+      pass_dormant(world, slot, plans, gathered);
     else
       world.candidates[gathered.candidates++] = candidate_of(terms, row, ticks.ticks, slot);
   });
@@ -156,16 +160,17 @@ void raise_waiting(WorldState& world, float budget_us, Gathered& gathered,
                    frame::ScheduleResult& result) noexcept {
   const uint32_t slot = gathered.waiting;
   const PlanRow& row = world.rows[slot];
-  const frame::TickPlan ticks = tick_plans(world).of(row.remainder_s, row.asset->tick_s);
-  Candidate c = candidate_of(terms_of(world), row, ticks.ticks, slot);
+  frame::TickPlans plans = tick_plans(world);
+  const uint32_t ticks = plans.of(row.remainder_s, row.asset->tick_s).ticks;
+  Candidate c = candidate_of(terms_of(world), row, ticks, slot);
   c.level = c.top;
   c.reason = frame::Reason::kBest;
   const bool fits = !result.denied && result.planned_us + c.cost_us(c.top) <= budget_us;
-  if (c.keeps_level) return sleep_on(world, slot);
+  if (c.keeps_level) return sleep_on(world, slot, plans);
   if (!fits) {
-    world.instances.at(slot)->state->held_s = 0;  // the next one's turn
+    row.state->held_s = 0;  // the next one's turn
     result.denied = true;
-    return sleep_on(world, slot);
+    return sleep_on(world, slot, plans);
   }
   result.planned_us += c.cost_us(c.top);
   world.candidates[gathered.candidates++] = c;
