@@ -43,9 +43,9 @@ struct CostModel {  // of one asset
     return tick[static_cast<size_t>(tier)][level];
   }
   CostEstimate tick[kTierCount][pack::kMostGraphLevels];
-  CostEstimate publish;    // a step, of what is displaced: pose, extrapolation, publishing
-  CostEstimate enter{0};   // what the first tick of a simulation takes beyond a tick: cold memory, a history
-  CostEstimate change{0};  // likewise the first on another level of control graphs
+  CostEstimate publish;   // a step, of what is displaced: pose, extrapolation, publishing
+  CostEstimate enter{0};  // what the first tick of a simulation takes beyond a tick: cold memory, a history
+  CostEstimate change;    // likewise the first on a finer control graph; seldom, and not to be forgotten
   void settle() noexcept;
 };
 

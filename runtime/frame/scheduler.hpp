@@ -45,8 +45,9 @@ struct Candidate {
   float cost_factor = 1;         // what its ticks take as a multiple of its asset's
   float base_us = 0;             // what it takes in this step if it is not simulated
   float enter_us = 0;            // what its first simulated tick takes beyond a tick
-  float change_us = 0;           // likewise the first on another control graph
+  float change_us = 0;           // likewise the first on a finer control graph than it has
   uint32_t has = 0;              // its level in the last step
+  uint32_t graph = 0;            // the control graph it has; 0 is the finest
   uint32_t top = 0;              // the highest it may have now
   float turn_left_s = 0;         // > 0: what it has came by a turn, and stays so long
   bool keeps_level = false;      // no tick in this step: all is as it was
@@ -54,20 +55,21 @@ struct Candidate {
   uint32_t level = 0;            // the answer, of its front
   Reason reason = Reason::kBudget;
 
-  // To go there from what it has, it changes control graphs. Going down, what it had is not paid for, either.
-  bool changes(uint32_t to_level) const noexcept {
-    return has > 0 && to_level > has && front->levels[to_level].graph != front->levels[has].graph;
+  // To go there from what it has, it changes to a finer control graph. Going down, what it had is not paid
+  // for.
+  bool refines(uint32_t to_level) const noexcept {
+    return has > 0 && to_level > has && front->levels[to_level].graph < graph;
   }
+  float refining_us(uint32_t to_level) const noexcept { return refines(to_level) ? change_us : 0; }
   // What a level takes in this step, whole.
   float cost_us(uint32_t of_level) const noexcept {
     if (of_level == 0) return base_us;
-    return front->step_us(of_level, ticks * cost_factor) + (has == 0 ? enter_us : 0) +
-           (changes(of_level) ? change_us : 0);
+    return front->step_us(of_level, ticks * cost_factor) + (has == 0 ? enter_us : 0) + refining_us(of_level);
   }
   // More than the level below it takes.
   float rise_us(uint32_t to_level) const noexcept {
     float rise = to_level > 1 ? ticks * cost_factor * front->rise_us[to_level] : cost_us(1) - base_us;
-    if (changes(to_level) && !changes(to_level - 1)) rise += change_us;
+    if (to_level > 1) rise += refining_us(to_level) - refining_us(to_level - 1);
     return rise > 0 ? rise : 0;
   }
 };

@@ -71,7 +71,7 @@ void stay_dormant(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   const frame::TickPlan& ticks = instance.plan.ticks;
   const auto dt_s = static_cast<float>(instance.plan.dt_s);
-  instance.entered = instance.changed_level = false;
+  instance.entered = instance.changed_level = instance.refined = false;
   instance.cut = instance.held = instance.restarted = instance.fell_back = instance.came_back = false;
   instance.times = {};
   instance.cost_factor = 1;

@@ -46,7 +46,10 @@ void learn_costs(Instance& instance, const PlanRow& row) noexcept {
                    (ran_as_planned(instance, row) || instance.cut);
   if (instance.changed_level) {
     const float took_us = core::microseconds(times.total_ns) - cost.publish.estimate_us();
-    if (ran && !instance.entered) learn_beyond(instance, row, took_us, cost.change);
+    if (ran && instance.entered)
+      learn_beyond(instance, row, took_us, cost.enter);
+    else if (ran && instance.refined)
+      learn_beyond(instance, row, took_us, cost.change);
     return;
   }
   if (instance.displaced && !instance.held)

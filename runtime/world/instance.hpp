@@ -38,7 +38,7 @@ inline constexpr uint32_t kFallbackTicks = 60;  // on the modal base, after a ne
 
 // The part of the state that is not an array. Plain bytes: saved and restored as they are.
 struct InstanceState {
-  // What a plan asks of each instance (world/plan_row.hpp) comes first: kPlannedStateBytes of it.
+  // What a plan does to those that it passes over comes first: kPlannedStateBytes of it.
   double remainder_s = 0;  // frame/tick_clock.hpp
   float importance = 1;
   float excitation = 1;                             // world/excitation.hpp
@@ -108,15 +108,17 @@ struct Touch {
   float place_m[3] = {};          // is there, from the tick's root
 };
 
-// What a step will do with an instance; set before the tasks run.
+// What a step does with an instance: taken over from the plan's answer as its task begins, and of those that
+// are passed over set by the plan.
 struct InstancePlan {
   frame::TickPlan ticks;
   double dt_s = 0;
   Tier tier = Tier::kSkinning;
-  uint32_t level = 0;   // of control graphs
-  uint32_t every = 1;   // 1 or 2: ticks from one that is simulated whole to the next (world/update_rate.hpp)
-  float cost_us = 0;    // expected
-  float behind_us = 0;  // that those which run later take at least
+  uint32_t level = 0;  // of control graphs
+  uint32_t every = 1;  // 1 or 2: ticks from one that is simulated whole to the next (world/update_rate.hpp)
+  float cost_us = 0;   // expected
+  float behind_us =
+      0;  // that those which run later are expected to take; idle ones as one step in twenty does
   TierReason why = TierReason::kBudget;
 };
 
@@ -126,7 +128,7 @@ struct InstancePlan {
 // rising smoothly from 0 to 1 in kBlendInTicks. The tail is the displacement shown when simulation was last
 // left, carried on with damped velocity and then faded to zero.
 struct Instance {
-  // What a plan asks of each instance (world/plan_row.hpp) comes first: kPlannedBytes of it.
+  // What a plan does to those that it passes over comes first: kPlannedBytes of it.
   InstanceState* state = nullptr;
   Asset* asset = nullptr;
   frame::Ball bound;       // world/pose_bound.hpp
@@ -142,6 +144,7 @@ struct Instance {
   bool heard_now = false;      // in the last tick: it was simulated whole
   bool parts_ready = false;    // in this step: the parts are filled in
   bool changed_level = false;  // in the last step
+  bool refined = false;        // to a finer one
   core::AlignedBlock memory;
   AssetId asset_id;
   const GraphLevel* level = nullptr;  // of the asset: state->level

@@ -70,6 +70,7 @@ Candidate candidate_of(const Terms& terms, const PlanRow& row, uint32_t ticks, u
           .enter_us = terms.measured ? row.asset->cost.enter.estimate_us() : 0,
           .change_us = terms.measured ? row.asset->cost.change.estimate_us() : 0,
           .has = front.level_of(row.tier, row.every, row.level),
+          .graph = row.level,
           .top = highest(row),
           .turn_left_s = row.turn_left_s,
           .keeps_level = ticks == 0 && terms.has_budget && !row.hidden};

@@ -3,7 +3,8 @@
 //
 // After a step of hundreds hardly anything of an instance is in a cache, and a plan that looked at each would
 // wait for memory at each. So whoever changed one last copies here what the next plan asks of it: the task
-// that stepped it, the call that set something. A task takes the answer over.
+// that stepped it, the call that set something, the plan where it passes one over. A task takes the answer
+// over.
 #pragma once
 #include "world/instance.hpp"
 

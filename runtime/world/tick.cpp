@@ -87,6 +87,9 @@ bool changes_level(const Instance& instance) noexcept {
   return frame::is_simulated(instance.plan.tier) && instance.plan.ticks.ticks > 0 &&
          instance.plan.level != instance.state->level;
 }
+bool refines(const Instance& instance) noexcept {
+  return changes_level(instance) && instance.plan.level < instance.state->level;
+}
 
 // By what one of twenty takes; where that is much of the step, and nobody behind it makes up for what it is
 // late by, by what one of a hundred does.
@@ -98,7 +101,9 @@ float most_us(const Instance& instance, const TickContext& context) noexcept {
   const bool enters = !frame::is_simulated(instance.state->tier);
   const bool much = ticks * tick.estimate_us() > kMuch * context.tasks_us;
   return cost.publish.p95_us() + ticks * (much ? tick.p99_us() : tick.p95_us()) +
-         (enters ? cost.enter.p95_us() : 0) + (changes_level(instance) && !enters ? cost.change.p95_us() : 0);
+         (enters              ? cost.enter.p95_us()
+          : refines(instance) ? cost.change.p95_us()
+                              : 0);
 }
 
 // The next cheaper one that it may fall to at once.
@@ -178,6 +183,7 @@ void step_instance(Instance& instance, const TickContext& context, uint32_t slot
   instance.entered = frame::is_simulated(tier) &&
                      (!frame::is_simulated(instance.state->tier) || instance.state->motion_stale);
   instance.changed_level = changes_level(instance);
+  instance.refined = refines(instance);
   if (instance.changed_level) change_level(instance, instance.plan.level);
   enter_tier(instance, tier);
   take_pose(instance, context.teleport_distance_m);

@@ -324,7 +324,7 @@ TEST_CASE("one_dearer_than_the_whole_budget_is_not_waited_for") {
   CHECK(crowd.count(1) == 2);
 }
 
-// A level on another control graph takes more in the step that changes to it: once, and only on the way up.
+// A level on a finer control graph takes more in the step that changes to it: once, and only on the way up.
 TEST_CASE("a_finer_control_graph_is_paid_for_as_it_is_taken") {
   const Level points[] = {{.tier = Tier::kModal, .tick_us = 4, .error = 0.3f, .graph = 1},
                           {.tier = Tier::kModal, .tick_us = 6, .error = 0.2f},
@@ -332,15 +332,34 @@ TEST_CASE("a_finer_control_graph_is_paid_for_as_it_is_taken") {
   Front front;
   make_front(points, 0, &front);
   Crowd crowd(1, front);
-  crowd[0].change_us = 20;
+  crowd[0].change_us = 20, crowd[0].graph = 1;
   crowd.schedule(10);
   CHECK(crowd[0].level == 3);  // what is not simulated has no graph to change from
   crowd[0].has = 1;
   CHECK(crowd.schedule(25).planned_us == 4);
   CHECK(crowd.schedule(30).planned_us == 30);
-  crowd[0].has = 2;
+  crowd[0].has = 2, crowd[0].graph = 0;
   CHECK(crowd.schedule(10).planned_us == 10);
   CHECK(crowd.schedule(5).planned_us == 4);
+}
+
+TEST_CASE("rises_add_up_to_what_a_level_takes_whatever_graphs_lie_between") {
+  const Level points[] = {{.tier = Tier::kSpring, .tick_us = 4, .error = 0.4f, .graph = 1},
+                          {.tier = Tier::kModal, .tick_us = 6, .error = 0.3f},
+                          {.tier = Tier::kModal, .tick_us = 40, .error = 0.2f, .graph = 1},
+                          {.tier = Tier::kNetwork, .tick_us = 80, .error = 0.1f}};
+  Front front;
+  make_front(points, 0, &front);
+  for (const uint32_t has : {0u, 1u, 2u, 3u, 4u}) {
+    Candidate c = {.front = &front, .ticks = 1, .base_us = 1, .enter_us = 7, .change_us = 20, .has = has};
+    if (has > 0) c.graph = front.levels[has].graph;
+    float sum_us = c.base_us;
+    for (uint32_t level = 1; level <= 4; ++level) {
+      sum_us += c.rise_us(level);
+      INFO("has " << has << ", level " << level);
+      CHECK(sum_us == Approx(c.cost_us(level)));
+    }
+  }
 }
 
 TEST_CASE("half_a_thousand_are_scheduled_in_tens_of_microseconds") {

@@ -317,7 +317,7 @@ TEST_CASE("what_a_change_of_level_takes_is_learnt_and_not_taken_for_publishing")
   world::Instance& block = *state.instances.find(state.instances.create(std::move(made)));
   block.plan = {.ticks = {.ticks = 1}, .tier = Tier::kModal};
   block.state->tier = Tier::kModal;
-  block.displaced = block.changed_level = true;
+  block.displaced = block.changed_level = block.refined = true;
   world::keep_row(state, 0);
   const float publish_us = asset.cost.publish.estimate_us(),
               tick_us = asset.cost.of(Tier::kModal, 0).estimate_us();
