@@ -61,6 +61,8 @@ class Trainer:
         return weight / share * nodes * g.count**0.5, 1.2 * shape([x.max() for x in of])
 
     def fraction(self):
+        if self.options.updates:
+            return self.updates / self.options.updates
         return self.elapsed_s / (60 * self.options.minutes)
 
     def _set_rate(self):

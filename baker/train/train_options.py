@@ -12,6 +12,7 @@ class TrainOptions:
 
     channels: tuple = (8, 3)
     minutes: float = 27.0  # of one core's time, or of the clock's on a GPU
+    updates: int = 0  # ends after so many, on whatever machine, in place of minutes; 0: by the time
     seed: int = 0
     batch: int = 4  # sequences of every body, all regions of each
     window: int = 20  # ticks of truncated back-propagation
@@ -35,6 +36,7 @@ class TrainOptions:
         usable = {
             "channels": ("whole numbers of which the last is 3", _are_channels(self.channels)),
             "minutes": ("above 0", 0 < self.minutes < math.inf),
+            "updates": ("a whole number, 0 or more", self.updates == 0 or whole(self.updates)),
             "batch": ("a whole number from 1", whole(self.batch)),
             "window": ("a whole number from 1", whole(self.window)),
             "learning_rate": ("above 0", 0 < self.learning_rate < math.inf),

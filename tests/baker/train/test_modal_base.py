@@ -196,10 +196,12 @@ class Base(unittest.TestCase):
     def test_a_union_moves_as_each_of_its_bodies_alone(self):
         other = support.synthetic_group((5, 6), ticks=60, body_seed=4)
         union = Union([self.group, other])
-        for net in (None, self.model):
-            whole = self._run(union, net, self.scaling, torch.tensor([[0, 1], [1, 0]]), 40)
-            first = self._run(self.group, net, self.scaling, torch.tensor([0, 1]), 40)
-            second = self._run(other, net, self.scaling, torch.tensor([1, 0]), 40)
+        # A product of another shape rounds otherwise on some processors; fed back by a network, that doubles
+        # every five ticks.
+        for net, ticks in ((None, 40), (self.model, 20)):
+            whole = self._run(union, net, self.scaling, torch.tensor([[0, 1], [1, 0]]), ticks)
+            first = self._run(self.group, net, self.scaling, torch.tensor([0, 1]), ticks)
+            second = self._run(other, net, self.scaling, torch.tensor([1, 0]), ticks)
             for part, rows in ((first, slice(0, 2)), (second, slice(2, 4))):
                 found = whole[:, rows, : part.shape[2]]
                 self.assertLess(float((found - part).abs().max()), 1e-6 * float(part.abs().max()) + 1e-8)

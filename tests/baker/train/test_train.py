@@ -25,7 +25,7 @@ from train.weights import read_weights  # noqa: E402
 
 QUIET = lambda *a, **k: None
 SMALL = dict(channels=(8, 3), batch=6, window=15, learning_rate=1e-2)
-MINUTES = 0.06
+MINUTES, UPDATES = 0.06, 100  # by their number: in a time a slow machine learns less
 
 
 class Killed(Exception):
@@ -48,7 +48,7 @@ class Training(unittest.TestCase):
 
     @classmethod
     def train(cls, out, log):
-        options = TrainOptions(minutes=MINUTES, **SMALL)
+        options = TrainOptions(minutes=MINUTES, updates=UPDATES, **SMALL)
         return train(cls.folder.name, out, options, lambda text, **k: log.append(text))
 
     def trainer(self, **options):
@@ -61,6 +61,7 @@ class Training(unittest.TestCase):
         unusable = {
             "channels": [(), (8, 8), (0, 3), ("abc",)],
             "minutes": [0, -1, float("nan"), float("inf")],
+            "updates": [-1, 0.5],
             "batch": [0],
             "window": [0],
             "learning_rate": [0, float("nan"), float("inf")],

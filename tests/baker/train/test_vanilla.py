@@ -149,7 +149,7 @@ class Trained(unittest.TestCase):
         cls.data, cls.run_folder = (os.path.join(cls.folder.name, name) for name in ("data", "run"))
         os.makedirs(cls.data)
         support.write_data_set(cls.data)
-        cls.code = trainer(["train", cls.data, "--out", cls.run_folder, "--form", "NP_Y", *cls.short("0.12")])
+        cls.code = trainer(["train", cls.data, "--out", cls.run_folder, "--form", "NP_Y", *cls.short("0.12"), "--updates", "250"])
 
     @classmethod
     def tearDownClass(cls):
