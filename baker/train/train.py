@@ -189,7 +189,7 @@ class Trainer:
         torch.set_rng_state(saved["random"].cpu())
 
     def run(self, save_checkpoint):
-        """To the end of the time; save_checkpoint() is called after every validation."""
+        """To the end of the time, or of the updates; save_checkpoint() is called after every validation."""
         clock = (
             time.thread_time if self.options.device == "cpu" else time.monotonic
         )  # a busy machine must not make a worse network

@@ -15,7 +15,7 @@
 //      rest of the budget goes to what fits behind it.
 // Longest wait: with n instances of weight > 0, and turns that pay for k of the costliest, none goes
 // unsimulated longer than kLongestWait_s + ceil(n / k) (kHold_s + dt). Weight 0 has no turn and gets what is
-// left over. Cost: O(candidates x levels), some 30 ns a candidate in the cache
+// left over. Cost: O(candidates x levels), some 50 ns a candidate in the cache
 // (half_a_thousand_are_scheduled_in_tens_of_microseconds); no memory is taken.
 #pragma once
 #include <cstdint>

@@ -80,6 +80,10 @@ class Training(unittest.TestCase):
                     train(self.folder.name, self.run_folder, TrainOptions(**{name: value}), QUIET)
                 self.assertIn("--" + name.replace("_", "-"), str(caught.exception))
 
+    def test_so_many_updates_are_made_however_long_they_take(self):
+        with open(os.path.join(self.run_folder, "curve.json")) as file:
+            self.assertEqual(json.load(file)["curve"][-1]["updates"], UPDATES)
+
     def test_a_few_seconds_already_beat_the_modal_base(self):
         model, scaling, _ = read_weights(os.path.join(self.run_folder, "weights.safetensors"))
         (group,) = self.groups[1]
