@@ -22,8 +22,12 @@ run_preset "${SINEW_PRESET:-release}" "$@"
 if [ -n "${SINEW_PRESET:-}" ] || [ $# -gt 0 ]; then
   exit
 elif has_arm_tools; then
-  # Emulated, ten thousand steps, thousands of rods and damage all over a file take minutes; each kernel has its other tests.
-  run_preset aarch64 -E 'ten_thousand_steps|hair_that_slides|of_a_thousand_rods|two_thousand_segments|where_its_iteration_starts|hostile_words|random_damage'
+  # Emulated, ten thousand steps, thousands of rods, convergence over every stiffness, whole roll-outs of large networks and damage all
+  # over a file take minutes. Each kernel has its other tests, rods' recorded bits are those of x86, and the roll-outs are begun.
+  long_emulated=(ten_thousand_steps hair_that_slides hair_that_ends of_a_thousand_rods two_thousand_segments where_its_iteration_starts
+    rods_that_bend_far_more_stiffly rods_converge_at_every_stiffness soft_rods_keep_their_length reproduces_the_golden_roll_outs
+    hostile_words random_damage)
+  run_preset aarch64 -E "$(IFS='|'; echo "${long_emulated[*]}")"
 else
   echo "The tests on 64-bit Arm were left out: the tools are not installed; scripts/install_packages.sh aarch64"
 fi

@@ -1,0 +1,10 @@
+# Tests of more than half a minute are started before all others, so that no processor waits for the last.
+# Those that are no TEST_CASE have their COST where they are added.
+set_tests_properties(
+  baker_trade/a_trade_finds_the_front_bakes_it_and_goes_on_where_it_was_stopped
+  baker_trade/a_trade_measures_every_level_and_bakes_what_each_is_worth
+  baker_trade/without_truth_the_clips_are_simulated_once_and_variants_stand_beside
+  rods/contacts_have_the_same_bits_on_all_targets_with_fma_by_both_solvers_in_narrow_groups_and_wide
+  rods/a_root_that_flies_a_kilometre_within_a_step_is_followed_or_joined_and_comes_to_rest
+  tissue/int8_step_stays_near_the_equations_for_partial_ranges_tiles_and_blocks
+  PROPERTIES COST 60)
