@@ -9,9 +9,13 @@ import tempfile
 import support
 
 support.leave_without_torch()
+from train import baselines, evaluate  # noqa: E402
 from train.cli import main as trainer  # noqa: E402
 
 CHECK_TOLERANCE = "1e-4"  # length units of a tenth of a radius: float32 against float64 over 120 ticks
+
+# Nothing here looks at how well the plain models are fitted, nor at a whole minute of rest: both are only gone through.
+baselines.FIT_TICKS, evaluate.STILL_TICKS = 15, 200
 
 
 def run(*command):
