@@ -30,6 +30,12 @@ bool is_passed_over(const Front& front, const Level& next) noexcept {
   return worth_between(front, below, next) >= worth_between(front, below, last);
 }
 
+uint32_t coarser_above(const Front& front, uint32_t level) noexcept {
+  for (uint32_t above = level + 1; above < front.count; ++above)
+    if (front.levels[above].graph > front.levels[level].graph) return above;
+  return 0;
+}
+
 }  // namespace
 
 float usual_error(Tier tier, uint32_t every) noexcept {
@@ -72,6 +78,7 @@ void make_front(std::span<const Level> points, float publish_us, Front* out) noe
   for (uint32_t level = 1; level < out->count; ++level) {
     out->worth[level] = worth_between(*out, out->levels[level - 1], out->levels[level]);
     out->rise_us[level] = out->levels[level].tick_us - out->levels[level - 1].tick_us;
+    out->coarser[level] = coarser_above(*out, level);
   }
 }
 

@@ -32,8 +32,9 @@ float coarser_error(float finest, uint32_t graph) noexcept;
 // first simulated level costs.
 struct Front {
   Level levels[kMostLevels];
-  float worth[kMostLevels] = {};    // error saved a microsecond by going from the level below to this one
-  float rise_us[kMostLevels] = {};  // what a tick takes more than on the level below
+  float worth[kMostLevels] = {};       // error saved a microsecond by going from the level below to this one
+  float rise_us[kMostLevels] = {};     // what a tick takes more than on the level below
+  uint32_t coarser[kMostLevels] = {};  // the lowest level above it that is on a coarser graph; 0: none
   uint32_t count = 1;
   float publish_us = 0;  // a step, of whatever is displaced
   float idle_us = 0;     // a step, of what is not

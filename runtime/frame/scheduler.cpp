@@ -14,6 +14,7 @@ void weigh(Candidate& c) noexcept {
   constexpr float kLeast = 1e-30f, kFewest = 1e-3f;
   c.rate = std::max(kLeast, c.weight * staleness(c)) / std::max(kFewest, c.ticks * c.cost_factor);
   c.bonus = c.held_s < kHold_s ? kHoldBonus : kHysteresis;
+  c.may_refine = c.has > 0 && c.graph > 0;
 }
 
 // Weight x error saved a microsecond.
@@ -26,11 +27,12 @@ float key_of(const Candidate& c, uint32_t level) noexcept {
 template <class Work>
 void for_each_step_up(const Candidate& c, double most, Work work) noexcept {
   float key = std::numeric_limits<float>::max();
-  for (uint32_t level = c.level + 1; level <= c.top; ++level) {
-    const float cost = c.rise_us(level);
+  for (uint32_t below = c.level, level = c.next_level(below); level <= c.top; level = c.next_level(level)) {
+    const float cost = c.rise_us(below, level);
     if (static_cast<double>(cost) > most) return;
     key = std::min(key, key_of(c, level));
     if (!work(level, key, cost)) return;
+    below = level;
   }
 }
 
@@ -149,10 +151,11 @@ uint32_t take_above(std::span<Candidate> candidates, double left, uint32_t lowes
 
 // The next of the same candidate, as good as this one at most. False: there is none.
 bool next_of(const Candidate& c, Purchase& purchase) noexcept {
-  if (purchase.level == c.top) return false;
-  ++purchase.level;
-  purchase.key = std::min(purchase.key, key_of(c, purchase.level));
-  purchase.cost_us = c.rise_us(purchase.level);
+  const uint32_t level = c.next_level(purchase.level);
+  if (level > c.top) return false;
+  purchase.key = std::min(purchase.key, key_of(c, level));
+  purchase.cost_us = c.rise_us(purchase.level, level);
+  purchase.level = level;
   return true;
 }
 

@@ -11,7 +11,8 @@
 //   3. Levels are bought one by one, most error saved a microsecond first, each counted by its instance's
 //   weight x
 //      (1 + wait / kStaleness_s). What an instance has already counts kHysteresis times as much, kHoldBonus
-//      times in the first kHold_s, so that tiers do not flicker. What does not fit is passed over, and the
+//      times in the first kHold_s, so that tiers do not flicker. What does not fit is passed over, as is what
+//      takes more in this step than a level above it, for a change of control graphs, and the
 //      rest of the budget goes to what fits behind it.
 // Longest wait: with n instances of weight > 0, and turns that pay for k of the costliest, none goes
 // unsimulated longer than kLongestWait_s + ceil(n / k) (kHold_s + dt). Weight 0 has no turn and gets what is
@@ -52,6 +53,7 @@ struct Candidate {
   float turn_left_s = 0;         // > 0: what it has came by a turn, and stays so long
   bool keeps_level = false;      // no tick in this step: all is as it was
   float rate = 0, bonus = 1;     // worked out: weight a tick's time, and of levels up to what it has
+  bool may_refine = true;        // worked out: there are finer control graphs than it has
   uint32_t level = 0;            // the answer, of its front
   Reason reason = Reason::kBudget;
 
@@ -66,10 +68,23 @@ struct Candidate {
     if (of_level == 0) return base_us;
     return front->step_us(of_level, ticks * cost_factor) + (has == 0 ? enter_us : 0) + refining_us(of_level);
   }
-  // More than the level below it takes.
-  float rise_us(uint32_t to_level) const noexcept {
-    float rise = to_level > 1 ? ticks * cost_factor * front->rise_us[to_level] : cost_us(1) - base_us;
-    if (to_level > 1) rise += refining_us(to_level) - refining_us(to_level - 1);
+  // The next that is bought above one: what a change of graphs makes dearer than a level above it is passed
+  // over. Beyond the top: there is none.
+  uint32_t next_level(uint32_t above) const noexcept {
+    ++above;
+    while (may_refine && above <= top && is_undercut(above)) ++above;
+    return above;
+  }
+  bool is_undercut(uint32_t level) const noexcept {
+    if (!refines(level) || front->coarser[level] == 0) return false;
+    for (uint32_t above = front->coarser[level]; above <= top; ++above)
+      if (!refines(above)) return cost_us(above) <= cost_us(level);
+    return false;
+  }
+  // What a level takes more than the one that is bought below it.
+  float rise_us(uint32_t below, uint32_t level) const noexcept {
+    float rise = ticks * cost_factor * front->rise_us[level];
+    if (below == 0 || may_refine) rise = cost_us(level) - cost_us(below);
     return rise > 0 ? rise : 0;
   }
 };

@@ -44,6 +44,85 @@ double optimum(const Crowd& crowd, double budget_us) {
   return best(best, 0, budget_us);
 }
 
+// Levels are bought whole, so that a budget of a few of them leaves a rest that another choice may fill: the
+// mean tells how good the rule is, the worst case how much a single level can matter among so few.
+void check_near_the_optimum(std::vector<double> shares) {
+  std::ranges::sort(shares);
+  double mean = 0;
+  for (const double share : shares) mean += share / static_cast<double>(shares.size());
+  WARN("of the optimum over " << shares.size() << " cases: mean " << 100 * mean << " %, 5th percentile "
+                              << 100 * shares[shares.size() / 20] << " %, worst " << 100 * shares.front()
+                              << " %");
+  CHECK(mean > 0.97);
+  CHECK(shares[shares.size() / 20] > 0.9);
+}
+
+std::mt19937 seeded(11);
+float unit() { return std::uniform_real_distribution<float>(0, 1)(seeded); }
+
+Front random_front(float scale_us) {
+  std::vector<Level> points;
+  for (const Tier tier : {Tier::kSpring, Tier::kModal, Tier::kNetwork, Tier::kModal})
+    points.push_back(
+        {.tier = tier, .tick_us = scale_us * (0.2f + 4 * unit()), .error = 0.05f + 0.8f * unit()});
+  Front front;
+  make_front(points, scale_us * unit(), &front);
+  return front;
+}
+
+// Each level on another control graph than the one below it: coarse, fine, coarse, fine, or the other way.
+Front to_and_fro_front(float scale_us) {
+  std::vector<Level> points;
+  for (uint32_t i = 0; i < 5; ++i) {
+    const float tick = 0.2f + static_cast<float>(i) + 0.5f * unit();
+    points.push_back({.tier = Tier::kModal,
+                      .tick_us = scale_us * tick,
+                      .error = 0.05f + 0.8f * std::exp(-tick),
+                      .graph = i % 2});
+  }
+  Front front;
+  make_front(points, scale_us * unit(), &front);
+  return front;
+}
+
+// A candidate that has one of its levels already, for long enough not to be favoured.
+void has_one_already(Candidate& c) {
+  c.has = 1 + static_cast<uint32_t>(unit() * 0.999f * static_cast<float>(c.top));
+  c.graph = c.front->levels[c.has].graph;
+  c.change_us = 6 * c.front->levels[1].tick_us * unit();
+  c.held_s = kHold_s;
+}
+
+// Random fronts, weights, costs and budgets, against every choice there is: what is bought, of the optimum.
+std::vector<double> shares_of_the_optimum(bool to_and_fro) {
+  constexpr int kCases = 600;
+  std::vector<double> shares;
+  for (int trial = 0; trial < kCases; ++trial) {
+    std::vector<Front> fronts;
+    for (int f = 0; f < 2; ++f) {
+      const float scale_us = std::pow(10.0f, 2 * unit());
+      fronts.push_back(to_and_fro ? to_and_fro_front(scale_us) : random_front(scale_us));
+    }
+    Crowd crowd(3 + static_cast<size_t>(trial % (to_and_fro ? 3 : 5)), fronts[0]);
+    float all_us = 0;
+    for (Candidate& c : crowd.all) {
+      c.front = &fronts[c.slot % 2];
+      c.top = c.front->best();
+      c.weight = std::pow(10.0f, 2 * unit());
+      c.base_us = c.front->publish_us * unit();
+      if (to_and_fro) has_one_already(c);
+      all_us += c.cost_us(c.top);
+    }
+    const float budget_us = all_us * (0.3f + 0.7f * unit());
+    const double best = optimum(crowd, static_cast<double>(budget_us));
+    if (!(best > 0)) continue;
+    crowd.schedule(budget_us);
+    CHECK(crowd.cost_us() <= static_cast<double>(budget_us) * (1 + 1e-5));
+    shares.push_back(crowd.bought() / best);
+  }
+  return shares;
+}
+
 }  // namespace
 
 TEST_CASE("importance_that_is_no_weight_is_mended") {
@@ -150,49 +229,30 @@ TEST_CASE("answer_does_not_depend_on_the_order_of_the_question") {
   for (size_t i = 0; i < 40; ++i) CHECK(forward[i].level == backward[39 - i].level);
 }
 
-// Random fronts, weights, costs and budgets, against every choice there is. Levels are bought whole, so that
-// a budget of a few of them leaves a rest that another choice may fill: the mean tells how good the rule is,
-// the worst case how much a single level can matter among so few.
 TEST_CASE("within_a_few_per_cent_of_the_optimum_on_small_cases") {
-  constexpr int kCases = 600;
-  std::mt19937 random(11);
-  std::uniform_real_distribution<float> unit(0, 1);
-  std::vector<double> shares;
-  for (int trial = 0; trial < kCases; ++trial) {
-    std::vector<Front> fronts(2);
-    for (Front& front : fronts) {
-      std::vector<Level> points;
-      const float scale = std::pow(10.0f, 2 * unit(random));
-      for (const Tier tier : {Tier::kSpring, Tier::kModal, Tier::kNetwork, Tier::kModal})
-        points.push_back({.tier = tier,
-                          .tick_us = scale * (0.2f + 4 * unit(random)),
-                          .error = 0.05f + 0.8f * unit(random)});
-      make_front(points, scale * unit(random), &front);
-    }
-    Crowd crowd(3 + static_cast<size_t>(trial % 5), fronts[0]);
-    float all_us = 0;
-    for (Candidate& c : crowd.all) {
-      c.front = &fronts[c.slot % 2];
-      c.top = c.front->best();
-      c.weight = std::pow(10.0f, 2 * unit(random));
-      c.base_us = c.front->publish_us * unit(random);
-      all_us += c.cost_us(c.top);
-    }
-    const float budget_us = all_us * (0.3f + 0.7f * unit(random));
-    const double best = optimum(crowd, static_cast<double>(budget_us));
-    if (!(best > 0)) continue;
-    crowd.schedule(budget_us);
-    CHECK(crowd.cost_us() <= static_cast<double>(budget_us) * (1 + 1e-5));
-    shares.push_back(crowd.bought() / best);
-  }
-  std::ranges::sort(shares);
-  double mean = 0;
-  for (const double share : shares) mean += share / static_cast<double>(shares.size());
-  WARN("of the optimum over " << shares.size() << " cases: mean " << 100 * mean << " %, 5th percentile "
-                              << 100 * shares[shares.size() / 20] << " %, worst " << 100 * shares.front()
-                              << " %");
-  CHECK(mean > 0.97);
-  CHECK(shares[shares.size() / 20] > 0.9);
+  check_near_the_optimum(shares_of_the_optimum(false));
+}
+
+TEST_CASE("within_a_few_per_cent_of_the_optimum_where_fronts_go_to_and_fro_between_graphs") {
+  check_near_the_optimum(shares_of_the_optimum(true));
+}
+
+// Coarse, fine, coarse: what the change to the finer graph takes is more than the level above it does.
+TEST_CASE("a_change_of_graphs_that_is_too_dear_is_no_bar_to_what_lies_above_it") {
+  const Level points[] = {{.tier = Tier::kModal, .tick_us = 9, .error = 0.12f, .graph = 1},
+                          {.tier = Tier::kModal, .tick_us = 21, .error = 0.103f},
+                          {.tier = Tier::kNetwork, .tick_us = 31, .error = 0.09f, .graph = 1}};
+  Front front;
+  make_front(points, 0, &front);
+  REQUIRE(front.count == 4);
+  Crowd crowd(1, front);
+  crowd[0].change_us = 80, crowd[0].graph = 1, crowd[0].has = 1;
+  CHECK(crowd.schedule(60).planned_us == 31);
+  CHECK(crowd[0].level == 3);
+  CHECK(crowd.schedule(30).planned_us == 9);
+  crowd[0].top = 2;
+  CHECK(crowd.schedule(101).planned_us == 101);
+  CHECK(crowd.schedule(60).planned_us == 9);
 }
 
 TEST_CASE("a_crowd_s_budget_is_spent_to_the_last_level_that_fits") {
@@ -353,9 +413,11 @@ TEST_CASE("rises_add_up_to_what_a_level_takes_whatever_graphs_lie_between") {
   for (const uint32_t has : {0u, 1u, 2u, 3u, 4u}) {
     Candidate c = {.front = &front, .ticks = 1, .base_us = 1, .enter_us = 7, .change_us = 20, .has = has};
     if (has > 0) c.graph = front.levels[has].graph;
+    c.top = 4;
     float sum_us = c.base_us;
-    for (uint32_t level = 1; level <= 4; ++level) {
-      sum_us += c.rise_us(level);
+    for (uint32_t below = 0, level = c.next_level(0); level <= 4;
+         below = level, level = c.next_level(level)) {
+      sum_us += c.rise_us(below, level);
       INFO("has " << has << ", level " << level);
       CHECK(sum_us == Approx(c.cost_us(level)));
     }
