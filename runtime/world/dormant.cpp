@@ -30,7 +30,7 @@ bool is_shown_still(const Instance& instance) noexcept {
 bool has_its_best(const Instance& instance) noexcept {
   const InstanceState& state = *instance.state;
   const frame::Front& front = instance.asset->front;
-  return front.level_of(state.tier, instance.plan.every, state.level) == front.best();
+  return front.level_of(state.tier, state.every, state.level) == front.best();
 }
 
 bool may_be_dormant(const Instance& instance) noexcept {

@@ -27,7 +27,7 @@ namespace sinew::world {
 namespace {
 
 static_assert(std::is_trivially_copyable_v<InstanceState>, "saved as bytes");
-static_assert(sizeof(InstanceState) == 400, "no padding: equal states are equal bytes");
+static_assert(sizeof(InstanceState) == 408, "no padding: equal states are equal bytes");
 static_assert(offsetof(InstanceState, root) == kPlannedStateBytes, "what is planned by comes first");
 
 float smooth_step(float t) noexcept { return t * t * (3 - 2 * t); }
@@ -211,7 +211,7 @@ void forget_motion(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   forget_displacement(instance);
   state.at_start = 1;
-  instance.settles = false;
+  instance.settles = instance.displaced = false;
   state.still_ticks = 0;
   wake(instance);
   state.render_fraction = 0;
@@ -244,7 +244,7 @@ InstanceReport describe(const Instance& instance, InstanceId id) noexcept {
   return {.instance = id,
           .tier = simulated || blend > 0 ? state.tier : Tier::kSkinning,
           .why = reason_of(instance, asleep),
-          .error = state.hidden ? 1 : error_of(*instance.asset, state.tier, instance.plan.every, state.level),
+          .error = state.hidden ? 1 : error_of(*instance.asset, state.tier, state.every, state.level),
           .graph_level = state.level,
           .blend = blend,
           .ticks_since_network = state.ticks_since_network,

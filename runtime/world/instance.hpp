@@ -76,6 +76,8 @@ struct InstanceState {
   uint32_t first_joints = 0;     // which of pose_joints is the pose before the present one
   // world/update_rate.hpp:
   uint32_t ticks = 0;                   // counts on for ever: whose turn it is
+  uint32_t every = 1;                   // in the last step
+  uint32_t looked = 0;                  // world/look.hpp: the number of the last look at it
   uint32_t since_ticks = 1;             // from the last tick that was heard to this one
   uint32_t spacing_ticks = 1;           // between the last two of them, and so between poses
   uint32_t heard_by = 0;                // HeardBy: whose `heard` is
@@ -83,7 +85,8 @@ struct InstanceState {
   uint32_t still_ticks = 0;             // world/dormant.hpp
   uint32_t seam_ticks = kBlendInTicks;  // since the level changed, at most kBlendInTicks
 };
-inline constexpr size_t kPlannedStateBytes = 64;
+inline constexpr size_t kPlannedStateBytes = offsetof(InstanceState, root);
+static_assert(kPlannedStateBytes == 64);  // a cache line
 
 // What the last step measured; not state.
 struct InstanceTimes {
@@ -128,7 +131,7 @@ struct InstancePlan {
 // rising smoothly from 0 to 1 in kBlendInTicks. The tail is the displacement shown when simulation was last
 // left, carried on with damped velocity and then faded to zero.
 struct Instance {
-  // What a plan does to those that it passes over comes first: kPlannedBytes of it.
+  // What a plan does to those that it passes over, and what a report asks, comes first: kPlannedBytes of it.
   InstanceState* state = nullptr;
   Asset* asset = nullptr;
   frame::Ball bound;       // world/pose_bound.hpp
@@ -145,15 +148,15 @@ struct Instance {
   bool parts_ready = false;    // in this step: the parts are filled in
   bool changed_level = false;  // in the last step
   bool refined = false;        // to a finer one
+  InstanceTimes times;
   core::AlignedBlock memory;
   AssetId asset_id;
   const GraphLevel* level = nullptr;  // of the asset: state->level
-  InstanceTimes times;
-  bool level_raised = false;  // in this step: its nodes' past poses are not known
-  bool settles = false;       // likewise, and its r is what was spread
-  bool rods_anew = false;     // in this tick: rods are taken to where they are shown before they go on
-  bool rods_shown = false;    // published joints are not the pose's
-  ContactDef contacts;        // without a source, the arrays of contacts have no memory
+  bool level_raised = false;          // in this step: its nodes' past poses are not known
+  bool settles = false;               // likewise, and its r is what was spread
+  bool rods_anew = false;   // in this tick: rods are taken to where they are shown before they go on
+  bool rods_shown = false;  // published joints are not the pose's
+  ContactDef contacts;      // without a source, the arrays of contacts have no memory
   std::unique_ptr<rods::RodBatch[]> rod_batches;       // their state is saved beside the run of bytes below
   std::unique_ptr<rods::RodCollider[]> rod_colliders;  // [batches], theirs too; null: rods touch nothing
 
@@ -226,7 +229,8 @@ struct Instance {
   float shown_share() const noexcept { return simulated_share() + (1 - simulated_share()) * tail_share(); }
 };
 
-inline constexpr size_t kPlannedBytes = 192;  // and what the table of instances has before it
+inline constexpr size_t kPlannedBytes = offsetof(Instance, memory);
+static_assert(kPlannedBytes <= 176);  // three cache lines with what the table of instances has before it
 
 size_t instance_bytes(const Asset& asset) noexcept;  // without contacts
 // In its bind pose, at rest. kOutOfCapacity when memory is short.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 namespace sinew::world {
 namespace {
@@ -39,6 +40,8 @@ void look_at(WorldState& world, uint32_t slot) noexcept {
       sights_of(world), [&](const frame::Sight& sight) { return gets_through(world, slot, sight); });
   blind = seen ? 0 : blind + 1;
   row.blind = !seen;
+  row.state->looked = ++world.looks;
+  world.last_look = slot;
 }
 
 // A few of those in view, where the last step left off.
@@ -46,13 +49,24 @@ void look_behind_things(WorldState& world) noexcept {
   if (!world.def.occlusion || world.sight_count == 0) return;
   const uint32_t end = world.instances.end();
   uint32_t rays = world.def.sight_rays_per_step;
+  const uint32_t from = world.last_look + 1;
   for (uint32_t passed = 0; passed < end && rays >= kRaysALook; ++passed) {
-    world.next_look = world.next_look + 1 < end ? world.next_look + 1 : 0;
-    const PlanRow& row = world.rows[world.next_look];
+    const uint32_t slot = (from + passed) % end;
+    const PlanRow& row = world.rows[slot];
     if (!row.asset || row.size == 0 || row.hidden_by_caller) continue;
-    look_at(world, world.next_look);
+    look_at(world, slot);
     rays -= std::min(rays, kRaysALook * world.sight_count);
   }
+}
+
+// After a rollback the looks go on behind the one that was the last before the save.
+void find_last_look(WorldState& world) noexcept {
+  world.looks = 0;
+  for_each_row(world, [&](const PlanRow& row, uint32_t slot) {
+    if (row.state->looked <= world.looks) return;
+    world.looks = row.state->looked;
+    world.last_look = slot;
+  });
 }
 
 void forget_looks(PlanRow& row) noexcept {
@@ -76,6 +90,7 @@ void look(WorldState& world) noexcept {
     decide(row, slot);
   });
   if (!looks) return;
+  if (std::exchange(world.restored, false)) find_last_look(world);
   look_behind_things(world);
   for_each_row(world, decide);
 }

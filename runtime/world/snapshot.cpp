@@ -20,8 +20,8 @@ constexpr uint64_t kMagic = 0x31544154534e5753;  // "SWNSTAT1", little-endian
 // 7: who is hidden. 8: what the scheduler goes by, what is gone on by between ticks that are simulated whole.
 // 9: who is dormant.
 // 10: the level of control graphs, and what its last change left. 11: the same in another order. 12: how
-// contacts' forces changed.
-constexpr uint32_t kVersion = 12;
+// contacts' forces changed. 13: the update rate, and who was looked at last.
+constexpr uint32_t kVersion = 13;
 
 struct Header {
   uint64_t magic, fingerprint, payload_bytes, checksum;
@@ -108,8 +108,9 @@ Status restore(Instance& instance, std::span<const std::byte> bytes) noexcept {
   }
   InstanceState state;
   std::memcpy(&state, payload.data(), sizeof state);
-  if (state.level >= instance.asset->level_count || static_cast<uint32_t>(state.tier) >= kTierCount)
-    return corrupt("names a control graph or a tier that there is not");
+  if (state.level >= instance.asset->level_count || static_cast<uint32_t>(state.tier) >= kTierCount ||
+      !pack::is_every(state.every))
+    return corrupt("names a control graph, a tier or an update rate that there is not");
   std::memcpy(instance.state, payload.data(), instance.state_bytes);
   restore_rods(instance, payload.data() + instance.state_bytes);
   instance.level_raised = instance.settles = false;

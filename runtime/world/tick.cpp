@@ -186,6 +186,7 @@ void step_instance(Instance& instance, const TickContext& context, uint32_t slot
   instance.refined = refines(instance);
   if (instance.changed_level) change_level(instance, instance.plan.level);
   enter_tier(instance, tier);
+  instance.state->every = instance.plan.every;
   take_pose(instance, context.teleport_distance_m);
   watch_pose(instance);
   run_ticks(instance, context, slot);
@@ -215,6 +216,7 @@ void step_idle(Instance& instance, const TickContext& context) noexcept {
     state.untouched = 0;
   }
   state.tier = instance.plan.tier;
+  state.every = instance.plan.every;
   state.fallback_ticks -= std::min(state.fallback_ticks, ticks.ticks);
   state.ticks_since_network += ticks.ticks;
   state.remainder_s = ticks.remainder_s;

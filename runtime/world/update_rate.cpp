@@ -58,7 +58,7 @@ HeardBy hearer(Tier tier) noexcept { return tier == Tier::kSpring ? HeardBy::kSp
 uint32_t every_of(const Instance& instance) noexcept {
   const bool each = instance.state->tier == Tier::kNetwork || instance.contacts.source != nullptr ||
                     instance.asset->rods.slot_count > 0;
-  return each ? 1 : instance.plan.every;
+  return each ? 1 : instance.state->every;
 }
 
 bool begin_tick(Instance& instance) noexcept {

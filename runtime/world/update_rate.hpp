@@ -1,6 +1,6 @@
 // update_rate.hpp  Which ticks are simulated whole, where an instance is given fewer than all.
 //
-// Simulated every n ticks (InstancePlan::every), a tick in between follows no poses: modes and springs go on
+// Simulated every n ticks (InstanceState::every), a tick in between follows no poses: modes and springs go on
 // by what they heard last. When the n-th comes, k ticks after the one before it:
 //   - accelerations and turns are differences over k ticks; where the spacing has changed, the step before is
 //     taken as if it had lasted as long, so that a difference of velocities stays one

@@ -58,7 +58,9 @@ struct WorldState {
   float budget_us = std::numeric_limits<float>::infinity();
   frame::Sight sights[kMostViews];
   uint32_t sight_count = 0;
-  uint32_t next_look = 0;  // slot of the instance that was looked at last
+  uint32_t last_look = 0;  // slot of the instance that was looked at last
+  uint32_t looks = 0;      // how many there were
+  bool restored = false;   // an instance was, since the last step
   uint64_t frames = 0;
   uint32_t rejected_poses = 0;  // since the last step
   bool stepping = false;

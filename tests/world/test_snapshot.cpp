@@ -1,4 +1,7 @@
 // test_snapshot.cpp  Rollback: what follows a restore has the bits of what followed the save.
+#include <set>
+#include <utility>
+
 #include "tests/world/stage.hpp"
 
 using namespace sinew;
@@ -23,6 +26,30 @@ void check_refused(Stage& stage, std::span<const std::byte> bytes) {
   CHECK(status.code == StatusCode::kCorrupt);
   CHECK(std::string(status.message).size() > 20);
   CHECK(stage.save() == before);
+}
+
+struct Given {
+  Tier tier;
+  uint32_t level;
+  uint64_t shown;
+  bool operator==(const Given&) const = default;
+};
+
+// A crowd whose budget comes and goes, so that tiers and control graphs change: what each was given.
+std::vector<Given> play_crowd(Stage& stage, int first_frame, int frames) {
+  constexpr float kLow_us = 0.5f, kHigh_us = 6;
+  std::vector<Given> given;
+  const float network_us = test::tier_cost_us(Tier::kNetwork);
+  for (int f = first_frame; f < first_frame + frames; ++f) {
+    const float share = 0.5f + 0.5f * std::sin(0.05f * static_cast<float>(f));
+    REQUIRE(stage.world.set_budget_us(network_us * (kLow_us + (kHigh_us - kLow_us) * share)).ok());
+    stage.step(scenes::walk, kFrame_s);
+    for (size_t i = 0; i < stage.blocks.size(); ++i) {
+      const InstanceReport report = stage.report(i);
+      given.push_back({report.tier, report.graph_level, test::hash_of(stage.read(i))});
+    }
+  }
+  return given;
 }
 
 }  // namespace
@@ -122,4 +149,40 @@ TEST_CASE("what_is_restored_is_planned_by_what_it_was_saved_as") {
   stage.world.step(static_cast<float>(kFrame_s));
   CHECK(stage.report(0).tier != Tier::kNetwork);
   CHECK(stage.report(1).tier == Tier::kNetwork);
+}
+
+TEST_CASE("a_crowd_rolled_back_gets_the_same_tiers_and_bits_again") {
+  Stage stage(0, {.budget_mode = BudgetMode::kWorkUnits}, test::levels_pack());
+  for (int i = 0; i < 6; ++i) stage.add(static_cast<float>(1 + i));
+  constexpr int kBefore = 70, kAfter = 200;
+  play_crowd(stage, 0, kBefore);
+  std::vector<std::vector<std::byte>> saved;
+  for (size_t i = 0; i < stage.blocks.size(); ++i) saved.push_back(stage.save(i));
+  const double time_s = stage.time_s;
+  const std::vector<Given> first = play_crowd(stage, kBefore, kAfter);
+  for (size_t i = 0; i < saved.size(); ++i)
+    REQUIRE(stage.world.restore_state(stage.blocks[i], saved[i]).ok());
+  stage.time_s = time_s;
+  const std::vector<Given> again = play_crowd(stage, kBefore, kAfter);
+  CHECK(again == first);
+  std::set<std::pair<Tier, uint32_t>> had;
+  for (const Given& given : first) had.emplace(given.tier, given.level);
+  CHECK(had.size() >= 5);  // the budget did make them change
+}
+
+TEST_CASE("what_was_reset_and_rolled_back_costs_and_gets_the_same_again") {
+  Stage stage(0, {.budget_mode = BudgetMode::kWorkUnits}, test::levels_pack());
+  for (int i = 0; i < 3; ++i) stage.add(static_cast<float>(1 + i));
+  play_crowd(stage, 0, 40);
+  for (const InstanceId block : stage.blocks) REQUIRE(stage.world.reset(block).ok());
+  std::vector<std::vector<std::byte>> saved;
+  for (size_t i = 0; i < stage.blocks.size(); ++i) saved.push_back(stage.save(i));
+  const double time_s = stage.time_s;
+  REQUIRE(stage.world.set_budget_us(0.1f).ok());
+  const float first_us = (stage.step(scenes::walk, kFrame_s), stage.report(0).planned_us);
+  for (size_t i = 0; i < saved.size(); ++i)
+    REQUIRE(stage.world.restore_state(stage.blocks[i], saved[i]).ok());
+  stage.time_s = time_s;
+  stage.step(scenes::walk, kFrame_s);
+  CHECK(stage.report(0).planned_us == first_us);
 }

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "tests/world/stage.hpp"
+#include "world/plan_row.hpp"
 #include "world/sleep.hpp"
 #include "world/snapshot.hpp"
 #include "world/tick.hpp"
@@ -196,4 +197,17 @@ TEST_CASE("a_block_at_rest_falls_asleep_as_soon_at_any_rate") {
   }
   CHECK(asleep_after[0] < 1200);
   CHECK(std::abs(asleep_after[0] - asleep_after[1]) < 40);  // two swings: of which one is the first quiet
+}
+
+// What the scheduler asks of a block is what it was saved as.
+TEST_CASE("a_restored_block_is_planned_at_the_rate_it_was_saved_at") {
+  Block block;
+  block.play(scenes::walk, Tier::kModal, 2, 60);
+  std::vector<std::byte> bytes(world::snapshot_bytes(block.instance()));
+  REQUIRE(world::save(block.instance(), bytes).ok());
+  block.play(scenes::walk, Tier::kModal, 1, 4);
+  REQUIRE(world::restore(block.instance(), bytes).ok());
+  world::PlanRow row;
+  world::copy_to_row(block.instance(), &row);
+  CHECK(row.every == 2);
 }

@@ -203,6 +203,31 @@ TEST_CASE("what_something_hides_is_hidden_after_the_stated_looks_and_seen_with_t
   CHECK(stage.step(scenes::walk, 1.0 / 60).instances_hidden == 0);
 }
 
+// One of five a step, and a wall that comes and goes: who is hidden when depends on whose turn it is.
+TEST_CASE("looks_go_on_after_a_rollback_where_they_were") {
+  Wall wall;
+  Stage stage(5, {.occlusion = &wall, .sight_rays_per_step = world::kRaysALook});
+  see(stage, true);
+  const auto hidden = [&](int first, int frames) {
+    std::vector<bool> all;
+    for (int f = first; f < first + frames; ++f) {
+      wall.there = f % 27 < 20;
+      stage.step(scenes::walk, 1.0 / 60);
+      for (size_t i = 0; i < 5; ++i) all.push_back(stage.report(i).hidden);
+    }
+    return all;
+  };
+  hidden(0, 13);
+  std::vector<std::vector<std::byte>> saved;
+  for (size_t i = 0; i < 5; ++i) saved.push_back(stage.save(i));
+  const double time_s = stage.time_s;
+  const std::vector<bool> first = hidden(13, 51);
+  CHECK(std::ranges::count(first, true) > 0);
+  for (size_t i = 0; i < 5; ++i) REQUIRE(stage.world.restore_state(stage.blocks[i], saved[i]).ok());
+  stage.time_s = time_s;
+  CHECK(hidden(13, 51) == first);
+}
+
 TEST_CASE("without_rays_or_without_views_nothing_is_asked") {
   Wall wall;
   wall.there = true;
