@@ -52,9 +52,9 @@ class SlotTable {
   // Slots 0 .. end()-1 have been used; at() is null where the slot is free.
   uint32_t end() const noexcept { return end_; }
   T* at(uint32_t index) const noexcept { return slots_[index].live ? &slots_[index].item : nullptr; }
-  // The first `bytes` of a slot, where there is one, come into the cache meanwhile.
+  // The first `bytes` of an item, and its slot's own, come into the cache meanwhile.
   void bring_near(uint32_t index, size_t bytes) const noexcept {
-    if (index < end_) core::bring_near(&slots_[index], bytes);
+    if (index < end_) core::bring_near(&slots_[index], offsetof(Slot, item) + bytes);
   }
   Id id_at(uint32_t index) const noexcept { return {index + 1, slots_[index].generation}; }
   uint32_t count() const noexcept { return count_; }

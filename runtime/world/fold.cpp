@@ -92,7 +92,7 @@ float add_dormant(const Instance& instance, FrameReport& report) noexcept {
   ++report.instances_dormant;
   report.regions_asleep += static_cast<uint32_t>(instance.level->pack.regions.size());
   count_tier(tier, report);
-  return error_of(*instance.asset, tier, instance.plan.every, instance.state->level);
+  return error_of(*instance.asset, tier, instance.state->every, instance.state->level);
 }
 
 float add_idle(FrameReport& report) noexcept {
@@ -112,11 +112,10 @@ float add(WorldState& world, uint32_t slot, FrameReport& report) noexcept {
 
 void bring_counted_near(const WorldState& world, uint32_t slot) noexcept {
   constexpr uint32_t kAhead = 8;
-  constexpr size_t kUpToTimes = 256;
   const uint32_t ahead = slot + kAhead;
   if (ahead >= world.instances.end()) return;
   const PlanRow& row = world.rows[ahead];
-  if (row.asset && row.seen && !world.answers[ahead].idle) world.instances.bring_near(ahead, kUpToTimes);
+  if (row.asset && row.seen && !world.answers[ahead].idle) world.instances.bring_near(ahead, kPlannedBytes);
 }
 
 }  // namespace
