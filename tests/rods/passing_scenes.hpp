@@ -1,4 +1,5 @@
-// passing_scenes.hpp  What is fast and thin: rods thrown at a bar, and whether they got through it.
+// passing_scenes.hpp  What is fast and thin: rods thrown at a bar or a bar at rods, and whether they got
+// through.
 #pragma once
 #include <array>
 #include <random>
@@ -8,12 +9,19 @@
 
 namespace sinew::test {
 
+inline constexpr float kThrown_m_s = 50;
+
 // A capsule across the way of a rod, and how the rod lies about it.
 struct Bar {
   double x, turn;
+  bool rises = false;
+  double y = 0;
   rods::Capsule capsule() const {
-    return {.ends_m = {{x - std::sin(turn), 0, -std::cos(turn)}, {x + std::sin(turn), 0, std::cos(turn)}},
-            .radius_m = 0.02f};
+    rods::Capsule out = {
+        .ends_m = {{x - std::sin(turn), y, -std::cos(turn)}, {x + std::sin(turn), y, std::cos(turn)}},
+        .radius_m = 0.02f};
+    if (rises) out.motion.linear_m_s[1] = kThrown_m_s;
+    return out;
   }
   // Both ends of each segment, from where the bar is a point.
   std::vector<std::array<double, 2>> seen_along(const RodBatch& batch) const {
@@ -23,7 +31,8 @@ struct Bar {
       const rods::Vector axis = axis_of(pose);
       for (const double half : {-0.0625, 0.0625}) {
         const double px = pose.position_m[0] + half * axis[0], pz = pose.position_m[2] + half * axis[2];
-        out.push_back({(px - x) * std::cos(turn) - pz * std::sin(turn), pose.position_m[1] + half * axis[1]});
+        out.push_back(
+            {(px - x) * std::cos(turn) - pz * std::sin(turn), pose.position_m[1] - y + half * axis[1]});
       }
     }
     return out;
@@ -40,6 +49,7 @@ inline double winding(const std::vector<std::array<double, 2>>& points) {
 }
 
 enum class Through { kObstacle, kSource };
+enum class Thrown { kRod, kBar };
 struct Passes {
   int passed = 0, hit = 0;
 };
@@ -47,9 +57,10 @@ struct Passes {
 // What comes at 50 m/s, 0.83 m a step, from anywhere onto a capsule of two centimetres. A rod may slip off,
 // wrap around it or swing its end about it within a step. What it winds about the bar more than its ends did
 // on their ways is a whole turn for each time that the rod went through.
-// `source_for` makes a source of the capsule, or null: it is then one of the collider's own.
+// `source_for` makes a source of the capsule, or null: it is then one of the collider's own, and may be what
+// is thrown.
 template <class SourceFor>
-Passes rods_at_a_bar(int count, SourceFor source_for) {
+Passes rods_at_a_bar(int count, SourceFor source_for, Thrown thrown = Thrown::kRod) {
   std::mt19937 random(7);
   const auto any = [&](float most) { return static_cast<double>(uniform(random, -most, most)); };
   Passes out;
@@ -58,7 +69,7 @@ Passes rods_at_a_bar(int count, SourceFor source_for) {
     RodBatch batch = batch_of({rod}, {.gravity_m_s2 = {0, 0, 0}});
     rods::RodCollider collider = collider_of(batch, {.rods_collide = false, .source_capacity = 64});
     const double x = 0.5 + any(0.3f), turn = any(0.5f);
-    const Bar bar = {x, turn};
+    Bar bar = {x, turn, thrown == Thrown::kBar};
     const rods::Capsule capsule = bar.capsule();
     if (ContactSource* source = source_for(capsule)) {
       REQUIRE(collider.set_source(source).ok());
@@ -66,13 +77,19 @@ Passes rods_at_a_bar(int count, SourceFor source_for) {
       REQUIRE(collider.set_capsules({&capsule, 1}).ok());
     }
     const double side_z = any(5), side_x = any(5);
-    throw_rod(batch, 0, static_cast<float>(side_x), -50, static_cast<float>(side_z));
+    throw_rod(batch, 0, static_cast<float>(side_x), bar.rises ? 0 : -kThrown_m_s, static_cast<float>(side_z));
     auto before = bar.seen_along(batch);
     double through = 0;
+    const float speed_m_s = batch.velocity(0, 0).linear_m_s[1];
     for (int i = 0; i < 6; ++i) {
+      if (bar.rises) {
+        bar.y += static_cast<double>(kThrown_m_s * kFrame_s);
+        const rods::Capsule moved = bar.capsule();
+        REQUIRE(collider.set_capsules({&moved, 1}).ok());
+      }
       step(batch, collider);
       const auto after = bar.seen_along(batch);
-      out.hit += i == 0 && batch.velocity(0, 0).linear_m_s[1] > -49.9f;
+      out.hit += i == 0 && batch.velocity(0, 0).linear_m_s[1] > speed_m_s + 0.1f;
       through +=
           winding(after) - winding(before) - angle(before.back(), after.back()) + angle(before[0], after[0]);
       before = after;
@@ -88,6 +105,10 @@ inline Passes rods_at_a_bar(int count, Through by) {
     source = CapsuleSource({capsule});
     return by == Through::kSource ? &source : nullptr;
   });
+}
+inline Passes bars_at_a_rod(int count) {
+  const auto none = [](const rods::Capsule&) -> ContactSource* { return nullptr; };
+  return rods_at_a_bar(count, none, Thrown::kBar);
 }
 
 }  // namespace sinew::test

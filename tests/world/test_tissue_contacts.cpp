@@ -171,6 +171,9 @@ TEST_CASE("a_wall_through_the_middle_is_held_off_within_bounds_and_what_is_left_
   CHECK(stage.report().restarts == 0);
   CHECK(stage.report().fallbacks == 0);
   CHECK(test::largest_distance(stage.read(), Stage().read()) < 0.5);
+  const double left_m = deepest(stage, wall.walls);
+  CHECK(left_m > 0.01);
+  CHECK(static_cast<double>(stage.report().deepest_penetration_m) == Approx(left_m).epsilon(0.01));
 }
 
 TEST_CASE("a_wall_that_comes_at_ten_metres_a_second_pushes_no_faster_than_itself") {
