@@ -155,16 +155,19 @@ TEST_CASE("a_rope_on_every_kind_of_body_lies_on_its_surface") {
   }
 }
 
-// Steps that do not converge lose some: at 1 m/s this rope's contacts do not settle in twelve iterations.
+// Within a hundredth up to 1 m/s. Faster, more steps end at the cap of iterations, and lose some.
 TEST_CASE("a_rope_that_drags_a_crate_along_gives_it_the_momentum_it_loses") {
+  const auto [speed_m_s, linear, angular] = GENERATE(table<float, double, double>(
+      {{0.3f, 0.01, 0.01}, {1.0f, 0.01, 0.01}, {2.0f, 0.05, 0.1}, {5.0f, 0.05, 0.1}}));
   BulletWorld world;
   btRigidBody* crate = world.body(world.shape<btBoxShape>(btVector3(0.2f, 0.2f, 0.2f)), {0, 0, 0}, 8);
+  crate->setActivationState(DISABLE_DEACTIVATION);  // a body that falls asleep loses what it has
   RopeInBullet rope;
   rope.segments =
       rod_through(straight_line({-0.26, 0.1, -0.6}, {-0.26, 0.05, 0.8}, 28), rope_segment({.drag_per_s = 0}));
   const BulletDef def{.world = &world.world, .push_capacity = 8};
   REQUIRE(rope.create(def, false, {.gravity_m_s2 = {0, 0, 0}}).ok());
-  throw_rod(rope.batch, 0, 0.3f, 0, 0);
+  throw_rod(rope.batch, 0, speed_m_s, 0, 0);
   const Momentum before = momentum(rope, *crate);
   for (int i = 0; i < 240; ++i) {
     world.world.stepSimulation(kTick_s, 0, kTick_s);
@@ -172,11 +175,12 @@ TEST_CASE("a_rope_that_drags_a_crate_along_gives_it_the_momentum_it_loses") {
     rope.contacts.apply_impulses();
   }
   const Momentum after = momentum(rope, *crate);
-  CHECK(crate->getLinearVelocity().x() > 0.02f);
+  CAPTURE(speed_m_s);
+  CHECK(crate->getLinearVelocity().x() > 0.06f * speed_m_s);
   const double size = rods::length(before.linear);
-  CHECK(rods::length(rods::difference(after.linear, before.linear)) < 0.01 * size);
+  CHECK(rods::length(rods::difference(after.linear, before.linear)) < linear * size);
   // About the origin, of what the rope would have half a metre from it.
-  CHECK(rods::length(rods::difference(after.angular, before.angular)) < 0.01 * 0.5 * size);
+  CHECK(rods::length(rods::difference(after.angular, before.angular)) < angular * 0.5 * size);
 }
 
 TEST_CASE("of_a_thousand_rods_at_fifty_metres_a_second_none_passes_through_a_bullet_capsule") {
