@@ -24,7 +24,7 @@ if [ -n "${SINEW_PRESET:-}" ] || [ $# -gt 0 ]; then
 elif has_arm_tools; then
   # Emulated, ten thousand steps, thousands of rods, convergence over every stiffness, whole roll-outs of large networks and damage all
   # over a file take minutes. Each kernel has its other tests, rods' recorded bits are those of x86, and the roll-outs are begun.
-  long_emulated=(ten_thousand_steps hair_that_slides hair_that_ends of_a_thousand_rods two_thousand_segments where_its_iteration_starts
+  long_emulated=(ten_thousand_steps hair_that_slides hair_that_ends of_a_thousand_rods of_ten_thousand two_thousand_segments where_its_iteration_starts
     rods_that_bend_far_more_stiffly rods_converge_at_every_stiffness soft_rods_keep_their_length reproduces_the_golden_roll_outs
     hostile_words random_damage)
   run_preset aarch64 -E "$(IFS='|'; echo "${long_emulated[*]}")"
