@@ -1,8 +1,8 @@
 """Writes perf/results/<processor>_rods_trade.csv, perf/trade/rods.png and the tables of perf/trade/README.md.
 
 usage: summarise_trade.py TRADE.csv...      what build/release/bin/perf_trade_rods wrote
-Lines of the scene `collisions` go to a table and a file of their own, <processor>_rods_contacts.csv: too few of its steps are solved
-for ranks. Of files with no line of it that table and file stay.
+Lines of the scene `collisions` go to tables and a file of their own, <processor>_rods_contacts.csv: not all of its steps are solved.
+Of files with no line of it those stay, and of files with no other line all others.
 """
 import csv
 import math
@@ -171,7 +171,8 @@ def main(paths):
     contacts, cases = ({case: of for case, of in everything.items() if (case[0] == "collisions") == wanted} for wanted in (True, False))
     if contacts:
         write(paths, True, HERE / "results" / f"{file_name(machine)}_rods_contacts.csv")
-        put_between("collisions", reached_table(contacts), PAGE)
+        lines = [f"Processor: {machine}, one thread.", ""] + reached_table(contacts) + [""] + wins_table(contacts)
+        put_between("collisions", lines, PAGE)
     if not cases:
         return
     write(paths, False, HERE / "results" / f"{file_name(machine)}_rods_trade.csv")

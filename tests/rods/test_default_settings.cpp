@@ -1,4 +1,5 @@
 // test_default_settings.cpp  What is chosen for a kind of rod is what the committed measurements say.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
@@ -84,10 +85,10 @@ rods::RodKind kind_of(const Row& row) {
           .contacts = row.of.at("scene") == "collisions"};
 }
 
-std::vector<std::filesystem::path> measurements() {
+std::vector<std::filesystem::path> measurements(const char* of) {
   std::vector<std::filesystem::path> out;
   for (const auto& entry : std::filesystem::directory_iterator(SINEW_SOURCE_DIR "/perf/results")) {
-    if (entry.path().filename().string().ends_with("_rods_trade.csv")) out.push_back(entry.path());
+    if (entry.path().filename().string().ends_with(of)) out.push_back(entry.path());
   }
   return out;
 }
@@ -98,8 +99,8 @@ TEST_CASE("no_other_settings_were_measured_to_be_faster_than_the_defaults") {
   // A case is a median of six states on a host that others use too; a scene's mean is over eighteen to
   // thirty.
   constexpr double kOfACase = 2, kOfAScene = 1.05;
-  REQUIRE(!measurements().empty());
-  for (const auto& path : measurements()) {
+  REQUIRE(!measurements("_rods_trade.csv").empty());
+  for (const auto& path : measurements("_rods_trade.csv")) {
     struct Scene {
       int cases = 0;
       double own = 0;                        // sums of logarithms
@@ -129,6 +130,38 @@ TEST_CASE("no_other_settings_were_measured_to_be_faster_than_the_defaults") {
         INFO(path.filename().string() << ": " << name << " with " << option);
         CHECK(std::exp((scene.own - sum) / scene.cases) <= kOfAScene);
       }
+    }
+  }
+}
+
+// Some steps of rods that slide are solved by none.
+TEST_CASE("in_contact_no_other_settings_were_measured_to_be_faster_over_the_cases_that_both_solve") {
+  constexpr double kOfAScene = 1.05;  // as above, where half the cases or more are solved by both
+  REQUIRE(!measurements("_rods_contacts.csv").empty());
+  for (const auto& path : measurements("_rods_contacts.csv")) {
+    struct Both {
+      int cases = 0;
+      double own_over_other = 0;  // sum of logarithms
+    };
+    std::map<std::string, Both> others;
+    const auto cases = cases_of(path);
+    for (const auto& [key, rows] : cases) {
+      const rods::RodSettings chosen = rods::default_settings(kind_of(rows[0]));
+      const std::string option = std::string(name_of(chosen.solver)) + " " + name_of(chosen.start);
+      const auto own =
+          std::find_if(rows.begin(), rows.end(), [&](const Row& row) { return row.option() == option; });
+      REQUIRE(own != rows.end());
+      for (const Row& row : rows) {
+        const double ratio = own->number("us_a_strand") / row.number("us_a_strand");
+        if (!(std::isfinite(ratio) && ratio > 0)) continue;
+        others[row.option()].own_over_other += std::log(ratio);
+        ++others[row.option()].cases;
+      }
+    }
+    for (const auto& [option, both] : others) {
+      INFO(path.filename().string() << " with " << option << ", " << both.cases << " cases");
+      if (2 * both.cases >= static_cast<int>(cases.size()))
+        CHECK(std::exp(both.own_over_other / both.cases) <= kOfAScene);
     }
   }
 }
