@@ -3,8 +3,10 @@
 #include <stb/stb_image.h>
 
 #include <catch2/catch.hpp>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "baker/common/safetensors.hpp"
@@ -77,6 +79,42 @@ void check_picture(const std::string& path) {
   stbi_image_free(pixels);
 }
 
+// How often each name begins, of a trace whose begins and ends are checked on the way: in pairs, nested,
+// later and later on each thread.
+std::map<std::string, int> begun_in(const nlohmann::json& trace) {
+  struct Thread {
+    std::vector<std::pair<std::string, int>> open;
+    double now_us = 0;
+  };
+  std::map<int, Thread> threads;
+  std::map<std::string, int> begun;
+  for (const auto& event : trace["traceEvents"]) {
+    Thread& thread = threads[event["tid"].get<int>()];
+    const std::pair<std::string, int> what{event["name"], event["args"]["instance"].get<int>()};
+    const double at_us = event["ts"];
+    CHECK(at_us >= thread.now_us);
+    CHECK(event["pid"] == 1);
+    thread.now_us = at_us;
+    if (event["ph"] == "B") {
+      ++begun[what.first];
+      thread.open.push_back(what);
+      continue;
+    }
+    CHECK(event["ph"] == "E");
+    REQUIRE_FALSE(thread.open.empty());
+    CHECK(thread.open.back() == what);
+    thread.open.pop_back();
+  }
+  for (const auto& [number, thread] : threads) CHECK(thread.open.empty());
+  return begun;
+}
+
+std::string formatted(const char* format, double value) {
+  char out[64];
+  std::snprintf(out, sizeof out, format, value);
+  return out;
+}
+
 bool has_ffmpeg() { return test::run_program({"/usr/bin/env", "ffmpeg", "-version"}).exit_code == 0; }
 
 }  // namespace
@@ -141,9 +179,11 @@ TEST_CASE("demo_refuses_places_it_cannot_write_to") {
   TemporaryFolder folder;
   const std::string block = write_block(folder);
   check_refused({block, "--frames", block}, {block, "cannot be made a folder"});
-  const ProgramResult result = demo({block, "--seconds", "0.1", "--report", folder.file("none/report.json")});
-  CHECK(result.exit_code == 2);
-  CHECK_THAT(result.error, Catch::Contains("report.json"));
+  for (const char* option : {"--report", "--trace"}) {
+    const ProgramResult result = demo({block, "--seconds", "0.1", option, folder.file("none/out.json")});
+    CHECK(result.exit_code == 2);
+    CHECK_THAT(result.error, Catch::Contains("out.json"));
+  }
 }
 
 TEST_CASE("demo_prints_a_table_and_nothing_else_in_a_pipe") {
@@ -176,6 +216,59 @@ TEST_CASE("demo_report_holds_every_frame") {
     CHECK(frame["total_us"].get<double>() > 0);
     CHECK(frame["first"]["tier"] == "network");
   }
+}
+
+TEST_CASE("demo_tells_why_what_error_is_expected_and_what_is_left_unspent_as_its_frames_have_it") {
+  TemporaryFolder folder;
+  const std::string path = folder.file("report.json");
+  const ProgramResult result = demo(
+      {write_block(folder), "--instances", "40", "--seconds", "1", "--budget-us", "300", "--report", path});
+  REQUIRE(result.exit_code == 0);
+  const auto report = nlohmann::json::parse(std::ifstream(path));
+  const auto& summary = report["summary"];
+  double why = 0, error = 0, unspent = 0;
+  int denied = 0;
+  for (const auto& [name, share] : summary["why"].items()) {
+    why += share.get<double>();
+    CHECK_THAT(result.out, Catch::Contains(" " + name + formatted(" %.1f %%", 100 * share.get<double>())));
+  }
+  for (const auto& frame : report["frames"]) {
+    error += frame["expected_error"].get<double>() / static_cast<double>(report["frames"].size());
+    denied += frame["unspent_us"] > 0;
+    unspent += frame["unspent_us"].get<double>() / frame["budget_us"].get<double>();
+  }
+  CHECK(why == Approx(1));
+  CHECK(summary["expected_error"]["mean"].get<double>() == Approx(error));
+  CHECK((error > 0 && error <= 1));
+  CHECK(summary["unspent"]["mean"].get<double>() == Approx(denied > 0 ? unspent / denied : 0));
+  const double median = 100 * summary["unspent"]["median"].get<double>();
+  CHECK_THAT(result.out, Catch::Contains(formatted("skinning's: mean %.2f", error)) &&
+                             Catch::Contains(formatted("one was denied: median %.1f %%", median)));
+}
+
+TEST_CASE("demo_traces_each_stage_of_each_frame_and_instance") {
+  TemporaryFolder folder;
+  const std::string path = folder.file("trace.json");
+  REQUIRE(
+      demo({write_block(folder), "--instances", "3", "--threads", "2", "--seconds", "0.5", "--trace", path})
+          .exit_code == 0);
+  const std::map<std::string, int> begun = begun_in(nlohmann::json::parse(std::ifstream(path)));
+  constexpr int kFrames = 31, kInstances = 3;
+  for (const char* stage : {"schedule", "report"}) CHECK(begun.at(stage) == kFrames);
+  for (const char* stage : {"instance", "drive", "tissue", "rods", "publish"})
+    CHECK(begun.at(stage) == kFrames * kInstances);
+  CHECK(begun.size() == 7);
+}
+
+TEST_CASE("demo_traces_the_last_300_frames_of_a_longer_run") {
+  TemporaryFolder folder;
+  const std::string path = folder.file("trace.json");
+  REQUIRE(demo({write_block(folder), "--seconds", "6", "--trace", path}).exit_code == 0);
+  const auto trace = nlohmann::json::parse(std::ifstream(path));
+  const std::map<std::string, int> begun = begun_in(trace);
+  CHECK(begun.at("schedule") == 300);
+  CHECK(begun.at("instance") == 300);
+  CHECK(trace["traceEvents"][0]["ts"] == 0);
 }
 
 TEST_CASE("demo_measures_sinew_and_skinning_against_the_truth") {
