@@ -1,4 +1,4 @@
-"""Checks that the README's C++ program is samples/hello/hello.cpp (which the build compiles and a test runs), line by line.
+"""Checks that each page's first C++ program is the file that the build compiles and a test runs, line by line.
 
 usage: readme_program.py PROJECT_ROOT
 """
@@ -6,19 +6,24 @@ import pathlib
 import re
 import sys
 
+PROGRAMS = {"README.md": "samples/hello/hello.cpp", "runtime/README.md": "tests/house/tracy_hook.hpp"}
 
-def main(root):
-    root = pathlib.Path(root)
-    shown = re.search(r"```cpp\n(.*?)```", (root / "README.md").read_text(), re.DOTALL)
+
+def shows(root, page, file):
+    shown = re.search(r"```cpp\n(.*?)```", (root / page).read_text(), re.DOTALL)
     if not shown:
-        print("README.md shows no C++ program")
-        return 1
-    program = (root / "samples/hello/hello.cpp").read_text()
+        print(f"{page} shows no C++ program")
+        return False
+    program = (root / file).read_text()
     program = program[program.index("#include"):]
     if shown.group(1).strip() != program.strip():
-        print("README.md shows another program than samples/hello/hello.cpp: copy it there")
-        return 1
-    return 0
+        print(f"{page} shows another program than {file}: copy it there")
+        return False
+    return True
+
+
+def main(root):
+    return 0 if all([shows(pathlib.Path(root), page, file) for page, file in PROGRAMS.items()]) else 1
 
 
 if __name__ == "__main__":
