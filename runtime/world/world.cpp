@@ -283,6 +283,7 @@ Status World::reset(InstanceId id) noexcept {
 
 Status World::set_budget_us(float budget_us) noexcept {
   if (!impl_) return null_world();
+  if (busy(*impl_)) return refuse_busy();
   if (!(budget_us >= 0)) return invalid("set_budget_us: the budget must be >= 0 or infinity");
   impl_->budget_us = budget_us;
   return {};

@@ -12,9 +12,12 @@
 //     status = world.read_positions(creature, {.out = vertices, .capacity = vertex_count});
 //   }
 //
-// Thread rule: one thread at a time calls a world's functions, except where a function says otherwise.
-// Nothing here throws or prints. step, set_pose, set_importance, set_views, set_hidden, set_budget_us, reset,
-// read_*, report, history, save_state and restore_state never allocate or block; the others may allocate.
+// Thread rule: one thread at a time calls a world's functions, except where a function says otherwise. What
+// step calls (hooks, contact and occlusion sources), on whatever thread, calls none of them: there, those
+// that are not const are refused with kInvalidArgument, the assert hook hears of it, and a step inside the
+// step does nothing. Nothing here throws or prints. step, set_pose, set_importance, set_views, set_hidden,
+// set_budget_us, reset, read_*, report, history, save_state and restore_state never allocate or block; the
+// others may allocate.
 //
 // Every function answers kInvalidArgument on a null world or for a null out, and kStaleId for an id that is
 // null or whose object is gone (a programmer error: the assert hook hears of it). After a refusal nothing has
