@@ -73,6 +73,15 @@ TEST_CASE("a_ball_s_size_is_its_share_of_the_view_s_height") {
   CHECK(seen_size(sight, {{0, 0, 0.5}, 1}) == 1);   // the eye is inside, looking away
 }
 
+TEST_CASE("an_eye_in_a_ball_s_very_middle_sees_all_of_it_and_no_more_than_the_view") {
+  for (const float height_rad : {1e-6f, 0.01f, 1.0f, 3.1415f}) {
+    View view{.height_rad = height_rad, .far_m = 1e-6f};
+    view.position_m[0] = 3;
+    for (const float radius_m : {0.0f, 1.0f, 1e30f})
+      CHECK(seen_size(sight_of(view), {{3, 0, 0}, radius_m}) == 1);
+  }
+}
+
 TEST_CASE("a_ball_with_a_point_in_view_is_never_taken_for_outside") {
   std::mt19937 engine(5);
   std::normal_distribution<double> normal;

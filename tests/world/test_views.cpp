@@ -1,6 +1,7 @@
 // test_views.cpp  What no view shows is left alone, and comes back without a jump.
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "tests/world/stage.hpp"
 #include "world/look.hpp"
@@ -89,6 +90,34 @@ TEST_CASE("a_camera_inside_a_character_sees_it") {
     REQUIRE(stage.world.set_views({&inside, 1}).ok());
     CHECK(stage.step(scenes::walk, 1.0 / 60).instances_hidden == 0);
   }
+}
+
+// Of two that the eye is inside of, the caller's importance decides: it is as large as the view, and no
+// larger. What is in front of it waits.
+TEST_CASE("a_camera_inside_characters_gets_them_served_as_large_as_the_view") {
+  Stage stage(0, {.sleep_tolerance = 0, .budget_mode = BudgetMode::kWorkUnits});
+  for (const auto& [z_m, importance] : {std::pair{-6.0, 2.0f}, {0.0, 1.0f}, {0.0, 2.0f}}) {
+    InstanceId made;
+    REQUIRE(
+        stage.world
+            .create_instance(
+                {.asset = stage.asset, .importance = importance, .root = {.position_m = {0, 0, z_m}}}, &made)
+            .ok());
+    stage.blocks.push_back(made);
+  }
+  View inside = look_from(0);
+  inside.position_m[1] = static_cast<double>(0.15f);  // the very middle, half way between the joints
+  REQUIRE(stage.world.set_views({&inside, 1}).ok());
+  REQUIRE(stage.world.set_budget_us(1.1f * test::tier_cost_us(Tier::kModal)).ok());
+  for (int f = 0; f < 30; ++f) {
+    const FrameReport report = stage.world.step(1.0f / 60);
+    CHECK(report.instances_hidden == 0);
+    CHECK((report.expected_error > 0 && report.expected_error < 1));
+  }
+  CHECK(stage.report(2).tier == Tier::kModal);
+  for (const size_t i : {0u, 1u}) CHECK(stage.report(i).tier != Tier::kModal);
+  REQUIRE(stage.world.set_budget_us(3.3f * test::tier_cost_us(Tier::kNetwork)).ok());
+  CHECK(stage.world.step(1.0f / 60).instances_network == 3);
 }
 
 // They stand, and would sleep at no cost.
