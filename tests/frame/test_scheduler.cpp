@@ -4,7 +4,9 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <memory>
 #include <random>
 #include <vector>
 
@@ -255,6 +257,88 @@ TEST_CASE("a_change_of_graphs_that_is_too_dear_is_no_bar_to_what_lies_above_it")
   CHECK(crowd.schedule(60).planned_us == 9);
 }
 
+namespace {
+
+// Random fronts, weights and costs, and a budget that pays for a part. Of those that are displaced already,
+// `displaced` of publishing is in what they take in any case.
+struct SmallCase {
+  std::vector<Front> fronts{2};
+  std::unique_ptr<Crowd> crowd;
+  float budget_us = 0;
+
+  SmallCase(int trial, float displaced, std::mt19937& random) {
+    std::uniform_real_distribution<float> unit(0, 1);
+    for (Front& front : fronts) {
+      std::vector<Level> points;
+      const float scale = std::pow(10.0f, 2 * unit(random));
+      for (const Tier tier : {Tier::kSpring, Tier::kModal, Tier::kNetwork, Tier::kModal})
+        points.push_back({.tier = tier,
+                          .tick_us = scale * (0.2f + 4 * unit(random)),
+                          .error = 0.05f + 0.8f * unit(random)});
+      make_front(points, scale * unit(random), &front);
+    }
+    crowd = std::make_unique<Crowd>(3 + static_cast<size_t>(trial % 5), fronts[0]);
+    float all_us = 0;
+    for (Candidate& c : crowd->all) {
+      c.front = &fronts[c.slot % 2];
+      c.top = c.front->best();
+      c.weight = std::pow(10.0f, 2 * unit(random));
+      c.base_us = displaced * c.front->publish_us * unit(random);
+      all_us += c.cost_us(c.top);
+    }
+    budget_us = all_us * (0.3f + 0.7f * unit(random));
+  }
+  // What the next level would have saved, of the one of whom it would have saved most.
+  double most_passed_over() const {
+    double most = 0;
+    for (const Candidate& c : crowd->all) {
+      if (c.level == c.top) continue;
+      const Level* has = &c.front->levels[c.level];
+      most = std::max(most, static_cast<double>(c.weight * (has[0].error - has[1].error)));
+    }
+    return most;
+  }
+};
+
+}  // namespace
+
+// Dantzig's bound. Until the first level that does not fit, the greedy pass is the optimum of the problem in
+// which levels may be bought in part; with that level whole it is at least that optimum, and so at least
+// every choice of whole levels. The worst case is therefore a budget that pays for one large level, or for
+// small ones that save more a microsecond: those are bought, and the large one no longer fits.
+TEST_CASE("what_a_budget_misses_is_less_than_the_best_level_that_was_passed_over") {
+  constexpr int kCases = 1000;
+  std::mt19937 random(23);
+  double worst = 1;
+  for (int trial = 0; trial < kCases; ++trial) {
+    SmallCase one(trial, 0, random);
+    const double best = optimum(*one.crowd, static_cast<double>(one.budget_us));
+    if (!(best > 0)) continue;
+    one.crowd->schedule(one.budget_us);
+    const double bought = one.crowd->bought();
+    CHECK(best <= (bought + one.most_passed_over()) * (1 + 1e-5));
+    worst = std::min(worst, bought / best);
+  }
+  WARN("worst " << 100 * worst << " % of the optimum");
+}
+
+// The worst case in full: 51 us pay for two small levels, which save 3 in 5 us each, or for the large one,
+// which saves 22.5 in 50. That one level is missed; were it to save more a microsecond, it would come first.
+TEST_CASE("one_large_level_may_be_missed_for_small_ones_that_save_more_a_microsecond") {
+  const Front small = single_front(5), large = single_front(50);
+  Crowd crowd(3, small);
+  for (Candidate& c : crowd.all) c.weight = 10 / 3.0f;
+  crowd[2].front = &large;
+  crowd[2].weight = 50 / 2.0f;
+  crowd.schedule(51);
+  CHECK(crowd.count(1) == 2);
+  CHECK(crowd[2].level == 0);
+  crowd[2].weight = 50;
+  crowd.schedule(51);
+  CHECK(crowd[2].level == 1);
+  CHECK(crowd.count(1) == 1);
+}
+
 TEST_CASE("a_crowd_s_budget_is_spent_to_the_last_level_that_fits") {
   std::mt19937 random(3);
   std::uniform_real_distribution<float> unit(0, 1);
@@ -424,21 +508,35 @@ TEST_CASE("rises_add_up_to_what_a_level_takes_whatever_graphs_lie_between") {
   }
 }
 
-TEST_CASE("half_a_thousand_are_scheduled_in_tens_of_microseconds") {
+// The yardstick sorts as many keys as there are levels to buy, in the same process: a schedule that sorted
+// them all would take longer. The quickest of three hundred, of both, is little moved by what else runs.
+TEST_CASE("half_a_thousand_are_scheduled_sooner_than_their_levels_could_be_sorted") {
+  using Clock = std::chrono::steady_clock;
   Crowd crowd(500, kUsual);
   std::mt19937 random(9);
   std::uniform_real_distribution<float> unit(0, 1);
   for (Candidate& c : crowd.all) c.weight = std::pow(10.0f, 2 * unit(random));
-  std::vector<double> took_us;
+  std::vector<double> schedule_us, sort_us;
+  const auto time_us = [](const auto& work) {
+    const auto start = Clock::now();
+    work();
+    return std::chrono::duration<double, std::micro>(Clock::now() - start).count();
+  };
   for (int frame = 0; frame < 300; ++frame) {
-    for (Candidate& c : crowd.all) c.weight *= 0.99f + 0.02f * unit(random);
-    const auto start = std::chrono::steady_clock::now();
-    crowd.schedule(1500);
-    took_us.push_back(
-        std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count());
+    std::vector<Purchase> levels;
+    for (Candidate& c : crowd.all) {
+      c.weight *= 0.99f + 0.02f * unit(random);
+      for (uint32_t level = 1; level <= c.top; ++level)
+        levels.push_back({c.weight * c.front->worth[level], 0, c.slot, level});
+    }
+    schedule_us.push_back(time_us([&] { crowd.schedule(1500); }));
+    sort_us.push_back(time_us([&] { std::ranges::sort(levels, std::greater(), &Purchase::key); }));
     crowd.age(kDt_s);
   }
-  std::ranges::sort(took_us);
-  WARN("schedule of 500: median " << took_us[150] << " us, p95 " << took_us[285]);
-  CHECK(took_us[0] < 500);  // sanitizers and busy machines included
+  std::ranges::sort(schedule_us);
+  std::ranges::sort(sort_us);
+  WARN("500: scheduled in " << schedule_us[0] << " us, median " << schedule_us[150] << ", p95 "
+                            << schedule_us[285] << "; their 1,500 levels sorted in " << sort_us[0]
+                            << ", median " << sort_us[150]);
+  CHECK(schedule_us[0] < sort_us[0]);
 }
