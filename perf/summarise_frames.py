@@ -28,7 +28,7 @@ def shares(row, clock):
 
 
 def frames_table(rows):
-    tiers = ("network", "modal", "spring", "extrapolated", "skinned")
+    tiers = ("network", "modal", "spring", "extrapolated", "skinned", "hidden")
     lines = [[row["trouble"], row["instances"], f"{float(row['budget_us']):g}", row["frames"], *shares(row, "cpu"),
               *shares(row, "wall"), f"{float(row['schedule_us_p50']):.1f}",
               *[f"{100 * float(row[tier]):.0f}" for tier in tiers], f"{100 * float(row['unspent_p50']):.1f}",
@@ -79,7 +79,8 @@ def main(path):
     busy = [row for row in rows if row["trouble"] not in (*IDLE, YARDSTICK)]
     fixed = [row for row in rows if row["trouble"] == YARDSTICK]
     idle = [row for row in rows if row["trouble"] in IDLE]
-    lines = [f"Processor: {machine}; one thread, but for the lost worker's two.", ""] + frames_table(busy) + [""] + yardstick_table(fixed) + [""] + idle_table(idle)
+    frames = sum(int(row["frames"]) for row in busy)
+    lines = [f"Processor: {machine}; one thread, but for the lost worker's two. {frames:,} frames in the first table.", ""] + frames_table(busy) + [""] + yardstick_table(fixed) + [""] + idle_table(idle)
     put_between("frames", lines)
     draw(busy, machine)
     print("\n".join(lines))

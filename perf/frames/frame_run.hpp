@@ -15,7 +15,7 @@ struct FrameCost {
   FrameReport report;
 };
 
-// Poses and importances are set outside of what is timed. Throws baker::BadInput.
+// Poses and views are set outside of what is timed. Throws baker::BadInput.
 std::vector<FrameCost> run_frames(const demo::CharacterFile& character, const PoseTape& tape,
                                   const Scene& scene, uint32_t frames);
 

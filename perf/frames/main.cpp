@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "perf/frames/frame_run.hpp"
+#include "perf/frames/walls.hpp"
 #include "perf/frames/yardstick.hpp"
 
 namespace {
@@ -64,7 +65,7 @@ void put_scene(const Scene& scene, const std::vector<FrameCost>& frames) {
   for (const auto count :
        {&FrameReport::instances_network, &FrameReport::instances_modal, &FrameReport::instances_spring,
         &FrameReport::instances_extrapolated, &FrameReport::instances_skinned, &FrameReport::instances_cut,
-        &FrameReport::instances_dormant})
+        &FrameReport::instances_dormant, &FrameReport::instances_hidden})
     std::printf(",%.4f", share_of_tier(frames, count, scene.instances));
   std::printf(",%.4f,%.4f\n", unspent(frames, scene.budget_us), mean_error(frames));
   std::fflush(stdout);
@@ -74,7 +75,12 @@ void put_header() {
   std::printf("trouble,instances,budget_us,frames");
   for (const char* of : {"cpu", "wall", "schedule_us"})
     std::printf(",%s_p50,%s_p99,%s_p999,%s_worst", of, of, of, of);
-  std::puts(",network,modal,spring,extrapolated,skinned,cut,dormant,unspent_p50,expected_error");
+  std::puts(",network,modal,spring,extrapolated,skinned,cut,dormant,hidden,unspent_p50,expected_error");
+}
+
+bool is_wanted(const Scene& scene, const Options& options) {
+  if (scene.trouble == Trouble::kWalls && !make_walls(scene.instances)) return false;
+  return options.only.empty() || options.only == name_of(scene.trouble);
 }
 
 void run(const Options& options) {
@@ -82,7 +88,7 @@ void run(const Options& options) {
   const PoseTape tape(character, 30);
   put_header();
   for (const Scene& scene : all_scenes()) {
-    if (options.only.empty() || options.only == name_of(scene.trouble))
+    if (is_wanted(scene, options))
       put_scene(scene, scene.trouble == Trouble::kYardstick
                            ? run_yardstick(scene.budget_us, options.frames)
                            : run_frames(character, tape, scene, options.frames));
@@ -99,7 +105,7 @@ int main(int argc, char** argv) {
   app.add_option("pack", options.pack, "C.sinew")->required();
   app.add_option("--frames", options.frames, "of each scene")->check(CLI::Range(60, 1'000'000));
   app.add_option("--only", options.only,
-                 "steady, cuts, entrance, hitch, worker lost, neighbour, hidden, asleep or yardstick");
+                 "steady, cuts, entrance, hitch, worker lost, neighbour, walls, hidden, asleep or yardstick");
   CLI11_PARSE(app, argc, argv);
   try {
     run(options);
