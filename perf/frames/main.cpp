@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "perf/frames/crowd_table.hpp"
 #include "perf/frames/frame_run.hpp"
 #include "perf/frames/walls.hpp"
 #include "perf/frames/yardstick.hpp"
@@ -18,6 +19,7 @@ struct Options {
   std::string pack;
   uint32_t frames = 6000;
   std::string only;
+  CrowdOptions crowd;
 };
 
 // The smallest value that `share` of all do not exceed.
@@ -85,6 +87,7 @@ bool is_wanted(const Scene& scene, const Options& options) {
 
 void run(const Options& options) {
   const demo::CharacterFile character = demo::open_character(options.pack);
+  if (!options.crowd.truths.empty()) return put_crowd_errors(character, options.crowd);
   const PoseTape tape(character, 30);
   put_header();
   for (const Scene& scene : all_scenes()) {
@@ -93,6 +96,19 @@ void run(const Options& options) {
                            ? run_yardstick(scene.budget_us, options.frames)
                            : run_frames(character, tape, scene, options.frames));
   }
+}
+
+void add_crowd_options(CLI::App& app, CrowdOptions* o) {
+  app.add_option(
+      "--crowd", o->truths,
+      "only what a crowd that follows these trajectories of sinew-bake truth --positions is off, as "
+      "expected and as measured, shares of what skinning is off");
+  app.add_option("--instances", o->instances, "of the crowd")->check(CLI::Range(1, 10'000));
+  app.add_option("--budget-us", o->budgets_us, "of the crowd; by default 4000, and none")
+      ->check(CLI::PositiveNumber);
+  app.add_flag_callback(
+      "--work-units", [o] { o->mode = BudgetMode::kWorkUnits; },
+      "the crowd's budget is spent by baked costs: the same on any machine");
 }
 
 }  // namespace
@@ -106,6 +122,7 @@ int main(int argc, char** argv) {
   app.add_option("--frames", options.frames, "of each scene")->check(CLI::Range(60, 1'000'000));
   app.add_option("--only", options.only,
                  "steady, cuts, entrance, hitch, worker lost, neighbour, walls, hidden, asleep or yardstick");
+  add_crowd_options(app, &options.crowd);
   CLI11_PARSE(app, argc, argv);
   try {
     run(options);
