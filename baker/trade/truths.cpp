@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cctype>
 #include <cmath>
+#include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <mutex>
@@ -15,6 +17,7 @@
 #include "baker/import/import_gltf.hpp"
 #include "baker/mesh/tissue_layout.hpp"
 #include "baker/programs/true_motion.hpp"
+#include "baker/trade/fingerprint.hpp"
 #include "baker/truth/trajectory.hpp"
 
 namespace sinew::baker {
@@ -46,20 +49,58 @@ std::vector<const Clip*> chosen(const Character& character, const std::vector<st
     const auto found = std::ranges::find(character.clips, name, &Clip::name);
     if (found == character.clips.end())
       throw BadInput("--clip " + name + ": " + glb + " has no such clip; sinew-bake info shows those it has");
-    out.push_back(&*found);
+    if (std::ranges::find(out, &*found) == out.end()) out.push_back(&*found);
   }
   if (out.empty()) throw BadInput(glb + ": has no clips; give trajectories by --truth");
   return out;
 }
 
-std::vector<Work> work_of(const std::vector<const Clip*>& clips, const std::string& folder) {
+// Channels and mesh too: a .gltf has them in other files.
+std::string made_from(const Source& source, const Character& body, const Clip& clip, double rate_hz) {
+  Fingerprint of;
+  of.add_file(source.glb).add_file(source.recipe).add(clip.name);
+  of.add_all(body.positions).add_all(body.skin).add_all(body.stiffness);
+  for (const Channel& channel : clip.channels) of.add_all(channel.times_s).add_all(channel.values);
+  return of.add(std::to_string(rate_hz) + " " + std::to_string(kSubsteps)).text();
+}
+
+std::string as_file_name(std::string clip) {
+  constexpr size_t kMostLetters = 60;
+  for (char& c : clip)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-') c = '_';
+  return clip.substr(0, kMostLetters);
+}
+
+std::string in_seconds(double seconds) {
+  char text[24];
+  std::snprintf(text, sizeof text, "%gs", seconds);
+  return text;
+}
+
+// Whatever a truth depends on is in its file's name.
+std::vector<Work> work_of(const Source& source, const Character& body, const std::vector<const Clip*>& clips,
+                          double seconds, double rate_hz, const std::string& folder) {
   std::vector<Work> out;
   for (const uint64_t seed : {uint64_t{0}, kOtherSeed})
     for (const Clip* clip : clips)
       out.push_back({clip, seed,
-                     folder + "/" + std::to_string(clip - clips.front()) + "_" + std::to_string(seed) +
+                     folder + "/" + as_file_name(clip->name) + "_" + std::to_string(seed) + "_" +
+                         in_seconds(seconds) + "_" + made_from(source, body, *clip, rate_hz) +
                          ".safetensors"});
   return out;
+}
+
+void tell_of_others(const std::vector<Work>& wanted, const std::vector<std::string>& paths,
+                    const std::string& folder) {
+  if (!std::filesystem::is_directory(folder)) return;
+  for (const auto& held : std::filesystem::directory_iterator(folder)) {
+    if (std::ranges::find(paths, held.path().string()) != paths.end()) continue;
+    std::fprintf(stderr,
+                 "sinew-trade: %s: what it holds is of other clips, seconds, sources or recipes; %zu motions "
+                 "are simulated anew\n",
+                 folder.c_str(), wanted.size());
+    return;
+  }
 }
 
 void simulate(const Body& body, const Work& work, std::atomic<size_t>& done) {
@@ -125,13 +166,14 @@ std::vector<std::string> simulate_clips(const Source& source, const std::vector<
       body.positions.size() != character.character->vertex_count)
     throw BadInput(source.glb +
                    ": with this recipe it is another character than the pack; give what it was baked from");
-  std::vector<Work> wanted = work_of(chosen(body, clips, source.glb), folder);
+  const double rate_hz = static_cast<double>(character.network->rate_hz);
+  std::vector<Work> wanted = work_of(source, body, chosen(body, clips, source.glb), seconds, rate_hz, folder);
   std::vector<std::string> paths;
   for (const Work& work : wanted) paths.push_back(work.path);
   std::erase_if(wanted, [](const Work& work) { return std::filesystem::exists(work.path); });
   if (wanted.empty()) return paths;
+  tell_of_others(wanted, paths, folder);
   make_folder(folder);
-  const double rate_hz = static_cast<double>(character.network->rate_hz);
   simulate_all({body, layout, recipe, rate_hz, static_cast<size_t>(std::lround(seconds * rate_hz))}, wanted);
   return paths;
 }

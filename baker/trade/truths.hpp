@@ -9,8 +9,9 @@
 namespace sinew::baker {
 
 // Each clip as it is, then at another speed and from another start (motion.hpp), at the character's rate, on
-// all cores. Those that lie in the folder already are taken as they are. Throws BadInput:
-// no such clip, no clips, another character's source.
+// all cores. Those of these clips, seconds, source and recipe that lie in the folder already are taken as
+// they are; where it holds only others, one line on standard error says so. Throws BadInput: no such clip, no
+// clips, another character's source.
 std::vector<std::string> simulate_clips(const Source& source, const std::vector<std::string>& clips,
                                         double seconds, const pack::PackView& character,
                                         const std::string& folder);

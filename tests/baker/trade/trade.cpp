@@ -7,6 +7,8 @@
 #include "baker/common/safetensors.hpp"
 #include "baker/common/write_file.hpp"
 #include "baker/programs/loaded_pack.hpp"
+#include "baker/trade/true_surface.hpp"
+#include "baker/trade/truths.hpp"
 #include "tests/baker/common/temporary_folder.hpp"
 #include "tests/baker/programs/bake.hpp"
 #include "tests/baker/programs/fill_once.hpp"
@@ -192,7 +194,13 @@ TEST_CASE("without_truth_the_clips_are_simulated_once_and_variants_stand_beside"
   const std::vector<std::string> arguments = {hop().pack,    "--recipe", hop().recipe, "--tissue",
                                               hop().weights, "--clip",   "hop",        "--seconds",
                                               "0.3",         "-o",       out};
-  must(trade(arguments));
+  fs::create_directories(out + "/truth");
+  write_file(out + "/truth/hop_0_0.2s.safetensors", std::string_view("of another length"));
+  const ProgramResult first = trade(arguments);
+  must(first);
+  CHECK_THAT(first.error, Catch::Contains("what it holds is of other clips"));
+  CHECK(std::ranges::count(first.error, '\n') == 1);
+  fs::remove(out + "/truth/hop_0_0.2s.safetensors");
   std::vector<fs::path> truths;
   for (const auto& entry : fs::directory_iterator(out + "/truth")) truths.push_back(entry.path());
   REQUIRE(truths.size() == 2);
@@ -202,4 +210,31 @@ TEST_CASE("without_truth_the_clips_are_simulated_once_and_variants_stand_beside"
   const auto before = fs::last_write_time(truths.front());
   must(trade(arguments));
   CHECK(fs::last_write_time(truths.front()) == before);
+}
+
+// Whatever lies in the folder.
+TEST_CASE("each_clip_length_and_material_has_a_truth_of_its_own") {
+  const TemporaryFolder folder;
+  const std::string soft = folder.file("soft.json"), firmer = folder.file("firmer.json");
+  nlohmann::json material = nlohmann::json::parse(read_text(hop().recipe));
+  material["voxels_high"] = 14;  // quick to simulate
+  write_file(soft, std::string_view(material.dump()));
+  material["young_soft_pa"] = 1.5 * material["young_soft_pa"].get<double>();
+  write_file(firmer, std::string_view(material.dump()));
+  const LoadedPack pack = LoadedPack::from_file(hop().pack);
+  const auto simulated = [&](const std::string& clip, double seconds, const std::string& recipe) {
+    const Source source{.glb = hop().glb, .recipe = recipe, .weights = {}};
+    const std::vector<std::string> paths =
+        simulate_clips(source, {clip}, seconds, pack.view(), folder.file("truth"));
+    REQUIRE(paths.size() == 2);
+    return TrueSurface(paths.front(), pack.view());
+  };
+  const TrueSurface hopped = simulated("hop", 0.15, soft);
+  const TrueSurface walked = simulated("walk", 0.15, soft);
+  CHECK(hopped.name() == "clip:hop seed 0 strength 1");
+  CHECK(walked.name() == "clip:walk seed 0 strength 1");
+  CHECK(simulated("walk", 0.2, soft).motion().ticks() == 12);
+  CHECK(simulated("walk", 0.15, firmer).fingerprint() != walked.fingerprint());
+  CHECK(simulated("hop", 0.15, soft).fingerprint() == hopped.fingerprint());
+  CHECK(std::distance(fs::directory_iterator(folder.file("truth")), {}) == 8);
 }
