@@ -2,12 +2,13 @@
 // worth having; and the character with those baked. See `sinew-trade --help`.
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 
 #include "baker/common/program.hpp"
 #include "baker/common/write_file.hpp"
 #include "baker/trade/chart.hpp"
+#include "baker/trade/made_of.hpp"
 #include "baker/trade/measure.hpp"
+#include "baker/trade/processor.hpp"
 #include "baker/trade/table.hpp"
 #include "baker/trade/truths.hpp"
 #include "baker/trade/write_tiers.hpp"
@@ -61,13 +62,6 @@ std::vector<TrueSurface> read_truth(const std::vector<std::string>& paths, const
   return out;
 }
 
-std::string processor() {
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);)
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  return "this machine";
-}
-
 void run(Options options) {
   if (!(options.seconds >= 0.1 && options.seconds <= 60)) throw BadInput("--seconds: must be from 0.1 to 60");
   const LoadedPack character = load(options.character);
@@ -79,11 +73,12 @@ void run(Options options) {
                           character);
   make_folder(options.folder);  // not before truth and clips were found good
   const std::vector<Variant> variants = variants_of(options.source);
+  RowCache cache(options.folder + "/measured.json", made_of(character, surfaces, options.source));
   Measured measured{.character = std::filesystem::path(options.character).stem().string(),
-                    .processor = processor(),
+                    .processor = processor_name(),
                     .motions = {},
                     .vertices = character.view().region_vertices.size(),
-                    .rows = measure(character, surfaces, variants, options.folder + "/measured.json")};
+                    .rows = measure(character, surfaces, variants, cache)};
   for (const TrueSurface& surface : surfaces) measured.motions.push_back(surface.name());
   write_file(options.folder + "/trade.csv", std::string_view(as_csv(measured)));
   write_file(options.folder + "/trade.json", std::string_view(as_json(measured)));

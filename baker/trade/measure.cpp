@@ -2,22 +2,16 @@
 #include "baker/trade/measure.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <functional>
 #include <optional>
 
 #include "baker/common/progress.hpp"
-#include "baker/common/read_file.hpp"
-#include "baker/common/write_file.hpp"
 #include "baker/trade/cost.hpp"
 #include "baker/trade/error.hpp"
 #include "baker/trade/front.hpp"
-#include "core/hash.hpp"
 
 namespace sinew::baker {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct Way {
   std::string name, kind;
@@ -38,37 +32,6 @@ std::string name_of(const LoadedPack& character, Tier tier, uint32_t every, uint
   std::string name = kNames[static_cast<size_t>(tier)];
   if (every > 1) name += " every " + std::to_string(every);
   return level == 0 ? name : name + " on " + std::to_string(nodes_a_region(character, level)) + " nodes";
-}
-
-// The rows that a file holds under this key.
-class Cache {
- public:
-  Cache(std::string path, std::string key) : path_(std::move(path)), key_(std::move(key)) {
-    if (!std::filesystem::exists(path_)) return;
-    const nlohmann::json held = nlohmann::json::parse(read_text(path_), nullptr, false);
-    if (!held.is_object() || held.value("key", "") != key_) return;
-    for (const auto& row : held.at("rows")) rows_.push_back(row_from(row));
-  }
-  std::optional<Row> find(const std::string& name) const {
-    const auto found = std::ranges::find(rows_, name, &Row::name);
-    return found == rows_.end() ? std::nullopt : std::optional(*found);
-  }
-  void add(const Row& row) {
-    rows_.push_back(row);
-    Json out = {{"key", key_}, {"rows", Json::array()}};
-    for (const Row& held : rows_) out["rows"].push_back(to_json(held));
-    write_file(path_, out.dump());
-  }
-
- private:
-  std::string path_, key_;
-  std::vector<Row> rows_;
-};
-
-std::string key_of(const LoadedPack& character, std::span<const TrueSurface> surfaces) {
-  uint64_t key = core::hash64(character.bytes());
-  for (const TrueSurface& surface : surfaces) key = key * 31 + surface.fingerprint();
-  return std::to_string(key);
 }
 
 class Ways {
@@ -153,13 +116,12 @@ Row measured(const Way& way) {
 }  // namespace
 
 std::vector<Row> measure(const LoadedPack& character, std::span<const TrueSurface> surfaces,
-                         std::span<const Variant> variants, const std::string& cache_path) {
+                         std::span<const Variant> variants, RowCache& cache) {
   const Yardstick yardstick(character, surfaces);
   Ways ways(yardstick, surfaces.front().motion());
   add_tiers(character, &ways);
   ways.add_baselines(character);
   add_variants(character, variants, &ways);
-  Cache cache(cache_path, key_of(character, surfaces));
   Progress progress("measuring", ways.all().size());
   std::vector<Row> rows;
   for (const Way& way : ways.all()) {

@@ -1,0 +1,10 @@
+// processor.hpp  Whose costs they are.
+#pragma once
+#include <string>
+
+namespace sinew::baker {
+
+// As perf/results are named: model, family, model number; "this machine" where the system does not tell.
+std::string processor_name();
+
+}  // namespace sinew::baker
