@@ -23,7 +23,7 @@ std::string of_motions(std::span<const TrueSurface> surfaces) {
   return of.text();
 }
 
-std::string of_source(const Source& source) {
+std::string of_source(const BakedFrom& source) {
   Fingerprint of;
   of.add_file(source.glb).add_file(source.recipe);
   for (const std::string& weights : source.weights) of.add_file(weights).add_file(vectors_beside(weights));
@@ -33,7 +33,7 @@ std::string of_source(const Source& source) {
 }  // namespace
 
 nlohmann::ordered_json made_of(const LoadedPack& character, std::span<const TrueSurface> surfaces,
-                               const Source& source) {
+                               const BakedFrom& source) {
   return {{"program", of_program()},         {"processor", processor_name()},
           {"instruction set", active_isa()}, {"character", Fingerprint().add(character.bytes()).text()},
           {"motions", of_motions(surfaces)}, {"source, recipe or weights", of_source(source)}};

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "baker/programs/loaded_pack.hpp"
-#include "baker/trade/source.hpp"
+#include "baker/trade/baked_from.hpp"
 #include "baker/trade/true_surface.hpp"
 
 namespace sinew::baker {
@@ -13,6 +13,6 @@ namespace sinew::baker {
 // An object of strings: of what code, processor and instruction set the costs are, of what character, and
 // what its variants are baked from.
 nlohmann::ordered_json made_of(const LoadedPack& character, std::span<const TrueSurface> surfaces,
-                               const Source& source);
+                               const BakedFrom& source);
 
 }  // namespace sinew::baker

@@ -21,7 +21,7 @@ struct Options {
   std::string character, folder;
   std::vector<std::string> truth, clips;
   double seconds = 10;
-  Source source;
+  BakedFrom source;
 };
 
 void add_options(CLI::App& app, Options* o) {

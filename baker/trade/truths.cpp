@@ -56,7 +56,7 @@ std::vector<const Clip*> chosen(const Character& character, const std::vector<st
 }
 
 // Channels and mesh too: a .gltf has them in other files.
-std::string made_from(const Source& source, const Character& body, const Clip& clip, double rate_hz) {
+std::string made_from(const BakedFrom& source, const Character& body, const Clip& clip, double rate_hz) {
   Fingerprint of;
   of.add_file(source.glb).add_file(source.recipe).add(clip.name);
   of.add_all(body.positions).add_all(body.skin).add_all(body.stiffness);
@@ -78,8 +78,9 @@ std::string in_seconds(double seconds) {
 }
 
 // Whatever a truth depends on is in its file's name.
-std::vector<Work> work_of(const Source& source, const Character& body, const std::vector<const Clip*>& clips,
-                          double seconds, double rate_hz, const std::string& folder) {
+std::vector<Work> work_of(const BakedFrom& source, const Character& body,
+                          const std::vector<const Clip*>& clips, double seconds, double rate_hz,
+                          const std::string& folder) {
   std::vector<Work> out;
   for (const uint64_t seed : {uint64_t{0}, kOtherSeed})
     for (const Clip* clip : clips)
@@ -149,14 +150,14 @@ void simulate_all(const Body& body, const std::vector<Work>& work) {
 
 }  // namespace
 
-Character Source::import(const Recipe& as) const {
+Character BakedFrom::import(const Recipe& as) const {
   ImportOptions import;
   import.unit_m = as.unit_m;
   import.up = as.up;
   return import_gltf(glb, import);
 }
 
-std::vector<std::string> simulate_clips(const Source& source, const std::vector<std::string>& clips,
+std::vector<std::string> simulate_clips(const BakedFrom& source, const std::vector<std::string>& clips,
                                         double seconds, const pack::PackView& character,
                                         const std::string& folder) {
   const Recipe recipe = source.read();

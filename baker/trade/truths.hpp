@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "baker/trade/source.hpp"
+#include "baker/trade/baked_from.hpp"
 #include "pack/reader.hpp"
 
 namespace sinew::baker {
@@ -12,7 +12,7 @@ namespace sinew::baker {
 // all cores. Those of these clips, seconds, source and recipe that lie in the folder already are taken as
 // they are; where it holds only others, one line on standard error says so. Throws BadInput: no such clip, no
 // clips, another character's source.
-std::vector<std::string> simulate_clips(const Source& source, const std::vector<std::string>& clips,
+std::vector<std::string> simulate_clips(const BakedFrom& source, const std::vector<std::string>& clips,
                                         double seconds, const pack::PackView& character,
                                         const std::string& folder);
 

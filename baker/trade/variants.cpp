@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kLevels[] = {10, 20, 60};  // nodes a region
 
-LoadedPack bake(const Source& source, int nodes_per_region, const std::string& weights_path,
+LoadedPack bake(const BakedFrom& source, int nodes_per_region, const std::string& weights_path,
                 pack::Precision precision) {
   Recipe recipe = source.read();
   if (nodes_per_region > 0) recipe.nodes_per_region = nodes_per_region;
@@ -31,7 +31,7 @@ LoadedPack bake(const Source& source, int nodes_per_region, const std::string& w
 
 }  // namespace
 
-std::vector<Variant> variants_of(const Source& source) {
+std::vector<Variant> variants_of(const BakedFrom& source) {
   std::vector<Variant> out;
   if (source.glb.empty() || source.weights.empty()) return out;
   const std::string own = source.weights.front();

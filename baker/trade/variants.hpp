@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "baker/programs/loaded_pack.hpp"
-#include "baker/trade/source.hpp"
+#include "baker/trade/baked_from.hpp"
 
 namespace sinew::baker {
 
@@ -15,6 +15,6 @@ struct Variant {
 };
 
 // None without a glb; of networks none without weights. The source must outlive them.
-std::vector<Variant> variants_of(const Source& source);
+std::vector<Variant> variants_of(const BakedFrom& source);
 
 }  // namespace sinew::baker

@@ -16,7 +16,7 @@ using namespace sinew::test;
 
 namespace {
 
-nlohmann::ordered_json small_made_of(const Source& source) {
+nlohmann::ordered_json small_made_of(const BakedFrom& source) {
   return made_of(LoadedPack::from_bytes(small_character_pack(), "small"), {}, source);
 }
 

@@ -220,7 +220,7 @@ TEST_CASE("each_clip_length_and_material_has_a_truth_of_its_own") {
   write_file(firmer, std::string_view(material.dump()));
   const LoadedPack pack = LoadedPack::from_file(hop().pack);
   const auto simulated = [&](const std::string& clip, double seconds, const std::string& recipe) {
-    const Source source{.glb = hop().glb, .recipe = recipe, .weights = {}};
+    const BakedFrom source{.glb = hop().glb, .recipe = recipe, .weights = {}};
     const std::vector<std::string> paths =
         simulate_clips(source, {clip}, seconds, pack.view(), folder.file("truth"));
     REQUIRE(paths.size() == 2);

@@ -1,4 +1,4 @@
-// source.hpp  What a character was baked from.
+// baked_from.hpp  What a character was baked from.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace sinew::baker {
 
-struct Source {
+struct BakedFrom {
   std::string glb, recipe;           // no glb: nothing is simulated or baked anew
   std::vector<std::string> weights;  // the character's own first
 
