@@ -77,7 +77,9 @@ void append_region(const Part& part, const Recipe& recipe, const std::vector<int
                    TissueLayout& layout) {
   const Character& character = part.character;
   Region region;
-  region.name = region_name(character, recipe, layout.stiffness, part.vertices);
+  const RegionRecipe* stated = stated_region(character, recipe, layout.stiffness, part.vertices);
+  region.name = stated ? stated->name : region_name(character, layout.stiffness, part.vertices);
+  region.touches_body = stated && stated->touches_body;
   region.frame_joint = frame_joint(character, part.rim, part.vertices);
   region.first_node = static_cast<int>(layout.nodes.size());
   region.node_count = static_cast<int>(nodes.size());

@@ -60,12 +60,17 @@ void keep_largest(Character& character, std::vector<Proxy>& proxies) {
   character.notes.push_back("more than 64 capsules about bones: the thinnest are left out");
 }
 
+bool are_touched(const std::vector<bool>& on_rods, const Recipe& recipe) {
+  return std::ranges::find(on_rods, true) != on_rods.end() ||
+         std::ranges::any_of(recipe.regions, &RegionRecipe::touches_body);
+}
+
 }  // namespace
 
 std::vector<Proxy> find_proxies(Character& character, const Bones& bones, const std::vector<bool>& on_rods,
                                 const Recipe& recipe) {
   std::vector<bool> left_out = match_joints(character, recipe.without_proxies, "recipe: without_proxies");
-  if (std::ranges::find(on_rods, true) == on_rods.end()) return {};
+  if (!are_touched(on_rods, recipe)) return {};
   for (size_t j = 0; j < left_out.size(); ++j) left_out[j] = left_out[j] || on_rods[j];
   std::vector<Proxy> proxies = stated(character);
   std::erase_if(proxies, [&](const Proxy& p) { return left_out[static_cast<size_t>(p.joint)]; });

@@ -1,4 +1,5 @@
-// proxies.hpp  Capsules about bones, for rods to collide with where a mesh would cost too much.
+// proxies.hpp  Capsules about bones, for rods and soft parts to collide with where a mesh would cost too
+// much.
 #pragma once
 #include <vector>
 
@@ -14,10 +15,10 @@ struct Proxy {
   double radius_m = 0;
 };
 
-// None for a character without rods. The colliders that the file states, where it has any; else a capsule for
-// each bone that moves 20 vertices or more above all others, no rod's and none the recipe leaves out. The
-// recipe's radii take the place of fitted ones. At most 64, the largest; in the order of joints.
-// Throws BadInput for a recipe's joint that is not there, with the nearest name.
+// None for a character without rods and regions that touch the body. The colliders that the file states,
+// where it has any; else a capsule for each bone that moves 20 vertices or more above all others, no rod's
+// and none the recipe leaves out. The recipe's radii take the place of fitted ones. At most 64, the largest;
+// in the order of joints. Throws BadInput for a recipe's joint that is not there, with the nearest name.
 std::vector<Proxy> find_proxies(Character& character, const Bones& bones, const std::vector<bool>& on_rods,
                                 const Recipe& recipe);
 

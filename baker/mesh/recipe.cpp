@@ -68,6 +68,7 @@ RegionRecipe read_region(JsonSection& section) {
   region.joints = section.texts("joints");
   if (region.joints.empty()) section.complain("joints", "must name at least one joint, or a prefix*");
   region.stiffness = section.number("stiffness", region.stiffness, 0, 1);
+  region.touches_body = section.flag("touches_body", region.touches_body);
   section.finish();
   return region;
 }

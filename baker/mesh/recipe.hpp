@@ -15,9 +15,10 @@ struct RegionRecipe {
   std::string name;
   std::vector<std::string> joints;  // names or prefix*
   double stiffness = 0.1;           // 0 soft .. 1 rigid at its softest point
+  bool touches_body = false;        // the capsules about the character's bones, but for those that carry it
 };
 
-// Of a capsule that rods collide with, its bone by name or prefix*.
+// Of a capsule that rods and regions collide with, its bone by name or prefix*.
 struct ProxyRecipe {
   std::string joint;
   double radius_m = 0;  // 1e-3 .. 10
@@ -43,7 +44,7 @@ struct Recipe {
   char up = 'y';
   std::optional<std::vector<RodRecipe>> rods;  // absent: from the file's spring bones, where it has any
   std::vector<ProxyRecipe> proxies;            // radii that take the place of fitted ones
-  std::vector<std::string> without_proxies;    // names or prefix*: bones that rods go through
+  std::vector<std::string> without_proxies;    // names or prefix*: bones that get no capsule
   std::vector<RegionRecipe>
       regions;  // used where the file paints no _STIFFNESS; empty and unpainted: by flesh thickness
 };

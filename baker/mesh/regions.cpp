@@ -27,18 +27,12 @@ int largest(const std::vector<double>& values) {
   return static_cast<int>(std::max_element(values.begin(), values.end()) - values.begin());
 }
 
-std::string stated_name(const Character& character, const Recipe& recipe, const std::vector<double>& weight) {
-  std::string name;
-  double best = 0, all = 0;
-  for (double value : weight) all += value;
-  for (const RegionRecipe& region : recipe.regions) {
-    const std::vector<bool> joints =
-        match_joints(character, region.joints, "recipe: region '" + region.name + "'");
-    double sum = 0;
-    for (size_t j = 0; j < joints.size(); ++j) sum += joints[j] ? weight[j] : 0;
-    if (sum > best) best = sum, name = region.name;
-  }
-  return best > all / 2 ? name : "";
+// Of each joint, where the part is soft.
+std::vector<double> soft_weight(const Character& character, const std::vector<double>& stiffness,
+                                const std::vector<int>& vertices) {
+  std::vector<double> softness;
+  for (int v : vertices) softness.push_back(1 - stiffness[static_cast<size_t>(v)]);
+  return weight_a_joint(character, vertices, softness);
 }
 
 }  // namespace
@@ -92,13 +86,25 @@ int frame_joint(const Character& character, const std::vector<int>& rim, const s
   return largest(weight_a_joint(character, where, std::vector<double>(where.size(), 1)));
 }
 
-std::string region_name(const Character& character, const Recipe& recipe,
-                        const std::vector<double>& stiffness, const std::vector<int>& vertices) {
-  std::vector<double> softness;
-  for (int v : vertices) softness.push_back(1 - stiffness[static_cast<size_t>(v)]);
-  const std::vector<double> weight = weight_a_joint(character, vertices, softness);
-  const std::string name = stated_name(character, recipe, weight);
-  return name.empty() ? joint_name(character, static_cast<size_t>(largest(weight))) : name;
+const RegionRecipe* stated_region(const Character& character, const Recipe& recipe,
+                                  const std::vector<double>& stiffness, const std::vector<int>& vertices) {
+  const std::vector<double> weight = soft_weight(character, stiffness, vertices);
+  const RegionRecipe* stated = nullptr;
+  double best = 0, all = 0;
+  for (double value : weight) all += value;
+  for (const RegionRecipe& region : recipe.regions) {
+    const std::vector<bool> joints =
+        match_joints(character, region.joints, "recipe: region '" + region.name + "'");
+    double sum = 0;
+    for (size_t j = 0; j < joints.size(); ++j) sum += joints[j] ? weight[j] : 0;
+    if (sum > best) best = sum, stated = &region;
+  }
+  return best > all / 2 ? stated : nullptr;
+}
+
+std::string region_name(const Character& character, const std::vector<double>& stiffness,
+                        const std::vector<int>& vertices) {
+  return joint_name(character, static_cast<size_t>(largest(soft_weight(character, stiffness, vertices))));
 }
 
 void distinguish_names(std::vector<Region>& regions) {

@@ -29,9 +29,13 @@ std::vector<int> rim_vertices(const Surface& surface, const SoftParts& parts, in
 // The joint with the most skin weight on the rim; of the whole part where it has no rim.
 int frame_joint(const Character& character, const std::vector<int>& rim, const std::vector<int>& vertices);
 
-// A recipe's region that has most of the part's weight, else the joint that has most of it where it is soft.
-std::string region_name(const Character& character, const Recipe& recipe,
-                        const std::vector<double>& stiffness, const std::vector<int>& vertices);
+// The recipe's region that has most of the part's weight where it is soft; null: none has.
+const RegionRecipe* stated_region(const Character& character, const Recipe& recipe,
+                                  const std::vector<double>& stiffness, const std::vector<int>& vertices);
+
+// Of the joint that has most of that weight.
+std::string region_name(const Character& character, const std::vector<double>& stiffness,
+                        const std::vector<int>& vertices);
 
 // Makes names unlike each other: a pair gets _l and _r (left is +X, characters face +Z), others are numbered.
 void distinguish_names(std::vector<Region>& regions);

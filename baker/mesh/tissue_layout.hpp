@@ -28,6 +28,7 @@ struct Region {
       carry;  // [node in region][vertex in region]; zero displacement at the rigid rim
   Vector3 center = Vector3::Zero();
   double radius_m = 0;
+  bool touches_body = false;  // RegionRecipe::touches_body
 };
 
 struct TissueLayout {
@@ -35,7 +36,7 @@ struct TissueLayout {
   std::vector<Region> regions;
   std::vector<ControlNode> nodes;          // region after region
   std::vector<std::pair<int, int>> edges;  // undirected, no self-loops, each region connected
-  std::vector<Proxy> proxies;              // what rods collide with
+  std::vector<Proxy> proxies;              // what rods and regions collide with
   std::vector<Rod> rods;                   // what hangs on their bones is not soft: the rods move it
 };
 

@@ -141,6 +141,7 @@ pack::RegionRecord to_record(const Region& region, const ModalBasis& basis, floa
   for (int axis = 0; axis < 3; ++axis) record.center_m[axis] = static_cast<float>(region.center[axis]);
   record.radius_m = static_cast<float>(region.radius_m);
   record.displacement_limit_m = displacement_limit * record.radius_m;
+  record.touches_body = region.touches_body;
   return record;
 }
 

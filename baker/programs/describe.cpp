@@ -81,7 +81,8 @@ Json describe_regions(const pack::PackView& view) {
                        {"modes", modes.mode_count},
                        {"first_hz", modes.first_rad_per_s / (2 * std::numbers::pi_v<float>)},
                        {"radius_m", region.radius_m},
-                       {"displacement_limit_m", region.displacement_limit_m}});
+                       {"displacement_limit_m", region.displacement_limit_m},
+                       {"touches_body", region.touches_body != 0}});
   }
   return regions;
 }

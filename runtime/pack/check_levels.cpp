@@ -46,6 +46,8 @@ Status check_same_regions(const LevelView& fine, const LevelView& coarse, uint32
     const RegionModesRecord &modes_of = fine.region_modes[r], &modes = coarse.region_modes[r];
     if (region.first_vertex != of.first_vertex || region.vertex_count != of.vertex_count)
       return corrupt("level %u: region %zu carries other vertices than in the finer level", level, r);
+    if (region.touches_body != of.touches_body)
+      return corrupt("level %u: region %zu touches other things than in the finer level", level, r);
     if (modes.first_mode != modes_of.first_mode || modes.mode_count != modes_of.mode_count)
       return corrupt("level %u: region %zu has other modes than in the finer level", level, r);
   }

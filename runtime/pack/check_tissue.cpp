@@ -21,7 +21,9 @@ Status check_record(const PackView& pack, const RegionRecord& region, size_t ind
     return corrupt("region %zu: radius %g m", index, double{region.radius_m});
   if (!is_positive(region.displacement_limit_m))
     return corrupt("region %zu: displacement limit %g m", index, double{region.displacement_limit_m});
-  return check_zero(region.reserved, "region", index);
+  if (region.touches_body > 1)
+    return corrupt("region %zu: touches_body is %u, neither 0 nor 1", index, region.touches_body);
+  return check_zero({&region.reserved, 1}, "region", index);
 }
 
 Status check_vertices(const PackView& pack, const RegionRecord& region, size_t index) noexcept {

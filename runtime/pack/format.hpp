@@ -29,7 +29,7 @@
 //   6  what a tier costs and how far it is off may be measured, its tail with it, and tiers simulated every
 //      second tick stand beside those of every tick
 //      since then, likewise: CharacterRecord::coarser_count with the sections kLevels, kPicks and kSpread,
-//      and TierRecord::level
+//      TierRecord::level, and RegionRecord::touches_body
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -279,7 +279,8 @@ struct RegionRecord {
   float center_m[3];                    // mean of the nodes' bind positions
   float radius_m;                       // largest distance of a node from the centre, > 0
   float displacement_limit_m;  // guard: |l| of a node beyond this is held and the states behind it reset, > 0
-  uint32_t reserved[2];
+  uint32_t touches_body;       // 1: the capsules of kProxies, where an instance asks for it; else 0
+  uint32_t reserved;
 };
 static_assert(sizeof(RegionRecord) == 64);
 
@@ -372,14 +373,14 @@ struct RodSegmentRecord {
 };
 static_assert(sizeof(RodSegmentRecord) == 64);
 
-// A capsule about a bone, that rods collide with; bind pose, metres. It moves as its joint does.
+// A capsule about a bone, that rods and regions collide with; bind pose, metres. It moves as its joint does.
 struct ProxyRecord {
   uint32_t joint;
   float from_m[3], to_m[3];  // the axis' ends; the same: a sphere
   float radius_m;            // > 0
 };
 static_assert(sizeof(ProxyRecord) == 32);
-inline constexpr uint32_t kMostProxies = 64;  // a bit each in what a rod passes
+inline constexpr uint32_t kMostProxies = 64;  // a bit each in what a rod or a region passes
 
 struct ClipRecord {
   uint32_t name;

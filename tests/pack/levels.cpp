@@ -75,6 +75,8 @@ TEST_CASE("levels_that_do_not_fit_are_refused_by_name") {
                  {"region 1: radius", change<RegionRecord>(kRegions, 3, [](auto& r) { r.radius_m = 0; })},
                  {"region 1: held at node 1 of 1",
                   change<RegionRecord>(kRegions, 3, [](auto& r) { r.anchor_node = 1; })},
+                 {"level 1: region 1 touches other things",
+                  change<RegionRecord>(kRegions, 3, [](auto& r) { r.touches_body = 1; })},
                  {"region 0: vertex", set<uint32_t>(kRegionVertices, 0, 500u)},
                  {"level 1: region 0 is held elsewhere",
                   change<RegionRecord>(kRegions, 2, [](auto& r) { r.anchor_node = 0; })},

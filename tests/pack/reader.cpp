@@ -417,6 +417,8 @@ TEST_CASE("tissue_faults_are_refused_by_name") {
        {"region 1: centre", region([](auto& r) { r.center_m[1] = kNan; })},
        {"region 1: radius", region([](auto& r) { r.radius_m = 0; })},
        {"region 1: displacement limit", region([](auto& r) { r.displacement_limit_m = kInfinity; })},
+       {"region 1: touches_body is 2", region([](auto& r) { r.touches_body = 2; })},
+       {"region 1: reserved", region([](auto& r) { r.reserved = 1; })},
        {"that no region owns", region([](auto& r) { r.node_count = 1; })},
        {"region 0: vertex 4 does not ascend", set<uint32_t>(kRegionVertices, 1, 4u)},
        {"region 1: vertex 12", set<uint32_t>(kRegionVertices, 7, 12u)},

@@ -141,6 +141,24 @@ TEST_CASE("painted_rings_become_regions_with_connected_nodes_inside") {
   CHECK(layout.regions[0].vertices.size() == 5 * 25);
 }
 
+TEST_CASE("a_region_touches_the_body_where_the_recipe_s_region_that_it_is_of_says_so") {
+  Character character = painted_column(0.62, 0.88);
+  for (size_t v = 0; v < character.positions.size(); ++v)
+    if (character.positions[v].y() > 1.2) character.stiffness[v] = 0.3;
+  Recipe recipe;
+  recipe.regions = {{"belly", {"bone_1"}, 0.1, true}, {"head", {"bone_3"}}};
+  const TissueLayout layout = layout_tissue(character, recipe);
+  REQUIRE(layout.regions.size() == 2);
+  CHECK(layout.regions[0].name == "belly");
+  CHECK(layout.regions[0].touches_body);
+  CHECK(layout.regions[1].name == "head");
+  CHECK_FALSE(layout.regions[1].touches_body);
+  const TissueLayout coarser =
+      coarser_layout(character, recipe, layout, {layout.nodes[0].vertex, layout.nodes.back().vertex}, 10);
+  CHECK(coarser.regions[0].touches_body);
+  CHECK_FALSE(coarser.regions[1].touches_body);
+}
+
 // Held at the finest level's last node, which none of the coarser ones would choose by itself.
 TEST_CASE("nodes_of_a_coarser_layout_are_nodes_of_the_finer_one_and_the_one_that_holds_is_among_them") {
   for (const int finest_nodes : {40, 600}) {  // more than a few are put in another order

@@ -73,6 +73,17 @@ TEST_CASE("bones_with_flesh_get_capsules_but_for_rods_and_what_the_recipe_leaves
   CHECK(some.size() < all.size());
 }
 
+TEST_CASE("a_region_that_touches_the_body_needs_no_rod_to_have_capsules") {
+  Character character = column();
+  const Bones bones = find_bones(character, {});
+  const std::vector<bool> on_rods(4, false);
+  Recipe recipe;
+  recipe.regions = {{"belly", {"bone_1"}}, {"chest", {"bone_2"}, 0.1, true}};
+  CHECK(find_proxies(character, bones, on_rods, recipe).size() > 1);
+  recipe.regions[1].touches_body = false;
+  CHECK(find_proxies(character, bones, on_rods, recipe).empty());
+}
+
 TEST_CASE("the_colliders_of_the_file_take_the_place_of_fitted_capsules") {
   Character character = column();
   character.colliders = {{1, {0, 0.1, 0}, {0, 0.2, 0}, 0.07}};

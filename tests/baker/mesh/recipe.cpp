@@ -68,6 +68,10 @@ TEST_CASE("wrong_recipes_are_refused_by_key") {
       {R"({"regions": [{"joints": ["spine"]}]})", "name"},
       {R"({"regions": [{"name": "belly", "joints": ["spine"], "stiffness": 2}]})", "stiffness"},
       {R"({"regions": [{"name": "belly", "joints": ["spine"], "softness": 1}]})", "softness"},
+      {R"({"regions": [{"name": "belly", "joints": ["spine"], "touches_body": "yes"}]})",
+       "\"touches_body\" must be true or false"},
+      {R"({"regions": [{"name": "belly", "joints": ["spine"], "touch_body": true}]})", "touches_body"},
+      {R"({"touches_body": true})", "touches_body"},
       {R"({"rods": {"root": "tail"}})", "list"},
       {R"({"rods": [{"name": "tail"}]})", "root"},
       {R"({"rods": [{"root": "tail", "radius": 0.1}]})", "radius_m"},
@@ -101,7 +105,8 @@ TEST_CASE("every_key_of_a_recipe_is_read_and_absent_ones_keep_their_default") {
   const Recipe recipe = read_recipe(write(R"({
     "young_soft_pa": 1000, "young_stiff_pa": 2000, "poisson_ratio": 0.3, "density_kg_m3": 900, "damping_ratio": 0.2,
     "voxels_high": 20, "rigid_stiffness": 0.5, "core_share": 0.25, "coreless_joints": ["ear_*"], "nodes_per_region": 12,
-    "neighbours": 4, "unit_m": 0.01, "up": "z", "regions": [{"name": "belly", "joints": ["spine_*", "pelvis"], "stiffness": 0.3}]})"));
+    "neighbours": 4, "unit_m": 0.01, "up": "z", "regions": [{"name": "belly", "joints": ["spine_*", "pelvis"], "stiffness": 0.3},
+                {"name": "cheek", "joints": ["head"], "touches_body": true}]})"));
   CHECK(recipe.young_soft_pa == 1000);
   CHECK(recipe.young_stiff_pa == 2000);
   CHECK(recipe.poisson_ratio == 0.3);
@@ -115,10 +120,12 @@ TEST_CASE("every_key_of_a_recipe_is_read_and_absent_ones_keep_their_default") {
   CHECK(recipe.neighbours == 4);
   CHECK(recipe.unit_m == 0.01);
   CHECK(recipe.up == 'z');
-  REQUIRE(recipe.regions.size() == 1);
+  REQUIRE(recipe.regions.size() == 2);
   CHECK(recipe.regions[0].name == "belly");
   CHECK(recipe.regions[0].joints == std::vector<std::string>{"spine_*", "pelvis"});
   CHECK(recipe.regions[0].stiffness == 0.3);
+  CHECK_FALSE(recipe.regions[0].touches_body);
+  CHECK(recipe.regions[1].touches_body);
 }
 
 TEST_CASE("levels_take_the_place_of_one_number_of_nodes") {

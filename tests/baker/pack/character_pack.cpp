@@ -20,9 +20,15 @@ std::vector<std::byte> pack_small(const Character& character, const TissueLayout
   return pack_character(character, layout, test::small_modes(layout), &weights);
 }
 
+TissueLayout layout_whose_tip_touches(const Character& character) {
+  TissueLayout layout = test::small_layout(character);
+  layout.regions[1].touches_body = true;
+  return layout;
+}
+
 struct Packed {
   Character character = test::small_character();
-  TissueLayout layout = test::small_layout(character);
+  TissueLayout layout = layout_whose_tip_touches(character);
   test::PackEditor editor{pack_small(character, layout)};
   pack::PackView view;
   Packed() { REQUIRE(editor.open(&view).ok()); }
@@ -139,6 +145,8 @@ TEST_CASE("regions_keep_nodes_graph_and_carrying_weights") {
   CHECK(tip.anchor_node == 0);
   CHECK(packed.view.region_vertices[tip.first_vertex + 3] == 11);
   CHECK(tip.displacement_limit_m == Approx(0.75 * tip.radius_m));
+  CHECK(tip.touches_body == 1);
+  CHECK(packed.view.regions[0].touches_body == 0);
   CHECK(tip.padded_vertices == 16);
   CHECK(packed.view.carry[tip.carry + 16 + 3] == 0.5f);  // its second node to its last vertex
   CHECK(packed.view.carry[tip.carry + 16 + 4] == 0.0f);
