@@ -8,6 +8,7 @@
 
 #include "core/status.hpp"
 #include "world/instance.hpp"
+#include "world/own_body_touches.hpp"
 #include "world/pose_bound.hpp"
 
 namespace sinew::world {
@@ -102,8 +103,11 @@ Status open_asset(std::span<const std::byte> bytes, Asset* out) noexcept {
   if (Status status = check_runnable(view); !status.ok()) return status;
   RodRig rods;
   if (Status status = make_rod_rig(view, &rods); !status.ok()) return status;
+  std::unique_ptr<uint64_t[]> touchable;
+  if (Status status = find_touchable(view, &touchable); !status.ok()) return status;
   Asset& asset = *out;
   asset.pack = view;
+  asset.touchable = std::move(touchable);
   asset.rods = std::move(rods);
   asset.network = {view.network,
                    view.layers,

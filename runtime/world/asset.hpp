@@ -1,6 +1,7 @@
 // asset.hpp  A loaded character: checked views of its pack, shared by its instances.
 #pragma once
 #include <cstddef>
+#include <memory>
 #include <span>
 
 #include "frame/cost_model.hpp"
@@ -21,6 +22,7 @@ struct Asset {
   GraphLevel levels[pack::kMostGraphLevels];
   uint32_t level_count = 1;
   RodRig rods;
+  std::unique_ptr<uint64_t[]> touchable;  // [regions]: world/own_body_touches.hpp; null: none for any
   double tick_s = 0;
   uint64_t fingerprint = 0;      // of all of the pack's bytes
   uint32_t padded_vertices = 0;  // carried vertices of all regions, each region padded

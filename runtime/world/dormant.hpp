@@ -1,6 +1,7 @@
 // dormant.hpp  A character that is asleep under a pose that does not change is not stepped.
 //
-//   dormant  every region and rod sleeps, nothing may touch it, nothing fades, and for kStillTicks ticks the
+//   dormant  every region and rod sleeps, it asks no source (its own body stands still with its pose),
+//   nothing fades, and for kStillTicks ticks the
 //            pose set was bit for bit the present one, or none was set.
 //   up again with another pose, a budget of 0, a reset, or out of sight; it goes on as if it had been stepped
 //            meanwhile. Where a budget once kept it below its best tier, it is also simulated at that when a

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/check_hit.hpp"
+#include "world/own_body_touches.hpp"
 #include "world/surface_point.hpp"
 
 namespace sinew::world {
@@ -25,8 +26,20 @@ struct Way {
   Vector3f start, end;
 };
 
+// Who is asked: the source, and capsules of its own body, a bit each.
+struct Asked {
+  bool source;
+  uint64_t capsules;
+  bool nobody() const { return !source && capsules == 0; }
+};
+
+Asked asked_by(const Instance& instance, uint32_t region) {
+  return {instance.contacts.source && instance.contacts.tissue, touchable(instance, region)};
+}
+
 struct Question {
   Instance& instance;
+  Asked asked;
   uint32_t count = 0;
 
   void add(const Way& way, float radius_m) {
@@ -45,15 +58,18 @@ struct Question {
 
   // The usable answers; `all` when there were more than fit.
   std::span<const ContactHit> ask(bool* all) {
+    const std::span<const ContactProbe> probes = {instance.probes, count};
     const auto tick_s = static_cast<float>(instance.asset->tick_s);
-    const uint32_t found =
-        instance.contacts.source->find({instance.probes, count}, tick_s, {instance.hits, kHitsAtOnce});
-    const uint32_t given = std::min(found, kHitsAtOnce);
+    const std::span<ContactHit> room = {instance.hits, kHitsAtOnce};
+    const uint32_t found = asked.source ? instance.contacts.source->find(probes, tick_s, room) : 0;
+    const uint32_t of_source = std::min(found, kHitsAtOnce);
+    const uint32_t own = find_own_body(instance, asked.capsules, probes, room.subspan(of_source));
+    const uint32_t given = std::min(of_source + own, kHitsAtOnce);
     const auto end = std::remove_if(instance.hits, instance.hits + given,
                                     [&](const ContactHit& hit) { return !core::is_usable(hit, count); });
     const auto usable = static_cast<size_t>(end - instance.hits);
     instance.told.refused += given - static_cast<uint32_t>(usable);
-    *all = found > kHitsAtOnce;
+    *all = found > kHitsAtOnce || of_source + own > kHitsAtOnce;
     return {instance.hits, usable};
   }
 };
@@ -101,12 +117,15 @@ Ball ball_around(const Instance& instance, const pack::RegionRecord& region) {
   return ball;
 }
 
-bool touches_anything(Instance& instance, const pack::RegionRecord& region) {
+// Those of them whom the region may touch.
+Asked near_region(Instance& instance, const pack::RegionRecord& region, Asked asked) {
   const Ball ball = ball_around(instance, region);
-  Question question{instance};
+  Question question{instance, {asked.source, 0}};
   question.add(ball.middle, ball.radius_m);
+  asked.capsules = near_own_body(instance, asked.capsules, instance.probes[0]);
   bool all = false;
-  return !question.ask(&all).empty();
+  asked.source = !question.ask(&all).empty();
+  return asked;
 }
 
 struct Found {
@@ -151,11 +170,11 @@ void ask_vertices(Instance& instance, Question& question, const Found* found) {
 }
 
 // Nodes whose patch touches something are marked in `deepest`.
-void find_patches(Instance& instance, const pack::RegionRecord& region) {
+void find_patches(Instance& instance, const pack::RegionRecord& region, Asked asked) {
   constexpr uint32_t kTouched = 1;
   const uint32_t end = region.first_node + region.node_count;
   std::fill(instance.deepest + region.first_node, instance.deepest + end, 0u);
-  Question question{instance};
+  Question question{instance, asked};
   for (uint32_t first = region.first_node, n = first; n < end; ++n) {
     question.add(node_way(instance, n), reach_m(instance, n));
     if (!question.full() && n + 1 < end) continue;
@@ -172,10 +191,13 @@ void find_patches(Instance& instance, const pack::RegionRecord& region) {
 void find_touches(Instance& instance, uint32_t r) noexcept {
   const pack::RegionRecord& region = instance.level->pack.regions[r];
   const SurfacePatches& patches = instance.level->patches;
-  if (!touches_anything(instance, region)) return;
-  find_patches(instance, region);
+  Asked asked = asked_by(instance, r);
+  if (asked.nobody()) return;
+  asked = near_region(instance, region, asked);
+  if (asked.nobody()) return;
+  find_patches(instance, region, asked);
   Found found[kProbesAtOnce];
-  Question question{instance};
+  Question question{instance, asked};
   for (uint32_t n = region.first_node; n < region.first_node + region.node_count; ++n) {
     if (!instance.deepest[n]) continue;
     for (uint32_t v = patches.first[n]; v < patches.first[n + 1]; ++v) {

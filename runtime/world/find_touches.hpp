@@ -1,6 +1,7 @@
-// find_touches.hpp  What soft parts touch at the present tick, as the instance's contact source has it.
+// find_touches.hpp  What soft parts touch at the present tick, as the instance's contact source has it, and
+// of its own body.
 //
-// The source is asked in three steps, the next only where the one before touched: a sphere around the soft
+// Both are asked in three steps, the next only where the one before touched: a sphere around the soft
 // part, one around each node's patch of surface, each vertex of such patches.
 #pragma once
 #include "world/instance.hpp"

@@ -32,6 +32,14 @@ static_assert(offsetof(InstanceState, root) == kPlannedStateBytes, "what is plan
 
 float smooth_step(float t) noexcept { return t * t * (3 - 2 * t); }
 
+bool touches_own_body(const Asset& asset, const ContactDef& contacts) noexcept {
+  return contacts.own_body && asset.touchable != nullptr;
+}
+
+bool soft_parts_touch(const Asset& asset, const ContactDef& contacts) noexcept {
+  return contacts.source || touches_own_body(asset, contacts);
+}
+
 void lay_out_state(const Asset& asset, core::Arena& arena, Instance& to) noexcept {
   const uint32_t joints = asset.pack.character->joint_count;
   const size_t vectors = size_t{3} * asset.node_count();
@@ -60,7 +68,7 @@ void lay_out_state(const Asset& asset, core::Arena& arena, Instance& to) noexcep
   for (double*& hold : to.rod_hold) hold = arena.take<double>(size_t{3} * asset.rods.rod_count);
   if (to.contacts.own_body)
     for (double*& ends : to.proxy_ends) ends = arena.take<double>(6 * asset.pack.proxies.size());
-  if (to.contacts.source) {
+  if (soft_parts_touch(asset, to.contacts)) {
     to.pushes = arena.take<float>(size_t{3} * asset.padded_vertices);
     to.pushed = arena.take<uint32_t>(asset.pack.regions.size());
     for (float*& skin : to.tick_skin)
@@ -80,6 +88,8 @@ void lay_out_contacts(const Asset& asset, core::Arena& arena, Instance& to) noex
   to.flesh = arena.take<float>(size_t{3} * asset.node_count());
   to.deepest = arena.take<uint32_t>(asset.node_count());
   to.carries_pushes = arena.take<uint8_t>(asset.pack.regions.size());
+  if (touches_own_body(asset, to.contacts))
+    to.proxy_before = arena.take<double>(6 * asset.pack.proxies.size());
 }
 
 void lay_out_scratch(const Asset& asset, core::Arena& arena, Instance& to) noexcept {
@@ -113,7 +123,7 @@ void lay_out_scratch(const Asset& asset, core::Arena& arena, Instance& to) noexc
 void lay_out(const Asset& asset, core::Arena& arena, Instance& to) noexcept {
   lay_out_state(asset, arena, to);
   lay_out_scratch(asset, arena, to);
-  if (to.contacts.source) lay_out_contacts(asset, arena, to);
+  if (soft_parts_touch(asset, to.contacts)) lay_out_contacts(asset, arena, to);
 }
 
 }  // namespace
@@ -146,8 +156,8 @@ Status make_instance(Asset& asset, const InstanceDef& def, Instance* out) noexce
   core::Arena measure;
   Instance made;
   made.contacts = def.contacts;
-  made.contacts.own_body &= asset.rods.rod_count > 0 && !asset.pack.proxies.empty();
-  for (uint32_t l = 0; made.contacts.source && l < asset.level_count; ++l) {
+  made.contacts.own_body &= !asset.pack.proxies.empty() && (asset.rods.rod_count > 0 || asset.touchable);
+  for (uint32_t l = 0; soft_parts_touch(asset, made.contacts) && l < asset.level_count; ++l) {
     GraphLevel& level = asset.levels[l];
     if (level.patches.first) continue;
     if (Status status = make_surface_patches(level.pack, &level.patches); !status.ok()) return status;

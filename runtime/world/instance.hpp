@@ -156,7 +156,9 @@ struct Instance {
   bool settles = false;               // likewise, and its r is what was spread
   bool rods_anew = false;   // in this tick: rods are taken to where they are shown before they go on
   bool rods_shown = false;  // published joints are not the pose's
-  ContactDef contacts;      // without a source, the arrays of contacts have no memory
+  // own_body: only where there is something to touch. Without it or a source, the arrays of contacts have no
+  // memory.
+  ContactDef contacts;
   std::unique_ptr<rods::RodBatch[]> rod_batches;       // their state is saved beside the run of bytes below
   std::unique_ptr<rods::RodCollider[]> rod_colliders;  // [batches], theirs too; null: rods touch nothing
 
@@ -180,9 +182,9 @@ struct Instance {
   // Of the last two ticks, newest first: [slots][4] segments' orientations in the world at rest, [rods][3]
   // where their holders end, from rod_anchor_m.
   double *rod_rest[2] = {}, *rod_hold[2] = {};
-  double* proxy_ends[2] = {};  // likewise, [proxies][2][3]; null: rods do not touch the body
-  // Of soft parts that touch something: how vertices are pushed, laid out and along axes as `carried`, and
-  // whether any of a region's is.
+  double* proxy_ends[2] = {};  // likewise, [proxies][2][3]; null: it does not touch its body
+  // Of soft parts that may touch something, else null: how vertices are pushed, laid out and along axes as
+  // `carried`, and whether any of a region's is.
   float* pushes = nullptr;
   uint32_t* pushed = nullptr;  // [regions]
   float* seam = nullptr;       // laid out as `carried`: what a change of level left, null: one level
@@ -209,6 +211,8 @@ struct Instance {
   uint32_t* deepest = nullptr;        // [nodes]: of touches
   uint8_t* carries_pushes = nullptr;  // [regions]: `carried` has pushes in it
   Touches told;
+  double* proxy_before =
+      nullptr;  // proxy_ends a tick ago, whoever sleeps; null: soft parts do not touch them
 
   double* rod_end[2] = {};  // [slots][3] where segments end, as they are taken along
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "tissue/node_bend.hpp"
+#include "world/own_body.hpp"
 #include "world/rod_motion.hpp"
 #include "world/rotation.hpp"
 
@@ -153,7 +154,7 @@ void pose_nodes(Instance& instance, const Matrix34* joints, const RootTransform&
 }
 
 void remember_skin(Instance& instance, const RootTransform& root) noexcept {
-  if (!instance.contacts.source) return;
+  if (!instance.pushes) return;
   const size_t floats = size_t{12} * instance.level->pack.character->joint_count;
   std::copy_n(instance.tick_skin[0], floats, instance.tick_skin[1]);
   std::copy_n(instance.tick_turn[0], 4, instance.tick_turn[1]);
@@ -173,6 +174,7 @@ void push_pose(Instance& instance, double share) noexcept {
   const Matrix34* joints = joints_at(instance, share);
   pose_nodes(instance, joints, root);
   rest_rods(instance, joints, root);
+  pose_proxies(instance, joints, root);
   std::copy_n(root.position_m, 3, roots[0]);
   remember_skin(instance, root);
 }

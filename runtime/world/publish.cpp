@@ -39,7 +39,7 @@ bool carry_on(Instance& instance, const pack::RegionRecord& region) noexcept {
 
 // Vertices that touched something in the last tick. True when `carried` has to be made anew for it.
 bool takes_pushes(const Instance& instance, size_t r) noexcept {
-  return instance.contacts.source && (instance.pushed[r] || instance.carries_pushes[r]);
+  return instance.pushes && (instance.pushed[r] || instance.carries_pushes[r]);
 }
 
 // True when `carried` has to be made anew for what a change of level left, or for its level itself.

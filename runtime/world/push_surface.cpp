@@ -63,7 +63,7 @@ void look_at_vertex(Instance& instance, const Touch& touch) {
 }  // namespace
 
 void forget_pushes(Instance& instance) noexcept {
-  if (!instance.contacts.source) return;
+  if (!instance.pushes) return;
   float* pushes = instance.pushes;
   for (size_t r = 0; r < instance.level->pack.regions.size(); ++r) {
     const size_t floats = size_t{3} * instance.level->pack.regions[r].padded_vertices;
@@ -74,7 +74,7 @@ void forget_pushes(Instance& instance) noexcept {
 }
 
 void push_surface(Instance& instance) noexcept {
-  if (!instance.contacts.source) return;
+  if (!instance.pushes) return;
   forget_pushes(instance);
   for (uint32_t t = 0; t < instance.touch_count; ++t) push_vertex(instance, instance.touches[t]);
   for (uint32_t t = 0; t < instance.touch_count; ++t) look_at_vertex(instance, instance.touches[t]);

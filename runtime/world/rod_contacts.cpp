@@ -8,7 +8,7 @@
 
 #include "core/check_hit.hpp"
 #include "core/status.hpp"
-#include "world/rod_proxies.hpp"
+#include "world/own_body.hpp"
 
 namespace sinew::world {
 namespace {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "world/own_body.hpp"
 #include "world/pose.hpp"
 #include "world/rod_contacts.hpp"
-#include "world/rod_proxies.hpp"
 #include "world/rod_sleep.hpp"
 #include "world/rotation.hpp"
 
@@ -156,7 +156,6 @@ void rest_rods(Instance& instance, const Matrix34* joints, const RootTransform& 
     MapTurn(instance.rod_rest[0] + size_t{4} * s) =
         (world * joint * Quaterniond(slot.offset_xyzw)).normalized();
   }
-  pose_proxies(instance, joints, world, place);
   for (uint32_t rod = 0; rod < rig.rod_count; ++rod) {
     const Matrix34& first = joints[rig.slots()[rig.seats()[rod].first_slot + 1].bone];
     MapPlace(instance.rod_hold[0] + size_t{3} * rod) =

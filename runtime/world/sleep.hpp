@@ -4,7 +4,7 @@
 //   quiet   in a tick: each node's felt acceleration is within s w1^2 of what it was as the quiet began, and
 //           its l moved by at most s w1 h: what swings at w1 or above swings by less than s
 //   asleep  after half a swing of quiet ticks, pi / (w1 h), as long as the felt acceleration stays that near
-//   settled where nothing may touch it, under a pose that has been the same bits for so long that what swings
+//   settled where no source is asked, under a pose that has been the same bits for so long that what swings
 //           a third as damped as each of its modes, e^(-zeta w t / 3), is a thousandth of what it was: flesh
 //           is at rest, and a movement of 16 s w1 h a tick counts as quiet: a network's own hum
 // A sleeping region keeps l, theta, q, r and its network's states, with no velocity, and is carried and shown

@@ -8,7 +8,8 @@
 namespace sinew::world {
 
 void touch_tissue(Instance& instance) noexcept {
-  if (!instance.contacts.source || !instance.contacts.tissue) return;
+  const bool asks_source = instance.contacts.source && instance.contacts.tissue;
+  if (!asks_source && !instance.proxy_before) return;
   tissue::along_flesh(instance.poses[0], instance.u[0], instance.level->node_count(), instance.flesh);
   for (uint32_t r = 0; r < instance.level->pack.regions.size(); ++r) {
     const uint32_t first = instance.touch_count;

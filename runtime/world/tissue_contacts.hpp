@@ -1,6 +1,6 @@
-// tissue_contacts.hpp  Soft parts against what the instance's contact source knows, in three parts: what
-// touches (find_touches), what that does to the tissue (press_region), what is left of it at the surface
-// (push_surface).
+// tissue_contacts.hpp  Soft parts against what the instance's contact source knows, and against its own body,
+// in three parts: what touches (find_touches), what that does to the tissue (press_region), what is left of
+// it at the surface (push_surface).
 #pragma once
 #include "world/instance.hpp"
 

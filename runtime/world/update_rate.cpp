@@ -56,7 +56,7 @@ void respace_root(const Respacing& as, double (&roots)[3][3]) noexcept {
 HeardBy hearer(Tier tier) noexcept { return tier == Tier::kSpring ? HeardBy::kSprings : HeardBy::kModes; }
 
 uint32_t every_of(const Instance& instance) noexcept {
-  const bool each = instance.state->tier == Tier::kNetwork || instance.contacts.source != nullptr ||
+  const bool each = instance.state->tier == Tier::kNetwork || instance.pushes != nullptr ||
                     instance.asset->rods.slot_count > 0;
   return each ? 1 : instance.state->every;
 }

@@ -182,6 +182,7 @@ void add_region(const Character& character, const BlockOptions& options, int ind
   region.name = index == 0 ? "left" : "right";
   region.first_node = static_cast<int>(layout.nodes.size());
   region.node_count = options.nodes;
+  region.touches_body = options.arms && options.arms->touches_body;
   region.vertices = soft_vertices(character, index, options.regions);
   const std::vector<int> nodes = sample_nodes(character, region.vertices, options.nodes);
   region.carry = carry_weights(character, nodes, region.vertices);
@@ -240,6 +241,7 @@ PackBytes soft_block(const BlockOptions& options) {
   Character character = block_character(options);
   TissueLayout layout = block_tissue(character, options);
   const std::vector<baker::GraphLevel> coarser = coarser_levels(character, options, layout);
+  if (options.arms) add_arms(*options.arms, character, layout);
   if (options.rods) add_rods(*options.rods, character, layout);
   const baker::Safetensors weights = block_network(options);
   const std::vector<std::byte> bytes =

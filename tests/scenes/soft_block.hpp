@@ -9,6 +9,7 @@
 
 #include "core/aligned_block.hpp"
 #include "pack/format.hpp"
+#include "tests/scenes/block_arms.hpp"
 #include "tests/scenes/block_rods.hpp"
 
 namespace sinew::scenes {
@@ -33,6 +34,7 @@ struct BlockOptions {
   pack::Precision precision = pack::Precision::kFloat32;
   std::optional<RodMatter> rods = std::nullopt;  // a tail and horns (block_rods.hpp)
   std::vector<int> coarser_nodes = {};           // a region, of coarser control graphs
+  std::optional<ArmMatter> arms = std::nullopt;  // block_arms.hpp; without rods
 };
 
 class PackBytes {  // 64-byte aligned, as load_asset wants them

@@ -189,6 +189,17 @@ TEST_CASE("a_frame_in_contact_allocates_nothing") {
   CHECK(stage.report().rod_contacts > 0);
 }
 
+// The walk's first bone behind the waist is the arm's: at the block's back, in the flesh.
+TEST_CASE("a_frame_against_the_own_body_allocates_nothing") {
+  const scenes::PackBytes pack = scenes::soft_block({.arms = scenes::ArmMatter{}});
+  Stage stage(0, {}, pack);
+  for (InstanceId& made : stage.blocks = std::vector<InstanceId>(2))
+    CHECK(stage.world.create_instance({.asset = stage.asset, .contacts = {.own_body = true}}, &made).ok());
+  CHECK(allocations_of_frames(stage) == 0);
+  stage.world.step(1.0f / 60);  // as above
+  CHECK(stage.report().vertices_touched > 0);
+}
+
 TEST_CASE("a_frame_that_changes_levels_allocates_nothing") {
   Stage stage(3, {.budget_mode = BudgetMode::kWorkUnits}, test::levels_pack());
   Frame frame{stage};

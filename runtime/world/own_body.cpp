@@ -1,5 +1,5 @@
-// rod_proxies.cpp  see rod_proxies.hpp.
-#include "world/rod_proxies.hpp"
+// own_body.cpp  see own_body.hpp.
+#include "world/own_body.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,6 +8,7 @@
 #include "rods/sweep.hpp"
 #include "rods/vector.hpp"
 #include "world/rod_sleep.hpp"
+#include "world/rotation.hpp"
 
 namespace sinew::world {
 namespace {
@@ -102,11 +103,15 @@ void pass_proxies(const Instance& instance, uint32_t batch, rods::RodCollider& c
   }
 }
 
-void pose_proxies(Instance& instance, const Matrix34* joints, const Quaterniond& turn,
-                  const Vector3d& place_m) noexcept {
+void pose_proxies(Instance& instance, const Matrix34* joints, const RootTransform& root) noexcept {
   const uint32_t count = proxy_count(instance);
-  if (count > 0 && rods_asleep(instance) == 0)
+  if (count == 0) return;
+  if (instance.proxy_before) std::copy_n(instance.proxy_ends[0], size_t{6} * count, instance.proxy_before);
+  if (rods_asleep(instance) == 0)
     std::copy_n(instance.proxy_ends[0], size_t{6} * count, instance.proxy_ends[1]);
+  const Quaterniond turn = quaternion(root.rotation_xyzw);
+  const Vector3d place_m =
+      Eigen::Map<const Vector3d>(root.position_m) - Eigen::Map<const Vector3d>(instance.state->rod_anchor_m);
   for (uint32_t i = 0; i < count; ++i) {
     const pack::ProxyRecord& proxy = instance.level->pack.proxies[i];
     const Matrix34 bind = inverse_bind(instance.level->pack.joints[proxy.joint]);
@@ -118,9 +123,9 @@ void pose_proxies(Instance& instance, const Matrix34* joints, const Quaterniond&
 }
 
 void turn_proxies(Instance& instance, const Quaterniond& turn, const Vector3d& centre_m) noexcept {
-  for (uint32_t i = 0; i < proxy_count(instance); ++i) {
-    for (uint32_t end = 0; end < 4; ++end) {
-      MapPlace place = end_of(instance, end / 2, i, end % 2);
+  for (double* ends : {instance.proxy_ends[0], instance.proxy_ends[1]}) {
+    for (uint32_t end = 0; end < 2 * proxy_count(instance); ++end) {
+      MapPlace place(ends + size_t{3} * end);
       place = (centre_m + turn * (place - centre_m)).eval();
     }
   }

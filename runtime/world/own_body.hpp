@@ -1,4 +1,5 @@
-// rod_proxies.hpp  Capsules about an instance's own bones, that its rods collide with.
+// own_body.hpp  Capsules about an instance's own bones, and its rods against them. Its soft parts:
+// world/own_body_touches.hpp.
 //
 // Baked (pack::ProxyRecord). Each moves as its bone's skin does. What a rod grows
 // out of it goes through for ever: a capsule that a segment and all between it and the rod's root touch in
@@ -11,14 +12,13 @@
 
 namespace sinew::world {
 
-// 0 where the instance's rods do not collide with its body.
+// 0 where the instance does not collide with its body.
 uint32_t proxy_count(const Instance& instance) noexcept;
 // Of what each segment goes through, once, of a batch's collider.
 void pass_proxies(const Instance& instance, uint32_t batch, rods::RodCollider& collider) noexcept;
 // Puts the pose's ends in front; behind it stay those of the tick before or, where rods sleep, of when they
-// fell asleep, so that what creeps wakes them too. place_m counts from rod_anchor_m.
-void pose_proxies(Instance& instance, const Matrix34* joints, const Eigen::Quaterniond& turn,
-                  const Eigen::Vector3d& place_m) noexcept;
+// fell asleep, so that what creeps wakes them too.
+void pose_proxies(Instance& instance, const Matrix34* joints, const RootTransform& root) noexcept;
 // As the rods are turned in a teleport.
 void turn_proxies(Instance& instance, const Eigen::Quaterniond& turn,
                   const Eigen::Vector3d& centre_m) noexcept;

@@ -1,0 +1,27 @@
+// own_body_touches.hpp  Soft parts against the capsules about the instance's own bones.
+//
+// Where ContactDef::own_body asks, of regions that touch it (pack::RegionRecord). A region passes for ever
+// the capsules that overlap its vertices in the bind pose, and those of joints that carry its skin.
+#pragma once
+#include <memory>
+#include <span>
+
+#include "pack/reader.hpp"
+#include "sinew/contact_source.hpp"
+#include "world/instance.hpp"
+
+namespace sinew::world {
+
+// Of each region a bit for each capsule that it may touch; null: none for any. kOutOfCapacity: no memory.
+Status find_touchable(const pack::PackView& pack, std::unique_ptr<uint64_t[]>* out) noexcept;
+// 0 where the instance's soft parts do not touch its body.
+uint64_t touchable(const Instance& instance, uint32_t region) noexcept;
+
+// Contacts of balls or points on their way through the tick, as of ContactSource::find; normals are those of
+// the tick's end, and of its start for what comes out on the other side. Tells how many there are.
+uint32_t find_own_body(const Instance& instance, uint64_t capsules, std::span<const ContactProbe> probes,
+                       std::span<ContactHit> hits) noexcept;
+// Which of the capsules have contacts with a probe.
+uint64_t near_own_body(const Instance& instance, uint64_t capsules, const ContactProbe& probe) noexcept;
+
+}  // namespace sinew::world

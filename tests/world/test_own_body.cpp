@@ -1,0 +1,250 @@
+// test_own_body.cpp  Soft blocks against the capsules about their own arms.
+#include <algorithm>
+#include <cmath>
+
+#include "tests/scenes/half_spaces.hpp"
+#include "tests/scenes/thread_pool.hpp"
+#include "tests/world/stage.hpp"
+
+using namespace sinew;
+using scenes::ArmMatter;
+using test::Stage;
+
+namespace {
+
+constexpr double kFrame_s = 1.0 / 60;
+constexpr double kRounding_m = 1e-6;  // as against walls
+constexpr double kPressed_m = -0.13;  // the arm's way from 10 cm off the block to 3 cm in it
+
+const scenes::PackBytes& arm_pack(bool touches_body = true) {
+  static const scenes::PackBytes packs[] = {scenes::soft_block({.arms = ArmMatter{.touches_body = false}}),
+                                            scenes::soft_block({.arms = ArmMatter{}})};
+  return packs[touches_body];
+}
+
+struct ArmStage : Stage {
+  ArmMatter matter;
+
+  explicit ArmStage(bool own_body = true, const WorldDef& def = {},
+                    const scenes::PackBytes& pack = arm_pack(), const ArmMatter& arms = {},
+                    ContactSource* source = nullptr)
+      : Stage(0, def, pack), matter(arms) {
+    add_with({.source = source, .own_body = own_body});
+  }
+  void add_with(const ContactDef& contacts) {
+    InstanceId made;
+    REQUIRE(world.create_instance({.asset = asset, .contacts = contacts}, &made).ok());
+    blocks.push_back(made);
+  }
+  void step_to(double way_m, const scenes::BlockPose& block = scenes::bind_pose(), double dt_s = kFrame_s) {
+    for (const InstanceId id : blocks)
+      REQUIRE(world.set_pose(id, scenes::with_arms(block, matter, way_m).pose()).ok());
+    world.step(static_cast<float>(dt_s));
+  }
+  void hold(double way_m, int frames) {
+    for (int f = 0; f < frames; ++f) step_to(way_m);
+  }
+  void swing(double from_m, double to_m, int frames) {
+    for (int f = 1; f <= frames; ++f) step_to(from_m + (to_m - from_m) * f / frames);
+  }
+  // Of all vertices in the first arm; the lower ones, which are not soft, are far from it.
+  double deepest_m(double way_m) const {
+    const std::vector<float> places = read();
+    const double x_m = matter.at_x_m[0] + way_m;
+    double most = 0;
+    for (size_t v = 0; v + 2 < places.size(); v += 3) {
+      const auto at = [&](size_t k) { return static_cast<double>(places[v + k]); };
+      const double beyond_m = std::max(0.0, std::abs(at(2)) - 0.2);
+      const double off_m = std::hypot(at(0) - x_m, at(1) - scenes::kArmHeight_m, beyond_m);
+      most = std::max(most, matter.radius_m - off_m);
+    }
+    return most;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("an_arm_swung_into_the_flesh_is_outside_of_it_on_every_simulated_tier") {
+  for (const Tier tier : {Tier::kNetwork, Tier::kModal, Tier::kSpring}) {
+    ArmStage stage(true, {.budget_mode = BudgetMode::kWorkUnits});
+    REQUIRE(
+        stage.world.set_budget_us(tier == Tier::kNetwork ? INFINITY : 1.01f * test::tier_cost_us(tier)).ok());
+    stage.hold(0, 30);
+    CHECK(stage.report().vertices_touched == 0);
+    for (int f = 1; f <= 12; ++f) {
+      stage.step_to(kPressed_m * f / 12);
+      CHECK(stage.deepest_m(kPressed_m * f / 12) < kRounding_m);
+    }
+    stage.hold(kPressed_m, 60);
+    REQUIRE(stage.report().tier == tier);
+    CHECK(stage.deepest_m(kPressed_m) < kRounding_m);
+    CHECK(stage.report().vertices_touched > 5);
+    CHECK(stage.report().contact_volume_m3 > 0);
+    CHECK(stage.report().deepest_penetration_m < static_cast<float>(kRounding_m));
+  }
+  ArmStage off(false);
+  off.swing(0, kPressed_m, 12);
+  CHECK(off.deepest_m(kPressed_m) > 0.02);
+}
+
+TEST_CASE("an_arm_beyond_what_flesh_gives_way_leaves_it_inside_as_deep_as_is_told") {
+  constexpr double kMiddle_m = -0.25;
+  ArmStage stage;
+  stage.swing(0, kMiddle_m, 30);
+  stage.hold(kMiddle_m, 60);
+  CHECK(test::all_finite(stage.read()));
+  CHECK(stage.report().restarts == 0);
+  CHECK(stage.report().fallbacks == 0);
+  CHECK(stage.deepest_m(kMiddle_m) < scenes::kArmRadius_m);
+  CHECK(stage.deepest_m(kMiddle_m) <=
+        static_cast<double>(stage.report().deepest_penetration_m) + kRounding_m);
+}
+
+TEST_CASE("flesh_that_an_arm_goes_through_within_a_tick_is_held_on_the_side_it_came_to") {
+  // The right face is at 0.15. A thin arm goes from 0.3 to 0.12, as a whole behind it. Later flesh swings
+  // back and slides off: nothing but single vertices lie on the arm.
+  constexpr double kThrough_m = -0.18;
+  const ArmMatter thin{.radius_m = 0.02};
+  const scenes::PackBytes pack = scenes::soft_block({.arms = thin});
+  ArmStage stage(true, {}, pack, thin);
+  const std::vector<float> rest = Stage().read();
+  stage.hold(0, 10);
+  for (int f = 0; f < 5; ++f) {
+    stage.step_to(kThrough_m);
+    const std::vector<float> places = stage.read();
+    double rightmost = -1;
+    for (size_t v = 0; v < rest.size(); v += 3) {
+      const bool hit = rest[v] > 0.149f && std::fabs(rest[v + 1] - 0.5f) < 0.01f;
+      if (hit) rightmost = std::max(rightmost, static_cast<double>(places[v]));
+    }
+    CHECK(rightmost < 0.3 + kThrough_m);
+  }
+}
+
+TEST_CASE("capsules_in_the_flesh_at_rest_and_of_bones_that_carry_it_are_passed_for_ever") {
+  for (const bool of_the_waist : {false, true}) {
+    const ArmMatter matter{.at_x_m = {of_the_waist ? 0.35 : 0.17}, .waist_too = of_the_waist};
+    const scenes::PackBytes pack = scenes::soft_block({.arms = matter});
+    ArmStage on(true, {}, pack, matter), off(false, {}, pack, matter);
+    for (int f = 0; f < 60; ++f) {
+      const scenes::BlockPose block = scenes::shake(1 + f * kFrame_s);
+      for (ArmStage* stage : {&on, &off}) stage->step_to(-0.001 * f, block);
+      REQUIRE(on.read() == off.read());
+    }
+    CHECK(on.report().vertices_touched == 0);
+  }
+}
+
+TEST_CASE("regions_that_do_not_say_so_and_instances_that_do_not_ask_touch_nothing_of_their_body") {
+  const ArmMatter matter;
+  ArmStage unsaid(true, {}, arm_pack(false)), unasked(false), neither(false, {}, arm_pack(false));
+  for (ArmStage* stage : {&unsaid, &unasked, &neither}) {
+    stage->swing(0, kPressed_m, 30);
+    CHECK(stage->report().vertices_touched == 0);
+    CHECK(stage->world.state_bytes(stage->blocks[0]) == neither.world.state_bytes(neither.blocks[0]));
+    CHECK(stage->read() == unsaid.read());
+  }
+}
+
+TEST_CASE("an_arm_that_stays_away_changes_no_bit") {
+  ArmStage on, off(false);
+  for (int f = 0; f < 60; ++f) {
+    for (ArmStage* stage : {&on, &off}) stage->step_to(0.05, scenes::walk(f * kFrame_s));
+    REQUIRE(on.read() == off.read());
+  }
+}
+
+TEST_CASE("flesh_is_held_by_a_wall_and_by_an_arm_at_once") {
+  scenes::HalfSpaces wall;
+  wall.walls = {{{-0.13, 0, 0}, {1, 0, 0}}};
+  ArmStage stage(true, {}, arm_pack(), {}, &wall);
+  stage.swing(0, kPressed_m, 12);
+  stage.hold(kPressed_m, 30);
+  CHECK(stage.deepest_m(kPressed_m) < kRounding_m);
+  const std::vector<float> places = stage.read();
+  for (size_t v = 0; v < places.size(); v += 3)
+    if (places[v + 1] > 0.45f) CHECK(places[v] > -0.13f - static_cast<float>(kRounding_m));
+}
+
+TEST_CASE("flesh_that_sleeps_is_woken_by_an_arm_that_creeps_and_sleeps_when_it_is_gone") {
+  ArmStage stage;
+  stage.hold(0, 240);
+  REQUIRE(stage.report().regions_asleep == 2);
+  for (double way_m = 0; way_m > kPressed_m; way_m -= 1e-4) {
+    stage.step_to(way_m);
+    REQUIRE(stage.deepest_m(way_m) < kRounding_m);
+  }
+  CHECK(stage.report().vertices_touched > 5);
+  stage.hold(kPressed_m, 240);
+  CHECK(stage.report().regions_asleep == 1);  // the left half
+  CHECK_FALSE(stage.report().dormant);
+  stage.hold(0, 600);
+  CHECK(stage.report().regions_asleep == 2);
+  CHECK(stage.report().dormant);
+  stage.swing(0, kPressed_m, 4);
+  CHECK(stage.deepest_m(kPressed_m) < kRounding_m);
+}
+
+TEST_CASE("a_snapshot_against_an_arm_goes_on_with_the_same_bits") {
+  ArmStage stage;
+  stage.swing(0, kPressed_m, 20);
+  const std::vector<std::byte> saved = stage.save();
+  std::vector<std::vector<float>> seen[2];
+  for (auto& pass : seen) {
+    REQUIRE(stage.world.restore_state(stage.blocks[0], saved).ok());
+    pass.push_back(stage.read());
+    for (int f = 0; f < 90; ++f) {  // with frames that have no tick
+      stage.step_to(kPressed_m + 0.02 * std::sin(0.2 * f), scenes::walk(f / 144.0), 1.0 / 144);
+      pass.push_back(stage.read());
+    }
+  }
+  CHECK(seen[0] == seen[1]);
+  ArmStage other(false);
+  CHECK(other.world.restore_state(other.blocks[0], saved).code == StatusCode::kCorrupt);
+}
+
+TEST_CASE("a_teleport_takes_arm_and_pressed_flesh_along") {
+  ArmStage stage;
+  stage.swing(0, kPressed_m, 12);
+  stage.hold(kPressed_m, 120);
+  const std::vector<float> before = stage.read();
+  scenes::BlockPose away = scenes::bent_pose(0, 300, 2);
+  away.root.position_m[2] = -1e5;
+  for (int f = 0; f < 30; ++f) {
+    stage.step_to(kPressed_m, away);
+    CHECK(test::largest_distance(stage.read(), before) < 1e-4);
+    CHECK(stage.deepest_m(kPressed_m) < kRounding_m);
+  }
+}
+
+TEST_CASE("own_bodies_are_touched_with_the_same_bits_on_any_number_of_workers") {
+  uint64_t seen[2];
+  for (int workers = 0; workers < 2; ++workers) {
+    scenes::ThreadPool pool(4);
+    WorldDef def;
+    if (workers) def.tasks = pool.hook();
+    ArmStage stage(true, def);
+    for (int i = 0; i < 4; ++i) stage.add_with({.own_body = true});
+    stage.swing(0, kPressed_m, 30);
+    REQUIRE(stage.report().vertices_touched > 0);
+    std::vector<float> all;
+    for (size_t i = 0; i < stage.blocks.size(); ++i) {
+      const std::vector<float> places = stage.read(i);
+      all.insert(all.end(), places.begin(), places.end());
+    }
+    seen[workers] = test::hash_of(all);
+  }
+  CHECK(seen[0] == seen[1]);
+}
+
+TEST_CASE("the_own_body_is_touched_on_coarser_control_graphs_too") {
+  const scenes::PackBytes pack =
+      scenes::soft_block({.nodes = 40, .coarser_nodes = {20, 10}, .arms = ArmMatter{}});
+  ArmStage stage(true, {.budget_mode = BudgetMode::kWorkUnits}, pack);
+  stage.swing(0, kPressed_m, 12);
+  REQUIRE(stage.world.set_budget_us(15).ok());
+  stage.hold(kPressed_m, 60);
+  REQUIRE(stage.report().graph_level > 0);
+  CHECK(stage.report().vertices_touched > 5);
+  CHECK(stage.deepest_m(kPressed_m) < kRounding_m);
+}
