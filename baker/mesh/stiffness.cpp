@@ -180,7 +180,8 @@ std::vector<double> guessed_stiffness(const Character& character, const Surface&
 std::vector<double> find_stiffness(Character& character, const Surface& surface, const Recipe& recipe) {
   std::vector<double> stiffness = character.stiffness;
   if (!stiffness.empty() && !recipe.regions.empty())
-    character.notes.push_back("the file paints _STIFFNESS: the recipe's regions only give names");
+    character.notes.push_back(
+        "the file paints _STIFFNESS: the recipe's regions only say names and what they touch");
   if (stiffness.empty() && !recipe.regions.empty()) stiffness = stated_stiffness(character, surface, recipe);
   if (stiffness.empty()) {
     stiffness = guessed_stiffness(character, surface, recipe.rigid_stiffness);

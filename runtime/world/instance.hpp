@@ -156,8 +156,8 @@ struct Instance {
   bool settles = false;               // likewise, and its r is what was spread
   bool rods_anew = false;   // in this tick: rods are taken to where they are shown before they go on
   bool rods_shown = false;  // published joints are not the pose's
-  // own_body: only where there is something to touch. Without it or a source, the arrays of contacts have no
-  // memory.
+  // own_body: only where there is something to touch. Without a source and soft parts that touch the body,
+  // the arrays of contacts have no memory.
   ContactDef contacts;
   std::unique_ptr<rods::RodBatch[]> rod_batches;       // their state is saved beside the run of bytes below
   std::unique_ptr<rods::RodCollider[]> rod_colliders;  // [batches], theirs too; null: rods touch nothing
@@ -211,8 +211,8 @@ struct Instance {
   uint32_t* deepest = nullptr;        // [nodes]: of touches
   uint8_t* carries_pushes = nullptr;  // [regions]: `carried` has pushes in it
   Touches told;
-  double* proxy_before =
-      nullptr;  // proxy_ends a tick ago, whoever sleeps; null: soft parts do not touch them
+  // proxy_ends a tick ago, whoever sleeps; null: soft parts do not touch them.
+  double* proxy_before = nullptr;
 
   double* rod_end[2] = {};  // [slots][3] where segments end, as they are taken along
 

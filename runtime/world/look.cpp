@@ -62,6 +62,7 @@ void look_behind_things(WorldState& world) noexcept {
 // After a rollback the looks go on behind the one that was the last before the save.
 void find_last_look(WorldState& world) noexcept {
   world.looks = 0;
+  world.last_look = 0;
   for_each_row(world, [&](const PlanRow& row, uint32_t slot) {
     if (row.state->looked <= world.looks) return;
     world.looks = row.state->looked;

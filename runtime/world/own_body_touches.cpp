@@ -15,10 +15,12 @@ namespace {
 
 using rods::Axis, rods::Vector;
 
+constexpr double kNear = 0.1;  // of a capsule's radius: flesh is pressed beside it, too
+
 // ---- what a region passes ----
 
-constexpr double kTouching = 1.05;  // of a capsule's radius, in the bind pose
-constexpr float kCarried = 0.05f;   // of a vertex's skin
+constexpr double kTouching = 1 + kNear;  // of a capsule's radius, in the bind pose
+constexpr float kCarried = 0.05f;        // of a vertex's skin
 
 bool carries(uint32_t joint, const pack::SkinRecord& skin) noexcept {
   for (uint32_t k = 0; k < pack::kInfluences; ++k)
@@ -50,7 +52,6 @@ uint64_t touchable_by(const pack::PackView& pack, const pack::RegionRecord& regi
 
 // ---- what touches in a tick ----
 
-constexpr double kNear = 0.1;      // of a capsule's radius: flesh is pressed beside it, too
 constexpr double kNearWay = 0.25;  // of how far probe and capsule go against each other
 
 struct MovingCapsule {

@@ -361,7 +361,7 @@ Status World::restore_state(InstanceId id, std::span<const std::byte> bytes) noe
   if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
   if (busy(*impl_)) return refuse_busy();
   Status status = world::restore(*instance, bytes);
-  impl_->restored = true;
+  impl_->restored |= status.ok();
   keep_row(*impl_, id);
   return status;
 }

@@ -111,7 +111,7 @@ struct WorldDef {
 // outlives the instance. Instances are stepped on the world's threads, so find may come from several at a
 // time.
 struct ContactDef {
-  ContactSource* source = nullptr;  // null: nothing but own_body is touched, and no memory is taken for it
+  ContactSource* source = nullptr;  // null: nothing is asked; without own_body no memory is taken either
   uint32_t owner = 0;               // ContactProbe::owner of all its probes
   bool tissue = true, rods = true;  // what of the instance touches the source
   // Its rods, and those of its soft parts whose recipe says "touches_body", touch the capsules about its own
