@@ -2,11 +2,12 @@
 #include "perf/frames/crowd_error.hpp"
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 
-#include "baker/common/bad_input.hpp"
 #include "perf/frames/camera.hpp"
 #include "perf/frames/floor.hpp"
+#include "perf/scale/require.hpp"
 #include "perf/scale/stopwatch.hpp"
 #include "sinew/sinew.hpp"
 
@@ -14,10 +15,6 @@ namespace sinew::perf {
 namespace {
 
 using demo::Trajectory;
-
-void require(const Status& status) {
-  if (!status.ok()) throw baker::BadInput(status.message);
-}
 
 uint32_t ticks_of(const Trajectory& motion) {
   return static_cast<uint32_t>(std::lround(motion.seconds() * motion.rate_hz()));

@@ -3,12 +3,12 @@
 
 #include <memory>
 
-#include "baker/common/bad_input.hpp"
 #include "perf/frames/camera.hpp"
 #include "perf/frames/floor.hpp"
 #include "perf/frames/neighbour.hpp"
 #include "perf/frames/unreliable_pool.hpp"
 #include "perf/frames/walls.hpp"
+#include "perf/scale/require.hpp"
 #include "perf/scale/stopwatch.hpp"
 
 namespace sinew::perf {
@@ -16,10 +16,6 @@ namespace {
 
 constexpr double kFrame_s = 1.0 / kFrames_a_second, kHitch_s = 0.2, kPhase_s = 0.37;
 constexpr uint32_t kSecond = kFrames_a_second;
-
-void require(const Status& status) {
-  if (!status.ok()) throw baker::BadInput(status.message);
-}
 
 class Floor {
  public:

@@ -1,8 +1,8 @@
 // walls.cpp  see walls.hpp.
 #include "perf/frames/walls.hpp"
 
-#include "baker/common/bad_input.hpp"
 #include "perf/frames/floor.hpp"
+#include "perf/scale/require.hpp"
 #include "sinew/occluders.hpp"
 
 namespace sinew::perf {
@@ -12,10 +12,6 @@ constexpr float kHalfWidth_m = 1.5f, kHeight_m = 3;
 constexpr float kWall_m[] = {-kHalfWidth_m, 0,         0, kHalfWidth_m,  0,         0,
                              kHalfWidth_m,  kHeight_m, 0, -kHalfWidth_m, kHeight_m, 0};
 constexpr uint32_t kTriangles[] = {0, 1, 2, 0, 2, 3};
-
-void require(const Status& status) {
-  if (!status.ok()) throw baker::BadInput(status.message);
-}
 
 }  // namespace
 

@@ -1,16 +1,12 @@
 // crowd.cpp  see crowd.hpp.
 #include "perf/scale/crowd.hpp"
 
-#include "baker/common/bad_input.hpp"
+#include "perf/scale/require.hpp"
 
 namespace sinew::perf {
 namespace {
 
 constexpr double kStagger_s = 0.37;
-
-void require(const Status& status) {
-  if (!status.ok()) throw baker::BadInput(status.message);
-}
 
 }  // namespace
 
