@@ -7,75 +7,50 @@
 #include "baker/common/read_file.hpp"
 #include "baker/trade/error.hpp"
 #include "baker/trade/write_tiers.hpp"
-#include "tests/baker/common/temporary_folder.hpp"
-#include "tests/baker/programs/bake.hpp"
-#include "tests/baker/programs/fill_once.hpp"
+#include "tests/baker/programs/creature_hop.hpp"
 
 using namespace sinew;
 using namespace sinew::test;
 
 namespace {
 
-const std::string kAssets = std::string(SINEW_SOURCE_DIR) + "/assets/";
-
-void must(const ProgramResult& result) {
-  INFO(result.error);
-  REQUIRE(result.exit_code == 0);
-}
-
 // Baked, so that runs by baked costs are all alike.
 constexpr double kShownCost_us = 4, kModalCost_us = 20, kNetworkCost_us = 80;
 
-// A hop of the creature, and the creature with its tiers' errors along that hop. Made once.
-struct Hop {
-  TemporaryFolder folder;
-  std::string glb = folder.file("c.glb"), truth = folder.file("t.safetensors"),
-              bare = folder.file("bare.sinew"), pack = folder.file("c.sinew");
-  const std::string recipe = kAssets + "creature/tissue.json",
-                    weights = kAssets + "weights/creature.safetensors";
-  Hop() {
-    fill_once(folder, "hop_of_crowd",
-              {SINEW_BAKE, __FILE__, kAssets + "creature/creature.json", recipe, weights},
-              [this] { make(); });
-  }
-  void make() const {
-    must(bake({"creature", kAssets + "creature/creature.json", "-o", glb, "--vertices", "800"}));
-    must(bake({"character", glb, "--recipe", recipe, "--tissue", weights, "-o", bare}));
-    must(bake({"truth", glb, "--recipe", recipe, "--motion", "clip:hop", "--seconds", "1.5", "--positions",
-               "-o", truth}));
-    bake_tiers();
-  }
-  void bake_tiers() const {
-    const auto character = baker::LoadedPack::from_file(bare);
-    const std::vector<baker::TrueSurface> surfaces = {{truth, character.view()}};
-    const baker::Yardstick yardstick(character, surfaces);
-    const auto row = [](Tier tier, double us, const baker::Error& error) {
-      return baker::Row{.name = {},
-                        .kind = "tier",
-                        .tier = tier,
-                        .warm = {us, us, us},
-                        .cold = {},
-                        .error = error,
-                        .dominated_by = {}};
-    };
-    const std::vector<baker::Row> rows = {
-        row(Tier::kSkinning, 0, yardstick.of_skinning()),
-        row(Tier::kExtrapolate, kShownCost_us, yardstick.of_extrapolation(character, baker::kCarriedTicks)),
-        row(Tier::kModal, kModalCost_us, yardstick.of(character, Tier::kModal, 1, 0)),
-        row(Tier::kNetwork, kNetworkCost_us, yardstick.of(character, Tier::kNetwork, 1, 0))};
-    baker::write_with_tiers(pack, character, baker::tier_records(rows));
-  }
-};
+std::string tiered(const CreatureHop& hop) { return hop.folder.file("tiered.sinew"); }
 
-const Hop& hop() {
-  static const Hop made;
+// The creature with its tiers' errors along that hop.
+void bake_tiers(const CreatureHop& hop) {
+  const auto character = baker::LoadedPack::from_file(hop.pack);
+  const std::vector<baker::TrueSurface> surfaces = {{hop.truth, character.view()}};
+  const baker::Yardstick yardstick(character, surfaces);
+  const auto row = [](Tier tier, double us, const baker::Error& error) {
+    return baker::Row{.name = {},
+                      .kind = "tier",
+                      .tier = tier,
+                      .warm = {us, us, us},
+                      .cold = {},
+                      .error = error,
+                      .dominated_by = {}};
+  };
+  const std::vector<baker::Row> rows = {
+      row(Tier::kSkinning, 0, yardstick.of_skinning()),
+      row(Tier::kExtrapolate, kShownCost_us, yardstick.of_extrapolation(character, baker::kCarriedTicks)),
+      row(Tier::kModal, kModalCost_us, yardstick.of(character, Tier::kModal, 1, 0)),
+      row(Tier::kNetwork, kNetworkCost_us, yardstick.of(character, Tier::kNetwork, 1, 0))};
+  baker::write_with_tiers(tiered(hop), character, baker::tier_records(rows));
+}
+
+const CreatureHop& hop() {
+  static const CreatureHop made(
+      {.name = "hop_of_crowd", .source = __FILE__, .seconds = "1.5", .more = bake_tiers});
   return made;
 }
 
 // The row of the whole crowd, by column.
 std::map<std::string, double> crowd(uint32_t instances, double budget_us) {
   const ProgramResult result =
-      run_program({SINEW_PERF_FRAMES, hop().pack, "--crowd", hop().truth, "--instances",
+      run_program({SINEW_PERF_FRAMES, tiered(hop()), "--crowd", hop().truth, "--instances",
                    std::to_string(instances), "--budget-us", std::to_string(budget_us), "--work-units"});
   must(result);
   std::istringstream lines(result.out);
@@ -94,7 +69,7 @@ std::map<std::string, double> crowd(uint32_t instances, double budget_us) {
 // sinew-demo follows the same truth with an instance of its own.
 TEST_CASE("a_crowd_of_one_is_off_what_the_demo_is_off") {
   const std::string path = hop().folder.file("report.json");
-  must(run_program({SINEW_DEMO, hop().pack, "--truth", hop().truth, "--report", path}));
+  must(run_program({SINEW_DEMO, tiered(hop()), "--truth", hop().truth, "--report", path}));
   double skinning_mm = 0, sinew_mm = 0;
   const auto frames = nlohmann::json::parse(baker::read_text(path)).at("frames");
   for (const auto& frame : frames) {
@@ -130,7 +105,7 @@ TEST_CASE("a_crowd_without_room_is_off_what_skinning_is") {
 }
 
 TEST_CASE("what_is_no_truth_of_a_crowd_s_character_is_refused_by_name") {
-  const ProgramResult result = run_program({SINEW_PERF_FRAMES, hop().pack, "--crowd", hop().weights});
+  const ProgramResult result = run_program({SINEW_PERF_FRAMES, tiered(hop()), "--crowd", hop().weights});
   CHECK(result.exit_code == 2);
   CHECK(result.out.empty());
   CHECK_THAT(result.error, Catch::StartsWith("perf_frames: ") && Catch::Contains("is not a trajectory"));

@@ -15,6 +15,11 @@ inline ProgramResult bake(std::vector<std::string> arguments) {
   return run_program(arguments);
 }
 
+inline void must(const ProgramResult& result) {
+  INFO(result.error);
+  REQUIRE(result.exit_code == 0);
+}
+
 // Exit code 2, one line on stderr that holds `words`, nothing on stdout.
 inline void check_refused(const std::vector<std::string>& arguments, const std::vector<std::string>& words) {
   const ProgramResult result = bake(arguments);

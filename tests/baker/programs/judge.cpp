@@ -4,9 +4,7 @@
 #include "baker/common/read_file.hpp"
 #include "baker/common/safetensors.hpp"
 #include "simd/isa.hpp"
-#include "tests/baker/common/temporary_folder.hpp"
-#include "tests/baker/programs/bake.hpp"
-#include "tests/baker/programs/fill_once.hpp"
+#include "tests/baker/programs/creature_hop.hpp"
 
 using namespace sinew;
 using namespace sinew::baker;
@@ -14,38 +12,28 @@ using namespace sinew::test;
 
 namespace {
 
-const std::string kAssets = std::string(SINEW_SOURCE_DIR) + "/assets/";
+// 50 ticks, and the creature with the shipped weights in every precision.
+class Hop : public CreatureHop {
+ public:
+  Hop()
+      : CreatureHop({.name = "hop_of_judge", .source = __FILE__, .seconds = "0.834", .more = bake_others}) {}
+  std::string pack(const std::string& name) const { return pack_of(*this, name); }
 
-void must(const ProgramResult& result) {
-  INFO(result.error);
-  REQUIRE(result.exit_code == 0);
-}
-
-// A coarse creature with the shipped weights in every precision, and 50 ticks of a hop that no
-// training saw. Made once: the truth is the slow part.
-struct Hop {
-  TemporaryFolder folder;
-  std::string glb = folder.file("c.glb"), truth = folder.file("t.safetensors");
-  const std::string recipe = kAssets + "creature/tissue.json",
-                    weights = kAssets + "weights/creature.safetensors";
-  Hop() {
-    fill_once(folder, "hop_of_judge",
-              {SINEW_BAKE, __FILE__, kAssets + "creature/creature.json", recipe, weights},
-              [this] { make(); });
+ private:
+  static std::string pack_of(const CreatureHop& hop, const std::string& name) {
+    return hop.folder.file(name + ".sinew");
   }
-  void make() const {
-    must(bake({"creature", kAssets + "creature/creature.json", "-o", glb, "--vertices", "800"}));
-    must(bake({"truth", glb, "--recipe", recipe, "--motion", "clip:hop", "--seconds", "0.834", "-o", truth}));
+  static void bake_others(const CreatureHop& hop) {
     for (const char* precision : {"fp32", "fp16", "int8"})
-      character(precision, {"--tissue", weights, "--precision", precision});
-    character("modes", {});
+      character(hop, precision, {"--tissue", hop.weights, "--precision", precision});
+    character(hop, "modes", {});
   }
-  void character(const std::string& name, std::vector<std::string> more) const {
-    std::vector<std::string> arguments = {"character", glb, "--recipe", recipe, "-o", pack(name)};
+  static void character(const CreatureHop& hop, const std::string& name, std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"character", hop.glb, "--recipe",
+                                          hop.recipe,  "-o",    pack_of(hop, name)};
     arguments.insert(arguments.end(), more.begin(), more.end());
     must(bake(arguments));
   }
-  std::string pack(const std::string& name) const { return folder.file(name + ".sinew"); }
 };
 
 const Hop& hop() {

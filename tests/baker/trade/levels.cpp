@@ -6,9 +6,7 @@
 #include "baker/common/read_file.hpp"
 #include "baker/common/safetensors.hpp"
 #include "baker/programs/closed_loop.hpp"
-#include "tests/baker/common/temporary_folder.hpp"
-#include "tests/baker/programs/bake.hpp"
-#include "tests/baker/programs/fill_once.hpp"
+#include "tests/baker/programs/creature_hop.hpp"
 #include "world/read.hpp"
 
 using namespace sinew;
@@ -17,34 +15,9 @@ using namespace sinew::test;
 
 namespace {
 
-const std::string kAssets = std::string(SINEW_SOURCE_DIR) + "/assets/";
-
-void must(const ProgramResult& result) {
-  INFO(result.error);
-  REQUIRE(result.exit_code == 0);
-}
-
-// 40 ticks of a hop that no training saw, of the creature as crowds have it. Made once.
-struct Hop {
-  TemporaryFolder folder;
-  std::string glb = folder.file("c.glb"), truth = folder.file("t.safetensors"), pack = folder.file("c.sinew");
-  const std::string recipe = kAssets + "creature/tissue_crowd.json",
-                    weights = kAssets + "weights/creature.safetensors";
-  Hop() {
-    fill_once(folder, "hop_of_levels",
-              {SINEW_BAKE, __FILE__, kAssets + "creature/creature.json", recipe, weights},
-              [this] { make(); });
-  }
-  void make() const {
-    must(bake({"creature", kAssets + "creature/creature.json", "-o", glb, "--vertices", "800"}));
-    must(bake({"character", glb, "--recipe", recipe, "--tissue", weights, "-o", pack}));
-    must(bake({"truth", glb, "--recipe", recipe, "--motion", "clip:hop", "--seconds", "0.667", "--positions",
-               "-o", truth}));
-  }
-};
-
-const Hop& hop() {
-  static const Hop made;
+// 40 ticks, of the creature as crowds have it.
+const CreatureHop& hop() {
+  static const CreatureHop made({.name = "hop_of_levels", .source = __FILE__, .recipe = "tissue_crowd.json"});
   return made;
 }
 

@@ -9,9 +9,7 @@
 #include "baker/programs/loaded_pack.hpp"
 #include "baker/trade/true_surface.hpp"
 #include "baker/trade/truths.hpp"
-#include "tests/baker/common/temporary_folder.hpp"
-#include "tests/baker/programs/bake.hpp"
-#include "tests/baker/programs/fill_once.hpp"
+#include "tests/baker/programs/creature_hop.hpp"
 #include "tests/pack/small_pack.hpp"
 
 using namespace sinew;
@@ -20,13 +18,6 @@ using namespace sinew::test;
 namespace fs = std::filesystem;
 
 namespace {
-
-const std::string kAssets = std::string(SINEW_SOURCE_DIR) + "/assets/";
-
-void must(const ProgramResult& result) {
-  INFO(result.error);
-  REQUIRE(result.exit_code == 0);
-}
 
 ProgramResult trade(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), SINEW_TRADE);
@@ -47,27 +38,9 @@ void check_refused(std::vector<std::string> arguments, const std::string& folder
   CHECK_FALSE(fs::exists(folder));
 }
 
-// 40 ticks of a hop that no training saw. Made once: the truth is the slow part.
-struct Hop {
-  TemporaryFolder folder;
-  std::string glb = folder.file("c.glb"), truth = folder.file("t.safetensors"), pack = folder.file("c.sinew");
-  const std::string recipe = kAssets + "creature/tissue.json",
-                    weights = kAssets + "weights/creature.safetensors";
-  Hop() {
-    fill_once(folder, "hop_of_trade",
-              {SINEW_BAKE, __FILE__, kAssets + "creature/creature.json", recipe, weights},
-              [this] { make(); });
-  }
-  void make() const {
-    must(bake({"creature", kAssets + "creature/creature.json", "-o", glb, "--vertices", "800"}));
-    must(bake({"character", glb, "--recipe", recipe, "--tissue", weights, "-o", pack}));
-    must(bake({"truth", glb, "--recipe", recipe, "--motion", "clip:hop", "--seconds", "0.667", "--positions",
-               "-o", truth}));
-  }
-};
-
-const Hop& hop() {
-  static const Hop made;
+// 40 ticks.
+const CreatureHop& hop() {
+  static const CreatureHop made({.name = "hop_of_trade", .source = __FILE__});
   return made;
 }
 
