@@ -129,6 +129,15 @@ struct Stage {
 inline uint64_t hash_of(const std::vector<float>& values) {
   return core::hash64(std::as_bytes(std::span(values)));
 }
+// Of all its blocks.
+inline uint64_t hash_of(const Stage& stage) {
+  std::vector<float> all;
+  for (size_t i = 0; i < stage.blocks.size(); ++i) {
+    const std::vector<float> places = stage.read(i);
+    all.insert(all.end(), places.begin(), places.end());
+  }
+  return hash_of(all);
+}
 
 // Largest distance between equal vertices, metres.
 inline double largest_distance(const std::vector<float>& a, const std::vector<float>& b) {

@@ -1,8 +1,11 @@
 // test_snapshot.cpp  Rollback: what follows a restore has the bits of what followed the save.
+#include <cstring>
 #include <set>
 #include <utility>
 
+#include "core/hash.hpp"
 #include "tests/world/stage.hpp"
+#include "world/instance.hpp"
 
 using namespace sinew;
 using test::Stage;
@@ -70,6 +73,27 @@ TEST_CASE("restore_refuses_foreign_bytes_and_changes_nothing") {
   Stage other(1, {}, other_pack);
   REQUIRE(other.save().size() == good.size());
   check_refused(stage, other.save());
+}
+
+TEST_CASE("restore_refuses_a_tier_a_control_graph_and_an_update_rate_that_there_is_not") {
+  constexpr size_t kHeader_bytes = 40, kChecksum_at = 24;
+  Stage stage;
+  stage.play(scenes::walk, 0.5);
+  const auto changed = [&](const auto& change) {
+    std::vector<std::byte> bytes = stage.save();
+    world::InstanceState state;
+    std::memcpy(&state, bytes.data() + kHeader_bytes, sizeof state);
+    change(state);
+    std::memcpy(bytes.data() + kHeader_bytes, &state, sizeof state);
+    const uint64_t checksum = core::hash64(std::span(bytes).subspan(kHeader_bytes));
+    std::memcpy(bytes.data() + kChecksum_at, &checksum, sizeof checksum);
+    return bytes;
+  };
+  check_refused(stage, changed([](world::InstanceState& s) { s.tier = static_cast<Tier>(kTierCount); }));
+  check_refused(stage, changed([](world::InstanceState& s) { s.level = 1; }));
+  check_refused(stage, changed([](world::InstanceState& s) { s.every = 3; }));
+  const std::vector<std::byte> right = changed([](world::InstanceState& s) { s.every = 2; });
+  CHECK(stage.world.restore_state(stage.blocks[0], right).ok());
 }
 
 TEST_CASE("save_refuses_a_span_that_is_too_small") {
