@@ -5,10 +5,10 @@
 #include "sinew/sinew.hpp"
 
 static constexpr ___tracy_source_location_data kSinew{"sinew", "World::step", __FILE__, __LINE__, 0};
-static thread_local TracyCZoneCtx zones[8];
+static thread_local TracyCZoneCtx zones[8];  // markers nest two deep
 static thread_local int zone_count = 0;
 
-inline const sinew::ProfilerHook kTracyHook{
+static const sinew::ProfilerHook kTracyHook{
     .begin =
         [](const char* name, uint32_t instance, void*) {
           const TracyCZoneCtx zone = zones[zone_count++] = ___tracy_emit_zone_begin(&kSinew, 1);
