@@ -9,6 +9,7 @@
 #include "tissue/guard.hpp"
 #include "tissue/network.hpp"
 #include "tissue/node_bend.hpp"
+#include "world/catch_up.hpp"
 #include "world/motion.hpp"
 #include "world/rod_blend.hpp"
 #include "world/simulate.hpp"
@@ -30,6 +31,7 @@ void begin_tail(Instance& instance, float velocity_kept) noexcept {
   }
   begin_rod_tails(instance, velocity_kept);
   instance.state->tail_ticks = 0;
+  instance.state->tail_rides = 0;
 }
 
 // From what is shown. What was not simulated for a while is blended in; from rest there is nothing to blend:
@@ -134,7 +136,7 @@ void enter_tier(Instance& instance, Tier tier) noexcept {
   InstanceState& state = *instance.state;
   const bool simulated = frame::is_simulated(tier), was_simulated = frame::is_simulated(state.tier);
   if (simulated && !was_simulated) begin_simulation(instance);
-  if (!simulated && was_simulated) begin_tail(instance, 1);
+  if (!simulated && was_simulated) begin_tail(instance, 1), begin_gap(instance);
   if (has_base(tier) && !has_base(state.tier)) begin_base(instance);
   if (tier == Tier::kNetwork && state.tier != Tier::kNetwork) begin_network(instance);
   if (tier != state.tier) wake_regions(instance);
@@ -150,6 +152,7 @@ void restart(Instance& instance) noexcept {
   for (float* u : instance.u) std::memset(u, 0, sizeof(float) * floats_of(instance));
   state.tail_ticks = kCarryTicks;
   state.tier = Tier::kSkinning;
+  state.motion_stale = 1;
   state.restarting = 1;
   instance.settles = false;
   state.forgotten = 1;
@@ -163,14 +166,14 @@ void show_tick(Instance& instance) noexcept {
   count_tail(state);
   if (frame::is_simulated(state.tier) && state.blend_ticks < kBlendInTicks) ++state.blend_ticks;
   if (state.seam_ticks < kBlendInTicks) ++state.seam_ticks;
-  const float simulated = instance.simulated_share();
+  if (state.blend_ticks == kBlendInTicks) state.tail_rides = 0;
+  const auto [simulated, tail] = instance.shown_shares();
   if (simulated < 1) advance_tail(instance);
-  const float tail = (1 - simulated) * instance.tail_share();
   copy(instance, instance.shown[0], instance.shown[1]);
-  show_rods(instance, state.lifted && frame::is_simulated(state.tier) ? 1 : simulated);
+  show_rods(instance, state.lifted && frame::is_simulated(state.tier) ? 1 : instance.simulated_share());
   if (simulated > 0)
     tissue::along_flesh(instance.poses[0], instance.u[0], instance.level->node_count(), instance.shown[0]);
-  if (simulated == 1) return;
+  if (simulated == 1 && tail == 0) return;
   for (size_t i = 0; i < floats_of(instance); ++i) {
     instance.shown[0][i] = simulated * instance.shown[0][i] + tail * instance.tail[i];
   }

@@ -191,13 +191,13 @@ void raise(Instance& instance) noexcept {
 
 // What is shown at the level it has now, of what is simulated.
 void show_anew(Instance& instance) noexcept {
-  const float simulated = instance.simulated_share(), tail = (1 - simulated) * instance.tail_share();
+  const ShownShares shares = instance.shown_shares();
   const uint32_t nodes = instance.level->node_count();
   pose_at_start(instance);
   for (int tick = 0; tick < 2; ++tick) {
     tissue::along_flesh(instance.poses[0], instance.u[tick], nodes, instance.shown[tick]);
-    for (size_t i = 0; simulated < 1 && i < size_t{3} * nodes; ++i)
-      instance.shown[tick][i] = simulated * instance.shown[tick][i] + tail * instance.tail[i];
+    for (size_t i = 0; shares.tail > 0 && i < size_t{3} * nodes; ++i)
+      instance.shown[tick][i] = shares.simulated * instance.shown[tick][i] + shares.tail * instance.tail[i];
   }
 }
 
@@ -219,7 +219,7 @@ void settle_rest(Instance& instance, float* moved) noexcept {
   instance.settles = false;
   tissue::warp(instance.theta, moved, nodes, moved);
   tissue::along_flesh(instance.poses[1], moved, nodes, instance.delta);  // those of u: a tick ago
-  const float simulated = instance.simulated_share();
+  const float simulated = instance.shown_shares().simulated;
   for (size_t i = 0; i < size_t{3} * nodes; ++i) instance.delta[i] *= simulated;
   for (int tick = 0; tick < 2; ++tick)
     for (size_t i = 0; i < size_t{3} * nodes; ++i) {

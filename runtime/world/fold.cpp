@@ -57,7 +57,8 @@ void learn_costs(Instance& instance, const PlanRow& row) noexcept {
   if (ran && instance.entered)
     learn_beyond(instance, row, ticked_us, cost.enter);
   else if (ran)
-    learn_tick_cost(instance, row, ticked_us / static_cast<float>(instance.plan.ticks.ticks));
+    learn_tick_cost(instance, row,
+                    ticked_us / static_cast<float>(instance.plan.ticks.ticks + instance.made_up));
 }
 
 void count_tier(Tier tier, FrameReport& report) noexcept {

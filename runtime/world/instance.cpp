@@ -27,7 +27,7 @@ namespace sinew::world {
 namespace {
 
 static_assert(std::is_trivially_copyable_v<InstanceState>, "saved as bytes");
-static_assert(sizeof(InstanceState) == 408, "no padding: equal states are equal bytes");
+static_assert(sizeof(InstanceState) == 416, "no padding: equal states are equal bytes");
 static_assert(offsetof(InstanceState, root) == kPlannedStateBytes, "what is planned by comes first");
 
 float smooth_step(float t) noexcept { return t * t * (3 - 2 * t); }
@@ -139,6 +139,18 @@ float Instance::tail_share(float ahead) const noexcept {
   return smooth_step(1 - std::min(faded / static_cast<float>(kFadeTicks), 1.0f));
 }
 
+ShownShares Instance::shown_shares() const noexcept {
+  const float b = simulated_share();
+  if (state->tail_rides) return {1, 1 - b};
+  return {b, (1 - b) * tail_share()};
+}
+
+float Instance::shown_share() const noexcept {
+  if (state->tail_rides) return 1;
+  const ShownShares shares = shown_shares();
+  return shares.simulated + shares.tail;
+}
+
 float Instance::seam_share() const noexcept {
   if (!seam || state->seam_ticks >= kBlendInTicks) return 0;
   const float faded = (static_cast<float>(state->seam_ticks) + state->render_fraction) / kBlendInTicks;
@@ -214,6 +226,7 @@ void forget_displacement(Instance& instance) noexcept {
   state.fallback_ticks = 0;
   state.tail_ticks = kCarryTicks + kFadeTicks;
   state.clamped_ticks = 0;
+  state.tail_rides = 0;
   state.seam_ticks = kBlendInTicks;
 }
 

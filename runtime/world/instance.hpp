@@ -27,6 +27,8 @@ inline constexpr uint32_t kBlendInTicks = 20;  // from that to simulation, when 
 // A network that missed at most so many ticks keeps its memory when it comes back; after more, its velocities
 // are of another phase of the wobble and it starts anew from where it is.
 inline constexpr uint32_t kRememberedTicks = 2;
+// What was left alone for no longer makes up for it when it comes back (world/catch_up.hpp).
+inline constexpr uint32_t kCaughtUpTicks = 2;
 // Share of its velocity that a tail keeps each tick: nothing flings, it stands still soon, and then costs
 // nothing to publish.
 inline constexpr float kCarryDamping = 0.6f;
@@ -73,7 +75,9 @@ struct InstanceState {
   uint32_t teleported = 0;       // in the last step
   uint32_t hidden_ticks = 0;     // world/hidden.hpp
   uint32_t lifted = 0;           // the blend is from springs: rods went on
-  uint32_t first_joints = 0;     // which of pose_joints is the pose before the present one
+  Tier left_tier = Tier::kSkinning;           // world/catch_up.hpp: what it had before it was left alone
+  uint16_t missed_ticks = 0, tail_rides = 0;  // likewise: since then; the tail counts from what is simulated
+  uint32_t first_joints = 0;                  // which of pose_joints is the pose before the present one
   // world/update_rate.hpp:
   uint32_t ticks = 0;                   // counts on for ever: whose turn it is
   uint32_t every = 1;                   // in the last step
@@ -125,11 +129,17 @@ struct InstancePlan {
   TierReason why = TierReason::kBudget;
 };
 
+// Of what is shown.
+struct ShownShares {
+  float simulated, tail;
+};
+
 // Arrays are [nodes][3] in metres along each node's frame (tissue/node_bend.hpp) unless said otherwise; l,
 // theta and q as in tissue/modal_base.hpp, stale on springs. "Shown" is what is published, along the axes of
 // the flesh, as is the tail: poses need not be followed to carry them on. shown = b u + (1 - b) tail, b
 // rising smoothly from 0 to 1 in kBlendInTicks. The tail is the displacement shown when simulation was last
-// left, carried on with damped velocity and then faded to zero.
+// left, carried on with damped velocity and then faded to zero; or, where it rides, what that was off, and
+// shown = u + (1 - b) tail.
 struct Instance {
   // What a plan does to those that it passes over, and what a report asks, comes first: kPlannedBytes of it.
   InstanceState* state = nullptr;
@@ -144,6 +154,7 @@ struct Instance {
   InstancePlan plan;
 
   bool entered = false;        // in the last step: simulation began anew, which costs more than to go on
+  uint8_t made_up = 0;         // in the last step: missed ticks that were simulated after all
   bool heard_now = false;      // in the last tick: it was simulated whole
   bool parts_ready = false;    // in this step: the parts are filled in
   bool changed_level = false;  // in the last step
@@ -230,7 +241,8 @@ struct Instance {
   float simulated_share() const noexcept;            // b
   float tail_share(float ahead = 0) const noexcept;  // 1 while carried, then falling smoothly to 0; in ticks
   float seam_share() const noexcept;                 // 1 as a level changes, then falling smoothly to 0
-  float shown_share() const noexcept { return simulated_share() + (1 - simulated_share()) * tail_share(); }
+  ShownShares shown_shares() const noexcept;
+  float shown_share() const noexcept;  // of displacement, 0: skinning
 };
 
 inline constexpr size_t kPlannedBytes = offsetof(Instance, memory);

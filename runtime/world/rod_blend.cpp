@@ -51,6 +51,12 @@ void begin_rod_tails(Instance& instance, float velocity_kept) noexcept {
   }
 }
 
+void ride_rods(Instance& instance) noexcept {
+  for (size_t s = 0; s < instance.asset->rods.slot_count; ++s)
+    put_turn(instance.rod_tail, s,
+             turn_at(instance.rod_turn, s).conjugate() * turn_at(instance.rod_shown[0], s));
+}
+
 void take_rods_as_shown(Instance& instance) noexcept {
   std::copy_n(instance.rod_shown[0], size_t{4} * instance.asset->rods.slot_count, instance.rod_turn);
 }
@@ -61,6 +67,11 @@ void show_rods(Instance& instance, float simulated) noexcept {
   std::copy_n(instance.rod_shown[0], 4 * slots, instance.rod_shown[1]);
   if (simulated == 1) return void(std::copy_n(instance.rod_turn, 4 * slots, instance.rod_shown[0]));
   for (size_t s = 0; s < slots; ++s) {
+    if (instance.state->tail_rides) {
+      const Quaterniond off = share_of(1 - static_cast<double>(simulated), turn_at(instance.rod_tail, s));
+      put_turn(instance.rod_shown[0], s, turn_at(instance.rod_turn, s) * off);
+      continue;
+    }
     advance_tail(instance, s);
     const Quaterniond tail = share_of(tail_share, turn_at(instance.rod_tail, s));
     put_turn(

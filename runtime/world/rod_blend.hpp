@@ -9,6 +9,8 @@ namespace sinew::world {
 void forget_rods(Instance& instance) noexcept;
 // Simulation is left: how rods are turned is carried on.
 void begin_rod_tails(Instance& instance, float velocity_kept) noexcept;
+// What is shown rides on what is simulated (world/catch_up.hpp).
+void ride_rods(Instance& instance) noexcept;
 // Simulation comes back: from how rods are shown.
 void take_rods_as_shown(Instance& instance) noexcept;
 // End of a tick; simulated: the share of what is simulated in what is shown.

@@ -20,8 +20,9 @@ constexpr uint64_t kMagic = 0x31544154534e5753;  // "SWNSTAT1", little-endian
 // 7: who is hidden. 8: what the scheduler goes by, what is gone on by between ticks that are simulated whole.
 // 9: who is dormant.
 // 10: the level of control graphs, and what its last change left. 11: the same in another order. 12: how
-// contacts' forces changed. 13: the update rate, and who was looked at last.
-constexpr uint32_t kVersion = 13;
+// contacts' forces changed. 13: the update rate, and who was looked at last. 14: what was missed, and
+// whose tail rides.
+constexpr uint32_t kVersion = 14;
 
 struct Header {
   uint64_t magic, fingerprint, payload_bytes, checksum;

@@ -7,6 +7,7 @@
 #include "core/flush_denormals.hpp"
 #include "frame/scheduler.hpp"
 #include "world/blend.hpp"
+#include "world/catch_up.hpp"
 #include "world/change_level.hpp"
 #include "world/dormant.hpp"
 #include "world/excitation.hpp"
@@ -60,17 +61,25 @@ void simulated_tick(Instance& instance, double time_s, const TickContext& contex
   instance.times.rods_ns += core::now_ns(clock) - soft_ns;
 }
 
+void simulate_missed(Instance& instance, const TickContext& context, uint32_t slot) noexcept {
+  const InstanceState& state = *instance.state;
+  for (uint32_t left = state.missed_ticks; left > 0 && frame::is_simulated(state.tier); --left)
+    simulated_tick(instance, instance.plan.ticks.first_tick_s - left * instance.asset->tick_s, context, slot);
+  if (frame::is_simulated(state.tier)) ride_on(instance);
+}
+
 void run_ticks(Instance& instance, const TickContext& context, uint32_t slot) noexcept {
   InstanceState& state = *instance.state;
   const frame::TickPlan& ticks = instance.plan.ticks;
   if (ticks.dropped_s > 0) state.motion_stale = 1;
+  if (frame::is_simulated(state.tier) && state.missed_ticks > 0) simulate_missed(instance, context, slot);
   for (uint32_t k = 0; k < ticks.ticks; ++k) {
     state.fallback_ticks -= state.fallback_ticks > 0;
     instance.told = {};
     if (frame::is_simulated(state.tier))
       simulated_tick(instance, ticks.first_tick_s + k * instance.asset->tick_s, context, slot);
     else
-      state.motion_stale = 1, instance.heard_now = false;
+      miss_tick(instance);
     state.ticks_since_network = state.tier == Tier::kNetwork ? 0 : state.ticks_since_network + 1;
     show_tick(instance);
     push_surface(instance);
@@ -97,8 +106,10 @@ float most_us(const Instance& instance, const TickContext& context) noexcept {
   constexpr float kMuch = 0.04f;
   const frame::CostModel& cost = instance.asset->cost;
   const frame::CostEstimate& tick = cost.of(instance.plan.tier, instance.plan.level);
-  const float ticks = static_cast<float>(instance.plan.ticks.ticks) * instance.cost_factor;
-  const bool enters = !frame::is_simulated(instance.state->tier);
+  const bool goes_on = catches_up(instance);
+  const uint32_t missed = goes_on ? instance.state->missed_ticks : 0u;
+  const float ticks = static_cast<float>(instance.plan.ticks.ticks + missed) * instance.cost_factor;
+  const bool enters = !frame::is_simulated(instance.state->tier) && !goes_on;
   const bool much = ticks * tick.estimate_us() > kMuch * context.tasks_us;
   return cost.publish.p95_us() + ticks * (much ? tick.p99_us() : tick.p95_us()) +
          (enters              ? cost.enter.p95_us()
@@ -180,11 +191,12 @@ void step_instance(Instance& instance, const TickContext& context, uint32_t slot
   instance.came_back = instance.state->hidden != 0;
   if (instance.came_back) come_back(instance);
   instance.restarted = instance.fell_back = false;
-  instance.entered = frame::is_simulated(tier) &&
+  instance.entered = frame::is_simulated(tier) && !catches_up(instance) &&
                      (!frame::is_simulated(instance.state->tier) || instance.state->motion_stale);
   instance.changed_level = changes_level(instance);
   instance.refined = refines(instance);
   if (instance.changed_level) change_level(instance, instance.plan.level);
+  end_gap(instance);
   enter_tier(instance, tier);
   instance.state->every = instance.plan.every;
   take_pose(instance, context.teleport_distance_m);

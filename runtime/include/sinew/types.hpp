@@ -64,8 +64,8 @@ struct AssertHook {
 enum class BudgetMode : uint32_t {
   // The budget is microseconds of the world's clock from the start of step(). Costs are corrected online. An
   // instance whose planned tier would not be done before the deadline gets the best cheaper one that would,
-  // or is
-  // carried on as it was; it is counted as cut, and is the first to run in the next step.
+  // or is carried on as it was; it is counted as cut, and is the first to run in the next step, with the
+  // ticks that it missed.
   kTime = 0,
   // The budget is baked microseconds: the same inputs give the same tiers and bits whatever the clock says.
   kWorkUnits = 1,

@@ -1,0 +1,57 @@
+// catch_up.cpp  see catch_up.hpp.
+#include "world/catch_up.hpp"
+
+#include "frame/scheduler.hpp"
+#include "tissue/node_bend.hpp"
+#include "world/rod_blend.hpp"
+
+namespace sinew::world {
+
+uint32_t missed_so_far(const Instance& instance) noexcept {
+  const InstanceState& state = *instance.state;
+  const bool near = state.missed_ticks <= kCaughtUpTicks && !state.motion_stale;
+  return near && state.tier == Tier::kExtrapolate ? state.missed_ticks : 0u;
+}
+
+bool catches_up(const Instance& instance) noexcept {
+  const InstanceState& state = *instance.state;
+  const InstancePlan& plan = instance.plan;
+  return frame::is_simulated(plan.tier) && missed_so_far(instance) > 0 && plan.level == state.level &&
+         plan.ticks.ticks > 0 && !(plan.ticks.dropped_s > 0);
+}
+
+void begin_gap(Instance& instance) noexcept {
+  instance.state->left_tier = instance.state->tier;
+  instance.state->missed_ticks = 0;
+}
+
+void miss_tick(Instance& instance) noexcept {
+  InstanceState& state = *instance.state;
+  instance.heard_now = false;
+  if (state.missed_ticks <= kCaughtUpTicks) ++state.missed_ticks;
+  if (state.missed_ticks > kCaughtUpTicks || state.tier != Tier::kExtrapolate) state.motion_stale = 1;
+}
+
+void end_gap(Instance& instance) noexcept {
+  InstanceState& state = *instance.state;
+  const bool goes_on = catches_up(instance);
+  instance.made_up = static_cast<uint8_t>(goes_on ? state.missed_ticks : 0);
+  if (goes_on)
+    state.tier = state.left_tier;
+  else if (frame::is_simulated(instance.plan.tier))
+    state.missed_ticks = 0;
+}
+
+void ride_on(Instance& instance) noexcept {
+  InstanceState& state = *instance.state;
+  float* off = instance.tail;
+  tissue::along_flesh(instance.poses[0], instance.u[0], instance.level->node_count(), off);
+  for (size_t i = 0; i < size_t{3} * instance.level->node_count(); ++i)
+    off[i] = instance.shown[0][i] - off[i];
+  ride_rods(instance);
+  state.missed_ticks = 0;
+  state.blend_ticks = state.lifted = 0;
+  state.tail_rides = 1;
+}
+
+}  // namespace sinew::world

@@ -1,0 +1,193 @@
+// test_catch_up.cpp  A tick or two without simulation: made up for, and faded.
+#include <limits>
+
+#include "tests/scenes/half_spaces.hpp"
+#include "tests/world/stage.hpp"
+#include "world/instance.hpp"
+
+using namespace sinew;
+using test::Stage;
+
+namespace {
+
+constexpr double kFrame_s = 1.0 / 60;
+constexpr float kNothing_us = 1e-6f;  // above zero, below any network's cost: denied, not skinned
+// Of half a metre in floats, through poses that are put together anew.
+constexpr double kRounding_m = 1e-5;
+
+float budget_of(Tier tier) {
+  return tier == Tier::kNetwork ? std::numeric_limits<float>::infinity() : test::tier_cost_us(tier) * 1.01f;
+}
+
+struct Pair {
+  Stage interrupted{1, {.budget_mode = BudgetMode::kWorkUnits}},
+      steady{1, {.budget_mode = BudgetMode::kWorkUnits}};
+  Tier tier;
+
+  explicit Pair(Tier of) : tier(of) {
+    for (Stage* stage : {&interrupted, &steady}) {
+      REQUIRE(stage->world.set_budget_us(budget_of(tier)).ok());
+      stage->play(scenes::walk, 1.5);
+    }
+  }
+  void frame(const test::Motion& motion = scenes::walk, double dt_s = kFrame_s) {
+    interrupted.step(motion, dt_s);
+    steady.step(motion, dt_s);
+  }
+  void miss(int frames, double dt_s = kFrame_s) {
+    REQUIRE(interrupted.world.set_budget_us(kNothing_us).ok());
+    for (int f = 0; f < frames; ++f) frame(scenes::walk, dt_s);
+    REQUIRE(interrupted.report().tier == Tier::kExtrapolate);
+    REQUIRE(interrupted.world.set_budget_us(budget_of(tier)).ok());
+  }
+  double apart_m() const { return test::largest_distance(interrupted.read(), steady.read()); }
+};
+
+constexpr Tier kSimulated[] = {Tier::kSpring, Tier::kModal, Tier::kNetwork};
+
+}  // namespace
+
+TEST_CASE("what_missed_a_tick_or_two_comes_to_where_it_would_have_been") {
+  for (const Tier tier : kSimulated) {
+    for (const int missed : {1, 2}) {
+      Pair pair(tier);
+      pair.miss(missed);
+      REQUIRE(pair.apart_m() > 20 * kRounding_m);
+      for (uint32_t f = 0; f < world::kBlendInTicks; ++f) pair.frame();
+      INFO("tier " << static_cast<int>(tier) << ", missed " << missed);
+      CHECK(pair.interrupted.report().tier == tier);
+      CHECK(pair.apart_m() < kRounding_m);
+    }
+  }
+}
+
+TEST_CASE("what_missed_more_starts_from_what_is_shown") {
+  Pair pair(Tier::kNetwork);
+  pair.miss(world::kCaughtUpTicks + 1);
+  for (uint32_t f = 0; f < world::kBlendInTicks; ++f) pair.frame();
+  CHECK(pair.apart_m() > 100 * kRounding_m);
+}
+
+// The way back from what was carried on is faded: in no frame more than a tenth of what a frame moves anyway.
+TEST_CASE("coming_back_from_a_missed_tick_moves_nothing_by_itself") {
+  constexpr double kBeside = 0.1;
+  for (const Tier tier : kSimulated) {
+    Pair pair(tier);
+    double usual_m = 0, beside_m = 0;
+    const auto bind = [](const Stage& stage) { return stage.read(0, Space::kBind); };
+    for (int round = 0; round < 20; ++round) {
+      pair.miss(1);
+      for (int f = 0; f < 7; ++f) {
+        const std::vector<float> was = bind(pair.interrupted), steady_was = bind(pair.steady);
+        pair.frame();
+        const std::vector<float> now = bind(pair.interrupted), steady_now = bind(pair.steady);
+        usual_m = std::max(usual_m, test::largest_distance(steady_now, steady_was));
+        std::vector<float> beside(now.size());
+        for (size_t i = 0; i < now.size(); ++i) beside[i] = now[i] - was[i] - (steady_now[i] - steady_was[i]);
+        beside_m = std::max(beside_m, test::largest_length(beside));
+      }
+    }
+    WARN("tier " << static_cast<int>(tier) << ": in a frame " << usual_m * 1e3 << " mm, beside them "
+                 << beside_m * 1e3);
+    CHECK(beside_m < kBeside * usual_m);
+  }
+}
+
+TEST_CASE("a_missed_frame_of_two_ticks_is_made_up_for") {
+  Pair pair(Tier::kNetwork);
+  for (int f = 0; f < 10; ++f) pair.frame(scenes::walk, 2 * kFrame_s);
+  pair.miss(1, 2 * kFrame_s);
+  for (uint32_t f = 0; f < world::kBlendInTicks; ++f) pair.frame(scenes::walk, 2 * kFrame_s);
+  CHECK(pair.apart_m() < 5 * kRounding_m);  // the way between two poses goes by the three that are known
+}
+
+TEST_CASE("a_teleport_between_a_missed_tick_and_its_making_up_is_not_felt") {
+  Pair pair(Tier::kNetwork);
+  const auto far = [](double t) {
+    scenes::BlockPose pose = scenes::walk(t);
+    pose.root.position_m[0] += 30;
+    return pose;
+  };
+  pair.miss(1);
+  pair.frame(far);
+  for (uint32_t f = 0; f < world::kBlendInTicks; ++f) pair.frame(far);
+  // Its place is thirty metres off, and its last step is known from fewer poses.
+  CHECK(pair.apart_m() < 100 * kRounding_m);
+}
+
+TEST_CASE("a_gap_saved_in_its_midst_ends_with_the_same_bits") {
+  Pair pair(Tier::kNetwork);
+  Stage& stage = pair.interrupted;
+  REQUIRE(stage.world.set_budget_us(kNothing_us).ok());
+  stage.step(scenes::walk, kFrame_s);
+  const std::vector<std::byte> gap = stage.save();
+  REQUIRE(stage.world.set_budget_us(budget_of(Tier::kNetwork)).ok());
+  const double at_s = stage.time_s;
+  stage.play(scenes::walk, 0.1);
+  const std::vector<std::byte> riding = stage.save();
+  stage.play(scenes::walk, 0.5);
+  const std::vector<float> whole = stage.read();
+  REQUIRE(stage.world.restore_state(stage.blocks[0], gap).ok());
+  stage.time_s = at_s;
+  stage.play(scenes::walk, 0.1);
+  CHECK(stage.save() == riding);
+  stage.play(scenes::walk, 0.5);
+  CHECK(stage.read() == whole);
+}
+
+TEST_CASE("a_change_of_level_while_a_tail_rides_does_not_jump") {
+  Stage stage(1, {.budget_mode = BudgetMode::kWorkUnits}, test::levels_pack());
+  stage.play(scenes::walk, 1.5);
+  double usual_m = 0;
+  const auto frame = [&] {
+    const std::vector<float> was = stage.read(0, Space::kBind);
+    stage.step(scenes::walk, kFrame_s);
+    return test::largest_distance(was, stage.read(0, Space::kBind));
+  };
+  for (int f = 0; f < 60; ++f) usual_m = std::max(usual_m, frame());
+  double most_m = 0;
+  for (int round = 0; round < 10; ++round) {
+    for (const float budget_us : {kNothing_us, budget_of(Tier::kNetwork), test::tier_cost_us(Tier::kModal),
+                                  budget_of(Tier::kNetwork)}) {
+      REQUIRE(stage.world.set_budget_us(budget_us).ok());
+      for (int f = 0; f < (budget_us == kNothing_us ? 1 : 3); ++f) most_m = std::max(most_m, frame());
+    }
+  }
+  constexpr double kPop = 2;  // as of tiers (test_blend.cpp)
+  CHECK(most_m < kPop * usual_m);
+}
+
+TEST_CASE("rods_that_missed_a_tick_come_to_where_they_would_have_been") {
+  const scenes::PackBytes pack = scenes::soft_block({.network = false, .rods = scenes::RodMatter{}});
+  Stage interrupted(1, {.budget_mode = BudgetMode::kWorkUnits}, pack),
+      steady(1, {.budget_mode = BudgetMode::kWorkUnits}, pack);
+  const auto joints = [](const Stage& stage) {
+    std::vector<Matrix34> out(stage.info.joint_count);
+    REQUIRE(stage.world.read_joint_matrices(stage.blocks[0], out).ok());
+    return out;
+  };
+  const auto apart = [&] {
+    const std::vector<Matrix34> a = joints(interrupted), b = joints(steady);
+    double most = 0;
+    for (size_t j = 0; j < a.size(); ++j)
+      for (size_t k = 0; k < 12; ++k)
+        most = std::max(most, std::abs(static_cast<double>((&a[j].m[0][0])[k] - (&b[j].m[0][0])[k])));
+    return most;
+  };
+  const auto frame = [&] {
+    for (Stage* stage : {&interrupted, &steady}) {
+      stage->time_s += kFrame_s;
+      const scenes::TailedPose pose = scenes::with_rods(scenes::shake(stage->time_s, 2));
+      REQUIRE(stage->world.set_pose(stage->blocks[0], pose.pose()).ok());
+      stage->world.step(static_cast<float>(kFrame_s));
+    }
+  };
+  for (int f = 0; f < 60; ++f) frame();
+  REQUIRE(apart() == 0);
+  REQUIRE(interrupted.world.set_budget_us(kNothing_us).ok());
+  frame();
+  REQUIRE(apart() > 1e-3);
+  REQUIRE(interrupted.world.set_budget_us(std::numeric_limits<float>::infinity()).ok());
+  for (uint32_t f = 0; f < world::kBlendInTicks; ++f) frame();
+  CHECK(apart() < 1e-3);  // a solver's tolerance, some steps long
+}
