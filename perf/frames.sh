@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # Measures whole frames against their budget and rewrites perf/results/<processor>_frames.csv, perf/frames.png and the table of frames
-# in perf/README.md; then what a crowd under a budget is truly off, and rewrites perf/results/<processor>_crowd_error.csv and that table.
-# About nine minutes on quiet cores; FRAMES=600 for a short look (its tails say little). --crowd: only the latter; a minute with
+# in perf/README.md; then what a crowd under a budget is truly off and what gaps in simulation leave, and rewrites
+# perf/results/<processor>_crowd_error.csv, _gaps.csv and these tables.
+# About nine minutes on quiet cores; FRAMES=600 for a short look (its tails say little). --crowd: only the latter; two minutes with
 # SINEW_CHARACTER, a pack of the crowd's creature that sinew-trade wrote. FRAMES=5900 has 100,000 frames without Embree, too.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 cmake --preset release -DSINEW_BUILD_PERF=ON | grep "^-- perf:" || true
-cmake --build --preset release --target perf_frames sinew-bake sinew-trade
+cmake --build --preset release --target perf_frames perf_gaps sinew-bake sinew-trade
 measured=$(mktemp -d)
 trap 'rm -rf "$measured"' EXIT
 character=${SINEW_CHARACTER:-$(perf/traded_creature.sh "$measured")}
@@ -18,7 +19,7 @@ if [ "${1:-}" != --crowd ]; then
   "$python" perf/summarise_frames.py "$measured/frames.csv"
 fi
 
-# Five seconds of each of the creature's clips; its tiers were measured along the hop alone.
+# Five seconds of each of the creature's clips.
 build/release/bin/sinew-bake creature assets/creature/creature.json -o "$measured/truth.glb"
 truths=("$measured"/{idle,walk,hop,shake}.safetensors)
 printf '%s\n' "${truths[@]}" | xargs -P "$(nproc)" -I{} sh -c 'build/release/bin/sinew-bake truth "$1" \
@@ -26,3 +27,5 @@ printf '%s\n' "${truths[@]}" | xargs -P "$(nproc)" -I{} sh -c 'build/release/bin
   sh "$measured/truth.glb" {}
 build/release/bin/perf_frames "$character" --crowd "${truths[@]}" >"$measured/crowd_error.csv"
 python3 perf/summarise_table.py crowd_error "$measured/crowd_error.csv"
+build/release/bin/perf_gaps "$character" "${truths[@]}" >"$measured/gaps.csv"
+python3 perf/summarise_table.py gaps "$measured/gaps.csv"
