@@ -2,7 +2,7 @@
 # Measures whole frames against their budget and rewrites perf/results/<processor>_frames.csv, perf/frames.png and the table of frames
 # in perf/README.md; then what a crowd under a budget is truly off and what gaps in simulation leave, and rewrites
 # perf/results/<processor>_crowd_error.csv, _gaps.csv and these tables.
-# About nine minutes on quiet cores; FRAMES=600 for a short look (its tails say little). --crowd: only the latter; two minutes with
+# About eleven minutes on quiet cores; FRAMES=600 for a short look (its tails say little). --crowd: only the latter; two minutes with
 # SINEW_CHARACTER, a pack of the crowd's creature that sinew-trade wrote. FRAMES=5900 has 100,000 frames without Embree, too.
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Measures how far changes of tier move the creature's surface, and rewrites the table of jumps in perf/README.md. Two minutes; with
+# Measures how far changes of tier move the creature's surface, and rewrites the table of jumps in perf/README.md. Three minutes; with
 # SINEW_CHARACTER, a pack that sinew-trade wrote, ten seconds.
 set -euo pipefail
 cd "$(dirname "$0")/.."
