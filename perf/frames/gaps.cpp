@@ -13,7 +13,6 @@
 #include <cstdio>
 #include <exception>
 
-#include "baker/common/bad_input.hpp"
 #include "perf/scale/require.hpp"
 #include "samples/demo/trajectory.hpp"
 #include "world/instance.hpp"

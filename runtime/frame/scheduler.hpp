@@ -47,16 +47,17 @@ struct Candidate {
   float ticks = 0;               // in this step
   float cost_factor = 1;         // what its ticks take as a multiple of its asset's
   float base_us = 0;             // what it takes in this step if it is not simulated
-  float enter_us = 0;            // what its first simulated tick takes beyond a tick
-  float change_us = 0;           // likewise the first on a finer control graph than it has
-  uint32_t has = 0;              // its level in the last step
-  uint32_t graph = 0;            // the control graph it has; 0 is the finest
-  uint32_t top = 0;              // the highest it may have now
-  float turn_left_s = 0;         // > 0: what it has came by a turn, and stays so long
-  bool keeps_level = false;      // no tick in this step: all is as it was
-  float rate = 0, bonus = 1;     // worked out: weight a tick's time, and of levels up to what it has
-  bool may_refine = true;        // worked out: there are finer control graphs than it has
-  uint32_t level = 0;            // the answer, of its front
+  float missed = 0;              // ticks before this step that it makes up for, on the control graph it has
+  float enter_us = 0;         // what its first simulated tick takes beyond a tick, where it makes up for none
+  float change_us = 0;        // likewise the first on a finer control graph than it has
+  uint32_t has = 0;           // its level in the last step
+  uint32_t graph = 0;         // the control graph it has; 0 is the finest
+  uint32_t top = 0;           // the highest it may have now
+  float turn_left_s = 0;      // > 0: what it has came by a turn, and stays so long
+  bool keeps_level = false;   // no tick in this step: all is as it was
+  float rate = 0, bonus = 1;  // worked out: weight a tick's time, and of levels up to what it has
+  bool may_refine = true;     // worked out: there are finer control graphs than it has
+  uint32_t level = 0;         // the answer, of its front
   Reason reason = Reason::kBudget;
 
   // To go there from what it has, it changes to a finer control graph. Going down, what it had is not paid
@@ -68,7 +69,9 @@ struct Candidate {
   // What a level takes in this step, whole.
   float cost_us(uint32_t of_level) const noexcept {
     if (of_level == 0) return base_us;
-    return front->step_us(of_level, ticks * cost_factor) + (has == 0 ? enter_us : 0) + refining_us(of_level);
+    const bool makes_up = missed > 0 && front->levels[of_level].graph == graph;
+    return front->step_us(of_level, (ticks + (makes_up ? missed : 0)) * cost_factor) +
+           (has == 0 && !makes_up ? enter_us : 0) + refining_us(of_level);
   }
   // The next that is bought above one: what a change of graphs makes dearer than a level above it is passed
   // over. Beyond the top: there is none.
@@ -86,7 +89,7 @@ struct Candidate {
   // What a level takes more than the one that is bought below it.
   float rise_us(uint32_t below, uint32_t level) const noexcept {
     float rise = ticks * cost_factor * front->rise_us[level];
-    if (below == 0 || may_refine) rise = cost_us(level) - cost_us(below);
+    if (below == 0 || may_refine || missed > 0) rise = cost_us(level) - cost_us(below);
     return rise > 0 ? rise : 0;
   }
 };

@@ -136,7 +136,10 @@ void enter_tier(Instance& instance, Tier tier) noexcept {
   InstanceState& state = *instance.state;
   const bool simulated = frame::is_simulated(tier), was_simulated = frame::is_simulated(state.tier);
   if (simulated && !was_simulated) begin_simulation(instance);
-  if (!simulated && was_simulated) begin_tail(instance, 1), begin_gap(instance);
+  if (!simulated && was_simulated) {
+    begin_tail(instance, 1);
+    begin_gap(instance);
+  }
   if (has_base(tier) && !has_base(state.tier)) begin_base(instance);
   if (tier == Tier::kNetwork && state.tier != Tier::kNetwork) begin_network(instance);
   if (tier != state.tier) wake_regions(instance);

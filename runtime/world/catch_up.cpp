@@ -10,14 +10,29 @@ namespace sinew::world {
 uint32_t missed_so_far(const Instance& instance) noexcept {
   const InstanceState& state = *instance.state;
   const bool near = state.missed_ticks <= kCaughtUpTicks && !state.motion_stale;
-  return near && state.tier == Tier::kExtrapolate ? state.missed_ticks : 0u;
+  const bool left = state.tier == Tier::kExtrapolate && frame::is_simulated(state.left_tier);
+  return near && left ? state.missed_ticks : 0u;
 }
+
+namespace {
+
+// Between three of them or, where frames are as long as ticks, a frame before these.
+bool knows_poses(const Instance& instance) noexcept {
+  constexpr double kAsLong = 0.75, kRounding_s = 1e-9;
+  const InstanceState& state = *instance.state;
+  const double tick_s = instance.asset->tick_s, dt_s = instance.plan.dt_s;
+  const double first_s = instance.plan.ticks.first_tick_s - state.missed_ticks * tick_s;
+  const double back_s = state.dt_before_s + (dt_s >= kAsLong * tick_s ? dt_s : 0);
+  return first_s >= -back_s - kRounding_s;
+}
+
+}  // namespace
 
 bool catches_up(const Instance& instance) noexcept {
   const InstanceState& state = *instance.state;
   const InstancePlan& plan = instance.plan;
   return frame::is_simulated(plan.tier) && missed_so_far(instance) > 0 && plan.level == state.level &&
-         plan.ticks.ticks > 0 && !(plan.ticks.dropped_s > 0);
+         plan.ticks.ticks > 0 && !(plan.ticks.dropped_s > 0) && knows_poses(instance);
 }
 
 void begin_gap(Instance& instance) noexcept {
@@ -32,11 +47,10 @@ void miss_tick(Instance& instance) noexcept {
   if (state.missed_ticks > kCaughtUpTicks || state.tier != Tier::kExtrapolate) state.motion_stale = 1;
 }
 
-void end_gap(Instance& instance) noexcept {
+void end_gap(Instance& instance, bool catches_up) noexcept {
   InstanceState& state = *instance.state;
-  const bool goes_on = catches_up(instance);
-  instance.made_up = static_cast<uint8_t>(goes_on ? state.missed_ticks : 0);
-  if (goes_on)
+  instance.made_up = static_cast<uint8_t>(catches_up ? state.missed_ticks : 0);
+  if (catches_up)
     state.tier = state.left_tier;
   else if (frame::is_simulated(instance.plan.tier))
     state.missed_ticks = 0;

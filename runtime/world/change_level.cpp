@@ -196,7 +196,7 @@ void show_anew(Instance& instance) noexcept {
   pose_at_start(instance);
   for (int tick = 0; tick < 2; ++tick) {
     tissue::along_flesh(instance.poses[0], instance.u[tick], nodes, instance.shown[tick]);
-    for (size_t i = 0; shares.tail > 0 && i < size_t{3} * nodes; ++i)
+    for (size_t i = 0; (shares.simulated < 1 || shares.tail > 0) && i < size_t{3} * nodes; ++i)
       instance.shown[tick][i] = shares.simulated * instance.shown[tick][i] + shares.tail * instance.tail[i];
   }
 }

@@ -42,13 +42,6 @@ float base_us(const Terms& terms, const PlanRow& row) noexcept {
   return asset.idle_us + asset.cost.publish.baked_us();
 }
 
-float enter_us(const PlanRow& row) noexcept {
-  const frame::CostModel& cost = row.asset->cost;
-  if (row.missed == 0) return cost.enter.estimate_us();
-  return static_cast<float>(row.missed) * row.cost_factor *
-         cost.of(static_cast<Tier>(row.left_tier), row.level).estimate_us();
-}
-
 float weight_of(const PlanRow& row) noexcept {
   constexpr float kLargest = 1e30f;
   return std::min(kLargest, row.importance * row.size * row.excitation * row.asset->skinning_mm);
@@ -74,7 +67,8 @@ Candidate candidate_of(const Terms& terms, const PlanRow& row, uint32_t ticks, u
           .ticks = static_cast<float>(ticks),
           .cost_factor = terms.measured ? row.cost_factor : 1,
           .base_us = base_us(terms, row),
-          .enter_us = terms.measured ? enter_us(row) : 0,
+          .missed = terms.measured ? static_cast<float>(row.missed) : 0,
+          .enter_us = terms.measured ? row.asset->cost.enter.estimate_us() : 0,
           .change_us = terms.measured ? row.asset->cost.change.estimate_us() : 0,
           .has = front.level_of(row.tier, row.every, row.level),
           .graph = row.level,

@@ -29,7 +29,6 @@ void copy_to_row(const Instance& instance, PlanRow* row) noexcept {
   row->shows = instance.shown_share() != 0;
   row->blind = state.blind_looks > 0;
   row->missed = missed_so_far(instance) & 3;
-  row->left_tier = static_cast<uint32_t>(state.left_tier) & 7;
   row->regions_asleep =
       frame::is_simulated(state.tier) ? static_cast<uint16_t>(regions_asleep(instance)) : uint16_t{0};
 }

@@ -28,11 +28,10 @@ struct alignas(64) PlanRow {
   bool blind : 1 = false;       // rays were stopped in the last look
   bool seen : 1 = true;         // in this step (world/look.hpp)
   uint8_t missed : 2 = 0;       // ticks that it would make up for (world/catch_up.hpp)
-  uint8_t left_tier : 3 = 0;    // that it had before
   uint16_t regions_asleep = 0;
   float size = 1;  // in this step: share of a view's height
 };
-static_assert(sizeof(PlanRow) == 64);
+static_assert(sizeof(PlanRow) == 64 && kCaughtUpTicks < 4);
 
 // Of InstancePlan.
 struct PlanAnswer {

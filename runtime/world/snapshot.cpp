@@ -110,7 +110,7 @@ Status restore(Instance& instance, std::span<const std::byte> bytes) noexcept {
   InstanceState state;
   std::memcpy(&state, payload.data(), sizeof state);
   if (state.level >= instance.asset->level_count || static_cast<uint32_t>(state.tier) >= kTierCount ||
-      !pack::is_every(state.every))
+      static_cast<uint32_t>(state.left_tier) >= kTierCount || !pack::is_every(state.every))
     return corrupt("names a control graph, a tier or an update rate that there is not");
   std::memcpy(instance.state, payload.data(), instance.state_bytes);
   restore_rods(instance, payload.data() + instance.state_bytes);

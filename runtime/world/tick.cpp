@@ -62,9 +62,14 @@ void simulated_tick(Instance& instance, double time_s, const TickContext& contex
 }
 
 void simulate_missed(Instance& instance, const TickContext& context, uint32_t slot) noexcept {
-  const InstanceState& state = *instance.state;
-  for (uint32_t left = state.missed_ticks; left > 0 && frame::is_simulated(state.tier); --left)
+  InstanceState& state = *instance.state;
+  const uint32_t now = state.ticks;
+  for (uint32_t left = state.missed_ticks; left > 0 && frame::is_simulated(state.tier); --left) {
+    state.ticks = now - left;
     simulated_tick(instance, instance.plan.ticks.first_tick_s - left * instance.asset->tick_s, context, slot);
+    instance.touch_count = 0;
+  }
+  state.ticks = now;
   if (frame::is_simulated(state.tier)) ride_on(instance);
 }
 
@@ -191,12 +196,13 @@ void step_instance(Instance& instance, const TickContext& context, uint32_t slot
   instance.came_back = instance.state->hidden != 0;
   if (instance.came_back) come_back(instance);
   instance.restarted = instance.fell_back = false;
-  instance.entered = frame::is_simulated(tier) && !catches_up(instance) &&
+  const bool goes_on = catches_up(instance);
+  instance.entered = frame::is_simulated(tier) && !goes_on &&
                      (!frame::is_simulated(instance.state->tier) || instance.state->motion_stale);
   instance.changed_level = changes_level(instance);
   instance.refined = refines(instance);
   if (instance.changed_level) change_level(instance, instance.plan.level);
-  end_gap(instance);
+  end_gap(instance, goes_on);
   enter_tier(instance, tier);
   instance.state->every = instance.plan.every;
   take_pose(instance, context.teleport_distance_m);

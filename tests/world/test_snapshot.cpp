@@ -90,6 +90,7 @@ TEST_CASE("restore_refuses_a_tier_a_control_graph_and_an_update_rate_that_there_
     return bytes;
   };
   check_refused(stage, changed([](world::InstanceState& s) { s.tier = static_cast<Tier>(kTierCount); }));
+  check_refused(stage, changed([](world::InstanceState& s) { s.left_tier = static_cast<Tier>(kTierCount); }));
   check_refused(stage, changed([](world::InstanceState& s) { s.level = 1; }));
   check_refused(stage, changed([](world::InstanceState& s) { s.every = 3; }));
   const std::vector<std::byte> right = changed([](world::InstanceState& s) { s.every = 2; });

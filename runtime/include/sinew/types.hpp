@@ -68,6 +68,7 @@ enum class BudgetMode : uint32_t {
   // ticks that it missed.
   kTime = 0,
   // The budget is baked microseconds: the same inputs give the same tiers and bits whatever the clock says.
+  // Ticks that are made up for, two at most, are not counted.
   kWorkUnits = 1,
 };
 
