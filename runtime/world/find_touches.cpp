@@ -4,7 +4,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <span>
+#include <utility>
 
 #include "core/check_hit.hpp"
 #include "world/own_body_touches.hpp"
@@ -20,10 +22,16 @@ using ConstVector = Eigen::Map<const Vector3f>;
 
 // Vertices are asked for where they are this near, of their patch's radius: displaced flesh is stretched.
 constexpr float kStretched = 1.5f;
+constexpr float kHardlyMoved = 1e-4f;
 
 // From a tick's root, world axes: where something was a tick ago, and where it would be now.
 struct Way {
   Vector3f start, end;
+};
+
+// A vertex of the character's patches, and whose it is.
+struct Found {
+  uint32_t region, node, vertex;
 };
 
 // Who is asked: the source, and capsules of its own body, a bit each.
@@ -84,13 +92,23 @@ Way node_way(const Instance& instance, uint32_t node) {
   return {node_place(instance, node, 1), node_place(instance, node, 0)};
 }
 
+// The surface's displacement a tick ago, and now.
+struct Displaced {
+  const float *before, *now;
+};
+
 // From where it was shown.
-Way vertex_way(const Instance& instance, uint32_t region, const SurfacePatches::Vertex& vertex) {
-  const SurfacePoint before = surface_point(instance, region, vertex, instance.shown[0], 1);
-  size_t pitch = 0;
-  const float* push = push_of(instance, region, vertex, &pitch);
-  return {before.place_m + before.world_from_bind * Vector3f(push[0], push[pitch], push[2 * pitch]),
-          surface_point(instance, region, vertex, instance.flesh, 0).place_m};
+Way vertex_way(const Instance& instance, const Found& found, const Displaced& displaced) {
+  const SurfacePatches::Vertex& vertex = instance.level->patches.vertices[found.vertex];
+  return {pushed_place(instance, found.region, vertex, displaced.before, 1),
+          surface_point(instance, found.region, vertex, displaced.now, 0).place_m};
+}
+
+// Pushed as it is, moved by its pose alone.
+Way pushed_way(const Instance& instance, const Found& found) {
+  const SurfacePatches::Vertex& vertex = instance.level->patches.vertices[found.vertex];
+  const PushedPlaces places = pushed_places(instance, found.region, vertex);
+  return {places.before, places.now};
 }
 
 float reach_m(const Instance& instance, uint32_t node) {
@@ -128,11 +146,6 @@ Asked near_region(Instance& instance, const pack::RegionRecord& region, Asked as
   return asked;
 }
 
-struct Found {
-  uint32_t region, node, vertex;
-  Vector3f place;
-};
-
 // Both ends of a probe are the same point: what is answered twice is one.
 bool is_known(const Instance& instance, uint32_t first, const Touch& touch) {
   constexpr float kSame = 0.999f;  // cosine
@@ -144,16 +157,21 @@ bool is_known(const Instance& instance, uint32_t first, const Touch& touch) {
   return false;
 }
 
-void keep(Instance& instance, uint32_t first, const Found& found, const ContactHit& hit) {
+Touch touch_of(const Instance& instance, const Found& found, const ContactHit& hit) {
   Touch touch{.region = found.region, .node = found.node, .vertex = found.vertex};
   const ConstVector normal(hit.normal), velocity(hit.velocity_m_s);
   MapVector(touch.normal) = normal;
-  MapVector(touch.place_m) = found.place;
   const ContactProbe& probe = instance.probes[hit.probe];
   double way_m = -instance.asset->tick_s * static_cast<double>(normal.dot(velocity));
-  for (int k = 0; k < 3; ++k)
+  for (int k = 0; k < 3; ++k) {
     way_m += static_cast<double>(hit.normal[k]) * (probe.end_m[0][k] - probe.start_m[0][k]);
+    touch.place_m[k] = static_cast<float>(probe.end_m[0][k] - instance.state->tick_root_m[0][k]);
+  }
   touch.gap_m = static_cast<float>(hit.gap_m + way_m);
+  return touch;
+}
+
+void keep(Instance& instance, uint32_t first, const Touch& touch) {
   if (is_known(instance, first, touch)) return;
   if (instance.touch_count == 2 * instance.level->patches.vertex_count)
     ++instance.told.dropped;
@@ -161,13 +179,35 @@ void keep(Instance& instance, uint32_t first, const Found& found, const ContactH
     instance.touches[instance.touch_count++] = touch;
 }
 
-void ask_vertices(Instance& instance, Question& question, const Found* found) {
-  bool all = false;
-  const uint32_t first = instance.touch_count;
-  for (const ContactHit& hit : question.ask(&all)) keep(instance, first, found[hit.probe], hit);
-  instance.told.dropped += all;
-  question.count = 0;
+float moves_m(const Instance& instance, const ContactHit& hit) {
+  return static_cast<float>(instance.asset->tick_s) * ConstVector(hit.velocity_m_s).norm();
 }
+
+// Vertices that are asked for together.
+struct Vertices {
+  Question question;
+  float most_m;  // kept are touches that leave no larger gap
+  Found found[kProbesAtOnce];
+
+  void add(const Found& vertex, const Way& way) {
+    found[question.count] = vertex;
+    question.add(way, 0);
+    if (question.full()) ask();
+  }
+  void ask() {
+    if (question.count == 0) return;
+    Instance& instance = question.instance;
+    const uint32_t first = instance.touch_count;
+    bool all = false;
+    for (const ContactHit& hit : question.ask(&all)) {
+      const Touch touch = touch_of(instance, found[hit.probe], hit);
+      if (touch.gap_m < most_m) keep(instance, first, touch);
+      instance.touched_moves_m = std::max(instance.touched_moves_m, moves_m(instance, hit));
+    }
+    instance.told.dropped += all;
+    question.count = 0;
+  }
+};
 
 // Nodes whose patch touches something are marked in `deepest`.
 void find_patches(Instance& instance, const pack::RegionRecord& region, Asked asked) {
@@ -186,28 +226,91 @@ void find_patches(Instance& instance, const pack::RegionRecord& region, Asked as
   }
 }
 
-}  // namespace
+Asked asked_near(Instance& instance, uint32_t r) {
+  const Asked asked = asked_by(instance, r);
+  return asked.nobody() ? asked : near_region(instance, instance.level->pack.regions[r], asked);
+}
 
-void find_touches(Instance& instance, uint32_t r) noexcept {
+// Vertices of patches that touch something, but for those of whom `leave` says so.
+template <class Leave>
+void find_vertices(Instance& instance, uint32_t r, const Displaced& displaced, float most_m, Leave leave) {
+  const Asked asked = asked_near(instance, r);
+  if (asked.nobody()) return;
   const pack::RegionRecord& region = instance.level->pack.regions[r];
   const SurfacePatches& patches = instance.level->patches;
-  Asked asked = asked_by(instance, r);
-  if (asked.nobody()) return;
-  asked = near_region(instance, region, asked);
-  if (asked.nobody()) return;
   find_patches(instance, region, asked);
-  Found found[kProbesAtOnce];
-  Question question{instance, asked};
+  Vertices vertices{{instance, asked}, most_m, {}};
   for (uint32_t n = region.first_node; n < region.first_node + region.node_count; ++n) {
     if (!instance.deepest[n]) continue;
     for (uint32_t v = patches.first[n]; v < patches.first[n + 1]; ++v) {
-      const Way way = vertex_way(instance, r, patches.vertices[v]);
-      found[question.count] = {r, n, v, way.end};
-      question.add(way, 0);
-      if (question.full()) ask_vertices(instance, question, found);
+      const Found found{r, n, v};
+      if (!leave(v)) vertices.add(found, vertex_way(instance, found, displaced));
     }
   }
-  if (question.count > 0) ask_vertices(instance, question, found);
+  vertices.ask();
+}
+
+// What is there after the press is inside, or needs no more.
+float inside_m(const pack::RegionRecord& region) {
+  constexpr float kRounding = 1e-6f;  // of the region's radius
+  return -kRounding * region.radius_m;
+}
+
+void mark_touched(Instance& instance) {
+  std::fill_n(instance.touched, instance.level->patches.vertex_count, uint8_t{0});
+  for (uint32_t t = 0; t < instance.touch_count; ++t) instance.touched[instance.touches[t].vertex] = 1;
+}
+
+bool nodes_stand_still(const Instance& instance, const pack::RegionRecord& region) {
+  const auto& root = instance.state->tick_root_m;
+  const Vector3f on =
+      (Eigen::Map<const Eigen::Vector3d>(root[0]) - Eigen::Map<const Eigen::Vector3d>(root[1])).cast<float>();
+  for (uint32_t n = region.first_node; n < region.first_node + region.node_count; ++n) {
+    const Way way = node_way(instance, n);
+    if (!((way.end - way.start + on).norm() <= kHardlyMoved * region.radius_m)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void find_touches(Instance& instance, uint32_t r) noexcept {
+  find_vertices(instance, r, {instance.shown[0], instance.flesh}, INFINITY, [](uint32_t) { return false; });
+}
+
+void find_late_touches(Instance& instance) noexcept {
+  mark_touched(instance);
+  for (uint32_t r = 0; r < instance.level->pack.regions.size(); ++r)
+    find_vertices(instance, r, {instance.shown[1], instance.shown[0]},
+                  inside_m(instance.level->pack.regions[r]),
+                  [&](uint32_t v) { return instance.touched[v] != 0; });
+}
+
+void find_pushed_touches(Instance& instance) noexcept {
+  mark_touched(instance);
+  const uint32_t count = instance.touch_count;
+  for (uint32_t first = 0, t = 0; t < count; first = t) {
+    const uint32_t r = instance.touches[first].region;
+    Vertices vertices{{instance, asked_by(instance, r)}, inside_m(instance.level->pack.regions[r]), {}};
+    for (; t < count && instance.touches[t].region == r; ++t) {
+      const Touch& touch = instance.touches[t];
+      if (std::exchange(instance.touched[touch.vertex], uint8_t{0}) == 0) continue;
+      const Found found{r, touch.node, touch.vertex};
+      vertices.add(found, pushed_way(instance, found));
+    }
+    vertices.ask();
+  }
+}
+
+bool touches_stand_still(const Instance& instance) noexcept {
+  if (instance.touch_count == 0) return true;
+  if (instance.simulated_share() < 1) return false;
+  for (uint32_t r = 0; r < instance.level->pack.regions.size(); ++r) {
+    const pack::RegionRecord& region = instance.level->pack.regions[r];
+    const bool still = instance.touched_moves_m <= kHardlyMoved * region.radius_m;
+    if (!still || !nodes_stand_still(instance, region)) return false;
+  }
+  return true;
 }
 
 }  // namespace sinew::world

@@ -12,4 +12,14 @@ namespace sinew::world {
 // tick's. instance.flesh: displacement along the axes of the flesh.
 void find_touches(Instance& instance, uint32_t region) noexcept;
 
+// After show_tick, of all regions, added likewise: what the press brought against something. Asked are
+// vertices that touched nothing, on their way to where they are shown.
+void find_late_touches(Instance& instance) noexcept;
+// Of vertices that touch something: what their pushes brought them against, as if they had been pushed so a
+// tick ago.
+void find_pushed_touches(Instance& instance) noexcept;
+// There are none of either kind: in the tick neither nodes nor what they touch moved by more than
+// kHardlyMoved of the region's radius, and what is not inside of anything hardly gets there.
+bool touches_stand_still(const Instance& instance) noexcept;
+
 }  // namespace sinew::world

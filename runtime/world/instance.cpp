@@ -86,6 +86,7 @@ void lay_out_contacts(const Asset& asset, core::Arena& arena, Instance& to) noex
   for (const GraphLevel& level : asset.levels) vertices = std::max(vertices, level.patches.vertex_count);
   to.touches = arena.take<Touch>(size_t{2} * vertices);
   to.flesh = arena.take<float>(size_t{3} * asset.node_count());
+  to.touched = arena.take<uint8_t>(vertices);
   to.deepest = arena.take<uint32_t>(asset.node_count());
   to.carries_pushes = arena.take<uint8_t>(asset.pack.regions.size());
   if (touches_own_body(asset, to.contacts))

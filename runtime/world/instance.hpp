@@ -219,7 +219,9 @@ struct Instance {
   Touch* touches = nullptr;        // [2 carried vertices]
   uint32_t touch_count = 0;
   float* flesh = nullptr;             // [nodes][3]: displacement along the axes of the flesh
+  float touched_moves_m = 0;          // in the tick, at most
   uint32_t* deepest = nullptr;        // [nodes]: of touches
+  uint8_t* touched = nullptr;         // [carried vertices]
   uint8_t* carries_pushes = nullptr;  // [regions]: `carried` has pushes in it
   Touches told;
   // proxy_ends a tick ago, whoever sleeps; null: soft parts do not touch them.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "world/find_touches.hpp"
 #include "world/surface_point.hpp"
 
 namespace sinew::world {
@@ -52,12 +53,13 @@ void push_vertex(Instance& instance, const Touch& touch) {
 // Where it is shown in the end.
 void look_at_vertex(Instance& instance, const Touch& touch) {
   const SurfacePatches::Vertex& vertex = instance.level->patches.vertices[touch.vertex];
-  const SurfacePoint now = surface_point(instance, touch.region, vertex, instance.shown[0], 0);
-  size_t pitch = 0;
-  const float* push = push_of(instance, touch.region, vertex, &pitch);
-  const Vector3f place = now.place_m + now.world_from_bind * Vector3f(push[0], push[pitch], push[2 * pitch]);
+  const Vector3f place = pushed_place(instance, touch.region, vertex, instance.shown[0], 0);
   const float moved = ConstVector(touch.normal).dot(place - ConstVector(touch.place_m));
   instance.told.deepest_m = std::max(instance.told.deepest_m, -touch.gap_m - moved);
+}
+
+void push_vertices(Instance& instance, uint32_t first) {
+  for (uint32_t t = first; t < instance.touch_count; ++t) push_vertex(instance, instance.touches[t]);
 }
 
 }  // namespace
@@ -75,8 +77,13 @@ void forget_pushes(Instance& instance) noexcept {
 
 void push_surface(Instance& instance) noexcept {
   if (!instance.pushes) return;
+  const bool more = !touches_stand_still(instance);
+  if (more) find_late_touches(instance);
   forget_pushes(instance);
-  for (uint32_t t = 0; t < instance.touch_count; ++t) push_vertex(instance, instance.touches[t]);
+  push_vertices(instance, 0);
+  const uint32_t first = instance.touch_count;
+  if (more) find_pushed_touches(instance);
+  push_vertices(instance, first);
   for (uint32_t t = 0; t < instance.touch_count; ++t) look_at_vertex(instance, instance.touches[t]);
   instance.touch_count = 0;
 }

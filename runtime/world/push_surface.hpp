@@ -1,6 +1,7 @@
 // push_surface.hpp  Vertices that are still inside of what they touched, pushed out where they are shown.
 //
-// They lie between nodes, or in parts that their modes do not move. The push is of the picture, not of the
+// They lie between nodes, in parts that their modes do not move, or where the press of others, or their own
+// push, brought them. The push is of the picture, not of the
 // tissue; it is kept for the frames that have no tick. No vertex goes further than its region's displacement
 // limit.
 #pragma once

@@ -44,10 +44,21 @@ Vector3f seam(const Instance& instance, uint32_t region, uint32_t column) noexce
   return share * Vector3f(at[0], at[pitch], at[2 * pitch]);
 }
 
-}  // namespace
+SurfacePoint placed(const Instance& instance, const SurfacePatches::Vertex& vertex,
+                    const Vector3f& bind_place, uint32_t age) noexcept {
+  const Matrix34f skin = blended(instance.level->pack.skin[vertex.index], instance.tick_skin[age]);
+  const Matrix3f root = Eigen::Map<const Eigen::Quaternionf>(instance.tick_turn[age]).toRotationMatrix();
+  return {root * (skin.leftCols<3>() * bind_place + skin.col(3)), root * skin.leftCols<3>()};
+}
 
-SurfacePoint surface_point(const Instance& instance, uint32_t region, const SurfacePatches::Vertex& vertex,
-                           const float* displacement, uint32_t age) noexcept {
+Vector3f push_at(const Instance& instance, uint32_t region, const SurfacePatches::Vertex& vertex) noexcept {
+  size_t pitch = 0;
+  const float* push = push_of(instance, region, vertex, &pitch);
+  return Vector3f(push[0], push[pitch], push[2 * pitch]);
+}
+
+Vector3f bind_place(const Instance& instance, uint32_t region, const SurfacePatches::Vertex& vertex,
+                    const float* displacement) noexcept {
   const pack::PackView& pack = instance.level->pack;
   const SurfacePatches& patches = instance.level->patches;
   Vector3f place = Eigen::Map<const Vector3f>(pack.positions.data() + size_t{3} * vertex.index) +
@@ -56,9 +67,27 @@ SurfacePoint surface_point(const Instance& instance, uint32_t region, const Surf
   for (uint32_t o = vertex.also; o < patches.other_count && patches.others[o].index == vertex.index; ++o)
     place += carried(pack, patches.others[o].region, patches.others[o].carried, displacement) +
              seam(instance, patches.others[o].region, patches.others[o].carried);
-  const Matrix34f skin = blended(pack.skin[vertex.index], instance.tick_skin[age]);
-  const Matrix3f root = Eigen::Map<const Eigen::Quaternionf>(instance.tick_turn[age]).toRotationMatrix();
-  return {root * (skin.leftCols<3>() * place + skin.col(3)), root * skin.leftCols<3>()};
+  return place;
+}
+
+}  // namespace
+
+SurfacePoint surface_point(const Instance& instance, uint32_t region, const SurfacePatches::Vertex& vertex,
+                           const float* displacement, uint32_t age) noexcept {
+  return placed(instance, vertex, bind_place(instance, region, vertex, displacement), age);
+}
+
+Vector3f pushed_place(const Instance& instance, uint32_t region, const SurfacePatches::Vertex& vertex,
+                      const float* displacement, uint32_t age) noexcept {
+  const Vector3f place = bind_place(instance, region, vertex, displacement);
+  return placed(instance, vertex, place + push_at(instance, region, vertex), age).place_m;
+}
+
+PushedPlaces pushed_places(const Instance& instance, uint32_t region,
+                           const SurfacePatches::Vertex& vertex) noexcept {
+  const Vector3f place =
+      bind_place(instance, region, vertex, instance.shown[0]) + push_at(instance, region, vertex);
+  return {placed(instance, vertex, place, 1).place_m, placed(instance, vertex, place, 0).place_m};
 }
 
 float* push_of(const Instance& instance, uint32_t region, const SurfacePatches::Vertex& vertex,

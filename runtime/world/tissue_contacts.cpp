@@ -11,6 +11,7 @@ void touch_tissue(Instance& instance) noexcept {
   const bool asks_source = instance.contacts.source && instance.contacts.tissue;
   if (!asks_source && !instance.proxy_before) return;
   tissue::along_flesh(instance.poses[0], instance.u[0], instance.level->node_count(), instance.flesh);
+  instance.touched_moves_m = 0;
   for (uint32_t r = 0; r < instance.level->pack.regions.size(); ++r) {
     const uint32_t first = instance.touch_count;
     find_touches(instance, r);
