@@ -71,13 +71,14 @@ struct Question {
     const std::span<ContactHit> room = {instance.hits, kHitsAtOnce};
     const uint32_t found = asked.source ? instance.contacts.source->find(probes, tick_s, room) : 0;
     const uint32_t of_source = std::min(found, kHitsAtOnce);
-    const uint32_t own = find_own_body(instance, asked.capsules, probes, room.subspan(of_source));
-    const uint32_t given = std::min(of_source + own, kHitsAtOnce);
+    const std::span<ContactHit> own_room = {instance.hits + of_source, kHitsAtOnce};
+    const uint32_t own = asked.capsules ? find_own_body(instance, asked.capsules, probes, own_room) : 0;
+    const uint32_t given = of_source + std::min(own, kHitsAtOnce);
     const auto end = std::remove_if(instance.hits, instance.hits + given,
                                     [&](const ContactHit& hit) { return !core::is_usable(hit, count); });
     const auto usable = static_cast<size_t>(end - instance.hits);
     instance.told.refused += given - static_cast<uint32_t>(usable);
-    *all = found > kHitsAtOnce || of_source + own > kHitsAtOnce;
+    *all = found > kHitsAtOnce || own > kHitsAtOnce;
     return {instance.hits, usable};
   }
 };

@@ -81,7 +81,7 @@ void lay_out_state(const Asset& asset, core::Arena& arena, Instance& to) noexcep
 
 void lay_out_contacts(const Asset& asset, core::Arena& arena, Instance& to) noexcept {
   to.probes = arena.take<ContactProbe>(kProbesAtOnce);
-  to.hits = arena.take<ContactHit>(kHitsAtOnce);
+  to.hits = arena.take<ContactHit>(kHitsAtOnce * (touches_own_body(asset, to.contacts) ? 2 : 1));
   uint32_t vertices = 0;
   for (const GraphLevel& level : asset.levels) vertices = std::max(vertices, level.patches.vertex_count);
   to.touches = arena.take<Touch>(size_t{2} * vertices);

@@ -34,7 +34,7 @@ inline constexpr uint32_t kCaughtUpTicks = 2;
 inline constexpr float kCarryDamping = 0.6f;
 // In a row; beyond it the network's state is taken for worthless.
 inline constexpr uint32_t kMostClampedTicks = 60;
-// Of a contact source, in one question.
+// In one question; as many hits of a contact source as of the own body.
 inline constexpr uint32_t kProbesAtOnce = 128, kHitsAtOnce = 2 * kProbesAtOnce;
 inline constexpr uint32_t kFallbackTicks = 60;  // on the modal base, after a network's state was given up
 
@@ -215,7 +215,7 @@ struct Instance {
   float* level_scratch = nullptr;    // world/change_level.cpp; null: one level
 
   ContactProbe* probes = nullptr;  // [kProbesAtOnce]
-  ContactHit* hits = nullptr;      // [kHitsAtOnce]
+  ContactHit* hits = nullptr;      // [kHitsAtOnce], and as many of the own body where it is touched
   Touch* touches = nullptr;        // [2 carried vertices]
   uint32_t touch_count = 0;
   float* flesh = nullptr;             // [nodes][3]: displacement along the axes of the flesh

@@ -228,6 +228,18 @@ TEST_CASE("flesh_is_held_by_a_wall_and_by_an_arm_at_once") {
     if (places[v + 1] > 0.45f) CHECK(places[v] > -0.13f - static_cast<float>(kRounding_m));
 }
 
+TEST_CASE("an_arm_s_contacts_have_room_where_a_source_has_more_than_fit") {
+  scenes::HalfSpaces walls;
+  walls.near_m = 100;
+  walls.walls.assign(300, {{-5, 0, 0}, {1, 0, 0}});
+  ArmStage stage(true, {}, arm_pack(), {}, &walls);
+  stage.swing(0, kPressed_m, 12);
+  stage.hold(kPressed_m, 30);
+  CHECK(stage.report().contacts_dropped > 0);
+  CHECK(stage.report().vertices_touched > 5);
+  CHECK(stage.deepest_m(kPressed_m) < kRounding_m);
+}
+
 TEST_CASE("flesh_that_an_arm_hardly_misses_at_rest_sleeps") {
   const ArmMatter beside{.at_x_m = {0.15 + 1.07 * scenes::kArmRadius_m}};
   const scenes::PackBytes pack = scenes::soft_block({.arms = beside});
