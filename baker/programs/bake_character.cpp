@@ -31,6 +31,7 @@ Character import_character(const CharacterOptions& options, const Recipe& recipe
 
 void print_summary(const CharacterOptions& options, const Character& character, const LoadedPack& pack) {
   for (const std::string& note : character.notes) std::printf("note: %s\n", note.c_str());
+  for (const std::string& note : notes_on(pack.view())) std::printf("note: %s\n", note.c_str());
   nlohmann::ordered_json description = describe_pack(pack);
   for (const char* detail : {"network", "metadata"}) description.erase(detail);  // `info` shows them
   std::printf("%s: %s", options.output.c_str(), format_description(description).c_str());

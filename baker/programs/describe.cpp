@@ -2,12 +2,14 @@
 #include "baker/programs/describe.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
 #include "baker/pack/network_pack.hpp"
 #include "baker/pack/tier_pack.hpp"
 #include "sinew/types.hpp"
+#include "world/own_body_touches.hpp"
 
 namespace sinew::baker {
 namespace {
@@ -82,7 +84,8 @@ Json describe_regions(const pack::PackView& view) {
                        {"first_hz", modes.first_rad_per_s / (2 * std::numbers::pi_v<float>)},
                        {"radius_m", region.radius_m},
                        {"displacement_limit_m", region.displacement_limit_m},
-                       {"touches_body", region.touches_body != 0}});
+                       {"touches_body", region.touches_body != 0},
+                       {"capsules", std::popcount(world::touchable_by(view, region))}});
   }
   return regions;
 }
@@ -180,6 +183,23 @@ Json describe_pack(const LoadedPack& pack) {
   description["metadata"] = Json::parse(view.metadata.begin(), view.metadata.end(), nullptr, false);
   if (!description["metadata"].is_object()) description["metadata"] = Json::object();
   return description;
+}
+
+std::vector<std::string> notes_on(const pack::PackView& view) {
+  std::vector<std::string> notes;
+  const std::string all = view.proxies.empty()
+                              ? "there are no capsules about bones: the recipe's without_proxies leaves them "
+                                "out, or no bone moves "
+                                "20 vertices"
+                              : "touches none of the " + std::to_string(view.proxies.size()) +
+                                    " capsules: each overlaps it in the bind pose or is of a bone that moves "
+                                    "it; thinner ones (the "
+                                    "recipe's proxies) may be clear of it";
+  for (const pack::RegionRecord& region : view.regions)
+    if (region.touches_body && world::touchable_by(view, region) == 0)
+      notes.push_back("region '" + std::string(string_at(view, region.name)) + "' says touches_body and " +
+                      all);
+  return notes;
 }
 
 Json describe_safetensors(const Safetensors& file) {

@@ -2,6 +2,7 @@
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "baker/common/safetensors.hpp"
 #include "baker/programs/loaded_pack.hpp"
@@ -9,6 +10,8 @@
 namespace sinew::baker {
 
 nlohmann::ordered_json describe_pack(const LoadedPack& pack);
+// What whoever wrote its recipe would not expect, a line each.
+std::vector<std::string> notes_on(const pack::PackView& view);
 nlohmann::ordered_json describe_safetensors(const Safetensors& file);
 
 // The table of either description.

@@ -43,13 +43,6 @@ bool passes(const pack::PackView& pack, const pack::RegionRecord& region,
   return false;
 }
 
-uint64_t touchable_by(const pack::PackView& pack, const pack::RegionRecord& region) noexcept {
-  uint64_t capsules = 0;
-  for (size_t i = 0; region.touches_body && i < pack.proxies.size(); ++i)
-    if (!passes(pack, region, pack.proxies[i])) capsules |= uint64_t{1} << i;
-  return capsules;
-}
-
 // ---- what touches in a tick ----
 
 constexpr double kNearWay = 0.25;  // of how far probe and capsule go against each other
@@ -149,6 +142,13 @@ void for_each_capsule(const Instance& instance, uint64_t capsules, Work work) no
 }
 
 }  // namespace
+
+uint64_t touchable_by(const pack::PackView& pack, const pack::RegionRecord& region) noexcept {
+  uint64_t capsules = 0;
+  for (size_t i = 0; region.touches_body && i < pack.proxies.size(); ++i)
+    if (!passes(pack, region, pack.proxies[i])) capsules |= uint64_t{1} << i;
+  return capsules;
+}
 
 Status find_touchable(const pack::PackView& pack, std::unique_ptr<uint64_t[]>* out) noexcept {
   const size_t count = pack.regions.size();

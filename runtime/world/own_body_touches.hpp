@@ -12,7 +12,9 @@
 
 namespace sinew::world {
 
-// Of each region a bit for each capsule that it may touch; null: none for any. kOutOfCapacity: no memory.
+// A bit for each capsule that the region may touch.
+uint64_t touchable_by(const pack::PackView& pack, const pack::RegionRecord& region) noexcept;
+// That of each region; null: none for any. kOutOfCapacity: no memory.
 Status find_touchable(const pack::PackView& pack, std::unique_ptr<uint64_t[]>* out) noexcept;
 // 0 where the instance's soft parts do not touch its body.
 uint64_t touchable(const Instance& instance, uint32_t region) noexcept;

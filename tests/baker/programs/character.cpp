@@ -66,6 +66,35 @@ TEST_CASE("a_real_vrm_bakes_without_a_recipe_to_a_pack_that_opens") {
   for (const auto& region : description["regions"]) CHECK(region["first_hz"].get<double>() > 1);
 }
 
+TEST_CASE("a_region_that_is_clear_of_no_capsule_is_named_as_it_is_baked") {
+  const Creature creature;
+  auto recipe = nlohmann::json::parse(read_text(kAssets + "tissue.json"));
+  recipe["regions"][0]["touches_body"] = true;
+  recipe["voxels_high"] = 14;  // quickly
+  const auto bake_it = [&] {
+    const std::string path = creature.folder.file("recipe.json");
+    write_file(path, recipe.dump());
+    const ProgramResult result = bake({"character", creature.glb, "--recipe", path, "-o", creature.pack});
+    INFO(result.error);
+    REQUIRE(result.exit_code == 0);
+    return result.out;
+  };
+  const auto capsules = [&] {
+    int most = 0;
+    const auto description = nlohmann::json::parse(bake({"info", "--json", creature.pack}).out);
+    for (const auto& region : description["regions"]) most = std::max(most, region["capsules"].get<int>());
+    return most;
+  };
+  CHECK(bake_it().find("touches_body and") == std::string::npos);
+  CHECK(capsules() > 0);
+  recipe["proxies"] = {{{"joint", "*"}, {"radius_m", 3}}};
+  CHECK_THAT(bake_it(), Catch::Contains("note: region 'belly' says touches_body and touches none of the "));
+  CHECK(capsules() == 0);
+  recipe["without_proxies"] = {"*"};
+  CHECK_THAT(bake_it(),
+             Catch::Contains("note: region 'belly' says touches_body and there are no capsules about bones"));
+}
+
 TEST_CASE("without_weights_a_character_is_packed_with_its_modes") {
   const Creature creature;
   const ProgramResult result =
