@@ -11,9 +11,10 @@ namespace sinew::scenes {
 inline constexpr double kArmRadius_m = 0.05, kArmHeight_m = 0.5;
 
 // Each is a bone across x at a place of its own, its capsule along z from one side of the block to the other.
-// Joint 2 and on.
+// The last joints.
 struct ArmMatter {
   std::vector<double> at_x_m = {0.3};
+  double height_m = kArmHeight_m;
   double radius_m = kArmRadius_m;
   bool waist_too = false;    // a capsule a centimetre beside the block, of the waist, behind the arms
   bool touches_body = true;  // of all regions
@@ -28,5 +29,7 @@ struct ArmedPose {
   Pose pose() const { return {joints, root}; }
 };
 ArmedPose with_arms(const BlockPose& block, const ArmMatter& matter, double way_m, double turn_rad = 0);
+// All arms moved up, beside other joints.
+ArmedPose with_raised_arms(const Pose& pose, const ArmMatter& matter, double up_m);
 
 }  // namespace sinew::scenes

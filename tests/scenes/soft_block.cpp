@@ -241,8 +241,8 @@ PackBytes soft_block(const BlockOptions& options) {
   Character character = block_character(options);
   TissueLayout layout = block_tissue(character, options);
   const std::vector<baker::GraphLevel> coarser = coarser_levels(character, options, layout);
-  if (options.arms) add_arms(*options.arms, character, layout);
   if (options.rods) add_rods(*options.rods, character, layout);
+  if (options.arms) add_arms(*options.arms, character, layout);
   const baker::Safetensors weights = block_network(options);
   const std::vector<std::byte> bytes =
       baker::pack_character(character, layout, block_modes(layout), options.network ? &weights : nullptr,

@@ -34,7 +34,7 @@ struct BlockOptions {
   pack::Precision precision = pack::Precision::kFloat32;
   std::optional<RodMatter> rods = std::nullopt;  // a tail and horns (block_rods.hpp)
   std::vector<int> coarser_nodes = {};           // a region, of coarser control graphs
-  std::optional<ArmMatter> arms = std::nullopt;  // block_arms.hpp; without rods
+  std::optional<ArmMatter> arms = std::nullopt;  // block_arms.hpp
 };
 
 class PackBytes {  // 64-byte aligned, as load_asset wants them

@@ -267,6 +267,43 @@ TEST_CASE("flesh_that_sleeps_is_woken_by_an_arm_that_creeps_and_sleeps_when_it_i
   CHECK(stage.deepest_m(kPressed_m) < kRounding_m);
 }
 
+TEST_CASE("an_arm_that_creeps_presses_flesh_tick_by_tick_and_wakes_rods_by_its_whole_way") {
+  // Clear of the horns, it comes down on the block's top from 5 cm above it.
+  const ArmMatter above{.at_x_m = {0.01}, .height_m = 0.7};
+  const scenes::PackBytes packs[] = {scenes::soft_block({.rods = scenes::RodMatter{}, .arms = above}),
+                                     scenes::soft_block({.arms = above})};
+  ArmStage with(true, {}, packs[0], above), without(true, {}, packs[1], above);
+  double up_m = 0;
+  const auto step = [&](double by_m) {
+    up_m += by_m;
+    const scenes::BlockPose block = scenes::bind_pose();
+    const scenes::TailedPose tailed = scenes::with_rods(block);
+    const scenes::ArmedPose poses[] = {scenes::with_raised_arms(tailed.pose(), above, up_m),
+                                       scenes::with_raised_arms(block.pose(), above, up_m)};
+    REQUIRE(with.world.set_pose(with.blocks[0], poses[0].pose()).ok());
+    REQUIRE(without.world.set_pose(without.blocks[0], poses[1].pose()).ok());
+    for (ArmStage* stage : {&with, &without}) stage->world.step(static_cast<float>(kFrame_s));
+    std::vector<float> places = with.read();
+    places.resize(without.read().size());
+    REQUIRE(places == without.read());
+  };
+  const auto hold = [&] {
+    for (int f = 0; f < 600; ++f) step(0);
+    REQUIRE(with.report().rods_asleep > 0);
+  };
+  for (int f = 0; f < 12; ++f) step(-0.08 / 12);
+  hold();
+  REQUIRE(with.report().vertices_touched > 5);
+  // A quarter of what counts as still, and a bit less.
+  constexpr double kCreep_m = 0.24e-3 * scenes::kArmRadius_m;
+  for (int tick = 1; tick <= 4; ++tick) step(-kCreep_m);
+  CHECK(with.report().rods_asleep > 0);
+  CHECK(with.report().vertices_touched > 5);
+  step(-kCreep_m);
+  CHECK(with.report().rods_asleep == 0);
+  hold();
+}
+
 TEST_CASE("a_snapshot_against_an_arm_goes_on_with_the_same_bits") {
   ArmStage stage;
   stage.swing(0, kPressed_m, 20);
