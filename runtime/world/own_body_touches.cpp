@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <new>
 #include <utility>
 
@@ -97,6 +98,21 @@ double nearest_m(const Vector& start, const Vector& end) noexcept {
   return rods::length(rods::between(start, end, rods::nearest(Axis{start, end}, Vector{})));
 }
 
+// When what goes straight comes so near to the axis; 0 where it begins nearer, 1 where it never does.
+double first_touch(const Vector& start, const Vector& end, double reach_m) noexcept {
+  const Vector way = rods::difference(end, start);
+  const double a = rods::dot(way, way), b = rods::dot(start, way),
+               c = rods::dot(start, start) - reach_m * reach_m;
+  if (!(c > 0)) return 0;
+  const double under_root = b * b - a * c;
+  if (!(b < 0 && under_root > 0)) return 1;
+  return std::min(1.0, c / (std::sqrt(under_root) - b));
+}
+
+WayOut between(const WayOut& start, const WayOut& end, double time) noexcept {
+  return {start.share + time * (end.share - start.share), rods::between(start.apart, end.apart, time)};
+}
+
 // False: no contact. By compare, so that NaN is none.
 bool touch(const MovingCapsule& capsule, const ContactProbe& probe, WayOut* out) noexcept {
   const Way way = way_of(probe);
@@ -107,7 +123,7 @@ bool touch(const MovingCapsule& capsule, const ContactProbe& probe, WayOut* out)
   if (!(rods::length(end.apart) < near_m + closing)) return false;
   const WayOut start = way_out(capsule.start, way.start);
   if (!(nearest_m(start.apart, end.apart) < near_m)) return false;
-  *out = rods::dot(start.apart, end.apart) > 0 ? end : start;
+  *out = between(start, end, first_touch(start.apart, end.apart, reach_m));
   return true;
 }
 

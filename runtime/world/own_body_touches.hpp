@@ -20,7 +20,8 @@ Status find_touchable(const pack::PackView& pack, std::unique_ptr<uint64_t[]>* o
 uint64_t touchable(const Instance& instance, uint32_t region) noexcept;
 
 // Contacts of balls or points on their way through the tick, as of ContactSource::find; normals are those of
-// the tick's end, and of its start for what comes out on the other side. Tells how many there are.
+// the first touch: of what rests on a capsule, where it was shown, not where it would be if nothing pressed,
+// which may be beyond the axis. Tells how many there are.
 uint32_t find_own_body(const Instance& instance, uint64_t capsules, std::span<const ContactProbe> probes,
                        std::span<ContactHit> hits) noexcept;
 // Which of the capsules have contacts with a probe.

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kFrame_s = 1.0 / 60;
 constexpr double kRounding_m = 1e-6;  // as against walls
+constexpr double kAim_m = 1e-5;       // of trembling in a resting contact
 constexpr double kPressed_m = -0.13;  // the arm's way from 10 cm off the block to 3 cm in it
 
 const scenes::PackBytes& arm_pack(bool touches_body = true) {
@@ -33,7 +34,8 @@ struct ArmStage : Stage {
     add_with({.source = source, .own_body = own_body});
   }
   // On this tier.
-  explicit ArmStage(Tier tier) : ArmStage(true, {.budget_mode = BudgetMode::kWorkUnits}) {
+  explicit ArmStage(Tier tier, const scenes::PackBytes& pack = arm_pack(), const ArmMatter& arms = {})
+      : ArmStage(true, {.budget_mode = BudgetMode::kWorkUnits}, pack, arms) {
     REQUIRE(world.set_budget_us(tier == Tier::kNetwork ? INFINITY : 1.01f * test::tier_cost_us(tier)).ok());
   }
   void add_with(const ContactDef& contacts) {
@@ -51,6 +53,19 @@ struct ArmStage : Stage {
   }
   void swing(double from_m, double to_m, int frames) {
     for (int f = 1; f <= frames; ++f) step_to(from_m + (to_m - from_m) * f / frames);
+  }
+  // How far any vertex goes in a tick, two seconds after the arm came to stand there.
+  double trembles_m(double way_m) {
+    swing(0, way_m, 30);
+    hold(way_m, 120);
+    double most = 0;
+    for (int f = 0; f < 120; ++f) {
+      const std::vector<float> before = read();
+      hold(way_m, 1);
+      most = std::max(most, test::largest_distance(read(), before));
+    }
+    REQUIRE(report().vertices_touched > 3);
+    return most;
   }
   // Of all vertices in the first arm; the lower ones, which are not soft, are far from it.
   double deepest_m(double way_m) const {
@@ -157,6 +172,18 @@ TEST_CASE("flesh_that_an_arm_pushes_against_a_wall_is_outside_of_both_or_told") 
       for (size_t v = 0; v < places.size(); v += 3)
         if (places[v + 1] > 0.45f) left_m = std::max(left_m, wall_m - static_cast<double>(places[v]));
       CHECK(left_m < static_cast<double>(stage.report().deepest_penetration_m) + kRounding_m);
+    }
+  }
+}
+
+TEST_CASE("flesh_that_an_arm_presses_as_deep_as_it_is_thick_stands_still") {
+  for (const Tier tier : {Tier::kNetwork, Tier::kModal}) {
+    for (const double radius_m : {0.03, 0.05, 0.08}) {
+      const ArmMatter matter{.radius_m = radius_m};
+      for (const double depth_m : {0.02, 0.04, 0.06}) {
+        ArmStage stage(tier, scenes::soft_block({.arms = matter}), matter);
+        CHECK(stage.trembles_m(radius_m - 0.15 - depth_m) < kAim_m);
+      }
     }
   }
 }
