@@ -38,6 +38,21 @@ tissue::NodeContact contact_of(const Instance& instance, const pack::RegionRecor
   return contact;
 }
 
+// Of all that the node's patch touches on this side, by depth. On a curved body the deepest alone slides, as
+// the node follows it, until another is deepest and pushes it back, again and again.
+Vector3f mean_normal(std::span<const Touch> touches, const Touch& deepest) {
+  constexpr float kSameSide = 0.25f;  // cosine
+  const ConstVector normal(deepest.normal);
+  Vector3f sum = Vector3f::Zero();
+  for (const Touch& touch : touches) {
+    const bool with = touch.node == deepest.node && touch.gap_m < 0;
+    if (with && ConstVector(touch.normal).dot(normal) > kSameSide)
+      sum -= touch.gap_m * ConstVector(touch.normal);
+  }
+  const float size = sum.norm();
+  return size > 0 ? Vector3f(sum / size) : Vector3f(normal);
+}
+
 // The deepest touch of each node, of the region's most deeply touched nodes.
 size_t gather(Instance& instance, std::span<const Touch> touches, const Touch** out) {
   for (const Touch& touch : touches) instance.deepest[touch.node] = 0;
@@ -90,7 +105,11 @@ void press_region(Instance& instance, uint32_t r, std::span<const Touch> touches
   const Touch* chosen[tissue::kMostNodeContacts];
   tissue::NodeContact contacts[tissue::kMostNodeContacts];
   const size_t count = gather(instance, touches, chosen);
-  for (size_t c = 0; c < count; ++c) contacts[c] = contact_of(instance, region, *chosen[c]);
+  for (size_t c = 0; c < count; ++c) {
+    Touch mean = *chosen[c];
+    MapVector(mean.normal) = mean_normal(touches, *chosen[c]);
+    contacts[c] = contact_of(instance, region, mean);
+  }
   if (instance.state->tier == Tier::kSpring)
     press_springs(instance, region, {contacts, count});
   else

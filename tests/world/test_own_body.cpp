@@ -188,6 +188,17 @@ TEST_CASE("flesh_that_an_arm_presses_as_deep_as_it_is_thick_stands_still") {
   }
 }
 
+TEST_CASE("flesh_of_many_vertices_a_node_that_an_arm_presses_stands_still") {
+  for (const int nodes : {5, 14}) {
+    for (const double height_m : {0.49, 0.51}) {
+      const ArmMatter matter{.height_m = height_m, .radius_m = 0.04};
+      ArmStage stage(Tier::kNetwork, scenes::soft_block({.cells = 12, .nodes = nodes, .arms = matter}),
+                     matter);
+      CHECK(stage.trembles_m(-0.15) < kAim_m);
+    }
+  }
+}
+
 TEST_CASE("flesh_that_an_arm_goes_through_within_a_tick_is_held_on_the_side_it_came_to") {
   // The right face is at 0.15. A thin arm goes from 0.3 to 0.12, as a whole behind it. Later flesh swings
   // back and slides off: nothing but single vertices lie on the arm.
