@@ -52,7 +52,11 @@ echo
 echo "Hair over the shoulders of a turning character, against nothing, capsules of its bones, and its skin:"
 newer "$out/hair/hair_skin.png" "$bin/sinew-hair" || "$bin/sinew-hair" -o "$out/hair"
 echo
-echo "Soft flesh against a Bullet world:"
-"$bin/sinew-contacts" "$out/creature.sinew" -o "$out/contacts"
+# The same creature with a belly that its own hands press.
+touch=assets/creature/tissue_touch.json
+newer "$out/creature_touch.sinew" "$out/creature.glb" "$touch" "$weights" ||
+  "$bin/sinew-bake" character "$out/creature.glb" --recipe "$touch" --tissue "$weights" -o "$out/creature_touch.sinew"
+echo "Soft flesh against a Bullet world and against its own hands:"
+"$bin/sinew-contacts" "$out/creature_touch.sinew" -o "$out/contacts"
 echo
 echo "Pictures: $out/pictures/contact_sheet.png  $out/pictures_rods/contact_sheet.png  $out/pictures (frames, animation)  $out/budget.png  $out/rods/*.png  $out/hair/*.png  $out/contacts/*.png"

@@ -23,6 +23,25 @@ struct Body {
   }
 };
 
+void add_box(const Eigen::Vector3d& middle, const Eigen::Vector3d& half, const render::Rgb& color,
+             render::Mesh* mesh) {
+  for (int face = 0; face < 6; ++face) {
+    const int axis = face / 2;
+    const double side = face % 2 ? 1 : -1;
+    Eigen::Vector3d out = Eigen::Vector3d::Zero(), u = out, v = out;
+    out[axis] = side, u[(axis + 1) % 3] = side, v[(axis + 2) % 3] = 1;
+    const auto first = static_cast<uint32_t>(mesh->positions.size());
+    for (const auto& [a, c] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
+      const Eigen::Vector3d corner = middle + half.cwiseProduct(out + double(a) * u + double(c) * v);
+      mesh->positions.push_back(corner.cast<float>());
+      mesh->normals.push_back(out.cast<float>());
+      mesh->colors.push_back(color);
+    }
+    mesh->triangles.push_back({first, first + 1, first + 2});
+    mesh->triangles.push_back({first, first + 2, first + 3});
+  }
+}
+
 }  // namespace
 
 struct Boxes::Bodies {
@@ -78,22 +97,22 @@ double Boxes::depth_m(const Eigen::Vector3d& point) const {
 }
 
 void Boxes::add_to(render::Mesh* mesh) const {
+  for (size_t b = 0; b < boxes_.size(); ++b) add_box(middles_[b], boxes_[b].half_m, boxes_[b].color, mesh);
+}
+
+void Boxes::add_edges_to(render::Mesh* mesh) const {
+  constexpr double kHalfWidth_m = 0.004;
   for (size_t b = 0; b < boxes_.size(); ++b) {
-    for (int face = 0; face < 6; ++face) {
-      const int axis = face / 2;
-      const double side = face % 2 ? 1 : -1;
-      Eigen::Vector3d out = Eigen::Vector3d::Zero(), u = out, v = out;
-      out[axis] = side, u[(axis + 1) % 3] = side, v[(axis + 2) % 3] = 1;
-      const auto first = static_cast<uint32_t>(mesh->positions.size());
-      for (const auto& [a, c] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
-        const Eigen::Vector3d corner =
-            middles_[b] + boxes_[b].half_m.cwiseProduct(out + double(a) * u + double(c) * v);
-        mesh->positions.push_back(corner.cast<float>());
-        mesh->normals.push_back(out.cast<float>());
-        mesh->colors.push_back(boxes_[b].color);
+    const Eigen::Vector3d& half = boxes_[b].half_m;
+    for (int edge = 0; edge < 12; ++edge) {
+      const int along = edge / 4;
+      Eigen::Vector3d middle = Eigen::Vector3d::Zero(), size = Eigen::Vector3d::Constant(kHalfWidth_m);
+      size[along] = half[along];
+      for (int side = 0; side < 2; ++side) {
+        const int axis = (along + 1 + side) % 3;
+        middle[axis] = (edge >> side & 1 ? 1 : -1) * (half[axis] - kHalfWidth_m);
       }
-      mesh->triangles.push_back({first, first + 1, first + 2});
-      mesh->triangles.push_back({first, first + 2, first + 3});
+      add_box(middles_[b] + middle, size, boxes_[b].color, mesh);
     }
   }
 }

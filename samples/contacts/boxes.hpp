@@ -31,6 +31,8 @@ class Boxes {
   // How deep a point is inside of any of them, 0 outside; by the boxes themselves, not by Bullet.
   double depth_m(const Eigen::Vector3d& point) const;
   void add_to(render::Mesh* mesh) const;
+  // Their edges alone, so that one sees into them.
+  void add_edges_to(render::Mesh* mesh) const;
 
  private:
   struct Bodies;

@@ -1,5 +1,6 @@
-// main.cpp  sinew-contacts: soft flesh against a Bullet world, as pictures and a table.
+// main.cpp  sinew-contacts: soft flesh against a Bullet world and its own hands, as pictures and a table.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 
 #include "baker/common/write_file.hpp"
@@ -16,25 +17,35 @@ void print_row(const sample::ContactScene& scene, const sample::ContactMeasured&
               m.volume_most_l, m.vertices_most, m.dropped + m.refused, m.frame_alone_us, m.frame_us);
 }
 
+std::vector<sample::ContactScene> scenes_for(const demo::CharacterFile& character) {
+  std::vector<sample::ContactScene> scenes = {sample::onto_a_crate(), sample::between_walls()};
+  if (std::ranges::any_of(character.view.regions, &pack::RegionRecord::touches_body))
+    scenes.push_back(sample::arms_on_the_belly());
+  else
+    std::printf("No region says touches_body: without the scene of hands on the belly.\n");
+  return scenes;
+}
+
 int run(const std::string& input, const std::string& output, const sample::ContactPicture& size) {
   const demo::CharacterFile character = demo::open_character(input);
   baker::make_folder(output);
   std::printf("%-8s %8s %8s %10s %10s %9s %8s %8s %8s %9s %9s\n", "scene", "off_mm", "on_mm", "jitter_mm",
               "most_mm", "creep_mm_s", "volume_l", "vertices", "dropped", "off_us", "on_us");
-  for (const sample::ContactScene& scene : {sample::onto_a_crate(), sample::between_walls()}) {
+  for (const sample::ContactScene& scene : scenes_for(character)) {
     const sample::ContactPlay play = sample::play(character, scene);
     print_row(scene, play.measured);
     const std::string path = output + "/" + scene.name + ".png";
     render::write_png(path, sample::picture(character, scene, play, size));
   }
   std::printf(
-      "off_mm, on_mm: deepest soft vertex inside of a box, contacts off and on. At rest in contact: jitter, "
-      "rms\n"
+      "off_mm, on_mm: deepest soft vertex inside of a box or a hand, contacts off and on. At rest in "
+      "contact: "
+      "jitter, rms\n"
       "and most, about a straight line in time; creep, the fastest such line. volume: at most what contacts "
       "take.\n"
-      "off_us, on_us: median step, and while touching.\n"
-      "Pictures: %s/crate.png %s/walls.png\n",
-      output.c_str(), output.c_str());
+      "off_us, on_us: medians of the steps in which something is touched; without contacts mostly asleep.\n"
+      "Pictures: %s/*.png\n",
+      output.c_str());
   return 0;
 }
 
@@ -43,7 +54,9 @@ int run(const std::string& input, const std::string& output, const sample::Conta
 int main(int argc, char** argv) {
   std::string input, output = "out/contacts";
   sample::ContactPicture size;
-  CLI::App app("A soft creature leaps onto a crate and is caught between walls, contacts found by Bullet.");
+  CLI::App app(
+      "A soft creature leaps onto a crate and is caught between walls, contacts found by Bullet, and hugs "
+      "its belly.");
   app.add_option("input", input, "character, .sinew, without rods")->required();
   app.add_option("-o,--output", output, "folder of the pictures")->capture_default_str();
   app.add_option("--width", size.width, "of each picture, pixels")->check(CLI::Range(16, 4096));

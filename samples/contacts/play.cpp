@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "baker/common/bad_input.hpp"
+#include "samples/contacts/limbs.hpp"
 #include "sinew/sinew.hpp"
 
 namespace sinew::sample {
@@ -18,13 +19,13 @@ void require(const Status& status) {
   if (!status.ok()) throw baker::BadInput(status.message);
 }
 
-// One creature in its bind pose, moved by its root.
+// One creature, in the scene's pose, moved by its root.
 class Creature {
  public:
-  Creature(const demo::CharacterFile& character, ContactSource* source) {
+  Creature(const demo::CharacterFile& character, const ContactDef& contacts) {
     require(World::create({.max_assets = 1, .max_instances = 1}, &world_));
     require(world_.load_asset_file(character.path.c_str(), &asset_));
-    require(world_.create_instance({.asset = asset_, .contacts = {.source = source}}, &instance_));
+    require(world_.create_instance({.asset = asset_, .contacts = contacts}, &instance_));
     AssetInfo info;
     require(world_.asset_info(asset_, &info));
     joints_.resize(info.joint_count);
@@ -32,6 +33,12 @@ class Creature {
     require(world_.bind_pose(asset_, joints_));
   }
 
+  std::span<const Matrix34> pose(const demo::CharacterFile& character, const ContactScene& scene,
+                                 double t_s) {
+    require(world_.bind_pose(asset_, joints_));
+    if (scene.pose) scene.pose(character, t_s, joints_);
+    return joints_;
+  }
   FrameReport step(const RootTransform& root) {
     require(world_.set_pose(instance_, {.joints = joints_, .root = root}));
     const FrameReport report = world_.step(static_cast<float>(kFrame_s));
@@ -73,11 +80,25 @@ std::vector<uint32_t> carried_vertices(const pack::PackView& pack) {
   return out;
 }
 
-double deepest_mm(const Boxes& boxes, const Positions& places, const std::vector<uint32_t>& vertices) {
-  double deepest = 0;
-  for (const uint32_t v : vertices) deepest = std::max(deepest, boxes.depth_m(places[v].cast<double>()));
-  return 1000 * deepest;
-}
+// What there is to be inside of.
+struct Solids {
+  Boxes boxes;
+  Limbs limbs;
+
+  double depth_m(const Eigen::Vector3f& place) const {
+    return std::max(boxes.depth_m(place.cast<double>()), limbs.depth_m(place.cast<double>()));
+  }
+  double deepest_mm(const Positions& places, const std::vector<uint32_t>& vertices) const {
+    double deepest = 0;
+    for (const uint32_t v : vertices) deepest = std::max(deepest, depth_m(places[v]));
+    return 1000 * deepest;
+  }
+  ContactMoment::Surface surface(const Positions& places, const std::vector<uint32_t>& vertices) const {
+    ContactMoment::Surface out{places, std::vector<float>(places.size())};
+    for (const uint32_t v : vertices) out.depths_m[v] = static_cast<float>(depth_m(places[v]));
+    return out;
+  }
+};
 
 // How vertices stray from a straight line in time, and how fast that line is.
 void measure_jitter(const std::vector<Positions>& frames, const std::vector<uint32_t>& vertices,
@@ -115,8 +136,11 @@ double median(std::vector<double> values) {
 }  // namespace
 
 ContactPlay play(const demo::CharacterFile& character, const ContactScene& scene) {
-  Boxes boxes(scene.boxes);
-  Creature alone(character, nullptr), touching(character, boxes.source());
+  Solids solids{Boxes(scene.boxes), Limbs(character, scene.limbs)};
+  Boxes& boxes = solids.boxes;
+  Creature alone(character, {}),
+      touching(character,
+               {.source = scene.boxes.empty() ? nullptr : boxes.source(), .own_body = !scene.limbs.empty()});
   const std::vector<uint32_t> soft = carried_vertices(character.view);
   ContactPlay out;
   ContactMeasured& to = out.measured;
@@ -126,21 +150,24 @@ ContactPlay play(const demo::CharacterFile& character, const ContactScene& scene
   for (int frame = 0; frame * kFrame_s < scene.seconds; ++frame) {
     const double t_s = frame * kFrame_s;
     boxes.move_to(t_s, kFrame_s);
-    alone_us.push_back(static_cast<double>(alone.step(scene.root(t_s)).total_us));
+    alone.pose(character, scene, t_s);
+    solids.limbs.move_to(touching.pose(character, scene, t_s));
+    const double us_alone = static_cast<double>(alone.step(scene.root(t_s)).total_us);
     const double us = static_cast<double>(touching.step(scene.root(t_s)).total_us);
     const InstanceReport report = touching.report();
-    if (report.vertices_touched > 0) touching_us.push_back(us);
-    to.deepest_alone_mm = std::max(to.deepest_alone_mm, deepest_mm(boxes, alone.places(), soft));
-    to.deepest_mm = std::max(to.deepest_mm, deepest_mm(boxes, touching.places(), soft));
+    if (report.vertices_touched > 0) alone_us.push_back(us_alone), touching_us.push_back(us);
+    to.deepest_alone_mm = std::max(to.deepest_alone_mm, solids.deepest_mm(alone.places(), soft));
+    to.deepest_mm = std::max(to.deepest_mm, solids.deepest_mm(touching.places(), soft));
     to.volume_most_l = std::max(to.volume_most_l, 1000 * static_cast<double>(report.contact_volume_m3));
     to.vertices_most = std::max(to.vertices_most, report.vertices_touched);
     to.dropped += report.contacts_dropped;
     to.refused += report.contacts_refused;
     if (t_s >= scene.rest_from_s && t_s < scene.rest_from_s + 0.9) resting.push_back(touching.places());
-    if (next < scene.moments_s.size() && t_s + kFrame_s / 2 >= scene.moments_s[next]) {
-      out.moments.push_back({t_s, alone.places(), touching.places(), {}});
-      boxes.add_to(&out.moments.back().boxes);
-      ++next;
+    for (; next < scene.moments_s.size() && t_s + kFrame_s / 2 >= scene.moments_s[next]; ++next) {
+      out.moments.push_back(
+          {t_s, solids.surface(alone.places(), soft), solids.surface(touching.places(), soft), {}});
+      render::Mesh* drawn = &out.moments.back().boxes;
+      scene.sees_into ? boxes.add_edges_to(drawn) : boxes.add_to(drawn);
     }
   }
   measure_jitter(resting, soft, &to);

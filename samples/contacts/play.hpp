@@ -6,8 +6,12 @@
 namespace sinew::sample {
 
 struct ContactMoment {
+  struct Surface {
+    std::vector<Eigen::Vector3f> places;  // world
+    std::vector<float> depths_m;          // that each vertex is inside of something: soft ones alone
+  };
   double time_s = 0;
-  std::vector<Eigen::Vector3f> alone, touching;  // world; of the same instant
+  Surface alone, touching;  // of the same instant
   render::Mesh boxes;
 };
 
@@ -17,7 +21,7 @@ struct ContactMeasured {
   // While all stands: about a straight line in time, and the fastest such line.
   double jitter_rms_mm = 0, jitter_most_mm = 0, creep_mm_s = 0;
   double volume_most_l = 0;
-  double frame_alone_us = 0, frame_us = 0;  // medians of a step; the second while something is touched
+  double frame_alone_us = 0, frame_us = 0;  // medians of the steps in which something is touched
   uint32_t vertices_most = 0, dropped = 0, refused = 0;
 };
 

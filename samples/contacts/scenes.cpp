@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+
+#include "baker/common/bad_input.hpp"
 
 namespace sinew::sample {
 namespace {
@@ -19,6 +22,45 @@ double rise(double t, double a, double b) {
 
 std::function<Vector3d(double)> still(const Vector3d& at) {
   return [at](double) { return at; };
+}
+
+// The shorter way from one direction to another, a share of it.
+Eigen::AngleAxisd part_of_turn(const Vector3d& from, const Vector3d& to, double share) {
+  Eigen::AngleAxisd turn(Eigen::Quaterniond::FromTwoVectors(from, to));
+  turn.angle() *= share;
+  return turn;
+}
+
+size_t joint_called(const demo::CharacterFile& character, const std::string& name) {
+  const auto& joints = character.view.joints;
+  for (size_t j = 0; j < joints.size(); ++j)
+    if (pack::string_at(character.view, joints[j].name) == name) return j;
+  throw baker::BadInput(character.path + ": has no joint called " + name);
+}
+
+Vector3d place_of(const Matrix34& joint) { return {joint.m[0][3], joint.m[1][3], joint.m[2][3]}; }
+
+void turn_about(const Vector3d& place, const Eigen::AngleAxisd& turn, Matrix34& joint) {
+  using Rows = Eigen::Matrix<float, 3, 4, Eigen::RowMajor>;
+  Eigen::Affine3d moved = Eigen::Affine3d::Identity();
+  moved.matrix().topRows<3>() = Eigen::Map<const Rows>(&joint.m[0][0]).cast<double>();
+  moved = Eigen::Translation3d(place) * turn * Eigen::Translation3d(-place) * moved;
+  Eigen::Map<Rows>(&joint.m[0][0]) = moved.matrix().topRows<3>().cast<float>();
+}
+
+// side: 1 left, -1 right.
+void bring_arm(const demo::CharacterFile& character, double side, double share, std::span<Matrix34> joints) {
+  const Vector3d upper_way(0.42 * side, -0.415, 0.805), lower_way(-0.41 * side, -0.468, 0.78);
+  const std::string end = side > 0 ? "_l" : "_r";
+  Matrix34 *upper = &joints[joint_called(character, "arm_upper" + end)],
+           *lower = &joints[joint_called(character, "arm_lower" + end)],
+           *hand = &joints[joint_called(character, "hand" + end)];
+  const auto lift = part_of_turn(place_of(*lower) - place_of(*upper), upper_way, share);
+  const Vector3d shoulder = place_of(*upper);
+  for (Matrix34* joint : {upper, lower, hand}) turn_about(shoulder, lift, *joint);
+  const auto fold = part_of_turn(place_of(*hand) - place_of(*lower), lower_way, share);
+  const Vector3d elbow = place_of(*lower);
+  for (Matrix34* joint : {lower, hand}) turn_about(elbow, fold, *joint);
 }
 
 const render::Rgb kWood = {0.55f, 0.38f, 0.22f}, kWall = {0.45f, 0.5f, 0.58f};
@@ -48,9 +90,11 @@ ContactScene onto_a_crate() {
           .boxes = {{half, still(crate), kWood}},
           .root = root,
           .seconds = 5,
-          .moments_s = {0.4, 0.85, 1.1, 1.2, 4.9},
+          .moments_s = {0.85, 1.0, 1.1, 1.2, 4.9},
           .rest_from_s = 4,
-          .view = {.yaw_deg = 62, .pitch_deg = 12}};
+          .view = {.yaw_deg = 70, .pitch_deg = 4},
+          .shown = Eigen::AlignedBox3f(Eigen::Vector3f(-0.3f, 0.02f, 0.2f), Eigen::Vector3f(0.3f, 0.75f, 1)),
+          .sees_into = true};
 }
 
 ContactScene between_walls() {
@@ -71,6 +115,27 @@ ContactScene between_walls() {
           .moments_s = {0.2, 0.9, 3.9, 4.25, 4.45},
           .rest_from_s = 3,
           .view = {.yaw_deg = 80, .pitch_deg = 14}};
+}
+
+ContactScene arms_on_the_belly() {
+  constexpr double kReach_s = 0.4, kPressed_s = 1.1, kLeave_s = 4, kLeft_s = 4.35;
+  const auto pose = [=](const demo::CharacterFile& character, double t, std::span<Matrix34> joints) {
+    const double share = rise(t, kReach_s, kPressed_s) - rise(t, kLeave_s, kLeft_s);
+    for (const double side : {1.0, -1.0}) bring_arm(character, side, share, joints);
+  };
+  return {
+      .name = "belly",
+      .title = "Arms on the belly",
+      .boxes = {},
+      .root = [](double) { return RootTransform{}; },
+      .pose = pose,
+      .limbs = {"hand_"},
+      .seconds = 5.5,
+      .moments_s = {0.3, 0.85, 3.9, 3.9},
+      .rest_from_s = 3,
+      .view = {.yaw_deg = 40, .pitch_deg = 7},
+      .shown = Eigen::AlignedBox3f(Eigen::Vector3f(-0.3f, 0.1f, -0.1f), Eigen::Vector3f(0.3f, 0.65f, 0.3f)),
+      .left_out = {"arm_lower_", "hand_"}};
 }
 
 }  // namespace sinew::sample
