@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "rods/vector.hpp"
 
@@ -20,6 +21,8 @@ constexpr double kAtEnd = 0.15;
 constexpr double kDeeper = 0.01;
 // Of the radius: gaps that count as the same.
 constexpr double kSame = 1e-3;
+// Of the radius: an axis that is so deep may go through the surface.
+constexpr double kCrossing = 0.9;
 constexpr double kMeeting = 1e-9;  // m: a distance without a direction
 
 Vector relative_to(const double (&point_m)[3], const double (&origin_m)[3]) {
@@ -59,16 +62,22 @@ bool comes_before(const TriangleTouch& a, const TriangleTouch& b) {
 double Ball::gap_m(const Vector& point) const { return length(difference(point, middle)) - radius_m; }
 
 ProbeOnSurface::ProbeOnSurface(const Surface& surface, const ContactProbe& probe, const SurfaceFilter& filter,
-                               bool grows_here, double reach_m, double dt_s) noexcept
+                               bool grows_here, double reach_m, double dt_s, uint32_t guess,
+                               bool from_outside) noexcept
     : surface_(surface),
       filter_(filter),
       grows_here_(grows_here),
+      guess_(guess),
       reach_m_(reach_m),
       share_(surface.motion_s() > 0 ? std::min(1.0, dt_s / surface.motion_s()) : 0),
       sweep_(sweep_of(probe, surface.origin_m())) {
+  closed_ = !surface.two_sided() && surface.is_closed(filter.groups);
+  from_outside_ = closed_ && from_outside;
   half_m_ = 0.5 * length(difference(sweep_.start.to, sweep_.start.from));
-  way_m_ = std::max(length(difference(sweep_.end.from, sweep_.start.from)),
-                    length(difference(sweep_.end.to, sweep_.start.to)));
+  const Vector drift = surface.drift(share_);
+  const Vector from = difference(difference(sweep_.end.from, sweep_.start.from), drift);
+  const Vector to = difference(difference(sweep_.end.to, sweep_.start.to), drift);
+  speed_m_ = std::max(length(from), length(to)) + share_ * surface.longest_own_move_m();
   round_ = !(half_m_ > 0) && std::equal(probe.end_m[0], probe.end_m[0] + 3, probe.end_m[1]);
   for (Nearby& n : samples_) n.distance_m = reach_m_;
   samples_[kMiddle].distance_m = std::max(reach_m_, farthest_touch());
@@ -90,45 +99,21 @@ double ProbeOnSurface::near_m(double speed_m) const noexcept {
 }
 
 // What comes from further off than this from the middle of the axis does not touch.
-double ProbeOnSurface::farthest_touch() const noexcept { return half_m_ + near_m(way_m_); }
+double ProbeOnSurface::farthest_touch() const noexcept { return half_m_ + near_m(speed_m_); }
 
-// Beyond this from the middle of the axis nothing matters any more.
-double ProbeOnSurface::radius_left() const noexcept {
-  return std::max({farthest_touch(), samples_[kMiddle].distance_m, samples_[kFrom].distance_m + half_m_,
-                   samples_[kTo].distance_m + half_m_});
-}
-
-// Only the middle, and whether there is anything to touch.
-double ProbeOnSurface::glance(uint32_t triangle) noexcept {
-  if (surface_.groups(triangle) & filter_.groups) {
-    const double distance = look_at_sample(kMiddle, triangle, surface_.start_triangle(triangle));
-    if (!near_ && distance - half_m_ <= near_m(way_m_ + surface_.longest_move_m())) {
-      near_ = distance - half_m_ <= near_m(closing_speed(sweep_, surface_.moving_triangle(triangle, share_)));
-    }
-  }
-  return std::max(farthest_touch(), samples_[kMiddle].distance_m);
-}
-
-double ProbeOnSurface::look_at_sample(uint32_t where, uint32_t triangle, const Triangle& start) noexcept {
+void ProbeOnSurface::look_at_sample(uint32_t where, uint32_t triangle) noexcept {
   const Vector point = sample(where);
-  const OnTriangle on = nearest(start, point);
+  const OnTriangle on = embree::nearest(surface_.start_triangle(triangle), point);
   const double distance = length(difference(point, on.point));
   Nearby& best = samples_[where];
   const bool first_of_same = distance == best.distance_m && triangle < best.triangle;
   if (distance < best.distance_m || first_of_same) best = {distance, triangle, on};
-  return distance;
 }
 
-double ProbeOnSurface::look(uint32_t triangle) noexcept {
-  if (!(surface_.groups(triangle) & filter_.groups)) return radius_left();
-  const MovingTriangle moving = surface_.moving_triangle(triangle, share_);
-  const Ball about = ball_about(moving.start);
-  for (const uint32_t end : {kFrom, kTo}) {
-    if (round_) break;
-    if (about.gap_m(sample(end)) <= samples_[end].distance_m) look_at_sample(end, triangle, moving.start);
-  }
-  look_at_ways(triangle, moving, about);
-  return radius_left();
+void ProbeOnSurface::find_nearest(uint32_t where) noexcept {
+  const uint32_t guess = glance_.triangle == kNone ? axis_.triangle : glance_.triangle;
+  surface_.visit_nearest(sample(where), filter_.groups, guess, &samples_[where].distance_m,
+                         [&](uint32_t triangle) { look_at_sample(where, triangle); });
 }
 
 // Whether a triangle stays behind what is touched best, along that touch's normal, for as long as it matters.
@@ -147,20 +132,50 @@ bool ProbeOnSurface::is_beaten(const Touched& best, const Sweep& sweep,
   return true;
 }
 
-void ProbeOnSurface::look_at_ways(uint32_t triangle, const MovingTriangle& moving,
-                                  const Ball& about) noexcept {
-  const double speed = closing_speed(sweep_, moving), radius = sweep_.radius_m;
-  const double near = near_m(speed) - radius;
+// The axis is no nearer to the triangle than that where the tick begins.
+void ProbeOnSurface::look_at_ways(uint32_t triangle, double axis_m) noexcept {
+  const MovingTriangle moving = surface_.moving_triangle(triangle, share_);
+  const double near = near_m(closing_speed(sweep_, moving));
   const auto look = [&](const Sweep& sweep, Touched* best) {
-    const double along = rods::nearest(sweep.start, about.middle);
-    const double gap = about.gap_m(between(sweep.start.from, sweep.start.to, along)) - radius;
-    if (gap > near || is_beaten(*best, sweep, moving)) return;
+    if (is_beaten(*best, sweep, moving)) return;
     take_first({first_touch(sweep, moving), triangle}, best);
   };
+  if (axis_m > near) return;
   look(sweep_, &axis_);
   if (round_) return;
-  look(sweep_of_end(kFrom), &ends_[kFrom]);
-  look(sweep_of_end(kTo), &ends_[kTo]);
+  const Ball about = ball_about(moving.start);
+  for (const uint32_t end : {kFrom, kTo}) {
+    if (about.gap_m(sample(end)) <= near) look(sweep_of_end(end), &ends_[end]);
+  }
+}
+
+// Nearest first: most of the others are behind those.
+void ProbeOnSurface::look_at_nearest_first(std::span<const uint32_t> triangles) noexcept {
+  struct Candidate {
+    double axis_m;
+    uint32_t triangle;
+  } order[simd::SurfaceWalk::kMostFound];
+  uint32_t count = 0;
+  for (const uint32_t triangle : triangles) {
+    const Ball about = ball_about(surface_.start_triangle(triangle));
+    const double along = rods::nearest(sweep_.start, about.middle);
+    order[count++] = {about.gap_m(between(sweep_.start.from, sweep_.start.to, along)), triangle};
+  }
+  std::sort(order, order + count, [](const Candidate& a, const Candidate& b) {
+    return std::pair(a.axis_m, a.triangle) < std::pair(b.axis_m, b.triangle);
+  });
+  for (const Candidate& c : std::span(order, count)) look_at_ways(c.triangle, c.axis_m);
+}
+
+void ProbeOnSurface::find_touches() noexcept {
+  const double within = near_m(speed_m_) - speed_m_ + kSame * sweep_.radius_m;
+  surface_.visit_near(sweep_, share_, within, filter_.groups,
+                      [&](std::span<const uint32_t> triangles) { look_at_nearest_first(triangles); });
+}
+
+// Whether the axis goes through the surface where the tick begins.
+bool ProbeOnSurface::crosses() const noexcept {
+  return axis_.triangle != kNone && axis_.touch.gap_m <= -kCrossing * sweep_.radius_m;
 }
 
 void ProbeOnSurface::take_first(const Touched& t, Touched* best) const noexcept {
@@ -169,13 +184,20 @@ void ProbeOnSurface::take_first(const Touched& t, Touched* best) const noexcept 
 
 bool ProbeOnSurface::is_inside(uint32_t where) const noexcept {
   const Nearby& n = samples_[where];
-  if (n.triangle == kNone || n.distance_m > reach_m_ || surface_.two_sided()) return false;
+  if (n.triangle == kNone || n.distance_m > reach_m_) return false;
   return side_of(surface_, filter_.groups, n.triangle, n.on, sample(where)) == Side::kInside;
 }
 
-void ProbeOnSurface::tell_sides() noexcept {
-  for (uint32_t s = 0; s < kSamples; ++s) {
-    if (!round_ || s == kMiddle) samples_[s].inside = is_inside(s);
+void ProbeOnSurface::tell_side(uint32_t where) noexcept {
+  find_nearest(where);
+  samples_[where].inside = is_inside(where);
+}
+
+void ProbeOnSurface::tell_sides_of_ends() noexcept {
+  if (round_ || surface_.two_sided()) return;
+  if (outside_) return;
+  for (const uint32_t end : {kFrom, kTo}) {
+    if (!surface_.glance(sample(end), filter_.groups, reach_m_, glance_.triangle).outside) tell_side(end);
   }
 }
 
@@ -278,9 +300,15 @@ void ProbeOnSurface::add_axis() noexcept {
 
 // An axis on its way to lie on a ridge or a bulge touches it first near one end.
 void ProbeOnSurface::add_middle() noexcept {
-  const Nearby& n = samples_[kMiddle];
+  const double near_enough = near_m(speed_m_) - speed_m_;
+  if (round_ || glance_.at_least_m > near_enough) return;
+  Nearby& n = samples_[kMiddle];
+  if (n.triangle == kNone) {
+    n.distance_m = near_enough;
+    find_nearest(kMiddle);
+  }
   const double gap = n.distance_m - sweep_.radius_m;
-  if (round_ || n.triangle == kNone || is_told_between(0.5, gap) || !near(n.triangle, n.on, 0.5, gap)) return;
+  if (n.triangle == kNone || is_told_between(0.5, gap) || !near(n.triangle, n.on, 0.5, gap)) return;
   const Vector face = pseudonormal(surface_, filter_.groups, n.triangle, kFace);
   const Vector normal = unit_or(difference(sample(kMiddle), n.on.point), face);
   if (dot(normal, normal) > 0) put(n.triangle, n.on.weights, 0.5, normal, gap, kSamples);
@@ -298,17 +326,19 @@ HeldPoint ProbeOnSurface::held_by(const ContactHit& hit) const noexcept {
 // Of several faces the one that is reached first.
 void ProbeOnSurface::add_fold(const ContactHit& first) noexcept {
   const HeldPoint held = held_by(first);
-  const double reach = 0.5 * length(difference(held.end, held.start)) + (1 + kFoldDeeper) * sweep_.radius_m;
+  const Sweep way = {{held.start, held.start}, {held.end, held.end}, sweep_.radius_m};
   FoldTouch best = {};
   uint32_t face = kNone;
-  surface_.visit_ball(between(held.start, held.end, 0.5), reach, [&](uint32_t triangle) {
-    if (!(surface_.groups(triangle) & filter_.groups)) return reach;
+  const auto look = [&](uint32_t triangle) {
     const auto touch = touch_in_fold(held, surface_.moving_triangle(triangle, share_), surface_.two_sided());
-    if (!touch || grows_from(triangle, touch->on)) return reach;
+    if (!touch || grows_from(triangle, touch->on)) return;
     const bool first_of_same = touch->time == best.time && triangle < face;
     if (face == kNone || touch->time < best.time || first_of_same) best = *touch, face = triangle;
-    return reach;
-  });
+  };
+  surface_.visit_near(way, share_, (1 + kFoldDeeper) * sweep_.radius_m, filter_.groups,
+                      [&](std::span<const uint32_t> triangles) {
+                        for (const uint32_t triangle : triangles) look(triangle);
+                      });
   if (face == kNone) return;
   put(face, best.on.weights, share_of(first), best.normal, best.gap_m, kFolds + first.name);
 }
@@ -331,33 +361,50 @@ void ProbeOnSurface::add_outside() noexcept {
 
 // Ends are no further from the surface than the middle and half the axis.
 bool ProbeOnSurface::is_near_or_inside() noexcept {
-  surface_.visit_ball(sample(kMiddle), std::max(farthest_touch(), reach_m_),
-                      [this](uint32_t triangle) { return glance(triangle); });
-  const Nearby& middle = samples_[kMiddle];
-  if (middle.triangle != kNone) {
-    for (const uint32_t end : {kFrom, kTo}) {
-      samples_[end].distance_m = std::min(samples_[end].distance_m, middle.distance_m + half_m_ + kMeeting);
-    }
-    near_ = near_ || is_inside(kMiddle);
-  }
-  return near_;
+  const double within = samples_[kMiddle].distance_m;
+  glance_ = surface_.glance(sample(kMiddle), filter_.groups, within, guess_);
+  if (!glance_.outside && !surface_.two_sided()) tell_side(kMiddle);
+  const bool found = glance_.triangle != kNone;
+  outside_ = closed_ && found && glance_.outside && glance_.at_least_m > half_m_;
+  return samples_[kMiddle].inside || (found && glance_.at_least_m - half_m_ <= near_m(speed_m_));
 }
 
-uint32_t ProbeOnSurface::find(ContactHit (&hits)[kMostContacts]) noexcept {
-  hits_ = hits, count_ = 0;
-  if (!is_near_or_inside()) return 0;
-  surface_.visit_ball(sample(kMiddle), radius_left(), [this](uint32_t triangle) { return look(triangle); });
-  tell_sides();
-  if (!samples_[kFrom].inside && !samples_[kTo].inside && !samples_[kMiddle].inside) {
-    add_outside();
-    return count_;
+// Whether there may be something to tell. All of an axis that goes through nothing is on one side.
+bool ProbeOnSurface::look_about() noexcept {
+  if (!surface_.may_reach(sample(kMiddle), samples_[kMiddle].distance_m)) {
+    outside_ = closed_;
+    return false;
   }
+  if (from_outside_) {
+    find_touches();
+    outside_ = !crosses();
+    if (outside_) return axis_.triangle != kNone;
+  }
+  if (!is_near_or_inside()) return false;
+  if (!from_outside_) find_touches();
+  outside_ = closed_ && glance_.triangle != kNone && glance_.outside && !crosses();
+  return true;
+}
+
+void ProbeOnSurface::add_ways_out_and_ends() noexcept {
   for (const uint32_t where : {kFrom, kTo, kMiddle}) {
     if (samples_[where].inside) {
       add_way_out(where);
     } else if (where != kMiddle && !round_ && near(ends_[where])) {
       add(ends_[where], at_start(ends_[where], where), where);
     }
+  }
+}
+
+uint32_t ProbeOnSurface::find(ContactHit (&hits)[kMostContacts]) noexcept {
+  hits_ = hits, count_ = 0;
+  if (!look_about()) return 0;
+  tell_sides_of_ends();
+  const bool inside = samples_[kFrom].inside || samples_[kTo].inside || samples_[kMiddle].inside;
+  if (inside) {
+    add_ways_out_and_ends();
+  } else {
+    add_outside();
   }
   return count_;
 }

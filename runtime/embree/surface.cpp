@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/status.hpp"
 #include "rods/vector.hpp"
+#include "simd/kernels.hpp"
 
 namespace sinew::embree {
 namespace {
@@ -115,7 +117,7 @@ Status check(const SurfacePose& pose, size_t numbers) {
 
 }  // namespace
 
-Status Surface::create(RTCDevice device, const SurfaceDef& def, std::unique_ptr<Surface>* out) {
+Status Surface::create(const SurfaceDef& def, std::unique_ptr<Surface>* out) {
   Status status = check(def);
   if (!status.ok()) return status;
   std::unique_ptr<Surface> made(new Surface);
@@ -123,69 +125,78 @@ Status Surface::create(RTCDevice device, const SurfaceDef& def, std::unique_ptr<
   status = check_shape(made->topology_, def);
   if (!status.ok()) return status;
   if (!def.groups.empty()) {
-    for (const uint32_t source : made->topology_.source) made->groups_.push_back(def.groups[source]);
+    made->every_group_ = 0;
+    for (const uint32_t source : made->topology_.source) {
+      made->groups_.push_back(def.groups[source]);
+      made->every_group_ |= def.groups[source];
+    }
   }
   made->rest_m_.assign(def.rest_m.begin(), def.rest_m.end());
   made->starts_ = made->last_ = made->rest_m_;
   made->moves_.assign(def.rest_m.size(), 0);
   made->friction_ = def.friction, made->restitution_ = def.restitution, made->two_sided_ = def.two_sided;
-  if (!made->build(device)) return make_status(StatusCode::kOutOfCapacity, "no memory for a surface's tree");
+  made->walks_ = simd::kernels().surface_walks;
+  made->tree_.build(made->topology_, def.rest_m, made->groups_);
+  made->refit();
   *out = std::move(made);
   return {};
 }
 
-Surface::~Surface() {
-  if (geometry_) rtcReleaseGeometry(geometry_);
-  if (scene_) rtcReleaseScene(scene_);
-}
-
-bool Surface::build(RTCDevice device) noexcept {
-  scene_ = rtcNewScene(device);
-  geometry_ = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-  if (!scene_ || !geometry_) return false;
-  // Embree refits geometries of dynamic scenes of low quality alone, and builds the others anew: 20 times as
-  // long.
-  rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_DYNAMIC);
-  rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_LOW);
-  rtcSetGeometryUserPrimitiveCount(geometry_, static_cast<uint32_t>(topology_.triangles.size()));
-  rtcSetGeometryUserData(geometry_, this);
-  rtcSetGeometryBoundsFunction(geometry_, bound, nullptr);
-  rtcSetGeometryBuildQuality(geometry_, RTC_BUILD_QUALITY_REFIT);
-  rtcAttachGeometry(scene_, geometry_);
-  commit();
-  return rtcGetDeviceError(device) == RTC_ERROR_NONE;
-}
-
-void Surface::bound(const RTCBoundsFunctionArguments* args) {
-  const Surface& s = *static_cast<const Surface*>(args->geometryUserPtr);
-  float low[3], high[3];
-  for (size_t k = 0; k < 3; ++k) low[k] = std::numeric_limits<float>::infinity(), high[k] = -low[k];
-  for (const uint32_t v : s.topology_.triangles[args->primID]) {
-    for (size_t k = 0; k < 3; ++k) {
-      const float start = s.starts_[3 * size_t{v} + k], end = start + s.moves_[3 * size_t{v} + k];
-      low[k] = std::min({low[k], start, end}), high[k] = std::max({high[k], start, end});
-    }
+void Surface::refit() noexcept {
+  tree_.refit(topology_, starts_, moves_, drift_);
+  farthest_m_ = 0;
+  for (size_t k = 0; k < 3; ++k) {
+    farthest_m_ += std::max(std::fabs(tree_.low_m()[k]), std::fabs(tree_.high_m()[k]));
   }
-  *args->bounds_o = {low[0], low[1], low[2], 0, high[0], high[1], high[2], 0};
-}
-
-void Surface::commit() noexcept {
-  rtcCommitGeometry(geometry_);
-  rtcCommitScene(scene_);
-  RTCBounds bounds;
-  rtcGetSceneBounds(scene_, &bounds);
-  low_m_[0] = bounds.lower_x, low_m_[1] = bounds.lower_y, low_m_[2] = bounds.lower_z;
-  high_m_[0] = bounds.upper_x, high_m_[1] = bounds.upper_y, high_m_[2] = bounds.upper_z;
 }
 
 bool Surface::may_reach(const Vector& middle_m, double radius_m) const noexcept {
   double square = 0;
   for (size_t k = 0; k < 3; ++k) {
-    const double out = std::max(
-        {static_cast<double>(low_m_[k]) - middle_m[k], middle_m[k] - static_cast<double>(high_m_[k]), 0.0});
+    const double out = std::max({static_cast<double>(tree_.low_m()[k]) - middle_m[k],
+                                 middle_m[k] - static_cast<double>(tree_.high_m()[k]), 0.0});
     square += out * out;
   }
-  return square <= radius_m * radius_m;
+  const double within = radius_m + static_cast<double>(rounding_m(middle_m));
+  return square <= within * within;
+}
+
+Surface::Glance Surface::glance(const Vector& point_m, uint32_t groups, double within_m,
+                                uint32_t guess) const noexcept {
+  simd::SurfacePoint of = as_point(point_m);
+  of.within_m = static_cast<float>(within_m * (1 + 1e-6)) + of.rounding_m;
+  simd::SurfaceWalk walk;
+  walk.begin(groups, leaf_near(guess));
+  walks_->nearest(tree_.view(), &of, &walk);
+  Glance out = {kBorder, 0, walk.done()};
+  float least = std::numeric_limits<float>::infinity();
+  for (uint32_t i = 0; i < walk.found_count; ++i) {
+    out.outside = out.outside && walk.above[i];
+    if (walk.at_least_m[i] < least) least = walk.at_least_m[i], out.triangle = walk.found[i];
+  }
+  out.at_least_m = walk.done() ? static_cast<double>(least - 2 * of.rounding_m) : 0;
+  return out;
+}
+
+simd::SurfaceSweep Surface::without_drift(const Sweep& sweep, double share, double within_m) const noexcept {
+  const Vector* starts[2] = {&sweep.start.from, &sweep.start.to};
+  const Vector ends[2] = {rods::difference(sweep.end.from, drift(share)),
+                          rods::difference(sweep.end.to, drift(share))};
+  float rounding = 0;
+  for (size_t e = 0; e < 2; ++e) rounding = std::max({rounding, rounding_m(*starts[e]), rounding_m(ends[e])});
+  simd::SurfaceSweep out;
+  out.within_m = static_cast<float>(within_m) + 2 * rounding;
+  out.share = static_cast<float>(share);
+  for (size_t k = 0; k < 3; ++k) {
+    for (size_t e = 0; e < 2; ++e) {
+      out.start_m[e][k] = static_cast<float>((*starts[e])[k]),
+      out.end_m[e][k] = static_cast<float>(ends[e][k]);
+    }
+    const auto [low, high] =
+        std::minmax({out.start_m[0][k], out.start_m[1][k], out.end_m[0][k], out.end_m[1][k]});
+    out.low_m[k] = low - out.within_m, out.high_m[k] = high + out.within_m;
+  }
+  return out;
 }
 
 Status Surface::move(const SurfacePose& pose) noexcept {
@@ -195,41 +206,44 @@ Status Surface::move(const SurfacePose& pose) noexcept {
     return status;
   }
   place(pose);
-  commit();
+  if (!changed_) return {};
+  measure_moves();
+  refit();
   return {};
 }
 
 // Differences of places about different origins, in double.
 void Surface::place(const SurfacePose& pose) noexcept {
   const bool moves = pose.dt_s > 0, ahead = pose.time == SurfaceTime::kTickEnd;
-  for (size_t i = 0; i < last_.size(); ++i) {
-    const double shift = origin_m_[i % 3] - pose.origin_m[i % 3];
-    const float here = pose.places_m[i], before = static_cast<float>(static_cast<double>(last_[i]) + shift);
-    moves_[i] = moves ? here - before : 0;
-    starts_[i] = moves && ahead ? before : here;
-    last_[i] = here;
+  Vector shift;
+  for (size_t k = 0; k < 3; ++k) shift[k] = origin_m_[k] - pose.origin_m[k];
+  changed_ = false;
+  for (size_t v = 0; v < last_.size(); v += 3) {
+    for (size_t k = 0; k < 3; ++k) {
+      const size_t i = v + k;
+      const float here = pose.places_m[i],
+                  before = static_cast<float>(static_cast<double>(last_[i]) + shift[k]);
+      const float move = moves ? here - before : 0, start = moves && ahead ? before : here;
+      changed_ |= (move != moves_[i]) | (start != starts_[i]);
+      moves_[i] = move, starts_[i] = start, last_[i] = here;
+    }
   }
   std::copy_n(pose.origin_m, 3, origin_m_);
-  double longest = 0;
-  for (uint32_t v = 0; v < moves_.size() / 3; ++v) {
-    const Vector move = vector(moves_, v);
-    longest = std::max(longest, rods::dot(move, move));
-  }
-  longest_move_m_ = std::sqrt(longest);
   motion_s_ = static_cast<double>(pose.dt_s);
 }
 
-Triangle Surface::start_triangle(uint32_t triangle) const noexcept {
-  const Corners& t = topology_.triangles[triangle];
-  return {{start(t[0]), start(t[1]), start(t[2])}};
-}
-
-MovingTriangle Surface::moving_triangle(uint32_t triangle, double share) const noexcept {
-  MovingTriangle out = {start_triangle(triangle), {}};
-  for (size_t k = 0; k < 3; ++k) {
-    out.moves[k] = rods::scaled(share, vector(moves_, topology_.triangles[triangle][k]));
+// Of a character that runs, all moves by about as much.
+void Surface::measure_moves() noexcept {
+  Vector total = {};
+  for (uint32_t v = 0; v < moves_.size() / 3; ++v) total = rods::sum(total, vector(moves_, v));
+  for (size_t k = 0; k < 3; ++k)
+    drift_[k] = static_cast<float>(3 * total[k] / static_cast<double>(moves_.size()));
+  double longest = 0;
+  for (uint32_t v = 0; v < moves_.size() / 3; ++v) {
+    const Vector move = rods::difference(vector(moves_, v), drift(1));
+    longest = std::max(longest, rods::dot(move, move));
   }
-  return out;
+  longest_own_move_m_ = std::sqrt(longest);
 }
 
 Triangle Surface::rest_triangle(uint32_t triangle) const noexcept {
@@ -242,7 +256,7 @@ SurfaceReport Surface::report() const noexcept {
   const size_t each_triangle = sizeof(Corners) * 2 + sizeof(uint32_t) * (groups_.empty() ? 1 : 2);
   return {static_cast<uint32_t>(t.triangles.size()), t.skipped, t.border_edges, poses_refused_,
           t.triangles.size() * each_triangle + (t.fan.size() + t.fan_begin.size()) * sizeof(uint32_t) +
-              t.border.size() + 4 * rest_m_.size() * sizeof(float)};
+              t.border.size() + 4 * rest_m_.size() * sizeof(float) + tree_.bytes()};
 }
 
 }  // namespace sinew::embree

@@ -17,25 +17,31 @@ using embree::ProbeOnSurface;
 using embree::Surface;
 
 struct SurfaceContacts::Impl {
-  RTCDevice device = nullptr;
   SurfaceContactsDef def;
   core::SlotTable<std::unique_ptr<Surface>, SurfaceId> surfaces;
   std::vector<SurfaceFilter> filters;  // [max_owners]
   SurfaceFilter all;
   std::atomic<uint64_t> skipped{0};
 
-  ~Impl() {
-    surfaces = {};
-    if (device) rtcReleaseDevice(device);
-  }
   Surface* find(SurfaceId id) const {
     std::unique_ptr<Surface>* found = surfaces.find(id);
     return found ? found->get() : nullptr;
   }
   // Of one probe; one near more than eight surfaces at a time touches the first eight.
   static constexpr uint32_t kMostHits = 8 * ProbeOnSurface::kMostContacts;
-  uint32_t find(std::span<const ContactProbe> probes, uint32_t p, double dt_s,
-                ContactHit (&hits)[kMostHits]) const noexcept;
+  // What is kept from one probe to the next.
+  struct Room {
+    ContactHit hits[kMostHits], found[ProbeOnSurface::kMostContacts];
+    // Of the surfaces asked last, by their slots' last digits.
+    struct Known {
+      uint32_t surface = 0, probe = ~0u;  // of whom it is known
+      uint32_t nearest = 0;               // a triangle: of a chain's next probe another is not far
+      bool outside = false;
+    };
+    static constexpr uint32_t kKnown = 8;
+    Known known[kKnown];
+  };
+  uint32_t find(std::span<const ContactProbe> probes, uint32_t p, double dt_s, Room* room) const noexcept;
   const SurfaceFilter& filter_of(uint32_t owner) const {
     return owner < filters.size() ? filters[owner] : all;
   }
@@ -134,10 +140,6 @@ Status SurfaceContacts::create(const SurfaceContactsDef& def, SurfaceContacts* o
   }
   made.impl_->def = def;
   made.impl_->filters.resize(def.max_owners);
-  // The caller's thread builds: no other is started, and the tree is the same on every run.
-  made.impl_->device = rtcNewDevice("threads=1");
-  if (!made.impl_->device)
-    return make_status(StatusCode::kUnsupported, "Embree cannot start on this machine");
   *out = std::move(made);
   return {};
 }
@@ -150,7 +152,7 @@ Status SurfaceContacts::add_surface(const SurfaceDef& def, SurfaceId* out) noexc
                        impl_->surfaces.count());
   }
   std::unique_ptr<Surface> made;
-  const Status status = Surface::create(impl_->device, def, &made);
+  const Status status = Surface::create(def, &made);
   if (status.ok()) *out = impl_->surfaces.create(std::move(made));
   return status;
 }
@@ -198,7 +200,7 @@ Status SurfaceContacts::report(SurfaceId surface, SurfaceReport* out) const noex
 uint64_t SurfaceContacts::probes_skipped() const noexcept { return impl_ ? impl_->skipped.load() : 0; }
 
 uint32_t SurfaceContacts::Impl::find(std::span<const ContactProbe> probes, uint32_t p, double dt_s,
-                                     ContactHit (&hits)[kMostHits]) const noexcept {
+                                     Room* room) const noexcept {
   const SurfaceFilter& filter = filter_of(probes[p].owner);
   const bool goes_on_here = p > 0 && goes_on(probes[p - 1], probes[p]);
   uint32_t count = 0;
@@ -206,13 +208,16 @@ uint32_t SurfaceContacts::Impl::find(std::span<const ContactProbe> probes, uint3
     const std::unique_ptr<Surface>* surface = surfaces.at(s);
     if (!surface) continue;
     const bool grows_here = filter.root_surface == surfaces.id_at(s);
-    ContactHit found[ProbeOnSurface::kMostContacts];
-    ProbeOnSurface look(**surface, probes[p], filter, grows_here, static_cast<double>(def.reach_m), dt_s);
-    for (const ContactHit& hit : std::span(found).first(look.find(found))) {
+    Room::Known& known = room->known[s % Room::kKnown];
+    const bool from_outside = goes_on_here && known.surface == s && known.probe + 1 == p && known.outside;
+    ProbeOnSurface look(**surface, probes[p], filter, grows_here, static_cast<double>(def.reach_m), dt_s,
+                        known.nearest, from_outside);
+    const uint32_t told = look.find(room->found);
+    known = {s, p, look.nearest(), look.is_outside()};
+    for (const ContactHit& hit : std::span(room->found).first(told)) {
       if (goes_on_here && hit.along == -1) continue;  // told where the probe before ends
-      hits[count] = hit;
-      hits[count].probe = p, hits[count].name += ProbeOnSurface::kMostContacts * s;
-      hits[count++].body |= uint64_t{s + 1} << 32;
+      ContactHit& to = room->hits[count++] = hit;
+      to.probe = p, to.name += ProbeOnSurface::kMostContacts * s, to.body |= uint64_t{s + 1} << 32;
     }
   }
   return count;
@@ -222,14 +227,14 @@ uint32_t SurfaceContacts::find(std::span<const ContactProbe> probes, float dt_s,
                                std::span<ContactHit> hits) noexcept {
   if (!impl_ || !(dt_s >= 0)) return 0;
   Collected collected(hits);
+  Impl::Room room;
   for (uint32_t p = 0; p < probes.size(); ++p) {
     if (!usable(probes[p])) {
       ++impl_->skipped;
       continue;
     }
-    ContactHit found[Impl::kMostHits];
-    const uint32_t count = impl_->find(probes, p, static_cast<double>(dt_s), found);
-    for (uint32_t i = 0; i < count; ++i) collected.add(found[i]);
+    const uint32_t count = impl_->find(probes, p, static_cast<double>(dt_s), &room);
+    for (uint32_t i = 0; i < count; ++i) collected.add(room.hits[i]);
   }
   return collected.count();
 }

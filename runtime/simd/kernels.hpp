@@ -156,6 +156,8 @@ struct TurnJob {
   uint32_t count;
 };
 
+struct SurfaceWalks;  // simd/surface_walk.hpp
+
 struct Kernels {
   int64_t target;    // Highway's bit
   const char* name;  // of what it needs beyond that target, or null: the target's own
@@ -200,6 +202,7 @@ struct Kernels {
   void (*coarse_tanh)(const float* x, size_t count, float* out);
   const RodKernels* rods;
   const RodTouchKernels* rod_touches;
+  const SurfaceWalks* surface_walks;
 };
 
 // The table of the active instruction set. Thread-safe.

@@ -242,3 +242,63 @@ TEST_CASE("points_at_one_place_are_each_told_their_contacts") {
     CHECK(found(contacts, std::vector{point, point, point}).size() == 3 * alone);
   }
 }
+
+TEST_CASE("a_chain_touches_what_each_of_its_probes_touches_alone") {
+  const MeshData mesh = test::bumpy_ball(0.1, 4);
+  SurfaceId id;
+  SurfaceContacts contacts = test::contacts_of(mesh, &id, {.reach_m = 0.02f});
+  std::mt19937 random(5);
+  size_t inside = 0, outside = 0;
+  for (int n = 0; n < 300; ++n) {
+    // Over the surface, through it, deeper than the reach, and out again.
+    std::vector<ContactProbe> chain;
+    rods::Vector at = test::random_vector(random, 0.15), way = test::random_vector(random, 0.02);
+    for (int i = 0; i < 20; ++i) {
+      const rods::Vector next = rods::sum(at, rods::sum(way, test::random_vector(random, 0.01)));
+      chain.push_back(test::probe(at, next, 0.002, test::random_vector(random, 0.002)));
+      at = next;
+    }
+    const std::vector<ContactHit> together = test::found(contacts, chain);
+    size_t told = 0;
+    for (uint32_t i = 0; i < chain.size(); ++i) {
+      for (const ContactHit& alone : test::found(contacts, chain[i])) {
+        if (i > 0 && alone.along == -1) continue;  // told where the one before ends
+        REQUIRE(told < together.size());
+        const ContactHit& hit = together[told++];
+        REQUIRE(hit.probe == i);
+        REQUIRE(std::tie(hit.along, hit.gap_m, hit.name, hit.body) ==
+                std::tie(alone.along, alone.gap_m, alone.name, alone.body));
+        REQUIRE(std::equal(hit.normal, hit.normal + 3, alone.normal));
+        ++(hit.gap_m < -0.004 ? inside : outside);
+      }
+    }
+    REQUIRE(told == together.size());
+  }
+  CHECK(inside > 50);
+  CHECK(outside > 50);
+}
+
+TEST_CASE("a_surface_that_runs_is_touched_as_one_that_stands") {
+  const MeshData mesh = test::bumpy_ball(0.1, 4);
+  const rods::Vector run = {0.25, 0, -0.125};  // in a tick; exact in float
+  SurfaceId id;
+  SurfaceContacts standing = test::contacts_of(mesh, &id), running = test::contacts_of(mesh, &id);
+  MeshData there = mesh;
+  for (size_t i = 0; i < there.places.size(); ++i) there.places[i] += static_cast<float>(run[i % 3]);
+  REQUIRE(running.move_surface(id, {.places_m = there.places, .dt_s = 1.0f / 60}).ok());
+  std::mt19937 random(6);
+  size_t told = 0;
+  for (int n = 0; n < 300; ++n) {
+    const rods::Vector at = test::random_vector(random, 0.12), arm = test::random_vector(random, 0.01),
+                       way = test::random_vector(random, 0.004);
+    const auto still = test::found(standing, test::probe(at, rods::sum(at, arm), 0.002, way));
+    const auto runs = test::found(running, test::probe(at, rods::sum(at, arm), 0.002, rods::sum(way, run)));
+    REQUIRE(still.size() == runs.size());
+    for (size_t i = 0; i < still.size(); ++i) {
+      CHECK(std::fabs(still[i].gap_m - runs[i].gap_m) < 1e-6);
+      CHECK(rods::dot(test::normal_of(still[i]), test::normal_of(runs[i])) > 0.9999);
+    }
+    told += still.size();
+  }
+  CHECK(told > 100);
+}

@@ -14,12 +14,12 @@
 // these, in its middle; each of them in a valley on both sides, but for a ball or a line. A chain of probes
 // is touched along all of its length. What begins outside is swept against triangles on their way through the
 // tick. Within reach_m of the surface, inside is told by the angle-weighted pseudonormal of the nearest face,
-// edge or vertex (Baerentzen, Aanaes 2005), and the way out is the shortest. Deeper, nothing is found. At a
+// edge or vertex (Baerentzen, Aanaes 2005), and the way out is the shortest; along a chain that has begun
+// outside a closed surface it is asked again where the chain goes through. Deeper, nothing is found. At a
 // border and where more than two triangles share an edge everything counts as outside.
 //
 // Thread rule: find from any number of threads at a time while no function that is not const runs; the others
-// one thread at a time. find and move_surface do not throw; find allocates nothing. move_surface refits the
-// tree, in which Embree may allocate.
+// one thread at a time. find and move_surface do not throw and allocate nothing.
 #pragma once
 #include "sinew/contact_source.hpp"
 #include "sinew/status.hpp"
@@ -81,7 +81,7 @@ struct SurfaceReport {
   uint32_t triangles_skipped = 0;  // without area at rest
   uint32_t border_edges = 0;       // of one triangle, or of more than two, or of two that disagree
   uint32_t poses_refused = 0;
-  uint64_t bytes = 0;  // without Embree's tree
+  uint64_t bytes = 0;
 };
 
 class SurfaceContacts final : public ContactSource {
@@ -91,13 +91,13 @@ class SurfaceContacts final : public ContactSource {
   SurfaceContacts(SurfaceContacts&& other) noexcept;
   SurfaceContacts& operator=(SurfaceContacts&& other) noexcept;
 
-  // Refused: fields outside their range, no memory, no Embree; `out` is then untouched.
+  // Refused: fields outside their range, no memory; `out` is then untouched.
   static Status create(const SurfaceContactsDef& def, SurfaceContacts* out) noexcept;
 
   // Allocates, and builds the tree. Refused as the fields say, and when max_surfaces are there.
   Status add_surface(const SurfaceDef& def, SurfaceId* out) noexcept;
   Status remove_surface(SurfaceId surface) noexcept;
-  // O(vertices + triangles).
+  // O(vertices + triangles); where nothing moves, before and now, O(vertices).
   Status move_surface(SurfaceId surface, const SurfacePose& pose) noexcept;
   // Refused: an owner from max_owners on, numbers out of range, a root_surface that is not there. A root
   // whose surface was removed does nothing.
