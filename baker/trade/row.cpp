@@ -19,6 +19,7 @@ nlohmann::ordered_json to_json(const Row& row) {
           {"kind", row.kind},
           {"tier", static_cast<uint32_t>(row.tier)},
           {"every", row.every},
+          {"bought", row.is_bought()},
           {"level", row.level},
           {"warm", to_json(row.warm)},
           {"cold", to_json(row.cold)},

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "sinew/types.hpp"
+#include "world/bought_rates.hpp"
 
 namespace sinew::baker {
 
@@ -31,6 +32,8 @@ struct Row {
   std::string dominated_by;  // empty: on the front
 
   bool costs() const { return kind != "baseline"; }
+  // The scheduler never buys such a rate: it is measured only.
+  bool is_bought() const { return every <= world::kMostEvery; }
 };
 
 nlohmann::ordered_json to_json(const Row& row);

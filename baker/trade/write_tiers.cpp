@@ -12,7 +12,7 @@ namespace {
 
 bool is_kept(const Row& row) {
   const bool needed = row.every == 1 && row.level == 0 && row.tier != Tier::kSpring;
-  return row.kind == "tier" && (needed || row.dominated_by.empty());
+  return row.kind == "tier" && row.is_bought() && (needed || row.dominated_by.empty());
 }
 
 // base_us: what a step takes without simulation.

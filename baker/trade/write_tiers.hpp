@@ -8,7 +8,8 @@
 
 namespace sinew::baker {
 
-// The pack's records: what is not dominated, and what every character has (pack::TierRecord).
+// The pack's records: what the scheduler buys and is not dominated, and what every character has
+// (pack::TierRecord).
 std::vector<pack::TierRecord> tier_records(const std::vector<Row>& rows);
 // The character with these in the place of its own; all else is the same.
 void write_with_tiers(const std::string& path, const LoadedPack& character,

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/status.hpp"
+#include "world/bought_rates.hpp"
 #include "world/instance.hpp"
 #include "world/own_body_touches.hpp"
 #include "world/pose_bound.hpp"
@@ -16,9 +17,6 @@ namespace {
 
 using core::make_status;
 
-// What the scheduler buys: going to or from every second tick is seen as a jump (perf_jumps --rates), and
-// coarser graphs at every tick cost as little.
-constexpr uint32_t kMostEvery = 1;
 // Errors of a network that was not judged are not known in millimetres: a usual share of the height then.
 constexpr float kUsualSkinningError = 5e-3f;
 
