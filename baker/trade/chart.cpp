@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "baker/common/write_file.hpp"
+#include "baker/trade/labels.hpp"
 #include "samples/render/image.hpp"
 #include "samples/render/lines.hpp"
 #include "samples/render/text.hpp"
@@ -17,11 +18,13 @@ using Point = Eigen::Vector2f;
 using render::RgbBytes;
 
 constexpr int kWidth = 1280, kHeight = 800;
-constexpr float kLeft = 120, kRight = 1060, kTop = 90, kBottom = 690, kLetter = 13;
+constexpr float kLeft = 120, kRight = 1130, kTop = 90, kBottom = 690, kLetter = 13;
 constexpr RgbBytes kTier{28, 104, 168}, kVariant{46, 139, 87}, kBaseline{196, 84, 40}, kGrid{222, 226, 232},
     kInk{38, 44, 54}, kPale{150, 158, 170};
 
-// Both pictures are drawn by the same strokes.
+float width_of(const std::string& words) { return render::text_width(words, {.size_px = kLetter}); }
+
+// Both pictures are drawn by the same strokes, and a text is as wide in both.
 class Paper {
  public:
   void line(const std::vector<Point>& points, float width, RgbBytes color) {
@@ -33,18 +36,18 @@ class Paper {
   }
   void dot(const Point& at, RgbBytes color, bool filled) {
     constexpr int kSides = 24;
-    constexpr float kRadius = 6;
     std::vector<Point> ring;
     for (int i = 0; i <= kSides; ++i) {
       const float turn = 6.2831853f * static_cast<float>(i) / kSides;
-      ring.push_back(at + kRadius * Point(std::cos(turn), std::sin(turn)));
+      ring.push_back(at + kDotRadius * Point(std::cos(turn), std::sin(turn)));
     }
     if (filled)
-      for (float r = 1; r < kRadius; r += 1.5f)
-        render::draw_polyline(image_, scaled(ring, at, r / kRadius), 2, color);
+      for (float r = 1; r < kDotRadius; r += 1.5f)
+        render::draw_polyline(image_, scaled(ring, at, r / kDotRadius), 2, color);
     render::draw_polyline(image_, ring, 2, color);
-    svg_ += "<circle cx=\"" + number(at.x()) + "\" cy=\"" + number(at.y()) + "\" r=\"6\" stroke=\"" +
-            hex(color) + "\" stroke-width=\"2\" fill=\"" + (filled ? hex(color) : "none") + "\"/>\n";
+    svg_ += "<circle cx=\"" + number(at.x()) + "\" cy=\"" + number(at.y()) + "\" r=\"" + number(kDotRadius) +
+            "\" stroke=\"" + hex(color) + "\" stroke-width=\"2\" fill=\"" + (filled ? hex(color) : "none") +
+            "\"/>\n";
   }
   // anchor: "start", "middle" or "end" of the text lies at the point.
   void text(const Point& at, const std::string& words, const std::string& anchor, RgbBytes color = kInk) {
@@ -53,7 +56,8 @@ class Paper {
     if (anchor == "middle") render::draw_text_centered(image_, at.x(), at.y(), words, style);
     if (anchor == "end") render::draw_text_right(image_, at.x(), at.y(), words, style);
     svg_ += "<text x=\"" + number(at.x()) + "\" y=\"" + number(at.y()) + "\" text-anchor=\"" + anchor +
-            "\" fill=\"" + hex(color) + "\">" + escaped(words) + "</text>\n";
+            "\" textLength=\"" + number(width_of(words)) + "\" lengthAdjust=\"spacingAndGlyphs\" fill=\"" +
+            hex(color) + "\">" + escaped(words) + "</text>\n";
   }
   void write(const std::string& stem) const {
     render::write_png(stem + ".png", image_);
@@ -139,31 +143,35 @@ RgbBytes color_of(const Row& row) {
   return row.kind == "tier" ? kTier : row.kind == "variant" ? kVariant : kBaseline;
 }
 
-// Below each other where they would lie on one another.
-void draw_names(Paper& paper, std::vector<std::pair<Point, const Row*>> dots) {
-  std::ranges::sort(dots, {}, [](const auto& dot) { return dot.first.y(); });
-  std::vector<Point> taken;
-  for (const auto& [dot, row] : dots) {
-    Point at = dot + Point(12, 5);
-    const auto covers = [&](const Point& other) {
-      return std::abs(other.x() - at.x()) < 240 && std::abs(other.y() - at.y()) < 19;
-    };
-    while (std::ranges::any_of(taken, covers)) at.y() += 4;
-    taken.push_back(at);
-    if ((at - dot).norm() > 20) paper.line({dot + Point(4, 4), at - Point(3, 4)}, 1, kPale);
-    paper.text(at, row->name, "start", row->dominated_by.empty() ? kInk : kPale);
+using Dot = std::pair<Point, const Row*>;
+
+bool is_on_front(const Row& row) { return row.is_bought() && row.dominated_by.empty(); }
+
+void draw_names(Paper& paper, const std::vector<Dot>& dots, std::span<const Point> front) {
+  constexpr float kTall = 18, kAboveLine = 13.5f;  // of a name's box, and of that its baseline
+  std::vector<Labelled> labels;
+  for (const auto& [at, row] : dots) labels.push_back({at, {width_of(row->name), kTall}});
+  const std::vector<LabelBox> boxes =
+      place_labels(labels, front, {Point(kLeft, kTop), Point(kWidth - 8, kBottom)});
+  for (size_t i = 0; i < dots.size(); ++i) {
+    const auto& [at, row] = dots[i];
+    const Point end = nearest(boxes[i], at), towards = end - at;
+    if (towards.norm() >= kThreadFrom)
+      paper.line({at + (kDotRadius + 2) * towards.normalized(), end}, 1, kPale);
+    paper.text(boxes[i].min() + Point(0, kAboveLine), row->name, "start",
+               is_on_front(*row) ? kInk : render::kPaleInk);
   }
 }
 
-void draw_front(Paper& paper, std::vector<std::pair<Point, const Row*>> dots) {
-  std::erase_if(dots, [](const auto& dot) {
-    return dot.second->kind != "tier" || !dot.second->dominated_by.empty() ||
-           dot.second->tier == Tier::kExtrapolate;
+std::vector<Point> front_of(std::vector<Dot> dots) {
+  std::erase_if(dots, [](const Dot& dot) {
+    const Row& row = *dot.second;
+    return row.kind != "tier" || !is_on_front(row) || row.tier == Tier::kExtrapolate;
   });
-  std::ranges::sort(dots, {}, [](const auto& dot) { return dot.first.x(); });
+  std::ranges::sort(dots, {}, [](const Dot& dot) { return dot.first.x(); });
   std::vector<Point> line;
-  for (const auto& dot : dots) line.push_back(dot.first);
-  paper.line(line, 2, kTier);
+  for (const Dot& dot : dots) line.push_back(dot.first);
+  return line;
 }
 
 void draw_legend(Paper& paper) {
@@ -172,9 +180,9 @@ void draw_legend(Paper& paper) {
     paper.text({x + 14, kHeight - 17}, words, "start");
   };
   entry(130, kTier, true, "tier on the front");
-  entry(350, kTier, false, "tier, dominated");
-  entry(560, kVariant, true, "baked otherwise");
-  entry(770, kVariant, false, "the same, dominated");
+  entry(350, kTier, false, "tier, dominated or not bought");
+  entry(700, kVariant, true, "baked otherwise");
+  entry(910, kVariant, false, "the same, dominated");
 }
 
 }  // namespace
@@ -191,13 +199,14 @@ void write_chart(const std::string& stem, const Measured& measured) {
   y.low /= 2;  // room for the names of those that lie near each other at the lower end
   Paper paper;
   draw_axes(paper, x, y);
-  std::vector<std::pair<Point, const Row*>> dots;
+  std::vector<Dot> dots;
   for (const Row& row : measured.rows)
     if (row.costs())
       dots.push_back({{x.at(std::max(row.warm.mean_us, 1e-3)), y.at(std::max(row.error.ratio, 1e-6))}, &row});
-  draw_front(paper, dots);
-  for (const auto& [at, row] : dots) paper.dot(at, color_of(*row), row->dominated_by.empty());
-  draw_names(paper, dots);
+  const std::vector<Point> front = front_of(dots);
+  paper.line(front, 2, kTier);
+  for (const auto& [at, row] : dots) paper.dot(at, color_of(*row), is_on_front(*row));
+  draw_names(paper, dots, front);
   paper.text({kLeft - 100, 36}, measured.character + " on " + measured.processor, "start");
   draw_legend(paper);
   paper.write(stem);
