@@ -1,5 +1,6 @@
 // sinew-trade  Every tier of a character against ground truth: what it costs, how far it is off, which are
 // worth having; and the character with those baked. See `sinew-trade --help`.
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 
@@ -62,30 +63,42 @@ std::vector<TrueSurface> read_truth(const std::vector<std::string>& paths, const
   return out;
 }
 
+std::vector<TrueSurface> find_truth(const Options& options, const LoadedPack& character) {
+  if (!options.truth.empty()) return read_truth(options.truth, character);
+  return read_truth(simulate_clips(options.source, options.clips, options.seconds, character.view(),
+                                   options.folder + "/truth"),
+                    character);
+}
+
+void write(const Measured& measured, const LoadedPack& character, const std::string& folder) {
+  write_file(folder + "/trade.csv", std::string_view(as_csv(measured)));
+  write_file(folder + "/trade.json", std::string_view(as_json(measured)));
+  write_chart(folder + "/trade", measured);
+  write_with_tiers(folder + "/" + measured.character + ".sinew", character, tier_records(measured.rows));
+  std::fputs(as_table(measured).c_str(), stdout);
+}
+
 void run(Options options) {
+  const auto start = std::chrono::steady_clock::now();
   if (!(options.seconds >= 0.1 && options.seconds <= 60)) throw BadInput("--seconds: must be from 0.1 to 60");
   const LoadedPack character = load(options.character);
   find_source(&options);
-  std::vector<TrueSurface> surfaces = read_truth(options.truth, character);
-  if (surfaces.empty())
-    surfaces = read_truth(simulate_clips(options.source, options.clips, options.seconds, character.view(),
-                                         options.folder + "/truth"),
-                          character);
+  const std::vector<TrueSurface> surfaces = find_truth(options, character);
   make_folder(options.folder);  // not before truth and clips were found good
   const std::vector<Variant> variants = variants_of(options.source);
-  RowCache cache(options.folder + "/measured.json", made_of(character, surfaces, options.source));
+  const std::string kept = options.folder + "/measured.json";
+  RowCache cache(kept, made_of(character, surfaces, options.source));
+  const Measurement found = measure(character, surfaces, variants, cache);
   Measured measured{.character = std::filesystem::path(options.character).stem().string(),
                     .processor = processor_name(),
                     .motions = {},
                     .vertices = character.view().region_vertices.size(),
-                    .rows = measure(character, surfaces, variants, cache)};
+                    .rows = found.rows};
   for (const TrueSurface& surface : surfaces) measured.motions.push_back(surface.name());
-  write_file(options.folder + "/trade.csv", std::string_view(as_csv(measured)));
-  write_file(options.folder + "/trade.json", std::string_view(as_json(measured)));
-  write_chart(options.folder + "/trade", measured);
-  write_with_tiers(options.folder + "/" + measured.character + ".sinew", character,
-                   tier_records(measured.rows));
-  std::fputs(as_table(measured).c_str(), stdout);
+  write(measured, character, options.folder);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  std::printf("%.0f s; %zu of %zu rows taken from %s\n", took.count(), found.measured_before,
+              found.rows.size(), kept.c_str());
 }
 
 }  // namespace

@@ -102,21 +102,20 @@ void add_variants(const LoadedPack& character, std::span<const Variant> variants
   }
 }
 
-Row measured(const Way& way) {
+Row unmeasured(const Way& way) {
   Row row;
   row.name = way.name;
   row.kind = way.kind;
   row.tier = way.tier;
   row.every = way.every;
   row.level = way.level;
-  way.measure(&row);
   return row;
 }
 
 }  // namespace
 
-std::vector<Row> measure(const LoadedPack& character, std::span<const TrueSurface> surfaces,
-                         std::span<const Variant> variants, RowCache& cache) {
+Measurement measure(const LoadedPack& character, std::span<const TrueSurface> surfaces,
+                    std::span<const Variant> variants, RowCache& cache) {
   const Yardstick yardstick(character, surfaces);
   Ways ways(yardstick, surfaces.front().motion());
   add_tiers(character, &ways);
@@ -124,14 +123,21 @@ std::vector<Row> measure(const LoadedPack& character, std::span<const TrueSurfac
   add_variants(character, variants, &ways);
   Progress progress("measuring", ways.all().size());
   std::vector<Row> rows;
+  size_t measured_before = 0;
   for (const Way& way : ways.all()) {
-    std::optional<Row> row = cache.find(way.name);
-    if (!row) cache.add(*(row = measured(way)));
-    rows.push_back(*row);
+    Row row = unmeasured(way);
+    if (const std::optional<Row> known = cache.find(row)) {
+      row = *known;
+      ++measured_before;
+    } else {
+      way.measure(&row);
+      cache.add(row);
+    }
+    rows.push_back(row);
     progress.update(rows.size());
   }
   find_dominated(&rows);
-  return rows;
+  return {.rows = std::move(rows), .measured_before = measured_before};
 }
 
 }  // namespace sinew::baker

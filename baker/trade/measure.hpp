@@ -9,8 +9,12 @@
 
 namespace sinew::baker {
 
-// Tiers, baselines, variants, with dominated_by filled in. What the cache holds is not measured again.
-std::vector<Row> measure(const LoadedPack& character, std::span<const TrueSurface> surfaces,
-                         std::span<const Variant> variants, RowCache& cache);
+struct Measurement {
+  std::vector<Row> rows;       // tiers, baselines, variants, with dominated_by filled in
+  size_t measured_before = 0;  // of these: the cache held them
+};
+
+Measurement measure(const LoadedPack& character, std::span<const TrueSurface> surfaces,
+                    std::span<const Variant> variants, RowCache& cache);
 
 }  // namespace sinew::baker

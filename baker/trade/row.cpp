@@ -1,6 +1,8 @@
 // row.cpp  see row.hpp.
 #include "baker/trade/row.hpp"
 
+#include <cmath>
+
 namespace sinew::baker {
 namespace {
 
@@ -8,8 +10,47 @@ nlohmann::ordered_json to_json(const Cost& cost) {
   return {{"p50_us", cost.p50_us}, {"p99_us", cost.p99_us}, {"mean_us", cost.mean_us}};
 }
 
-Cost cost_from(const nlohmann::json& json) {
-  return {json.at("p50_us"), json.at("p99_us"), json.at("mean_us")};
+// Takes numbers out of an object, and remembers whether all were there.
+class Reader {
+ public:
+  explicit Reader(const nlohmann::json& json) : json_(json) {}
+  std::string text(const char* key) {
+    is_whole_ &= has(key) && json_.at(key).is_string();
+    return is_whole_ ? json_.at(key).get<std::string>() : "";
+  }
+  uint32_t count(const char* key) {
+    is_whole_ &=
+        has(key) && json_.at(key).is_number_unsigned() && json_.at(key).get<uint64_t>() <= UINT32_MAX;
+    return is_whole_ ? json_.at(key).get<uint32_t>() : 0;
+  }
+  double number(const char* key) {
+    is_whole_ &= has(key) && json_.at(key).is_number() && json_.at(key).get<double>() >= 0 &&
+                 std::isfinite(json_.at(key).get<double>());
+    return is_whole_ ? json_.at(key).get<double>() : 0;
+  }
+  Cost cost(const char* key) {
+    is_whole_ &= has(key);
+    if (!is_whole_) return {};
+    Reader inner(json_.at(key));
+    const Cost out{inner.number("p50_us"), inner.number("p99_us"), inner.number("mean_us")};
+    is_whole_ &= inner.is_whole();
+    return out;
+  }
+  bool is_whole() const { return is_whole_; }
+
+ private:
+  bool has(const char* key) const { return json_.is_object() && json_.contains(key); }
+
+  const nlohmann::json& json_;
+  bool is_whole_ = true;
+};
+
+bool took_time(const Cost& cost) { return cost.p50_us > 0 && cost.p99_us > 0 && cost.mean_us > 0; }
+
+bool is_possible(const Row& row) {
+  const bool is_kind = row.kind == "tier" || row.kind == "variant" || row.kind == "baseline";
+  return is_kind && static_cast<uint32_t>(row.tier) < kTierCount && row.every > 0 &&
+         (!row.costs() || (took_time(row.warm) && took_time(row.cold)));
 }
 
 }  // namespace
@@ -32,17 +73,19 @@ nlohmann::ordered_json to_json(const Row& row) {
           {"dominated_by", row.dominated_by}};
 }
 
-Row row_from(const nlohmann::json& json) {
-  return {.name = json.at("name"),
-          .kind = json.at("kind"),
-          .tier = static_cast<Tier>(json.at("tier").get<uint32_t>()),
-          .every = json.at("every"),
-          .level = json.at("level"),
-          .warm = cost_from(json.at("warm")),
-          .cold = cost_from(json.at("cold")),
-          .error = {json.at("mean_mm"), json.at("sd_mm"), json.at("p95_mm"), json.at("worst_mm"),
-                    json.at("ratio"), json.at("ratio_50")},
-          .dominated_by = json.at("dominated_by")};
+std::optional<Row> row_from(const nlohmann::json& json) {
+  Reader read(json);
+  Row row;
+  row.name = read.text("name");
+  row.kind = read.text("kind");
+  row.tier = static_cast<Tier>(read.count("tier"));
+  row.every = read.count("every");
+  row.level = read.count("level");
+  row.warm = read.cost("warm");
+  row.cold = read.cost("cold");
+  row.error = {read.number("mean_mm"),  read.number("sd_mm"), read.number("p95_mm"),
+               read.number("worst_mm"), read.number("ratio"), read.number("ratio_50")};
+  return read.is_whole() && is_possible(row) ? std::optional(row) : std::nullopt;
 }
 
 }  // namespace sinew::baker

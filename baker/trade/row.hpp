@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "sinew/types.hpp"
@@ -37,6 +38,8 @@ struct Row {
 };
 
 nlohmann::ordered_json to_json(const Row& row);
-Row row_from(const nlohmann::json& json);
+// What was measured, without what is found by comparison. Nothing where a number is missing, is none, not
+// finite or below zero, where a step that costs took no time, or where there is no such tier.
+std::optional<Row> row_from(const nlohmann::json& json);
 
 }  // namespace sinew::baker

@@ -143,8 +143,13 @@ TEST_CASE("a_trade_finds_the_front_bakes_it_and_goes_on_where_it_was_stopped") {
   CHECK(std::ranges::equal(baked.view().weights, given.view().weights));
   CHECK(std::ranges::equal(baked.view().strings, given.view().strings));
 
+  const std::string count = std::to_string(rows.size());
+  CHECK_THAT(first.out, Catch::Contains(" s; 0 of " + count + " rows taken from " + out + "/measured.json"));
+
   const std::string csv = read_text(out + "/trade.csv");
-  must(trade(arguments));
+  const ProgramResult second = trade(arguments);
+  must(second);
+  CHECK_THAT(second.out, Catch::Contains(" s; " + count + " of " + count + " rows taken from"));
   CHECK(read_text(out + "/trade.csv") == csv);
 
   nlohmann::json half = nlohmann::json::parse(read_text(out + "/measured.json"));
@@ -154,6 +159,16 @@ TEST_CASE("a_trade_finds_the_front_bakes_it_and_goes_on_where_it_was_stopped") {
   const nlohmann::json again = rows_of(out);
   CHECK(row_of(again, "skinning") == row_of(rows, "skinning"));
   CHECK(row_of(again, "modal").at("ratio") == row_of(rows, "modal").at("ratio"));
+
+  half = nlohmann::json::parse(read_text(out + "/measured.json"));
+  half["rows"][2]["ratio"] = "much";
+  half["rows"][3].erase("warm");
+  write_file(out + "/measured.json", std::string_view(half.dump()));
+  const ProgramResult mended = trade(arguments);
+  must(mended);
+  CHECK(mended.error == "sinew-trade: " + out + "/measured.json: 2 of " + count +
+                            " rows hold no figures of a step; they are measured anew\n");
+  CHECK(row_of(rows_of(out), rows[2].at("name")).at("ratio") == rows[2].at("ratio"));
 
   write_file(out + "/measured.json", std::string_view("{\"rows\":"));
   CHECK_THAT(trade(arguments).error, Catch::Contains("measured.json: is no table of rows"));
