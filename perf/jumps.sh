@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Measures how far changes of tier move the creature's surface, and rewrites the table of jumps in perf/README.md. Three minutes; with
-# SINEW_CHARACTER, a pack that sinew-trade wrote, ten seconds.
+# SINEW_CHARACTER, a pack that sinew-trade wrote, a minute.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -10,4 +10,4 @@ measured=$(mktemp -d)
 trap 'rm -rf "$measured"' EXIT
 character=${SINEW_CHARACTER:-$(perf/traded_creature.sh "$measured")}
 build/release/bin/perf_jumps "$character" --rates >"$measured/jumps.csv"
-python3 perf/summarise_table.py jumps "$measured/jumps.csv"
+python3 perf/summarise_jumps.py "$measured/jumps.csv"

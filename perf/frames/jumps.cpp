@@ -1,182 +1,112 @@
 // jumps.cpp  perf_jumps: how far a change of tier moves a vertex from one frame to the next; CSV to stdout.
 //
-// Along the character's clips, an instance in one tier changes to another, every seven ticks anew. Told is
-// the vertex where it is largest, of
-//   at once      how far the surface is, in the first frame, from where it would be without the change
-//   beyond both  how much further a vertex moves, from one frame to the next in the 24 after the change,
-//                than it did in that frame and the two before it in either tier all along: what no tier's
-//                own motion explains
-// Surfaces are compared before skinning. The tier that is not simulated stands still by itself.
+// Along the character's clips, every seven ticks anew, an instance changes from what it has to a tier: from
+// every tier that may be bought, and from having been left alone, for some ticks, by extrapolation, by
+// skinning, or out of view. What is told of it: tier_change.hpp. The tier that is not simulated all along
+// stands still.
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <exception>
 
-#include "perf/frames/pose_tape.hpp"
-#include "world/instance.hpp"
-#include "world/read.hpp"
-#include "world/snapshot.hpp"
-#include "world/tick.hpp"
+#include "perf/frames/tier_change.hpp"
 
 namespace {
 
 using namespace sinew;
+using namespace sinew::perf;
 
 constexpr double kSeconds = 8;
-constexpr size_t kApart = 7, kWatched = 24;  // ticks
 
-struct Way {
-  Tier tier;
-  uint32_t level, every;
-};
-
-void must(const Status& status) {
-  if (!status.ok()) throw std::runtime_error(status.message);
-}
-
-class Player {
- public:
-  explicit Player(const demo::CharacterFile& character) : tape_(character, kSeconds) {
-    must(world::open_asset(character.file.bytes(), &asset_));
-    must(world::make_instance(asset_, {}, &instance_));
-  }
-  void step(const Way& way) {
-    const std::span<const Matrix34> joints = tape_.joints(static_cast<double>(++tick_) * asset_.tick_s);
-    std::ranges::copy(joints, instance_.next_joints);
-    instance_.state->has_next = 1;
-    instance_.plan = {.ticks = {.ticks = 1, .first_tick_s = asset_.tick_s},
-                      .dt_s = asset_.tick_s,
-                      .tier = way.tier,
-                      .level = way.level,
-                      .every = way.every};
-    world::step_instance(instance_, {});
-  }
-  std::vector<float> surface() const {
-    std::vector<float> out(size_t{3} * asset_.vertex_count());
-    world::read_positions(instance_,
-                          {.space = Space::kBind, .out = out.data(), .capacity = asset_.vertex_count()});
-    return out;
-  }
-  std::vector<std::byte> save() const {
-    std::vector<std::byte> state(world::snapshot_bytes(instance_));
-    must(world::save(instance_, state));
-    return state;
-  }
-  void restore(const std::vector<std::byte>& state, size_t tick) {
-    must(world::restore(instance_, state));
-    tick_ = tick;
-  }
-  const world::Asset& asset() const { return asset_; }
-  double height_m() const { return static_cast<double>(asset_.pack.character->height_m); }
-
- private:
-  perf::PoseTape tape_;
-  world::Asset asset_;
-  world::Instance instance_;
-  size_t tick_ = 0;
-};
-
-using Surface = std::vector<float>;
-
-// A tier all along.
-struct Run {
-  std::vector<Surface> surfaces;               // [ticks]
-  std::vector<std::vector<std::byte>> states;  // every kApart
-};
-
-Run run_in(const demo::CharacterFile& character, const Way& way) {
-  Player player(character);
-  Run run;
-  const auto ticks = static_cast<size_t>(kSeconds / player.asset().tick_s);
-  for (size_t tick = 0; tick < ticks; ++tick) {
-    player.step(way);
-    run.surfaces.push_back(player.surface());
-    if (tick % kApart == kApart - 1) run.states.push_back(player.save());
-  }
-  return run;
-}
-
-double distance(const Surface& a, const Surface& b, size_t v) {
-  return std::hypot(double{a[v]} - double{b[v]}, double{a[v + 1]} - double{b[v + 1]},
-                    double{a[v + 2]} - double{b[v + 2]});
-}
-
-struct Jump {
-  double at_once_m = 0, beyond_m = 0;
-};
-
-// The longest of a vertex's last three steps.
-double own_step(const Run& run, size_t t, size_t v) {
-  double longest = 0;
-  for (size_t back = 0; back < 3; ++back)
-    longest = std::max(longest, distance(run.surfaces[t - back], run.surfaces[t - back - 1], v));
-  return longest;
-}
-
-void follow_change(Player& player, const Run& from, const Run& to, const Way& way, size_t change,
-                   Jump* jump) {
-  const size_t first = (change + 1) * kApart, last = std::min(first + kWatched, from.surfaces.size());
-  player.restore(from.states[change], first);
-  Surface before = from.surfaces[first - 1];
-  for (size_t t = first; t < last; ++t) {
-    player.step(way);
-    const Surface now = player.surface(), &stays = from.surfaces[t];
-    for (size_t v = 0; v < now.size(); v += 3) {
-      if (t == first) jump->at_once_m = std::max(jump->at_once_m, distance(now, stays, v));
-      const double own = std::max(own_step(from, t, v), own_step(to, t, v));
-      jump->beyond_m = std::max(jump->beyond_m, distance(now, before, v) - own);
-    }
-    before = now;
-  }
-}
-
-// What the scheduler may choose: the points of the front, and to be left alone. With `rates` also what it
-// does not buy, modes in every second tick.
-std::vector<Way> ways_of(const world::Asset& asset, bool rates) {
-  std::vector<Way> ways = {{Tier::kExtrapolate, 0, 1}};
-  for (uint32_t l = 1; l < asset.front.count; ++l)
-    ways.push_back({asset.front.levels[l].tier, asset.front.levels[l].graph, asset.front.levels[l].every});
-  for (size_t w = ways.size(); rates && w-- > 1;)
-    if (ways[w].tier == Tier::kModal) ways.push_back({Tier::kModal, ways[w].level, 2});
-
+// Those that the scheduler may choose: which of its points are on the front is decided anew at every step.
+// With `rates` also what it does not buy, modes in every second tick.
+std::vector<Way> simulated_ways(const world::Asset& asset, bool rates) {
+  std::vector<Way> ways;
+  for (uint32_t i = 0; i < asset.point_count; ++i)
+    ways.push_back(
+        {.tier = asset.points[i].tier, .level = asset.points[i].graph, .every = asset.points[i].every});
+  for (size_t w = ways.size(); rates && w-- > 0;)
+    if (ways[w].tier == Tier::kModal)
+      ways.push_back({.tier = Tier::kModal, .level = ways[w].level, .every = 2});
   return ways;
 }
+
+struct Left {
+  const char* name;
+  Way way;
+  size_t ticks;
+};
+constexpr Way kExtrapolated{.tier = Tier::kExtrapolate}, kSkinned{}, kHidden{.hidden = true};
+// While what was shown is carried on, while it fades, and when it has. Skinning is had only where nothing is
+// left to carry on.
+constexpr Left kLeft[] = {{"extrapolate for 2", kExtrapolated, 2},
+                          {"extrapolate for 9", kExtrapolated, 9},
+                          {"extrapolate for 30", kExtrapolated, 30},
+                          {"skinning for 30", kSkinned, 30},
+                          {"hidden for 2", kHidden, 2},
+                          {"hidden for 9", kHidden, 9},
+                          {"hidden for 30", kHidden, 30}};
 
 std::string name_of(const world::Asset& asset, const Way& way) {
   constexpr const char* kNames[] = {"skinning", "extrapolate", "network", "spring", "modal"};
   std::string name = kNames[static_cast<size_t>(way.tier)];
   if (way.every > 1) name += " every " + std::to_string(way.every);
-  if (way.tier == Tier::kExtrapolate || asset.level_count == 1) return name;
+  if (!frame::is_simulated(way.tier) || asset.level_count == 1) return name;
   return name + " on " + std::to_string(asset.levels[way.level].pack.regions[0].node_count);
+}
+
+bool is_same(const Way& a, const Way& b) {
+  return a.tier == b.tier && a.level == b.level && a.every == b.every;
+}
+
+struct Table {
+  JumpPlayer& player;
+  const std::vector<Way>& ways;  // those that are simulated first
+  const std::vector<Run>& runs;
+
+  void tell(const std::string& from, const Way& left, const std::vector<Stay>& stays) const {
+    for (size_t w = 0; w < ways.size(); ++w) {
+      if (is_same(ways[w], left) || (!frame::is_simulated(left.tier) && !frame::is_simulated(ways[w].tier)))
+        continue;
+      const Jump jump = largest_jump(player, stays, runs[w], ways[w]);
+      const bool is_chosen = ways[w].every == 1 && left.every == 1;
+      const double percent = 100 / player.height_m();
+      std::printf("\"%s\",%s,%d,%.3f,%.4f,%.3f,%.4f\n", from.c_str(),
+                  name_of(player.asset(), ways[w]).c_str(), is_chosen ? 1 : 0, 1e3 * jump.at_once_m,
+                  percent * jump.at_once_m, 1e3 * jump.beyond_m, percent * jump.beyond_m);
+    }
+  }
+};
+
+// Of those that are simulated the one nearest to the truth, which loses most by being left alone.
+size_t best_of(const world::Asset& asset, const std::vector<Way>& ways) {
+  size_t best = 0;
+  for (size_t w = 0; w < asset.point_count; ++w)
+    if (asset.points[w].error < asset.points[best].error) best = w;
+  return std::min(best, ways.size() - 1);
 }
 
 void run(const std::string& path, bool rates) {
   const demo::CharacterFile character = demo::open_character(path);
-  Player player(character);
-  const std::vector<Way> ways = ways_of(player.asset(), rates);
+  JumpPlayer player(character, kSeconds);
+  std::vector<Way> ways = simulated_ways(player.asset(), rates);
+  if (ways.empty()) throw std::runtime_error(path + ": has no tier that simulates");
+  const size_t simulated = ways.size(), best = best_of(player.asset(), ways);
+  ways.push_back(kExtrapolated);
   std::vector<Run> runs;
-  for (const Way& way : ways) runs.push_back(run_in(character, way));
-  std::puts("from,to,at_once_mm,at_once_percent,beyond_both_mm,beyond_both_percent");
-  for (size_t f = 1; f < ways.size(); ++f) {  // what is not simulated has faded before the next change
-    for (size_t w = 0; w < ways.size(); ++w) {
-      if (w == f) continue;
-      Jump jump;
-      for (size_t change = 0; change < runs[f].states.size(); ++change)
-        follow_change(player, runs[f], runs[w], ways[w], change, &jump);
-      const double percent = 100 / player.height_m();
-      std::printf("%s,%s,%.3f,%.4f,%.3f,%.4f\n", name_of(player.asset(), ways[f]).c_str(),
-                  name_of(player.asset(), ways[w]).c_str(), 1e3 * jump.at_once_m, percent * jump.at_once_m,
-                  1e3 * jump.beyond_m, percent * jump.beyond_m);
-    }
-  }
+  for (const Way& way : ways) runs.push_back(run_in(player, way));
+  std::puts("from,to,chosen,at_once_mm,at_once_percent,beyond_both_mm,beyond_both_percent");
+  const Table table{player, ways, runs};
+  for (size_t f = 0; f < simulated; ++f)
+    table.tell(name_of(player.asset(), ways[f]), ways[f], stays_in(runs[f]));
+  for (const Left& left : kLeft)
+    table.tell(left.name, left.way.hidden ? kSkinned : left.way,
+               stays_after(player, runs[best], left.way, left.ticks));
 }
 
 }  // namespace
 
 int main(int count, char** arguments) {
-  CLI::App app{
-      "How far a change of tier moves a vertex at once, of all pairs that the scheduler may choose."};
+  CLI::App app{"How far a change of tier moves a vertex, of all changes that can happen."};
   std::string path;
   app.add_option("pack", path, "C.sinew")->required();
   bool rates = false;

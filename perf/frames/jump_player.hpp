@@ -1,0 +1,44 @@
+// jump_player.hpp  One instance along its character's clips, a tick a frame, in whatever tier it is told.
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "perf/frames/pose_tape.hpp"
+#include "world/asset.hpp"
+#include "world/instance.hpp"
+
+namespace sinew::perf {
+
+struct Way {
+  Tier tier = Tier::kSkinning;
+  uint32_t level = 0, every = 1;
+  bool hidden = false;  // passed by; shows what it did
+};
+
+using Surface = std::vector<float>;  // [vertices][3], metres, before skinning
+
+class JumpPlayer {
+ public:
+  struct Mark {
+    std::vector<std::byte> state;
+    size_t tick = 0;
+  };
+
+  JumpPlayer(const demo::CharacterFile& character, double seconds);
+  void step(const Way& way);
+  Surface surface() const;
+  Mark mark() const;
+  void go_back(const Mark& mark);
+  size_t ticks() const;  // of the clips
+  double height_m() const { return static_cast<double>(asset_.pack.character->height_m); }
+  const world::Asset& asset() const { return asset_; }
+
+ private:
+  double seconds_;
+  PoseTape tape_;
+  world::Asset asset_;
+  world::Instance instance_;
+  size_t tick_ = 0;
+};
+
+}  // namespace sinew::perf
