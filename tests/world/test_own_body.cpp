@@ -181,7 +181,8 @@ TEST_CASE("flesh_that_an_arm_presses_as_deep_as_it_is_thick_stands_still") {
     for (const double radius_m : {0.03, 0.05, 0.08}) {
       const ArmMatter matter{.radius_m = radius_m};
       for (const double depth_m : {0.02, 0.04, 0.06}) {
-        ArmStage stage(tier, scenes::soft_block({.arms = matter}), matter);
+        const scenes::PackBytes pack = scenes::soft_block({.arms = matter});
+        ArmStage stage(tier, pack, matter);
         CHECK(stage.trembles_m(radius_m - 0.15 - depth_m) < kAim_m);
       }
     }
@@ -192,8 +193,8 @@ TEST_CASE("flesh_of_many_vertices_a_node_that_an_arm_presses_stands_still") {
   for (const int nodes : {5, 14}) {
     for (const double height_m : {0.49, 0.51}) {
       const ArmMatter matter{.height_m = height_m, .radius_m = 0.04};
-      ArmStage stage(Tier::kNetwork, scenes::soft_block({.cells = 12, .nodes = nodes, .arms = matter}),
-                     matter);
+      const scenes::PackBytes pack = scenes::soft_block({.cells = 12, .nodes = nodes, .arms = matter});
+      ArmStage stage(Tier::kNetwork, pack, matter);
       CHECK(stage.trembles_m(-0.15) < kAim_m);
     }
   }
