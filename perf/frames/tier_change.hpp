@@ -6,7 +6,7 @@
 
 namespace sinew::perf {
 
-inline constexpr size_t kApart = 7, kWatched = 24;  // ticks
+inline constexpr size_t kApart = 7, kWatched = 44;  // ticks
 
 using Steps = std::vector<float>;  // [vertices]: metres from one frame to the next
 

@@ -15,11 +15,12 @@
 
 namespace sinew::test {
 
-// One number of the bytes of all these files.
+// One number of the bytes of all these files. A compiler may have been told a test's own source (__FILE__)
+// from the build's folder.
 inline std::string fingerprint(const std::vector<std::string>& files) {
   uint64_t key = 0;
   for (const std::string& file : files) {
-    const std::string bytes = baker::read_text(file);
+    const std::string bytes = baker::read_text((std::filesystem::path(SINEW_BINARY_DIR) / file).string());
     key = key * 31 + core::hash64(std::as_bytes(std::span(bytes)));
   }
   return std::to_string(key);
