@@ -185,6 +185,7 @@ HWY_INLINE void surface_nearest_in_node(const SurfaceNode& node, const Three<Sur
   });
   const uint32_t first = walk->pending_count;
   for_surface_bits(near, [&](size_t k) HWY_ATTR {
+    if (node.children[k] == 0) return;  // empty: far out, infinity is as near as it
     surface_put_off({squares[k], node.children[k]}, first, walk);
   });
 }
@@ -287,7 +288,7 @@ void surface_near_sweep(const SurfaceTree& tree, const SurfaceSweep& sweep, Surf
       const SurfaceNode& node = tree.nodes[next];
       --walk->pending_count;
       for_surface_bits(surface_overlaps(node.boxes, low, high), [&](size_t k) HWY_ATTR {
-        walk->pending[walk->pending_count++] = {0, node.children[k]};
+        if (node.children[k] != 0) walk->pending[walk->pending_count++] = {0, node.children[k]};
       });
     }
   }

@@ -18,11 +18,11 @@
 
 namespace sinew::world {
 
-// In ticks of the asset's rate; at 60 Hz 0.07 s, 0.2 s and 0.47 s.
+// In ticks of the asset's rate; at 60 Hz 0.07 s, 0.2 s and 0.33 s.
 inline constexpr uint32_t kCarryTicks = 4;  // swings on before the fade begins: by then it is more than half
                                             // as far off as skinning, and soon as far
 inline constexpr uint32_t kFadeTicks = 12;  // from there to skinning
-inline constexpr uint32_t kBlendInTicks = 28;  // from that to simulation, when it comes back: by then most
+inline constexpr uint32_t kBlendInTicks = 20;  // from that to simulation, when it comes back: by then most
                                                // of the swing of starting from the wrong place has died down
 // A network that missed at most so many ticks keeps its memory when it comes back; after more, its velocities
 // are of another phase of the wobble and it starts anew from where it is.
