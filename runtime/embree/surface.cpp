@@ -129,6 +129,7 @@ Status Surface::create(const SurfaceDef& def, std::unique_ptr<Surface>* out) {
     for (const uint32_t source : made->topology_.source) {
       made->groups_.push_back(def.groups[source]);
       made->every_group_ |= def.groups[source];
+      made->some_ungrouped_ |= def.groups[source] == 0;
     }
   }
   made->rest_m_.assign(def.rest_m.begin(), def.rest_m.end());

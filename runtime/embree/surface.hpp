@@ -27,7 +27,7 @@ class Surface {
   double motion_s() const noexcept { return motion_s_; }  // that moves span; 0: it stands
   // Whether one cannot get to another side without going through triangles of the groups.
   bool is_closed(uint32_t groups) const noexcept {
-    return topology_.border_edges == 0 && (every_group_ & ~groups) == 0;
+    return topology_.border_edges == 0 && !some_ungrouped_ && (every_group_ & ~groups) == 0;
   }
   float friction() const noexcept { return friction_; }
   float restitution() const noexcept { return restitution_; }
@@ -124,7 +124,8 @@ class Surface {
   float drift_[3] = {0, 0, 0}, farthest_m_ = 0;  // of any place from origin_m, at most
   float friction_ = 0, restitution_ = 0;
   bool two_sided_ = false;
-  uint32_t every_group_ = ~0u;  // of any triangle
+  uint32_t every_group_ = ~0u;   // of any triangle
+  bool some_ungrouped_ = false;  // triangles that no filter asks for
   uint32_t poses_refused_ = 0;
   bool changed_ = true;  // by the last pose
   Tree tree_;

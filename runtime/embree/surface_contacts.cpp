@@ -88,12 +88,15 @@ bool goes_on(const ContactProbe& before, const ContactProbe& probe) {
          square_between(probe.start_m[0], probe.start_m[1]) > near_m * near_m;
 }
 
+// Beyond it, squares of distances are no floats.
+constexpr double kFarthestProbe_m = 1e15;
+
 bool usable(const ContactProbe& probe) {
   double sum = static_cast<double>(probe.radius_m);
   for (size_t end = 0; end < 2; ++end) {
     for (size_t k = 0; k < 3; ++k) sum += std::fabs(probe.start_m[end][k]) + std::fabs(probe.end_m[end][k]);
   }
-  return probe.radius_m >= 0 && std::isfinite(sum);
+  return probe.radius_m >= 0 && sum <= kFarthestProbe_m;
 }
 
 // Keeps the deepest of more than there is room for; the shallowest of those kept is first then.

@@ -38,11 +38,12 @@ struct Found {
 struct Asked {
   bool source;
   uint64_t capsules;
+  NormalsOf normals = NormalsOf::kFirstTouch;  // of the capsules
   bool nobody() const { return !source && capsules == 0; }
 };
 
-Asked asked_by(const Instance& instance, uint32_t region) {
-  return {instance.contacts.source && instance.contacts.tissue, touchable(instance, region)};
+Asked asked_by(const Instance& instance, uint32_t region, NormalsOf normals = NormalsOf::kFirstTouch) {
+  return {instance.contacts.source && instance.contacts.tissue, touchable(instance, region), normals};
 }
 
 struct Question {
@@ -72,7 +73,8 @@ struct Question {
     const uint32_t found = asked.source ? instance.contacts.source->find(probes, tick_s, room) : 0;
     const uint32_t of_source = std::min(found, kHitsAtOnce);
     const std::span<ContactHit> own_room = {instance.hits + of_source, kHitsAtOnce};
-    const uint32_t own = asked.capsules ? find_own_body(instance, asked.capsules, probes, own_room) : 0;
+    const uint32_t own =
+        asked.capsules ? find_own_body(instance, asked.capsules, asked.normals, probes, own_room) : 0;
     const uint32_t given = of_source + std::min(own, kHitsAtOnce);
     const auto end = std::remove_if(instance.hits, instance.hits + given,
                                     [&](const ContactHit& hit) { return !core::is_usable(hit, count); });
@@ -105,11 +107,10 @@ Way vertex_way(const Instance& instance, const Found& found, const Displaced& di
           surface_point(instance, found.region, vertex, displaced.now, 0).place_m};
 }
 
-// Pushed as it is, moved by its pose alone.
-Way pushed_way(const Instance& instance, const Found& found) {
-  const SurfacePatches::Vertex& vertex = instance.level->patches.vertices[found.vertex];
-  const PushedPlaces places = pushed_places(instance, found.region, vertex);
-  return {places.before, places.now};
+// To where it is pushed.
+Way pushed_way(const Instance& instance, const Touch& touch) {
+  const SurfacePatches::Vertex& vertex = instance.level->patches.vertices[touch.vertex];
+  return {ConstVector(touch.start_m), pushed_place(instance, touch.region, vertex, instance.shown[0], 0)};
 }
 
 float reach_m(const Instance& instance, uint32_t node) {
@@ -139,7 +140,7 @@ Ball ball_around(const Instance& instance, const pack::RegionRecord& region) {
 // Those of them whom the region may touch.
 Asked near_region(Instance& instance, const pack::RegionRecord& region, Asked asked) {
   const Ball ball = ball_around(instance, region);
-  Question question{instance, {asked.source, 0}};
+  Question question{instance, {.source = asked.source, .capsules = 0}};
   question.add(ball.middle, ball.radius_m);
   asked.capsules = near_own_body(instance, asked.capsules, instance.probes[0]);
   bool all = false;
@@ -167,6 +168,7 @@ Touch touch_of(const Instance& instance, const Found& found, const ContactHit& h
   for (int k = 0; k < 3; ++k) {
     way_m += static_cast<double>(hit.normal[k]) * (probe.end_m[0][k] - probe.start_m[0][k]);
     touch.place_m[k] = static_cast<float>(probe.end_m[0][k] - instance.state->tick_root_m[0][k]);
+    touch.start_m[k] = static_cast<float>(probe.start_m[0][k] - instance.state->tick_root_m[1][k]);
   }
   touch.gap_m = static_cast<float>(hit.gap_m + way_m);
   return touch;
@@ -292,12 +294,13 @@ void find_pushed_touches(Instance& instance) noexcept {
   const uint32_t count = instance.touch_count;
   for (uint32_t first = 0, t = 0; t < count; first = t) {
     const uint32_t r = instance.touches[first].region;
-    Vertices vertices{{instance, asked_by(instance, r)}, inside_m(instance.level->pack.regions[r]), {}};
+    Vertices vertices{
+        {instance, asked_by(instance, r, NormalsOf::kEnd)}, inside_m(instance.level->pack.regions[r]), {}};
     for (; t < count && instance.touches[t].region == r; ++t) {
-      const Touch& touch = instance.touches[t];
+      const Touch touch = instance.touches[t];
       if (std::exchange(instance.touched[touch.vertex], uint8_t{0}) == 0) continue;
       const Found found{r, touch.node, touch.vertex};
-      vertices.add(found, pushed_way(instance, found));
+      vertices.add(found, pushed_way(instance, touch));
     }
     vertices.ask();
   }

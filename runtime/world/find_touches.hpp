@@ -15,8 +15,8 @@ void find_touches(Instance& instance, uint32_t region) noexcept;
 // After show_tick, of all regions, added likewise: what the press brought against something. Asked are
 // vertices that touched nothing, on their way to where they are shown.
 void find_late_touches(Instance& instance) noexcept;
-// Of vertices that touch something: what their pushes brought them against, as if they had been pushed so a
-// tick ago.
+// Of vertices that touch something: what their pushes brought them against, on their way from where they
+// were shown.
 void find_pushed_touches(Instance& instance) noexcept;
 // There are none of either kind: in the tick neither nodes nor what they touch moved by more than
 // kHardlyMoved of the region's radius, and what is not inside of anything hardly gets there.

@@ -113,6 +113,7 @@ struct Touch {
   float normal[3] = {};           // world, out of what is touched
   float gap_m = 0;                // where nothing presses
   float place_m[3] = {};          // is there, from the tick's root
+  float start_m[3] = {};          // where it was shown a tick ago, from that tick's root
 };
 
 // What a step does with an instance: taken over from the plan's answer as its task begins, and of those that

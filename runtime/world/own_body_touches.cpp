@@ -113,8 +113,13 @@ WayOut between(const WayOut& start, const WayOut& end, double time) noexcept {
   return {start.share + time * (end.share - start.share), rods::between(start.apart, end.apart, time)};
 }
 
+WayOut touched(const WayOut& start, const WayOut& end, double reach_m, NormalsOf normals) noexcept {
+  const WayOut first = between(start, end, first_touch(start.apart, end.apart, reach_m));
+  return normals == NormalsOf::kEnd && rods::dot(first.apart, end.apart) > 0 ? end : first;
+}
+
 // False: no contact. By compare, so that NaN is none.
-bool touch(const MovingCapsule& capsule, const ContactProbe& probe, WayOut* out) noexcept {
+bool touch(const MovingCapsule& capsule, const ContactProbe& probe, NormalsOf normals, WayOut* out) noexcept {
   const Way way = way_of(probe);
   const double reach_m = capsule.radius_m + static_cast<double>(probe.radius_m);
   const double closing = closing_m(capsule, way);
@@ -123,7 +128,7 @@ bool touch(const MovingCapsule& capsule, const ContactProbe& probe, WayOut* out)
   if (!(rods::length(end.apart) < near_m + closing)) return false;
   const WayOut start = way_out(capsule.start, way.start);
   if (!(nearest_m(start.apart, end.apart) < near_m)) return false;
-  *out = between(start, end, first_touch(start.apart, end.apart, reach_m));
+  *out = touched(start, end, reach_m, normals);
   return true;
 }
 
@@ -181,13 +186,13 @@ uint64_t touchable(const Instance& instance, uint32_t region) noexcept {
   return instance.proxy_before ? instance.asset->touchable[region] : 0;
 }
 
-uint32_t find_own_body(const Instance& instance, uint64_t capsules, std::span<const ContactProbe> probes,
-                       std::span<ContactHit> hits) noexcept {
+uint32_t find_own_body(const Instance& instance, uint64_t capsules, NormalsOf normals,
+                       std::span<const ContactProbe> probes, std::span<ContactHit> hits) noexcept {
   uint32_t count = 0;
   for_each_capsule(instance, capsules, [&](uint32_t proxy, const MovingCapsule& capsule) {
     for (uint32_t p = 0; p < probes.size(); ++p) {
       WayOut out;
-      if (!touch(capsule, probes[p], &out)) continue;
+      if (!touch(capsule, probes[p], normals, &out)) continue;
       if (count < hits.size()) {
         hits[count] = hit_of(capsule, probes[p], out, instance.asset->tick_s);
         hits[count].probe = p;
@@ -203,7 +208,7 @@ uint64_t near_own_body(const Instance& instance, uint64_t capsules, const Contac
   uint64_t near = 0;
   for_each_capsule(instance, capsules, [&](uint32_t proxy, const MovingCapsule& capsule) {
     WayOut unused;
-    if (touch(capsule, probe, &unused)) near |= uint64_t{1} << proxy;
+    if (touch(capsule, probe, NormalsOf::kFirstTouch, &unused)) near |= uint64_t{1} << proxy;
   });
   return near;
 }

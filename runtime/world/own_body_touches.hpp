@@ -19,11 +19,15 @@ Status find_touchable(const pack::PackView& pack, std::unique_ptr<uint64_t[]>* o
 // 0 where the instance's soft parts do not touch its body.
 uint64_t touchable(const Instance& instance, uint32_t region) noexcept;
 
-// Contacts of balls or points on their way through the tick, as of ContactSource::find; normals are those of
-// the first touch: of what rests on a capsule, where it was shown, not where it would be if nothing pressed,
-// which may be beyond the axis. Tells how many there are.
-uint32_t find_own_body(const Instance& instance, uint64_t capsules, std::span<const ContactProbe> probes,
-                       std::span<ContactHit> hits) noexcept;
+// Of the first touch: of what rests on a capsule, where it was shown, not where it would be if nothing
+// pressed, which may be beyond the axis. Or where the way ends, if that is on the side of the first touch: of
+// what was pushed, exactly.
+enum class NormalsOf : uint32_t { kFirstTouch, kEnd };
+
+// Contacts of balls or points on their way through the tick, as of ContactSource::find. Tells how many there
+// are.
+uint32_t find_own_body(const Instance& instance, uint64_t capsules, NormalsOf normals,
+                       std::span<const ContactProbe> probes, std::span<ContactHit> hits) noexcept;
 // Which of the capsules have contacts with a probe.
 uint64_t near_own_body(const Instance& instance, uint64_t capsules, const ContactProbe& probe) noexcept;
 

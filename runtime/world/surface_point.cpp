@@ -83,13 +83,6 @@ Vector3f pushed_place(const Instance& instance, uint32_t region, const SurfacePa
   return placed(instance, vertex, place + push_at(instance, region, vertex), age).place_m;
 }
 
-PushedPlaces pushed_places(const Instance& instance, uint32_t region,
-                           const SurfacePatches::Vertex& vertex) noexcept {
-  const Vector3f place =
-      bind_place(instance, region, vertex, instance.shown[0]) + push_at(instance, region, vertex);
-  return {placed(instance, vertex, place, 1).place_m, placed(instance, vertex, place, 0).place_m};
-}
-
 float* push_of(const Instance& instance, uint32_t region, const SurfacePatches::Vertex& vertex,
                size_t* pitch) noexcept {
   const pack::PackView& pack = instance.level->pack;

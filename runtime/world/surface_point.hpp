@@ -19,12 +19,6 @@ SurfacePoint surface_point(const Instance& instance, uint32_t region, const Surf
 // The same, pushed as it is now.
 Eigen::Vector3f pushed_place(const Instance& instance, uint32_t region, const SurfacePatches::Vertex& vertex,
                              const float* displacement, uint32_t age) noexcept;
-// As it is shown and pushed now, under the poses of both ticks.
-struct PushedPlaces {
-  Eigen::Vector3f before, now;
-};
-PushedPlaces pushed_places(const Instance& instance, uint32_t region,
-                           const SurfacePatches::Vertex& vertex) noexcept;
 // How a vertex is pushed (world/push_surface.hpp): its first number, the others `pitch` further each.
 float* push_of(const Instance& instance, uint32_t region, const SurfacePatches::Vertex& vertex,
                size_t* pitch) noexcept;

@@ -108,6 +108,21 @@ TEST_CASE("what_is_no_surface_no_pose_and_no_filter_is_refused_with_its_reason")
   CHECK(found(contacts, ball_probe({1.09, 0, 0}, 0.1)).empty());
 }
 
+TEST_CASE("probes_that_are_absurdly_far_out_or_long_are_left_out_and_counted") {
+  const MeshData mesh = box({1, 1, 1});
+  SurfaceContacts contacts;
+  SurfaceId id;
+  REQUIRE(SurfaceContacts::create({.reach_m = std::numeric_limits<float>::max()}, &contacts).ok());
+  REQUIRE(contacts.add_surface(mesh.def(), &id).ok());
+  uint64_t skipped = 0;
+  for (const double far_m : {1e16, 1e20, 1e39, 1e150}) {
+    CHECK(found(contacts, probe({-far_m, 0, 0}, {far_m, 0, 0}, 0.1)).empty());
+    CHECK(found(contacts, probe({far_m, 0, 0}, {far_m, 1, 0}, 0.1)).empty());
+    CHECK(contacts.probes_skipped() == (skipped += 2));
+  }
+  CHECK(found(contacts, probe({-1e14, 0, 0}, {1e14, 0, 0}, 0.1)).size() > 0);
+}
+
 TEST_CASE("triangles_that_lose_their_area_later_give_no_nan") {
   const MeshData mesh = bumpy_ball(1, 2);
   SurfaceId id;

@@ -222,6 +222,29 @@ TEST_CASE("flesh_that_an_arm_goes_through_within_a_tick_is_held_on_the_side_it_c
   }
 }
 
+// It goes by more than its own thickness in a tick, and so does flesh that follows it.
+TEST_CASE("flesh_that_a_thin_arm_leaves_quickly_stays_on_its_side") {
+  constexpr double kDeep_m = 0.03, kOut_m = 0.03;
+  for (const double radius_m : {0.003, 0.005}) {
+    const ArmMatter thin{.radius_m = radius_m};
+    const scenes::PackBytes pack = scenes::soft_block({.cells = 12, .arms = thin});
+    ArmStage stage(Tier::kSpring, pack, thin);
+    const std::vector<float> rest = stage.read();
+    const double in_m = radius_m - 0.15 - kDeep_m;
+    stage.swing(0, in_m, 60);
+    stage.hold(in_m, 60);
+    REQUIRE(stage.report().vertices_touched > 3);
+    for (int f = 0; f <= 3; ++f) {
+      const double way_m = in_m + kOut_m * f;
+      stage.step_to(way_m);
+      const std::vector<float> places = stage.read();
+      for (size_t v = 0; v < rest.size(); v += 3)
+        if (rest[v] > 0.149f && std::fabs(rest[v + 1] - scenes::kArmHeight_m) < 0.01)
+          CHECK(static_cast<double>(places[v]) < thin.at_x_m[0] + way_m);
+    }
+  }
+}
+
 TEST_CASE("capsules_in_the_flesh_at_rest_and_of_bones_that_carry_it_are_passed_for_ever") {
   for (const bool of_the_waist : {false, true}) {
     const ArmMatter matter{.at_x_m = {of_the_waist ? 0.35 : 0.17}, .waist_too = of_the_waist};
