@@ -31,6 +31,41 @@ bool same(const std::vector<ContactHit>& a, const std::vector<ContactHit>& b) {
          });
 }
 
+// Over a ball's surface, through it, deeper than the reach, and out again. How many touch from without, and
+// are inside.
+struct Sides {
+  size_t outside = 0, inside = 0;
+};
+Sides touches_of_chains_and_of_their_probes_alone(SurfaceContacts& contacts) {
+  std::mt19937 random(5);
+  Sides sides;
+  for (int n = 0; n < 300; ++n) {
+    std::vector<ContactProbe> chain;
+    Vector at = random_vector(random, 0.15), way = random_vector(random, 0.02);
+    for (int i = 0; i < 20; ++i) {
+      const Vector next = rods::sum(at, rods::sum(way, random_vector(random, 0.01)));
+      chain.push_back(probe(at, next, 0.002, random_vector(random, 0.002)));
+      at = next;
+    }
+    const std::vector<ContactHit> together = found(contacts, chain);
+    size_t told = 0;
+    for (uint32_t i = 0; i < chain.size(); ++i) {
+      for (const ContactHit& alone : found(contacts, chain[i])) {
+        if (i > 0 && alone.along == -1) continue;  // told where the one before ends
+        REQUIRE(told < together.size());
+        const ContactHit& hit = together[told++];
+        REQUIRE(hit.probe == i);
+        REQUIRE(std::tie(hit.along, hit.gap_m, hit.name, hit.body) ==
+                std::tie(alone.along, alone.gap_m, alone.name, alone.body));
+        REQUIRE(std::equal(hit.normal, hit.normal + 3, alone.normal));
+        ++(hit.gap_m < -0.004 ? sides.inside : sides.outside);
+      }
+    }
+    REQUIRE(told == together.size());
+  }
+  return sides;
+}
+
 }  // namespace
 
 TEST_CASE("what_is_no_surface_no_pose_and_no_filter_is_refused_with_its_reason") {
@@ -164,6 +199,28 @@ TEST_CASE("a_refitted_surface_finds_what_one_built_there_finds") {
   CHECK(others <= a.size() / 1000);
 }
 
+TEST_CASE("a_surface_that_stood_for_some_poses_goes_on_as_one_that_was_put_there") {
+  const MeshData here = bumpy_ball(1, 3, 0), there = bumpy_ball(1, 3, 0.1);
+  const std::vector<ContactProbe> probes = probes_about(1, 400, 11);
+  SurfaceId id;
+  for (const SurfaceTime time : {SurfaceTime::kTickEnd, SurfaceTime::kTickStart}) {
+    SurfaceContacts stood = contacts_of(there, &id), put = contacts_of(here, &id);
+    for (int n = 0; n < 3; ++n)
+      REQUIRE(stood.move_surface(id, {.places_m = here.places, .dt_s = 0.01f, .time = time}).ok());
+    REQUIRE(put.move_surface(id, {.places_m = here.places}).ok());
+    CHECK(same(found(stood, probes), found(put, probes)));
+    for (SurfaceContacts* of : {&stood, &put})
+      REQUIRE(of->move_surface(id, {.places_m = there.places, .dt_s = 0.01f, .time = time}).ok());
+    const std::vector<ContactHit> moved = found(stood, probes);
+    CHECK(moved.size() > 20);
+    CHECK(same(moved, found(put, probes)));
+    REQUIRE(stood.move_surface(id, {.places_m = there.places}).ok());  // stands where it went to
+    REQUIRE(put.move_surface(id, {.places_m = here.places}).ok());
+    REQUIRE(put.move_surface(id, {.places_m = there.places}).ok());
+    CHECK(same(found(stood, probes), found(put, probes)));
+  }
+}
+
 TEST_CASE("far_from_the_origin_contacts_are_the_same") {
   const MeshData mesh = bumpy_ball(1, 3);
   SurfaceId id;
@@ -259,38 +316,24 @@ TEST_CASE("points_at_one_place_are_each_told_their_contacts") {
 }
 
 TEST_CASE("a_chain_touches_what_each_of_its_probes_touches_alone") {
-  const MeshData mesh = test::bumpy_ball(0.1, 4);
   SurfaceId id;
-  SurfaceContacts contacts = test::contacts_of(mesh, &id, {.reach_m = 0.02f});
-  std::mt19937 random(5);
-  size_t inside = 0, outside = 0;
-  for (int n = 0; n < 300; ++n) {
-    // Over the surface, through it, deeper than the reach, and out again.
-    std::vector<ContactProbe> chain;
-    rods::Vector at = test::random_vector(random, 0.15), way = test::random_vector(random, 0.02);
-    for (int i = 0; i < 20; ++i) {
-      const rods::Vector next = rods::sum(at, rods::sum(way, test::random_vector(random, 0.01)));
-      chain.push_back(test::probe(at, next, 0.002, test::random_vector(random, 0.002)));
-      at = next;
-    }
-    const std::vector<ContactHit> together = test::found(contacts, chain);
-    size_t told = 0;
-    for (uint32_t i = 0; i < chain.size(); ++i) {
-      for (const ContactHit& alone : test::found(contacts, chain[i])) {
-        if (i > 0 && alone.along == -1) continue;  // told where the one before ends
-        REQUIRE(told < together.size());
-        const ContactHit& hit = together[told++];
-        REQUIRE(hit.probe == i);
-        REQUIRE(std::tie(hit.along, hit.gap_m, hit.name, hit.body) ==
-                std::tie(alone.along, alone.gap_m, alone.name, alone.body));
-        REQUIRE(std::equal(hit.normal, hit.normal + 3, alone.normal));
-        ++(hit.gap_m < -0.004 ? inside : outside);
-      }
-    }
-    REQUIRE(told == together.size());
-  }
-  CHECK(inside > 50);
-  CHECK(outside > 50);
+  SurfaceContacts contacts = contacts_of(bumpy_ball(0.1, 4), &id, {.reach_m = 0.02f});
+  const Sides sides = touches_of_chains_and_of_their_probes_alone(contacts);
+  CHECK(sides.inside > 50);
+  CHECK(sides.outside > 50);
+}
+
+TEST_CASE("a_chain_may_go_in_through_triangles_of_no_group_and_comes_out_as_its_probes_alone") {
+  const MeshData mesh = bumpy_ball(0.1, 4);
+  std::vector<uint32_t> groups(mesh.triangles.size() / 3);
+  for (size_t i = 0; i < groups.size(); ++i) groups[i] = mesh.place(mesh.triangles[3 * i])[0] < 0;
+  SurfaceDef def = mesh.def();
+  def.groups = groups;
+  SurfaceContacts contacts;
+  SurfaceId id;
+  REQUIRE(SurfaceContacts::create({.reach_m = 0.02f}, &contacts).ok());
+  REQUIRE(contacts.add_surface(def, &id).ok());
+  CHECK(touches_of_chains_and_of_their_probes_alone(contacts).inside > 50);
 }
 
 TEST_CASE("a_surface_that_runs_is_touched_as_one_that_stands") {

@@ -23,9 +23,12 @@ struct Scene {
   float drift[3] = {0.05f, -0.02f, 0.01f};
 };
 
-Scene scene(uint32_t seed) {
+// The ball's first triangles, about a middle.
+Scene scene(uint32_t seed, size_t triangles = SIZE_MAX, const rods::Vector& middle = {}) {
   std::mt19937 random(seed);
   Scene s = {.mesh = test::bumpy_ball(0.2, 3, seed), .topology = {}, .moves = {}, .groups = {}, .tree = {}};
+  s.mesh.triangles.resize(3 * std::min(triangles, s.mesh.triangles.size() / 3));
+  for (size_t i = 0; i < s.mesh.places.size(); ++i) s.mesh.places[i] += static_cast<float>(middle[i % 3]);
   s.topology = embree::connect(s.mesh.triangles, s.mesh.places);
   for (uint32_t v = 0; v < s.mesh.vertex_count(); ++v) {
     const rods::Vector own = test::random_vector(random, 0.01);
@@ -66,29 +69,28 @@ bool holds(const std::vector<uint32_t>& sorted, uint32_t i) {
   return std::binary_search(sorted.begin(), sorted.end(), i);
 }
 
-simd::SurfacePoint point_at(const rods::Vector& p, float within_m) {
+simd::SurfacePoint point_at(const rods::Vector& p, float within_m, float rounding_m) {
   return {
-      {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])}, kRounding_m, within_m};
+      {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])}, rounding_m, within_m};
 }
 
-}  // namespace
-
-TEST_CASE("all_triangles_as_near_to_a_point_as_the_nearest_are_found_once_and_what_is_above_them_is_so") {
-  const Scene s = scene(1);
+// Of all triangles as near to a point as the nearest each is found once, and what is above them is so.
+void check_nearest(const Scene& s, const rods::Vector& middle, int points) {
+  const auto rounding_m = static_cast<float>(1 + 2 * rods::length(middle)) * kRounding_m;
   test::for_every_isa([&](const char*, const simd::Kernels& kernels) {
     std::mt19937 random(2);
-    for (int n = 0; n < 300; ++n) {
+    for (int n = 0; n < points; ++n) {
       // The middle of the ball is as far from many; float holds these places as they are.
-      rods::Vector p = n == 0 ? rods::Vector{} : test::random_vector(random, 0.4);
+      rods::Vector p = rods::sum(middle, n == 0 ? rods::Vector{} : test::random_vector(random, 0.4));
       for (double& x : p) x = static_cast<double>(static_cast<float>(x));
-      const uint32_t groups = 1 + n % 3, leaf = n % 2 ? simd::SurfaceWalk::kNoLeaf : 3u;
+      const uint32_t groups = 1 + n % 3, leaf = n % 2 ? simd::SurfaceWalk::kNoLeaf : 0u;
       double nearest = 1e30;
       for (uint32_t i = 0; i < s.groups.size(); ++i) {
         if (!(s.groups[i] & groups)) continue;
         const embree::OnTriangle on = embree::nearest(triangle_at(s, i, 0), p);
         nearest = std::min(nearest, rods::length(rods::difference(p, on.point)));
       }
-      simd::SurfacePoint of = point_at(p, 1);
+      simd::SurfacePoint of = point_at(p, 1, rounding_m);
       const std::vector<uint32_t> found = walked(groups, leaf, [&](simd::SurfaceWalk* walk) {
         kernels.surface_walks->nearest(s.tree.view(), &of, walk);
         for (uint32_t i = 0; i < walk->found_count; ++i) {
@@ -106,6 +108,22 @@ TEST_CASE("all_triangles_as_near_to_a_point_as_the_nearest_are_found_once_and_wh
       }
     }
   });
+}
+
+}  // namespace
+
+TEST_CASE("all_triangles_as_near_to_a_point_as_the_nearest_are_found_once_and_what_is_above_them_is_so") {
+  check_nearest(scene(1), {}, 300);
+}
+
+TEST_CASE("leaves_and_trees_that_are_not_full_are_walked_whole") {
+  for (const size_t triangles : {1, 2, 3, 4, 5, 6, 7, 8, 9, 63, 64, 65})
+    check_nearest(scene(1, triangles), {}, 60);
+}
+
+TEST_CASE("far_from_their_origin_trees_find_as_much") {
+  for (const double far_m : {10.0, 1000.0, 1e5})
+    check_nearest(scene(1, SIZE_MAX, {far_m, -far_m, far_m / 3}), {far_m, -far_m, far_m / 3}, 60);
 }
 
 TEST_CASE("all_triangles_that_come_near_a_sweep_in_a_share_of_their_way_are_found_and_few_others") {

@@ -104,7 +104,8 @@ class SurfaceContacts final : public ContactSource {
   Status set_filter(uint32_t owner, const SurfaceFilter& filter) noexcept;
   Status report(SurfaceId surface, SurfaceReport* out) const noexcept;
 
-  // A probe with a NaN, an infinity or a negative radius is skipped and counted. body is the surface's index1
+  // A probe with a NaN, an infinity, a negative radius, or more than 1e15 m from the origin or long, is
+  // skipped and counted. body is the surface's index1
   // in the upper half and the triangle's index in the lower. A dt_s beyond the last pose's counts as that; a
   // shorter one sees the first part of the surface's way. Where a probe begins at the end of the one before
   // it and has the same owner, a chain's joint, its beginning is not told again. A probe touches at most
