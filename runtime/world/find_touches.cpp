@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/check_hit.hpp"
+#include "frame/scheduler.hpp"
 #include "world/own_body_touches.hpp"
 #include "world/surface_point.hpp"
 
@@ -307,8 +308,8 @@ void find_pushed_touches(Instance& instance) noexcept {
 }
 
 bool touches_stand_still(const Instance& instance) noexcept {
+  if (frame::is_simulated(instance.state->tier) && instance.simulated_share() < 1) return false;
   if (instance.touch_count == 0) return true;
-  if (instance.simulated_share() < 1) return false;
   for (uint32_t r = 0; r < instance.level->pack.regions.size(); ++r) {
     const pack::RegionRecord& region = instance.level->pack.regions[r];
     const bool still = instance.touched_moves_m <= kHardlyMoved * region.radius_m;

@@ -28,7 +28,17 @@ Vector3f held(const SurfacePoint& at, const Vector3f& push, float limit_m) {
   return length_m > limit_m ? Vector3f(limit_m / length_m * push) : push;
 }
 
-void push_vertex(Instance& instance, const Touch& touch) {
+// Of the first so many touches: by what presses from the same side.
+bool is_told(const Instance& instance, uint32_t first, const Touch& touch) {
+  constexpr float kSameSide = 0.9f;  // cosine
+  return std::any_of(instance.touches, instance.touches + first, [&](const Touch& known) {
+    return known.vertex == touch.vertex && known.gap_m < 0 &&
+           ConstVector(known.normal).dot(ConstVector(touch.normal)) > kSameSide;
+  });
+}
+
+// told: how many touches are in the report.
+void push_vertex(Instance& instance, const Touch& touch, uint32_t told) {
   const GraphLevel& level = *instance.level;
   const pack::RegionRecord& region = level.pack.regions[touch.region];
   const SurfacePatches::Vertex& vertex = level.patches.vertices[touch.vertex];
@@ -44,7 +54,7 @@ void push_vertex(Instance& instance, const Touch& touch) {
       held(now, before + in_bind(now.world_from_bind, out * normal), region.displacement_limit_m);
   for (size_t k = 0; k < 3; ++k) push[k * pitch] = after[static_cast<Eigen::Index>(k)];
   instance.pushed[touch.region] |= out > 0;
-  if (!(touch.gap_m < 0)) return;
+  if (!(touch.gap_m < 0) || is_told(instance, told, touch)) return;
   ++instance.told.vertices;
   instance.told.volume_m3 +=
       vertex.area_m2 * std::max(0.0f, carried + normal.dot(now.world_from_bind * after));
@@ -59,7 +69,7 @@ void look_at_vertex(Instance& instance, const Touch& touch) {
 }
 
 void push_vertices(Instance& instance, uint32_t first) {
-  for (uint32_t t = first; t < instance.touch_count; ++t) push_vertex(instance, instance.touches[t]);
+  for (uint32_t t = first; t < instance.touch_count; ++t) push_vertex(instance, instance.touches[t], first);
 }
 
 }  // namespace

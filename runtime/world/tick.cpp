@@ -73,6 +73,14 @@ void simulate_missed(Instance& instance, const TickContext& context, uint32_t sl
   if (frame::is_simulated(state.tier)) ride_on(instance);
 }
 
+void push_out(Instance& instance, const TickContext& context, uint32_t slot) noexcept {
+  if (!instance.pushes) return;
+  const uint64_t start_ns = core::now_ns(context.clock);
+  const Marker tissue(context.profiler, "tissue", slot);
+  push_surface(instance);
+  instance.times.tissue_ns += core::now_ns(context.clock) - start_ns;
+}
+
 void run_ticks(Instance& instance, const TickContext& context, uint32_t slot) noexcept {
   InstanceState& state = *instance.state;
   const frame::TickPlan& ticks = instance.plan.ticks;
@@ -87,7 +95,7 @@ void run_ticks(Instance& instance, const TickContext& context, uint32_t slot) no
       miss_tick(instance);
     state.ticks_since_network = state.tier == Tier::kNetwork ? 0 : state.ticks_since_network + 1;
     show_tick(instance);
-    push_surface(instance);
+    push_out(instance, context, slot);
     state.untouched = 0;
     ++state.ticks;
   }

@@ -67,19 +67,29 @@ struct ArmStage : Stage {
     REQUIRE(report().vertices_touched > 3);
     return most;
   }
+  // Vertices in the first arm or on it.
+  size_t touching(double way_m) const {
+    constexpr double kOn_m = 1e-3;
+    size_t count = 0;
+    for_each_depth(way_m, [&](double depth_m) { count += depth_m > -kOn_m; });
+    return count;
+  }
   // Of all vertices in the first arm; the lower ones, which are not soft, are far from it.
   double deepest_m(double way_m) const {
+    double most = 0;
+    for_each_depth(way_m, [&](double depth_m) { most = std::max(most, depth_m); });
+    return most;
+  }
+  template <class Visit>
+  void for_each_depth(double way_m, Visit visit) const {
     const std::vector<float> places = read();
     const double x_m = matter.at_x_m[0] + way_m, c = std::cos(turn_rad), s = std::sin(turn_rad);
-    double most = 0;
     for (size_t v = 0; v + 2 < places.size(); v += 3) {
       const auto at = [&](size_t k) { return static_cast<double>(places[v + k]); };
       const double across_m = c * (at(0) - x_m) - s * at(2), along_m = s * (at(0) - x_m) + c * at(2);
       const double beyond_m = std::max(0.0, std::abs(along_m) - 0.2);
-      const double off_m = std::hypot(across_m, at(1) - scenes::kArmHeight_m, beyond_m);
-      most = std::max(most, matter.radius_m - off_m);
+      visit(matter.radius_m - std::hypot(across_m, at(1) - scenes::kArmHeight_m, beyond_m));
     }
-    return most;
   }
 };
 
@@ -155,6 +165,7 @@ TEST_CASE("what_an_arm_leaves_inside_where_flesh_may_go_no_further_is_told_in_ev
     REQUIRE(left_m < static_cast<double>(stage.report().deepest_penetration_m) + kRounding_m);
   }
   CHECK(most_m > 0.01);
+  CHECK(stage.report().vertices_touched <= stage.touching(kThrough_m));  // each once
 }
 
 TEST_CASE("flesh_that_an_arm_pushes_against_a_wall_is_outside_of_both_or_told") {
@@ -164,15 +175,17 @@ TEST_CASE("flesh_that_an_arm_pushes_against_a_wall_is_outside_of_both_or_told") 
     scenes::HalfSpaces wall;
     wall.walls = {{{wall_m, 0, 0}, {1, 0, 0}}};
     ArmStage stage(true, {}, pack, thin, &wall);
-    for (int f = 1; f <= 120; ++f) {
-      const double way_m = -0.16 * (1 - std::cos(0.2 * f));
+    const auto check_at = [&](double way_m) {
       stage.step_to(way_m);
       const std::vector<float> places = stage.read();
       double left_m = stage.deepest_m(way_m);
       for (size_t v = 0; v < places.size(); v += 3)
         if (places[v + 1] > 0.45f) left_m = std::max(left_m, wall_m - static_cast<double>(places[v]));
       CHECK(left_m < static_cast<double>(stage.report().deepest_penetration_m) + kRounding_m);
-    }
+    };
+    for (int f = 1; f <= 120; ++f) check_at(-0.16 * (1 - std::cos(0.2 * f)));
+    for (const double way_m : {-0.16, -0.2, -0.24, -0.28})
+      for (int f = 0; f < 120; ++f) check_at(way_m);
   }
 }
 
