@@ -3,10 +3,8 @@
 #include <utility>
 
 #include "tests/scenes/half_spaces.hpp"
-#include "tests/world/stage.hpp"
+#include "tests/world/told_block.hpp"
 #include "world/instance.hpp"
-#include "world/read.hpp"
-#include "world/tick.hpp"
 
 using namespace sinew;
 using test::Stage;
@@ -200,39 +198,12 @@ TEST_CASE("rods_that_missed_a_tick_come_to_where_they_would_have_been") {
 
 namespace {
 
-// A block that is told its tier, where a world's scheduler would choose.
-class Told {
+class Told : public test::ToldBlock {
  public:
-  explicit Told(const ContactDef& contacts = {}) {
-    REQUIRE(world::open_asset(test::levels_pack().bytes(), &asset_).ok());
-    REQUIRE(world::make_instance(asset_, {.contacts = contacts}, &instance).ok());
-  }
+  explicit Told(const ContactDef& contacts = {}) : ToldBlock(test::levels_pack(), contacts) {}
   void play(const test::Motion& motion, Tier tier, uint32_t level, int ticks, uint32_t every = 1) {
-    for (int t = 0; t < ticks; ++t) {
-      time_s_ += asset_.tick_s;
-      const scenes::BlockPose pose = motion(time_s_);
-      std::ranges::copy(pose.joints, instance.next_joints);
-      instance.state->next_root = pose.root;
-      instance.state->has_next = 1;
-      instance.plan = {.ticks = {.ticks = 1, .first_tick_s = asset_.tick_s},
-                       .dt_s = asset_.tick_s,
-                       .tier = tier,
-                       .level = level,
-                       .every = every};
-      world::step_instance(instance, {});
-    }
+    ToldBlock::play(motion, {.tier = tier, .level = level, .every = every}, ticks);
   }
-  std::vector<float> surface() const {
-    std::vector<float> out(size_t{3} * asset_.vertex_count());
-    world::read_positions(instance,
-                          {.space = Space::kBind, .out = out.data(), .capacity = asset_.vertex_count()});
-    return out;
-  }
-  world::Instance instance;
-
- private:
-  world::Asset asset_;
-  double time_s_ = 0;
 };
 
 // In the second after a gap that ends on another level.
@@ -299,12 +270,12 @@ TEST_CASE("what_touched_in_missed_ticks_is_not_pushed_nor_told_with_the_present_
     wall.walls = {{{0.13, 0, 0}, {-1, 0, 0}}};
     Told block({.source = &wall});
     block.play(stands, Tier::kModal, 0, 60);
-    const uint32_t usual = block.instance.told.vertices;
+    const uint32_t usual = block.instance().told.vertices;
     REQUIRE(usual > 0);
     block.play(stands, Tier::kExtrapolate, 0, missed);
     block.play(stands, Tier::kModal, 0, 1);
-    REQUIRE(block.instance.made_up == missed);
-    CHECK(block.instance.told.vertices == usual);
+    REQUIRE(block.instance().made_up == missed);
+    CHECK(block.instance().told.vertices == usual);
   }
 }
 

@@ -4,11 +4,9 @@
 
 #include "tests/scenes/half_spaces.hpp"
 #include "tests/scenes/thread_pool.hpp"
-#include "tests/world/stage.hpp"
+#include "tests/world/told_block.hpp"
 #include "world/fold.hpp"
-#include "world/read.hpp"
 #include "world/snapshot.hpp"
-#include "world/tick.hpp"
 
 using namespace sinew;
 
@@ -17,58 +15,32 @@ namespace {
 constexpr Tier kSimulated[] = {Tier::kSpring, Tier::kModal, Tier::kNetwork};
 constexpr uint32_t kLevels = 3;
 
-// A block that is told its tier and level, where a world's scheduler would choose.
-class Block {
+class Block : public test::ToldBlock {
  public:
-  explicit Block(const scenes::PackBytes& pack = test::levels_pack(), const ContactDef& contacts = {}) {
-    REQUIRE(world::open_asset(pack.bytes(), &asset_).ok());
-    REQUIRE(world::make_instance(asset_, {.contacts = contacts}, &block_).ok());
-  }
+  explicit Block(const scenes::PackBytes& pack = test::levels_pack(), const ContactDef& contacts = {})
+      : ToldBlock(pack, contacts) {}
   void tick(const test::Motion& motion, Tier tier, uint32_t level) {
-    time_s_ += asset_.tick_s;
-    const scenes::BlockPose pose = motion(time_s_);
-    std::ranges::copy(pose.joints, block_.next_joints);
-    block_.state->next_root = pose.root;
-    block_.state->has_next = 1;
-    block_.plan = {.ticks = {.ticks = 1, .first_tick_s = asset_.tick_s},
-                   .dt_s = asset_.tick_s,
-                   .tier = tier,
-                   .level = level};
-    world::step_instance(block_, {});
+    ToldBlock::tick(motion, {.tier = tier, .level = level});
   }
   void play(const test::Motion& motion, Tier tier, uint32_t level, int ticks) {
-    for (int t = 0; t < ticks; ++t) tick(motion, tier, level);
+    ToldBlock::play(motion, {.tier = tier, .level = level}, ticks);
   }
-  // What the surface is displaced by.
-  std::vector<float> surface() const {
-    std::vector<float> out(size_t{3} * asset_.vertex_count());
-    world::read_positions(block_,
-                          {.space = Space::kBind, .out = out.data(), .capacity = asset_.vertex_count()});
-    return out;
-  }
-  std::vector<std::byte> save() const {
-    std::vector<std::byte> bytes(world::snapshot_bytes(block_));
-    REQUIRE(world::save(block_, bytes).ok());
+  std::vector<std::byte> save() {
+    std::vector<std::byte> bytes(world::snapshot_bytes(instance()));
+    REQUIRE(world::save(instance(), bytes).ok());
     return bytes;
   }
   // Of the soft surface in the bind pose, the farthest in x.
-  double farthest_x_m() const {
+  double farthest_x_m() {
     const std::vector<float> moved = surface();
-    const world::SurfacePatches& patches = block_.level->patches;
+    const world::SurfacePatches& patches = instance().level->patches;
     double most = -1;
     for (uint32_t v = 0; v < patches.vertex_count; ++v) {
       const size_t x = size_t{3} * patches.vertices[v].index;
-      most = std::max(most, double{asset_.pack.positions[x]} + double{moved[x]});
+      most = std::max(most, double{asset().pack.positions[x]} + double{moved[x]});
     }
     return most;
   }
-  world::Instance& instance() { return block_; }
-  double height_m() const { return static_cast<double>(asset_.pack.character->height_m); }
-
- private:
-  world::Asset asset_;
-  world::Instance block_;
-  double time_s_ = 0;
 };
 
 // How much further any vertex moves from `before` to `now` than in any of the others' own steps.

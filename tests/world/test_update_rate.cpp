@@ -3,52 +3,25 @@
 
 #include <memory>
 
-#include "tests/world/stage.hpp"
+#include "tests/world/told_block.hpp"
 #include "world/plan_row.hpp"
 #include "world/sleep.hpp"
 #include "world/snapshot.hpp"
-#include "world/tick.hpp"
 
 using namespace sinew;
 
 namespace {
 
-// A block that is told its tier and rate, where a world's scheduler would choose.
-class Block {
+class Block : public test::ToldBlock {
  public:
-  explicit Block(const scenes::PackBytes& pack = test::block_pack(), uint32_t made_before = 0) {
-    REQUIRE(world::open_asset(pack.bytes(), &asset_).ok());
-    asset_.live_instances = made_before;
-    REQUIRE(world::make_instance(asset_, {}, &block_).ok());
-  }
+  explicit Block(const scenes::PackBytes& pack = test::block_pack(), uint32_t made_before = 0)
+      : ToldBlock(pack, {}, made_before) {}
   void tick(const test::Motion& motion, Tier tier, uint32_t every) {
-    time_s_ += asset_.tick_s;
-    const scenes::BlockPose pose = motion(time_s_);
-    std::ranges::copy(pose.joints, block_.next_joints);
-    block_.state->next_root = pose.root;
-    block_.state->has_next = 1;
-    block_.plan = {.ticks = {.ticks = 1, .first_tick_s = asset_.tick_s},
-                   .dt_s = asset_.tick_s,
-                   .tier = tier,
-                   .every = every};
-    world::step_instance(block_, {.clock = {}, .profiler = {}, .sleep_tolerance = sleep_tolerance});
+    ToldBlock::tick(motion, {.tier = tier, .every = every});
   }
   void play(const test::Motion& motion, Tier tier, uint32_t every, int ticks) {
-    for (int t = 0; t < ticks; ++t) tick(motion, tier, every);
+    ToldBlock::play(motion, {.tier = tier, .every = every}, ticks);
   }
-  // Displacement of the nodes as it is shown.
-  std::vector<float> shown() const {
-    return {block_.shown[0], block_.shown[0] + size_t{3} * asset_.node_count()};
-  }
-  world::Instance& instance() { return block_; }
-  float height_m() const { return asset_.pack.character->height_m; }
-
-  float sleep_tolerance = 0;
-
- private:
-  world::Asset asset_;
-  world::Instance block_;
-  double time_s_ = 0;
 };
 
 struct Apart {

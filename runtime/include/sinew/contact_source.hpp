@@ -1,9 +1,9 @@
 // contact_source.hpp  The door for an engine's own collision detection: who it is asked, what it answers.
 //
 // Rods and tissue ask several times a tick, with capsules on their way through it; an implementation answers
-// with contacts as half-spaces, and is told afterwards what rods pushed against it. Soft parts push nothing,
-// and feel neither friction nor restitution. sinew::bullet and sinew::embree are such implementations; a
-// scene of a few planes, spheres and capsules needs none (rods/collider.hpp).
+// with contacts as half-spaces, and is told afterwards what rods pushed against it; soft parts may ask again
+// after that. They push nothing, and feel neither friction nor restitution. sinew::bullet and sinew::embree
+// are such implementations; a scene of a few planes, spheres and capsules needs none (rods/collider.hpp).
 //
 // An obstacle's pose is that at the tick's end, and its velocity is what brought it there (as in
 // rods/obstacle.hpp): a tick earlier it was where its velocity came from.
