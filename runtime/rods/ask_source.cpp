@@ -71,7 +71,7 @@ void ContactFinder::add_hits() const {
   const uint32_t room = to.settings_.source_capacity - to.hit_count_;
   for (const ContactHit& hit : ask(probes, to.hits_ + to.hit_count_, room, &to.dropped_)) {
     const uint32_t segment = to.probe_segments_[hit.probe];
-    const uint32_t strand = first_strand() + segment / batch.segment_count_;
+    const uint32_t strand = strand_of(segment);
     const Contact* made = add_point(point_of(hit, strand, segment % batch.segment_count_), kHit);
     RodCollider::Taken& taken = to.taken_[to.hit_count_++];
     taken = {RodCollider::kNoContact, {}, {}};
@@ -99,7 +99,7 @@ void ContactFinder::stop_at_hits() const {
   uint32_t dropped = 0;  // of what is only looked at
   for (const ContactHit& hit : ask(probes, to.hits_ + room, room, &dropped)) {
     const uint32_t segment = to.probe_segments_[hit.probe];
-    stop_at_hit(first_strand() + segment / batch.segment_count_, segment % batch.segment_count_, hit);
+    stop_at_hit(strand_of(segment), segment % batch.segment_count_, hit);
   }
 }
 

@@ -20,9 +20,9 @@ const Sweep& ContactFinder::sweep(uint32_t strand, uint32_t segment) const {
 }
 
 simd::RodReachJob ContactFinder::reach_job(uint32_t group) const {
-  const size_t w = batch.width_, segments = batch.segment_count_, g = group - to.range_.first_group;
+  const size_t w = batch.width_, segments = batch.segment_count_, g = group - to.first_home_;
   return {.records = &batch.records_[group * segments * simd::kRodKeptFields * w],
-          .scratch = to.scratch(batch, group),
+          .scratch = to.scratch(group),
           .radii_m = batch.radii_m_ + group * segments * w,
           .length_m = to.lengths_m_ + g * w,
           .origin_m = to.origins_m_ + g * 3 * w,
@@ -34,7 +34,7 @@ simd::RodReachJob ContactFinder::reach_job(uint32_t group) const {
 
 // Lanes without a strand repeat the first one's, as the batch's records do.
 void ContactFinder::place_lanes(uint32_t group) const {
-  const size_t w = batch.width_, g = group - to.range_.first_group;
+  const size_t w = batch.width_, g = group - to.first_home_;
   for (size_t k = 0; k < w; ++k) {
     const size_t strand = group * w + k < batch.strand_count_ ? group * w + k : 0;
     const RodBatch::Units& units = batch.units_[strand];
@@ -48,7 +48,8 @@ void ContactFinder::find_reaches() const {
     place_lanes(g);
     calls(batch.width_).reach(reach_job(g));
   }
-  std::fill_n(to.swept_, size_t{end_strand() - first_strand()} * batch.segment_count_, uint8_t{0});
+  std::fill_n(to.swept_ + local(first_strand(), 0),
+              size_t{end_strand() - first_strand()} * batch.segment_count_, uint8_t{0});
 }
 
 bool ContactFinder::near(uint32_t group, const simd::RodRound& round) const {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 
 #include "core/arena.hpp"
 #include "core/status.hpp"
@@ -17,6 +18,9 @@ namespace {
 constexpr uint32_t kMostContacts = 1u << 24, kMostObstacles = 65536, kLeastContacts = 64;
 // A strand that is held bends a little on the way there: it is looked at again.
 constexpr int kMostHolds = 4;
+// Stepped together where rods do not collide, for strands that go on to be packed: more save few iterations
+// and leave the processor's nearer cache.
+constexpr uint32_t kGroupsAtOnce = 8;
 
 Status bad_setting(const char* name, double value, const char* range) {
   return core::make_status(StatusCode::kInvalidArgument, "ColliderSettings::%s is %g; give %s", name, value,
@@ -66,13 +70,16 @@ struct ColliderBuilder {
     const auto by_default =
         static_cast<uint32_t>(std::clamp<uint64_t>(four_each, kLeastContacts, kMostContacts));
     to.capacity_ = to.settings_.contact_capacity ? to.settings_.contact_capacity : by_default;
+    const bool all = to.settings_.rods_collide, packs = batch.settings_.solver == RodSolver::kDirect;
+    to.home_groups_ = all ? groups() : std::min(groups(), kGroupsAtOnce);
+    to.packed_groups_ = all || !packs || to.width_ != 16 ? 0 : to.home_groups_ / 2;
   }
 
   void lay_out(std::byte* base, size_t* bytes) {
     core::Arena arena(base);
-    const bool all = to.settings_.rods_collide;
-    const uint32_t range = all ? groups() : 1;
-    const size_t segments = size_t{range} * to.width_ * to.segment_count_;
+    const uint32_t home = to.home_groups_, places = home + to.packed_groups_;
+    const size_t segments = size_t{home} * to.width_ * to.segment_count_;
+    const size_t placed = size_t{places} * to.width_ * to.segment_count_;
     to.planes_ = arena.take<Plane>(to.settings_.obstacle_capacity);
     to.spheres_ = arena.take<Sphere>(to.settings_.obstacle_capacity);
     to.capsules_ = arena.take<Capsule>(to.settings_.obstacle_capacity);
@@ -85,13 +92,13 @@ struct ColliderBuilder {
     to.boxes_ = arena.take<SweptBox>(segments);
     to.swept_ = arena.take<uint8_t>(segments);
     to.reaches_ = arena.take<float>(segments * simd::kReachRows);
-    to.reach_boxes_ = arena.take<float>(size_t{range} * simd::kBoxRows * to.width_);
-    to.lengths_m_ = arena.take<float>(size_t{range} * to.width_);
-    to.origins_m_ = arena.take<double>(size_t{range} * 3 * to.width_);
+    to.reach_boxes_ = arena.take<float>(size_t{home} * simd::kBoxRows * to.width_);
+    to.lengths_m_ = arena.take<float>(size_t{home} * to.width_);
+    to.origins_m_ = arena.take<double>(size_t{home} * 3 * to.width_);
     to.near_lanes_ = arena.take<uint16_t>(to.segment_count_);
-    to.rows_ = arena.take<float>(segments * simd::kRodContactRows);
-    to.touched_ = arena.take<uint8_t>(size_t{range} * to.segment_count_);
-    to.touched_list_ = arena.take<uint32_t>(size_t{range} * to.segment_count_);
+    to.rows_ = arena.take<float>(placed * simd::kRodContactRows);
+    to.touched_ = arena.take<uint8_t>(size_t{places} * to.segment_count_);
+    to.touched_list_ = arena.take<uint32_t>(size_t{places} * to.segment_count_);
     to.turning_ = arena.take<uint8_t>(to.strand_count_);
     to.pending_ = arena.take<uint8_t>(to.strand_count_);
     to.misses_ = arena.take<double>(to.strand_count_);
@@ -100,10 +107,14 @@ struct ColliderBuilder {
     to.carries_ = arena.take<Vector>(to.strand_count_);
     to.near_ = arena.take<uint8_t>(to.strand_count_);
     to.iterated_ = arena.take<uint8_t>(to.strand_count_);
-    if (all) {
-      to.scratch_ = arena.take<float>(segments * (simd::kRodFields - simd::kRodKeptFields));
-      to.hash_.lay_out(&arena, static_cast<uint32_t>(segments));
-    }
+    to.scratch_ = arena.take<float>(placed * simd::kRodScratchRows);
+    to.ranges_ = arena.take<RodCollider::Range>(home);
+    to.seats_ = arena.take<uint32_t>(size_t{home} * to.width_);
+    to.going_strands_ = arena.take<uint32_t>(size_t{home} * to.width_);
+    to.going_contacts_ = arena.take<uint32_t>(to.capacity_);
+    to.packed_records_ = arena.take<float>((placed - segments) * simd::kRodKeptFields);
+    to.packed_lanes_ = arena.take<float>(size_t{to.packed_groups_} * simd::kLaneFields * to.width_);
+    if (to.settings_.rods_collide) to.hash_.lay_out(&arena, static_cast<uint32_t>(segments));
     if (to.settings_.source_capacity > 0) {
       to.probes_ = arena.take<ContactProbe>(segments);
       to.probe_segments_ = arena.take<uint32_t>(segments);
@@ -208,8 +219,8 @@ bool RodCollider::fits(const RodBatch& batch) const noexcept {
          width_ == batch.width_;
 }
 
-void RodCollider::give(simd::RodJob* job, uint32_t group) const noexcept {
-  const size_t first = size_t{group - range_.first_group} * segment_count_;
+void RodCollider::give(simd::RodJob* job, uint32_t place) const noexcept {
+  const size_t first = size_t{place} * segment_count_;
   const uint8_t* touched = touched_ + first;
   if (touched_count_ == 0 || std::none_of(touched, touched + segment_count_, [](uint8_t t) { return t; })) {
     return;
@@ -220,26 +231,45 @@ void RodCollider::give(simd::RodJob* job, uint32_t group) const noexcept {
 
 void RodCollider::begin_step() noexcept { contact_count_ = dropped_ = hit_count_ = bad_hits_ = 0; }
 
+void RodCollider::begin_groups(uint32_t first_group) noexcept {
+  first_home_ = first_group;
+  packed_count_ = going_strand_count_ = going_contact_count_ = 0;
+}
+
 void RodCollider::begin_range(const RodBatch& batch, uint32_t first_group, uint32_t groups,
                               float dt_s) noexcept {
   // Rows are of the range before.
   ContactForces{*this, batch}.clear();
-  range_ = {first_group, groups};
-  first_contact_ = contact_count_;
-  first_hit_ = hit_count_;
+  const uint32_t first_seat = (first_group - first_home_) * width_;
+  std::iota(seats_ + first_seat, seats_ + first_seat + groups * width_, first_seat);
+  range_ = {first_group, groups, contact_count_, contact_count_, hit_count_, hit_count_};
   ContactFinder{*this, batch, static_cast<double>(dt_s)}.find();
+  range_.end_contact = contact_count_, range_.end_hit = hit_count_;
+  ranges_[first_group - first_home_] = range_;
   ContactForces{*this, batch}.begin();
+  assemble(batch);
 }
+
+void RodCollider::join_ranges(uint32_t groups) noexcept {
+  const Range& first = ranges_[0];
+  range_ = {first.first_group, groups, first.first_contact, contact_count_, first.first_hit, hit_count_};
+  first_going_strand_ = first_going_contact_ = 0;
+}
+
+void RodCollider::assemble(const RodBatch& batch) noexcept { ContactForces{*this, batch}.assemble(); }
 
 uint32_t RodCollider::settle(const RodBatch& batch, uint32_t left) noexcept {
   return ContactForces{*this, batch}.settle(left);
 }
 
-void RodCollider::end_range(const RodBatch& batch, float dt_s, RodReport* report) noexcept {
+void RodCollider::end_range(const RodBatch& batch, uint32_t first_group, float dt_s,
+                            RodReport* report) noexcept {
+  range_ = ranges_[first_group - first_home_];
   const ContactFinder finder{*this, batch, static_cast<double>(dt_s)};
   const ContactForces forces{*this, batch};
   forces.forgive();
-  std::fill_n(carries_, strand_count_, Vector{});
+  const uint32_t first = first_group * width_;
+  std::fill_n(carries_ + first, std::min(range_.groups * width_, strand_count_ - first), Vector{});
   for (int k = 0; k < kMostHolds && finder.find_holds(k > 0); ++k) forces.hold();
   forces.place_hits();
   report->contacts_unconverged += forces.end();

@@ -10,8 +10,9 @@
 // two rods, and at given points, there is no such second look.
 // Forces go on from the last step, as they changed in it where the rods' start is continued. They are the
 // collider's: what is to go on with the same bits saves and restores its state as well as the batch's.
-// One thread at a time with its batch. A step allocates nothing. Memory: some 450 bytes a contact; where rods
-// collide with one another some 800 bytes a segment besides, for all groups then iterate in turn.
+// One thread at a time with its batch. A step allocates nothing. Memory: some 450 bytes a contact, and 700 a
+// segment of the first 128 strands; where rods collide with one another, 600 a segment of all, for all groups
+// then iterate in turn.
 // Cost: a bound of each segment's way and of its distance from each obstacle near its group, a strand a lane
 // in float (simd/rod_reach-inl.hpp); sweeps of what may touch, a strand a lane in double
 // (simd/rod_touch-inl.hpp), and one at a time of all segments where rods collide or a source is asked.
@@ -105,6 +106,7 @@ class RodCollider {
   friend struct ColliderBuilder;
   friend struct ContactFinder;
   friend struct ContactForces;
+  friend struct StrandPacker;
 
   // A contact's force from step to step, and by how much the last one changed it, whatever its length; 0
   // where that was its first, and where it did not converge.
@@ -119,9 +121,10 @@ class RodCollider {
     Vector point_m;    // of the rod's surface, at the step's end
   };
   static constexpr uint32_t kNoContact = ~0u;
-  // Of the strands being stepped: all of them where rods collide, else one group after the other.
+  // Strands that are looked at together, and what they touch.
   struct Range {
     uint32_t first_group, groups;
+    uint32_t first_contact, end_contact, first_hit, end_hit;
   };
 
   template <class Obstacle>
@@ -134,21 +137,34 @@ class RodCollider {
   void keep(const Kept& kept) noexcept;
   static Kept kept_of(const Contact& contact, double per_square);
   void keep_nothing(uint32_t room_for) noexcept;
-  // The parts of a step; of each range settle() after each iteration.
   bool passes(uint32_t strand, uint32_t segment, uint32_t capsule) const noexcept {
     return capsule < 64 && (passed_[size_t{strand} * segment_count_ + segment] >> capsule & 1) != 0;
   }
+  // Groups that are stepped together, and of these groups whose contacts are found together.
+  uint32_t groups_at_once() const noexcept { return home_groups_; }
+  uint32_t groups_of_range() const noexcept { return settings_.rods_collide ? home_groups_ : 1; }
+  // The parts of a step. Ranges of what is stepped together begin one after the other, are joined after their
+  // first iteration, and end one after the other.
   void begin_step() noexcept;
+  void begin_groups(uint32_t first_group) noexcept;
   void begin_range(const RodBatch& batch, uint32_t first_group, uint32_t groups, float dt_s) noexcept;
-  // `left`: iterations that may follow. Returns how many strands are not converged.
+  void join_ranges(uint32_t groups) noexcept;
+  // Before each iteration.
+  void assemble(const RodBatch& batch) noexcept;
+  // After each; `left`: iterations that may follow. Returns how many strands are not converged.
   uint32_t settle(const RodBatch& batch, uint32_t left) noexcept;
-  void end_range(const RodBatch& batch, float dt_s, RodReport* report) noexcept;
+  void end_range(const RodBatch& batch, uint32_t first_group, float dt_s, RodReport* report) noexcept;
   void end_step(float dt_s, RodReport* report) noexcept;
   void push(float dt_s) const noexcept;
-  float* scratch(const RodBatch& batch, uint32_t group) const noexcept;
+  float* scratch(uint32_t group) const noexcept;
+  // Where a strand's iterate is: a lane of its own group or, while others of that one rest, of one that is
+  // packed.
+  uint32_t& seat(uint32_t strand) const noexcept;
   // Of one lane; rows are width_ apart.
   float* scratch_row(const RodBatch& batch, uint32_t strand, uint32_t segment, uint32_t field) const noexcept;
-  void give(simd::RodJob* job, uint32_t group) const noexcept;
+  // Contacts' rows; of groups counted from the first of those that are stepped together.
+  void give(simd::RodJob* job, uint32_t place) const noexcept;
+  simd::RodJob packed_job(simd::RodJob job, uint32_t place) const noexcept;
 
   core::AlignedBlock memory_;
   ColliderSettings settings_;
@@ -162,22 +178,34 @@ class RodCollider {
   bool passed_any_ = false;
 
   Contact* contacts_ = nullptr;  // [capacity_] of this step; those of the range from first_contact_
-  uint32_t contact_count_ = 0, first_contact_ = 0, dropped_ = 0;
+  uint32_t contact_count_ = 0, dropped_ = 0;
   Kept* kept_ = nullptr;  // [capacity_] in the order of the last step's contacts
   // [twice capacity_, a power of two] of it in use; where a name's is in kept_, from 1 on, 0: nowhere.
   uint32_t* kept_places_ = nullptr;
   uint32_t kept_count_ = 0, kept_in_use_ = 1, kept_next_ = 0;  // the last: behind what was found last
-  Range range_ = {0, 0};
-  Sweep* sweeps_ = nullptr;         // [segments of a range]
+  Range range_ = {};
+  Range* ranges_ = nullptr;  // [home_groups_] by their first group
+  // Groups that are stepped together, the first of them, and those behind them that their strands are packed
+  // into. What follows is of the former; scratch and rows are of the latter too.
+  uint32_t home_groups_ = 0, first_home_ = 0, packed_groups_ = 0, packed_count_ = 0;
+  uint32_t* seats_ = nullptr;        // [strands] group and lane
+  float* packed_records_ = nullptr;  // [packed_groups_], as a batch's
+  float* packed_lanes_ = nullptr;    // alike
+  // Of the range, strands that go on and contacts of such strands; before these, of the ranges before it.
+  uint32_t* going_strands_ = nullptr;   // [home_groups_][width]
+  uint32_t* going_contacts_ = nullptr;  // [capacity_]
+  uint32_t first_going_strand_ = 0, going_strand_count_ = 0, first_going_contact_ = 0,
+           going_contact_count_ = 0;
+  Sweep* sweeps_ = nullptr;         // [segments]
   SweptBox* boxes_ = nullptr;       // alike
   uint8_t* swept_ = nullptr;        // alike: its sweep is of this step
-  float* reaches_ = nullptr;        // [groups of a range][slots][kReachRows][width]
-  float* reach_boxes_ = nullptr;    // [groups of a range][kBoxRows][width]
-  float* lengths_m_ = nullptr;      // [groups of a range][width]
-  double* origins_m_ = nullptr;     // [groups of a range][3][width]
+  float* reaches_ = nullptr;        // [groups][slots][kReachRows][width]
+  float* reach_boxes_ = nullptr;    // [groups][kBoxRows][width]
+  float* lengths_m_ = nullptr;      // [groups][width]
+  double* origins_m_ = nullptr;     // [groups][3][width]
   uint16_t* near_lanes_ = nullptr;  // [slots] of the group that is looked at
-  float* rows_ = nullptr;           // [groups of a range][segments][kRodContactRows][width]
-  uint8_t* touched_ = nullptr;      // [groups of a range][segments]: rows are not zero
+  float* rows_ = nullptr;           // [groups][segments][kRodContactRows][width]
+  uint8_t* touched_ = nullptr;      // [groups][segments]: rows are not zero
   uint32_t* touched_list_ = nullptr;
   uint32_t touched_count_ = 0;
   uint8_t* turning_ = nullptr;   // [strands] not converged by themselves
@@ -188,13 +216,13 @@ class RodCollider {
   Vector* carries_ = nullptr;    // [strands] what a core moves that stops a strand
   uint8_t* near_ = nullptr;      // [strands] it has contacts, pressed or not
   uint8_t* iterated_ = nullptr;  // [strands] moved by the last iteration
-  float* scratch_ = nullptr;     // of all groups, where rods collide
+  float* scratch_ = nullptr;     // [groups], as a batch's
   SpatialHash hash_;
 
   ContactSource* source_ = nullptr;
   double origin_m_[3] = {0, 0, 0};
-  uint32_t owner_ = 0, hit_count_ = 0, first_hit_ = 0, bad_hits_ = 0;
-  ContactProbe* probes_ = nullptr;      // [segments of a range]
+  uint32_t owner_ = 0, hit_count_ = 0, bad_hits_ = 0;
+  ContactProbe* probes_ = nullptr;      // [segments]
   uint32_t* probe_segments_ = nullptr;  // alike: as ContactFinder::local
   ContactHit* hits_ = nullptr;          // [2 source_capacity] of the step; those of a second look behind
   Taken* taken_ = nullptr;              // [source_capacity]

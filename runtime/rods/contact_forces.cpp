@@ -60,12 +60,49 @@ bool ContactForces::iterated(const Contact& c) const {
 }
 
 std::span<Contact> ContactForces::contacts() const {
-  return {to.contacts_ + to.first_contact_, to.contact_count_ - to.first_contact_};
+  return {to.contacts_ + to.range_.first_contact, to.range_.end_contact - to.range_.first_contact};
+}
+
+std::span<const uint32_t> ContactForces::going_strands() const {
+  return {to.going_strands_ + to.first_going_strand_, to.going_strand_count_ - to.first_going_strand_};
+}
+std::span<const uint32_t> ContactForces::going_contacts() const {
+  return {to.going_contacts_ + to.first_going_contact_, to.going_contact_count_ - to.first_going_contact_};
+}
+
+void ContactForces::all_go_on() const {
+  to.first_going_strand_ = to.going_strand_count_;
+  to.first_going_contact_ = to.going_contact_count_;
+  for (uint32_t s = first_strand(); s < end_strand(); ++s) to.going_strands_[to.going_strand_count_++] = s;
+  for (uint32_t i = to.range_.first_contact; i < to.range_.end_contact; ++i)
+    to.going_contacts_[to.going_contact_count_++] = i;
+}
+
+// Where rods collide, what rests may be woken.
+void ContactForces::leave_out_what_rests() const {
+  if (to.settings_.rods_collide) return;
+  const auto keep = [](uint32_t* from, uint32_t* end, const auto& goes) {
+    return std::remove_if(from, end, [&](uint32_t i) { return !goes(i); });
+  };
+  uint32_t* strands = to.going_strands_;
+  to.going_strand_count_ =
+      static_cast<uint32_t>(keep(strands + to.first_going_strand_, strands + to.going_strand_count_,
+                                 [&](uint32_t s) {
+                                   to.iterated_[s] = goes_on(s);
+                                   return goes_on(s);
+                                 }) -
+                            strands);
+  uint32_t* contacts = to.going_contacts_;
+  to.going_contact_count_ =
+      static_cast<uint32_t>(keep(contacts + to.first_going_contact_, contacts + to.going_contact_count_,
+                                 [&](uint32_t i) { return goes_on(to.contacts_[i].sides[0].strand); }) -
+                            contacts);
 }
 
 // Strands that would start deep in something start where they first touch it: an iteration that is cut short,
 // by its cap or by how far segments may turn in it, then leaves them in front of it, slower, not behind.
 void ContactForces::begin() const noexcept {
+  all_go_on();
   for (Contact& c : contacts()) look(&c);
   find_ways();
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {
@@ -77,17 +114,17 @@ void ContactForces::begin() const noexcept {
     if (stepped_back(c)) look(&c);
     begin_friction(&c);
   }
-  assemble();
 }
 
 uint32_t ContactForces::settle(uint32_t left) const noexcept {
-  for (uint32_t s = first_strand(); s < end_strand(); ++s) {
+  for (const uint32_t s : going_strands()) {
     to.iterated_[s] = to.turning_[s] | to.pending_[s];
     to.turning_[s] = active(s) != 0;
     to.pending_[s] = 0;
     to.misses_[s] = to.presses_[s] = 0;
   }
-  for (Contact& c : contacts()) {
+  for (const uint32_t i : going_contacts()) {
+    Contact& c = to.contacts_[i];
     if (!iterated(c)) continue;
     c.open_before_m = c.open_m;
     c.slip_before_m = c.slip_m;
@@ -95,19 +132,20 @@ uint32_t ContactForces::settle(uint32_t left) const noexcept {
   }
   find_felt();
   stop_at_new_contacts(left);
-  for (Contact& c : contacts()) {
+  for (const uint32_t i : going_contacts()) {
+    Contact& c = to.contacts_[i];
     if (!iterated(c) || take_over(&c)) continue;
     to.pending_[c.sides[0].strand] = 1;
     if (c.has_two_rods()) to.pending_[c.sides[1].strand] = 1;
   }
   uint32_t count = 0;
-  for (uint32_t s = first_strand(); s < end_strand(); ++s) {
+  for (const uint32_t s : going_strands()) {
     to.pending_[s] |= to.iterated_[s] && to.ways_[s] < 1;  // what is cut short has not got to its end
     to.pending_[s] |= to.misses_[s] > static_cast<double>(to.settings_.tolerance) * to.presses_[s];
     active(s) = to.turning_[s] | to.pending_[s] ? 1.0f : 0.0f;
     count += active(s) != 0;
   }
-  if (count > 0) assemble();
+  leave_out_what_rests();
   return count;
 }
 

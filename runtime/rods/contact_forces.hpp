@@ -12,6 +12,8 @@ struct ContactForces {
   void clear() const noexcept;
   // Of the range, at the step's first iterate; all its strands are to be iterated.
   void begin() const noexcept;
+  // Before an iteration: the forces of those that go on, as rows of their system.
+  void assemble() const noexcept;
   // After an iteration that so many may follow: takes forces over, and says which strands go on, in
   // kLaneActive. Returns how many.
   uint32_t settle(uint32_t left) const noexcept;
@@ -33,8 +35,11 @@ struct ContactForces {
   uint32_t first_strand() const { return to.range_.first_group * batch.width_; }
   uint32_t end_strand() const;
   float& lane(uint32_t strand, uint32_t field) const {
-    const size_t group = batch.group_of(strand);
-    return batch.lanes_[(group * simd::kLaneFields + field) * batch.width_ + batch.lane_of(strand)];
+    const uint32_t at = to.seat(strand), place = batch.group_of(at);
+    const bool packed = place >= to.home_groups_;
+    float* lanes = packed ? to.packed_lanes_ : batch.lanes_;
+    const size_t group = packed ? place - to.home_groups_ : to.first_home_ + place;
+    return lanes[(group * simd::kLaneFields + field) * batch.width_ + batch.lane_of(at)];
   }
   float& active(uint32_t strand) const { return lane(strand, simd::kLaneActive); }
   Turn turn_now(const Contact::Side& side) const {
@@ -43,6 +48,11 @@ struct ContactForces {
     return {q[0], q[w], q[2 * w], q[3 * w]};
   }
   std::span<Contact> contacts() const;
+  // Of the range, and what of it goes on.
+  std::span<const uint32_t> going_strands() const;
+  std::span<const uint32_t> going_contacts() const;
+  void all_go_on() const;
+  void leave_out_what_rests() const;
   bool iterated(const Contact& contact) const;
   // Gap and slip at the iterate.
   void look(Contact* contact) const;
@@ -91,7 +101,6 @@ struct ContactForces {
   double moved_kg_m(uint32_t strand) const;
 
   // contact_rows.cpp
-  void assemble() const;
   void assemble_ended() const;
   bool goes_on(uint32_t strand) const;
   bool goes_on(const Contact& contact) const;

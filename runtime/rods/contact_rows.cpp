@@ -20,11 +20,10 @@ void ContactForces::clear() const noexcept {
   to.touched_count_ = 0;
 }
 
-void ContactForces::assemble() const {
+void ContactForces::assemble() const noexcept {
   clear();
-  for (uint32_t s = first_strand(); s < end_strand(); ++s)
-    lane(s, simd::kLaneLargestShare) = simd::kRodLargestShare;
-  for (const Contact& c : contacts()) add(c);
+  for (const uint32_t s : going_strands()) lane(s, simd::kLaneLargestShare) = simd::kRodLargestShare;
+  for (const uint32_t i : going_contacts()) add(to.contacts_[i]);
 }
 
 // The forces that the last iteration found, not what a further one would make of their gaps: at a gain of a
@@ -59,13 +58,13 @@ void ContactForces::add(const Contact& c) const {
 }
 
 float* ContactForces::touched_rows(uint32_t strand, uint32_t segment) const {
-  const uint32_t group = batch.group_of(strand) - to.range_.first_group;
-  const uint32_t place = group * batch.segment_count_ + batch.slots_[segment];
+  const uint32_t at = to.seat(strand);
+  const uint32_t place = batch.group_of(at) * batch.segment_count_ + batch.slots_[segment];
   if (!to.touched_[place]) {
     to.touched_[place] = 1;
     to.touched_list_[to.touched_count_++] = place;
   }
-  return to.rows_ + size_t{place} * simd::kRodContactRows * batch.width_ + batch.lane_of(strand);
+  return to.rows_ + size_t{place} * simd::kRodContactRows * batch.width_ + batch.lane_of(at);
 }
 
 // J^T K J and J^T force of a side's point, K = pressed n n^T + held (1 - n n^T), J = (1, -[arm] R): in units

@@ -101,9 +101,10 @@ double ContactForces::deep_after(uint32_t left) const {
 // No iteration goes deep into what it did not touch, nor deeper into what it did: ways end there.
 void ContactForces::stop_at_new_contacts(uint32_t left) const {
   const double deep = deep_after(left);
-  std::fill(to.ways_ + first_strand(), to.ways_ + end_strand(), 1.0);
+  for (const uint32_t s : going_strands()) to.ways_[s] = 1;
   bool any = false;
-  for (const Contact& c : contacts()) {
+  for (const uint32_t i : going_contacts()) {
+    const Contact& c = to.contacts_[i];
     if (!(c.open_before_m > 0) && c.allowed_m < 0) continue;  // it began deep
     const double most = c.open_before_m > 0 ? deep : kAcross;
     if (!iterated(c) || !(c.open_m < -most * c.scale_m) || c.open_m >= c.open_before_m) continue;
@@ -111,11 +112,11 @@ void ContactForces::stop_at_new_contacts(uint32_t left) const {
     any = true;
   }
   if (!any) return;
-  for (uint32_t s = first_strand(); s < end_strand(); ++s) {
+  for (const uint32_t s : going_strands()) {
     if (to.ways_[s] < 1 && to.iterated_[s]) take_back(s);
   }
-  for (Contact& c : contacts()) {
-    if (stepped_back(c)) look(&c);
+  for (const uint32_t i : going_contacts()) {
+    if (stepped_back(to.contacts_[i])) look(&to.contacts_[i]);
   }
 }
 

@@ -15,8 +15,9 @@ void RodBatchBuilder::lay_out(std::byte* base, size_t* bytes) {
   core::Arena arena(base);
   const size_t rows = groups() * batch.segment_count_ * simd::kRodKeptFields;
   batch.records_ = arena.take<float>(rows * batch.width_);
-  batch.scratch_ = arena.take<float>(size_t{batch.segment_count_} *
-                                     (simd::kRodFields - simd::kRodKeptFields) * batch.width_);
+  const size_t group_floats = size_t{batch.segment_count_} * batch.width_;
+  batch.scratch_ = arena.take<float>(group_floats * simd::kRodScratchRows);
+  batch.work_ = arena.take<float>(group_floats * simd::kRodWorkRows);
   batch.lanes_ = arena.take<float>(groups() * simd::kLaneFields * batch.width_);
   lay_out_start(arena);
   batch.rest_ =

@@ -489,8 +489,8 @@ bool ContactFinder::overlap_at_rest(uint32_t strand, uint32_t i, uint32_t j) con
 
 // Two segments of the range by their local numbers.
 void ContactFinder::add_pair(uint32_t i, uint32_t j) const {
-  const uint32_t count = batch.segment_count_, strand_i = first_strand() + i / count,
-                 strand_j = first_strand() + j / count, a = i % count, b = j % count;
+  const uint32_t count = batch.segment_count_, strand_i = strand_of(i), strand_j = strand_of(j),
+                 a = i % count, b = j % count;
   if (!free(strand_i, a) && !free(strand_j, b)) return;
   if (strand_i == strand_j && overlap_at_rest(strand_i, a, b)) return;
   const Other other = {kRod,

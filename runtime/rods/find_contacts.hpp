@@ -45,7 +45,10 @@ struct ContactFinder {
   uint32_t first_strand() const { return to.range_.first_group * batch.width_; }
   uint32_t end_strand() const;
   size_t local(uint32_t strand, uint32_t segment) const {
-    return size_t{strand - first_strand()} * batch.segment_count_ + segment;
+    return size_t{strand - to.first_home_ * batch.width_} * batch.segment_count_ + segment;
+  }
+  uint32_t strand_of(uint32_t local) const {
+    return to.first_home_ * batch.width_ + local / batch.segment_count_;
   }
   bool free(uint32_t strand, uint32_t segment) const;
   double mass_kg(uint32_t strand, uint32_t segment) const;

@@ -13,7 +13,7 @@ constexpr double kLeastShare = 1e-6;
 // What the iteration's linear system made of each hit's force, as far as the iteration was taken, before its
 // contact is looked at again.
 void ContactForces::find_felt() const {
-  for (uint32_t i = to.first_hit_; i < to.hit_count_; ++i) {
+  for (uint32_t i = to.range_.first_hit; i < to.range_.end_hit; ++i) {
     RodCollider::Taken& taken = to.taken_[i];
     if (taken.contact == RodCollider::kNoContact) continue;
     const Contact& c = to.contacts_[taken.contact];
@@ -59,10 +59,10 @@ void ContactForces::limit_felt() const {
     const uint32_t s = strand_of(i);
     return (to.turning_[s] | to.pending_[s]) != 0;
   };
-  for (uint32_t i = to.first_hit_; i < to.hit_count_; ++i) {
+  for (uint32_t i = to.range_.first_hit; i < to.range_.end_hit; ++i) {
     if (counts(i)) to.pushes_[strand_of(i)] += length(to.taken_[i].felt);
   }
-  for (uint32_t i = to.first_hit_; i < to.hit_count_; ++i) {
+  for (uint32_t i = to.range_.first_hit; i < to.range_.end_hit; ++i) {
     if (!counts(i)) continue;
     const double most = moved_kg_m(strand_of(i)), all = to.pushes_[strand_of(i)];
     if (!(all <= most)) to.taken_[i].felt = scaled(most / all, to.taken_[i].felt);
@@ -70,8 +70,8 @@ void ContactForces::limit_felt() const {
 }
 
 void ContactForces::place_hits() const noexcept {
-  if (to.hit_count_ > to.first_hit_) limit_felt();
-  for (uint32_t i = to.first_hit_; i < to.hit_count_; ++i) {
+  if (to.range_.end_hit > to.range_.first_hit) limit_felt();
+  for (uint32_t i = to.range_.first_hit; i < to.range_.end_hit; ++i) {
     RodCollider::Taken& taken = to.taken_[i];
     if (taken.contact == RodCollider::kNoContact) continue;
     const Contact& c = to.contacts_[taken.contact];

@@ -183,6 +183,7 @@ class RodBatch {
   friend struct ColliderBuilder;
   friend struct ContactFinder;
   friend struct ContactForces;
+  friend struct StrandPacker;
   struct Units {
     double origin_m[3];
     float length_m, mass_kg, total_lengths;
@@ -222,8 +223,15 @@ class RodBatch {
   bool held(uint32_t strand, uint32_t segment) const noexcept;
   simd::RodJob group_job(uint32_t group, float dt_s, const RodCollider* collider) const noexcept;
   void begin_group(uint32_t group, const simd::RodJob& job) const noexcept;
+  uint32_t iterate(const simd::RodJob& job) const noexcept;
   uint32_t iterate(uint32_t first_group, uint32_t groups, float dt_s,
                    const RodCollider* collider) const noexcept;
+  uint32_t begin_range(uint32_t first_group, uint32_t groups, float dt_s, RodCollider* collider,
+                       uint32_t left) const noexcept;
+  uint32_t go_on(uint32_t first_group, uint32_t groups, float dt_s, RodCollider* collider, uint32_t active,
+                 uint32_t left) const noexcept;
+  void end_range(uint32_t first_group, uint32_t groups, float dt_s, RodCollider* collider,
+                 RodReport* report) noexcept;
   void step_groups(uint32_t first_group, uint32_t groups, float dt_s, RodCollider* collider,
                    RodReport* report) noexcept;
   void end_group(uint32_t group, const simd::RodJob& job, RodReport* report) noexcept;
@@ -255,6 +263,7 @@ class RodBatch {
   core::AlignedBlock memory_;
   float* records_ = nullptr;    // [groups][segments][kRodKeptFields][width]
   float* scratch_ = nullptr;    // of one group
+  float* work_ = nullptr;       // the same
   float* lanes_ = nullptr;      // [groups][kLaneFields][width]
   float* history_ = nullptr;    // [groups][segments][kRodStartAges][kRodStartNumbers][width]
   float* inputs_ = nullptr;     // [groups][segments][kRodStartInputs][width]
@@ -275,16 +284,20 @@ class RodBatch {
   uint32_t strand_count_ = 0, segment_count_ = 0, width_ = 0, teleported_ = 0, newest_ = 0;
 };
 
-inline float* RodCollider::scratch(const RodBatch& batch, uint32_t group) const noexcept {
-  if (!settings_.rods_collide) return batch.scratch_;
-  return scratch_ + size_t{group} * segment_count_ * (simd::kRodFields - simd::kRodKeptFields) * width_;
+inline float* RodCollider::scratch(uint32_t group) const noexcept {
+  return scratch_ + size_t{group - first_home_} * segment_count_ * simd::kRodScratchRows * width_;
+}
+
+inline uint32_t& RodCollider::seat(uint32_t strand) const noexcept {
+  return seats_[strand - first_home_ * width_];
 }
 
 inline float* RodCollider::scratch_row(const RodBatch& batch, uint32_t strand, uint32_t segment,
                                        uint32_t field) const noexcept {
-  const size_t row = size_t{batch.slots_[segment]} * (simd::kRodFields - simd::kRodKeptFields) + field -
-                     simd::kRodKeptFields;
-  return scratch(batch, batch.group_of(strand)) + row * width_ + batch.lane_of(strand);
+  const uint32_t at = seat(strand);
+  const size_t record = size_t{batch.group_of(at)} * segment_count_ + batch.slots_[segment];
+  const size_t row = record * simd::kRodScratchRows + field - simd::kRodKeptFields;
+  return scratch_ + row * width_ + batch.lane_of(at);
 }
 
 }  // namespace sinew::rods

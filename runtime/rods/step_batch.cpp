@@ -6,6 +6,7 @@
 #include "core/status.hpp"
 #include "rods/contact_forces.hpp"
 #include "rods/rod_batch.hpp"
+#include "rods/strand_packer.hpp"
 #include "simd/kernels.hpp"
 
 namespace sinew::rods {
@@ -26,7 +27,8 @@ Iteration iteration(const simd::RodCalls& calls, RodSolver solver) {
 
 simd::RodJob RodBatch::group_job(uint32_t group, float dt_s, const RodCollider* collider) const noexcept {
   return {.records = records_ + size_t{group} * segment_count_ * simd::kRodKeptFields * width_,
-          .scratch = collider ? collider->scratch(*this, group) : scratch_,
+          .scratch = collider ? collider->scratch(group) : scratch_,
+          .work = work_,
           .lanes = lanes_ + size_t{group} * simd::kLaneFields * width_,
           .parents = slot_parents_,
           .segments = segment_count_,
@@ -48,18 +50,46 @@ void RodBatch::begin_group(uint32_t group, const simd::RodJob& job) const noexce
   if (settings_.solver == RodSolver::kCg) call.measure_cg(job);
 }
 
-// Once, those of the groups that have strands to iterate. Returns how many strands are not converged.
+// A group, if it has strands to iterate. Returns how many are not converged.
+uint32_t RodBatch::iterate(const simd::RodJob& job) const noexcept {
+  const float* lanes = job.lanes + simd::kLaneActive * width_;
+  const bool any = std::any_of(lanes, lanes + width_, [](float x) { return x != 0; });
+  return any ? iteration(calls(width_), settings_.solver)(job) : 0;
+}
+
 uint32_t RodBatch::iterate(uint32_t first_group, uint32_t groups, float dt_s,
                            const RodCollider* collider) const noexcept {
-  const auto iterate = iteration(calls(width_), settings_.solver);
   uint32_t active = 0;
   for (uint32_t g = first_group; g < first_group + groups; ++g) {
     simd::RodJob job = group_job(g, dt_s, collider);
-    if (collider) collider->give(&job, g);
-    const float* lanes = job.lanes + simd::kLaneActive * width_;
-    if (std::any_of(lanes, lanes + width_, [](float x) { return x != 0; })) active += iterate(job);
+    if (collider) collider->give(&job, g - collider->first_home_);
+    active += iterate(job);
   }
   return active;
+}
+
+// To behind the first iteration, which `left` may follow. Returns how many strands are not converged.
+uint32_t RodBatch::begin_range(uint32_t first_group, uint32_t groups, float dt_s, RodCollider* collider,
+                               uint32_t left) const noexcept {
+  for (uint32_t g = first_group; g < first_group + groups; ++g) begin_group(g, group_job(g, dt_s, collider));
+  if (!collider) return iterate(first_group, groups, dt_s, collider);
+  collider->begin_range(*this, first_group, groups, dt_s);
+  iterate(first_group, groups, dt_s, collider);
+  const uint32_t active = collider->settle(*this, left);
+  StrandPacker{*collider, *this}.add();
+  return active;
+}
+
+// The next iteration of `active` strands; the same.
+uint32_t RodBatch::go_on(uint32_t first_group, uint32_t groups, float dt_s, RodCollider* collider,
+                         uint32_t active, uint32_t left) const noexcept {
+  if (!collider) return iterate(first_group, groups, dt_s, collider);
+  StrandPacker{*collider, *this}.pack(active);
+  collider->assemble(*this);
+  iterate(first_group, groups, dt_s, collider);
+  const simd::RodJob job = group_job(first_group, dt_s, collider);
+  for (uint32_t k = 0; k * width_ < collider->packed_count_; ++k) iterate(collider->packed_job(job, k));
+  return collider->settle(*this, left);
 }
 
 void RodBatch::end_group(uint32_t group, const simd::RodJob& job, RodReport* report) noexcept {
@@ -90,22 +120,28 @@ void RodBatch::end_group(uint32_t group, const simd::RodJob& job, RodReport* rep
   }
 }
 
-void RodBatch::step_groups(uint32_t first_group, uint32_t groups, float dt_s, RodCollider* collider,
-                           RodReport* report) noexcept {
-  const uint32_t end = first_group + groups;
-  for (uint32_t g = first_group; g < end; ++g) begin_group(g, group_job(g, dt_s, collider));
-  if (collider) collider->begin_range(*this, first_group, groups, dt_s);
-  for (uint32_t k = 0; k < settings_.max_iterations; ++k) {
-    uint32_t active = iterate(first_group, groups, dt_s, collider);
-    if (collider) active = collider->settle(*this, settings_.max_iterations - 1 - k);
-    if (active == 0) break;
-  }
-  if (collider) collider->end_range(*this, dt_s, report);
-  for (uint32_t g = first_group; g < end; ++g) {
+void RodBatch::end_range(uint32_t first_group, uint32_t groups, float dt_s, RodCollider* collider,
+                         RodReport* report) noexcept {
+  if (collider) collider->end_range(*this, first_group, dt_s, report);
+  for (uint32_t g = first_group; g < first_group + groups; ++g) {
     simd::RodJob job = group_job(g, dt_s, collider);
-    if (collider) collider->give(&job, g);
+    if (collider) collider->give(&job, g - collider->first_home_);
     end_group(g, job, report);
   }
+}
+
+void RodBatch::step_groups(uint32_t first_group, uint32_t groups, float dt_s, RodCollider* collider,
+                           RodReport* report) noexcept {
+  const uint32_t end = first_group + groups, in_range = collider ? collider->groups_of_range() : 1;
+  uint32_t active = 0, left = settings_.max_iterations - 1;
+  if (collider) collider->begin_groups(first_group);
+  for (uint32_t g = first_group; g < end; g += in_range) {
+    active += begin_range(g, in_range, dt_s, collider, left);
+  }
+  if (collider) collider->join_ranges(groups);
+  while (active > 0 && left > 0) active = go_on(first_group, groups, dt_s, collider, active, --left);
+  if (collider) StrandPacker{*collider, *this}.unpack();
+  for (uint32_t g = first_group; g < end; g += in_range) end_range(g, in_range, dt_s, collider, report);
 }
 
 Status RodBatch::step(float dt_s, RodReport* report) noexcept { return step(dt_s, nullptr, report); }
@@ -132,9 +168,11 @@ Status RodBatch::step(float dt_s, RodCollider* collider, RodReport* report) noex
   made.teleported = teleported_;
   teleported_ = 0;
   const uint32_t groups = (strand_count_ + width_ - 1) / width_;
-  const uint32_t at_once = collider && collider->settings_.rods_collide ? groups : 1;
+  const uint32_t at_once = collider ? collider->groups_at_once() : 1;
   if (collider) collider->begin_step();
-  for (uint32_t g = 0; g < groups; g += at_once) step_groups(g, at_once, dt_s, collider, &made);
+  for (uint32_t g = 0; g < groups; g += at_once) {
+    step_groups(g, std::min(at_once, groups - g), dt_s, collider, &made);
+  }
   if (collider && settings_.report_residual) {
     made.residual = std::max(made.residual, static_cast<float>(ContactForces{*collider, *this}.miss()));
   }

@@ -64,17 +64,22 @@ enum RodField : uint32_t {
   kRodMove = kRodStepCompliance + 3,  // [3]
   kRodNow = kRodMove + 3,             // [4]
   kRodForceNow = kRodNow + 4,         // [6]
-  // Of one iteration.
-  kRodAxes = kRodForceNow + 6,               // [9] own axes in the world
+  // Of the last iteration.
+  kRodImpulse = kRodForceNow + 6,  // [6] momentum residual; then the segment's change
+  kRodMiss = kRodImpulse + 6,      // [6] constraint residual; then the change of the joint's force
+  kRodLastTurn = kRodMiss + 6,     // [3] rotation that the iteration before asked for
+  kRodScratchFields = kRodLastTurn + 3,
+  // Of one call, in work.
+  kRodAxes = kRodScratchFields,              // [9] own axes in the world
   kRodBend = kRodAxes + 9,                   // [4] orientation against the parent's
   kRodStiffened = kRodBend + 4,              // [2] inertia with geometric stiffness: about x and y, about z
-  kRodImpulse = kRodStiffened + 2,           // [6] momentum residual; then the segment's change
-  kRodMiss = kRodImpulse + 6,                // [6] constraint residual; then the change of the joint's force
-  kRodInertiaFactor = kRodMiss + 6,          // [21] of the segment with all that hangs on it
+  kRodInertiaFactor = kRodStiffened + 2,     // [21] of the segment with all that hangs on it
   kRodJointFactor = kRodInertiaFactor + 21,  // [21]
-  kRodLastTurn = kRodJointFactor + 21,       // [3] rotation that the iteration before asked for
-  kRodFields = kRodLastTurn + 3
+  kRodFields = kRodJointFactor + 21
 };
+
+inline constexpr uint32_t kRodScratchRows = kRodScratchFields - kRodKeptFields;
+inline constexpr uint32_t kRodWorkRows = kRodFields - kRodScratchFields;
 
 // Rows of `width` floats of the group itself.
 enum RodLaneField : uint32_t {
@@ -97,9 +102,10 @@ enum RodLaneField : uint32_t {
 enum RodContactRow : uint32_t { kContactMatrix = 0, kContactForce = 21, kRodContactRows = 27 };
 
 struct RodJob {
-  float* records;  // [segments][kRodKeptFields][width], 64-byte aligned (width 4: 16-byte)
-  float* scratch;  // [segments][kRodFields - kRodKeptFields][width], aligned alike; from predict to finish
-  float* lanes;    // [kLaneFields][width], aligned alike
+  float* records;           // [segments][kRodKeptFields][width], 64-byte aligned (width 4: 16-byte)
+  float* scratch;           // [segments][kRodScratchRows][width], aligned alike; from predict to finish
+  float* work;              // [segments][kRodWorkRows][width], aligned alike; of one call
+  float* lanes;             // [kLaneFields][width], aligned alike
   const uint32_t* parents;  // [segments], each less than its own index; parents[0] is 0
   uint32_t segments;
   float dt_s;
@@ -128,6 +134,9 @@ struct RodCalls {
   void (*residual)(const RodJob& job);
   // Takes the iterate over as the new state.
   void (*finish)(const RodJob& job);
+  // Lane k of `to` becomes lanes[k] of `from`, of what direct reads or, once `ended`, of what it came to;
+  // below zero it stays as it is. Within one group no lane goes up.
+  void (*move_lanes)(const RodJob& from, const RodJob& to, const int8_t* lanes, bool ended);
 };
 
 struct RodKernels {

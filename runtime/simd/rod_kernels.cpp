@@ -21,6 +21,7 @@
 #include "simd/rod_start-inl.hpp"
 #include "simd/rod_learned-inl.hpp"
 #include "simd/rod_knn-inl.hpp"
+#include "simd/rod_pack-inl.hpp"
 // clang-format on
 
 namespace sinew::simd::HWY_NAMESPACE {
@@ -37,7 +38,8 @@ constexpr RodCalls rod_calls() {
           .cg = rod_cg<kWidth>,
           .local = rod_local<kWidth>,
           .residual = rod_residual<kWidth>,
-          .finish = rod_finish<kWidth>};
+          .finish = rod_finish<kWidth>,
+          .move_lanes = rod_move_lanes<kWidth>};
 }
 
 extern const RodKernels kRodKernels;

@@ -75,14 +75,16 @@ struct Group {
   using V = hn::Vec<D>;
   float* records;
   float* scratch;
+  float* work;
   float* lanes;
   float* contacts;         // null where the group touches nothing
   const uint8_t* touched;  // of all lanes
 
   HWY_INLINE float* at(size_t segment, size_t field) const {
-    return field < kRodKeptFields
-               ? records + (segment * kRodKeptFields + field) * kWidth
-               : scratch + (segment * (kRodFields - kRodKeptFields) + (field - kRodKeptFields)) * kWidth;
+    if (field < kRodKeptFields) return records + (segment * kRodKeptFields + field) * kWidth;
+    return field < kRodScratchFields
+               ? scratch + (segment * kRodScratchRows + (field - kRodKeptFields)) * kWidth
+               : work + (segment * kRodWorkRows + (field - kRodScratchFields)) * kWidth;
   }
   HWY_INLINE V get(size_t segment, size_t field) const { return hn::Load(D(), at(segment, field)); }
   HWY_INLINE void set(size_t segment, size_t field, V value) const {
@@ -121,8 +123,12 @@ using LanesOf = hn::CappedTag<float, kWidth>;
 
 template <class D, size_t kWidth>
 HWY_INLINE Group<D, kWidth> lanes_from(const RodJob& job, size_t first) {
-  return {job.records + first, job.scratch + first, job.lanes + first,
-          job.contacts ? job.contacts + first : nullptr, job.touched};
+  return {job.records + first,
+          job.scratch + first,
+          job.work + first,
+          job.lanes + first,
+          job.contacts ? job.contacts + first : nullptr,
+          job.touched};
 }
 
 // body(group) for each vector of the group's lanes.

@@ -22,10 +22,9 @@ struct ReachGroup {
   size_t first;  // lane
 
   HWY_INLINE V get(size_t segment, size_t field) const {
-    const float* row =
-        field < kRodKeptFields
-            ? job.records + (segment * kRodKeptFields + field) * kWidth
-            : job.scratch + (segment * (kRodFields - kRodKeptFields) + field - kRodKeptFields) * kWidth;
+    const float* row = field < kRodKeptFields
+                           ? job.records + (segment * kRodKeptFields + field) * kWidth
+                           : job.scratch + (segment * kRodScratchRows + field - kRodKeptFields) * kWidth;
     return hn::Load(D(), row + first);
   }
   HWY_INLINE Three<V> get3(size_t segment, size_t field) const {

@@ -165,9 +165,7 @@ struct TouchGroup {
   HWY_INLINE V get(size_t field) const {
     return floats(field < kRodKeptFields
                       ? job.records + (segment * kRodKeptFields + field) * kWidth + first
-                      : job.scratch +
-                            (segment * (kRodFields - kRodKeptFields) + field - kRodKeptFields) * kWidth +
-                            first);
+                      : job.scratch + (segment * kRodScratchRows + field - kRodKeptFields) * kWidth + first);
   }
   HWY_INLINE V length() const { return floats(job.length_m + first); }
   // Its own z, at an orientation.

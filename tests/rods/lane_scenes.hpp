@@ -35,9 +35,7 @@ class LaneScene {
   float& at(uint32_t i, uint32_t field, uint32_t k) {
     return field < simd::kRodKeptFields
                ? records_[(i * simd::kRodKeptFields + field) * width_ + k]
-               : scratch_[(i * (simd::kRodFields - simd::kRodKeptFields) + field - simd::kRodKeptFields) *
-                              width_ +
-                          k];
+               : scratch_[(i * simd::kRodScratchRows + field - simd::kRodKeptFields) * width_ + k];
   }
   float reach(uint32_t i, uint32_t row, uint32_t k) const {
     return reaches_[(i * simd::kReachRows + row) * width_ + k];
@@ -70,7 +68,7 @@ class LaneScene {
   void lay_out() {
     core::Arena arena(memory_.data());
     records_ = arena.take<float>(size_t{segments_} * simd::kRodKeptFields * width_);
-    scratch_ = arena.take<float>(size_t{segments_} * (simd::kRodFields - simd::kRodKeptFields) * width_);
+    scratch_ = arena.take<float>(size_t{segments_} * simd::kRodScratchRows * width_);
     radii_m_ = arena.take<float>(size_t{segments_} * width_);
     length_m_ = arena.take<float>(width_);
     origin_m_ = arena.take<double>(size_t{3} * width_);

@@ -79,7 +79,7 @@ struct StartLanes {
   explicit StartLanes(std::vector<uint32_t> parent_list, uint32_t latent = 8)
       : parents(std::move(parent_list)), segments(static_cast<uint32_t>(parents.size())) {
     for (auto* plane :
-         {&records, &scratch, &lanes, &history, &continued, &inputs, &scales, &encodings, &planes}) {
+         {&records, &scratch, &work, &lanes, &history, &continued, &inputs, &scales, &encodings, &planes}) {
       *plane = std::make_unique<Floats>(1, 0.0f);
     }
     const auto take = [&](std::unique_ptr<Floats>& to, size_t rows, float value = 0) {
@@ -87,7 +87,8 @@ struct StartLanes {
       return to->data();
     };
     job.records = take(records, size_t{segments} * simd::kRodKeptFields);
-    job.scratch = take(scratch, size_t{segments} * (simd::kRodFields - simd::kRodKeptFields));
+    job.scratch = take(scratch, size_t{segments} * simd::kRodScratchRows);
+    job.work = take(work, size_t{segments} * simd::kRodWorkRows);
     job.lanes = take(lanes, simd::kLaneFields);
     job.parents = parents.data();
     job.segments = segments;
@@ -112,7 +113,8 @@ struct StartLanes {
 
   std::vector<uint32_t> parents;
   uint32_t segments;
-  std::unique_ptr<Floats> records, scratch, lanes, history, continued, inputs, scales, encodings, planes;
+  std::unique_ptr<Floats> records, scratch, work, lanes, history, continued, inputs, scales, encodings,
+      planes;
   simd::RodJob job{};
   simd::RodStartJob start{};
 };

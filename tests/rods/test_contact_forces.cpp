@@ -456,6 +456,30 @@ TEST_CASE("a_strand_that_touches_something_does_not_know_of_its_neighbours") {
   }
 }
 
+// They go on for different numbers of iterations, packed into lanes of other groups than their own, and in
+// the first steps more of them than there is room for.
+TEST_CASE("strands_have_the_same_bits_in_whichever_order_they_slide_over_a_head") {
+  const test::HairOnHead hair(150);
+  const std::vector<test::Segments> reversed(hair.strands().rbegin(), hair.strands().rend());
+  const test::RodSettings settings = {.start = rods::RodStart::kContinued};
+  test::RodBatch batches[2] = {hair.batch(settings), test::batch_of(reversed, settings)};
+  for (test::RodBatch& batch : batches) {
+    rods::RodCollider collider = test::collider_of(batch, {.rods_collide = false});
+    uint32_t longest = 0;
+    for (int i = 0; i < 60; ++i) {
+      REQUIRE(test::HairOnHead::put(&collider, i % 20 < 10 ? 3 : -3).ok());
+      longest = std::max(longest, test::step(batch, collider).iterations);
+    }
+    CHECK(longest == settings.max_iterations);
+  }
+  for (uint32_t s = 0; s < 150; ++s) {
+    for (uint32_t i = 0; i < hair.strands()[0].size(); ++i) {
+      const rods::SegmentPose one = batches[0].pose(s, i), other = batches[1].pose(149 - s, i);
+      CHECK(test::distance(one.position_m, other.position_m) == 0);
+    }
+  }
+}
+
 TEST_CASE("a_pile_stays_bounded_for_ten_thousand_steps") {
   std::vector<test::Segments> strands;
   for (int i = 0; i < 8; ++i) {
