@@ -13,11 +13,12 @@ namespace sinew::frame {
 // 100 samples do not exceed, by their ranks alone, at most kWidest times the estimate.
 class CostEstimate {
  public:
-  static constexpr float kWidest = 3;
+  static constexpr float kWidest = 3, kDrift = 0.01f;
 
   CostEstimate() noexcept = default;
-  explicit CostEstimate(float baked_us) noexcept
-      : baked_us_(baked_us), estimate_us_(baked_us), known_(true), is_baked_(true) {}
+  // drift: in a step without a sample, of the way back to the baked number.
+  explicit CostEstimate(float baked_us, float drift = kDrift) noexcept
+      : baked_us_(baked_us), estimate_us_(baked_us), drift_(drift), known_(true), is_baked_(true) {}
   float baked_us() const noexcept { return baked_us_; }
   float estimate_us() const noexcept { return estimate_us_; }
   float p95_us() const noexcept { return estimate_us_ * tail_; }
@@ -30,7 +31,7 @@ class CostEstimate {
 
  private:
   float baked_us_ = 0, estimate_us_ = 0, tail_ = 2, far_tail_ = 2.5f;
-  float sum_us_ = 0;
+  float sum_us_ = 0, drift_ = kDrift;
   uint32_t samples_ = 0;
   bool known_ = false;  // baked, at whatever cost, or measured
   bool is_baked_ = false;

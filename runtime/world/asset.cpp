@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/status.hpp"
+#include "world/affords_surface.hpp"
 #include "world/bought_rates.hpp"
 #include "world/instance.hpp"
 #include "world/own_body_touches.hpp"
@@ -19,6 +20,9 @@ using core::make_status;
 
 // Errors of a network that was not judged are not known in millimetres: a usual share of the height then.
 constexpr float kUsualSkinningError = 5e-3f;
+// Tiers on which skins are touched were baked without: one that proved too dear is tried again after a
+// quarter of a minute, not of a second.
+constexpr float kSurfaceDrift = 1e-3f;
 
 // What was not measured on a coarser graph follows from what was on the finest.
 float told_error(const pack::PackView& pack, const pack::TierRecord& record) noexcept {
@@ -37,7 +41,10 @@ void read_point(const pack::PackView& pack, const pack::TierRecord& record, Asse
     return;
   asset.points[asset.point_count++] = {tier, record.every, record.cost_us, told_error(pack, record),
                                        record.level};
-  if (record.every == 1) asset.cost.of(tier, record.level) = frame::CostEstimate(record.cost_us);
+  if (record.every != 1) return;
+  asset.costs.cost.of(tier, record.level) = frame::CostEstimate(record.cost_us);
+  const float drift = affords_surface(tier, record.level) ? kSurfaceDrift : frame::CostEstimate::kDrift;
+  asset.surface_costs.cost.of(tier, record.level) = frame::CostEstimate(record.cost_us, drift);
 }
 
 void read_tiers(const pack::PackView& pack, Asset& asset) noexcept {
@@ -46,12 +53,13 @@ void read_tiers(const pack::PackView& pack, Asset& asset) noexcept {
   for (const pack::TierRecord& record : pack.tiers) {
     read_point(pack, record, asset);
     if (record.tier == static_cast<uint32_t>(Tier::kExtrapolate))
-      asset.cost.publish = frame::CostEstimate(record.cost_us);
+      asset.costs.cost.publish = asset.surface_costs.cost.publish = frame::CostEstimate(record.cost_us);
     if (record.tier != static_cast<uint32_t>(Tier::kSkinning)) continue;
     asset.idle_us = record.cost_us;
     if (record.error_mm > 0) asset.skinning_mm = record.error_mm;
   }
-  frame::make_front({asset.points, asset.point_count}, asset.idle_us, &asset.front);
+  frame::make_front({asset.points, asset.point_count}, asset.idle_us, &asset.costs.front);
+  asset.surface_costs.front = asset.costs.front;
 }
 
 // The section table holds every section's checksum, so its own checksum stands for the whole file.

@@ -15,6 +15,12 @@
 
 namespace sinew::world {
 
+// What tiers cost, and which of them are worth buying.
+struct TierCosts {
+  frame::CostModel cost;
+  frame::Front front;  // of the asset's points, at what they cost now (world/plan.hpp)
+};
+
 struct Asset {
   pack::MappedFile file;    // empty when the caller keeps the bytes
   pack::PackView pack;      // the finest level in view
@@ -30,11 +36,10 @@ struct Asset {
   uint32_t widest_region = 0;  // floats of its nodes' x y z and of its modes, each padded
   uint32_t heard_floats = 0;   // of its nodes' x y z and of its modes, each padded, of all regions
   float reach_m = 0;           // world/pose_bound.hpp
-  uint32_t live_instances = 0;
-  frame::CostModel cost;
-  frame::Level points[frame::kMostLevels];  // as baked
+  uint32_t live_instances = 0, surface_instances = 0;  // the latter with ContactDef::surface
+  TierCosts costs, surface_costs;                      // the latter of instances with ContactDef::surface
+  frame::Level points[frame::kMostLevels];             // as baked
   uint32_t point_count = 0;
-  frame::Front front;     // of the points, at what they cost now (world/plan.hpp)
   float skinning_mm = 1;  // skinning's error
   float idle_us = 0;      // baked: a step, of what is neither simulated nor displaced
 

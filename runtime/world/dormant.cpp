@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "frame/scheduler.hpp"
+#include "world/rod_contacts.hpp"
 #include "world/rod_sleep.hpp"
 #include "world/sleep.hpp"
 
@@ -29,7 +30,7 @@ bool is_shown_still(const Instance& instance) noexcept {
 // By its front, not by what the step was told: that may have been less for a reason that is over.
 bool has_its_best(const Instance& instance) noexcept {
   const InstanceState& state = *instance.state;
-  const frame::Front& front = instance.asset->front;
+  const frame::Front& front = costs_of(instance).front;
   return front.level_of(state.tier, state.every, state.level) == front.best();
 }
 
@@ -39,7 +40,7 @@ bool may_be_dormant(const Instance& instance) noexcept {
   return frame::is_simulated(state.tier) && state.still_ticks >= kStillTicks && !state.motion_stale &&
          !state.at_start && !instance.cut && state.blend_ticks == kBlendInTicks &&
          state.seam_ticks == kBlendInTicks && state.fallback_ticks == 0 && !instance.contacts.source &&
-         regions_asleep(instance) == asset.pack.regions.size() &&
+         !touches_surface(instance) && regions_asleep(instance) == asset.pack.regions.size() &&
          rods_asleep(instance) == asset.rods.rod_count && is_shown_still(instance);
 }
 

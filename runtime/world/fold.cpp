@@ -14,7 +14,7 @@ bool ran_as_planned(const Instance& instance, const PlanRow& row) noexcept {
 }
 
 frame::CostEstimate& tick_cost(const PlanRow& row) noexcept {
-  return row.asset->cost.of(row.tier, row.level);
+  return costs_of(row).cost.of(row.tier, row.level);
 }
 
 // A sleeper's or a toucher's own cost is its factor; the asset's is that of those who are awake.
@@ -39,7 +39,7 @@ void learn_beyond(const Instance& instance, const PlanRow& row, float took_us,
 
 void learn_costs(Instance& instance, const PlanRow& row) noexcept {
   const InstanceTimes& times = instance.times;
-  frame::CostModel& cost = row.asset->cost;
+  frame::CostModel& cost = costs_of(row).cost;
   const uint64_t ticked_ns = times.drive_ns + times.tissue_ns + times.rods_ns;
   const float ticked_us = core::microseconds(ticked_ns);
   const bool ran = frame::is_simulated(row.tier) && instance.plan.ticks.ticks > 0 &&
@@ -111,6 +111,11 @@ float add(WorldState& world, uint32_t slot, FrameReport& report) noexcept {
   return add_active(instance, world.rows[slot], report);
 }
 
+void settle(Asset& asset) noexcept {
+  asset.costs.cost.settle();
+  if (asset.surface_instances > 0) asset.surface_costs.cost.settle();
+}
+
 void bring_counted_near(const WorldState& world, uint32_t slot) noexcept {
   constexpr uint32_t kAhead = 8;
   const uint32_t ahead = slot + kAhead;
@@ -136,7 +141,7 @@ void fold_results(WorldState& world, FrameReport& report) noexcept {
   });
   if (seen > 0) report.expected_error = static_cast<float>(errors / seen);
   for (uint32_t slot = 0; costs_are_measured(world) && slot < world.assets.end(); ++slot)
-    if (Asset* asset = world.assets.at(slot)) asset->cost.settle();
+    if (Asset* asset = world.assets.at(slot)) settle(*asset);
 }
 
 }  // namespace sinew::world

@@ -170,6 +170,7 @@ Status make_instance(Asset& asset, const InstanceDef& def, Instance* out) noexce
   Instance made;
   made.contacts = def.contacts;
   made.contacts.own_body &= !asset.pack.proxies.empty() && (asset.rods.rod_count > 0 || asset.touchable);
+  if (asset.rods.rod_count == 0) made.contacts.surface = nullptr;
   for (uint32_t l = 0; soft_parts_touch(asset, made.contacts) && l < asset.level_count; ++l) {
     GraphLevel& level = asset.levels[l];
     if (level.patches.first) continue;
@@ -280,6 +281,7 @@ InstanceReport describe(const Instance& instance, InstanceId id) noexcept {
           .rod_recoveries = state.rod_recoveries,
           .rods_asleep = simulated ? rods_asleep(instance) : 0,
           .rod_contacts = instance.told.rod_contacts,
+          .rods_touch_surface = simulated && touches_surface(instance),
           .vertices_touched = instance.told.vertices,
           .contacts_refused = instance.told.refused,
           .contacts_dropped = instance.told.dropped,

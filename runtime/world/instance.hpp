@@ -15,6 +15,7 @@
 #include "tissue/node_pose.hpp"
 #include "world/asset.hpp"
 #include "world/pose.hpp"
+#include "world/rod_source.hpp"
 
 namespace sinew::world {
 
@@ -168,11 +169,12 @@ struct Instance {
   bool settles = false;               // likewise, and its r is what was spread
   bool rods_anew = false;   // in this tick: rods are taken to where they are shown before they go on
   bool rods_shown = false;  // published joints are not the pose's
-  // own_body: only where there is something to touch. Without a source and soft parts that touch the body,
-  // the arrays of contacts have no memory.
+  // own_body and surface: only where there is something to touch. Without a source and soft parts that touch
+  // the body, the arrays of contacts have no memory.
   ContactDef contacts;
   std::unique_ptr<rods::RodBatch[]> rod_batches;       // their state is saved beside the run of bytes below
   std::unique_ptr<rods::RodCollider[]> rod_colliders;  // [batches], theirs too; null: rods touch nothing
+  std::unique_ptr<RodSource> rod_source;               // what they ask; null: contacts.source at most
 
   // State: one run of bytes from `state` on.
   Matrix34* pose_joints[3] = {};                                                 // [joints], in turn:
@@ -250,6 +252,10 @@ struct Instance {
 
 inline constexpr size_t kPlannedBytes = offsetof(Instance, memory);
 static_assert(kPlannedBytes <= 176);  // three cache lines with what the table of instances has before it
+
+inline TierCosts& costs_of(const Instance& instance) noexcept {
+  return instance.contacts.surface ? instance.asset->surface_costs : instance.asset->costs;
+}
 
 size_t instance_bytes(const Asset& asset) noexcept;  // without contacts
 // In its bind pose, at rest. kOutOfCapacity when memory is short.

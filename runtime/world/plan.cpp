@@ -13,15 +13,20 @@ namespace {
 
 using frame::Candidate;
 
-void refresh_front(const WorldState& world, Asset& asset) noexcept {
-  if (!costs_are_measured(world)) return;
+void refresh_front(const Asset& asset, TierCosts& costs) noexcept {
   frame::Level now[frame::kMostLevels];
   for (uint32_t i = 0; i < asset.point_count; ++i) {
     now[i] = asset.points[i];
-    const frame::CostEstimate& tick = asset.cost.of(now[i].tier, now[i].graph);
+    const frame::CostEstimate& tick = costs.cost.of(now[i].tier, now[i].graph);
     now[i].tick_us = tick.estimate_us() / static_cast<float>(now[i].every);
   }
-  frame::make_front({now, asset.point_count}, asset.cost.publish.estimate_us(), &asset.front);
+  frame::make_front({now, asset.point_count}, costs.cost.publish.estimate_us(), &costs.front);
+}
+
+void refresh_fronts(const WorldState& world, Asset& asset) noexcept {
+  if (!costs_are_measured(world)) return;
+  refresh_front(asset, asset.costs);
+  if (asset.surface_instances > 0) refresh_front(asset, asset.surface_costs);
 }
 
 // What is asked of all candidates of a step alike.
@@ -38,8 +43,8 @@ Terms terms_of(const WorldState& world) noexcept {
 float base_us(const Terms& terms, const PlanRow& row) noexcept {
   const Asset& asset = *row.asset;
   if (!row.displaced) return terms.measured ? terms.idle_us : asset.idle_us;
-  if (terms.measured) return asset.cost.publish.estimate_us();
-  return asset.idle_us + asset.cost.publish.baked_us();
+  if (terms.measured) return costs_of(row).cost.publish.estimate_us();
+  return asset.idle_us + costs_of(row).cost.publish.baked_us();
 }
 
 float weight_of(const PlanRow& row) noexcept {
@@ -50,7 +55,7 @@ float weight_of(const PlanRow& row) noexcept {
 // The network is not to be had for a while after a guard; nothing is while a restart fades, or in the step in
 // which one comes into view: how it moves is known a step later.
 uint32_t highest(const PlanRow& row) noexcept {
-  const frame::Front& front = row.asset->front;
+  const frame::Front& front = costs_of(row).front;
   if (row.restarting || row.hidden) return 0;
   for (uint32_t level = 1; row.falls_back && level < front.count; ++level)
     if (front.levels[level].tier == Tier::kNetwork) return level - 1;
@@ -58,7 +63,7 @@ uint32_t highest(const PlanRow& row) noexcept {
 }
 
 Candidate candidate_of(const Terms& terms, const PlanRow& row, uint32_t ticks, uint32_t slot) noexcept {
-  const frame::Front& front = row.asset->front;
+  const frame::Front& front = costs_of(row).front;
   return {.slot = slot,
           .front = &front,
           .weight = weight_of(row),
@@ -68,8 +73,8 @@ Candidate candidate_of(const Terms& terms, const PlanRow& row, uint32_t ticks, u
           .cost_factor = terms.measured ? row.cost_factor : 1,
           .base_us = base_us(terms, row),
           .missed = terms.measured ? static_cast<float>(row.missed) : 0,
-          .enter_us = terms.measured ? row.asset->cost.enter.estimate_us() : 0,
-          .change_us = terms.measured ? row.asset->cost.change.estimate_us() : 0,
+          .enter_us = terms.measured ? costs_of(row).cost.enter.estimate_us() : 0,
+          .change_us = terms.measured ? costs_of(row).cost.change.estimate_us() : 0,
           .has = front.level_of(row.tier, row.every, row.level),
           .graph = row.level,
           .top = highest(row),
@@ -248,7 +253,7 @@ void add_up_behind(WorldState& world, std::span<const uint32_t> order) noexcept 
   for (size_t i = order.size(); i-- > 0;) {
     const PlanRow& row = world.rows[order[i]];
     world.answers[order[i]].behind_us = behind_us;
-    if (row.displaced) behind_us += row.asset->cost.publish.estimate_us();
+    if (row.displaced) behind_us += costs_of(row).cost.publish.estimate_us();
   }
 }
 
@@ -261,7 +266,7 @@ bool costs_are_measured(const WorldState& world) noexcept {
 frame::ScheduleResult plan_step(WorldState& world, double dt_s) noexcept {
   world.dt_s = dt_s;
   for (uint32_t slot = 0; slot < world.assets.end(); ++slot)
-    if (Asset* asset = world.assets.at(slot)) refresh_front(world, *asset);
+    if (Asset* asset = world.assets.at(slot)) refresh_fronts(world, *asset);
   Gathered gathered = gather_candidates(world);
   frame::ScheduleScratch& scratch = *world.scratch;
   float budget_us = world.budget_us;

@@ -22,16 +22,21 @@ struct alignas(64) PlanRow {
   Tier tier = Tier::kSkinning;
   uint8_t level = 0, every = 1, dormant = 0;
   bool restarting : 1 = false, hidden : 1 = false, hidden_by_caller : 1 = false, displaced : 1 = false;
-  bool falls_back : 1 = false;  // the network is not to be had
-  bool was_cut : 1 = false;     // cut or held
-  bool shows : 1 = false;       // some of a displacement, be it zero
-  bool blind : 1 = false;       // rays were stopped in the last look
-  bool seen : 1 = true;         // in this step (world/look.hpp)
-  uint8_t missed : 2 = 0;       // ticks that it would make up for (world/catch_up.hpp)
+  bool falls_back : 1 = false;   // the network is not to be had
+  bool was_cut : 1 = false;      // cut or held
+  bool shows : 1 = false;        // some of a displacement, be it zero
+  bool blind : 1 = false;        // rays were stopped in the last look
+  bool seen : 1 = true;          // in this step (world/look.hpp)
+  bool has_surface : 1 = false;  // stays
+  uint8_t missed : 2 = 0;        // ticks that it would make up for (world/catch_up.hpp)
   uint16_t regions_asleep = 0;
   float size = 1;  // in this step: share of a view's height
 };
 static_assert(sizeof(PlanRow) == 64 && kCaughtUpTicks < 4);
+
+inline TierCosts& costs_of(const PlanRow& row) noexcept {
+  return row.has_surface ? row.asset->surface_costs : row.asset->costs;
+}
 
 // Of InstancePlan.
 struct PlanAnswer {

@@ -3,12 +3,15 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cfloat>
 #include <new>
 #include <utility>
 
 #include "core/check_hit.hpp"
 #include "core/status.hpp"
+#include "world/affords_surface.hpp"
 #include "world/own_body.hpp"
+#include "world/rotation.hpp"
 
 namespace sinew::world {
 namespace {
@@ -20,13 +23,47 @@ constexpr uint32_t kHitsASegment = 4, kMostHits = 1u << 20;
 
 bool asks(const Instance& instance) noexcept { return instance.contacts.source && instance.contacts.rods; }
 
+// The most they ask, on whatever tier.
+uint32_t source_count(const Instance& instance) noexcept {
+  return uint32_t{asks(instance)} + uint32_t{instance.contacts.surface != nullptr};
+}
+
+// What a change of tier leaves inside is brought out by degrees: of the character's height a second. Strands
+// are pushed apart some times as fast.
+float push_out_m_s(const Instance& instance) noexcept {
+  constexpr float kHeights = 0.02f;
+  if (!instance.contacts.surface) return rods::ColliderSettings{}.largest_push_out_m_s;
+  return std::max(kHeights * instance.level->pack.character->height_m, FLT_MIN);
+}
+
 rods::ColliderSettings settings_of(const Instance& instance, const rods::RodBatch& batch) noexcept {
   const uint64_t segments = uint64_t{batch.strand_count()} * batch.segment_count();
-  const auto hits = static_cast<uint32_t>(std::min<uint64_t>(kHitsASegment * segments, kMostHits));
+  const uint64_t wanted = source_count(instance) * kHitsASegment * segments;
   return {.rods_collide = false,
+          .largest_push_out_m_s = push_out_m_s(instance),
           .obstacle_capacity = proxy_count(instance),
           .point_capacity = 0,
-          .source_capacity = asks(instance) ? hits : 0};
+          .source_capacity = static_cast<uint32_t>(std::min<uint64_t>(wanted, kMostHits))};
+}
+
+Status make_rod_source(Instance& instance) noexcept {
+  if (!instance.contacts.surface) return {};
+  ContactSource* source = asks(instance) ? instance.contacts.source : nullptr;
+  instance.rod_source.reset(new (std::nothrow) RodSource(source, instance.contacts.surface));
+  if (instance.rod_source) return {};
+  return core::make_status(StatusCode::kOutOfCapacity, "create_instance: no memory for its rods");
+}
+
+// Where the tier affords it the surface and what else there is, else that and the own body.
+void choose_touched(Instance& instance, rods::RodCollider& collider) noexcept {
+  const bool on_surface = touches_surface(instance);
+  if (on_surface)
+    (void)collider.set_capsules({});
+  else if (proxy_count(instance) > 0)
+    set_proxies(instance, collider);
+  if (!instance.rod_source) return;
+  ContactSource* source = asks(instance) ? instance.contacts.source : nullptr;
+  (void)collider.set_source(on_surface ? instance.rod_source.get() : source, instance.contacts.owner);
 }
 
 Eigen::AlignedBox3d box_of_rods(const Instance& instance) noexcept {
@@ -46,9 +83,14 @@ Eigen::AlignedBox3d box_of_rods(const Instance& instance) noexcept {
 
 }  // namespace
 
+bool touches_surface(const Instance& instance) noexcept {
+  return instance.contacts.surface && affords_surface(instance.state->tier, instance.state->level);
+}
+
 Status make_rod_colliders(Instance& instance) noexcept {
   const uint32_t count = instance.asset->rods.batch_count;
-  if ((!asks(instance) && proxy_count(instance) == 0) || count == 0) return {};
+  if ((source_count(instance) == 0 && proxy_count(instance) == 0) || count == 0) return {};
+  if (Status status = make_rod_source(instance); !status.ok()) return status;
   std::unique_ptr<rods::RodCollider[]> made(new (std::nothrow) rods::RodCollider[count]);
   if (!made) return core::make_status(StatusCode::kOutOfCapacity, "create_instance: no memory for its rods");
   for (uint32_t b = 0; b < count; ++b) {
@@ -65,7 +107,7 @@ Status make_rod_colliders(Instance& instance) noexcept {
 rods::RodCollider* rod_collider(Instance& instance, uint32_t batch) noexcept {
   if (!instance.rod_colliders) return nullptr;
   instance.rod_colliders[batch].set_origin(instance.state->rod_anchor_m);
-  if (proxy_count(instance) > 0) set_proxies(instance, instance.rod_colliders[batch]);
+  choose_touched(instance, instance.rod_colliders[batch]);
   return &instance.rod_colliders[batch];
 }
 
@@ -74,9 +116,38 @@ void forget_rod_contacts(Instance& instance) noexcept {
   for (uint32_t b = 0; b < instance.asset->rods.batch_count; ++b) instance.rod_colliders[b].forget_forces();
 }
 
+namespace {
+
+bool surface_is_near(const Instance& instance, const RodSeat& seat, uint32_t k) noexcept {
+  const RodSlot& slot = instance.asset->rods.slots()[seat.first_slot + k];
+  const rods::SegmentPose pose = instance.rod_batches[seat.batch].pose(seat.strand, k);
+  const Vector3d middle =
+      Eigen::Map<const Vector3d>(pose.position_m) + Eigen::Map<const Vector3d>(instance.state->rod_anchor_m);
+  const Vector3d half = quaternion(pose.orientation) * Vector3d(0, 0, double{slot.length_m} / 2);
+  ContactProbe probe{.radius_m = slot.radius_m};
+  for (double(*ends)[3] : {probe.start_m, probe.end_m}) {
+    std::copy_n(Vector3d(middle - half).data(), 3, ends[0]);
+    std::copy_n(Vector3d(middle + half).data(), 3, ends[1]);
+  }
+  probe.owner = instance.contacts.owner;
+  ContactHit hit;
+  const auto tick_s = static_cast<float>(instance.asset->tick_s);
+  return instance.contacts.surface->find({&probe, 1}, tick_s, {&hit, 1}) > 0;
+}
+
+bool surface_is_near(const Instance& instance) noexcept {
+  for (const RodSeat& seat : instance.asset->rods.seats())
+    for (uint32_t k = 1; k < seat.slot_count; ++k)
+      if (surface_is_near(instance, seat, k)) return true;
+  return false;
+}
+
+}  // namespace
+
 bool something_is_near_rods(Instance& instance) noexcept {
   if (!instance.rod_colliders) return false;
   if (proxies_move(instance)) return true;
+  if (touches_surface(instance) && surface_is_near(instance)) return true;
   if (!asks(instance)) return false;
   const Eigen::AlignedBox3d box = box_of_rods(instance);
   const Vector3d middle = box.center() + Eigen::Map<const Vector3d>(instance.state->rod_anchor_m);

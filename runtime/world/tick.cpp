@@ -117,7 +117,7 @@ bool refines(const Instance& instance) noexcept {
 // late by, by what one of a hundred does.
 float most_us(const Instance& instance, const TickContext& context) noexcept {
   constexpr float kMuch = 0.04f;
-  const frame::CostModel& cost = instance.asset->cost;
+  const frame::CostModel& cost = costs_of(instance).cost;
   const frame::CostEstimate& tick = cost.of(instance.plan.tier, instance.plan.level);
   const bool goes_on = catches_up(instance);
   const uint32_t missed = goes_on ? instance.state->missed_ticks : 0u;
@@ -140,7 +140,7 @@ Tier below(Tier tier) noexcept {
 bool is_in_time(const Instance& instance, const TickContext& context, double left_us) noexcept {
   const InstancePlan& plan = instance.plan;
   if (plan.ticks.ticks == 0 || !frame::is_simulated(plan.tier)) return true;
-  return instance.asset->cost.of(plan.tier, plan.level).is_known() &&
+  return costs_of(instance).cost.of(plan.tier, plan.level).is_known() &&
          static_cast<double>(most_us(instance, context)) <= left_us;
 }
 
@@ -157,7 +157,7 @@ void meet_deadline(Instance& instance, const TickContext& context, uint64_t now_
     plan.level = std::max(level, instance.state->level);  // no finer one now
   while (!is_in_time(instance, context, left_us)) plan.tier = below(plan.tier);
   instance.cut = plan.tier != planned || plan.level != level;
-  const bool late = static_cast<double>(instance.asset->cost.publish.p95_us()) > left_us;
+  const bool late = static_cast<double>(costs_of(instance).cost.publish.p95_us()) > left_us;
   instance.held = late && !frame::is_simulated(plan.tier) && instance.displaced;
   if (instance.cut) plan.every = 1;
 }

@@ -195,16 +195,20 @@ Status World::create_instance(const InstanceDef& def, InstanceId* out) noexcept 
   if (busy(*impl_)) return refuse_busy();
   InstanceDef checked = def;
   if (Status status = world::check_root(def.root, &checked.root); !status.ok()) return status;
+  if (def.contacts.surface && def.contacts.surface == def.contacts.source)
+    return invalid("create_instance: the surface is the source: rods would touch it twice");
   if (impl_->instances.count() == impl_->instances.capacity()) {
     return make_status(StatusCode::kOutOfCapacity, "create_instance: max_instances (%u) live",
                        impl_->instances.capacity());
   }
   Instance made;
   if (Status status = world::make_instance(*asset, checked, &made); !status.ok()) return status;
+  const bool has_surface = made.contacts.surface != nullptr;
   const InstanceId id = impl_->instances.create(std::move(made));
   if (is_null(id))
     return make_status(StatusCode::kOutOfCapacity, "create_instance: every slot's generations are used up");
   ++asset->live_instances;
+  asset->surface_instances += has_surface;
   keep_row(*impl_, id);
   *out = id;
   return {};
@@ -215,6 +219,7 @@ Status World::destroy_instance(InstanceId id) noexcept {
   if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
   if (busy(*impl_)) return refuse_busy();
   --instance->asset->live_instances;
+  instance->asset->surface_instances -= instance->contacts.surface != nullptr;
   impl_->instances.destroy(id);
   keep_row(*impl_, id);
   return {};

@@ -39,6 +39,7 @@ void keep_row(WorldState& world, uint32_t slot) noexcept {
   }
   world.rows[slot].asset = instance->asset;
   world.rows[slot].state = instance->state;
+  world.rows[slot].has_surface = instance->contacts.surface != nullptr;
   copy_to_row(*instance, &world.rows[slot]);
   world.bounds[slot] = instance->bound;
 }

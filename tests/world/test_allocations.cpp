@@ -200,6 +200,34 @@ TEST_CASE("a_frame_against_the_own_body_allocates_nothing") {
   CHECK(stage.report().vertices_touched > 0);
 }
 
+TEST_CASE("a_frame_that_changes_what_rods_touch_allocates_nothing") {
+  const scenes::PackBytes pack =
+      scenes::soft_block({.nodes = 40, .rods = scenes::RodMatter{.bar = true}, .coarser_nodes = {20, 10}});
+  scenes::HalfSpaces skin;
+  skin.walls = {{{0, 0.39, 0}, {0, 1, 0}}};
+  Stage stage(0, {.budget_mode = BudgetMode::kWorkUnits}, pack);
+  for (InstanceId& made : stage.blocks = std::vector<InstanceId>(2)) {
+    const ContactDef contacts{.own_body = true, .surface = &skin};
+    CHECK(stage.world.create_instance({.asset = stage.asset, .contacts = contacts}, &made).ok());
+  }
+  Frame frame{stage};
+  frame.run(0, 1e9f, 1.0 / 60);
+  uint32_t changes = 0;
+  bool on_skin = true;
+  const size_t count = allocations_of([&] {
+    for (int f = 1; f < 120; ++f) {
+      frame.run(f / 60.0, f % 40 < 20 ? 1e9f : 45.0f, 1.0 / 60);
+      InstanceReport report;
+      frame.expect(stage.world.report(stage.blocks[0], &report));
+      changes += report.rods_touch_surface != on_skin;
+      on_skin = report.rods_touch_surface;
+    }
+  });
+  CHECK(frame.ok);
+  CHECK(count == 0);
+  CHECK(changes > 2);
+}
+
 TEST_CASE("a_frame_that_changes_levels_allocates_nothing") {
   Stage stage(3, {.budget_mode = BudgetMode::kWorkUnits}, test::levels_pack());
   Frame frame{stage};

@@ -291,11 +291,11 @@ TEST_CASE("what_a_change_of_level_takes_is_learnt_and_not_taken_for_publishing")
   block.state->tier = Tier::kModal;
   block.displaced = block.changed_level = block.refined = true;
   world::keep_row(state, 0);
-  const float publish_us = asset.cost.publish.estimate_us(),
-              tick_us = asset.cost.of(Tier::kModal, 0).estimate_us();
+  const float publish_us = asset.costs.cost.publish.estimate_us(),
+              tick_us = asset.costs.cost.of(Tier::kModal, 0).estimate_us();
   block.times.total_ns = static_cast<uint64_t>(1e3f * (publish_us + 6 * tick_us));
   FrameReport report;
   world::fold_results(state, report);
-  CHECK(asset.cost.change.estimate_us() == Approx(5 * tick_us).margin(2e-3));  // to a nanosecond or two
-  CHECK(asset.cost.publish.estimate_us() == publish_us);
+  CHECK(asset.costs.cost.change.estimate_us() == Approx(5 * tick_us).margin(2e-3));  // to a nanosecond or two
+  CHECK(asset.costs.cost.publish.estimate_us() == publish_us);
 }

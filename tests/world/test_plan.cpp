@@ -22,7 +22,7 @@ struct Floor {
     asset = world.assets.find(id);
     for (uint32_t i = 0; i <= kIdle; ++i) add({.asset = id, .importance = i == 0 ? 1e6f : 1});
     world.overhead = world.idle = frame::CostEstimate(0);
-    const frame::Front& front = asset->front;
+    const frame::Front& front = asset->costs.front;
     world.budget_us = front.step_us(front.best(), 1) + 0.5f * front.step_us(1, 1);
     world.budget_us = world.budget_us / world.capacity.scale();
   }

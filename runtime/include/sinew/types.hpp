@@ -68,7 +68,7 @@ enum class BudgetMode : uint32_t {
   // ticks that it missed.
   kTime = 0,
   // The budget is baked microseconds: the same inputs give the same tiers and bits whatever the clock says.
-  // Ticks that are made up for, two at most, are not counted.
+  // Ticks that are made up for, two at most, and contacts, of whatever kind, are not counted.
   kWorkUnits = 1,
 };
 
@@ -119,6 +119,12 @@ struct ContactDef {
   // bones that were baked, too, with a source or without. Costs a sweep of each segment a tick, some compares
   // of each such soft part, and what contacts cost.
   bool own_body = false;
+  // The character's own skin and others', at full resolution: sinew::SurfaceContacts. Its rods alone ask it,
+  // whatever `rods` says, and only on tiers that afford it: modal and network on the finest control graph.
+  // On all others the capsules of own_body stand in its place, without own_body nothing does. Nothing is
+  // pushed in it. Null: rods touch the capsules on every tier; the same as source: refused; without rods:
+  // not asked.
+  ContactSource* surface = nullptr;
 };
 
 struct InstanceDef {
@@ -180,7 +186,8 @@ struct InstanceReport {
   // Of the last tick, where the instance has a contact source or own_body. A vertex counts once for each
   // thing it touches. The volume is at most what contacts took from the soft parts: of vertices that touched
   // something, area times way.
-  uint32_t rod_contacts = 0;  // near enough to be looked at
+  uint32_t rod_contacts = 0;        // near enough to be looked at
+  bool rods_touch_surface = false;  // ContactDef::surface; false: what stands in its place
   uint32_t vertices_touched = 0, contacts_refused = 0, contacts_dropped = 0;
   float contact_volume_m3 = 0;
   float deepest_penetration_m = 0;  // what soft parts are left inside, bounded as they are
