@@ -30,11 +30,12 @@ void CostEstimate::observe(float sample_us) noexcept {
 }
 
 void CostEstimate::settle() noexcept {
-  constexpr float kWeight = 0.125f, kUsualTail = 1.2f, kUsualFarTail = 1.4f;
+  constexpr float kWeight = 0.125f, kDrift = 0.01f, kUsualTail = 1.2f, kUsualFarTail = 1.4f;
   if (samples_ > 0) {
-    estimate_us_ += kWeight * (sum_us_ / static_cast<float>(samples_) - estimate_us_);
+    const float mean_us = sum_us_ / static_cast<float>(samples_);
+    estimate_us_ += (mean_us > estimate_us_ ? by_.rise : kWeight) * (mean_us - estimate_us_);
   } else {
-    if (is_baked_) estimate_us_ += drift_ * (baked_us_ - estimate_us_);
+    if (is_baked_) estimate_us_ += by_.drift * (baked_us_ - estimate_us_);
     tail_ += kDrift * (kUsualTail - tail_);
     far_tail_ += kDrift * (kUsualFarTail - far_tail_);
   }

@@ -9,16 +9,20 @@
 namespace sinew::frame {
 
 // A running estimate that a preempted measurement cannot move far: a sample counts as at most twice and at
-// least half of the estimate; the mean of a step's samples has weight 1/8. Beside it what 95 and what 99 of
-// 100 samples do not exceed, by their ranks alone, at most kWidest times the estimate.
+// least half of the estimate; the mean of a step's samples has weight 1/8, unless said otherwise. Beside it
+// what 95 and what 99 of 100 samples do not exceed, by their ranks alone, at most kWidest times the estimate.
 class CostEstimate {
  public:
-  static constexpr float kWidest = 3, kDrift = 0.01f;
+  static constexpr float kWidest = 3;
+  struct Correction {
+    float drift = 0.01f;  // in a step without a sample, of the way back to the baked number
+    float rise = 0.125f;  // a step's weight where its samples are above the estimate
+  };
 
   CostEstimate() noexcept = default;
-  // drift: in a step without a sample, of the way back to the baked number.
-  explicit CostEstimate(float baked_us, float drift = kDrift) noexcept
-      : baked_us_(baked_us), estimate_us_(baked_us), drift_(drift), known_(true), is_baked_(true) {}
+  explicit CostEstimate(float baked_us) noexcept : CostEstimate(baked_us, Correction()) {}
+  CostEstimate(float baked_us, const Correction& by) noexcept
+      : baked_us_(baked_us), estimate_us_(baked_us), by_(by), known_(true), is_baked_(true) {}
   float baked_us() const noexcept { return baked_us_; }
   float estimate_us() const noexcept { return estimate_us_; }
   float p95_us() const noexcept { return estimate_us_ * tail_; }
@@ -31,7 +35,8 @@ class CostEstimate {
 
  private:
   float baked_us_ = 0, estimate_us_ = 0, tail_ = 2, far_tail_ = 2.5f;
-  float sum_us_ = 0, drift_ = kDrift;
+  Correction by_;
+  float sum_us_ = 0;
   uint32_t samples_ = 0;
   bool known_ = false;  // baked, at whatever cost, or measured
   bool is_baked_ = false;

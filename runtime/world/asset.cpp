@@ -20,9 +20,9 @@ using core::make_status;
 
 // Errors of a network that was not judged are not known in millimetres: a usual share of the height then.
 constexpr float kUsualSkinningError = 5e-3f;
-// Tiers on which skins are touched were baked without: one that proved too dear is tried again after a
-// quarter of a minute, not of a second.
-constexpr float kSurfaceDrift = 1e-3f;
+// Tiers on which skins are touched were baked without, and skins may be most of what they cost: one that
+// proved too dear is believed soon, and tried again after some ten seconds instead of one.
+constexpr frame::CostEstimate::Correction kWithSurface{.drift = 1e-3f, .rise = 0.5f};
 
 // What was not measured on a coarser graph follows from what was on the finest.
 float told_error(const pack::PackView& pack, const pack::TierRecord& record) noexcept {
@@ -43,8 +43,9 @@ void read_point(const pack::PackView& pack, const pack::TierRecord& record, Asse
                                        record.level};
   if (record.every != 1) return;
   asset.costs.cost.of(tier, record.level) = frame::CostEstimate(record.cost_us);
-  const float drift = affords_surface(tier, record.level) ? kSurfaceDrift : frame::CostEstimate::kDrift;
-  asset.surface_costs.cost.of(tier, record.level) = frame::CostEstimate(record.cost_us, drift);
+  asset.surface_costs.cost.of(tier, record.level) = affords_surface(tier, record.level)
+                                                        ? frame::CostEstimate(record.cost_us, kWithSurface)
+                                                        : frame::CostEstimate(record.cost_us);
 }
 
 void read_tiers(const pack::PackView& pack, Asset& asset) noexcept {
@@ -60,6 +61,8 @@ void read_tiers(const pack::PackView& pack, Asset& asset) noexcept {
   }
   frame::make_front({asset.points, asset.point_count}, asset.idle_us, &asset.costs.front);
   asset.surface_costs.front = asset.costs.front;
+  // The first tick on a finer graph is the first on skin, too: what it takes more is not to be kept for ever.
+  asset.surface_costs.cost.change = frame::CostEstimate(0);
 }
 
 // The section table holds every section's checksum, so its own checksum stands for the whole file.

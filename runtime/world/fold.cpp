@@ -17,7 +17,8 @@ frame::CostEstimate& tick_cost(const PlanRow& row) noexcept {
   return costs_of(row).cost.of(row.tier, row.level);
 }
 
-// A sleeper's or a toucher's own cost is its factor; the asset's is that of those who are awake.
+// A sleeper's or a toucher's own cost is its factor; the asset's is that of those who are awake. One that may
+// touch skin counts for no less: that sleep is cheap on capsules says nothing of skin.
 void learn_tick_cost(Instance& instance, const PlanRow& row, float tick_us) noexcept {
   constexpr float kWeight = 0.125f, kFarthest = 2, kLeast = 0.1f, kMost = 10;
   frame::CostEstimate& estimate = tick_cost(row);
@@ -25,7 +26,7 @@ void learn_tick_cost(Instance& instance, const PlanRow& row, float tick_us) noex
   if (row.regions_asleep == 0) estimate.observe(tick_us);
   const float seen = tick_us / std::max(1e-3f, estimate.estimate_us());
   factor += kWeight * (std::clamp(seen, factor / kFarthest, factor * kFarthest) - factor);
-  factor = std::clamp(factor, kLeast, kMost);
+  factor = std::clamp(factor, row.has_surface ? 1 : kLeast, kMost);
 }
 
 // What it took beyond its ticks.

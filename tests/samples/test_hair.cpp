@@ -52,3 +52,21 @@ TEST_CASE("hair_on_a_turning_character_stays_out_of_its_skin") {
   CHECK(number_after(result.out, "deepest ") > 1);                 // what would be without
   CHECK(number_after(result.out.substr(skin), "deepest ") < 0.2);  // what is wanted; 0.06 seen
 }
+
+TEST_CASE("hair_touches_the_skin_where_its_tier_affords_it_and_is_off_it_again_after_capsules") {
+  TemporaryFolder folder;
+  const ProgramResult result =
+      hair({"-o", folder.file("out"), "--against", "tiers", "--steps", "240", "--vertices", "3000"});
+  INFO(result.error);
+  REQUIRE(result.exit_code == 0);
+  const size_t spring = result.out.find("spring: rods touch capsules"),
+               again = result.out.find("after that: rods touch the skin");
+  REQUIRE(result.out.find("modal: rods touch the skin") == 0);
+  REQUIRE(spring != std::string::npos);
+  REQUIRE(again != std::string::npos);
+  CHECK(number_after(result.out, "deepest ") < 0.2);                // as above
+  CHECK(number_after(result.out.substr(spring), "deepest ") > 1);   // no capsule is a chest
+  CHECK(number_after(result.out.substr(again), "deepest ") < 0.2);  // none was trapped
+  CHECK(number_after(result.out, "to capsules moves the end of a bone by ") < 6);
+  CHECK(number_after(result.out, "to the skin moves the end of a bone by ") < 6);
+}

@@ -121,9 +121,10 @@ struct ContactDef {
   bool own_body = false;
   // The character's own skin and others', at full resolution: sinew::SurfaceContacts. Its rods alone ask it,
   // whatever `rods` says, and only on tiers that afford it: modal and network on the finest control graph.
-  // On all others the capsules of own_body stand in its place, without own_body nothing does. Nothing is
-  // pushed in it. Null: rods touch the capsules on every tier; the same as source: refused; without rods:
-  // not asked.
+  // On all others the capsules of own_body stand in its place, without own_body nothing does; others' bodies
+  // are then touched where the source has them. Nothing is pushed in it. What rods are found inside of, of
+  // whatever kind, lets them out by 2 % of the height a second. Null: rods touch the capsules on every tier;
+  // the same as source: refused; without rods: not asked.
   ContactSource* surface = nullptr;
 };
 
