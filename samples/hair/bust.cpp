@@ -89,11 +89,15 @@ double smooth(double t) {
 
 }  // namespace
 
+double turn_share(const Vector3d& p) {
+  return smooth((p.y() - kNeckBelow_m) / (kNeckAbove_m - kNeckBelow_m));
+}
+
 std::vector<float> Bust::places(const Turning& turning) const {
   std::vector<float> out;
   out.reserve(3 * rest_m.size());
   for (const Vector3d& p : rest_m) {
-    const double share = smooth((p.y() - kNeckBelow_m) / (kNeckAbove_m - kNeckBelow_m));
+    const double share = turn_share(p);
     const double angle = turning.chest_rad + share * (turning.head_rad - turning.chest_rad);
     const double c = std::cos(angle), s = std::sin(angle);
     out.push_back(static_cast<float>(c * p.x() + s * p.z()));

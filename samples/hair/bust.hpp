@@ -30,6 +30,9 @@ struct Bust {
   std::vector<float> places(const Turning& turning) const;
 };
 
+// At a place of the bind pose: how far it turns from the chest's way to the head's.
+double turn_share(const Eigen::Vector3d& p);
+
 // About so many vertices, at least 200.
 Bust make_bust(size_t vertices);
 

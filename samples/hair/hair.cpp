@@ -22,6 +22,17 @@ void accept(const Status& status) {
   if (!status.ok()) throw std::runtime_error(status.message);
 }
 
+// Both ends of a segment's axis.
+void put_ends(const rods::SegmentPose& pose, double length_m, double (&ends)[2][3]) {
+  const rods::Vector axis = test::axis_of(pose);
+  for (size_t k = 0; k < 3; ++k) {
+    ends[0][k] = pose.position_m[k] - 0.5 * length_m * axis[k];
+    ends[1][k] = pose.position_m[k] + 0.5 * length_m * axis[k];
+  }
+}
+
+}  // namespace
+
 double thread_us() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -44,17 +55,6 @@ SurfaceContacts skin_of(const Bust& bust, SurfaceId* id) {
   accept(out.add_surface({.triangles = indices, .rest_m = rest, .friction = 0.3f}, id));
   return out;
 }
-
-// Both ends of a segment's axis.
-void put_ends(const rods::SegmentPose& pose, double length_m, double (&ends)[2][3]) {
-  const rods::Vector axis = test::axis_of(pose);
-  for (size_t k = 0; k < 3; ++k) {
-    ends[0][k] = pose.position_m[k] - 0.5 * length_m * axis[k];
-    ends[1][k] = pose.position_m[k] + 0.5 * length_m * axis[k];
-  }
-}
-
-}  // namespace
 
 Hair::Hair(const HairStyle& style, Against against, size_t vertices)
     : bust_(make_bust(vertices)), strands_(groom(bust_, style)), against_(against) {

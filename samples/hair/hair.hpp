@@ -54,4 +54,9 @@ class Hair {
 
 std::string report_line(const Hair& hair, const char* name);
 
+// The skin as something to touch, where it is at rest.
+SurfaceContacts skin_of(const Bust& bust, SurfaceId* id);
+double thread_us();
+double median(std::vector<double> values);
+
 }  // namespace sinew::sample

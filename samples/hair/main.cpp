@@ -5,6 +5,7 @@
 #include "baker/common/within.hpp"
 #include "baker/common/write_file.hpp"
 #include "samples/hair/picture.hpp"
+#include "samples/hair/tiers.hpp"
 #include "samples/render/layout.hpp"
 
 namespace {
@@ -53,14 +54,72 @@ void run(const Request& request, const Named& named) {
   std::fflush(stdout);
 }
 
+constexpr uint32_t kSettling = 60;  // ticks
+
+void tell(sample::TieredHair& hair, const char* name, Tier tier, uint32_t ticks) {
+  (void)hair.take_measure();
+  for (uint32_t i = 0; i < ticks; ++i) hair.step(tier, true);
+  std::printf("%s\n", sample::tier_line(hair, name).c_str());
+  std::fflush(stdout);
+}
+
+void tell(const char* to, const sample::TierJump& jump, double height_m) {
+  std::printf(
+      "a change %s moves the end of a bone by %.2f mm a frame beyond what both tiers do, %.3f %% of the "
+      "height, and in the 44 frames after those by %.2f mm\n",
+      to, 1e3 * jump.after_m, 100 * jump.after_m / height_m, 1e3 * jump.later_m);
+}
+
+void skip(sample::TieredHair& hair, Tier tier, uint32_t ticks) {
+  for (uint32_t i = 0; i < ticks; ++i) hair.step(tier);
+}
+
+// A row on capsules, one on skin.
+void show_tiers(const Request& request, sample::TieredHair& hair) {
+  const auto start = hair.mark();
+  std::vector<render::Cell> cells;
+  for (const Tier tier : {Tier::kSpring, Tier::kModal}) {
+    hair.go_back(start);
+    for (const double moment_s : {2.2, 3.1, 4.3}) {
+      while (hair.time_s() < moment_s - 1e-3) hair.step(tier);
+      char caption[40];
+      std::snprintf(caption, sizeof caption, "%s, %.1f s", tier == Tier::kModal ? "skin" : "capsules",
+                    moment_s);
+      cells.push_back({sample::picture(hair, request.size), caption});
+    }
+  }
+  const std::string path = std::filesystem::path(request.folder) / "hair_tiers.png";
+  render::write_png(path, render::contact_sheet(cells, 3, "What hair touches follows the tier"));
+  std::printf("%s\n", path.c_str());
+}
+
+void run_tiers(const Request& request) {
+  sample::TieredHair hair(request.style, request.vertices);
+  const auto start = hair.mark();
+  const uint32_t ticks = request.steps / 2;
+  for (const Tier tier : {Tier::kModal, Tier::kSpring}) {
+    hair.go_back(start);
+    skip(hair, tier, kSettling);
+    tell(hair, tier == Tier::kModal ? "modal" : "spring", tier, ticks);
+  }
+  skip(hair, Tier::kModal, 3 * kSettling);
+  tell(hair, "modal, three seconds after that", Tier::kModal, ticks);
+  hair.go_back(start);
+  show_tiers(request, hair);
+  hair.go_back(start);
+  const sample::TierJumps jumps = sample::tier_jumps(hair, ticks);
+  tell("to capsules", jumps.to_capsules, hair.height_m());
+  tell("to the skin", jumps.to_skin, hair.height_m());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   Request request;
   CLI::App app("Hair over the shoulders of a turning character, with how deep it goes below the skin.");
   app.add_option("-o,--output", request.folder, "folder of the pictures")->required();
-  app.add_option("--against", request.against, "nothing, proxies, skin; without: all")
-      ->check(CLI::IsMember({"nothing", "proxies", "skin"}));
+  app.add_option("--against", request.against, "nothing, proxies, skin, tiers; without: all")
+      ->check(CLI::IsMember({"nothing", "proxies", "skin", "tiers"}));
   app.add_option("--steps", request.steps, "of a hundred-and-twentieth of a second")
       ->check(CLI::Range(1, 1000000));
   app.add_option("--strands", request.style.strands, "locks of hair")->check(CLI::Range(1, 20000));
@@ -79,6 +138,9 @@ int main(int argc, char** argv) {
           std::find(request.against.begin(), request.against.end(), named.name) != request.against.end();
       if (request.against.empty() || wanted) run(request, named);
     }
+    const bool tiers =
+        std::find(request.against.begin(), request.against.end(), "tiers") != request.against.end();
+    if (request.against.empty() || tiers) run_tiers(request);
     return 0;
   } catch (const CLI::CallForHelp& help) {
     return app.exit(help);

@@ -1,6 +1,7 @@
 // picture.hpp  The bust and its hair as a lit mesh.
 #pragma once
 #include "samples/hair/hair.hpp"
+#include "samples/hair/tiers.hpp"
 #include "samples/render/image.hpp"
 
 namespace sinew::sample {
@@ -11,5 +12,6 @@ struct HairPicture {
 };
 
 render::Image picture(const Hair& hair, const HairPicture& size);
+render::Image picture(const TieredHair& hair, const HairPicture& size);
 
 }  // namespace sinew::sample
