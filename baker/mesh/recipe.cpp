@@ -37,7 +37,7 @@ void read_material(JsonSection& section, Recipe& recipe) {
 
 constexpr int kFewestNodes = 4, kMostNodes = 4096;
 
-// "levels": [40, 20, 10] in the place of "nodes_per_region".
+// "levels": [40, 20, 10] in the place of "nodes_per_region", "left_out": ["cheek"] with it.
 void read_levels(JsonSection& section, Recipe& recipe) {
   if (section.has("nodes_per_region")) section.complain("levels", "states nodes_per_region too; give one");
   std::vector<int> levels = section.whole_numbers("levels", kFewestNodes, kMostNodes);
@@ -45,6 +45,9 @@ void read_levels(JsonSection& section, Recipe& recipe) {
     section.complain("levels", "must list 1 .. 4 numbers of nodes a region");
   if (std::ranges::adjacent_find(levels, std::less_equal<>()) != levels.end())
     section.complain("levels", "must descend: the finest control graph comes first");
+  recipe.left_out = section.texts("left_out");
+  if (!recipe.left_out.empty() && levels.size() == pack::kMostGraphLevels)
+    section.complain("left_out", "asks for one control graph more than the 4 of levels; list one less there");
   recipe.nodes_per_region = levels.front();
   recipe.coarser_nodes.assign(levels.begin() + 1, levels.end());
 }
@@ -52,6 +55,8 @@ void read_levels(JsonSection& section, Recipe& recipe) {
 void read_graph(JsonSection& section, Recipe& recipe) {
   if (section.has("levels"))
     read_levels(section, recipe);
+  else if (section.has("left_out"))
+    section.complain("left_out", "needs levels: its control graph comes after them");
   else
     recipe.nodes_per_region =
         whole_number(section, "nodes_per_region", recipe.nodes_per_region, kFewestNodes, kMostNodes);

@@ -39,8 +39,11 @@ struct Recipe {
   // Control graph.
   int nodes_per_region = 40;       // 4 .. 4096; more than a region has vertices: a node on each
   std::vector<int> coarser_nodes;  // a region, of up to three coarser graphs beside it: each fewer, from 4 on
-  int neighbours = 6;              // 2 .. 16
-  double unit_m = 0;               // see ImportOptions
+  // Regions by name or prefix*: one graph more, the last of the above without them. Beside two coarser ones
+  // at most.
+  std::vector<std::string> left_out;
+  int neighbours = 6;  // 2 .. 16
+  double unit_m = 0;   // see ImportOptions
   char up = 'y';
   std::optional<std::vector<RodRecipe>> rods;  // absent: from the file's spring bones, where it has any
   std::vector<ProxyRecipe> proxies;            // radii that take the place of fitted ones

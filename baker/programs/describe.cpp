@@ -95,9 +95,14 @@ Json describe_levels(const pack::PackView& view) {
   for (uint32_t l = 0; l < view.level_count; ++l) {
     const pack::LevelView& level = view.levels[l];
     uint32_t most = 0;
-    for (const pack::RegionRecord& region : level.regions) most = std::max(most, region.node_count);
+    Json left_out = Json::array();
+    for (const pack::RegionRecord& region : level.regions) {
+      most = std::max(most, region.node_count);
+      if (region.node_count == 0) left_out.push_back(string_at(view, region.name));
+    }
     levels.push_back({{"nodes", level.nodes.size()},
                       {"nodes_a_region", most},
+                      {"left_out", left_out},
                       {"graph_entries", level.graph_columns.size()},
                       {"multiply_adds_a_tick",
                        multiply_adds(view.layers, level.nodes.size(), level.graph_columns.size())}});

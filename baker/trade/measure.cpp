@@ -27,11 +27,22 @@ uint32_t nodes_a_region(const LoadedPack& character, uint32_t level) {
   return most;
 }
 
+std::string left_out(const LoadedPack& character, uint32_t level) {
+  std::string names;
+  for (const pack::RegionRecord& region : character.view().levels[level].regions)
+    if (region.node_count == 0)
+      names +=
+          (names.empty() ? " without " : ", ") + std::string(pack::string_at(character.view(), region.name));
+  return names;
+}
+
 std::string name_of(const LoadedPack& character, Tier tier, uint32_t every, uint32_t level) {
   constexpr const char* kNames[] = {"skinning", "extrapolate", "network", "spring", "modal"};
   std::string name = kNames[static_cast<size_t>(tier)];
   if (every > 1) name += " every " + std::to_string(every);
-  return level == 0 ? name : name + " on " + std::to_string(nodes_a_region(character, level)) + " nodes";
+  if (level == 0) return name;
+  name += " on " + std::to_string(nodes_a_region(character, level)) + " nodes";
+  return name + left_out(character, level);
 }
 
 class Ways {

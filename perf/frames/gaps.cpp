@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "perf/frames/level_name.hpp"
 #include "perf/scale/require.hpp"
 #include "samples/demo/trajectory.hpp"
 #include "world/instance.hpp"
@@ -168,9 +169,7 @@ void tell(const std::string& motion, const std::string& tier, uint32_t gap, cons
 // The best there is, and the cheapest modes.
 std::vector<std::pair<std::string, Way>> ways_of(const world::Asset& asset) {
   const uint32_t coarsest = asset.level_count - 1;
-  const auto nodes = [&](uint32_t level) {
-    return std::to_string(asset.levels[level].pack.regions[0].node_count);
-  };
+  const auto nodes = [&](uint32_t level) { return perf::level_name(asset.levels[level]); };
   std::vector<std::pair<std::string, Way>> ways = {{"modal on " + nodes(coarsest), {Tier::kModal, coarsest}}};
   if (pack::has_network(asset.pack)) ways.push_back({"network on " + nodes(0), {Tier::kNetwork, 0}});
   return ways;

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "perf/frames/level_name.hpp"
 #include "perf/frames/tier_change.hpp"
 
 namespace {
@@ -51,7 +52,7 @@ std::string name_of(const world::Asset& asset, const Way& way) {
   std::string name = kNames[static_cast<size_t>(way.tier)];
   if (way.every > 1) name += " every " + std::to_string(way.every);
   if (!frame::is_simulated(way.tier) || asset.level_count == 1) return name;
-  return name + " on " + std::to_string(asset.levels[way.level].pack.regions[0].node_count);
+  return name + " on " + level_name(asset.levels[way.level]);
 }
 
 bool is_same(const Way& a, const Way& b) {

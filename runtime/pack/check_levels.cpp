@@ -74,6 +74,7 @@ Status check_picks(const LevelView& fine, const LevelView& coarse, uint32_t leve
 Status check_held_alike(const LevelView& fine, const LevelView& coarse, uint32_t level) noexcept {
   for (size_t r = 0; r < fine.regions.size(); ++r) {
     const RegionRecord &of = fine.regions[r], &region = coarse.regions[r];
+    if (region.node_count == 0) continue;
     if (coarse.picks[region.first_node + region.anchor_node] != of.first_node + of.anchor_node)
       return corrupt("level %u: region %zu is held elsewhere than in the finer level", level, r);
   }
@@ -129,9 +130,21 @@ Status cut_levels(PackView* pack) noexcept {
   return {};
 }
 
+// A coarser level may leave regions out, but not all; the finest none.
+Status check_nodes_of(const PackView& pack, uint32_t level) noexcept {
+  const LevelView& of = pack.levels[level];
+  for (size_t r = 0; r < of.regions.size(); ++r)
+    if (level == 0 && of.regions[r].node_count == 0)
+      return corrupt("region %zu: 0 nodes, outside 1..4096", r);
+  if (level > 0 && of.nodes.empty() && !of.regions.empty())
+    return corrupt("level %u: it has no nodes", level);
+  return {};
+}
+
 Status check_levels(const PackView& pack) noexcept {
   constexpr Check kChecks[] = {check_tissue, check_modes};
   for (uint32_t level = 0; level < pack.level_count; ++level) {
+    if (Status status = check_nodes_of(pack, level); !status.ok()) return status;
     if (Status status = run_checks(kChecks, at_level(pack, level)); !status.ok()) return status;
     if (level == 0) continue;
     if (Status status = check_coarser(pack, level); !status.ok()) return status;

@@ -10,9 +10,9 @@ constexpr uint32_t kMaxNodes = 4096;  // a region's; the runtime's scratch is si
 
 Status check_record(const PackView& pack, const RegionRecord& region, size_t index) noexcept {
   if (Status status = check_name(pack, region.name, "region", index); !status.ok()) return status;
-  if (region.node_count < 1 || region.node_count > kMaxNodes)
-    return corrupt("region %zu: %u nodes, outside 1..4096", index, region.node_count);
-  if (region.anchor_node >= region.node_count)
+  if (region.node_count > kMaxNodes)
+    return corrupt("region %zu: %u nodes, outside 0..4096", index, region.node_count);
+  if (region.anchor_node >= std::max(region.node_count, 1u))
     return corrupt("region %zu: held at node %u of %u", index, region.anchor_node, region.node_count);
   if (region.padded_vertices != round_up_16(region.vertex_count))
     return corrupt("region %zu: vertices padded to %u", index, region.padded_vertices);

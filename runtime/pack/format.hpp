@@ -272,7 +272,7 @@ static_assert(sizeof(SkinRecord) == 48);
 struct RegionRecord {
   uint32_t name;
   uint32_t anchor_node;                 // among the region's: where it is held; bend is measured from there
-  uint32_t first_node, node_count;      // 1..4096 nodes
+  uint32_t first_node, node_count;      // 1..4096 nodes; 0: a coarser level that leaves the region out
   uint32_t first_vertex, vertex_count;  // in kRegionVertices
   uint64_t carry;                       // float offset in kCarry of [node_count][padded_vertices]
   uint32_t padded_vertices;             // vertex_count rounded up to 16; padding is zero

@@ -3,6 +3,8 @@
 
 #include <cstring>
 
+#include "pack/format.hpp"
+
 namespace sinew::tissue {
 namespace {
 
@@ -45,8 +47,12 @@ void copy_memory(const Network& network, uint32_t node_count, std::span<const ui
     const Plane from = plane_of(network, node_count, index, state),
                 to = plane_of(network, count, index, state);
     std::memcpy(scratch, from.at, node_count * from.row_bytes);
-    for (size_t n = 0; n < count; ++n)
-      std::memcpy(to.at + n * to.row_bytes, kept + sources[n] * from.row_bytes, to.row_bytes);
+    for (size_t n = 0; n < count; ++n) {
+      if (sources[n] == pack::kNoIndex)
+        std::memset(to.at + n * to.row_bytes, 0, to.row_bytes);
+      else
+        std::memcpy(to.at + n * to.row_bytes, kept + sources[n] * from.row_bytes, to.row_bytes);
+    }
   }
 }
 

@@ -35,7 +35,8 @@ void begin_tail(Instance& instance, float velocity_kept) noexcept {
 }
 
 // From what is shown. What was not simulated for a while is blended in; from rest there is nothing to blend:
-// zero is exact.
+// zero is exact. Where the tail fades already it tells nothing of how flesh moves: what is blended in begins
+// where the tick would hold it at rest, and swings less than from there (world/simulate.cpp).
 void begin_simulation(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   pose_at_start(instance);
@@ -46,6 +47,8 @@ void begin_simulation(Instance& instance) noexcept {
   state.motion_stale = 1;
   state.clamped_ticks = 0;
   state.blend_ticks = state.untouched ? kBlendInTicks : 0;
+  instance.begins_at_rest = !state.untouched && state.tail_ticks > kCarryTicks;
+  instance.settles |= instance.begins_at_rest;
   state.lifted = 0;
 }
 
@@ -157,11 +160,23 @@ void restart(Instance& instance) noexcept {
   state.tier = Tier::kSkinning;
   state.motion_stale = 1;
   state.restarting = 1;
-  instance.settles = false;
+  instance.settles = instance.begins_at_rest = false;
   state.forgotten = 1;
   wake_regions(instance);
   ++state.restarts;
   instance.restarted = true;
+}
+
+void take_simulated(const Instance& instance, int tick, float* out) noexcept {
+  tissue::along_flesh(instance.poses[0], instance.u[tick], instance.level->node_count(), out);
+  if (instance.state->seam_ticks >= kBlendInTicks) return;
+  for (size_t r = 0; r < instance.level->pack.regions.size(); ++r) {
+    if (!instance.regained[r]) continue;
+    const pack::RegionRecord& region = instance.level->pack.regions[r];
+    const float share = instance.regained_share(r);
+    float* at = out + size_t{3} * region.first_node;
+    for (size_t i = 0; i < size_t{3} * region.node_count; ++i) at[i] *= share;
+  }
 }
 
 void show_tick(Instance& instance) noexcept {
@@ -174,8 +189,7 @@ void show_tick(Instance& instance) noexcept {
   if (simulated < 1) advance_tail(instance);
   copy(instance, instance.shown[0], instance.shown[1]);
   show_rods(instance, state.lifted && frame::is_simulated(state.tier) ? 1 : instance.simulated_share());
-  if (simulated > 0)
-    tissue::along_flesh(instance.poses[0], instance.u[0], instance.level->node_count(), instance.shown[0]);
+  if (simulated > 0) take_simulated(instance, 0, instance.shown[0]);
   if (simulated == 1 && tail == 0) return;
   for (size_t i = 0; i < floats_of(instance); ++i) {
     instance.shown[0][i] = simulated * instance.shown[0][i] + tail * instance.tail[i];

@@ -12,6 +12,10 @@ void enter_tier(Instance& instance, Tier tier) noexcept;
 // A guard fired: the state is worthless. Fades what was shown last to skinning; then simulation starts anew.
 void restart(Instance& instance) noexcept;
 
+// What is simulated in a tick, 0 the newest, along the axes of the flesh: what is shown of it where nothing
+// blends. [nodes][3]
+void take_simulated(const Instance& instance, int tick, float* out) noexcept;
+
 // End of a tick: carries the tail on and shows the blend.
 void show_tick(Instance& instance) noexcept;
 

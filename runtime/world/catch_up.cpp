@@ -2,7 +2,7 @@
 #include "world/catch_up.hpp"
 
 #include "frame/scheduler.hpp"
-#include "tissue/node_bend.hpp"
+#include "world/blend.hpp"
 #include "world/rod_blend.hpp"
 
 namespace sinew::world {
@@ -59,7 +59,7 @@ void end_gap(Instance& instance, bool catches_up) noexcept {
 void ride_on(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   float* off = instance.tail;
-  tissue::along_flesh(instance.poses[0], instance.u[0], instance.level->node_count(), off);
+  take_simulated(instance, 0, off);
   for (size_t i = 0; i < size_t{3} * instance.level->node_count(); ++i)
     off[i] = instance.shown[0][i] - off[i];
   ride_rods(instance);

@@ -9,6 +9,7 @@
 #include "tissue/memory_rows.hpp"
 #include "tissue/modal_base.hpp"
 #include "tissue/node_bend.hpp"
+#include "world/blend.hpp"
 #include "world/motion.hpp"
 #include "world/sleep.hpp"
 #include "world/update_rate.hpp"
@@ -51,7 +52,6 @@ void begin_seam(Instance& instance) noexcept {
 void end_seam(Instance& instance) noexcept {
   carry_shown(instance);
   take_from_seam(instance);
-  instance.state->seam_ticks = 0;
   instance.carries_seam = true;  // `carried` is nothing that may be shown
 }
 
@@ -63,6 +63,15 @@ void pick(std::span<const uint32_t> picks, size_t width, T* rows) noexcept {
     std::memmove(rows + width * n, rows + width * picks[n], width * sizeof(T));
 }
 
+// Where it is had again, it begins at rest.
+void forget_left_out(Instance& instance, const GraphLevel& coarse) noexcept {
+  for (size_t r = 0; r < coarse.pack.regions.size(); ++r) {
+    if (!coarse.leaves_out(r)) continue;
+    const pack::RegionModesRecord& modes = coarse.pack.region_modes[r];
+    for (float* q : instance.q) std::fill_n(q + modes.first_mode, modes.mode_count, 0.0f);
+  }
+}
+
 void lower(Instance& instance) noexcept {
   const uint32_t nodes = instance.level->node_count();
   const std::span<const uint32_t> picks = instance.level[1].pack.picks;
@@ -71,6 +80,7 @@ void lower(Instance& instance) noexcept {
   for (float* vectors : {instance.theta, instance.tail, instance.tail_velocity}) pick(picks, 3, vectors);
   for (tissue::NodePose* poses : instance.poses) pick(picks, 1, poses);
   tissue::pick_memory(instance.asset->network, nodes, picks, instance.network_state);
+  forget_left_out(instance, instance.level[1]);
 }
 
 // ---- to the next finer level ----
@@ -153,17 +163,17 @@ void raise_base(Instance& instance, const GraphLevel& fine) noexcept {
   }
 }
 
-// Of the coarser nodes of its region the one with the largest weight on each.
+// Of the coarser nodes of its region the one with the largest weight on each; kNoIndex: there are none.
 void find_sources(const Instance& instance, const GraphLevel& fine, uint32_t* sources) noexcept {
-  for_each_region(*instance.level, fine,
-                  [&](const auto& from, const auto& to, const float* weights, size_t stride) {
-                    for (uint32_t n = 0; n < to.node_count; ++n) {
-                      uint32_t most = 0;
-                      for (uint32_t c = 1; c < from.node_count; ++c)
-                        if (weights[c * stride + n] > weights[most * stride + n]) most = c;
-                      sources[to.first_node + n] = from.first_node + most;
-                    }
-                  });
+  for_each_region(
+      *instance.level, fine, [&](const auto& from, const auto& to, const float* weights, size_t stride) {
+        for (uint32_t n = 0; n < to.node_count; ++n) {
+          uint32_t most = 0;
+          for (uint32_t c = 1; c < from.node_count; ++c)
+            if (weights[c * stride + n] > weights[most * stride + n]) most = c;
+          sources[to.first_node + n] = from.node_count > 0 ? from.first_node + most : pack::kNoIndex;
+        }
+      });
 }
 
 void raise_memory(Instance& instance, const GraphLevel& fine) noexcept {
@@ -186,6 +196,8 @@ void raise(Instance& instance) noexcept {
   else if (frame::is_simulated(instance.state->tier))
     raise_base(instance, fine);
   raise_memory(instance, fine);
+  for (size_t r = 0; r < fine.pack.regions.size(); ++r)
+    instance.regained[r] |= instance.level->leaves_out(r) && !fine.leaves_out(r);
   instance.level_raised = true;
 }
 
@@ -195,7 +207,7 @@ void show_anew(Instance& instance) noexcept {
   const uint32_t nodes = instance.level->node_count();
   pose_at_start(instance);
   for (int tick = 0; tick < 2; ++tick) {
-    tissue::along_flesh(instance.poses[0], instance.u[tick], nodes, instance.shown[tick]);
+    take_simulated(instance, tick, instance.shown[tick]);
     for (size_t i = 0; (shares.simulated < 1 || shares.tail > 0) && i < size_t{3} * nodes; ++i)
       instance.shown[tick][i] = shares.simulated * instance.shown[tick][i] + shares.tail * instance.tail[i];
   }
@@ -212,22 +224,32 @@ void go_one_level(Instance& instance, bool finer) noexcept {
 
 bool has_base(Tier tier) noexcept { return tier == Tier::kModal || tier == Tier::kNetwork; }
 
+// Nothing is seen of it: the seam takes it.
+void show_settled(Instance& instance, const float* moved) noexcept {
+  const float simulated = instance.shown_shares().simulated;
+  tissue::along_flesh(instance.poses[1], moved, instance.level->node_count(),
+                      instance.delta);  // those of u: a tick ago
+  for (size_t r = 0; r < instance.level->pack.regions.size(); ++r) {
+    const pack::RegionRecord& region = instance.level->pack.regions[r];
+    const float share = simulated * instance.regained_share(r);
+    float* delta = instance.delta + size_t{3} * region.first_node;
+    for (size_t i = 0; i < size_t{3} * region.node_count; ++i) delta[i] *= share;
+  }
+  for (float* shown : instance.shown)
+    for (size_t i = 0; i < size_t{3} * instance.level->node_count(); ++i) shown[i] += instance.delta[i];
+  carry_delta(instance);
+  if (instance.state->seam_ticks < kBlendInTicks) take_from_seam(instance);
+}
+
 }  // namespace
 
 void settle_rest(Instance& instance, float* moved) noexcept {
   const uint32_t nodes = instance.level->node_count();
-  instance.settles = false;
+  instance.settles = instance.begins_at_rest = false;
   tissue::warp(instance.theta, moved, nodes, moved);
-  tissue::along_flesh(instance.poses[1], moved, nodes, instance.delta);  // those of u: a tick ago
-  const float simulated = instance.shown_shares().simulated;
-  for (size_t i = 0; i < size_t{3} * nodes; ++i) instance.delta[i] *= simulated;
-  for (int tick = 0; tick < 2; ++tick)
-    for (size_t i = 0; i < size_t{3} * nodes; ++i) {
-      instance.u[tick][i] += moved[i];
-      instance.shown[tick][i] += instance.delta[i];
-    }
-  carry_delta(instance);
-  if (instance.state->seam_ticks < kBlendInTicks) take_from_seam(instance);
+  for (float* u : instance.u)
+    for (size_t i = 0; i < size_t{3} * nodes; ++i) u[i] += moved[i];
+  if (instance.shown_shares().simulated > 0) show_settled(instance, moved);
   if (instance.state->tier == Tier::kNetwork)
     tissue::write_output(instance.asset->network, instance.level->pack.regions, nodes, instance.l[0],
                          instance.network_state);
@@ -242,12 +264,13 @@ void change_level(Instance& instance, uint32_t level) noexcept {
   if (state.level == level) return;
   const bool shows = instance.displaced;
   if (shows) begin_seam(instance);
+  uint32_t* const regained_end = instance.regained + instance.level->pack.regions.size();
+  if (state.seam_ticks == kBlendInTicks) std::fill(instance.regained, regained_end, 0u);
   while (state.level != level) go_one_level(instance, level < state.level);
-  if (instance.level_raised && frame::is_simulated(state.tier)) show_anew(instance);
-  if (shows)
-    end_seam(instance);
-  else
-    state.seam_ticks = kBlendInTicks;
+  state.seam_ticks = shows ? 0 : kBlendInTicks;
+  const bool others = instance.level_raised || std::find(instance.regained, regained_end, 1u) != regained_end;
+  if (others && frame::is_simulated(state.tier)) show_anew(instance);
+  if (shows) end_seam(instance);
   wake_regions(instance);
   state.heard_by = static_cast<uint32_t>(HeardBy::kNobody);
   instance.settles = instance.level_raised && has_base(state.tier);

@@ -44,6 +44,7 @@ struct Asked {
 };
 
 Asked asked_by(const Instance& instance, uint32_t region, NormalsOf normals = NormalsOf::kFirstTouch) {
+  if (instance.level->leaves_out(region)) return {.source = false, .capsules = 0};
   return {instance.contacts.source && instance.contacts.tissue, touchable(instance, region), normals};
 }
 

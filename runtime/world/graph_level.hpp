@@ -13,6 +13,13 @@ struct GraphLevel {
 
   uint32_t node_count() const noexcept { return static_cast<uint32_t>(pack.nodes.size()); }
   uint32_t mode_count() const noexcept { return static_cast<uint32_t>(pack.modes.size()); }
+  // It has no nodes there: the region is skinned.
+  bool leaves_out(size_t region) const noexcept { return pack.regions[region].node_count == 0; }
+  uint32_t regions_left_out() const noexcept {
+    uint32_t count = 0;
+    for (size_t r = 0; r < pack.regions.size(); ++r) count += leaves_out(r);
+    return count;
+  }
 };
 
 }  // namespace sinew::world

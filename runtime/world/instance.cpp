@@ -58,6 +58,7 @@ void lay_out_state(const Asset& asset, core::Arena& arena, Instance& to) noexcep
   for (float*& shown : to.shown) shown = arena.take<float>(vectors);
   to.felt_asleep = arena.take<float>(vectors);
   to.quiet_ticks = arena.take<uint32_t>(asset.pack.regions.size());
+  to.regained = arena.take<uint32_t>(asset.pack.regions.size());
   const size_t slots = asset.rods.slot_count;
   for (float** turns : {&to.rod_turn, &to.rod_shown[0], &to.rod_shown[1], &to.rod_tail})
     *turns = arena.take<float>(4 * slots);
@@ -158,6 +159,11 @@ float Instance::seam_share() const noexcept {
   return smooth_step(1 - std::min(faded, 1.0f));
 }
 
+float Instance::regained_share(size_t region) const noexcept {
+  if (!regained[region] || state->seam_ticks >= kBlendInTicks) return 1;
+  return smooth_step(static_cast<float>(state->seam_ticks) / kBlendInTicks);
+}
+
 size_t instance_bytes(const Asset& asset) noexcept {
   core::Arena measure;
   Instance unused;
@@ -236,7 +242,7 @@ void forget_motion(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   forget_displacement(instance);
   state.at_start = 1;
-  instance.settles = instance.displaced = false;
+  instance.settles = instance.begins_at_rest = instance.displaced = false;
   state.still_ticks = 0;
   wake(instance);
   state.render_fraction = 0;
@@ -253,7 +259,8 @@ TierReason reason_of(const Instance& instance, uint32_t asleep) noexcept {
   if (state.hidden) return TierReason::kHidden;
   if (instance.cut || instance.held) return TierReason::kCut;
   if (state.restarting || state.fallback_ticks > 0) return TierReason::kGuard;
-  if (frame::is_simulated(state.tier) && asleep == instance.level->pack.regions.size())
+  const GraphLevel& level = *instance.level;
+  if (frame::is_simulated(state.tier) && asleep + level.regions_left_out() == level.pack.regions.size())
     return TierReason::kStill;
   const bool overdue = !frame::is_simulated(state.tier) && state.waited_s > frame::kLongestWait_s;
   return overdue ? TierReason::kWaiting : instance.plan.why;
@@ -278,6 +285,7 @@ InstanceReport describe(const Instance& instance, InstanceId id) noexcept {
           .fallbacks = state.fallbacks,
           .restarts = state.restarts,
           .regions_asleep = asleep,
+          .regions_left_out = simulated ? instance.level->regions_left_out() : 0,
           .rod_recoveries = state.rod_recoveries,
           .rods_asleep = simulated ? rods_asleep(instance) : 0,
           .rod_contacts = instance.told.rod_contacts,

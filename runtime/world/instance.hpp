@@ -167,6 +167,7 @@ struct Instance {
   const GraphLevel* level = nullptr;  // of the asset: state->level
   bool level_raised = false;          // in this step: its nodes' past poses are not known
   bool settles = false;               // likewise, and its r is what was spread
+  bool begins_at_rest = false;        // in this step: came back after all of its tail
   bool rods_anew = false;   // in this tick: rods are taken to where they are shown before they go on
   bool rods_shown = false;  // published joints are not the pose's
   // own_body and surface: only where there is something to touch. Without a source and soft parts that touch
@@ -188,6 +189,7 @@ struct Instance {
   float* shown[2] = {};                             // newest first
   float* felt_asleep = nullptr;                     // m/s^2, when the region's quiet began (world/sleep.hpp)
   uint32_t* quiet_ticks = nullptr;                  // [regions]
+  uint32_t* regained = nullptr;                     // [regions]: 1: the last change of level had it again
   // Of rods, [slots][4]: how a segment is turned against its rest, x y z w along its own axes; as u, shown
   // and tail are for tissue.
   float *rod_turn = nullptr, *rod_shown[2] = {}, *rod_tail = nullptr;
@@ -246,6 +248,8 @@ struct Instance {
   float simulated_share() const noexcept;            // b
   float tail_share(float ahead = 0) const noexcept;  // 1 while carried, then falling smoothly to 0; in ticks
   float seam_share() const noexcept;                 // 1 as a level changes, then falling smoothly to 0
+  // Of what is simulated, 1 but for a region that a change of level had again: it rises as the seam falls.
+  float regained_share(size_t region) const noexcept;
   ShownShares shown_shares() const noexcept;
   float shown_share() const noexcept;  // of displacement, 0: skinning
 };

@@ -150,7 +150,8 @@ void pose_nodes(Instance& instance, const Matrix34* joints, const RootTransform&
   skin_matrices(pack.joints, joints, instance.skin);
   tissue::pose_nodes(pack.nodes, instance.skin, root.rotation_xyzw, instance.poses[0]);
   for (const pack::RegionRecord& region : pack.regions)
-    tissue::share_bend(region.anchor_node, region.node_count, instance.poses[0] + region.first_node);
+    if (region.node_count > 0)
+      tissue::share_bend(region.anchor_node, region.node_count, instance.poses[0] + region.first_node);
 }
 
 void remember_skin(Instance& instance, const RootTransform& root) noexcept {

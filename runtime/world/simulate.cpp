@@ -43,7 +43,7 @@ void for_each_part(const Instance& instance, Work work) noexcept {
 template <class Work>
 void for_each_awake_part(const Instance& instance, Work work) noexcept {
   for_each_part(instance, [&](const Part& part) {
-    if (!is_asleep(instance, part.index)) work(part);
+    if (!instance.level->leaves_out(part.index) && !is_asleep(instance, part.index)) work(part);
   });
 }
 
@@ -87,7 +87,22 @@ void count_clamps(Instance& instance, uint32_t held, uint32_t by_tier) noexcept 
   state.clamped_ticks = by_tier > 0 ? state.clamped_ticks + 1 : 0;
 }
 
+// In this tick, and nothing of it is seen yet: a change of level had the region again, or all of the instance
+// comes back.
+bool begins_at_rest(const Instance& instance, const Part& part) noexcept {
+  return instance.begins_at_rest || (instance.regained[part.index] && instance.state->seam_ticks == 0);
+}
+
 // ---- springs ----
+
+void begin_springs_at_rest(Instance& instance, const Part& part) noexcept {
+  for (size_t n = part.node; n < part.node + part.record.node_count; ++n) {
+    const float *felt = instance.drive + tissue::kNodeDriveWidth * n,
+                *row = instance.level->pack.compliance.data() + 9 * n;
+    for (size_t axis = 0; axis < 3; ++axis, row += 3)
+      for (float* u : instance.u) u[3 * n + axis] = row[0] * felt[0] + row[1] * felt[1] + row[2] * felt[2];
+  }
+}
 
 // What grew while nobody listened, and what is heard from here on.
 void hear_springs(Instance& instance) noexcept {
@@ -96,6 +111,7 @@ void hear_springs(Instance& instance) noexcept {
     for (size_t i = 0; i < part.record.node_count; ++i)
       std::copy_n(instance.drive + tissue::kNodeDriveWidth * (part.node + i), 3, instance.region[0] + 3 * i);
     hear(instance, part, 3 * part.record.node_count, instance.region[0]);
+    if (begins_at_rest(instance, part)) begin_springs_at_rest(instance, part);
     const uint32_t k = instance.state->spacing_ticks;
     if (k == 1) return;
     const pack::SpringRecord& spring = pack.springs[part.index];
@@ -109,6 +125,7 @@ void hear_springs(Instance& instance) noexcept {
       }
     }
   });
+  instance.begins_at_rest = false;
   remember_hearer(instance);
 }
 
@@ -201,6 +218,25 @@ void begin_at_rest(Instance& instance, const Part& part, const float* rest) noex
   }
 }
 
+// As what it hears would hold it for ever, in q and in l, whose change is in carry.
+void begin_modes_at_rest(Instance& instance, const Part& part, const float* heard) noexcept {
+  const tissue::ModalBase& base = part.base;
+  for (size_t m = 0; m < base.modes.size(); ++m) {
+    const pack::ModeRecord& mode = base.modes[m];
+    const float rest = mode.gain * heard[m] / (1 - mode.a1 - mode.a2);
+    instance.q[0][part.mode + m] = instance.q[1][part.mode + m] = rest;
+  }
+  float* held = instance.region[1];
+  simd::kernels().add_rows(base.shape, static_cast<uint32_t>(base.modes.size()), base.padded,
+                           instance.q[0] + part.mode, held);
+  for (size_t i = part.vector; i < part.vector + size_t{3} * part.record.node_count; ++i) {
+    const float l = instance.r[0][i] + held[i - part.vector];
+    instance.carry[i] += l - instance.l[0][i];
+    for (float* tick : instance.l) tick[i] = l;
+  }
+  tissue::modal_turn(base, instance.q[0] + part.mode, held, instance.theta + part.vector);
+}
+
 // felt = f + phi, then e; what is heard.
 void hear_modes(Instance& instance) noexcept {
   for_each_awake_part(instance, [&](const Part& part) {
@@ -208,6 +244,8 @@ void hear_modes(Instance& instance) noexcept {
     float *felt = instance.felt + part.vector, *heard = instance.region[0];
     tissue::modal_hear(part.base, felt, instance.theta + part.vector, felt, heard);
     if (instance.settles) begin_at_rest(instance, part, heard);
+    if (instance.settles && begins_at_rest(instance, part))
+      begin_modes_at_rest(instance, part, heard + part.base.padded);
     hear(instance, part, part.base.padded + part.base.padded_modes, heard);
     if (instance.state->spacing_ticks > 1) make_up(instance, part, heard);
   });
@@ -218,7 +256,7 @@ void hear_modes(Instance& instance) noexcept {
 // q_hat, r_hat and l_hat. False where they are not finite.
 bool base_step(Instance& instance) noexcept {
   if (instance.heard_now) hear_modes(instance);
-  if (regions_asleep(instance) > 0) answer_as_before(instance);
+  if (regions_asleep(instance) + instance.level->regions_left_out() > 0) answer_as_before(instance);
   for_each_awake_part(instance, [&](const Part& part) {
     const tissue::ModalState state{.q = instance.q[0] + part.mode,
                                    .q_before = instance.q[1] + part.mode,

@@ -95,7 +95,8 @@ void wake_regions(Instance& instance) noexcept {
 }
 
 bool is_asleep(const Instance& instance, size_t region) noexcept {
-  return instance.quiet_ticks[region] >= ticks_to_sleep(region_at(instance, region, 0));
+  return !instance.level->leaves_out(region) &&
+         instance.quiet_ticks[region] >= ticks_to_sleep(region_at(instance, region, 0));
 }
 
 uint32_t regions_asleep(const Instance& instance) noexcept {

@@ -7,6 +7,7 @@
 //   settled where no source is asked, under a pose that has been the same bits for so long that what swings
 //           a third as damped as each of its modes, e^(-zeta w t / 3), is a thousandth of what it was: flesh
 //           is at rest, and a movement of 16 s w1 h a tick counts as quiet: a network's own hum
+// What the instance's level leaves out neither sleeps nor is awake.
 // A sleeping region keeps l, theta, q, r and its network's states, with no velocity, and is carried and shown
 // as ever. Its poses and drive are followed, so that the first tick in which it feels more is simulated like
 // any other. What that costs: a swing of s, and the answer to a push of s w1^2, which is s if it lasts and

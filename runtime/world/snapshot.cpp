@@ -21,8 +21,8 @@ constexpr uint64_t kMagic = 0x31544154534e5753;  // "SWNSTAT1", little-endian
 // 9: who is dormant.
 // 10: the level of control graphs, and what its last change left. 11: the same in another order. 12: how
 // contacts' forces changed. 13: the update rate, and who was looked at last. 14: what was missed, and
-// whose tail rides.
-constexpr uint32_t kVersion = 14;
+// whose tail rides. 15: regions that a change of level had again.
+constexpr uint32_t kVersion = 15;
 
 struct Header {
   uint64_t magic, fingerprint, payload_bytes, checksum;
@@ -116,7 +116,7 @@ Status restore(Instance& instance, std::span<const std::byte> bytes) noexcept {
     return corrupt("names a control graph, a tier or an update rate that there is not");
   std::memcpy(instance.state, payload.data(), instance.state_bytes);
   restore_rods(instance, payload.data() + instance.state_bytes);
-  instance.level_raised = instance.settles = false;
+  instance.level_raised = instance.settles = instance.begins_at_rest = false;
   point_to_state(instance);
   instance.rods_anew = false;
   instance.told = {};

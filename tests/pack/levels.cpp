@@ -90,6 +90,26 @@ TEST_CASE("levels_that_do_not_fit_are_refused_by_name") {
                   change<TierRecord>(kTiers, 3, [](auto& t) { t.level = 0; })}});
 }
 
+// Regions 0 and 1 of three levels: 3 and 2 nodes, 2 and 1, 2 and none.
+TEST_CASE("a_coarser_level_may_leave_regions_out_and_the_finest_none") {
+  PackEditor editor(test::small_left_out_pack());
+  PackView view;
+  REQUIRE(editor.open(&view).ok());
+  REQUIRE(view.level_count == 3);
+  const PackView less = at_level(view, 2);
+  CHECK(less.nodes.size() == 2);
+  CHECK(less.regions[1].node_count == 0);
+  CHECK(less.regions[1].vertex_count == view.regions[1].vertex_count);
+  using enum SectionKind;
+  check_refused(test::small_left_out_pack(),
+                {{"region 1: held at node 1 of 0",
+                  change<RegionRecord>(kRegions, 5, [](auto& r) { r.anchor_node = 1; })},
+                 {"region 1: nodes do not follow",
+                  change<RegionRecord>(kRegions, 5, [](auto& r) { r.first_node = 1; })},
+                 {"region 0: 5000 nodes, outside 0..4096",
+                  change<RegionRecord>(kRegions, 4, [](auto& r) { r.node_count = 5000; })}});
+}
+
 TEST_CASE("spread_or_picks_without_levels_are_refused") {
   baker::PackWriter writer = baker::PackWriter::from_pack(test::small_weightless_pack());
   writer.section(SectionKind::kPicks, std::vector<uint32_t>{0});

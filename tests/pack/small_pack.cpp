@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "baker/mesh/leave_out.hpp"
 #include "baker/pack/character_pack.hpp"
 #include "baker/pack/dense_pack.hpp"
 #include "baker/pack/network_pack.hpp"
@@ -255,6 +256,16 @@ std::vector<std::byte> small_levels_pack() {
   const std::vector<baker::GraphLevel> coarser = {small_coarser_level(layout)};
   return baker::pack_character(character, layout, small_modes(layout), nullptr, pack::Precision::kFloat32, {},
                                coarser);
+}
+
+std::vector<std::byte> small_left_out_pack() {
+  const baker::Character character = small_character();
+  const baker::TissueLayout layout = small_layout(character);
+  const baker::GraphLevel coarser = small_coarser_level(layout);
+  const baker::TissueLayout less = baker::leave_out(coarser.layout, {"tip"}, "small pack");
+  const std::vector<baker::GraphLevel> levels = {coarser, {less, small_modes(less)}};
+  return baker::pack_character(character, layout, small_modes(layout), nullptr, pack::Precision::kFloat32, {},
+                               levels);
 }
 
 std::vector<baker::Rod> small_rods() {

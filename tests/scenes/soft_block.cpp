@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "baker/import/character.hpp"
+#include "baker/mesh/leave_out.hpp"
 #include "baker/mesh/tissue_layout.hpp"
 #include "baker/pack/character_pack.hpp"
 #include "tests/scenes/block_modes.hpp"
@@ -225,6 +226,11 @@ std::vector<baker::GraphLevel> coarser_levels(const Character& character, const 
       layout.regions[r].center = finest.regions[r].center;
       layout.regions[r].radius_m = finest.regions[r].radius_m;
     }
+    levels.push_back({layout, block_modes(layout, &finest)});
+  }
+  if (options.leaves_out) {
+    const TissueLayout last = levels.empty() ? finest : levels.back().layout;
+    const TissueLayout layout = baker::leave_out(last, {"left"}, "soft_block");
     levels.push_back({layout, block_modes(layout, &finest)});
   }
   return levels;

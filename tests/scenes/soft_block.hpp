@@ -34,6 +34,7 @@ struct BlockOptions {
   pack::Precision precision = pack::Precision::kFloat32;
   std::optional<RodMatter> rods = std::nullopt;  // a tail and horns (block_rods.hpp)
   std::vector<int> coarser_nodes = {};           // a region, of coarser control graphs
+  bool leaves_out = false;                       // one graph more: the last without the left region
   std::optional<ArmMatter> arms = std::nullopt;  // block_arms.hpp
 };
 

@@ -72,8 +72,9 @@ class OwnSteps {
 };
 
 // In the second after a change at tick `at`: what no level's own motion explains.
-double largest_jump(Tier tier, uint32_t from, uint32_t to, int at) {
-  Block stays, always, changes;
+double largest_jump(Tier tier, uint32_t from, uint32_t to, int at,
+                    const scenes::PackBytes& pack = test::levels_pack()) {
+  Block stays(pack), always(pack), changes(pack);
   stays.play(scenes::walk, tier, from, at);
   always.play(scenes::walk, tier, to, at);
   changes.play(scenes::walk, tier, from, at);
@@ -89,6 +90,17 @@ double largest_jump(Tier tier, uint32_t from, uint32_t to, int at) {
     before = now;
   }
   return worst;
+}
+
+// Of any vertex, walking.
+double largest_displacement(const scenes::PackBytes& pack) {
+  Block block(pack);
+  double most = 0;
+  for (int t = 0; t < 180; ++t) {
+    block.tick(scenes::walk, Tier::kNetwork, 0);
+    most = std::max(most, static_cast<double>(test::largest_length(block.surface())));
+  }
+  return most;
 }
 
 uint64_t hash_of_crowd(const TaskHook& tasks, std::vector<uint32_t>* levels_seen = nullptr) {
@@ -122,6 +134,22 @@ TEST_CASE("a_change_of_level_makes_no_jump") {
           worst = std::max(worst, jump);
         }
   WARN("largest jump " << 100 * worst / Block().height_m() << " % of the height");
+}
+
+TEST_CASE("a_region_that_is_left_out_and_had_again_makes_no_jump") {
+  const scenes::PackBytes pack = scenes::soft_block({.nodes = 40, .coarser_nodes = {10}, .leaves_out = true});
+  constexpr uint32_t kLess = 2;
+  const double displaced_m = largest_displacement(pack);
+  for (const Tier tier : kSimulated)
+    for (const uint32_t other : {0u, 1u})
+      for (int at = 70; at < 110; at += 13)
+        for (const bool had : {false, true}) {
+          const double jump =
+              had ? largest_jump(tier, kLess, other, at, pack) : largest_jump(tier, other, kLess, at, pack);
+          INFO(static_cast<int>(tier) << " had " << had << " beside " << other << ": " << jump << " m");
+          // What is had again is blended in (test_blend.cpp), within a bound of what it is displaced by.
+          CHECK(jump < (had ? 1.5 / world::kBlendInTicks * displaced_m : 0.003 * Block().height_m()));
+        }
 }
 
 TEST_CASE("a_level_that_changes_in_every_tick_makes_no_jump_and_stays_finite") {

@@ -180,7 +180,8 @@ struct InstanceReport {
   // All state was given up, faded to skinning and restarted: NaN or infinity in the modal base or the
   // springs.
   uint32_t restarts = 0;
-  uint32_t regions_asleep = 0;  // soft parts at rest, left out until they feel more
+  uint32_t regions_asleep = 0;    // soft parts at rest, left out until they feel more
+  uint32_t regions_left_out = 0;  // soft parts that its control graph does not have: they are skinned
   // Since creation: rods that had to be put together or put back where they are held.
   uint32_t rod_recoveries = 0;
   uint32_t rods_asleep = 0;  // rods at rest, not stepped until they are held or shaped otherwise: all or none

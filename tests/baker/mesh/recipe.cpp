@@ -62,6 +62,9 @@ TEST_CASE("wrong_recipes_are_refused_by_key") {
       {R"({"levels": [40, 20.5]})", "\"levels\" must be a list of whole numbers"},
       {R"({"levels": [40, "20"]})", "\"levels\""},
       {R"({"levels": [40], "nodes_per_region": 40})", "\"levels\" states nodes_per_region too"},
+      {R"({"left_out": ["cheek"]})", "\"left_out\" needs levels"},
+      {R"({"levels": [40], "left_out": "cheek"})", "\"left_out\" must be a list of texts"},
+      {R"({"levels": [40, 20, 10, 5], "left_out": ["cheek"]})", "\"left_out\" asks for one control graph more"},
       {R"({"unit_m": -1})", "unit_m"},
       {R"({"up": "x"})", "\"up\""},
       {R"({"regions": [{"name": "belly"}]})", "joints"},
@@ -135,6 +138,9 @@ TEST_CASE("levels_take_the_place_of_one_number_of_nodes") {
   const Recipe one = read_recipe(write(R"({"levels": [12]})"));
   CHECK(one.nodes_per_region == 12);
   CHECK(one.coarser_nodes.empty());
+  CHECK(one.left_out.empty());
+  const Recipe less = read_recipe(write(R"({"levels": [40, 20, 10], "left_out": ["cheek*"]})"));
+  CHECK(less.left_out == std::vector<std::string>{"cheek*"});
 }
 
 TEST_CASE("every_key_of_a_rod_is_read_and_absent_ones_keep_their_default") {
