@@ -31,8 +31,8 @@ std::string left_out(const LoadedPack& character, uint32_t level) {
   std::string names;
   for (const pack::RegionRecord& region : character.view().levels[level].regions)
     if (region.node_count == 0)
-      names +=
-          (names.empty() ? " without " : ", ") + std::string(pack::string_at(character.view(), region.name));
+      names += (names.empty() ? " without " : " and ") +
+               std::string(pack::string_at(character.view(), region.name));
   return names;
 }
 
