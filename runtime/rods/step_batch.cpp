@@ -76,7 +76,7 @@ uint32_t RodBatch::begin_range(uint32_t first_group, uint32_t groups, float dt_s
   collider->begin_range(*this, first_group, groups, dt_s);
   iterate(first_group, groups, dt_s, collider);
   const uint32_t active = collider->settle(*this, left);
-  StrandPacker{*collider, *this}.add();
+  if (left > 0) StrandPacker{*collider, *this}.add();
   return active;
 }
 

@@ -47,8 +47,6 @@ void begin_simulation(Instance& instance) noexcept {
   state.motion_stale = 1;
   state.clamped_ticks = 0;
   state.blend_ticks = state.untouched ? kBlendInTicks : 0;
-  instance.begins_at_rest = !state.untouched && state.tail_ticks > kCarryTicks;
-  instance.settles |= instance.begins_at_rest;
   state.lifted = 0;
 }
 
@@ -160,7 +158,7 @@ void restart(Instance& instance) noexcept {
   state.tier = Tier::kSkinning;
   state.motion_stale = 1;
   state.restarting = 1;
-  instance.settles = instance.begins_at_rest = false;
+  instance.settles = false;
   state.forgotten = 1;
   wake_regions(instance);
   ++state.restarts;
@@ -184,6 +182,8 @@ void show_tick(Instance& instance) noexcept {
   count_tail(state);
   if (frame::is_simulated(state.tier) && state.blend_ticks < kBlendInTicks) ++state.blend_ticks;
   if (state.seam_ticks < kBlendInTicks) ++state.seam_ticks;
+  for (size_t r = 0; r < instance.level->pack.regions.size(); ++r)
+    if (instance.regained[r] == kRegainedNow) instance.regained[r] = kRegained;
   if (state.blend_ticks == kBlendInTicks) state.tail_rides = 0;
   const auto [simulated, tail] = instance.shown_shares();
   if (simulated < 1) advance_tail(instance);

@@ -5,8 +5,9 @@
 
 namespace sinew::world {
 
-// At the start of a step. Leaving simulation begins a tail; coming back starts from what is shown and begins
-// a blend. Springs, modes and network hand their displacement on to each other without one.
+// At the start of a step. Leaving simulation begins a tail; coming back starts from what is shown, or where
+// the tail fades already from rest under the load, and begins a blend. Springs, modes and network hand their
+// displacement on to each other without one.
 void enter_tier(Instance& instance, Tier tier) noexcept;
 
 // A guard fired: the state is worthless. Fades what was shown last to skinning; then simulation starts anew.

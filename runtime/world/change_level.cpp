@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "simd/kernels.hpp"
 #include "tissue/guard.hpp"
@@ -47,6 +48,20 @@ void begin_seam(Instance& instance) noexcept {
   carry_shown(instance);
   for (size_t i = 0; i < size_t{3} * instance.asset->padded_vertices; ++i)
     instance.seam[i] = (left > 0 ? left * instance.seam[i] : 0) + instance.carried[i];
+}
+
+// Of regions that are left out: they fade with all else.
+void take_pushes(Instance& instance, const GraphLevel& to) noexcept {
+  size_t first = 0;
+  for (size_t r = 0; r < to.pack.regions.size(); ++r) {
+    const size_t floats = size_t{3} * to.pack.regions[r].padded_vertices;
+    if (to.leaves_out(r) && instance.pushed[r]) {
+      for (size_t i = first; i < first + floats; ++i)
+        instance.seam[i] += std::exchange(instance.pushes[i], 0.0f);
+      instance.pushed[r] = 0;
+    }
+    first += floats;
+  }
 }
 
 void end_seam(Instance& instance) noexcept {
@@ -124,6 +139,10 @@ void spread(const Instance& instance, const GraphLevel& fine, float* vectors) no
     simd::kernels().carry(weights, from.node_count, stride, scratch.before + size_t{3} * from.first_node,
                           scratch.carried);
     float* out = vectors + size_t{3} * to.first_node;
+    if (from.node_count == to.node_count) {  // the same nodes
+      std::copy_n(scratch.before + size_t{3} * from.first_node, size_t{3} * to.node_count, out);
+      return;
+    }
     for (size_t n = 0; n < to.node_count; ++n)
       for (size_t axis = 0; axis < 3; ++axis) out[3 * n + axis] = scratch.carried[axis * stride + n];
   });
@@ -163,17 +182,23 @@ void raise_base(Instance& instance, const GraphLevel& fine) noexcept {
   }
 }
 
-// Of the coarser nodes of its region the one with the largest weight on each; kNoIndex: there are none.
+// Of the coarser nodes of its region the one with the largest weight on a finer one.
+uint32_t source_of(const pack::RegionRecord& from, const pack::RegionRecord& to, const float* weights,
+                   size_t stride, uint32_t n) noexcept {
+  if (from.node_count == 0) return pack::kNoIndex;
+  if (from.node_count == to.node_count) return from.first_node + n;  // the same nodes
+  uint32_t most = 0;
+  for (uint32_t c = 1; c < from.node_count; ++c)
+    if (weights[c * stride + n] > weights[most * stride + n]) most = c;
+  return from.first_node + most;
+}
+
 void find_sources(const Instance& instance, const GraphLevel& fine, uint32_t* sources) noexcept {
-  for_each_region(
-      *instance.level, fine, [&](const auto& from, const auto& to, const float* weights, size_t stride) {
-        for (uint32_t n = 0; n < to.node_count; ++n) {
-          uint32_t most = 0;
-          for (uint32_t c = 1; c < from.node_count; ++c)
-            if (weights[c * stride + n] > weights[most * stride + n]) most = c;
-          sources[to.first_node + n] = from.node_count > 0 ? from.first_node + most : pack::kNoIndex;
-        }
-      });
+  for_each_region(*instance.level, fine,
+                  [&](const auto& from, const auto& to, const float* weights, size_t stride) {
+                    for (uint32_t n = 0; n < to.node_count; ++n)
+                      sources[to.first_node + n] = source_of(from, to, weights, stride, n);
+                  });
 }
 
 void raise_memory(Instance& instance, const GraphLevel& fine) noexcept {
@@ -197,7 +222,7 @@ void raise(Instance& instance) noexcept {
     raise_base(instance, fine);
   raise_memory(instance, fine);
   for (size_t r = 0; r < fine.pack.regions.size(); ++r)
-    instance.regained[r] |= instance.level->leaves_out(r) && !fine.leaves_out(r);
+    if (instance.level->leaves_out(r) && !fine.leaves_out(r)) instance.regained[r] = kRegainedNow;
   instance.level_raised = true;
 }
 
@@ -205,7 +230,7 @@ void raise(Instance& instance) noexcept {
 void show_anew(Instance& instance) noexcept {
   const ShownShares shares = instance.shown_shares();
   const uint32_t nodes = instance.level->node_count();
-  pose_at_start(instance);
+  if (instance.level_raised) pose_at_start(instance);
   for (int tick = 0; tick < 2; ++tick) {
     take_simulated(instance, tick, instance.shown[tick]);
     for (size_t i = 0; (shares.simulated < 1 || shares.tail > 0) && i < size_t{3} * nodes; ++i)
@@ -245,7 +270,7 @@ void show_settled(Instance& instance, const float* moved) noexcept {
 
 void settle_rest(Instance& instance, float* moved) noexcept {
   const uint32_t nodes = instance.level->node_count();
-  instance.settles = instance.begins_at_rest = false;
+  instance.settles = false;
   tissue::warp(instance.theta, moved, nodes, moved);
   for (float* u : instance.u)
     for (size_t i = 0; i < size_t{3} * nodes; ++i) u[i] += moved[i];
@@ -264,12 +289,13 @@ void change_level(Instance& instance, uint32_t level) noexcept {
   if (state.level == level) return;
   const bool shows = instance.displaced;
   if (shows) begin_seam(instance);
+  if (shows && instance.pushes) take_pushes(instance, instance.asset->levels[level]);
   uint32_t* const regained_end = instance.regained + instance.level->pack.regions.size();
   if (state.seam_ticks == kBlendInTicks) std::fill(instance.regained, regained_end, 0u);
   while (state.level != level) go_one_level(instance, level < state.level);
   state.seam_ticks = shows ? 0 : kBlendInTicks;
-  const bool others = instance.level_raised || std::find(instance.regained, regained_end, 1u) != regained_end;
-  if (others && frame::is_simulated(state.tier)) show_anew(instance);
+  const bool ramps = std::any_of(instance.regained, regained_end, [](uint32_t is) { return is != 0; });
+  if ((instance.level_raised || ramps) && frame::is_simulated(state.tier)) show_anew(instance);
   if (shows) end_seam(instance);
   wake_regions(instance);
   state.heard_by = static_cast<uint32_t>(HeardBy::kNobody);

@@ -8,6 +8,9 @@
 //            and u as in tissue/modal_base.hpp; on springs u = S u. Past poses are the new nodes' own, along
 //            the path of the pose. A node remembers of the network what the coarser node did that carries
 //            most of it
+//   left out a region that a level has no nodes for is forgotten there. Where it is had again it begins at
+//   rest
+//            under what the tick hears, with no memory, and is blended in as the seam fades
 //   shown    the tail is picked, or spread; what is shown follows from it and u. What the surface differs by
 //            then is its *seam*: added to what is carried, vertex by vertex, and faded out in kBlendInTicks
 // So no vertex moves by the change itself, however often; from there on levels part by what they hear.
@@ -20,8 +23,8 @@ namespace sinew::world {
 void change_level(Instance& instance, uint32_t level) noexcept;
 
 // In the first tick on a finer level, once it is heard what the new nodes' rest is: r begins there, for both
-// ticks. What was spread would swing, for what the modes leave is not smooth from node to node. moved: by how
-// much r moved, [nodes][3], overwritten; l has moved with it.
+// ticks. What was spread would swing, for what the modes leave is not smooth from node to node. And in the
+// first tick of what begins at rest. moved: by how much l was moved, [nodes][3], overwritten; u follows.
 void settle_rest(Instance& instance, float* moved) noexcept;
 
 // Floats of Instance::level_scratch.

@@ -92,7 +92,8 @@ float add_active(const Instance& instance, const PlanRow& row, FrameReport& repo
 float add_dormant(const Instance& instance, FrameReport& report) noexcept {
   const Tier tier = instance.state->tier;
   ++report.instances_dormant;
-  report.regions_asleep += static_cast<uint32_t>(instance.level->pack.regions.size());
+  report.regions_asleep +=
+      static_cast<uint32_t>(instance.level->pack.regions.size()) - instance.level->regions_left_out();
   count_tier(tier, report);
   return error_of(*instance.asset, tier, instance.state->every, instance.state->level);
 }

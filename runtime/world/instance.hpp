@@ -131,6 +131,9 @@ struct InstancePlan {
   TierReason why = TierReason::kBudget;
 };
 
+// Instance::regained: not simulated since.
+inline constexpr uint32_t kRegained = 1, kRegainedNow = 2;
+
 // Of what is shown.
 struct ShownShares {
   float simulated, tail;
@@ -167,7 +170,6 @@ struct Instance {
   const GraphLevel* level = nullptr;  // of the asset: state->level
   bool level_raised = false;          // in this step: its nodes' past poses are not known
   bool settles = false;               // likewise, and its r is what was spread
-  bool begins_at_rest = false;        // in this step: came back after all of its tail
   bool rods_anew = false;   // in this tick: rods are taken to where they are shown before they go on
   bool rods_shown = false;  // published joints are not the pose's
   // own_body and surface: only where there is something to touch. Without a source and soft parts that touch
@@ -189,7 +191,8 @@ struct Instance {
   float* shown[2] = {};                             // newest first
   float* felt_asleep = nullptr;                     // m/s^2, when the region's quiet began (world/sleep.hpp)
   uint32_t* quiet_ticks = nullptr;                  // [regions]
-  uint32_t* regained = nullptr;                     // [regions]: 1: the last change of level had it again
+  uint32_t* regained =
+      nullptr;  // [regions]: a change of level had it again, and it is blended in; kRegainedNow
   // Of rods, [slots][4]: how a segment is turned against its rest, x y z w along its own axes; as u, shown
   // and tail are for tissue.
   float *rod_turn = nullptr, *rod_shown[2] = {}, *rod_tail = nullptr;

@@ -1,5 +1,6 @@
 // plan.cpp  see plan.hpp.
 #include "world/plan.hpp"
+#include "world/affords_surface.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -52,14 +53,42 @@ float weight_of(const PlanRow& row) noexcept {
   return std::min(kLargest, row.importance * row.size * row.excitation * row.asset->skinning_mm);
 }
 
+// Who rose to skin and was cut, or rose elsewhere, does not try again for a while: near its price skin would
+// be taken and left several times a second.
+uint32_t below_skin(const Terms& terms, const PlanRow& row) noexcept {
+  constexpr float kAgain_s = 2;
+  const frame::Front& front = costs_of(row).front;
+  const bool waits =
+      terms.measured && row.has_surface && row.held_s < kAgain_s && !affords_surface(row.tier, row.level);
+  for (uint32_t level = 2; waits && level < front.count; ++level)
+    if (affords_surface(front.levels[level].tier, front.levels[level].graph)) return level - 1;
+  return front.best();
+}
+
 // The network is not to be had for a while after a guard; nothing is while a restart fades, or in the step in
 // which one comes into view: how it moves is known a step later.
-uint32_t highest(const PlanRow& row) noexcept {
+uint32_t highest(const Terms& terms, const PlanRow& row) noexcept {
   const frame::Front& front = costs_of(row).front;
   if (row.restarting || row.hidden) return 0;
   for (uint32_t level = 1; row.falls_back && level < front.count; ++level)
     if (front.levels[level].tier == Tier::kNetwork) return level - 1;
-  return front.best();
+  return below_skin(terms, row);
+}
+
+// The best that touches skin takes in one of a hundred ticks, beyond what it is expected to.
+float skin_tail_us(const PlanRow& row) noexcept {
+  float most = 0;
+  for (const Tier tier : {Tier::kModal, Tier::kNetwork}) {
+    const frame::CostEstimate& tick = costs_of(row).cost.of(tier, 0);
+    if (tick.is_known()) most = std::max(most, tick.p99_us() - tick.estimate_us());
+  }
+  return row.cost_factor * most;
+}
+
+// Who goes to skin is to stay there: the deadline is kept by what it takes at most.
+float change_us(const PlanRow& row, uint32_t ticks) noexcept {
+  const float skin_us = row.has_surface && row.level > 0 ? static_cast<float>(ticks) * skin_tail_us(row) : 0;
+  return costs_of(row).cost.change.estimate_us() + skin_us;
 }
 
 Candidate candidate_of(const Terms& terms, const PlanRow& row, uint32_t ticks, uint32_t slot) noexcept {
@@ -74,10 +103,10 @@ Candidate candidate_of(const Terms& terms, const PlanRow& row, uint32_t ticks, u
           .base_us = base_us(terms, row),
           .missed = terms.measured ? static_cast<float>(row.missed) : 0,
           .enter_us = terms.measured ? costs_of(row).cost.enter.estimate_us() : 0,
-          .change_us = terms.measured ? costs_of(row).cost.change.estimate_us() : 0,
+          .change_us = terms.measured ? change_us(row, ticks) : 0,
           .has = front.level_of(row.tier, row.every, row.level),
           .graph = row.level,
-          .top = highest(row),
+          .top = highest(terms, row),
           .turn_left_s = row.turn_left_s,
           .keeps_level = ticks == 0 && terms.has_budget && !row.hidden};
 }

@@ -39,11 +39,13 @@ float push_out_m_s(const Instance& instance) noexcept {
 rods::ColliderSettings settings_of(const Instance& instance, const rods::RodBatch& batch) noexcept {
   const uint64_t segments = uint64_t{batch.strand_count()} * batch.segment_count();
   const uint64_t wanted = source_count(instance) * kHitsASegment * segments;
+  const auto hits = static_cast<uint32_t>(std::min<uint64_t>(wanted, kMostHits));
   return {.rods_collide = false,
           .largest_push_out_m_s = push_out_m_s(instance),
+          .contact_capacity = source_count(instance) > 1 ? std::max(hits, 64u) : 0,
           .obstacle_capacity = proxy_count(instance),
           .point_capacity = 0,
-          .source_capacity = static_cast<uint32_t>(std::min<uint64_t>(wanted, kMostHits))};
+          .source_capacity = hits};
 }
 
 Status make_rod_source(Instance& instance) noexcept {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 #include "simd/kernels.hpp"
 #include "tissue/guard.hpp"
@@ -88,19 +89,33 @@ void count_clamps(Instance& instance, uint32_t held, uint32_t by_tier) noexcept 
 }
 
 // In this tick, and nothing of it is seen yet: a change of level had the region again, or all of the instance
-// comes back.
+// comes back after its tail has begun to fade.
 bool begins_at_rest(const Instance& instance, const Part& part) noexcept {
-  return instance.begins_at_rest || (instance.regained[part.index] && instance.state->seam_ticks == 0);
+  const InstanceState& state = *instance.state;
+  const bool comes_back = state.blend_ticks == 0 && !state.tail_rides && state.tail_ticks > kCarryTicks;
+  return comes_back || instance.regained[part.index] == kRegainedNow;
+}
+
+// What of a load counts as lasting: the answer to a jolt that lasted for ever would be far off.
+float lasting_share(const Part& part, const float* felt, size_t stride) noexcept {
+  constexpr float kMost_m_s2 = 20;  // gravity upside down
+  float most = 0;
+  for (size_t n = 0; n < part.record.node_count; ++n, felt += stride)
+    most = std::max(most, std::hypot(felt[0], felt[1], felt[2]));
+  return most > kMost_m_s2 ? kMost_m_s2 / most : 1.0f;
 }
 
 // ---- springs ----
 
 void begin_springs_at_rest(Instance& instance, const Part& part) noexcept {
+  const float share =
+      lasting_share(part, instance.drive + tissue::kNodeDriveWidth * part.node, tissue::kNodeDriveWidth);
   for (size_t n = part.node; n < part.node + part.record.node_count; ++n) {
     const float *felt = instance.drive + tissue::kNodeDriveWidth * n,
                 *row = instance.level->pack.compliance.data() + 9 * n;
     for (size_t axis = 0; axis < 3; ++axis, row += 3)
-      for (float* u : instance.u) u[3 * n + axis] = row[0] * felt[0] + row[1] * felt[1] + row[2] * felt[2];
+      for (float* u : instance.u)
+        u[3 * n + axis] = share * (row[0] * felt[0] + row[1] * felt[1] + row[2] * felt[2]);
   }
 }
 
@@ -125,7 +140,6 @@ void hear_springs(Instance& instance) noexcept {
       }
     }
   });
-  instance.begins_at_rest = false;
   remember_hearer(instance);
 }
 
@@ -218,38 +232,51 @@ void begin_at_rest(Instance& instance, const Part& part, const float* rest) noex
   }
 }
 
-// As what it hears would hold it for ever, in q and in l, whose change is in carry.
-void begin_modes_at_rest(Instance& instance, const Part& part, const float* heard) noexcept {
+// As so much of what it hears would hold it for ever, in q, r and l, whose change is in carry.
+void begin_modes_at_rest(Instance& instance, const Part& part, const float* heard, float share) noexcept {
   const tissue::ModalBase& base = part.base;
+  float *q[2] = {instance.q[0] + part.mode, instance.q[1] + part.mode},
+        *r[2] = {instance.r[0] + part.vector, instance.r[1] + part.vector}, *l = instance.region[1];
+  const size_t floats = size_t{3} * part.record.node_count;
   for (size_t m = 0; m < base.modes.size(); ++m) {
     const pack::ModeRecord& mode = base.modes[m];
-    const float rest = mode.gain * heard[m] / (1 - mode.a1 - mode.a2);
-    instance.q[0][part.mode + m] = instance.q[1][part.mode + m] = rest;
+    q[0][m] = q[1][m] = share * mode.gain * heard[base.padded + m] / (1 - mode.a1 - mode.a2);
   }
-  float* held = instance.region[1];
-  simd::kernels().add_rows(base.shape, static_cast<uint32_t>(base.modes.size()), base.padded,
-                           instance.q[0] + part.mode, held);
-  for (size_t i = part.vector; i < part.vector + size_t{3} * part.record.node_count; ++i) {
-    const float l = instance.r[0][i] + held[i - part.vector];
-    instance.carry[i] += l - instance.l[0][i];
-    for (float* tick : instance.l) tick[i] = l;
+  const auto modes = static_cast<uint32_t>(base.modes.size());
+  simd::kernels().add_rows(base.shape, modes, base.padded, q[0], l);
+  for (size_t i = 0; i < floats; ++i) l[i] += r[0][i] = r[1][i] = share * heard[i];
+  tissue::hold_base_at_limit(part.record, modes, l, {q[0], q[1]}, {r[0], r[1]});
+  for (size_t i = 0; i < floats; ++i) {
+    instance.carry[part.vector + i] = l[i] - instance.l[0][part.vector + i];
+    for (float* tick : instance.l) tick[part.vector + i] = l[i];
   }
-  tissue::modal_turn(base, instance.q[0] + part.mode, held, instance.theta + part.vector);
+  tissue::modal_turn(base, q[0], l, instance.theta + part.vector);
+}
+
+// Where the tick begins something at rest, carry tells by how much l moved. False: nothing.
+bool begin_part(Instance& instance, const Part& part, const float* heard) noexcept {
+  const bool begins = begins_at_rest(instance, part);
+  if (begins)
+    begin_modes_at_rest(instance, part, heard, lasting_share(part, instance.felt + part.vector, 3));
+  else if (instance.settles)
+    begin_at_rest(instance, part, heard);
+  else
+    std::fill_n(instance.carry + part.vector, 3 * part.record.node_count, 0.0f);
+  return begins || instance.settles;
 }
 
 // felt = f + phi, then e; what is heard.
 void hear_modes(Instance& instance) noexcept {
+  bool moved = false;
   for_each_awake_part(instance, [&](const Part& part) {
     feel(instance, part);
     float *felt = instance.felt + part.vector, *heard = instance.region[0];
     tissue::modal_hear(part.base, felt, instance.theta + part.vector, felt, heard);
-    if (instance.settles) begin_at_rest(instance, part, heard);
-    if (instance.settles && begins_at_rest(instance, part))
-      begin_modes_at_rest(instance, part, heard + part.base.padded);
+    moved |= begin_part(instance, part, heard);
     hear(instance, part, part.base.padded + part.base.padded_modes, heard);
     if (instance.state->spacing_ticks > 1) make_up(instance, part, heard);
   });
-  if (instance.settles) settle_rest(instance, instance.carry);
+  if (moved) settle_rest(instance, instance.carry);
   remember_hearer(instance);
 }
 

@@ -1,7 +1,7 @@
 // tissue_contacts.cpp  see tissue_contacts.hpp.
 #include "world/tissue_contacts.hpp"
 
-#include "world/blend.hpp"
+#include "tissue/node_bend.hpp"
 #include "world/find_touches.hpp"
 #include "world/press_region.hpp"
 
@@ -10,7 +10,7 @@ namespace sinew::world {
 void touch_tissue(Instance& instance) noexcept {
   const bool asks_source = instance.contacts.source && instance.contacts.tissue;
   if (!asks_source && !instance.proxy_before) return;
-  take_simulated(instance, 0, instance.flesh);
+  tissue::along_flesh(instance.poses[0], instance.u[0], instance.level->node_count(), instance.flesh);
   instance.touched_moves_m = 0;
   for (uint32_t r = 0; r < instance.level->pack.regions.size(); ++r) {
     const uint32_t first = instance.touch_count;

@@ -26,10 +26,9 @@ std::vector<std::byte> small_chain_model();  // of small_coping_net
 std::vector<std::byte> small_character_pack(pack::Precision precision = pack::Precision::kFloat32);
 std::vector<std::byte> small_weightless_pack();
 // The same with a coarser control graph: two nodes of three, one of two.
-// One level more: the coarser one without its region 1.
-std::vector<std::byte> small_left_out_pack();
 baker::GraphLevel small_coarser_level(const baker::TissueLayout& layout);
 std::vector<std::byte> small_levels_pack();
+std::vector<std::byte> small_left_out_pack();  // and one graph more, that one without its region 1
 std::vector<baker::Rod> small_rods();     // one, of the two upper joints and a link between them
 std::vector<std::byte> small_rod_pack();  // the weightless one with it
 

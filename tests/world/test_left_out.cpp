@@ -94,10 +94,11 @@ TEST_CASE("a_snapshot_of_one_that_leaves_a_region_out_goes_on_with_the_same_bits
   for (const Tier tier : kSimulated) {
     Block saved, other;
     saved.play(scenes::walk, {.tier = tier, .level = 0}, 50);
-    saved.play(scenes::walk, {.tier = tier, .level = kLess}, 7);
+    saved.play(scenes::walk, {.tier = tier, .level = kLess}, 30);
+    saved.play(scenes::walk, {.tier = tier, .level = 0}, 7);  // coming into view
     std::vector<std::byte> bytes(world::snapshot_bytes(saved.instance()));
     REQUIRE(world::save(saved.instance(), bytes).ok());
-    other.play(scenes::walk, {.tier = tier, .level = 1}, 57);
+    other.play(scenes::walk, {.tier = tier, .level = 1}, 87);
     REQUIRE(world::restore(other.instance(), bytes).ok());
     for (const uint32_t level : {kLess, 0u, kLess, kWhole}) {
       saved.play(scenes::walk, {.tier = tier, .level = level}, 11);
@@ -117,6 +118,60 @@ TEST_CASE("what_is_left_out_touches_nothing_and_the_rest_does") {
       block.play(stands, {.tier = Tier::kModal, .level = level}, 30);
       CHECK((block.instance().told.vertices > 0) == (level == kWhole || side > 0));
     }
+  }
+}
+
+TEST_CASE("what_is_had_again_on_another_tier_begins_at_rest_too") {
+  const auto bent = [](double time_s) { return scenes::bent_pose(0.3 * std::min(1.0, time_s)); };
+  Block stays, back;
+  stays.play(bent, {.tier = Tier::kModal, .level = kWhole}, 660);
+  back.play(bent, {.tier = Tier::kSpring, .level = kLess}, 620);
+  for (int t = 0; t < 40; ++t) {
+    back.tick(bent, {.tier = Tier::kModal, .level = kWhole});
+    CHECK(largest(back.of_region(0)) < 1.02f * largest(stays.of_region(0)));
+  }
+  CHECK(largest(back.of_region(0)) > 0.98f * largest(stays.of_region(0)));
+}
+
+// For ever it would hold them at their limit.
+TEST_CASE("a_jolt_in_the_tick_of_coming_back_throws_nothing_further_than_it_throws_what_stayed") {
+  for (const Tier tier : kSimulated) {
+    Block stays, back;
+    const auto jolted = [](double time_s) {
+      scenes::BlockPose pose = scenes::bind_pose();
+      if (time_s > 1.5) pose.root.position_m[0] += 0.05;
+      return pose;
+    };
+    stays.play(jolted, {.tier = tier, .level = kWhole}, 90);
+    back.play(jolted, {.tier = tier, .level = kWhole}, 30);
+    back.play(jolted, {.tier = Tier::kExtrapolate, .level = kWhole}, 60);
+    double most_stays = 0, most_back = 0;
+    for (int t = 0; t < 60; ++t) {
+      stays.tick(jolted, {.tier = tier, .level = kWhole});
+      back.tick(jolted, {.tier = tier, .level = kWhole});
+      most_stays = std::max(most_stays, test::largest_length(stays.surface()));
+      most_back = std::max(most_back, test::largest_length(back.surface()));
+    }
+    INFO(static_cast<int>(tier) << ": " << most_back << " and " << most_stays);
+    CHECK(most_back < most_stays);
+  }
+}
+
+TEST_CASE("what_is_had_again_against_a_wall_is_pressed_no_further_than_what_stayed") {
+  const auto stands = [](double) { return scenes::bind_pose(); };
+  for (const Tier tier : {Tier::kSpring, Tier::kModal}) {
+    scenes::HalfSpaces wall;
+    wall.walls = {{{-0.14, 0, 0}, {1, 0, 0}}};
+    Block stays({.source = &wall}), back({.source = &wall});
+    stays.play(stands, {.tier = tier, .level = kWhole}, 120);
+    back.play(stands, {.tier = tier, .level = kLess}, 60);
+    double most = 0;
+    for (int t = 0; t < 60; ++t) {
+      back.tick(stands, {.tier = tier, .level = kWhole});
+      most = std::max(most, test::largest_length(back.shown()));
+    }
+    INFO(static_cast<int>(tier) << ": " << most << " and " << test::largest_length(stays.shown()));
+    CHECK(most < 2 * test::largest_length(stays.shown()));
   }
 }
 

@@ -297,6 +297,28 @@ TEST_CASE("a_budget_that_does_not_pay_for_skin_gets_capsules_and_is_hardly_excee
   }
 }
 
+// It is tried again after two seconds, so that it may change once a second; without that it did three times.
+TEST_CASE("near_its_price_skin_is_not_taken_and_left_all_the_time") {
+  for (const float budget_us : {500.0f, 1000.0f, 1500.0f, 2000.0f, 2500.0f, 3000.0f, 4000.0f}) {
+    Clock clock;
+    DearSkin skin(clock);
+    SurfaceStage stage({.own_body = true, .surface = &skin}, {.clock = clock.hook()});
+    REQUIRE(stage.world.set_budget_us(budget_us).ok());
+    stage.hold(120);
+    uint32_t changes = 0, over = 0;
+    bool had = stage.report().rods_touch_surface;
+    for (int f = 0; f < 2400; ++f) {
+      stage.pose = scenes::with_rods(scenes::walk(f * kFrame_s));
+      over += stage.step_pose().over_budget;
+      const bool has = stage.report().rods_touch_surface;
+      changes += has != std::exchange(had, has);
+    }
+    INFO(budget_us);
+    CHECK(changes < 40);
+    CHECK(over < 48);
+  }
+}
+
 TEST_CASE("skin_that_was_too_dear_and_is_cheap_now_is_touched_again") {
   Clock clock;
   DearSkin skin(clock);

@@ -112,7 +112,7 @@ struct WorldDef {
 // outlives the instance. Instances are stepped on the world's threads, so find may come from several at a
 // time.
 struct ContactDef {
-  ContactSource* source = nullptr;  // null: nothing is asked; without own_body no memory is taken either
+  ContactSource* source = nullptr;  // null: nothing is asked
   uint32_t owner = 0;               // ContactProbe::owner of all its probes
   bool tissue = true, rods = true;  // what of the instance touches the source
   // Its rods, and those of its soft parts whose recipe says "touches_body", touch the capsules about its own
@@ -124,7 +124,7 @@ struct ContactDef {
   // On all others the capsules of own_body stand in its place, without own_body nothing does; others' bodies
   // are then touched where the source has them. Nothing is pushed in it. What rods are found inside of, of
   // whatever kind, lets them out by 2 % of the height a second. Null: rods touch the capsules on every tier;
-  // the same as source: refused; without rods: not asked.
+  // the same as source: refused; without rods: not asked. Outlives the instance, as the source does.
   ContactSource* surface = nullptr;
 };
 
