@@ -89,9 +89,12 @@ TEST_CASE("a_trade_measures_every_level_and_bakes_what_each_is_worth") {
   const std::string out = hop().folder.file("out");
   must(run_program({SINEW_TRADE, hop().pack, "--truth", hop().truth, "-o", out}));
   const nlohmann::json rows = nlohmann::json::parse(read_text(out + "/trade.json")).at("rows");
+  // By its name, or what it begins with: regions that are left out stand in any order.
   const auto row = [&](const std::string& name) {
     for (const auto& each : rows)
-      if (each.at("name") == name) return each;
+      if (each.at("name") == name || (name.ends_with('*') && each.at("name").get<std::string>().starts_with(
+                                                                 name.substr(0, name.size() - 1))))
+        return each;
     FAIL("no row " + name);
     return nlohmann::json();
   };
@@ -100,7 +103,7 @@ TEST_CASE("a_trade_measures_every_level_and_bakes_what_each_is_worth") {
   CHECK(ratio("modal") < ratio("modal on 20 nodes"));
   CHECK(ratio("modal on 20 nodes") < ratio("modal on 10 nodes"));
   CHECK(ratio("modal on 10 nodes") < 0.3);
-  const std::string less = "modal on 10 nodes without cheek_r and cheek_l";
+  const std::string less = "modal on 10 nodes without cheek*";
   CHECK(row(less).at("level") == 3);
   CHECK(ratio("modal on 10 nodes") < ratio(less));
   CHECK(ratio(less) < ratio("modal on 10 nodes") + 0.1);
