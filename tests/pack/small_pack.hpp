@@ -29,7 +29,7 @@ std::vector<std::byte> small_weightless_pack();
 baker::GraphLevel small_coarser_level(const baker::TissueLayout& layout);
 std::vector<std::byte> small_levels_pack();
 std::vector<std::byte> small_left_out_pack();  // and one graph more, that one without its region 1
-std::vector<baker::Rod> small_rods();     // one, of the two upper joints and a link between them
-std::vector<std::byte> small_rod_pack();  // the weightless one with it
+std::vector<baker::Rod> small_rods();          // one, of the two upper joints and a link between them
+std::vector<std::byte> small_rod_pack();       // the weightless one with it
 
 }  // namespace sinew::test
