@@ -30,17 +30,34 @@ void CostEstimate::observe(float sample_us) noexcept {
 }
 
 void CostEstimate::settle() noexcept {
-  constexpr float kWeight = 0.125f, kDrift = 0.01f, kUsualTail = 1.2f, kUsualFarTail = 1.4f;
-  if (samples_ > 0) {
-    const float mean_us = sum_us_ / static_cast<float>(samples_);
-    estimate_us_ += (mean_us > estimate_us_ ? by_.rise : kWeight) * (mean_us - estimate_us_);
-  } else {
-    if (is_baked_) estimate_us_ += by_.drift * (baked_us_ - estimate_us_);
-    tail_ += kDrift * (kUsualTail - tail_);
-    far_tail_ += kDrift * (kUsualFarTail - far_tail_);
-  }
+  if (samples_ > 0)
+    correct(sum_us_ / static_cast<float>(samples_));
+  else
+    drift();
   sum_us_ = 0;
   samples_ = 0;
+}
+
+void CostEstimate::correct(float mean_us) noexcept {
+  constexpr float kWeight = 0.125f, kMost = 0.5f;
+  const float weight = mean_us > estimate_us_ ? by_.rise : kWeight;
+  estimate_us_ += std::max(weight, std::min(1 - trust_, kMost)) * (mean_us - estimate_us_);
+  last_p95_us_ = last_p99_us_ = 0;
+  unsampled_ = 0;
+  trust_ = 1;
+}
+
+void CostEstimate::drift() noexcept {
+  constexpr float kDrift = 0.01f, kUsualTail = 1.2f, kUsualFarTail = 1.4f;
+  constexpr uint32_t kRemembers = 120;  // two seconds
+  const float keeps = ++unsampled_ > kRemembers ? 1 - kDrift : 1;
+  last_p95_us_ = keeps * p95_us();
+  last_p99_us_ = keeps * p99_us();
+  tail_ += kDrift * (kUsualTail - tail_);
+  far_tail_ += kDrift * (kUsualFarTail - far_tail_);
+  if (!is_baked_) return;
+  estimate_us_ += by_.drift * (baked_us_ - estimate_us_);
+  trust_ *= 1 - by_.drift;
 }
 
 void CostModel::settle() noexcept {

@@ -1,5 +1,6 @@
 // cost_model.hpp  What a tick of an asset costs: the baked number, corrected by what the clock says.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 
 #include "frame/front.hpp"
@@ -9,8 +10,9 @@
 namespace sinew::frame {
 
 // A running estimate that a preempted measurement cannot move far: a sample counts as at most twice and at
-// least half of the estimate; the mean of a step's samples has weight 1/8, unless said otherwise. Beside it
-// what 95 and what 99 of 100 samples do not exceed, by their ranks alone, at most kWidest times the estimate.
+// least half of the estimate; the mean of a step's samples has weight 1/8, unless said otherwise, and up to a
+// half after steps without any. Beside it what 95 and what 99 of 100 samples do not exceed, by their ranks
+// alone, at most kWidest times the estimate.
 class CostEstimate {
  public:
   static constexpr float kWidest = 3;
@@ -25,8 +27,8 @@ class CostEstimate {
       : baked_us_(baked_us), estimate_us_(baked_us), by_(by), known_(true), is_baked_(true) {}
   float baked_us() const noexcept { return baked_us_; }
   float estimate_us() const noexcept { return estimate_us_; }
-  float p95_us() const noexcept { return estimate_us_ * tail_; }
-  float p99_us() const noexcept { return estimate_us_ * far_tail_; }
+  float p95_us() const noexcept { return std::max(estimate_us_ * tail_, last_p95_us_); }
+  float p99_us() const noexcept { return std::max(estimate_us_ * far_tail_, last_p99_us_); }
   bool is_known() const noexcept { return known_; }
   void observe(float sample_us) noexcept;  // not finite or negative: ignored
   // Once a step. Without a sample since the last call: drifts back to the baked number and a usual tail, so
@@ -34,11 +36,17 @@ class CostEstimate {
   void settle() noexcept;
 
  private:
+  void correct(float mean_us) noexcept;
+  void drift() noexcept;
+
   float baked_us_ = 0, estimate_us_ = 0, tail_ = 2, far_tail_ = 2.5f;
+  // Without samples the estimate falls to what is worth a trial; the tails remember longer what it took.
+  float last_p95_us_ = 0, last_p99_us_ = 0;
+  float trust_ = 1;  // in the estimate: falls as it drifts
   Correction by_;
   float sum_us_ = 0;
-  uint32_t samples_ = 0;
-  bool known_ = false;  // baked, at whatever cost, or measured
+  uint32_t samples_ = 0, unsampled_ = 0;  // in this step; steps in turn
+  bool known_ = false;                    // baked, at whatever cost, or measured
   bool is_baked_ = false;
 };
 

@@ -107,6 +107,7 @@ float add(WorldState& world, uint32_t slot, FrameReport& report) noexcept {
   if (world.answers[slot].idle) return add_idle(report);
   Instance& instance = *world.instances.at(slot);
   if (instance.passed) return add_dormant(instance, report);
+  world.busy_ns += instance.times.total_ns;
   if (costs_are_measured(world)) learn_costs(instance, world.rows[slot]);
   world.rows[slot].cost_factor = instance.cost_factor;
   if (instance.cut || instance.held) world.undone_us += instance.plan.cost_us;
@@ -132,6 +133,7 @@ void fold_results(WorldState& world, FrameReport& report) noexcept {
   double errors = 0;
   uint32_t seen = 0;
   world.undone_us = 0;
+  world.busy_ns = 0;
   report.ticks = world.ticks;
   report.dropped_s = world.dropped_s;
   for_each_row(world, [&](const PlanRow& row, uint32_t slot) {

@@ -278,10 +278,12 @@ std::span<uint32_t> put_in_order(WorldState& world, std::span<const Candidate> c
 
 // Each is told what those behind it take in any case.
 void add_up_behind(WorldState& world, std::span<const uint32_t> order) noexcept {
+  const float between_us = world.def.tasks.enqueue ? 0 : world.between.estimate_us();
   float behind_us = static_cast<float>(world.idle_count) * world.idle.p95_us();
   for (size_t i = order.size(); i-- > 0;) {
     const PlanRow& row = world.rows[order[i]];
     world.answers[order[i]].behind_us = behind_us;
+    behind_us += between_us;
     if (row.displaced) behind_us += costs_of(row).cost.publish.estimate_us();
   }
 }

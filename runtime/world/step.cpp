@@ -103,12 +103,17 @@ void learn(WorldState& world, const Moments& at, const frame::ScheduleResult& pl
   if (!costs_are_measured(world)) return;
   world.reporting.observe(at.end_us - at.ran_us);
   world.overhead.observe(at.planned_us + at.end_us - at.ran_us);
-  if (world.idle_count > 0) {
-    const uint64_t idle_ns =
-        std::accumulate(world.idle_ns.get(), world.idle_ns.get() + idle_chunks(world), uint64_t{0});
+  const uint64_t idle_ns =
+      std::accumulate(world.idle_ns.get(), world.idle_ns.get() + idle_chunks(world), uint64_t{0});
+  if (world.idle_count > 0)
     world.idle.observe(core::microseconds(idle_ns) / static_cast<float>(world.idle_count));
+  if (!world.def.tasks.enqueue && !world.running.empty()) {
+    const float busy_us = core::microseconds(world.busy_ns + idle_ns);
+    world.between.observe(std::max(0.0f, at.ran_us - at.planned_us - busy_us) /
+                          static_cast<float>(world.running.size()));
   }
-  for (frame::CostEstimate* estimate : {&world.reporting, &world.overhead, &world.idle}) estimate->settle();
+  for (frame::CostEstimate* estimate : {&world.reporting, &world.overhead, &world.idle, &world.between})
+    estimate->settle();
   if (!is_limited(world) || report.ticks == 0) return;
   const float had_us = world.budget_us - at.planned_us - (at.end_us - at.ran_us);
   const float spent = had_us > 0 ? (at.ran_us - at.planned_us) / had_us : 2;

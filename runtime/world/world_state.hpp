@@ -45,6 +45,7 @@ struct WorldState {
   std::unique_ptr<frame::ScheduleScratch> scratch;
   std::span<uint32_t> running;  // of order
   float undone_us = 0;          // that was planned for what was cut
+  uint64_t busy_ns = 0;         // of all instances that were in order
   uint32_t idle_count = 0;
   double dt_s = 0;
   uint32_t ticks = 0;   // the most that one has
@@ -54,6 +55,7 @@ struct WorldState {
   frame::CostEstimate idle{0.2f};          // of one idle instance
   frame::CostEstimate overhead{10};        // of a step: scheduling and reports
   frame::CostEstimate reporting{5};        // the latter's part
+  frame::CostEstimate between{0.2f};       // from one instance's end to the next one's begin, on one thread
   std::unique_ptr<FrameReport[]> history;  // [def.report_history], the last at frames - 1 modulo that
   float budget_us = std::numeric_limits<float>::infinity();
   frame::Sight sights[kMostViews];

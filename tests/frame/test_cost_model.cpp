@@ -148,3 +148,25 @@ TEST_CASE("a_tail_too_wide_to_be_scheduled_is_forgotten_and_tried_again") {
   for (int step = 0; step < 300; ++step) estimate.settle();  // five seconds
   CHECK(estimate.p95_us() < 1.3f * estimate.estimate_us());
 }
+
+// Two seconds: longer than a tier that was too dear is left alone.
+TEST_CASE("what_was_dear_is_kept_in_mind_while_the_estimate_falls_back") {
+  CostEstimate cost(1);
+  for (int f = 0; f < 100; ++f) measure(cost, 10);
+  const float p95_us = cost.p95_us(), p99_us = cost.p99_us();
+  for (int f = 0; f < 100; ++f) cost.settle();
+  CHECK(cost.estimate_us() < 5);
+  CHECK(cost.p95_us() == p95_us);
+  CHECK(cost.p99_us() == p99_us);
+  measure(cost, 5);
+  CHECK(cost.p95_us() < p95_us);
+}
+
+TEST_CASE("an_estimate_that_has_drifted_for_long_learns_in_one_sample_half_of_what_is_new") {
+  CostEstimate cost(10);
+  for (int f = 0; f < 100; ++f) cost.settle();
+  measure(cost, 18);
+  CHECK(cost.estimate_us() == Approx(14));
+  measure(cost, 18);
+  CHECK(cost.estimate_us() == Approx(14 + 4.0 / 8));
+}

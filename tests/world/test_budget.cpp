@@ -106,9 +106,8 @@ TEST_CASE("late_instances_are_extrapolated_as_denied_ones_are_or_shown_as_they_w
   CHECK(as_it_was > 0);
 }
 
-// Twelve frames of a second may be late; what they are late by is one instance's rounding, not a tier: a look
-// at this clock is 2 % of the budget. Long enough for a hundredth to show (0.8 and 1.5 % are by more than 5
-// %, by what is shown and so who is worth what; in any two seconds there may be none).
+// What frames are late by is one instance's rounding, not a tier: a look at this clock is 2 % of the budget.
+// Forty seconds, for what is tried again seldom to be tried often.
 TEST_CASE("costs_are_corrected_until_hardly_anybody_is_cut") {
   FakeClock clock;
   Stage stage(8, {.clock = clock.hook()});
@@ -116,20 +115,17 @@ TEST_CASE("costs_are_corrected_until_hardly_anybody_is_cut") {
   REQUIRE(stage.world.set_budget_us(static_cast<float>(budget_us)).ok());
   stage.play(scenes::walk, 5);
   uint32_t cut = 0, over = 0, simulated = 0;
-  float most = 0;
   constexpr uint32_t kFrames = 2400;
   for (uint32_t f = 0; f < kFrames; ++f) {
     const FrameReport report = stage.step(scenes::walk, 1.0 / 60);
     cut += report.instances_cut;
     over += report.total_us > 1.05f * report.budget_us;
-    most = std::max(most, report.total_us / report.budget_us);
     simulated += report.instances_network + report.instances_modal + report.instances_spring;
   }
   WARN("of " << kFrames << " frames more than 5 % over budget " << over << ", cut instances " << cut
              << ", simulated a frame " << static_cast<double>(simulated) / kFrames);
   CHECK(cut <= kFrames / 5);
-  CHECK(over <= kFrames / 50);
-  CHECK(most < 1.5f);  // wanted of the worst frame
+  CHECK(over == 0);
   CHECK(simulated >= 2 * kFrames);
 }
 
