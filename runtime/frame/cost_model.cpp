@@ -66,6 +66,7 @@ void CostModel::settle() noexcept {
   publish.settle();
   enter.settle();
   change.settle();
+  come_back.settle();
 }
 
 void Capacity::observe(float spent, float undone, bool denied) noexcept {

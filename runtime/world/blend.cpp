@@ -196,4 +196,14 @@ void show_tick(Instance& instance) noexcept {
   }
 }
 
+void show_nothing(Instance& instance) noexcept {
+  InstanceState& state = *instance.state;
+  state.tail_ticks = kCarryTicks + kFadeTicks;
+  state.seam_ticks = kBlendInTicks;
+  state.restarting = 0;
+  for (float* none : {instance.shown[0], instance.shown[1], instance.tail, instance.tail_velocity})
+    std::memset(none, 0, sizeof(float) * floats_of(instance));
+  forget_rods(instance);
+}
+
 }  // namespace sinew::world

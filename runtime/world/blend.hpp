@@ -20,4 +20,7 @@ void take_simulated(const Instance& instance, int tick, float* out) noexcept;
 // End of a tick: carries the tail on and shows the blend.
 void show_tick(Instance& instance) noexcept;
 
+// As after so many ticks that the tail has faded.
+void show_nothing(Instance& instance) noexcept;
+
 }  // namespace sinew::world

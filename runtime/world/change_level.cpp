@@ -266,6 +266,28 @@ void show_settled(Instance& instance, const float* moved) noexcept {
   if (instance.state->seam_ticks < kBlendInTicks) take_from_seam(instance);
 }
 
+// Nothing is shown of it, and no network remembers anything.
+bool carries_nothing(const Instance& instance) noexcept {
+  const InstanceState& state = *instance.state;
+  const bool forgotten = state.forgotten || state.ticks_since_network > kRememberedTicks;
+  return !instance.displaced && !frame::is_simulated(state.tier) && forgotten;
+}
+
+void begin_at_level(Instance& instance, uint32_t level) noexcept {
+  InstanceState& state = *instance.state;
+  state.level = level;
+  point_to_state(instance);
+  for (float* none : {instance.shown[0], instance.shown[1], instance.tail, instance.tail_velocity})
+    std::memset(none, 0, sizeof(float) * 3 * instance.level->node_count());
+  std::fill_n(instance.regained, instance.level->pack.regions.size(), 0u);
+  wake_regions(instance);
+  state.seam_ticks = kBlendInTicks;
+  state.forgotten = 1;
+  state.motion_stale = 1;
+  state.heard_by = static_cast<uint32_t>(HeardBy::kNobody);
+  instance.settles = false;
+}
+
 }  // namespace
 
 void settle_rest(Instance& instance, float* moved) noexcept {
@@ -287,6 +309,7 @@ size_t change_scratch_floats(const Asset& asset) noexcept {
 void change_level(Instance& instance, uint32_t level) noexcept {
   InstanceState& state = *instance.state;
   if (state.level == level) return;
+  if (carries_nothing(instance)) return begin_at_level(instance, level);
   const bool shows = instance.displaced;
   if (shows) begin_seam(instance);
   if (shows && instance.pushes) take_pushes(instance, instance.asset->levels[level]);

@@ -43,6 +43,7 @@ void learn_costs(Instance& instance, const PlanRow& row) noexcept {
   frame::CostModel& cost = costs_of(row).cost;
   const uint64_t ticked_ns = times.drive_ns + times.tissue_ns + times.rods_ns;
   const float ticked_us = core::microseconds(ticked_ns);
+  if (instance.came_back) return cost.come_back.observe(core::microseconds(times.total_ns));
   const bool ran = frame::is_simulated(row.tier) && instance.plan.ticks.ticks > 0 &&
                    (ran_as_planned(instance, row) || instance.cut);
   if (instance.changed_level) {

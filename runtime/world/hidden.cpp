@@ -48,8 +48,11 @@ void come_back(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   hold_pose(instance);
   if (frame::is_simulated(state.tier)) enter_tier(instance, Tier::kExtrapolate);
-  const uint32_t ticks = std::min(state.hidden_ticks, kCarryTicks + kFadeTicks);
-  for (uint32_t tick = 0; tick < ticks; ++tick) show_tick(instance);
+  if (state.hidden_ticks >= kCarryTicks + kFadeTicks) {
+    show_nothing(instance);
+  } else {
+    for (uint32_t tick = 0; tick < state.hidden_ticks; ++tick) show_tick(instance);
+  }
   state.motion_stale = 1;
   state.ticks_since_network += state.hidden_ticks;
   state.fallback_ticks -= std::min(state.fallback_ticks, state.hidden_ticks);

@@ -43,6 +43,7 @@ Terms terms_of(const WorldState& world) noexcept {
 // What it takes in this step if it is not simulated.
 float base_us(const Terms& terms, const PlanRow& row) noexcept {
   const Asset& asset = *row.asset;
+  if (terms.measured && row.hidden) return costs_of(row).cost.come_back.estimate_us();
   if (!row.displaced) return terms.measured ? terms.idle_us : asset.idle_us;
   if (terms.measured) return costs_of(row).cost.publish.estimate_us();
   return asset.idle_us + costs_of(row).cost.publish.baked_us();
@@ -276,6 +277,12 @@ std::span<uint32_t> put_in_order(WorldState& world, std::span<const Candidate> c
   return {world.order.get(), count};
 }
 
+float in_any_case_us(const PlanRow& row) noexcept {
+  const frame::CostModel& cost = costs_of(row).cost;
+  if (row.hidden) return cost.come_back.estimate_us();
+  return row.displaced ? cost.publish.estimate_us() : 0;
+}
+
 // Each is told what those behind it take in any case.
 void add_up_behind(WorldState& world, std::span<const uint32_t> order) noexcept {
   const float between_us = world.def.tasks.enqueue ? 0 : world.between.estimate_us();
@@ -284,7 +291,7 @@ void add_up_behind(WorldState& world, std::span<const uint32_t> order) noexcept 
     const PlanRow& row = world.rows[order[i]];
     world.answers[order[i]].behind_us = behind_us;
     behind_us += between_us;
-    if (row.displaced) behind_us += costs_of(row).cost.publish.estimate_us();
+    behind_us += in_any_case_us(row);
   }
 }
 

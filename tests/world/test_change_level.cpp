@@ -273,6 +273,22 @@ TEST_CASE("what_is_not_simulated_fades_on_the_level_it_had_and_comes_back_on_ano
   }
 }
 
+TEST_CASE("where_nothing_is_shown_it_begins_on_any_level_as_if_that_had_always_been_its") {
+  for (const Tier tier : kSimulated) {
+    for (uint32_t from = 0; from < kLevels; ++from) {
+      Block always, changes;
+      always.play(scenes::walk, tier, 1, 60);
+      changes.play(scenes::walk, tier, from, 60);
+      for (Block* block : {&always, &changes}) {
+        block->play(scenes::walk, Tier::kSkinning, 1, 60);
+        block->play(scenes::walk, tier, 1, 40);
+      }
+      CHECK(test::largest_length(always.surface()) > 1e-3);
+      CHECK(changes.surface() == always.surface());
+    }
+  }
+}
+
 TEST_CASE("rods_do_not_notice_a_change_of_level") {
   const scenes::PackBytes pack = scenes::soft_block({.rods = scenes::RodMatter{}, .coarser_nodes = {9, 5}});
   Block stays(pack), changes(pack);
