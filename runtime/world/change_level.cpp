@@ -282,7 +282,6 @@ void begin_at_level(Instance& instance, uint32_t level) noexcept {
   std::fill_n(instance.regained, instance.level->pack.regions.size(), 0u);
   wake_regions(instance);
   state.seam_ticks = kBlendInTicks;
-  state.forgotten = 1;
   state.motion_stale = 1;
   state.heard_by = static_cast<uint32_t>(HeardBy::kNobody);
   instance.settles = false;

@@ -278,7 +278,8 @@ TEST_CASE("where_nothing_is_shown_it_begins_on_any_level_as_if_that_had_always_b
     for (uint32_t from = 0; from < kLevels; ++from) {
       Block always, changes;
       always.play(scenes::walk, tier, 1, 60);
-      changes.play(scenes::walk, tier, from, 60);
+      changes.play(scenes::walk, tier, 0, 50);
+      changes.play(scenes::walk, tier, from, 10);
       for (Block* block : {&always, &changes}) {
         block->play(scenes::walk, Tier::kSkinning, 1, 60);
         block->play(scenes::walk, tier, 1, 40);
