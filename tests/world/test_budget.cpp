@@ -129,6 +129,26 @@ TEST_CASE("costs_are_corrected_until_hardly_anybody_is_cut") {
   CHECK(simulated >= 2 * kFrames);
 }
 
+// Each second six of eight come into view at once; what that takes is known after the first times.
+TEST_CASE("there_is_room_for_who_comes_into_view") {
+  FakeClock clock;
+  Stage stage(8, {.clock = clock.hook()});
+  REQUIRE(stage.world.set_budget_us(static_cast<float>(33 * clock.look_us)).ok());
+  uint32_t over = 0, simulated = 0;
+  constexpr uint32_t kSeconds = 40, kLearnt = 20;
+  for (uint32_t second = 0; second < kSeconds; ++second) {
+    for (size_t i = 2; i < 8; ++i) REQUIRE(stage.world.set_hidden(stage.blocks[i], second % 2 == 1).ok());
+    for (int f = 0; f < 60; ++f) {
+      const FrameReport report = stage.step(scenes::walk, 1.0 / 60);
+      const bool comes = f == 0 && second % 2 == 0 && second >= kLearnt;
+      over += comes && report.total_us > 1.05f * report.budget_us;
+      simulated += report.instances_network + report.instances_modal;
+    }
+  }
+  CHECK(over == 0);
+  CHECK(simulated >= 60 * kSeconds);
+}
+
 // What was cut is the first to run in the next step.
 TEST_CASE("what_was_cut_is_served_first_in_the_next_step") {
   FakeClock clock;
