@@ -2,6 +2,7 @@
 #include "embree/probe_on_surface.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <span>
 #include <utility>
@@ -62,11 +63,11 @@ bool comes_before(const TriangleTouch& a, const TriangleTouch& b) {
 double Ball::gap_m(const Vector& point) const { return length(difference(point, middle)) - radius_m; }
 
 ProbeOnSurface::ProbeOnSurface(const Surface& surface, const ContactProbe& probe, const SurfaceFilter& filter,
-                               bool grows_here, double reach_m, double dt_s, uint32_t guess,
+                               uint32_t roots, double reach_m, double dt_s, uint32_t guess,
                                bool from_outside) noexcept
     : surface_(surface),
       filter_(filter),
-      grows_here_(grows_here),
+      roots_(roots),
       guess_(guess),
       reach_m_(reach_m),
       share_(surface.motion_s() > 0 ? std::min(1.0, dt_s / surface.motion_s()) : 0),
@@ -202,9 +203,13 @@ void ProbeOnSurface::tell_sides_of_ends() noexcept {
 }
 
 bool ProbeOnSurface::grows_from(uint32_t triangle, const OnTriangle& on) const noexcept {
-  if (!grows_here_) return false;
+  if (roots_ == 0) return false;
   const Vector rest = weighted(surface_.rest_triangle(triangle).corners, on.weights);
-  return length(difference(rest, vector_of(filter_.root_m))) < static_cast<double>(filter_.root_radius_m);
+  for (uint32_t left = roots_; left != 0; left &= left - 1) {
+    const SurfaceRoot& root = filter_.roots[std::countr_zero(left)];
+    if (length(difference(rest, vector_of(root.place_m))) < static_cast<double>(root.radius_m)) return true;
+  }
+  return false;
 }
 
 // Of the probe less the surface, in a tick.

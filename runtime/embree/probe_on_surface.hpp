@@ -28,9 +28,9 @@ class ProbeOnSurface {
 
   // dt_s is the tick, the probe is checked.
   // What is known beforehand saves time. guess: a triangle that may be nearest, or none that is there.
-  // from_outside: the axis begins outside, where the tick does.
+  // from_outside: the axis begins outside, where the tick does. roots: a bit for each of the filter's on it.
   ProbeOnSurface(const Surface& surface, const ContactProbe& probe, const SurfaceFilter& filter,
-                 bool grows_here, double reach_m, double dt_s, uint32_t guess, bool from_outside) noexcept;
+                 uint32_t roots, double reach_m, double dt_s, uint32_t guess, bool from_outside) noexcept;
 
   // All but probe, name's upper part and body's; the triangle's index is in body.
   uint32_t find(ContactHit (&hits)[kMostContacts]) noexcept;
@@ -102,7 +102,7 @@ class ProbeOnSurface {
 
   const Surface& surface_;
   const SurfaceFilter& filter_;
-  bool grows_here_;
+  uint32_t roots_;
   uint32_t guess_;
   double reach_m_, share_, half_m_;
   double speed_m_;  // no point of the probe and the surface near each other faster in the tick

@@ -45,6 +45,9 @@ struct SurfaceContacts::Impl {
   const SurfaceFilter& filter_of(uint32_t owner) const {
     return owner < filters.size() ? filters[owner] : all;
   }
+  Status check(const SurfaceRoot& root, uint32_t owner) const;
+  // A bit for each root.
+  uint32_t roots_on(SurfaceId surface, const SurfaceFilter& filter) const;
 };
 
 namespace {
@@ -179,14 +182,8 @@ Status SurfaceContacts::set_filter(uint32_t owner, const SurfaceFilter& filter) 
     return make_status(StatusCode::kInvalidArgument, "owner %u of %zu; raise max_owners", owner,
                        impl_->filters.size());
   }
-  if (filter.root_surface.index1 != 0 && !impl_->find(filter.root_surface)) return stale();
-  const float sum = filter.root_m[0] + filter.root_m[1] + filter.root_m[2] + filter.root_radius_m;
-  if (!(filter.root_radius_m >= 0) || !std::isfinite(sum)) {
-    return make_status(StatusCode::kInvalidArgument,
-                       "the root of owner %u is not finite, or its radius %g; give finite "
-                       "numbers and a radius of 0 or more",
-                       owner, static_cast<double>(filter.root_radius_m));
-  }
+  for (const SurfaceRoot& root : filter.roots)
+    if (Status status = impl_->check(root, owner); !status.ok()) return status;
   impl_->filters[owner] = filter;
   return {};
 }
@@ -202,6 +199,24 @@ Status SurfaceContacts::report(SurfaceId surface, SurfaceReport* out) const noex
 
 uint64_t SurfaceContacts::probes_skipped() const noexcept { return impl_ ? impl_->skipped.load() : 0; }
 
+Status SurfaceContacts::Impl::check(const SurfaceRoot& root, uint32_t owner) const {
+  if (root.surface.index1 != 0 && !find(root.surface)) return stale();
+  const float sum = root.place_m[0] + root.place_m[1] + root.place_m[2] + root.radius_m;
+  if (root.radius_m >= 0 && std::isfinite(sum)) return {};
+  return make_status(
+      StatusCode::kInvalidArgument,
+      "a root of owner %u is not finite, or its radius %g; give finite numbers and a radius of 0 "
+      "or more",
+      owner, static_cast<double>(root.radius_m));
+}
+
+uint32_t SurfaceContacts::Impl::roots_on(SurfaceId surface, const SurfaceFilter& filter) const {
+  uint32_t bits = 0;
+  for (uint32_t r = 0; r < SurfaceFilter::kMostRoots; ++r)
+    bits |= uint32_t{filter.roots[r].surface == surface} << r;
+  return bits;
+}
+
 uint32_t SurfaceContacts::Impl::find(std::span<const ContactProbe> probes, uint32_t p, double dt_s,
                                      Room* room) const noexcept {
   const SurfaceFilter& filter = filter_of(probes[p].owner);
@@ -210,10 +225,10 @@ uint32_t SurfaceContacts::Impl::find(std::span<const ContactProbe> probes, uint3
   for (uint32_t s = 0; s < surfaces.end() && count + ProbeOnSurface::kMostContacts <= kMostHits; ++s) {
     const std::unique_ptr<Surface>* surface = surfaces.at(s);
     if (!surface) continue;
-    const bool grows_here = filter.root_surface == surfaces.id_at(s);
+    const uint32_t roots = roots_on(surfaces.id_at(s), filter);
     Room::Known& known = room->known[s % Room::kKnown];
     const bool from_outside = goes_on_here && known.surface == s && known.probe + 1 == p && known.outside;
-    ProbeOnSurface look(**surface, probes[p], filter, grows_here, static_cast<double>(def.reach_m), dt_s,
+    ProbeOnSurface look(**surface, probes[p], filter, roots, static_cast<double>(def.reach_m), dt_s,
                         known.nearest, from_outside);
     const uint32_t told = look.find(room->found);
     known = {s, p, look.nearest(), look.is_outside()};

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/clock.hpp"
+#include "world/affords_surface.hpp"
 #include "world/plan.hpp"
 
 namespace sinew::world {
@@ -18,7 +19,7 @@ frame::CostEstimate& tick_cost(const PlanRow& row) noexcept {
 }
 
 // A sleeper's or a toucher's own cost is its factor; the asset's is that of those who are awake. One that may
-// touch skin counts for no less: that sleep is cheap on capsules says nothing of skin.
+// come to touch skin counts for no less: that sleep is cheap on capsules says nothing of skin.
 void learn_tick_cost(Instance& instance, const PlanRow& row, float tick_us) noexcept {
   constexpr float kWeight = 0.125f, kFarthest = 2, kLeast = 0.1f, kMost = 10;
   frame::CostEstimate& estimate = tick_cost(row);
@@ -26,7 +27,8 @@ void learn_tick_cost(Instance& instance, const PlanRow& row, float tick_us) noex
   if (row.regions_asleep == 0) estimate.observe(tick_us);
   const float seen = tick_us / std::max(1e-3f, estimate.estimate_us());
   factor += kWeight * (std::clamp(seen, factor / kFarthest, factor * kFarthest) - factor);
-  factor = std::clamp(factor, row.has_surface ? 1 : kLeast, kMost);
+  const bool may_rise_to_skin = row.has_surface && !affords_surface(row.tier, row.level);
+  factor = std::clamp(factor, may_rise_to_skin ? 1 : kLeast, kMost);
 }
 
 // What it took beyond its ticks.

@@ -120,28 +120,38 @@ void forget_rod_contacts(Instance& instance) noexcept {
 
 namespace {
 
-bool surface_is_near(const Instance& instance, const RodSeat& seat, uint32_t k) noexcept {
+ContactProbe probe_of(const Instance& instance, const RodSeat& seat, uint32_t k) noexcept {
   const RodSlot& slot = instance.asset->rods.slots()[seat.first_slot + k];
   const rods::SegmentPose pose = instance.rod_batches[seat.batch].pose(seat.strand, k);
   const Vector3d middle =
       Eigen::Map<const Vector3d>(pose.position_m) + Eigen::Map<const Vector3d>(instance.state->rod_anchor_m);
   const Vector3d half = quaternion(pose.orientation) * Vector3d(0, 0, double{slot.length_m} / 2);
-  ContactProbe probe{.radius_m = slot.radius_m};
+  ContactProbe probe{.radius_m = slot.radius_m, .owner = instance.contacts.owner};
   for (double(*ends)[3] : {probe.start_m, probe.end_m}) {
     std::copy_n(Vector3d(middle - half).data(), 3, ends[0]);
     std::copy_n(Vector3d(middle + half).data(), 3, ends[1]);
   }
-  probe.owner = instance.contacts.owner;
+  return probe;
+}
+
+// A rod at a time: what is near one of its segments is not far from the next.
+bool surface_is_near(const Instance& instance, const RodSeat& seat) noexcept {
+  constexpr uint32_t kAtOnce = 32;
+  ContactProbe probes[kAtOnce];
   ContactHit hit;
   const auto tick_s = static_cast<float>(instance.asset->tick_s);
-  return instance.contacts.surface->find({&probe, 1}, tick_s, {&hit, 1}) > 0;
+  for (uint32_t first = 1; first < seat.slot_count; first += kAtOnce) {
+    const uint32_t count = std::min(kAtOnce, seat.slot_count - first);
+    for (uint32_t i = 0; i < count; ++i) probes[i] = probe_of(instance, seat, first + i);
+    if (instance.contacts.surface->find({probes, count}, tick_s, {&hit, 1}) > 0) return true;
+  }
+  return false;
 }
 
 bool surface_is_near(const Instance& instance) noexcept {
-  for (const RodSeat& seat : instance.asset->rods.seats())
-    for (uint32_t k = 1; k < seat.slot_count; ++k)
-      if (surface_is_near(instance, seat, k)) return true;
-  return false;
+  const std::span<const RodSeat> seats = instance.asset->rods.seats();
+  return std::any_of(seats.begin(), seats.end(),
+                     [&](const RodSeat& seat) { return surface_is_near(instance, seat); });
 }
 
 }  // namespace

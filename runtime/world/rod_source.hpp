@@ -1,4 +1,5 @@
-// rod_source.hpp  What an instance's rods ask on tiers that afford it: ContactDef::source, then the surface.
+// rod_source.hpp  What an instance's rods ask on tiers that afford it: ContactDef::source and the surface,
+// each of which has half of the room and what the other leaves.
 #pragma once
 #include "sinew/contact_source.hpp"
 
@@ -17,6 +18,8 @@ class RodSource final : public ContactSource {
 
  private:
   uint64_t own_body() const noexcept;
+  uint32_t find_on_surface(std::span<const ContactProbe> probes, float dt_s,
+                           std::span<ContactHit> room) noexcept;
 
   ContactSource *source_, *surface_;
 };

@@ -35,7 +35,7 @@ uint32_t contacts_of(const Instance& instance) noexcept {
   const ContactDef& def = instance.contacts;
   const bool source = def.source != nullptr, rods = instance.rod_colliders != nullptr;
   return uint32_t{source} | uint32_t{rods} << 1 | uint32_t{def.own_body} << 2 |
-         uint32_t{def.surface != nullptr} << 3;
+         uint32_t{def.surface != nullptr} << 3 | uint32_t{source && def.rods} << 4;
 }
 
 Header header_of(const Instance& instance, std::span<const std::byte> payload) noexcept {

@@ -16,7 +16,9 @@
 #include "world/motion.hpp"
 #include "world/publish.hpp"
 #include "world/push_surface.hpp"
+#include "world/rod_contacts.hpp"
 #include "world/rod_motion.hpp"
+#include "world/rod_sleep.hpp"
 #include "world/simulate.hpp"
 #include "world/sleep.hpp"
 #include "world/tissue_contacts.hpp"
@@ -207,11 +209,13 @@ void step_instance(Instance& instance, const TickContext& context, uint32_t slot
   const bool goes_on = catches_up(instance);
   instance.entered = frame::is_simulated(tier) && !goes_on &&
                      (!frame::is_simulated(instance.state->tier) || instance.state->motion_stale);
+  const bool was_on_surface = touches_surface(instance);
   instance.changed_level = changes_level(instance);
   instance.refined = refines(instance);
   if (instance.changed_level) change_level(instance, instance.plan.level);
   end_gap(instance, goes_on);
   enter_tier(instance, tier);
+  if (touches_surface(instance) != was_on_surface) wake_rods(instance);
   instance.state->every = instance.plan.every;
   take_pose(instance, context.teleport_distance_m);
   watch_pose(instance);

@@ -259,7 +259,9 @@ TEST_CASE("what_is_left_out_by_groups_or_grows_from_its_root_is_not_pushed") {
   REQUIRE(
       contacts.add_surface({.triangles = mesh.triangles, .rest_m = mesh.places, .groups = groups}, &id).ok());
   REQUIRE(contacts.set_filter(1, {.groups = 1}).ok());
-  REQUIRE(contacts.set_filter(2, {.root_surface = id, .root_m = {0.5f, 1, 0}, .root_radius_m = 0.1f}).ok());
+  const SurfaceRoot hair = {.surface = id, .place_m = {0.5f, 1, 0}, .radius_m = 0.1f},
+                    tail = {.surface = id, .place_m = {1, 0.5f, 0}, .radius_m = 0.1f};
+  REQUIRE(contacts.set_filter(2, {.roots = {hair, tail}}).ok());
   ContactProbe top = ball_probe({0.45, 1.04, 0}, 0.05), side = ball_probe({1.04, 0.5, 0}, 0.05);
   CHECK(found(contacts, top).size() == 1);
   top.owner = side.owner = 1;
@@ -272,7 +274,8 @@ TEST_CASE("what_is_left_out_by_groups_or_grows_from_its_root_is_not_pushed") {
   below.start_m[0][0] = below.start_m[1][0] = below.end_m[0][0] = below.end_m[1][0] = 1.003;
   below.start_m[0][1] = below.start_m[1][1] = below.end_m[0][1] = below.end_m[1][1] = 1.003;
   CHECK(found(contacts, below).empty());
-  top.owner = 2;
+  top.owner = side.owner = 2;
   CHECK(found(contacts, top).empty());
+  CHECK(found(contacts, side).empty());
   CHECK(found(contacts, ball_probe({0.3, 1.04, 0}, 0.05)).size() == 1);
 }

@@ -118,8 +118,9 @@ TEST_CASE("what_is_no_surface_no_pose_and_no_filter_is_refused_with_its_reason")
         StatusCode::kNotFinite);
   CHECK(contacts.move_surface({}, {.places_m = mesh.places}).code == StatusCode::kStaleId);
   CHECK(contacts.set_filter(2, {}).code == StatusCode::kInvalidArgument);
-  CHECK(contacts.set_filter(0, {.root_surface = {7, 1}}).code == StatusCode::kStaleId);
-  CHECK(contacts.set_filter(0, {.root_radius_m = kNan}).code == StatusCode::kInvalidArgument);
+  CHECK(contacts.set_filter(0, {.roots = {SurfaceRoot{}, {.surface = {7, 1}}}}).code == StatusCode::kStaleId);
+  CHECK(contacts.set_filter(0, {.roots = {SurfaceRoot{}, {.radius_m = kNan}}}).code ==
+        StatusCode::kInvalidArgument);
   SurfaceReport report;
   REQUIRE(contacts.report(id, &report).ok());
   CHECK(report.triangles == 12);

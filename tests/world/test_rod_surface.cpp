@@ -8,6 +8,8 @@
 #include "tests/scenes/thread_pool.hpp"
 #include "tests/world/stage.hpp"
 #include "world/affords_surface.hpp"
+#include "world/change_level.hpp"
+#include "world/fold.hpp"
 
 using namespace sinew;
 using scenes::kTail;
@@ -210,6 +212,10 @@ TEST_CASE("a_rollback_over_changes_of_what_rods_touch_has_the_same_bits") {
   CHECK(seen[0] == seen[1]);
   SurfaceStage other({.own_body = true});
   CHECK(other.world.restore_state(other.blocks[0], saved).code == StatusCode::kCorrupt);
+  Skin floor(-1);
+  SurfaceStage asks({.source = &floor, .own_body = true, .surface = &skin}),
+      does_not({.source = &floor, .rods = false, .own_body = true, .surface = &skin});
+  CHECK(does_not.world.restore_state(does_not.blocks[0], asks.save()).code == StatusCode::kCorrupt);
 }
 
 TEST_CASE("rods_on_skin_have_the_same_bits_on_any_number_of_workers") {
@@ -248,6 +254,20 @@ TEST_CASE("rods_at_rest_away_from_skin_sleep_in_every_tier_and_wake_as_it_comes_
   stage.hold(2);
   CHECK(stage.report().rods_asleep == 0);
   CHECK(stage.lowest_m() > hangs_m + 0.05);
+}
+
+TEST_CASE("rods_asleep_ask_of_skin_a_rod_at_a_time_and_wake_where_capsules_take_its_place") {
+  Skin skin(-0.5);
+  SurfaceStage stage({.own_body = true, .surface = &skin});
+  stage.hold(1500);
+  REQUIRE(stage.report().rods_asleep > 0);
+  skin.asked = 0;
+  stage.hold(10);
+  CHECK(skin.asked == 10 * stage.report().rods_asleep);
+  stage.set_tier(Tier::kNetwork, 1);
+  stage.hold(2);
+  CHECK_FALSE(stage.report().rods_touch_surface);
+  CHECK(stage.report().rods_asleep == 0);
 }
 
 // ---- what it costs, seen through a clock that only skins turn ----
@@ -329,6 +349,30 @@ TEST_CASE("skin_that_was_too_dear_and_is_cheap_now_is_touched_again") {
   skin.takes_ns = 1000;
   stage.hold(1800);
   CHECK(stage.report().rods_touch_surface);
+}
+
+// A step in which a tick took a tenth of what it should have.
+TEST_CASE("who_is_cheap_on_skin_is_priced_so_and_who_is_on_capsules_is_not") {
+  for (const uint32_t level : {0u, 1u}) {
+    Skin skin;
+    world::WorldState state;
+    REQUIRE(world::reserve(state, {.max_assets = 1, .max_instances = 1}));
+    world::Asset opened;
+    REQUIRE(world::open_asset(tailed_pack().bytes(), &opened).ok());
+    world::Asset& asset = *state.assets.find(state.assets.create(std::move(opened)));
+    world::Instance made;
+    REQUIRE(world::make_instance(asset, {.contacts = {.surface = &skin}}, &made).ok());
+    world::Instance& block = *state.instances.find(state.instances.create(std::move(made)));
+    block.plan = {.ticks = {.ticks = 1}, .tier = Tier::kModal, .level = level};
+    block.state->tier = Tier::kModal;
+    world::change_level(block, level);
+    world::keep_row(state, 0);
+    const float tick_us = asset.surface_costs.cost.of(Tier::kModal, level).estimate_us();
+    block.times.drive_ns = static_cast<uint64_t>(100 * tick_us);
+    FrameReport report;
+    world::fold_results(state, report);
+    CHECK((block.cost_factor < 1) == (level == 0));
+  }
 }
 
 TEST_CASE("those_who_have_no_skin_to_touch_are_not_charged_for_it") {

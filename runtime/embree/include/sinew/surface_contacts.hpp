@@ -21,6 +21,8 @@
 // Thread rule: find from any number of threads at a time while no function that is not const runs; the others
 // one thread at a time. find and move_surface do not throw and allocate nothing.
 #pragma once
+#include <array>
+
 #include "sinew/contact_source.hpp"
 #include "sinew/status.hpp"
 
@@ -67,13 +69,18 @@ struct SurfacePose {
   SurfaceTime time = SurfaceTime::kTickEnd;
 };
 
+// Where an owner's hair or tail grows out of a surface: nothing pushes it from within radius_m of there.
+struct SurfaceRoot {
+  SurfaceId surface = {};        // null: no such place; stale: refused
+  float place_m[3] = {0, 0, 0};  // of the surface at rest; finite
+  float radius_m = 0;            // 0 or more, finite
+};
+
 // Of an owner's probes.
 struct SurfaceFilter {
+  static constexpr uint32_t kMostRoots = 8;
   uint32_t groups = ~0u;  // triangles with none of these bits are as if they were not there
-  // Nothing pushes from within this far of a point of a surface at rest: where the owner grows out of it.
-  SurfaceId root_surface = {};  // null: no such point
-  float root_m[3] = {0, 0, 0};  // finite
-  float root_radius_m = 0;      // 0 or more, finite
+  std::array<SurfaceRoot, kMostRoots> roots = {};  // those of a null surface are none
 };
 
 struct SurfaceReport {
@@ -99,7 +106,7 @@ class SurfaceContacts final : public ContactSource {
   Status remove_surface(SurfaceId surface) noexcept;
   // O(vertices + triangles); where nothing moves, before and now, O(vertices).
   Status move_surface(SurfaceId surface, const SurfacePose& pose) noexcept;
-  // Refused: an owner from max_owners on, numbers out of range, a root_surface that is not there. A root
+  // Refused: an owner from max_owners on, numbers out of range, a root's surface that is not there. A root
   // whose surface was removed does nothing.
   Status set_filter(uint32_t owner, const SurfaceFilter& filter) noexcept;
   Status report(SurfaceId surface, SurfaceReport* out) const noexcept;
