@@ -19,6 +19,7 @@ struct Options {
   std::string pack;
   uint32_t frames = 6000;
   std::string only;
+  uint32_t characters = 0;  // 0: however many
   CrowdOptions crowd;
 };
 
@@ -81,6 +82,7 @@ void put_header() {
 }
 
 bool is_wanted(const Scene& scene, const Options& options) {
+  if (options.characters > 0 && options.characters != scene.instances) return false;
   if (scene.trouble == Trouble::kWalls && !make_walls(scene.instances)) return false;
   return options.only.empty() || options.only == name_of(scene.trouble);
 }
@@ -122,6 +124,7 @@ int main(int argc, char** argv) {
   app.add_option("--frames", options.frames, "of each scene")->check(CLI::Range(60, 1'000'000));
   app.add_option("--only", options.only,
                  "steady, cuts, entrance, hitch, worker lost, neighbour, walls, hidden, asleep or yardstick");
+  app.add_option("--characters", options.characters, "only scenes of so many");
   add_crowd_options(app, &options.crowd);
   CLI11_PARSE(app, argc, argv);
   try {
