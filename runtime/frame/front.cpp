@@ -23,6 +23,17 @@ float worth_between(const Front& front, const Level& from, const Level& to) noex
   return (from.error - to.error) / cost_between(front, from, to);
 }
 
+// What is not on the front counts as the lowest that is simulated.
+void list_levels(Front& front) noexcept {
+  for (size_t tier = 0; tier < kTierCount; ++tier) {
+    const uint8_t lowest = is_simulated(static_cast<Tier>(tier)) && front.count > 1 ? 1 : 0;
+    std::fill_n(front.level_at[tier], pack::kMostGraphLevels, lowest);
+  }
+  for (uint32_t i = 1; i < front.count; ++i)
+    if (const Level& level = front.levels[i]; level.every == 1)
+      front.level_at[static_cast<size_t>(level.tier)][level.graph] = static_cast<uint8_t>(i);
+}
+
 // The last level is no better bought than what comes behind it.
 bool is_passed_over(const Front& front, const Level& next) noexcept {
   if (front.count < 2) return false;
@@ -52,10 +63,10 @@ float coarser_error(float finest, uint32_t graph) noexcept {
   return finest;
 }
 
-uint32_t Front::level_of(Tier tier, uint32_t every, uint32_t graph) const noexcept {
+uint8_t Front::find_level(Tier tier, uint32_t every, uint32_t graph) const noexcept {
   for (uint32_t level = count; is_simulated(tier) && level-- > 1;)
     if (levels[level].tier == tier && levels[level].graph == graph && levels[level].every == every)
-      return level;
+      return static_cast<uint8_t>(level);
   return is_simulated(tier) && count > 1 ? 1 : 0;
 }
 
@@ -77,9 +88,9 @@ void make_front(std::span<const Level> points, float publish_us, Front* out) noe
   }
   for (uint32_t level = 1; level < out->count; ++level) {
     out->worth[level] = worth_between(*out, out->levels[level - 1], out->levels[level]);
-    out->rise_us[level] = out->levels[level].tick_us - out->levels[level - 1].tick_us;
     out->coarser[level] = coarser_above(*out, level);
   }
+  list_levels(*out);
 }
 
 }  // namespace sinew::frame

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 
+#include "pack/format.hpp"
 #include "sinew/types.hpp"
 
 namespace sinew::frame {
@@ -33,18 +34,21 @@ float coarser_error(float finest, uint32_t graph) noexcept;
 struct Front {
   Level levels[kMostLevels];
   float worth[kMostLevels] = {};       // error saved a microsecond by going from the level below to this one
-  float rise_us[kMostLevels] = {};     // what a tick takes more than on the level below
   uint32_t coarser[kMostLevels] = {};  // the lowest level above it that is on a coarser graph; 0: none
+  uint8_t level_at[kTierCount][pack::kMostGraphLevels] = {};  // level_of, at every tick
   uint32_t count = 1;
   float publish_us = 0;  // a step, of whatever is displaced
   float idle_us = 0;     // a step, of what is not
 
-  uint32_t best() const noexcept { return count - 1; }
+  uint8_t best() const noexcept { return static_cast<uint8_t>(count - 1); }
   float step_us(uint32_t level, float ticks) const noexcept {  // level > 0
     return publish_us + ticks * levels[level].tick_us;
   }
   // The highest level that costs no more than the tier does; 0 for one that is not simulated.
-  uint32_t level_of(Tier tier, uint32_t every, uint32_t graph) const noexcept;
+  uint8_t level_of(Tier tier, uint32_t every, uint32_t graph) const noexcept {
+    return every == 1 ? level_at[static_cast<size_t>(tier)][graph] : find_level(tier, every, graph);
+  }
+  uint8_t find_level(Tier tier, uint32_t every, uint32_t graph) const noexcept;
 };
 
 // Points in any order; those that are no numbers or not simulated are left out, as is what beyond

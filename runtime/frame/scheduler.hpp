@@ -16,12 +16,14 @@
 //      rest of the budget goes to what fits behind it.
 // Longest wait: with n instances of weight > 0, and turns that pay for k of the costliest, none goes
 // unsimulated longer than kLongestWait_s + ceil(n / k) (kHold_s + dt). Weight 0 has no turn and gets what is
-// left over. Cost: O(candidates x levels), some 50 ns a candidate in the cache, less than sorting the levels
+// left over. Cost: some twenty nanoseconds a candidate in the cache, and the levels of those that may go up
+// or down (frame/buying.hpp); less than sorting all levels
 // (half_a_thousand_are_scheduled_sooner_than_their_levels_could_be_sorted); no memory is taken. Where nobody
 // has a level yet, what is bought and the best level passed over are together worth the optimum at least
 // (what_a_budget_misses_is_less_than_the_best_level_that_was_passed_over).
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "frame/front.hpp"
@@ -36,30 +38,34 @@ inline constexpr float kHysteresis = 1.25f, kHoldBonus = 4;
 inline constexpr float kTurnShare = 0.1f;
 
 // Why an instance has the level it has.
-enum class Reason : uint32_t { kBest, kBudget, kHeld, kTurn };
+enum class Reason : uint8_t { kBest, kBudget, kHeld, kTurn };
 
-struct Candidate {
-  uint32_t slot = 0;             // ties go to the smaller
+// A cache line, for there are hundreds and each is looked at several times.
+struct alignas(64) Candidate {
   const Front* front = nullptr;  // of its asset
+  uint32_t slot = 0;             // ties go to the smaller
   float weight = 0;              // >= 0, finite: what a share of skinning's error matters
   float waited_s = 0;            // since it was last simulated
   float held_s = 0;              // since its level last rose
   float ticks = 0;               // in this step
   float cost_factor = 1;         // what its ticks take as a multiple of its asset's
   float base_us = 0;             // what it takes in this step if it is not simulated
-  float missed = 0;              // ticks before this step that it makes up for, on the control graph it has
-  float enter_us = 0;         // what its first simulated tick takes beyond a tick, where it makes up for none
-  float change_us = 0;        // likewise the first on a finer control graph than it has
-  uint32_t has = 0;           // its level in the last step
-  uint32_t graph = 0;         // the control graph it has; 0 is the finest
-  uint32_t top = 0;           // the highest it may have now
-  float turn_left_s = 0;      // > 0: what it has came by a turn, and stays so long
-  bool keeps_level = false;   // no tick in this step: all is as it was
-  float rate = 0, bonus = 1;  // worked out: weight a tick's time, and of levels up to what it has
-  bool may_refine = true;     // worked out: there are finer control graphs than it has
-  uint32_t level = 0;         // the answer, of its front
+  float enter_us = 0;        // what its first simulated tick takes beyond a tick, where it makes up for none
+  float change_us = 0;       // likewise the first on a finer control graph than it has
+  float turn_left_s = 0;     // > 0: what it has came by a turn, and stays so long
+  float rate = 0;            // worked out: weight a tick's time
+  float planned_us = 0;      // what it takes in this step, by the answer
+  uint8_t missed = 0;        // ticks before this step that it makes up for, on the control graph it has
+  uint8_t has = 0;           // its level in the last step
+  uint8_t graph = 0;         // the control graph it has; 0 is the finest
+  uint8_t top = 0;           // the highest it may have now
+  bool keeps_level = false;  // no tick in this step: all is as it was
+  bool may_refine = true;    // worked out: there are finer control graphs than it has
+  uint8_t level = 0;         // the answer, of its front
   Reason reason = Reason::kBudget;
 
+  // Of levels up to what it has.
+  float bonus() const noexcept { return held_s < kHold_s ? kHoldBonus : kHysteresis; }
   // To go there from what it has, it changes to a finer control graph. Going down, what it had is not paid
   // for.
   bool refines(uint32_t to_level) const noexcept {
@@ -70,7 +76,7 @@ struct Candidate {
   float cost_us(uint32_t of_level) const noexcept {
     if (of_level == 0) return base_us;
     const bool makes_up = missed > 0 && front->levels[of_level].graph == graph;
-    return front->step_us(of_level, (ticks + (makes_up ? missed : 0)) * cost_factor) +
+    return front->step_us(of_level, (ticks + (makes_up ? static_cast<float>(missed) : 0)) * cost_factor) +
            (has == 0 && !makes_up ? enter_us : 0) + refining_us(of_level);
   }
   // The next that is bought above one: what a change of graphs makes dearer than a level above it is passed
@@ -86,29 +92,40 @@ struct Candidate {
       if (!refines(above)) return cost_us(above) <= cost_us(level);
     return false;
   }
-  // What a level takes more than the one that is bought below it.
-  float rise_us(uint32_t below, uint32_t level) const noexcept {
-    float rise = ticks * cost_factor * front->rise_us[level];
-    if (below == 0 || may_refine || missed > 0) rise = cost_us(level) - cost_us(below);
-    return rise > 0 ? rise : 0;
-  }
 };
+static_assert(sizeof(Candidate) == 64);
 
 float sane_importance(float importance) noexcept;  // NaN, negative: 0; infinity: the largest finite
 
 // One level of one candidate, bought from the level below.
 struct Purchase {
   float key;  // weight x error saved a microsecond
-  float cost_us;
   uint32_t candidate, level;
+  double cost_us;
+};
+
+// One that waited too long, in the order in which turns are given.
+struct Overdue {
+  uint64_t order;
+  uint32_t candidate;
+};
+
+// One that stays what it was: the key of that, and what comes next, which takes `next_us` more at least.
+struct Standing {
+  double takes_us = 0;  // more than level 0
+  float has_key = std::numeric_limits<float>::infinity();
+  float next_key = -1, next_us = std::numeric_limits<float>::infinity();  // there is none
 };
 
 // Memory of one schedule() after another, taken once.
 struct ScheduleScratch {
   WeightBuckets buckets;
-  std::span<uint32_t> overdue;    // room for all candidates
-  std::span<Purchase> purchases;  // likewise
-  uint32_t lowest = 0;            // drawer that was bought of last; where it is looked for first
+  // Each has room for all candidates.
+  std::span<Overdue> overdue;
+  std::span<Purchase> purchases;
+  std::span<uint32_t> open;  // who may go up or down
+  std::span<Standing> standings;
+  uint32_t lowest = 0;  // fine drawer that was bought of last; where it is looked for first
 };
 
 struct ScheduleResult {
@@ -116,7 +133,8 @@ struct ScheduleResult {
   bool denied = false;   // a budget kept one below its top
 };
 
-// Fills in level, reason and turn_left_s. budget_us: infinity: the top for all; 0 or less: level 0 for all.
+// Fills in level, planned_us, reason and turn_left_s. budget_us: infinity: the top for all; 0 or less: level
+// 0 for all.
 ScheduleResult schedule(std::span<Candidate> candidates, float budget_us, ScheduleScratch& scratch) noexcept;
 
 }  // namespace sinew::frame

@@ -56,23 +56,24 @@ float weight_of(const PlanRow& row) noexcept {
 
 // Who rose to skin and was cut, or rose elsewhere, does not try again for a while: near its price skin would
 // be taken and left several times a second.
-uint32_t below_skin(const Terms& terms, const PlanRow& row) noexcept {
+uint8_t below_skin(const Terms& terms, const PlanRow& row) noexcept {
   constexpr float kAgain_s = 2;
   const frame::Front& front = costs_of(row).front;
   const bool waits =
       terms.measured && row.has_surface && row.held_s < kAgain_s && !affords_surface(row.tier, row.level);
-  for (uint32_t level = 2; waits && level < front.count; ++level)
-    if (affords_surface(front.levels[level].tier, front.levels[level].graph)) return level - 1;
+  for (uint8_t level = 2; waits && level < front.count; ++level)
+    if (affords_surface(front.levels[level].tier, front.levels[level].graph))
+      return static_cast<uint8_t>(level - 1);
   return front.best();
 }
 
 // The network is not to be had for a while after a guard; nothing is while a restart fades, or in the step in
 // which one comes into view: how it moves is known a step later.
-uint32_t highest(const Terms& terms, const PlanRow& row) noexcept {
+uint8_t highest(const Terms& terms, const PlanRow& row) noexcept {
   const frame::Front& front = costs_of(row).front;
   if (row.restarting || row.hidden) return 0;
-  for (uint32_t level = 1; row.falls_back && level < front.count; ++level)
-    if (front.levels[level].tier == Tier::kNetwork) return level - 1;
+  for (uint8_t level = 1; row.falls_back && level < front.count; ++level)
+    if (front.levels[level].tier == Tier::kNetwork) return static_cast<uint8_t>(level - 1);
   return below_skin(terms, row);
 }
 
@@ -94,21 +95,21 @@ float change_us(const PlanRow& row, uint32_t ticks) noexcept {
 
 Candidate candidate_of(const Terms& terms, const PlanRow& row, uint32_t ticks, uint32_t slot) noexcept {
   const frame::Front& front = costs_of(row).front;
-  return {.slot = slot,
-          .front = &front,
+  return {.front = &front,
+          .slot = slot,
           .weight = weight_of(row),
           .waited_s = row.waited_s,
           .held_s = row.held_s,
           .ticks = static_cast<float>(ticks),
           .cost_factor = terms.measured ? row.cost_factor : 1,
           .base_us = base_us(terms, row),
-          .missed = terms.measured ? static_cast<float>(row.missed) : 0,
           .enter_us = terms.measured ? costs_of(row).cost.enter.estimate_us() : 0,
           .change_us = terms.measured ? change_us(row, ticks) : 0,
+          .turn_left_s = row.turn_left_s,
+          .missed = terms.measured ? row.missed : uint8_t{0},
           .has = front.level_of(row.tier, row.every, row.level),
           .graph = row.level,
           .top = highest(terms, row),
-          .turn_left_s = row.turn_left_s,
           .keeps_level = ticks == 0 && terms.has_budget && !row.hidden};
 }
 
@@ -176,7 +177,7 @@ Gathered gather_candidates(WorldState& world) noexcept {
   Gathered gathered;
   frame::TickPlans plans = tick_plans(world);
   const Terms terms = terms_of(world);
-  world.idle_count = world.ticks = 0;
+  world.ticks = 0;
   world.dropped_s = 0;
   for_each_row(world, [&](PlanRow& row, uint32_t slot) {
     bring_next_near(world, slot, gathered.candidates);
@@ -201,15 +202,16 @@ void raise_waiting(WorldState& world, float budget_us, Gathered& gathered,
   const uint32_t ticks = plans.of(row.remainder_s, row.asset->tick_s).ticks;
   Candidate c = candidate_of(terms_of(world), row, ticks, slot);
   c.level = c.top;
+  c.planned_us = c.cost_us(c.top);
   c.reason = frame::Reason::kBest;
-  const bool fits = !result.denied && result.planned_us + c.cost_us(c.top) <= budget_us;
+  const bool fits = !result.denied && result.planned_us + c.planned_us <= budget_us;
   if (c.keeps_level) return sleep_on(world, slot, plans);
   if (!fits) {
     row.state->held_s = 0;  // the next one's turn
     result.denied = true;
     return sleep_on(world, slot, plans);
   }
-  result.planned_us += c.cost_us(c.top);
+  result.planned_us += c.planned_us;
   world.candidates[gathered.candidates++] = c;
 }
 
@@ -227,22 +229,21 @@ void take_answer(const WorldState& world, const Candidate& c) noexcept {
   plan.turn_left_s = c.turn_left_s;
   plan.level = row.level;
   plan.every = row.every;
+  plan.cost_us = c.planned_us;
   if (c.keeps_level) {
     plan.tier = row.tier;
-    plan.cost_us = c.base_us;
     return;
   }
-  const bool denied = c.level == 0;
+  plan.tier = level.tier;  // of level 0: extrapolated
+  plan.every = static_cast<uint8_t>(level.every);
+  if (c.level > 0) plan.level = static_cast<uint8_t>(level.graph);
   const bool carried = world.budget_us > 0 && !row.restarting && !row.hidden;
-  plan.tier = !denied ? level.tier : carried ? Tier::kExtrapolate : Tier::kSkinning;
-  plan.every = static_cast<uint8_t>(denied ? 1 : level.every);
-  if (!denied) plan.level = static_cast<uint8_t>(level.graph);
-  plan.cost_us = c.cost_us(c.level);
+  if (!carried && c.level == 0) plan.tier = Tier::kSkinning;
 }
 
 // Nothing of it is simulated, nothing of it is displaced.
 bool is_idle(const PlanRow& row, const PlanAnswer& plan) noexcept {
-  return !frame::is_simulated(plan.tier) && !row.displaced && !row.shows && !row.restarting && !row.hidden;
+  return !(frame::is_simulated(plan.tier) | row.displaced | row.shows | row.restarting | row.hidden);
 }
 
 // ---- order ----
@@ -256,26 +257,36 @@ uint32_t rank_of(const Candidate& c, const PlanRow& row, const PlanAnswer& plan)
 }
 
 // Counting sort, largest first, to a quarter of an octave.
-std::span<uint32_t> put_in_order(WorldState& world, std::span<const Candidate> candidates) noexcept {
-  uint32_t* begins = world.rank_begins.get();  // [kRanks + 1]
-  std::fill_n(begins, kRanks + 1, 0u);
-  uint32_t count = 0;
-  for (const Candidate& c : candidates) {
-    const PlanRow& row = world.rows[c.slot];
-    PlanAnswer& plan = world.answers[c.slot];
+class Ranking {
+ public:
+  explicit Ranking(WorldState& world) noexcept : world_(world) { world.idle_count = 0; }
+
+  // Written wherever it may belong, and counted where it does: who is idle is hard to foretell.
+  void add(const Candidate& c, const PlanRow& row, PlanAnswer& plan) noexcept {
     plan.idle = is_idle(row, plan);
-    if (plan.idle) {
-      world.idle_slots[world.idle_count++] = c.slot;
-      continue;
-    }
-    const uint32_t behind = kRanks - 1 - rank_of(c, row, plan);
-    world.ranked[count++] = {c.slot, behind};
-    ++begins[behind + 1];
+    const uint32_t behind = kRanks - 1 - rank_of(c, row, plan), active = !plan.idle;
+    world_.idle_slots[world_.idle_count] = c.slot;
+    world_.idle_count += plan.idle;
+    world_.ranked[count_] = {c.slot, behind};
+    count_ += active;
+    world_.rank_begins[behind + 1] += active;
+    first_ = std::min(first_, behind);
+    last_ = std::max(last_, behind);
   }
-  for (uint32_t d = 0; d < kRanks; ++d) begins[d + 1] += begins[d];
-  for (const Ranked& r : std::span(world.ranked.get(), count)) world.order[begins[r.behind]++] = r.slot;
-  return {world.order.get(), count};
-}
+  // Leaves the counts at zero, as they were found.
+  std::span<uint32_t> put_in_order() noexcept {
+    uint32_t* begins = world_.rank_begins.get();  // [kRanks + 1]
+    uint32_t before = 0;
+    for (uint32_t d = first_; d <= last_; ++d) begins[d] = before += begins[d];
+    for (const Ranked& r : std::span(world_.ranked.get(), count_)) world_.order[begins[r.behind]++] = r.slot;
+    if (first_ <= last_) std::fill(begins + first_, begins + last_ + 2, 0u);
+    return {world_.order.get(), count_};
+  }
+
+ private:
+  WorldState& world_;
+  uint32_t count_ = 0, first_ = kRanks, last_ = 0;
+};
 
 float in_any_case_us(const PlanRow& row) noexcept {
   const frame::CostModel& cost = costs_of(row).cost;
@@ -314,8 +325,12 @@ frame::ScheduleResult plan_step(WorldState& world, double dt_s) noexcept {
       frame::schedule({world.candidates.get(), gathered.candidates}, budget_us, scratch);
   if (gathered.waiting != kNone) raise_waiting(world, budget_us, gathered, result);
   const std::span<const Candidate> candidates{world.candidates.get(), gathered.candidates};
-  for (const Candidate& c : candidates) take_answer(world, c);
-  world.running = put_in_order(world, candidates);
+  Ranking ranking(world);
+  for (const Candidate& c : candidates) {
+    take_answer(world, c);
+    ranking.add(c, world.rows[c.slot], world.answers[c.slot]);
+  }
+  world.running = ranking.put_in_order();
   add_up_behind(world, world.running);
   return result;
 }

@@ -40,8 +40,11 @@ struct WorldState {
   std::unique_ptr<uint64_t[]> idle_ns;  // [chunks] of idle instances: what they took
   std::unique_ptr<Ranked[]> ranked;
   std::unique_ptr<uint32_t[]> rank_begins;  // [kRanks + 1]
-  std::unique_ptr<uint32_t[]> overdue;
+  // The scheduler's.
+  std::unique_ptr<frame::Overdue[]> overdue;
   std::unique_ptr<frame::Purchase[]> purchases;
+  std::unique_ptr<uint32_t[]> open;
+  std::unique_ptr<frame::Standing[]> standings;
   std::unique_ptr<frame::ScheduleScratch> scratch;
   std::span<uint32_t> running;  // of order
   float undone_us = 0;          // that was planned for what was cut

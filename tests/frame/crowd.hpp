@@ -30,11 +30,14 @@ inline frame::Front single_front(float tick_us) {
 
 struct Crowd {
   std::vector<frame::Candidate> all;
-  std::vector<uint32_t> overdue;
+  std::vector<frame::Overdue> overdue;
   std::vector<frame::Purchase> purchases;
+  std::vector<uint32_t> open;
+  std::vector<frame::Standing> standings;
   std::unique_ptr<frame::ScheduleScratch> scratch = std::make_unique<frame::ScheduleScratch>();
 
-  Crowd(size_t count, const frame::Front& front) : all(count), overdue(count), purchases(count) {
+  Crowd(size_t count, const frame::Front& front)
+      : all(count), overdue(count), purchases(count), open(count), standings(count) {
     for (size_t i = 0; i < count; ++i) {
       all[i].slot = static_cast<uint32_t>(i);
       all[i].front = &front;
@@ -48,6 +51,8 @@ struct Crowd {
   frame::ScheduleResult schedule(float budget_us) {
     scratch->overdue = overdue;
     scratch->purchases = purchases;
+    scratch->open = open;
+    scratch->standings = standings;
     return frame::schedule(all, budget_us, *scratch);
   }
   size_t count(uint32_t level) const {

@@ -89,8 +89,8 @@ Front to_and_fro_front(float scale_us, std::mt19937& random) {
 
 // A candidate that has one of its levels already, for long enough not to be favoured.
 void has_one_already(Candidate& c, std::mt19937& random) {
-  c.has = 1 + static_cast<uint32_t>(unit(random) * 0.999f * static_cast<float>(c.top));
-  c.graph = c.front->levels[c.has].graph;
+  c.has = static_cast<uint8_t>(1 + unit(random) * 0.999f * static_cast<float>(c.top));
+  c.graph = static_cast<uint8_t>(c.front->levels[c.has].graph);
   c.change_us = 6 * c.front->levels[1].tick_us * unit(random);
   c.held_s = kHold_s;
 }
@@ -146,6 +146,48 @@ std::vector<double> shares_of_the_optimum(Begins begins) {
     shares.push_back(one.crowd.bought() / best);
   }
   return shares;
+}
+
+// Weight x error saved a microsecond by the next level of each, or of the last: at most what the one before
+// did.
+struct NextLevel {
+  uint32_t level, next;
+  float key;
+  bool open = true;
+
+  explicit NextLevel(const Candidate& c) : level(0), next(c.next_level(0)), key(kInfinity) { look(c); }
+  void look(const Candidate& c) {
+    open = next <= c.top;
+    if (!open) return;
+    const float bonus = next > c.has ? 1 : c.held_s < kHold_s ? kHoldBonus : kHysteresis;
+    key = std::min(key, c.weight / (c.ticks * c.cost_factor) * bonus * c.front->worth[next]);
+  }
+  void go_on(const Candidate& c) {
+    level = next;
+    next = c.next_level(level);
+    look(c);
+  }
+};
+
+std::vector<uint32_t> bought_one_by_one(const Crowd& crowd, double left) {
+  std::vector<NextLevel> all(crowd.all.begin(), crowd.all.end());
+  const auto best = [&] {
+    size_t of = all.size();
+    for (size_t i = 0; i < all.size(); ++i)
+      if (all[i].open && (of == all.size() || all[i].key > all[of].key)) of = i;
+    return of;
+  };
+  for (size_t i = best(); i < all.size(); i = best()) {
+    const Candidate& c = crowd.all[i];
+    const auto cost = static_cast<double>(std::max(0.0f, c.cost_us(all[i].next) - c.cost_us(all[i].level)));
+    all[i].open = cost <= left;
+    if (!all[i].open) continue;
+    left -= cost;
+    all[i].go_on(c);
+  }
+  std::vector<uint32_t> levels;
+  for (const NextLevel& next : all) levels.push_back(next.level);
+  return levels;
 }
 
 // What the next level would have saved, of the one of whom it would have saved most.
@@ -360,6 +402,37 @@ TEST_CASE("answer_does_not_depend_on_the_budget_of_the_step_before") {
   }
 }
 
+// However it is looked for: what is bought is what one bought who looks through all for the best that fits,
+// again and again, while weights, budgets and what each has change.
+TEST_CASE("levels_are_bought_as_if_the_best_that_fits_were_looked_for_among_all_each_time") {
+  constexpr int kSteps = 400;
+  std::mt19937 random(29);
+  const Front fronts[] = {to_and_fro_front(3, random), random_front(5, random)};
+  Crowd crowd(60, fronts[0]);
+  for (Candidate& c : crowd.all) {
+    c.front = &fronts[c.slot % 2];
+    c.top = c.front->best();
+    c.weight = std::pow(10.0f, 2 * unit(random));
+    c.change_us = 6 * c.front->levels[1].tick_us * unit(random);
+  }
+  float budget_us = 200;
+  size_t bought = 0;
+  for (int step = 0; step < kSteps; ++step) {
+    if (step % 20 == 0) budget_us = std::pow(10.0f, 1 + 2 * unit(random));
+    for (Candidate& c : crowd.all) c.weight *= 0.9f + 0.2f * unit(random);
+    crowd.schedule(budget_us);
+    const std::vector<uint32_t> expected = bought_one_by_one(crowd, static_cast<double>(budget_us));
+    for (size_t i = 0; i < expected.size(); ++i) CHECK(crowd[i].level == expected[i]);
+    bought += crowd.simulated();
+    crowd.age(kDt_s);
+    for (Candidate& c : crowd.all) {
+      c.waited_s = 0;  // turns are another matter
+      if (c.has > 0) c.graph = static_cast<uint8_t>(c.front->levels[c.has].graph);
+    }
+  }
+  CHECK(bought > 10 * kSteps);
+}
+
 TEST_CASE("what_one_has_is_not_taken_for_a_little_more") {
   const Front front = single_front(10);
   Crowd crowd(2, front);
@@ -483,14 +556,14 @@ TEST_CASE("rises_add_up_to_what_a_level_takes_whatever_graphs_lie_between") {
                           {.tier = Tier::kNetwork, .tick_us = 80, .error = 0.1f}};
   Front front;
   make_front(points, 0, &front);
-  for (const uint32_t has : {0u, 1u, 2u, 3u, 4u}) {
+  for (uint8_t has = 0; has <= 4; ++has) {
     Candidate c = {.front = &front, .ticks = 1, .base_us = 1, .enter_us = 7, .change_us = 20, .has = has};
-    if (has > 0) c.graph = front.levels[has].graph;
+    if (has > 0) c.graph = static_cast<uint8_t>(front.levels[has].graph);
     c.top = 4;
     float sum_us = c.base_us;
     for (uint32_t below = 0, level = c.next_level(0); level <= 4;
          below = level, level = c.next_level(level)) {
-      sum_us += c.rise_us(below, level);
+      sum_us += c.cost_us(level) - c.cost_us(below);
       INFO("has " << has << ", level " << level);
       CHECK(sum_us == Approx(c.cost_us(level)));
     }
@@ -516,7 +589,7 @@ TEST_CASE("half_a_thousand_are_scheduled_sooner_than_their_levels_could_be_sorte
     for (Candidate& c : crowd.all) {
       c.weight *= 0.99f + 0.02f * unit(random);
       for (uint32_t level = 1; level <= c.top; ++level)
-        levels.push_back({c.weight * c.front->worth[level], 0, c.slot, level});
+        levels.push_back({c.weight * c.front->worth[level], c.slot, level, 0});
     }
     schedule_us.push_back(time_us([&] { crowd.schedule(1500); }));
     sort_us.push_back(time_us([&] { std::ranges::sort(levels, std::greater(), &Purchase::key); }));
