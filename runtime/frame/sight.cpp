@@ -13,7 +13,6 @@ namespace {
 
 using core::make_status;
 using Eigen::Vector3d;
-using Eigen::Vector3f;
 
 constexpr double kFarthest_m = 1e12;
 constexpr float kHalfTurn_rad = 3.14159265f;
@@ -40,16 +39,48 @@ Status check_edges(const View& view) noexcept {
                      static_cast<double>(view.far_m));
 }
 
-// From the eye, along the camera's axes.
-Vector3f seen_from(const Sight& sight, const Ball& ball) noexcept {
-  const Vector3d away = Eigen::Map<const Vector3d>(ball.middle_m) - Eigen::Map<const Vector3d>(sight.eye_m);
-  return Eigen::Map<const Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(&sight.axes[0][0]) *
-         away.cast<float>();
+// Some balls from the eye, along the camera's axes: each loop over them is one that a compiler makes vectors
+// of.
+struct SeenBalls {
+  static constexpr size_t kMost = 32;
+  float side[kMost], up[kMost], depth[kMost], radius[kMost], away[kMost];
+
+  SeenBalls(const Sight& sight, std::span<const Ball> balls) noexcept {
+    float from_eye[3][kMost];
+    for (size_t i = 0; i < balls.size(); ++i) {
+      for (size_t axis = 0; axis < 3; ++axis)
+        from_eye[axis][i] = static_cast<float>(balls[i].middle_m[axis] - sight.eye_m[axis]);
+      radius[i] = balls[i].radius_m;
+    }
+    const auto along = [&](const float(&axis)[3], size_t i) {
+      return axis[0] * from_eye[0][i] + axis[1] * from_eye[1][i] + axis[2] * from_eye[2][i];
+    };
+    for (size_t i = 0; i < balls.size(); ++i) {
+      side[i] = along(sight.axes[0], i);
+      up[i] = along(sight.axes[1], i);
+      depth[i] = -along(sight.axes[2], i);
+      away[i] = side[i] * side[i] + up[i] * up[i] + depth[i] * depth[i];
+    }
+    for (size_t i = 0; i < balls.size(); ++i) away[i] = std::sqrt(away[i]);
+  }
+};
+
+// How far a ball lies beyond an edge of the view, above 0 where wholly: `across` of it lies along the edge's
+// axis.
+float beyond(float across, float depth, float half, float slant, float radius) noexcept {
+  return std::fabs(across) - half * depth - radius * slant;
 }
 
-// Whether a ball is wholly beyond an edge of the view: `across` of it lies along the edge's axis.
-bool is_beyond(float across, float depth, float half, float slant, float radius) noexcept {
-  return std::fabs(across) - half * depth > radius * slant;
+float size_of(const Sight& sight, const SeenBalls& seen, size_t i) noexcept {
+  const float depth = seen.depth[i], radius = seen.radius[i], away = seen.away[i];
+  const float behind = -radius - depth, far = depth - radius - sight.far_m;
+  const float outside =
+      std::max(std::max(behind, far),
+               std::max(beyond(seen.side[i], depth, sight.half_width, sight.slant_width, radius),
+                        beyond(seen.up[i], depth, sight.half_height, sight.slant_height, radius)));
+  const float shown = radius / (away * sight.half_height), size = shown < 1 ? shown : 1;
+  const float in_view = outside > 0 ? 0 : size;
+  return away <= radius ? 1 : in_view;
 }
 
 }  // namespace
@@ -75,13 +106,19 @@ Status make_sight(const View& view, Sight* out) noexcept {
 }
 
 float seen_size(const Sight& sight, const Ball& ball) noexcept {
-  const Vector3f at = seen_from(sight, ball);
-  const float depth = -at.z(), radius = ball.radius_m, away = at.norm();
-  if (away <= radius) return 1;
-  const bool outside = depth < -radius || depth - radius > sight.far_m ||
-                       is_beyond(at.x(), depth, sight.half_width, sight.slant_width, radius) ||
-                       is_beyond(at.y(), depth, sight.half_height, sight.slant_height, radius);
-  return outside ? 0 : std::min(1.0f, radius / (away * sight.half_height));
+  return size_of(sight, SeenBalls(sight, {&ball, 1}), 0);
+}
+
+void enlarge_seen_sizes(const Sight& sight, std::span<const Ball> balls, float* sizes) noexcept {
+  for (; !balls.empty(); balls = balls.subspan(std::min(balls.size(), SeenBalls::kMost))) {
+    const auto some = balls.first(std::min(balls.size(), SeenBalls::kMost));
+    const SeenBalls seen(sight, some);
+    for (size_t i = 0; i < some.size(); ++i) {
+      const float size = size_of(sight, seen, i);
+      sizes[i] = sizes[i] > size ? sizes[i] : size;
+    }
+    sizes += some.size();
+  }
 }
 
 // A spiral by the golden angle over a disc, its radius by a sequence that never repeats.

@@ -1,6 +1,7 @@
 // sight.hpp  What a view shows of a ball.
 #pragma once
 #include <cstdint>
+#include <span>
 
 #include "sinew/status.hpp"
 #include "sinew/view.hpp"
@@ -26,6 +27,8 @@ Status make_sight(const View& view, Sight* out) noexcept;
 
 // Share of the view's height that the ball takes, at most 1; 0: wholly outside. An eye inside it: 1.
 float seen_size(const Sight& sight, const Ball& ball) noexcept;
+// Of many: the larger of that and what is there already.
+void enlarge_seen_sizes(const Sight& sight, std::span<const Ball> balls, float* sizes) noexcept;
 
 // A point of the disc that the ball shows to the eye. Points of consecutive numbers spread evenly over it.
 void point_on(const Sight& sight, const Ball& ball, uint32_t number, double (&point_m)[3]) noexcept;

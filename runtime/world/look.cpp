@@ -12,12 +12,19 @@ std::span<const frame::Sight> sights_of(const WorldState& world) noexcept {
   return {world.sights, world.sight_count};
 }
 
-float size_of(const WorldState& world, uint32_t slot) noexcept {
-  if (world.sight_count == 0) return 1;
-  float size = 0;
+constexpr uint32_t kAtOnce = 32;
+
+void bring_near(const WorldState& world, uint32_t first, uint32_t last) noexcept {
+  if (first >= last) return;
+  core::bring_near(&world.rows[first], (last - first) * sizeof(PlanRow));
+  core::bring_near(&world.bounds[first], (last - first) * sizeof(frame::Ball));
+}
+
+// Of the slots from `first` on.
+void put_sizes(const WorldState& world, uint32_t first, std::span<float> sizes) noexcept {
+  std::ranges::fill(sizes, world.sight_count == 0 ? 1.0f : 0.0f);
   for (const frame::Sight& sight : sights_of(world))
-    size = std::max(size, frame::seen_size(sight, world.bounds[slot]));
-  return size;
+    frame::enlarge_seen_sizes(sight, {&world.bounds[first], sizes.size()}, sizes.data());
 }
 
 // Whether any of this look's rays gets through.
@@ -84,12 +91,21 @@ void look(WorldState& world) noexcept {
     const bool blind = row.blind && row.state->blind_looks >= kBlindLooks;
     row.seen = !row.hidden_by_caller && row.size > 0 && !blind;
   };
-  for_each_row(world, [&](PlanRow& row, uint32_t slot) {
-    row.size = size_of(world, slot);
-    // Comes into view as seen, and nothing is hidden by what was once in front of it.
-    if (row.blind && (!looks || row.size == 0 || row.hidden_by_caller)) forget_looks(row);
-    decide(row, slot);
-  });
+  const uint32_t end = world.instances.end();
+  float sizes[kAtOnce];
+  for (uint32_t first = 0; first < end; first += kAtOnce) {
+    const uint32_t last = std::min(first + kAtOnce, end);
+    bring_near(world, last, std::min(last + kAtOnce, end));
+    put_sizes(world, first, {sizes, last - first});
+    for (uint32_t slot = first; slot < last; ++slot) {
+      PlanRow& row = world.rows[slot];
+      if (!row.asset) continue;
+      row.size = sizes[slot - first];
+      // Comes into view as seen, and nothing is hidden by what was once in front of it.
+      if (row.blind && (!looks || row.size == 0 || row.hidden_by_caller)) forget_looks(row);
+      decide(row, slot);
+    }
+  }
   if (!looks) return;
   if (std::exchange(world.restored, false)) find_last_look(world);
   look_behind_things(world);

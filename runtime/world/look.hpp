@@ -11,7 +11,7 @@ namespace sinew::world {
 
 inline constexpr uint32_t kRaysALook = 8, kBlindLooks = 3;
 
-// Sets `seen` and `size` of every row. Costs up to twenty nanoseconds an instance and view, and the rays.
+// Sets `seen` and `size` of every row. Costs some ten nanoseconds an instance and view, and the rays.
 void look(WorldState& world) noexcept;
 
 }  // namespace sinew::world
