@@ -26,14 +26,8 @@ void hold_pose(Instance& instance) noexcept {
 
 }  // namespace
 
-void pass_by(Instance& instance, double dt_s, uint32_t max_ticks) noexcept {
+void hide(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
-  const frame::TickPlan plan = frame::plan_ticks(state.remainder_s, dt_s, instance.asset->tick_s, max_ticks);
-  state.remainder_s = plan.remainder_s;
-  const uint32_t longest = UINT32_MAX / 2;
-  state.hidden_ticks = std::min(longest, state.hidden_ticks + plan.ticks);
-  if (plan.dropped_s > 0) state.hidden_ticks = std::max(state.hidden_ticks, kCarryTicks + kFadeTicks);
-  if (state.hidden) return;
   state.hidden = 1;
   wake(instance);
   state.still_ticks = 0;
@@ -42,6 +36,19 @@ void pass_by(Instance& instance, double dt_s, uint32_t max_ticks) noexcept {
   instance.cost_factor = 1;
   instance.told = {};
   instance.cut = instance.held = instance.restarted = instance.fell_back = false;
+}
+
+void pass_by(const frame::TickPlan& ticks, PlanRow& row) noexcept {
+  constexpr uint32_t kLongest = UINT32_MAX / 2;
+  row.remainder_s = ticks.remainder_s;
+  row.hidden_ticks = std::min(kLongest, row.hidden_ticks + ticks.ticks);
+  if (ticks.dropped_s > 0) row.hidden_ticks = std::max(row.hidden_ticks, kCarryTicks + kFadeTicks);
+}
+
+void keep_hidden_ticks(const PlanRow& row) noexcept {
+  if (!row.hidden) return;
+  row.state->remainder_s = row.remainder_s;
+  row.state->hidden_ticks = row.hidden_ticks;
 }
 
 void come_back(Instance& instance) noexcept {

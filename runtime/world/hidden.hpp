@@ -1,4 +1,5 @@
 // hidden.hpp  Instances that nobody sees: nothing is done for them but to count the ticks that go by.
+// They are counted in the plan's row: what is hidden is not looked at.
 //
 // What is read of one is what it showed last. When it is seen again, the pose set then counts as having been
 // held: how it got there is not known, and tissue feels nothing of it. How fast it moves is known a step
@@ -6,11 +7,16 @@
 // extrapolated meanwhile (kCarryTicks, kFadeTicks), and simulation is blended in from there over
 // kBlendInTicks, with a network's memory only if it missed no more than kRememberedTicks.
 #pragma once
-#include "world/instance.hpp"
+#include "world/plan_row.hpp"
 
 namespace sinew::world {
 
-void pass_by(Instance& instance, double dt_s, uint32_t max_ticks) noexcept;
+// Of one that was seen until now.
+void hide(Instance& instance) noexcept;
+// A step in which it is hidden.
+void pass_by(const frame::TickPlan& ticks, PlanRow& row) noexcept;
+// To its state, before anything else reads or writes that.
+void keep_hidden_ticks(const PlanRow& row) noexcept;
 // Before its step, of an instance that was passed by.
 void come_back(Instance& instance) noexcept;
 

@@ -147,13 +147,14 @@ void pass_dormant(WorldState& world, uint32_t slot, frame::TickPlans& plans, Gat
   if (passed != kNone) sleep_on(world, passed, plans);
 }
 
-void pass_unseen(WorldState& world, uint32_t slot) noexcept {
-  Instance& instance = *world.instances.at(slot);
+void pass_unseen(WorldState& world, uint32_t slot, const frame::TickPlan& ticks) noexcept {
   PlanRow& row = world.rows[slot];
-  const bool was_hidden = row.hidden;
-  pass_by(instance, world.dt_s, world.def.max_ticks_per_step);
-  row.remainder_s = instance.state->remainder_s;
-  if (!was_hidden) copy_to_row(instance, &row);
+  if (!row.hidden) {
+    Instance& instance = *world.instances.at(slot);
+    hide(instance);
+    copy_to_row(instance, &row);
+  }
+  pass_by(ticks, row);
 }
 
 // What comes next is waited for by then: rows in any case, of those that are passed over also they
@@ -165,7 +166,7 @@ void bring_next_near(const WorldState& world, uint32_t slot, uint32_t candidate)
   __builtin_prefetch(&world.answers[slot + kRowsAhead], 1);
   core::bring_near(&world.candidates[candidate + kAhead], sizeof(Candidate));
   const PlanRow& row = world.rows[slot + kAhead];
-  if (row.dormant || !row.seen) bring_instance_near(world, slot + kAhead);
+  if (row.dormant || (!row.seen && !row.hidden)) bring_instance_near(world, slot + kAhead);
 }
 
 void count_ticks(const frame::TickPlan& plan, WorldState& world) noexcept {
@@ -181,8 +182,8 @@ Gathered gather_candidates(WorldState& world) noexcept {
   world.dropped_s = 0;
   for_each_row(world, [&](PlanRow& row, uint32_t slot) {
     bring_next_near(world, slot, gathered.candidates);
-    if (!row.seen) return pass_unseen(world, slot);
     const frame::TickPlan& ticks = plans.of(row.remainder_s, row.asset->tick_s);
+    if (!row.seen) return pass_unseen(world, slot, ticks);
     count_ticks(ticks, world);
     world.answers[slot].idle = false;
     if (row.dormant && terms.has_budget)

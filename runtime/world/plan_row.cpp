@@ -10,6 +10,7 @@ namespace sinew::world {
 void copy_to_row(const Instance& instance, PlanRow* row) noexcept {
   const InstanceState& state = *instance.state;
   row->remainder_s = state.remainder_s;
+  row->hidden_ticks = state.hidden_ticks;
   row->importance = state.importance;
   row->excitation = state.excitation;
   row->waited_s = state.waited_s;

@@ -19,7 +19,7 @@ struct alignas(64) PlanRow {
   float importance = 1, excitation = 1;
   float waited_s = 0, held_s = 0, turn_left_s = 0;
   float cost_factor = 1;
-  Tier tier = Tier::kSkinning;
+  Tier tier : 8 = Tier::kSkinning;
   uint8_t level = 0, every = 1, dormant = 0;
   bool restarting : 1 = false, hidden : 1 = false, hidden_by_caller : 1 = false, displaced : 1 = false;
   bool falls_back : 1 = false;   // the network is not to be had
@@ -30,7 +30,8 @@ struct alignas(64) PlanRow {
   bool has_surface : 1 = false;  // stays
   uint8_t missed : 2 = 0;        // ticks that it would make up for (world/catch_up.hpp)
   uint16_t regions_asleep = 0;
-  float size = 1;  // in this step: share of a view's height
+  float size = 1;             // in this step: share of a view's height
+  uint32_t hidden_ticks = 0;  // ahead of the state's, as is remainder_s, while hidden (world/hidden.hpp)
 };
 static_assert(sizeof(PlanRow) == 64 && kCaughtUpTicks < 4);
 

@@ -10,6 +10,7 @@
 #include "core/clock.hpp"
 #include "core/run_tasks.hpp"
 #include "world/fold.hpp"
+#include "world/hidden.hpp"
 #include "world/look.hpp"
 #include "world/marker.hpp"
 #include "world/plan.hpp"
@@ -19,6 +20,7 @@ namespace {
 
 Instance& take_answer(const WorldState& world, uint32_t slot, frame::TickPlans& ticks) noexcept {
   Instance& instance = *world.instances.at(slot);
+  keep_hidden_ticks(world.rows[slot]);
   const PlanAnswer& answer = world.answers[slot];
   instance.plan = {.ticks = ticks.of(instance.state->remainder_s, instance.asset->tick_s),
                    .dt_s = world.dt_s,

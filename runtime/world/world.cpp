@@ -10,6 +10,7 @@
 #include "simd/isa.hpp"
 #include "simd/kernels.hpp"
 #include "world/dormant.hpp"
+#include "world/hidden.hpp"
 #include "world/pose.hpp"
 #include "world/pose_bound.hpp"
 #include "world/read.hpp"
@@ -73,6 +74,13 @@ Status find_instance(const WorldState* state, InstanceId id, Instance** out) noe
   if (!state) return null_world();
   return find(state->instances, id, state->def.assert_hook, "the instance's id is null or was destroyed",
               out);
+}
+
+// Whose state is written, or read whole.
+Status find_state(const WorldState* state, InstanceId id, Instance** out) noexcept {
+  Status status = find_instance(state, id, out);
+  if (status.ok()) world::keep_hidden_ticks(state->rows[id.index1 - 1]);
+  return status;
 }
 
 // After its instance was made, changed or unmade.
@@ -247,7 +255,7 @@ Status World::set_pose(InstanceId id, const Pose& pose) noexcept {
 
 Status World::set_importance(InstanceId id, float importance) noexcept {
   Instance* instance = nullptr;
-  if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
+  if (Status status = find_state(impl_, id, &instance); !status.ok()) return status;
   if (busy(*impl_)) return refuse_busy();
   instance->state->importance = frame::sane_importance(importance);
   keep_row(*impl_, id);
@@ -270,7 +278,7 @@ Status World::set_views(std::span<const View> views) noexcept {
 
 Status World::set_hidden(InstanceId id, bool hidden) noexcept {
   Instance* instance = nullptr;
-  if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
+  if (Status status = find_state(impl_, id, &instance); !status.ok()) return status;
   if (busy(*impl_)) return refuse_busy();
   instance->state->hidden_by_caller = hidden;
   keep_row(*impl_, id);
@@ -279,7 +287,7 @@ Status World::set_hidden(InstanceId id, bool hidden) noexcept {
 
 Status World::reset(InstanceId id) noexcept {
   Instance* instance = nullptr;
-  if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
+  if (Status status = find_state(impl_, id, &instance); !status.ok()) return status;
   if (busy(*impl_)) return refuse_busy();
   world::forget_motion(*instance);
   keep_row(*impl_, id);
@@ -357,13 +365,13 @@ size_t World::state_bytes(InstanceId id) const noexcept {
 
 Status World::save_state(InstanceId id, std::span<std::byte> out) const noexcept {
   Instance* instance = nullptr;
-  if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
+  if (Status status = find_state(impl_, id, &instance); !status.ok()) return status;
   return world::save(*instance, out);
 }
 
 Status World::restore_state(InstanceId id, std::span<const std::byte> bytes) noexcept {
   Instance* instance = nullptr;
-  if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
+  if (Status status = find_state(impl_, id, &instance); !status.ok()) return status;
   if (busy(*impl_)) return refuse_busy();
   Status status = world::restore(*instance, bytes);
   impl_->restored |= status.ok();

@@ -36,7 +36,7 @@ bool reserve(WorldState& world, const WorldDef& def) noexcept {
 void keep_row(WorldState& world, uint32_t slot) noexcept {
   const Instance* instance = world.instances.at(slot);
   if (!instance) {
-    world.rows[slot] = {};
+    world.rows[slot] = PlanRow();
     return;
   }
   world.rows[slot].asset = instance->asset;

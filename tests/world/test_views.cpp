@@ -291,6 +291,25 @@ TEST_CASE("a_hidden_block_goes_on_with_the_same_bits_after_a_restore") {
   CHECK(go_on() == first);
 }
 
+TEST_CASE("how_long_a_block_was_hidden_is_kept_whatever_it_is_told_meanwhile") {
+  const auto shown_after = [](bool told) {
+    Stage stage(1);
+    stage.play(scenes::walk, 1);
+    see(stage, false);
+    stage.play(scenes::walk, 0.07);
+    if (told) {
+      REQUIRE(stage.world.set_importance(stage.blocks[0], 1).ok());
+      REQUIRE(stage.world.set_hidden(stage.blocks[0], false).ok());
+      REQUIRE_FALSE(stage.world.restore_state(stage.blocks[0], {}).ok());
+    }
+    stage.play(scenes::walk, 0.05);
+    see(stage, true);
+    stage.play(scenes::walk, 0.1);
+    return stage.save();
+  };
+  CHECK(shown_after(true) == shown_after(false));
+}
+
 TEST_CASE("what_was_hidden_by_something_is_seen_once_there_are_no_views") {
   Wall wall;
   wall.there = true;
