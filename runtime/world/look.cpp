@@ -40,15 +40,20 @@ bool gets_through(WorldState& world, uint32_t slot, const frame::Sight& sight) n
   return false;
 }
 
+void decide(PlanRow& row) noexcept {
+  row.seen = !row.hidden_by_caller && row.size > 0 && row.blind_looks < kBlindLooks;
+}
+
 void look_at(WorldState& world, uint32_t slot) noexcept {
   PlanRow& row = world.rows[slot];
   uint32_t& blind = row.state->blind_looks;
   const bool seen = std::ranges::any_of(
       sights_of(world), [&](const frame::Sight& sight) { return gets_through(world, slot, sight); });
   blind = seen ? 0 : blind + 1;
-  row.blind = !seen;
+  row.blind_looks = std::min(blind, kBlindLooks) & 3;
   row.state->looked = ++world.looks;
   world.last_look = slot;
+  decide(row);
 }
 
 // A few of those in view, where the last step left off.
@@ -79,7 +84,7 @@ void find_last_look(WorldState& world) noexcept {
 
 void forget_looks(PlanRow& row) noexcept {
   row.state->blind_looks = 0;
-  row.blind = false;
+  row.blind_looks = 0;
 }
 
 }  // namespace
@@ -87,10 +92,6 @@ void forget_looks(PlanRow& row) noexcept {
 void look(WorldState& world) noexcept {
   const bool looks =
       world.def.occlusion && world.sight_count > 0 && world.def.sight_rays_per_step >= kRaysALook;
-  const auto decide = [](PlanRow& row, uint32_t) {
-    const bool blind = row.blind && row.state->blind_looks >= kBlindLooks;
-    row.seen = !row.hidden_by_caller && row.size > 0 && !blind;
-  };
   const uint32_t end = world.instances.end();
   float sizes[kAtOnce];
   for (uint32_t first = 0; first < end; first += kAtOnce) {
@@ -102,14 +103,13 @@ void look(WorldState& world) noexcept {
       if (!row.asset) continue;
       row.size = sizes[slot - first];
       // Comes into view as seen, and nothing is hidden by what was once in front of it.
-      if (row.blind && (!looks || row.size == 0 || row.hidden_by_caller)) forget_looks(row);
-      decide(row, slot);
+      if (row.blind_looks > 0 && (!looks || row.size == 0 || row.hidden_by_caller)) forget_looks(row);
+      decide(row);
     }
   }
   if (!looks) return;
   if (std::exchange(world.restored, false)) find_last_look(world);
   look_behind_things(world);
-  for_each_row(world, decide);
 }
 
 }  // namespace sinew::world

@@ -1,11 +1,16 @@
 // plan_row.cpp  see plan_row.hpp.
 #include "world/plan_row.hpp"
 
+#include <algorithm>
+
 #include "frame/front.hpp"
 #include "world/catch_up.hpp"
+#include "world/look.hpp"
 #include "world/sleep.hpp"
 
 namespace sinew::world {
+
+static_assert(kBlindLooks < 4);
 
 void copy_to_row(const Instance& instance, PlanRow* row) noexcept {
   const InstanceState& state = *instance.state;
@@ -28,7 +33,7 @@ void copy_to_row(const Instance& instance, PlanRow* row) noexcept {
   row->falls_back = state.fallback_ticks > 0;
   row->was_cut = instance.cut || instance.held;
   row->shows = instance.shown_share() != 0;
-  row->blind = state.blind_looks > 0;
+  row->blind_looks = std::min(state.blind_looks, kBlindLooks) & 3;
   row->missed = missed_so_far(instance) & 3;
   row->regions_asleep =
       frame::is_simulated(state.tier) ? static_cast<uint16_t>(regions_asleep(instance)) : uint16_t{0};

@@ -25,9 +25,9 @@ struct alignas(64) PlanRow {
   bool falls_back : 1 = false;   // the network is not to be had
   bool was_cut : 1 = false;      // cut or held
   bool shows : 1 = false;        // some of a displacement, be it zero
-  bool blind : 1 = false;        // rays were stopped in the last look
   bool seen : 1 = true;          // in this step (world/look.hpp)
   bool has_surface : 1 = false;  // stays
+  uint8_t blind_looks : 2 = 0;   // in a row, as many as hide (world/look.hpp) at most
   uint8_t missed : 2 = 0;        // ticks that it would make up for (world/catch_up.hpp)
   uint16_t regions_asleep = 0;
   float size = 1;             // in this step: share of a view's height
