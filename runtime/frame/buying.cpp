@@ -79,14 +79,14 @@ void weigh(Candidate& c) noexcept {
   constexpr float kLeast = 1e-30f, kFewest = 1e-3f;
   const float staleness = 1 + c.waited_s / kStaleness_s;
   c.rate = std::max(kLeast, c.weight * staleness) / std::max(kFewest, c.ticks * c.cost_factor);
-  c.may_refine = c.has > 0 && c.graph > 0;
+  c.may_refine = (c.has > 0) & (c.graph > 0);
 }
 
 // Of one that is bought what it has, and no more. Who has what is hard to foretell: hardly a branch depends
 // on it.
 Standing standing_of(const Candidate& c) noexcept {
   if (c.missed > 0) return {.has_key = -kInfinity};  // levels may be passed over
-  constexpr float kBonus[2] = {kHysteresis, kHoldBonus};
+  static constexpr float kBonus[2] = {kHysteresis, kHoldBonus};
   const uint32_t at = std::min(c.has, c.top), has_one = at > 0, next = std::min<uint32_t>(at + 1, c.top);
   const Front& front = *c.front;
   const float ticks = c.ticks * c.cost_factor;
@@ -95,7 +95,8 @@ Standing standing_of(const Candidate& c) noexcept {
   const float keys[2] = {kInfinity, c.rate * kBonus[c.held_s < kHold_s] * front.worth[at]};
   s.has_key = keys[has_one];
   if (front.step_us(1, ticks) < c.base_us) s.has_key = -kInfinity;
-  const float next_us = front.step_us(next, ticks) + static_cast<float>(c.has == 0) * c.enter_us;
+  const float enters_us[2] = {0, c.enter_us};
+  const float next_us = front.step_us(next, ticks) + enters_us[c.has == 0];
   const float next_keys[2] = {s.next_key, c.rate * front.worth[next]};
   const float nexts_us[2] = {s.next_us, static_cast<float>(exact(next_us) - (base_us + s.takes_us))};
   s.next_key = next_keys[next > at];

@@ -47,7 +47,8 @@ void hand_out_turns(std::span<Candidate> candidates, std::span<Overdue> overdue,
 void tell_reason(Candidate& c) noexcept {
   const bool best = (c.level == c.top) | c.keeps_level;
   const bool held = (c.level > 0) & (c.level == c.has) & (c.held_s < kHold_s) & (c.reason != Reason::kTurn);
-  c.reason = best ? Reason::kBest : held ? Reason::kHeld : c.reason;
+  const Reason reasons[] = {c.reason, Reason::kHeld, Reason::kBest, Reason::kBest};
+  c.reason = reasons[2 * best + held];  // hard to foretell, and so no branch
   if (c.turn_left_s > 0 && c.level == 0) c.turn_left_s = 0;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <new>
 #include <utility>
 
 #include "world/dormant.hpp"
@@ -188,8 +189,8 @@ Gathered gather_candidates(WorldState& world) noexcept {
     world.answers[slot].idle = false;
     if (row.dormant && terms.has_budget)
       pass_dormant(world, slot, plans, gathered);
-    else
-      world.candidates[gathered.candidates++] = candidate_of(terms, row, ticks.ticks, slot);
+    else  // made where it stays: a copy would wait for what has just been written
+      new (&world.candidates[gathered.candidates++]) Candidate(candidate_of(terms, row, ticks.ticks, slot));
   });
   return gathered;
 }
@@ -216,35 +217,30 @@ void raise_waiting(WorldState& world, float budget_us, Gathered& gathered,
   world.candidates[gathered.candidates++] = c;
 }
 
-TierReason told(frame::Reason reason) noexcept {
-  constexpr TierReason kTold[] = {TierReason::kBest, TierReason::kBudget, TierReason::kHeld,
-                                  TierReason::kTurn};
-  return kTold[static_cast<size_t>(reason)];
-}
-
-void take_answer(const WorldState& world, const Candidate& c) noexcept {
-  const frame::Level& level = c.front->levels[c.level];
-  const PlanRow& row = world.rows[c.slot];
-  PlanAnswer& plan = world.answers[c.slot];
-  plan.why = told(c.reason);
-  plan.turn_left_s = c.turn_left_s;
-  plan.level = row.level;
-  plan.every = row.every;
-  plan.cost_us = c.planned_us;
-  if (c.keeps_level) {
-    plan.tier = row.tier;
-    return;
-  }
-  plan.tier = level.tier;  // of level 0: extrapolated
-  plan.every = static_cast<uint8_t>(level.every);
-  if (c.level > 0) plan.level = static_cast<uint8_t>(level.graph);
-  const bool carried = world.budget_us > 0 && !row.restarting && !row.hidden;
-  if (!carried && c.level == 0) plan.tier = Tier::kSkinning;
-}
+// Of frame::Reason.
+constexpr TierReason kTold[] = {TierReason::kBest, TierReason::kBudget, TierReason::kHeld, TierReason::kTurn};
 
 // Nothing of it is simulated, nothing of it is displaced.
-bool is_idle(const PlanRow& row, const PlanAnswer& plan) noexcept {
-  return !(frame::is_simulated(plan.tier) | row.displaced | row.shows | row.restarting | row.hidden);
+bool is_idle(const PlanRow& row, Tier tier) noexcept {
+  return !(frame::is_simulated(tier) | row.displaced | row.shows | row.restarting | row.hidden);
+}
+
+// Who has what is hard to foretell: no branch depends on it.
+void give_answer(bool has_budget, const PlanRow& row, const Candidate& c, PlanAnswer& plan) noexcept {
+  const frame::Level& level = c.front->levels[c.level];
+  const bool carried = has_budget & !row.restarting & !row.hidden, none = c.level == 0;
+  const Tier given = none & !carried ? Tier::kSkinning : level.tier;  // of level 0: extrapolated
+  const uint32_t every = c.keeps_level ? row.every : level.every;
+  const uint32_t graph = c.keeps_level | none ? row.level : level.graph;
+  const Tier tier = c.keeps_level ? Tier{row.tier} : given;
+  const bool idle = is_idle(row, tier);
+  plan.cost_us = c.planned_us;
+  plan.turn_left_s = c.turn_left_s;
+  plan.why = kTold[static_cast<size_t>(c.reason)];
+  plan.tier = tier;
+  plan.level = static_cast<uint8_t>(graph);
+  plan.every = static_cast<uint8_t>(every);
+  plan.idle = idle;
 }
 
 // ---- order ----
@@ -260,14 +256,13 @@ uint32_t rank_of(const Candidate& c, const PlanRow& row, const PlanAnswer& plan)
 // Counting sort, largest first, to a quarter of an octave.
 class Ranking {
  public:
-  explicit Ranking(WorldState& world) noexcept : world_(world) { world.idle_count = 0; }
+  explicit Ranking(WorldState& world) noexcept : world_(world) {}
 
   // Written wherever it may belong, and counted where it does: who is idle is hard to foretell.
-  void add(const Candidate& c, const PlanRow& row, PlanAnswer& plan) noexcept {
-    plan.idle = is_idle(row, plan);
+  void add(const Candidate& c, const PlanRow& row, const PlanAnswer& plan) noexcept {
     const uint32_t behind = kRanks - 1 - rank_of(c, row, plan), active = !plan.idle;
-    world_.idle_slots[world_.idle_count] = c.slot;
-    world_.idle_count += plan.idle;
+    world_.idle_slots[idle_] = c.slot;
+    idle_ += plan.idle;
     world_.ranked[count_] = {c.slot, behind};
     count_ += active;
     world_.rank_begins[behind + 1] += active;
@@ -276,6 +271,7 @@ class Ranking {
   }
   // Leaves the counts at zero, as they were found.
   std::span<uint32_t> put_in_order() noexcept {
+    world_.idle_count = idle_;
     uint32_t* begins = world_.rank_begins.get();  // [kRanks + 1]
     uint32_t before = 0;
     for (uint32_t d = first_; d <= last_; ++d) begins[d] = before += begins[d];
@@ -286,7 +282,7 @@ class Ranking {
 
  private:
   WorldState& world_;
-  uint32_t count_ = 0, first_ = kRanks, last_ = 0;
+  uint32_t count_ = 0, idle_ = 0, first_ = kRanks, last_ = 0;
 };
 
 float in_any_case_us(const PlanRow& row) noexcept {
@@ -327,9 +323,11 @@ frame::ScheduleResult plan_step(WorldState& world, double dt_s) noexcept {
   if (gathered.waiting != kNone) raise_waiting(world, budget_us, gathered, result);
   const std::span<const Candidate> candidates{world.candidates.get(), gathered.candidates};
   Ranking ranking(world);
+  const bool has_budget = world.budget_us > 0;
   for (const Candidate& c : candidates) {
-    take_answer(world, c);
-    ranking.add(c, world.rows[c.slot], world.answers[c.slot]);
+    const PlanRow& row = world.rows[c.slot];
+    give_answer(has_budget, row, c, world.answers[c.slot]);
+    ranking.add(c, row, world.answers[c.slot]);
   }
   world.running = ranking.put_in_order();
   add_up_behind(world, world.running);
