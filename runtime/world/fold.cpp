@@ -6,6 +6,7 @@
 #include "core/clock.hpp"
 #include "world/affords_surface.hpp"
 #include "world/plan.hpp"
+#include "world/rod_sleep.hpp"
 
 namespace sinew::world {
 namespace {
@@ -18,8 +19,9 @@ frame::CostEstimate& tick_cost(const PlanRow& row) noexcept {
   return costs_of(row).cost.of(row.tier, row.level);
 }
 
-// A sleeper's or a toucher's own cost is its factor; the asset's is that of those who are awake. One that may
-// come to touch skin counts for no less: that sleep is cheap on capsules says nothing of skin.
+// A sleeper's or a toucher's own cost is its factor; the asset's is that of those who are awake. Who has a
+// skin to touch counts for no less unless it sleeps on it: that sleep is cheap on capsules says nothing of
+// skin.
 void learn_tick_cost(Instance& instance, const PlanRow& row, float tick_us) noexcept {
   constexpr float kWeight = 0.125f, kFarthest = 2, kLeast = 0.1f, kMost = 10;
   frame::CostEstimate& estimate = tick_cost(row);
@@ -27,8 +29,8 @@ void learn_tick_cost(Instance& instance, const PlanRow& row, float tick_us) noex
   if (row.regions_asleep == 0) estimate.observe(tick_us);
   const float seen = tick_us / std::max(1e-3f, estimate.estimate_us());
   factor += kWeight * (std::clamp(seen, factor / kFarthest, factor * kFarthest) - factor);
-  const bool may_rise_to_skin = row.has_surface && !affords_surface(row.tier, row.level);
-  factor = std::clamp(factor, may_rise_to_skin ? 1 : kLeast, kMost);
+  const bool sleeps_on_skin = affords_surface(row.tier, row.level) && rods_asleep(instance) > 0;
+  factor = std::clamp(factor, row.has_surface && !sleeps_on_skin ? 1 : kLeast, kMost);
 }
 
 // What it took beyond its ticks.
@@ -40,12 +42,18 @@ void learn_beyond(const Instance& instance, const PlanRow& row, float took_us,
   to.observe(std::clamp(took_us - ticks * tick_us, 0.0f, kMost * tick_us));
 }
 
+void learn_coming_back(float took_us, frame::CostModel& cost) noexcept {
+  constexpr float kMost = 4;  // of publishing: a first sample is not clipped by those before it
+  if (!cost.come_back.is_known()) took_us = std::min(took_us, kMost * cost.publish.estimate_us());
+  cost.come_back.observe(took_us);
+}
+
 void learn_costs(Instance& instance, const PlanRow& row) noexcept {
   const InstanceTimes& times = instance.times;
   frame::CostModel& cost = costs_of(row).cost;
   const uint64_t ticked_ns = times.drive_ns + times.tissue_ns + times.rods_ns;
   const float ticked_us = core::microseconds(ticked_ns);
-  if (instance.came_back) return cost.come_back.observe(core::microseconds(times.total_ns));
+  if (instance.came_back) return learn_coming_back(core::microseconds(times.total_ns), cost);
   const bool ran = frame::is_simulated(row.tier) && instance.plan.ticks.ticks > 0 &&
                    (ran_as_planned(instance, row) || instance.cut);
   if (instance.changed_level) {
@@ -106,12 +114,18 @@ float add_idle(FrameReport& report) noexcept {
   return 1;
 }
 
+// On skin it comes back awake.
+bool forgets_its_sleep(const PlanRow& row) noexcept {
+  return row.has_surface && !frame::is_simulated(row.tier);
+}
+
 float add(WorldState& world, uint32_t slot, FrameReport& report) noexcept {
   if (world.answers[slot].idle) return add_idle(report);
   Instance& instance = *world.instances.at(slot);
   if (instance.passed) return add_dormant(instance, report);
   world.busy_ns += instance.times.total_ns;
   if (costs_are_measured(world)) learn_costs(instance, world.rows[slot]);
+  if (forgets_its_sleep(world.rows[slot])) instance.cost_factor = std::max(1.0f, instance.cost_factor);
   world.rows[slot].cost_factor = instance.cost_factor;
   if (instance.cut || instance.held) world.undone_us += instance.plan.cost_us;
   return add_active(instance, world.rows[slot], report);

@@ -6,6 +6,7 @@
 #include "core/clock.hpp"
 #include "core/flush_denormals.hpp"
 #include "frame/scheduler.hpp"
+#include "world/affords_surface.hpp"
 #include "world/blend.hpp"
 #include "world/catch_up.hpp"
 #include "world/change_level.hpp"
@@ -16,7 +17,6 @@
 #include "world/motion.hpp"
 #include "world/publish.hpp"
 #include "world/push_surface.hpp"
-#include "world/rod_contacts.hpp"
 #include "world/rod_motion.hpp"
 #include "world/rod_sleep.hpp"
 #include "world/simulate.hpp"
@@ -184,6 +184,15 @@ bool rises(const Instance& instance) noexcept {
   return planned > has || (planned == has && instance.plan.level < instance.state->level);
 }
 
+// Skin or capsules, between two simulated tiers: who begins anew wakes in any case.
+bool changes_what_rods_touch(const Instance& instance, Tier had) noexcept {
+  const InstancePlan& plan = instance.plan;
+  if (!instance.contacts.surface || !frame::is_simulated(had) || !frame::is_simulated(plan.tier))
+    return false;
+  const uint32_t level = plan.ticks.ticks > 0 ? plan.level : instance.state->level;
+  return affords_surface(had, instance.state->level) != affords_surface(plan.tier, level);
+}
+
 // One that is asleep was to have better; late, it keeps what it has, and it is the next one's turn.
 void sleep_on(Instance& instance) noexcept {
   instance.passed = true;
@@ -209,13 +218,13 @@ void step_instance(Instance& instance, const TickContext& context, uint32_t slot
   const bool goes_on = catches_up(instance);
   instance.entered = frame::is_simulated(tier) && !goes_on &&
                      (!frame::is_simulated(instance.state->tier) || instance.state->motion_stale);
-  const bool was_on_surface = touches_surface(instance);
+  const Tier had = goes_on ? instance.state->left_tier : instance.state->tier;
+  if (changes_what_rods_touch(instance, had)) wake_rods(instance);
   instance.changed_level = changes_level(instance);
   instance.refined = refines(instance);
   if (instance.changed_level) change_level(instance, instance.plan.level);
   end_gap(instance, goes_on);
   enter_tier(instance, tier);
-  if (touches_surface(instance) != was_on_surface) wake_rods(instance);
   instance.state->every = instance.plan.every;
   take_pose(instance, context.teleport_distance_m);
   watch_pose(instance);

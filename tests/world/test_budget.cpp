@@ -21,9 +21,11 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 struct FakeClock {
   std::atomic<uint64_t> now_ns{0};
   double look_us = 10;
+  std::atomic<uint64_t> looks{0}, late_look{0}, first_end{0};  // twenty milliseconds late
   ClockHook hook() {
     const auto look = [](void* context) -> uint64_t {
       auto& clock = *static_cast<FakeClock*>(context);
+      if (++clock.looks == clock.late_look) clock.now_ns += 20'000'000;
       return clock.now_ns += static_cast<uint64_t>(clock.look_us * 1e3);
     };
     return {.now_ns = look, .context = this};
@@ -147,6 +149,32 @@ TEST_CASE("there_is_room_for_who_comes_into_view") {
   }
   CHECK(over == 0);
   CHECK(simulated >= 60 * kSeconds);
+}
+
+// Three looks before the end of the step in which one first comes into view.
+TEST_CASE("one_preempted_coming_into_view_does_not_take_simulation_from_the_others") {
+  const auto simulated = [](FakeClock& clock, uint64_t late_look) {
+    Stage stage(8, {.clock = clock.hook()});
+    clock.late_look = late_look;
+    REQUIRE(stage.world.set_budget_us(static_cast<float>(80 * clock.look_us)).ok());
+    stage.play(scenes::walk, 2);
+    std::vector<uint32_t> counts;
+    for (int second = 0; second < 30; ++second) {
+      REQUIRE(stage.world.set_hidden(stage.blocks[7], true).ok());
+      stage.play(scenes::walk, 0.5);
+      REQUIRE(stage.world.set_hidden(stage.blocks[7], false).ok());
+      const FrameReport report = stage.step(scenes::walk, 1.0 / 60);
+      counts.push_back(report.instances_network + report.instances_modal + report.instances_spring);
+      if (second == 0) clock.first_end = clock.looks.load();
+      stage.play(scenes::walk, 0.5);
+    }
+    return counts;
+  };
+  FakeClock quiet, disturbed;
+  const std::vector<uint32_t> usual = simulated(quiet, 0), after = simulated(disturbed, quiet.first_end - 3);
+  REQUIRE(disturbed.looks > quiet.first_end);
+  CHECK(*std::min_element(usual.begin(), usual.end()) > 0);
+  CHECK(*std::min_element(after.begin() + 1, after.end()) > 0);
 }
 
 // What was cut is the first to run in the next step.

@@ -10,6 +10,7 @@
 #include "world/affords_surface.hpp"
 #include "world/change_level.hpp"
 #include "world/fold.hpp"
+#include "world/rod_sleep.hpp"
 
 using namespace sinew;
 using scenes::kTail;
@@ -352,7 +353,7 @@ TEST_CASE("skin_that_was_too_dear_and_is_cheap_now_is_touched_again") {
 }
 
 // A step in which a tick took a tenth of what it should have.
-TEST_CASE("who_is_cheap_on_skin_is_priced_so_and_who_is_on_capsules_is_not") {
+TEST_CASE("who_sleeps_on_skin_is_priced_so_and_who_is_on_capsules_is_not") {
   for (const uint32_t level : {0u, 1u}) {
     Skin skin;
     world::WorldState state;
@@ -365,6 +366,7 @@ TEST_CASE("who_is_cheap_on_skin_is_priced_so_and_who_is_on_capsules_is_not") {
     world::Instance& block = *state.instances.find(state.instances.create(std::move(made)));
     block.plan = {.ticks = {.ticks = 1}, .tier = Tier::kModal, .level = level};
     block.state->tier = Tier::kModal;
+    block.state->rod_quiet_ticks = world::kRodsQuietTicks;
     world::change_level(block, level);
     world::keep_row(state, 0);
     const float tick_us = asset.surface_costs.cost.of(Tier::kModal, level).estimate_us();
@@ -372,7 +374,25 @@ TEST_CASE("who_is_cheap_on_skin_is_priced_so_and_who_is_on_capsules_is_not") {
     FrameReport report;
     world::fold_results(state, report);
     CHECK((block.cost_factor < 1) == (level == 0));
+    block.state->tier = block.plan.tier = Tier::kExtrapolate;
+    world::keep_row(state, 0);
+    world::fold_results(state, report);
+    CHECK(block.cost_factor == 1);
   }
+}
+
+TEST_CASE("rods_asleep_on_skin_sleep_on_over_a_tick_that_was_cut") {
+  Skin skin(-0.5);
+  SurfaceStage stage({.own_body = true, .surface = &skin});
+  stage.hold(1500);
+  const uint32_t asleep = stage.report().rods_asleep;
+  REQUIRE(asleep > 0);
+  REQUIRE(stage.world.set_budget_us(1e-6f).ok());
+  stage.step_pose();
+  REQUIRE(stage.report().tier == Tier::kExtrapolate);
+  REQUIRE(stage.world.set_budget_us(INFINITY).ok());
+  stage.hold(2);
+  CHECK(stage.report().rods_asleep == asleep);
 }
 
 TEST_CASE("those_who_have_no_skin_to_touch_are_not_charged_for_it") {
