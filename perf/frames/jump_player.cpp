@@ -28,13 +28,22 @@ void JumpPlayer::step(const Way& way) {
   const std::span<const Matrix34> joints = tape_.joints(static_cast<double>(++tick_) * asset_.tick_s);
   std::ranges::copy(joints, instance_.next_joints);
   instance_.state->has_next = 1;
-  if (way.hidden) return world::pass_by(instance_, asset_.tick_s, 1);
+  if (way.hidden) return pass_by();
   instance_.plan = {.ticks = {.ticks = 1, .first_tick_s = asset_.tick_s},
                     .dt_s = asset_.tick_s,
                     .tier = way.tier,
                     .level = frame::is_simulated(way.tier) ? way.level : instance_.state->level,
                     .every = way.every};
   world::step_instance(instance_, {});
+}
+
+void JumpPlayer::pass_by() {
+  if (instance_.state->hidden == 0) world::hide(instance_);
+  world::PlanRow row;
+  row.state = instance_.state;
+  world::copy_to_row(instance_, &row);
+  world::pass_by({.ticks = 1}, row);
+  world::keep_hidden_ticks(row);
 }
 
 Surface JumpPlayer::surface() const {

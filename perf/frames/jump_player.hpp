@@ -34,6 +34,8 @@ class JumpPlayer {
   const world::Asset& asset() const { return asset_; }
 
  private:
+  void pass_by();
+
   double seconds_;
   PoseTape tape_;
   world::Asset asset_;
