@@ -9,6 +9,7 @@
 #include "tissue/guard.hpp"
 #include "tissue/network.hpp"
 #include "tissue/node_bend.hpp"
+#include "world/blend_pace.hpp"
 #include "world/catch_up.hpp"
 #include "world/motion.hpp"
 #include "world/rod_blend.hpp"
@@ -30,13 +31,15 @@ void begin_tail(Instance& instance, float velocity_kept) noexcept {
     instance.tail_velocity[i] = velocity_kept * (instance.shown[0][i] - instance.shown[1][i]);
   }
   begin_rod_tails(instance, velocity_kept);
+  instance.state->tail_is = instance.state->tier == Tier::kSpring ? kSpringsTail : 0;
   instance.state->tail_ticks = 0;
   instance.state->tail_rides = 0;
 }
 
 // From what is shown. What was not simulated for a while is blended in; from rest there is nothing to blend:
 // zero is exact. Where the tail fades already it tells nothing of how flesh moves: what is blended in begins
-// where the tick would hold it at rest, and swings less than from there (world/simulate.cpp).
+// where the tick would hold it at rest, and swings less than from there (world/simulate.cpp); after a pose
+// that only counts as held in the next tick again, for the first knows no acceleration.
 void begin_simulation(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   pose_at_start(instance);
@@ -46,8 +49,10 @@ void begin_simulation(Instance& instance) noexcept {
   take_rods_as_shown(instance);
   state.motion_stale = 1;
   state.clamped_ticks = 0;
-  state.blend_ticks = state.untouched ? kBlendInTicks : 0;
+  state.blend_ticks = state.untouched ? kBlendInTicks : 0.0f;
   state.lifted = 0;
+  const bool rests = state.tail_ticks > kCarryTicks && !state.untouched;
+  state.rest_ticks = !rests ? 0 : state.dt_before_s > 0 ? 1 : 2;
 }
 
 // A network that missed a moment keeps its memory, of everything but where the tissue is.
@@ -62,14 +67,18 @@ void begin_network(Instance& instance) noexcept {
   state.clamped_ticks = 0;
 }
 
-// A spring's place need not be a shape of the modes: what they leave of it snaps back within a tick. What was
-// shown is carried on and blended into them.
-void begin_base(Instance& instance) noexcept {
-  lift_displacement(instance);
-  if (instance.state->tier != Tier::kSpring) return;
+// Springs and modes are two laws. A spring's place need not be a shape of the modes: what they leave of it
+// snaps back within a tick; and springs hang elsewhere under the same load. What was shown is carried on and
+// blended in.
+void blend_laws(Instance& instance) noexcept {
   begin_tail(instance, 1);
   instance.state->lifted |= instance.state->blend_ticks >= kBlendInTicks;  // else rods are on their way, too
   instance.state->blend_ticks = 0;
+}
+
+void begin_base(Instance& instance) noexcept {
+  lift_displacement(instance);
+  if (instance.state->tier == Tier::kSpring) blend_laws(instance);
 }
 
 bool has_base(Tier tier) noexcept { return tier == Tier::kModal || tier == Tier::kNetwork; }
@@ -95,6 +104,17 @@ void stop_what_creeps(Instance& instance) noexcept {
   }
 }
 
+// Springs that are let go of from where only they hang would swing back at once.
+void hold_speed(Instance& instance, size_t node, const float* before) noexcept {
+  constexpr float kMost = 0.002f;  // of the height, a tick
+  float* v = instance.tail_velocity + 3 * node;
+  const auto length = [](const float* x) { return std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]); };
+  const float most_m = std::max(kMost * instance.level->pack.character->height_m, length(before));
+  const float speed_m = length(v);
+  if (!(speed_m > most_m)) return;
+  for (int k = 0; k < 3; ++k) v[k] *= most_m / speed_m;
+}
+
 // What is not driven swings as its first mode does, u_t = a1 u_{t-1} + a2 u_{t-2}. What it was driven
 // by is let go of over the ticks until the fade, for a force that ends at once is seen as a jump; it is
 // damped from the first on, for what is let go of where it was pressed hardest would fling faster than it
@@ -105,12 +125,15 @@ void swing_tail(Instance& instance, size_t r) noexcept {
   const uint32_t tick = instance.state->tail_ticks;
   const float free = tick <= kCarryTicks ? static_cast<float>(tick) / kCarryTicks : 0;
   const float pull = free * (spring.a1 + spring.a2 - 1), drag = free * (1 + spring.a2);
-  const size_t begin = size_t{3} * region.first_node, end = begin + size_t{3} * region.node_count;
-  for (size_t i = begin; i < end; ++i) {
-    float &u = instance.tail[i], &velocity = instance.tail_velocity[i];
-    velocity += pull * u - drag * velocity;
-    u += velocity;
-    velocity *= kCarryDamping;
+  for (size_t n = region.first_node; n < region.first_node + region.node_count; ++n) {
+    float *u = instance.tail + 3 * n, *velocity = instance.tail_velocity + 3 * n;
+    const float before[3] = {velocity[0], velocity[1], velocity[2]};
+    for (int k = 0; k < 3; ++k) velocity[k] += pull * u[k] - drag * velocity[k];
+    if (instance.state->tail_is & kSpringsTail) hold_speed(instance, n, before);
+    for (int k = 0; k < 3; ++k) {
+      u[k] += velocity[k];
+      velocity[k] *= kCarryDamping;
+    }
   }
 }
 
@@ -142,6 +165,10 @@ void enter_tier(Instance& instance, Tier tier) noexcept {
     begin_gap(instance);
   }
   if (has_base(tier) && !has_base(state.tier)) begin_base(instance);
+  if (tier == Tier::kSpring && has_base(state.tier)) {
+    blend_laws(instance);
+    state.tail_is |= kTailStays;  // a blend into springs lasts longer than a tail
+  }
   if (tier == Tier::kNetwork && state.tier != Tier::kNetwork) begin_network(instance);
   if (tier != state.tier) wake_regions(instance);
   instance.settles &= has_base(tier);
@@ -180,16 +207,19 @@ void take_simulated(const Instance& instance, int tick, float* out) noexcept {
 void show_tick(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   count_tail(state);
-  if (frame::is_simulated(state.tier) && state.blend_ticks < kBlendInTicks) ++state.blend_ticks;
+  if (frame::is_simulated(state.tier)) state.rest_ticks -= state.rest_ticks > 0;
   if (state.seam_ticks < kBlendInTicks) ++state.seam_ticks;
   for (size_t r = 0; r < instance.level->pack.regions.size(); ++r)
     if (instance.regained[r] == kRegainedNow) instance.regained[r] = kRegained;
-  if (state.blend_ticks == kBlendInTicks) state.tail_rides = 0;
-  const auto [simulated, tail] = instance.shown_shares();
-  if (simulated < 1) advance_tail(instance);
+  const bool simulates = frame::is_simulated(state.tier);
+  const bool blends = simulates && state.blend_ticks < kBlendInTicks;
+  if ((blends || !simulates) && !state.tail_rides) advance_tail(instance);
   copy(instance, instance.shown[0], instance.shown[1]);
-  show_rods(instance, state.lifted && frame::is_simulated(state.tier) ? 1 : instance.simulated_share());
-  if (simulated > 0) take_simulated(instance, 0, instance.shown[0]);
+  if (simulates) take_simulated(instance, 0, instance.shown[0]);
+  if (blends) advance_blend(instance);
+  if (state.blend_ticks == kBlendInTicks) state.tail_rides = 0;
+  show_rods(instance, state.lifted && simulates ? 1 : instance.simulated_share());
+  const auto [simulated, tail] = instance.shown_shares();
   if (simulated == 1 && tail == 0) return;
   for (size_t i = 0; i < floats_of(instance); ++i) {
     instance.shown[0][i] = simulated * instance.shown[0][i] + tail * instance.tail[i];

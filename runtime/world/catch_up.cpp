@@ -26,12 +26,20 @@ bool knows_poses(const Instance& instance) noexcept {
   return first_s >= -back_s - kRounding_s;
 }
 
+// On the level that it has. Modes are of few memories, and may do so on a coarser one; springs are another
+// law, and what modes missed is not theirs to make up for.
+bool may_go_on(const Instance& instance) noexcept {
+  const InstanceState& state = *instance.state;
+  const InstancePlan& plan = instance.plan;
+  if (plan.level == state.level) return true;
+  return plan.level > state.level && plan.tier == Tier::kModal && state.left_tier != Tier::kSpring;
+}
+
 }  // namespace
 
 bool catches_up(const Instance& instance) noexcept {
-  const InstanceState& state = *instance.state;
   const InstancePlan& plan = instance.plan;
-  return frame::is_simulated(plan.tier) && missed_so_far(instance) > 0 && plan.level == state.level &&
+  return frame::is_simulated(plan.tier) && missed_so_far(instance) > 0 && may_go_on(instance) &&
          plan.ticks.ticks > 0 && !(plan.ticks.dropped_s > 0) && knows_poses(instance);
 }
 
@@ -64,7 +72,8 @@ void ride_on(Instance& instance) noexcept {
     off[i] = instance.shown[0][i] - off[i];
   ride_rods(instance);
   state.missed_ticks = 0;
-  state.blend_ticks = state.lifted = 0;
+  state.blend_ticks = 0;
+  state.lifted = state.rest_ticks = 0;
   state.tail_rides = 1;
 }
 

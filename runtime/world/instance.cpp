@@ -27,10 +27,13 @@ namespace sinew::world {
 namespace {
 
 static_assert(std::is_trivially_copyable_v<InstanceState>, "saved as bytes");
-static_assert(sizeof(InstanceState) == 416, "no padding: equal states are equal bytes");
+static_assert(sizeof(InstanceState) == 424, "no padding: equal states are equal bytes");
 static_assert(offsetof(InstanceState, root) == kPlannedStateBytes, "what is planned by comes first");
 
 float smooth_step(float t) noexcept { return t * t * (3 - 2 * t); }
+
+// Its first three derivatives are zero at both ends.
+float gentle_step(float t) noexcept { return t * t * t * t * (35 - t * (84 - t * (70 - 20 * t))); }
 
 bool touches_own_body(const Asset& asset, const ContactDef& contacts) noexcept {
   return contacts.own_body && asset.touchable != nullptr;
@@ -132,18 +135,19 @@ void lay_out(const Asset& asset, core::Arena& arena, Instance& to) noexcept {
 
 float Instance::simulated_share() const noexcept {
   if (!frame::is_simulated(state->tier)) return 0;
-  return smooth_step(static_cast<float>(state->blend_ticks) / kBlendInTicks);
+  return smooth_step(state->blend_ticks / kBlendInTicks);
 }
 
 float Instance::tail_share(float ahead) const noexcept {
+  if (frame::is_simulated(state->tier) && (state->tail_is & kTailStays)) return 1;
   const float faded = static_cast<float>(state->tail_ticks) + ahead - static_cast<float>(kCarryTicks);
   if (state->tail_ticks < kCarryTicks || faded <= 0) return 1;
   return smooth_step(1 - std::min(faded / static_cast<float>(kFadeTicks), 1.0f));
 }
 
 ShownShares Instance::shown_shares() const noexcept {
+  if (state->tail_rides) return {1, 1 - gentle_step(state->blend_ticks / kBlendInTicks)};
   const float b = simulated_share();
-  if (state->tail_rides) return {1, 1 - b};
   return {b, (1 - b) * tail_share()};
 }
 
@@ -235,6 +239,7 @@ void forget_displacement(Instance& instance) noexcept {
   state.tail_ticks = kCarryTicks + kFadeTicks;
   state.clamped_ticks = 0;
   state.tail_rides = 0;
+  state.rest_ticks = 0;
   state.seam_ticks = kBlendInTicks;
 }
 

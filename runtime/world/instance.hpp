@@ -25,6 +25,9 @@ inline constexpr uint32_t kCarryTicks = 4;  // swings on before the fade begins:
 inline constexpr uint32_t kFadeTicks = 12;  // from there to skinning
 inline constexpr uint32_t kBlendInTicks = 20;  // from that to simulation, when it comes back: by then most
                                                // of the swing of starting from the wrong place has died down
+inline constexpr uint32_t kSpringBlendTicks = 40;  // to springs, which swing on for longer
+inline constexpr uint32_t kLongestBlendTicks =
+    60;  // where that would move something far (world/blend_pace.hpp)
 // A network that missed at most so many ticks keeps its memory when it comes back; after more, its velocities
 // are of another phase of the wobble and it starts anew from where it is.
 inline constexpr uint32_t kRememberedTicks = 2;
@@ -40,6 +43,8 @@ inline constexpr uint32_t kProbesAtOnce = 128, kHitsAtOnce = 2 * kProbesAtOnce;
 inline constexpr uint32_t kFallbackTicks = 60;  // on the modal base, after a network's state was given up
 
 // The part of the state that is not an array. Plain bytes: saved and restored as they are.
+inline constexpr uint32_t kSpringsTail = 1, kTailStays = 2;  // InstanceState::tail_is
+
 struct InstanceState {
   // What a plan does to those that it passes over comes first: kPlannedStateBytes of it.
   double remainder_s = 0;  // frame/tick_clock.hpp
@@ -53,7 +58,7 @@ struct InstanceState {
   uint32_t dormant = 0;                             // world/dormant.hpp
   uint32_t hidden = 0, hidden_by_caller = 0;        // world/hidden.hpp
   uint32_t blind_looks = 0;                         // in a row (world/look.hpp)
-  uint32_t blend_ticks = 0;                         // since simulation came back, at most kBlendInTicks
+  float blend_ticks = 0;  // of the way since simulation came back, at most kBlendInTicks; one a tick or less
 
   RootTransform root, next_root;    // at the end of the last step; of the pose set since
   double dt_before_s = 0;           // of the last step; 0: none, or none to compare with
@@ -66,7 +71,10 @@ struct InstanceState {
   uint32_t motion_stale = 1;        // ticks were not followed: the motion history is rebuilt before use
   uint32_t forgotten = 1;           // the network's state is no memory of this motion: a start, a guard
   uint32_t tail_ticks = kCarryTicks + kFadeTicks;  // since the tail began
-  uint32_t clamped_ticks = 0;                      // in a row
+  // Bits: the tail was springs', which hang elsewhere; it stays, for simulation under another law goes on.
+  uint32_t tail_is = 0;
+  uint32_t rest_ticks = 0;     // left in which what comes back begins at rest
+  uint32_t clamped_ticks = 0;  // in a row
   uint32_t ticks_since_network = 0;
   uint32_t input_clamps = 0, displacement_clamps = 0, fallbacks = 0, restarts = 0;
   uint32_t untouched = 1;  // no tick since the first pose: displacement is exactly zero
@@ -144,7 +152,7 @@ struct ShownShares {
 // the flesh, as is the tail: poses need not be followed to carry them on. shown = b u + (1 - b) tail, b
 // rising smoothly from 0 to 1 in kBlendInTicks. The tail is the displacement shown when simulation was last
 // left, carried on with damped velocity and then faded to zero; or, where it rides, what that was off, and
-// shown = u + (1 - b) tail.
+// shown = u + (1 - b) tail, b rising more gently.
 struct Instance {
   // What a plan does to those that it passes over, and what a report asks, comes first: kPlannedBytes of it.
   InstanceState* state = nullptr;

@@ -88,12 +88,10 @@ void count_clamps(Instance& instance, uint32_t held, uint32_t by_tier) noexcept 
   state.clamped_ticks = by_tier > 0 ? state.clamped_ticks + 1 : 0;
 }
 
-// In this tick, and nothing of it is seen yet: a change of level had the region again, or all of the instance
-// comes back after its tail has begun to fade.
+// In this tick, and next to nothing of it is seen yet: a change of level had the region again, or all of the
+// instance comes back after its tail has begun to fade.
 bool begins_at_rest(const Instance& instance, const Part& part) noexcept {
-  const InstanceState& state = *instance.state;
-  const bool comes_back = state.blend_ticks == 0 && !state.tail_rides && state.tail_ticks > kCarryTicks;
-  return comes_back || instance.regained[part.index] == kRegainedNow;
+  return instance.state->rest_ticks > 0 || instance.regained[part.index] == kRegainedNow;
 }
 
 // What of a load counts as lasting: the answer to a jolt that lasted for ever would be far off.

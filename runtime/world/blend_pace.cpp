@@ -1,0 +1,73 @@
+// blend_pace.cpp  see blend_pace.hpp.
+#include "world/blend_pace.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+#include "world/blend.hpp"
+
+namespace sinew::world {
+namespace {
+
+// Of the height, a tick. What rides is true beneath: it has all of simulation's own steps in it already.
+constexpr float kBlendStep = 0.002f, kRideStep = 0.0014f;
+constexpr float kSpringPace = static_cast<float>(kBlendInTicks) / kSpringBlendTicks;
+constexpr float kLeastPace = static_cast<float>(kBlendInTicks) / kLongestBlendTicks;
+
+using MapConst = Eigen::Map<const Eigen::Vector3f>;
+
+// shown = stays + share moves.
+struct Way {
+  Eigen::Vector3f stays, moves;
+};
+
+Way way_of(const Instance& instance, uint32_t node, float tail_share) noexcept {
+  const MapConst u(instance.shown[0] + size_t{3} * node), tail(instance.tail + size_t{3} * node);
+  if (instance.state->tail_rides) return {u + tail, -tail};
+  return {tail_share * tail, u - tail_share * tail};
+}
+
+// Largest x with |stays + x moves| <= reach; 0 where there is none above.
+float most_of(const Eigen::Vector3f& stays, const Eigen::Vector3f& moves, float reach) noexcept {
+  const float along = stays.dot(moves), length2 = moves.squaredNorm();
+  const float room = reach * reach - stays.squaredNorm();
+  if (length2 <= 0) return 1;
+  return room > 0 ? (std::sqrt(along * along + length2 * room) - along) / length2 : 0;
+}
+
+// By how much the share may rise from `share`.
+float most_rise(Instance& instance, float share, float step_m) noexcept {
+  take_simulated(instance, 1, instance.carry);
+  const float tail_share = instance.tail_share();
+  float most = 1;
+  for (uint32_t n = 0; n < instance.level->node_count(); ++n) {
+    const Way way = way_of(instance, n, tail_share);
+    const size_t at = size_t{3} * n;
+    const float own_m = (MapConst(instance.shown[0] + at) - MapConst(instance.carry + at)).norm();
+    const Eigen::Vector3f stays = way.stays + share * way.moves - MapConst(instance.shown[1] + at);
+    most = std::min(most, most_of(stays, way.moves, step_m + own_m));
+  }
+  return most;
+}
+
+float share_of(const Instance& instance) noexcept {
+  return instance.state->tail_rides ? 1 - instance.shown_shares().tail : instance.simulated_share();
+}
+
+}  // namespace
+
+void advance_blend(Instance& instance) noexcept {
+  InstanceState& state = *instance.state;
+  const float began = state.blend_ticks, share = share_of(instance);
+  const float usual = state.tier == Tier::kSpring && !state.tail_rides ? kSpringPace : 1.0f;
+  const float height_m = instance.level->pack.character->height_m;
+  const float most = most_rise(instance, share, height_m * (state.tail_rides ? kRideStep : kBlendStep));
+  state.blend_ticks = std::min(began + usual, float{kBlendInTicks});
+  const float rise = share_of(instance) - share;
+  if (rise <= most) return;
+  const float pace = std::max(usual * most / rise, kLeastPace);
+  state.blend_ticks = std::min(began + pace, float{kBlendInTicks});
+}
+
+}  // namespace sinew::world

@@ -1,0 +1,98 @@
+// test_blend_pace.cpp  A blend lasts as long as it takes to move nothing far.
+#include "world/blend_pace.hpp"
+
+#include <cmath>
+
+#include "tests/world/told_block.hpp"
+#include "world/snapshot.hpp"
+
+using namespace sinew;
+
+namespace {
+
+struct Block : test::ToldBlock {
+  Block() : ToldBlock(test::levels_pack()) {}
+  float blend_ticks() { return instance().state->blend_ticks; }
+};
+
+// Bent as far as it goes, then it shakes: much is off, and nothing of it is seen yet.
+scenes::BlockPose shaken(double time_s) { return scenes::bent_pose(0.3 + 0.5 * std::sin(21 * time_s)); }
+
+}  // namespace
+
+TEST_CASE("a_blend_that_would_move_something_far_takes_longer_and_ends_within_the_stated_ticks") {
+  Block block;
+  block.play(shaken, {.tier = Tier::kModal}, 300);
+  block.play(shaken, {.tier = Tier::kSkinning}, 60);
+  block.tick(shaken, {.tier = Tier::kModal});
+  uint32_t ticks = 1;
+  float last = block.blend_ticks();
+  for (; ticks < 100 && block.blend_ticks() < world::kBlendInTicks; ++ticks) {
+    block.tick(shaken, {.tier = Tier::kModal});
+    CHECK(block.blend_ticks() > last);
+    CHECK(block.blend_ticks() <= last + 1);
+    last = block.blend_ticks();
+  }
+  WARN("blended in over " << ticks << " ticks");
+  CHECK(ticks > world::kBlendInTicks);
+  CHECK(ticks <= world::kLongestBlendTicks);
+}
+
+TEST_CASE("a_blend_that_moves_nothing_far_takes_the_stated_ticks") {
+  const auto stands = [](double) { return scenes::bind_pose(); };
+  for (const auto& [tier, ticks] :
+       {std::pair{Tier::kModal, world::kBlendInTicks}, {Tier::kSpring, world::kSpringBlendTicks}}) {
+    Block block;
+    block.play(stands, {.tier = tier}, 60);
+    block.play(stands, {.tier = Tier::kSkinning}, 60);
+    block.play(stands, {.tier = tier}, static_cast<int>(ticks) - 1);
+    CHECK(block.blend_ticks() < world::kBlendInTicks);
+    block.tick(stands, {.tier = tier});
+    CHECK(block.blend_ticks() == world::kBlendInTicks);
+  }
+}
+
+TEST_CASE("a_blend_saved_between_its_ticks_goes_on_with_the_same_bits") {
+  Block block;
+  block.play(shaken, {.tier = Tier::kModal}, 300);
+  block.play(shaken, {.tier = Tier::kSkinning}, 60);
+  block.play(shaken, {.tier = Tier::kModal}, 15);
+  REQUIRE(block.blend_ticks() != std::floor(block.blend_ticks()));
+  std::vector<std::byte> saved(world::snapshot_bytes(block.instance()));
+  REQUIRE(world::save(block.instance(), saved).ok());
+  const auto on = [&] {
+    std::vector<float> seen;
+    for (int t = 0; t < 60; ++t) {
+      block.tick([&](double) { return shaken(0.1 * t); }, {.tier = Tier::kModal});
+      const std::vector<float> now = block.surface();
+      seen.insert(seen.end(), now.begin(), now.end());
+    }
+    return seen;
+  };
+  const std::vector<float> once = on();
+  REQUIRE(world::restore(block.instance(), saved).ok());
+  CHECK(on() == once);
+}
+
+// Frames of a 144 Hz screen have a tick or none.
+TEST_CASE("a_blend_goes_on_by_ticks_however_short_frames_are") {
+  const auto blend_after = [](double frame_s) {
+    test::Stage stage(1, {.budget_mode = BudgetMode::kWorkUnits}, test::levels_pack());
+    stage.play(shaken, 3);
+    REQUIRE(stage.world.set_budget_us(0).ok());
+    stage.play(shaken, 1);
+    REQUIRE(stage.world.set_budget_us(INFINITY).ok());
+    std::vector<float> blends;
+    for (double t = 0; t < 1.2; t += frame_s) {
+      stage.step(shaken, frame_s);
+      const float blend = stage.report().blend;
+      if (blends.empty() || blend != blends.back()) blends.push_back(blend);
+    }
+    CHECK(std::is_sorted(blends.begin(), blends.end()));
+    return blends;
+  };
+  const std::vector<float> usual = blend_after(1.0 / 60), quick = blend_after(1.0 / 144);
+  CHECK(usual.back() == 1);
+  CHECK(quick.back() == 1);
+  CHECK(quick.size() <= world::kLongestBlendTicks + 1);
+}
