@@ -5,7 +5,8 @@
 // held: how it got there is not known, and tissue feels nothing of it. How fast it moves is known a step
 // later, and simulation begins then. The displacement it had is carried on and faded as if it had been
 // extrapolated meanwhile (kCarryTicks, kFadeTicks), and simulation is blended in from there over
-// kBlendInTicks, with a network's memory only if it missed no more than kRememberedTicks.
+// kBlendInTicks or more (world/blend_pace.hpp), with a network's memory only if it missed no more than
+// kRememberedTicks.
 #pragma once
 #include "world/plan_row.hpp"
 

@@ -150,9 +150,9 @@ struct ShownShares {
 // Arrays are [nodes][3] in metres along each node's frame (tissue/node_bend.hpp) unless said otherwise; l,
 // theta and q as in tissue/modal_base.hpp, stale on springs. "Shown" is what is published, along the axes of
 // the flesh, as is the tail: poses need not be followed to carry them on. shown = b u + (1 - b) tail, b
-// rising smoothly from 0 to 1 in kBlendInTicks. The tail is the displacement shown when simulation was last
-// left, carried on with damped velocity and then faded to zero; or, where it rides, what that was off, and
-// shown = u + (1 - b) tail, b rising more gently.
+// rising smoothly from 0 to 1 in kBlendInTicks or more (world/blend_pace.hpp). The tail is the displacement
+// shown when simulation was last left, carried on with damped velocity and then faded to zero; or, where it
+// rides, what that was off, and shown = u + (1 - b) tail, b rising more gently.
 struct Instance {
   // What a plan does to those that it passes over, and what a report asks, comes first: kPlannedBytes of it.
   InstanceState* state = nullptr;
