@@ -6,7 +6,7 @@
 
 namespace sinew::perf {
 
-inline constexpr size_t kApart = 7, kWatched = 64;  // ticks: the longest blend and a little
+inline constexpr size_t kApart = 5, kWatched = 64;  // ticks: the longest blend and a little
 
 using Steps = std::vector<float>;  // [vertices]: metres from one frame to the next
 
