@@ -15,33 +15,59 @@ uint32_t ContactForces::end_strand() const {
   return std::min(batch.strand_count_, first_strand() + to.range_.groups * batch.width_);
 }
 
-// What its surface there moved.
-inline Vector ContactForces::surface_move(const Contact& c, size_t side, const SideNow& now) const {
+// What a side's point moved in this step.
+Vector ContactForces::move(const Contact& c, size_t side) const {
   const Contact::Side& s = c.sides[side];
-  if (s.segment == kNoSegment) return now.move;
-  const Turn by = product(conjugate(turn_at(&batch.at(s.strand, s.segment, simd::kRodTurn))), now.turn);
-  const Axes own = axes_of(now.turn);
+  if (s.segment == kNoSegment) return c.obstacle_move;
+  const float* d = to.scratch_row(batch, s.strand, s.segment, simd::kRodMove);
+  const size_t w = batch.width_;
+  const Vector middle = scaled(batch.units_[s.strand].length_m, {d[0], d[w], d[2 * w]});
+  return scaled_sum(s.along_m, difference(axes_of(turn_now(s)).z, s.axis), middle);
+}
+
+// And its surface there, of a point that moved so.
+Vector ContactForces::surface_move(const Contact& c, size_t side, const Vector& move) const {
+  const Contact::Side& s = c.sides[side];
+  if (s.segment == kNoSegment) return move;
+  const float* q = &batch.at(s.strand, s.segment, simd::kRodTurn);
+  const size_t w = batch.width_;
+  const Turn before = {q[0], q[w], q[2 * w], q[3 * w]}, turn = turn_now(s);
+  const Turn by = product(conjugate(before), turn);
+  const Axes own = axes_of(turn);
   const double side_of = by[3] < 0 ? -2 : 2;
   const Vector turned_by =
       scaled(side_of, scaled_sum(by[0], own.x, scaled_sum(by[1], own.y, scaled(by[2], own.z))));
-  return scaled_sum(s.radius_m, cross(turned_by, c.normal), now.move);
+  return scaled_sum(s.radius_m, cross(turned_by, c.normal), move);
 }
 
 // Gap and, where it is or was pressed, slip at the iterate. A strand that is lost touches
 // nothing: others are not to be lost with it.
 void ContactForces::look(Contact* c) const {
-  const SideNow a = side_now(c->sides[0]);
-  const SideNow b = c->has_two_rods() ? side_now(c->sides[1]) : SideNow{{}, c->obstacle_move};
-  c->open_m = c->gap_m + dot(c->normal, difference(a.move, b.move)) - c->allowed_m;
+  const Vector a = move(*c, 0), b = move(*c, 1);
+  c->open_m = c->gap_m + dot(c->normal, difference(a, b)) - c->allowed_m;
   c->slip_m = {};
   if (is_active(*c, c->open_m) || is_active(*c, c->open_before_m)) {
     c->slip_m = across(difference(surface_move(*c, 0, a), surface_move(*c, 1, b)), c->normal);
   }
-  // Of all at once: what is not finite stays so in a sum.
-  if (std::isfinite(c->open_m + (c->slip_m[0] + c->slip_m[1] + c->slip_m[2]))) return;
+  if (std::isfinite(c->open_m) && finite(c->slip_m)) return;
   c->open_m = std::numeric_limits<double>::max();
   c->force = 0;
   c->slip_m = c->drag = {};
+}
+
+bool ContactForces::iterated(const Contact& c) const {
+  return to.iterated_[c.sides[0].strand] || (c.has_two_rods() && to.iterated_[c.sides[1].strand]);
+}
+
+std::span<Contact> ContactForces::contacts() const {
+  return {to.contacts_ + to.range_.first_contact, to.range_.end_contact - to.range_.first_contact};
+}
+
+std::span<const uint32_t> ContactForces::going_strands() const {
+  return {to.going_strands_ + to.first_going_strand_, to.going_strand_count_ - to.first_going_strand_};
+}
+std::span<const uint32_t> ContactForces::going_contacts() const {
+  return {to.going_contacts_ + to.first_going_contact_, to.going_contact_count_ - to.first_going_contact_};
 }
 
 void ContactForces::all_go_on() const {

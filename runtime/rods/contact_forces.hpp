@@ -42,45 +42,22 @@ struct ContactForces {
     return lanes[(group * simd::kLaneFields + field) * batch.width_ + batch.lane_of(at)];
   }
   float& active(uint32_t strand) const { return lane(strand, simd::kLaneActive); }
-  Turn turn_at(const float* row) const {
-    const size_t w = batch.width_;
-    return {row[0], row[w], row[2 * w], row[3 * w]};
-  }
   Turn turn_now(const Contact::Side& side) const {
-    return turn_at(to.scratch_row(batch, side.strand, side.segment, simd::kRodNow));
+    const float* q = to.scratch_row(batch, side.strand, side.segment, simd::kRodNow);
+    const size_t w = batch.width_;
+    return {q[0], q[w], q[2 * w], q[3 * w]};
   }
-  std::span<Contact> contacts() const {
-    return {to.contacts_ + to.range_.first_contact, to.range_.end_contact - to.range_.first_contact};
-  }
+  std::span<Contact> contacts() const;
   // Of the range, and what of it goes on.
-  std::span<const uint32_t> going_strands() const {
-    return {to.going_strands_ + to.first_going_strand_, to.going_strand_count_ - to.first_going_strand_};
-  }
-  std::span<const uint32_t> going_contacts() const {
-    return {to.going_contacts_ + to.first_going_contact_, to.going_contact_count_ - to.first_going_contact_};
-  }
-  bool goes_on(uint32_t strand) const { return (to.turning_[strand] | to.pending_[strand]) != 0; }
-  bool goes_on(const Contact& c) const {
-    return goes_on(c.sides[0].strand) || (c.has_two_rods() && goes_on(c.sides[1].strand));
-  }
-  bool iterated(const Contact& c) const {
-    return to.iterated_[c.sides[0].strand] || (c.has_two_rods() && to.iterated_[c.sides[1].strand]);
-  }
+  std::span<const uint32_t> going_strands() const;
+  std::span<const uint32_t> going_contacts() const;
   void all_go_on() const;
   void leave_out_what_rests() const;
+  bool iterated(const Contact& contact) const;
   // Gap and slip at the iterate.
   void look(Contact* contact) const;
-  // What a side's point moved in this step.
-  Vector move(const Contact& c, size_t side) const {
-    return c.sides[side].segment == kNoSegment ? c.obstacle_move : side_now(c.sides[side]).move;
-  }
-  // Of a rod's side, with its segment's orientation.
-  struct SideNow {
-    Turn turn;
-    Vector move;
-  };
-  SideNow side_now(const Contact::Side& s) const;
-  Vector surface_move(const Contact& contact, size_t side, const SideNow& now) const;
+  Vector move(const Contact& contact, size_t side) const;
+  Vector surface_move(const Contact& contact, size_t side, const Vector& move) const;
   double last_turn(uint32_t strand) const;
 
   // contact_laws.cpp
@@ -91,13 +68,11 @@ struct ContactForces {
   double share_of(const Contact& contact) const;
   double mass_kg(const Contact& contact) const;
   double limit_of_new(const Contact& contact) const;
-  double limit_after(const Contact& contact) const;
   bool begin_anew(Contact* contact) const;
   bool slides_on(const Contact& contact, const Vector& slip) const;
   bool slid(const Contact& contact) const;
-  // `pulled`: the drag that all of the gain makes of a slip.
-  bool update_friction(Contact* contact, const Vector& slip, double pulled) const;
-  Vector drag_of(Contact* contact, const Vector& slip) const;
+  bool update_friction(Contact* contact, const Vector& slip) const;
+  Vector taken_drag(const Contact& contact, const Vector& slip, bool comes_to_rest) const;
   // What a contact went into an iteration with.
   struct Before {
     double force;
@@ -127,18 +102,11 @@ struct ContactForces {
 
   // contact_rows.cpp
   void assemble_ended() const;
+  bool goes_on(uint32_t strand) const;
+  bool goes_on(const Contact& contact) const;
   void add(const Contact& contact) const;
   void add_to_side(const Contact& contact, size_t side, const ContactForce& f, const Vector& force) const;
   float* touched_rows(uint32_t strand, uint32_t segment) const;
 };
-
-inline ContactForces::SideNow ContactForces::side_now(const Contact::Side& s) const {
-  static_assert(simd::kRodNow == simd::kRodMove + 3);
-  const float* d = to.scratch_row(batch, s.strand, s.segment, simd::kRodMove);
-  const size_t w = batch.width_;
-  const Turn turn = turn_at(d + 3 * w);
-  const Vector middle = scaled(batch.units_[s.strand].length_m, {d[0], d[w], d[2 * w]});
-  return {turn, scaled_sum(s.along_m, difference(axes_of(turn).z, s.axis), middle)};
-}
 
 }  // namespace sinew::rods

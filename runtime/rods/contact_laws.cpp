@@ -11,14 +11,7 @@ namespace {
 constexpr uint32_t kMostChanges = 2;
 // Of a segment's length, what of a gap no iteration closes: a turn in float, at half of it.
 constexpr double kRounding = 3e-8;
-constexpr double kAtLimit = 0.99;  // of the limit: forces that go on turn a little each step
-// In which friction's limit follows its force at once.
-constexpr float kFirstIterations = 2;
-
-// No longer than the limit.
-Vector limited(const Vector& drag, double size, double limit) {
-  return size > limit ? scaled(limit / size, drag) : drag;
-}
+constexpr double kAtLimit = 0.999;  // of the limit: less is not a rounding
 
 }  // namespace
 
@@ -67,27 +60,24 @@ bool ContactForces::slides_on(const Contact& c, const Vector& slip) const {
 // What slides and is carried back, or drags less than its limit, sticks; what drags more slides. What may be
 // either slides where it goes on sliding, and further: by the slip's own size it would get there only slowly.
 // Returns whether it changed; to go on sliding is none.
-bool ContactForces::update_friction(Contact* c, const Vector& slip, double pulled) const {
+bool ContactForces::update_friction(Contact* c, const Vector& slip) const {
   if (c->state == Friction::kEither) {
     if (slides_on(*c, slip)) c->state = Friction::kSlides;
     return false;
   }
+  const double drag = length(scaled_sum(-c->gain_kg, slip, c->drag));
   const bool slides = c->state == Friction::kSlides;
-  const bool changes = slides ? dot(slip, c->drag) > 0 || pulled < c->limit : pulled > c->limit;
+  const bool changes = slides ? dot(slip, c->drag) > 0 || drag < c->limit : drag > c->limit;
   if (!changes) return false;
   c->state = ++c->changes > kMostChanges ? Friction::kEither : slides ? Friction::kSticks : Friction::kSlides;
   return true;
 }
 
-// Of what slipped so, from the drag it had, that what comes to rest keeps.
-Vector ContactForces::drag_of(Contact* c, const Vector& slip) const {
-  if (!(c->force > 0)) return {};
-  const Vector pulled = scaled_sum(-c->gain_kg, slip, c->drag);
-  const double size = length(pulled);
-  const bool slid = c->state == Friction::kSlides, changed = update_friction(c, slip, size);
-  if (!(c->friction > 0)) return {};
-  if (changed && slid) return limited(c->drag, length(c->drag), c->limit);
-  return c->state == Friction::kSticks ? pulled : limited(pulled, size, c->limit);
+// Of what slipped so, from the drag it had.
+Vector ContactForces::taken_drag(const Contact& c, const Vector& slip, bool comes_to_rest) const {
+  if (!comes_to_rest) return forces_of(c, 0, slip).drag;
+  const double size = length(c.drag);
+  return size > c.limit ? scaled(c.limit / size, c.drag) : c.drag;
 }
 
 // What the forces that a system came to miss contact's laws by, kg m: a pull, drag that is more than friction
@@ -95,18 +85,19 @@ Vector ContactForces::drag_of(Contact* c, const Vector& slip) const {
 // where friction is at its limit and nothing slides, drags are not unique. The gain makes a force of each
 // gap's rounding.
 double ContactForces::law_miss(const Contact& c, const Before& before) const {
-  const Vector slipped = difference(c.slip_m, c.slip_before_m);
-  const double closed = c.open_m - c.open_before_m, nothing = nothing_m(c);
+  const double moved =
+      std::max(std::fabs(c.open_m - c.open_before_m), length(difference(c.slip_m, c.slip_before_m)));
   const bool sticks = before.state == Friction::kSticks;
-  if (!sticks && std::max(closed * closed, dot(slipped, slipped)) <= nothing * nothing) return 0;
+  if (!sticks && moved <= nothing_m(c)) return 0;
   const double pull = std::max(0.0, c.gain_kg * c.open_m - before.force);
   const double length_m = static_cast<double>(batch.units_[c.sides[0].strand].length_m);
   const double rounding = kRounding * length_m * c.gain_kg;
   if (!(c.friction > 0)) return std::max(0.0, pull - rounding);
-  const Vector drag = drag_after(c, before.linearised, slipped);
+  const Vector drag = drag_after(c, before.linearised, difference(c.slip_m, c.slip_before_m));
   const double limit = c.friction * c.force;
-  const Vector pulled = sticks ? drag : scaled_sum(-c.gain_kg, c.slip_m, drag);
-  const Vector lawful = limited(pulled, length(pulled), limit);
+  Vector lawful = sticks ? drag : scaled_sum(-c.gain_kg, c.slip_m, drag);
+  const double size = length(lawful);
+  if (size > limit) lawful = scaled(limit / size, lawful);
   return std::max(0.0, pull + length(difference(lawful, drag)) - rounding);
 }
 
@@ -135,27 +126,21 @@ void ContactForces::add_miss(const Contact& c, const Before& before) const {
   }
 }
 
-// Of the force that a system came to. What most contacts drag does not press them, and their limit follows at
-// once. Two contacts at right angles throw each other's force to and fro, what one drags presses the other:
-// errors turn by i friction an iteration, and of all shares of a change 1 / (1 + friction^2) leaves least of
-// them.
-double ContactForces::limit_after(const Contact& c) const {
-  const bool first = lane(c.sides[0].strand, simd::kLaneIterations) <= kFirstIterations;
-  const double change = c.friction * c.force - c.limit;
-  return c.limit + change / (first ? 1 : 1 + c.friction * c.friction);
-}
-
 // The forces of an iteration, as far as it was taken: with the whole gap, one left by a half step would be
-// pressed out again by a thousand masses. The limit is not of what a gap asks for, a hundred times that.
-// Returns whether the contact is as exact as wanted.
+// pressed out again by a thousand masses. The limit is of a force that a system came to, not of what a gap
+// asks for, a hundred times that. Two contacts at right angles throw each other's force to and fro, what one
+// drags presses the other: errors turn by i friction an iteration, and of all shares of a change
+// 1 / (1 + friction^2) leaves least of them. Returns whether the contact is as exact as wanted.
 bool ContactForces::take_over(Contact* c) const {
   if (!is_active(*c, c->open_before_m)) return begin_anew(c);
   const Before before = {c->force, c->drag, c->state, forces_of(*c, c->open_before_m, c->slip_before_m)};
   const double left = 1 - share_of(*c);
   const Vector slip = scaled_sum(-left, c->slip_before_m, c->slip_m);
   c->force = std::max(0.0, c->force - c->gain_kg * (c->open_m - left * c->open_before_m));
-  c->limit = limit_after(*c);
-  c->drag = drag_of(c, slip);
+  c->limit += (c->friction * c->force - c->limit) / (1 + c->friction * c->friction);
+  const bool changed = c->force > 0 && update_friction(c, slip);
+  const bool rests = changed && before.state == Friction::kSlides;
+  c->drag = taken_drag(*c, slip, rests);
   add_miss(*c, before);
   return is_exact(*c, before);
 }

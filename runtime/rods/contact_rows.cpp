@@ -37,6 +37,13 @@ void ContactForces::assemble_ended() const {
   }
 }
 
+bool ContactForces::goes_on(uint32_t strand) const {
+  return (to.turning_[strand] | to.pending_[strand]) != 0;
+}
+bool ContactForces::goes_on(const Contact& c) const {
+  return goes_on(c.sides[0].strand) || (c.has_two_rods() && goes_on(c.sides[1].strand));
+}
+
 void ContactForces::add(const Contact& c) const {
   if (!goes_on(c)) return;
   const ContactForce f = forces_of(c);
@@ -60,36 +67,27 @@ float* ContactForces::touched_rows(uint32_t strand, uint32_t segment) const {
   return to.rows_ + size_t{place} * simd::kRodContactRows * batch.width_ + batch.lane_of(at);
 }
 
-// J^T K J and J^T force of a side's point, K = pressed n n^T + held (1 - n n^T), less what slides, and
-// J = (1, -[arm] R): in units of the strand's own.
+// J^T K J and J^T force of a side's point, K = pressed n n^T + held (1 - n n^T), J = (1, -[arm] R): in units
+// of the strand's own.
 void ContactForces::add_to_side(const Contact& c, size_t side, const ContactForce& f,
                                 const Vector& force) const {
   const Contact::Side& s = c.sides[side];
+  const double pressed = s.stiffness_kg, held = f.across * pressed, along_held = f.along * pressed;
   const RodBatch::Units& units = batch.units_[s.strand];
-  const double m = units.mass_kg, l = units.length_m, pressed = s.stiffness_kg / m;
-  const double held = f.across * pressed, along_held = f.along * pressed;
-  const Vector stiff_normal = scaled(pressed - held, c.normal),
-               stiff_along = scaled(along_held - held, f.direction);
-  const auto stiff = [&](const Vector& v) {
-    return scaled_sum(dot(stiff_normal, v), c.normal,
-                      scaled_sum(dot(stiff_along, v), f.direction, scaled(held, v)));
-  };
+  const double m = units.mass_kg, l = units.length_m;
   const Axes own = axes_of(turn_now(s));
   const Vector arm = scaled(1 / l, scaled_sum(s.radius_m, c.normal, scaled(s.along_m, own.z)));
-  const Vector turns[3] = {cross(own.x, arm), cross(own.y, arm), cross(own.z, arm)};
-  const double per_force = 1 / (m * l);
+  const Vector moves[6] = {{1, 0, 0},         {0, 1, 0},         {0, 0, 1},
+                           cross(own.x, arm), cross(own.y, arm), cross(own.z, arm)};
   float* rows = touched_rows(s.strand, s.segment);
   const auto put = [&](size_t row, double value) { rows[row * batch.width_] += static_cast<float>(value); };
-  for (size_t r = 0; r < 3; ++r) {
-    const auto entry = [&](size_t k) {
-      return stiff_normal[r] * c.normal[k] + stiff_along[r] * f.direction[k] + (r == k ? held : 0);
-    };
-    for (size_t k = 0; k <= r; ++k) put(simd::kContactMatrix + triangle(r, k), entry(k));
-    const Vector turned = stiff(turns[r]);
-    for (size_t k = 0; k < 3; ++k) put(simd::kContactMatrix + triangle(3 + r, k), turned[k]);
-    for (size_t k = 0; k <= r; ++k) put(simd::kContactMatrix + triangle(3 + r, 3 + k), dot(turned, turns[k]));
-    put(simd::kContactForce + r, per_force * force[r]);
-    put(simd::kContactForce + 3 + r, per_force * dot(force, turns[r]));
+  for (size_t r = 0; r < 6; ++r) {
+    const double along = dot(moves[r], c.normal);
+    const Vector held_all =
+        scaled_sum((along_held - held) * dot(moves[r], f.direction), f.direction, scaled(held, moves[r]));
+    const Vector stiff = scaled(1 / m, scaled_sum((pressed - held) * along, c.normal, held_all));
+    for (size_t k = 0; k <= r; ++k) put(simd::kContactMatrix + triangle(r, k), dot(stiff, moves[k]));
+    put(simd::kContactForce + r, dot(force, moves[r]) / (m * l));
   }
 }
 

@@ -14,26 +14,34 @@ inline constexpr FieldSpan kIteratedScratch[] = {
 // As finish and what may look at the iterate read them.
 inline constexpr FieldSpan kEndedScratch[] = {{kRodMove, kRodImpulse - kRodMove}, {kRodImpulse + 3, 3}};
 
-// What the vectors of `to` take from those of `from`: a row's go together, for they lie together.
+// What one vector of `to` takes from one of `from`.
 template <class D, size_t kWidth>
-class LaneMoves {
- public:
-  HWY_INLINE explicit LaneMoves(const int8_t* lanes) {
-    for (size_t to = 0; to < kWidth; to += kLanes) {
-      for (size_t from = 0; from < kWidth; from += kLanes) add(from, to, lanes);
+struct LaneMove {
+  D d;
+  size_t from, to;
+  decltype(hn::SetTableIndices(D(), static_cast<const int32_t*>(nullptr))) sources;
+  hn::Mask<D> taken;
+  bool any;
+
+  HWY_INLINE LaneMove(size_t from_lane, size_t to_lane, const int8_t* lanes)
+      : from(from_lane), to(to_lane), any(false) {
+    constexpr size_t kLanes = hn::MaxLanes(D());
+    HWY_ALIGN int32_t at[kLanes];
+    HWY_ALIGN float takes[kLanes];
+    for (size_t k = 0; k < kLanes; ++k) {
+      const int32_t lane = lanes[to + k] - static_cast<int32_t>(from);
+      const bool here = lane >= 0 && lane < static_cast<int32_t>(kLanes);
+      at[k] = here ? lane : 0, takes[k] = here ? 1.0f : 0.0f;
+      any = any || here;
     }
+    sources = hn::SetTableIndices(d, at);
+    taken = hn::Gt(hn::Load(d, takes), hn::Zero(d));
   }
   HWY_INLINE void rows(const float* source, float* target, size_t count) const {
-    const D d;
     for (size_t row = 0; row < count * kWidth; row += kWidth) {
-      for (size_t k = 0; k < count_; ++k) {
-        const Move& move = moves_[k];
-        const auto sources = hn::SetTableIndices(d, move.sources);
-        const auto taken = hn::Gt(hn::Load(d, move.takes), hn::Zero(d));
-        const auto values = hn::TableLookupLanes(hn::Load(d, source + row + move.from), sources);
-        float* place = target + row + move.to;
-        hn::Store(hn::IfThenElse(taken, values, hn::Load(d, place)), d, place);
-      }
+      const auto values = hn::TableLookupLanes(hn::Load(d, source + row + from), sources);
+      float* place = target + row + to;
+      hn::Store(hn::IfThenElse(taken, values, hn::Load(d, place)), d, place);
     }
   }
   HWY_INLINE void spans(const Group<D, kWidth>& source, const Group<D, kWidth>& target, size_t segment,
@@ -41,45 +49,26 @@ class LaneMoves {
     for (const FieldSpan& span : fields)
       rows(source.at(segment, span.first), target.at(segment, span.first), span.count);
   }
-
- private:
-  static constexpr size_t kLanes = hn::MaxLanes(D()), kVectors = kWidth / kLanes;
-  struct Move {
-    HWY_ALIGN int32_t sources[kLanes];
-    HWY_ALIGN float takes[kLanes];
-    size_t from, to;
-  };
-
-  HWY_INLINE void add(size_t from, size_t to, const int8_t* lanes) {
-    Move& move = moves_[count_];
-    bool any = false;
-    for (size_t k = 0; k < kLanes; ++k) {
-      const int32_t lane = lanes[to + k] - static_cast<int32_t>(from);
-      const bool here = lane >= 0 && lane < static_cast<int32_t>(kLanes);
-      move.sources[k] = here ? lane : 0, move.takes[k] = here ? 1.0f : 0.0f;
-      any = any || here;
-    }
-    move.from = from, move.to = to;
-    if (any) ++count_;
-  }
-
-  size_t count_ = 0;
-  Move moves_[kVectors * kVectors];
 };
 
 // Vectors of `to` from the first on, so that a group's lanes may close up within it.
 template <size_t kWidth>
 void rod_move_lanes(const RodJob& from, const RodJob& to, const int8_t* lanes, bool ended) {
   using D = LanesOf<kWidth>;
+  constexpr size_t kLanes = hn::MaxLanes(D());
   const Group<D, kWidth> source = lanes_from<D, kWidth>(from, 0), target = lanes_from<D, kWidth>(to, 0);
-  const LaneMoves<D, kWidth> moves(lanes);
-  moves.rows(from.lanes, to.lanes, kLaneFields);
-  for (size_t i = 0; i < from.segments; ++i) {
-    if (ended) {
-      moves.spans(source, target, i, kEndedScratch);
-    } else {
-      moves.spans(source, target, i, kIteratedRecords);
-      moves.spans(source, target, i, kIteratedScratch);
+  for (size_t pair = 0; pair < kWidth / kLanes * (kWidth / kLanes); ++pair) {
+    const LaneMove<D, kWidth> move(pair % (kWidth / kLanes) * kLanes, pair / (kWidth / kLanes) * kLanes,
+                                   lanes);
+    if (!move.any) continue;
+    move.rows(from.lanes, to.lanes, kLaneFields);
+    for (size_t i = 0; i < from.segments; ++i) {
+      if (ended) {
+        move.spans(source, target, i, kEndedScratch);
+      } else {
+        move.spans(source, target, i, kIteratedRecords);
+        move.spans(source, target, i, kIteratedScratch);
+      }
     }
   }
 }
