@@ -31,7 +31,7 @@ void begin_tail(Instance& instance, float velocity_kept) noexcept {
     instance.tail_velocity[i] = velocity_kept * (instance.shown[0][i] - instance.shown[1][i]);
   }
   begin_rod_tails(instance, velocity_kept);
-  instance.state->tail_is = instance.state->tier == Tier::kSpring ? kSpringsTail : 0;
+  instance.state->springs_tail = instance.state->tier == Tier::kSpring;
   instance.state->tail_ticks = 0;
   instance.state->tail_rides = 0;
 }
@@ -67,9 +67,8 @@ void begin_network(Instance& instance) noexcept {
   state.clamped_ticks = 0;
 }
 
-// Springs and modes are two laws. A spring's place need not be a shape of the modes: what they leave of it
-// snaps back within a tick; and springs hang elsewhere under the same load. What was shown is carried on and
-// blended in.
+// A spring's place need not be a shape of the modes: what they leave of it snaps back within a tick. What was
+// shown is carried on and blended into them.
 void blend_laws(Instance& instance) noexcept {
   begin_tail(instance, 1);
   instance.state->lifted |= instance.state->blend_ticks >= kBlendInTicks;  // else rods are on their way, too
@@ -129,7 +128,7 @@ void swing_tail(Instance& instance, size_t r) noexcept {
     float *u = instance.tail + 3 * n, *velocity = instance.tail_velocity + 3 * n;
     const float before[3] = {velocity[0], velocity[1], velocity[2]};
     for (int k = 0; k < 3; ++k) velocity[k] += pull * u[k] - drag * velocity[k];
-    if (instance.state->tail_is & kSpringsTail) hold_speed(instance, n, before);
+    if (instance.state->springs_tail) hold_speed(instance, n, before);
     for (int k = 0; k < 3; ++k) {
       u[k] += velocity[k];
       velocity[k] *= kCarryDamping;
@@ -165,10 +164,6 @@ void enter_tier(Instance& instance, Tier tier) noexcept {
     begin_gap(instance);
   }
   if (has_base(tier) && !has_base(state.tier)) begin_base(instance);
-  if (tier == Tier::kSpring && has_base(state.tier)) {
-    blend_laws(instance);
-    state.tail_is |= kTailStays;  // a blend into springs lasts longer than a tail
-  }
   if (tier == Tier::kNetwork && state.tier != Tier::kNetwork) begin_network(instance);
   if (tier != state.tier) wake_regions(instance);
   instance.settles &= has_base(tier);
@@ -230,7 +225,7 @@ void show_nothing(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   state.tail_ticks = kCarryTicks + kFadeTicks;
   state.seam_ticks = kBlendInTicks;
-  state.restarting = 0;
+  state.restarting = state.springs_tail = 0;
   for (float* none : {instance.shown[0], instance.shown[1], instance.tail, instance.tail_velocity})
     std::memset(none, 0, sizeof(float) * floats_of(instance));
   forget_rods(instance);

@@ -12,7 +12,6 @@ namespace {
 
 // Of the height, a tick. What rides is true beneath: it has all of simulation's own steps in it already.
 constexpr float kBlendStep = 0.002f, kRideStep = 0.0014f;
-constexpr float kSpringPace = static_cast<float>(kBlendInTicks) / kSpringBlendTicks;
 constexpr float kLeastPace = static_cast<float>(kBlendInTicks) / kLongestBlendTicks;
 
 using MapConst = Eigen::Map<const Eigen::Vector3f>;
@@ -28,12 +27,13 @@ Way way_of(const Instance& instance, uint32_t node, float tail_share) noexcept {
   return {tail_share * tail, u - tail_share * tail};
 }
 
-// Largest x with |stays + x moves| <= reach; 0 where there is none above.
+// Largest x with |stays + x moves| <= reach; where none has, the x that comes nearest, 0 at least.
 float most_of(const Eigen::Vector3f& stays, const Eigen::Vector3f& moves, float reach) noexcept {
   const float along = stays.dot(moves), length2 = moves.squaredNorm();
-  const float room = reach * reach - stays.squaredNorm();
   if (length2 <= 0) return 1;
-  return room > 0 ? (std::sqrt(along * along + length2 * room) - along) / length2 : 0;
+  const float room = reach * reach - stays.squaredNorm();
+  const float under_root = std::max(along * along + length2 * room, 0.0f);
+  return std::max((std::sqrt(under_root) - along) / length2, 0.0f);
 }
 
 // By how much the share may rise from `share`.
@@ -60,13 +60,12 @@ float share_of(const Instance& instance) noexcept {
 void advance_blend(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   const float began = state.blend_ticks, share = share_of(instance);
-  const float usual = state.tier == Tier::kSpring && !state.tail_rides ? kSpringPace : 1.0f;
   const float height_m = instance.level->pack.character->height_m;
   const float most = most_rise(instance, share, height_m * (state.tail_rides ? kRideStep : kBlendStep));
-  state.blend_ticks = std::min(began + usual, float{kBlendInTicks});
+  state.blend_ticks = std::min(began + 1, float{kBlendInTicks});
   const float rise = share_of(instance) - share;
   if (rise <= most) return;
-  const float pace = std::max(usual * most / rise, kLeastPace);
+  const float pace = std::max(most / rise, kLeastPace);
   state.blend_ticks = std::min(began + pace, float{kBlendInTicks});
 }
 

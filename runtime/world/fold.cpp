@@ -5,6 +5,7 @@
 
 #include "core/clock.hpp"
 #include "world/affords_surface.hpp"
+#include "world/catch_up.hpp"
 #include "world/plan.hpp"
 #include "world/rod_sleep.hpp"
 
@@ -114,9 +115,9 @@ float add_idle(FrameReport& report) noexcept {
   return 1;
 }
 
-// On skin it comes back awake.
-bool forgets_its_sleep(const PlanRow& row) noexcept {
-  return row.has_surface && !frame::is_simulated(row.tier);
+// On skin it comes back awake, but where what it missed is made up for.
+bool forgets_its_sleep(const Instance& instance, const PlanRow& row) noexcept {
+  return row.has_surface && !frame::is_simulated(row.tier) && missed_so_far(instance) == 0;
 }
 
 float add(WorldState& world, uint32_t slot, FrameReport& report) noexcept {
@@ -125,7 +126,8 @@ float add(WorldState& world, uint32_t slot, FrameReport& report) noexcept {
   if (instance.passed) return add_dormant(instance, report);
   world.busy_ns += instance.times.total_ns;
   if (costs_are_measured(world)) learn_costs(instance, world.rows[slot]);
-  if (forgets_its_sleep(world.rows[slot])) instance.cost_factor = std::max(1.0f, instance.cost_factor);
+  if (forgets_its_sleep(instance, world.rows[slot]))
+    instance.cost_factor = std::max(1.0f, instance.cost_factor);
   world.rows[slot].cost_factor = instance.cost_factor;
   if (instance.cut || instance.held) world.undone_us += instance.plan.cost_us;
   return add_active(instance, world.rows[slot], report);

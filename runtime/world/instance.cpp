@@ -139,7 +139,6 @@ float Instance::simulated_share() const noexcept {
 }
 
 float Instance::tail_share(float ahead) const noexcept {
-  if (frame::is_simulated(state->tier) && (state->tail_is & kTailStays)) return 1;
   const float faded = static_cast<float>(state->tail_ticks) + ahead - static_cast<float>(kCarryTicks);
   if (state->tail_ticks < kCarryTicks || faded <= 0) return 1;
   return smooth_step(1 - std::min(faded / static_cast<float>(kFadeTicks), 1.0f));
@@ -239,7 +238,7 @@ void forget_displacement(Instance& instance) noexcept {
   state.tail_ticks = kCarryTicks + kFadeTicks;
   state.clamped_ticks = 0;
   state.tail_rides = 0;
-  state.rest_ticks = 0;
+  state.rest_ticks = state.springs_tail = 0;
   state.seam_ticks = kBlendInTicks;
 }
 

@@ -25,7 +25,6 @@ inline constexpr uint32_t kCarryTicks = 4;  // swings on before the fade begins:
 inline constexpr uint32_t kFadeTicks = 12;  // from there to skinning
 inline constexpr uint32_t kBlendInTicks = 20;  // from that to simulation, when it comes back: by then most
                                                // of the swing of starting from the wrong place has died down
-inline constexpr uint32_t kSpringBlendTicks = 40;  // to springs, which swing on for longer
 inline constexpr uint32_t kLongestBlendTicks =
     60;  // where that would move something far (world/blend_pace.hpp)
 // A network that missed at most so many ticks keeps its memory when it comes back; after more, its velocities
@@ -43,8 +42,6 @@ inline constexpr uint32_t kProbesAtOnce = 128, kHitsAtOnce = 2 * kProbesAtOnce;
 inline constexpr uint32_t kFallbackTicks = 60;  // on the modal base, after a network's state was given up
 
 // The part of the state that is not an array. Plain bytes: saved and restored as they are.
-inline constexpr uint32_t kSpringsTail = 1, kTailStays = 2;  // InstanceState::tail_is
-
 struct InstanceState {
   // What a plan does to those that it passes over comes first: kPlannedStateBytes of it.
   double remainder_s = 0;  // frame/tick_clock.hpp
@@ -71,10 +68,9 @@ struct InstanceState {
   uint32_t motion_stale = 1;        // ticks were not followed: the motion history is rebuilt before use
   uint32_t forgotten = 1;           // the network's state is no memory of this motion: a start, a guard
   uint32_t tail_ticks = kCarryTicks + kFadeTicks;  // since the tail began
-  // Bits: the tail was springs', which hang elsewhere; it stays, for simulation under another law goes on.
-  uint32_t tail_is = 0;
-  uint32_t rest_ticks = 0;     // left in which what comes back begins at rest
-  uint32_t clamped_ticks = 0;  // in a row
+  uint32_t springs_tail = 0;                       // the tail was springs', which hang elsewhere
+  uint32_t rest_ticks = 0;                         // left in which what comes back begins at rest
+  uint32_t clamped_ticks = 0;                      // in a row
   uint32_t ticks_since_network = 0;
   uint32_t input_clamps = 0, displacement_clamps = 0, fallbacks = 0, restarts = 0;
   uint32_t untouched = 1;  // no tick since the first pose: displacement is exactly zero

@@ -40,12 +40,11 @@ TEST_CASE("a_blend_that_would_move_something_far_takes_longer_and_ends_within_th
 
 TEST_CASE("a_blend_that_moves_nothing_far_takes_the_stated_ticks") {
   const auto stands = [](double) { return scenes::bind_pose(); };
-  for (const auto& [tier, ticks] :
-       {std::pair{Tier::kModal, world::kBlendInTicks}, {Tier::kSpring, world::kSpringBlendTicks}}) {
+  for (const Tier tier : {Tier::kModal, Tier::kSpring}) {
     Block block;
     block.play(stands, {.tier = tier}, 60);
     block.play(stands, {.tier = Tier::kSkinning}, 60);
-    block.play(stands, {.tier = tier}, static_cast<int>(ticks) - 1);
+    block.play(stands, {.tier = tier}, static_cast<int>(world::kBlendInTicks) - 1);
     CHECK(block.blend_ticks() < world::kBlendInTicks);
     block.tick(stands, {.tier = tier});
     CHECK(block.blend_ticks() == world::kBlendInTicks);

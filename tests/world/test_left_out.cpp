@@ -86,13 +86,12 @@ TEST_CASE("what_begins_under_a_load_that_lasts_begins_where_it_hangs") {
       for (Block* block : {&stays, &back}) block->play(bent, {.tier = tier, .level = kWhole}, 600);
       back.play(bent, {.tier = left_alone ? Tier::kExtrapolate : tier, .level = kLess}, 60);
       REQUIRE(largest(back.of_region(0)) < 1e-6f);
-      const uint32_t ticks = tier == Tier::kSpring ? world::kSpringBlendTicks : world::kBlendInTicks;
-      for (uint32_t t = 1; t <= 2 * ticks; ++t) {
+      for (uint32_t t = 1; t <= 2 * world::kBlendInTicks; ++t) {
         back.tick(bent, {.tier = tier, .level = kWhole});
         const float hangs = largest(stays.of_region(0)), shown = largest(back.of_region(0));
         INFO(static_cast<int>(tier) << " after " << t << ": " << shown / hangs);
         CHECK(shown < (1 + kSwings) * hangs);
-        if (t >= ticks) CHECK(shown > (1 - kSwings) * hangs);
+        if (t >= world::kBlendInTicks) CHECK(shown > (1 - kSwings) * hangs);
       }
     }
 }
