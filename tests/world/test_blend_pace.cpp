@@ -51,6 +51,22 @@ TEST_CASE("a_blend_that_moves_nothing_far_takes_the_stated_ticks") {
   }
 }
 
+// Under a load that lasts springs and modes hang within two millimetres of each other.
+TEST_CASE("flesh_that_hangs_still_stays_where_it_hangs_as_modes_become_springs") {
+  const auto bent = [](double time_s) { return scenes::bent_pose(std::min(1.0, time_s)); };
+  Block block;
+  block.play(bent, {.tier = Tier::kModal}, 600);
+  const double hangs = test::largest_length(block.surface());
+  REQUIRE(hangs > 1e-3);
+  for (uint32_t t = 0; t < 2 * world::kBlendInTicks; ++t) {
+    block.tick(bent, {.tier = Tier::kSpring});
+    const double shown = test::largest_length(block.surface());
+    INFO("after " << t << ": " << shown / hangs);
+    CHECK(shown > 0.9 * hangs);
+    CHECK(shown < 1.1 * hangs);
+  }
+}
+
 TEST_CASE("a_blend_saved_between_its_ticks_goes_on_with_the_same_bits") {
   Block block;
   block.play(shaken, {.tier = Tier::kModal}, 300);
