@@ -201,6 +201,29 @@ double most_passed_over(const Crowd& crowd) {
   return most;
 }
 
+// All that one may be: overdue, in its turn, with missed ticks, dearer bases than levels, tops below what it
+// has.
+void draw(Candidate& c, const Front& front, std::mt19937& random) {
+  const uint32_t best = front.best();
+  const auto some = [&](uint32_t most) {
+    return static_cast<uint8_t>(unit(random) * (static_cast<float>(most) + 0.999f));
+  };
+  c.front = &front;
+  c.top = unit(random) < 0.8f ? static_cast<uint8_t>(best) : some(best);
+  c.weight = unit(random) < 0.1f ? 0 : std::pow(10.0f, 6 * unit(random) - 3);
+  c.has = unit(random) < 0.3f ? uint8_t{0} : some(best);
+  c.graph = unit(random) < 0.9f ? static_cast<uint8_t>(front.levels[c.has].graph) : some(1);
+  c.waited_s = c.has == 0 && unit(random) < 0.5f ? 4 * unit(random) : 0;
+  c.turn_left_s = c.has > 0 && unit(random) < 0.2f ? kHold_s * unit(random) : 0;
+  c.held_s = unit(random);
+  c.cost_factor = unit(random) < 0.5f ? 1 : 0.1f + 9.9f * unit(random) * unit(random);
+  c.base_us = 8 * unit(random) * unit(random);
+  c.enter_us = 20 * unit(random) * unit(random);
+  c.change_us = 40 * unit(random);
+  c.missed = unit(random) < 0.1f ? uint8_t{2} : uint8_t{0};
+  c.keeps_level = unit(random) < 0.05f;
+}
+
 }  // namespace
 
 TEST_CASE("importance_that_is_no_weight_is_mended") {
@@ -431,6 +454,41 @@ TEST_CASE("levels_are_bought_as_if_the_best_that_fits_were_looked_for_among_all_
     }
   }
   CHECK(bought > 10 * kSteps);
+}
+
+// Lockstep rests on it: where the last search ended is in no snapshot.
+TEST_CASE("answer_does_not_depend_on_where_it_is_looked_for_first") {
+  std::mt19937 random(31);
+  uint32_t turns = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const Front fronts[] = {to_and_fro_front(3, random), random_front(1 + 30 * unit(random), random)};
+    Crowd crowd(1 + static_cast<size_t>(60 * unit(random)), fronts[0]);
+    float all_us = 0;
+    for (Candidate& c : crowd.all) {
+      draw(c, fronts[c.slot % 2], random);
+      all_us += c.cost_us(c.top);
+    }
+    const std::vector<Candidate> asked = crowd.all;
+    const float budget_us = all_us * unit(random);
+    crowd.schedule(budget_us);
+    const std::vector<Candidate> answered = crowd.all;
+    const uint32_t ended = crowd.scratch->lowest, ends = WeightBuckets::fine_drawer_of(kInfinity);
+    for (const uint32_t first : {0u, ends, ended, ended - std::min(ended, 40u), ended + 40, ended + 100}) {
+      crowd.all = asked;
+      crowd.scratch->lowest = std::min(first, ends);
+      crowd.schedule(budget_us);
+      bool same = true;
+      for (size_t i = 0; i < asked.size(); ++i) {
+        const Candidate &a = answered[i], &b = crowd[i];
+        same &= a.level == b.level && a.turn_left_s == b.turn_left_s && a.reason == b.reason &&
+                a.planned_us == b.planned_us;
+        same &= b.planned_us == (b.keeps_level ? b.base_us : b.cost_us(b.level));
+        turns += b.reason == Reason::kTurn;
+      }
+      REQUIRE(same);
+    }
+  }
+  CHECK(turns > 1000);
 }
 
 TEST_CASE("what_one_has_is_not_taken_for_a_little_more") {
