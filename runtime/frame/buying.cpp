@@ -87,20 +87,22 @@ void weigh(Candidate& c) noexcept {
 Standing standing_of(const Candidate& c) noexcept {
   if (c.missed > 0) return {.has_key = -kInfinity};  // levels may be passed over
   static constexpr float kBonus[2] = {kHysteresis, kHoldBonus};
+  constexpr float kRoundedDown = 1 - 0x1p-21f;
   const uint32_t at = std::min(c.has, c.top), has_one = at > 0, next = std::min<uint32_t>(at + 1, c.top);
   const Front& front = *c.front;
   const float ticks = c.ticks * c.cost_factor;
-  const double base_us = exact(c.base_us);
-  Standing s{.takes_us = has_one * (exact(front.step_us(at, ticks)) - base_us)};
+  const float has_us = front.step_us(at, ticks);
+  Standing s{.takes_us = has_one * (exact(has_us) - exact(c.base_us))};
   const float keys[2] = {kInfinity, c.rate * kBonus[c.held_s < kHold_s] * front.worth[at]};
   s.has_key = keys[has_one];
   if (front.step_us(1, ticks) < c.base_us) s.has_key = -kInfinity;
   const float enters_us[2] = {0, c.enter_us};
-  const float next_us = front.step_us(next, ticks) + enters_us[c.has == 0];
+  const float now_us[2] = {c.base_us, has_us};
+  const float more_us = kRoundedDown * (front.step_us(next, ticks) + enters_us[c.has == 0]) - now_us[has_one];
   const float next_keys[2] = {s.next_key, c.rate * front.worth[next]};
-  const float nexts_us[2] = {s.next_us, static_cast<float>(exact(next_us) - (base_us + s.takes_us))};
+  const float nexts_us[2] = {s.next_us, more_us};
   s.next_key = next_keys[next > at];
-  s.next_us = std::max(0.0f, nexts_us[next > at]);
+  s.next_us = nexts_us[next > at];
   return s;
 }
 

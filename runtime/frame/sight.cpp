@@ -71,16 +71,19 @@ float beyond(float across, float depth, float half, float slant, float radius) n
   return std::fabs(across) - half * depth - radius * slant;
 }
 
-float size_of(const Sight& sight, const SeenBalls& seen, size_t i) noexcept {
-  const float depth = seen.depth[i], radius = seen.radius[i], away = seen.away[i];
-  const float behind = -radius - depth, far = depth - radius - sight.far_m;
-  const float outside =
-      std::max(std::max(behind, far),
-               std::max(beyond(seen.side[i], depth, sight.half_width, sight.slant_width, radius),
-                        beyond(seen.up[i], depth, sight.half_height, sight.slant_height, radius)));
-  const float shown = radius / (away * sight.half_height), size = shown < 1 ? shown : 1;
-  const float in_view = outside > 0 ? 0 : size;
-  return away <= radius ? 1 : in_view;
+// Of as many as `sizes` has room for: the larger of what the ball takes and what is there already.
+void enlarge(const Sight& sight, const SeenBalls& seen, std::span<float> sizes) noexcept {
+  for (size_t i = 0; i < sizes.size(); ++i) {
+    const float depth = seen.depth[i], radius = seen.radius[i], away = seen.away[i];
+    const float behind = -radius - depth, far = depth - radius - sight.far_m;
+    const float outside =
+        std::max(std::max(behind, far),
+                 std::max(beyond(seen.side[i], depth, sight.half_width, sight.slant_width, radius),
+                          beyond(seen.up[i], depth, sight.half_height, sight.slant_height, radius)));
+    const float shown = radius / (away * sight.half_height), part = shown < 1 ? shown : 1;
+    const float in_view = outside > 0 ? 0 : part, size = away <= radius ? 1 : in_view;
+    sizes[i] = sizes[i] > size ? sizes[i] : size;
+  }
 }
 
 }  // namespace
@@ -106,17 +109,15 @@ Status make_sight(const View& view, Sight* out) noexcept {
 }
 
 float seen_size(const Sight& sight, const Ball& ball) noexcept {
-  return size_of(sight, SeenBalls(sight, {&ball, 1}), 0);
+  float size = 0;
+  enlarge_seen_sizes(sight, {&ball, 1}, &size);
+  return size;
 }
 
 void enlarge_seen_sizes(const Sight& sight, std::span<const Ball> balls, float* sizes) noexcept {
   for (; !balls.empty(); balls = balls.subspan(std::min(balls.size(), SeenBalls::kMost))) {
     const auto some = balls.first(std::min(balls.size(), SeenBalls::kMost));
-    const SeenBalls seen(sight, some);
-    for (size_t i = 0; i < some.size(); ++i) {
-      const float size = size_of(sight, seen, i);
-      sizes[i] = sizes[i] > size ? sizes[i] : size;
-    }
+    enlarge(sight, SeenBalls(sight, some), {sizes, some.size()});
     sizes += some.size();
   }
 }

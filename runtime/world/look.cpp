@@ -41,7 +41,7 @@ bool gets_through(WorldState& world, uint32_t slot, const frame::Sight& sight) n
 }
 
 void decide(PlanRow& row) noexcept {
-  row.seen = !row.hidden_by_caller && row.size > 0 && row.blind_looks < kBlindLooks;
+  row.seen = !row.hidden_by_caller & (row.size > 0) & (row.blind_looks < kBlindLooks);
 }
 
 void look_at(WorldState& world, uint32_t slot) noexcept {
