@@ -57,9 +57,12 @@ struct CostModel {  // of one asset
     return tick[static_cast<size_t>(tier)][level];
   }
   CostEstimate tick[kTierCount][pack::kMostGraphLevels];
-  CostEstimate publish;    // a step, of what is displaced: pose, extrapolation, publishing
-  CostEstimate enter{0};   // what the first tick of a simulation takes beyond a tick: cold memory, a history
-  CostEstimate change;     // likewise the first on a finer control graph; seldom, and not to be forgotten
+  CostEstimate publish;   // a step, of what is displaced: pose, extrapolation, publishing
+  CostEstimate enter{0};  // what the first tick of a simulation takes beyond a tick: cold memory, a history
+  // Likewise the first on a finer control graph: seldom, and only half forgotten in twelve seconds, but one
+  // that was preempted is not to be the last.
+  static constexpr CostEstimate::Correction kSeldom{.drift = 0.001f};
+  CostEstimate change{0, kSeldom};
   CostEstimate come_back;  // the step in which one comes into view: cold memory, and nothing simulated
   void settle() noexcept;
 };

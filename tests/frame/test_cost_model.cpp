@@ -7,6 +7,7 @@
 
 using sinew::frame::Capacity;
 using sinew::frame::CostEstimate;
+using sinew::frame::CostModel;
 
 namespace {
 
@@ -169,4 +170,15 @@ TEST_CASE("an_estimate_that_has_drifted_for_long_learns_in_one_sample_half_of_wh
   CHECK(cost.estimate_us() == Approx(14));
   measure(cost, 18);
   CHECK(cost.estimate_us() == Approx(14 + 4.0 / 8));
+}
+
+TEST_CASE("what_one_preempted_change_of_level_took_does_not_stand_in_the_way_for_ever") {
+  CostModel cost;
+  cost.change.observe(1000);
+  cost.settle();
+  REQUIRE(cost.change.estimate_us() == 1000);
+  for (int f = 0; f < 60; ++f) cost.settle();
+  CHECK(cost.change.estimate_us() > 900);
+  for (int f = 0; f < 3600; ++f) cost.settle();  // a minute
+  CHECK(cost.change.estimate_us() < 50);
 }
