@@ -1,6 +1,7 @@
 // crowd_picture.cpp  see crowd_picture.hpp.
 #include "samples/demo/crowd_picture.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "samples/render/renderer.hpp"
@@ -27,7 +28,11 @@ constexpr TierLook kLooks[] = {{"skinning", {128, 138, 152}, 0.9f, {96, 104, 118
                                {"spring", {132, 70, 160}, 0.8f, {112, 50, 140}},
                                {"modal", {44, 111, 187}, 0.8f, {24, 84, 150}}};
 
-const TierLook& look_of(Tier tier) { return kLooks[static_cast<size_t>(tier)]; }
+constexpr TierLook kOutOfView = {"out of view", {214, 218, 224}, 0.97f, {120, 126, 136}};
+
+const TierLook& look_of(const CrowdMember& member) {
+  return member.hidden ? kOutOfView : kLooks[static_cast<size_t>(member.tier)];
+}
 
 void add_member(const render::Mesh& character, std::span<const uint32_t> welded, const CrowdMember& member,
                 render::Mesh& out) {
@@ -35,7 +40,7 @@ void add_member(const render::Mesh& character, std::span<const uint32_t> welded,
   const auto normals = render::smooth_normals(member.positions, character.triangles, welded);
   out.positions.insert(out.positions.end(), member.positions.begin(), member.positions.end());
   out.normals.insert(out.normals.end(), normals.begin(), normals.end());
-  const TierLook& look = look_of(member.tier);
+  const TierLook& look = look_of(member);
   const Rgb tint = render::linear_from_srgb(look.tint);
   for (const Rgb& color : character.colors) out.colors.push_back(color + look.strength * (tint - color));
   for (const auto& [a, b, c] : character.triangles)
@@ -48,13 +53,12 @@ void draw_counts(render::Image& image, const Run& run, const Options& options) {
     title += ", " + std::to_string(std::lround(options.budget_us)) + " us a frame";
   render::draw_text(image, 18, 34, title, {.size_px = 16, .weight = 1.4f});
   int line = 0;
-  for (const Tier tier : {Tier::kNetwork, Tier::kModal, Tier::kSpring, Tier::kExtrapolate, Tier::kSkinning}) {
-    size_t count = 0;
-    for (const CrowdMember& member : run.crowd) count += member.tier == tier;
-    const TierLook& look = look_of(tier);
+  for (const TierLook* look : {&kLooks[2], &kLooks[4], &kLooks[3], &kLooks[1], &kLooks[0], &kOutOfView}) {
+    const auto count = std::ranges::count(run.crowd, look, [](const CrowdMember& m) { return &look_of(m); });
+    if (count == 0 && look == &kOutOfView) continue;
     render::draw_text(image, 18, static_cast<float>(60 + 22 * line++),
-                      std::to_string(count) + "  " + look.name,
-                      {.size_px = 12, .weight = 1.4f, .color = look.ink});
+                      std::to_string(count) + "  " + look->name,
+                      {.size_px = 12, .weight = 1.4f, .color = look->ink});
   }
 }
 

@@ -21,6 +21,7 @@ void add_options(CLI::App& app, Options* o) {
   app.add_option("--budget-us", o->budget_us, "microseconds a step may take; without: no limit")
       ->check(within(1e-3, 1e9, "above 0 us (leave it out for no limit)"));
   app.add_option("--threads", o->threads, "that share a step")->check(within(1, 256, "1 to 256"));
+  app.add_flag("--camera", o->camera, "that turns to and fro: what it does not show is not simulated");
   app.add_option("--clip", o->clip, "play only this clip");
   app.add_option("--truth", o->truth, "trajectory to follow and to measure against");
   app.add_option("--report", o->report, "write every frame's times and tiers, .json");

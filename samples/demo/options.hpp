@@ -12,11 +12,12 @@ struct Options {
   double fps = 0;      // 0: the truth's rate, else 60
   double budget_us = std::numeric_limits<double>::infinity();
   int threads = 1;
-  std::string clip;    // empty: one clip after the other
-  std::string truth;   // a trajectory with positions, see `sinew-bake truth --positions`
-  std::string report;  // JSON
-  std::string trace;   // JSON of Chrome's trace viewer and of Perfetto
-  std::string frames;  // folder of pictures
+  bool camera = false;  // turning_camera.hpp; without: all are in view
+  std::string clip;     // empty: one clip after the other
+  std::string truth;    // a trajectory with positions, see `sinew-bake truth --positions`
+  std::string report;   // JSON
+  std::string trace;    // JSON of Chrome's trace viewer and of Perfetto
+  std::string frames;   // folder of pictures
   int width = 360, height = 400, samples = 8;  // of each panel
   double picture_fps = 30;
 };

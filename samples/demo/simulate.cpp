@@ -9,6 +9,7 @@
 #include "baker/common/progress.hpp"
 #include "samples/demo/thread_pool.hpp"
 #include "samples/demo/trace.hpp"
+#include "samples/demo/turning_camera.hpp"
 
 namespace sinew::demo {
 namespace {
@@ -71,6 +72,7 @@ class Stage {
     return out;
   }
 
+  void look(const View& view) { require(world_.set_views({&view, 1})); }
   FrameReport step(double dt_s) { return world_.step(static_cast<float>(dt_s)); }
   size_t size() const { return instances_.size(); }
   const AssetInfo& info() const { return info_; }
@@ -174,7 +176,8 @@ void count_reasons(const Stage& stage, Run& run) {
 std::vector<CrowdMember> look_at_crowd(const Stage& stage) {
   std::vector<CrowdMember> crowd(std::min(stage.size(), kLargestCrowd));
   for (size_t i = 0; i < crowd.size(); ++i) {
-    crowd[i] = {stage.report(i).tier, Positions(stage.info().vertex_count)};
+    const InstanceReport report = stage.report(i);
+    crowd[i] = {report.tier, report.why == TierReason::kHidden, Positions(stage.info().vertex_count)};
     stage.read(i, Space::kWorld, crowd[i].positions);
   }
   return crowd;
@@ -190,7 +193,8 @@ Run simulate(const CharacterFile& character, const Motion& motion, const Traject
   Stage stage(character,
               {.max_assets = 1, .max_instances = count, .tasks = pool.hook(), .profiler = trace.hook()},
               options.budget_us);
-  fill_stage(stage, options.instances, spacing_of(character));
+  const double spacing_m = spacing_of(character), height_m = static_cast<double>(stage.info().height_m);
+  fill_stage(stage, options.instances, spacing_m);
   const Motion& first = truth != nullptr ? *truth : motion;
   Witness witness(character, first, truth);
   const bool pictures = !options.frames.empty();
@@ -204,6 +208,7 @@ Run simulate(const CharacterFile& character, const Motion& motion, const Traject
   for (size_t frame = 0; frame < frames; ++frame) {
     const double dt_s = 1 / options.fps, t_s = static_cast<double>(frame) / options.fps;
     trace.begin_frame();
+    if (options.camera) stage.look(turning_camera(t_s, height_m, spacing_m));
     run.frames.push_back(run_frame(stage, first, motion, t_s, dt_s, positions));
     count_reasons(stage, run);
     const bool picture = pictures && frame % every == 0;

@@ -37,7 +37,8 @@ struct Snapshot {
 
 struct CrowdMember {
   Tier tier = Tier::kSkinning;
-  std::vector<Eigen::Vector3f> positions;  // world
+  bool hidden = false;                       // the camera does not show it
+  std::vector<Eigen::Vector3f> positions{};  // world
 };
 
 struct Run {

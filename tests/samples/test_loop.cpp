@@ -1,4 +1,5 @@
 // test_loop.cpp  The parts of the loop: threads behind the task hook, statistics, the run itself.
+#include <algorithm>
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <fstream>
@@ -26,7 +27,8 @@ struct Counters {
   }
 };
 
-Run run_block(const sinew::test::TemporaryFolder& folder, int instances, int threads, double fps) {
+Run run_block(const sinew::test::TemporaryFolder& folder, int instances, int threads, double fps,
+              bool camera = false) {
   const scenes::PackBytes block = scenes::soft_block();
   const std::string path = folder.file("block.sinew");
   std::ofstream(path, std::ios::binary)
@@ -37,6 +39,7 @@ Run run_block(const sinew::test::TemporaryFolder& folder, int instances, int thr
   options.threads = threads;
   options.seconds = 1.5;
   options.fps = fps;
+  options.camera = camera;
   options.frames = "asked for, so that snapshots are kept";
   return simulate(character, *make_motion(character, ""), nullptr, options);
 }
@@ -79,6 +82,18 @@ TEST_CASE("recorded_positions_do_not_depend_on_threads_or_neighbours") {
     CHECK(alone.snapshots[i].sinew == crowd.snapshots[i].sinew);
   CHECK(alone.crowd.empty());
   CHECK(crowd.crowd.size() == 5);
+}
+
+// It looks 15 degrees to its left by then, over a hundred blocks that stand around it.
+TEST_CASE("what_the_turning_camera_does_not_show_is_hidden_and_told_so") {
+  sinew::test::TemporaryFolder folder;
+  const Run all = run_block(folder, 100, 1, 60), seen = run_block(folder, 100, 1, 60, true);
+  const auto hidden = std::ranges::count_if(seen.crowd, &CrowdMember::hidden);
+  CHECK(std::ranges::none_of(all.crowd, &CrowdMember::hidden));
+  CHECK(all.reasons[static_cast<size_t>(TierReason::kHidden)] == 0);
+  CHECK((hidden > 10 && hidden < 90));
+  CHECK(seen.frames.back().step.instances_hidden == static_cast<uint32_t>(hidden));
+  CHECK(seen.reasons[static_cast<size_t>(TierReason::kHidden)] > 0);
 }
 
 TEST_CASE("tissue_moves_and_the_witness_shows_skinning_without_it") {
