@@ -15,7 +15,9 @@
 // then iterate in turn.
 // Cost: a bound of each segment's way and of its distance from each obstacle near its group, a strand a lane
 // in float (simd/rod_reach-inl.hpp); sweeps of what may touch, a strand a lane in double
-// (simd/rod_touch-inl.hpp), and one at a time of all segments where rods collide or a source is asked.
+// (simd/rod_touch-inl.hpp), and one at a time of all segments where rods collide or a source is asked; then
+// gaps and forces in each iteration, a contact a lane (simd/rod_forces-inl.hpp), between two rods one at a
+// time.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -106,6 +108,8 @@ class RodCollider {
   friend struct ColliderBuilder;
   friend struct ContactFinder;
   friend struct ContactForces;
+  friend class ContactLooks;
+  friend class ContactPushes;
   friend struct StrandPacker;
 
   // A contact's force from step to step, and by how much the last one changed it, whatever its length; 0

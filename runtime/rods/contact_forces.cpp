@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "rods/contact_lanes.hpp"
+
 namespace sinew::rods {
 namespace {
 
@@ -40,8 +42,7 @@ Vector ContactForces::surface_move(const Contact& c, size_t side, const Vector& 
   return scaled_sum(s.radius_m, cross(turned_by, c.normal), move);
 }
 
-// Gap and, where it is or was pressed, slip at the iterate. A strand that is lost touches
-// nothing: others are not to be lost with it.
+// Gap and, where it is or was pressed, slip at the iterate.
 void ContactForces::look(Contact* c) const {
   const Vector a = move(*c, 0), b = move(*c, 1);
   c->open_m = c->gap_m + dot(c->normal, difference(a, b)) - c->allowed_m;
@@ -49,25 +50,7 @@ void ContactForces::look(Contact* c) const {
   if (is_active(*c, c->open_m) || is_active(*c, c->open_before_m)) {
     c->slip_m = across(difference(surface_move(*c, 0, a), surface_move(*c, 1, b)), c->normal);
   }
-  if (std::isfinite(c->open_m) && finite(c->slip_m)) return;
-  c->open_m = std::numeric_limits<double>::max();
-  c->force = 0;
-  c->slip_m = c->drag = {};
-}
-
-bool ContactForces::iterated(const Contact& c) const {
-  return to.iterated_[c.sides[0].strand] || (c.has_two_rods() && to.iterated_[c.sides[1].strand]);
-}
-
-std::span<Contact> ContactForces::contacts() const {
-  return {to.contacts_ + to.range_.first_contact, to.range_.end_contact - to.range_.first_contact};
-}
-
-std::span<const uint32_t> ContactForces::going_strands() const {
-  return {to.going_strands_ + to.first_going_strand_, to.going_strand_count_ - to.first_going_strand_};
-}
-std::span<const uint32_t> ContactForces::going_contacts() const {
-  return {to.going_contacts_ + to.first_going_contact_, to.going_contact_count_ - to.first_going_contact_};
+  let_go_of_lost(c);
 }
 
 void ContactForces::all_go_on() const {
@@ -103,7 +86,9 @@ void ContactForces::leave_out_what_rests() const {
 // by its cap or by how far segments may turn in it, then leaves them in front of it, slower, not behind.
 void ContactForces::begin() const noexcept {
   all_go_on();
-  for (Contact& c : contacts()) look(&c);
+  ContactLooks looks(*this);
+  for (Contact& c : contacts()) looks.add(&c);
+  looks.end();
   find_ways();
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {
     to.turning_[s] = 0;
@@ -123,21 +108,22 @@ uint32_t ContactForces::settle(uint32_t left) const noexcept {
     to.pending_[s] = 0;
     to.misses_[s] = to.presses_[s] = 0;
   }
+  ContactLooks looks(*this);
   for (const uint32_t i : going_contacts()) {
     Contact& c = to.contacts_[i];
     if (!iterated(c)) continue;
     c.open_before_m = c.open_m;
     c.slip_before_m = c.slip_m;
-    look(&c);
+    looks.add(&c);
   }
+  looks.end();
   find_felt();
   stop_at_new_contacts(left);
+  ContactTakes takes(*this);
   for (const uint32_t i : going_contacts()) {
-    Contact& c = to.contacts_[i];
-    if (!iterated(c) || take_over(&c)) continue;
-    to.pending_[c.sides[0].strand] = 1;
-    if (c.has_two_rods()) to.pending_[c.sides[1].strand] = 1;
+    if (iterated(to.contacts_[i])) takes.add(&to.contacts_[i]);
   }
+  takes.end();
   uint32_t count = 0;
   for (const uint32_t s : going_strands()) {
     to.pending_[s] |= to.iterated_[s] && to.ways_[s] < 1;  // what is cut short has not got to its end

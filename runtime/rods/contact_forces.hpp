@@ -1,5 +1,7 @@
 // contact_forces.hpp  Contacts' forces at the iterate, and what an iteration is to know of them.
 #pragma once
+#include <limits>
+
 #include "rods/collider.hpp"
 #include "rods/rod_batch.hpp"
 
@@ -32,6 +34,9 @@ struct ContactForces {
   double miss() const noexcept;
 
  private:
+  friend class ContactLooks;
+  friend class ContactTakes;
+  friend class ContactPushes;
   uint32_t first_strand() const { return to.range_.first_group * batch.width_; }
   uint32_t end_strand() const;
   float& lane(uint32_t strand, uint32_t field) const {
@@ -47,22 +52,48 @@ struct ContactForces {
     const size_t w = batch.width_;
     return {q[0], q[w], q[2 * w], q[3 * w]};
   }
-  std::span<Contact> contacts() const;
+  std::span<Contact> contacts() const {
+    return {to.contacts_ + to.range_.first_contact, to.range_.end_contact - to.range_.first_contact};
+  }
   // Of the range, and what of it goes on.
-  std::span<const uint32_t> going_strands() const;
-  std::span<const uint32_t> going_contacts() const;
+  std::span<const uint32_t> going_strands() const {
+    return {to.going_strands_ + to.first_going_strand_, to.going_strand_count_ - to.first_going_strand_};
+  }
+  std::span<const uint32_t> going_contacts() const {
+    return {to.going_contacts_ + to.first_going_contact_, to.going_contact_count_ - to.first_going_contact_};
+  }
+  bool goes_on(uint32_t strand) const { return (to.turning_[strand] | to.pending_[strand]) != 0; }
+  bool goes_on(const Contact& c) const {
+    return goes_on(c.sides[0].strand) || (c.has_two_rods() && goes_on(c.sides[1].strand));
+  }
+  bool iterated(const Contact& c) const {
+    return to.iterated_[c.sides[0].strand] || (c.has_two_rods() && to.iterated_[c.sides[1].strand]);
+  }
   void all_go_on() const;
   void leave_out_what_rests() const;
-  bool iterated(const Contact& contact) const;
   // Gap and slip at the iterate.
   void look(Contact* contact) const;
+  // A strand that is lost touches nothing: others are not to be lost with it.
+  static void let_go_of_lost(Contact* contact) {
+    if (std::isfinite(contact->open_m) && finite(contact->slip_m)) return;
+    contact->open_m = std::numeric_limits<double>::max();
+    contact->force = 0;
+    contact->slip_m = contact->drag = {};
+  }
   Vector move(const Contact& contact, size_t side) const;
   Vector surface_move(const Contact& contact, size_t side, const Vector& move) const;
   double last_turn(uint32_t strand) const;
 
   // contact_laws.cpp
   void begin_friction(Contact* contact) const;
+  // Between two rods, or not part of the last system; others in contact_lanes.cpp.
   bool take_over(Contact* contact) const;
+  // Whose gap and slip are as exact as wanted, or not.
+  void settle(const Contact& contact, bool exact) const {
+    if (exact) return;
+    to.pending_[contact.sides[0].strand] = 1;
+    if (contact.has_two_rods()) to.pending_[contact.sides[1].strand] = 1;
+  }
   double tolerance_m(const Contact& contact) const;
   double nothing_m(const Contact& contact) const;
   double share_of(const Contact& contact) const;
@@ -81,7 +112,8 @@ struct ContactForces {
     ContactForce linearised;  // of its linear system
   };
   double law_miss(const Contact& contact, const Before& before) const;
-  void add_miss(const Contact& contact, const Before& before) const;
+  double rounding_kg_m(const Contact& contact) const;
+  void add_miss(const Contact& contact, double miss) const;
   bool is_exact(const Contact& contact, const Before& before) const;
 
   // contact_ways.cpp
@@ -102,8 +134,6 @@ struct ContactForces {
 
   // contact_rows.cpp
   void assemble_ended() const;
-  bool goes_on(uint32_t strand) const;
-  bool goes_on(const Contact& contact) const;
   void add(const Contact& contact) const;
   void add_to_side(const Contact& contact, size_t side, const ContactForce& f, const Vector& force) const;
   float* touched_rows(uint32_t strand, uint32_t segment) const;

@@ -2,13 +2,11 @@
 #include <algorithm>
 
 #include "rods/contact_forces.hpp"
+#include "simd/rod_force_job.hpp"
 
 namespace sinew::rods {
 namespace {
 
-// Of friction's state in a step: a first one mends the guess, a second mends it again with the limit that was
-// found; a third takes that back and would go on so.
-constexpr uint32_t kMostChanges = 2;
 // Of a segment's length, what of a gap no iteration closes: a turn in float, at half of it.
 constexpr double kRounding = 3e-8;
 constexpr double kAtLimit = 0.999;  // of the limit: less is not a rounding
@@ -69,7 +67,9 @@ bool ContactForces::update_friction(Contact* c, const Vector& slip) const {
   const bool slides = c->state == Friction::kSlides;
   const bool changes = slides ? dot(slip, c->drag) > 0 || drag < c->limit : drag > c->limit;
   if (!changes) return false;
-  c->state = ++c->changes > kMostChanges ? Friction::kEither : slides ? Friction::kSticks : Friction::kSlides;
+  c->state = ++c->changes > simd::kMostFrictionChanges ? Friction::kEither
+             : slides                                  ? Friction::kSticks
+                                                       : Friction::kSlides;
   return true;
 }
 
@@ -80,18 +80,21 @@ Vector ContactForces::taken_drag(const Contact& c, const Vector& slip, bool come
   return size > c.limit ? scaled(c.limit / size, c.drag) : c.drag;
 }
 
+// The gain makes a force of each gap's rounding.
+double ContactForces::rounding_kg_m(const Contact& c) const {
+  return kRounding * static_cast<double>(batch.units_[c.sides[0].strand].length_m) * c.gain_kg;
+}
+
 // What the forces that a system came to miss contact's laws by, kg m: a pull, drag that is more than friction
 // gives, or that does not go against the slip. Nothing where nothing stuck and the iteration moved nothing:
-// where friction is at its limit and nothing slides, drags are not unique. The gain makes a force of each
-// gap's rounding.
+// where friction is at its limit and nothing slides, drags are not unique.
 double ContactForces::law_miss(const Contact& c, const Before& before) const {
   const double moved =
       std::max(std::fabs(c.open_m - c.open_before_m), length(difference(c.slip_m, c.slip_before_m)));
   const bool sticks = before.state == Friction::kSticks;
   if (!sticks && moved <= nothing_m(c)) return 0;
   const double pull = std::max(0.0, c.gain_kg * c.open_m - before.force);
-  const double length_m = static_cast<double>(batch.units_[c.sides[0].strand].length_m);
-  const double rounding = kRounding * length_m * c.gain_kg;
+  const double rounding = rounding_kg_m(c);
   if (!(c.friction > 0)) return std::max(0.0, pull - rounding);
   const Vector drag = drag_after(c, before.linearised, difference(c.slip_m, c.slip_before_m));
   const double limit = c.friction * c.force;
@@ -101,13 +104,9 @@ double ContactForces::law_miss(const Contact& c, const Before& before) const {
   return std::max(0.0, pull + length(difference(lawful, drag)) - rounding);
 }
 
-// Whether gap and slip are as exact as wanted. Against what does not iterate they are what is left of them;
-// between rods, which iterate in turn, what an iteration still changes.
+// Whether gap and slip between rods, which iterate in turn, are as exact as wanted: by what an iteration still
+// changes.
 bool ContactForces::is_exact(const Contact& c, const Before& before) const {
-  if (!c.has_two_rods()) {
-    const bool sticks = before.state == Friction::kSticks && c.friction > 0;
-    return std::max(std::fabs(c.open_m), sticks ? length(c.slip_m) : 0.0) <= tolerance_m(c);
-  }
   const double off =
       std::max(std::fabs(c.force - before.force), length(difference(c.drag, before.drag))) / c.gain_kg;
   const double moved = std::max(std::fabs(c.open_m - c.open_before_m),
@@ -117,8 +116,7 @@ bool ContactForces::is_exact(const Contact& c, const Before& before) const {
 
 // Of a strand together, against what friction gives, or what presses where there is none: small forces next
 // to large ones need not be as exact.
-void ContactForces::add_miss(const Contact& c, const Before& before) const {
-  const double miss = law_miss(c, before);
+void ContactForces::add_miss(const Contact& c, double miss) const {
   for (const Contact::Side& side : c.sides) {
     if (side.segment == kNoSegment) continue;
     to.misses_[side.strand] += miss;
@@ -141,7 +139,7 @@ bool ContactForces::take_over(Contact* c) const {
   const bool changed = c->force > 0 && update_friction(c, slip);
   const bool rests = changed && before.state == Friction::kSlides;
   c->drag = taken_drag(*c, slip, rests);
-  add_miss(*c, before);
+  add_miss(*c, law_miss(*c, before));
   return is_exact(*c, before);
 }
 

@@ -1,7 +1,7 @@
 // contact_rows.cpp  Contacts' forces and stiffness as rows of the rods' own linear system.
 #include <algorithm>
 
-#include "rods/contact_forces.hpp"
+#include "rods/contact_lanes.hpp"
 
 namespace sinew::rods {
 namespace {
@@ -23,7 +23,9 @@ void ContactForces::clear() const noexcept {
 void ContactForces::assemble() const noexcept {
   clear();
   for (const uint32_t s : going_strands()) lane(s, simd::kLaneLargestShare) = simd::kRodLargestShare;
-  for (const uint32_t i : going_contacts()) add(to.contacts_[i]);
+  ContactPushes pushes(*this);
+  for (const uint32_t i : going_contacts()) pushes.add(to.contacts_[i]);
+  pushes.end();
 }
 
 // The forces that the last iteration found, not what a further one would make of their gaps: at a gain of a
@@ -35,13 +37,6 @@ void ContactForces::assemble_ended() const {
     c.slip_m = {};
     add(c);
   }
-}
-
-bool ContactForces::goes_on(uint32_t strand) const {
-  return (to.turning_[strand] | to.pending_[strand]) != 0;
-}
-bool ContactForces::goes_on(const Contact& c) const {
-  return goes_on(c.sides[0].strand) || (c.has_two_rods() && goes_on(c.sides[1].strand));
 }
 
 void ContactForces::add(const Contact& c) const {

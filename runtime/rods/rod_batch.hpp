@@ -183,6 +183,8 @@ class RodBatch {
   friend struct ColliderBuilder;
   friend struct ContactFinder;
   friend struct ContactForces;
+  friend class ContactLooks;
+  friend class ContactPushes;
   friend struct StrandPacker;
   struct Units {
     double origin_m[3];

@@ -44,6 +44,7 @@ namespace sinew::simd::HWY_NAMESPACE {
 
 extern const RodKernels kRodKernels;            // rod_kernels.cpp
 extern const RodTouchKernels kRodTouchKernels;  // rod_touch_kernels.cpp
+extern const RodForceKernels kRodForceKernels;  // the same
 extern const SurfaceWalks kSurfaceWalks;        // surface_walk_kernels.cpp
 
 template <class Dot>
@@ -75,6 +76,7 @@ constexpr Kernels kernels_with(const char* name, bool (*runs)()) {
       .coarse_tanh = tanh<CoarseTanh>,
       .rods = &kRodKernels,
       .rod_touches = &kRodTouchKernels,
+      .rod_forces = &kRodForceKernels,
       .surface_walks = &kSurfaceWalks,
   };
 }

@@ -10,6 +10,7 @@
 
 #include "pack/format.hpp"
 #include "simd/rod_job.hpp"
+#include "simd/rod_force_job.hpp"
 #include "simd/rod_touch_job.hpp"
 
 namespace sinew::simd {
@@ -202,6 +203,7 @@ struct Kernels {
   void (*coarse_tanh)(const float* x, size_t count, float* out);
   const RodKernels* rods;
   const RodTouchKernels* rod_touches;
+  const RodForceKernels* rod_forces;
   const SurfaceWalks* surface_walks;
 };
 

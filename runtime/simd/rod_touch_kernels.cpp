@@ -1,7 +1,8 @@
-// rod_touch_kernels.cpp  Compiles what finds rods' contacts once an instruction set; kernels.cpp puts it into
-// its tables.
+// rod_touch_kernels.cpp  Compiles what finds and follows rods' contacts once an instruction set; kernels.cpp
+// puts it into its tables.
 #include "simd/rod_touch_job.hpp"
 
+#include "simd/rod_force_job.hpp"
 #include "simd/rod_job.hpp"
 #include "simd/targets.hpp"
 #define HWY_TARGET_INCLUDE "simd/rod_touch_kernels.cpp"
@@ -14,6 +15,7 @@
 #include "simd/rod_lanes-inl.hpp"
 #include "simd/rod_reach-inl.hpp"
 #include "simd/rod_touch-inl.hpp"
+#include "simd/rod_forces-inl.hpp"
 // clang-format on
 
 namespace sinew::simd::HWY_NAMESPACE {
@@ -29,5 +31,7 @@ constexpr RodTouchCalls rod_touch_calls() {
 
 extern const RodTouchKernels kRodTouchKernels;
 const RodTouchKernels kRodTouchKernels = {.wide = rod_touch_calls<16>(), .narrow = rod_touch_calls<4>()};
+extern const RodForceKernels kRodForceKernels;
+const RodForceKernels kRodForceKernels = {.look = rod_look, .take = rod_take, .push = rod_push};
 
 }  // namespace sinew::simd::HWY_NAMESPACE
