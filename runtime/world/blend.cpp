@@ -33,7 +33,7 @@ void begin_tail(Instance& instance, float velocity_kept) noexcept {
   begin_rod_tails(instance, velocity_kept);
   instance.state->springs_tail = instance.state->tier == Tier::kSpring;
   instance.state->tail_ticks = 0;
-  instance.state->tail_rides = 0;
+  instance.state->tail_rides = instance.state->tail_stays = 0;
 }
 
 // From what is shown. What was not simulated for a while is blended in; from rest there is nothing to blend:
@@ -67,12 +67,16 @@ void begin_network(Instance& instance) noexcept {
   state.clamped_ticks = 0;
 }
 
-// A spring's place need not be a shape of the modes: what they leave of it snaps back within a tick. What was
-// shown is carried on and blended into them.
+// Springs and modes are two laws: what one of them shows tells nothing of where the other would be, but where
+// the load would hold it, and there it begins. What was shown comes to a stand meanwhile, so that what hangs
+// still does not fall.
 void blend_laws(Instance& instance) noexcept {
+  InstanceState& state = *instance.state;
   begin_tail(instance, 1);
-  instance.state->lifted |= instance.state->blend_ticks >= kBlendInTicks;  // else rods are on their way, too
-  instance.state->blend_ticks = 0;
+  if (state.blend_ticks >= kBlendInTicks) state.lifted = 1;  // else rods are on their way, too
+  state.tail_stays = 1;
+  state.blend_ticks = 0;
+  state.rest_ticks = 1;
 }
 
 void begin_base(Instance& instance) noexcept {
@@ -115,14 +119,16 @@ void hold_speed(Instance& instance, size_t node, const float* before) noexcept {
 }
 
 // What is not driven swings as its first mode does, u_t = a1 u_{t-1} + a2 u_{t-2}. What it was driven
-// by is let go of over the ticks until the fade, for a force that ends at once is seen as a jump; it is
-// damped from the first on, for what is let go of where it was pressed hardest would fling faster than it
-// ever moved.
+// by is let go of over the ticks until the fade, and never wholly, for a force that ends at once is seen as a
+// jump; it is damped from the first on, for what is let go of where it was pressed hardest would fling faster
+// than it ever moved. What stays is only damped.
 void swing_tail(Instance& instance, size_t r) noexcept {
+  constexpr float kFreest = 0.9f;
   const pack::RegionRecord& region = instance.level->pack.regions[r];
   const pack::SpringRecord& spring = instance.level->pack.springs[r];
   const uint32_t tick = instance.state->tail_ticks;
-  const float free = tick <= kCarryTicks ? static_cast<float>(tick) / kCarryTicks : 0;
+  const bool swings = tick <= kCarryTicks && !instance.state->tail_stays;
+  const float free = swings ? std::min(static_cast<float>(tick) / kCarryTicks, kFreest) : 0;
   const float pull = free * (spring.a1 + spring.a2 - 1), drag = free * (1 + spring.a2);
   for (size_t n = region.first_node; n < region.first_node + region.node_count; ++n) {
     float *u = instance.tail + 3 * n, *velocity = instance.tail_velocity + 3 * n;
@@ -136,10 +142,11 @@ void swing_tail(Instance& instance, size_t r) noexcept {
   }
 }
 
-void count_tail(InstanceState& state) noexcept {
-  constexpr uint32_t kOver = kCarryTicks + kFadeTicks;
-  if (state.tail_ticks < kOver) ++state.tail_ticks;
-  if (state.tail_ticks == kOver) state.restarting = 0;
+void count_tail(const Instance& instance) noexcept {
+  InstanceState& state = *instance.state;
+  const uint32_t over = kCarryTicks + instance.fade_ticks();
+  state.tail_ticks = std::min(state.tail_ticks + 1, over);
+  if (state.tail_ticks == over) state.restarting = 0;
 }
 
 void advance_tail(Instance& instance) noexcept {
@@ -164,6 +171,7 @@ void enter_tier(Instance& instance, Tier tier) noexcept {
     begin_gap(instance);
   }
   if (has_base(tier) && !has_base(state.tier)) begin_base(instance);
+  if (tier == Tier::kSpring && has_base(state.tier)) blend_laws(instance);
   if (tier == Tier::kNetwork && state.tier != Tier::kNetwork) begin_network(instance);
   if (tier != state.tier) wake_regions(instance);
   instance.settles &= has_base(tier);
@@ -201,7 +209,7 @@ void take_simulated(const Instance& instance, int tick, float* out) noexcept {
 
 void show_tick(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
-  count_tail(state);
+  count_tail(instance);
   if (frame::is_simulated(state.tier)) state.rest_ticks -= state.rest_ticks > 0;
   if (state.seam_ticks < kBlendInTicks) ++state.seam_ticks;
   for (size_t r = 0; r < instance.level->pack.regions.size(); ++r)
@@ -212,7 +220,7 @@ void show_tick(Instance& instance) noexcept {
   copy(instance, instance.shown[0], instance.shown[1]);
   if (simulates) take_simulated(instance, 0, instance.shown[0]);
   if (blends) advance_blend(instance);
-  if (state.blend_ticks == kBlendInTicks) state.tail_rides = 0;
+  if (state.blend_ticks == kBlendInTicks) state.tail_rides = state.tail_stays = 0;
   show_rods(instance, state.lifted && simulates ? 1 : instance.simulated_share());
   const auto [simulated, tail] = instance.shown_shares();
   if (simulated == 1 && tail == 0) return;
@@ -226,6 +234,7 @@ void show_nothing(Instance& instance) noexcept {
   state.tail_ticks = kCarryTicks + kFadeTicks;
   state.seam_ticks = kBlendInTicks;
   state.restarting = state.springs_tail = 0;
+  state.tail_stays = 0;
   for (float* none : {instance.shown[0], instance.shown[1], instance.tail, instance.tail_velocity})
     std::memset(none, 0, sizeof(float) * floats_of(instance));
   forget_rods(instance);

@@ -36,23 +36,34 @@ float most_of(const Eigen::Vector3f& stays, const Eigen::Vector3f& moves, float 
   return std::max((std::sqrt(under_root) - along) / length2, 0.0f);
 }
 
-// By how much the share may rise from `share`.
-float most_rise(Instance& instance, float share, float step_m) noexcept {
+// Of a tick.
+struct Limits {
+  float rise = 1;   // the most that the share may rise by
+  float own_m = 0;  // the farthest that simulation itself moves a node
+};
+
+Limits limits_of(Instance& instance, float share, float step_m) noexcept {
   take_simulated(instance, 1, instance.carry);
   const float tail_share = instance.tail_share();
-  float most = 1;
+  Limits limits;
   for (uint32_t n = 0; n < instance.level->node_count(); ++n) {
     const Way way = way_of(instance, n, tail_share);
     const size_t at = size_t{3} * n;
     const float own_m = (MapConst(instance.shown[0] + at) - MapConst(instance.carry + at)).norm();
     const Eigen::Vector3f stays = way.stays + share * way.moves - MapConst(instance.shown[1] + at);
-    most = std::min(most, most_of(stays, way.moves, step_m + own_m));
+    limits.rise = std::min(limits.rise, most_of(stays, way.moves, step_m + own_m));
+    limits.own_m = std::max(limits.own_m, own_m);
   }
-  return most;
+  return limits;
 }
 
 float share_of(const Instance& instance) noexcept {
   return instance.state->tail_rides ? 1 - instance.shown_shares().tail : instance.simulated_share();
+}
+
+float usual_pace(const InstanceState& state, float own_m, float slow_m) noexcept {
+  const bool swings = state.tier == Tier::kSpring && !state.tail_rides && own_m > slow_m;
+  return swings ? std::max(slow_m / own_m, kLeastPace) : 1.0f;
 }
 
 }  // namespace
@@ -61,11 +72,12 @@ void advance_blend(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   const float began = state.blend_ticks, share = share_of(instance);
   const float height_m = instance.level->pack.character->height_m;
-  const float most = most_rise(instance, share, height_m * (state.tail_rides ? kRideStep : kBlendStep));
-  state.blend_ticks = std::min(began + 1, float{kBlendInTicks});
+  const Limits most = limits_of(instance, share, height_m * (state.tail_rides ? kRideStep : kBlendStep));
+  const float usual = usual_pace(state, most.own_m, height_m * kBlendStep);
+  state.blend_ticks = std::min(began + usual, float{kBlendInTicks});
   const float rise = share_of(instance) - share;
-  if (rise <= most) return;
-  const float pace = std::max(most / rise, kLeastPace);
+  if (rise <= most.rise) return;
+  const float pace = std::max(usual * most.rise / rise, kLeastPace);
   state.blend_ticks = std::min(began + pace, float{kBlendInTicks});
 }
 

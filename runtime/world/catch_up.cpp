@@ -73,7 +73,8 @@ void ride_on(Instance& instance) noexcept {
   ride_rods(instance);
   state.missed_ticks = 0;
   state.blend_ticks = 0;
-  state.lifted = state.rest_ticks = 0;
+  state.lifted = state.tail_stays = 0;
+  state.rest_ticks = 0;
   state.tail_rides = 1;
 }
 

@@ -23,7 +23,8 @@ namespace sinew::world {
 inline constexpr uint32_t kCarryTicks = 4;  // swings on before the fade begins: by then it is more than half
                                             // as far off as skinning, and soon as far
 inline constexpr uint32_t kFadeTicks = 12;  // from there to skinning
-inline constexpr uint32_t kBlendInTicks = 20;  // from that to simulation, when it comes back: by then most
+inline constexpr uint32_t kSpringFadeTicks = 16;  // of springs, which are further off
+inline constexpr uint32_t kBlendInTicks = 20;     // from that to simulation, when it comes back: by then most
                                                // of the swing of starting from the wrong place has died down
 inline constexpr uint32_t kLongestBlendTicks =
     60;  // where that would move something far (world/blend_pace.hpp)
@@ -79,7 +80,8 @@ struct InstanceState {
   uint32_t rod_quiet_ticks = 0;  // world/rod_sleep.hpp
   uint32_t teleported = 0;       // in the last step
   uint32_t hidden_ticks = 0;     // world/hidden.hpp
-  uint32_t lifted = 0;           // the blend is from springs: rods went on
+  // The blend is from one law to another: rods went on; what was shown does not fade.
+  uint16_t lifted = 0, tail_stays = 0;
   Tier left_tier = Tier::kSkinning;           // world/catch_up.hpp: what it had before it was left alone
   uint16_t missed_ticks = 0, tail_rides = 0;  // likewise: since then; the tail counts from what is simulated
   uint32_t first_joints = 0;                  // which of pose_joints is the pose before the present one
@@ -258,7 +260,8 @@ struct Instance {
   // Of what is simulated, 1 but for a region that a change of level had again: it rises as the seam falls.
   float regained_share(size_t region) const noexcept;
   ShownShares shown_shares() const noexcept;
-  float shown_share() const noexcept;  // of displacement, 0: skinning
+  uint32_t fade_ticks() const noexcept;  // of the tail
+  float shown_share() const noexcept;    // of displacement, 0: skinning
 };
 
 inline constexpr size_t kPlannedBytes = offsetof(Instance, memory);
