@@ -52,6 +52,7 @@ void begin_simulation(Instance& instance) noexcept {
   state.blend_ticks = state.untouched ? kBlendInTicks : 0.0f;
   state.lifted = 0;
   const bool rests = state.tail_ticks > kCarryTicks && !state.untouched;
+  state.from_shown = !rests && !state.untouched;
   state.rest_ticks = !rests ? 0 : state.dt_before_s > 0 ? 1 : 2;
 }
 
@@ -63,8 +64,10 @@ void begin_network(Instance& instance) noexcept {
   const auto take_place = remembered ? tissue::write_output : tissue::rebase_state;
   take_place(instance.asset->network, level.pack.regions, level.node_count(), instance.l[0],
              instance.network_state);
+  state.network_begins = remembered ? 0 : kNetworkBeginTicks;
   state.forgotten = 0;
   state.clamped_ticks = 0;
+  for (float* corrected : instance.corrected) std::fill_n(corrected, level.mode_count(), 0.0f);
 }
 
 // Springs and modes are two laws: what one of them shows tells nothing of where the other would be, but where
@@ -75,6 +78,7 @@ void blend_laws(Instance& instance) noexcept {
   begin_tail(instance, 1);
   if (state.blend_ticks >= kBlendInTicks) state.lifted = 1;  // else rods are on their way, too
   state.tail_stays = 1;
+  state.from_shown = 0;
   state.blend_ticks = 0;
   state.rest_ticks = 1;
 }
@@ -171,6 +175,8 @@ void enter_tier(Instance& instance, Tier tier) noexcept {
     begin_gap(instance);
   }
   if (has_base(tier) && !has_base(state.tier)) begin_base(instance);
+  if (tier == Tier::kModal && state.tier == Tier::kNetwork && instance.made_up > 0)
+    take_back_corrections(instance);
   if (tier == Tier::kSpring && has_base(state.tier)) blend_laws(instance);
   if (tier == Tier::kNetwork && state.tier != Tier::kNetwork) begin_network(instance);
   if (tier != state.tier) wake_regions(instance);

@@ -12,6 +12,7 @@ namespace {
 
 // Of the height, a tick. What rides is true beneath: it has all of simulation's own steps in it already.
 constexpr float kBlendStep = 0.002f, kRideStep = 0.0014f;
+constexpr float kLate = 0.6f * kBlendInTicks, kLatePace = 0.5f;
 constexpr float kLeastPace = static_cast<float>(kBlendInTicks) / kLongestBlendTicks;
 
 using MapConst = Eigen::Map<const Eigen::Vector3f>;
@@ -38,8 +39,8 @@ float most_of(const Eigen::Vector3f& stays, const Eigen::Vector3f& moves, float 
 
 // Of a tick.
 struct Limits {
-  float rise = 1;   // the most that the share may rise by
-  float own_m = 0;  // the farthest that simulation itself moves a node
+  float rise = 1;       // the most that the share may rise by
+  float own_m = 1e-9f;  // the farthest that simulation itself moves a node
 };
 
 Limits limits_of(Instance& instance, float share, float step_m) noexcept {
@@ -61,9 +62,13 @@ float share_of(const Instance& instance) noexcept {
   return instance.state->tail_rides ? 1 - instance.shown_shares().tail : instance.simulated_share();
 }
 
+// What began elsewhere than it would have been swings on, springs for longer; how much of that is seen grows
+// with the share.
 float usual_pace(const InstanceState& state, float own_m, float slow_m) noexcept {
-  const bool swings = state.tier == Tier::kSpring && !state.tail_rides && own_m > slow_m;
-  return swings ? std::max(slow_m / own_m, kLeastPace) : 1.0f;
+  if (state.tail_rides) return 1;
+  if (state.tier == Tier::kSpring) return std::clamp(slow_m / own_m, kLeastPace, 1.0f);
+  const bool late = state.from_shown && state.blend_ticks >= kLate;
+  return late ? std::clamp(slow_m / own_m, kLatePace, 1.0f) : 1;
 }
 
 }  // namespace

@@ -83,7 +83,9 @@ void forget_left_out(Instance& instance, const GraphLevel& coarse) noexcept {
   for (size_t r = 0; r < coarse.pack.regions.size(); ++r) {
     if (!coarse.leaves_out(r)) continue;
     const pack::RegionModesRecord& modes = coarse.pack.region_modes[r];
-    for (float* q : instance.q) std::fill_n(q + modes.first_mode, modes.mode_count, 0.0f);
+    for (float* const* ticks : {instance.q, instance.corrected})
+      for (int tick = 0; tick < 2; ++tick)
+        std::fill_n(ticks[tick] + modes.first_mode, modes.mode_count, 0.0f);
   }
 }
 

@@ -55,6 +55,7 @@ void lay_out_state(const Asset& asset, core::Arena& arena, Instance& to) noexcep
   to.theta = arena.take<float>(vectors);
   for (float*& q : to.q) q = arena.take<float>(asset.mode_count());
   for (float*& r : to.r) r = arena.take<float>(vectors);
+  for (float*& q : to.corrected) q = arena.take<float>(asset.mode_count());
   for (float*& heard : to.heard) heard = arena.take<float>(asset.heard_floats);
   to.tail = arena.take<float>(vectors);
   to.tail_velocity = arena.take<float>(vectors);

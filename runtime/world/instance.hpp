@@ -31,6 +31,8 @@ inline constexpr uint32_t kLongestBlendTicks =
 // A network that missed at most so many ticks keeps its memory when it comes back; after more, its velocities
 // are of another phase of the wobble and it starts anew from where it is.
 inline constexpr uint32_t kRememberedTicks = 2;
+// Over so many ticks the corrections of one without a memory rise to the whole.
+inline constexpr uint16_t kNetworkBeginTicks = 8;
 // What was left alone for no longer makes up for it when it comes back (world/catch_up.hpp).
 inline constexpr uint32_t kCaughtUpTicks = 2;
 // Share of its velocity that a tail keeps each tick: nothing flings, it stands still soon, and then costs
@@ -69,9 +71,10 @@ struct InstanceState {
   uint32_t motion_stale = 1;        // ticks were not followed: the motion history is rebuilt before use
   uint32_t forgotten = 1;           // the network's state is no memory of this motion: a start, a guard
   uint32_t tail_ticks = kCarryTicks + kFadeTicks;  // since the tail began
-  uint32_t springs_tail = 0;                       // the tail was springs', which hang elsewhere
-  uint32_t rest_ticks = 0;                         // left in which what comes back begins at rest
-  uint32_t clamped_ticks = 0;                      // in a row
+  uint16_t springs_tail = 0;                       // the tail was springs', which hang elsewhere
+  uint16_t network_begins = 0;  // ticks left in which a network without a memory corrects by less
+  uint32_t rest_ticks = 0;      // left in which what comes back begins at rest
+  uint32_t clamped_ticks = 0;   // in a row
   uint32_t ticks_since_network = 0;
   uint32_t input_clamps = 0, displacement_clamps = 0, fallbacks = 0, restarts = 0;
   uint32_t untouched = 1;  // no tick since the first pose: displacement is exactly zero
@@ -81,7 +84,9 @@ struct InstanceState {
   uint32_t teleported = 0;       // in the last step
   uint32_t hidden_ticks = 0;     // world/hidden.hpp
   // The blend is from one law to another: rods went on; what was shown does not fade.
-  uint16_t lifted = 0, tail_stays = 0;
+  uint16_t lifted = 0;
+  uint8_t tail_stays = 0;
+  uint8_t from_shown = 0;                     // simulation came back from what was shown, and not from rest
   Tier left_tier = Tier::kSkinning;           // world/catch_up.hpp: what it had before it was left alone
   uint16_t missed_ticks = 0, tail_rides = 0;  // likewise: since then; the tail counts from what is simulated
   uint32_t first_joints = 0;                  // which of pose_joints is the pose before the present one
@@ -192,6 +197,8 @@ struct Instance {
   float* network_state = nullptr;
   float *u[2] = {}, *l[2] = {}, *theta = nullptr;  // newest first
   float *q[2] = {}, *r[2] = {};                    // q: [modes of all regions]
+  // [modes]: by how much a network's corrections have moved q since it began, as modes go on with them.
+  float* corrected[2] = {};
   float* heard[2] = {};  // of the last two ticks that were simulated whole: a region after the other
   float *tail = nullptr, *tail_velocity = nullptr;  // velocity a tick
   float* shown[2] = {};                             // newest first

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "simd/kernels.hpp"
 #include "tissue/guard.hpp"
@@ -249,6 +250,7 @@ void begin_modes_at_rest(Instance& instance, const Part& part, const float* hear
     for (float* tick : instance.l) tick[part.vector + i] = l[i];
   }
   tissue::modal_turn(base, q[0], l, instance.theta + part.vector);
+  for (float* corrected : instance.corrected) std::fill_n(corrected + part.mode, modes, 0.0f);
 }
 
 // Where the tick begins something at rest, carry tells by how much l moved. False: nothing.
@@ -378,17 +380,45 @@ void give_up_network(Instance& instance) noexcept {
   instance.fell_back = true;
 }
 
+// A network that begins knows nothing of the motion yet: its corrections rise.
+void begin_gently(Instance& instance) noexcept {
+  InstanceState& state = *instance.state;
+  if (state.network_begins == 0) return;
+  --state.network_begins;
+  const float share = 1 - static_cast<float>(state.network_begins) / kNetworkBeginTicks;
+  for_each_awake_part(instance, [&](const Part& part) {
+    for (size_t i = part.vector; i < part.vector + 3 * part.record.node_count; ++i)
+      instance.l[0][i] = instance.l_hat[i] + share * (instance.l[0][i] - instance.l_hat[i]);
+  });
+  tissue::write_output(instance.asset->network, instance.level->pack.regions, instance.level->node_count(),
+                       instance.l[0], instance.network_state);
+}
+
+// What modes alone would not have, after a tick in which the network moved q away from q_hat.
+void count_corrections(Instance& instance, const Part& part) noexcept {
+  float *now = instance.corrected[0] + part.mode, *before = instance.corrected[1] + part.mode;
+  const float *q = instance.q[0] + part.mode, *q_hat = instance.q_hat + part.mode;
+  for (size_t m = 0; m < part.base.modes.size(); ++m) {
+    const pack::ModeRecord& mode = part.base.modes[m];
+    const float goes_on = mode.a1 * now[m] + mode.a2 * before[m];
+    before[m] = now[m];
+    now[m] = goes_on + (q[m] - q_hat[m]);
+  }
+}
+
 // l of this tick is the network's; q, theta and u follow. Returns the nodes held.
 uint32_t settle_on_network(Instance& instance) noexcept {
   const GraphLevel& level = *instance.level;
   const tissue::Network& network = instance.asset->network;
   const tissue::NodeMemory memory{&network, level.node_count(), instance.network_state};
   tissue::read_output(network, level.pack.regions, level.node_count(), instance.network_state, instance.l[0]);
+  begin_gently(instance);
   uint32_t held = 0;
   for_each_awake_part(instance, [&](const Part& part) {
     float *now = instance.l[0] + part.vector, *before = instance.l[1] + part.vector;
     const uint32_t here = tissue::hold_at_limit(part.record, memory, now, before);
     project_change(instance, part, instance.l[0], instance.l_hat, instance.q[0]);
+    count_corrections(instance, part);
     turn_and_warp(instance, part);
     if (here > 0) stop_region(instance, part.index);
     held += here;
@@ -462,7 +492,26 @@ void leave_to_rest(Instance& instance, const Part& part, int tick) noexcept {
     instance.r[tick][part.vector + i] = instance.l[tick][part.vector + i] - held[i];
 }
 
+// Not all of it: what a network knew is nearer to the truth.
+void answer_of_modes(Instance& instance, const Part& part, int tick) noexcept {
+  float *q = instance.q[tick] + part.mode, *l = instance.l[tick] + part.vector, *held = instance.region[1];
+  const auto modes = static_cast<uint32_t>(part.base.modes.size());
+  constexpr float kTakenBack = 0.6f;
+  for (uint32_t m = 0; m < modes; ++m)
+    q[m] -= kTakenBack * std::exchange(instance.corrected[tick][part.mode + m], 0.0f);
+  simd::kernels().add_rows(part.base.shape, modes, part.base.padded, q, held);
+  for (size_t i = 0; i < size_t{3} * part.record.node_count; ++i)
+    l[i] = held[i] + instance.r[tick][part.vector + i];
+  tissue::modal_turn(part.base, q, held, instance.theta + part.vector);
+  tissue::warp(instance.theta + part.vector, l, part.record.node_count, instance.u[tick] + part.vector);
+}
+
 }  // namespace
+
+void take_back_corrections(Instance& instance) noexcept {
+  for (const int tick : {1, 0})  // theta is the newer tick's
+    for_each_part(instance, [&](const Part& part) { answer_of_modes(instance, part, tick); });
+}
 
 void lift_displacement(Instance& instance) noexcept {
   for (int tick = 0; tick < 2; ++tick) {

@@ -13,6 +13,10 @@ void drive_nodes(Instance& instance) noexcept;
 // and nothing of the state is of use any more.
 bool simulate_tick(Instance& instance) noexcept;
 
+// Most of the way to where modes alone would have gone since the network began, for its corrections would
+// swing on in them: q, and what follows from it.
+void take_back_corrections(Instance& instance) noexcept;
+
 // l, theta and q of a displacement that did not come from them: u is taken for l, at both ticks.
 void lift_displacement(Instance& instance) noexcept;
 
