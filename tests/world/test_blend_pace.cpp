@@ -74,6 +74,93 @@ TEST_CASE("flesh_that_hangs_still_stays_where_it_hangs_as_its_law_changes") {
   }
 }
 
+// Each tick's difference, of what the twins show.
+double farthest_apart(Block& a, Block& b) {
+  const std::vector<float> x = a.surface(), y = b.surface();
+  std::vector<float> between(x.size());
+  for (size_t i = 0; i < x.size(); ++i) between[i] = x[i] - y[i];
+  return test::largest_length(between);
+}
+
+TEST_CASE("a_network_without_a_memory_begins_to_correct_gently") {
+  const auto apart_after_one = [](bool gently) {
+    Block begins, stays;
+    for (Block* block : {&begins, &stays}) block->play(shaken, {.tier = Tier::kModal}, 120);
+    begins.tick(shaken, {.tier = Tier::kNetwork});
+    stays.tick(shaken, {.tier = Tier::kModal});
+    if (!gently) {  // a second one, with all of its corrections
+      begins.instance().state->network_begins = 0;
+      begins.tick(shaken, {.tier = Tier::kNetwork});
+      stays.tick(shaken, {.tier = Tier::kModal});
+    }
+    return farthest_apart(begins, stays);
+  };
+  const double gentle = apart_after_one(true), whole = apart_after_one(false);
+  INFO(gentle << " m after a first tick, " << whole << " m with a whole one behind it");
+  REQUIRE(whole > 0);
+  CHECK(gentle < whole / 4);
+}
+
+// Missed a tick or two, and comes back as modes: what the network moved in its ticks would swing on in them.
+TEST_CASE("modes_that_make_up_for_a_network_take_back_most_of_what_it_corrected") {
+  const auto sways = [](double time_s) { return scenes::bent_pose(0.1 * std::sin(9 * time_s)); };
+  const auto apart = [&](bool taken_back) {
+    Block block, modes;
+    block.play(sways, {.tier = Tier::kModal}, 120);
+    modes.play(sways, {.tier = Tier::kModal}, 120);
+    block.play(sways, {.tier = Tier::kNetwork}, 30);
+    modes.play(sways, {.tier = Tier::kModal}, 30);
+    block.play(sways, {.tier = Tier::kExtrapolate}, 2);
+    modes.play(sways, {.tier = Tier::kModal}, 2);
+    if (!taken_back)
+      for (float* corrected : block.instance().corrected)
+        std::fill_n(corrected, block.asset().mode_count(), 0.0f);
+    block.tick(sways, {.tier = Tier::kModal});
+    modes.tick(sways, {.tier = Tier::kModal});
+    double most = 0;
+    const world::Instance &a = block.instance(), &b = modes.instance();
+    for (uint32_t m = 0; m < block.asset().mode_count(); ++m)
+      most = std::max(most, std::fabs(double{a.q[0][m]} - double{b.q[0][m]}));
+    return most;
+  };
+  const double with = apart(true), without = apart(false);
+  INFO(with << " off, without it " << without);
+  REQUIRE(without > 0);
+  CHECK(with < 0.6 * without);
+}
+
+TEST_CASE("springs_that_are_left_alone_fade_for_longer_than_modes") {
+  const auto faded_after = [](Tier tier) {
+    Block block;
+    block.play(shaken, {.tier = tier}, 120);
+    uint32_t ticks = 0;
+    do block.tick(shaken, {.tier = Tier::kExtrapolate});
+    while (++ticks < 60 && test::largest_length(block.surface()) > 0);
+    return ticks;
+  };
+  CHECK(faded_after(Tier::kModal) == world::kCarryTicks + world::kFadeTicks);
+  CHECK(faded_after(Tier::kSpring) == world::kCarryTicks + world::kSpringFadeTicks);
+}
+
+// What began elsewhere than it would have been swings on: its last ticks go half as fast.
+TEST_CASE("a_blend_from_what_was_shown_ends_slowly_where_something_moves") {
+  const auto blended_after = [](bool from_shown) {
+    Block block;
+    block.play(shaken, {.tier = Tier::kModal}, 120);
+    block.play(shaken, {.tier = Tier::kExtrapolate}, 3);
+    uint32_t ticks = 0;
+    do {
+      block.tick(shaken, {.tier = Tier::kModal});
+      if (!from_shown) block.instance().state->from_shown = 0;
+    } while (++ticks < 100 && block.blend_ticks() < world::kBlendInTicks);
+    return ticks;
+  };
+  const uint32_t slowly = blended_after(true), usual = blended_after(false);
+  INFO(slowly << " ticks, otherwise " << usual);
+  CHECK(slowly > usual);
+  CHECK(slowly <= world::kLongestBlendTicks);
+}
+
 TEST_CASE("a_blend_saved_between_its_ticks_goes_on_with_the_same_bits") {
   Block block;
   block.play(shaken, {.tier = Tier::kModal}, 300);
