@@ -86,10 +86,10 @@ struct ContactForces {
 
   // contact_laws.cpp
   void begin_friction(Contact* contact) const;
-  // Between two rods, or not part of the last system; others in contact_lanes.cpp.
+  // Between two rods; with obstacles: contact_lanes.cpp.
   bool take_over(Contact* contact) const;
-  // Whose gap and slip are as exact as wanted, or not.
-  void settle(const Contact& contact, bool exact) const {
+  // Where gap and slip are not as exact as wanted its strands are not done.
+  void keep_pending(const Contact& contact, bool exact) const {
     if (exact) return;
     to.pending_[contact.sides[0].strand] = 1;
     if (contact.has_two_rods()) to.pending_[contact.sides[1].strand] = 1;

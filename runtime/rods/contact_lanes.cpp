@@ -64,10 +64,10 @@ void ContactLooks::end() {
 void ContactTakes::add(Contact* contact) {
   if (contact->has_two_rods()) {
     end();
-    return forces_.settle(*contact, forces_.take_over(contact));
+    return forces_.keep_pending(*contact, forces_.take_over(contact));
   }
   if (!is_active(*contact, contact->open_before_m)) {
-    return forces_.settle(*contact, forces_.begin_anew(contact));
+    return forces_.keep_pending(*contact, forces_.begin_anew(contact));
   }
   put(*contact);
   of_[count_++] = contact;
@@ -102,7 +102,7 @@ void ContactTakes::get(size_t lane) {
   c.state = static_cast<Friction>(static_cast<uint32_t>(row(simd::kTakeState)));
   c.changes = static_cast<uint32_t>(row(simd::kTakeChanges));
   forces_.add_miss(c, row(simd::kTakeMiss));
-  forces_.settle(c, row(simd::kTakeExact) != 0);
+  forces_.keep_pending(c, row(simd::kTakeExact) != 0);
 }
 
 void ContactTakes::end() {

@@ -9,8 +9,8 @@
 #include <cstdint>
 
 #include "pack/format.hpp"
-#include "simd/rod_job.hpp"
 #include "simd/rod_force_job.hpp"
+#include "simd/rod_job.hpp"
 #include "simd/rod_touch_job.hpp"
 
 namespace sinew::simd {

@@ -56,7 +56,8 @@ void begin_simulation(Instance& instance) noexcept {
   state.rest_ticks = !rests ? 0 : state.dt_before_s > 0 ? 1 : 2;
 }
 
-// A network that missed a moment keeps its memory, of everything but where the tissue is.
+// A network that missed a moment keeps its memory, of everything but where the tissue is. At rest an empty
+// one is exact.
 void begin_network(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   const GraphLevel& level = *instance.level;
@@ -64,7 +65,7 @@ void begin_network(Instance& instance) noexcept {
   const auto take_place = remembered ? tissue::write_output : tissue::rebase_state;
   take_place(instance.asset->network, level.pack.regions, level.node_count(), instance.l[0],
              instance.network_state);
-  state.network_begins = remembered ? 0 : kNetworkBeginTicks;
+  if (!remembered) state.network_begins = state.untouched ? 0 : kNetworkBeginTicks;
   state.forgotten = 0;
   state.clamped_ticks = 0;
   for (float* corrected : instance.corrected) std::fill_n(corrected, level.mode_count(), 0.0f);
@@ -80,7 +81,8 @@ void blend_laws(Instance& instance) noexcept {
   state.tail_stays = 1;
   state.from_shown = 0;
   state.blend_ticks = 0;
-  state.rest_ticks = 1;
+  state.forgotten = 1;
+  state.rest_ticks = std::max(state.rest_ticks, state.dt_before_s > 0 ? 1u : 2u);
 }
 
 void begin_base(Instance& instance) noexcept {

@@ -12,6 +12,7 @@ namespace {
 
 // Of the height, a tick. What rides is true beneath: it has all of simulation's own steps in it already.
 constexpr float kBlendStep = 0.002f, kRideStep = 0.0014f;
+// Of the blend, and of its pace: as perf/jumps.sh wants.
 constexpr float kLate = 0.6f * kBlendInTicks, kLatePace = 0.5f;
 constexpr float kLeastPace = static_cast<float>(kBlendInTicks) / kLongestBlendTicks;
 

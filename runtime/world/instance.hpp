@@ -83,10 +83,9 @@ struct InstanceState {
   uint32_t rod_quiet_ticks = 0;  // world/rod_sleep.hpp
   uint32_t teleported = 0;       // in the last step
   uint32_t hidden_ticks = 0;     // world/hidden.hpp
-  // The blend is from one law to another: rods went on; what was shown does not fade.
-  uint16_t lifted = 0;
-  uint8_t tail_stays = 0;
-  uint8_t from_shown = 0;                     // simulation came back from what was shown, and not from rest
+  uint16_t lifted = 0;           // the blend is from one law to another: rods went on
+  uint8_t tail_stays = 0;        // likewise: the tail comes to a stand and does not fade
+  uint8_t from_shown = 0;        // simulation came back from what was shown, and not from rest
   Tier left_tier = Tier::kSkinning;           // world/catch_up.hpp: what it had before it was left alone
   uint16_t missed_ticks = 0, tail_rides = 0;  // likewise: since then; the tail counts from what is simulated
   uint32_t first_joints = 0;                  // which of pose_joints is the pose before the present one
@@ -155,7 +154,8 @@ struct ShownShares {
 // the flesh, as is the tail: poses need not be followed to carry them on. shown = b u + (1 - b) tail, b
 // rising smoothly from 0 to 1 in kBlendInTicks or more (world/blend_pace.hpp). The tail is the displacement
 // shown when simulation was last left, carried on with damped velocity and then faded to zero; or, where it
-// rides, what that was off, and shown = u + (1 - b) tail, b rising more gently.
+// stays, brought to a stand; or, where it rides, what that was off, and shown = u + (1 - b) tail, b rising
+// more gently.
 struct Instance {
   // What a plan does to those that it passes over, and what a report asks, comes first: kPlannedBytes of it.
   InstanceState* state = nullptr;

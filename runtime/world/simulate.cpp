@@ -302,10 +302,14 @@ bool base_step(Instance& instance) noexcept {
 uint32_t hold_base(Instance& instance) noexcept {
   uint32_t held = 0;
   for_each_awake_part(instance, [&](const Part& part) {
-    held += tissue::hold_base_at_limit(part.record, static_cast<uint32_t>(part.base.modes.size()),
-                                       instance.l_hat + part.vector,
-                                       {instance.q_hat + part.mode, instance.q[0] + part.mode},
-                                       {instance.r_hat + part.vector, instance.r[0] + part.vector});
+    const size_t modes = part.base.modes.size();
+    const uint32_t here =
+        tissue::hold_base_at_limit(part.record, static_cast<uint32_t>(modes), instance.l_hat + part.vector,
+                                   {instance.q_hat + part.mode, instance.q[0] + part.mode},
+                                   {instance.r_hat + part.vector, instance.r[0] + part.vector});
+    held += here;
+    if (here == 0) return;  // what a network moved is not told apart from what holds
+    for (float* corrected : instance.corrected) std::fill_n(corrected + part.mode, modes, 0.0f);
   });
   return held;
 }
@@ -492,7 +496,7 @@ void leave_to_rest(Instance& instance, const Part& part, int tick) noexcept {
     instance.r[tick][part.vector + i] = instance.l[tick][part.vector + i] - held[i];
 }
 
-// Not all of it: what a network knew is nearer to the truth.
+// Not all of it: what a network knew is nearer to the truth. As much as perf/jumps.sh wants.
 void answer_of_modes(Instance& instance, const Part& part, int tick) noexcept {
   float *q = instance.q[tick] + part.mode, *l = instance.l[tick] + part.vector, *held = instance.region[1];
   const auto modes = static_cast<uint32_t>(part.base.modes.size());

@@ -130,6 +130,8 @@ void stop_region(Instance& instance, size_t region) noexcept {
   const size_t vector = size_t{3} * pack.regions[region].first_node,
                floats = size_t{3} * pack.regions[region].node_count;
   std::copy_n(instance.q[0] + modes.first_mode, modes.mode_count, instance.q[1] + modes.first_mode);
+  std::copy_n(instance.corrected[0] + modes.first_mode, modes.mode_count,
+              instance.corrected[1] + modes.first_mode);
   for (float* const* ticks : {instance.r, instance.u})
     std::copy_n(ticks[0] + vector, floats, ticks[1] + vector);
 }

@@ -53,7 +53,12 @@ void draw_counts(render::Image& image, const Run& run, const Options& options) {
     title += ", " + std::to_string(std::lround(options.budget_us)) + " us a frame";
   render::draw_text(image, 18, 34, title, {.size_px = 16, .weight = 1.4f});
   int line = 0;
-  for (const TierLook* look : {&kLooks[2], &kLooks[4], &kLooks[3], &kLooks[1], &kLooks[0], &kOutOfView}) {
+  constexpr Tier kFromTheBest[] = {Tier::kNetwork, Tier::kModal, Tier::kSpring, Tier::kExtrapolate,
+                                   Tier::kSkinning};
+  std::vector<const TierLook*> looks;
+  for (const Tier tier : kFromTheBest) looks.push_back(&look_of({.tier = tier}));
+  looks.push_back(&kOutOfView);
+  for (const TierLook* look : looks) {
     const auto count = std::ranges::count(run.crowd, look, [](const CrowdMember& m) { return &look_of(m); });
     if (count == 0 && look == &kOutOfView) continue;
     render::draw_text(image, 18, static_cast<float>(60 + 22 * line++),

@@ -84,7 +84,7 @@ TEST_CASE("recorded_positions_do_not_depend_on_threads_or_neighbours") {
   CHECK(crowd.crowd.size() == 5);
 }
 
-// It looks 15 degrees to its left by then, over a hundred blocks that stand around it.
+// It looks 22 degrees to its left by then, over a hundred blocks that stand around it.
 TEST_CASE("what_the_turning_camera_does_not_show_is_hidden_and_told_so") {
   sinew::test::TemporaryFolder folder;
   const Run all = run_block(folder, 100, 1, 60), seen = run_block(folder, 100, 1, 60, true);
