@@ -86,7 +86,7 @@ size_t best_of(const world::Asset& asset, const std::vector<Way>& ways) {
   return std::min(best, ways.size() - 1);
 }
 
-void run(const std::string& path, bool rates) {
+void run(const std::string& path, bool rates, size_t apart_ticks) {
   const demo::CharacterFile character = demo::open_character(path);
   JumpPlayer player(character, kSeconds);
   std::vector<Way> ways = simulated_ways(player.asset(), rates);
@@ -94,7 +94,7 @@ void run(const std::string& path, bool rates) {
   const size_t simulated = ways.size(), best = best_of(player.asset(), ways);
   ways.push_back(kExtrapolated);
   std::vector<Run> runs;
-  for (const Way& way : ways) runs.push_back(run_in(player, way));
+  for (const Way& way : ways) runs.push_back(run_in(player, way, apart_ticks));
   std::puts("from,to,chosen,at_once_mm,at_once_percent,beyond_both_mm,beyond_both_percent");
   const Table table{player, ways, runs};
   for (size_t f = 0; f < simulated; ++f)
@@ -112,9 +112,12 @@ int main(int count, char** arguments) {
   app.add_option("pack", path, "C.sinew")->required();
   bool rates = false;
   app.add_flag("--rates", rates, "and of modes in every second tick, which it does not buy");
+  size_t apart_ticks = 5;
+  app.add_option("--apart", apart_ticks, "ticks from one change to the next; 5 if not said")
+      ->check(CLI::Range(5, 240));
   CLI11_PARSE(app, count, arguments);
   try {
-    run(path, rates);
+    run(path, rates, apart_ticks);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "perf_jumps: %s\n", error.what());
     return 2;

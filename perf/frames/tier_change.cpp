@@ -27,8 +27,6 @@ std::vector<Steps> longest_steps(const std::vector<Surface>& frames, size_t firs
   return out;
 }
 
-size_t first_tick(size_t change) { return (change + 1) * kApart; }
-
 // From what was seen, the last of it shown just before the change.
 Stay stay_of(JumpPlayer& player, const Way& left, std::vector<Surface> seen) {
   Stay stay{.mark = player.mark(), .shown = seen.back(), .without = {}, .steps = {}};
@@ -67,13 +65,13 @@ std::vector<Surface> followed(JumpPlayer& player, const Way& way, size_t frames)
 
 }  // namespace
 
-Run run_in(JumpPlayer& player, const Way& way) {
+Run run_in(JumpPlayer& player, const Way& way, size_t apart_ticks) {
   const JumpPlayer::Mark start = player.mark();
   Run run;
   for (size_t tick = 0; tick < player.ticks(); ++tick) {
     player.step(way);
     run.surfaces.push_back(player.surface());
-    if (tick % kApart == kApart - 1) run.marks.push_back(player.mark());
+    if (tick % apart_ticks == apart_ticks - 1) run.marks.push_back(player.mark());
   }
   run.steps = longest_steps(run.surfaces, 0);
   player.go_back(start);
@@ -83,7 +81,7 @@ Run run_in(JumpPlayer& player, const Way& way) {
 std::vector<Stay> stays_in(const Run& run) {
   std::vector<Stay> out;
   for (size_t change = 0; change < run.marks.size(); ++change) {
-    const size_t first = first_tick(change), last = std::min(first + kWatched, run.surfaces.size());
+    const size_t first = run.marks[change].tick, last = std::min(first + kWatched, run.surfaces.size());
     const auto part = [&](const auto& of) {
       return std::vector(of.begin() + static_cast<ptrdiff_t>(first),
                          of.begin() + static_cast<ptrdiff_t>(last));
@@ -98,7 +96,7 @@ std::vector<Stay> stays_after(JumpPlayer& player, const Run& run, const Way& lef
   const Way back = left.hidden ? Way{} : left;
   for (size_t change = 0; change < run.marks.size(); ++change) {
     player.go_back(run.marks[change]);
-    std::vector<Surface> seen = leave(player, run, first_tick(change), left, ticks);
+    std::vector<Surface> seen = leave(player, run, run.marks[change].tick, left, ticks);
     out.push_back(stay_of(player, back, std::move(seen)));
   }
   return out;

@@ -6,7 +6,7 @@
 
 namespace sinew::perf {
 
-inline constexpr size_t kApart = 5, kWatched = 64;  // ticks: the longest blend and a little
+inline constexpr size_t kWatched = 64;  // ticks: the longest blend and a little
 
 using Steps = std::vector<float>;  // [vertices]: metres from one frame to the next
 
@@ -14,10 +14,10 @@ using Steps = std::vector<float>;  // [vertices]: metres from one frame to the n
 struct Run {
   std::vector<Surface> surfaces;        // [ticks]
   std::vector<Steps> steps;             // [ticks]: of this frame and the two before it the longest
-  std::vector<JumpPlayer::Mark> marks;  // after every kApart ticks
+  std::vector<JumpPlayer::Mark> marks;  // after every so many ticks
 };
 
-Run run_in(JumpPlayer& player, const Way& way);
+Run run_in(JumpPlayer& player, const Way& way, size_t apart_ticks);
 
 // What an instance has before a change, and would show without it.
 struct Stay {
