@@ -7,48 +7,48 @@
 
 namespace sinew::rods {
 
-class ContactLooks {
+template <class Lanes, class Of>
+class ContactLanes {
  public:
-  explicit ContactLooks(const ContactForces& forces) : forces_(forces) {}
+  explicit ContactLanes(const ContactForces& forces) : forces_(forces) {}
+
+ protected:
+  const ContactForces& forces_;
+  size_t count_ = 0;
+  Of* of_[simd::kForceLanes] = {};
+  Lanes lanes_ = {};
+};
+
+class ContactLooks : ContactLanes<simd::RodLooks, Contact> {
+ public:
+  using ContactLanes::ContactLanes;
   void add(Contact* contact);
   void end();
 
  private:
   void put(const Contact& contact);
-  const ContactForces& forces_;
-  size_t count_ = 0;
-  Contact* of_[simd::kForceLanes] = {};
-  simd::RodLooks lanes_ = {};
 };
 
-class ContactTakes {
+class ContactTakes : ContactLanes<simd::RodTakes, Contact> {
  public:
-  explicit ContactTakes(const ContactForces& forces) : forces_(forces) {}
+  using ContactLanes::ContactLanes;
   void add(Contact* contact);
   void end();
 
  private:
   void put(const Contact& contact);
   void get(size_t lane);
-  const ContactForces& forces_;
-  size_t count_ = 0;
-  Contact* of_[simd::kForceLanes] = {};
-  simd::RodTakes lanes_ = {};
 };
 
-class ContactPushes {
+class ContactPushes : ContactLanes<simd::RodPushes, const Contact> {
  public:
-  explicit ContactPushes(const ContactForces& forces) : forces_(forces) {}
+  using ContactLanes::ContactLanes;
   void add(const Contact& contact);
   void end();
 
  private:
   void put(const Contact& contact);
   void get(size_t lane);
-  const ContactForces& forces_;
-  size_t count_ = 0;
-  const Contact* of_[simd::kForceLanes] = {};
-  simd::RodPushes lanes_ = {};
 };
 
 }  // namespace sinew::rods
