@@ -91,6 +91,31 @@ struct Hits {
   }
 };
 
+// What was told at the end of a probe, for the one that goes on there.
+class EndOfProbe {
+ public:
+  void set(uint32_t probe, const ProbeContacts& contacts) {
+    probe_ = probe, count_ = 0;
+    for (uint32_t i = 0; i < contacts.size(); ++i) {
+      if (contacts[i].along == 1) told_[count_++] = {contacts.body(i), contacts[i].gap_m};
+    }
+  }
+  // As deep, of the same body: at a joint one contact is enough, two would share its force.
+  bool tells(uint32_t probe, uint32_t body, double gap_m, double slack_m) const {
+    return probe_ == probe && std::any_of(told_, told_ + count_, [&](const Told& told) {
+             return told.body == body && told.gap_m <= gap_m + slack_m;
+           });
+  }
+
+ private:
+  struct Told {
+    uint32_t body;
+    double gap_m;
+  };
+  uint32_t probe_ = ~0u, count_ = 0;
+  Told told_[ProbeContacts::kMost];
+};
+
 }  // namespace
 
 struct BulletContacts::State {
@@ -98,9 +123,10 @@ struct BulletContacts::State {
   Problems problems;
   Impulses impulses;
 
-  void find(std::span<const ContactProbe> all, size_t begin, double dt_s, Hits* hits) noexcept;
+  void find(std::span<const ContactProbe> all, size_t begin, double dt_s, EndOfProbe* before,
+            Hits* hits) noexcept;
   void find(std::span<const ContactProbe> all, size_t index, const Path& path, std::span<const Body> bodies,
-            double dt_s, Hits* hits) noexcept;
+            double dt_s, EndOfProbe* before, Hits* hits) noexcept;
 };
 
 BulletContacts::~BulletContacts() { delete state_; }
@@ -131,7 +157,8 @@ Status BulletContacts::set_origin(const double (&origin_m)[3]) noexcept {
 }
 
 void BulletContacts::State::find(std::span<const ContactProbe> all, size_t index, const Path& path,
-                                 std::span<const Body> bodies, double dt_s, Hits* hits) noexcept {
+                                 std::span<const Body> bodies, double dt_s, EndOfProbe* before,
+                                 Hits* hits) noexcept {
   const ContactProbe& probe = all[index];
   ProbeContacts contacts(path, dt_s, problems);
   for (const Body& body : bodies) {
@@ -143,17 +170,21 @@ void BulletContacts::State::find(std::span<const ContactProbe> all, size_t index
   contacts.reduce();
   const bool joined = index > 0 && all[index - 1].owner == probe.owner &&
                       goes_on(path, path_of(all[index - 1], def.origin_m));
+  const auto number = static_cast<uint32_t>(index);
+  const double slack_m = kSamePoint * path.radius_m;
   for (uint32_t i = 0; i < contacts.size(); ++i) {
-    if (joined && contacts[i].along == -1) continue;
     ContactHit hit = contacts[i];
-    hit.probe = static_cast<uint32_t>(index);
+    if (joined && hit.along == -1 && before->tells(number - 1, contacts.body(i), hit.gap_m, slack_m))
+      continue;
+    hit.probe = number;
     hits->add(hit);
   }
+  before->set(number, contacts);
 }
 
 // Of up to kAtOnce probes from `begin` on.
 void BulletContacts::State::find(std::span<const ContactProbe> all, size_t begin, double dt_s,
-                                 Hits* hits) noexcept {
+                                 EndOfProbe* before, Hits* hits) noexcept {
   const size_t count = std::min(kAtOnce, all.size() - begin);
   Path paths[kAtOnce];
   bool any = false;
@@ -173,7 +204,7 @@ void BulletContacts::State::find(std::span<const ContactProbe> all, size_t begin
   Body bodies[kMostBodies];
   const uint32_t near = NearBodies{def, dt_s, problems}.find(box, bodies);
   for (size_t i = 0; i < count && near > 0; ++i) {
-    if (is_good(paths[i])) find(all, begin + i, paths[i], {bodies, near}, dt_s, hits);
+    if (is_good(paths[i])) find(all, begin + i, paths[i], {bodies, near}, dt_s, before, hits);
   }
 }
 
@@ -181,8 +212,9 @@ uint32_t BulletContacts::find(std::span<const ContactProbe> probes, float dt_s,
                               std::span<ContactHit> hits) noexcept {
   if (!state_ || !(dt_s > 0 && std::isfinite(dt_s))) return 0;
   Hits out = {hits};
+  EndOfProbe before;
   for (size_t i = 0; i < probes.size(); i += kAtOnce) {
-    state_->find(probes, i, static_cast<double>(dt_s), &out);
+    state_->find(probes, i, static_cast<double>(dt_s), &before, &out);
   }
   return out.count;
 }

@@ -21,9 +21,11 @@ class ProbeContacts {
   uint32_t size() const noexcept { return count_; }
   // With gap, normal, velocity and all that is the body's; `probe` is left to the caller.
   const ContactHit& operator[](uint32_t i) const noexcept { return found_[i].hit; }
+  // Also where there is no handle.
+  uint32_t body(uint32_t i) const noexcept { return found_[i].body; }
+  static constexpr uint32_t kMost = 48;
 
  private:
-  static constexpr uint32_t kMost = 48;
   friend struct TriangleCollector;
 
   struct Found {

@@ -68,10 +68,13 @@ void ContactFinder::add_hits() const {
       if (free(s, i)) probe(s, i, to.sweeps_[local(s, i)], &probes);
     }
   }
+  std::fill(to.hit_ways_ + first_strand(), to.hit_ways_ + end_strand(), 0.0);
   const uint32_t room = to.settings_.source_capacity - to.hit_count_;
   for (const ContactHit& hit : ask(probes, to.hits_ + to.hit_count_, room, &to.dropped_)) {
     const uint32_t segment = to.probe_segments_[hit.probe];
     const uint32_t strand = strand_of(segment);
+    const double way = dt_s * length(vector_of(hit.velocity_m_s));
+    to.hit_ways_[strand] = std::max(to.hit_ways_[strand], way);
     const Contact* made = add_point(point_of(hit, strand, segment % batch.segment_count_), kHit);
     RodCollider::Taken& taken = to.taken_[to.hit_count_++];
     taken = {RodCollider::kNoContact, {}, {}};
@@ -81,14 +84,16 @@ void ContactFinder::add_hits() const {
   }
 }
 
-// Segments that moved further than their radius, and ended further than that from where they were looked for.
+// Segments that moved further than their radius, or near what did, and ended further than that from where
+// they were looked for.
 void ContactFinder::stop_at_hits() const {
   uint32_t probes = 0;
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {
     for (uint32_t i = 0; i < batch.segment_count_; ++i) {
       const Sweep& known = to.sweeps_[local(s, i)];
       Sweep own = taken_sweep(s, i);
-      if (!free(s, i) || !(longest(own.start, own.end) > own.radius_m)) continue;
+      if (!free(s, i)) continue;
+      if (!(std::max(to.hit_ways_[s], longest(own.start, own.end)) > own.radius_m)) continue;
       if (!(longest(known.end, own.end) > own.radius_m)) continue;
       own.radius_m *= kCore;
       probe(s, i, own, &probes);

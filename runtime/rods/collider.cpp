@@ -121,6 +121,7 @@ struct ColliderBuilder {
       to.hits_ = arena.take<ContactHit>(size_t{2} * to.settings_.source_capacity);
       to.taken_ = arena.take<RodCollider::Taken>(to.settings_.source_capacity);
       to.pushes_ = arena.take<double>(to.strand_count_);
+      to.hit_ways_ = arena.take<double>(to.strand_count_);
     }
     *bytes = arena.used_bytes();
   }

@@ -81,11 +81,12 @@ class RodCollider {
 
   // Asked in each step, until set again, with the free segments that are stepped at a time: all where rods
   // collide, else a group of 16 strands or 4. Null: nobody is asked. `owner` goes into each probe.
-  // Again, with half their radius, for segments that were iterated to where they had not been looked for: a
-  // strand that would be through something is stopped on its way, and looked at again, three times at most.
-  // After the step push is told what each hit's contact did: minus what the rod felt; of a strand that did
-  // not converge, no more together than what moved it. Source and what it looks at outlive the steps.
-  // Refused: a source where source_capacity is 0; the last one then stays.
+  // Again, with half their radius, for segments that were iterated to where they had not been looked for, if
+  // they or what their strand is near move further than their radius: a strand that would be through
+  // something is stopped on its way, and looked at again, three times at most. After the step push is told
+  // what each hit's contact did: minus what the rod felt; of a strand that did not converge, no more together
+  // than what moved it. Source and what it looks at outlive the steps. Refused: a source where
+  // source_capacity is 0; the last one then stays.
   Status set_source(ContactSource* source, uint32_t owner = 0) noexcept;
   // Where in the source's world the batch's places count from, 0 until set; finite. Obstacles and given
   // points are in the batch's own.
@@ -231,6 +232,7 @@ class RodCollider {
   ContactHit* hits_ = nullptr;          // [2 source_capacity] of the step; those of a second look behind
   Taken* taken_ = nullptr;              // [source_capacity]
   double* pushes_ = nullptr;            // [strands] sizes of what its hits felt
+  double* hit_ways_ = nullptr;  // [strands] how far what it was told of moves in the step, the furthest
 };
 
 }  // namespace sinew::rods

@@ -57,8 +57,8 @@ struct Passes {
 // What comes at 50 m/s, 0.83 m a step, from anywhere onto a capsule of two centimetres. A rod may slip off,
 // wrap around it or swing its end about it within a step. What it winds about the bar more than its ends did
 // on their ways is a whole turn for each time that the rod went through.
-// `source_for` makes a source of the capsule, or null: it is then one of the collider's own, and may be what
-// is thrown.
+// `source_for` makes a source of the capsule, or null: it is then one of the collider's own. A bar that is
+// thrown is given to it again before each step, with the step that it came there in; 0: it is put there.
 template <class SourceFor>
 Passes rods_at_a_bar(int count, SourceFor source_for, Thrown thrown = Thrown::kRod) {
   std::mt19937 random(7);
@@ -70,12 +70,15 @@ Passes rods_at_a_bar(int count, SourceFor source_for, Thrown thrown = Thrown::kR
     rods::RodCollider collider = collider_of(batch, {.rods_collide = false, .source_capacity = 64});
     const double x = 0.5 + any(0.3f), turn = any(0.5f);
     Bar bar = {x, turn, thrown == Thrown::kBar};
-    const rods::Capsule capsule = bar.capsule();
-    if (ContactSource* source = source_for(capsule)) {
-      REQUIRE(collider.set_source(source).ok());
-    } else {
-      REQUIRE(collider.set_capsules({&capsule, 1}).ok());
-    }
+    const auto show = [&](float dt_s) {
+      const rods::Capsule capsule = bar.capsule();
+      if (ContactSource* source = source_for(capsule, dt_s)) {
+        REQUIRE(collider.set_source(source).ok());
+      } else {
+        REQUIRE(collider.set_capsules({&capsule, 1}).ok());
+      }
+    };
+    show(0);
     const double side_z = any(5), side_x = any(5);
     throw_rod(batch, 0, static_cast<float>(side_x), bar.rises ? 0 : -kThrown_m_s, static_cast<float>(side_z));
     auto before = bar.seen_along(batch);
@@ -84,8 +87,7 @@ Passes rods_at_a_bar(int count, SourceFor source_for, Thrown thrown = Thrown::kR
     for (int i = 0; i < 6; ++i) {
       if (bar.rises) {
         bar.y += static_cast<double>(kThrown_m_s * kFrame_s);
-        const rods::Capsule moved = bar.capsule();
-        REQUIRE(collider.set_capsules({&moved, 1}).ok());
+        show(kFrame_s);
       }
       step(batch, collider);
       const auto after = bar.seen_along(batch);
@@ -99,16 +101,15 @@ Passes rods_at_a_bar(int count, SourceFor source_for, Thrown thrown = Thrown::kR
   return out;
 }
 
-inline Passes rods_at_a_bar(int count, Through by) {
+inline Passes capsules_and_rods(int count, Through by, Thrown thrown) {
   CapsuleSource source({});
-  return rods_at_a_bar(count, [&](const rods::Capsule& capsule) -> ContactSource* {
+  const auto source_for = [&](const rods::Capsule& capsule, float) -> ContactSource* {
     source = CapsuleSource({capsule});
     return by == Through::kSource ? &source : nullptr;
-  });
+  };
+  return rods_at_a_bar(count, source_for, thrown);
 }
-inline Passes bars_at_a_rod(int count) {
-  const auto none = [](const rods::Capsule&) -> ContactSource* { return nullptr; };
-  return rods_at_a_bar(count, none, Thrown::kBar);
-}
+inline Passes rods_at_a_bar(int count, Through by) { return capsules_and_rods(count, by, Thrown::kRod); }
+inline Passes bars_at_a_rod(int count, Through by) { return capsules_and_rods(count, by, Thrown::kBar); }
 
 }  // namespace sinew::test

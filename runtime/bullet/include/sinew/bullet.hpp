@@ -83,7 +83,7 @@ class BulletContacts final : public ContactSource {
 
   // A probe with a number that is not finite or a negative radius finds nothing. A segment that lies flat has
   // a contact at both ends of where it does. Where a probe begins at the end of the one before (same owner,
-  // not thicker), that point is the earlier one's. hits are in no order.
+  // not thicker), what that one was told there of a body, as deep, is not told again. hits are in no order.
   uint32_t find(std::span<const ContactProbe> probes, float dt_s,
                 std::span<ContactHit> hits) noexcept override;
 
