@@ -20,6 +20,8 @@ constexpr double kNearRadius = 0.25, kNearWay = 0.25;
 constexpr double kAtEnd = 0.15;
 // A touch is left out where it is no deeper by this, of the radius, than the line between those beside it.
 constexpr double kDeeper = 0.01;
+// Cosine: contacts that keep something fast from the same.
+constexpr double kSameWay = 0.9;
 // Of the radius: gaps that count as the same.
 constexpr double kSame = 1e-3;
 // Of the radius: an axis that is so deep may go through the surface.
@@ -277,21 +279,34 @@ void ProbeOnSurface::add_way_out(uint32_t where) noexcept {
   put(n.triangle, n.on.weights, along(where), normal, -n.distance_m - sweep_.radius_m, where);
 }
 
+bool ProbeOnSurface::Facing::is_that_of(const ContactHit& hit) const noexcept {
+  return dot(vector_of(hit.normal), normal) >= least_cosine;
+}
+
+// What goes past the ends of an axis is near them where the tick begins, and keeps nothing from going through
+// its middle.
+ProbeOnSurface::Facing ProbeOnSurface::facing_of(const Touched& t, const AtStart& start) const noexcept {
+  const double way = length(relative_way(t.triangle, t.touch.at.on.weights, start.along));
+  return way > sweep_.radius_m ? Facing{start.normal, kSameWay} : Facing{};
+}
+
 // As deep as this is told next to it already, but for a little.
-bool ProbeOnSurface::is_told_beside(double along, double gap_m) const noexcept {
+bool ProbeOnSurface::is_told_beside(double along, double gap_m, const Facing& facing) const noexcept {
   return std::ranges::any_of(std::span(hits_, count_), [&](const ContactHit& hit) {
-    return std::fabs(share_of(hit) - along) < kAtEnd && hit.gap_m < gap_m + kDeeper * sweep_.radius_m;
+    return facing.is_that_of(hit) && std::fabs(share_of(hit) - along) < kAtEnd &&
+           hit.gap_m < gap_m + kDeeper * sweep_.radius_m;
   });
 }
 
 // Contacts on both sides keep the axis from going deeper there, but for a little.
-bool ProbeOnSurface::is_told_between(double along, double gap_m) const noexcept {
+bool ProbeOnSurface::is_told_between(double along, double gap_m, const Facing& facing) const noexcept {
   const ContactHit *before = nullptr, *after = nullptr;
   for (const ContactHit& hit : std::span(hits_, count_)) {
+    if (!facing.is_that_of(hit)) continue;
     if (share_of(hit) <= along && (!before || hit.along > before->along)) before = &hit;
     if (share_of(hit) >= along && (!after || hit.along < after->along)) after = &hit;
   }
-  if (!before || !after || before == after) return is_told_beside(along, gap_m);
+  if (!before || !after || before == after) return is_told_beside(along, gap_m, facing);
   const double share = (along - share_of(*before)) / (share_of(*after) - share_of(*before));
   return (1 - share) * before->gap_m + share * after->gap_m < gap_m + kDeeper * sweep_.radius_m;
 }
@@ -299,7 +314,9 @@ bool ProbeOnSurface::is_told_between(double along, double gap_m) const noexcept 
 void ProbeOnSurface::add_axis() noexcept {
   if (!near(axis_)) return;
   const AtStart start = at_start(axis_, kMiddle);
-  if (is_told_beside(start.along, start.gap_m) || is_told_between(start.along, start.gap_m)) return;
+  const Facing facing = facing_of(axis_, start);
+  if (is_told_beside(start.along, start.gap_m, facing)) return;
+  if (is_told_between(start.along, start.gap_m, facing)) return;
   add(axis_, start, kMiddle);
 }
 
@@ -313,7 +330,7 @@ void ProbeOnSurface::add_middle() noexcept {
     find_nearest(kMiddle);
   }
   const double gap = n.distance_m - sweep_.radius_m;
-  if (n.triangle == kNone || is_told_between(0.5, gap) || !near(n.triangle, n.on, 0.5, gap)) return;
+  if (n.triangle == kNone || is_told_between(0.5, gap, {}) || !near(n.triangle, n.on, 0.5, gap)) return;
   const Vector face = pseudonormal(surface_, filter_.groups, n.triangle, kFace);
   const Vector normal = unit_or(difference(sample(kMiddle), n.on.point), face);
   if (dot(normal, normal) > 0) put(n.triangle, n.on.weights, 0.5, normal, gap, kSamples);

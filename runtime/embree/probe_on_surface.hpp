@@ -63,6 +63,12 @@ class ProbeOnSurface {
     Vector normal;
     double gap_m;
   };
+  // Contacts that are asked whether they say what another would; by default all of them.
+  struct Facing {
+    Vector normal = {};
+    double least_cosine = -1;
+    bool is_that_of(const ContactHit& hit) const noexcept;
+  };
   static double along(uint32_t where) { return where == kFrom ? 0 : where == kTo ? 1 : 0.5; }
   Vector sample(uint32_t where) const;
   Sweep sweep_of_end(uint32_t where) const;
@@ -87,8 +93,9 @@ class ProbeOnSurface {
   bool near(const Touched& touched) const noexcept;
   AtStart at_start(const Touched& touched, uint32_t name) const noexcept;
   void add(const Touched& touched, const AtStart& start, uint32_t name) noexcept;
-  bool is_told_beside(double along, double gap_m) const noexcept;
-  bool is_told_between(double along, double gap_m) const noexcept;
+  Facing facing_of(const Touched& touched, const AtStart& start) const noexcept;
+  bool is_told_beside(double along, double gap_m, const Facing& facing) const noexcept;
+  bool is_told_between(double along, double gap_m, const Facing& facing) const noexcept;
   void add_axis() noexcept;
   void add_middle() noexcept;
   HeldPoint held_by(const ContactHit& hit) const noexcept;
