@@ -18,8 +18,8 @@ void must(const Status& status) {
 
 }  // namespace
 
-JumpPlayer::JumpPlayer(const demo::CharacterFile& character, double seconds)
-    : seconds_(seconds), tape_(character, seconds) {
+JumpPlayer::JumpPlayer(const demo::CharacterFile& character, const std::string& clip, double seconds)
+    : seconds_(seconds), tape_(character, seconds, clip) {
   must(world::open_asset(character.file.bytes(), &asset_));
   must(world::make_instance(asset_, {}, &instance_));
 }

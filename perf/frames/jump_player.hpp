@@ -1,6 +1,8 @@
-// jump_player.hpp  One instance along its character's clips, a tick a frame, in whatever tier it is told.
+// jump_player.hpp  One instance along one of its character's clips, a tick a frame, in whatever tier it is
+// told.
 #pragma once
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "perf/frames/pose_tape.hpp"
@@ -24,7 +26,8 @@ class JumpPlayer {
     size_t tick = 0;
   };
 
-  JumpPlayer(const demo::CharacterFile& character, double seconds);
+  // Of the clip, looped.
+  JumpPlayer(const demo::CharacterFile& character, const std::string& clip, double seconds);
   void step(const Way& way);
   Surface surface() const;
   Mark mark() const;

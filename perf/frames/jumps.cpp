@@ -1,12 +1,14 @@
 // jumps.cpp  perf_jumps: how far a change of tier moves a vertex from one frame to the next; CSV to stdout.
 //
-// Along the character's clips, every seven ticks anew, an instance changes from what it has to a tier: from
-// every tier that may be bought, and from having been left alone, for some ticks, by extrapolation, by
-// skinning, or out of view. What is told of it: tier_change.hpp. The tier that is not simulated all along
-// stands still.
+// Along each of the character's clips, looped, every few ticks anew, an instance changes from what it has to
+// a tier: from every tier that may be bought, and from having been left alone, for some ticks, by
+// extrapolation, by skinning, or out of view. What is told of it: tier_change.hpp. The tier that is not
+// simulated all along stands still.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <stdexcept>
 
 #include "perf/frames/level_name.hpp"
 #include "perf/frames/tier_change.hpp"
@@ -16,7 +18,7 @@ namespace {
 using namespace sinew;
 using namespace sinew::perf;
 
-constexpr double kSeconds = 8;
+constexpr double kSeconds = 5;  // of each clip: once around, and over where it begins again
 
 // Those that the scheduler may choose: which of its points are on the front is decided anew at every step.
 // With `rates` also what it does not buy, modes in every second tick.
@@ -63,6 +65,8 @@ struct Table {
   JumpPlayer& player;
   const std::vector<Way>& ways;  // those that are simulated first
   const std::vector<Run>& runs;
+  const std::string& clip;
+  double own_m;  // the farthest that a tier itself moves a vertex in a frame
 
   void tell(const std::string& from, const Way& left, const std::vector<Stay>& stays) const {
     for (size_t w = 0; w < ways.size(); ++w) {
@@ -71,9 +75,9 @@ struct Table {
       const Jump jump = largest_jump(player, stays, runs[w], ways[w]);
       const bool is_chosen = ways[w].every == 1 && left.every == 1;
       const double percent = 100 / player.height_m();
-      std::printf("\"%s\",%s,%d,%.3f,%.4f,%.3f,%.4f\n", from.c_str(),
+      std::printf("%s,\"%s\",%s,%d,%.3f,%.4f,%.3f,%.4f,%.3f\n", clip.c_str(), from.c_str(),
                   name_of(player.asset(), ways[w]).c_str(), is_chosen ? 1 : 0, 1e3 * jump.at_once_m,
-                  percent * jump.at_once_m, 1e3 * jump.beyond_m, percent * jump.beyond_m);
+                  percent * jump.at_once_m, 1e3 * jump.beyond_m, percent * jump.beyond_m, percent * own_m);
     }
   }
 };
@@ -86,22 +90,36 @@ size_t best_of(const world::Asset& asset, const std::vector<Way>& ways) {
   return std::min(best, ways.size() - 1);
 }
 
-void run(const std::string& path, bool rates, size_t apart_ticks) {
-  const demo::CharacterFile character = demo::open_character(path);
-  JumpPlayer player(character, kSeconds);
+double farthest_step_m(const std::vector<Run>& runs) {
+  float most = 0;
+  for (const Run& run : runs)
+    for (const Steps& steps : run.steps) most = std::max(most, std::ranges::max(steps));
+  return static_cast<double>(most);
+}
+
+void run(const demo::CharacterFile& character, const std::string& clip, bool rates, size_t apart_ticks) {
+  JumpPlayer player(character, clip, kSeconds);
   std::vector<Way> ways = simulated_ways(player.asset(), rates);
-  if (ways.empty()) throw std::runtime_error(path + ": has no tier that simulates");
+  if (ways.empty()) throw std::runtime_error("the pack has no tier that simulates");
   const size_t simulated = ways.size(), best = best_of(player.asset(), ways);
   ways.push_back(kExtrapolated);
   std::vector<Run> runs;
   for (const Way& way : ways) runs.push_back(run_in(player, way, apart_ticks));
-  std::puts("from,to,chosen,at_once_mm,at_once_percent,beyond_both_mm,beyond_both_percent");
-  const Table table{player, ways, runs};
+  const Table table{player, ways, runs, clip, farthest_step_m(runs)};
   for (size_t f = 0; f < simulated; ++f)
     table.tell(name_of(player.asset(), ways[f]), ways[f], stays_in(runs[f]));
   for (const Left& left : kLeft)
     table.tell(left.name, left.way.hidden ? kSkinned : left.way,
                stays_after(player, runs[best], left.way, left.ticks));
+}
+
+void run_all(const std::string& path, bool rates, size_t apart_ticks) {
+  const demo::CharacterFile character = demo::open_character(path);
+  std::puts(
+      "clip,from,to,chosen,at_once_mm,at_once_percent,beyond_both_mm,beyond_both_percent,own_step_percent");
+  for (size_t i = 0; i < character.view.clips.size(); ++i)
+    run(character, character.clip_name(i), rates, apart_ticks);
+  if (character.view.clips.empty()) run(character, "", rates, apart_ticks);  // shaken by its root
 }
 
 }  // namespace
@@ -112,12 +130,12 @@ int main(int count, char** arguments) {
   app.add_option("pack", path, "C.sinew")->required();
   bool rates = false;
   app.add_flag("--rates", rates, "and of modes in every second tick, which it does not buy");
-  size_t apart_ticks = 5;
-  app.add_option("--apart", apart_ticks, "ticks from one change to the next; 5 if not said")
+  size_t apart_ticks = 7;
+  app.add_option("--apart", apart_ticks, "ticks from one change to the next; 7 if not said")
       ->check(CLI::Range(5, 240));
   CLI11_PARSE(app, count, arguments);
   try {
-    run(path, rates, apart_ticks);
+    run_all(path, rates, apart_ticks);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "perf_jumps: %s\n", error.what());
     return 2;

@@ -8,11 +8,11 @@ namespace {
 constexpr double kRate_hz = 60;
 }
 
-PoseTape::PoseTape(const demo::CharacterFile& character, double seconds)
+PoseTape::PoseTape(const demo::CharacterFile& character, double seconds, const std::string& clip)
     : joint_count_(character.view.joints.size()),
       frames_(static_cast<size_t>(seconds * kRate_hz)),
       joints_(joint_count_ * frames_) {
-  const std::unique_ptr<demo::Motion> motion = demo::make_motion(character, "");
+  const std::unique_ptr<demo::Motion> motion = demo::make_motion(character, clip);
   RootTransform root;
   for (size_t f = 0; f < frames_; ++f)
     motion->pose_at(static_cast<double>(f) / kRate_hz, {&joints_[f * joint_count_], joint_count_}, &root);

@@ -1,6 +1,7 @@
 // pose_tape.hpp  A character's motion, sampled once: playing it costs next to nothing beside what is timed.
 #pragma once
 #include <span>
+#include <string>
 #include <vector>
 
 #include "samples/demo/character_file.hpp"
@@ -11,7 +12,8 @@ namespace sinew::perf {
 class PoseTape {
  public:
   // All of its clips in turn, looped with a cross-fade by the motion itself. Throws baker::BadInput.
-  PoseTape(const demo::CharacterFile& character, double seconds);
+  // Of one clip, looped; with an empty name of all of them in turn.
+  PoseTape(const demo::CharacterFile& character, double seconds, const std::string& clip = {});
   std::span<const Matrix34> joints(double time_s) const;  // the nearest frame of 60 a second; loops
 
  private:

@@ -144,28 +144,40 @@ TEST_CASE("springs_that_are_left_alone_fade_for_longer_than_modes") {
 
 // What began elsewhere than it would have been swings on: its last ticks go half as fast.
 TEST_CASE("a_blend_from_what_was_shown_ends_slowly_where_something_moves") {
-  const auto blended_after = [](bool from_shown) {
+  Block block;
+  block.play(shaken, {.tier = Tier::kModal}, 120);
+  block.play(shaken, {.tier = Tier::kExtrapolate}, 3);
+  uint32_t ticks = 0;
+  do block.tick(shaken, {.tier = Tier::kModal});
+  while (++ticks < 100 && block.blend_ticks() < world::kBlendInTicks);
+  CHECK(ticks > world::kBlendInTicks + 4);
+  CHECK(ticks < 2 * world::kBlendInTicks);
+}
+
+// From rest, and from springs, which are another law.
+TEST_CASE("a_blend_to_modes_that_begin_elsewhere_takes_longer_where_something_moves") {
+  const auto blended_after = [](Tier before, const auto& pose) {
     Block block;
-    block.play(shaken, {.tier = Tier::kModal}, 120);
-    block.play(shaken, {.tier = Tier::kExtrapolate}, 3);
+    block.play(pose, {.tier = before == Tier::kSpring ? Tier::kSpring : Tier::kModal}, 120);
+    block.play(pose, {.tier = before}, 60);
     uint32_t ticks = 0;
-    do {
-      block.tick(shaken, {.tier = Tier::kModal});
-      if (!from_shown) block.instance().state->from_shown = 0;
-    } while (++ticks < 100 && block.blend_ticks() < world::kBlendInTicks);
+    do block.tick(pose, {.tier = Tier::kModal});
+    while (++ticks < 100 && block.blend_ticks() < world::kBlendInTicks);
     return ticks;
   };
-  const uint32_t slowly = blended_after(true), usual = blended_after(false);
-  INFO(slowly << " ticks, otherwise " << usual);
-  CHECK(slowly > usual);
-  CHECK(slowly <= world::kLongestBlendTicks);
+  const auto stands = [](double) { return scenes::bind_pose(); };
+  for (const Tier before : {Tier::kSkinning, Tier::kSpring}) {
+    CHECK(blended_after(before, stands) == world::kBlendInTicks);
+    CHECK(blended_after(before, shaken) > 2 * world::kBlendInTicks);
+    CHECK(blended_after(before, shaken) <= world::kLongestBlendTicks);
+  }
 }
 
 TEST_CASE("a_blend_saved_between_its_ticks_goes_on_with_the_same_bits") {
   Block block;
   block.play(shaken, {.tier = Tier::kModal}, 300);
   block.play(shaken, {.tier = Tier::kSkinning}, 60);
-  block.play(shaken, {.tier = Tier::kModal}, 15);
+  block.play(shaken, {.tier = Tier::kModal}, 16);
   REQUIRE(block.blend_ticks() != std::floor(block.blend_ticks()));
   std::vector<std::byte> saved(world::snapshot_bytes(block.instance()));
   REQUIRE(world::save(block.instance(), saved).ok());
