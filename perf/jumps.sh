@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Measures how far changes of tier move the creature's surface, and rewrites the table of jumps in perf/README.md. Three minutes; with
-# SINEW_CHARACTER, a pack that sinew-trade wrote, a minute.
+# Measures how far changes of tier move the creature's surface, and rewrites the table of jumps in perf/README.md. Twelve minutes; with
+# SINEW_CHARACTER, a pack that sinew-trade wrote, ten.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

@@ -32,23 +32,36 @@ def kinds(rows):
             "to being left alone": [row for row in chosen if row["to"] == LEFT], "coming back": back}
 
 
+def clips(rows):
+    return list(dict.fromkeys(row["clip"] for row in rows))
+
+
+def of_clip(rows, clip):
+    return [row for row in rows if row["clip"] == clip]
+
+
 def lines_of(rows):
-    heads = ["from", "worst beyond both, %", "to", "worst at once, %", "to"]
+    heads = ["from"] + [f"{clip}: worst beyond both, %" for clip in clips(rows)]
     lines = []
     chosen = [row for row in rows if row["chosen"] == "1"]
     for name in dict.fromkeys(row["from"] for row in chosen):
-        worst = [(measure, largest([row for row in chosen if row["from"] == name], measure)) for measure in MEASURES]
-        lines.append([name] + [cell for measure, row in worst for cell in (row[measure], row["to"])])
+        of = [row for row in chosen if row["from"] == name]
+        worst = [largest(of_clip(of, clip), MEASURES[0]) for clip in clips(rows)]
+        lines.append([name] + [f"{row[MEASURES[0]]} to {row['to']}" for row in worst])
     return heads, lines
 
 
 def summary(rows):
-    out = []
-    for label, measure in (("Beyond both", MEASURES[0]), ("At once", MEASURES[1])):
-        parts = [f"{kind} {told(of, measure)}" for kind, of in kinds(rows).items()]
-        parts.append(f"with rates that it does not buy {told([row for row in rows if row['chosen'] == '0'], measure)}")
-        out.append(f"{label}, the largest of what the scheduler may choose: " + "; ".join(parts) + ".")
-    return "  \n".join(out)
+    """For each clip the largest of what the scheduler may choose, beside how far a tier itself moves a vertex in a frame."""
+    heads = ["clip", "a tier itself moves a vertex in a frame by up to, %", "measure", *kinds(rows), "with rates that are not bought"]
+    lines = []
+    for clip in clips(rows):
+        of = of_clip(rows, clip)
+        for label, measure in (("beyond both", MEASURES[0]), ("at once", MEASURES[1])):
+            cells = [told(kind, measure) for kind in kinds(of).values()]
+            cells.append(told([row for row in of if row["chosen"] == "0"], measure))
+            lines.append([clip, of[0]["own_step_percent"], label] + cells)
+    return table(heads, lines)
 
 
 def main(path):
@@ -56,7 +69,7 @@ def main(path):
     text = pathlib.Path(path).read_text()
     (HERE / "results" / f"{file_name(machine)}_jumps.csv").write_text(text)
     rows = list(csv.DictReader(text.splitlines()))
-    lines = [f"Processor: {machine}, one thread.", "", summary(rows), ""] + table(*lines_of(rows))
+    lines = [f"Processor: {machine}, one thread.", "", *summary(rows), "", *table(*lines_of(rows))]
     put_between("jumps", lines)
     print("\n".join(lines))
 
