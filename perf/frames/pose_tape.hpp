@@ -11,8 +11,8 @@ namespace sinew::perf {
 
 class PoseTape {
  public:
-  // All of its clips in turn, looped with a cross-fade by the motion itself. Throws baker::BadInput.
-  // Of one clip, looped; with an empty name of all of them in turn.
+  // Of one clip, looped; with an empty name of all in turn, cross-faded. Begins anew after `seconds`. Throws
+  // baker::BadInput.
   PoseTape(const demo::CharacterFile& character, double seconds, const std::string& clip = {});
   std::span<const Matrix34> joints(double time_s) const;  // the nearest frame of 60 a second; loops
 

@@ -1,4 +1,6 @@
 // test_ropes.cpp  Rods among Bullet's bodies, through the rods' own step.
+#include <functional>
+
 #include "tests/bullet/probes.hpp"
 #include "tests/rods/passing_scenes.hpp"
 #include "tests/scenes/ropes_in_bullet.hpp"

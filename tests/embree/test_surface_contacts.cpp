@@ -1,5 +1,6 @@
 // test_surface_contacts.cpp  Surfaces by id: what is refused, how they move, what it allocates, many threads.
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <thread>
 
