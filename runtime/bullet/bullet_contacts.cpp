@@ -1,5 +1,6 @@
 // bullet_contacts.cpp  see include/sinew/bullet.hpp.
 #include <algorithm>
+#include <atomic>
 #include <new>
 #include <utility>
 
@@ -122,6 +123,7 @@ struct BulletContacts::State {
   BulletDef def;
   Problems problems;
   Impulses impulses;
+  std::atomic<uint32_t> looked_at = 0;  // bodies
 
   void find(std::span<const ContactProbe> all, size_t begin, double dt_s, EndOfProbe* before,
             Hits* hits) noexcept;
@@ -211,6 +213,8 @@ void BulletContacts::State::find(std::span<const ContactProbe> all, size_t begin
 uint32_t BulletContacts::find(std::span<const ContactProbe> probes, float dt_s,
                               std::span<ContactHit> hits) noexcept {
   if (!state_ || !(dt_s > 0 && std::isfinite(dt_s))) return 0;
+  const uint32_t first = state_->looked_at.fetch_add(NearBodies::kLookedAt, std::memory_order_relaxed);
+  NearBodies{state_->def, static_cast<double>(dt_s), state_->problems}.note_lost(first);
   Hits out = {hits};
   EndOfProbe before;
   for (size_t i = 0; i < probes.size(); i += kAtOnce) {

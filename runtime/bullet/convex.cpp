@@ -19,6 +19,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Sine squared of a triangle's flattest angle: below float's resolution it has no normal.
 constexpr double kFlat = 1e-12;
+constexpr double kThin = 1e-6;    // share of its size: float's resolution
 constexpr double kScaled = 1000;  // half the size of what GJK is asked
 constexpr float kJitter = 0.02f;  // its resolution
 
@@ -136,11 +137,50 @@ Distance from_other(const Convex& c, const Vector& p) {
   return from_box(c.size, rods::difference(p, c.middle));
 }
 
+// A shape without thickness, whichever way it lies: across the plane of any three points of it that are on no
+// line there is nothing.
+bool is_flat(const btConvexShape& shape) {
+  const auto support = [&](const Vector& way) {
+    return vector_of(shape.localGetSupportVertexWithoutMarginNonVirtual(
+        {static_cast<float>(way[0]), static_cast<float>(way[1]), static_cast<float>(way[2])}));
+  };
+  const auto across = [&](const Vector& way) {
+    return rods::difference(support(way), support(rods::scaled(-1, way)));
+  };
+  Vector longest = {};
+  for (size_t k = 0; k < 3; ++k) {
+    Vector way = {};
+    way[k] = 1;
+    const Vector d = across(way);
+    if (rods::dot(d, d) > rods::dot(longest, longest)) longest = d;
+  }
+  const double size = rods::length(longest);
+  if (!(size > 0)) return true;
+  const Vector along = rods::scaled(1 / size, longest);
+  size_t least = 0;
+  for (size_t k = 1; k < 3; ++k)
+    if (std::fabs(along[k]) < std::fabs(along[least])) least = k;
+  Vector axis = {};
+  axis[least] = 1;
+  Vector sideways = rods::cross(along, axis);
+  sideways = rods::scaled(1 / rods::length(sideways), sideways);
+  Vector normal = rods::cross(along, across(sideways));
+  if (!(rods::length(normal) > kThin * size)) {
+    sideways = rods::cross(along, sideways);
+    normal = rods::cross(along, across(sideways));
+  }
+  const double area = rods::length(normal);
+  if (!(area > kThin * size)) return true;
+  normal = rods::scaled(1 / area, normal);
+  return !(std::fabs(rods::dot(normal, across(normal))) > kThin * size);
+}
+
 Convex by_gjk(const btConvexShape& shape) {
   Convex out = {.kind = Convex::kOther, .other = &shape};
   const bool empty = shape.getShapeType() == CONVEX_HULL_SHAPE_PROXYTYPE &&
                      static_cast<const btConvexHullShape&>(shape).getNumVertices() == 0;
   if (empty) return out;  // its box is nonsense
+  if (!(shape.getMarginNonVirtual() > 0) && is_flat(shape)) return out;
   btVector3 low, high;
   shape.getAabb(btTransform::getIdentity(), low, high);
   out.middle = vector_of(0.5f * (low + high));

@@ -27,6 +27,11 @@ Matrix product(const Matrix& a, const Matrix& b) {
 
 }  // namespace
 
+bool finite(const Place& place) noexcept {
+  return rods::finite(place.turn[0]) && rods::finite(place.turn[1]) && rods::finite(place.turn[2]) &&
+         rods::finite(place.at_m);
+}
+
 Vector Place::direction(const Vector& own) const noexcept {
   return {rods::dot(turn[0], own), rods::dot(turn[1], own), rods::dot(turn[2], own)};
 }

@@ -19,6 +19,7 @@ struct Place {
   Vector own_point(const Vector& point) const noexcept;
 };
 inline constexpr Place kHere = {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {0, 0, 0}};
+bool finite(const Place& place) noexcept;
 Place place_of(const btTransform& transform) noexcept;
 Place product(const Place& a, const Place& b) noexcept;
 

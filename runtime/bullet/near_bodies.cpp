@@ -3,6 +3,7 @@
 
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
 #include <BulletCollision/CollisionShapes/btCollisionShape.h>
+#include <BulletCollision/CollisionShapes/btCompoundShape.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include <algorithm>
@@ -16,11 +17,6 @@ namespace {
 constexpr double kVast_m = 1e12;
 
 Vector vector_of(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
-
-bool finite(const Place& place) {
-  return rods::finite(place.turn[0]) && rods::finite(place.turn[1]) && rods::finite(place.turn[2]) &&
-         rods::finite(place.at_m);
-}
 
 struct Velocity {
   Vector linear_m_s = {}, angular_rad_s = {};
@@ -46,6 +42,18 @@ Box swept_box(const btBroadphaseProxy& proxy, const Motion& motion) {
            std::min(rods::length(motion.spin_rad), 2.0) * std::min(arm, kVast_m));
   return box;
 }
+
+bool has_lost_child(const btCollisionShape& shape) {
+  if (!shape.isCompound()) return false;
+  const auto& compound = static_cast<const btCompoundShape&>(shape);
+  for (int i = 0; i < compound.getNumChildShapes(); ++i) {
+    if (!finite(place_of(compound.getChildTransform(i)))) return true;
+    if (has_lost_child(*compound.getChildShape(i))) return true;
+  }
+  return false;
+}
+
+float finite_or_0(float x) { return std::isfinite(x) ? x : 0; }
 
 uint32_t mixed(uint32_t id) { return (id + 1) * 0x9e3779b9u; }
 
@@ -98,8 +106,14 @@ bool NearBodies::describe(const btCollisionObject& object, Body* out) const noex
   const bool dynamic = def.push_capacity > 0 && !object.isStaticOrKinematicObject();
   out->handle = dynamic ? handle_of(object.getWorldArrayIndex(), proxy.m_uniqueId) : 0;
   out->name = mixed(static_cast<uint32_t>(proxy.m_uniqueId));
-  out->friction = def.friction * object.getFriction();
-  out->restitution = std::clamp(def.restitution * object.getRestitution(), 0.0f, 1.0f);
+  const float friction = def.friction * object.getFriction(),
+              bounce = def.restitution * object.getRestitution();
+  out->friction = finite_or_0(friction);
+  out->restitution = std::clamp(finite_or_0(bounce), 0.0f, 1.0f);
+  out->lost_child = has_lost_child(*object.getCollisionShape());
+  if (!std::isfinite(friction) || !std::isfinite(bounce) || out->lost_child) {
+    problems.note(BulletProblem::kNotFinite, object, shape);
+  }
   return true;
 }
 
@@ -135,6 +149,18 @@ uint32_t NearBodies::find(const Box& box, std::span<Body, kMostBodies> out) cons
   BodyCollector collector(*this, box, out);
   def.world->getBroadphase()->aabbTest(low, high, collector);
   return collector.count;
+}
+
+void NearBodies::note_lost(uint32_t first) const noexcept {
+  const btCollisionObjectArray& all = def.world->getCollisionObjectArray();
+  const auto size = static_cast<uint32_t>(all.size());
+  for (uint32_t i = 0; i < std::min(kLookedAt, size); ++i) {
+    const btCollisionObject& object = *all[static_cast<int>((first + i) % size)];
+    const btBroadphaseProxy* proxy = object.getBroadphaseHandle();
+    if (!proxy || !agrees(object)) continue;
+    if (rods::finite(vector_of(proxy->m_aabbMin)) && rods::finite(vector_of(proxy->m_aabbMax))) continue;
+    problems.note(BulletProblem::kNotFinite, object, object.getCollisionShape()->getShapeType());
+  }
 }
 
 }  // namespace sinew::bullet

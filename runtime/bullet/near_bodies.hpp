@@ -25,6 +25,7 @@ struct Body {
   uint64_t handle;  // 0: nothing moves it
   uint32_t name;
   float friction, restitution;
+  bool lost_child;  // of a compound, that is nowhere: its tree is not to be trusted
 };
 
 inline constexpr uint32_t kMostBodies = 64;
@@ -36,6 +37,9 @@ struct NearBodies {
 
   // Those whose way meets the box. Returns how many.
   uint32_t find(const Box& box, std::span<Body, kMostBodies> out) const noexcept;
+  // Notes those that the broadphase cannot find, of some bodies from `first` on.
+  void note_lost(uint32_t first) const noexcept;
+  static constexpr uint32_t kLookedAt = 16;
 
  private:
   friend struct BodyCollector;

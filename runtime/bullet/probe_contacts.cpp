@@ -128,10 +128,11 @@ void visit_leaves(const btDbvtNode* node, const btDbvtVolume& volume, const Visi
 void ProbeContacts::add_children(const Body& body, const Part& part, const btCompoundShape& shape) noexcept {
   const auto visit = [&](int i) {
     const Place child = place_of(shape.getChildTransform(i));
+    if (!finite(child)) return;
     const uint32_t number = mixed(part.number, static_cast<uint32_t>(i) + 1);
     add_shape(body, {product(part.place, child), number}, *shape.getChildShape(i));
   };
-  if (const btDbvt* tree = shape.getDynamicAabbTree()) {
+  if (const btDbvt* tree = shape.getDynamicAabbTree(); tree && !body.lost_child) {
     const Box box = own_box(body, part.place);
     visit_leaves(tree->m_root, btDbvtVolume::FromMM(bullet_vector(box.low), bullet_vector(box.high)), visit);
   } else {

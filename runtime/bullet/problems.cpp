@@ -16,7 +16,8 @@ struct Words {
 };
 constexpr Words kWords[] = {
     {StatusCode::kInvalidArgument, "has no volume", "give its shape a size above 0"},
-    {StatusCode::kNotFinite, "has a transform or velocity that is not finite", "set them anew"},
+    {StatusCode::kNotFinite, "has a transform, velocity, friction or restitution that is not finite",
+     "set them anew"},
     {StatusCode::kInvalidArgument, "has a triangle without area", "take it out of the mesh"},
     {StatusCode::kUnsupported, "is of a kind that is not known here",
      "give it a convex shape, a triangle mesh, a heightfield or a compound of these"},

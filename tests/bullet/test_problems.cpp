@@ -60,6 +60,81 @@ TEST_CASE("a_body_that_is_nowhere_is_left_out") {
   }
 }
 
+TEST_CASE("a_flat_hull_without_margin_is_left_out_whichever_way_it_lies") {
+  for (const float turn_rad : {0.0f, 0.7f}) {
+    BulletWorld world;
+    auto* hull = world.shape<btConvexHullShape>();
+    for (int i = 0; i < 4; ++i) {
+      const btVector3 corner(i % 2 ? 1.0f : -1.0f, 0, i / 2 ? 1.0f : -1.0f);
+      hull->addPoint(quatRotate(btQuaternion(btVector3(1, 2, 0.5f).normalized(), turn_rad), corner));
+    }
+    hull->setMargin(0);
+    world.body(hull, btVector3(1, 0.8f, 0));
+    check_left_out(world, BulletProblem::kZeroVolume, "no volume");
+  }
+}
+
+TEST_CASE("a_body_that_is_added_nowhere_is_counted_at_each_call_and_named_once") {
+  for (const float mass_kg : {0.0f, 1.0f}) {
+    BulletWorld world;
+    world.body(world.shape<btBoxShape>(btVector3(1, 1, 1)), {std::nanf(""), 0, 0}, mass_kg);
+    BulletContacts contacts = contacts_of(world);
+    for (int i = 0; i < 3; ++i) CHECK(find(contacts, {ball({0, 0, 0}, 0.1f)}).empty());
+    CHECK(count(contacts, BulletProblem::kNotFinite) == 3);
+    CHECK(contacts.report().named == 1);
+    CHECK_THAT(contacts.problem(0).message, Catch::Contains("body 0") && Catch::Contains("not finite"));
+  }
+}
+
+TEST_CASE("a_body_that_is_added_nowhere_among_many_is_named_in_some_calls") {
+  BulletWorld world;
+  for (int i = 0; i < 100; ++i)
+    world.body(world.shape<btSphereShape>(1.0f), {5.0f * static_cast<float>(i), 9, 0});
+  world.body(world.shape<btSphereShape>(1.0f), {0, std::nanf(""), 0});
+  BulletContacts contacts = contacts_of(world);
+  for (int i = 0; i < 7; ++i) find(contacts, {ball({0, 0, 0}, 0.1f)});
+  CHECK(count(contacts, BulletProblem::kNotFinite) == 1);
+  CHECK(contacts.report().named == 1);
+}
+
+TEST_CASE("a_compound_s_child_that_is_nowhere_is_left_out_and_the_others_are_touched") {
+  for (const bool tree : {false, true}) {
+    for (const int lost : {0, 1, 2}) {
+      BulletWorld world;
+      auto* compound = world.shape<btCompoundShape>(tree);
+      for (int i = 0; i < 3; ++i) {
+        const btVector3 at(0, i == lost ? std::nanf("") : 0.0f, 0);
+        compound->addChildShape(btTransform(btQuaternion::getIdentity(), at),
+                                world.shape<btSphereShape>(0.5f));
+      }
+      world.body(compound);
+      BulletContacts contacts = contacts_of(world);
+      CHECK(find(contacts, {ball({0, 0.59, 0}, 0.1f)}).size() == 2);
+      CHECK(count(contacts, BulletProblem::kNotFinite) == 1);
+      CHECK_THAT(contacts.problem(0).message, Catch::Contains("body 0") && Catch::Contains("not finite"));
+    }
+  }
+}
+
+TEST_CASE("friction_and_restitution_that_are_not_finite_count_as_none_and_are_named") {
+  for (const bool friction : {false, true}) {
+    BulletWorld world;
+    btRigidBody* body = world.body(world.shape<btSphereShape>(1.0f));
+    if (friction)
+      body->setFriction(std::nanf(""));
+    else
+      body->setRestitution(HUGE_VALF);
+    BulletContacts contacts = contacts_of(world, {.restitution = 1});
+    for (int i = 0; i < 2; ++i) {
+      const ContactHit hit = deepest(find(contacts, {ball({0, 1.05, 0}, 0.1f)}));
+      CHECK((friction ? hit.friction : hit.restitution) == 0);
+    }
+    CHECK(count(contacts, BulletProblem::kNotFinite) == 2);
+    CHECK(contacts.report().named == 1);
+    CHECK_THAT(contacts.problem(0).message, Catch::Contains("friction or restitution"));
+  }
+}
+
 TEST_CASE("a_shape_that_is_not_known_is_left_out") {
   BulletWorld world;
   struct Custom : btSphereShape {

@@ -51,7 +51,10 @@ struct BulletDef {
 // Why a body or a triangle was left out.
 enum class BulletProblem : uint32_t {
   kZeroVolume = 0,
-  kNotFinite,           // a transform or velocity
+  // A transform or velocity; that of a compound's child: that child alone is left out. Friction or
+  // restitution: the body stays, with 0. What was added with a place that is not finite Bullet's broadphase
+  // neither finds nor bears, it may hide others: each call looks at 16 bodies for it, in turn. Take it out.
+  kNotFinite,
   kDegenerateTriangle,  // without area, or not finite
   kUnsupportedShape,    // soft bodies, signed distance fields, GImpact and custom concave shapes
   kTooFast,             // faster than fastest_body_m_s; not left out
