@@ -337,6 +337,45 @@ TEST_CASE("find_allocates_nothing_and_threads_find_the_same") {
   for (const auto& out : of_threads) CHECK(same(out, hits));
 }
 
+TEST_CASE("move_surface_allocates_nothing") {
+  SurfaceId id;
+  SurfaceContacts contacts = contacts_of(bumpy_ball(1, 4), &id);
+  std::vector<MeshData> poses;
+  for (int i = 0; i < 4; ++i) poses.push_back(turned(bumpy_ball(1, 4, 0.1 * i), 0.05 * i));
+  const size_t before = allocation_count();
+  for (const SurfaceTime time : {SurfaceTime::kTickEnd, SurfaceTime::kTickStart})
+    for (const MeshData& pose : poses)
+      (void)contacts.move_surface(id, {.places_m = pose.places, .dt_s = 0.01f, .time = time});
+  CHECK(allocation_count() == before);
+  SurfaceReport report;
+  REQUIRE(contacts.report(id, &report).ok());
+  CHECK(report.poses_refused == 0);
+}
+
+TEST_CASE("a_probe_between_two_surfaces_touches_both_but_not_one_that_its_owner_filters_out") {
+  SurfaceContacts contacts;
+  REQUIRE(SurfaceContacts::create({}, &contacts).ok());
+  const MeshData own = box({1, 1, 1}), other = turned(own, 0, {0, 2.19, 0});
+  const std::vector<uint32_t> own_groups(12, 1u), other_groups(12, 2u);
+  SurfaceId ids[2];
+  REQUIRE(contacts.add_surface({own.triangles, own.places, own_groups}, &ids[0]).ok());
+  REQUIRE(contacts.add_surface({other.triangles, other.places, other_groups}, &ids[1]).ok());
+  REQUIRE(contacts.set_filter(1, {.groups = 2}).ok());
+  ContactProbe between = ball_probe({0.3, 1.095, 0.2}, 0.1);
+  const std::vector<ContactHit> both = found(contacts, between);
+  REQUIRE(both.size() == 2);
+  for (size_t i = 0; i < 2; ++i) {
+    CHECK(both[i].body >> 32 == ids[i].index1);
+    CHECK(both[i].gap_m == Approx(-0.005).margin(1e-6));
+    CHECK(normal_of(both[i])[1] == Approx(i == 0 ? 1 : -1));
+  }
+  CHECK(both[0].name != both[1].name);
+  between.owner = 1;
+  const std::vector<ContactHit> one = found(contacts, between);
+  REQUIRE(one.size() == 1);
+  CHECK(one[0].body >> 32 == ids[1].index1);
+}
+
 TEST_CASE("where_a_chain_goes_on_its_joint_is_told_once") {
   SurfaceId id;
   SurfaceContacts contacts = contacts_of(box({1, 1, 1}), &id);
