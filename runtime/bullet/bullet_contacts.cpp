@@ -123,9 +123,10 @@ struct BulletContacts::State {
   BulletDef def;
   Problems problems;
   Impulses impulses;
-  std::atomic<uint32_t> looked_at = 0;  // bodies
+  std::atomic<uint32_t> looked_at = 0, lost = NearBodies::kNone;  // of the world's bodies
 
-  void find(std::span<const ContactProbe> all, size_t begin, double dt_s, EndOfProbe* before,
+  bool is_tree_spoilt(const NearBodies& near) noexcept;
+  void find(const NearBodies& near, std::span<const ContactProbe> all, size_t begin, EndOfProbe* before,
             Hits* hits) noexcept;
   void find(std::span<const ContactProbe> all, size_t index, const Path& path, std::span<const Body> bodies,
             double dt_s, EndOfProbe* before, Hits* hits) noexcept;
@@ -185,7 +186,7 @@ void BulletContacts::State::find(std::span<const ContactProbe> all, size_t index
 }
 
 // Of up to kAtOnce probes from `begin` on.
-void BulletContacts::State::find(std::span<const ContactProbe> all, size_t begin, double dt_s,
+void BulletContacts::State::find(const NearBodies& near, std::span<const ContactProbe> all, size_t begin,
                                  EndOfProbe* before, Hits* hits) noexcept {
   const size_t count = std::min(kAtOnce, all.size() - begin);
   Path paths[kAtOnce];
@@ -196,7 +197,7 @@ void BulletContacts::State::find(std::span<const ContactProbe> all, size_t begin
     if (!is_good(paths[i])) continue;
     const Motion still = {};
     const Path& path = paths[i];
-    const double way = path.closing_m(still) + static_cast<double>(def.fastest_body_m_s) * dt_s;
+    const double way = path.closing_m(still) + static_cast<double>(def.fastest_body_m_s) * near.dt_s;
     const Box own = box_of(path, path.radius_m + 0.25 * way);
     if (!any) box = own;
     box.widen(own.low), box.widen(own.high);
@@ -204,22 +205,29 @@ void BulletContacts::State::find(std::span<const ContactProbe> all, size_t begin
   }
   if (!any) return;
   Body bodies[kMostBodies];
-  const uint32_t near = NearBodies{def, dt_s, problems}.find(box, bodies);
-  for (size_t i = 0; i < count && near > 0; ++i) {
-    if (is_good(paths[i])) find(all, begin + i, paths[i], {bodies, near}, dt_s, before, hits);
+  const uint32_t found = near.find(box, bodies);
+  for (size_t i = 0; i < count && found > 0; ++i) {
+    if (is_good(paths[i])) find(all, begin + i, paths[i], {bodies, found}, near.dt_s, before, hits);
   }
+}
+
+// Looked for anew once the one that is known was mended or taken out.
+bool BulletContacts::State::is_tree_spoilt(const NearBodies& near) noexcept {
+  if (near.is_lost(lost.load(std::memory_order_relaxed))) return true;
+  const uint32_t found = near.find_lost();
+  lost.store(found, std::memory_order_relaxed);
+  return found != NearBodies::kNone;
 }
 
 uint32_t BulletContacts::find(std::span<const ContactProbe> probes, float dt_s,
                               std::span<ContactHit> hits) noexcept {
   if (!state_ || !(dt_s > 0 && std::isfinite(dt_s))) return 0;
-  const uint32_t first = state_->looked_at.fetch_add(NearBodies::kLookedAt, std::memory_order_relaxed);
-  NearBodies{state_->def, static_cast<double>(dt_s), state_->problems}.note_lost(first);
+  const uint32_t turn = state_->looked_at.fetch_add(NearBodies::kLookedAt, std::memory_order_relaxed);
+  NearBodies near = {state_->def, static_cast<double>(dt_s), state_->problems, turn};
+  near.is_tree_spoilt = state_->is_tree_spoilt(near);
   Hits out = {hits};
   EndOfProbe before;
-  for (size_t i = 0; i < probes.size(); i += kAtOnce) {
-    state_->find(probes, i, static_cast<double>(dt_s), &before, &out);
-  }
+  for (size_t i = 0; i < probes.size(); i += kAtOnce) state_->find(near, probes, i, &before, &out);
   return out.count;
 }
 

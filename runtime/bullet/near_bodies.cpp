@@ -43,12 +43,22 @@ Box swept_box(const btBroadphaseProxy& proxy, const Motion& motion) {
   return box;
 }
 
-bool has_lost_child(const btCollisionShape& shape) {
+bool finite(const Box& box) { return rods::finite(box.low) && rods::finite(box.high); }
+
+Box box_of(const btBroadphaseProxy& proxy) {
+  return {vector_of(proxy.m_aabbMin), vector_of(proxy.m_aabbMax)};
+}
+
+// Of kChildrenLookedAt children at each level, from `turn` on.
+bool has_lost_child(const btCollisionShape& shape, uint32_t turn) {
+  constexpr uint32_t kChildrenLookedAt = 64;
   if (!shape.isCompound()) return false;
   const auto& compound = static_cast<const btCompoundShape&>(shape);
-  for (int i = 0; i < compound.getNumChildShapes(); ++i) {
-    if (!finite(place_of(compound.getChildTransform(i)))) return true;
-    if (has_lost_child(*compound.getChildShape(i))) return true;
+  const auto size = static_cast<uint32_t>(compound.getNumChildShapes());
+  for (uint32_t i = 0; i < std::min(kChildrenLookedAt, size); ++i) {
+    const auto child = static_cast<int>((turn + i) % size);
+    if (!finite(place_of(compound.getChildTransform(child)))) return true;
+    if (has_lost_child(*compound.getChildShape(child), turn)) return true;
   }
   return false;
 }
@@ -103,6 +113,10 @@ bool NearBodies::describe(const btCollisionObject& object, Body* out) const noex
   out->motion = Motion::ending_at(now, move, spin);
   out->object = &object;
   out->box = swept_box(proxy, out->motion);
+  if (!finite(out->box)) {
+    problems.note(BulletProblem::kNotFinite, object, shape);
+    return false;
+  }
   const bool dynamic = def.push_capacity > 0 && !object.isStaticOrKinematicObject();
   out->handle = dynamic ? handle_of(object.getWorldArrayIndex(), proxy.m_uniqueId) : 0;
   out->name = mixed(static_cast<uint32_t>(proxy.m_uniqueId));
@@ -110,7 +124,7 @@ bool NearBodies::describe(const btCollisionObject& object, Body* out) const noex
               bounce = def.restitution * object.getRestitution();
   out->friction = finite_or_0(friction);
   out->restitution = std::clamp(finite_or_0(bounce), 0.0f, 1.0f);
-  out->lost_child = has_lost_child(*object.getCollisionShape());
+  out->lost_child = has_lost_child(*object.getCollisionShape(), turn);
   if (!std::isfinite(friction) || !std::isfinite(bounce) || out->lost_child) {
     problems.note(BulletProblem::kNotFinite, object, shape);
   }
@@ -138,6 +152,12 @@ struct BodyCollector final : btBroadphaseAabbCallback {
   }
 };
 
+void NearBodies::visit_all(BodyCollector& collector) const noexcept {
+  const btCollisionObjectArray& all = def.world->getCollisionObjectArray();
+  for (int i = 0; i < all.size(); ++i)
+    if (const btBroadphaseProxy* proxy = all[i]->getBroadphaseHandle()) collector.process(proxy);
+}
+
 uint32_t NearBodies::find(const Box& box, std::span<Body, kMostBodies> out) const noexcept {
   Box wide = box;
   wide.grow(static_cast<double>(def.fastest_body_m_s) * dt_s);
@@ -147,20 +167,28 @@ uint32_t NearBodies::find(const Box& box, std::span<Body, kMostBodies> out) cons
     high[static_cast<int>(k)] = static_cast<btScalar>(wide.high[k]);
   }
   BodyCollector collector(*this, box, out);
-  def.world->getBroadphase()->aabbTest(low, high, collector);
+  if (is_tree_spoilt)
+    visit_all(collector);
+  else
+    def.world->getBroadphase()->aabbTest(low, high, collector);
   return collector.count;
 }
 
-void NearBodies::note_lost(uint32_t first) const noexcept {
+bool NearBodies::is_lost(uint32_t index) const noexcept {
   const btCollisionObjectArray& all = def.world->getCollisionObjectArray();
-  const auto size = static_cast<uint32_t>(all.size());
+  if (index >= static_cast<uint32_t>(all.size())) return false;
+  const btCollisionObject& object = *all[static_cast<int>(index)];
+  const btBroadphaseProxy* proxy = object.getBroadphaseHandle();
+  return proxy && agrees(object) && !finite(box_of(*proxy));
+}
+
+uint32_t NearBodies::find_lost() const noexcept {
+  const auto size = static_cast<uint32_t>(def.world->getNumCollisionObjects());
   for (uint32_t i = 0; i < std::min(kLookedAt, size); ++i) {
-    const btCollisionObject& object = *all[static_cast<int>((first + i) % size)];
-    const btBroadphaseProxy* proxy = object.getBroadphaseHandle();
-    if (!proxy || !agrees(object)) continue;
-    if (rods::finite(vector_of(proxy->m_aabbMin)) && rods::finite(vector_of(proxy->m_aabbMax))) continue;
-    problems.note(BulletProblem::kNotFinite, object, object.getCollisionShape()->getShapeType());
+    const uint32_t index = (turn + i) % size;
+    if (is_lost(index)) return index;
   }
+  return kNone;
 }
 
 }  // namespace sinew::bullet

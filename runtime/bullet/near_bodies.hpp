@@ -30,21 +30,28 @@ struct Body {
 
 inline constexpr uint32_t kMostBodies = 64;
 
+struct BodyCollector;
+
 struct NearBodies {
   const BulletDef& def;
   double dt_s;
   Problems& problems;
+  uint32_t turn = 0;            // where in lists that are too long for one call it begins to look
+  bool is_tree_spoilt = false;  // find_lost() found one: every body is asked, one by one
 
   // Those whose way meets the box. Returns how many.
   uint32_t find(const Box& box, std::span<Body, kMostBodies> out) const noexcept;
-  // Notes those that the broadphase cannot find, of some bodies from `first` on.
-  void note_lost(uint32_t first) const noexcept;
-  static constexpr uint32_t kLookedAt = 16;
+  // The place in the world's list of one that was added nowhere, of kLookedAt from `turn` on; kNone. Its box
+  // has no order, and the broadphase's tree may hide others with it.
+  uint32_t find_lost() const noexcept;
+  bool is_lost(uint32_t index) const noexcept;
+  static constexpr uint32_t kLookedAt = 16, kNone = ~0u;
 
  private:
   friend struct BodyCollector;
   bool agrees(const btCollisionObject& object) const noexcept;
   bool describe(const btCollisionObject& object, Body* out) const noexcept;
+  void visit_all(BodyCollector& collector) const noexcept;
 };
 
 }  // namespace sinew::bullet

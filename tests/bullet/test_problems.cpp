@@ -97,6 +97,25 @@ TEST_CASE("a_body_that_is_added_nowhere_among_many_is_named_in_some_calls") {
   CHECK(contacts.report().named == 1);
 }
 
+TEST_CASE("a_body_that_is_added_nowhere_hides_no_other_once_it_is_found_and_is_forgotten_once_it_is_mended") {
+  for (const int bodies : {1, 5, 40}) {
+    BulletWorld world;
+    btRigidBody* lost = world.body(world.shape<btSphereShape>(1.0f), {0, std::nanf(""), 0});
+    for (int i = 0; i < bodies; ++i)
+      world.body(world.shape<btSphereShape>(1.0f), {5.0f * static_cast<float>(i), 0, 0});
+    BulletContacts contacts = contacts_of(world);
+    for (int i = 0; i < 6; ++i) {
+      for (int b = 0; b < bodies; ++b) CHECK(find(contacts, {ball({5.0 * b, 1.05, 0}, 0.1f)}).size() == 1);
+    }
+    CHECK(contacts.report().named == 1);
+    lost->setWorldTransform(btTransform(btQuaternion::getIdentity(), {0, 9, 0}));
+    world.world.removeRigidBody(lost);
+    const uint64_t counted = count(contacts, BulletProblem::kNotFinite);
+    CHECK(find(contacts, {ball({0, 1.05, 0}, 0.1f)}).size() == 1);
+    CHECK(count(contacts, BulletProblem::kNotFinite) == counted);
+  }
+}
+
 TEST_CASE("a_compound_s_child_that_is_nowhere_is_left_out_and_the_others_are_touched") {
   for (const bool tree : {false, true}) {
     for (const int lost : {0, 1, 2}) {

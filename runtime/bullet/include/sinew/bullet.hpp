@@ -52,8 +52,9 @@ struct BulletDef {
 enum class BulletProblem : uint32_t {
   kZeroVolume = 0,
   // A transform or velocity; that of a compound's child: that child alone is left out. Friction or
-  // restitution: the body stays, with 0. What was added with a place that is not finite Bullet's broadphase
-  // neither finds nor bears, it may hide others: each call looks at 16 bodies for it, in turn. Take it out.
+  // restitution: the body stays, with 0. What was added with a place that is not finite may hide others in
+  // Bullet's broadphase until it is found: each call looks at 16 bodies, in turn, and at 64 children of each
+  // compound that it meets; from then on bodies are asked one by one, until it is mended or taken out.
   kNotFinite,
   kDegenerateTriangle,  // without area, or not finite
   kUnsupportedShape,    // soft bodies, signed distance fields, GImpact and custom concave shapes
