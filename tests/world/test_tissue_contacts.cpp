@@ -5,6 +5,8 @@
 #include "tests/scenes/half_spaces.hpp"
 #include "tests/scenes/thread_pool.hpp"
 #include "tests/world/stage.hpp"
+#include "tests/world/told_block.hpp"
+#include "tissue/guard.hpp"
 
 using namespace sinew;
 using scenes::HalfSpaces;
@@ -108,6 +110,25 @@ TEST_CASE("a_wall_in_the_flesh_holds_it_off_on_every_simulated_tier") {
     CHECK(stage.report().vertices_touched > 10);
     CHECK(stage.report().deepest_penetration_m < static_cast<float>(kRounding_m));
     CHECK(stage.report().displacement_clamps == 0);
+  }
+}
+
+TEST_CASE("what_a_wall_pushes_the_network_remembers_and_goes_on_from") {
+  HalfSpaces wall;
+  wall.walls = {right_wall(0.02)};
+  test::ToldBlock touching(test::block_pack(), {.source = &wall}), free(test::block_pack());
+  const size_t nodes = touching.asset().node_count();
+  std::vector<float> remembered(3 * nodes);
+  for (int t = 0; t < 30; ++t) {
+    touching.tick(stands, {.tier = Tier::kNetwork});
+    free.tick(stands, {.tier = Tier::kNetwork});
+    world::Instance& block = touching.instance();
+    tissue::read_output(block.asset->network, block.level->pack.regions, static_cast<uint32_t>(nodes),
+                        block.network_state, remembered.data());
+    const std::vector<float> pressed(block.l[0], block.l[0] + remembered.size());
+    REQUIRE(test::largest_distance(pressed, {free.instance().l[0], free.instance().l[0] + pressed.size()}) >
+            0.01);
+    REQUIRE(test::largest_distance(pressed, remembered) < kRounding_m);
   }
 }
 
