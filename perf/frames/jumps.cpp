@@ -115,11 +115,12 @@ void run(const demo::CharacterFile& character, const std::string& clip, bool rat
 
 void run_all(const std::string& path, bool rates, size_t apart_ticks) {
   const demo::CharacterFile character = demo::open_character(path);
+  if (character.view.clips.empty())
+    throw std::runtime_error(path + ": the pack has no clips; bake it from a file with animations");
   std::puts(
       "clip,from,to,chosen,at_once_mm,at_once_percent,beyond_both_mm,beyond_both_percent,own_step_percent");
   for (size_t i = 0; i < character.view.clips.size(); ++i)
     run(character, character.clip_name(i), rates, apart_ticks);
-  if (character.view.clips.empty()) run(character, "", rates, apart_ticks);  // shaken by its root
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-# Configures, builds and runs tests/house/consumer. Arguments: HOW (find_package or add_subdirectory), SOURCE, BINARY, CONFIG.
+# Configures, builds and runs tests/house/consumer. Arguments: HOW (find_package or add_subdirectory), SOURCE,
+# BINARY, CONFIG, COMPILER, FLAGS, WRITE_BLOCK: the program that writes a character for it.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT result EQUAL 0)
@@ -19,5 +20,6 @@ endif()
 run(${CMAKE_COMMAND} -S ${SOURCE}/tests/house/consumer -B ${work}/build -G Ninja -DCMAKE_BUILD_TYPE=${CONFIG}
     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_FLAGS=${FLAGS} ${arguments})
 run(${CMAKE_COMMAND} --build ${work}/build)
-run(${work}/build/consumer)
+run(${WRITE_BLOCK} ${work}/block.sinew)
+run(${work}/build/consumer ${work}/block.sinew)
 file(REMOVE_RECURSE ${work})
