@@ -12,6 +12,8 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <stdexcept>
+#include <string>
 
 #include "perf/frames/level_name.hpp"
 #include "perf/scale/require.hpp"
@@ -189,6 +191,13 @@ void measure(const demo::CharacterFile& character, const demo::Trajectory& truth
   }
 }
 
+void refuse_short(const std::string& path, const demo::Trajectory& truth) {
+  constexpr uint32_t kLeast = kSettled + kGaps[std::size(kGaps) - 1] + kEnds.back();
+  if (std::lround(truth.seconds() * truth.rate_hz()) < kLeast)
+    throw std::runtime_error(path + ": too short for the longest gap; record " + std::to_string(kLeast) +
+                             " ticks or more");
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -201,7 +210,10 @@ int main(int count, char** arguments) {
   try {
     const demo::CharacterFile character = demo::open_character(path);
     std::vector<demo::Trajectory> motions;
-    for (const std::string& truth : truths) motions.emplace_back(truth, character);
+    for (const std::string& truth : truths) {
+      motions.emplace_back(truth, character);
+      refuse_short(truth, motions.back());
+    }
     std::puts("motion,tier,gap_ticks,in_gap,to_4,to_12,to_40,without_gap,beyond_both_percent");
     for (const demo::Trajectory& motion : motions) measure(character, motion);
   } catch (const std::exception& error) {

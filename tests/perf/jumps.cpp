@@ -1,0 +1,54 @@
+// jumps.cpp  perf_jumps tells of every change of tier along every clip.
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "tests/perf/hop_of_crowd.hpp"
+
+using namespace sinew::test;
+
+namespace {
+
+std::vector<Row> jumps() {
+  static const ProgramResult result =
+      run_program({SINEW_PERF_JUMPS, hop_of_crowd().tiered(), "--apart", "60"});
+  must(result);
+  return rows_of(result.out);
+}
+
+}  // namespace
+
+TEST_CASE("every_pair_of_tiers_and_every_way_to_be_left_alone_is_told_once_a_clip") {
+  std::map<std::string, std::set<std::string>> changes;
+  for (const Row& row : jumps()) {
+    const std::string change = row.at("from") + " to " + row.at("to");
+    INFO(row.at("clip") << ": " << change);
+    CHECK(row.at("from") != row.at("to"));
+    CHECK(changes[row.at("clip")].insert(change).second);
+    for (const std::string of : {"at_once", "beyond_both"}) {
+      CHECK(number(row, of + "_mm") >= 0);
+      // The coarse creature is 1 m high, as its recipe says; figures are rounded.
+      CHECK(number(row, of + "_percent") == Approx(0.1 * number(row, of + "_mm")).epsilon(0.01).margin(1e-3));
+    }
+  }
+  const size_t simulated = 2, left_alone = 7;
+  CHECK(changes.size() == 4);
+  for (const auto& [clip, of] : changes) CHECK(of.size() == simulated * 2 + left_alone * simulated);
+}
+
+// What perf/README.md says of the fine creature in these clips.
+TEST_CASE("in_idle_and_walk_no_change_between_networks_and_modes_jumps_by_0_3_percent_of_the_height") {
+  for (const Row& row : jumps()) {
+    if ((row.at("clip") != "idle" && row.at("clip") != "walk") || row.at("to") == "extrapolate") continue;
+    INFO(row.at("clip") << ": " << row.at("from") << " to " << row.at("to"));
+    CHECK(number(row, "beyond_both_percent") < 0.3);
+  }
+}
+
+TEST_CASE("a_pack_without_clips_has_no_jumps_and_is_refused_by_name") {
+  const std::string path = hop_of_crowd().file("block.sinew");
+  must(run_program({SINEW_WRITE_BLOCK, path}));
+  const ProgramResult result = run_program({SINEW_PERF_JUMPS, path});
+  CHECK(result.exit_code == 2);
+  CHECK(result.out.empty());
+  CHECK_THAT(result.error, Catch::StartsWith("perf_jumps: " + path) && Catch::Contains("no clips"));
+}
