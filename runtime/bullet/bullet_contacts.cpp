@@ -125,7 +125,7 @@ struct BulletContacts::State {
   Impulses impulses;
   std::atomic<uint32_t> looked_at = 0, lost = NearBodies::kNone;  // of the world's bodies
 
-  bool is_tree_spoilt(const NearBodies& near) noexcept;
+  bool is_tree_spoilt(const NearBodies& near, uint32_t turn) noexcept;
   void find(const NearBodies& near, std::span<const ContactProbe> all, size_t begin, EndOfProbe* before,
             Hits* hits) noexcept;
   void find(std::span<const ContactProbe> all, size_t index, const Path& path, std::span<const Body> bodies,
@@ -211,20 +211,24 @@ void BulletContacts::State::find(const NearBodies& near, std::span<const Contact
   }
 }
 
-// Looked for anew once the one that is known was mended or taken out.
-bool BulletContacts::State::is_tree_spoilt(const NearBodies& near) noexcept {
-  if (near.is_lost(lost.load(std::memory_order_relaxed))) return true;
-  const uint32_t found = near.find_lost();
-  lost.store(found, std::memory_order_relaxed);
-  return found != NearBodies::kNone;
+// Where the one that is known was, another may be once bodies went: then all are looked at, once.
+bool BulletContacts::State::is_tree_spoilt(const NearBodies& near, uint32_t turn) noexcept {
+  const uint32_t known = lost.load(std::memory_order_relaxed);
+  if (near.is_lost(known)) return true;
+  const bool was_known = known != NearBodies::kNone;
+  const uint32_t found = near.find_lost(turn, was_known ? NearBodies::kAll : NearBodies::kLookedAt);
+  const bool is_found = found != NearBodies::kNone;
+  // What another thread found meanwhile stays.
+  if (is_found || was_known) lost.store(found, std::memory_order_relaxed);
+  return is_found;
 }
 
 uint32_t BulletContacts::find(std::span<const ContactProbe> probes, float dt_s,
                               std::span<ContactHit> hits) noexcept {
   if (!state_ || !(dt_s > 0 && std::isfinite(dt_s))) return 0;
   const uint32_t turn = state_->looked_at.fetch_add(NearBodies::kLookedAt, std::memory_order_relaxed);
-  NearBodies near = {state_->def, static_cast<double>(dt_s), state_->problems, turn};
-  near.is_tree_spoilt = state_->is_tree_spoilt(near);
+  NearBodies near = {state_->def, static_cast<double>(dt_s), state_->problems};
+  near.is_tree_spoilt = state_->is_tree_spoilt(near, turn);
   Hits out = {hits};
   EndOfProbe before;
   for (size_t i = 0; i < probes.size(); i += kAtOnce) state_->find(near, probes, i, &before, &out);

@@ -49,16 +49,14 @@ Box box_of(const btBroadphaseProxy& proxy) {
   return {vector_of(proxy.m_aabbMin), vector_of(proxy.m_aabbMax)};
 }
 
-// Of kChildrenLookedAt children at each level, from `turn` on.
-bool has_lost_child(const btCollisionShape& shape, uint32_t turn) {
-  constexpr uint32_t kChildrenLookedAt = 64;
+// Of `left` children at most, those of children included.
+bool has_lost_child(const btCollisionShape& shape, int* left) {
   if (!shape.isCompound()) return false;
   const auto& compound = static_cast<const btCompoundShape&>(shape);
-  const auto size = static_cast<uint32_t>(compound.getNumChildShapes());
-  for (uint32_t i = 0; i < std::min(kChildrenLookedAt, size); ++i) {
-    const auto child = static_cast<int>((turn + i) % size);
-    if (!finite(place_of(compound.getChildTransform(child)))) return true;
-    if (has_lost_child(*compound.getChildShape(child), turn)) return true;
+  for (int i = 0; i < compound.getNumChildShapes() && *left > 0; ++i) {
+    --*left;
+    if (!finite(place_of(compound.getChildTransform(i)))) return true;
+    if (has_lost_child(*compound.getChildShape(i), left)) return true;
   }
   return false;
 }
@@ -124,11 +122,17 @@ bool NearBodies::describe(const btCollisionObject& object, Body* out) const noex
               bounce = def.restitution * object.getRestitution();
   out->friction = finite_or_0(friction);
   out->restitution = std::clamp(finite_or_0(bounce), 0.0f, 1.0f);
-  out->lost_child = has_lost_child(*object.getCollisionShape(), turn);
-  if (!std::isfinite(friction) || !std::isfinite(bounce) || out->lost_child) {
+  if (!std::isfinite(friction) || !std::isfinite(bounce)) {
     problems.note(BulletProblem::kNotFinite, object, shape);
   }
   return true;
+}
+
+void NearBodies::look_at_children(Body* body) const noexcept {
+  const btCollisionShape& shape = *body->object->getCollisionShape();
+  int left = kChildrenLookedAt;
+  body->lost_child = has_lost_child(shape, &left);
+  if (body->lost_child) problems.note(BulletProblem::kNotFinite, *body->object, shape.getShapeType());
 }
 
 struct BodyCollector final : btBroadphaseAabbCallback {
@@ -145,17 +149,25 @@ struct BodyCollector final : btBroadphaseAabbCallback {
     if (!near.agrees(object)) return true;
     if (count == kMostBodies) {
       near.problems.note(BulletProblem::kTooMany, object, object.getCollisionShape()->getShapeType());
-    } else if (near.describe(object, &out[count])) {
-      count += out[count].box.overlaps(box);
+    } else if (near.describe(object, &out[count]) && out[count].box.overlaps(box)) {
+      near.look_at_children(&out[count++]);
     }
     return true;
   }
 };
 
-void NearBodies::visit_all(BodyCollector& collector) const noexcept {
+// One that is lost is told whatever its filter, for it spoils the tree for all.
+void NearBodies::visit_all(const Box& wide, BodyCollector& collector) const noexcept {
   const btCollisionObjectArray& all = def.world->getCollisionObjectArray();
-  for (int i = 0; i < all.size(); ++i)
-    if (const btBroadphaseProxy* proxy = all[i]->getBroadphaseHandle()) collector.process(proxy);
+  for (int i = 0; i < all.size(); ++i) {
+    const btBroadphaseProxy* proxy = all[i]->getBroadphaseHandle();
+    if (!proxy) continue;
+    const Box own = box_of(*proxy);
+    if (!finite(own))
+      problems.note(BulletProblem::kNotFinite, *all[i], all[i]->getCollisionShape()->getShapeType());
+    else if (own.overlaps(wide))
+      collector.process(proxy);
+  }
 }
 
 uint32_t NearBodies::find(const Box& box, std::span<Body, kMostBodies> out) const noexcept {
@@ -168,7 +180,7 @@ uint32_t NearBodies::find(const Box& box, std::span<Body, kMostBodies> out) cons
   }
   BodyCollector collector(*this, box, out);
   if (is_tree_spoilt)
-    visit_all(collector);
+    visit_all(wide, collector);
   else
     def.world->getBroadphase()->aabbTest(low, high, collector);
   return collector.count;
@@ -179,13 +191,13 @@ bool NearBodies::is_lost(uint32_t index) const noexcept {
   if (index >= static_cast<uint32_t>(all.size())) return false;
   const btCollisionObject& object = *all[static_cast<int>(index)];
   const btBroadphaseProxy* proxy = object.getBroadphaseHandle();
-  return proxy && agrees(object) && !finite(box_of(*proxy));
+  return proxy && !finite(box_of(*proxy));
 }
 
-uint32_t NearBodies::find_lost() const noexcept {
+uint32_t NearBodies::find_lost(uint32_t begin, uint32_t count) const noexcept {
   const auto size = static_cast<uint32_t>(def.world->getNumCollisionObjects());
-  for (uint32_t i = 0; i < std::min(kLookedAt, size); ++i) {
-    const uint32_t index = (turn + i) % size;
+  for (uint32_t i = 0; i < std::min(count, size); ++i) {
+    const uint32_t index = (begin + i) % size;
     if (is_lost(index)) return index;
   }
   return kNone;

@@ -36,22 +36,23 @@ struct NearBodies {
   const BulletDef& def;
   double dt_s;
   Problems& problems;
-  uint32_t turn = 0;            // where in lists that are too long for one call it begins to look
   bool is_tree_spoilt = false;  // find_lost() found one: every body is asked, one by one
 
   // Those whose way meets the box. Returns how many.
   uint32_t find(const Box& box, std::span<Body, kMostBodies> out) const noexcept;
-  // The place in the world's list of one that was added nowhere, of kLookedAt from `turn` on; kNone. Its box
-  // has no order, and the broadphase's tree may hide others with it.
-  uint32_t find_lost() const noexcept;
+  // The place in the world's list of one that was added nowhere, of `count` from `begin` on, around; kNone.
+  // Its box has no order, and the broadphase's tree may hide others with it, whatever its filter.
+  uint32_t find_lost(uint32_t begin, uint32_t count) const noexcept;
   bool is_lost(uint32_t index) const noexcept;
-  static constexpr uint32_t kLookedAt = 16, kNone = ~0u;
+  static constexpr uint32_t kLookedAt = 16, kAll = ~0u, kNone = ~0u;  // bodies, a call
 
  private:
   friend struct BodyCollector;
   bool agrees(const btCollisionObject& object) const noexcept;
   bool describe(const btCollisionObject& object, Body* out) const noexcept;
-  void visit_all(BodyCollector& collector) const noexcept;
+  void look_at_children(Body* body) const noexcept;
+  void visit_all(const Box& wide, BodyCollector& collector) const noexcept;
+  static constexpr int kChildrenLookedAt = 1024;  // of a body; a few microseconds
 };
 
 }  // namespace sinew::bullet

@@ -46,10 +46,12 @@ void fill(BulletWorld& world) {
 
 }  // namespace
 
+// And while bodies are asked one by one, for one is nowhere.
 TEST_CASE("finding_contacts_allocates_nothing") {
   btAlignedAllocSetCustom(count_allocation, std::free);
-  {
+  for (const bool one_is_nowhere : {false, true}) {
     BulletWorld world;
+    if (one_is_nowhere) world.body(world.shape<btSphereShape>(1.0f), {0, std::nanf(""), 0});
     fill(world);
     CHECK(bullet_allocations > 0);
     BulletContacts contacts = contacts_of(world, {.push_capacity = 64});

@@ -97,23 +97,88 @@ TEST_CASE("a_body_that_is_added_nowhere_among_many_is_named_in_some_calls") {
   CHECK(contacts.report().named == 1);
 }
 
-TEST_CASE("a_body_that_is_added_nowhere_hides_no_other_once_it_is_found_and_is_forgotten_once_it_is_mended") {
-  for (const int bodies : {1, 5, 40}) {
+TEST_CASE("a_body_that_is_added_nowhere_hides_no_other_once_it_is_found") {
+  for (const int bodies : {1, 2, 5, 40}) {
     BulletWorld world;
-    btRigidBody* lost = world.body(world.shape<btSphereShape>(1.0f), {0, std::nanf(""), 0});
-    for (int i = 0; i < bodies; ++i)
-      world.body(world.shape<btSphereShape>(1.0f), {5.0f * static_cast<float>(i), 0, 0});
+    const auto add = [&](float x, float y) {
+      return world.body(world.shape<btSphereShape>(1.0f), {x, y, 0});
+    };
+    for (int i = 0; i < bodies; ++i) {
+      if (i == bodies / 2) add(0, std::nanf(""));
+      add(5.0f * static_cast<float>(i), 0);
+    }
     BulletContacts contacts = contacts_of(world);
+    for (int i = 0; i < 3; ++i) find(contacts, {ball({0, 1.05, 0}, 0.1f)});
     for (int i = 0; i < 6; ++i) {
       for (int b = 0; b < bodies; ++b) CHECK(find(contacts, {ball({5.0 * b, 1.05, 0}, 0.1f)}).size() == 1);
     }
     CHECK(contacts.report().named == 1);
-    lost->setWorldTransform(btTransform(btQuaternion::getIdentity(), {0, 9, 0}));
-    world.world.removeRigidBody(lost);
-    const uint64_t counted = count(contacts, BulletProblem::kNotFinite);
-    CHECK(find(contacts, {ball({0, 1.05, 0}, 0.1f)}).size() == 1);
-    CHECK(count(contacts, BulletProblem::kNotFinite) == counted);
   }
+}
+
+TEST_CASE("a_body_that_is_added_nowhere_is_found_and_named_though_its_filter_disagrees_or_it_is_a_trigger") {
+  for (const bool trigger : {false, true}) {
+    BulletWorld world;
+    world.body(world.shape<btSphereShape>(1.0f));
+    btRigidBody* lost = world.body(world.shape<btSphereShape>(1.0f), {0, 30, 0});
+    world.world.removeRigidBody(lost);
+    lost->setWorldTransform(btTransform(btQuaternion::getIdentity(), {0, std::nanf(""), 0}));
+    if (trigger)
+      lost->setCollisionFlags(lost->getCollisionFlags() | btCollisionObject::CF_NO_CONTACT_RESPONSE);
+    world.world.addRigidBody(lost, 64, trigger ? -1 : 64);
+    world.body(world.shape<btSphereShape>(1.0f), {5, 0, 0});
+    BulletContacts contacts = contacts_of(world, {.mask = trigger ? -1 : ~64});
+    for (int i = 0; i < 3; ++i) {
+      for (const double x : {0.0, 5.0}) CHECK(find(contacts, {ball({x, 1.05, 0}, 0.1f)}).size() == 1);
+    }
+    CHECK(count(contacts, BulletProblem::kNotFinite) == 6);
+    CHECK(contacts.report().named == 1);
+  }
+}
+
+TEST_CASE("a_body_that_was_nowhere_is_touched_once_it_is_mended_in_its_place") {
+  BulletWorld world;
+  btRigidBody* lost = world.body(world.shape<btSphereShape>(1.0f), {0, std::nanf(""), 0});
+  world.body(world.shape<btSphereShape>(1.0f), {5, 0, 0});
+  BulletContacts contacts = contacts_of(world);
+  find(contacts, {ball({0, 1.05, 0}, 0.1f)});
+  const uint64_t counted = count(contacts, BulletProblem::kNotFinite);
+  REQUIRE(counted == 1);
+  lost->setWorldTransform(btTransform::getIdentity());
+  world.world.updateSingleAabb(lost);
+  for (const double x : {0.0, 5.0}) CHECK(find(contacts, {ball({x, 1.05, 0}, 0.1f)}).size() == 1);
+  CHECK(count(contacts, BulletProblem::kNotFinite) == counted);
+}
+
+TEST_CASE("a_body_that_is_nowhere_is_forgotten_once_it_is_taken_out_and_not_when_another_is") {
+  BulletWorld world;
+  btRigidBody* other = nullptr;
+  for (int i = 0; i < 200; ++i)
+    other = world.body(world.shape<btSphereShape>(1.0f), {5.0f * static_cast<float>(i), 9, 0});
+  btRigidBody* lost = world.body(world.shape<btSphereShape>(1.0f), {0, std::nanf(""), 0});
+  BulletContacts contacts = contacts_of(world);
+  for (int i = 0; i < 14; ++i) find(contacts, {ball({0, 0, 0}, 0.1f)});
+  const auto told = [&] { return count(contacts, BulletProblem::kNotFinite); };
+  uint64_t before = told();
+  REQUIRE(before > 0);
+  world.world.removeRigidBody(other);  // the last one of the list takes its place
+  find(contacts, {ball({0, 0, 0}, 0.1f)});
+  CHECK(told() == before + 1);
+  world.world.removeRigidBody(lost);
+  before = told();
+  for (int i = 0; i < 14; ++i) find(contacts, {ball({0, 0, 0}, 0.1f)});
+  CHECK(told() == before);
+}
+
+TEST_CASE("while_bodies_are_asked_one_by_one_those_far_away_are_not_too_many") {
+  BulletWorld world;
+  world.body(world.shape<btSphereShape>(1.0f), {0, std::nanf(""), 0});
+  for (int i = 0; i < 64; ++i) world.body(world.shape<btSphereShape>(1.0f));
+  for (int i = 0; i < 20; ++i) world.body(world.shape<btSphereShape>(1.0f), {1000, 0, 0});
+  BulletContacts contacts = contacts_of(world);
+  CHECK_FALSE(find(contacts, {ball({0, 1.05, 0}, 0.1f)}).empty());
+  CHECK(count(contacts, BulletProblem::kTooMany) == 0);
+  CHECK(contacts.report().named == 1);
 }
 
 TEST_CASE("a_compound_s_child_that_is_nowhere_is_left_out_and_the_others_are_touched") {
@@ -131,6 +196,28 @@ TEST_CASE("a_compound_s_child_that_is_nowhere_is_left_out_and_the_others_are_tou
       CHECK(find(contacts, {ball({0, 0.59, 0}, 0.1f)}).size() == 2);
       CHECK(count(contacts, BulletProblem::kNotFinite) == 1);
       CHECK_THAT(contacts.problem(0).message, Catch::Contains("body 0") && Catch::Contains("not finite"));
+    }
+  }
+}
+
+// Wherever it is of a thousand, and in a compound of a compound: its tree is not asked, in no call.
+TEST_CASE("a_compound_of_many_children_is_touched_in_each_call_though_one_is_nowhere") {
+  for (const bool nested : {false, true}) {
+    for (const int lost : {3, 70, 254, 1000}) {
+      BulletWorld world;
+      auto* compound = world.shape<btCompoundShape>(true);
+      for (int i = 0; i < 1001; ++i) {
+        const btVector3 at(2.0f * static_cast<float>(i), i == lost ? std::nanf("") : 0.0f, 0);
+        compound->addChildShape(btTransform(btQuaternion::getIdentity(), at),
+                                world.shape<btSphereShape>(0.5f));
+      }
+      auto* outer = world.shape<btCompoundShape>(true);
+      outer->addChildShape(btTransform::getIdentity(), compound);
+      world.body(nested ? outer : compound);
+      BulletContacts contacts = contacts_of(world);
+      for (int i = 0; i < 9; ++i) CHECK(find(contacts, {ball({0, 0.59, 0}, 0.1f)}).size() == 1);
+      CHECK(count(contacts, BulletProblem::kNotFinite) == 9);
+      CHECK(contacts.report().named == 1);
     }
   }
 }

@@ -20,6 +20,12 @@ const scenes::PackBytes& tailed_pack() {
   return pack;
 }
 
+// In the bind pose, in which no bone is turned.
+Vector bound(uint32_t joint) {
+  const Matrix34 bind = scenes::with_rods(scenes::bind_pose()).joints[joint];
+  return {bind.m[0][3], bind.m[1][3], bind.m[2][3]};
+}
+
 struct Pair {
   World world;
   AssetId tailed, plain;
@@ -81,9 +87,16 @@ struct Pair {
     const auto origin = [&](uint32_t joint) {
       return Vector{joints[joint].m[0][3], joints[joint].m[1][3], joints[joint].m[2][3]};
     };
+    // The last bone is as long as those before it, and lies along its own axis.
+    const uint32_t last = kTail + 3;
+    const Vector axis = rods::difference(bound(last), bound(last - 1));
+    Vector tip = origin(last);
+    for (size_t k = 0; k < 3; ++k)
+      for (size_t i = 0; i < 3; ++i) tip[k] += static_cast<double>(joints[last].m[k][i]) * axis[i];
     double most = -1;
-    for (uint32_t bone = kTail; bone + 1 < kTail + 4; ++bone) {
-      for (const ContactHit& hit : found(looked_at, probe(origin(bone), origin(bone + 1), kTailRadius_m)))
+    for (uint32_t bone = kTail; bone <= last; ++bone) {
+      const Vector end = bone < last ? origin(bone + 1) : tip;
+      for (const ContactHit& hit : found(looked_at, probe(origin(bone), end, kTailRadius_m)))
         most = std::max(most, -static_cast<double>(hit.gap_m) / kTailRadius_m);
     }
     return most;

@@ -113,7 +113,7 @@ TEST_CASE("a_wall_in_the_flesh_holds_it_off_on_every_simulated_tier") {
   }
 }
 
-TEST_CASE("what_a_wall_pushes_the_network_remembers_and_goes_on_from") {
+TEST_CASE("what_a_wall_pushes_the_network_remembers") {
   HalfSpaces wall;
   wall.walls = {right_wall(0.02)};
   test::ToldBlock touching(test::block_pack(), {.source = &wall}), free(test::block_pack());
