@@ -25,13 +25,25 @@ void copy(const Instance& instance, const float* from, float* to) noexcept {
   std::memcpy(to, from, sizeof(float) * floats_of(instance));
 }
 
+// So many that no node moves by more than kStep a tick for the fade alone, which is 1.5 times as steep at its
+// middle as in the mean.
+uint16_t fade_ticks_of(const Instance& instance) noexcept {
+  constexpr float kStep = 0.0028f, kSteepest = 1.5f;  // of the height
+  const float least = instance.state->tier == Tier::kSpring ? kSpringFadeTicks : kFadeTicks;
+  float far_m = 0;
+  for (const float* u = instance.tail; u != instance.tail + floats_of(instance); u += 3)
+    far_m = std::max(far_m, std::hypot(u[0], u[1], u[2]));
+  const float ticks = kSteepest * far_m / (kStep * instance.level->pack.character->height_m);
+  return static_cast<uint16_t>(std::min(std::max(least, std::ceil(ticks)), float{kLongestFadeTicks}));
+}
+
 void begin_tail(Instance& instance, float velocity_kept) noexcept {
   copy(instance, instance.shown[0], instance.tail);
   for (size_t i = 0; i < floats_of(instance); ++i) {
     instance.tail_velocity[i] = velocity_kept * (instance.shown[0][i] - instance.shown[1][i]);
   }
   begin_rod_tails(instance, velocity_kept);
-  instance.state->springs_tail = instance.state->tier == Tier::kSpring;
+  instance.state->fade_ticks = fade_ticks_of(instance);
   instance.state->tail_ticks = 0;
   instance.state->tail_rides = instance.state->tail_stays = 0;
 }
@@ -113,9 +125,10 @@ void stop_what_creeps(Instance& instance) noexcept {
   }
 }
 
-// Springs that are let go of from where only they hang would swing back at once.
+// What is let go of where it was pressed hardest would fling faster than it ever moved. Before that tick it
+// is free, for the nearer it is to where it would have been, the less is seen of its coming back.
 void hold_speed(Instance& instance, size_t node, const float* before) noexcept {
-  constexpr float kMost = 0.002f;  // of the height, a tick
+  constexpr float kMost = 0.0027f;  // of the height, a tick
   float* v = instance.tail_velocity + 3 * node;
   const auto length = [](const float* x) { return std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]); };
   const float most_m = std::max(kMost * instance.level->pack.character->height_m, length(before));
@@ -126,8 +139,7 @@ void hold_speed(Instance& instance, size_t node, const float* before) noexcept {
 
 // What is not driven swings as its first mode does, u_t = a1 u_{t-1} + a2 u_{t-2}. What it was driven
 // by is let go of over the ticks until the fade, and never wholly, for a force that ends at once is seen as a
-// jump; it is damped from the first on, for what is let go of where it was pressed hardest would fling faster
-// than it ever moved. What stays is only damped.
+// jump; and it is damped from the first on. What stays is only damped.
 void swing_tail(Instance& instance, size_t r) noexcept {
   constexpr float kFreest = 0.9f;
   const pack::RegionRecord& region = instance.level->pack.regions[r];
@@ -140,7 +152,7 @@ void swing_tail(Instance& instance, size_t r) noexcept {
     float *u = instance.tail + 3 * n, *velocity = instance.tail_velocity + 3 * n;
     const float before[3] = {velocity[0], velocity[1], velocity[2]};
     for (int k = 0; k < 3; ++k) velocity[k] += pull * u[k] - drag * velocity[k];
-    if (instance.state->springs_tail) hold_speed(instance, n, before);
+    if (tick > kCaughtUpTicks) hold_speed(instance, n, before);
     for (int k = 0; k < 3; ++k) {
       u[k] += velocity[k];
       velocity[k] *= kCarryDamping;
@@ -150,7 +162,7 @@ void swing_tail(Instance& instance, size_t r) noexcept {
 
 void count_tail(const Instance& instance) noexcept {
   InstanceState& state = *instance.state;
-  const uint32_t over = kCarryTicks + instance.fade_ticks();
+  const uint32_t over = kCarryTicks + instance.state->fade_ticks;
   state.tail_ticks = std::min(state.tail_ticks + 1, over);
   if (state.tail_ticks == over) state.restarting = 0;
 }
@@ -240,8 +252,9 @@ void show_tick(Instance& instance) noexcept {
 void show_nothing(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   state.tail_ticks = kCarryTicks + kFadeTicks;
+  state.fade_ticks = kFadeTicks;
   state.seam_ticks = kBlendInTicks;
-  state.restarting = state.springs_tail = 0;
+  state.restarting = 0;
   state.tail_stays = 0;
   for (float* none : {instance.shown[0], instance.shown[1], instance.tail, instance.tail_velocity})
     std::memset(none, 0, sizeof(float) * floats_of(instance));

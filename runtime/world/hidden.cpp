@@ -42,7 +42,7 @@ void pass_by(const frame::TickPlan& ticks, PlanRow& row) noexcept {
   constexpr uint32_t kLongest = UINT32_MAX / 2;
   row.remainder_s = ticks.remainder_s;
   row.hidden_ticks = std::min(kLongest, row.hidden_ticks + ticks.ticks);
-  if (ticks.dropped_s > 0) row.hidden_ticks = std::max(row.hidden_ticks, kCarryTicks + kSpringFadeTicks);
+  if (ticks.dropped_s > 0) row.hidden_ticks = std::max(row.hidden_ticks, kCarryTicks + kLongestFadeTicks);
 }
 
 void keep_hidden_ticks(const PlanRow& row) noexcept {
@@ -55,7 +55,7 @@ void come_back(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   hold_pose(instance);
   if (frame::is_simulated(state.tier)) enter_tier(instance, Tier::kExtrapolate);
-  if (state.hidden_ticks >= kCarryTicks + instance.fade_ticks()) {
+  if (state.hidden_ticks >= kCarryTicks + state.fade_ticks) {
     show_nothing(instance);
   } else {
     for (uint32_t tick = 0; tick < state.hidden_ticks; ++tick) show_tick(instance);

@@ -142,10 +142,8 @@ float Instance::simulated_share() const noexcept {
 float Instance::tail_share(float ahead) const noexcept {
   const float faded = static_cast<float>(state->tail_ticks) + ahead - static_cast<float>(kCarryTicks);
   if (state->tail_stays || faded <= 0) return 1;
-  return smooth_step(1 - std::min(faded / static_cast<float>(fade_ticks()), 1.0f));
+  return smooth_step(1 - std::min(faded / static_cast<float>(state->fade_ticks), 1.0f));
 }
-
-uint32_t Instance::fade_ticks() const noexcept { return state->springs_tail ? kSpringFadeTicks : kFadeTicks; }
 
 ShownShares Instance::shown_shares() const noexcept {
   if (state->tail_rides) return {1, 1 - gentle_step(state->blend_ticks / kBlendInTicks)};
@@ -241,7 +239,8 @@ void forget_displacement(Instance& instance) noexcept {
   state.tail_ticks = kCarryTicks + kFadeTicks;
   state.clamped_ticks = 0;
   state.tail_rides = state.tail_stays = 0;
-  state.rest_ticks = state.springs_tail = 0;
+  state.fade_ticks = kFadeTicks;
+  state.rest_ticks = 0;
   state.seam_ticks = kBlendInTicks;
 }
 

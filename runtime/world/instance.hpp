@@ -22,9 +22,10 @@ namespace sinew::world {
 // In ticks of the asset's rate; at 60 Hz 0.07 s, 0.2 s and 0.33 s.
 inline constexpr uint32_t kCarryTicks = 4;  // swings on before the fade begins: by then it is more than half
                                             // as far off as skinning, and soon as far
-inline constexpr uint32_t kFadeTicks = 12;  // from there to skinning
-inline constexpr uint32_t kSpringFadeTicks = 16;  // of springs, which are further off
-inline constexpr uint32_t kBlendInTicks = 20;     // from that to simulation, when it comes back: by then most
+inline constexpr uint32_t kFadeTicks = 12;  // from there to skinning, at least
+inline constexpr uint32_t kSpringFadeTicks = 16;   // of springs, which are further off
+inline constexpr uint32_t kLongestFadeTicks = 28;  // of what would else be seen to go
+inline constexpr uint32_t kBlendInTicks = 20;  // from that to simulation, when it comes back: by then most
                                                // of the swing of starting from the wrong place has died down
 inline constexpr uint32_t kLongestBlendTicks =
     60;  // where that would move something far (world/blend_pace.hpp)
@@ -71,7 +72,7 @@ struct InstanceState {
   uint32_t motion_stale = 1;        // ticks were not followed: the motion history is rebuilt before use
   uint32_t forgotten = 1;           // the network's state is no memory of this motion: a start, a guard
   uint32_t tail_ticks = kCarryTicks + kFadeTicks;  // since the tail began
-  uint16_t springs_tail = 0;                       // the tail was springs', which hang elsewhere
+  uint16_t fade_ticks = kFadeTicks;                // of the tail
   uint16_t network_begins = 0;  // ticks left in which a network without a memory corrects by less
   uint32_t rest_ticks = 0;      // left in which what comes back begins at rest
   uint32_t clamped_ticks = 0;   // in a row
@@ -267,8 +268,7 @@ struct Instance {
   // Of what is simulated, 1 but for a region that a change of level had again: it rises as the seam falls.
   float regained_share(size_t region) const noexcept;
   ShownShares shown_shares() const noexcept;
-  uint32_t fade_ticks() const noexcept;  // of the tail
-  float shown_share() const noexcept;    // of displacement, 0: skinning
+  float shown_share() const noexcept;  // of displacement, 0: skinning
 };
 
 inline constexpr size_t kPlannedBytes = offsetof(Instance, memory);

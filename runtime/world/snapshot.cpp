@@ -22,8 +22,8 @@ constexpr uint64_t kMagic = 0x31544154534e5753;  // "SWNSTAT1", little-endian
 // 10: the level of control graphs, and what its last change left. 11: the same in another order. 12: how
 // contacts' forces changed. 13: the update rate, and who was looked at last. 14: what was missed, and
 // whose tail rides. 15: regions that a change of level had again. 16: blends of any length.
-// 17: from law to law; what a network corrected.
-constexpr uint32_t kVersion = 17;
+// 18: how long a tail fades.
+constexpr uint32_t kVersion = 18;
 
 struct Header {
   uint64_t magic, fingerprint, payload_bytes, checksum;

@@ -129,17 +129,20 @@ TEST_CASE("modes_that_make_up_for_a_network_take_back_most_of_what_it_corrected"
   CHECK(with < 0.6 * without);
 }
 
-TEST_CASE("springs_that_are_left_alone_fade_for_longer_than_modes") {
-  const auto faded_after = [](Tier tier) {
+TEST_CASE("what_is_left_alone_fades_for_longer_the_further_it_hangs_and_springs_for_longer_than_modes") {
+  const auto faded_after = [](Tier tier, const auto& motion) {
     Block block;
-    block.play(shaken, {.tier = tier}, 120);
+    block.play(motion, {.tier = tier}, 120);
     uint32_t ticks = 0;
-    do block.tick(shaken, {.tier = Tier::kExtrapolate});
+    do block.tick(motion, {.tier = Tier::kExtrapolate});
     while (++ticks < 60 && test::largest_length(block.surface()) > 0);
-    return ticks;
+    return ticks - world::kCarryTicks;
   };
-  CHECK(faded_after(Tier::kModal) == world::kCarryTicks + world::kFadeTicks);
-  CHECK(faded_after(Tier::kSpring) == world::kCarryTicks + world::kSpringFadeTicks);
+  const auto strolls = [](double time_s) { return scenes::walk(0.2 * time_s); };
+  CHECK(faded_after(Tier::kModal, strolls) == world::kFadeTicks);
+  CHECK(faded_after(Tier::kSpring, strolls) == world::kSpringFadeTicks);
+  CHECK(faded_after(Tier::kModal, scenes::walk) > world::kFadeTicks);
+  CHECK(faded_after(Tier::kModal, shaken) == world::kLongestFadeTicks);
 }
 
 // What began elsewhere than it would have been swings on: its last ticks go half as fast.

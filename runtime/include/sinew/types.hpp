@@ -141,7 +141,7 @@ struct InstanceDef {
 // What an instance got in a frame. In rising quality: skinning, extrapolate, spring, modal, network; the last
 // three are simulated. Values are baked into packs: never renumbered.
 enum class Tier : uint32_t {
-  kSkinning = 0,     // displacement is zero, or fading to it (12 ticks, 0.2 s at 60 Hz; after springs 16)
+  kSkinning = 0,     // displacement is zero, or fading to it (12 to 28 ticks, 0.2 to 0.47 s at 60 Hz)
   kExtrapolate = 1,  // the last displacement swings on, damped (4 ticks), then fades
   kNetwork = 2,      // the modal base, corrected by the asset's network
   kSpring = 3,       // a damped spring at each control node
