@@ -33,7 +33,7 @@ inline void check_refused(const std::vector<std::string>& arguments, const std::
 
 // A file of the reference data; null if the data are not there, which is said once.
 inline std::string golden(const std::string& name) {
-  const std::string path = std::string(SINEW_SHARED_DIR) + "/golden/" + name;
+  const std::string path = SINEW_SHARED_DIR "/golden/" + name;
   if (std::filesystem::exists(path)) return path;
   WARN("skipped: " << path << " is not there (CMake variable SINEW_SHARED_DIR)");
   return "";

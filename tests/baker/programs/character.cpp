@@ -14,7 +14,7 @@ using namespace sinew::test;
 
 namespace {
 
-const std::string kAssets = std::string(SINEW_SOURCE_DIR) + "/assets/creature/";
+const std::string kAssets = SINEW_SOURCE_DIR "/assets/creature/";
 
 struct Creature {
   TemporaryFolder folder;
@@ -115,7 +115,7 @@ TEST_CASE("without_weights_a_character_is_packed_with_its_modes") {
 
 TEST_CASE("a_character_is_baked_in_the_precision_asked_for_and_calibrated_by_the_vectors_given") {
   const Creature creature;
-  const std::string shipped = std::string(SINEW_SOURCE_DIR) + "/assets/weights/creature";
+  const std::string shipped = SINEW_SOURCE_DIR "/assets/weights/creature";
   write_safetensors(creature.weights, read_safetensors(shipped + ".safetensors"));
   const auto packed = [&](const char* name, std::vector<std::string> more) {
     std::vector<std::string> arguments = creature.bake_arguments(creature.folder.file(name));

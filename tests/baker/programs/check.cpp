@@ -326,7 +326,7 @@ TEST_CASE("vectors_on_which_one_node_of_many_goes_bad_cannot_calibrate") {
 // exceed them.
 TEST_CASE("int8_is_baked_from_weights_alone") {
   const std::string reference = golden("alt_conv_lstm/small.weights.safetensors");
-  const std::string shipped = std::string(SINEW_SOURCE_DIR) + "/assets/weights/creature";
+  const std::string shipped = SINEW_SOURCE_DIR "/assets/weights/creature";
   struct Network {
     std::string weights, vectors;
     double bound;
@@ -349,7 +349,7 @@ TEST_CASE("int8_is_baked_from_weights_alone") {
 
 // The trainer's own roll-out of the weights that are shipped, in double precision.
 TEST_CASE("the_shipped_weights_are_reproduced_on_every_instruction_set") {
-  const std::string stem = std::string(SINEW_SOURCE_DIR) + "/assets/weights/creature";
+  const std::string stem = SINEW_SOURCE_DIR "/assets/weights/creature";
   for (const char* isa : simd::available_isas()) {
     const ProgramResult result =
         bake({"check", stem + ".safetensors", stem + ".vectors.safetensors", "--isa", isa});
@@ -367,7 +367,7 @@ TEST_CASE("the_shipped_weights_stay_within_the_bound_of_each_precision_on_every_
   };
   for (const Bound& bound : {Bound{"creature", "fp16", 8e-5}, Bound{"creature", "int8", 0.003},
                              Bound{"creature_wide", "fp16", 8e-5}, Bound{"creature_wide", "int8", 0.003}}) {
-    const std::string stem = std::string(SINEW_SOURCE_DIR) + "/assets/weights/" + bound.name;
+    const std::string stem = SINEW_SOURCE_DIR "/assets/weights/" + bound.name;
     for (const char* isa : simd::available_isas()) {
       const nlohmann::json report =
           report_of(bake({"check", stem + ".safetensors", stem + ".vectors.safetensors", "--isa", isa,

@@ -9,7 +9,7 @@
 
 namespace sinew::test {
 
-inline const std::string kAssets = std::string(SINEW_SOURCE_DIR) + "/assets/";
+inline const std::string kAssets = SINEW_SOURCE_DIR "/assets/";
 
 // Made once, for the truth is the slow part: kept by a name and by the test's own source, its __FILE__.
 struct CreatureHop {
