@@ -367,7 +367,7 @@ TEST_CASE("the_shipped_weights_stay_within_the_bound_of_each_precision_on_every_
   };
   for (const Bound& bound : {Bound{"creature", "fp16", 8e-5}, Bound{"creature", "int8", 0.003},
                              Bound{"creature_wide", "fp16", 8e-5}, Bound{"creature_wide", "int8", 0.003}}) {
-    const std::string stem = SINEW_SOURCE_DIR "/assets/weights/" + bound.name;
+    const std::string stem = std::string(SINEW_SOURCE_DIR "/assets/weights/") + bound.name;
     for (const char* isa : simd::available_isas()) {
       const nlohmann::json report =
           report_of(bake({"check", stem + ".safetensors", stem + ".vectors.safetensors", "--isa", isa,
