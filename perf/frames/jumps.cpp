@@ -75,9 +75,10 @@ struct Table {
       const Jump jump = largest_jump(player, stays, runs[w], ways[w]);
       const bool is_chosen = ways[w].every == 1 && left.every == 1;
       const double percent = 100 / player.height_m();
-      std::printf("%s,\"%s\",%s,%d,%.3f,%.4f,%.3f,%.4f,%.3f\n", clip.c_str(), from.c_str(),
+      std::printf("%s,\"%s\",%s,%d,%.3f,%.4f,%.3f,%.4f,%.3f,%zu,%zu\n", clip.c_str(), from.c_str(),
                   name_of(player.asset(), ways[w]).c_str(), is_chosen ? 1 : 0, 1e3 * jump.at_once_m,
-                  percent * jump.at_once_m, 1e3 * jump.beyond_m, percent * jump.beyond_m, percent * own_m);
+                  percent * jump.at_once_m, 1e3 * jump.beyond_m, percent * jump.beyond_m, percent * own_m,
+                  jump.change_tick, jump.after_ticks);
     }
   }
 };
@@ -113,14 +114,21 @@ void run(const demo::CharacterFile& character, const std::string& clip, bool rat
                stays_after(player, runs[best], left.way, left.ticks));
 }
 
-void run_all(const std::string& path, bool rates, size_t apart_ticks) {
+// Of all clips, or one.
+void run_all(const std::string& path, const std::string& clip, bool rates, size_t apart_ticks) {
   const demo::CharacterFile character = demo::open_character(path);
   if (character.view.clips.empty())
     throw std::runtime_error(path + ": the pack has no clips; bake it from a file with animations");
   std::puts(
-      "clip,from,to,chosen,at_once_mm,at_once_percent,beyond_both_mm,beyond_both_percent,own_step_percent");
-  for (size_t i = 0; i < character.view.clips.size(); ++i)
+      "clip,from,to,chosen,at_once_mm,at_once_percent,beyond_both_mm,beyond_both_percent,own_step_percent,"
+      "change_tick,after_ticks");
+  bool any = false;
+  for (size_t i = 0; i < character.view.clips.size(); ++i) {
+    if (!clip.empty() && character.clip_name(i) != clip) continue;
     run(character, character.clip_name(i), rates, apart_ticks);
+    any = true;
+  }
+  if (!any) throw std::runtime_error(path + ": no clip is called '" + clip + "'; sinew-bake info lists them");
 }
 
 }  // namespace
@@ -131,12 +139,14 @@ int main(int count, char** arguments) {
   app.add_option("pack", path, "C.sinew")->required();
   bool rates = false;
   app.add_flag("--rates", rates, "and of modes in every second tick, which it does not buy");
+  std::string clip;
+  app.add_option("--clip", clip, "along this one alone");
   size_t apart_ticks = 7;
   app.add_option("--apart", apart_ticks, "ticks from one change to the next; 7 if not said")
       ->check(CLI::Range(5, 240));
   CLI11_PARSE(app, count, arguments);
   try {
-    run_all(path, rates, apart_ticks);
+    run_all(path, clip, rates, apart_ticks);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "perf_jumps: %s\n", error.what());
     return 2;

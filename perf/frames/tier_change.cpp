@@ -113,7 +113,8 @@ Jump largest_jump(JumpPlayer& player, const std::vector<Stay>& from, const Run& 
       const Steps& other = to.steps[stay.mark.tick + t];
       for (size_t v = 0; v < other.size(); ++v) {
         const double step = distance(seen[t], before, v), own = std::max(stay.steps[t][v], other[v]);
-        jump.beyond_m = std::max(jump.beyond_m, step - own);
+        if (step - own > jump.beyond_m)
+          jump.beyond_m = step - own, jump.change_tick = stay.mark.tick, jump.after_ticks = t;
         if (t == 0) jump.at_once_m = std::max(jump.at_once_m, double{distance(seen[0], stay.without[0], v)});
       }
     }

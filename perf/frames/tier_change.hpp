@@ -39,8 +39,10 @@ std::vector<Stay> stays_after(JumpPlayer& player, const Run& run, const Way& lef
 //   change,
 //                than it did in that frame and the two before it in either tier all along: what no tier's own
 //                motion explains
+//   change_tick, after_ticks  when the latter's change was, and how long after it that frame
 struct Jump {
   double at_once_m = 0, beyond_m = 0;
+  size_t change_tick = 0, after_ticks = 0;
 };
 
 Jump largest_jump(JumpPlayer& player, const std::vector<Stay>& from, const Run& to, const Way& way);

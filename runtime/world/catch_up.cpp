@@ -26,13 +26,13 @@ bool knows_poses(const Instance& instance) noexcept {
   return first_s >= -back_s - kRounding_s;
 }
 
-// On the level that it has. Modes are of few memories, and may do so on a coarser one; springs are another
-// law, and what modes missed is not theirs to make up for.
+// On the level that it has, or on a coarser one, whose nodes keep what they had; springs are another law, and
+// what modes missed is not theirs to make up for.
 bool may_go_on(const Instance& instance) noexcept {
   const InstanceState& state = *instance.state;
   const InstancePlan& plan = instance.plan;
   if (plan.level == state.level) return true;
-  return plan.level > state.level && plan.tier == Tier::kModal && state.left_tier != Tier::kSpring;
+  return plan.level > state.level && plan.tier != Tier::kSpring && state.left_tier != Tier::kSpring;
 }
 
 }  // namespace

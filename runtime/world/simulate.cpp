@@ -221,13 +221,27 @@ void make_up(Instance& instance, const Part& part, const float* change) noexcept
   }
 }
 
-// r of the last two ticks, and l with it, as what is heard would hold them. Tells by how much.
+// How much of what would hold it r has.
+float share_of_rest(const float* r, const float* rest, size_t floats) noexcept {
+  constexpr float kMost = 2;
+  float along = 0, whole = 0;
+  for (size_t i = 0; i < floats; ++i) along += r[i] * rest[i], whole += rest[i] * rest[i];
+  return whole > 0 ? std::clamp(along / whole, -kMost, kMost) : 0;
+}
+
+// r of the last two ticks, and l with it, as what is heard would hold them, by as much as what was spread has
+// of that. Tells how far l is moved.
 void begin_at_rest(Instance& instance, const Part& part, const float* rest) noexcept {
-  for (size_t i = 0; i < size_t{3} * part.record.node_count; ++i) {
-    const size_t at = part.vector + i;
-    instance.carry[at] = rest[i] - instance.r[0][at];
-    for (float* l : instance.l) l[at] += instance.carry[at];
-    for (float* r : instance.r) r[at] = rest[i];
+  const size_t floats = size_t{3} * part.record.node_count;
+  for (const int tick : {1, 0}) {
+    float *r = instance.r[tick] + part.vector, *l = instance.l[tick] + part.vector;
+    const float share = share_of_rest(r, rest, floats);
+    for (size_t i = 0; i < floats; ++i) {
+      const float moved = share * rest[i] - r[i];
+      instance.carry[part.vector + i] = moved;
+      l[i] += moved;
+      r[i] += moved;
+    }
   }
 }
 

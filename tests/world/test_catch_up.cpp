@@ -246,6 +246,22 @@ TEST_CASE("a_gap_that_ends_on_another_level_is_no_worse_than_a_longer_one") {
   }
 }
 
+// Its nodes keep what they had, and the missed ticks are theirs.
+TEST_CASE("what_missed_a_tick_or_two_makes_up_for_it_on_a_coarser_level_too") {
+  for (const Tier tier : {Tier::kModal, Tier::kNetwork}) {
+    for (const int missed : {1, 2}) {
+      Told steady, interrupted;
+      for (Told* block : {&steady, &interrupted}) block->play(scenes::walk, tier, 0, 90);
+      steady.play(scenes::walk, tier, 1, missed);
+      interrupted.play(scenes::walk, Tier::kExtrapolate, 0, missed);
+      const double off_m = test::largest_distance(steady.surface(), interrupted.surface());
+      for (Told* block : {&steady, &interrupted}) block->play(scenes::walk, tier, 1, 60);
+      INFO("tier " << static_cast<int>(tier) << ", missed " << missed << ": " << off_m << " m off before");
+      CHECK(test::largest_distance(steady.surface(), interrupted.surface()) < 0.02 * off_m);
+    }
+  }
+}
+
 TEST_CASE("a_finer_level_while_simulation_is_blended_in_from_skinning_does_not_jump") {
   Told stays, rises;
   for (Told* block : {&stays, &rises}) {
