@@ -507,10 +507,10 @@ struct Multitude {
   AssetId asset;
   std::vector<InstanceId> all;
 
-  explicit Multitude(uint32_t count) : all(count) {
+  explicit Multitude(uint32_t count, BudgetMode mode = BudgetMode::kWorkUnits) : all(count) {
     static const scenes::PackBytes pack =
         scenes::soft_block({.cells = 1, .regions = 1, .nodes = 2, .network = false});
-    REQUIRE(World::create({.max_instances = count, .budget_mode = BudgetMode::kWorkUnits}, &world).ok());
+    REQUIRE(World::create({.max_instances = count, .budget_mode = mode}, &world).ok());
     REQUIRE(world.load_asset(pack.bytes(), &asset).ok());
     uint32_t refused = 0;
     for (InstanceId& id : all) refused += !world.create_instance({.asset = asset}, &id).ok();
@@ -554,6 +554,33 @@ TEST_CASE("a_hundred_thousand_instances_live_are_served_within_the_budget_and_go
   for (const InstanceId id : crowd.all) refusals += !crowd.world.destroy_instance(id).ok();
   CHECK(refusals == 0);
   CHECK(crowd.world.create_instance({.asset = crowd.asset}, &made).ok());
+}
+
+// By the clock, half of them behind the camera. What all of them take in any case is more than the budget,
+// which then buys nothing.
+TEST_CASE("a_hundred_thousand_before_and_behind_a_camera_are_all_counted_and_take_bounded_time") {
+  constexpr uint32_t kMany = 100000;
+  Multitude crowd(kMany, BudgetMode::kTime);
+  uint32_t refused = 0;
+  for (uint32_t i = 0; i < kMany; ++i) {
+    scenes::BlockPose pose = scenes::bind_pose();
+    pose.root.position_m[2] = i % 2 == 0 ? -5 : 5;
+    refused += !crowd.world.set_pose(crowd.all[i], pose.pose()).ok();
+  }
+  REQUIRE(refused == 0);
+  const View view{.position_m = {0, 0.3, 0}};
+  REQUIRE(crowd.world.set_views({&view, 1}).ok());
+  for (int f = 0; f < 3; ++f) {
+    const FrameReport report = crowd.world.step(1.0f / 60);
+    const uint32_t simulated = report.instances_modal + report.instances_spring;
+    CHECK(report.instances_hidden == kMany / 2);
+    CHECK(simulated + report.instances_extrapolated + report.instances_skinned == kMany / 2);
+    CHECK(simulated <= kMany / 100);
+    CHECK(report.over_budget);
+  }
+  const double step_s = crowd.step_s();
+  WARN("a step of 100,000, half of them in view: " << 1e3 * step_s << " ms");
+  CHECK(step_s < 0.5);  // half a microsecond each, and ten times that for slow hosts and sanitizers
 }
 
 // Ten times as many take ten times as long, and what their memory takes longer to come; were each held

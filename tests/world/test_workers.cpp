@@ -1,4 +1,9 @@
 // test_workers.cpp  The number of threads changes when things are done, never what comes out.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <thread>
+
 #include "tests/scenes/thread_pool.hpp"
 #include "tests/world/stage.hpp"
 
@@ -40,6 +45,49 @@ TEST_CASE("same_bits_for_any_number_of_workers_in_every_precision") {
   for (const pack::Precision precision : test::kPrecisions)
     CHECK(hash_of_run(pool.hook(), precision) == hash_of_run({}, precision));
   CHECK(hash_of_run({}, pack::Precision::kInt8) != hash_of_run({}));
+}
+
+namespace {
+
+// One of two threads goes away in the midst of each step's tasks, after its first; the other does the rest.
+struct LosesAWorker {
+  struct Ticket {
+    TaskHook::Task task;
+    void* argument;
+    uint32_t count;
+    std::thread lost;
+  };
+  static void* enqueue(TaskHook::Task task, void* argument, uint32_t count, void*) {
+    return new Ticket{task, argument, count, std::thread([=] { task(argument, 0); })};
+  }
+  static void finish(void* given, void*) {
+    const std::unique_ptr<Ticket> ticket(static_cast<Ticket*>(given));
+    for (uint32_t i = 1; i < ticket->count; ++i) ticket->task(ticket->argument, i);
+    ticket->lost.join();
+  }
+  static TaskHook hook() { return {.enqueue = enqueue, .finish = finish}; }
+};
+
+}  // namespace
+
+TEST_CASE("a_worker_that_is_lost_in_the_midst_of_a_step_changes_no_bits") {
+  CHECK(hash_of_run(LosesAWorker::hook()) == hash_of_run({}));
+}
+
+TEST_CASE(
+    "by_the_clock_too_every_instance_is_served_or_counted_where_a_worker_is_lost_in_the_midst_of_a_step") {
+  Stage stage(kBlocks, {.tasks = LosesAWorker::hook()});
+  for (int f = 0; f < 60; ++f) {
+    REQUIRE(stage.world.set_budget_us(f % 20 < 10 ? 1e6f : 20).ok());
+    const FrameReport report = stage.step(scenes::walk, 1.0 / 60);
+    CHECK(report.instances_network + report.instances_modal + report.instances_spring +
+              report.instances_extrapolated + report.instances_skinned ==
+          kBlocks);
+    CHECK(std::ranges::all_of(stage.read(kBlocks - 1), [](float x) { return std::isfinite(x); }));
+  }
+  REQUIRE(stage.world.set_budget_us(1e6f).ok());
+  stage.play(scenes::walk, 3);
+  CHECK(stage.report(kBlocks - 1).tier == Tier::kNetwork);
 }
 
 // The order in which indices run must not matter either.
