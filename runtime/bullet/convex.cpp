@@ -55,7 +55,7 @@ Distance from_capsule(const Convex& c, Vector p) {
 
 Distance from_cylinder(const Convex& c, const Vector& p) {
   const size_t i = (c.axis + 1) % 3, j = (c.axis + 2) % 3;
-  const double from_axis = std::hypot(p[i], p[j]);
+  const double from_axis = std::sqrt(p[i] * p[i] + p[j] * p[j]);
   const double out[2] = {from_axis - c.radius_m, std::fabs(p[c.axis]) - c.half_m};
   Vector radial = {}, axial = {};
   radial[i] = from_axis > 0 ? p[i] / from_axis : 1;

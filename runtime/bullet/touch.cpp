@@ -48,8 +48,13 @@ double Path::closing_m(const Motion& body) const noexcept {
 }
 
 // Distance along the axis is convex: between two points it lies above both tangents, which bound the error.
-Near nearest(const Convex& shape, const Axis& axis, double exact_m) noexcept {
+// Two points' distances differ by no more than how far they are apart.
+Near nearest(const Convex& shape, const Axis& axis, double exact_m, double beyond_m) noexcept {
   const Vector way = rods::difference(axis.to, axis.from);
+  if (beyond_m < kEverywhere) {
+    const Near middle = look(shape, axis, 0.5);
+    if (middle.distance.m - 0.5 * rods::length(way) > beyond_m) return middle;
+  }
   Near low = look(shape, axis, 0);
   if (!(slope(low, way) < 0)) return low;
   Near high = look(shape, axis, 1);
@@ -60,7 +65,7 @@ Near nearest(const Convex& shape, const Axis& axis, double exact_m) noexcept {
     const double bound = low.distance.m + down * step;
     const Near now = look(shape, axis, low.share + std::clamp(step, 0.02 * width, 0.98 * width));
     (slope(now, way) < 0 ? low : high) = now;
-    if (!(std::min(low.distance.m, high.distance.m) > bound + exact_m)) break;
+    if (!(std::min(low.distance.m, high.distance.m) > bound + exact_m) || bound > beyond_m) break;
   }
   return low.distance.m < high.distance.m ? low : high;
 }
@@ -68,11 +73,12 @@ Near nearest(const Convex& shape, const Axis& axis, double exact_m) noexcept {
 Touch first_touch(const Convex& shape, const Place& part, const Motion& body, const Path& path,
                   double closing_m, double reach_m) noexcept {
   const double enough = std::max(kTouching * path.radius_m, kTouching_m);
-  const auto at = [&](double time) {
-    return Touch{time, nearest(shape, own_axis(path, time, body.at(time, part)), 0.1 * enough)};
+  const auto at = [&](double time, double beyond_m = kEverywhere) {
+    return Touch{time, nearest(shape, own_axis(path, time, body.at(time, part)), 0.1 * enough, beyond_m)};
   };
-  Touch now = at(0), best = now;
-  if (now.near.distance.m - path.radius_m > closing_m + reach_m) return now;
+  const double beyond_m = closing_m + reach_m + path.radius_m;
+  Touch now = at(0, beyond_m), best = now;
+  if (now.near.distance.m > beyond_m) return now;
   for (int k = 1; k < kMoments && now.time < 1; ++k) {
     const double gap = now.near.distance.m - path.radius_m;
     if (!(gap > enough)) break;

@@ -1,5 +1,6 @@
 // touch.hpp  A probe's capsule on its way past a shape: when it first touches, and where it then lies on it.
 #pragma once
+#include <limits>
 #include <span>
 
 #include "bullet/convex.hpp"
@@ -34,8 +35,10 @@ struct Near {
   double share;
   Distance distance;
 };
-// The nearest point, to `exact_m` in distance. Of an axis that lies flat: any.
-Near nearest(const Convex& shape, const Axis& axis, double exact_m) noexcept;
+inline constexpr double kEverywhere = std::numeric_limits<double>::infinity();
+// The nearest point, to `exact_m` in distance. Of an axis that lies flat: any. Where all of it is further
+// away than `beyond_m`: some point of it.
+Near nearest(const Convex& shape, const Axis& axis, double exact_m, double beyond_m = kEverywhere) noexcept;
 
 // The first moment at which surfaces touch, by conservative advancement; where they do not, that of the
 // moments looked at when they were nearest. `closing_m` is the path's; what starts further away than that and

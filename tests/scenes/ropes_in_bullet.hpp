@@ -39,17 +39,20 @@ inline std::vector<Eigen::Vector3d> straight_line(const Eigen::Vector3d& from, c
   return out;
 }
 
-// A rope and what finds its contacts. What the rope looks at has to stay where it is.
+// A rope, or several of as many segments, and what finds its contacts. What the rope looks at has to stay
+// where it is.
 struct RopeInBullet {
   std::vector<rods::SegmentDef> segments;
+  std::vector<std::vector<rods::SegmentDef>> others;  // beside the first
   rods::RodBatch batch;
   rods::RodCollider collider;
   BulletContacts contacts;
 
   Status create(const BulletDef& def, bool rods_collide, const rods::RodSettings& settings = {}) {
-    const rods::StrandDef strand{segments};
-    Status status = rods::RodBatch::create({&strand, 1}, settings, &batch);
-    const auto room = static_cast<uint32_t>(8 * segments.size());
+    std::vector<rods::StrandDef> strands = {{segments}};
+    for (const std::vector<rods::SegmentDef>& other : others) strands.push_back({other});
+    Status status = rods::RodBatch::create(strands, settings, &batch);
+    const auto room = static_cast<uint32_t>(8 * segments.size() * strands.size());
     const rods::ColliderSettings touching{.rods_collide = rods_collide, .source_capacity = room};
     if (status.ok()) status = rods::RodCollider::create(batch, touching, &collider);
     if (status.ok()) status = BulletContacts::create(def, &contacts);
@@ -58,9 +61,9 @@ struct RopeInBullet {
   }
 };
 
-inline bullet::Axis axis_of_segment(const rods::RodBatch& batch, const rods::SegmentDef& def,
-                                    uint32_t index) {
-  const rods::SegmentPose pose = batch.pose(0, index);
+inline bullet::Axis axis_of_segment(const rods::RodBatch& batch, const rods::SegmentDef& def, uint32_t index,
+                                    uint32_t strand = 0) {
+  const rods::SegmentPose pose = batch.pose(strand, index);
   const rods::Vector along = rods::turned(rods::turn_of(pose.orientation), {0, 0, 1});
   const rods::Vector middle = {pose.position_m[0], pose.position_m[1], pose.position_m[2]};
   const double half = 0.5 * static_cast<double>(def.length_m);
