@@ -66,6 +66,7 @@ class Floor {
 
   FrameCost timed_step(double dt_s) {
     FrameCost cost;
+    let_interrupts_by();
     const double cpu = clock_us(CLOCK_THREAD_CPUTIME_ID), wall = clock_us(CLOCK_MONOTONIC);
     cost.report = world_.step(static_cast<float>(dt_s));
     cost.wall_us = static_cast<float>(clock_us(CLOCK_MONOTONIC) - wall);
