@@ -10,7 +10,8 @@ import sys
 from summarise import HERE, file_name, processor, put_between, table
 
 PAGE = HERE / "trade" / "README.md"
-COLUMNS = ["", "mean us", "p50", "p99", "cold mean", "cold p99", "error mm", "sd", "p95", "worst", "of skinning's", "in 50 ticks", ""]
+ERRORS = ["error mm", "sd", "p95", "worst", "of skinning's"]
+COLUMNS = ["", "mean us", "p50", "p99", "cold mean", "cold p99", *ERRORS, *(f"50 ticks: {name}" for name in ERRORS), ""]
 
 
 def costs(row):
@@ -28,9 +29,12 @@ def verdict(row):
     return "; ".join(words + ([f"dominated by {row['dominated_by']}"] if row["dominated_by"] else []))
 
 
+def errors(spread):
+    return [f"{spread[key]:.2f}" for key in ("mean_mm", "sd_mm", "p95_mm")] + [f"{spread['worst_mm']:.1f}", f"{spread['ratio']:.3f}"]
+
+
 def line(row):
-    errors = [f"{row[key]:.2f}" for key in ("mean_mm", "sd_mm", "p95_mm")] + [f"{row['worst_mm']:.1f}"]
-    return [row["name"]] + costs(row) + errors + [f"{row['ratio']:.3f}", f"{row['ratio_50']:.3f}", verdict(row)]
+    return [row["name"]] + costs(row) + errors(row) + errors(row["in_50"]) + [verdict(row)]
 
 
 def main(folder):

@@ -62,31 +62,37 @@ Matrix3f skin_of(const pack::SkinRecord& skin, const float* matrices) {
 class Yardstick::Sums {
  public:
   void add(size_t tick, float mm, float skinning_mm) {
-    all_.push_back(mm);
-    skinning_ += static_cast<double>(skinning_mm);
-    if (tick > kShortTicks) return;
-    short_ += static_cast<double>(mm);
-    short_skinning_ += static_cast<double>(skinning_mm);
+    all_.add(mm, skinning_mm);
+    if (tick <= kShortTicks) first_.add(mm, skinning_mm);
   }
-  Error error() {
-    Error out;
-    double sum = 0, squares = 0;
-    for (const float mm : all_) sum += static_cast<double>(mm);
-    out.mean_mm = sum / static_cast<double>(all_.size());
-    for (const float mm : all_) squares += std::pow(static_cast<double>(mm) - out.mean_mm, 2);
-    out.sd_mm = std::sqrt(squares / static_cast<double>(all_.size()));
-    const auto p95 = all_.begin() + static_cast<ptrdiff_t>(0.95 * static_cast<double>(all_.size()));
-    std::ranges::nth_element(all_, p95);
-    out.p95_mm = static_cast<double>(*p95);
-    out.worst_mm = static_cast<double>(std::ranges::max(all_));
-    out.ratio = sum / skinning_;
-    out.ratio_50 = short_ / short_skinning_;
-    return out;
-  }
+  Error error() { return {all_.spread(), first_.spread()}; }
 
  private:
-  std::vector<float> all_;
-  double skinning_ = 0, short_ = 0, short_skinning_ = 0;
+  struct Distances {
+    std::vector<float> mm;
+    double skinning_mm = 0;
+
+    void add(float distance, float skinning) {
+      mm.push_back(distance);
+      skinning_mm += static_cast<double>(skinning);
+    }
+    Spread spread() {
+      Spread out;
+      double sum = 0, squares = 0;
+      for (const float d : mm) sum += static_cast<double>(d);
+      out.mean_mm = sum / static_cast<double>(mm.size());
+      for (const float d : mm) squares += std::pow(static_cast<double>(d) - out.mean_mm, 2);
+      out.sd_mm = std::sqrt(squares / static_cast<double>(mm.size()));
+      const auto p95 = mm.begin() + static_cast<ptrdiff_t>(0.95 * static_cast<double>(mm.size()));
+      std::ranges::nth_element(mm, p95);
+      out.p95_mm = static_cast<double>(*p95);
+      out.worst_mm = static_cast<double>(std::ranges::max(mm));
+      out.ratio = sum / skinning_mm;
+      return out;
+    }
+  };
+
+  Distances all_, first_;
 };
 
 Yardstick::Yardstick(const LoadedPack& character, std::span<const TrueSurface> surfaces)

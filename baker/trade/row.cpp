@@ -10,6 +10,14 @@ nlohmann::ordered_json to_json(const Cost& cost) {
   return {{"p50_us", cost.p50_us}, {"p99_us", cost.p99_us}, {"mean_us", cost.mean_us}};
 }
 
+nlohmann::ordered_json to_json(const Spread& spread) {
+  return {{"mean_mm", spread.mean_mm},
+          {"sd_mm", spread.sd_mm},
+          {"p95_mm", spread.p95_mm},
+          {"worst_mm", spread.worst_mm},
+          {"ratio", spread.ratio}};
+}
+
 // Takes numbers out of an object, and remembers whether all were there.
 class Reader {
  public:
@@ -33,6 +41,17 @@ class Reader {
     if (!is_whole_) return {};
     Reader inner(json_.at(key));
     const Cost out{inner.number("p50_us"), inner.number("p99_us"), inner.number("mean_us")};
+    is_whole_ &= inner.is_whole();
+    return out;
+  }
+  Spread spread() {
+    return {number("mean_mm"), number("sd_mm"), number("p95_mm"), number("worst_mm"), number("ratio")};
+  }
+  Spread spread(const char* key) {
+    is_whole_ &= has(key);
+    if (!is_whole_) return {};
+    Reader inner(json_.at(key));
+    const Spread out = inner.spread();
     is_whole_ &= inner.is_whole();
     return out;
   }
@@ -69,7 +88,7 @@ nlohmann::ordered_json to_json(const Row& row) {
           {"p95_mm", row.error.p95_mm},
           {"worst_mm", row.error.worst_mm},
           {"ratio", row.error.ratio},
-          {"ratio_50", row.error.ratio_50},
+          {"in_50", to_json(row.error.in_50)},
           {"dominated_by", row.dominated_by}};
 }
 
@@ -83,8 +102,7 @@ std::optional<Row> row_from(const nlohmann::json& json) {
   row.level = read.count("level");
   row.warm = read.cost("warm");
   row.cold = read.cost("cold");
-  row.error = {read.number("mean_mm"),  read.number("sd_mm"), read.number("p95_mm"),
-               read.number("worst_mm"), read.number("ratio"), read.number("ratio_50")};
+  row.error = {read.spread(), read.spread("in_50")};
   return read.is_whole() && is_possible(row) ? std::optional(row) : std::nullopt;
 }
 

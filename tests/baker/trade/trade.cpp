@@ -135,6 +135,16 @@ TEST_CASE("a_trade_finds_the_front_bakes_it_and_goes_on_where_it_was_stopped") {
   CHECK(ratio("modal") < ratio("modal every 2"));
   CHECK(ratio("modal every 2") < 0.5);
   CHECK(ratio("previous frame's displacement") > 0.1);
+  for (const nlohmann::json& row : rows) {
+    INFO(row.dump());
+    const auto in_50 = [&](const char* key) { return row.at("in_50").at(key).get<double>(); };
+    for (const char* key : {"mean_mm", "sd_mm", "p95_mm", "worst_mm", "ratio"})
+      CHECK(in_50(key) == row.at(key).get<double>());  // the truth has 40 ticks
+    CHECK(in_50("sd_mm") > 0);
+    CHECK(in_50("mean_mm") < in_50("p95_mm"));
+    CHECK(in_50("p95_mm") <= in_50("worst_mm"));
+  }
+  CHECK(row_of(rows, "skinning").at("in_50").at("ratio") == 1);
   for (const char* name : {"trade.csv", "trade.json", "trade.svg", "trade.png", "c.sinew"})
     CHECK(fs::file_size(out + "/" + name) > 500);
   const LoadedPack baked = LoadedPack::from_file(out + "/c.sinew"), given = LoadedPack::from_file(hop().pack);
