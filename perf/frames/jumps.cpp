@@ -119,16 +119,15 @@ void run_all(const std::string& path, const std::string& clip, bool rates, size_
   const demo::CharacterFile character = demo::open_character(path);
   if (character.view.clips.empty())
     throw std::runtime_error(path + ": the pack has no clips; bake it from a file with animations");
+  std::vector<std::string> clips;
+  for (size_t i = 0; i < character.view.clips.size(); ++i)
+    if (clip.empty() || character.clip_name(i) == clip) clips.push_back(character.clip_name(i));
+  if (clips.empty())
+    throw std::runtime_error(path + ": no clip is called '" + clip + "'; sinew-bake info lists them");
   std::puts(
       "clip,from,to,chosen,at_once_mm,at_once_percent,beyond_both_mm,beyond_both_percent,own_step_percent,"
       "change_tick,after_ticks");
-  bool any = false;
-  for (size_t i = 0; i < character.view.clips.size(); ++i) {
-    if (!clip.empty() && character.clip_name(i) != clip) continue;
-    run(character, character.clip_name(i), rates, apart_ticks);
-    any = true;
-  }
-  if (!any) throw std::runtime_error(path + ": no clip is called '" + clip + "'; sinew-bake info lists them");
+  for (const std::string& name : clips) run(character, name, rates, apart_ticks);
 }
 
 }  // namespace
@@ -140,7 +139,7 @@ int main(int count, char** arguments) {
   bool rates = false;
   app.add_flag("--rates", rates, "and of modes in every second tick, which it does not buy");
   std::string clip;
-  app.add_option("--clip", clip, "along this one alone");
+  app.add_option("--clip", clip, "along this one alone; all if not said");
   size_t apart_ticks = 7;
   app.add_option("--apart", apart_ticks, "ticks from one change to the next; 7 if not said")
       ->check(CLI::Range(5, 240));

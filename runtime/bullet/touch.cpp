@@ -65,7 +65,8 @@ Near nearest(const Convex& shape, const Axis& axis, double exact_m, double beyon
     const double bound = low.distance.m + down * step;
     const Near now = look(shape, axis, low.share + std::clamp(step, 0.02 * width, 0.98 * width));
     (slope(now, way) < 0 ? low : high) = now;
-    if (!(std::min(low.distance.m, high.distance.m) > bound + exact_m) || bound > beyond_m) break;
+    const bool is_far = bound > beyond_m && shape.kind != Convex::kOther;  // its slopes may be another's
+    if (!(std::min(low.distance.m, high.distance.m) > bound + exact_m) || is_far) break;
   }
   return low.distance.m < high.distance.m ? low : high;
 }

@@ -55,7 +55,7 @@ struct alignas(64) Candidate {
   float turn_left_s = 0;     // > 0: what it has came by a turn, and stays so long
   float rate = 0;            // worked out: weight a tick's time
   float planned_us = 0;      // what it takes in this step, by the answer
-  uint8_t missed = 0;        // ticks before this step that it makes up for, on the control graph it has
+  uint8_t missed = 0;        // ticks before this step that it makes up for, where makes_up_on
   uint8_t has = 0;           // its level in the last step
   uint8_t graph = 0;         // the control graph it has; 0 is the finest
   uint8_t top = 0;           // the highest it may have now
@@ -72,10 +72,14 @@ struct alignas(64) Candidate {
     return has > 0 && to_level > has && front->levels[to_level].graph < graph;
   }
   float refining_us(uint32_t to_level) const noexcept { return refines(to_level) ? change_us : 0; }
+  // On the control graph it has, or in modes and networks on a coarser one (world/catch_up.hpp).
+  bool makes_up_on(const Level& level) const noexcept {
+    return missed > 0 && (level.graph == graph || (level.graph > graph && level.tier != Tier::kSpring));
+  }
   // What a level takes in this step, whole.
   float cost_us(uint32_t of_level) const noexcept {
     if (of_level == 0) return base_us;
-    const bool makes_up = missed > 0 && front->levels[of_level].graph == graph;
+    const bool makes_up = makes_up_on(front->levels[of_level]);
     return front->step_us(of_level, (ticks + (makes_up ? static_cast<float>(missed) : 0)) * cost_factor) +
            (has == 0 && !makes_up ? enter_us : 0) + refining_us(of_level);
   }

@@ -85,7 +85,7 @@ void begin_network(Instance& instance) noexcept {
 
 // Springs and modes are two laws: what one of them shows tells nothing of where the other would be, but where
 // the load would hold it, and there it begins. What was shown comes to a stand meanwhile, so that what hangs
-// still does not fall; a tick sooner where the level changes as well, for between coarser nodes some of the
+// still does not fall; a tick sooner where the level changes as well, for between other nodes some of the
 // surface is faster than it was.
 void blend_laws(Instance& instance) noexcept {
   InstanceState& state = *instance.state;

@@ -17,8 +17,8 @@ void miss_tick(Instance& instance) noexcept;
 
 // That it can make up for in its next step, 0: none, or too many.
 uint32_t missed_so_far(const Instance& instance) noexcept;
-// With the plan as it is: all of them, on the level that it has, or modes on a coarser one, by poses that are
-// known. Frames much shorter than a tick leave no pose of a missed one.
+// With the plan as it is: all of them, on the level that it has, or modes and networks on a coarser one, by
+// poses that are known. Frames much shorter than a tick leave no pose of a missed one.
 bool catches_up(const Instance& instance) noexcept;
 // Before a step's tier is entered, with what catches_up said as the step began: takes the instance back to
 // the tier that it left, if it catches up. Then its missed ticks have to be simulated before those of the

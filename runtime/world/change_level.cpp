@@ -293,7 +293,6 @@ void begin_at_level(Instance& instance, uint32_t level) noexcept {
 
 void settle_rest(Instance& instance, float* moved) noexcept {
   const uint32_t nodes = instance.level->node_count();
-  instance.settles = false;
   tissue::warp(instance.theta, moved, nodes, moved);
   for (float* u : instance.u)
     for (size_t i = 0; i < size_t{3} * nodes; ++i) u[i] += moved[i];
@@ -316,6 +315,7 @@ void change_level(Instance& instance, uint32_t level) noexcept {
   if (shows && instance.pushes) take_pushes(instance, instance.asset->levels[level]);
   uint32_t* const regained_end = instance.regained + instance.level->pack.regions.size();
   if (state.seam_ticks == kBlendInTicks) std::fill(instance.regained, regained_end, 0u);
+  instance.raised_from = state.level;
   while (state.level != level) go_one_level(instance, level < state.level);
   state.seam_ticks = shows ? 0 : kBlendInTicks;
   const bool ramps = std::any_of(instance.regained, regained_end, [](uint32_t is) { return is != 0; });

@@ -22,9 +22,10 @@ namespace sinew::world {
 // To a level of its asset, before a step in which it is simulated.
 void change_level(Instance& instance, uint32_t level) noexcept;
 
-// In the first tick on a finer level, once it is heard what the new nodes' rest is: r begins there, for both
-// ticks. What was spread would swing, for what the modes leave is not smooth from node to node. And in the
-// first tick of what begins at rest. moved: by how much l was moved, [nodes][3], overwritten; u follows.
+// In the first tick on a finer level, once it is heard what would hold new nodes: r keeps of what was spread
+// what lies along that, in both ticks. What was spread would swing, for what the modes leave is not smooth
+// from node to node; all of a load that comes at once would be a jump. And in the first tick of what begins
+// at rest. moved: by how much l of the newer tick was moved, [nodes][3], overwritten; u follows.
 void settle_rest(Instance& instance, float* moved) noexcept;
 
 // Floats of Instance::level_scratch.

@@ -39,6 +39,36 @@ TEST_CASE("the_nearest_point_of_an_axis_is_the_nearest_of_many") {
   }
 }
 
+// What is asked for within a distance is told exactly there, and as further away beyond it.
+TEST_CASE("an_axis_is_as_near_as_it_is_within_reach_and_beyond_reach_beyond_it") {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> any(-1.5, 1.5);
+  const btBoxShape box(btVector3(0.5f, 0.2f, 0.9f));
+  const btCylinderShape cylinder(btVector3(0.4f, 0.6f, 0.4f));
+  const btCapsuleShape capsule(0.3f, 0.8f);
+  const btConeShape cone(0.4f, 0.8f);  // by GJK
+  const Triangle triangle = {{Vector{0, 0, 0}, Vector{1, 0, 0}, Vector{0, 0, 1}}, 0};
+  const Convex shapes[] = {convex_of(box), convex_of(cylinder), convex_of(capsule), convex_of(cone),
+                           convex_of(triangle)};
+  constexpr double kExact_m = 1e-4;
+  uint32_t far = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Axis axis = {{any(random), any(random), any(random)}, {any(random), any(random), any(random)}};
+    const double reach_m = 0.5 + 0.5 * any(random);
+    for (const Convex& shape : shapes) {
+      const double all = nearest(shape, axis, kExact_m).distance.m;
+      const double within = nearest(shape, axis, kExact_m, reach_m).distance.m;
+      INFO("kind " << shape.kind << ": " << all << " m, asked within " << reach_m << ": " << within);
+      far += all > reach_m;
+      if (all > reach_m + kExact_m)
+        CHECK(within > reach_m);
+      else if (all < reach_m - kExact_m)
+        CHECK(std::fabs(within - all) <= kExact_m);
+    }
+  }
+  CHECK(far > 200);
+}
+
 TEST_CASE("a_way_first_touches_when_the_surfaces_meet") {
   const Convex sphere = convex_of(btSphereShape(1));
   const Motion still = Motion::ending_at(kHere, {}, {});

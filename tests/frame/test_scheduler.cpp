@@ -233,6 +233,22 @@ TEST_CASE("importance_that_is_no_weight_is_mended") {
   CHECK(sane_importance(2.5f) == 2.5f);
 }
 
+TEST_CASE("missed_ticks_are_paid_for_where_they_are_made_up_for_and_what_enters_elsewhere") {
+  const Level points[] = {{.tier = Tier::kSpring, .tick_us = 2, .error = 0.5f, .graph = 1},
+                          {.tier = Tier::kModal, .tick_us = 5, .error = 0.3f, .graph = 1},
+                          {.tier = Tier::kNetwork, .tick_us = 20, .error = 0.1f, .graph = 0}};
+  Front front;
+  make_front(points, 1, &front);
+  REQUIRE(front.count == 4);
+  Candidate c{.front = &front, .ticks = 1, .enter_us = 100, .missed = 2, .top = 3};
+  CHECK(c.cost_us(3) == Approx(1 + 3 * 20));
+  CHECK(c.cost_us(2) == Approx(1 + 3 * 5));
+  CHECK(c.cost_us(1) == Approx(1 + 2 + 100));  // springs are another law
+  c.graph = 1;
+  CHECK(c.cost_us(2) == Approx(1 + 3 * 5));
+  CHECK(c.cost_us(3) == Approx(1 + 20 + 100));  // a finer graph
+}
+
 TEST_CASE("budgets_that_buy_nothing_leave_all_unsimulated") {
   for (const float budget_us : {0.0f, -5.0f, -kInfinity, kNan}) {
     Crowd crowd(4, kUsual);

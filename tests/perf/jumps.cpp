@@ -54,6 +54,13 @@ TEST_CASE("in_a_shake_left_alone_no_vertex_jumps_by_0_5_percent_of_the_height") 
   }
 }
 
+TEST_CASE("a_clip_that_is_not_there_is_refused_by_name") {
+  const ProgramResult result = run_program({SINEW_PERF_JUMPS, hop_of_crowd().tiered(), "--clip", "swim"});
+  CHECK(result.exit_code == 2);
+  CHECK(result.out.empty());
+  CHECK_THAT(result.error, Catch::StartsWith("perf_jumps: ") && Catch::Contains("'swim'"));
+}
+
 TEST_CASE("a_pack_without_clips_has_no_jumps_and_is_refused_by_name") {
   const std::string path = hop_of_crowd().file("block.sinew");
   must(run_program({SINEW_WRITE_BLOCK, path}));

@@ -556,8 +556,7 @@ TEST_CASE("a_hundred_thousand_instances_live_are_served_within_the_budget_and_go
   CHECK(crowd.world.create_instance({.asset = crowd.asset}, &made).ok());
 }
 
-// By the clock, half of them behind the camera. What all of them take in any case is more than the budget,
-// which then buys nothing.
+// By the clock, half of them behind the camera. What all of them take in any case is more than the budget.
 TEST_CASE("a_hundred_thousand_before_and_behind_a_camera_are_all_counted_and_take_bounded_time") {
   constexpr uint32_t kMany = 100000;
   Multitude crowd(kMany, BudgetMode::kTime);

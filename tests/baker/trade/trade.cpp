@@ -40,7 +40,7 @@ void check_refused(std::vector<std::string> arguments, const std::string& folder
 
 // 40 ticks.
 const CreatureHop& hop() {
-  static const CreatureHop made({.name = "hop_of_trade", .source = __FILE__});
+  static const CreatureHop made({.name = "hop_of_trade", .source = __FILE__, .seconds = "1"});
   return made;
 }
 
@@ -138,8 +138,8 @@ TEST_CASE("a_trade_finds_the_front_bakes_it_and_goes_on_where_it_was_stopped") {
   for (const nlohmann::json& row : rows) {
     INFO(row.dump());
     const auto in_50 = [&](const char* key) { return row.at("in_50").at(key).get<double>(); };
-    for (const char* key : {"mean_mm", "sd_mm", "p95_mm", "worst_mm", "ratio"})
-      CHECK(in_50(key) == row.at(key).get<double>());  // the truth has 40 ticks
+    CHECK(in_50("mean_mm") != row.at("mean_mm").get<double>());  // the truth has 60 ticks
+    CHECK(in_50("worst_mm") <= row.at("worst_mm").get<double>());
     CHECK(in_50("sd_mm") > 0);
     CHECK(in_50("mean_mm") < in_50("p95_mm"));
     CHECK(in_50("p95_mm") <= in_50("worst_mm"));
