@@ -39,7 +39,7 @@ class ClosedLoop {
   uint32_t fallbacks() const { return instance_.state->fallbacks + instance_.state->restarts; }
 
  private:
-  void step(Tier tier, uint32_t every, uint32_t level);
+  void step(Tier tier, uint32_t every, uint32_t level, uint32_t ticks);
 
   const TrueMotion& motion_;
   world::Asset asset_;

@@ -65,6 +65,19 @@ double largest_jump(const std::vector<Surface>& changes, const std::vector<Surfa
 
 }  // namespace
 
+// Errors of the first ticks are the tier's own: nothing is blended in from skinning.
+TEST_CASE("a_closed_loop_begins_at_rest_in_the_tier_that_it_is_told") {
+  const LoadedPack pack = LoadedPack::from_file(hop().pack);
+  const TrueMotion motion(read_safetensors(hop().truth), pack.view());
+  for (const Tier tier : {Tier::kModal, Tier::kNetwork, Tier::kSpring}) {
+    ClosedLoop loop(pack, motion);
+    loop.tick(tier, 1, 0);
+    CHECK(loop.instance().state->tier == tier);
+    CHECK(loop.instance().state->blend_ticks == world::kBlendInTicks);
+    CHECK(loop.instance().state->network_begins == 0);
+  }
+}
+
 // On its way up and as it lands, where flesh is thrown about most; 0.3 % of the height is the project's
 // bound.
 TEST_CASE("a_change_of_the_creature_s_level_moves_no_vertex_by_more_than_a_tier_of_it_does") {
