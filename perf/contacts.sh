@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Measures contacts: what they cost strands on a head, ropes beside Bullet's own, and surfaces in Embree. Rewrites their tables in
-# perf/README.md and perf/results/<processor>_{contacts,ropes,surfaces}.csv. About four minutes on one quiet core.
+# perf/README.md and perf/results/<processor>_{contacts,ropes,surfaces}.csv. About six minutes on one quiet core.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
