@@ -35,11 +35,11 @@ TEST_CASE("every_pair_of_tiers_and_every_way_to_be_left_alone_is_told_once_a_cli
   for (const auto& [clip, of] : changes) CHECK(of.size() == simulated * 2 + left_alone * simulated);
 }
 
-// What perf/README.md says of the fine creature, too.
-TEST_CASE("in_idle_and_walk_and_in_a_hop_left_alone_no_vertex_jumps_by_0_3_percent_of_the_height") {
+// What perf/README.md says of the fine creature, too, but for a hundredth of it.
+TEST_CASE("in_idle_walk_and_hop_no_vertex_jumps_by_0_3_percent_of_the_height") {
   for (const Row& row : jumps()) {
     const std::string& clip = row.at("clip");
-    if (clip == "shake" || (clip == "hop" && row.at("to") != "extrapolate")) continue;
+    if (clip == "shake") continue;
     INFO(clip << ": " << row.at("from") << " to " << row.at("to"));
     CHECK(number(row, "beyond_both_percent") < 0.3);
   }
