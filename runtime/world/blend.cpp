@@ -103,6 +103,11 @@ void begin_base(Instance& instance) noexcept {
   if (instance.state->tier == Tier::kSpring) blend_laws(instance);
 }
 
+// Where ticks were missed, what is taken back holds them back enough.
+void hand_to_modes(Instance& instance) noexcept {
+  instance.made_up > 0 ? take_back_corrections(instance) : slow_modes(instance);
+}
+
 bool has_base(Tier tier) noexcept { return tier == Tier::kModal || tier == Tier::kNetwork; }
 
 // A tail may not run where the network may not go.
@@ -190,8 +195,7 @@ void enter_tier(Instance& instance, Tier tier) noexcept {
     begin_gap(instance);
   }
   if (has_base(tier) && !has_base(state.tier)) begin_base(instance);
-  if (tier == Tier::kModal && state.tier == Tier::kNetwork && instance.made_up > 0)
-    take_back_corrections(instance);
+  if (tier == Tier::kModal && state.tier == Tier::kNetwork) hand_to_modes(instance);
   if (tier == Tier::kSpring && has_base(state.tier)) blend_laws(instance);
   if (tier == Tier::kNetwork && state.tier != Tier::kNetwork) begin_network(instance);
   if (tier != state.tier) wake_regions(instance);

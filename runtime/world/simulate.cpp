@@ -533,6 +533,14 @@ void answer_of_modes(Instance& instance, const Part& part, int tick) noexcept {
 
 }  // namespace
 
+// As much as perf/jumps.sh wants.
+void slow_modes(Instance& instance) noexcept {
+  constexpr float kSlower = 0.05f;
+  const float* now = instance.q[0];
+  float* before = instance.q[1];
+  for (size_t m = 0; m < instance.level->mode_count(); ++m) before[m] += kSlower * (now[m] - before[m]);
+}
+
 void take_back_corrections(Instance& instance) noexcept {
   for (const int tick : {1, 0})  // theta is the newer tick's
     for_each_part(instance, [&](const Part& part) { answer_of_modes(instance, part, tick); });

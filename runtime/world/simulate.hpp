@@ -17,6 +17,9 @@ bool simulate_tick(Instance& instance) noexcept;
 // swing on in them: q, and what follows from it.
 void take_back_corrections(Instance& instance) noexcept;
 
+// A twentieth slower, for what a network held back would swing further in them.
+void slow_modes(Instance& instance) noexcept;
+
 // l, theta and q of a displacement that did not come from them: u is taken for l, at both ticks.
 void lift_displacement(Instance& instance) noexcept;
 

@@ -101,6 +101,30 @@ TEST_CASE("a_network_without_a_memory_begins_to_correct_gently") {
   CHECK(gentle < whole / 4);
 }
 
+// Beside a twin whose modes stand, so that all else they hear is the same.
+TEST_CASE("modes_that_take_over_from_a_network_go_on_a_twentieth_slower") {
+  const auto sways = [](double time_s) { return scenes::bent_pose(0.1 * std::sin(9 * time_s)); };
+  Block moves, stands;
+  for (Block* block : {&moves, &stands}) block->play(sways, {.tier = Tier::kNetwork}, 120);
+  const std::span<const pack::ModeRecord> modes = moves.instance().level->pack.modes;
+  const world::Instance &a = moves.instance(), &b = stands.instance();
+  std::vector<double> before;
+  for (size_t m = 0; m < modes.size(); ++m) {
+    before.push_back(double{modes[m].a2} * (double{a.q[1][m]} - double{a.q[0][m]}));
+    b.q[1][m] = b.q[0][m];
+  }
+  for (Block* block : {&moves, &stands}) block->tick(sways, {.tier = Tier::kModal});
+  double most = 0, kept = 0;
+  for (size_t m = 0; m < modes.size(); ++m) {
+    if (std::fabs(before[m]) <= most) continue;
+    most = std::fabs(before[m]);
+    kept = (double{a.q[0][m]} - double{b.q[0][m]}) / before[m];
+  }
+  REQUIRE(most > 0);
+  INFO(kept << " of the way of a mode in a tick");
+  CHECK(std::fabs(kept - 0.95) < 0.002);  // floats that cancel
+}
+
 // Missed a tick or two, and comes back as modes: what the network moved in its ticks would swing on in them.
 TEST_CASE("modes_that_make_up_for_a_network_take_back_most_of_what_it_corrected") {
   const auto sways = [](double time_s) { return scenes::bent_pose(0.1 * std::sin(9 * time_s)); };
