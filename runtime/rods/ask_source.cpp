@@ -1,5 +1,6 @@
 // ask_source.cpp  The range's segments to a contact source, and its hits as contacts.
 #include <algorithm>
+#include <utility>
 
 #include "rods/find_contacts.hpp"
 
@@ -9,6 +10,10 @@ namespace {
 // What of a segment's radius is looked at a second time: a whole one that touches where it begins would not
 // be followed to where another part of it goes through.
 constexpr double kCore = 0.5;
+// What begins in it is looked at with so much of what it began at, so often, down to the last, of the radius:
+// an axis that begins nearer may leave on any side.
+constexpr double kNearer = 0.8, kLost = 0.05;
+constexpr int kMostCores = 3;
 // How near that may come, and how far outside it is stopped so that it is the same in the next step, both of
 // its own radius.
 constexpr double kThere = 0.05, kOutside = 0.9;
@@ -84,39 +89,71 @@ void ContactFinder::add_hits() const {
   }
 }
 
-// Segments that moved further than their radius, or near what did, and ended further than that from where
-// they were looked for.
-void ContactFinder::stop_at_hits() const {
-  uint32_t probes = 0;
+// Of segments that moved further than their radius, or near what did, and ended further than that from where
+// they were looked for, or with their contacts open.
+void ContactFinder::choose_cores() const {
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {
     for (uint32_t i = 0; i < batch.segment_count_; ++i) {
-      const Sweep& known = to.sweeps_[local(s, i)];
-      Sweep own = taken_sweep(s, i);
-      if (!free(s, i)) continue;
-      if (!(std::max(to.hit_ways_[s], longest(own.start, own.end)) > own.radius_m)) continue;
-      if (!(longest(known.end, own.end) > own.radius_m)) continue;
-      own.radius_m *= kCore;
-      probe(s, i, own, &probes);
+      const Sweep& known = sweep(s, i);
+      const Sweep own = taken_sweep(s, i);
+      const bool far = std::max(to.hit_ways_[s], longest(own.start, own.end)) > own.radius_m;
+      const bool open = to.turning_[s] || to.pending_[s];
+      const bool looks = free(s, i) && far && (open || longest(known.end, own.end) > own.radius_m);
+      to.cores_m_[local(s, i)] = looks ? kCore * own.radius_m : 0;
     }
-  }
-  if (probes == 0) return;
-  const uint32_t room = to.settings_.source_capacity;
-  uint32_t dropped = 0;  // of what is only looked at
-  for (const ContactHit& hit : ask(probes, to.hits_ + room, room, &dropped)) {
-    const uint32_t segment = to.probe_segments_[hit.probe];
-    stop_at_hit(strand_of(segment), segment % batch.segment_count_, hit);
   }
 }
 
-void ContactFinder::stop_at_hit(uint32_t strand, uint32_t segment, const ContactHit& hit) const {
-  const Sweep own = taken_sweep(strand, segment);
-  const double core = kCore * own.radius_m;
+// So much of what it began at. Returns whether that is to be looked at.
+bool ContactFinder::shrink_core(const ContactHit& hit) const {
+  const uint32_t segment = to.probe_segments_[hit.probe];
+  const double smaller = kNearer * (static_cast<double>(to.probes_[hit.probe].radius_m) + hit.gap_m);
+  if (!(smaller > kLost * to.sweeps_[segment].radius_m)) return false;
+  double& core = to.cores_m_[segment];
+  core = core > 0 ? std::min(core, smaller) : smaller;
+  return true;
+}
+
+// Returns whether something began in its core, and is to be looked at with a smaller one.
+bool ContactFinder::look_at_cores() const {
+  uint32_t probes = 0;
+  for (uint32_t s = first_strand(); s < end_strand(); ++s) {
+    for (uint32_t i = 0; i < batch.segment_count_; ++i) {
+      const double core = std::exchange(to.cores_m_[local(s, i)], 0.0);
+      if (!(core > 0)) continue;
+      Sweep own = taken_sweep(s, i);
+      own.radius_m = core;
+      probe(s, i, own, &probes);
+    }
+  }
+  if (probes == 0) return false;
+  const uint32_t room = to.settings_.source_capacity;
+  uint32_t dropped = 0;  // of what is only looked at
+  bool again = false;
+  for (const ContactHit& hit : ask(probes, to.hits_ + room, room, &dropped)) {
+    if (hit.gap_m < 0)
+      again |= shrink_core(hit);
+    else
+      stop_at_hit(hit);
+  }
+  return again;
+}
+
+void ContactFinder::stop_at_hits() const {
+  choose_cores();
+  for (int k = 0; k < kMostCores && look_at_cores(); ++k) continue;
+}
+
+void ContactFinder::stop_at_hit(const ContactHit& hit) const {
+  const uint32_t segment = to.probe_segments_[hit.probe], strand = strand_of(segment);
+  const double core = static_cast<double>(to.probes_[hit.probe].radius_m);
+  const Sweep own = taken_sweep(strand, segment % batch.segment_count_);
   const double share = 0.5 + 0.5 * static_cast<double>(hit.along);
   const Vector move =
       difference(between(own.end.from, own.end.to, share), between(own.start.from, own.start.to, share));
   const Vector obstacle_move = scaled(dt_s, vector_of(hit.velocity_m_s));
   const double gap = hit.gap_m, end = gap + dot(vector_of(hit.normal), difference(move, obstacle_move));
-  if (!(end < kThere * core) || gap < 0) return;  // or it began deep
+  if (!(end < kThere * core)) return;
   const double way = std::max(0.0, gap - kOutside * core) / (gap - end);
   if (way >= to.ways_[strand]) return;
   to.ways_[strand] = way;

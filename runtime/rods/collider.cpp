@@ -122,6 +122,7 @@ struct ColliderBuilder {
       to.taken_ = arena.take<RodCollider::Taken>(to.settings_.source_capacity);
       to.pushes_ = arena.take<double>(to.strand_count_);
       to.hit_ways_ = arena.take<double>(to.strand_count_);
+      to.cores_m_ = arena.take<double>(segments);
     }
     *bytes = arena.used_bytes();
   }

@@ -56,7 +56,7 @@ struct ColliderSettings {
   uint32_t obstacle_capacity = 64;  // of planes, of spheres and of capsules; at most 65536
   uint32_t point_capacity = 256;    // given contacts; at most 2^24
   // Hits of a source that a step takes, at most 2^24; 0: there is no source. Further ones are dropped and
-  // counted with contacts. 300 bytes a hit and, where rods collide, 120 a segment.
+  // counted with contacts. 300 bytes a hit and, where rods collide, 130 a segment.
   uint32_t source_capacity = 0;
 };
 
@@ -81,9 +81,10 @@ class RodCollider {
 
   // Asked in each step, until set again, with the free segments that are stepped at a time: all where rods
   // collide, else a group of 16 strands or 4. Null: nobody is asked. `owner` goes into each probe.
-  // Again, with half their radius, for segments that were iterated to where they had not been looked for, if
-  // they or what their strand is near move further than their radius: a strand that would be through
-  // something is stopped on its way, and looked at again, three times at most. After the step push is told
+  // Again, with half their radius, for segments that were iterated to where they had not been looked for, or
+  // whose strand did not converge, if they or what their strand is near move further than their radius; those
+  // that begin in that, with less of it. A strand that would be through something is stopped on its way, and
+  // looked at again, three times at most. After the step push is told
   // what each hit's contact did: minus what the rod felt; of a strand that did not converge, no more together
   // than what moved it. Source and what it looks at outlive the steps. Refused: a source where
   // source_capacity is 0; the last one then stays.
@@ -233,6 +234,7 @@ class RodCollider {
   Taken* taken_ = nullptr;              // [source_capacity]
   double* pushes_ = nullptr;            // [strands] sizes of what its hits felt
   double* hit_ways_ = nullptr;  // [strands] how far what it was told of moves in the step, the furthest
+  double* cores_m_ = nullptr;   // [segments] radius of what is looked at again, 0: nothing
 };
 
 }  // namespace sinew::rods

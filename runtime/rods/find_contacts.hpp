@@ -86,8 +86,11 @@ struct ContactFinder {
   void set_gain(Contact* contact) const;
   Contact* add_point(const ContactPoint& point, uint64_t kind) const;
   void add_hits() const;
+  void choose_cores() const;
+  bool look_at_cores() const;
+  bool shrink_core(const ContactHit& hit) const;
   void stop_at_hits() const;
-  void stop_at_hit(uint32_t strand, uint32_t segment, const ContactHit& hit) const;
+  void stop_at_hit(const ContactHit& hit) const;
   void probe(uint32_t strand, uint32_t segment, const Sweep& sweep, uint32_t* count) const;
   std::span<const ContactHit> ask(uint32_t probes, ContactHit* hits, uint32_t room, uint32_t* dropped) const;
   void add_plane(const Plane& plane, uint32_t index) const;
