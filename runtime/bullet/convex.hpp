@@ -32,6 +32,10 @@ struct Convex {
   const btConvexShape* other = nullptr;  // kOther: asked by GJK and, inside, EPA
 
   bool has_volume() const noexcept;
+  // Of what is round, the radius about its middle or axis, else 0.
+  double core_m() const noexcept {
+    return kind == kSphere || kind == kCapsule || kind == kCylinder ? radius_m : 0;
+  }
 };
 
 Convex convex_of(const btConvexShape& shape) noexcept;

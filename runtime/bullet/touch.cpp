@@ -12,6 +12,8 @@ constexpr int kMoments = 64, kLooks = 24, kHalvings = 6;
 // An axis lies flat where it rises by no more than this; both ends of it count if they are so far apart.
 // Shares of the radius.
 constexpr double kFlat = 0.005, kApart = 0.5;
+// Of that rise: what is aimed at where its end is guessed, and how little may be left of it.
+constexpr double kMeant = 0.98, kLeft = 0.04;
 
 double slope(const Near& near, const Vector& way) { return rods::dot(near.distance.normal, way); }
 
@@ -19,8 +21,26 @@ Near look(const Convex& shape, const Axis& axis, double share) {
   return {share, distance(shape, axis.at(share))};
 }
 
-// Where it leaves the flat part on the way from a point that is in it to an end that is not.
-Near end_of_flat(const Convex& shape, const Axis& axis, Near in, double out, double most_m) {
+// Where the square of the distance from a round shape's core has no slope, by the slopes of both ends: to the
+// bit where both are nearest to the same feature, for there it goes straight. What begins in the core has
+// none.
+double step_to_least(const Convex& shape, const Near& low, const Near& high, const Vector& way) {
+  const double from[2] = {low.distance.m + shape.core_m(), high.distance.m + shape.core_m()};
+  if (!(std::min(from[0], from[1]) > 0)) return -1;
+  const double down = from[0] * slope(low, way), up = from[1] * slope(high, way);
+  return (high.share - low.share) * down / (down - up);
+}
+
+// Where it leaves the flat part on the way from a point that is in it to an end that is not: where that power
+// would which rises to the end as steeply, or else by halving.
+Near end_of_flat(const Convex& shape, const Axis& axis, Near in, const Near& end, double most_m) {
+  const double way = end.share - in.share, rise_m = end.distance.m - in.distance.m;
+  const double flat_m = most_m - in.distance.m;
+  const double power = std::max(1.0, slope(end, rods::difference(axis.to, axis.from)) * way / rise_m);
+  const Near guess = look(shape, axis, in.share + way * std::pow(kMeant * flat_m / rise_m, 1 / power));
+  const double off_m = most_m - guess.distance.m;
+  if (off_m >= 0 && off_m <= kLeft * flat_m) return guess;
+  double out = end.share;
   for (int k = 0; k < kHalvings; ++k) {
     const Near middle = look(shape, axis, 0.5 * (in.share + out));
     if (middle.distance.m <= most_m) {
@@ -47,8 +67,9 @@ double Path::closing_m(const Motion& body) const noexcept {
   return most;
 }
 
-// Distance along the axis is convex: between two points it lies above both tangents, which bound the error.
-// Two points' distances differ by no more than how far they are apart.
+// Distance along the axis is convex: between two points it lies above both tangents, which bound the error,
+// and nowhere is it below one point's tangent. Two points' distances differ by no more than how far they are
+// apart.
 Near nearest(const Convex& shape, const Axis& axis, double exact_m, double beyond_m) noexcept {
   const Vector way = rods::difference(axis.to, axis.from);
   if (beyond_m < kEverywhere) {
@@ -61,11 +82,14 @@ Near nearest(const Convex& shape, const Axis& axis, double exact_m, double beyon
   if (!(slope(high, way) > 0)) return high;
   for (int k = 0; k < kLooks; ++k) {
     const double down = slope(low, way), up = slope(high, way), width = high.share - low.share;
-    const double step = (high.distance.m - low.distance.m - up * width) / (down - up);
-    const double bound = low.distance.m + down * step;
+    const double meet = (high.distance.m - low.distance.m - up * width) / (down - up);
+    const double bound = low.distance.m + down * meet, least = step_to_least(shape, low, high, way);
+    const double step = k % 2 == 0 && least > 0 ? least : meet;
     const Near now = look(shape, axis, low.share + std::clamp(step, 0.02 * width, 0.98 * width));
     (slope(now, way) < 0 ? low : high) = now;
-    const bool is_far = bound > beyond_m && shape.kind != Convex::kOther;  // its slopes may be another's
+    const bool is_known = shape.kind != Convex::kOther;  // its slopes may be another's
+    if (is_known && std::fabs(slope(now, way)) * width <= exact_m) return now;
+    const bool is_far = bound > beyond_m && is_known;
     if (!(std::min(low.distance.m, high.distance.m) > bound + exact_m) || is_far) break;
   }
   return low.distance.m < high.distance.m ? low : high;
@@ -98,7 +122,7 @@ size_t supports(const Convex& shape, const Axis& axis, const Near& near, double 
   for (size_t k = 0; k < 2; ++k) {
     const Near end = look(shape, axis, static_cast<double>(k));
     const bool to_the_end = end.distance.m <= most_m;
-    flat[k] = to_the_end ? end : end_of_flat(shape, axis, near, end.share, most_m);
+    flat[k] = to_the_end ? end : end_of_flat(shape, axis, near, end, most_m);
     const bool apart = std::fabs(end.share - near.share) * long_m > kApart * radius_m;
     if (!to_the_end && apart && end.distance.m - radius_m <= reach_m) out[count++] = end;
   }

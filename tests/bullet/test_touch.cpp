@@ -69,6 +69,25 @@ TEST_CASE("an_axis_is_as_near_as_it_is_within_reach_and_beyond_reach_beyond_it")
   CHECK(far > 200);
 }
 
+// Where it has risen by five thousandths of its radius: over a bar as a parabola, from a box's edge in a
+// straight line.
+TEST_CASE("an_axis_that_rises_slowly_is_carried_where_it_leaves_the_flat_part") {
+  constexpr double kRadius_m = 0.01, kRise_m = 0.005 * kRadius_m;
+  const auto first_share = [&](const Convex& shape, const Axis& axis) {
+    Near out[4];
+    REQUIRE(supports(shape, axis, nearest(shape, axis, 1e-8), kRadius_m, 0, out) == 2);
+    return std::min(out[0].share, out[1].share);
+  };
+  const Convex bar = convex_of(btCylinderShapeZ(btVector3(0.2f, 0.2f, 1)));
+  const double half_m = std::sqrt(std::pow(0.21 + kRise_m, 2) - 0.21 * 0.21);
+  CHECK(first_share(bar, {{-0.03, 0.21, 0}, {0.03, 0.21, 0}}) ==
+        Approx(0.5 - half_m / 0.06).margin(0.03 * half_m / 0.06));
+  const Convex box = convex_of(btBoxShape(btVector3(0.2f, 0.2f, 1)));
+  const double steep = 0.004, long_m = kRise_m / steep;
+  CHECK(first_share(box, {{0.1, 0.21 + 0.1 * steep, 0}, {0.3, 0.21 - 0.1 * steep, 0}}) ==
+        Approx(0.5 - long_m / 0.2).margin(0.05 * long_m / 0.2));
+}
+
 TEST_CASE("a_way_first_touches_when_the_surfaces_meet") {
   const Convex sphere = convex_of(btSphereShape(1));
   const Motion still = Motion::ending_at(kHere, {}, {});
