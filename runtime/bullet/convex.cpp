@@ -210,6 +210,11 @@ bool Convex::has_volume() const noexcept {
   return false;
 }
 
+double Convex::core_m() const noexcept {
+  if (kind == kTriangle) return triangle.margin_m;
+  return kind == kSphere || kind == kCapsule || kind == kCylinder ? radius_m : 0;
+}
+
 Convex convex_of(const btConvexShape& shape) noexcept {
   switch (shape.getShapeType()) {
     case SPHERE_SHAPE_PROXYTYPE:

@@ -32,10 +32,8 @@ struct Convex {
   const btConvexShape* other = nullptr;  // kOther: asked by GJK and, inside, EPA
 
   bool has_volume() const noexcept;
-  // Of what is round, the radius about its middle or axis, else 0.
-  double core_m() const noexcept {
-    return kind == kSphere || kind == kCapsule || kind == kCylinder ? radius_m : 0;
-  }
+  // What is measured from is so far outside of a middle, an axis or a face.
+  double core_m() const noexcept;
 };
 
 Convex convex_of(const btConvexShape& shape) noexcept;

@@ -9,6 +9,8 @@ namespace {
 // Gap that is a touch, share of the radius and metres.
 constexpr double kTouching = 0.01, kTouching_m = 1e-6;
 constexpr int kMoments = 64, kLooks = 24, kHalvings = 6;
+// Where ends are nearest to different features, the straight way stalls at one of them: so long it is tried.
+constexpr int kStraight = 3;
 // An axis lies flat where it rises by no more than this; both ends of it count if they are so far apart.
 // Shares of the radius.
 constexpr double kFlat = 0.005, kApart = 0.5;
@@ -21,9 +23,9 @@ Near look(const Convex& shape, const Axis& axis, double share) {
   return {share, distance(shape, axis.at(share))};
 }
 
-// Where the square of the distance from a round shape's core has no slope, by the slopes of both ends: to the
-// bit where both are nearest to the same feature, for there it goes straight. What begins in the core has
-// none.
+// Where the square of the distance from a round shape's core has no slope, by the slopes of both ends:
+// exactly where both are nearest to the same feature of the core, for there it goes straight. What begins in
+// the core has none.
 double step_to_least(const Convex& shape, const Near& low, const Near& high, const Vector& way) {
   const double from[2] = {low.distance.m + shape.core_m(), high.distance.m + shape.core_m()};
   if (!(std::min(from[0], from[1]) > 0)) return -1;
@@ -84,7 +86,7 @@ Near nearest(const Convex& shape, const Axis& axis, double exact_m, double beyon
     const double down = slope(low, way), up = slope(high, way), width = high.share - low.share;
     const double meet = (high.distance.m - low.distance.m - up * width) / (down - up);
     const double bound = low.distance.m + down * meet, least = step_to_least(shape, low, high, way);
-    const double step = k % 2 == 0 && least > 0 ? least : meet;
+    const double step = k < kStraight && k % 2 == 0 && least > 0 ? least : meet;
     const Near now = look(shape, axis, low.share + std::clamp(step, 0.02 * width, 0.98 * width));
     (slope(now, way) < 0 ? low : high) = now;
     const bool is_known = shape.kind != Convex::kOther;  // its slopes may be another's

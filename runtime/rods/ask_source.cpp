@@ -1,5 +1,6 @@
 // ask_source.cpp  The range's segments to a contact source, and its hits as contacts.
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "rods/find_contacts.hpp"
@@ -10,10 +11,10 @@ namespace {
 // What of a segment's radius is looked at a second time: a whole one that touches where it begins would not
 // be followed to where another part of it goes through.
 constexpr double kCore = 0.5;
-// What begins in it is looked at with so much of what it began at, so often, down to the last, of the radius:
-// an axis that begins nearer may leave on any side.
+// What begins in it is looked at with so much of what it began at, down to the last, of the radius: an axis
+// that begins nearer may leave on any side.
 constexpr double kNearer = 0.8, kLost = 0.05;
-constexpr int kMostCores = 3;
+constexpr int kMostLooks = 3;  // with half the radius, and with less
 // How near that may come, and how far outside it is stopped so that it is the same in the next step, both of
 // its own radius.
 constexpr double kThere = 0.05, kOutside = 0.9;
@@ -89,16 +90,19 @@ void ContactFinder::add_hits() const {
   }
 }
 
-// Of segments that moved further than their radius, or near what did, and ended further than that from where
-// they were looked for, or with their contacts open.
+// Of strands that moved since they were looked at last, segments that moved further than their radius, or
+// near what did: those that ended further than that from where they were looked for, and all of what did not
+// converge.
 void ContactFinder::choose_cores() const {
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {
+    const bool unconverged = to.turning_[s] || to.pending_[s];
     for (uint32_t i = 0; i < batch.segment_count_; ++i) {
       const Sweep& known = sweep(s, i);
       const Sweep own = taken_sweep(s, i);
-      const bool far = std::max(to.hit_ways_[s], longest(own.start, own.end)) > own.radius_m;
-      const bool open = to.turning_[s] || to.pending_[s];
-      const bool looks = free(s, i) && far && (open || longest(known.end, own.end) > own.radius_m);
+      const double way = longest(own.start, own.end);
+      const bool far = std::isfinite(way) && std::max(to.hit_ways_[s], way) > own.radius_m;
+      const bool elsewhere = longest(known.end, own.end) > own.radius_m;
+      const bool looks = to.moved_[s] && free(s, i) && far && (unconverged || elsewhere);
       to.cores_m_[local(s, i)] = looks ? kCore * own.radius_m : 0;
     }
   }
@@ -114,8 +118,8 @@ bool ContactFinder::shrink_core(const ContactHit& hit) const {
   return true;
 }
 
-// Returns whether something began in its core, and is to be looked at with a smaller one.
-bool ContactFinder::look_at_cores() const {
+// Takes them. Returns how many there are.
+uint32_t ContactFinder::probe_cores() const {
   uint32_t probes = 0;
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {
     for (uint32_t i = 0; i < batch.segment_count_; ++i) {
@@ -126,8 +130,13 @@ bool ContactFinder::look_at_cores() const {
       probe(s, i, own, &probes);
     }
   }
+  return probes;
+}
+
+// Returns whether something began in its core, and is to be looked at with a smaller one.
+bool ContactFinder::look_at_cores() const {
+  const uint32_t probes = probe_cores(), room = to.settings_.source_capacity;
   if (probes == 0) return false;
-  const uint32_t room = to.settings_.source_capacity;
   uint32_t dropped = 0;  // of what is only looked at
   bool again = false;
   for (const ContactHit& hit : ask(probes, to.hits_ + room, room, &dropped)) {
@@ -141,7 +150,7 @@ bool ContactFinder::look_at_cores() const {
 
 void ContactFinder::stop_at_hits() const {
   choose_cores();
-  for (int k = 0; k < kMostCores && look_at_cores(); ++k) continue;
+  for (int k = 0; k < kMostLooks && look_at_cores(); ++k) continue;
 }
 
 void ContactFinder::stop_at_hit(const ContactHit& hit) const {
@@ -153,7 +162,7 @@ void ContactFinder::stop_at_hit(const ContactHit& hit) const {
       difference(between(own.end.from, own.end.to, share), between(own.start.from, own.start.to, share));
   const Vector obstacle_move = scaled(dt_s, vector_of(hit.velocity_m_s));
   const double gap = hit.gap_m, end = gap + dot(vector_of(hit.normal), difference(move, obstacle_move));
-  if (!(end < kThere * core)) return;
+  if (!(end < std::min(gap, kThere * core))) return;
   const double way = std::max(0.0, gap - kOutside * core) / (gap - end);
   if (way >= to.ways_[strand]) return;
   to.ways_[strand] = way;

@@ -107,6 +107,7 @@ struct ColliderBuilder {
     to.carries_ = arena.take<Vector>(to.strand_count_);
     to.near_ = arena.take<uint8_t>(to.strand_count_);
     to.iterated_ = arena.take<uint8_t>(to.strand_count_);
+    to.moved_ = arena.take<uint8_t>(to.strand_count_);
     to.scratch_ = arena.take<float>(placed * simd::kRodScratchRows);
     to.ranges_ = arena.take<RodCollider::Range>(home);
     to.seats_ = arena.take<uint32_t>(size_t{home} * to.width_);

@@ -82,9 +82,9 @@ class RodCollider {
   // Asked in each step, until set again, with the free segments that are stepped at a time: all where rods
   // collide, else a group of 16 strands or 4. Null: nobody is asked. `owner` goes into each probe.
   // Again, with half their radius, for segments that were iterated to where they had not been looked for, or
-  // whose strand did not converge, if they or what their strand is near move further than their radius; those
-  // that begin in that, with less of it. A strand that would be through something is stopped on its way, and
-  // looked at again, three times at most. After the step push is told
+  // whose strand did not converge, if they or what their strand is near move further than their radius; twice
+  // more, with four fifths of what they began at, those that begin in that. A strand that would be through
+  // something is stopped on its way, and so looked at again, three times at most. After the step push is told
   // what each hit's contact did: minus what the rod felt; of a strand that did not converge, no more together
   // than what moved it. Source and what it looks at outlive the steps. Refused: a source where
   // source_capacity is 0; the last one then stays.
@@ -222,6 +222,7 @@ class RodCollider {
   Vector* carries_ = nullptr;    // [strands] what a core moves that stops a strand
   uint8_t* near_ = nullptr;      // [strands] it has contacts, pressed or not
   uint8_t* iterated_ = nullptr;  // [strands] moved by the last iteration
+  uint8_t* moved_ = nullptr;     // [strands] since it was last looked at whether it is to be held
   float* scratch_ = nullptr;     // [groups], as a batch's
   SpatialHash hash_;
 

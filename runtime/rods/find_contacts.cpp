@@ -566,6 +566,7 @@ void ContactFinder::stop_torn(uint32_t strand, bool again) const {
 }
 
 bool ContactFinder::find_holds(bool again) const noexcept {
+  for (uint32_t s = first_strand(); s < end_strand(); ++s) to.moved_[s] = !again || to.ways_[s] < 1;
   std::fill(to.ways_ + first_strand(), to.ways_ + end_strand(), 1.0);
   if (to.source_) stop_at_hits();
   if (to.sphere_count_ + to.capsule_count_ > 0) stop_at_cores();

@@ -87,6 +87,7 @@ struct ContactFinder {
   Contact* add_point(const ContactPoint& point, uint64_t kind) const;
   void add_hits() const;
   void choose_cores() const;
+  uint32_t probe_cores() const;
   bool look_at_cores() const;
   bool shrink_core(const ContactHit& hit) const;
   void stop_at_hits() const;

@@ -24,16 +24,18 @@ struct Told : ContactSource {
 };
 
 // Stops all that falls, a twentieth of a metre below; asked again, says that it begins deep, until it is
-// asked with less than a quarter of the first radius.
+// asked with less than so much of the first radius: then something is a tenth of a millimetre away.
 struct DeepWhenAskedAgain : ContactSource {
+  float until = 0.25f;
   std::vector<float> radii_m;  // of each question
   uint32_t find(std::span<const ContactProbe> probes, float, std::span<ContactHit> out) noexcept override {
     radii_m.push_back(probes[0].radius_m);
     const float radius_m = radii_m.back();
-    if (radius_m < 0.25f * radii_m[0]) return 0;
     out[0] = {};
     out[0].normal[1] = 1;
-    out[0].gap_m = radii_m.size() == 1 ? 0.05 : -0.5 * static_cast<double>(radius_m);
+    out[0].gap_m = radius_m < until * radii_m[0] ? 1e-4
+                   : radii_m.size() == 1         ? 0.05
+                                                 : -0.5 * static_cast<double>(radius_m);
     return 1;
   }
 };
@@ -196,15 +198,30 @@ TEST_CASE("a_strand_that_does_not_converge_pushes_no_more_than_it_was_moved") {
 }
 
 // Else what a step began deep in would go through at once.
-TEST_CASE("what_begins_in_the_core_that_is_looked_at_again_is_looked_at_with_a_smaller_one") {
+TEST_CASE("what_begins_in_the_core_that_is_looked_at_again_is_stopped_by_a_smaller_one") {
   Run run = run_of({test::lying_rod(0.5)}, kFloating);
   DeepWhenAskedAgain source;
   REQUIRE(run.collider.set_source(&source).ok());
   test::throw_rod(run.batch, 0, 0, -50, 0);
-  test::step(run.batch, run.collider);
+  const double height_m = run.batch.pose(0, 0).position_m[1];
+  const test::RodReport report = test::step(run.batch, run.collider);
   REQUIRE(source.radii_m.size() == 3);
   CHECK(source.radii_m[1] == Approx(0.5 * source.radii_m[0]));
   CHECK(source.radii_m[2] == Approx(0.8 * 0.5 * source.radii_m[1]));  // four fifths of where its axis was
+  CHECK(report.contacts_unconverged == 1);
+  CHECK(run.batch.pose(0, 0).position_m[1] == Approx(height_m).margin(1e-6));
+}
+
+TEST_CASE("what_begins_in_every_core_is_looked_at_three_times_and_goes_on") {
+  Run run = run_of({test::lying_rod(0.5)}, kFloating);
+  DeepWhenAskedAgain source;
+  source.until = 0;
+  REQUIRE(run.collider.set_source(&source).ok());
+  test::throw_rod(run.batch, 0, 0, -50, 0);
+  const double height_m = run.batch.pose(0, 0).position_m[1];
+  test::step(run.batch, run.collider);
+  CHECK(source.radii_m.size() == 4);
+  CHECK(run.batch.pose(0, 0).position_m[1] < height_m - 0.04);
 }
 
 TEST_CASE("of_a_thousand_rods_at_fifty_metres_a_second_none_passes_through_a_source_s_capsule") {
