@@ -32,7 +32,7 @@ struct Convex {
   const btConvexShape* other = nullptr;  // kOther: asked by GJK and, inside, EPA
 
   bool has_volume() const noexcept;
-  // What is measured from is so far outside of a middle, an axis or a face.
+  // How far outside of a middle, an axis or a face its surface lies; 0 where it lies about none.
   double core_m() const noexcept;
 };
 

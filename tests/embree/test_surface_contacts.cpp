@@ -453,7 +453,7 @@ TEST_CASE("at_most_two_of_ten_thousand_surfaces_at_fifty_metres_a_second_get_thr
   CHECK(passes.passed <= 2);
 }
 
-// A minute, and only when asked for.
+// A minute and a half, and only when asked for.
 TEST_CASE("some_twenty_of_a_hundred_thousand_surfaces_at_fifty_metres_a_second_get_through_a_strand", "[.]") {
   CapsuleSurface capsule;
   const Passes passes = a_hundred_thousand_bars_at_a_rod(std::ref(capsule));

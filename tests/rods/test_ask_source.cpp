@@ -40,6 +40,18 @@ struct DeepWhenAskedAgain : ContactSource {
   }
 };
 
+// Stops the first segment two centimetres below, and says nothing when it is asked again.
+struct StopsTheFirst : ContactSource {
+  std::vector<size_t> probes;  // of each question
+  uint32_t find(std::span<const ContactProbe> asked, float, std::span<ContactHit> out) noexcept override {
+    probes.push_back(asked.size());
+    out[0] = {};
+    out[0].normal[1] = 1;
+    out[0].gap_m = 0.02;
+    return probes.size() == 1 ? 1 : 0;
+  }
+};
+
 std::vector<ContactHit> bad_hits() {
   std::vector<ContactHit> bad(12);
   for (ContactHit& hit : bad) hit.gap_m = -0.005;
@@ -210,6 +222,22 @@ TEST_CASE("what_begins_in_the_core_that_is_looked_at_again_is_stopped_by_a_small
   CHECK(source.radii_m[2] == Approx(0.8 * 0.5 * source.radii_m[1]));  // four fifths of where its axis was
   CHECK(report.contacts_unconverged == 1);
   CHECK(run.batch.pose(0, 0).position_m[1] == Approx(height_m).margin(1e-6));
+}
+
+// Where it does, only what ended elsewhere than it was looked for.
+TEST_CASE("of_a_strand_that_does_not_converge_all_that_moves_far_is_looked_at_again") {
+  const auto asked_again = [](uint32_t max_iterations) {
+    Run run = run_of({test::lying_rod(0.5)}, {.max_iterations = max_iterations, .gravity_m_s2 = {0, 0, 0}});
+    StopsTheFirst source;
+    REQUIRE(run.collider.set_source(&source).ok());
+    test::throw_rod(run.batch, 0, 0, -3, 0);
+    test::step(run.batch, run.collider);
+    REQUIRE(source.probes.size() == 2);
+    CHECK(source.probes[0] == 10);
+    return source.probes[1];
+  };
+  CHECK(asked_again(1) == 10);
+  CHECK(asked_again(12) < 10);
 }
 
 TEST_CASE("what_begins_in_every_core_is_looked_at_three_times_and_goes_on") {
