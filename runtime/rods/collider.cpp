@@ -87,6 +87,7 @@ struct ColliderBuilder {
     to.points_ = arena.take<ContactPoint>(to.settings_.point_capacity);
     to.contacts_ = arena.take<Contact>(to.capacity_);
     to.kept_ = arena.take<RodCollider::Kept>(to.capacity_);
+    to.new_kept_ = arena.take<RodCollider::Kept>(to.capacity_);
     to.kept_places_ = arena.take<uint32_t>(std::bit_ceil(2 * to.capacity_));
     to.sweeps_ = arena.take<Sweep>(segments);
     to.boxes_ = arena.take<SweptBox>(segments);
@@ -103,6 +104,9 @@ struct ColliderBuilder {
     to.pending_ = arena.take<uint8_t>(to.strand_count_);
     to.misses_ = arena.take<double>(to.strand_count_);
     to.presses_ = arena.take<double>(to.strand_count_);
+    to.moves_m_ = arena.take<double>(to.strand_count_);
+    to.passed_m_ = arena.take<double>(to.strand_count_);
+    to.clear_m_ = arena.take<double>(to.strand_count_);
     to.ways_ = arena.take<double>(to.strand_count_);
     to.carries_ = arena.take<Vector>(to.strand_count_);
     to.near_ = arena.take<uint8_t>(to.strand_count_);
@@ -232,11 +236,13 @@ void RodCollider::give(simd::RodJob* job, uint32_t place) const noexcept {
   job->touched = touched;
 }
 
-void RodCollider::begin_step() noexcept { contact_count_ = dropped_ = hit_count_ = bad_hits_ = 0; }
+void RodCollider::begin_step() noexcept {
+  contacts_before_ = new_kept_count_ = dropped_ = hit_count_ = bad_hits_ = 0;
+}
 
 void RodCollider::begin_groups(uint32_t first_group) noexcept {
   first_home_ = first_group;
-  packed_count_ = going_strand_count_ = going_contact_count_ = 0;
+  contact_count_ = packed_count_ = going_strand_count_ = going_contact_count_ = 0;
 }
 
 void RodCollider::begin_range(const RodBatch& batch, uint32_t first_group, uint32_t groups,
@@ -313,20 +319,31 @@ RodCollider::Kept RodCollider::kept_of(const Contact& c, double per_square) {
 
 // Forces are what the next step's contacts of the same names start with; not those of strands that did not
 // converge.
-void RodCollider::end_step(float dt_s, RodReport* report) noexcept {
-  push(dt_s);
-  keep_nothing(contact_count_);
+void RodCollider::keep_force(const Contact& c, double per_square) noexcept {
+  const bool lost =
+      turning_[c.sides[0].strand] || (c.sides[1].segment != kNoSegment && turning_[c.sides[1].strand]);
+  if (c.force > 0 && !lost) new_kept_[new_kept_count_++] = kept_of(c, per_square);
+}
+
+void RodCollider::end_groups(const RodBatch& batch, float dt_s, RodReport* report) noexcept {
   const double per_square = 1 / (static_cast<double>(dt_s) * static_cast<double>(dt_s));
   for (uint32_t i = 0; i < contact_count_; ++i) {
     const Contact& c = contacts_[i];
     const double deep = -(c.open_m + c.allowed_m) / c.scale_m;
     report->deepest_penetration = std::max(report->deepest_penetration, static_cast<float>(deep));
-    const bool lost =
-        turning_[c.sides[0].strand] || (c.sides[1].segment != kNoSegment && turning_[c.sides[1].strand]);
-    if (!(c.force > 0) || lost) continue;
-    keep(kept_of(c, per_square));
+    keep_force(c, per_square);
   }
-  report->contacts = contact_count_;
+  if (batch.settings_.report_residual) {
+    report->residual = std::max(report->residual, static_cast<float>(ContactForces{*this, batch}.miss()));
+  }
+  contacts_before_ += contact_count_;
+}
+
+void RodCollider::end_step(float dt_s, RodReport* report) noexcept {
+  push(dt_s);
+  keep_nothing(new_kept_count_);
+  for (uint32_t i = 0; i < new_kept_count_; ++i) keep(new_kept_[i]);
+  report->contacts = contacts_before_;
   report->contacts_dropped = dropped_;
   report->bad_hits = bad_hits_;
   point_count_ = 0;

@@ -142,6 +142,7 @@ class RodCollider {
   const Kept* find_kept(uint64_t name) noexcept;
   void keep(const Kept& kept) noexcept;
   static Kept kept_of(const Contact& contact, double per_square);
+  void keep_force(const Contact& contact, double per_square) noexcept;
   void keep_nothing(uint32_t room_for) noexcept;
   bool passes(uint32_t strand, uint32_t segment, uint32_t capsule) const noexcept {
     return capsule < 64 && (passed_[size_t{strand} * segment_count_ + segment] >> capsule & 1) != 0;
@@ -160,6 +161,8 @@ class RodCollider {
   // After each; `left`: iterations that may follow. Returns how many strands are not converged.
   uint32_t settle(const RodBatch& batch, uint32_t left) noexcept;
   void end_range(const RodBatch& batch, uint32_t first_group, float dt_s, RodReport* report) noexcept;
+  // Of what was stepped together, behind its last range.
+  void end_groups(const RodBatch& batch, float dt_s, RodReport* report) noexcept;
   void end_step(float dt_s, RodReport* report) noexcept;
   void push(float dt_s) const noexcept;
   float* scratch(uint32_t group) const noexcept;
@@ -183,9 +186,12 @@ class RodCollider {
   uint32_t strand_count_ = 0, segment_count_ = 0, width_ = 0, capacity_ = 0;
   bool passed_any_ = false;
 
-  Contact* contacts_ = nullptr;  // [capacity_] of this step; those of the range from first_contact_
-  uint32_t contact_count_ = 0, dropped_ = 0;
-  Kept* kept_ = nullptr;  // [capacity_] in the order of the last step's contacts
+  // [capacity_] of groups that are stepped together; before these, in this step, contacts_before_.
+  Contact* contacts_ = nullptr;
+  uint32_t contact_count_ = 0, contacts_before_ = 0, dropped_ = 0;
+  Kept* kept_ = nullptr;      // [capacity_] in the order of the last step's contacts
+  Kept* new_kept_ = nullptr;  // alike, of this step's
+  uint32_t new_kept_count_ = 0;
   // [twice capacity_, a power of two] of it in use; where a name's is in kept_, from 1 on, 0: nowhere.
   uint32_t* kept_places_ = nullptr;
   uint32_t kept_count_ = 0, kept_in_use_ = 1, kept_next_ = 0;  // the last: behind what was found last
@@ -197,7 +203,8 @@ class RodCollider {
   uint32_t* seats_ = nullptr;        // [strands] group and lane
   float* packed_records_ = nullptr;  // [packed_groups_], as a batch's
   float* packed_lanes_ = nullptr;    // alike
-  // Of the range, strands that go on and contacts of such strands; before these, of the ranges before it.
+  // Of the range, strands that go on and contacts of such strands, but for those that no iteration got near;
+  // before these, of the ranges before it.
   uint32_t* going_strands_ = nullptr;   // [home_groups_][width]
   uint32_t* going_contacts_ = nullptr;  // [capacity_]
   uint32_t first_going_strand_ = 0, going_strand_count_ = 0, first_going_contact_ = 0,
@@ -218,6 +225,9 @@ class RodCollider {
   uint8_t* pending_ = nullptr;   // [strands] not converged by a contact
   double* misses_ = nullptr;     // [strands] what its contacts' forces miss their laws by, kg m
   double* presses_ = nullptr;    // [strands] sum of what presses it, kg m
+  double* moves_m_ = nullptr;    // [strands] how far the last iteration moved a point of it, at most
+  double* passed_m_ = nullptr;   // [strands] and those before it
+  double* clear_m_ = nullptr;    // [strands] where it began, how far it was from what is left out
   double* ways_ = nullptr;       // [strands] where the first iterate is, from the step's start to free motion
   Vector* carries_ = nullptr;    // [strands] what a core moves that stops a strand
   uint8_t* near_ = nullptr;      // [strands] it has contacts, pressed or not

@@ -23,7 +23,7 @@ inline constexpr uint32_t kNoSegment = ~0u;
 
 // How friction enters an iteration: with all of the gain; with its limit's force against the slip; or by the
 // slip's own size, which comes to either, slowly.
-enum class Friction : uint32_t { kSticks, kSlides, kEither };
+enum class Friction : uint16_t { kSticks, kSlides, kEither };
 
 // A contact's force, of a step of any length.
 struct ForceInNewtons {
@@ -32,7 +32,7 @@ struct ForceInNewtons {
 };
 
 // Masses in kg, forces times the step's square (kg m), lengths in m.
-struct Contact {
+struct alignas(64) Contact {
   // One of two bodies; the second may be an obstacle, which has no segment.
   struct Side {
     uint32_t strand, segment;
@@ -41,26 +41,29 @@ struct Contact {
     double stiffness_kg;  // what of the gain the segment's own matrix gets, 0 for one whose pose is given
     Vector axis;          // at the step's start
   };
+  // What loops over contacts read comes first.
   uint64_t name;  // the same in the next step: the same contact
+  // C of the last evaluation, and of the one before or, of what no iteration got near then, a little less.
+  double open_m, open_before_m;
+  double force;
+  double gain_kg;
+  double allowed_m;  // least gap at its end: below zero where penetration is left or pushed out slowly
+  double scale_m;    // the segment's radius, that tolerance and penetration are shares of
+  Friction state;
+  bool is_looked_at;  // open_m and slip_m are of the step's first iterate
+  bool is_left_out;   // it does not press there, and no iteration got near it
+  uint32_t changes;   // of the state in this step
   Side sides[2];
+  double friction;
+  double limit;          // of drag: friction times the pressing force
   Vector normal;         // from the second to the first
   Vector obstacle_move;  // of the obstacle's point in this step; zero for a rod
   double gap_m;          // at the step's start
-  double allowed_m;      // least gap at its end: below zero where penetration is left or pushed out slowly
-  double gain_kg;
-  double slowness;  // what is left to go, over an iteration's change
-  double friction;
-  double limit;  // of drag: friction times the pressing force
-  Friction state;
-  uint32_t changes;     // of the state in this step
-  double scale_m;       // the segment's radius, that tolerance and penetration are shares of
-  ForceInNewtons last;  // that the last step came to; 0 where it did not press, or its change is not known
-  double force;
+  double slowness;       // what is left to go, over an iteration's change
   Vector drag;
-  double open_m;  // C and slip of the last evaluation
-  Vector slip_m;
-  double open_before_m;  // and of the one before
+  Vector slip_m;  // as open_m
   Vector slip_before_m;
+  ForceInNewtons last;  // that the last step came to; 0 where it did not press, or its change is not known
 
   bool has_two_rods() const { return sides[1].segment != kNoSegment; }
 };

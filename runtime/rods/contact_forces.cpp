@@ -9,7 +9,8 @@
 namespace sinew::rods {
 namespace {
 
-constexpr double kForgiven = 10;  // of the rods' tolerance
+constexpr double kForgiven = 10;     // of the rods' tolerance
+constexpr double kRoundings = 1e-5;  // of a way in float, and of a segment's length
 
 }  // namespace
 
@@ -53,12 +54,59 @@ void ContactForces::look(Contact* c) const {
   let_go_of_lost(c);
 }
 
-void ContactForces::all_go_on() const {
+// A contact with an obstacle that is open where its strand begins, and has no force.
+bool ContactForces::is_clear(const Contact& c) {
+  return !c.has_two_rods() && !(c.force > 0) && clear_m(c) > 0;
+}
+
+void ContactForces::leave_out(Contact* c) const {
+  c->is_left_out = true;
+  double& clear = to.clear_m_[c->sides[0].strand];
+  clear = std::min(clear, clear_m(*c));
+}
+
+// All strands of the range, and contacts but what is clear.
+void ContactForces::go_on() const {
   to.first_going_strand_ = to.going_strand_count_;
   to.first_going_contact_ = to.going_contact_count_;
-  for (uint32_t s = first_strand(); s < end_strand(); ++s) to.going_strands_[to.going_strand_count_++] = s;
-  for (uint32_t i = to.range_.first_contact; i < to.range_.end_contact; ++i)
-    to.going_contacts_[to.going_contact_count_++] = i;
+  for (uint32_t s = first_strand(); s < end_strand(); ++s) {
+    to.going_strands_[to.going_strand_count_++] = s;
+    to.clear_m_[s] = std::numeric_limits<double>::max();
+    to.passed_m_[s] = to.moves_m_[s] = 0;
+  }
+  for (uint32_t i = to.range_.first_contact; i < to.range_.end_contact; ++i) {
+    Contact& c = to.contacts_[i];
+    is_clear(c) ? leave_out(&c) : take_in(i);
+  }
+}
+
+void ContactForces::take_in(uint32_t contact) const {
+  to.contacts_[contact].is_left_out = false;
+  to.going_contacts_[to.going_contact_count_++] = contact;
+}
+
+// Whether a strand may have got to a contact that is left out.
+bool ContactForces::any_reached() const {
+  const auto reached = [this](uint32_t s) { return !(to.clear_m_[s] > to.passed_m_[s] + to.moves_m_[s]); };
+  return std::any_of(going_strands().begin(), going_strands().end(), reached);
+}
+
+// What was left out and may have been reached goes on too, from what it was open by before, at least.
+void ContactForces::take_in_what_was_reached() const {
+  for (const uint32_t s : going_strands()) {
+    if (to.iterated_[s]) to.clear_m_[s] = std::numeric_limits<double>::max();
+  }
+  for (uint32_t i = to.range_.first_contact; i < to.range_.end_contact; ++i) {
+    Contact& c = to.contacts_[i];
+    const uint32_t s = c.sides[0].strand;
+    if (!c.is_left_out || !to.iterated_[s]) continue;
+    if (clear_m(c) > to.passed_m_[s] + to.moves_m_[s]) {
+      leave_out(&c);
+    } else {
+      c.open_m -= to.passed_m_[s];
+      take_in(i);
+    }
+  }
 }
 
 // Where rods collide, what rests may be woken.
@@ -85,20 +133,31 @@ void ContactForces::leave_out_what_rests() const {
 // Strands that would start deep in something start where they first touch it: an iteration that is cut short,
 // by its cap or by how far segments may turn in it, then leaves them in front of it, slower, not behind.
 void ContactForces::begin() const noexcept {
-  all_go_on();
   ContactLooks looks(*this);
-  for (Contact& c : contacts()) looks.add(&c);
+  for (Contact& c : contacts()) {
+    c.is_looked_at ? let_go_of_lost(&c) : looks.add(&c);
+  }
   looks.end();
   find_ways();
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {
-    to.turning_[s] = 0;
+    to.turning_[s] = to.near_[s] = 0;
     to.pending_[s] = 1;
     for (uint32_t i = 0; to.ways_[s] < 1 && i < batch.segment_count_; ++i) step_back(s, i);
   }
   for (Contact& c : contacts()) {
     if (stepped_back(c)) look(&c);
-    begin_friction(&c);
+    to.near_[c.sides[0].strand] = 1;
+    if (c.has_two_rods()) to.near_[c.sides[1].strand] = 1;
   }
+  go_on();
+  for (const uint32_t i : going_contacts()) begin_friction(&to.contacts_[i]);
+}
+
+// How far the last iteration moved a point of a strand, at most.
+double ContactForces::moved_m(uint32_t s) const {
+  if (!to.iterated_[s]) return 0;
+  const double length = static_cast<double>(batch.units_[s].length_m);
+  return length * ((1 + kRoundings) * static_cast<double>(lane(s, simd::kLaneMoved)) + kRoundings);
 }
 
 uint32_t ContactForces::settle(uint32_t left) const noexcept {
@@ -107,7 +166,10 @@ uint32_t ContactForces::settle(uint32_t left) const noexcept {
     to.turning_[s] = active(s) != 0;
     to.pending_[s] = 0;
     to.misses_[s] = to.presses_[s] = 0;
+    to.moves_m_[s] = moved_m(s);
   }
+  if (any_reached()) take_in_what_was_reached();
+  for (const uint32_t s : going_strands()) to.passed_m_[s] += to.moves_m_[s];
   ContactLooks looks(*this);
   for (const uint32_t i : going_contacts()) {
     Contact& c = to.contacts_[i];
@@ -153,11 +215,11 @@ double ContactForces::last_turn(uint32_t strand) const {
 
 void ContactForces::forgive() const noexcept {
   const double most = kForgiven * static_cast<double>(batch.settings_.tolerance_rad);
-  std::fill(to.near_ + first_strand(), to.near_ + end_strand(), uint8_t{0});
+  const uint8_t *first = to.turning_ + first_strand(), *end = to.turning_ + end_strand();
+  if (std::none_of(first, end, [](uint8_t turns) { return turns; })) return;
   for (const Contact& c : contacts()) {
     for (const Contact::Side& side : c.sides) {
       if (side.segment == kNoSegment) continue;
-      to.near_[side.strand] = 1;
       if (!(c.force > 0) || !to.turning_[side.strand] || !(last_turn(side.strand) < most)) continue;
       to.turning_[side.strand] = 0;
       to.pending_[side.strand] = 1;
@@ -174,18 +236,23 @@ void ContactForces::hold() const noexcept {
   for (Contact& c : contacts()) look(&c);
 }
 
-uint32_t ContactForces::end() const noexcept {
+// No change to go on with.
+void ContactForces::forget_changes() const {
   for (Contact& c : contacts()) {
     const bool ended =
         !to.pending_[c.sides[0].strand] && !(c.has_two_rods() && to.pending_[c.sides[1].strand]);
-    if (!ended) c.last = {};  // no change to go on with
+    if (!ended) c.last = {};
   }
+}
+
+uint32_t ContactForces::end() const noexcept {
   uint32_t count = 0;
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {
     active(s) = to.turning_[s] ? 1.0f : 0.0f;
     count += to.pending_[s];
-    to.pending_[s] = 1;
   }
+  if (count > 0) forget_changes();
+  std::fill(to.pending_ + first_strand(), to.pending_ + end_strand(), uint8_t{1});
   // What the residual is measured with is of all strands.
   if (batch.settings_.report_residual) assemble_ended();
   return count;

@@ -29,8 +29,8 @@ struct ContactForces {
   // After the last: kLaneActive is again what the rods themselves said. Returns how many strands are not
   // converged by their contacts.
   uint32_t end() const noexcept;
-  // Of all the step's contacts, what gap and slip miss by while their force stays: 0 where C = 0 or p = 0 and
-  // s = 0 or |t| = friction p. In mean segment lengths of the first side's strand.
+  // Of all that was stepped together, what gap and slip miss by while their force stays: 0 where C = 0 or
+  // p = 0, and s = 0 or |t| = friction p. In mean segment lengths of the first side's strand.
   double miss() const noexcept;
 
  private:
@@ -69,8 +69,16 @@ struct ContactForces {
   bool iterated(const Contact& c) const {
     return to.iterated_[c.sides[0].strand] || (c.has_two_rods() && to.iterated_[c.sides[1].strand]);
   }
-  void all_go_on() const;
+  static bool is_clear(const Contact& contact);
+  void leave_out(Contact* contact) const;
+  void go_on() const;
+  void take_in(uint32_t contact) const;
+  bool any_reached() const;
   void leave_out_what_rests() const;
+  double moved_m(uint32_t strand) const;
+  // Less than this, and a contact that does not press still does not, nor is it in penetration.
+  static double clear_m(const Contact& c) { return c.open_m + std::min(c.allowed_m, 0.0); }
+  void take_in_what_was_reached() const;
   // Gap and slip at the iterate.
   void look(Contact* contact) const;
   // A strand that is lost touches nothing: others are not to be lost with it.
@@ -83,6 +91,7 @@ struct ContactForces {
   Vector move(const Contact& contact, size_t side) const;
   Vector surface_move(const Contact& contact, size_t side, const Vector& move) const;
   double last_turn(uint32_t strand) const;
+  void forget_changes() const;
 
   // contact_laws.cpp
   void begin_friction(Contact* contact) const;

@@ -15,8 +15,8 @@ class ContactLanes {
  protected:
   const ContactForces& forces_;
   size_t count_ = 0;
-  Of* of_[simd::kForceLanes] = {};
-  Lanes lanes_ = {};
+  Of* of_[simd::kForceLanes];
+  Lanes lanes_;  // what is not put in may be anything
 };
 
 class ContactLooks : ContactLanes<simd::RodLooks, Contact> {

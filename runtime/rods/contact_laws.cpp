@@ -149,9 +149,10 @@ bool ContactForces::slid(const Contact& c) const {
   return drag >= kAtLimit * c.limit && -dot(c.slip_m, c.drag) > nothing_m(c) * drag;
 }
 
-// What slid goes on, and what is new slides where it is too fast to be held.
+// What slid goes on, and what is new slides where it is too fast to be held; what is open has no friction.
 void ContactForces::begin_friction(Contact* c) const {
   const bool known = c->force > 0;
+  if (!known && c->open_m >= 0) return;
   c->limit = known ? c->friction * c->force : limit_of_new(*c);
   const bool slides = known ? slid(*c) : mass_kg(*c) * length(c->slip_m) > c->limit;
   c->state = slides ? Friction::kSlides : Friction::kSticks;

@@ -24,11 +24,6 @@ constexpr int kCoreMoments = 256;
 // A gap that does not count as torn yet, of the strand's mean segment.
 constexpr double kHardlyTorn = 0.4;
 
-uint64_t mixed(uint64_t h, uint64_t value) {
-  h = (h ^ value) * 0x9e3779b97f4a7c15u;
-  return h ^ h >> 29;
-}
-
 Vector at(const Axis& axis, double share) { return between(axis.from, axis.to, share); }
 
 Vector axis_of(const Turn& q) {
@@ -147,7 +142,7 @@ void ContactFinder::add_sweep(uint32_t strand, uint32_t segment) const {
 }
 
 uint64_t ContactFinder::name_of(const Other& other, uint32_t strand, uint32_t segment, uint64_t feature) {
-  return mixed(mixed(mixed(mixed(mixed(0, other.kind), other.index), strand), segment), feature) | 1;
+  return mixed(mixed(mixed(other.name, strand), segment), feature) | 1;
 }
 
 // `along` from the segment's middle, metres; normal, gap and obstacle's move are left to the caller.
@@ -184,10 +179,9 @@ void ContactFinder::set_gain(Contact* c) const {
   }
 }
 
-// The least gap at the end of a step in which something hits that bounces: it leaves with its share of the
-// speed with which it came, from where the step began.
+// Of a restitution above 0, the least gap at the end of a step in which something hits that bounces: it
+// leaves with its share of the speed with which it came, from where the step began.
 double ContactFinder::rebound_m(const Contact& c, double restitution) const {
-  if (!(restitution > 0)) return 0;
   const Contact::Side& s = c.sides[0];
   const double l = static_cast<double>(batch.units_[s.strand].length_m);
   const auto three = [&](uint32_t field) {
@@ -208,7 +202,7 @@ double ContactFinder::rebound_m(const Contact& c, double restitution) const {
 
 // Null: no room.
 Contact* ContactFinder::take() const {
-  if (to.contact_count_ < to.capacity_) return to.contacts_ + to.contact_count_++;
+  if (to.contacts_before_ + to.contact_count_ < to.capacity_) return to.contacts_ + to.contact_count_++;
   ++to.dropped_;
   return nullptr;
 }
@@ -226,7 +220,7 @@ void ContactFinder::complete(Contact* c, double depth_m, double restitution) con
   const double left = kLeftAlone * static_cast<double>(to.settings_.tolerance) * c->scale_m;
   const double pushed = static_cast<double>(to.settings_.largest_push_out_m_s) * dt_s;
   if (depth_m < 0) c->allowed_m = depth_m + std::min(pushed, std::max(0.0, -depth_m - left));
-  const double rebound = rebound_m(*c, restitution);
+  const double rebound = restitution > 0 ? rebound_m(*c, restitution) : 0;
   if (rebound > 0) c->allowed_m = std::max(c->allowed_m, std::max(0.0, c->gap_m) + rebound);
   set_gain(c);
   begin_force(c);
@@ -402,6 +396,9 @@ void ContactFinder::add_lane(uint32_t strand, uint32_t segment, const Other& oth
   c->friction = other.friction;
   c->scale_m = radius;
   complete(c, row(simd::kTouchDepth), other.restitution);
+  c->open_m = row(simd::kTouchOpen) - c->allowed_m;
+  if (is_active(*c, c->open_m) || is_active(*c, 0)) c->slip_m = row3(simd::kTouchSlip);
+  c->is_looked_at = true;
 }
 
 void ContactFinder::add_touch(uint32_t strand, uint32_t segment, const Other& other) const {

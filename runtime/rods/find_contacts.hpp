@@ -34,13 +34,18 @@ struct ContactFinder {
   enum Kind : uint64_t { kPoint = 1, kPlane, kSphere, kCapsule, kRod, kHit };
   // What a segment touches: a segment, or an obstacle (segment is kNoSegment).
   struct Other {
-    uint64_t kind, index;  // for the contact's name
+    uint64_t kind, index;  // for its contacts' names
     uint32_t strand, segment;
     Sweep sweep;
     ObstacleMotion motion;
     Vector middle_m;  // that it turns about, at the step's end
     double friction, restitution;
+    uint64_t name = mixed(mixed(0, kind), index);
   };
+  static uint64_t mixed(uint64_t h, uint64_t value) {
+    h = (h ^ value) * 0x9e3779b97f4a7c15u;
+    return h ^ h >> 29;
+  }
 
   uint32_t first_strand() const { return to.range_.first_group * batch.width_; }
   uint32_t end_strand() const;

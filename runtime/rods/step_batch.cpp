@@ -4,7 +4,6 @@
 
 #include "core/flush_denormals.hpp"
 #include "core/status.hpp"
-#include "rods/contact_forces.hpp"
 #include "rods/rod_batch.hpp"
 #include "rods/strand_packer.hpp"
 #include "simd/kernels.hpp"
@@ -142,6 +141,7 @@ void RodBatch::step_groups(uint32_t first_group, uint32_t groups, float dt_s, Ro
   while (active > 0 && left > 0) active = go_on(first_group, groups, dt_s, collider, active, --left);
   if (collider) StrandPacker{*collider, *this}.unpack();
   for (uint32_t g = first_group; g < end; g += in_range) end_range(g, in_range, dt_s, collider, report);
+  if (collider) collider->end_groups(*this, dt_s, report);
 }
 
 Status RodBatch::step(float dt_s, RodReport* report) noexcept { return step(dt_s, nullptr, report); }
@@ -172,9 +172,6 @@ Status RodBatch::step(float dt_s, RodCollider* collider, RodReport* report) noex
   if (collider) collider->begin_step();
   for (uint32_t g = 0; g < groups; g += at_once) {
     step_groups(g, std::min(at_once, groups - g), dt_s, collider, &made);
-  }
-  if (collider && settings_.report_residual) {
-    made.residual = std::max(made.residual, static_cast<float>(ContactForces{*collider, *this}.miss()));
   }
   if (collider) collider->end_step(dt_s, &made);
   newest_ = (newest_ + 1) % simd::kRodStartAges;

@@ -36,62 +36,23 @@ HWY_INLINE Three<ForceV> three_where(ForceM mask, const Three<ForceV>& v) {
   return {hn::IfThenElseZero(mask, v.x), hn::IfThenElseZero(mask, v.y), hn::IfThenElseZero(mask, v.z)};
 }
 
-// rods/turn.hpp
-HWY_INLINE SegmentAxes<ForceV> plain_axes(const Four<ForceV>& q) {
-  const ForceV two = hn::Set(ForceTag(), 2), one = hn::Set(ForceTag(), 1);
-  const ForceV x2 = hn::Mul(two, q.x), y2 = hn::Mul(two, q.y), z2 = hn::Mul(two, q.z);
-  const ForceV xx = hn::Mul(x2, q.x), yy = hn::Mul(y2, q.y), zz = hn::Mul(z2, q.z);
-  const ForceV xy = hn::Mul(x2, q.y), xz = hn::Mul(x2, q.z), yz = hn::Mul(y2, q.z);
-  const ForceV xw = hn::Mul(x2, q.w), yw = hn::Mul(y2, q.w), zw = hn::Mul(z2, q.w);
-  return {{hn::Sub(hn::Sub(one, yy), zz), hn::Add(xy, zw), hn::Sub(xz, yw)},
-          {hn::Sub(xy, zw), hn::Sub(hn::Sub(one, xx), zz), hn::Add(yz, xw)},
-          {hn::Add(xz, yw), hn::Sub(yz, xw), hn::Sub(hn::Sub(one, xx), yy)}};
-}
-HWY_INLINE ForceV plain_product_part(ForceV aw, ForceV b, ForceV bw, ForceV a, ForceV a1, ForceV b2,
-                                     ForceV a2, ForceV b1) {
-  return hn::Sub(hn::Add(hn::Add(hn::Mul(aw, b), hn::Mul(bw, a)), hn::Mul(a1, b2)), hn::Mul(a2, b1));
-}
-HWY_INLINE Four<ForceV> plain_product(const Four<ForceV>& a, const Four<ForceV>& b) {
-  const ForceV w =
-      hn::Sub(hn::Sub(hn::Sub(hn::Mul(a.w, b.w), hn::Mul(a.x, b.x)), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-  return {plain_product_part(a.w, b.x, b.w, a.x, a.y, b.z, a.z, b.y),
-          plain_product_part(a.w, b.y, b.w, a.y, a.z, b.x, a.x, b.z),
-          plain_product_part(a.w, b.z, b.w, a.z, a.x, b.y, a.y, b.x), w};
-}
-
-// ContactForces::surface_move
-HWY_INLINE Three<ForceV> surface_move_of(const Four<ForceV>& before, const Four<ForceV>& now,
-                                         const SegmentAxes<ForceV>& own, ForceV radius,
-                                         const Three<ForceV>& normal, const Three<ForceV>& move) {
-  const ForceTag d;
-  const Four<ForceV> back = {hn::Neg(before.x), hn::Neg(before.y), hn::Neg(before.z), before.w};
-  const Four<ForceV> by = plain_product(back, now);
-  const ForceV side = hn::IfThenElse(hn::Lt(by.w, hn::Zero(d)), hn::Set(d, -2), hn::Set(d, 2));
-  const Three<ForceV> turned_by =
-      scaled(side, plain_sum(by.x, own.x, plain_sum(by.y, own.y, scaled(by.z, own.z))));
-  return plain_sum(radius, plain_cross(turned_by, normal), move);
-}
-
 HWY_INLINE void look_at(RodLooks* looks, size_t i) {
   const auto row = [&](size_t r) HWY_ATTR { return force_row(looks->rows[r], i); };
   const auto row3 = [&](size_t r) HWY_ATTR { return force_rows3(looks->rows + r, i); };
-  const Four<ForceV> now = force_turn(looks->floats + kLookNow, i);
-  const SegmentAxes<ForceV> own = plain_axes(now);
-  const ForceV length = row(kLookLength);
   const Three<ForceV> moved = {force_float(looks->floats[kLookMove], i),
                                force_float(looks->floats[kLookMove + 1], i),
                                force_float(looks->floats[kLookMove + 2], i)};
-  const Three<ForceV> normal = row3(kLookNormal), obstacle = row3(kLookObstacle);
-  const Three<ForceV> move = plain_sum(row(kLookAlong), own.z - row3(kLookAxis), scaled(length, moved));
-  const ForceV open = hn::Sub(hn::Add(row(kLookGap), plain_dot(normal, move - obstacle)), row(kLookAllowed));
+  const LookOf<ForceV> look =
+      look_of<ForceV>({force_turn(looks->floats + kLookTurn, i), force_turn(looks->floats + kLookNow, i),
+                       scaled(row(kLookLength), moved), row3(kLookAxis), row3(kLookNormal),
+                       row3(kLookObstacle), row(kLookAlong), row(kLookRadius)});
+  const ForceV open = hn::Sub(hn::Add(row(kLookGap), look.opened), row(kLookAllowed));
   const auto presses = [&](ForceV at) HWY_ATTR {
     return hn::Gt(hn::Sub(row(kLookForce), hn::Mul(row(kLookLetsGo), at)), hn::Zero(ForceTag()));
   };
   const ForceM pressed = hn::Or(presses(open), presses(row(kLookOpenBefore)));
   put_row(looks->rows[kLookOpen], i, open);
-  const Three<ForceV> surface =
-      surface_move_of(force_turn(looks->floats + kLookTurn, i), now, own, row(kLookRadius), normal, move);
-  put_rows3(looks->rows + kLookSlip, i, three_where(pressed, plain_across(surface - obstacle, normal)));
+  put_rows3(looks->rows + kLookSlip, i, three_where(pressed, look.slip));
 }
 
 // rods/contact.hpp's ContactForce of what presses.

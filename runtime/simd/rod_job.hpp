@@ -87,6 +87,7 @@ enum RodLaneField : uint32_t {
   kLaneActive = kLaneGravity + 3,  // 1 while a strand is not converged, 0 afterwards and where there is none
   kLaneHeldMiss,                   // largest gap or bend squared left at joints whose child's pose is given
   kLaneShare,                      // of its change that the iteration before took
+  kLaneMoved,                      // by that change, a point on a segment's axis, at most
   kLaneLargestShare,               // that the next may take
   kLaneIterations,
   kLaneCgIterations,

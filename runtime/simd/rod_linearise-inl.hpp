@@ -165,6 +165,20 @@ HWY_INLINE void change_segment(const G& g, size_t i, hn::Mask<hn::DFromV<typenam
   }
 }
 
+// Half the square of the furthest that a point of a segment's axis moves, at most: (a + b)^2 <= 2 (a^2 +
+// b^2).
+template <class G>
+HWY_INLINE typename G::V half_moved_square(const G& g, const RodJob& job) {
+  using V = typename G::V;
+  V largest = hn::Zero(hn::DFromV<V>());
+  for (size_t i = 0; i < job.segments; ++i) {
+    const Three<V> move = g.get3(i, kRodImpulse), turn = g.get3(i, kRodImpulse + 3);
+    const V half = g.get(i, kRodHalfLength);
+    largest = hn::Max(largest, hn::MulAdd(hn::Mul(half, half), dot(turn, turn), dot(move, move)));
+  }
+  return largest;
+}
+
 // Takes the changes in kRodImpulse and kRodMiss over, shortened where a segment would turn too far; strands
 // that had converged stay as they were, with what they remember, for contacts may wake them again. Returns
 // how many are not converged now.
@@ -184,6 +198,8 @@ HWY_INLINE uint32_t apply_changes(const G& g, const RodJob& job, typename G::V l
   }
   share = hn::Div(hn::Mul(share, most), hn::Max(most, hn::Mul(share, turn)));
   for (size_t i = 1; i < job.segments; ++i) turn_moments(g, i, job.parents[i]);
+  const V moved = hn::Mul(share, hn::Sqrt(hn::Mul(hn::Set(d, 2), half_moved_square(g, job))));
+  g.set_lane(kLaneMoved, hn::IfThenElse(active, moved, g.lane(kLaneMoved)));
   for (size_t i = 0; i < job.segments; ++i) change_segment(g, i, active, share);
   g.set_lane(kLaneShare, hn::IfThenElse(active, share, g.lane(kLaneShare)));
   g.set_lane(kLaneIterations, hn::Add(g.lane(kLaneIterations), hn::IfThenElseZero(active, one)));

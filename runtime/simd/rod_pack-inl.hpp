@@ -8,7 +8,8 @@ struct FieldSpan {
   uint32_t first, count;
 };
 // As direct and what follows it read them.
-inline constexpr FieldSpan kIteratedRecords[] = {{kRodFree, 2}, {kRodInertia, 2}, {kRodTied, 3}};
+inline constexpr FieldSpan kIteratedRecords[] = {{kRodFree, 2}, {kRodInertia, 3}, {kRodTied, 3}};
+static_assert(kRodHalfLength == kRodInertia + 2 && kRodArm == kRodTied + 2);
 inline constexpr FieldSpan kIteratedScratch[] = {
     {kRodFreeMove, 7}, {kRodGap, kRodImpulse - kRodGap}, {kRodLastTurn, 3}};
 // As finish and what may look at the iterate read them.

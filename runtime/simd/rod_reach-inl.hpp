@@ -42,25 +42,21 @@ struct ReachGroup {
   HWY_INLINE void set_box(size_t side, V value) const {
     hn::Store(value, D(), job.boxes + side * kWidth + first);
   }
-  // A place or a way in the world, in each strand's units.
-  HWY_INLINE Three<V> way(const double* from, const double* to) const {
+  // Metres as they are for each strand, in its units. A division is as slow as all the rest.
+  template <class Metres>
+  HWY_INLINE Three<V> in_units(const Metres& metres) const {
     HWY_ALIGN float out[3][kWidth];
-    for (size_t i = 0; i < 3; ++i) {
-      for (size_t k = 0; k < kWidth; ++k) {
-        out[i][k] = static_cast<float>((to[i] - from[i]) / static_cast<double>(job.length_m[k]));
-      }
+    for (size_t k = 0; k < kWidth; ++k) {
+      const double per_length = 1 / static_cast<double>(job.length_m[k]);
+      for (size_t i = 0; i < 3; ++i) out[i][k] = static_cast<float>(metres(i, k) * per_length);
     }
     return {hn::Load(D(), out[0] + first), hn::Load(D(), out[1] + first), hn::Load(D(), out[2] + first)};
   }
+  HWY_INLINE Three<V> way(const double* from, const double* to) const {
+    return in_units([&](size_t i, size_t) HWY_ATTR { return to[i] - from[i]; });
+  }
   HWY_INLINE Three<V> place(const double* at) const {
-    HWY_ALIGN float out[3][kWidth];
-    for (size_t i = 0; i < 3; ++i) {
-      for (size_t k = 0; k < kWidth; ++k) {
-        const double arm = at[i] - job.origin_m[i * kWidth + k];
-        out[i][k] = static_cast<float>(arm / static_cast<double>(job.length_m[k]));
-      }
-    }
-    return {hn::Load(D(), out[0] + first), hn::Load(D(), out[1] + first), hn::Load(D(), out[2] + first)};
+    return in_units([&](size_t i, size_t k) HWY_ATTR { return at[i] - job.origin_m[i * kWidth + k]; });
   }
   HWY_INLINE V size(double metres) const {
     return hn::Div(hn::Set(D(), static_cast<float>(metres)), hn::Load(D(), job.length_m + first));

@@ -5,31 +5,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace sinew::simd::HWY_NAMESPACE {
 
-template <class V>
-HWY_INLINE V plain_dot(const Three<V>& a, const Three<V>& b) {
-  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-}
-template <class V>
-HWY_INLINE V plain_length(const Three<V>& a) {
-  return hn::Sqrt(plain_dot(a, a));
-}
-template <class V>
-HWY_INLINE Three<V> plain_sum(V s, const Three<V>& a, const Three<V>& b) {
-  return scaled(s, a) + b;
-}
-template <class V>
-HWY_INLINE Three<V> plain_between(const Three<V>& a, const Three<V>& b, V t) {
-  return plain_sum(t, b - a, a);
-}
-template <class V>
-HWY_INLINE Three<V> plain_cross(const Three<V>& a, const Three<V>& b) {
-  return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)), hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
-          hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
-}
-template <class V>
-HWY_INLINE Three<V> plain_across(const Three<V>& v, const Three<V>& n) {
-  return plain_sum(hn::Neg(plain_dot(v, n)), n, v);
-}
 // Into 0 to 1, as std::clamp.
 template <class V>
 HWY_INLINE V shared(V x) {
@@ -167,10 +142,14 @@ struct TouchGroup {
                       ? job.records + (segment * kRodKeptFields + field) * kWidth + first
                       : job.scratch + (segment * kRodScratchRows + field - kRodKeptFields) * kWidth + first);
   }
+  HWY_INLINE Three<V> get3(size_t field) const { return {get(field), get(field + 1), get(field + 2)}; }
+  HWY_INLINE Four<V> get4(size_t field) const {
+    return {get(field), get(field + 1), get(field + 2), get(field + 3)};
+  }
   HWY_INLINE V length() const { return floats(job.length_m + first); }
   // Its own z, at an orientation.
   HWY_INLINE Three<V> axis(size_t field) const {
-    const V x = get(field), y = get(field + 1), z = get(field + 2), w = get(field + 3);
+    const auto [x, y, z, w] = get4(field);
     const V two = hn::Set(D(), 2), one = hn::Set(D(), 1);
     return {hn::Mul(two, hn::Add(hn::Mul(x, z), hn::Mul(y, w))),
             hn::Mul(two, hn::Sub(hn::Mul(y, z), hn::Mul(x, w))),
@@ -186,8 +165,8 @@ struct TouchGroup {
   }
   HWY_INLINE SweepOf<V> sweep() const {
     const Three<V> middle = {place(0), place(1), place(2)};
-    const Three<V> move = {get(kRodFreeMove), get(kRodFreeMove + 1), get(kRodFreeMove + 2)};
-    return {line(middle, axis(kRodTurn)), line(middle + scaled(length(), move), axis(kRodFreeTurn))};
+    return {line(middle, axis(kRodTurn)),
+            line(middle + scaled(length(), get3(kRodFreeMove)), axis(kRodFreeTurn))};
   }
 };
 
@@ -232,9 +211,8 @@ HWY_INLINE void touch_lanes(const RodReachJob& job, const RodRound& round, uint3
                         {set3(d, round.end_m[0]), set3(d, round.end_m[1])}};
   const V radius = g.floats(job.radii_m + segment * kWidth + first),
           other_radius = hn::Set(d, round.radius_m);
-  HWY_ALIGN double asked[kWidth];
-  for (size_t k = 0; k < hn::MaxLanes(d); ++k) asked[k] = wanted_bits >> (first + k) & 1 ? 1 : 0;
-  const auto wanted = hn::Gt(hn::Load(d, asked), hn::Zero(d));
+  const uint8_t asked[8] = {static_cast<uint8_t>(wanted_bits >> first)};
+  const auto wanted = hn::LoadMaskBits(d, asked);
   auto meets = wanted;
   const TouchOf<V> touch = touch_first<kPoint>(a, b, hn::Add(radius, other_radius), wanted, &meets);
   const Three<V> way_a = on_line(a.end, touch.at.a) - on_line(a.start, touch.at.a);
@@ -251,17 +229,24 @@ HWY_INLINE void touch_lanes(const RodReachJob& job, const RodRound& round, uint3
   const auto put = [&](size_t row, V value) HWY_ATTR { hn::Store(value, d, out->rows[row] + first); };
   const auto put3 = [&](size_t row, const Three<V>& v)
                         HWY_ATTR { put(row, v.x), put(row + 1, v.y), put(row + 2, v.z); };
-  const Three<V> along = a.start.to - a.start.from;
-  const V length = plain_length(along);
-  put(kTouchAlong, hn::Mul(hn::Sub(touch.at.a, hn::Set(d, 0.5)), length));
-  put3(kTouchAxis, scaled(hn::Div(hn::Set(d, 1), length), along));
+  const Three<V> z = a.start.to - a.start.from;
+  const V length = plain_length(z), along = hn::Mul(hn::Sub(touch.at.a, hn::Set(d, 0.5)), length);
+  const Three<V> axis = scaled(hn::Div(hn::Set(d, 1), length), z);
+  put(kTouchAlong, along);
+  put3(kTouchAxis, axis);
   put3(kTouchNormal, normal);
   const Three<V> surface = plain_sum(other_radius, normal, end_b), axis_move = end_b - point_b;
   const Three<V> slides = surface_move_at(round, surface);
-  put3(kTouchMove, plain_sum(plain_dot(normal, axis_move), normal, plain_across(slides, normal)));
+  const Three<V> move = plain_sum(plain_dot(normal, axis_move), normal, plain_across(slides, normal));
+  put3(kTouchMove, move);
   const V start = plain_dot(on_line(a.start, touch.at.a) - point_b, normal);
-  put(kTouchGap, hn::Sub(hn::Sub(start, radius), other_radius));
+  const V gap = hn::Sub(hn::Sub(start, radius), other_radius);
+  put(kTouchGap, gap);
   put(kTouchDepth, hn::IfThenZeroElse(hn::Gt(touch.time, hn::Zero(d)), touch.gap));
+  const LookOf<V> look = look_of<V>({g.get4(kRodTurn), g.get4(kRodNow), scaled(g.length(), g.get3(kRodMove)),
+                                     axis, normal, move, along, hn::Neg(radius)});
+  put(kTouchOpen, hn::Add(gap, look.opened));
+  put3(kTouchSlip, look.slip);
 }
 
 template <bool kPoint, size_t kWidth>

@@ -72,7 +72,9 @@ enum RodTouchRow : uint32_t {
   kTouchMove = 7,    // [3] of the obstacle's surface there
   kTouchGap = 10,    // at the step's start
   kTouchDepth,       // the same where it is in penetration then, else 0 or more
-  kTouchRows
+  kTouchOpen,        // at the iterate
+  kTouchSlip,        // [3] up to there
+  kTouchRows = kTouchSlip + 3
 };
 
 // Of one segment of a group, bit k of lane k.

@@ -14,6 +14,8 @@
 #include "simd/three-inl.hpp"
 #include "simd/rod_lanes-inl.hpp"
 #include "simd/rod_reach-inl.hpp"
+#include "simd/plain-inl.hpp"
+#include "simd/rod_look-inl.hpp"
 #include "simd/rod_touch-inl.hpp"
 #include "simd/rod_forces-inl.hpp"
 // clang-format on

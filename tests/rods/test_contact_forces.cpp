@@ -380,6 +380,28 @@ TEST_CASE("a_step_of_rods_that_touch_and_converge_does_not_depend_on_where_its_i
   CHECK(largest < 2e-5);
 }
 
+TEST_CASE("what_begins_clear_of_a_wall_is_held_by_it_where_its_root_pulls_it_there_within_the_step") {
+  // Hangs with a tenth of its radius between it and the wall: free motion leads along the wall, the first
+  // iterate presses nothing.
+  test::Segments rod =
+      test::straight_rod({.segments = 6, .young_pa = 1e7f, .length_m = 0.6, .radius_m = 0.01f});
+  const rods::Plane wall = {.point_m = {0, -0.011, 0}, .normal = {0, 1, 0}};
+  test::RodSettings settings;
+  settings.gravity_m_s2[0] = 9.81f, settings.gravity_m_s2[1] = 0;
+  for (const rods::RodSolver solver : {rods::RodSolver::kDirect, rods::RodSolver::kCg}) {
+    settings.solver = solver;
+    test::RodBatch batch = test::batch_of({rod}, settings);
+    rods::RodCollider collider = on_floor(batch, wall, {.rods_collide = false});
+    rods::SegmentPose root = batch.pose(0, 0);
+    root.position_m[1] -= 0.01;
+    REQUIRE(batch.set_target(0, 0, root).ok());
+    const test::RodReport report = test::step(batch, collider);
+    CHECK(report.contacts >= 5);
+    CHECK(report.contacts_unconverged == 0);
+    for (uint32_t i = 1; i < 6; ++i) CHECK(test::end_of(batch, rod, i)[1] > -0.001 - kDeepest * 0.01);
+  }
+}
+
 TEST_CASE("given_contact_points_hold_a_rod_for_the_coming_step_alone") {
   const test::Segments rod = test::lying_rod(0.5);
   test::RodBatch batch = test::batch_of({rod});

@@ -6,12 +6,15 @@
 
 #include "rods/contact.hpp"
 #include "simd/rod_force_job.hpp"
+#include "tests/rods/plain_look.hpp"
 #include "tests/simd/every_isa.hpp"
 
 using namespace sinew;
 using rods::Contact;
 using rods::Turn;
 using rods::Vector;
+using test::Iterate;
+using test::Looked;
 
 namespace {
 
@@ -65,10 +68,6 @@ Contact any_contact(Dice& dice) {
   return c;
 }
 
-struct Iterate {
-  double length_m;
-  float move[3], now[4], before[4];
-};
 Iterate any_iterate(Dice& dice) {
   Iterate out = {static_cast<double>(static_cast<float>(dice.above_zero())), {}, {}, {}};
   const Turn now = dice.turn(), before = dice.turn();
@@ -76,25 +75,6 @@ Iterate any_iterate(Dice& dice) {
   for (size_t k = 0; k < 4; ++k)
     out.now[k] = static_cast<float>(now[k]), out.before[k] = static_cast<float>(before[k]);
   return out;
-}
-
-struct Looked {
-  double open_m;
-  Vector slip_m;
-};
-Looked plain_look(const Contact& c, const Iterate& at) {
-  const Contact::Side& s = c.sides[0];
-  const Turn now = rods::turn_of(at.now), by = rods::product(rods::conjugate(rods::turn_of(at.before)), now);
-  const rods::Axes own = rods::axes_of(now);
-  const Vector move = rods::scaled_sum(s.along_m, rods::difference(own.z, s.axis),
-                                       rods::scaled(at.length_m, rods::vector_of(at.move)));
-  const double open = c.gap_m + rods::dot(c.normal, rods::difference(move, c.obstacle_move)) - c.allowed_m;
-  if (!rods::is_active(c, open) && !rods::is_active(c, c.open_before_m)) return {open, {}};
-  const Vector turned = rods::scaled(
-      by[3] < 0 ? -2 : 2,
-      rods::scaled_sum(by[0], own.x, rods::scaled_sum(by[1], own.y, rods::scaled(by[2], own.z))));
-  const Vector surface = rods::scaled_sum(s.radius_m, rods::cross(turned, c.normal), move);
-  return {open, rods::across(rods::difference(surface, c.obstacle_move), c.normal)};
 }
 
 void put(const Contact& c, const Iterate& at, size_t lane, simd::RodLooks* out) {
@@ -253,7 +233,7 @@ TEST_CASE("gaps_and_slips_a_contact_a_lane_have_the_bits_of_one_at_a_time") {
       const Contact c = any_contact(dice);
       const Iterate at = any_iterate(dice);
       put(c, at, k, &lanes);
-      expected.push_back(plain_look(c, at));
+      expected.push_back(test::plain_look(c, at));
     }
     kernels.look(&lanes, count);
     for (size_t k = 0; k < count; ++k) {

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/rods/lane_scenes.hpp"
+#include "tests/rods/plain_look.hpp"
 #include "tests/simd/every_isa.hpp"
 
 using namespace sinew;
@@ -57,16 +58,31 @@ Expected expected(const Sweep& a, const Sweep& b, const simd::RodRound& round) {
   return out;
 }
 
+// At the iterate of a lane, of what presses however far it is open.
+test::Looked looked(test::LaneScene& scene, uint32_t i, uint32_t k, const Expected& e) {
+  rods::Contact c = {};
+  c.sides[0] = {0, 0, e.along_m, -scene.radius_m(i, k), 0, e.axis};
+  c.sides[1].segment = rods::kNoSegment;
+  c.normal = e.normal, c.obstacle_move = e.move, c.gap_m = e.gap_m, c.force = 1;
+  test::Iterate iterate = {scene.length_m(k), {}, {}, {}};
+  for (uint32_t n = 0; n < 3; ++n) iterate.move[n] = scene.at(i, simd::kRodMove + n, k);
+  for (uint32_t n = 0; n < 4; ++n) {
+    iterate.now[n] = scene.at(i, simd::kRodNow + n, k);
+    iterate.before[n] = scene.at(i, simd::kRodTurn + n, k);
+  }
+  return test::plain_look(c, iterate);
+}
+
 // Also of zeros.
-bool same_bits(const Expected& e, const simd::RodTouches& t, uint32_t k) {
+bool same_bits(const Expected& e, const test::Looked& look, const simd::RodTouches& t, uint32_t k) {
   const auto is_in = [&](double value, size_t row) {
     return std::bit_cast<uint64_t>(value) == std::bit_cast<uint64_t>(t.rows[row][k]);
   };
   bool same = is_in(e.along_m, simd::kTouchAlong) && is_in(e.gap_m, simd::kTouchGap) &&
-              is_in(e.depth_m, simd::kTouchDepth);
+              is_in(e.depth_m, simd::kTouchDepth) && is_in(look.open_m, simd::kTouchOpen);
   for (size_t i = 0; i < 3; ++i) {
     same = same && is_in(e.axis[i], simd::kTouchAxis + i) && is_in(e.normal[i], simd::kTouchNormal + i) &&
-           is_in(e.move[i], simd::kTouchMove + i);
+           is_in(e.move[i], simd::kTouchMove + i) && is_in(look.slip_m[i], simd::kTouchSlip + i);
   }
   return same;
 }
@@ -90,7 +106,7 @@ void compare(const simd::Kernels& kernels, test::LaneScene& scene, const Sweep& 
       const Expected e = expected(scene.sweep(i, k), obstacle, round);
       const bool touch = e.touches && (asked >> k & 1);
       found->wrong += (one || other) != touch || (touch && one != e.ordinary);
-      found->differ += one && !same_bits(e, touches, k);
+      found->differ += one && !same_bits(e, looked(scene, i, k, e), touches, k);
       found->ordinary += one, found->other += other, found->none += !touch;
     }
   }
