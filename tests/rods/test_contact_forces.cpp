@@ -402,6 +402,16 @@ TEST_CASE("what_begins_clear_of_a_wall_is_held_by_it_where_its_root_pulls_it_the
   }
 }
 
+TEST_CASE("a_rod_just_above_a_floor_that_another_is_thrown_onto_is_held_by_the_floor_in_the_same_step") {
+  test::RodSettings settings;
+  settings.gravity_m_s2[1] = 0;
+  test::RodBatch batch = test::batch_of({test::lying_rod(0.0105), test::crossing_rod(0.5, 0.0315)}, settings);
+  test::throw_rod(batch, 1, 0, -3, 0);
+  rods::RodCollider collider = on_floor(batch);
+  test::step(batch, collider);
+  for (uint32_t i = 0; i < 10; ++i) CHECK(batch.pose(0, i).position_m[1] > 0.01 * (1 - kDeepest));
+}
+
 TEST_CASE("given_contact_points_hold_a_rod_for_the_coming_step_alone") {
   const test::Segments rod = test::lying_rod(0.5);
   test::RodBatch batch = test::batch_of({rod});
