@@ -42,7 +42,7 @@ struct ReachGroup {
   HWY_INLINE void set_box(size_t side, V value) const {
     hn::Store(value, D(), job.boxes + side * kWidth + first);
   }
-  // Metres as they are for each strand, in its units. A division is as slow as all the rest.
+  // Metres as they are for each strand, in its units.
   template <class Metres>
   HWY_INLINE Three<V> in_units(const Metres& metres) const {
     HWY_ALIGN float out[3][kWidth];
