@@ -20,9 +20,9 @@ const Sweep& ContactFinder::sweep(uint32_t strand, uint32_t segment) const {
 }
 
 simd::RodReachJob ContactFinder::reach_job(uint32_t group) const {
-  const size_t w = batch.width_, segments = batch.segment_count_, g = group - to.first_home_;
+  const size_t w = batch.width_, segments = batch.segment_count_, g = place_of(group);
   return {.records = &batch.records_[group * segments * simd::kRodKeptFields * w],
-          .scratch = to.scratch(group),
+          .scratch = to.scratch(static_cast<uint32_t>(g)),
           .radii_m = batch.radii_m_ + group * segments * w,
           .length_m = to.lengths_m_ + g * w,
           .origin_m = to.origins_m_ + g * 3 * w,
@@ -34,7 +34,7 @@ simd::RodReachJob ContactFinder::reach_job(uint32_t group) const {
 
 // Lanes without a strand repeat the first one's, as the batch's records do.
 void ContactFinder::place_lanes(uint32_t group) const {
-  const size_t w = batch.width_, g = group - to.first_home_;
+  const size_t w = batch.width_, g = place_of(group);
   for (size_t k = 0; k < w; ++k) {
     const size_t strand = group * w + k < batch.strand_count_ ? group * w + k : 0;
     const RodBatch::Units& units = batch.units_[strand];

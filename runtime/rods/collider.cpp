@@ -114,7 +114,8 @@ struct ColliderBuilder {
     to.moved_ = arena.take<uint8_t>(to.strand_count_);
     to.scratch_ = arena.take<float>(placed * simd::kRodScratchRows);
     to.ranges_ = arena.take<RodCollider::Range>(home);
-    to.seats_ = arena.take<uint32_t>(size_t{home} * to.width_);
+    to.homes_ = arena.take<uint32_t>(home);
+    to.seats_ = arena.take<uint32_t>(to.strand_count_);
     to.going_strands_ = arena.take<uint32_t>(size_t{home} * to.width_);
     to.going_contacts_ = arena.take<uint32_t>(to.capacity_);
     to.packed_records_ = arena.take<float>((placed - segments) * simd::kRodKeptFields);
@@ -240,28 +241,39 @@ void RodCollider::begin_step() noexcept {
   contacts_before_ = new_kept_count_ = dropped_ = hit_count_ = bad_hits_ = 0;
 }
 
-void RodCollider::begin_groups(uint32_t first_group) noexcept {
-  first_home_ = first_group;
+void RodCollider::begin_groups() noexcept {
+  place_count_ = range_count_ = 0;
   contact_count_ = packed_count_ = going_strand_count_ = going_contact_count_ = 0;
 }
 
-void RodCollider::begin_range(const RodBatch& batch, uint32_t first_group, uint32_t groups,
-                              float dt_s) noexcept {
+void RodCollider::open_range(uint32_t first_group) noexcept {
+  range_ = {first_group,    groups_of_range(), place_count_, contact_count_,
+            contact_count_, hit_count_,        hit_count_};
+  for (uint32_t k = 0; k < range_.groups; ++k) homes_[place_count_++] = first_group + k;
+  const uint32_t first = first_group * width_, seat = range_.first_place * width_;
+  std::iota(seats_ + first, seats_ + std::min(first + range_.groups * width_, strand_count_), seat);
+}
+
+void RodCollider::begin_range(const RodBatch& batch, float dt_s) noexcept {
   // Rows are of the range before.
   ContactForces{*this, batch}.clear();
-  const uint32_t first_seat = (first_group - first_home_) * width_;
-  std::iota(seats_ + first_seat, seats_ + first_seat + groups * width_, first_seat);
-  range_ = {first_group, groups, contact_count_, contact_count_, hit_count_, hit_count_};
   ContactFinder{*this, batch, static_cast<double>(dt_s)}.find();
   range_.end_contact = contact_count_, range_.end_hit = hit_count_;
-  ranges_[first_group - first_home_] = range_;
+  ranges_[range_count_++] = range_;
   ContactForces{*this, batch}.begin();
   assemble(batch);
 }
 
-void RodCollider::join_ranges(uint32_t groups) noexcept {
-  const Range& first = ranges_[0];
-  range_ = {first.first_group, groups, first.first_contact, contact_count_, first.first_hit, hit_count_};
+// Of the range that began last, which has ended.
+void RodCollider::give_back(const Range& range) noexcept {
+  place_count_ = range.first_place, contact_count_ = range.first_contact;
+  for (uint32_t i = range.first_hit; i < range.end_hit; ++i) taken_[i].contact = kNoContact;
+  --range_count_;
+}
+
+void RodCollider::join_ranges() noexcept {
+  range_ = ranges_[0];
+  range_.groups = place_count_, range_.end_contact = contact_count_, range_.end_hit = hit_count_;
   first_going_strand_ = first_going_contact_ = 0;
 }
 
@@ -271,17 +283,21 @@ uint32_t RodCollider::settle(const RodBatch& batch, uint32_t left) noexcept {
   return ContactForces{*this, batch}.settle(left);
 }
 
-void RodCollider::end_range(const RodBatch& batch, uint32_t first_group, float dt_s,
+void RodCollider::end_range(const RodBatch& batch, const Range& range, float dt_s,
                             RodReport* report) noexcept {
-  range_ = ranges_[first_group - first_home_];
+  range_ = range;
   const ContactFinder finder{*this, batch, static_cast<double>(dt_s)};
   const ContactForces forces{*this, batch};
   forces.forgive();
-  const uint32_t first = first_group * width_;
+  const uint32_t first = range_.first_group * width_;
   std::fill_n(carries_ + first, std::min(range_.groups * width_, strand_count_ - first), Vector{});
   for (int k = 0; k < kMostHolds && finder.find_holds(k > 0); ++k) forces.hold();
   forces.place_hits();
   report->contacts_unconverged += forces.end();
+  end_contacts(dt_s, report);
+  if (batch.settings_.report_residual) {
+    report->residual = std::max(report->residual, static_cast<float>(forces.miss()));
+  }
 }
 
 const RodCollider::Kept* RodCollider::find_kept(uint64_t name) noexcept {
@@ -325,18 +341,15 @@ void RodCollider::keep_force(const Contact& c, double per_square) noexcept {
   if (c.force > 0 && !lost) new_kept_[new_kept_count_++] = kept_of(c, per_square);
 }
 
-void RodCollider::end_groups(const RodBatch& batch, float dt_s, RodReport* report) noexcept {
+void RodCollider::end_contacts(float dt_s, RodReport* report) noexcept {
   const double per_square = 1 / (static_cast<double>(dt_s) * static_cast<double>(dt_s));
-  for (uint32_t i = 0; i < contact_count_; ++i) {
+  for (uint32_t i = range_.first_contact; i < range_.end_contact; ++i) {
     const Contact& c = contacts_[i];
     const double deep = -(c.open_m + c.allowed_m) / c.scale_m;
     report->deepest_penetration = std::max(report->deepest_penetration, static_cast<float>(deep));
     keep_force(c, per_square);
   }
-  if (batch.settings_.report_residual) {
-    report->residual = std::max(report->residual, static_cast<float>(ContactForces{*this, batch}.miss()));
-  }
-  contacts_before_ += contact_count_;
+  contacts_before_ += range_.end_contact - range_.first_contact;
 }
 
 void RodCollider::end_step(float dt_s, RodReport* report) noexcept {

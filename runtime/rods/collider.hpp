@@ -122,14 +122,15 @@ class RodCollider {
   };
   // What became of a source's hit.
   struct Taken {
-    uint32_t contact;  // kNoContact: left out
+    uint32_t contact;  // kNoContact: left out, or its strand has ended
     Vector felt;       // force on the rod in the last iteration, times the step's square
     Vector point_m;    // of the rod's surface, at the step's end
   };
   static constexpr uint32_t kNoContact = ~0u;
-  // Strands that are looked at together, and what they touch.
+  // Groups that are looked at together, one behind the other in the batch and in their places; and what they
+  // touch. Joined ranges' groups are one behind the other in their places alone.
   struct Range {
-    uint32_t first_group, groups;
+    uint32_t first_group, groups, first_place;
     uint32_t first_contact, end_contact, first_hit, end_hit;
   };
 
@@ -147,31 +148,32 @@ class RodCollider {
   bool passes(uint32_t strand, uint32_t segment, uint32_t capsule) const noexcept {
     return capsule < 64 && (passed_[size_t{strand} * segment_count_ + segment] >> capsule & 1) != 0;
   }
-  // Groups that are stepped together, and of these groups whose contacts are found together.
-  uint32_t groups_at_once() const noexcept { return home_groups_; }
+  // Groups whose contacts are found together.
   uint32_t groups_of_range() const noexcept { return settings_.rods_collide ? home_groups_ : 1; }
-  // The parts of a step. Ranges of what is stepped together begin one after the other, are joined after their
-  // first iteration, and end one after the other.
+  bool has_place() const noexcept { return place_count_ + groups_of_range() <= home_groups_; }
+  // The parts of a step. Ranges begin one after the other, each in places of its own. One that has ended
+  // before the next begins gives its places back; the others are joined, and end one after the other.
   void begin_step() noexcept;
-  void begin_groups(uint32_t first_group) noexcept;
-  void begin_range(const RodBatch& batch, uint32_t first_group, uint32_t groups, float dt_s) noexcept;
-  void join_ranges(uint32_t groups) noexcept;
+  void begin_groups() noexcept;
+  void open_range(uint32_t first_group) noexcept;
+  void begin_range(const RodBatch& batch, float dt_s) noexcept;
+  void give_back(const Range& range) noexcept;
+  void join_ranges() noexcept;
   // Before each iteration.
   void assemble(const RodBatch& batch) noexcept;
   // After each; `left`: iterations that may follow. Returns how many strands are not converged.
   uint32_t settle(const RodBatch& batch, uint32_t left) noexcept;
-  void end_range(const RodBatch& batch, uint32_t first_group, float dt_s, RodReport* report) noexcept;
-  // Of what was stepped together, behind its last range.
-  void end_groups(const RodBatch& batch, float dt_s, RodReport* report) noexcept;
+  void end_range(const RodBatch& batch, const Range& range, float dt_s, RodReport* report) noexcept;
+  void end_contacts(float dt_s, RodReport* report) noexcept;
   void end_step(float dt_s, RodReport* report) noexcept;
   void push(float dt_s) const noexcept;
-  float* scratch(uint32_t group) const noexcept;
+  float* scratch(uint32_t place) const noexcept;
   // Where a strand's iterate is: a lane of its own group or, while others of that one rest, of one that is
   // packed.
-  uint32_t& seat(uint32_t strand) const noexcept;
+  uint32_t& seat(uint32_t strand) const noexcept { return seats_[strand]; }
   // Of one lane; rows are width_ apart.
   float* scratch_row(const RodBatch& batch, uint32_t strand, uint32_t segment, uint32_t field) const noexcept;
-  // Contacts' rows; of groups counted from the first of those that are stepped together.
+  // Contacts' rows.
   void give(simd::RodJob* job, uint32_t place) const noexcept;
   simd::RodJob packed_job(simd::RodJob job, uint32_t place) const noexcept;
 
@@ -196,13 +198,15 @@ class RodCollider {
   uint32_t* kept_places_ = nullptr;
   uint32_t kept_count_ = 0, kept_in_use_ = 1, kept_next_ = 0;  // the last: behind what was found last
   Range range_ = {};
-  Range* ranges_ = nullptr;  // [home_groups_] by their first group
-  // Groups that are stepped together, the first of them, and those behind them that their strands are packed
-  // into. What follows is of the former; scratch and rows are of the latter too.
-  uint32_t home_groups_ = 0, first_home_ = 0, packed_groups_ = 0, packed_count_ = 0;
-  uint32_t* seats_ = nullptr;        // [strands] group and lane
-  float* packed_records_ = nullptr;  // [packed_groups_], as a batch's
-  float* packed_lanes_ = nullptr;    // alike
+  Range* ranges_ = nullptr;  // [home_groups_]
+  // Places of groups that are stepped together, and those behind them that their strands are packed into.
+  // What follows by groups is by places of the former; scratch and rows are of the latter too.
+  uint32_t home_groups_ = 0, packed_groups_ = 0, packed_count_ = 0;
+  uint32_t place_count_ = 0, range_count_ = 0;  // taken
+  uint32_t* homes_ = nullptr;                   // [home_groups_] the group in a place
+  uint32_t* seats_ = nullptr;                   // [strands] place and lane
+  float* packed_records_ = nullptr;             // [packed_groups_], as a batch's
+  float* packed_lanes_ = nullptr;               // alike
   // Of the range, strands that go on and contacts of such strands, but for those that no iteration got near;
   // before these, of the ranges before it.
   uint32_t* going_strands_ = nullptr;   // [home_groups_][width]

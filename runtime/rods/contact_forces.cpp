@@ -260,8 +260,7 @@ uint32_t ContactForces::end() const noexcept {
 
 double ContactForces::miss() const noexcept {
   double largest = 0;
-  for (uint32_t i = 0; i < to.contact_count_; ++i) {
-    const Contact& c = to.contacts_[i];
+  for (const Contact& c : contacts()) {
     const ContactForce f = forces_of(c);
     const double off = std::max(std::fabs(f.press - c.force), length(difference(f.drag, c.drag))) / c.gain_kg;
     largest = std::max(largest, off / static_cast<double>(batch.units_[c.sides[0].strand].length_m));

@@ -29,7 +29,7 @@ struct ContactForces {
   // After the last: kLaneActive is again what the rods themselves said. Returns how many strands are not
   // converged by their contacts.
   uint32_t end() const noexcept;
-  // Of all that was stepped together, what gap and slip miss by while their force stays: 0 where C = 0 or
+  // Of the range, what gap and slip miss by while their force stays: 0 where C = 0 or
   // p = 0, and s = 0 or |t| = friction p. In mean segment lengths of the first side's strand.
   double miss() const noexcept;
 
@@ -43,7 +43,7 @@ struct ContactForces {
     const uint32_t at = to.seat(strand), place = batch.group_of(at);
     const bool packed = place >= to.home_groups_;
     float* lanes = packed ? to.packed_lanes_ : batch.lanes_;
-    const size_t group = packed ? place - to.home_groups_ : to.first_home_ + place;
+    const size_t group = packed ? place - to.home_groups_ : to.homes_[place];
     return lanes[(group * simd::kLaneFields + field) * batch.width_ + batch.lane_of(at)];
   }
   float& active(uint32_t strand) const { return lane(strand, simd::kLaneActive); }

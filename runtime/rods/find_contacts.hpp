@@ -50,10 +50,11 @@ struct ContactFinder {
   uint32_t first_strand() const { return to.range_.first_group * batch.width_; }
   uint32_t end_strand() const;
   size_t local(uint32_t strand, uint32_t segment) const {
-    return size_t{strand - to.first_home_ * batch.width_} * batch.segment_count_ + segment;
+    return size_t{to.seat(strand)} * batch.segment_count_ + segment;
   }
   uint32_t strand_of(uint32_t local) const {
-    return to.first_home_ * batch.width_ + local / batch.segment_count_;
+    const uint32_t seat = local / batch.segment_count_;
+    return to.homes_[batch.group_of(seat)] * batch.width_ + batch.lane_of(seat);
   }
   bool free(uint32_t strand, uint32_t segment) const;
   double mass_kg(uint32_t strand, uint32_t segment) const;
@@ -62,6 +63,7 @@ struct ContactFinder {
   void add_sweep(uint32_t strand, uint32_t segment) const;
   const Sweep& sweep(uint32_t strand, uint32_t segment) const;
   void find_reaches() const;
+  size_t place_of(uint32_t group) const { return to.range_.first_place + group - to.range_.first_group; }
   simd::RodReachJob reach_job(uint32_t group) const;
   void place_lanes(uint32_t group) const;
   // Into near_lanes_, of one group; false: none.

@@ -31,13 +31,22 @@ struct StrandPacker::Moves {
   }
 };
 
+template <class Each>
+void StrandPacker::for_each_strand(const Each& each) const {
+  const RodCollider::Range& range = to.range_;
+  for (uint32_t place = range.first_place; place < range.first_place + range.groups; ++place) {
+    const uint32_t first = to.homes_[place] * kLanes, end = std::min(first + kLanes, batch.strand_count_);
+    for (uint32_t s = first; s < end; ++s) each(s, place * kLanes + s - first);
+  }
+}
+
 simd::RodJob StrandPacker::job(uint32_t place) const {
   simd::RodJob job = {};
   job.segments = batch.segment_count_;
   if (place >= to.home_groups_) return to.packed_job(job, place - to.home_groups_);
-  const size_t group = to.first_home_ + place;
+  const size_t group = to.homes_[place];
   job.records = batch.records_ + group * job.segments * simd::kRodKeptFields * kLanes;
-  job.scratch = to.scratch(to.first_home_ + place);
+  job.scratch = to.scratch(place);
   job.lanes = batch.lanes_ + group * simd::kLaneFields * kLanes;
   return job;
 }
@@ -45,11 +54,11 @@ simd::RodJob StrandPacker::job(uint32_t place) const {
 // All that are packed, or those that do not go on.
 void StrandPacker::go_home(bool all) const {
   Moves moves = {*this, true};
-  for (uint32_t s = first_strand(); s < end_strand(); ++s) {
-    if (!packed(s) || (!all && goes_on(s))) continue;
-    moves.add(to.seat(s), home(s));
-    to.seat(s) = home(s);
-  }
+  for_each_strand([&](uint32_t s, uint32_t home) {
+    if (!packed(s) || (!all && goes_on(s))) return;
+    moves.add(to.seat(s), home);
+    to.seat(s) = home;
+  });
   moves.end();
 }
 
@@ -58,18 +67,18 @@ void StrandPacker::take_seats(uint32_t from) const {
   const uint32_t first = to.home_groups_ * kLanes, end = first + to.packed_groups_ * kLanes;
   uint32_t seat = first + from;
   Moves moves = {*this, false};
-  for (uint32_t s = first_strand(); s < end_strand() && seat < end; ++s) {
-    if (!goes_on(s)) continue;
+  for_each_strand([&](uint32_t s, uint32_t) {
+    if (!goes_on(s) || seat == end) return;
     if (to.seat(s) != seat) moves.add(to.seat(s), seat);
     to.seat(s) = seat++;
-  }
+  });
   moves.end();
   to.packed_count_ = seat - first;
   const uint32_t whole = (seat + kLanes - 1) / kLanes * kLanes;
   for (; seat < whole; ++seat) rest(seat);
-  for (uint32_t s = first_strand(); s < end_strand(); ++s) {
-    if (packed(s)) rest(home(s));
-  }
+  for_each_strand([this](uint32_t s, uint32_t home) {
+    if (packed(s)) rest(home);
+  });
 }
 
 void StrandPacker::rest(uint32_t seat) const {
@@ -83,11 +92,11 @@ void StrandPacker::add() const noexcept {
 // Of eight lanes, with one that goes on.
 uint32_t StrandPacker::vectors() const {
   uint32_t count = 0, last = ~0u;
-  for (uint32_t s = first_strand(); s < end_strand(); ++s) {
-    if (!goes_on(s) || to.seat(s) / kVector == last) continue;
+  for_each_strand([&](uint32_t s, uint32_t) {
+    if (!goes_on(s) || to.seat(s) / kVector == last) return;
     last = to.seat(s) / kVector;
     ++count;
-  }
+  });
   return count;
 }
 
@@ -106,7 +115,7 @@ void StrandPacker::unpack() const noexcept {
 
 simd::RodJob RodCollider::packed_job(simd::RodJob job, uint32_t k) const noexcept {
   job.records = packed_records_ + size_t{k} * segment_count_ * simd::kRodKeptFields * width_;
-  job.scratch = scratch(first_home_ + home_groups_ + k);
+  job.scratch = scratch(home_groups_ + k);
   job.lanes = packed_lanes_ + size_t{k} * simd::kLaneFields * width_;
   give(&job, home_groups_ + k);
   return job;

@@ -86,7 +86,6 @@ void ContactForces::place_hits() const noexcept {
 
 void RodCollider::push(float dt_s) const noexcept {
   for (uint32_t i = 0; i < hit_count_; ++i) {
-    if (taken_[i].contact == kNoContact) continue;
     const Vector impulse = scaled(-1 / static_cast<double>(dt_s), taken_[i].felt);
     if (!(dot(impulse, impulse) > 0) || !finite(impulse) || !finite(taken_[i].point_m)) continue;
     const Vector& p = taken_[i].point_m;

@@ -223,19 +223,19 @@ class RodBatch {
   Status check_place(uint32_t strand, uint32_t segment) const noexcept;
   Status check_simulated(uint32_t strand, uint32_t segment, const char* what) const noexcept;
   bool held(uint32_t strand, uint32_t segment) const noexcept;
-  simd::RodJob group_job(uint32_t group, float dt_s, const RodCollider* collider) const noexcept;
+  uint32_t group_count() const noexcept { return (strand_count_ + width_ - 1) / width_; }
+  simd::RodJob group_job(uint32_t group, float dt_s, float* scratch) const noexcept;
+  // Of the group in one of the collider's places.
+  simd::RodJob home_job(uint32_t place, float dt_s, const RodCollider& collider) const noexcept;
   void begin_group(uint32_t group, const simd::RodJob& job) const noexcept;
   uint32_t iterate(const simd::RodJob& job) const noexcept;
-  uint32_t iterate(uint32_t first_group, uint32_t groups, float dt_s,
-                   const RodCollider* collider) const noexcept;
-  uint32_t begin_range(uint32_t first_group, uint32_t groups, float dt_s, RodCollider* collider,
-                       uint32_t left) const noexcept;
-  uint32_t go_on(uint32_t first_group, uint32_t groups, float dt_s, RodCollider* collider, uint32_t active,
-                 uint32_t left) const noexcept;
-  void end_range(uint32_t first_group, uint32_t groups, float dt_s, RodCollider* collider,
+  void iterate_homes(float dt_s, const RodCollider& collider) const noexcept;
+  uint32_t begin_range(uint32_t first_group, float dt_s, RodCollider* collider, uint32_t left) const noexcept;
+  uint32_t go_on(float dt_s, RodCollider* collider, uint32_t active, uint32_t left) const noexcept;
+  void end_range(const RodCollider::Range& range, float dt_s, RodCollider* collider,
                  RodReport* report) noexcept;
-  void step_groups(uint32_t first_group, uint32_t groups, float dt_s, RodCollider* collider,
-                   RodReport* report) noexcept;
+  void step_alone(uint32_t group, float dt_s, RodReport* report) noexcept;
+  uint32_t step_together(uint32_t group, float dt_s, RodCollider* collider, RodReport* report) noexcept;
   void end_group(uint32_t group, const simd::RodJob& job, RodReport* report) noexcept;
   bool has_history() const noexcept { return settings_.start >= RodStart::kContinued; }
   bool has_inputs() const noexcept {
@@ -286,12 +286,8 @@ class RodBatch {
   uint32_t strand_count_ = 0, segment_count_ = 0, width_ = 0, teleported_ = 0, newest_ = 0;
 };
 
-inline float* RodCollider::scratch(uint32_t group) const noexcept {
-  return scratch_ + size_t{group - first_home_} * segment_count_ * simd::kRodScratchRows * width_;
-}
-
-inline uint32_t& RodCollider::seat(uint32_t strand) const noexcept {
-  return seats_[strand - first_home_ * width_];
+inline float* RodCollider::scratch(uint32_t place) const noexcept {
+  return scratch_ + size_t{place} * segment_count_ * simd::kRodScratchRows * width_;
 }
 
 inline float* RodCollider::scratch_row(const RodBatch& batch, uint32_t strand, uint32_t segment,

@@ -52,7 +52,7 @@ void RodBatch::tell_fixed_inputs() noexcept {
     std::fill_n(to, width_, place[row % segment_count_] * per);
   }
   for (uint32_t group = 0; encodings_ && group < groups; ++group) {
-    const simd::RodJob job = group_job(group, 1, nullptr);
+    const simd::RodJob job = group_job(group, 1, scratch_);
     float* joints = scratch_;
     for (uint32_t i = 1; i < segment_count_; ++i) {
       for (uint32_t lane = 0; lane < width_; ++lane) {

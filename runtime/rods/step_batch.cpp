@@ -24,9 +24,9 @@ Iteration iteration(const simd::RodCalls& calls, RodSolver solver) {
 
 }  // namespace
 
-simd::RodJob RodBatch::group_job(uint32_t group, float dt_s, const RodCollider* collider) const noexcept {
+simd::RodJob RodBatch::group_job(uint32_t group, float dt_s, float* scratch) const noexcept {
   return {.records = records_ + size_t{group} * segment_count_ * simd::kRodKeptFields * width_,
-          .scratch = collider ? collider->scratch(group) : scratch_,
+          .scratch = scratch,
           .work = work_,
           .lanes = lanes_ + size_t{group} * simd::kLaneFields * width_,
           .parents = slot_parents_,
@@ -37,6 +37,12 @@ simd::RodJob RodBatch::group_job(uint32_t group, float dt_s, const RodCollider* 
           .cg_tolerance = settings_.cg_tolerance,
           .cg_iterations = settings_.cg_max_iterations,
           .local_sweeps = settings_.local_sweeps};
+}
+
+simd::RodJob RodBatch::home_job(uint32_t place, float dt_s, const RodCollider& collider) const noexcept {
+  simd::RodJob job = group_job(collider.homes_[place], dt_s, collider.scratch(place));
+  collider.give(&job, place);
+  return job;
 }
 
 void RodBatch::begin_group(uint32_t group, const simd::RodJob& job) const noexcept {
@@ -56,37 +62,32 @@ uint32_t RodBatch::iterate(const simd::RodJob& job) const noexcept {
   return any ? iteration(calls(width_), settings_.solver)(job) : 0;
 }
 
-uint32_t RodBatch::iterate(uint32_t first_group, uint32_t groups, float dt_s,
-                           const RodCollider* collider) const noexcept {
-  uint32_t active = 0;
-  for (uint32_t g = first_group; g < first_group + groups; ++g) {
-    simd::RodJob job = group_job(g, dt_s, collider);
-    if (collider) collider->give(&job, g - collider->first_home_);
-    active += iterate(job);
-  }
-  return active;
+void RodBatch::iterate_homes(float dt_s, const RodCollider& collider) const noexcept {
+  const RodCollider::Range& range = collider.range_;
+  for (uint32_t k = 0; k < range.groups; ++k) iterate(home_job(range.first_place + k, dt_s, collider));
 }
 
 // To behind the first iteration, which `left` may follow. Returns how many strands are not converged.
-uint32_t RodBatch::begin_range(uint32_t first_group, uint32_t groups, float dt_s, RodCollider* collider,
+uint32_t RodBatch::begin_range(uint32_t first_group, float dt_s, RodCollider* collider,
                                uint32_t left) const noexcept {
-  for (uint32_t g = first_group; g < first_group + groups; ++g) begin_group(g, group_job(g, dt_s, collider));
-  if (!collider) return iterate(first_group, groups, dt_s, collider);
-  collider->begin_range(*this, first_group, groups, dt_s);
-  iterate(first_group, groups, dt_s, collider);
+  collider->open_range(first_group);
+  const RodCollider::Range range = collider->range_;
+  for (uint32_t k = 0; k < range.groups; ++k) {
+    begin_group(first_group + k, group_job(first_group + k, dt_s, collider->scratch(range.first_place + k)));
+  }
+  collider->begin_range(*this, dt_s);
+  iterate_homes(dt_s, *collider);
   const uint32_t active = collider->settle(*this, left);
-  if (left > 0) StrandPacker{*collider, *this}.add();
+  if (active > 0 && left > 0) StrandPacker{*collider, *this}.add();
   return active;
 }
 
 // The next iteration of `active` strands; the same.
-uint32_t RodBatch::go_on(uint32_t first_group, uint32_t groups, float dt_s, RodCollider* collider,
-                         uint32_t active, uint32_t left) const noexcept {
-  if (!collider) return iterate(first_group, groups, dt_s, collider);
+uint32_t RodBatch::go_on(float dt_s, RodCollider* collider, uint32_t active, uint32_t left) const noexcept {
   StrandPacker{*collider, *this}.pack(active);
   collider->assemble(*this);
-  iterate(first_group, groups, dt_s, collider);
-  const simd::RodJob job = group_job(first_group, dt_s, collider);
+  iterate_homes(dt_s, *collider);
+  const simd::RodJob job = home_job(0, dt_s, *collider);
   for (uint32_t k = 0; k * width_ < collider->packed_count_; ++k) iterate(collider->packed_job(job, k));
   return collider->settle(*this, left);
 }
@@ -119,29 +120,43 @@ void RodBatch::end_group(uint32_t group, const simd::RodJob& job, RodReport* rep
   }
 }
 
-void RodBatch::end_range(uint32_t first_group, uint32_t groups, float dt_s, RodCollider* collider,
+void RodBatch::end_range(const RodCollider::Range& range, float dt_s, RodCollider* collider,
                          RodReport* report) noexcept {
-  if (collider) collider->end_range(*this, first_group, dt_s, report);
-  for (uint32_t g = first_group; g < first_group + groups; ++g) {
-    simd::RodJob job = group_job(g, dt_s, collider);
-    if (collider) collider->give(&job, g - collider->first_home_);
-    end_group(g, job, report);
+  collider->end_range(*this, range, dt_s, report);
+  for (uint32_t k = 0; k < range.groups; ++k) {
+    end_group(range.first_group + k, home_job(range.first_place + k, dt_s, *collider), report);
   }
 }
 
-void RodBatch::step_groups(uint32_t first_group, uint32_t groups, float dt_s, RodCollider* collider,
-                           RodReport* report) noexcept {
-  const uint32_t end = first_group + groups, in_range = collider ? collider->groups_of_range() : 1;
+void RodBatch::step_alone(uint32_t group, float dt_s, RodReport* report) noexcept {
+  const simd::RodJob job = group_job(group, dt_s, scratch_);
+  begin_group(group, job);
+  for (uint32_t left = settings_.max_iterations; left > 0 && iterate(job) > 0; --left) continue;
+  end_group(group, job, report);
+}
+
+// From a group on, until such as have strands that go on after the first iteration fill the collider's
+// places; what has none ends before the next begins, while the processor's nearer cache has it. Returns the
+// group behind them.
+uint32_t RodBatch::step_together(uint32_t group, float dt_s, RodCollider* collider,
+                                 RodReport* report) noexcept {
   uint32_t active = 0, left = settings_.max_iterations - 1;
-  if (collider) collider->begin_groups(first_group);
-  for (uint32_t g = first_group; g < end; g += in_range) {
-    active += begin_range(g, in_range, dt_s, collider, left);
+  collider->begin_groups();
+  while (group < group_count() && collider->has_place()) {
+    const uint32_t going = begin_range(group, dt_s, collider, left);
+    const RodCollider::Range range = collider->range_;
+    group += range.groups, active += going;
+    if (going > 0) continue;
+    end_range(range, dt_s, collider, report);
+    collider->give_back(range);
   }
-  if (collider) collider->join_ranges(groups);
-  while (active > 0 && left > 0) active = go_on(first_group, groups, dt_s, collider, active, --left);
-  if (collider) StrandPacker{*collider, *this}.unpack();
-  for (uint32_t g = first_group; g < end; g += in_range) end_range(g, in_range, dt_s, collider, report);
-  if (collider) collider->end_groups(*this, dt_s, report);
+  collider->join_ranges();
+  while (active > 0 && left > 0) active = go_on(dt_s, collider, active, --left);
+  StrandPacker{*collider, *this}.unpack();
+  for (uint32_t k = 0; k < collider->range_count_; ++k) {
+    end_range(collider->ranges_[k], dt_s, collider, report);
+  }
+  return group;
 }
 
 Status RodBatch::step(float dt_s, RodReport* report) noexcept { return step(dt_s, nullptr, report); }
@@ -167,11 +182,13 @@ Status RodBatch::step(float dt_s, RodCollider* collider, RodReport* report) noex
   RodReport made;
   made.teleported = teleported_;
   teleported_ = 0;
-  const uint32_t groups = (strand_count_ + width_ - 1) / width_;
-  const uint32_t at_once = collider ? collider->groups_at_once() : 1;
   if (collider) collider->begin_step();
-  for (uint32_t g = 0; g < groups; g += at_once) {
-    step_groups(g, std::min(at_once, groups - g), dt_s, collider, &made);
+  for (uint32_t g = 0; g < group_count();) {
+    if (!collider) {
+      step_alone(g++, dt_s, &made);
+    } else {
+      g = step_together(g, dt_s, collider, &made);
+    }
   }
   if (collider) collider->end_step(dt_s, &made);
   newest_ = (newest_ + 1) % simd::kRodStartAges;

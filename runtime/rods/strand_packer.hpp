@@ -26,15 +26,13 @@ struct StrandPacker {
 
   bool packed(uint32_t strand) const { return batch.group_of(to.seat(strand)) >= to.home_groups_; }
   bool goes_on(uint32_t strand) const { return (to.turning_[strand] | to.pending_[strand]) != 0; }
-  uint32_t first_strand() const { return to.range_.first_group * batch.width_; }
-  uint32_t end_strand() const {
-    return std::min(batch.strand_count_, first_strand() + to.range_.groups * batch.width_);
-  }
+  // each(strand, its seat in its own group) of the range, in order.
+  template <class Each>
+  void for_each_strand(const Each& each) const;
   simd::RodJob job(uint32_t place) const;
   void go_home(bool all) const;
   void take_seats(uint32_t from) const;
   void rest(uint32_t seat) const;
-  uint32_t home(uint32_t strand) const { return strand - to.first_home_ * batch.width_; }
   uint32_t vectors() const;
 };
 

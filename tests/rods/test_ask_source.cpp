@@ -191,6 +191,41 @@ TEST_CASE("what_a_source_is_pushed_with_is_minus_what_the_rods_felt") {
   CHECK(floor.highest_m < 0.001);
 }
 
+// Groups whose strands have all converged give their places to what comes next: twelve where eight at a time
+// go on, half of them lying still while the other half is thrown down beside them.
+TEST_CASE("what_strands_come_to_and_push_does_not_depend_on_which_groups_end_before_theirs") {
+  constexpr uint32_t kGroups = 12, kWidth = 16, kStrands = kGroups * kWidth;
+  const auto is_thrown = [](uint32_t group, bool in_turn) {
+    return in_turn ? group % 2 == 1 : group >= kGroups / 2;
+  };
+  std::vector<rods::Vector> ends[2];
+  rods::Vector pushed[2];
+  for (const bool in_turn : {false, true}) {
+    std::vector<test::Segments> rods;
+    for (uint32_t s = 0; s < kStrands; ++s) {
+      rods.push_back(test::lying_rod(is_thrown(s / kWidth, in_turn) ? 0.1 + 1e-3 * (s % kWidth) : 0.01));
+    }
+    Run run = run_of(rods, {}, {.rods_collide = false, .source_capacity = 32 * kStrands});
+    test::FloorSource floor(0.4f, {});
+    REQUIRE(run.collider.set_source(&floor).ok());
+    for (uint32_t s = 0; s < kStrands; ++s) {
+      if (is_thrown(s / kWidth, in_turn)) test::throw_rod(run.batch, s, 0.2f, -2, 0.1f);
+    }
+    for (int i = 0; i < 8; ++i) test::step(run.batch, run.collider);
+    for (const bool thrown : {false, true}) {
+      for (uint32_t s = 0; s < kStrands; ++s) {
+        if (is_thrown(s / kWidth, in_turn) == thrown) {
+          ends[in_turn].push_back(test::end_of(run.batch, rods[s], 9));
+        }
+      }
+    }
+    pushed[in_turn] = floor.pushed;
+  }
+  CHECK(ends[0] == ends[1]);  // to the bit
+  // Added up in another order.
+  CHECK(test::distance(pushed[0], pushed[1]) < 1e-6 * rods::length(pushed[0]));
+}
+
 // Of forces that did not settle no more is handed on than what moved the strand.
 TEST_CASE("a_strand_that_does_not_converge_pushes_no_more_than_it_was_moved") {
   Run run = run_of({test::crossing_rod(0.5, 0.1)}, {.max_iterations = 2, .gravity_m_s2 = {0, 0, 0}});
