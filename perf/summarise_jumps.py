@@ -9,6 +9,7 @@ import sys
 from summarise import HERE, file_name, processor, put_between, table
 
 MEASURES = ("beyond_both_percent", "at_once_percent")
+BEYOND_ALL = "beyond_all_percent"
 LEFT = "extrapolate"  # what left alone is changed to
 
 
@@ -53,12 +54,14 @@ def lines_of(rows):
 
 def summary(rows):
     """For each clip the largest of what the scheduler may choose, beside how far a tier itself moves a vertex in a frame."""
-    heads = ["clip", "a tier itself moves a vertex in a frame by up to, %", "measure", *kinds(rows), "with rates that are not bought"]
+    beyond = "coming back, beyond the tier before too"
+    heads = ["clip", "a tier itself moves a vertex in a frame by up to, %", "measure", *kinds(rows), beyond, "with rates that are not bought"]
     lines = []
     for clip in clips(rows):
         of = of_clip(rows, clip)
         for label, measure in (("beyond both", MEASURES[0]), ("at once", MEASURES[1])):
             cells = [told(kind, measure) for kind in kinds(of).values()]
+            cells.append(told(kinds(of)["coming back"], BEYOND_ALL) if measure == MEASURES[0] else "")
             cells.append(told([row for row in of if row["chosen"] == "0"], measure))
             lines.append([clip, of[0]["own_step_percent"], label] + cells)
     return table(heads, lines)

@@ -75,10 +75,10 @@ struct Table {
       const Jump jump = largest_jump(player, stays, runs[w], ways[w]);
       const bool is_chosen = ways[w].every == 1 && left.every == 1;
       const double percent = 100 / player.height_m();
-      std::printf("%s,\"%s\",%s,%d,%.3f,%.4f,%.3f,%.4f,%.3f,%zu,%zu\n", clip.c_str(), from.c_str(),
+      std::printf("%s,\"%s\",%s,%d,%.3f,%.4f,%.3f,%.4f,%.4f,%.3f,%zu,%zu\n", clip.c_str(), from.c_str(),
                   name_of(player.asset(), ways[w]).c_str(), is_chosen ? 1 : 0, 1e3 * jump.at_once_m,
-                  percent * jump.at_once_m, 1e3 * jump.beyond_m, percent * jump.beyond_m, percent * own_m,
-                  jump.change_tick, jump.after_ticks);
+                  percent * jump.at_once_m, 1e3 * jump.beyond_m, percent * jump.beyond_m,
+                  percent * jump.beyond_all_m, percent * own_m, jump.change_tick, jump.after_ticks);
     }
   }
 };
@@ -125,7 +125,8 @@ void run_all(const std::string& path, const std::string& clip, bool rates, size_
   if (clips.empty())
     throw std::runtime_error(path + ": no clip is called '" + clip + "'; sinew-bake info lists them");
   std::puts(
-      "clip,from,to,chosen,at_once_mm,at_once_percent,beyond_both_mm,beyond_both_percent,own_step_percent,"
+      "clip,from,to,chosen,at_once_mm,at_once_percent,beyond_both_mm,beyond_both_percent,beyond_all_percent,"
+      "own_step_percent,"
       "change_tick,after_ticks");
   for (const std::string& name : clips) run(character, name, rates, apart_ticks);
 }

@@ -29,7 +29,7 @@ std::vector<Steps> longest_steps(const std::vector<Surface>& frames, size_t firs
 
 // From what was seen, the last of it shown just before the change.
 Stay stay_of(JumpPlayer& player, const Way& left, std::vector<Surface> seen) {
-  Stay stay{.mark = player.mark(), .shown = seen.back(), .without = {}, .steps = {}};
+  Stay stay{.mark = player.mark(), .shown = seen.back(), .without = {}, .steps = {}, .had = {}};
   const size_t first = seen.size(), last = std::min(stay.mark.tick + kWatched, player.ticks());
   for (size_t tick = stay.mark.tick; tick < last; ++tick) {
     player.step(left);
@@ -86,7 +86,7 @@ std::vector<Stay> stays_in(const Run& run) {
       return std::vector(of.begin() + static_cast<ptrdiff_t>(first),
                          of.begin() + static_cast<ptrdiff_t>(last));
     };
-    out.push_back({run.marks[change], run.surfaces[first - 1], part(run.surfaces), part(run.steps)});
+    out.push_back({run.marks[change], run.surfaces[first - 1], part(run.surfaces), part(run.steps), {}});
   }
   return out;
 }
@@ -98,6 +98,8 @@ std::vector<Stay> stays_after(JumpPlayer& player, const Run& run, const Way& lef
     player.go_back(run.marks[change]);
     std::vector<Surface> seen = leave(player, run, run.marks[change].tick, left, ticks);
     out.push_back(stay_of(player, back, std::move(seen)));
+    const auto had = run.steps.begin() + static_cast<ptrdiff_t>(out.back().mark.tick);
+    out.back().had.assign(had, had + static_cast<ptrdiff_t>(out.back().steps.size()));
   }
   return out;
 }
@@ -115,6 +117,8 @@ Jump largest_jump(JumpPlayer& player, const std::vector<Stay>& from, const Run& 
         const double step = distance(seen[t], before, v), own = std::max(stay.steps[t][v], other[v]);
         if (step - own > jump.beyond_m)
           jump.beyond_m = step - own, jump.change_tick = stay.mark.tick, jump.after_ticks = t;
+        const double had = stay.had.empty() ? 0 : double{stay.had[t][v]};
+        jump.beyond_all_m = std::max(jump.beyond_all_m, step - std::max(own, had));
         if (t == 0) jump.at_once_m = std::max(jump.at_once_m, double{distance(seen[0], stay.without[0], v)});
       }
     }

@@ -29,6 +29,7 @@ TEST_CASE("every_pair_of_tiers_and_every_way_to_be_left_alone_is_told_once_a_cli
       // The coarse creature is 1 m high, as its recipe says; figures are rounded.
       CHECK(number(row, of + "_percent") == Approx(0.1 * number(row, of + "_mm")).epsilon(0.01).margin(1e-3));
     }
+    CHECK(number(row, "beyond_all_percent") <= number(row, "beyond_both_percent"));
   }
   const size_t simulated = 2, left_alone = 7;
   CHECK(changes.size() == 4);
