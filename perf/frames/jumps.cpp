@@ -2,12 +2,14 @@
 //
 // Along each of the character's clips, looped, every few ticks anew, an instance changes from what it has to
 // a tier: from every tier that may be bought, and from having been left alone, for some ticks, by
-// extrapolation, by skinning, or out of view. What is told of it: tier_change.hpp. The tier that is not
+// extrapolation, by skinning, or out of view, after the tier nearest to the truth and, for few ticks, after
+// the one that is furthest from it. What is told of it: tier_change.hpp. The tier that is not
 // simulated all along stands still.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <span>
 #include <stdexcept>
 
 #include "perf/frames/level_name.hpp"
@@ -39,15 +41,20 @@ struct Left {
   size_t ticks;
 };
 constexpr Way kExtrapolated{.tier = Tier::kExtrapolate}, kSkinned{}, kHidden{.hidden = true};
-// While what was shown is carried on, while it fades, and when it has. Skinning is had only where nothing is
-// left to carry on.
-constexpr Left kLeft[] = {{"extrapolate for 2", kExtrapolated, 2},
+// While it is caught up with, while what was shown is carried on, while it fades, and when it has. Skinning
+// is had only where nothing is left to carry on.
+constexpr Left kLeft[] = {{"extrapolate for 1", kExtrapolated, 1},
+                          {"extrapolate for 2", kExtrapolated, 2},
+                          {"extrapolate for 3", kExtrapolated, 3},
+                          {"extrapolate for 4", kExtrapolated, 4},
                           {"extrapolate for 9", kExtrapolated, 9},
                           {"extrapolate for 30", kExtrapolated, 30},
                           {"skinning for 30", kSkinned, 30},
                           {"hidden for 2", kHidden, 2},
                           {"hidden for 9", kHidden, 9},
                           {"hidden for 30", kHidden, 30}};
+
+constexpr size_t kFew = 4;  // of the first of these, after the worst tier too
 
 std::string name_of(const world::Asset& asset, const Way& way) {
   constexpr const char* kNames[] = {"skinning", "extrapolate", "network", "spring", "modal"};
@@ -83,12 +90,13 @@ struct Table {
   }
 };
 
-// Of those that are simulated the one nearest to the truth, which loses most by being left alone.
-size_t best_of(const world::Asset& asset, const std::vector<Way>& ways) {
-  size_t best = 0;
-  for (size_t w = 0; w < asset.point_count; ++w)
-    if (asset.points[w].error < asset.points[best].error) best = w;
-  return std::min(best, ways.size() - 1);
+// Of those that are baked the one nearest to the truth, which loses most by being left alone, and the one
+// furthest from it, which all others are finer than.
+size_t best_of(std::span<const frame::Level> points) {
+  return static_cast<size_t>(std::ranges::min_element(points, {}, &frame::Level::error) - points.begin());
+}
+size_t worst_of(std::span<const frame::Level> points) {
+  return static_cast<size_t>(std::ranges::max_element(points, {}, &frame::Level::error) - points.begin());
 }
 
 double farthest_step_m(const std::vector<Run>& runs) {
@@ -98,20 +106,31 @@ double farthest_step_m(const std::vector<Run>& runs) {
   return static_cast<double>(most);
 }
 
+void tell_left_alone(const Table& table) {
+  const world::Asset& asset = table.player.asset();
+  const std::span points(asset.points, asset.point_count);
+  const size_t best = best_of(points), worst = worst_of(points);
+  const auto tell = [&](const Left& left, const std::string& name, size_t before) {
+    table.tell(name, left.way.hidden ? kSkinned : left.way,
+               stays_after(table.player, table.runs[before], left.way, left.ticks));
+  };
+  for (const Left& left : kLeft) tell(left, left.name, best);
+  const std::string after = " after " + name_of(asset, table.ways[worst]);
+  for (const Left& left : std::span(kLeft).first(kFew)) tell(left, left.name + after, worst);
+}
+
 void run(const demo::CharacterFile& character, const std::string& clip, bool rates, size_t apart_ticks) {
   JumpPlayer player(character, clip, kSeconds);
   std::vector<Way> ways = simulated_ways(player.asset(), rates);
   if (ways.empty()) throw std::runtime_error("the pack has no tier that simulates");
-  const size_t simulated = ways.size(), best = best_of(player.asset(), ways);
+  const size_t simulated = ways.size();
   ways.push_back(kExtrapolated);
   std::vector<Run> runs;
   for (const Way& way : ways) runs.push_back(run_in(player, way, apart_ticks));
   const Table table{player, ways, runs, clip, farthest_step_m(runs)};
   for (size_t f = 0; f < simulated; ++f)
     table.tell(name_of(player.asset(), ways[f]), ways[f], stays_in(runs[f]));
-  for (const Left& left : kLeft)
-    table.tell(left.name, left.way.hidden ? kSkinned : left.way,
-               stays_after(player, runs[best], left.way, left.ticks));
+  tell_left_alone(table);
 }
 
 // Of all clips, or one.

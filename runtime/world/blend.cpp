@@ -49,9 +49,10 @@ void begin_tail(Instance& instance, float velocity_kept) noexcept {
 }
 
 // From what is shown. What was not simulated for a while is blended in; from rest there is nothing to blend:
-// zero is exact. Where the tail fades already it tells nothing of how flesh moves: what is blended in begins
-// where the tick would hold it at rest, and swings less than from there (world/simulate.cpp); after a pose
-// that only counts as held in the next tick again, for the first knows no acceleration.
+// zero is exact. What was left alone for longer than is caught up with tells nothing of how flesh moves: what
+// is blended in begins where the tick would hold it at rest, and swings less than from there
+// (world/simulate.cpp); after a pose that only counts as held in the next tick again, for the first knows no
+// acceleration.
 void begin_simulation(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   pose_at_start(instance);
@@ -63,7 +64,7 @@ void begin_simulation(Instance& instance) noexcept {
   state.clamped_ticks = 0;
   state.blend_ticks = state.untouched ? kBlendInTicks : 0.0f;
   state.lifted = 0;
-  const bool rests = state.tail_ticks > kCarryTicks && !state.untouched;
+  const bool rests = state.tail_ticks > kCaughtUpTicks && !state.untouched;
   state.from_shown = !rests && !state.untouched;
   state.rest_ticks = !rests ? 0 : state.dt_before_s > 0 ? 1 : 2;
 }

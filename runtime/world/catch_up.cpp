@@ -1,6 +1,8 @@
 // catch_up.cpp  see catch_up.hpp.
 #include "world/catch_up.hpp"
 
+#include <algorithm>
+
 #include "frame/scheduler.hpp"
 #include "world/blend.hpp"
 #include "world/rod_blend.hpp"
@@ -26,13 +28,12 @@ bool knows_poses(const Instance& instance) noexcept {
   return first_s >= -back_s - kRounding_s;
 }
 
-// On the level that it has, or on a coarser one, whose nodes keep what they had; springs are another law, and
-// what modes missed is not theirs to make up for.
+// On the level that it has, which a finer one waits for, or on a coarser one, whose nodes keep what they had;
+// springs are another law, and what modes missed is not theirs to make up for.
 bool may_go_on(const Instance& instance) noexcept {
   const InstanceState& state = *instance.state;
   const InstancePlan& plan = instance.plan;
-  if (plan.level == state.level) return true;
-  return plan.level > state.level && plan.tier != Tier::kSpring && state.left_tier != Tier::kSpring;
+  return plan.level <= state.level || (plan.tier != Tier::kSpring && state.left_tier != Tier::kSpring);
 }
 
 }  // namespace
@@ -41,6 +42,11 @@ bool catches_up(const Instance& instance) noexcept {
   const InstancePlan& plan = instance.plan;
   return frame::is_simulated(plan.tier) && missed_so_far(instance) > 0 && may_go_on(instance) &&
          plan.ticks.ticks > 0 && !(plan.ticks.dropped_s > 0) && knows_poses(instance);
+}
+
+void catch_up_first(Instance& instance) noexcept {
+  if (!catches_up(instance)) return;
+  instance.plan.level = static_cast<uint8_t>(std::max<uint32_t>(instance.plan.level, instance.state->level));
 }
 
 void begin_gap(Instance& instance) noexcept {

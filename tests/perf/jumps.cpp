@@ -31,7 +31,7 @@ TEST_CASE("every_pair_of_tiers_and_every_way_to_be_left_alone_is_told_once_a_cli
     }
     CHECK(number(row, "beyond_all_percent") <= number(row, "beyond_both_percent"));
   }
-  const size_t simulated = 2, left_alone = 7;
+  const size_t simulated = 2, left_alone = 10 + 4;
   CHECK(changes.size() == 4);
   for (const auto& [clip, of] : changes) CHECK(of.size() == simulated * 2 + left_alone * simulated);
 }
@@ -42,7 +42,9 @@ TEST_CASE("in_idle_walk_and_hop_no_vertex_jumps_by_0_3_percent_of_the_height") {
     const std::string& clip = row.at("clip");
     if (clip == "shake") continue;
     INFO(clip << ": " << row.at("from") << " to " << row.at("to"));
-    CHECK(number(row, "beyond_both_percent") < 0.3);
+    CHECK(number(row, "beyond_all_percent") < 0.3);
+    // What comes back moves as the tier before would have, too.
+    if (row.at("from").find(" after ") == std::string::npos) CHECK(number(row, "beyond_both_percent") < 0.3);
   }
 }
 
