@@ -91,7 +91,7 @@ struct Table {
 };
 
 // Of those that are baked the one nearest to the truth, which loses most by being left alone, and the one
-// furthest from it, which all others are finer than.
+// furthest from it.
 size_t best_of(std::span<const frame::Level> points) {
   return static_cast<size_t>(std::ranges::min_element(points, {}, &frame::Level::error) - points.begin());
 }

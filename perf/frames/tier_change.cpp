@@ -98,6 +98,7 @@ std::vector<Stay> stays_after(JumpPlayer& player, const Run& run, const Way& lef
     player.go_back(run.marks[change]);
     std::vector<Surface> seen = leave(player, run, run.marks[change].tick, left, ticks);
     out.push_back(stay_of(player, back, std::move(seen)));
+    if (left.hidden || ticks > world::kCaughtUpTicks) continue;
     const auto had = run.steps.begin() + static_cast<ptrdiff_t>(out.back().mark.tick);
     out.back().had.assign(had, had + static_cast<ptrdiff_t>(out.back().steps.size()));
   }

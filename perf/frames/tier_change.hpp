@@ -25,7 +25,7 @@ struct Stay {
   Surface shown;                 // last
   std::vector<Surface> without;  // [kWatched] frames from the change on, or as many as there are
   std::vector<Steps> steps;      // of these, as a run's
-  std::vector<Steps> had;        // where it is left alone: of the tier that it had before, all along
+  std::vector<Steps> had;        // where what it misses is made up for: of the tier before, all along
 };
 
 // All moments of change of one that has this tier all along.
@@ -41,8 +41,9 @@ std::vector<Stay> stays_after(JumpPlayer& player, const Run& run, const Way& lef
 //                than it did in that frame and the two before it in either tier all along: what no tier's own
 //                motion explains
 //   change_tick, after_ticks  when the latter's change was, and how long after it that frame
-//   beyond all   the same beyond the tier too that it had before it was left alone, as whose flesh it swings
-//   on
+//   beyond all   the same beyond the tier too that it left a tick or two before, which is made up for: as
+//   that
+//                one's flesh it swings on
 struct Jump {
   double at_once_m = 0, beyond_m = 0, beyond_all_m = 0;
   size_t change_tick = 0, after_ticks = 0;

@@ -235,6 +235,8 @@ class RodBatch {
   void end_range(const RodCollider::Range& range, float dt_s, RodCollider* collider,
                  RodReport* report) noexcept;
   void step_alone(uint32_t group, float dt_s, RodReport* report) noexcept;
+  uint32_t begin_together(uint32_t group, float dt_s, RodCollider* collider, RodReport* report,
+                          uint32_t* active) noexcept;
   uint32_t step_together(uint32_t group, float dt_s, RodCollider* collider, RodReport* report) noexcept;
   void end_group(uint32_t group, const simd::RodJob& job, RodReport* report) noexcept;
   bool has_history() const noexcept { return settings_.start >= RodStart::kContinued; }

@@ -87,7 +87,7 @@ uint32_t RodBatch::go_on(float dt_s, RodCollider* collider, uint32_t active, uin
   StrandPacker{*collider, *this}.pack(active);
   collider->assemble(*this);
   iterate_homes(dt_s, *collider);
-  const simd::RodJob job = home_job(0, dt_s, *collider);
+  const simd::RodJob job = group_job(collider->homes_[0], dt_s, collider->scratch(0));
   for (uint32_t k = 0; k * width_ < collider->packed_count_; ++k) iterate(collider->packed_job(job, k));
   return collider->settle(*this, left);
 }
@@ -137,20 +137,27 @@ void RodBatch::step_alone(uint32_t group, float dt_s, RodReport* report) noexcep
 
 // From a group on, until such as have strands that go on after the first iteration fill the collider's
 // places; what has none ends before the next begins, while the processor's nearer cache has it. Returns the
-// group behind them.
-uint32_t RodBatch::step_together(uint32_t group, float dt_s, RodCollider* collider,
-                                 RodReport* report) noexcept {
-  uint32_t active = 0, left = settings_.max_iterations - 1;
+// group behind them, and into `active` how many strands go on.
+uint32_t RodBatch::begin_together(uint32_t group, float dt_s, RodCollider* collider, RodReport* report,
+                                  uint32_t* active) noexcept {
   collider->begin_groups();
   while (group < group_count() && collider->has_place()) {
-    const uint32_t going = begin_range(group, dt_s, collider, left);
+    const uint32_t going = begin_range(group, dt_s, collider, settings_.max_iterations - 1);
     const RodCollider::Range range = collider->range_;
-    group += range.groups, active += going;
+    group += range.groups, *active += going;
     if (going > 0) continue;
     end_range(range, dt_s, collider, report);
     collider->give_back(range);
   }
   collider->join_ranges();
+  return group;
+}
+
+// Returns the group behind those that it stepped.
+uint32_t RodBatch::step_together(uint32_t group, float dt_s, RodCollider* collider,
+                                 RodReport* report) noexcept {
+  uint32_t active = 0, left = settings_.max_iterations - 1;
+  group = begin_together(group, dt_s, collider, report, &active);
   while (active > 0 && left > 0) active = go_on(dt_s, collider, active, --left);
   StrandPacker{*collider, *this}.unpack();
   for (uint32_t k = 0; k < collider->range_count_; ++k) {

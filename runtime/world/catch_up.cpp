@@ -1,8 +1,6 @@
 // catch_up.cpp  see catch_up.hpp.
 #include "world/catch_up.hpp"
 
-#include <algorithm>
-
 #include "frame/scheduler.hpp"
 #include "world/blend.hpp"
 #include "world/rod_blend.hpp"
@@ -28,12 +26,15 @@ bool knows_poses(const Instance& instance) noexcept {
   return first_s >= -back_s - kRounding_s;
 }
 
-// On the level that it has, which a finer one waits for, or on a coarser one, whose nodes keep what they had;
-// springs are another law, and what modes missed is not theirs to make up for.
+// On the level that it has, which a finer one for the same tier or a network waits for, or on a coarser one,
+// whose nodes keep what they had; springs are another law, and what modes missed is not theirs to make up
+// for.
 bool may_go_on(const Instance& instance) noexcept {
   const InstanceState& state = *instance.state;
   const InstancePlan& plan = instance.plan;
-  return plan.level <= state.level || (plan.tier != Tier::kSpring && state.left_tier != Tier::kSpring);
+  if (plan.level == state.level) return true;
+  if (plan.level < state.level) return plan.tier == state.left_tier || plan.tier == Tier::kNetwork;
+  return plan.tier != Tier::kSpring && state.left_tier != Tier::kSpring;
 }
 
 }  // namespace
@@ -44,9 +45,12 @@ bool catches_up(const Instance& instance) noexcept {
          plan.ticks.ticks > 0 && !(plan.ticks.dropped_s > 0) && knows_poses(instance);
 }
 
-void catch_up_first(Instance& instance) noexcept {
-  if (!catches_up(instance)) return;
-  instance.plan.level = static_cast<uint8_t>(std::max<uint32_t>(instance.plan.level, instance.state->level));
+bool catch_up_first(Instance& instance) noexcept {
+  const InstanceState& state = *instance.state;
+  if (instance.plan.level >= state.level || !catches_up(instance)) return false;
+  instance.plan.tier = state.left_tier;
+  instance.plan.level = static_cast<uint8_t>(state.level);
+  return true;
 }
 
 void begin_gap(Instance& instance) noexcept {

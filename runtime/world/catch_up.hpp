@@ -20,8 +20,9 @@ uint32_t missed_so_far(const Instance& instance) noexcept;
 // With the plan as it is: all of them, on the level that it has, or modes and networks on a coarser one, by
 // poses that are known. Frames much shorter than a tick leave no pose of a missed one.
 bool catches_up(const Instance& instance) noexcept;
-// A finer level that is planned waits for the next step.
-void catch_up_first(Instance& instance) noexcept;
+// A finer level that is planned waits for the next step, in which it is planned anew: this one has the tier
+// that it left. Returns whether it waits.
+bool catch_up_first(Instance& instance) noexcept;
 // Before a step's tier is entered, with what catches_up said as the step began: takes the instance back to
 // the tier that it left, if it catches up. Then its missed ticks have to be simulated before those of the
 // step, and ride_on called.

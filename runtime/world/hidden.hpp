@@ -4,9 +4,9 @@
 // What is read of one is what it showed last. When it is seen again, the pose set then counts as having been
 // held: how it got there is not known, and tissue feels nothing of it. How fast it moves is known a step
 // later, and simulation begins then. The displacement it had is carried on and faded as if it had been
-// extrapolated meanwhile (kCarryTicks, InstanceState::fade_ticks), and simulation is blended in from there over
-// kBlendInTicks or more (world/blend_pace.hpp), with a network's memory only if it missed no more than
-// kRememberedTicks.
+// extrapolated meanwhile (kCarryTicks, InstanceState::fade_ticks), and simulation is blended in
+// (world/blend.hpp) over kBlendInTicks or more (world/blend_pace.hpp), with a network's memory only if it
+// missed no more than kRememberedTicks.
 #pragma once
 #include "world/plan_row.hpp"
 

@@ -91,7 +91,7 @@ void count_clamps(Instance& instance, uint32_t held, uint32_t by_tier) noexcept 
 }
 
 // In this tick, and next to nothing of it is seen yet: a change of level had the region again, or all of the
-// instance comes back after its tail has begun to fade.
+// instance comes back after more than it makes up for.
 bool begins_at_rest(const Instance& instance, const Part& part) noexcept {
   return instance.state->rest_ticks > 0 || instance.regained[part.index] == kRegainedNow;
 }

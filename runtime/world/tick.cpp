@@ -206,11 +206,11 @@ void step_instance(Instance& instance, const TickContext& context, uint32_t slot
   const core::FlushDenormals flush;
   const Marker marker(context.profiler, "instance", slot);
   const uint64_t start_ns = core::now_ns(context.clock);
-  catch_up_first(instance);
+  const bool waits = catch_up_first(instance);
   meet_deadline(instance, context, start_ns);
   if (instance.cut && instance.state->dormant) return sleep_on(instance);
   const Tier tier = instance.plan.tier;
-  const bool rose = rises(instance);
+  const bool rose = !waits && rises(instance);
   instance.times = {};
   wake(instance);
   instance.came_back = instance.state->hidden != 0;

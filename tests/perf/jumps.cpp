@@ -43,8 +43,10 @@ TEST_CASE("in_idle_walk_and_hop_no_vertex_jumps_by_0_3_percent_of_the_height") {
     if (clip == "shake") continue;
     INFO(clip << ": " << row.at("from") << " to " << row.at("to"));
     CHECK(number(row, "beyond_all_percent") < 0.3);
-    // What comes back moves as the tier before would have, too.
-    if (row.at("from").find(" after ") == std::string::npos) CHECK(number(row, "beyond_both_percent") < 0.3);
+    // What makes up for a tick or two moves as the worst tier would have, too.
+    const std::string& from = row.at("from");
+    if (!from.starts_with("extrapolate for 1 after") && !from.starts_with("extrapolate for 2 after"))
+      CHECK(number(row, "beyond_both_percent") < 0.3);
   }
 }
 

@@ -273,12 +273,28 @@ TEST_CASE("a_finer_level_waits_for_a_step_in_which_missed_ticks_are_made_up_for"
       const double off_m = test::largest_distance(steady.surface(), interrupted.surface());
       interrupted.play(scenes::walk, tier, 0, 1);
       CHECK(interrupted.instance().state->level == 1);
+      CHECK(interrupted.instance().state->held_s > 1);  // nor counts as a rise: another may follow
       steady.play(scenes::walk, tier, 1, 1);
       for (Told* block : {&steady, &interrupted}) block->play(scenes::walk, tier, 0, 60);
       CHECK(interrupted.instance().state->level == 0);
       INFO("tier " << static_cast<int>(tier) << ", missed " << missed << ": " << off_m << " m off before");
       CHECK(test::largest_distance(steady.surface(), interrupted.surface()) < 0.02 * off_m);
     }
+  }
+}
+
+TEST_CASE("a_network_on_a_finer_level_waits_for_what_modes_missed_and_modes_do_not_for_a_network") {
+  for (const auto& [left, planned, level] :
+       {std::tuple{Tier::kModal, Tier::kNetwork, 1u}, {Tier::kNetwork, Tier::kModal, 0u}}) {
+    Told block;
+    block.play(scenes::walk, left, 1, 90);
+    block.play(scenes::walk, Tier::kExtrapolate, 1, 1);
+    block.play(scenes::walk, planned, 0, 1);
+    CHECK(block.instance().state->tier == Tier::kModal);
+    CHECK(block.instance().state->level == level);
+    block.play(scenes::walk, planned, 0, 1);
+    CHECK(block.instance().state->tier == planned);
+    CHECK(block.instance().state->level == 0);
   }
 }
 
