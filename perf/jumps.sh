@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Measures how far changes of tier move the creature's surface, and rewrites the table of jumps in perf/README.md. Twelve minutes; with
-# SINEW_CHARACTER, a pack that sinew-trade wrote, ten.
+# Measures how far changes of tier move the creature's surface, and rewrites the table of jumps in perf/README.md. Twenty minutes; with
+# SINEW_CHARACTER, a pack that sinew-trade wrote, fifteen.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

@@ -50,6 +50,7 @@ bool catch_up_first(Instance& instance) noexcept {
   if (instance.plan.level >= state.level || !catches_up(instance)) return false;
   instance.plan.tier = state.left_tier;
   instance.plan.level = static_cast<uint8_t>(state.level);
+  instance.plan.every = 1;
   return true;
 }
 
