@@ -145,8 +145,7 @@ void run_all(const std::string& path, const std::string& clip, bool rates, size_
     throw std::runtime_error(path + ": no clip is called '" + clip + "'; sinew-bake info lists them");
   std::puts(
       "clip,from,to,chosen,at_once_mm,at_once_percent,beyond_both_mm,beyond_both_percent,beyond_all_percent,"
-      "own_step_percent,"
-      "change_tick,after_ticks");
+      "own_step_percent,change_tick,after_ticks");
   for (const std::string& name : clips) run(character, name, rates, apart_ticks);
 }
 

@@ -41,9 +41,7 @@ std::vector<Stay> stays_after(JumpPlayer& player, const Run& run, const Way& lef
 //                than it did in that frame and the two before it in either tier all along: what no tier's own
 //                motion explains
 //   change_tick, after_ticks  when the latter's change was, and how long after it that frame
-//   beyond all   the same beyond the tier too that it left a tick or two before, which is made up for: as
-//   that
-//                one's flesh it swings on
+//   beyond all   the same, beyond the tier too that it left a tick or two before, which is made up for
 struct Jump {
   double at_once_m = 0, beyond_m = 0, beyond_all_m = 0;
   size_t change_tick = 0, after_ticks = 0;
