@@ -73,6 +73,20 @@ struct Part {
   PartSurface view() const { return {character, surface, parts.part, id, vertices, rim}; }
 };
 
+// What it moves like: as stated, else by its kind and size, or by the recipe's moduli.
+void set_motion(const Recipe& recipe, const RegionRecipe* stated, Region& region) {
+  const RegionRecipe fallback;
+  const RegionRecipe& from = stated ? *stated : fallback;
+  region.kind = from.kind;
+  region.damping_ratio = from.damping_ratio.value_or(recipe.damping_ratio);
+  region.intensity = from.intensity;
+  region.max_displacement = from.max_displacement.value_or(recipe.max_displacement);
+  if (from.frequency_hz)
+    region.frequency_hz = *from.frequency_hz;
+  else if (!recipe.states_moduli)
+    region.frequency_hz = default_frequency_hz(region.kind, 2 * region.radius_m);
+}
+
 void append_region(const Part& part, const Recipe& recipe, const std::vector<int>& nodes, const Edges& edges,
                    TissueLayout& layout) {
   const Character& character = part.character;
@@ -86,6 +100,7 @@ void append_region(const Part& part, const Recipe& recipe, const std::vector<int
   region.vertices = carried_vertices(character, part.parts, part.id);
   const std::vector<Vector3> node_places = places(character, nodes);
   measure(node_places, region);
+  set_motion(recipe, stated, region);
   region.carry = carry_weights(node_places, places(character, sample_rim(character, part.rim, kRimAnchors)),
                                places(character, region.vertices));
   for (const auto& [a, b] : edges) layout.edges.emplace_back(region.first_node + a, region.first_node + b);
@@ -120,6 +135,7 @@ void append_coarser(const Part& part, const Recipe& recipe, const TissueLayout& 
   layout.regions.back().name = region.name;
   layout.regions.back().center = region.center;
   layout.regions.back().radius_m = region.radius_m;
+  layout.regions.back().frequency_hz = region.frequency_hz;
 }
 
 // Flesh that a rod's bones move by more than this is not soft: rim of both, it would swing twice.

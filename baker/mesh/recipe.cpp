@@ -21,6 +21,7 @@ int whole_number(JsonSection& section, const std::string& key, int otherwise, in
 }
 
 void read_material(JsonSection& section, Recipe& recipe) {
+  recipe.states_moduli = section.has("young_soft_pa") || section.has("young_stiff_pa");
   recipe.young_soft_pa = section.number("young_soft_pa", recipe.young_soft_pa, 1, 1e9);
   recipe.young_stiff_pa =
       section.number("young_stiff_pa", std::max(recipe.young_stiff_pa, recipe.young_soft_pa), 1, 1e9);
@@ -29,6 +30,7 @@ void read_material(JsonSection& section, Recipe& recipe) {
   recipe.poisson_ratio = section.number("poisson_ratio", recipe.poisson_ratio, 0, 0.49);
   recipe.density_kg_m3 = section.number("density_kg_m3", recipe.density_kg_m3, 1, 1e5);
   recipe.damping_ratio = section.number("damping_ratio", recipe.damping_ratio, 0, 1);
+  recipe.max_displacement = section.number("max_displacement", recipe.max_displacement, 0.01, 4);
   recipe.voxels_high = whole_number(section, "voxels_high", recipe.voxels_high, 8, 200);
   recipe.rigid_stiffness = section.number("rigid_stiffness", recipe.rigid_stiffness, 0.01, 1);
   recipe.core_share = section.number("core_share", recipe.core_share, 0, 1);
@@ -74,6 +76,16 @@ RegionRecipe read_region(JsonSection& section) {
   if (region.joints.empty()) section.complain("joints", "must name at least one joint, or a prefix*");
   region.stiffness = section.number("stiffness", region.stiffness, 0, 1);
   region.touches_body = section.flag("touches_body", region.touches_body);
+  if (section.has("kind")) {
+    const std::optional<SoftKind> kind = kind_called(section.text("kind"));
+    if (!kind) section.complain("kind", "is none of belly, breast, glute, thigh, cheek, ear, tail, other");
+    region.kind = *kind;
+  }
+  if (section.has("frequency_hz")) region.frequency_hz = section.number("frequency_hz", 0, 0.05, 25);
+  if (section.has("damping_ratio")) region.damping_ratio = section.number("damping_ratio", 0, 0, 0.95);
+  region.intensity = section.number("intensity", region.intensity, 0, 2);
+  if (section.has("max_displacement"))
+    region.max_displacement = section.number("max_displacement", 0, 0.01, 4);
   section.finish();
   return region;
 }
@@ -101,7 +113,9 @@ Recipe read_recipe(const std::string& path) {
   Recipe recipe;
   read_material(section, recipe);
   read_graph(section, recipe);
+  recipe.states_regions = section.has("regions");
   for (JsonSection& region : section.sections("regions")) recipe.regions.push_back(read_region(region));
+  recipe.without_meshes = section.texts("without_meshes");
   for (JsonSection& proxy : section.sections("proxies")) recipe.proxies.push_back(read_proxy(proxy));
   recipe.without_proxies = section.texts("without_proxies");
   if (section.has("rods")) recipe.rods = read_rod_recipes(section);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "baker/mesh/rod_recipe.hpp"
+#include "baker/mesh/soft_kind.hpp"
 
 namespace sinew::baker {
 
@@ -16,6 +17,12 @@ struct RegionRecipe {
   std::vector<std::string> joints;  // names or prefix*
   double stiffness = 0.1;           // 0 soft .. 1 rigid at its softest point
   bool touches_body = false;        // the capsules about the character's bones, but for those that carry it
+  SoftKind kind =
+      SoftKind::kOther;  // what the default frequency goes by; absent: by its name, then its bones'
+  std::optional<double> frequency_hz;      // 0.05 .. 25, of its first mode; absent: see Recipe::young_soft_pa
+  std::optional<double> damping_ratio;     // 0 .. 0.95; absent: Recipe::damping_ratio
+  double intensity = 1;                    // 0 none .. 1 physical .. 2: scales its displacement
+  std::optional<double> max_displacement;  // share of its radius, 0.01 .. 4; absent: Recipe::max_displacement
 };
 
 // Of a capsule that rods and regions collide with, its bone by name or prefix*.
@@ -25,15 +32,19 @@ struct ProxyRecipe {
 };
 
 struct Recipe {
-  // Tissue material. Stiffness s maps to Young's modulus soft^(1-s) stiff^s.
-  double young_soft_pa = 6e3;     // > 0
-  double young_stiff_pa = 1e5;    // >= young_soft_pa
-  double poisson_ratio = 0.42;    // 0 .. 0.49
-  double density_kg_m3 = 1000;    // > 0
-  double damping_ratio = 0.1;     // 0 .. 1, Rayleigh, at the first and third mode's neighbourhood
-  int voxels_high = 36;           // 8 .. 200, cage cells along the character's longest side
-  double rigid_stiffness = 0.95;  // painted stiffness from here on is constrained to the skinning
-  double core_share = 0.45;       // 0 .. 1, share of the way from bone to skin that follows the bone rigidly
+  // Tissue material. Stiffness s maps to Young's modulus soft^(1-s) stiff^s. Where a recipe states a modulus,
+  // regions without a frequency of their own have it as it is; else each region's moduli are scaled so that
+  // its first mode has its frequency.
+  bool states_moduli = false;
+  double young_soft_pa = 6e3;      // > 0
+  double young_stiff_pa = 1e5;     // >= young_soft_pa
+  double poisson_ratio = 0.42;     // 0 .. 0.49
+  double density_kg_m3 = 1000;     // > 0
+  double damping_ratio = 0.1;      // 0 .. 1, Rayleigh, at the first and third mode's neighbourhood
+  double max_displacement = 0.35;  // 0.01 .. 4, share of a region's radius, approached smoothly
+  int voxels_high = 36;            // 8 .. 200, cage cells along the character's longest side
+  double rigid_stiffness = 0.95;   // painted stiffness from here on is constrained to the skinning
+  double core_share = 0.45;        // 0 .. 1, share of the way from bone to skin that follows the bone rigidly
   std::vector<std::string> coreless_joints;  // names or prefix*: bones without a rigid core (ears, tails)
 
   // Control graph.
@@ -48,8 +59,11 @@ struct Recipe {
   std::optional<std::vector<RodRecipe>> rods;  // absent: from the file's spring bones, where it has any
   std::vector<ProxyRecipe> proxies;            // radii that take the place of fitted ones
   std::vector<std::string> without_proxies;    // names or prefix*: bones that get no capsule
-  std::vector<RegionRecipe>
-      regions;  // used where the file paints no _STIFFNESS; empty and unpainted: by flesh thickness
+  std::vector<RegionRecipe> regions;
+  bool states_regions =
+      false;  // an empty list too: nothing is soft. Else: by what the file and its names show
+  // Meshes of the file that are not imported, by name or prefix*.
+  std::vector<std::string> without_meshes;
 };
 
 // Throws BadInput: not JSON, an unknown key (named, with the nearest known one), a number outside its range.

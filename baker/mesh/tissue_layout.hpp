@@ -29,6 +29,11 @@ struct Region {
   Vector3 center = Vector3::Zero();
   double radius_m = 0;
   bool touches_body = false;  // RegionRecipe::touches_body
+  SoftKind kind = SoftKind::kOther;
+  double frequency_hz = 0;  // what its first mode is to have; 0: what its moduli give
+  double damping_ratio = 0.1;
+  double intensity = 1;
+  double max_displacement = 0.35;  // share of radius_m
 };
 
 struct TissueLayout {
