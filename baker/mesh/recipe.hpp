@@ -19,10 +19,12 @@ struct RegionRecipe {
   bool touches_body = false;        // the capsules about the character's bones, but for those that carry it
   SoftKind kind =
       SoftKind::kOther;  // what the default frequency goes by; absent: by its name, then its bones'
-  std::optional<double> frequency_hz;      // 0.05 .. 25, of its first mode; absent: see Recipe::young_soft_pa
-  std::optional<double> damping_ratio;     // 0 .. 0.95; absent: Recipe::damping_ratio
-  double intensity = 1;                    // 0 none .. 1 physical .. 2: scales its displacement
-  std::optional<double> max_displacement;  // share of its radius, 0.01 .. 4; absent: Recipe::max_displacement
+  std::optional<double> frequency_hz =
+      {};  // 0.05 .. 25, of its first mode; absent: see Recipe::young_soft_pa
+  std::optional<double> damping_ratio = {};  // 0 .. 0.95; absent: Recipe::damping_ratio
+  double intensity = 1;                      // 0 none .. 1 physical .. 2: scales its displacement
+  std::optional<double> max_displacement =
+      {};  // share of its radius, 0.01 .. 4; absent: Recipe::max_displacement
 };
 
 // Of a capsule that rods and regions collide with, its bone by name or prefix*.

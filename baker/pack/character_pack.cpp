@@ -19,8 +19,7 @@ namespace {
 using pack::SectionKind;
 
 constexpr double kMaxClipSeconds = 600;
-constexpr float kDisplacementLimit = 0.75f;    // share of a region's radius, where the weights do not say
-constexpr float kRate_hz = 60, kSubsteps = 4;  // likewise
+constexpr float kRate_hz = 60, kSubsteps = 4;  // where the weights do not say
 
 template <class Size>
 uint32_t to_u32(Size value) {
@@ -131,7 +130,7 @@ void append_carry(const Region& region, uint32_t padded_vertices, std::vector<fl
   }
 }
 
-pack::RegionRecord to_record(const Region& region, const ModalBasis& basis, float displacement_limit) {
+pack::RegionRecord to_record(const Region& region, const ModalBasis& basis) {
   pack::RegionRecord record{};
   record.anchor_node = to_u32(basis.anchor_node);
   record.first_node = to_u32(region.first_node);
@@ -140,20 +139,20 @@ pack::RegionRecord to_record(const Region& region, const ModalBasis& basis, floa
   record.padded_vertices = (record.vertex_count + 15) / 16 * 16;
   for (int axis = 0; axis < 3; ++axis) record.center_m[axis] = static_cast<float>(region.center[axis]);
   record.radius_m = static_cast<float>(region.radius_m);
-  record.displacement_limit_m = displacement_limit * record.radius_m;
+  record.displacement_limit_m = static_cast<float>(region.max_displacement * region.radius_m);
   record.touches_body = region.touches_body;
   return record;
 }
 
 // Returns the floats of the carrying weights.
-uint64_t add_regions(const TissueLayout& layout, const std::vector<ModalBasis>& modes,
-                     float displacement_limit, bool first, PackWriter& pack) {
+uint64_t add_regions(const TissueLayout& layout, const std::vector<ModalBasis>& modes, bool first,
+                     PackWriter& pack) {
   std::vector<pack::RegionRecord> regions;
   std::vector<uint32_t> vertices;
   std::vector<float> carry;
   for (size_t r = 0; r < layout.regions.size(); ++r) {
     const Region& region = layout.regions[r];
-    pack::RegionRecord record = to_record(region, modes[r], displacement_limit);
+    pack::RegionRecord record = to_record(region, modes[r]);
     record.name = pack.string(region.name);
     record.first_vertex = to_u32(vertices.size());
     record.carry = carry.size();
@@ -182,7 +181,6 @@ void add_graph(const GraphRows& graph, PackWriter& pack) {
 // ---- its levels ----
 
 struct TissueOptions {
-  float displacement_limit;
   TickGrid grid;
   std::string where;  // of complaints
 };
@@ -192,7 +190,7 @@ pack::LevelRecord add_tissue(const TissueLayout& layout, const std::vector<Modal
   check_modes(layout, modes);
   pack::LevelRecord record{};
   record.node_count = to_u32(layout.nodes.size());
-  record.carry_floats = add_regions(layout, modes, options.displacement_limit, first, pack);
+  record.carry_floats = add_regions(layout, modes, first, pack);
   add_nodes(layout, pack);
   const GraphRows graph = normalized_adjacency(layout.nodes.size(), layout.edges, options.where);
   record.graph_entries = to_u32(graph.columns.size());
@@ -292,18 +290,15 @@ float number_of(const Safetensors* weights, const std::string& key, float fallba
   return weights == nullptr ? fallback : metadata_number(*weights, key, fallback, low, high);
 }
 
-void add_tiers(const Safetensors* weights, const std::vector<pack::LevelRecord>& levels,
-               const std::vector<pack::LayerRecord>& layers, size_t rod_segments, PackWriter& pack) {
-  constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN(), kLargest = 1e6f;
-  const float error_mm = number_of(weights, "error_mm", kUnknown, 0, kLargest);
-  const float error_ratio = number_of(weights, "error_ratio", kUnknown, 0, kLargest);
+void add_tiers(const std::vector<pack::LevelRecord>& levels, const std::vector<pack::LayerRecord>& layers,
+               size_t rod_segments, PackWriter& pack) {
   std::vector<TierWork> work;
   for (const pack::LevelRecord& level : levels)
     work.push_back({.nodes = level.node_count,
                     .mode_floats = level.matrix_floats,
                     .network_multiply_adds = multiply_adds(layers, level.node_count, level.graph_entries),
                     .rod_segments = rod_segments});
-  pack.section(SectionKind::kTiers, make_tiers(work, error_mm, error_ratio));
+  pack.section(SectionKind::kTiers, make_tiers(work));
 }
 
 size_t rod_segments(const TissueLayout& layout) {
@@ -337,14 +332,13 @@ std::vector<std::byte> pack_character(const Character& character, const TissueLa
   add_mesh(character, pack);
   add_clips(character, pack);
   const TissueOptions options{
-      .displacement_limit = number_of(weights, "displacement_limit", kDisplacementLimit, 1e-3f, 100),
       .grid = {.rate_hz = number_of(weights, "rate_hz", kRate_hz, 1, 1000),
                .substeps = static_cast<int>(number_of(weights, "base_substeps", kSubsteps, 1, 64))},
       .where = character.name + ": control graph"};
   const std::vector<pack::LevelRecord> levels = add_levels(layout, modes, coarser, options, pack);
   add_rods(character, layout.rods, pack);
   add_proxies(layout.proxies, pack);
-  add_tiers(weights, levels, layers, rod_segments(layout), pack);
+  add_tiers(levels, layers, rod_segments(layout), pack);
   return pack.finish();
 }
 

@@ -18,8 +18,6 @@ inline constexpr double kClipRateHz = 60;
 // as add_network takes them. Beyond network_pack's keys, reads from the weights' metadata:
 //   frame, base          must be "bent" and "modal": what the network was trained on
 //   base_substeps        of the truth that it was trained on (default 4)
-//   displacement_limit   share of a region's radius (default 0.75)
-//   error_mm, error_ratio   of the network on held-out motion; absent: not measured
 // Throws BadInput: weights without `inputs`, or of another frame or base; more than 65,535 joints, a clip of
 // more than ten minutes, a basis that does not fit its region, a coarser graph that is not part of the finer
 // one, and what add_network refuses.

@@ -46,13 +46,12 @@ TierOps ops_of(const TierWork& work) {
   return {work.nodes * kExtrapolationOps, spring, modal, modal + work.network_multiply_adds};
 }
 
-pack::TierRecord record_of(Tier tier, uint32_t level, uint64_t ops, float mm = kNotMeasured,
-                           float ratio = kNotMeasured) {
+pack::TierRecord record_of(Tier tier, uint32_t level, uint64_t ops, float ratio = kNotMeasured) {
   return {.tier = static_cast<uint32_t>(tier),
           .every = 1,
           .cost_us = cost_us(ops),
           .cost_p99_us = kNotMeasured,
-          .error_mm = mm,
+          .error_mm = kNotMeasured,
           .error_ratio = ratio,
           .error_p95_mm = kNotMeasured,
           .level = level};
@@ -60,15 +59,13 @@ pack::TierRecord record_of(Tier tier, uint32_t level, uint64_t ops, float mm = k
 
 }  // namespace
 
-std::vector<pack::TierRecord> make_tiers(std::span<const TierWork> work, float error_mm, float error_ratio) {
-  const float skinning_mm = error_ratio > 0 ? error_mm / error_ratio : kNotMeasured;
+std::vector<pack::TierRecord> make_tiers(std::span<const TierWork> work) {
   std::vector<TierOps> ops;
   for (const TierWork& level : work) ops.push_back(ops_of(level));
-  std::vector<pack::TierRecord> tiers = {record_of(Tier::kSkinning, 0, 0, skinning_mm, 1),  // 1 by definition
+  std::vector<pack::TierRecord> tiers = {record_of(Tier::kSkinning, 0, 0, 1),
                                          record_of(Tier::kExtrapolate, 0, ops[0].extrapolation)};
   if (work[0].network_multiply_adds > 0) {
-    tiers.push_back(record_of(Tier::kNetwork, 0, ops[0].network, error_mm, error_ratio));
-    for (uint32_t l = 1; l < ops.size(); ++l) tiers.push_back(record_of(Tier::kNetwork, l, ops[l].network));
+    for (uint32_t l = 0; l < ops.size(); ++l) tiers.push_back(record_of(Tier::kNetwork, l, ops[l].network));
   }
   for (uint32_t l = 0; l < ops.size(); ++l) tiers.push_back(record_of(Tier::kSpring, l, ops[l].spring));
   for (uint32_t l = 0; l < ops.size(); ++l) tiers.push_back(record_of(Tier::kModal, l, ops[l].modal));

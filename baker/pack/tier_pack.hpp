@@ -25,7 +25,7 @@ struct TierWork {
 };
 
 // Every tier that the work allows at every level of control graphs, `work`'s finest first, simulated every
-// tick; the errors are the network's at the finest, NaN where not measured.
-std::vector<pack::TierRecord> make_tiers(std::span<const TierWork> work, float error_mm, float error_ratio);
+// tick; errors are not measured, NaN, but skinning's ratio, which is 1 by definition.
+std::vector<pack::TierRecord> make_tiers(std::span<const TierWork> work);
 
 }  // namespace sinew::baker

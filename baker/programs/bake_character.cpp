@@ -3,15 +3,19 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 
 #include "baker/common/bad_input.hpp"
 #include "baker/common/write_file.hpp"
 #include "baker/import/import_gltf.hpp"
 #include "baker/mesh/tissue_layout.hpp"
 #include "baker/pack/character_pack.hpp"
+#include "baker/pack/network_pack.hpp"
+#include "baker/pack/pack_writer.hpp"
 #include "baker/programs/calibrate.hpp"
 #include "baker/programs/commands.hpp"
 #include "baker/programs/describe.hpp"
+#include "baker/programs/measure_tiers.hpp"
 #include "baker/truth/tissue_truth.hpp"
 
 namespace sinew::baker {
@@ -20,6 +24,7 @@ namespace {
 struct CharacterOptions {
   std::string character, recipe, tissue, output, precision = "fp32";
   std::vector<std::string> calibration;
+  bool quick = false;
 };
 
 Character import_character(const CharacterOptions& options, const Recipe& recipe) {
@@ -65,36 +70,104 @@ std::vector<HeardRanges> int8_ranges(const CharacterOptions& options, const Safe
                  kBeyondVectors);
 }
 
-struct Bases {
+// A character's tissue before it is packed; of rods alone it has neither truth nor bases.
+struct Tissue {
+  TissueLayout layout;
+  std::unique_ptr<TissueTruth> truth;
   std::vector<ModalBasis> finest;
   std::vector<GraphLevel> coarser;
 };
 
-// A character of rods alone has no tissue.
-Bases modal_bases(const Character& character, const TissueLayout& layout, const Recipe& recipe) {
-  if (layout.regions.empty()) return {};
-  TissueTruth truth(character, layout, recipe);
-  Bases bases{truth.modal_bases(layout, kMostModes), {}};
-  bases.coarser = coarser_levels(character, recipe, truth, layout, bases.finest);
-  return bases;
+Tissue make_tissue(Character& character, const Recipe& recipe) {
+  Tissue tissue{.layout = layout_tissue(character, recipe), .truth = {}, .finest = {}, .coarser = {}};
+  if (tissue.layout.regions.empty()) return tissue;
+  tissue.truth = std::make_unique<TissueTruth>(character, tissue.layout, recipe);
+  tissue.finest = tissue.truth->modal_bases(tissue.layout, kMostModes);
+  tissue.coarser = coarser_levels(character, recipe, *tissue.truth, tissue.layout, tissue.finest);
+  return tissue;
+}
+
+// Packs it with the precision and weights of the options.
+class Packer {
+ public:
+  Packer(const CharacterOptions& options, const Character& character, const Tissue& tissue)
+      : options_(options), character_(character), tissue_(tissue), precision_(precision_of(options)) {}
+
+  std::vector<std::byte> pack(const Safetensors* weights) const {
+    std::vector<HeardRanges> ranges;
+    if (weights && precision_ == pack::Precision::kInt8)
+      ranges = int8_ranges(options_, *weights, packed(weights, pack::Precision::kFloat32, {}));
+    return packed(weights, weights ? precision_ : pack::Precision::kFloat32, ranges);
+  }
+
+ private:
+  std::vector<std::byte> packed(const Safetensors* weights, pack::Precision precision,
+                                std::span<const HeardRanges> ranges) const {
+    return pack_character(character_, tissue_.layout, tissue_.finest, weights, precision, ranges,
+                          tissue_.coarser);
+  }
+
+  const CharacterOptions& options_;
+  const Character& character_;
+  const Tissue& tissue_;
+  pack::Precision precision_;
+};
+
+std::vector<std::byte> with_tiers(const std::vector<std::byte>& bytes,
+                                  const std::vector<pack::TierRecord>& tiers) {
+  PackWriter writer = PackWriter::from_pack(bytes);
+  writer.section(pack::SectionKind::kTiers, tiers);
+  return writer.finish();
+}
+
+std::string network_note(const std::vector<pack::TierRecord>& tiers) {
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      "the network is left out: on this character its error is %.3f of skinning's, its modal base's "
+      "%.3f; sinew-train fine-tunes it",
+      error_ratio_of(tiers, Tier::kNetwork), error_ratio_of(tiers, Tier::kModal));
+  return text;
+}
+
+// The pack with the errors of this character, and without a network that does not pay on it.
+std::vector<std::byte> measured(const Packer& packer, const Safetensors* weights, Character& character,
+                                const Tissue& tissue) {
+  std::vector<std::byte> bytes = packer.pack(weights);
+  try {
+    LoadedPack pack = LoadedPack::from_bytes(bytes, character.name);
+    const std::vector<TrueSurface> truths =
+        short_truths(character, tissue.layout, tissue.finest, *tissue.truth, pack.view());
+    std::vector<pack::TierRecord> tiers = measured_tiers(pack, truths);
+    if (weights && !network_pays(tiers)) {
+      character.notes.push_back(network_note(tiers));
+      bytes = packer.pack(nullptr);
+      tiers = measured_tiers(LoadedPack::from_bytes(bytes, character.name), truths);
+    }
+    return with_tiers(bytes, tiers);
+  } catch (const std::runtime_error& problem) {
+    character.notes.push_back("errors are not measured, and a network is left out: " +
+                              std::string(problem.what()));
+    return packer.pack(nullptr);
+  }
 }
 
 void run_character(const CharacterOptions& options) {
-  const pack::Precision precision = precision_of(options);
   const Recipe recipe = options.recipe.empty() ? Recipe{} : read_recipe(options.recipe);
+  precision_of(options);
   std::optional<Safetensors> weights;
   if (!options.tissue.empty()) weights = read_safetensors(options.tissue);
   Character character = import_character(options, recipe);
-  const TissueLayout layout = layout_tissue(character, recipe);
-  const Bases bases = modal_bases(character, layout, recipe);
-  const auto packed = [&](pack::Precision in, std::span<const HeardRanges> ranges) {
-    return pack_character(character, layout, bases.finest, weights ? &*weights : nullptr, in, ranges,
-                          bases.coarser);
-  };
-  std::vector<HeardRanges> ranges;
-  if (precision == pack::Precision::kInt8)
-    ranges = int8_ranges(options, *weights, packed(pack::Precision::kFloat32, {}));
-  const std::vector<std::byte> bytes = packed(precision, ranges);
+  const Tissue tissue = make_tissue(character, recipe);
+  if (tissue.layout.regions.empty() && weights) {
+    check_model(*weights);
+    character.notes.push_back("nothing is soft tissue: " + options.tissue + " is not used");
+    weights.reset();
+  }
+  const Packer packer(options, character, tissue);
+  const Safetensors* network = weights ? &*weights : nullptr;
+  const std::vector<std::byte> bytes =
+      options.quick || !tissue.truth ? packer.pack(network) : measured(packer, network, character, tissue);
   const LoadedPack pack =
       LoadedPack::from_bytes(bytes, options.character);  // what the runtime would refuse is not written
   write_file(options.output, bytes);
@@ -118,6 +191,8 @@ void add_character_command(CLI::App& app, int*) {
                    "closed loop; or a file of vectors; by default those beside the weights, else a made-up "
                    "motion. Repeatable")
       ->allow_extra_args(false);
+  command->add_flag("--quick", options->quick,
+                    "does not measure errors against ground truth, nor whether the network pays: for trying");
   command->add_option("-o,--output", options->output, "C.sinew")->required();
   command->callback([options] { run_character(*options); });
 }

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "baker/trade/error.hpp"
+#include "baker/programs/yardstick.hpp"
 
 namespace sinew::baker {
 namespace {

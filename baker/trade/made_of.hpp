@@ -6,7 +6,7 @@
 
 #include "baker/programs/loaded_pack.hpp"
 #include "baker/trade/baked_from.hpp"
-#include "baker/trade/true_surface.hpp"
+#include "baker/programs/true_surface.hpp"
 
 namespace sinew::baker {
 

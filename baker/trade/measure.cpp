@@ -7,7 +7,7 @@
 
 #include "baker/common/progress.hpp"
 #include "baker/trade/cost.hpp"
-#include "baker/trade/error.hpp"
+#include "baker/programs/yardstick.hpp"
 #include "baker/trade/front.hpp"
 
 namespace sinew::baker {

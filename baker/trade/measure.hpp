@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "baker/trade/row_cache.hpp"
-#include "baker/trade/true_surface.hpp"
+#include "baker/programs/true_surface.hpp"
 #include "baker/trade/variants.hpp"
 
 namespace sinew::baker {

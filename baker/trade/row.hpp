@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "baker/programs/yardstick.hpp"
 #include "sinew/types.hpp"
 #include "world/bought_rates.hpp"
 
@@ -14,16 +15,6 @@ namespace sinew::baker {
 // (of all, where none does), and the mean step in the long run, p50 each of those that do and those between.
 struct Cost {
   double p50_us = 0, p99_us = 0, mean_us = 0;
-};
-
-// Over all vertices that tissue moves and some ticks of all motions, millimetres. ratio: to what skinning
-// alone is off at the same ticks. Extrapolate: of the ticks told of it.
-struct Spread {
-  double mean_mm = 0, sd_mm = 0, p95_mm = 0, worst_mm = 0, ratio = 0;
-};
-// Of ticks 1 .. 600, and of the first 50 of them.
-struct Error : Spread {
-  Spread in_50;
 };
 
 struct Row {

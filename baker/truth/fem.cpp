@@ -301,10 +301,17 @@ std::vector<double> Fem::frequencies_hz(int count) const {
   return hz;
 }
 
-void Fem::damp(double ratio) {
-  if (!(ratio >= 0)) refuse("the damping ratio is " + std::to_string(ratio) + ": give 0 or more");
+void Fem::damp(double ratio) { damp(std::vector<double>(impl_->components.size(), ratio)); }
+
+void Fem::damp(const std::vector<double>& ratios) {
   constexpr double kStill = 1e-2;  // rad/s: a free body's rigid motions are not modes
-  for (FemComponent& component : impl_->components) {
+  if (ratios.size() != impl_->components.size())
+    refuse(std::to_string(ratios.size()) + " damping ratios for " + std::to_string(impl_->components.size()) +
+           " bodies: give one a body");
+  for (size_t c = 0; c < ratios.size(); ++c) {
+    FemComponent& component = impl_->components[c];
+    const double ratio = ratios[c];
+    if (!(ratio >= 0)) refuse("the damping ratio is " + std::to_string(ratio) + ": give 0 or more");
     const Eigen::VectorXd squared =
         lowest_modes(component.assemble(Potential{}, impl_->unstressed, false), component.free_mass(), 7)
             .squared_rad_per_s;

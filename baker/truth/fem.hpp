@@ -73,6 +73,7 @@ class Fem {
   // Sets alpha and beta of each separate body so that its first mode and three times that frequency are
   // damped by this ratio.
   void damp(double ratio);
+  void damp(const std::vector<double>& ratios);  // one a separate body, in the order of linear()
 
   Eigen::VectorXd elastic_force(const Eigen::VectorXd& at) const;  // 3 a node, constrained ones too
   double elastic_energy(const Eigen::VectorXd& at) const;

@@ -10,6 +10,7 @@
 
 #include "baker/common/bad_input.hpp"
 #include "baker/mesh/carry.hpp"
+#include "baker/truth/body_parts.hpp"
 #include "baker/truth/modes.hpp"
 
 namespace sinew::baker {
@@ -22,58 +23,7 @@ using Eigen::VectorXd;
 // A mode this high answers within a tick of 60 Hz and hardly at all; but a stiff region keeps its first few.
 constexpr double kHighest_rad_per_s = 2 * M_PI * 30;
 constexpr size_t kFewest = 6;
-
-Index row_of(size_t node) { return 3 * static_cast<Index>(node); }
-
-// The control nodes whose flesh belongs to a body.
-std::vector<int> control_nodes_of(const FemLinear& body, const TissueLayout& layout, const Cage& cage,
-                                  const std::vector<int>& cage_node) {
-  std::vector<bool> in_body(cage.nodes.size(), false);
-  for (const int node : body.nodes) in_body[static_cast<size_t>(cage_node[static_cast<size_t>(node)])] = true;
-  std::vector<int> found;
-  for (size_t i = 0; i < layout.nodes.size(); ++i) {
-    const Cage::Place& place = cage.surface[static_cast<size_t>(layout.nodes[i].vertex)];
-    const auto& corners = cage.tetrahedra[static_cast<size_t>(place.tetrahedron)];
-    if (std::any_of(corners.begin(), corners.end(), [&](int n) { return in_body[static_cast<size_t>(n)]; }))
-      found.push_back(static_cast<int>(i));
-  }
-  return found;
-}
-
-// A body's free nodes, each with the region of its nearest control node; empty where none touches the body.
-std::map<int, std::vector<size_t>> split_by_region(const FemLinear& body, const TissueLayout& layout,
-                                                   const Cage& cage, const std::vector<int>& cage_node) {
-  const std::vector<int> near = control_nodes_of(body, layout, cage, cage_node);
-  std::map<int, std::vector<size_t>> parts;
-  for (size_t i = 0; i < body.nodes.size() && !near.empty(); ++i) {
-    const Vector3& place = cage.nodes[static_cast<size_t>(cage_node[static_cast<size_t>(body.nodes[i])])];
-    const auto distance = [&](int n) {
-      return (layout.nodes[static_cast<size_t>(n)].position - place).squaredNorm();
-    };
-    const int nearest =
-        *std::min_element(near.begin(), near.end(), [&](int a, int b) { return distance(a) < distance(b); });
-    parts[layout.nodes[static_cast<size_t>(nearest)].region].push_back(i);
-  }
-  return parts;
-}
-
-// Rows and columns of some nodes.
-Eigen::SparseMatrix<double> block_of(const Eigen::SparseMatrix<double>& whole,
-                                     const std::vector<size_t>& nodes) {
-  std::vector<Index> to(static_cast<size_t>(whole.rows()), -1);
-  for (size_t i = 0; i < nodes.size(); ++i)
-    for (Index axis = 0; axis < 3; ++axis)
-      to[static_cast<size_t>(row_of(nodes[i]) + axis)] = row_of(i) + axis;
-  std::vector<Eigen::Triplet<double>> entries;
-  for (Index column = 0; column < whole.outerSize(); ++column)
-    for (Eigen::SparseMatrix<double>::InnerIterator it(whole, column); it; ++it) {
-      const Index row = to[static_cast<size_t>(it.row())], col = to[static_cast<size_t>(it.col())];
-      if (row >= 0 && col >= 0) entries.emplace_back(row, col, it.value());
-    }
-  Eigen::SparseMatrix<double> block(row_of(nodes.size()), row_of(nodes.size()));
-  block.setFromTriplets(entries.begin(), entries.end());
-  return block;
-}
+constexpr double kMostDamping = 0.95;  // of a mode: the correction's budget needs modes that swing
 
 // One body's share of a region.
 struct Part {
@@ -99,6 +49,13 @@ Part solve_part(const FemLinear& body, const std::vector<size_t>& nodes, const s
   part.stiffness = block_of(body.stiffness, nodes);
   part.modes = lowest_modes(part.stiffness, mass, count);
   return part;
+}
+
+// At its own first mode and at three times that, where the body's is another region's.
+void damp_part(double ratio, Part* part) {
+  const double first = std::sqrt(part->modes.squared_rad_per_s[0]);
+  part->rayleigh_mass_per_s = 1.5 * ratio * first;
+  part->rayleigh_stiffness_s = 0.5 * ratio / first;
 }
 
 // Displacements of the part, a column each, at every node of the cage; zero where the part is not.
@@ -243,8 +200,9 @@ void append_modes(const Part& part, const MatrixXd& loads, const Seen& seen, con
     const double w = std::sqrt(part.modes.squared_rad_per_s[k]);
     const double size = sizes[k];
     if (!(w > 0) || !(size > 0)) continue;
-    modes->push_back({w, 0.5 * (part.rayleigh_mass_per_s / w + part.rayleigh_stiffness_s * w),
-                      shape.col(k) / size, turn.col(k) / size, force.row(k) * size});
+    const double ratio = 0.5 * (part.rayleigh_mass_per_s / w + part.rayleigh_stiffness_s * w);
+    modes->push_back(
+        {w, std::min(ratio, kMostDamping), shape.col(k) / size, turn.col(k) / size, force.row(k) * size});
   }
 }
 
@@ -273,7 +231,8 @@ int stillest_node(const MatrixXd& shape) {
   return static_cast<int>(least);
 }
 
-ModalBasis basis_of(Gathered gathered, int nodes, int count) {
+// intensity scales what is answered to a load, and so every displacement.
+ModalBasis basis_of(Gathered gathered, int nodes, int count, double intensity) {
   std::vector<Mode>& modes = gathered.modes;
   std::stable_sort(modes.begin(), modes.end(),
                    [](const Mode& a, const Mode& b) { return a.rad_per_s < b.rad_per_s; });
@@ -299,6 +258,8 @@ ModalBasis basis_of(Gathered gathered, int nodes, int count) {
     basis.rest_damping_ratio = next.damping_ratio;
   }
   basis.anchor_node = stillest_node(basis.shape);
+  basis.force *= intensity;
+  basis.rest *= intensity;
   return basis;
 }
 
@@ -315,11 +276,14 @@ std::vector<ModalBasis> modal_bases(const TissueLayout& layout, const Cage& cage
   for (const FemLinear& body : bodies)
     for (const auto& [region, nodes] : split_by_region(body, of, cage, cage_node)) {
       const auto index = static_cast<size_t>(region);
-      gather(solve_part(body, nodes, cage_node, count + 1), {layout, of, index}, cage, &gathered[index]);
+      Part part = solve_part(body, nodes, cage_node, count + 1);
+      if (layout.regions[index].frequency_hz > 0) damp_part(layout.regions[index].damping_ratio, &part);
+      gather(part, {layout, of, index}, cage, &gathered[index]);
     }
   std::vector<ModalBasis> bases;
   for (size_t r = 0; r < layout.regions.size(); ++r)
-    bases.push_back(basis_of(std::move(gathered[r]), layout.regions[r].node_count, count));
+    bases.push_back(
+        basis_of(std::move(gathered[r]), layout.regions[r].node_count, count, layout.regions[r].intensity));
   return bases;
 }
 

@@ -6,8 +6,11 @@
 #include <string>
 
 #include "baker/common/bad_input.hpp"
+#include "baker/truth/body_parts.hpp"
 #include "baker/truth/fem.hpp"
+#include "baker/truth/moving_part.hpp"
 #include "baker/truth/polar.hpp"
+#include "baker/truth/region_frequency.hpp"
 
 namespace sinew::baker {
 namespace {
@@ -15,45 +18,6 @@ namespace {
 constexpr double kTolerance =
     1e-5;  // of a body's weight: below a thousandth of a millimetre at the frequencies of flesh
 const Vector3 kGravity(0, -9.80665, 0);
-
-// The tetrahedra with a free node, renumbered: the rest only follows.
-struct MovingPart {
-  std::vector<int> cage_node;     // a node here -> of the cage
-  std::vector<int> node_of_cage;  // -1: not here
-  std::vector<Vector3> rest;
-  std::vector<std::array<int, 4>> tetrahedra;
-  std::vector<bool> constrained;
-  FemMaterial material;
-};
-
-MovingPart moving_part(const Cage& cage, const Recipe& recipe) {
-  MovingPart part;
-  part.node_of_cage.assign(cage.nodes.size(), -1);
-  part.material.poisson_ratio = recipe.poisson_ratio;
-  part.material.density_kg_m3 = recipe.density_kg_m3;
-  part.material.young_pa.clear();
-  part.material.fill.clear();
-  for (size_t e = 0; e < cage.tetrahedra.size(); ++e) {
-    const auto& t = cage.tetrahedra[e];
-    if (std::all_of(t.begin(), t.end(), [&](int n) { return cage.constrained[static_cast<size_t>(n)]; }))
-      continue;
-    std::array<int, 4> here{};
-    for (size_t a = 0; a < 4; ++a) {
-      int& node = part.node_of_cage[static_cast<size_t>(t[a])];
-      if (node < 0) {
-        node = static_cast<int>(part.cage_node.size());
-        part.cage_node.push_back(t[a]);
-        part.rest.push_back(cage.nodes[static_cast<size_t>(t[a])]);
-        part.constrained.push_back(cage.constrained[static_cast<size_t>(t[a])]);
-      }
-      here[a] = node;
-    }
-    part.tetrahedra.push_back(here);
-    part.material.young_pa.push_back(cage.young_pa[e]);
-    part.material.fill.push_back(cage.fill[e]);
-  }
-  return part;
-}
 
 }  // namespace
 
@@ -67,13 +31,31 @@ struct TissueTruth::Impl {
   double time_s = 0;
   UndisturbedMotion skinned;
   std::vector<Eigen::Matrix3d> rotation;  // a node of the moving part, world from bind
+  std::vector<double> intensity = std::vector<double>(character.positions.size(), 1);  // a vertex
+
+  // Of each body, the mean of those of its regions by their free nodes; of one in no region the recipe's.
+  std::vector<double> damping_ratios(const TissueLayout& layout, double otherwise) {
+    std::vector<double> ratios;
+    for (const FemLinear& body : fem.linear()) {
+      double sum = 0, count = 0;
+      for (const auto& [region, nodes] : split_by_region(body, layout, cage, part.cage_node)) {
+        const auto weight = static_cast<double>(nodes.size());
+        sum += weight * layout.regions[static_cast<size_t>(region)].damping_ratio;
+        count += weight;
+      }
+      ratios.push_back(count > 0 ? sum / count : otherwise);
+    }
+    return ratios;
+  }
 
   Impl(const Character& c, const TissueLayout& layout, const Recipe& recipe)
       : character(c),
-        cage(build_cage(c, layout, recipe)),
+        cage(with_frequencies(build_cage(c, layout, recipe), layout, recipe)),
         part(moving_part(cage, recipe)),
         fem(part.rest, part.tetrahedra, part.constrained, part.material) {
-    fem.damp(recipe.damping_ratio);
+    fem.damp(damping_ratios(layout, recipe.damping_ratio));
+    for (const Region& region : layout.regions)
+      for (const int v : region.vertices) intensity[static_cast<size_t>(v)] = region.intensity;
     skinned.turn.resize(part.rest.size());
   }
 

@@ -1,10 +1,8 @@
-// guard.cpp  Looks for what is not finite, brings nodes back to their limit, and forgets what pushed them
-// there.
+// guard.cpp  Looks for what is not finite, and scales what would go beyond its limit.
 #include "tissue/guard.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "tissue/inputs.hpp"
 
@@ -21,32 +19,6 @@ struct OutputRows {
 OutputRows output_rows(const Network& network, uint32_t node_count, const float* state) {
   const auto last = static_cast<uint32_t>(network.layers.size() - 1);
   return {layer_state(network, node_count, last, const_cast<float*>(state)).y, network.layers[last].padded};
-}
-
-template <class Planes>
-void forget_row(const Planes& layer, uint32_t node, size_t padded) {
-  for (auto* values : {layer.h, layer.c, layer.y})
-    std::memset(values + node * padded, 0, padded * sizeof *values);
-}
-
-void forget_node(const NodeMemory& memory, uint32_t node) {
-  const Network& network = *memory.network;
-  for (uint32_t l = 0; l < network.layers.size(); ++l) {
-    const size_t padded = network.layers[l].padded;
-    if (keeps_halves(network, l))
-      forget_row(half_layer_state(network, memory.node_count, l, memory.state), node, padded);
-    else
-      forget_row(layer_state(network, memory.node_count, l, memory.state), node, padded);
-  }
-}
-
-// Length by hypot: the square of a wild displacement may overflow.
-bool scale_to(float limit_m, float* l) {
-  const float length = std::hypot(l[0], l[1], l[2]);
-  if (length <= limit_m) return false;
-  const float scale = limit_m / length;
-  for (int axis = 0; axis < 3; ++axis) l[axis] *= scale;
-  return true;
 }
 
 void write_node(const OutputRows& rows, uint32_t node, float unit_m, const float* l) {
@@ -69,38 +41,16 @@ bool network_is_finite(const Network& network, uint32_t node_count, const float*
   return !std::isinf(network.record->state_clamp) || std::isfinite(largest_cell(network, node_count, state));
 }
 
-uint32_t hold_at_limit(const pack::RegionRecord& region, const NodeMemory& memory, float* l,
-                       float* l_before) noexcept {
-  uint32_t held = 0;
-  for (uint32_t i = 0; i < region.node_count; ++i, l += 3, l_before += 3) {
-    if (!scale_to(region.displacement_limit_m, l)) continue;
-    ++held;
-    std::copy_n(l, 3, l_before);
-    if (memory.network == nullptr) continue;
-    const uint32_t node = region.first_node + i;
-    forget_node(memory, node);
-    write_node(output_rows(*memory.network, memory.node_count, memory.state), node,
-               length_unit_m(*memory.network, region), l);
-  }
-  return held;
+float limit_share(float largest_m, float limit_m) noexcept {
+  const float free_m = kFreeShare * limit_m, rest_m = limit_m - free_m;
+  if (!(largest_m > free_m)) return 1;
+  return (free_m + rest_m * std::tanh((largest_m - free_m) / rest_m)) / largest_m;
 }
 
-uint32_t hold_base_at_limit(const pack::RegionRecord& region, uint32_t modes, float* l, const TwoTicks& q,
-                            const TwoTicks& r) noexcept {
-  const uint32_t floats = 3 * region.node_count;
-  uint32_t beyond = 0;
+float largest_displacement_m(const float* l, uint32_t nodes) noexcept {
   float largest_m = 0;
-  for (uint32_t i = 0; i < floats; i += 3) {
-    const float length = std::hypot(l[i], l[i + 1], l[i + 2]);
-    beyond += length > region.displacement_limit_m;
-    largest_m = std::max(largest_m, length);
-  }
-  if (beyond == 0) return 0;
-  const float scale = region.displacement_limit_m / largest_m;
-  for (uint32_t i = 0; i < floats; ++i) l[i] *= scale;
-  for (uint32_t i = 0; i < floats; ++i) r.before[i] = r.now[i] *= scale;
-  for (uint32_t k = 0; k < modes; ++k) q.before[k] = q.now[k] *= scale;
-  return beyond;
+  for (uint32_t i = 0; i < nodes; ++i, l += 3) largest_m = std::max(largest_m, std::hypot(l[0], l[1], l[2]));
+  return largest_m;
 }
 
 void read_output(const Network& network, std::span<const pack::RegionRecord> regions, uint32_t node_count,

@@ -15,29 +15,16 @@ bool all_finite(const float* values, size_t count) noexcept;
 // unbounded cell state (state_clamp infinite) every c is looked at as well.
 bool network_is_finite(const Network& network, uint32_t node_count, const float* state) noexcept;
 
-// A network's memory of nodes; none: nothing but l is held.
-struct NodeMemory {
-  const Network* network = nullptr;
-  uint32_t node_count = 0;  // of the whole character
-  float* state = nullptr;
-};
+// Up to this share of its limit a displacement is left alone; from there it approaches the limit smoothly.
+inline constexpr float kFreeShare = 0.6f;
 
-// l beyond its region's limit is brought back along its own direction, and l_before with it, so that it has
-// no velocity: a clamp alone would leave the states behind it pushing. The node's states in every layer
-// become zero and its y what l is; its neighbours forget what they gathered from it at the rate of
-// hidden_leak. l, l_before: [region nodes][3], metres. Returns the nodes held.
-uint32_t hold_at_limit(const pack::RegionRecord& region, const NodeMemory& memory, float* l,
-                       float* l_before) noexcept;
+// What a region's displacement, with everything that it moves by, is scaled with so that the largest stays
+// below the limit: 1 up to kFreeShare of it. A scaled state is a state of the same linear system, with less
+// energy; holding single nodes would push stiff modes with what was cut off. largest_m not finite: 1 for NaN.
+float limit_share(float largest_m, float limit_m) noexcept;
 
-struct TwoTicks {
-  float *now, *before;
-};
-
-// A modal base that brings a node beyond the region's limit is scaled as a whole, l, q and r alike, and
-// stops: what was before becomes what is now. Holding single nodes and projecting would push stiff modes with
-// what was cut off. l, r: [region nodes][3], metres; q: [modes]. Returns the nodes that were beyond.
-uint32_t hold_base_at_limit(const pack::RegionRecord& region, uint32_t modes, float* l, const TwoTicks& q,
-                            const TwoTicks& r) noexcept;
+// Of [nodes][3]; lengths by hypot, for the square of a wild displacement may overflow.
+float largest_displacement_m(const float* l, uint32_t nodes) noexcept;
 
 // l ([node_count][3], metres) of y and back.
 void read_output(const Network& network, std::span<const pack::RegionRecord> regions, uint32_t node_count,

@@ -200,4 +200,21 @@ uint32_t assemble_inputs(const Network& network, const NodeSources& sources, flo
   return held;
 }
 
+float trust_in(const Network& network, const NodeSources& sources, uint32_t clamped) noexcept {
+  constexpr float kClampedShare = 0.05f, kFasterShare = 0.25f;
+  float numbers = 0, trust = 1;
+  for (const pack::InputRecord& input : network.inputs) {
+    const auto width = static_cast<float>(width_of(input.kind) * sources.region->node_count);
+    if (input.kind != InputKind::kFrequency) {
+      numbers += width;
+      continue;
+    }
+    const float faster = sources.first_rad_per_s * sources.tick_s * input.scale / input.envelope - 1;
+    if (faster > 0) clamped -= std::min(clamped, sources.region->node_count);  // a number a node, told apart
+    trust = std::clamp(1 - faster / kFasterShare, 0.0f, 1.0f);
+  }
+  const float outside = static_cast<float>(clamped) / (kClampedShare * std::max(numbers, 1.0f));
+  return trust * std::max(0.0f, 1 - outside);
+}
+
 }  // namespace sinew::tissue

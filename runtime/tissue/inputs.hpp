@@ -32,4 +32,9 @@ float length_unit_m(const Network& network, const pack::RegionRecord& region) no
 // be empty.
 uint32_t assemble_inputs(const Network& network, const NodeSources& sources, float* z) noexcept;
 
+// How much a network is believed that was fed so many clamped numbers: 1 inside its envelope, 0 once a
+// twentieth of a region's numbers lie outside, or where its tissue swings a quarter faster than any that the
+// network was trained on.
+float trust_in(const Network& network, const NodeSources& sources, uint32_t clamped) noexcept;
+
 }  // namespace sinew::tissue

@@ -56,6 +56,7 @@ void lay_out_state(const Asset& asset, core::Arena& arena, Instance& to) noexcep
   for (float*& q : to.q) q = arena.take<float>(asset.mode_count());
   for (float*& r : to.r) r = arena.take<float>(vectors);
   for (float*& q : to.corrected) q = arena.take<float>(asset.mode_count());
+  to.swing = arena.take<float>(asset.pack.regions.size());
   for (float*& heard : to.heard) heard = arena.take<float>(asset.heard_floats);
   to.tail = arena.take<float>(vectors);
   to.tail_velocity = arena.take<float>(vectors);
@@ -111,6 +112,7 @@ void lay_out_scratch(const Asset& asset, core::Arena& arena, Instance& to) noexc
   to.q_hat = arena.take<float>(asset.mode_count());
   for (float*& region : to.region) region = arena.take<float>(asset.widest_region);
   to.awake = arena.take<tissue::NodeRun>(asset.pack.regions.size());
+  to.trust = arena.take<float>(asset.pack.regions.size());
   if (asset.level_count > 1) to.level_scratch = arena.take<float>(change_scratch_floats(asset));
   to.inputs = arena.take<float>(tissue::input_stride(asset.network) * nodes);
   to.network_scratch = arena.take<float>(tissue::scratch_floats(asset.network, nodes));
@@ -237,7 +239,6 @@ void forget_displacement(Instance& instance) noexcept {
   state.tier = Tier::kSkinning;  // so that simulation starts anew, from zero
   state.fallback_ticks = 0;
   state.tail_ticks = kCarryTicks + kFadeTicks;
-  state.clamped_ticks = 0;
   state.tail_rides = state.tail_stays = 0;
   state.fade_ticks = kFadeTicks;
   state.rest_ticks = 0;

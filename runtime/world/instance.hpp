@@ -39,8 +39,6 @@ inline constexpr uint32_t kCaughtUpTicks = 2;
 // Share of its velocity that a tail keeps each tick: nothing flings, it stands still soon, and then costs
 // nothing to publish.
 inline constexpr float kCarryDamping = 0.6f;
-// In a row; beyond it the network's state is taken for worthless.
-inline constexpr uint32_t kMostClampedTicks = 60;
 // In one question; as many hits of a contact source as of the own body.
 inline constexpr uint32_t kProbesAtOnce = 128, kHitsAtOnce = 2 * kProbesAtOnce;
 inline constexpr uint32_t kFallbackTicks = 60;  // on the modal base, after a network's state was given up
@@ -75,7 +73,6 @@ struct InstanceState {
   uint16_t fade_ticks = kFadeTicks;                // of the tail
   uint16_t network_begins = 0;  // ticks left in which a network without a memory corrects by less
   uint32_t rest_ticks = 0;      // left in which what comes back begins at rest
-  uint32_t clamped_ticks = 0;   // in a row
   uint32_t ticks_since_network = 0;
   uint32_t input_clamps = 0, displacement_clamps = 0, fallbacks = 0, restarts = 0;
   uint32_t untouched = 1;  // no tick since the first pose: displacement is exactly zero
@@ -201,6 +198,7 @@ struct Instance {
   float *q[2] = {}, *r[2] = {};                    // q: [modes of all regions]
   // [modes]: by how much a network's corrections have moved q since it began, as modes go on with them.
   float* corrected[2] = {};
+  float* swing = nullptr;  // [regions]: tissue/correction_budget.hpp
   float* heard[2] = {};  // of the last two ticks that were simulated whole: a region after the other
   float *tail = nullptr, *tail_velocity = nullptr;  // velocity a tick
   float* shown[2] = {};                             // newest first
@@ -233,6 +231,7 @@ struct Instance {
   float* drive = nullptr;           // [nodes][kNodeDriveWidth]
   float *felt = nullptr, *l_hat = nullptr, *r_hat = nullptr, *q_hat = nullptr, *carry = nullptr;
   float *inputs = nullptr, *network_scratch = nullptr;
+  float* trust = nullptr;            // [regions]: tissue::trust_in of this tick
   float* region[2] = {};             // [widest_region]: one region's x y z and modes
   tissue::NodeRun* awake = nullptr;  // [regions]
   float* level_scratch = nullptr;    // world/change_level.cpp; null: one level

@@ -4,10 +4,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <utility>
 
 #include "simd/kernels.hpp"
+#include "tissue/correction_budget.hpp"
 #include "tissue/guard.hpp"
 #include "tissue/inputs.hpp"
 #include "tissue/modal_base.hpp"
@@ -82,12 +84,15 @@ void remember_hearer(Instance& instance) noexcept {
   instance.state->heard_by = static_cast<uint32_t>(hearer(instance.state->tier));
 }
 
-// `by_tier`: by what the tier itself put out, which gives it up in the end; a network is not to blame for its
-// base.
-void count_clamps(Instance& instance, uint32_t held, uint32_t by_tier) noexcept {
-  InstanceState& state = *instance.state;
-  state.displacement_clamps += held;
-  state.clamped_ticks = by_tier > 0 ? state.clamped_ticks + 1 : 0;
+void scale(float share, float* values, size_t count) noexcept {
+  for (size_t i = 0; i < count; ++i) values[i] *= share;
+}
+
+// The share that a region's displacement is scaled by; counts it where it would have gone beyond the limit.
+float limit_of(Instance& instance, const Part& part, const float* displacement) noexcept {
+  const float largest_m = tissue::largest_displacement_m(displacement, part.record.node_count);
+  instance.state->displacement_clamps += largest_m > part.record.displacement_limit_m;
+  return tissue::limit_share(largest_m, part.record.displacement_limit_m);
 }
 
 // In this tick, and next to nothing of it is seen yet: a change of level had the region again, or all of the
@@ -152,11 +157,11 @@ bool spring_tick(Instance& instance) noexcept {
                         instance.u[0] + part.vector, instance.u[1] + part.vector);
   });
   if (!tissue::all_finite(instance.u[0], floats_of(instance))) return false;
-  uint32_t held = 0;
   for_each_part(instance, [&](const Part& part) {
-    held += tissue::hold_at_limit(part.record, {}, instance.u[0] + part.vector, instance.u[1] + part.vector);
+    const float share = limit_of(instance, part, instance.u[0] + part.vector);
+    if (share == 1) return;
+    for (float* u : instance.u) scale(share, u + part.vector, 3 * part.record.node_count);
   });
-  count_clamps(instance, held, held);
   return true;
 }
 
@@ -264,13 +269,17 @@ void begin_modes_at_rest(Instance& instance, const Part& part, const float* hear
   const auto modes = static_cast<uint32_t>(base.modes.size());
   simd::kernels().add_rows(base.shape, modes, base.padded, q[0], l);
   for (size_t i = 0; i < floats; ++i) l[i] += r[0][i] = r[1][i] = share * heard[i];
-  tissue::hold_base_at_limit(part.record, modes, l, {q[0], q[1]}, {r[0], r[1]});
+  const float limited = tissue::limit_share(tissue::largest_displacement_m(l, part.record.node_count),
+                                            part.record.displacement_limit_m);
+  for (int tick = 0; tick < 2; ++tick) scale(limited, q[tick], modes), scale(limited, r[tick], floats);
+  scale(limited, l, floats);
   for (size_t i = 0; i < floats; ++i) {
     instance.carry[part.vector + i] = l[i] - instance.l[0][part.vector + i];
     for (float* tick : instance.l) tick[part.vector + i] = l[i];
   }
   tissue::modal_turn(base, q[0], l, instance.theta + part.vector);
   for (float* corrected : instance.corrected) std::fill_n(corrected + part.mode, modes, 0.0f);
+  instance.swing[part.index] = 0;
 }
 
 // Where the tick begins something at rest, carry tells by how much l moved. False: nothing.
@@ -285,13 +294,25 @@ bool begin_part(Instance& instance, const Part& part, const float* heard) noexce
   return begins || settles;
 }
 
+// theta that turns e: of the modal base alone, so that it hears nothing of what a network corrects while the
+// frames do not turn (tissue/correction_budget.hpp). Overwrites carry and region[0].
+const float* theta_of_base(Instance& instance, const Part& part) noexcept {
+  if (instance.state->tier != Tier::kNetwork) return instance.theta + part.vector;
+  alignas(64) float base[pack::kMaxModes];
+  for (size_t m = 0; m < part.base.modes.size(); ++m)
+    base[m] = instance.q[0][part.mode + m] - instance.corrected[0][part.mode + m];
+  float* theta = instance.carry + part.vector;
+  tissue::modal_turn(part.base, base, instance.region[0], theta);
+  return theta;
+}
+
 // felt = f + phi, then e; what is heard.
 void hear_modes(Instance& instance) noexcept {
   bool moved = false;
   for_each_awake_part(instance, [&](const Part& part) {
     feel(instance, part);
     float *felt = instance.felt + part.vector, *heard = instance.region[0];
-    tissue::modal_hear(part.base, felt, instance.theta + part.vector, felt, heard);
+    tissue::modal_hear(part.base, felt, theta_of_base(instance, part), felt, heard);
     moved |= begin_part(instance, part, heard);
     hear(instance, part, part.base.padded + part.base.padded_modes, heard);
     if (instance.state->spacing_ticks > 1) make_up(instance, part, heard);
@@ -317,22 +338,6 @@ bool base_step(Instance& instance) noexcept {
   });
   return tissue::all_finite(instance.l_hat, floats_of(instance)) &&
          tissue::all_finite(instance.q_hat, instance.level->mode_count());
-}
-
-// What is the last tick's now, and this tick's before, in q and r: overwritten where a region is stopped.
-uint32_t hold_base(Instance& instance) noexcept {
-  uint32_t held = 0;
-  for_each_awake_part(instance, [&](const Part& part) {
-    const size_t modes = part.base.modes.size();
-    const uint32_t here =
-        tissue::hold_base_at_limit(part.record, static_cast<uint32_t>(modes), instance.l_hat + part.vector,
-                                   {instance.q_hat + part.mode, instance.q[0] + part.mode},
-                                   {instance.r_hat + part.vector, instance.r[0] + part.vector});
-    held += here;
-    if (here == 0) return;  // what a network moved is not told apart from what holds
-    for (float* corrected : instance.corrected) std::fill_n(corrected + part.mode, modes, 0.0f);
-  });
-  return held;
 }
 
 // q += project (l - from).
@@ -364,10 +369,26 @@ void take_base_answer(Instance& instance) noexcept {
   std::copy_n(instance.q_hat, instance.level->mode_count(), instance.q[0]);
 }
 
-// l of this tick is the base's; theta and u follow.
-void settle_on_base(Instance& instance) noexcept {
-  std::copy_n(instance.l_hat, floats_of(instance), instance.l[0]);
-  for_each_awake_part(instance, [&](const Part& part) { turn_and_warp(instance, part); });
+// Scales all that a region moves by, where it would go beyond its limit: of this tick and the last, and what
+// corrections and their budget are of it.
+void limit_part(Instance& instance, const Part& part) noexcept {
+  const float share = limit_of(instance, part, instance.l[0] + part.vector);
+  if (share == 1) return;
+  const size_t floats = size_t{3} * part.record.node_count, modes = part.base.modes.size();
+  for (int tick = 0; tick < 2; ++tick) {
+    for (float* const* vectors : {instance.l, instance.r}) scale(share, vectors[tick] + part.vector, floats);
+    for (float* const* modal : {instance.q, instance.corrected}) scale(share, modal[tick] + part.mode, modes);
+  }
+  scale(share, instance.u[1] + part.vector, floats);
+  instance.swing[part.index] *= share * share;
+}
+
+// theta and u follow from q and l.
+void settle(Instance& instance) noexcept {
+  for_each_awake_part(instance, [&](const Part& part) {
+    limit_part(instance, part);
+    turn_and_warp(instance, part);
+  });
 }
 
 // ---- the network ----
@@ -386,8 +407,10 @@ void assemble(Instance& instance) noexcept {
                                       .theta = instance.theta + part.vector,
                                       .first_rad_per_s = part.first_rad_per_s,
                                       .tick_s = static_cast<float>(asset.tick_s)};
-    instance.state->input_clamps +=
+    const uint32_t clamped =
         tissue::assemble_inputs(asset.network, sources, instance.inputs + stride * part.node);
+    instance.state->input_clamps += clamped;
+    instance.trust[part.index] = tissue::trust_in(asset.network, sources, clamped);
     const float unit_m = tissue::length_unit_m(asset.network, part.record);
     for (size_t i = part.vector; i < part.vector + 3 * part.record.node_count; ++i)
       instance.carry[i] = (instance.l_hat[i] - instance.l[0][i]) / unit_m;
@@ -399,56 +422,84 @@ void give_up_network(Instance& instance) noexcept {
   state.tier = Tier::kModal;
   state.fallback_ticks = kFallbackTicks;
   state.forgotten = 1;
-  state.clamped_ticks = 0;
   wake_regions(instance);
   ++state.fallbacks;
   instance.fell_back = true;
 }
 
 // A network that begins knows nothing of the motion yet: its corrections rise.
-void begin_gently(Instance& instance) noexcept {
+float begun_share(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
-  if (state.network_begins == 0) return;
+  if (state.network_begins == 0) return 1;
   --state.network_begins;
-  const float share = 1 - static_cast<float>(state.network_begins) / kNetworkBeginTicks;
-  for_each_awake_part(instance, [&](const Part& part) {
-    for (size_t i = part.vector; i < part.vector + 3 * part.record.node_count; ++i)
-      instance.l[0][i] = instance.l_hat[i] + share * (instance.l[0][i] - instance.l_hat[i]);
-  });
-  tissue::write_output(instance.asset->network, instance.level->pack.regions, instance.level->node_count(),
-                       instance.l[0], instance.network_state);
+  return 1 - static_cast<float>(state.network_begins) / kNetworkBeginTicks;
 }
 
-// What modes alone would not have, after a tick in which the network moved q away from q_hat.
-void count_corrections(Instance& instance, const Part& part) noexcept {
+// Of the region's nodes, over the last three ticks.
+bool pose_stays(const Instance& instance, const Part& part) noexcept {
+  const size_t bytes = part.record.node_count * sizeof(tissue::NodePose), root_bytes = 3 * sizeof(double);
+  const auto same = [&](int older) {
+    return std::memcmp(instance.poses[0] + part.node, instance.poses[older] + part.node, bytes) == 0 &&
+           std::memcmp(instance.state->tick_root_m[0], instance.state->tick_root_m[older], root_bytes) == 0;
+  };
+  return same(1) && same(2);
+}
+
+// d of this tick from those of the last two, and what the tick corrects.
+void count_corrections(Instance& instance, const Part& part, const float* correction) noexcept {
   float *now = instance.corrected[0] + part.mode, *before = instance.corrected[1] + part.mode;
-  const float *q = instance.q[0] + part.mode, *q_hat = instance.q_hat + part.mode;
   for (size_t m = 0; m < part.base.modes.size(); ++m) {
     const pack::ModeRecord& mode = part.base.modes[m];
     const float goes_on = mode.a1 * now[m] + mode.a2 * before[m];
     before[m] = now[m];
-    now[m] = goes_on + (q[m] - q_hat[m]);
+    now[m] = goes_on + correction[m];
   }
 }
 
-// l of this tick is the network's; q, theta and u follow. Returns the nodes held.
-uint32_t settle_on_network(Instance& instance) noexcept {
-  const GraphLevel& level = *instance.level;
-  const tissue::Network& network = instance.asset->network;
-  const tissue::NodeMemory memory{&network, level.node_count(), instance.network_state};
-  tissue::read_output(network, level.pack.regions, level.node_count(), instance.network_state, instance.l[0]);
-  begin_gently(instance);
-  uint32_t held = 0;
+// The network's correction as modes have it, as much of it as its budget allows.
+void correct_modes(Instance& instance, const Part& part, float most) noexcept {
+  alignas(64) float correction[pack::kMaxModes] = {}, base[pack::kMaxModes];
+  const size_t modes = part.base.modes.size();
+  float* change = instance.region[0];
+  for (size_t i = 0; i < size_t{3} * part.record.node_count; ++i)
+    change[i] = most * (instance.l[0][part.vector + i] - instance.l_hat[part.vector + i]);
+  tissue::modal_project(part.base, change, correction);
+  const float *d = instance.corrected[0] + part.mode, *d_before = instance.corrected[1] + part.mode;
+  for (size_t m = 0; m < modes; ++m)
+    base[m] =
+        instance.q_hat[part.mode + m] - (part.base.modes[m].a1 * d[m] + part.base.modes[m].a2 * d_before[m]);
+  const float share = tissue::bounded_share({.modes = part.base.modes,
+                                             .base = base,
+                                             .d = d,
+                                             .d_before = d_before,
+                                             .correction = correction,
+                                             .pose_stays = pose_stays(instance, part)},
+                                            instance.swing + part.index);
+  // A correction that is not finite takes no share, and 0 times it is none either.
+  for (size_t m = 0; m < modes; ++m) correction[m] = share > 0 ? share * correction[m] : 0;
+  simd::kernels().add_rows(part.base.shape, static_cast<uint32_t>(modes), part.base.padded, correction,
+                           instance.region[1]);
+  for (size_t i = 0; i < size_t{3} * part.record.node_count; ++i)
+    instance.l[0][part.vector + i] = instance.l_hat[part.vector + i] + instance.region[1][i];
+  for (size_t m = 0; m < modes; ++m) instance.q[0][part.mode + m] += correction[m];
+  count_corrections(instance, part, correction);
+}
+
+// l of this tick is the network's, as far as modes can have it and its budget lets it.
+void settle_on_network(Instance& instance) noexcept {
+  tissue::read_output(instance.asset->network, instance.level->pack.regions, instance.level->node_count(),
+                      instance.network_state, instance.l[0]);
+  const float begun = begun_share(instance);
+  for_each_awake_part(
+      instance, [&](const Part& part) { correct_modes(instance, part, begun * instance.trust[part.index]); });
+}
+
+// The network goes on from what was taken of its answer.
+void take_back_to_network(Instance& instance) noexcept {
   for_each_awake_part(instance, [&](const Part& part) {
-    float *now = instance.l[0] + part.vector, *before = instance.l[1] + part.vector;
-    const uint32_t here = tissue::hold_at_limit(part.record, memory, now, before);
-    project_change(instance, part, instance.l[0], instance.l_hat, instance.q[0]);
-    count_corrections(instance, part);
-    turn_and_warp(instance, part);
-    if (here > 0) stop_region(instance, part.index);
-    held += here;
+    tissue::write_output(instance.asset->network, instance.level->pack.regions.subspan(part.index, 1),
+                         instance.level->node_count(), instance.l[0] + part.vector, instance.network_state);
   });
-  return held;
 }
 
 // Runs of awake regions.
@@ -470,9 +521,7 @@ bool network_step(Instance& instance) noexcept {
   assemble(instance);
   tissue::network_step(network, instance.level->graph, awake_nodes(instance), instance.inputs, instance.carry,
                        instance.network_state, instance.network_scratch);
-  if (instance.state->clamped_ticks <= kMostClampedTicks &&
-      tissue::network_is_finite(network, instance.level->node_count(), instance.network_state))
-    return true;
+  if (tissue::network_is_finite(network, instance.level->node_count(), instance.network_state)) return true;
   give_up_network(instance);
   return false;
 }
@@ -493,16 +542,15 @@ void drive_nodes(Instance& instance) noexcept {
 bool simulate_tick(Instance& instance) noexcept {
   if (instance.state->tier == Tier::kSpring) return spring_tick(instance);
   if (!base_step(instance)) return false;
-  const uint32_t base_held = hold_base(instance);
   const bool corrected = instance.state->tier == Tier::kNetwork && network_step(instance);
   shift_back(instance);
   take_base_answer(instance);
-  uint32_t network_held = 0;
   if (corrected)
-    network_held = settle_on_network(instance);
+    settle_on_network(instance);
   else
-    settle_on_base(instance);
-  count_clamps(instance, base_held + network_held, corrected ? network_held : base_held);
+    std::copy_n(instance.l_hat, floats_of(instance), instance.l[0]);
+  settle(instance);
+  if (corrected) take_back_to_network(instance);
   return true;
 }
 

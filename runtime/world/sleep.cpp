@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "tissue/node_drive.hpp"
@@ -48,22 +47,8 @@ void remember_drive(Instance& instance, const Region& region) noexcept {
     std::copy_n(instance.drive + tissue::kNodeDriveWidth * n, 3, instance.felt_asleep + 3 * n);
 }
 
-// Never, of a mode without damping and of a region without modes.
-bool is_settled(const Instance& instance, size_t index) noexcept {
-  constexpr float kSettled = 1e-3f, kLessDamped = 3;
-  if (instance.contacts.source) return false;
-  const pack::PackView& pack = instance.level->pack;
-  const pack::RegionModesRecord& region = pack.region_modes[index];
-  float slowest_per_s = region.mode_count > 0 ? std::numeric_limits<float>::infinity() : 0;
-  for (const pack::ModeRecord& mode : pack.modes.subspan(region.first_mode, region.mode_count))
-    slowest_per_s = std::min(slowest_per_s, mode.damping_ratio * mode.rad_per_s);
-  const float still_s = static_cast<float>(instance.state->still_ticks * instance.asset->tick_s);
-  return still_s * slowest_per_s > -kLessDamped * std::log(kSettled);
-}
-
-bool stays(const Instance& instance, size_t index, const Region& region) noexcept {
-  constexpr float kHum = 16;
-  const float most = region.rest_m * region.w1_tick * (is_settled(instance, index) ? kHum : 1);
+bool stays(const Instance& instance, const Region& region) noexcept {
+  const float most = region.rest_m * region.w1_tick;
   for (size_t n = region.record.first_node; n < region.record.first_node + region.record.node_count; ++n) {
     if (!is_near(instance.l[0] + 3 * n, instance.l[1] + 3 * n, most)) return false;
   }
@@ -79,6 +64,7 @@ void for_each_region(Instance& instance, float tolerance, Work work) noexcept {
 void fall_asleep(Instance& instance, size_t index, const Region& region) noexcept {
   const size_t vector = size_t{3} * region.record.first_node;
   stop_region(instance, index);
+  instance.swing[index] = 0;
   std::copy_n(instance.l[0] + vector, size_t{3} * region.record.node_count, instance.l[1] + vector);
 }
 
@@ -118,7 +104,7 @@ void watch_motion(Instance& instance, float tolerance) noexcept {
   for_each_region(instance, tolerance, [&](size_t r, const Region& region, uint32_t& quiet_ticks) {
     const uint32_t enough = ticks_to_sleep(region);
     if (quiet_ticks >= enough) return;
-    const bool quiet = tolerance > 0 && stays(instance, r, region);
+    const bool quiet = tolerance > 0 && stays(instance, region);
     quiet_ticks = quiet ? quiet_ticks + instance.state->since_ticks : 0;
     if (quiet_ticks >= enough) fall_asleep(instance, r, region);
   });

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "baker/trade/error.hpp"
+#include "baker/programs/yardstick.hpp"
 #include "baker/trade/write_tiers.hpp"
 
 namespace sinew::test {

@@ -115,8 +115,7 @@ baker::Safetensors block_network(const BlockOptions& options) {
       {"envelope", "5,5,5,5,5,20,20,5,1,1"},
       {"hidden_leak", "0.2"},
       {"state_clamp", "8"},
-      {"length_unit", "0.25"},
-      {"displacement_limit", std::to_string(options.displacement_limit)}};
+      {"length_unit", "0.25"}};
   Random random(options.seed);
   put_first_layer(file, random);
   put_last_layer(file, random);

@@ -184,6 +184,7 @@ void add_region(const Character& character, const BlockOptions& options, int ind
   region.first_node = static_cast<int>(layout.nodes.size());
   region.node_count = options.nodes;
   region.touches_body = options.arms && options.arms->touches_body;
+  region.max_displacement = options.displacement_limit;
   region.vertices = soft_vertices(character, index, options.regions);
   const std::vector<int> nodes = sample_nodes(character, region.vertices, options.nodes);
   region.carry = carry_weights(character, nodes, region.vertices);

@@ -6,6 +6,7 @@
 #include "tests/simd/chain.hpp"
 #include "tests/simd/every_isa.hpp"
 #include "tests/tissue/reference_network.hpp"
+#include "tissue/correction_budget.hpp"
 #include "tissue/deep_emulator.hpp"
 #include "tissue/guard.hpp"
 #include "tissue/inputs.hpp"
@@ -91,7 +92,8 @@ TEST_CASE("a_tick_of_drive_base_inputs_network_and_guard_allocates_nothing") {
                             z.data());
     tissue::network_step(network, graph_view, z.data(), u.data(), state.data(), scratch.data());
     tissue::read_output(network, {&region, 1}, kNodes, state.data(), u.data());
-    tissue::hold_at_limit(region, {&network, kNodes, state.data()}, u.data(), u_before.data());
+    float swing = tissue::limit_share(tissue::largest_displacement_m(u.data(), kNodes), 1);
+    tissue::bounded_share({modes, q_hat.data(), q.data(), q_before.data(), q_hat.data()}, &swing);
     tissue::modal_project(base, l.data(), q.data());
     tissue::modal_turn(base, q.data(), room.data(), theta.data());
     tissue::warp(theta.data(), l.data(), kNodes, u.data());

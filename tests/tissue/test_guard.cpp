@@ -2,6 +2,7 @@
 #include "tissue/guard.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
 
 #include "tests/tissue/reference_network.hpp"
@@ -48,16 +49,6 @@ struct Fixture {
     l[node * 3 + 1] = b;
     l[node * 3 + 2] = c;
   }
-  uint32_t hold(bool with_network = true) {
-    tissue::NodeMemory memory;
-    if (with_network) memory = {&network, kNodes, state.data()};
-    uint32_t held = 0;
-    for (const pack::RegionRecord& region : regions) {
-      const size_t at = size_t{3} * region.first_node;
-      held += tissue::hold_at_limit(region, memory, l.data() + at, l_before.data() + at);
-    }
-    return held;
-  }
   bool finite() { return tissue::network_is_finite(network, kNodes, state.data()); }
 
   std::mt19937 random;
@@ -102,94 +93,32 @@ TEST_CASE("guard_looks_at_every_cell_when_cells_are_not_bounded") {
   REQUIRE_FALSE(fixture.finite());
 }
 
-TEST_CASE("what_is_within_the_limit_is_left_alone") {
-  Fixture fixture;
-  const std::vector<float> state = fixture.state.copy(), l = fixture.l, before = fixture.l_before;
-  CHECK(fixture.hold() == 0);
-  CHECK(fixture.state.copy() == state);
-  CHECK(fixture.l == l);
-  CHECK(fixture.l_before == before);
+TEST_CASE("a_displacement_within_the_free_share_of_its_limit_is_left_alone") {
+  CHECK(tissue::limit_share(0, kLimit) == 1);
+  CHECK(tissue::limit_share(tissue::kFreeShare * kLimit, kLimit) == 1);
+  CHECK(tissue::limit_share(kNan, kLimit) == 1);  // what is not finite has its own guard
 }
 
-TEST_CASE("guard_holds_a_node_at_its_regions_limit_and_forgets_what_pushed_it") {
-  Fixture fixture;
-  fixture.set_l(1, 0, 0.3f, 0.4f);     // ten times the limit
-  fixture.set_l(5, 0, 0.045f, 0.06f);  // beyond the first region's limit, within its own
-  CHECK(fixture.hold() == 1);
-  CHECK(fixture.l[3] == 0);
-  CHECK(fixture.l[4] == Approx(0.6f * kLimit).margin(kRounding));
-  CHECK(fixture.l[5] == Approx(0.8f * kLimit).margin(kRounding));
-  CHECK(fixture.l[16] == 0.045f);
-  for (size_t axis = 0; axis < 3; ++axis) {
-    CHECK(fixture.l_before[3 + axis] == fixture.l[3 + axis]);  // no velocity
-    CHECK(fixture.l_before[axis] == 0.5f);
-    CHECK(fixture.y(1)[axis] * kUnit == Approx(fixture.l[3 + axis]));
+TEST_CASE("a_displacement_approaches_its_limit_smoothly_and_never_reaches_beyond") {
+  float before = 0, slope_before = 1;
+  for (int i = 1; i <= 400; ++i) {
+    const float asked = 0.01f * static_cast<float>(i) * kLimit;
+    const float shown = asked * tissue::limit_share(asked, kLimit),
+                slope = (shown - before) / (0.01f * kLimit);
+    CHECK(shown >= before - kRounding * kLimit);
+    CHECK(shown <= kLimit * (1 + kRounding));
+    CHECK(std::abs(slope - slope_before) < 0.025f);  // the second derivative of tanh, a hundredth apart
+    before = shown;
+    slope_before = slope;
   }
-  for (uint32_t at = 0; at < 2; ++at) {
-    const uint32_t padded = at == 0 ? 32 : 16;
-    const tissue::LayerState layer = fixture.layer(at);
-    for (uint32_t i = 0; i < kNodes * padded; ++i) {
-      const float want = i / padded == 1 ? 0.0f : 1.0f;
-      REQUIRE((layer.h[i] == want && layer.c[i] == want));
-      if (at == 0) REQUIRE(layer.y[i] == want);
-    }
-  }
+  for (const float wild : {1e10f, 1e30f}) CHECK(wild * tissue::limit_share(wild, kLimit) == Approx(kLimit));
 }
 
-// The hidden layer's planes are halves: the node's are zero, its neighbours' and the planes' ends untouched.
-TEST_CASE("guard_forgets_the_halves_of_a_node_and_no_others") {
-  for (const pack::Precision precision : {pack::Precision::kHalfStates, pack::Precision::kInt8}) {
-    Fixture fixture(precision);
-    constexpr uint32_t kPadded = 32, kHeld = 1;
-    constexpr uint16_t kOne = 0x3c00;
-    const tissue::HalfLayerState halves =
-        tissue::half_layer_state(fixture.network, kNodes, 0, fixture.state.data());
-    for (uint16_t* plane : {halves.h, halves.c, halves.y}) std::fill_n(plane, kNodes * kPadded, kOne);
-    fixture.set_l(kHeld, 0, 0.3f, 0.4f);
-    CHECK(fixture.hold() == 1);
-    for (const uint16_t* plane : {halves.h, halves.c, halves.y}) {
-      for (uint32_t i = 0; i < kNodes * kPadded; ++i) REQUIRE(plane[i] == (i / kPadded == kHeld ? 0 : kOne));
-    }
-    for (uint32_t i = 0; i < kNodes * 16; ++i)
-      REQUIRE(fixture.layer(1).c[i] == (i / 16 == kHeld ? 0.0f : 1.0f));
-    CHECK(fixture.y(kHeld)[2] * kUnit == Approx(0.8f * kLimit));
-  }
-}
-
-TEST_CASE("without_a_network_a_node_is_held_all_the_same") {
+TEST_CASE("the_largest_displacement_is_found_even_where_its_square_overflows") {
   Fixture fixture;
-  fixture.set_l(4, 1, 0, 0);
-  const std::vector<float> state = fixture.state.copy();
-  CHECK(fixture.hold(false) == 1);
-  CHECK(fixture.l[12] == Approx(2 * kLimit).margin(kRounding));
-  CHECK(fixture.state.copy() == state);
-}
-
-TEST_CASE("a_base_beyond_the_limit_is_scaled_as_a_whole_and_stops") {
-  Fixture fixture;
-  fixture.set_l(4, 0.06f, 0, 0.08f);  // 0.1 m, the limit of the second region
-  float q[2] = {1, -2}, q_before[2] = {5, 6};
-  std::vector<float> r(12, 0.02f), r_before(12, 1.0f);
-  const auto hold = [&] {
-    return tissue::hold_base_at_limit(fixture.regions[1], 2, fixture.l.data() + 9, {q, q_before},
-                                      {r.data(), r_before.data()});
-  };
-  CHECK(hold() == 0);
-  CHECK((q[0] == 1 && q_before[0] == 5));
-  fixture.set_l(4, 0.12f, 0, 0.16f);
-  CHECK(hold() == 1);
-  CHECK(fixture.l[12] == Approx(0.06f));
-  CHECK(fixture.l[9] == Approx(0.005f));
-  CHECK((q[0] == Approx(0.5f) && q[1] == Approx(-1)));
-  CHECK((q_before[0] == q[0] && q_before[1] == q[1]));
-  for (size_t i = 0; i < 12; ++i) CHECK((r[i] == Approx(0.01f) && r_before[i] == r[i]));
-}
-
-TEST_CASE("guard_holds_a_node_whose_square_overflows") {
-  Fixture fixture;
-  fixture.set_l(0, 1e30f, 0, 0);
-  CHECK(fixture.hold() == 1);
-  CHECK(fixture.l[0] == Approx(kLimit).margin(kRounding));
+  CHECK(tissue::largest_displacement_m(fixture.l.data(), kNodes) == Approx(std::sqrt(2.0) * 0.01));
+  fixture.set_l(3, 0, 3e30f, 4e30f);
+  CHECK(tissue::largest_displacement_m(fixture.l.data(), kNodes) == Approx(5e30f));
 }
 
 TEST_CASE("output_is_told_in_shares_of_each_region_s_radius") {

@@ -7,7 +7,7 @@
 #include "baker/common/safetensors.hpp"
 #include "baker/common/write_file.hpp"
 #include "baker/programs/loaded_pack.hpp"
-#include "baker/trade/true_surface.hpp"
+#include "baker/programs/true_surface.hpp"
 #include "baker/trade/truths.hpp"
 #include "tests/baker/programs/creature_hop.hpp"
 #include "tests/pack/small_pack.hpp"

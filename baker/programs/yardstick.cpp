@@ -1,5 +1,5 @@
-// error.cpp  see error.hpp.
-#include "baker/trade/error.hpp"
+// yardstick.cpp  see yardstick.hpp.
+#include "baker/programs/yardstick.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>

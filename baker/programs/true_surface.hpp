@@ -12,6 +12,7 @@ class TrueSurface {
  public:
   // Throws BadInput as TrueMotion does; and: without positions, not finite.
   TrueSurface(const std::string& path, const pack::PackView& character);
+  TrueSurface(const Safetensors& file, const pack::PackView& character);
 
   const std::string& name() const { return name_; }  // of the motion, as its file states it
   const TrueMotion& motion() const { return motion_; }
@@ -20,8 +21,6 @@ class TrueSurface {
   uint64_t fingerprint() const;
 
  private:
-  TrueSurface(const Safetensors& file, const pack::PackView& character);
-
   std::string name_;
   size_t vertices_;
   TrueMotion motion_;

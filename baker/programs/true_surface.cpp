@@ -1,5 +1,5 @@
 // true_surface.cpp  see true_surface.hpp.
-#include "baker/trade/true_surface.hpp"
+#include "baker/programs/true_surface.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,22 @@
-// error.hpp  How far a way to run a character is from the truth.
+// yardstick.hpp  How far a way to run a character is from the truth.
 #pragma once
 #include <span>
 #include <vector>
 
 #include "baker/programs/closed_loop.hpp"
-#include "baker/trade/row.hpp"
-#include "baker/trade/true_surface.hpp"
+#include "baker/programs/true_surface.hpp"
 
 namespace sinew::baker {
+
+// Over all vertices that tissue moves and some ticks of all motions, millimetres. ratio: to what skinning
+// alone is off at the same ticks. Extrapolate: of the ticks told of it.
+struct Spread {
+  double mean_mm = 0, sd_mm = 0, p95_mm = 0, worst_mm = 0, ratio = 0;
+};
+// Of ticks 1 .. 600, and of the first 50 of them.
+struct Error : Spread {
+  Spread in_50;
+};
 
 inline constexpr size_t kMostTicks = 600;
 // Extrapolate is told of so many ticks after the last simulated one: where its fade to skinning begins.

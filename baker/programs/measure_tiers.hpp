@@ -1,0 +1,35 @@
+// measure_tiers.hpp  What every tier of a character is off from its own ground truth, in seconds of work.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "baker/import/character.hpp"
+#include "baker/mesh/tissue_layout.hpp"
+#include "baker/programs/loaded_pack.hpp"
+#include "baker/programs/true_surface.hpp"
+#include "baker/truth/tissue_truth.hpp"
+
+namespace sinew::baker {
+
+// Of 1.5 s each, of motions that no weights were trained on: random motion, and the clip that moves most, or
+// where there is none a shake. Throws std::runtime_error where a step of the
+// truth does not converge.
+std::vector<TrueSurface> short_truths(const Character& character, const TissueLayout& layout,
+                                      const std::vector<ModalBasis>& modes, TissueTruth& truth,
+                                      const pack::PackView& pack);
+
+// The pack's tiers with the errors measured in closed loop along these motions. Throws BadInput where nothing
+// moves in them.
+std::vector<pack::TierRecord> measured_tiers(const LoadedPack& character,
+                                             const std::vector<TrueSurface>& truths);
+
+// A network is worth its time where its error is smaller than its modal base's by this share.
+inline constexpr double kNetworkMargin = 0.05;
+
+// Whether the network's mean error lies below its modal base's by kNetworkMargin, at the finest level.
+bool network_pays(const std::vector<pack::TierRecord>& tiers);
+
+// A tier's at level 0; NaN: it has none.
+double error_ratio_of(const std::vector<pack::TierRecord>& tiers, Tier tier);
+
+}  // namespace sinew::baker
