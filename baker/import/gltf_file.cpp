@@ -92,8 +92,11 @@ void drop_empty_bin_chunk(std::vector<unsigned char>& bytes) {
   bytes.resize(json_end);
 }
 
-bool ignore_pixels(tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*,
-                   int, void*) {
+// Images stay encoded: most are never looked at.
+bool keep_encoded(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
+                  const unsigned char* bytes, int size, void*) {
+  image->image.assign(bytes, bytes + size);
+  image->as_is = true;
   return true;
 }
 
@@ -136,7 +139,7 @@ void refuse_compression(const Source& source, const tinygltf::Model& model) {
 bool load(tinygltf::Model* model, std::vector<unsigned char>& bytes, std::string base, std::string* error,
           std::string* warning) {
   tinygltf::TinyGLTF reader;
-  reader.SetImageLoader(ignore_pixels, nullptr);
+  reader.SetImageLoader(keep_encoded, nullptr);
   reader.SetFsCallbacks({exists_beside, unexpanded, read_beside, nullptr, &base});
   const auto size = static_cast<unsigned>(bytes.size());
   if (is_glb(bytes)) return reader.LoadBinaryFromMemory(model, error, warning, bytes.data(), size, base);

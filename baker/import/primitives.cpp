@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "baker/import/base_color_texture.hpp"
 #include "baker/import/skin_weights.hpp"
 #include "baker/import/surface_color.hpp"
 #include "baker/import/triangles.hpp"
@@ -20,7 +21,12 @@ class MeshReader {
  public:
   MeshReader(const tinygltf::Model& model, const AccessorReader& accessors, const Joints& joints,
              Source& source, Character& character)
-      : model_(model), accessors_(accessors), joints_(joints), source_(source), character_(character) {}
+      : model_(model),
+        accessors_(accessors),
+        joints_(joints),
+        source_(source),
+        character_(character),
+        textures_(model) {}
 
   void append(const MeshInstance& instance) {
     const tinygltf::Mesh& mesh = model_.meshes[static_cast<size_t>(instance.mesh)];
@@ -137,12 +143,17 @@ class MeshReader {
     std::vector<std::array<int, 3>> faces = read_triangles(primitive, count, accessors_, where, source_);
     const bool mirrored = instance.bind_from_mesh.topLeftCorner<3, 3>().determinant() < 0;
     const LinearColor material = material_color(model_, primitive, where, source_);
+    const std::vector<LinearColor> texture =
+        textures_.at_vertices(primitive, count, accessors_, where, source_);
     for (auto& face : faces) {
       if (mirrored) std::swap(face[1], face[2]);
       for (int& corner : face) {
+        const auto here = static_cast<size_t>(corner);
         corner += static_cast<int>(first);
         const auto vertex = static_cast<size_t>(corner);
-        character_.colors[vertex] = surface_color(material, vertex_colors_[vertex]);
+        const LinearColor color =
+            texture.empty() ? vertex_colors_[vertex] : product(texture[here], vertex_colors_[vertex]);
+        character_.colors[vertex] = surface_color(material, color);
       }
     }
     character_.triangles.insert(character_.triangles.end(), faces.begin(), faces.end());
@@ -153,6 +164,7 @@ class MeshReader {
   const Joints& joints_;
   Source& source_;
   Character& character_;
+  BaseColorTextures textures_;
   std::vector<LinearColor> vertex_colors_;  // of all vertices so far
   bool painted_ = false, has_normals_ = true;
 };

@@ -49,14 +49,17 @@ LinearColor material_color(const tinygltf::Model& model, const tinygltf::Primiti
   const auto& material = model.materials[static_cast<size_t>(primitive.material)].pbrMetallicRoughness;
   for (size_t k = 0; k < 4 && k < material.baseColorFactor.size(); ++k)
     if (std::isfinite(material.baseColorFactor[k])) color[k] = material.baseColorFactor[k];
-  if (material.baseColorTexture.index >= 0)
-    source.note(where, "its base colour texture is not read: flat material colour");
+  return color;
+}
+
+LinearColor product(const LinearColor& a, const LinearColor& b) {
+  LinearColor color = a;
+  for (size_t k = 0; k < 4; ++k) color[k] *= b[k];
   return color;
 }
 
 std::array<uint8_t, 4> surface_color(const LinearColor& material, const LinearColor& vertex) {
-  LinearColor color = material;
-  for (size_t k = 0; k < 4; ++k) color[k] *= vertex[k];
+  const LinearColor color = product(material, vertex);
   return {byte(srgb(std::max(0.0, color[0]))), byte(srgb(std::max(0.0, color[1]))),
           byte(srgb(std::max(0.0, color[2]))), byte(color[3])};
 }

@@ -1,4 +1,4 @@
-// surface_color.hpp  Material x vertex colour as sRGB bytes; for pictures only.
+// surface_color.hpp  Material x texture x vertex colour as sRGB bytes; for pictures only.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -14,9 +14,10 @@ using LinearColor = std::array<double, 4>;
 std::vector<LinearColor> read_vertex_colors(const tinygltf::Primitive& primitive, size_t vertex_count,
                                             const AccessorReader& accessors, const std::string& where,
                                             const Source& source);
-// The base colour factor; a texture is not read, and that is noted.
+// The base colour factor.
 LinearColor material_color(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
                            const std::string& where, Source& source);
+LinearColor product(const LinearColor& a, const LinearColor& b);
 std::array<uint8_t, 4> surface_color(const LinearColor& material, const LinearColor& vertex);
 
 }  // namespace sinew::baker

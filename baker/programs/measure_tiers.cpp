@@ -14,7 +14,7 @@ namespace sinew::baker {
 namespace {
 
 constexpr uint64_t kSeed = 9100;  // no plan of the trainer reaches it
-constexpr double kStrength = 0.6, kRate_hz = 60;
+constexpr double kStrength = 0.3, kRate_hz = 60;
 constexpr int kTicks = 90, kSubsteps = 4;
 
 // How far joints move in a clip, as mean speed.
