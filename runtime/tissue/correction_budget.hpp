@@ -25,7 +25,7 @@ struct CorrectionStep {
   const float* d = nullptr;                 // [modes] of the last tick
   const float* d_before = nullptr;          // [modes] of the tick before it
   const float* correction = nullptr;        // [modes] p
-  bool pose_stays = false;                  // it was the same in this tick and the two before
+  bool pose_stays = false;                  // it is that of the last two ticks
 };
 
 // s. swing is the region's, of the last tick; it becomes this tick's. Not finite: 0. Cost: 12 operations a

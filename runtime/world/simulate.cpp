@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -435,14 +434,29 @@ float begun_share(Instance& instance) noexcept {
   return 1 - static_cast<float>(state.network_begins) / kNetworkBeginTicks;
 }
 
-// Of the region's nodes, over the last three ticks.
+bool is_near(const float* a, const float* b, size_t count, float distance) noexcept {
+  float most = 0;
+  for (size_t i = 0; i < count; ++i) most = std::max(most, std::abs(a[i] - b[i]));
+  return most <= distance;
+}
+
+// Of the region's nodes, over the last three ticks: none turned or moved against the root, which went on as
+// it did, by more than rounding.
 bool pose_stays(const Instance& instance, const Part& part) noexcept {
-  const size_t bytes = part.record.node_count * sizeof(tissue::NodePose), root_bytes = 3 * sizeof(double);
-  const auto same = [&](int older) {
-    return std::memcmp(instance.poses[0] + part.node, instance.poses[older] + part.node, bytes) == 0 &&
-           std::memcmp(instance.state->tick_root_m[0], instance.state->tick_root_m[older], root_bytes) == 0;
-  };
-  return same(1) && same(2);
+  constexpr float kRounding = 1e-5f;  // radians, and of the radius
+  const float least_m = kRounding * part.record.radius_m;
+  const double(&root)[3][3] = instance.state->tick_root_m;
+  for (size_t axis = 0; axis < 3; ++axis)
+    if (std::abs(root[0][axis] - 2 * root[1][axis] + root[2][axis]) > static_cast<double>(least_m))
+      return false;
+  for (size_t n = part.node; n < part.node + part.record.node_count; ++n)
+    for (const int older : {1, 2}) {
+      const tissue::NodePose &now = instance.poses[0][n], &then = instance.poses[older][n];
+      if (!is_near(now.rotation, then.rotation, 9, kRounding) ||
+          !is_near(now.place_m, then.place_m, 3, least_m))
+        return false;
+    }
+  return true;
 }
 
 // d of this tick from those of the last two, and what the tick corrects.

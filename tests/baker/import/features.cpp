@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 
 #include "baker/import/import_gltf.hpp"
 #include "reference_skinning.hpp"
@@ -255,6 +256,31 @@ TEST_CASE("vertex_colours_multiply_the_material_and_become_srgb") {
   file.attribute("COLOR_0") = file.add_floats(std::vector<float>(18, 0.5f), "VEC3");
   CHECK(import_file(file, "colour").colors[0] ==
         std::array<uint8_t, 4>{188, 137, 0, 128});  // sRGB of 0.5, 0.25 and 0
+}
+
+// A PNG of a red pixel and a blue one beside it.
+TEST_CASE("a_base_colour_texture_is_looked_up_at_vertices_and_repeats") {
+  TinyFile file = bar();
+  file.json["images"] = {
+      {{"uri",
+        "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAIAAAB7QOjdAAAADUlEQVR42mP4zwAE/wEHAAH/"
+        "PX2MSQAAAABJRU5ErkJggg=="}}};
+  file.json["textures"] = {{{"source", 0}}};
+  file.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+  file.json["meshes"][0]["primitives"][0]["material"] = 0;
+  file.attribute("TEXCOORD_0") = file.add_floats(
+      {0.2f, 0, 0.8f, 0, 1.2f, 5, -0.2f, 0, std::numeric_limits<float>::quiet_NaN(), 0, 0.2f, 0}, "VEC2");
+  const std::array<uint8_t, 4> red = {255, 0, 0, 255}, blue = {0, 0, 255, 255}, white = {255, 255, 255, 255};
+  const auto colors = import_file(file, "texture").colors;
+  CHECK(
+      (colors[0] == red && colors[1] == blue && colors[2] == red && colors[3] == blue && colors[4] == white));
+
+  file.json["images"][0]["uri"] = "data:image/png;base64,aGVsbG8=";
+  const Character damaged = import_file(file, "texture_damaged");
+  CHECK(damaged.colors[0] == white);
+  CHECK(noted(damaged, "base colour texture cannot be read"));
+  file.json["textures"][0]["source"] = 7;
+  CHECK(import_file(file, "texture_missing").colors[0] == white);
 }
 
 TEST_CASE("channels_that_cannot_be_played_are_left_out_with_a_note") {

@@ -113,6 +113,39 @@ TEST_CASE("without_weights_a_character_is_packed_with_its_modes") {
   }
 }
 
+TEST_CASE("errors_are_those_of_the_character_that_is_baked_and_a_network_that_does_not_pay_is_left_out") {
+  const Creature creature;
+  const auto bake_with = [&](const std::string& weights, std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"character", creature.glb, "--recipe", kAssets + "tissue.json",
+                                          "--tissue",  weights,      "-o",       creature.pack};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramResult result = bake(arguments);
+    INFO(result.error);
+    REQUIRE(result.exit_code == 0);
+    return result.out;
+  };
+  const auto error_of = [&](const std::string& name) {
+    const auto description = nlohmann::json::parse(bake({"info", "--json", creature.pack}).out);
+    for (const auto& tier : description["tiers"])
+      if (tier["tier"] == name) return tier["error_ratio"];
+    return nlohmann::json("no such tier");
+  };
+  const std::string shipped = SINEW_SOURCE_DIR "/assets/weights/creature.safetensors";
+  CHECK_THAT(bake_with(shipped, {}), !Catch::Contains("left out"));
+  CHECK(error_of("network").get<double>() < 0.95 * error_of("modal").get<double>());
+  CHECK(error_of("modal").get<double>() < 0.3);
+
+  // Weights of random numbers.
+  CHECK_THAT(bake_with(creature.weights, {}),
+             Catch::Contains("note: the network is left out: on this character"));
+  CHECK(error_of("network") == "no such tier");
+  CHECK(error_of("modal").get<double>() < 0.3);
+
+  bake_with(creature.weights, {"--quick"});
+  CHECK(error_of("network").is_null());
+  CHECK(error_of("modal").is_null());
+}
+
 TEST_CASE("a_character_is_baked_in_the_precision_asked_for_and_calibrated_by_the_vectors_given") {
   const Creature creature;
   const std::string shipped = SINEW_SOURCE_DIR "/assets/weights/creature";

@@ -174,17 +174,14 @@ TEST_CASE("int8_takes_its_scales_from_true_motions_in_closed_loop") {
   CHECK(!std::filesystem::exists(hop().pack("no")));
 }
 
-// An output that overshoots wildly: nodes stand at their limit for more than a second, which the guards do
-// not allow.
-TEST_CASE("a_motion_on_which_the_network_is_given_up_calibrates_nothing") {
+// An output that overshoots wildly: the budget keeps it from harm, but not from being wrong.
+TEST_CASE("a_network_that_overshoots_a_thousandfold_is_left_out_of_the_pack") {
   Safetensors wild = read_safetensors(kAssets + "weights/creature.safetensors");
   wild.metadata["output_scale"] = "1000";
   const std::string path = hop().folder.file("wild.safetensors"), out = hop().folder.file("wild.sinew");
-  const std::string truth = hop().folder.file("longer.safetensors");
   write_safetensors(path, wild);
-  must(bake({"truth", hop().glb, "--recipe", hop().recipe, "--motion", "clip:hop", "--seconds", "1.2", "-o",
-             truth}));
-  check_refused({"character", hop().glb, "--recipe", hop().recipe, "--tissue", path, "-o", out, "--precision",
-                 "int8", "--calibrate", truth},
-                {truth, "gave the network up", "calibrate with others"});
+  const ProgramResult result =
+      bake({"character", hop().glb, "--recipe", hop().recipe, "--tissue", path, "-o", out});
+  REQUIRE(result.exit_code == 0);
+  CHECK_THAT(result.out, Catch::Contains("the network is left out: on this character"));
 }
