@@ -65,7 +65,7 @@ def _prepare(bake, folder, body):
         file.write(body.stamp())
 
 
-def _is_done(path, job):
+def is_done(path, job):
     """A finished file of this very job and of this version of trajectories."""
     if not os.path.exists(path):
         return False
@@ -82,27 +82,36 @@ def _is_done(path, job):
     )
 
 
-def _simulate(bake, out, job):
-    """None, or why there is no file."""
-    folder = os.path.join(out, job.body)
-    command = [bake, "truth", os.path.join(folder, "body.glb"), "-o", os.path.join(out, job.file)]
+def truth_command(bake, character, recipe, job, out):
+    """The command that simulates a job. recipe: a path, or None."""
+    command = [bake, "truth", character, "-o", out]
     options = {
-        "recipe": os.path.join(folder, "tissue.json"),
         "motion": job.motion,
         "seed": job.seed,
         "strength": f"{job.strength:g}",
         "seconds": f"{job.seconds:g}",
         "substeps": job.substeps,
+        **({"recipe": recipe} if recipe else {}),
+        **({"hold-out": job.held_out} if job.held_out else {}),
     }
     command += [text for key, value in options.items() for text in (f"--{key}", str(value))]
-    command += ["--hold-out", job.held_out] if job.held_out else []
-    why = _run(command + (["--surface"] if job.surface else []))
-    if why is None:
-        try:
-            read_trajectory(os.path.join(out, job.file))
-        except BadData as error:
-            return str(error)
-    return why
+    return command + (["--surface"] if job.surface else [])
+
+
+def what_is_wrong(path):
+    """None, or why a trajectory cannot be used."""
+    try:
+        read_trajectory(path)
+    except BadData as error:
+        return str(error)
+    return None
+
+
+def _simulate(bake, out, job):
+    """None, or why there is no file."""
+    folder, path = os.path.join(out, job.body), os.path.join(out, job.file)
+    body, recipe = (os.path.join(folder, name) for name in ("body.glb", "tissue.json"))
+    return _run(truth_command(bake, body, recipe, job, path)) or what_is_wrong(path)
 
 
 class _Progress:
@@ -182,7 +191,7 @@ def generate(bake, plan_path, out, characters=None, processes=2, progress=sys.st
     for body in bodies.values():
         _prepare(bake, os.path.join(out, body.name), body)
 
-    finished = {j for j in jobs if _is_done(os.path.join(out, j.file), j)}
+    finished = {j for j in jobs if is_done(os.path.join(out, j.file), j)}
     todo, failed = [j for j in jobs if j not in finished and j.split in splits], {}
     waiting, bar = set(todo), _Progress(todo, progress)
 

@@ -1,6 +1,8 @@
 """Plan of a data set: which motions of which bodies, and what is held out."""
+import hashlib
 import json
 import os
+import re
 import struct
 from dataclasses import dataclass
 
@@ -31,7 +33,14 @@ class Job:
 
     @property
     def file(self):
-        return f"{self.body}/{self.split}-{self.motion.replace(':', '-')}-{self.seed}.safetensors"
+        return f"{self.body}/{self.split}-{_file_name(self.motion)}-{self.seed}.safetensors"
+
+
+def _file_name(motion):
+    """Clips of any name make files; names that had to be changed stay apart by a hash."""
+    plain = motion.replace(":", "-", 1)
+    safe = re.sub("[^A-Za-z0-9_. -]", "_", plain)[:80]
+    return safe if safe == plain else f"{safe}-{hashlib.sha256(motion.encode()).hexdigest()[:8]}"
 
 
 def _check_strengths(where, strengths):

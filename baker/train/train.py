@@ -31,14 +31,18 @@ def _new_model(o):
 
 
 class Trainer:
-    def __init__(self, train_groups, validation_groups, options, log=print):
+    """start: (model, scaling) to go on from; without: a new model, scaled by the training data."""
+
+    def __init__(self, train_groups, validation_groups, options, log=print, start=None):
         self.options, self.validation, self.log = options, validation_groups, log
         self.bodies = Union(train_groups)
         torch.manual_seed(options.seed)
-        self.scaling = replace(measure_scaling(train_groups), without=tuple(options.without))
         first = train_groups[0].trajectories[0]
         self.rate_hz, self.substeps = first.rate_hz, first.substeps
-        self.model = _new_model(options)
+        self.model, self.scaling = start or (
+            _new_model(options),
+            replace(measure_scaling(train_groups), without=tuple(options.without)),
+        )
         self.optimizer = torch.optim.Adam(self.model.parameters(), options.learning_rate)
         self.amplitudes = [g.amplitude_m() for g in train_groups]
         self.weight, self.bound = (

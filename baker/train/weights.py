@@ -41,13 +41,25 @@ def save_weights(path, model, scaling, rate_hz, extra):
     save(path, tensors, weights_metadata(model.options, scaling, rate_hz, extra))
 
 
-def _number(path, metadata, key, fallback):
+def read_number(path, metadata, key, fallback):
     try:
         return float(metadata.get(key, fallback))
     except ValueError:
         raise BadData(
             f"{path}: metadata {key} is '{metadata[key]}', not a number; export the weights again"
         ) from None
+
+
+def _numbers(path, metadata, key, kind=float, count=None):
+    """The numbers of a list; of `count` where it is given."""
+    try:
+        numbers = [kind(v) for v in metadata[key].split(",")]
+        if count in (None, len(numbers)):
+            return numbers
+    except (KeyError, ValueError):
+        pass
+    found = f"'{metadata[key]}'" if key in metadata else "missing"
+    raise BadData(f"{path}: metadata {key} is {found}; export the weights again")
 
 
 def _form(path, metadata):
@@ -60,13 +72,13 @@ def _form(path, metadata):
 def _read_scaling(path, metadata):
     if metadata["inputs"].split(",") != list(ORDER):
         raise BadData(f"{path}: metadata inputs: this trainer feeds {','.join(ORDER)}; train again")
-    numbers = {k: [float(v) for v in metadata[k].split(",")] for k in ("input_scales", "envelope")}
+    numbers = {k: _numbers(path, metadata, k, count=len(ORDER)) for k in ("input_scales", "envelope")}
     named = {k: dict(zip(ORDER, v)) for k, v in numbers.items()}
     return Scaling(
         named["input_scales"],
-        _number(path, metadata, "length_unit", 1),
+        read_number(path, metadata, "length_unit", 1),
         named["envelope"],
-        _number(path, metadata, "displacement_limit", 0.75),
+        read_number(path, metadata, "displacement_limit", 0.75),
         tuple(k for k in metadata.get("without", "").split(",") if k),
     )
 
@@ -81,12 +93,12 @@ def read_weights(path, device="cpu"):
     scaling = _read_scaling(path, metadata) if "inputs" in metadata else None
     options = ModelOptions(
         INPUT_WIDTH if scaling else 9,
-        tuple(int(c) for c in metadata["channels"].split(",")),
+        tuple(_numbers(path, metadata, "channels", int)),
         "layers.0.W_s" in tensors,
-        _number(path, metadata, "output_scale", 1),
-        _number(path, metadata, "output_leak", 0),
-        _number(path, metadata, "hidden_leak", 0),
-        _number(path, metadata, "state_clamp", "inf"),
+        read_number(path, metadata, "output_scale", 1),
+        read_number(path, metadata, "output_leak", 0),
+        read_number(path, metadata, "hidden_leak", 0),
+        read_number(path, metadata, "state_clamp", "inf"),
     )
     model = ConvLSTM(options, _form(path, metadata)) if kind == "conv_lstm" else AltConvLSTM(options)
     for name, parameter in model.state_dict().items():

@@ -1,0 +1,75 @@
+"""Goes on training given weights, by the clock on the wall, on one character's motions."""
+import time
+from dataclasses import replace
+
+import torch
+
+from ..scaling import measure_scaling
+from ..train import Trainer
+from ..train_options import TrainOptions
+
+JUDGED_TIMES = 16  # in the whole time
+LEAST_BETWEEN_S = 3.0  # judgements
+
+
+def widened(scaling, seen):
+    """The scaling with an envelope that also holds what this character's motions show."""
+    reach = {k: seen.envelope[k] / seen.scale[k] * scaling.scale[k] for k in scaling.envelope}
+    return replace(scaling, envelope={k: max(v, reach[k]) for k, v in scaling.envelope.items()})
+
+
+class FineTuner(Trainer):
+    """start: (model, scaling) that is trained on; seconds: of the wall clock."""
+
+    def __init__(self, groups, validation, start, options, stop, clock=time.monotonic):
+        model, scaling = start
+        scaling = widened(scaling, measure_scaling(groups))
+        super().__init__(groups, validation, options, lambda *a, **k: None, (model.train(), scaling))
+        self.stop, self.clock = stop, clock
+
+    def _ended(self, end_s):
+        return self.stop.asked or self.clock() >= end_s
+
+    def tune(self, end_s, report=lambda tuner: None, keep=lambda tuner: None):
+        """Until end_s. The weights that it began with are judged first, and are the best until others are
+        better on the validation motions. report(self): now and then; keep(self): where better ones are found."""
+        began_s = self.clock()
+        self.consider([])
+        judging_s = self.clock() - began_s
+        begin_s, end_s = self.clock(), end_s - judging_s
+        between_s = max(LEAST_BETWEEN_S, 4 * judging_s, (end_s - begin_s) / JUDGED_TIMES)
+        self.start_ratio, judged_s, losses, episode = self.best, begin_s, [], None
+        self.options.minutes = max(1e-3, (end_s - begin_s) / 60)  # what the learning rate goes by
+        while not self._ended(end_s):
+            if episode is None or episode.ticks_left() < 2:
+                episode = self.new_episode()
+            losses.append(self.update(episode))
+            self.elapsed_s = self.clock() - begin_s
+            if self.clock() - judged_s >= between_s:
+                self._judge(losses, keep)
+                losses, judged_s = [], self.clock()
+            report(self)
+        if losses:
+            self._judge(losses, keep)
+        self.model.load_state_dict(self.best_model)
+        return self
+
+    def _judge(self, losses, keep):
+        before = self.best
+        self.consider(losses)
+        if self.best < before:
+            keep(self)
+
+
+def tuning_options(model, seed, batch=8, learning_rate=2e-3):
+    """The recipe: the network's own shape, gentler steps than from nothing."""
+    o = model.options
+    return TrainOptions(
+        channels=tuple(o.channels),
+        seed=seed,
+        batch=batch,
+        learning_rate=learning_rate,
+        hidden_leak=o.hidden_leak,
+        output_scale=o.output_scale,
+        state_clamp=o.state_clamp,
+    )

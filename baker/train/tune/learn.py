@@ -1,0 +1,91 @@
+"""The training stage: from the given weights, or an earlier run's, to tuned.safetensors."""
+import json
+import os
+import time
+
+from .. import dataset
+from ..trajectory import read_trajectory
+from ..weights import save_weights
+from .finetune import FineTuner, tuning_options
+from .motions import SECONDS
+from .progress_line import ProgressLine
+from .run import say
+from .start import hash_of, read_start
+from .time_budget import in_words
+
+
+def _groups(simulation, split):
+    return dataset.group([("", read_trajectory(p)) for p in simulation.of_split(split).values()])
+
+
+def _begin(run, path):
+    """An earlier run's weights, if it began with the given ones; else these."""
+    earlier = read_start(path) if os.path.exists(path) else run.start
+    if earlier.metadata.get("parent_sha256") != hash_of(run.start.path):
+        return run.start
+    say(f"goes on from {path}, trained for {earlier.metadata['tuned_minutes']} minutes")
+    return earlier
+
+
+def provenance(run, tuner, jobs, begun):
+    """Metadata: where tuned weights come from. begun: the Start that they were trained from."""
+    minutes = float(begun.metadata.get("tuned_minutes", 0)) + tuner.elapsed_s / 60
+    return {
+        "base_substeps": tuner.substeps,
+        "seed": tuner.options.seed,
+        "recipe": json.dumps(vars(tuner.options)),
+        "parent": os.path.basename(run.start.path),
+        "parent_sha256": hash_of(run.start.path),
+        "tuned_for": os.path.basename(run.baker.character),
+        "tuned_for_sha256": hash_of(run.baker.character),
+        "tuned_minutes": f"{minutes:.2f}",
+        "updates": tuner.updates,
+        "data": f"{len(jobs)} motions of {SECONDS:g} s: "
+        + ", ".join(f"{j.motion} seed {j.seed} strength {j.strength:g}" for j in jobs),
+        "validation_ratio": f"{tuner.best:.4f}",
+    }
+
+
+def _can_train(run, simulation):
+    """Whether there is what training needs; says so where there is not."""
+    if run.stop.asked:
+        return False
+    if not (simulation.of_split("train") and simulation.of_split("validation")):
+        say("not trained: no motion to train on, or none to choose by, could be simulated")
+        return False
+    if run.budget.training_end_s() <= time.monotonic():
+        say("not trained: simulation took all the time; give more --minutes, its motions are kept")
+        return False
+    return True
+
+
+def train(run, simulation, seed):
+    """Path of the tuned weights, or None where none are better than the given ones. They are written whenever
+    better ones are found."""
+    if not _can_train(run, simulation):
+        return None
+    path = run.place("tuned.safetensors")
+    begun = _begin(run, path)
+    groups, validation = _groups(simulation, "train"), _groups(simulation, "validation")
+    options = tuning_options(begun.model, seed)
+    tuner = FineTuner(groups, validation, (begun.model, begun.scaling), options, run.stop)
+    jobs, line, end_s = list(simulation.of_split("train")), ProgressLine(), run.budget.training_end_s()
+
+    def report(t):
+        line.update(
+            lambda: f"training: {in_words(end_s - time.monotonic())} to go, error on the validation motions "
+            f"{t.best:.3f} of skinning's, {t.start_ratio:.3f} before; all ends in "
+            f"{in_words(run.budget.left_s())}"
+        )
+
+    def keep(t):
+        t.model.load_state_dict(t.best_model)  # they are the current ones
+        save_weights(path, t.model, t.scaling, t.rate_hz, provenance(run, t, jobs, begun))
+
+    tuner.tune(end_s, report, keep)
+    line.clear()
+    say(
+        f"trained for {in_words(tuner.elapsed_s)}, {tuner.updates} updates: error on the validation motions "
+        f"{tuner.start_ratio:.3f} of skinning's before, {tuner.best:.3f} now"
+    )
+    return path if tuner.best < tuner.start_ratio or begun is not run.start else None

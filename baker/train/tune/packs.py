@@ -1,0 +1,46 @@
+"""What sinew-bake does for the tuner: characters with and without a network, what is in them, their errors."""
+import json
+import subprocess
+from dataclasses import dataclass
+
+from ..safetensors import BadData
+
+
+@dataclass
+class Baker:
+    """program: path of sinew-bake. recipe: a path, or None."""
+
+    program: str
+    character: str
+    recipe: str = None
+
+    def run(self, *arguments):
+        """What it printed; its own line as BadData where it refuses. Ctrl-C does not reach it."""
+        command = [self.program, *arguments]
+        try:
+            done = subprocess.run(command, capture_output=True, text=True, start_new_session=True)
+        except OSError as error:
+            raise BadData(f"{self.program}: {error.strerror}; build sinew-bake, or give --bake") from None
+        if done.returncode:
+            said = (done.stderr.strip().splitlines() or [f"{arguments[0]}: exit code {done.returncode}"])[-1]
+            raise BadData(said.removeprefix("sinew-bake: "))
+        return done.stdout
+
+    def of_recipe(self):
+        return ["--recipe", self.recipe] if self.recipe else []
+
+    def bake(self, pack, weights=None):
+        """The character with these weights, or with its modes alone. Returns the notes on it."""
+        tissue = ["--tissue", weights] if weights else []
+        said = self.run("character", self.character, *self.of_recipe(), *tissue, "-o", pack)
+        return [line for line in said.splitlines() if line.startswith("note: ")]
+
+    def describe(self, pack):
+        return json.loads(self.run("info", pack, "--json"))
+
+    def judge(self, packs, truth, ticks):
+        """(mean error in mm, its ratio to skinning's) of each pack, ticked along a true motion as the runtime
+        does, its guards included."""
+        said = json.loads(self.run("judge", *packs, "--truth", truth, "--ticks", str(ticks), "--json"))
+        of = [one["ticks"][str(ticks)] for one in said["characters"]]
+        return [(at["mean_mm"], at["ratio"]) for at in of]

@@ -1,0 +1,76 @@
+"""sinew-train: what it is asked for, checked before anything is written."""
+import argparse
+import math
+import os
+import sys
+
+from ..safetensors import BadData
+from . import SHIPPED
+
+NAME = "sinew-train"
+
+
+class _Parser(argparse.ArgumentParser):
+    """Refuses in one line."""
+
+    def error(self, message):
+        self.exit(2, f"{NAME}: {message}; see {NAME} --help\n")
+
+
+def _parser():
+    p = _Parser(
+        prog=NAME,
+        description="Fine-tunes the shipped tissue network on ground truth of one character and bakes the best of "
+        "modal base, shipped and fine-tuned network, by their errors on motions that were held out. "
+        "Ctrl-C keeps the best so far; a second run goes on with the motions in C.train.",
+    )
+    p.add_argument("character", metavar="C.glb", help="skinned glTF or VRM; clips are used where it has any")
+    p.add_argument("--recipe", metavar="R.json", help="as of sinew-bake character")
+    p.add_argument("--minutes", type=float, default=10.0, help="of the clock, for everything; default 10")
+    p.add_argument("--tissue", metavar="W.safetensors", default=SHIPPED, help="weights to begin with")
+    p.add_argument("-o", "--output", metavar="C.sinew", required=True)
+    p.add_argument("--keep", action="store_true", help="write the tuned weights even where they do not win")
+    p.add_argument("--seed", type=int, default=0, help="of training; default 0")
+    p.add_argument("--processes", type=int, default=len(os.sched_getaffinity(0)), help="default all cores")
+    p.add_argument("--bake", default="sinew-bake", help=argparse.SUPPRESS)
+    return p
+
+
+def _need_file(path, what):
+    if os.path.isdir(path):
+        raise BadData(f"{path}: is a directory; give {what}")
+    if not os.path.exists(path):
+        raise BadData(f"{path}: no such file; give {what}")
+
+
+def _check(a):
+    """Throws BadData where an argument cannot be used."""
+    if not (0 < a.minutes < math.inf):
+        raise BadData(f"--minutes {a.minutes:g}: must be above 0; it is the whole time, 10 is a good one")
+    if a.processes < 1:
+        raise BadData(f"--processes {a.processes}: must be 1 or more")
+    _need_file(a.character, "a skinned glTF or VRM")
+    _need_file(a.tissue, "trained weights, as assets/weights/creature.safetensors")
+    if a.recipe:
+        _need_file(a.recipe, "a recipe, JSON")
+    if os.path.isdir(a.output):
+        raise BadData(f"{a.output}: is a directory; give a file's name, as {os.path.join(a.output, 'C.sinew')}")
+    folder = os.path.dirname(os.path.abspath(a.output))
+    if not os.path.isdir(folder):
+        raise BadData(f"{a.output}: no folder {folder}; make it first")
+
+
+def main(arguments=None):
+    """Exit codes: 0 good, 2 unusable input (one line says what, where, how to mend)."""
+    a = _parser().parse_args(arguments)
+    try:
+        _check(a)
+        from .stages import tune  # PyTorch takes a second to load
+
+        tune(a)
+    except BadData as error:
+        print(f"{NAME}: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        return 130
+    return 0

@@ -1,0 +1,73 @@
+"""What all stages of a run share, and its first stage: the character with its modal base."""
+import os
+import shutil
+import tempfile
+import time
+from dataclasses import dataclass, field
+
+from ..safetensors import BadData
+from ..trajectory import VERSION
+from .packs import Baker
+from .start import Start, hash_of
+from .stop import Stop
+from .time_budget import TimeBudget
+
+
+def say(text):
+    print(text, flush=True)
+
+
+def put(source, to):
+    """A copy, beside its place first and then renamed."""
+    shutil.copyfile(source, f"{to}.part")
+    os.replace(f"{to}.part", to)
+
+
+@dataclass
+class Run:
+    baker: Baker
+    start: Start
+    budget: TimeBudget
+    stop: Stop
+    cache: str  # C.train
+    folder: str = ""  # in it, of this character as it is now: packs, motions, weights
+    clips: list = field(default_factory=list)
+
+    def place(self, name):
+        return os.path.join(self.folder, name)
+
+
+def _folder_name(run, base):
+    """The base's pack holds mesh, clips, regions and modes: whatever the truth depends on changes it."""
+    recipe = [run.baker.recipe] if run.baker.recipe else []
+    return f"{hash_of(base, *recipe)[:12]}-{run.start.substeps}-{VERSION}"
+
+
+def _check_soft(run, regions):
+    if not regions:
+        raise BadData(
+            f"{run.baker.character}: has no soft parts, so there is nothing to train; name some under "
+            '"regions" in a recipe (--recipe), or bake it with sinew-bake character'
+        )
+
+
+def prepare(run):
+    """Bakes the character with its modes alone and with the given weights. Throws BadData, with nothing
+    written: a character that cannot be baked, or has nothing soft."""
+    with tempfile.TemporaryDirectory() as folder:
+        base, began_s = os.path.join(folder, "base.sinew"), time.monotonic()
+        notes = run.baker.bake(base)
+        run.budget.bake_s = time.monotonic() - began_s
+        described = run.baker.describe(base)
+        _check_soft(run, described.get("regions"))
+        shipped = os.path.join(folder, "start.sinew")
+        run.baker.bake(shipped, run.start.path)
+        run.folder = os.path.join(run.cache, _folder_name(run, base))
+        os.makedirs(run.folder, exist_ok=True)
+        put(base, run.place("base.sinew"))
+        put(shipped, run.place("start.sinew"))
+    run.clips = [clip["name"] for clip in described["clips"]]
+    for note in notes:
+        say(note)
+    regions = ", ".join(f"{r['name']} ({r['first_hz']:.1f} Hz)" for r in described["regions"])
+    say(f"soft parts: {regions}; clips: {', '.join(run.clips) or 'none'}")

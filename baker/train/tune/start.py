@@ -1,0 +1,50 @@
+"""The weights that a run begins with, checked."""
+import hashlib
+import os
+from dataclasses import dataclass
+
+from ..safetensors import BadData
+from ..weights import read_number, read_weights
+from . import SHIPPED
+from .motions import RATE_HZ
+
+
+@dataclass
+class Start:
+    path: str
+    model: object
+    scaling: object
+    metadata: dict
+
+    @property
+    def name(self):
+        """As tables call it."""
+        shipped = os.path.exists(SHIPPED) and os.path.samefile(self.path, SHIPPED)
+        return "shipped" if shipped else os.path.splitext(os.path.basename(self.path))[0]
+
+    @property
+    def substeps(self):
+        """Of the ground truth that they were trained on, and are tuned on."""
+        return int(read_number(self.path, self.metadata, "base_substeps", 4))
+
+
+def read_start(path):
+    """Throws BadData where the weights are none that can be tuned for a character."""
+    model, scaling, metadata = read_weights(path)
+    if metadata["sinew.model"] != "alt_conv_lstm" or scaling is None or "base" in scaling.without:
+        raise BadData(
+            f"{path}: not a network of this version's inputs on a modal base; give weights as "
+            "assets/weights/creature.safetensors"
+        )
+    if read_number(path, metadata, "rate_hz", RATE_HZ) != RATE_HZ:
+        raise BadData(f"{path}: is of {metadata['rate_hz']} ticks a second; give weights of {RATE_HZ}")
+    return Start(path, model, scaling, metadata)
+
+
+def hash_of(*paths):
+    """SHA-256 of the files' contents."""
+    h = hashlib.sha256()
+    for path in paths:
+        with open(path, "rb") as file:
+            h.update(file.read())
+    return h.hexdigest()
