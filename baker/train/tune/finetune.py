@@ -32,7 +32,8 @@ class FineTuner(Trainer):
 
     def tune(self, end_s, report=lambda tuner: None, keep=lambda tuner: None):
         """Until end_s. The weights that it began with are judged first, and are the best until others are
-        better on the validation motions. report(self): now and then; keep(self): where better ones are found."""
+        better on the validation motions. report(self): after every update; keep(self): when better ones are
+        found."""
         began_s = self.clock()
         self.consider([])
         judging_s = self.clock() - began_s
@@ -61,15 +62,8 @@ class FineTuner(Trainer):
             keep(self)
 
 
-def tuning_options(model, seed, batch=8, learning_rate=2e-3):
-    """The recipe: the network's own shape, gentler steps than from nothing."""
+def tuning_options(model, seed):
+    """The shipped weights' recipe on the network's own shape."""
     o = model.options
-    return TrainOptions(
-        channels=tuple(o.channels),
-        seed=seed,
-        batch=batch,
-        learning_rate=learning_rate,
-        hidden_leak=o.hidden_leak,
-        output_scale=o.output_scale,
-        state_clamp=o.state_clamp,
-    )
+    wiring = dict(hidden_leak=o.hidden_leak, output_scale=o.output_scale, state_clamp=o.state_clamp)
+    return TrainOptions(channels=tuple(o.channels), seed=seed, **wiring)

@@ -33,8 +33,8 @@ def _stated(run, weights, error):
 
 
 def finish(run, simulation, tuned, output, keep):
-    """Bakes what has the smallest error; the base, which needs no trust, where nothing is held out. tuned: path of
-    weights, or None. keep: writes them beside the output whatever is baked."""
+    """Bakes what has the smallest error; the base, which needs no trust, where nothing is held out. tuned:
+    path of weights, or None. keep: writes them beside the output whatever is baked."""
     weights = {run.start.name: run.start.path, **({TUNED: tuned} if tuned else {})}
     rows = _judge(run, simulation, weights)
     errors = pooled(rows) if rows else {}
@@ -45,7 +45,8 @@ def finish(run, simulation, tuned, output, keep):
         run.baker.bake(output, _stated(run, weights[winner], errors[winner]))
     for line in table(rows) if rows else []:
         say(line)
-    say(f"{output}: {reason(winner, errors) if rows else 'the modal base alone; no motion was left to judge by'}")
+    why = reason(winner, errors) if rows else "the modal base alone; no held-out motion was simulated"
+    say(f"{output}: {why}")
     if tuned and (keep or winner == TUNED):
         beside = os.path.splitext(output)[0] + ".tissue.safetensors"
         put(_stated(run, tuned, errors[TUNED]) if rows else tuned, beside)

@@ -60,12 +60,12 @@ def _can_train(run, simulation):
 
 
 def train(run, simulation, seed):
-    """Path of the tuned weights, or None where none are better than the given ones. They are written whenever
-    better ones are found."""
-    if not _can_train(run, simulation):
-        return None
+    """Path of the tuned weights, of an earlier run where this one cannot train; None where none are better
+    than the given ones. They are written whenever better ones are found."""
     path = run.place("tuned.safetensors")
     begun = _begin(run, path)
+    if not _can_train(run, simulation):
+        return None if begun is run.start else path
     groups, validation = _groups(simulation, "train"), _groups(simulation, "validation")
     options = tuning_options(begun.model, seed)
     tuner = FineTuner(groups, validation, (begun.model, begun.scaling), options, run.stop)

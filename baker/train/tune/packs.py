@@ -1,4 +1,4 @@
-"""What sinew-bake does for the tuner: characters with and without a network, what is in them, their errors."""
+"""What sinew-bake does for the tuner: characters with and without a network, what they hold, their errors."""
 import json
 import subprocess
 from dataclasses import dataclass

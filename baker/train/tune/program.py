@@ -20,8 +20,8 @@ class _Parser(argparse.ArgumentParser):
 def _parser():
     p = _Parser(
         prog=NAME,
-        description="Fine-tunes the shipped tissue network on ground truth of one character and bakes the best of "
-        "modal base, shipped and fine-tuned network, by their errors on motions that were held out. "
+        description="Fine-tunes the shipped tissue network on ground truth of one character and bakes the "
+        "best of modal base, shipped and fine-tuned network, by their errors on motions that were held out. "
         "Ctrl-C keeps the best so far; a second run goes on with the motions in C.train.",
     )
     p.add_argument("character", metavar="C.glb", help="skinned glTF or VRM; clips are used where it has any")
@@ -54,7 +54,8 @@ def _check(a):
     if a.recipe:
         _need_file(a.recipe, "a recipe, JSON")
     if os.path.isdir(a.output):
-        raise BadData(f"{a.output}: is a directory; give a file's name, as {os.path.join(a.output, 'C.sinew')}")
+        file = os.path.join(a.output, "C.sinew")
+        raise BadData(f"{a.output}: is a directory; give a file's name, as {file}")
     folder = os.path.dirname(os.path.abspath(a.output))
     if not os.path.isdir(folder):
         raise BadData(f"{a.output}: no folder {folder}; make it first")

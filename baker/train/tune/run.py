@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from ..safetensors import BadData
 from ..trajectory import VERSION
 from .packs import Baker
+from .progress_line import ProgressLine
 from .start import Start, hash_of
 from .stop import Stop
 from .time_budget import TimeBudget
@@ -51,9 +52,19 @@ def _check_soft(run, regions):
         )
 
 
+def _tell_of_others(run):
+    """Of motions in the cache that are of no use now."""
+    others = [f for f in os.scandir(run.cache) if f.is_dir() and f.path != run.folder]
+    size = sum(file.stat().st_size for folder in others for file in os.scandir(folder))
+    if others:
+        say(f"note: {run.cache}: {size >> 20} MB are of other recipes or files; delete what is not wanted")
+
+
 def prepare(run):
     """Bakes the character with its modes alone and with the given weights. Throws BadData, with nothing
     written: a character that cannot be baked, or has nothing soft."""
+    line = ProgressLine()
+    line.update("baking the character with its modes")
     with tempfile.TemporaryDirectory() as folder:
         base, began_s = os.path.join(folder, "base.sinew"), time.monotonic()
         notes = run.baker.bake(base)
@@ -66,8 +77,10 @@ def prepare(run):
         os.makedirs(run.folder, exist_ok=True)
         put(base, run.place("base.sinew"))
         put(shipped, run.place("start.sinew"))
+    line.clear()
     run.clips = [clip["name"] for clip in described["clips"]]
     for note in notes:
         say(note)
+    _tell_of_others(run)
     regions = ", ".join(f"{r['name']} ({r['first_hz']:.1f} Hz)" for r in described["regions"])
     say(f"soft parts: {regions}; clips: {', '.join(run.clips) or 'none'}")

@@ -36,8 +36,8 @@ class Simulation:
         self.done, self.failed, self.seconds, self.running = {}, {}, [], []
 
     def run(self, jobs, end_s):
-        """In order until end_s, of the monotonic clock, and on until every split that jobs has a motion of has
-        one. Throws BadData where nothing can be simulated."""
+        """In order until end_s, of the monotonic clock, and on until every split has a motion. Throws BadData
+        where nothing can be simulated."""
         self.waiting = []
         for job in jobs:
             path = os.path.join(self.folder, job.file)

@@ -50,6 +50,6 @@ def reason(winner, errors):
     """Why it is baked, in words and numbers."""
     base, own = errors[BASE][1], errors[winner][1]
     if winner != BASE:
-        return f"the {winner} network, {own:.3f} of skinning's error where the modal base alone leaves {base:.3f}"
+        return f"the {winner} network, {own:.3f} of skinning's error; the modal base alone leaves {base:.3f}"
     others = ", ".join(f"{name} {ratio:.3f}" for name, (_, ratio) in errors.items() if name != BASE)
     return f"the modal base alone, {base:.3f}: no network is better by {MARGIN:.0%} ({others})"

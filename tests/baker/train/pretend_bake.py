@@ -1,10 +1,11 @@
-"""Stands in for `sinew-bake creature` and `sinew-bake truth` where a test is about who calls them and when:
-notes every call in the file of SINEW_PRETEND_LOG, fails for outputs and motions that SINEW_PRETEND_FAIL
-names."""
+"""Stands in for `sinew-bake creature`, `truth`, `character` and `info` where a test is about who calls them and
+when: notes every call in the file of SINEW_PRETEND_LOG, fails for outputs and motions that SINEW_PRETEND_FAIL
+names, takes SINEW_PRETEND_SECONDS for a truth, and finds the regions that SINEW_PRETEND_REGIONS lists."""
 import argparse
 import json
 import os
 import sys
+import time
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +19,7 @@ TENSORS_BEYOND = {"surface": np.zeros((1, 1, 3), np.float16)}
 
 
 def truth(a):
+    time.sleep(float(os.environ.get("SINEW_PRETEND_SECONDS", 0)))
     ticks = round(a.seconds * RATE_HZ)
     t = np.arange(ticks + 1)[:, None, None] / RATE_HZ
     n = 3 * NODES
@@ -43,26 +45,39 @@ def truth(a):
     save(a.output, tensors, metadata)
 
 
+def character(a):
+    with open(a.input) as source, open(a.output, "w") as out:
+        out.write(source.read())
+
+
+def info(a):
+    regions = filter(None, os.environ.get("SINEW_PRETEND_REGIONS", "").split(","))
+    print(json.dumps({"regions": [{"name": n, "first_hz": 3.0} for n in regions], "clips": []}))
+
+
+def creature(a):
+    with open(a.input) as recipe, open(a.output, "w") as out:
+        out.write(json.load(recipe)["name"])
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("command")
     parser.add_argument("input")
-    parser.add_argument("-o", dest="output")
+    parser.add_argument("-o", dest="output", default="")
     for option, kind in (("seed", int), ("strength", float), ("seconds", float), ("substeps", int)):
         parser.add_argument(f"--{option}", type=kind)
-    for option in ("recipe", "motion", "hold-out"):
+    for option in ("recipe", "motion", "hold-out", "tissue"):
         parser.add_argument(f"--{option}", default="")
-    parser.add_argument("--surface", action="store_true")
+    for option in ("surface", "json"):
+        parser.add_argument(f"--{option}", action="store_true")
     a = parser.parse_args()
     with open(os.environ["SINEW_PRETEND_LOG"], "a") as log:
         print(a.command, a.output, file=log)
     fails = os.environ.get("SINEW_PRETEND_FAIL", "none")
     if fails in a.output or fails == a.motion:
         sys.exit("sinew-bake: it is said to fail")
-    if a.command == "truth":
-        return truth(a)
-    with open(a.input) as recipe, open(a.output, "w") as out:
-        out.write(json.load(recipe)["name"])
+    {"truth": truth, "character": character, "info": info, "creature": creature}[a.command](a)
 
 
 if __name__ == "__main__":
