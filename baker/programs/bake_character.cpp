@@ -24,7 +24,7 @@ namespace {
 struct CharacterOptions {
   std::string character, recipe, tissue, output, precision = "fp32";
   std::vector<std::string> calibration;
-  bool quick = false;
+  bool quick = false, keep_network = false;
 };
 
 Character import_character(const CharacterOptions& options, const Recipe& recipe) {
@@ -131,24 +131,25 @@ std::string network_note(const std::vector<pack::TierRecord>& tiers) {
 }
 
 // The pack with the errors of this character, and without a network that does not pay on it.
-std::vector<std::byte> measured(const Packer& packer, const Safetensors* weights, Character& character,
-                                const Tissue& tissue) {
+std::vector<std::byte> measured(const Packer& packer, const Safetensors* weights, bool keep_network,
+                                Character& character, const Tissue& tissue) {
   std::vector<std::byte> bytes = packer.pack(weights);
   try {
     LoadedPack pack = LoadedPack::from_bytes(bytes, character.name);
     const std::vector<TrueSurface> truths =
         short_truths(character, tissue.layout, tissue.finest, *tissue.truth, pack.view());
     std::vector<pack::TierRecord> tiers = measured_tiers(pack, truths);
-    if (weights && !network_pays(tiers)) {
+    if (weights && !keep_network && !network_pays(tiers)) {
       character.notes.push_back(network_note(tiers));
       bytes = packer.pack(nullptr);
       tiers = measured_tiers(LoadedPack::from_bytes(bytes, character.name), truths);
     }
     return with_tiers(bytes, tiers);
   } catch (const std::runtime_error& problem) {
-    character.notes.push_back("errors are not measured, and a network is left out: " +
-                              std::string(problem.what()));
-    return packer.pack(nullptr);
+    const char* what =
+        keep_network ? "errors are not measured: " : "errors are not measured, and a network is left out: ";
+    character.notes.push_back(what + std::string(problem.what()));
+    return packer.pack(keep_network ? weights : nullptr);
   }
 }
 
@@ -167,7 +168,8 @@ void run_character(const CharacterOptions& options) {
   const Packer packer(options, character, tissue);
   const Safetensors* network = weights ? &*weights : nullptr;
   const std::vector<std::byte> bytes =
-      options.quick || !tissue.truth ? packer.pack(network) : measured(packer, network, character, tissue);
+      options.quick || !tissue.truth ? packer.pack(network)
+                                     : measured(packer, network, options.keep_network, character, tissue);
   const LoadedPack pack =
       LoadedPack::from_bytes(bytes, options.character);  // what the runtime would refuse is not written
   write_file(options.output, bytes);
@@ -193,6 +195,8 @@ void add_character_command(CLI::App& app, int*) {
       ->allow_extra_args(false);
   command->add_flag("--quick", options->quick,
                     "does not measure errors against ground truth, nor whether the network pays: for trying");
+  command->add_flag("--keep-network", options->keep_network,
+                    "packs the network whatever its error is; sinew-train has judged it on more motions");
   command->add_option("-o,--output", options->output, "C.sinew")->required();
   command->callback([options] { run_character(*options); });
 }

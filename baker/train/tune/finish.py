@@ -39,10 +39,8 @@ def finish(run, simulation, tuned, output, keep):
     rows = _judge(run, simulation, weights)
     errors = pooled(rows) if rows else {}
     winner = best_of(errors) if rows else BASE
-    if winner == BASE:
-        put(run.place("base.sinew"), output)
-    else:
-        run.baker.bake(output, _stated(run, weights[winner], errors[winner]))
+    own = None if winner == BASE else _stated(run, weights[winner], errors[winner])
+    run.baker.bake(output, own, measured=True)
     for line in table(rows) if rows else []:
         say(line)
     why = reason(winner, errors) if rows else "the modal base alone; no held-out motion was simulated"

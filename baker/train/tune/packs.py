@@ -29,10 +29,12 @@ class Baker:
     def of_recipe(self):
         return ["--recipe", self.recipe] if self.recipe else []
 
-    def bake(self, pack, weights=None):
-        """The character with these weights, or with its modes alone. Returns the notes on it."""
+    def bake(self, pack, weights=None, measured=False):
+        """The character with these weights, or with its modes alone. measured: with its errors stated, which
+        takes seconds. Returns the notes on it."""
         tissue = ["--tissue", weights] if weights else []
-        said = self.run("character", self.character, *self.of_recipe(), *tissue, "-o", pack)
+        how = ["--keep-network"] if measured else ["--quick"]
+        said = self.run("character", self.character, *self.of_recipe(), *tissue, *how, "-o", pack)
         return [line for line in said.splitlines() if line.startswith("note: ")]
 
     def describe(self, pack):

@@ -41,6 +41,7 @@ def simulate(run, processes):
     jobs = motions_of(os.path.basename(run.folder), run.clips, run.start.substeps)
     simulation = Simulation(run.baker, run.cache, processes, run.stop, report).run(jobs, end_s)
     line.clear()
+    run.budget.motion_s = simulation.mean_s() or run.budget.motion_s
     _tell_of(simulation)
     return simulation
 

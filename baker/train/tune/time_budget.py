@@ -6,10 +6,12 @@ EVALUATION_S = 1.0  # besides bakes: judging, files
 
 
 class TimeBudget:
-    """Times are of the monotonic clock, in seconds. bake_s: measured, how long one bake takes."""
+    """Times are of the monotonic clock, in seconds. bake_s, motion_s: measured, how long a bake and the truth
+    of a motion take."""
 
     def __init__(self, minutes, clock=time.monotonic):
-        self.clock, self.began_s, self.whole_s, self.bake_s = clock, clock(), 60 * minutes, 0.0
+        self.clock, self.began_s, self.whole_s = clock, clock(), 60 * minutes
+        self.bake_s, self.motion_s = 0.0, 2.0
 
     def left_s(self):
         return max(0.0, self.began_s + self.whole_s - self.clock())
@@ -18,8 +20,8 @@ class TimeBudget:
         return self.began_s + SIMULATION_SHARE * self.whole_s
 
     def training_end_s(self):
-        """Evaluation bakes the tuned network, and the best one again with its errors stated."""
-        return self.began_s + self.whole_s - 2 * self.bake_s - EVALUATION_S
+        """Evaluation bakes the tuned network, and the best one with its errors measured on short motions."""
+        return self.began_s + self.whole_s - 2 * self.bake_s - self.motion_s - EVALUATION_S
 
 
 def in_words(seconds):

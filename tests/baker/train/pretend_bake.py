@@ -69,7 +69,7 @@ def main():
         parser.add_argument(f"--{option}", type=kind)
     for option in ("recipe", "motion", "hold-out", "tissue"):
         parser.add_argument(f"--{option}", default="")
-    for option in ("surface", "json"):
+    for option in ("surface", "json", "quick", "keep-network"):
         parser.add_argument(f"--{option}", action="store_true")
     a = parser.parse_args()
     with open(os.environ["SINEW_PRETEND_LOG"], "a") as log:
