@@ -141,6 +141,9 @@ TEST_CASE("errors_are_those_of_the_character_that_is_baked_and_a_network_that_do
   CHECK(error_of("network") == "no such tier");
   CHECK(error_of("modal").get<double>() < 0.3);
 
+  CHECK_THAT(bake_with(creature.weights, {"--keep-network"}), !Catch::Contains("left out"));
+  CHECK(error_of("network").is_number());
+
   bake_with(creature.weights, {"--quick"});
   CHECK(error_of("network").is_null());
   CHECK(error_of("modal").is_null());
