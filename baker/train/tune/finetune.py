@@ -2,8 +2,6 @@
 import time
 from dataclasses import replace
 
-import torch
-
 from ..scaling import measure_scaling
 from ..train import Trainer
 from ..train_options import TrainOptions
