@@ -65,6 +65,13 @@ struct BodyCollider {
   double radius_m = 0;
 };
 
+// Vertices of one mesh of the file.
+struct MeshSpan {
+  int node = 0;  // that shows it
+  size_t first_vertex = 0, vertex_count = 0;
+  bool skinned = false;  // else it hangs on one joint
+};
+
 struct Character {
   std::string name;
   std::vector<Node> nodes;
@@ -81,6 +88,7 @@ struct Character {
   std::vector<std::array<uint8_t, 4>> colors;  // material x vertex colour; for pictures
   std::vector<double> stiffness;               // painted _STIFFNESS, 0 soft .. 1 rigid; empty: not painted
   std::vector<std::array<int, 3>> triangles;
+  std::vector<MeshSpan> meshes;  // in the order of their vertices
 
   std::vector<int> welded;  // vertex -> first vertex at the same place with the same influences
   std::vector<Clip> clips;

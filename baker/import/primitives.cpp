@@ -31,6 +31,7 @@ class MeshReader {
   void append(const MeshInstance& instance) {
     const tinygltf::Mesh& mesh = model_.meshes[static_cast<size_t>(instance.mesh)];
     std::map<std::map<std::string, int>, size_t> shared;  // attributes -> first vertex
+    const size_t first = character_.positions.size();
     for (size_t p = 0; p < mesh.primitives.size(); ++p) {
       const tinygltf::Primitive& primitive = mesh.primitives[p];
       const std::string where = place(instance, p);
@@ -39,6 +40,8 @@ class MeshReader {
       if (fresh) append_vertices(primitive, instance, where);
       append_faces(primitive, instance, found->second, where);
     }
+    const size_t count = character_.positions.size() - first;
+    if (count > 0) character_.meshes.push_back({instance.node, first, count, instance.skin >= 0});
   }
 
   void finish() {

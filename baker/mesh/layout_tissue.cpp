@@ -2,8 +2,12 @@
 #include <algorithm>
 
 #include "baker/common/bad_input.hpp"
+#include "baker/mesh/bone_names.hpp"
 #include "baker/mesh/carry.hpp"
 #include "baker/mesh/control_nodes.hpp"
+#include "baker/mesh/flesh_shape.hpp"
+#include "baker/mesh/joint_names.hpp"
+#include "baker/mesh/named_parts.hpp"
 #include "baker/mesh/node_order.hpp"
 #include "baker/mesh/regions.hpp"
 #include "baker/mesh/stiffness.hpp"
@@ -73,11 +77,22 @@ struct Part {
   PartSurface view() const { return {character, surface, parts.part, id, vertices, rim}; }
 };
 
+// By its name, else by its bones'.
+SoftKind kind_of(const Region& region, const RegionRecipe* stated) {
+  if (stated && stated->kind) return *stated->kind;
+  if (const auto kind = meaning_of(region.name).kind) return *kind;
+  if (stated)
+    for (const std::string& joint : stated->joints)
+      if (const auto kind = meaning_of(joint).kind) return *kind;
+  return SoftKind::kOther;
+}
+
 // What it moves like: as stated, else by its kind and size, or by the recipe's moduli.
 void set_motion(const Recipe& recipe, const RegionRecipe* stated, Region& region) {
   const RegionRecipe fallback;
   const RegionRecipe& from = stated ? *stated : fallback;
-  region.kind = from.kind;
+  region.touches_body = from.touches_body;
+  region.kind = kind_of(region, stated);
   region.damping_ratio = from.damping_ratio.value_or(recipe.damping_ratio);
   region.intensity = from.intensity;
   region.max_displacement = from.max_displacement.value_or(recipe.max_displacement);
@@ -87,32 +102,37 @@ void set_motion(const Recipe& recipe, const RegionRecipe* stated, Region& region
     region.frequency_hz = default_frequency_hz(region.kind, 2 * region.radius_m);
 }
 
-void append_region(const Part& part, const Recipe& recipe, const std::vector<int>& nodes, const Edges& edges,
-                   TissueLayout& layout) {
+// The region of these nodes; what it is called and moves like is the caller's to say.
+Region& append_region(const Part& part, const std::vector<int>& nodes, const Edges& edges,
+                      TissueLayout& layout) {
   const Character& character = part.character;
   Region region;
-  const RegionRecipe* stated = stated_region(character, recipe, layout.stiffness, part.vertices);
-  region.name = stated ? stated->name : region_name(character, layout.stiffness, part.vertices);
-  region.touches_body = stated && stated->touches_body;
   region.frame_joint = frame_joint(character, part.rim, part.vertices);
   region.first_node = static_cast<int>(layout.nodes.size());
   region.node_count = static_cast<int>(nodes.size());
   region.vertices = carried_vertices(character, part.parts, part.id);
   const std::vector<Vector3> node_places = places(character, nodes);
   measure(node_places, region);
-  set_motion(recipe, stated, region);
   region.carry = carry_weights(node_places, places(character, sample_rim(character, part.rim, kRimAnchors)),
                                places(character, region.vertices));
   for (const auto& [a, b] : edges) layout.edges.emplace_back(region.first_node + a, region.first_node + b);
   append_nodes(character, nodes, static_cast<int>(layout.regions.size()), layout);
   layout.regions.push_back(std::move(region));
+  return layout.regions.back();
 }
 
-void append_finest(const Part& part, const Recipe& recipe, TissueLayout& layout) {
+void append_finest(const Part& part, const Recipe& recipe, Evidence evidence, TissueLayout& layout) {
   std::vector<int> nodes = sample_nodes(part.view(), layout.stiffness, recipe.nodes_per_region);
   Edges edges = connect_nodes(part.view(), nodes, recipe.neighbours);
   order_for_cache(nodes, edges);
-  append_region(part, recipe, nodes, edges, layout);
+  const int owner = part.parts.region[static_cast<size_t>(part.id)];
+  const RegionRecipe* stated = owner >= 0
+                                   ? &recipe.regions[static_cast<size_t>(owner)]
+                                   : stated_region(part.character, recipe, layout.stiffness, part.vertices);
+  Region& region = append_region(part, nodes, edges, layout);
+  region.name = stated ? stated->name : region_name(part.character, layout.stiffness, part.vertices);
+  region.evidence = evidence;
+  set_motion(recipe, stated, region);
 }
 
 // In the order in which the finest region has them.
@@ -131,11 +151,12 @@ void append_coarser(const Part& part, const Recipe& recipe, const TissueLayout& 
   std::vector<int> nodes = sample_nodes(part.view(), layout.stiffness, std::min(count, region.node_count));
   if (std::ranges::find(nodes, held) == nodes.end()) nodes.back() = held;
   put_in_order_of(finest, region, nodes);
-  append_region(part, recipe, nodes, connect_nodes(part.view(), nodes, recipe.neighbours), layout);
-  layout.regions.back().name = region.name;
-  layout.regions.back().center = region.center;
-  layout.regions.back().radius_m = region.radius_m;
-  layout.regions.back().frequency_hz = region.frequency_hz;
+  Region& coarser = append_region(part, nodes, connect_nodes(part.view(), nodes, recipe.neighbours), layout);
+  Region same = region;  // all but the nodes
+  same.first_node = coarser.first_node;
+  same.node_count = coarser.node_count;
+  same.carry = std::move(coarser.carry);
+  coarser = std::move(same);
 }
 
 // Flesh that a rod's bones move by more than this is not soft: rim of both, it would swing twice.
@@ -152,35 +173,118 @@ void hold_on_rods(const Character& character, const std::vector<Rod>& rods, std:
   }
 }
 
+// Joints whose flesh stronger evidence than springs and names has: regions of the recipe, and paint.
+std::vector<bool> claimed_joints(const Character& character, const Recipe& recipe) {
+  constexpr double kPainted = 0.2;  // of a joint's flesh, by weight
+  std::vector<bool> claimed(character.joint_node.size(), false);
+  for (const RegionRecipe& region : recipe.regions) {
+    const std::vector<bool> own =
+        match_joints(character, region.joints, "recipe: region '" + region.name + "'");
+    for (size_t j = 0; j < own.size(); ++j) claimed[j] = claimed[j] || own[j];
+  }
+  if (character.stiffness.empty() || (recipe.states_regions && recipe.regions.empty())) return claimed;
+  std::vector<double> soft(claimed.size(), 0), all(claimed.size(), 0);
+  for (size_t v = 0; v < character.skin.size(); ++v)
+    for (size_t k = 0; k < kInfluences; ++k) {
+      const auto j = static_cast<size_t>(character.skin[v].joint[k]);
+      all[j] += character.skin[v].weight[k];
+      if (character.stiffness[v] < recipe.rigid_stiffness) soft[j] += character.skin[v].weight[k];
+    }
+  for (size_t j = 0; j < claimed.size(); ++j) claimed[j] = claimed[j] || soft[j] > kPainted * all[j];
+  return claimed;
+}
+
+void join(const std::vector<bool>& other, std::vector<bool>& joints) {
+  for (size_t j = 0; j < joints.size(); ++j) joints[j] = joints[j] || other[j];
+}
+
+// A region of the recipe is not left without a part in silence.
+void check_all_found(const Character& character, const Recipe& recipe, const SoftParts& parts,
+                     const std::vector<bool>& on_rods) {
+  for (size_t r = 0; r < recipe.regions.size(); ++r) {
+    if (std::ranges::find(parts.region, static_cast<int>(r)) != parts.region.end()) continue;
+    const RegionRecipe& region = recipe.regions[r];
+    const std::string where = character.name + ": recipe: region '" + region.name + "': ";
+    if (region.stiffness >= recipe.rigid_stiffness)
+      throw BadInput(where + "nothing is soft: its stiffness is not below rigid_stiffness; make it softer");
+    const std::vector<bool> own = match_joints(character, region.joints, where);
+    for (size_t j = 0; j < own.size(); ++j)
+      if (own[j] && on_rods[j])
+        throw BadInput(where + "nothing is soft: rods move its bones; let '" + joint_name(character, j) +
+                       "' be in one of them");
+    throw BadInput(where +
+                   "nothing is soft: its bones move fewer than four vertices enough; name bones that "
+                   "move flesh, or take it out");
+  }
+}
+
+void note_sheets(Character& character, const TissueLayout& layout) {
+  for (const Region& region : layout.regions)
+    if (region.evidence == Evidence::kRecipe && thickness_share(character, region.vertices) < kThinSheet)
+      character.notes.push_back(
+          "region '" + region.name +
+          "' is a thin sheet, which cells of tissue do not follow well: a chain of bones "
+          "swings better, as one of the recipe's \"rods\"");
+}
+
 }  // namespace
 
 TissueLayout layout_tissue(Character& character, const Recipe& recipe) {
   const Surface surface = find_surface(character);
+  const bool no_tissue = recipe.states_regions && recipe.regions.empty();
+  const bool painted = !character.stiffness.empty() && !no_tissue;
+  const bool states_regions = recipe.states_regions || !recipe.regions.empty();
+  if (painted && states_regions)
+    character.notes.push_back(
+        "the file paints _STIFFNESS: the recipe's regions only say names and what they touch");
+
   TissueLayout layout;
-  layout.rods = find_rods(character, recipe);
-  layout.proxies =
-      find_proxies(character, find_bones(character, {}), joints_on_rods(character, layout.rods), recipe);
-  layout.stiffness = find_stiffness(character, surface, recipe);
-  hold_on_rods(character, layout.rods, layout.stiffness);
-  const SoftParts parts = find_soft_parts(character, surface, recipe, layout.stiffness);
-  if (parts.count == 0 && layout.rods.empty())
-    throw BadInput(character.name + ": no part of the surface is soft (stiffness below " +
-                   std::to_string(recipe.rigid_stiffness) +
-                   "); paint _STIFFNESS, or name soft joints in the recipe's regions");
-  for (int id = 0; id < parts.count; ++id) append_finest({character, surface, parts, id}, recipe, layout);
+  std::vector<bool> claimed = claimed_joints(character, recipe);
+  layout.rods = find_rods(character, recipe, claimed, &layout.skipped);
+  join(joints_on_rods(character, layout.rods), claimed);
+  NamedParts named = named_parts(character, surface, claimed,
+                                 {.rods = !recipe.rods.has_value(), .regions = !painted && !states_regions});
+  add_named_rods(character, named.rods, layout.rods, layout.skipped);
+  std::ranges::move(named.skipped, std::back_inserter(layout.skipped));
+  const std::vector<bool> on_rods = joints_on_rods(character, layout.rods);
+  layout.proxies = find_proxies(character, find_bones(character, {}), on_rods, recipe);
+
+  Recipe as = recipe;
+  if (!painted && !states_regions) as.regions = std::move(named.regions);
+  layout.coreless = match_joints(character, recipe.coreless_joints, "recipe: coreless_joints");
+  join(named.coreless, layout.coreless);
+  join(flesh_joints(character), layout.coreless);
+  Stiffness stiffness = painted ? painted_stiffness(character)
+                                : stated_stiffness(character, surface, as.regions, layout.coreless);
+  hold_on_rods(character, layout.rods, stiffness.of_vertex);
+  const SoftParts parts = find_soft_parts(character, surface, as.rigid_stiffness, stiffness);
+  if (!painted && states_regions) check_all_found(character, recipe, parts, on_rods);
+  layout.stiffness = std::move(stiffness.of_vertex);
+  const Evidence evidence = painted          ? Evidence::kPainted
+                            : states_regions ? Evidence::kRecipe
+                                             : Evidence::kBoneName;
+  for (int id = 0; id < parts.count; ++id)
+    append_finest({character, surface, parts, id}, as, evidence, layout);
   distinguish_names(layout.regions);
+  note_sheets(character, layout);
+  if (layout.regions.empty() && layout.rods.empty() && !no_tissue)
+    character.notes.push_back(how_to_make_soft(character));
   return layout;
 }
 
 TissueLayout coarser_layout(const Character& character, const Recipe& recipe, const TissueLayout& finest,
                             const std::vector<int>& held, int nodes_per_region) {
-  Character again = character;  // its notes were made with the finest
-  const Surface surface = find_surface(again);
+  const Surface surface = find_surface(character);
+  SoftParts parts{
+      std::vector<int>(character.positions.size(), -1), {}, static_cast<int>(finest.regions.size())};
+  for (int id = 0; id < parts.count; ++id)
+    for (const int v : finest.regions[static_cast<size_t>(id)].vertices)
+      if (character.welded[static_cast<size_t>(v)] == v) parts.part[static_cast<size_t>(v)] = id;
   TissueLayout layout;
   layout.stiffness = finest.stiffness;
-  const SoftParts parts = find_soft_parts(again, surface, recipe, layout.stiffness);
+  layout.coreless = finest.coreless;
   for (int id = 0; id < parts.count; ++id)
-    append_coarser({again, surface, parts, id}, recipe, finest, held[static_cast<size_t>(id)],
+    append_coarser({character, surface, parts, id}, recipe, finest, held[static_cast<size_t>(id)],
                    nodes_per_region, layout);
   return layout;
 }

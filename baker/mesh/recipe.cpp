@@ -79,7 +79,7 @@ RegionRecipe read_region(JsonSection& section) {
   if (section.has("kind")) {
     const std::optional<SoftKind> kind = kind_called(section.text("kind"));
     if (!kind) section.complain("kind", "is none of belly, breast, glute, thigh, cheek, ear, tail, other");
-    region.kind = *kind;
+    region.kind = kind;
   }
   if (section.has("frequency_hz")) region.frequency_hz = section.number("frequency_hz", 0, 0.05, 25);
   if (section.has("damping_ratio")) region.damping_ratio = section.number("damping_ratio", 0, 0, 0.95);

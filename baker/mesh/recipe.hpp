@@ -17,14 +17,12 @@ struct RegionRecipe {
   std::vector<std::string> joints;  // names or prefix*
   double stiffness = 0.1;           // 0 soft .. 1 rigid at its softest point
   bool touches_body = false;        // the capsules about the character's bones, but for those that carry it
-  SoftKind kind =
-      SoftKind::kOther;  // what the default frequency goes by; absent: by its name, then its bones'
-  std::optional<double> frequency_hz =
-      {};  // 0.05 .. 25, of its first mode; absent: see Recipe::young_soft_pa
-  std::optional<double> damping_ratio = {};  // 0 .. 0.95; absent: Recipe::damping_ratio
-  double intensity = 1;                      // 0 none .. 1 physical .. 2: scales its displacement
-  std::optional<double> max_displacement =
-      {};  // share of its radius, 0.01 .. 4; absent: Recipe::max_displacement
+  // What the default frequency goes by; absent: what its name says, then its bones'.
+  std::optional<SoftKind> kind = {};
+  std::optional<double> frequency_hz = {};      // 0.05 .. 25, of its first mode; absent: see Recipe
+  std::optional<double> damping_ratio = {};     // 0 .. 0.95; absent: Recipe::damping_ratio
+  double intensity = 1;                         // 0 none .. 1 physical .. 2: scales its displacement
+  std::optional<double> max_displacement = {};  // of its radius, 0.01 .. 4; absent: Recipe::max_displacement
 };
 
 // Of a capsule that rods and regions collide with, its bone by name or prefix*.

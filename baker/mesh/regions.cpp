@@ -1,6 +1,7 @@
 // regions.cpp  Soft parts, their frames and names.
 #include "baker/mesh/regions.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
 #include <set>
@@ -11,6 +12,7 @@ namespace sinew::baker {
 namespace {
 
 constexpr size_t kFewestVertices = 4;  // fewer have no inside and no volume to speak of
+constexpr double kIslet = 0.25;        // of the extent of its region's largest part
 
 std::vector<double> weight_a_joint(const Character& character, const std::vector<int>& vertices,
                                    const std::vector<double>& share) {
@@ -27,6 +29,26 @@ int largest(const std::vector<double>& values) {
   return static_cast<int>(std::max_element(values.begin(), values.end()) - values.begin());
 }
 
+struct Piece {
+  size_t vertices = 0;
+  int region = -1;
+  Eigen::AlignedBox3d box = {};
+};
+
+std::vector<Piece> pieces_of(const Character& character, const std::vector<int>& part,
+                             const std::vector<int>& region) {
+  std::vector<Piece> pieces;
+  for (size_t v = 0; v < part.size(); ++v) {
+    if (part[v] < 0) continue;
+    pieces.resize(std::max(pieces.size(), static_cast<size_t>(part[v]) + 1));
+    Piece& piece = pieces[static_cast<size_t>(part[v])];
+    ++piece.vertices;
+    piece.box.extend(character.positions[v]);
+    piece.region = region[v];
+  }
+  return pieces;
+}
+
 // Of each joint, where the part is soft.
 std::vector<double> soft_weight(const Character& character, const std::vector<double>& stiffness,
                                 const std::vector<int>& vertices) {
@@ -37,30 +59,37 @@ std::vector<double> soft_weight(const Character& character, const std::vector<do
 
 }  // namespace
 
-SoftParts find_soft_parts(Character& character, const Surface& surface, const Recipe& recipe,
-                          std::vector<double>& stiffness) {
-  std::vector<bool> soft(stiffness.size());
-  for (size_t v = 0; v < soft.size(); ++v) soft[v] = stiffness[v] < recipe.rigid_stiffness;
-  SoftParts found{connected_parts(surface, soft), 0};
-  std::vector<size_t> size;
-  for (int part : found.part)
-    if (part >= 0)
-      size.resize(std::max(size.size(), static_cast<size_t>(part) + 1)), ++size[static_cast<size_t>(part)];
+SoftParts find_soft_parts(Character& character, const Surface& surface, double rigid_stiffness,
+                          Stiffness& stiffness) {
+  std::vector<bool> soft(stiffness.of_vertex.size());
+  for (size_t v = 0; v < soft.size(); ++v) soft[v] = stiffness.of_vertex[v] < rigid_stiffness;
+  SoftParts found{connected_parts(surface, soft), {}, 0};
+  const std::vector<Piece> pieces = pieces_of(character, found.part, stiffness.region);
+  std::map<int, double> largest_of;
+  for (const Piece& piece : pieces)
+    largest_of[piece.region] = std::max(largest_of[piece.region], piece.box.diagonal().norm());
 
-  std::vector<int> place(size.size(), -1);
-  size_t dropped = 0;
-  for (size_t part = 0; part < size.size(); ++part)
-    if (size[part] >= kFewestVertices)
-      place[part] = found.count++;
+  std::vector<int> place(pieces.size(), -1);
+  size_t specks = 0, islets = 0;
+  for (size_t p = 0; p < pieces.size(); ++p) {
+    const bool islet =
+        pieces[p].region >= 0 && pieces[p].box.diagonal().norm() < kIslet * largest_of[pieces[p].region];
+    if (pieces[p].vertices < kFewestVertices)
+      ++specks;
+    else if (islet)
+      ++islets;
     else
-      ++dropped;
+      place[p] = found.count++, found.region.push_back(pieces[p].region);
+  }
   for (size_t v = 0; v < found.part.size(); ++v) {
     if (found.part[v] >= 0) found.part[v] = place[static_cast<size_t>(found.part[v])];
-    if (soft[v] && found.part[static_cast<size_t>(character.welded[v])] < 0) stiffness[v] = 1;
+    if (soft[v] && found.part[static_cast<size_t>(character.welded[v])] < 0) stiffness.of_vertex[v] = 1;
   }
-  if (dropped > 0)
-    character.notes.push_back(std::to_string(dropped) +
-                              " soft parts of fewer than four vertices: held rigid");
+  if (specks > 0)
+    character.notes.push_back(std::to_string(specks) + " soft parts of fewer than four vertices: held rigid");
+  if (islets > 0)
+    character.notes.push_back(std::to_string(islets) +
+                              " soft parts that are small beside the rest of their region: held rigid");
   return found;
 }
 

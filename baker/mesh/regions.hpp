@@ -5,20 +5,23 @@
 
 #include "baker/import/character.hpp"
 #include "baker/mesh/recipe.hpp"
+#include "baker/mesh/stiffness.hpp"
 #include "baker/mesh/surface.hpp"
 #include "baker/mesh/tissue_layout.hpp"
 
 namespace sinew::baker {
 
 struct SoftParts {
-  std::vector<int> part;  // welded vertex -> part, -1: rigid
+  std::vector<int> part;    // welded vertex -> part, -1: rigid
+  std::vector<int> region;  // of each part, whose it is (Stiffness::region); -1: painted
   int count = 0;
 };
 
-// Connected parts of vertices below recipe.rigid_stiffness. Parts of fewer than four welded vertices become
-// rigid (stiffness is changed), with a note.
-SoftParts find_soft_parts(Character& character, const Surface& surface, const Recipe& recipe,
-                          std::vector<double>& stiffness);
+// Connected parts of vertices below rigid_stiffness. Parts of fewer than four welded vertices become rigid
+// (stiffness is changed), with a note; so do, of a region that names bones, those that are small beside its
+// largest one.
+SoftParts find_soft_parts(Character& character, const Surface& surface, double rigid_stiffness,
+                          Stiffness& stiffness);
 
 // Welded vertices of a part, ascending.
 std::vector<int> part_vertices(const SoftParts& parts, int id);
@@ -29,7 +32,7 @@ std::vector<int> rim_vertices(const Surface& surface, const SoftParts& parts, in
 // The joint with the most skin weight on the rim; of the whole part where it has no rim.
 int frame_joint(const Character& character, const std::vector<int>& rim, const std::vector<int>& vertices);
 
-// The recipe's region that has most of the part's weight where it is soft; null: none has.
+// Of painted parts, the recipe's region that has most of the part's weight where it is soft; null: none has.
 const RegionRecipe* stated_region(const Character& character, const Recipe& recipe,
                                   const std::vector<double>& stiffness, const std::vector<int>& vertices);
 

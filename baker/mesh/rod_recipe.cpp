@@ -24,6 +24,11 @@ RodRecipe read_rod(JsonSection& section) {
       section.number("young_modulus_pa", rod.young_modulus_pa, kLeastModulus_pa, kMostModulus_pa);
   rod.torsion_modulus_pa =
       section.number("torsion_modulus_pa", rod.young_modulus_pa, kLeastModulus_pa, kMostModulus_pa);
+  if (section.has("damping_ratio")) {
+    rod.damping_ratio = section.number("damping_ratio", 0, 0, 2);
+    if (section.has("damping_s"))
+      section.complain("damping_s", "says the same as damping_ratio; state one of them");
+  }
   rod.damping_s = section.number("damping_s", rod.damping_s, 0, 10);
   rod.drag_per_s = section.number("drag_per_s", rod.drag_per_s, 0, 1000);
   rod.gravity = section.number("gravity", rod.gravity, 0, 100);

@@ -1,5 +1,6 @@
 // rod_recipe.hpp  What an artist states about bones that swing as rods.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,15 +13,19 @@ struct RodRecipe {
   std::string root;  // the first bone that swings; it hangs on its parent, which does not
   std::string end;   // the last one, below the root: a chain. Empty: all bones below the root, a tree
 
-  double radius_m = 0;            // 0: as thick as the flesh on each bone; else above 0 .. 10
-  double density_kg_m3 = 1000;    // 1 .. 1e5
+  double radius_m = 0;  // 0: as thick as the flesh on each bone; else above 0 .. 10
+  // 1 .. 1e5. Heavier than 1000 it swings slower, by the square root, and air takes less of its velocity;
+  // lighter, the other way round.
+  double density_kg_m3 = 1000;
   double young_modulus_pa = 1e6;  // above 0 .. 1e12, against bending
   double torsion_modulus_pa = 0;  // above 0 .. 1e12; not stated: as young_modulus_pa
   // 0.01 .. 100, instead of the moduli: each joint is made as stiff as lets the whole swing at about so many
-  // times a second, whatever its length, radius and density. 0: the moduli count.
+  // times a second, whatever its length and radius, at a density of 1000. 0: the moduli count.
   double frequency_hz = 0;
+  // 0 .. 2, of its slowest swing and instead of damping_s: at 0.25 a swing is a fifth of the one before.
+  std::optional<double> damping_ratio = {};
   double damping_s = 0.02;  // 0 .. 10: moment by rate of bending over moment by bending
-  double drag_per_s = 0.5;  // 0 .. 1000: share of its velocity that air takes a second
+  double drag_per_s = 0.5;  // 0 .. 1000: share of its velocity that air takes a second, at a density of 1000
   double gravity = 1;       // 0 .. 100, times the earth's
   // 0 .. 1, the share of gravity that bends what the artist posed. 0: the pose is what gravity has made of
   // it, and only turning against gravity is felt. 1: the pose is the shape without gravity.

@@ -16,6 +16,7 @@
 #include <numbers>
 
 #include "baker/common/bad_input.hpp"
+#include "baker/mesh/bone_names.hpp"
 #include "baker/mesh/joint_names.hpp"
 #include "baker/mesh/rod_bones.hpp"
 #include "rods/section.hpp"
@@ -78,23 +79,44 @@ void stiffen_links(std::vector<RodBone>& bones) {
     if (bone.joint < 0) bone.young_modulus_pa = bone.torsion_modulus_pa = kLinkStiffness * stiffest;
 }
 
+// Dunkerley: the squares of periods add up along a chain, and the whole swings no slower. rad/s.
+double slowest_swing(const std::vector<RodBone>& bones) {
+  const std::vector<double> inertia = outboard_inertia(bones);
+  std::vector<double> square_period(bones.size(), 0);
+  for (size_t b = 0; b < bones.size(); ++b) {
+    const size_t above = bones[b].parent < 0 ? b : static_cast<size_t>(bones[b].parent);
+    const rods::JointCompliance unit = rods::joint_compliance(segment_of(bones[above]), segment_of(bones[b]));
+    square_period[b] = inertia[b] * unit.bend_rad_nm / bones[b].young_modulus_pa;
+    if (bones[b].parent >= 0) square_period[b] += square_period[above];
+  }
+  return 1 / std::sqrt(*std::ranges::max_element(square_period));
+}
+
+void set_damping(const RodRecipe& recipe, std::vector<RodBone>& bones) {
+  const double damping_s =
+      recipe.damping_ratio ? 2 * *recipe.damping_ratio / slowest_swing(bones) : recipe.damping_s;
+  for (RodBone& bone : bones) bone.damping_s = damping_s;
+}
+
 // Joints in a row give more than one: by Dunkerley the whole swings no slower than this when each swings
 // sqrt(joints in a row) times as fast.
 void apply(const RodRecipe& recipe, std::vector<RodBone>& bones) {
+  constexpr double kDensity = RodRecipe{}.density_kg_m3;
   for (RodBone& bone : bones) {
     if (recipe.radius_m > 0) bone.radius_m = recipe.radius_m;
-    bone.density_kg_m3 = recipe.density_kg_m3;
+    bone.density_kg_m3 = recipe.frequency_hz > 0 ? kDensity : recipe.density_kg_m3;
     bone.young_modulus_pa = recipe.young_modulus_pa;
     bone.torsion_modulus_pa =
         recipe.torsion_modulus_pa > 0 ? recipe.torsion_modulus_pa : recipe.young_modulus_pa;
-    bone.damping_s = recipe.damping_s;
-    bone.drag_per_s = recipe.drag_per_s;
+    bone.drag_per_s = recipe.drag_per_s * kDensity / recipe.density_kg_m3;
   }
   if (recipe.frequency_hz > 0) {
     const double w = 2 * std::numbers::pi * recipe.frequency_hz;
     stiffen(bones, std::vector<double>(bones.size(), w * w * longest_chain(bones)));
+    for (RodBone& bone : bones) bone.density_kg_m3 = recipe.density_kg_m3;
   }
   stiffen_links(bones);
+  set_damping(recipe, bones);
 }
 
 void apply(const SpringBones& spring, std::vector<RodBone>& bones) {
@@ -184,6 +206,26 @@ Rod make_rod(const Character& character, const RodPlace& place, const std::strin
   return rod;
 }
 
+SoftKind kind_of(const Character& character, const Rod& rod) {
+  if (const auto kind = meaning_of(rod.name).kind) return *kind;
+  const std::string& root = joint_name(character, static_cast<size_t>(rod.bones.front().joint));
+  return meaning_of(root).kind.value_or(SoftKind::kOther);
+}
+
+void describe(const Character& character, Evidence evidence, Rod& rod) {
+  rod.evidence = evidence;
+  rod.kind = kind_of(character, rod);
+  rod.frequency_hz = slowest_swing(rod.bones) / (2 * std::numbers::pi);
+}
+
+Rod rod_of(const Character& character, const RodRecipe& recipe, const RodPlace& place) {
+  Rod rod = make_rod(character, place, recipe.name);
+  apply(recipe, rod.bones);
+  rod.gravity = recipe.gravity;
+  rod.sag = recipe.sag;
+  return rod;
+}
+
 std::vector<Rod> stated_rods(const Character& character, const std::vector<RodRecipe>& recipes) {
   std::vector<Rod> rods;
   Owners owners(character);
@@ -191,17 +233,23 @@ std::vector<Rod> stated_rods(const Character& character, const std::vector<RodRe
     RodPlace place{"recipe: rod '" + recipe.name + "'"};
     place.root = joint_called(character, recipe.root, place.where);
     if (!recipe.end.empty()) place.end = joint_called(character, recipe.end, place.where);
-    Rod rod = make_rod(character, place, recipe.name);
-    apply(recipe, rod.bones);
-    rod.gravity = recipe.gravity;
-    rod.sag = recipe.sag;
+    Rod rod = rod_of(character, recipe, place);
+    describe(character, Evidence::kRecipe, rod);
     owners.take(rods, rod, place.where);
     rods.push_back(std::move(rod));
   }
   return rods;
 }
 
-std::vector<Rod> rods_of_springs(Character& character) {
+bool moves_claimed(const Rod& rod, const std::vector<bool>& claimed) {
+  return std::ranges::any_of(rod.bones, [&](const RodBone& bone) {
+    return bone.joint >= 0 && static_cast<size_t>(bone.joint) < claimed.size() &&
+           claimed[static_cast<size_t>(bone.joint)];
+  });
+}
+
+std::vector<Rod> rods_of_springs(Character& character, const std::vector<bool>& claimed,
+                                 std::vector<SkippedPart>* skipped) {
   std::vector<Rod> rods;
   Owners owners(character);
   bool collides = false;
@@ -212,6 +260,13 @@ std::vector<Rod> rods_of_springs(Character& character) {
       Rod rod = make_rod(character, place, name);
       apply(spring, rod.bones);
       rod.sag = 1;
+      describe(character, Evidence::kSpringBone, rod);
+      if (moves_claimed(rod, claimed)) {
+        if (skipped != nullptr)
+          skipped->push_back(
+              {name, rod.evidence, rod.kind, "its bones are in a soft region, which comes first"});
+        continue;
+      }
       owners.take(rods, rod, place.where);
       rod.gravity = gravity_of(spring, place.where, character);
       rods.push_back(std::move(rod));
@@ -229,12 +284,43 @@ std::vector<Rod> rods_of_springs(Character& character) {
   return rods;
 }
 
+void sort_by_root(std::vector<Rod>& rods) {
+  std::ranges::sort(rods, {}, [](const Rod& rod) { return rod.bones.front().joint; });
+}
+
 }  // namespace
 
-std::vector<Rod> find_rods(Character& character, const Recipe& recipe) {
-  std::vector<Rod> rods = recipe.rods ? stated_rods(character, *recipe.rods) : rods_of_springs(character);
-  std::ranges::sort(rods, {}, [](const Rod& rod) { return rod.bones.front().joint; });
+std::vector<Rod> find_rods(Character& character, const Recipe& recipe, const std::vector<bool>& claimed,
+                           std::vector<SkippedPart>* skipped) {
+  std::vector<Rod> rods =
+      recipe.rods ? stated_rods(character, *recipe.rods) : rods_of_springs(character, claimed, skipped);
+  sort_by_root(rods);
   return rods;
+}
+
+void add_named_rods(const Character& character, const std::vector<RodRecipe>& named, std::vector<Rod>& rods,
+                    std::vector<SkippedPart>& skipped) {
+  Owners owners(character);
+  std::vector<Rod> taken;
+  for (Rod& rod : rods) {
+    owners.take(taken, rod, "rod '" + rod.name + "'");
+    taken.push_back(std::move(rod));
+  }
+  for (const RodRecipe& recipe : named) {
+    RodPlace place{"bone '" + recipe.name + "'"};
+    place.root = joint_called(character, recipe.root, place.where);
+    try {
+      Rod rod = rod_of(character, recipe, place);
+      describe(character, Evidence::kBoneName, rod);
+      owners.take(taken, rod, place.where);
+      taken.push_back(std::move(rod));
+    } catch (const BadInput& refused) {
+      skipped.push_back({recipe.name, Evidence::kBoneName,
+                         meaning_of(recipe.name).kind.value_or(SoftKind::kOther), refused.what()});
+    }
+  }
+  rods = std::move(taken);
+  sort_by_root(rods);
 }
 
 std::vector<bool> joints_on_rods(const Character& character, const std::vector<Rod>& rods) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "baker/import/character.hpp"
+#include "baker/mesh/evidence.hpp"
 #include "baker/mesh/recipe.hpp"
 
 namespace sinew::baker {
@@ -23,6 +24,9 @@ struct Rod {
   int attach = 0;  // the joint that the first bone hangs on
   double gravity = 1, sag = 0;
   std::vector<RodBone> bones;
+  Evidence evidence = Evidence::kRecipe;
+  SoftKind kind = SoftKind::kOther;
+  double frequency_hz = 0;  // about that of its slowest swing
 };
 
 // The recipe's rods, else the file's springs (what is made of their numbers: rods.cpp; what does not become a
@@ -33,7 +37,14 @@ struct Rod {
 // Throws BadInput with the rod and the bone, for the recipe's: a bone that is not there (with the nearest
 // name), an end that is not below the root, a root without a parent, a single bone without an end, two joints
 // in one place, a bone in two rods, a rod that hangs on another one.
-std::vector<Rod> find_rods(Character& character, const Recipe& recipe);
+//
+// claimed: joints that stronger evidence than a spring has; a spring that moves one is skipped.
+std::vector<Rod> find_rods(Character& character, const Recipe& recipe, const std::vector<bool>& claimed = {},
+                           std::vector<SkippedPart>* skipped = nullptr);
+
+// As the recipe's, of names: one that cannot be made is skipped.
+void add_named_rods(const Character& character, const std::vector<RodRecipe>& named, std::vector<Rod>& rods,
+                    std::vector<SkippedPart>& skipped);
 
 // For each joint, whether a rod moves it: its bones and all that hangs on them.
 std::vector<bool> joints_on_rods(const Character& character, const std::vector<Rod>& rods);

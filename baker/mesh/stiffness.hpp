@@ -1,5 +1,4 @@
-// stiffness.hpp  How stiff a character's skin is: painted, stated by a recipe's regions, or guessed from its
-// flesh.
+// stiffness.hpp  How stiff a character's skin is: painted, or as regions that name bones state it.
 #pragma once
 #include <vector>
 
@@ -9,7 +8,17 @@
 
 namespace sinew::baker {
 
-// 0 soft .. 1 rigid, equal for welded vertices. Throws BadInput for a recipe's joint that does not exist.
-std::vector<double> find_stiffness(Character& character, const Surface& surface, const Recipe& recipe);
+struct Stiffness {
+  std::vector<double> of_vertex;  // 0 soft .. 1 rigid, equal for welded vertices
+  std::vector<int> region;        // whose it is where it is not rigid; -1: nobody's, as where it is painted
+};
+
+Stiffness painted_stiffness(const Character& character);
+
+// Regions do not touch: where they meet the skin is held. coreless: joints whose flesh is soft whatever its
+// thickness. Pieces that are fastened to one bone are soft only in a region that has nothing else. Throws
+// BadInput for a joint that does not exist.
+Stiffness stated_stiffness(const Character& character, const Surface& surface,
+                           const std::vector<RegionRecipe>& regions, const std::vector<bool>& coreless);
 
 }  // namespace sinew::baker

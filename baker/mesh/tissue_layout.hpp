@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "baker/import/character.hpp"
+#include "baker/mesh/evidence.hpp"
 #include "baker/mesh/proxies.hpp"
 #include "baker/mesh/recipe.hpp"
 #include "baker/mesh/rods.hpp"
@@ -29,6 +30,7 @@ struct Region {
   Vector3 center = Vector3::Zero();
   double radius_m = 0;
   bool touches_body = false;  // RegionRecipe::touches_body
+  Evidence evidence = Evidence::kRecipe;
   SoftKind kind = SoftKind::kOther;
   double frequency_hz = 0;  // what its first mode is to have; 0: what its moduli give
   double damping_ratio = 0.1;
@@ -37,16 +39,22 @@ struct Region {
 };
 
 struct TissueLayout {
-  std::vector<double> stiffness;  // a vertex: painted, from the recipe, or by flesh thickness
+  std::vector<double> stiffness;  // a vertex: painted, or as the recipe's or named bones' regions state it
+  std::vector<bool> coreless;     // a joint: no rigid core about its bone
   std::vector<Region> regions;
   std::vector<ControlNode> nodes;          // region after region
   std::vector<std::pair<int, int>> edges;  // undirected, no self-loops, each region connected
   std::vector<Proxy> proxies;              // what rods and regions collide with
   std::vector<Rod> rods;                   // what hangs on their bones is not soft: the rods move it
+  std::vector<SkippedPart> skipped;        // evidence that came to nothing
 };
 
-// Throws BadInput as find_rods does, and: no soft vertex at all and no rod, a region smaller than four
-// vertices is dropped with a note, a recipe's joint that does not exist (named).
+// Parts by evidence: what the recipe states, what is painted, the file's spring bones, bone names; geometry
+// alone makes nothing soft. A bone is used once, by the strongest. A character of which nothing swings has no
+// regions and no rods, and a note that says how to change that.
+//
+// Throws BadInput as find_rods does, and: a recipe's joint that does not exist (named), a region of the
+// recipe that leaves nothing soft.
 TissueLayout layout_tissue(Character& character, const Recipe& recipe);
 
 // The same soft parts under fewer control nodes: the first that layout_tissue chose in each region, and the

@@ -16,6 +16,7 @@
 #include "baker/programs/commands.hpp"
 #include "baker/programs/describe.hpp"
 #include "baker/programs/measure_tiers.hpp"
+#include "baker/programs/part_table.hpp"
 #include "baker/truth/tissue_truth.hpp"
 
 namespace sinew::baker {
@@ -34,9 +35,11 @@ Character import_character(const CharacterOptions& options, const Recipe& recipe
   return import_gltf(options.character, import);
 }
 
-void print_summary(const CharacterOptions& options, const Character& character, const LoadedPack& pack) {
+void print_summary(const CharacterOptions& options, const Character& character, const TissueLayout& layout,
+                   const LoadedPack& pack) {
   for (const std::string& note : character.notes) std::printf("note: %s\n", note.c_str());
   for (const std::string& note : notes_on(pack.view())) std::printf("note: %s\n", note.c_str());
+  std::printf("%s", part_table(layout, pack.view()).c_str());
   nlohmann::ordered_json description = describe_pack(pack);
   for (const char* detail : {"network", "metadata"}) description.erase(detail);  // `info` shows them
   std::printf("%s: %s", options.output.c_str(), format_description(description).c_str());
@@ -173,7 +176,7 @@ void run_character(const CharacterOptions& options) {
   const LoadedPack pack =
       LoadedPack::from_bytes(bytes, options.character);  // what the runtime would refuse is not written
   write_file(options.output, bytes);
-  print_summary(options, character, pack);
+  print_summary(options, character, tissue.layout, pack);
 }
 
 }  // namespace

@@ -101,6 +101,10 @@ void run_truth(const TruthOptions& options) {
   import.up = recipe.up;
   Character character = import_gltf(options.input, import);
   const TissueLayout layout = layout_tissue(character, recipe);
+  if (layout.regions.empty())
+    throw BadInput(options.input +
+                   ": no part is soft tissue, which is what this simulates; name soft bones in a recipe's "
+                   "\"regions\" or paint _STIFFNESS");
   const Motion motion = make_motion(character, options);
 
   TissueTruth truth(character, layout, recipe);

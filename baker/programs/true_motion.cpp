@@ -9,6 +9,7 @@
 
 #include "baker/common/bad_input.hpp"
 #include "baker/truth/trajectory.hpp"
+#include "tissue/guard.hpp"
 
 namespace sinew::baker {
 namespace {
@@ -89,16 +90,30 @@ void check_trajectory_of(const Safetensors& file, const pack::PackView& characte
 }
 
 TrueMotion::TrueMotion(const Safetensors& file, const pack::PackView& character)
-    : nodes_(character.nodes.size()), joint_count_(character.joints.size()) {
+    : nodes_(character.nodes.size()),
+      joint_count_(character.joints.size()),
+      region_count_(character.regions.size()) {
   check_trajectory_of(file, character);
   roots_ = read_roots(file);
   const auto rows = static_cast<long>(roots_.size());
   if (rows < 2) refuse(file, "holds no tick; simulate it for longer");
   displacement_ = finite_values(file, "displacement", {rows, static_cast<long>(nodes_), 3});
+  limit(character);
   const std::vector<float> joints =
       finite_values(file, "joints", {rows, static_cast<long>(joint_count_), 12});
   joints_.resize(joints.size() / 12);
   std::memcpy(joints_.data(), joints.data(), joints.size() * sizeof(float));
+}
+
+void TrueMotion::limit(const pack::PackView& character) {
+  for (size_t tick = 0; tick < roots_.size(); ++tick)
+    for (const pack::RegionRecord& region : character.regions) {
+      float* u = &displacement_[3 * (tick * nodes_ + region.first_node)];
+      const float share = tissue::limit_share(tissue::largest_displacement_m(u, region.node_count),
+                                              region.displacement_limit_m);
+      for (float* end = u + size_t{3} * region.node_count; u != end; ++u) *u *= share;
+      limited_.push_back(share);
+    }
 }
 
 std::span<const Matrix34> TrueMotion::joints(size_t tick) const {

@@ -14,7 +14,9 @@ namespace sinew::baker {
 // they rest), or of another rate.
 void check_trajectory_of(const Safetensors& file, const pack::PackView& character);
 
-// T ticks after the start; immutable.
+// T ticks after the start; immutable. What a character may not move beyond its regions' limits, its truth may
+// not either: each region's displacement is scaled as the runtime scales what it shows (tissue/guard.hpp), so
+// that an error tells of the simulation and not of an artist's choice.
 class TrueMotion {
  public:
   // Throws BadInput as check_trajectory_of does; and: shorter than one tick, not finite.
@@ -25,12 +27,16 @@ class TrueMotion {
   const RootTransform& root(size_t tick) const { return roots_[tick]; }
   // [nodes][3], metres along each node's frame.
   const float* displacement(size_t tick) const { return &displacement_[tick * 3 * nodes_]; }
+  // What the region's true displacement was scaled by, 1 where it is within its limit.
+  float limited(size_t tick, size_t region) const { return limited_[tick * region_count_ + region]; }
 
  private:
-  size_t nodes_, joint_count_;
+  void limit(const pack::PackView& character);
+
+  size_t nodes_, joint_count_, region_count_;
   std::vector<Matrix34> joints_;
   std::vector<RootTransform> roots_;
-  std::vector<float> displacement_;
+  std::vector<float> displacement_, limited_;
 };
 
 }  // namespace sinew::baker

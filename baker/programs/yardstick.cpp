@@ -4,7 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
 
 #include "baker/common/bad_input.hpp"
 #include "world/pose.hpp"
@@ -97,9 +97,13 @@ class Yardstick::Sums {
 
 Yardstick::Yardstick(const LoadedPack& character, std::span<const TrueSurface> surfaces)
     : surfaces_(surfaces) {
-  const std::set<uint32_t> moved(character.view().region_vertices.begin(),
-                                 character.view().region_vertices.end());
-  vertices_.assign(moved.begin(), moved.end());
+  std::map<uint32_t, size_t> region_of;
+  const pack::PackView& view = character.view();
+  for (size_t r = 0; r < view.regions.size(); ++r)
+    for (const uint32_t vertex :
+         view.region_vertices.subspan(view.regions[r].first_vertex, view.regions[r].vertex_count))
+      region_of.emplace(vertex, r);
+  for (const auto& [vertex, region] : region_of) vertices_.push_back(vertex), region_.push_back(region);
   double whole = 0;
   for (size_t m = 0; m < surfaces_.size(); ++m) {
     skin(character, m);
@@ -112,19 +116,26 @@ void Yardstick::skin(const LoadedPack& character, size_t m) {
   const TrueSurface& surface = surfaces_[m];
   ClosedLoop loop(character, surface.motion());
   std::vector<Vector3f> bound(vertices_.size());  // the truth's displacement before skinning turns it
-  std::vector<float>&skinning = skinning_mm_.emplace_back(), &previous = previous_mm_.emplace_back();
+  std::vector<float>&skinning = skinning_mm_.emplace_back(), &previous = previous_mm_.emplace_back(),
+  &truths = truth_.emplace_back();
   for (size_t tick = 0; tick <= ticks_of(surface); ++tick) {
     if (tick > 0) loop.tick(Tier::kSkinning);
     const std::vector<float> skinned = positions_of(loop), matrices = matrices_of(loop);
     for (size_t i = 0; i < vertices_.size(); ++i) {
-      const Vector3f here = at(skinned.data(), vertices_[i]),
-                     truth = at(surface.positions(tick), vertices_[i]);
+      const Vector3f here = at(skinned.data(), vertices_[i]);
+      const Vector3f unlimited = at(surface.positions(tick), vertices_[i]) - here;
+      const Vector3f truth = here + surface.motion().limited(tick, region_[i]) * unlimited;
+      truths.insert(truths.end(), truth.begin(), truth.end());
       const Matrix3f turn = skin_of(character.view().skin[vertices_[i]], matrices.data());
       skinning.push_back(kMillimetres * (truth - here).norm());
       previous.push_back(kMillimetres * (truth - here - turn * bound[i]).norm());
       bound[i] = turn.inverse() * (truth - here);
     }
   }
+}
+
+const float* Yardstick::truth(size_t motion, size_t tick, size_t vertex) const {
+  return &truth_[motion][3 * (tick * vertices_.size() + vertex)];
 }
 
 Error Yardstick::of_skinning() const {
@@ -151,8 +162,7 @@ Error Yardstick::of(const LoadedPack& character, Tier tier, uint32_t every, uint
       loop.tick(tier, every, level);
       const std::vector<float> places = positions_of(loop);
       for (size_t i = 0; i < vertices_.size(); ++i)
-        sums.add(tick,
-                 distance_mm(&places[3 * vertices_[i]], surfaces_[m].positions(tick) + 3 * vertices_[i]),
+        sums.add(tick, distance_mm(&places[3 * vertices_[i]], truth(m, tick, i)),
                  skinning_mm_[m][tick * vertices_.size() + i]);
     }
   }
@@ -170,8 +180,7 @@ Error Yardstick::of_extrapolation(const LoadedPack& character, size_t ticks) con
       for (size_t k = 0; k < ticks; ++k) loop.tick(Tier::kExtrapolate);
       const std::vector<float> places = positions_of(loop);
       for (size_t i = 0; i < vertices_.size(); ++i)
-        sums.add(tick,
-                 distance_mm(&places[3 * vertices_[i]], surfaces_[m].positions(tick) + 3 * vertices_[i]),
+        sums.add(tick, distance_mm(&places[3 * vertices_[i]], truth(m, tick, i)),
                  skinning_mm_[m][tick * vertices_.size() + i]);
       loop.restore(left);
     }

@@ -41,7 +41,11 @@ class Yardstick {
   void skin(const LoadedPack& character, size_t motion);
 
   std::span<const TrueSurface> surfaces_;
+  const float* truth(size_t motion, size_t tick, size_t vertex) const;
+
   std::vector<uint32_t> vertices_;               // that tissue moves
+  std::vector<size_t> region_;                   // of each
+  std::vector<std::vector<float>> truth_;        // [motion][tick][vertex][3], within the regions' limits
   std::vector<std::vector<float>> skinning_mm_;  // [motion][tick][vertex]
   std::vector<std::vector<float>> previous_mm_;  // likewise
 };

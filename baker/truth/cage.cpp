@@ -53,11 +53,11 @@ double distance_to_core(const Bones& bones, const std::vector<bool>& coreless, c
   return nearest;
 }
 
-std::vector<bool> held_by_bones(const Character& character, const Recipe& recipe, const Cage& cage,
-                                const std::vector<double>& to_surface) {
+std::vector<bool> held_by_bones(const Character& character, const TissueLayout& layout, const Recipe& recipe,
+                                const Cage& cage, const std::vector<double>& to_surface) {
   const Bones bones = find_bones(character, {});
-  const std::vector<bool> coreless =
-      match_joints(character, recipe.coreless_joints, "recipe: coreless_joints");
+  std::vector<bool> coreless = match_joints(character, recipe.coreless_joints, "recipe: coreless_joints");
+  for (size_t j = 0; j < layout.coreless.size(); ++j) coreless[j] = coreless[j] || layout.coreless[j];
   std::vector<bool> held(cage.nodes.size());
   for (size_t i = 0; i < held.size(); ++i) {
     const double to_bone = distance_to_core(bones, coreless, cage.skin[i], cage.nodes[i]);
@@ -144,7 +144,7 @@ Cage build_cage(const Character& character, const TissueLayout& layout, const Re
   cage.fill = topology.fill;
   cage.skin = std::move(fields.skin);
   cage.stiffness = std::move(fields.stiffness);
-  cage.constrained = held_by_bones(character, recipe, cage, surface_distance(topology, samples));
+  cage.constrained = held_by_bones(character, layout, recipe, cage, surface_distance(topology, samples));
   hold_hinged_parts(cage);
   hold_useless_bodies(layout, cage);
   set_material(recipe, cage);

@@ -68,8 +68,6 @@ Status check_ranges(const PackView& pack, const RegionRecord& region, size_t ind
 }
 
 Status check_regions(const PackView& pack) noexcept {
-  if (pack.regions.empty() && pack.character->rod_count == 0)
-    return corrupt("the character has neither a soft region nor a rod");
   Cursor cursor;
   for (size_t index = 0; index < pack.regions.size(); ++index) {
     const RegionRecord& region = pack.regions[index];

@@ -456,6 +456,20 @@ TEST_CASE("a_character_of_rods_alone_swings") {
   CHECK(test::all_finite(stage.read()));
 }
 
+TEST_CASE("a_character_of_which_nothing_swings_follows_its_pose") {
+  Stage stage(1, {}, scenes::soft_block({.regions = 0, .network = false}));
+  CHECK(stage.info.region_count == 0);
+  std::vector<Matrix34> joints(stage.info.joint_count);
+  for (int f = 0; f < 60; ++f) {
+    const auto pose = scenes::shake(f * kFrame_s, 2);
+    REQUIRE(stage.world.set_pose(stage.blocks[0], pose.pose()).ok());
+    stage.world.step(static_cast<float>(kFrame_s));
+    REQUIRE(stage.world.read_joint_matrices(stage.blocks[0], joints).ok());
+    REQUIRE(largest_difference(joints, pose.joints) < 1e-6);
+  }
+  CHECK(test::all_finite(stage.read()));
+}
+
 TEST_CASE("rods_lie_on_what_a_source_knows_wherever_the_character_stands_and_wake_for_what_comes") {
   for (const double away_m : {0.0, 1e6}) {
     // The tail sticks out backwards at the waist, 0.3 m up, and sags under the floor without one.

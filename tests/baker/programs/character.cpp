@@ -49,21 +49,57 @@ TEST_CASE("the_creature_bakes_to_a_character_with_clips_regions_and_the_same_byt
 
 // Its loose pieces meet the body in corners and edges of the cage, about which they would turn at no
 // frequency.
-TEST_CASE("a_real_vrm_bakes_without_a_recipe_to_a_pack_that_opens") {
+TEST_CASE("a_real_vrm_bakes_with_its_springs_and_a_soft_trunk_to_a_pack_that_opens") {
   const std::string vrm = SINEW_SHARED_DIR "/characters/godette_vrm0/file.vrm";
   if (!std::filesystem::exists(vrm)) {
     WARN("skipped: no " << vrm << "; set SINEW_SHARED_DIR");
     return;
   }
   const TemporaryFolder folder;
-  const std::string pack = folder.file("godette.sinew");
-  const ProgramResult result = bake({"character", vrm, "-o", pack});
+  const std::string pack = folder.file("godette.sinew"), recipe = folder.file("recipe.json");
+  write_file(recipe, std::string_view(R"({"regions": [
+    {"name": "trunk", "joints": ["pelvis_Armature", "chest_Armature"]},
+    {"name": "legs", "joints": ["thigh.l_Armature", "thigh.r_Armature"]}]})"));
+  const ProgramResult result = bake({"character", vrm, "--recipe", recipe, "-o", pack});
   INFO(result.error);
   REQUIRE(result.exit_code == 0);
   const auto description = nlohmann::json::parse(bake({"info", "--json", pack}).out);
   CHECK(description["rods"].size() == 8);
   CHECK(description["regions"].size() >= 3);
   for (const auto& region : description["regions"]) CHECK(region["first_hz"].get<double>() > 1);
+  const ProgramResult without = bake({"character", vrm, "-o", pack});
+  REQUIRE(without.exit_code == 0);
+  CHECK_THAT(without.out, Catch::Contains("spring bone") && Catch::Contains("rod of 1 bone"));
+  CHECK(nlohmann::json::parse(bake({"info", "--json", pack}).out)["regions"].empty());
+}
+
+TEST_CASE("a_table_says_of_every_part_what_it_is_and_why") {
+  const Creature creature;
+  const ProgramResult result = bake(creature.bake_arguments(creature.pack));
+  INFO(result.out);
+  CHECK_THAT(result.out,
+             Catch::Contains("part") && Catch::Contains("evidence") && Catch::Contains("limit/radius"));
+  CHECK_THAT(result.out, Catch::Contains("painted") && Catch::Contains("soft tissue"));
+}
+
+TEST_CASE("a_character_without_soft_tissue_takes_weights_and_leaves_them_out_with_a_note") {
+  const Creature creature;
+  const std::string recipe = creature.folder.file("recipe.json");
+  const auto bake_with = [&](const char* text) {
+    write_file(recipe, std::string_view(text));
+    const ProgramResult result = bake(
+        {"character", creature.glb, "--recipe", recipe, "--tissue", creature.weights, "-o", creature.pack});
+    INFO(result.error);
+    REQUIRE(result.exit_code == 0);
+    CHECK_THAT(result.out, Catch::Contains("nothing is soft tissue") && Catch::Contains("is not used"));
+    return nlohmann::json::parse(bake({"info", "--json", creature.pack}).out);
+  };
+  const auto rods = bake_with(R"({"regions": [], "rods": [{"root": "tail_1"}]})");
+  CHECK(rods["rods"].size() == 1);
+  CHECK(rods["network"]["model"] == "none");
+  const auto rigid = bake_with(R"({"regions": [], "rods": []})");
+  CHECK_FALSE(rigid.contains("rods"));
+  CHECK(rigid["regions"].empty());
 }
 
 TEST_CASE("a_region_that_is_clear_of_no_capsule_is_named_as_it_is_baked") {

@@ -1,0 +1,341 @@
+// named_parts.cpp  From names to parts, and what speaks against each.
+#include "baker/mesh/named_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <optional>
+
+#include "baker/common/bad_input.hpp"
+#include "baker/mesh/bone_names.hpp"
+#include "baker/mesh/bones.hpp"
+#include "baker/mesh/flesh_shape.hpp"
+#include "baker/mesh/joint_names.hpp"
+#include "baker/mesh/rod_bones.hpp"
+
+namespace sinew::baker {
+namespace {
+
+constexpr double kTooSmall = 0.03;      // extent, of the character's longest side
+constexpr double kMostOfBody = 0.5;     // share of the vertices: more is the body itself
+constexpr double kThickBelly = 0.075;   // flesh of the height; a lean human's is 0.05 .. 0.06
+constexpr double kMoves = 0.5;          // skin weight of a part's joints, of its largest
+constexpr double kMovesNothing = 0.02;  // largest skin weight
+constexpr double kThickPercentile = 0.75;
+constexpr double kNaturalDamping = 0.3;  // of rods
+constexpr size_t kFewestVertices = 4;
+
+constexpr const char* kGiveChain =
+    "give it a chain of bones, or one bone and an end at its tip, to let it swing";
+
+// What names and the tree say, once for all joints.
+struct Skeleton {
+  explicit Skeleton(const Character& character)
+      : parent(character.joint_parent), most_weight(parent.size(), 0) {
+    for (size_t j = 0; j < parent.size(); ++j) meaning.push_back(meaning_of(joint_name(character, j)));
+    for (const Influences& skin : character.skin)
+      for (size_t k = 0; k < kInfluences; ++k) {
+        double& most = most_weight[static_cast<size_t>(skin.joint[k])];
+        most = std::max(most, skin.weight[k]);
+      }
+    body_below.assign(parent.size(), -1);
+    for (size_t j = parent.size(); j-- > 1;) {
+      if (parent[j] < 0) continue;
+      int& above = body_below[static_cast<size_t>(parent[j])];
+      if (meaning[j].body)
+        above = static_cast<int>(j);
+      else if (body_below[j] >= 0)
+        above = body_below[j];
+    }
+  }
+
+  bool moves_flesh(size_t joint) const { return most_weight[joint] > kMovesNothing; }
+
+  std::vector<size_t> subtree(size_t root) const {
+    std::vector<bool> in(parent.size(), false);
+    std::vector<size_t> joints;
+    for (size_t j = root; j < parent.size(); ++j) {
+      in[j] = j == root || (parent[j] >= 0 && in[static_cast<size_t>(parent[j])]);
+      if (in[j]) joints.push_back(j);
+    }
+    return joints;
+  }
+
+  bool hangs_on_face(size_t joint) const {
+    for (int up = parent[joint]; up >= 0; up = parent[static_cast<size_t>(up)])
+      if (meaning[static_cast<size_t>(up)].face) return true;
+    return false;
+  }
+
+  std::vector<int> parent;
+  std::vector<NameMeaning> meaning;
+  std::vector<double> most_weight;  // of any vertex
+  std::vector<int> body_below;      // a joint of the body that hangs on this one; -1: none
+};
+
+double weight_on(const Influences& skin, const std::vector<bool>& joints) {
+  double sum = 0;
+  for (size_t k = 0; k < kInfluences; ++k)
+    if (joints[static_cast<size_t>(skin.joint[k])]) sum += skin.weight[k];
+  return sum;
+}
+
+// Welded vertices that these joints move, as much as they move any.
+std::vector<int> flesh_of(const Character& character, const std::vector<size_t>& joints) {
+  std::vector<bool> in(character.joint_node.size(), false);
+  for (const size_t j : joints) in[j] = true;
+  double most = kMovesNothing;
+  for (const Influences& skin : character.skin) most = std::max(most, weight_on(skin, in));
+  std::vector<int> flesh;
+  for (size_t v = 0; v < character.skin.size(); ++v)
+    if (character.welded[v] == static_cast<int>(v) && weight_on(character.skin[v], in) > kMoves * most)
+      flesh.push_back(static_cast<int>(v));
+  return flesh;
+}
+
+double percentile(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::ranges::nth_element(values, at);
+  return *at;
+}
+
+double longest_side(const Character& character) {
+  Eigen::AlignedBox3d box;
+  for (const Vector3& place : character.positions) box.extend(place);
+  return box.sizes().maxCoeff();
+}
+
+double longest_chain_m(const std::vector<RodBone>& bones) {
+  std::vector<double> length(bones.size(), 0);
+  for (size_t b = 0; b < bones.size(); ++b) {
+    length[b] = (bones[b].end - bones[b].begin).norm();
+    if (bones[b].parent >= 0) length[b] += length[static_cast<size_t>(bones[b].parent)];
+  }
+  return *std::ranges::max_element(length);
+}
+
+class Finder {
+ public:
+  Finder(const Character& character, const Surface& surface, const std::vector<bool>& claimed,
+         NamedPartsWanted wanted)
+      : character_(character),
+        skeleton_(character),
+        fastened_(fastened_to(character, surface)),
+        wanted_(wanted),
+        done_(claimed),
+        longest_m_(longest_side(character)) {
+    done_.resize(skeleton_.parent.size(), false);
+    found_.coreless.assign(done_.size(), false);
+    for (size_t v = 0; v < character.welded.size(); ++v)
+      welded_ += character.welded[v] == static_cast<int>(v) ? 1 : 0;
+  }
+
+  NamedParts run() {
+    for (size_t j = 0; j < done_.size(); ++j)
+      if (!done_[j] && skeleton_.meaning[j].kind) look_at(j, *skeleton_.meaning[j].kind);
+    look_at_meshes();
+    return std::move(found_);
+  }
+
+ private:
+  const std::string& name(size_t joint) const { return joint_name(character_, joint); }
+
+  void skip(const std::string& part, SoftKind kind, const std::string& why,
+            Evidence evidence = Evidence::kBoneName) {
+    found_.skipped.push_back({part, evidence, kind, why});
+  }
+
+  void look_at(size_t joint, SoftKind kind) {
+    const std::vector<size_t> joints = skeleton_.subtree(joint);
+    const std::vector<int> flesh = flesh_of(character_, joints);
+    if (flesh.empty() || skeleton_.parent[joint] < 0) return;
+    if (kind == SoftKind::kTrunk && !skeleton_.hangs_on_face(joint)) return;  // a torso, or a tree
+    if (const int body = skeleton_.body_below[joint]; body >= 0) return look_at_body(joint, kind, body);
+    if (is_organiser(joint)) return;
+    const bool claimed = std::ranges::any_of(joints, [&](size_t j) { return done_[j]; });
+    for (const size_t j : joints) done_[j] = true;
+    if (claimed) return;
+    if (static_cast<double>(flesh.size()) > kMostOfBody * static_cast<double>(welded_))
+      return skip(name(joint), kind, "moves more than half of the character: a body, not a part of one");
+    if (extent_m(character_, flesh) < kTooSmall * longest_m_)
+      return skip(name(joint), kind, "too small to be seen swinging");
+    if (!swings_as_chain(kind))
+      add_region(joint, kind, joints);
+    else if (wanted_.rods)
+      add_chain(joint, kind, joints);
+  }
+
+  // A bone that carries many chains and does not swing itself.
+  bool is_organiser(size_t joint) const {
+    size_t chains = 0;
+    for (size_t j = joint + 1; j < done_.size(); ++j)
+      if (skeleton_.parent[j] == static_cast<int>(joint) && skeleton_.meaning[j].kind) ++chains;
+    return chains >= 3 || (chains == 2 && !skeleton_.moves_flesh(joint));
+  }
+
+  void look_at_body(size_t joint, SoftKind kind, int body) {
+    done_[joint] = true;
+    if (!skeleton_.moves_flesh(joint)) return;
+    const std::string held = "'" + name(static_cast<size_t>(body)) + "' hangs on it";
+    if (kind != SoftKind::kBelly) return skip(name(joint), kind, "part of the body: " + held);
+    if (!wanted_.regions) return;
+    const double share = thickness_of(joint) / bind_height(character_);
+    if (share >= kThickBelly) return add_region(joint, kind, {joint});
+    char text[96];
+    std::snprintf(text, sizeof text,
+                  "a lean spine bone: its flesh is %.1f %% of the height thick, below %.1f %%", 100 * share,
+                  100 * kThickBelly);
+    skip(name(joint), kind, text);
+  }
+
+  double thickness_of(size_t joint) {
+    if (thickness_.empty()) thickness_ = flesh_thickness(character_, find_bones(character_, {}));
+    std::vector<double> own;
+    for (const int v : flesh_of(character_, {joint})) own.push_back(thickness_[static_cast<size_t>(v)]);
+    return percentile(own, kThickPercentile);
+  }
+
+  // Why these joints' flesh cannot be tissue; empty where it can.
+  std::string against_tissue(const std::vector<size_t>& joints) const {
+    const std::vector<int> moved = flesh_of(character_, joints);
+    std::vector<int> skin;
+    for (const int v : moved)
+      if (fastened_[static_cast<size_t>(v)] < 0) skin.push_back(v);
+    if (moved.size() < kFewestVertices) return "moves fewer than four vertices";
+    if (skin.size() < kFewestVertices) return "a piece of its own that is fastened to one bone";
+    if (thickness_share(character_, skin) < kThinSheet) return "a thin sheet, not flesh";
+    return "";
+  }
+
+  void add_region(size_t joint, SoftKind kind, const std::vector<size_t>& joints) {
+    if (!wanted_.regions) return;
+    const std::string why = against_tissue(joints);
+    if (!why.empty()) return skip(name(joint), kind, why);
+    RegionRecipe region;
+    region.name = name(joint);
+    region.kind = kind;
+    for (const size_t j : joints) region.joints.push_back(name(j));
+    found_.regions.push_back(region);
+  }
+
+  void add_chain(size_t joint, SoftKind kind, const std::vector<size_t>& joints) {
+    size_t called_so = 0;
+    for (size_t j = 0; j < done_.size(); ++j) called_so += name(j) == name(joint) ? 1 : 0;
+    if (called_so > 1) return skip(name(joint), kind, "two bones have this name; rename one to let it swing");
+    try {
+      const std::vector<RodBone> bones =
+          segment_bones(character_, {"bone name", static_cast<int>(joint), -1, -1});
+      RodRecipe rod;
+      rod.name = rod.root = name(joint);
+      rod.frequency_hz = default_frequency_hz(kind, longest_chain_m(bones));
+      rod.damping_ratio = kNaturalDamping;
+      found_.rods.push_back(rod);
+    } catch (const BadInput& refused) {
+      if (moves_one_bone(joints)) return add_single(joint, kind);
+      skip(name(joint), kind, refused.what());
+    }
+  }
+
+  bool moves_one_bone(const std::vector<size_t>& joints) const {
+    return std::ranges::none_of(joints.begin() + 1, joints.end(),
+                                [&](size_t j) { return skeleton_.moves_flesh(j); });
+  }
+
+  // No chain: a fleshy one is tissue, anything else cannot swing.
+  void add_single(size_t joint, SoftKind kind) {
+    const bool fleshy = kind == SoftKind::kTail || kind == SoftKind::kEar || kind == SoftKind::kTrunk ||
+                        kind == SoftKind::kTentacle;
+    const std::string why = fleshy ? against_tissue({joint}) : "on one bone without an end";
+    if (!why.empty()) return skip(name(joint), kind, why + "; " + kGiveChain);
+    found_.coreless[joint] = true;
+    add_region(joint, kind, {joint});
+  }
+
+  // Meshes that hang on one bone as a whole: what their names promise, and the rest in one line.
+  void look_at_meshes() {
+    if (character_.meshes.size() < 2) return;
+    std::string others;
+    size_t count = 0;
+    for (const MeshSpan& mesh : character_.meshes) {
+      const int joint = one_joint(mesh);
+      if (joint < 0 || done_[static_cast<size_t>(joint)]) continue;
+      const std::string& called = character_.nodes[static_cast<size_t>(mesh.node)].name;
+      const NameMeaning meaning = meaning_of(called);
+      if (meaning.kind && swings_as_chain(*meaning.kind) && wanted_.rods)
+        skip(called, *meaning.kind,
+             "hangs on one bone, '" + name(static_cast<size_t>(joint)) + "'; " + kGiveChain,
+             Evidence::kMeshName);
+      else if (!mesh.skinned)
+        others += (count++ > 0 ? ", " : "") + called;
+    }
+    if (count > 0) skip(others, SoftKind::kOther, "each is fastened to one bone", Evidence::kMeshName);
+  }
+
+  int one_joint(const MeshSpan& mesh) const {
+    int joint = -1;
+    for (size_t v = mesh.first_vertex; v < mesh.first_vertex + mesh.vertex_count; ++v) {
+      const int own = fastened_[static_cast<size_t>(character_.welded[v])];
+      if (own < 0 || (joint >= 0 && own != joint)) return -1;
+      joint = own;
+    }
+    return joint;
+  }
+
+  const Character& character_;
+  Skeleton skeleton_;
+  std::vector<int> fastened_;
+  NamedPartsWanted wanted_;
+  std::vector<bool> done_;
+  double longest_m_;
+  size_t welded_ = 0;
+  std::vector<double> thickness_;
+  NamedParts found_;
+};
+
+}  // namespace
+
+NamedParts named_parts(const Character& character, const Surface& surface, const std::vector<bool>& claimed,
+                       NamedPartsWanted wanted) {
+  return Finder(character, surface, claimed, wanted).run();
+}
+
+std::vector<bool> flesh_joints(const Character& character) {
+  const Skeleton skeleton(character);
+  std::vector<bool> flesh(skeleton.parent.size(), false);
+  for (size_t j = 0; j < flesh.size(); ++j) {
+    const std::optional<SoftKind> kind = skeleton.meaning[j].kind;
+    const bool own = kind && !swings_as_chain(*kind) && skeleton.body_below[j] < 0;
+    const bool above = skeleton.parent[j] >= 0 && flesh[static_cast<size_t>(skeleton.parent[j])];
+    flesh[j] = skeleton.parent[j] >= 0 && (own || above);
+  }
+  return flesh;
+}
+
+std::string how_to_make_soft(const Character& character) {
+  const Skeleton skeleton(character);
+  const std::vector<double> thickness = flesh_thickness(character, find_bones(character, {}));
+  std::vector<bool> leaf(skeleton.parent.size(), true);
+  for (const int up : skeleton.parent)
+    if (up >= 0) leaf[static_cast<size_t>(up)] = false;
+  std::vector<std::pair<double, size_t>> bones;
+  for (size_t j = 0; j < skeleton.parent.size(); ++j) {
+    const NameMeaning& meaning = skeleton.meaning[j];
+    if (meaning.face || meaning.helper || !skeleton.moves_flesh(j)) continue;
+    std::vector<double> own;
+    for (const int v : flesh_of(character, {j})) own.push_back(thickness[static_cast<size_t>(v)]);
+    bones.emplace_back((leaf[j] ? -1 : 0) + percentile(own, kThickPercentile) / bind_height(character), j);
+  }
+  std::ranges::sort(bones, std::greater{});
+  std::string names;
+  for (size_t i = 0; i < std::min<size_t>(2, bones.size()); ++i)
+    names += (i > 0 ? "\", \"" : "\"") + joint_name(character, bones[i].second);
+  return "nothing swings: no recipe, paint, spring bone or bone name says what is soft. For the bones with "
+         "the "
+         "thickest flesh, a recipe: {\"regions\": [{\"name\": \"belly\", \"joints\": [" +
+         names + "\"]}]}";
+}
+
+}  // namespace sinew::baker
