@@ -376,6 +376,25 @@ TEST_CASE("a_tail_of_one_bone_is_flesh_and_one_that_nobody_would_see_is_nothing"
   CHECK(layout.coreless[static_cast<size_t>(tail)]);
 }
 
+TEST_CASE("an_ear_as_thin_as_paper_on_one_bone_is_no_flesh") {
+  Human body = human("spine_01", 0.15);
+  const int ear = body.figure.joint("ear", body.head, {0.1, 1.75, 0});
+  body.figure.sheet({body.head, ear}, {0.2, 2.1, 0}, {0, 0, 0.06});
+  const TissueLayout layout = layout_tissue(body.figure.character, {});
+  CHECK(layout.regions.empty());
+  CHECK_THAT(why(layout, "ear"), Contains("a thin sheet"));
+}
+
+TEST_CASE("what_is_fastened_to_one_bone_is_rigid_in_a_region_that_has_flesh") {
+  Human body = human("spine_01", 0.2);
+  const size_t first = body.figure.character.positions.size();
+  body.figure.tube({body.spine}, {0.6, 1.2, 0}, 0.1);
+  Character character = body.figure.character;
+  const TissueLayout layout = layout_tissue(character, with_regions({{"belly", {"spine_01"}}}));
+  CHECK(regions_of(layout) == Names{"belly"});
+  for (size_t v = first; v < layout.stiffness.size(); ++v) CHECK(layout.stiffness[v] == 1);
+}
+
 TEST_CASE("small_islands_of_a_stated_region_do_not_take_its_name") {
   Human body = human("spine_01", 0.2);
   const int pouch = body.figure.joint("pouch", body.spine, {0.3, 1.2, 0});
