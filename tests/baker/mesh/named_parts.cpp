@@ -362,6 +362,11 @@ TEST_CASE("an_elephant_s_trunk_swings_and_a_torso_of_that_name_does_not") {
   elephant.tube(elephant.chain("trunk_", head, {0, 2.3, 2.1}, {0, -0.4, 0.05}, 5), {0, 0.3, 2.35}, 0.12);
   const TissueLayout layout = layout_tissue(elephant.character, {});
   CHECK(rods_of(layout) == Names{"trunk_1"});
+  Figure tree("tree");
+  const int ground = tree.joint("root", -1, {0, 0, 0});
+  tree.tube({ground, tree.joint("roots", ground, {0, 0, 1})}, {0, 0, 3}, 0.3);
+  tree.tube(tree.chain("trunk_", ground, {0, 0, 0}, {0, 1, 0}, 3), {0, 3, 0}, 0.2);
+  CHECK(layout_tissue(tree.character, {}).rods.empty());
 }
 
 TEST_CASE("a_tail_of_one_bone_is_flesh_and_one_that_nobody_would_see_is_nothing") {
