@@ -12,6 +12,7 @@
 #include "baker/pack/character_pack.hpp"
 #include "baker/pack/network_pack.hpp"
 #include "baker/pack/pack_writer.hpp"
+#include "baker/preview/write_preview.hpp"
 #include "baker/programs/calibrate.hpp"
 #include "baker/programs/commands.hpp"
 #include "baker/programs/describe.hpp"
@@ -23,7 +24,7 @@ namespace sinew::baker {
 namespace {
 
 struct CharacterOptions {
-  std::string character, recipe, tissue, output, precision = "fp32";
+  std::string character, recipe, tissue, output, preview, precision = "fp32";
   std::vector<std::string> calibration;
   bool quick = false, keep_network = false;
 };
@@ -175,6 +176,7 @@ void run_character(const CharacterOptions& options) {
                                      : measured(packer, network, options.keep_network, character, tissue);
   const LoadedPack pack =
       LoadedPack::from_bytes(bytes, options.character);  // what the runtime would refuse is not written
+  if (!options.preview.empty()) write_preview(options.preview, pack.view());
   write_file(options.output, bytes);
   print_summary(options, character, tissue.layout, pack);
 }
@@ -201,6 +203,7 @@ void add_character_command(CLI::App& app, int*) {
   command->add_flag("--keep-network", options->keep_network,
                     "packs the network whatever its error is; sinew-train has judged it on more motions");
   command->add_option("-o,--output", options->output, "C.sinew")->required();
+  command->add_option("--preview", options->preview, "picture of what moves by itself, .png");
   command->callback([options] { run_character(*options); });
 }
 

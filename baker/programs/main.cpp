@@ -8,6 +8,12 @@ int main(int argc, char** argv) {
   using namespace sinew::baker;
   CLI::App app{"Bakes characters and trained weights into .sinew files."};
   app.require_subcommand(1);
+  app.footer(
+      "  sinew-bake character IN.glb -o C.sinew --preview parts.png   a character, and a picture of its soft "
+      "parts\n"
+      "  sinew-bake info C.sinew                                      what is inside\n"
+      "Each command explains itself: sinew-bake COMMAND --help. The path from a file to a game: "
+      "baker/README.md");
   int exit_code = 0;
   add_creature_command(app, &exit_code);
   add_character_command(app, &exit_code);

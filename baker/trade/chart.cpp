@@ -6,10 +6,10 @@
 #include <cstdio>
 
 #include "baker/common/write_file.hpp"
+#include "baker/render/image.hpp"
+#include "baker/render/lines.hpp"
+#include "baker/render/text.hpp"
 #include "baker/trade/labels.hpp"
-#include "samples/render/image.hpp"
-#include "samples/render/lines.hpp"
-#include "samples/render/text.hpp"
 
 namespace sinew::baker {
 namespace {

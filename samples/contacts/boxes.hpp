@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "samples/render/mesh.hpp"
+#include "baker/render/mesh.hpp"
 #include "sinew/bullet.hpp"
 
 namespace sinew::sample {

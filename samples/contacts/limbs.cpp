@@ -1,6 +1,7 @@
 // limbs.cpp  see limbs.hpp.
 #include "samples/contacts/limbs.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
 namespace sinew::sample {

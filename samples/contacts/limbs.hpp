@@ -1,5 +1,6 @@
 // limbs.hpp  How deep points are inside of a character's own limbs.
 #pragma once
+#include <Eigen/Core>
 #include <span>
 #include <string>
 #include <vector>

@@ -4,8 +4,8 @@
 #include <cstdio>
 
 #include "baker/common/write_file.hpp"
+#include "baker/render/encode.hpp"
 #include "samples/contacts/picture.hpp"
-#include "samples/render/encode.hpp"
 
 namespace {
 

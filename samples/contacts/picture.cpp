@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "samples/render/layout.hpp"
-#include "samples/render/renderer.hpp"
+#include "baker/preview/pack_mesh.hpp"
+#include "baker/render/layout.hpp"
+#include "baker/render/renderer.hpp"
 
 namespace sinew::sample {
 namespace {
@@ -34,7 +35,7 @@ bool is_of(const demo::CharacterFile& character, uint32_t vertex, const std::vec
 
 render::Mesh mesh_of(const demo::CharacterFile& character, const ContactMoment::Surface& surface,
                      const render::Mesh& boxes, const std::vector<std::string>& left_out) {
-  render::Mesh mesh = demo::bind_mesh(character);
+  render::Mesh mesh = baker::bind_mesh(character.view);
   mesh.positions = surface.places;
   mesh.normals = render::smooth_normals(surface.places, mesh.triangles, character.view.welded);
   color_depths(surface.depths_m, &mesh);

@@ -1,7 +1,7 @@
 // picture.hpp  A played scene as one picture: above without contacts, below with them.
 #pragma once
+#include "baker/render/image.hpp"
 #include "samples/contacts/play.hpp"
-#include "samples/render/image.hpp"
 
 namespace sinew::sample {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "baker/render/camera.hpp"
 #include "samples/contacts/boxes.hpp"
 #include "samples/demo/character_file.hpp"
-#include "samples/render/camera.hpp"
 #include "sinew/types.hpp"
 
 namespace sinew::sample {

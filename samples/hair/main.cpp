@@ -4,9 +4,9 @@
 
 #include "baker/common/within.hpp"
 #include "baker/common/write_file.hpp"
+#include "baker/render/layout.hpp"
 #include "samples/hair/picture.hpp"
 #include "samples/hair/tiers.hpp"
-#include "samples/render/layout.hpp"
 
 namespace {
 

@@ -1,7 +1,7 @@
 // picture.cpp  see picture.hpp.
 #include "samples/hair/picture.hpp"
 
-#include "samples/render/renderer.hpp"
+#include "baker/render/renderer.hpp"
 #include "samples/rods/tube.hpp"
 #include "tests/scenes/rod_through.hpp"
 

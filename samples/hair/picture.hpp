@@ -1,8 +1,8 @@
 // picture.hpp  The bust and its hair as a lit mesh.
 #pragma once
+#include "baker/render/image.hpp"
 #include "samples/hair/hair.hpp"
 #include "samples/hair/tiers.hpp"
-#include "samples/render/image.hpp"
 
 namespace sinew::sample {
 

@@ -1,7 +1,7 @@
 // character_mesh.hpp  An imported character in a pose, ready to be drawn.
 #pragma once
 #include "baker/import/character.hpp"
-#include "samples/render/mesh.hpp"
+#include "baker/render/mesh.hpp"
 
 namespace sinew::portrait {
 

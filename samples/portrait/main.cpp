@@ -5,8 +5,8 @@
 
 #include "baker/common/bad_input.hpp"
 #include "baker/import/import_gltf.hpp"
+#include "baker/render/encode.hpp"
 #include "samples/portrait/views.hpp"
-#include "samples/render/encode.hpp"
 
 namespace {
 

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "baker/render/layout.hpp"
+#include "baker/render/renderer.hpp"
 #include "samples/portrait/character_mesh.hpp"
-#include "samples/render/layout.hpp"
-#include "samples/render/renderer.hpp"
 
 namespace sinew::portrait {
 

@@ -1,8 +1,8 @@
 // sheet.cpp  see sheet.hpp.
 #include "samples/rods/sheet.hpp"
 
-#include "samples/render/layout.hpp"
-#include "samples/render/renderer.hpp"
+#include "baker/render/layout.hpp"
+#include "baker/render/renderer.hpp"
 #include "samples/rods/tube.hpp"
 
 namespace sinew::sample {

@@ -1,6 +1,6 @@
 // sheet.hpp  A story's moments as one picture.
 #pragma once
-#include "samples/render/image.hpp"
+#include "baker/render/image.hpp"
 #include "samples/rods/story.hpp"
 
 namespace sinew::sample {

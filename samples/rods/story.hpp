@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "baker/render/camera.hpp"
+#include "baker/render/color.hpp"
+#include "baker/render/mesh.hpp"
 #include "rods/rod_batch.hpp"
-#include "samples/render/camera.hpp"
-#include "samples/render/color.hpp"
-#include "samples/render/mesh.hpp"
 
 namespace sinew::sample {
 

@@ -1,6 +1,6 @@
 // tube.hpp  Rods as lit tubes, and leaves on them.
 #pragma once
-#include "samples/render/mesh.hpp"
+#include "baker/render/mesh.hpp"
 #include "samples/rods/story.hpp"
 
 namespace sinew::sample {

@@ -30,11 +30,11 @@ BAKER = {
     "truth": {"import", "mesh"},
     "pack": {"import", "mesh", "truth"},
     "rods": {"truth"},
-    "programs": {"import", "mesh", "truth", "pack", "creature", "rods"},
-    "trade": {"import", "mesh", "truth", "pack", "programs"},
+    "render": set(),
+    "preview": {"render"},
+    "programs": {"import", "mesh", "truth", "pack", "creature", "rods", "preview"},
+    "trade": {"import", "mesh", "truth", "pack", "programs", "render"},
 }
-# What draws may use the samples' pictures.
-DRAWS = {"trade"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 
 
@@ -50,8 +50,6 @@ def offence(room, included):
 
 def baker_offence(room, included):
     parts = included.split("/")
-    if room in DRAWS and parts[:2] == ["samples", "render"]:
-        return None
     if parts[0] in ("samples", "tests"):
         return "the baker does not know it"
     if parts[0] == "baker" and parts[1] not in BAKER[room] | {room, "common"}:
