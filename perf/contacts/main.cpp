@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "perf/help.hpp"
 #include "perf/scale/stopwatch.hpp"
 #include "rods/default_settings.hpp"
 #include "simd/isa.hpp"
@@ -118,6 +119,12 @@ void run(int strands, int steps, bool rods) {
 }  // namespace sinew::perf
 
 int main(int argc, char** argv) {
+  if (sinew::perf::gives_help(argc, argv,
+                              "usage: perf_contacts [--quick | --rods | --long]\n"
+                              "What contacts of rods and soft parts cost and how deep they go; CSV to "
+                              "standard output. --quick: a few "
+                              "steps, --rods: rods alone, --long: more steps."))
+    return 0;
   const auto asked = [&](const char* what) { return argc > 1 && std::strcmp(argv[1], what) == 0; };
   const bool quick = asked("--quick"), rods = asked("--rods");
   sinew::perf::run(quick ? 20 : rods ? 200 : 1000, quick ? 5 : asked("--long") ? 1500 : 120, quick || rods);

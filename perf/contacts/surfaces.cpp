@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <random>
 
+#include "perf/help.hpp"
 #include "perf/scale/stopwatch.hpp"
 #include "samples/hair/bust.hpp"
 #include "sinew/surface_contacts.hpp"
@@ -77,7 +78,12 @@ void measure(size_t vertices) {
 }  // namespace
 }  // namespace sinew::perf
 
-int main() {
+int main(int argc, char** argv) {
+  if (sinew::perf::gives_help(
+          argc, argv,
+          "usage: perf_surfaces\n"
+          "What a skinned mesh costs to refit and to probe, by its triangles; CSV to standard output."))
+    return 0;
   std::printf("triangles,what,count,us_each,hits\n");
   for (const size_t vertices : {size_t{3000}, size_t{6000}, size_t{20000}}) sinew::perf::measure(vertices);
 }

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <random>
 
+#include "perf/help.hpp"
 #include "tests/rods/rod_scenes.hpp"
 
 namespace sinew::perf {
@@ -98,4 +99,10 @@ void print_all() {
 }  // namespace
 }  // namespace sinew::perf
 
-int main() { sinew::perf::print_all(); }
+int main(int argc, char** argv) {
+  if (sinew::perf::gives_help(argc, argv,
+                              "usage: perf_rod_length\n"
+                              "How much rods stretch; CSV to standard output."))
+    return 0;
+  sinew::perf::print_all();
+}

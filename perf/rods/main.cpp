@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "perf/help.hpp"
 #include "perf/rods/peak.hpp"
 #include "rods/rod_batch.hpp"
 #include "simd/isa.hpp"
@@ -100,4 +101,11 @@ void run_all() {
 }  // namespace
 }  // namespace sinew::perf
 
-int main() { sinew::perf::run_all(); }
+int main(int argc, char** argv) {
+  if (sinew::perf::gives_help(
+          argc, argv,
+          "usage: perf_rods\n"
+          "What a step of rods costs, by their number, segments and stiffness; CSV to standard output."))
+    return 0;
+  sinew::perf::run_all();
+}

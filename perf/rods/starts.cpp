@@ -24,6 +24,7 @@
 #include "baker/common/bad_input.hpp"
 #include "baker/rods/rod_run.hpp"
 #include "baker/truth/random.hpp"
+#include "perf/help.hpp"
 #include "perf/rods/start_files.hpp"
 #include "perf/scale/stopwatch.hpp"
 #include "tests/rods/rod_scenes.hpp"
@@ -293,6 +294,13 @@ void run_all(const Given& given) {
 }  // namespace sinew::perf
 
 int main(int count, char** arguments) {
+  if (sinew::perf::gives_help(count, arguments,
+                              "usage: perf_rod_starts [WEIGHTS.safetensors...] [--steps N] [--scene NAME] "
+                              "[--examples FILE] [--length N]\n"
+                              "Iterations of rods' solvers by where they start; CSV to standard output. "
+                              "--length: how long what the first "
+                              "weights start stays, over so many steps."))
+    return 0;
   try {
     sinew::perf::run_all(sinew::perf::read_arguments(count, arguments));
   } catch (const sinew::baker::BadInput& error) {

@@ -13,6 +13,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "perf/help.hpp"
 #include "perf/rods/peak.hpp"
 #include "perf/rods/start_files.hpp"
 #include "perf/trade/measure.hpp"
@@ -124,12 +125,15 @@ bool parse(int argc, char** argv, Request* out) {
 
 }  // namespace
 
+constexpr const char* kUsage =
+    "usage: perf_trade_rods OUT.csv [--quick] [--scene chain|helix|tree|collisions] "
+    "[--solver direct|cg|local] [--network WEIGHTS] [--examples FILE]";
+
 int main(int argc, char** argv) {
+  if (sinew::perf::gives_help(argc, argv, kUsage)) return 0;
   Request request;
   if (!parse(argc, argv, &request)) {
-    std::fprintf(stderr,
-                 "usage: perf_trade_rods OUT.csv [--quick] [--scene chain|helix|tree|collisions] "
-                 "[--solver direct|cg|local] [--network WEIGHTS] [--examples FILE]\n");
+    std::fprintf(stderr, "%s\n", kUsage);
     return 2;
   }
   try {

@@ -7,6 +7,7 @@
 #include <vector>
 
 int main(int count, char** arguments) {
+  if (count > 1 && arguments[1][0] == '-') return std::puts("usage: sinew-hello [C.sinew]"), 0;
   sinew::World world;
   sinew::AssetId asset;
   sinew::AssetInfo info;
