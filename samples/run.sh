@@ -30,14 +30,16 @@ newer "$out/hop.truth.safetensors" "$out/creature.glb" "$tissue" || {
   echo "Simulating the ground truth of the hop (once, about a minute)"
   "$bin/sinew-bake" truth "$out/creature.glb" --recipe "$tissue" --motion clip:hop --seconds 3 --positions -o "$out/hop.truth.safetensors"
 }
+# A film and large pictures; the demo alone makes small ones in seconds.
+quality=(--view front --width 360 --height 400 --samples 8)
 newer "$out/pictures/contact_sheet.png" "$out/creature.sinew" "$out/hop.truth.safetensors" "$bin/sinew-demo" ||
-  "$bin/sinew-demo" "$out/creature.sinew" --seconds 3 --truth "$out/hop.truth.safetensors" --frames "$out/pictures"
+  "$bin/sinew-demo" "$out/creature.sinew" --seconds 3 --truth "$out/hop.truth.safetensors" --frames "$out/pictures" --picture-fps 30 "${quality[@]}"
 # The same creature with its tail and ears as rods.
 rods=assets/creature/tissue_rods.json
 newer "$out/creature_rods.sinew" "$out/creature.glb" "$rods" "$weights" ||
   "$bin/sinew-bake" character "$out/creature.glb" --recipe "$rods" --tissue "$weights" -o "$out/creature_rods.sinew"
 newer "$out/pictures_rods/contact_sheet.png" "$out/creature_rods.sinew" "$bin/sinew-demo" ||
-  "$bin/sinew-demo" "$out/creature_rods.sinew" --seconds 2.4 --clip hop --picture-fps 15 --frames "$out/pictures_rods"
+  "$bin/sinew-demo" "$out/creature_rods.sinew" --seconds 2.4 --clip hop --frames "$out/pictures_rods" --picture-fps 15 "${quality[@]}"
 
 echo
 echo "16 creatures, 10 seconds, 1500 us a frame:"

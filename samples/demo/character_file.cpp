@@ -22,45 +22,28 @@ CharacterFile open_character(const std::string& path) {
   return out;
 }
 
-render::Mesh bind_mesh(const CharacterFile& character) {
-  const pack::PackView& view = character.view;
-  const size_t vertices = view.character->vertex_count;
-  render::Mesh mesh;
-  for (size_t v = 0; v < vertices; ++v) {
-    mesh.positions.emplace_back(view.positions[3 * v], view.positions[3 * v + 1], view.positions[3 * v + 2]);
-    mesh.normals.emplace_back(view.normals[3 * v], view.normals[3 * v + 1], view.normals[3 * v + 2]);
-    const bool painted = !view.colors.empty();
-    mesh.colors.push_back(painted ? render::linear_from_srgb(
-                                        {view.colors[4 * v], view.colors[4 * v + 1], view.colors[4 * v + 2]})
-                                  : render::Rgb::Constant(0.6f));
+std::string difference(const CharacterFile& a, const CharacterFile& b) {
+  const auto other_than = [](size_t have, size_t want, const char* what) {
+    return std::to_string(have) + " " + what + " instead of " + std::to_string(want);
+  };
+  const pack::PackView &x = a.view, &y = b.view;
+  if (x.joints.size() != y.joints.size()) return other_than(y.joints.size(), x.joints.size(), "joints");
+  for (size_t j = 0; j < x.joints.size(); ++j) {
+    const std::string want = pack::string_at(x, x.joints[j].name),
+                      have = pack::string_at(y, y.joints[j].name);
+    if (want != have) return "joint '" + have + "' instead of '" + want + "'";
   }
-  for (size_t t = 0; t + 2 < view.triangles.size(); t += 3) {
-    mesh.triangles.push_back({view.triangles[t], view.triangles[t + 1], view.triangles[t + 2]});
-  }
-  return mesh;
+  if (x.character->vertex_count != y.character->vertex_count)
+    return other_than(y.character->vertex_count, x.character->vertex_count, "vertices");
+  if (!std::ranges::equal(x.triangles, y.triangles)) return "other triangles";
+  return "";
 }
-
-namespace {
-
-std::vector<uint32_t> each_once(std::vector<uint32_t> vertices) {
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  return vertices;
-}
-
-}  // namespace
 
 std::vector<uint32_t> soft_vertices(const CharacterFile& character) {
-  return each_once({character.view.region_vertices.begin(), character.view.region_vertices.end()});
-}
-
-std::vector<uint32_t> moved_vertices(const CharacterFile& character) {
-  const pack::PackView& view = character.view;
-  std::vector<uint32_t> out(view.region_vertices.begin(), view.region_vertices.end());
-  if (view.rods.empty()) return each_once(std::move(out));
-  for (uint32_t v = 0; v < view.character->vertex_count; ++v)
-    if (view.joint_rods[view.skin[v].joint[0]] != pack::kNoIndex) out.push_back(v);  // weights descend
-  return each_once(std::move(out));
+  std::vector<uint32_t> out(character.view.region_vertices.begin(), character.view.region_vertices.end());
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
 }
 
 }  // namespace sinew::demo

@@ -5,7 +5,6 @@
 
 #include "pack/mapped_file.hpp"
 #include "pack/reader.hpp"
-#include "samples/render/mesh.hpp"
 
 namespace sinew::demo {
 
@@ -21,11 +20,9 @@ struct CharacterFile {
 // Throws baker::BadInput: unreadable, damaged, or a model without a character.
 CharacterFile open_character(const std::string& path);
 
-// The bind pose; positions are replaced frame by frame.
-render::Mesh bind_mesh(const CharacterFile& character);
+// What keeps the two from being one character under the same motion, as baked twice; empty: nothing.
+std::string difference(const CharacterFile& a, const CharacterFile& b);
 // Ascending, each once: the vertices that tissue moves.
 std::vector<uint32_t> soft_vertices(const CharacterFile& character);
-// Those, and what hangs on rods.
-std::vector<uint32_t> moved_vertices(const CharacterFile& character);
 
 }  // namespace sinew::demo

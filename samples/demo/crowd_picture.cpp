@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "samples/render/renderer.hpp"
-#include "samples/render/text.hpp"
+#include "baker/preview/pack_mesh.hpp"
+#include "baker/render/renderer.hpp"
+#include "baker/render/text.hpp"
 
 namespace sinew::demo {
 namespace {
@@ -70,7 +71,7 @@ void draw_counts(render::Image& image, const Run& run, const Options& options) {
 }  // namespace
 
 render::Image crowd_picture(const CharacterFile& character, const Run& run, const Options& options) {
-  const render::Mesh bind = bind_mesh(character);
+  const render::Mesh bind = baker::bind_mesh(character.view);
   const std::vector<uint32_t> welded(character.view.welded.begin(), character.view.welded.end());
   render::Mesh crowd;
   for (const CrowdMember& member : run.crowd) add_member(bind, welded, member, crowd);

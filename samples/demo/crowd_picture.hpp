@@ -1,7 +1,7 @@
 // crowd_picture.hpp  All instances on the floor, tinted by what each got in the last frame.
 #pragma once
+#include "baker/render/image.hpp"
 #include "samples/demo/simulate.hpp"
-#include "samples/render/image.hpp"
 
 namespace sinew::demo {
 

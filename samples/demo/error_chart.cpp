@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "samples/render/layout.hpp"
-#include "samples/render/lines.hpp"
-#include "samples/render/text.hpp"
+#include "baker/render/layout.hpp"
+#include "baker/render/lines.hpp"
+#include "baker/render/text.hpp"
 
 namespace sinew::demo {
 namespace {

@@ -2,8 +2,8 @@
 #pragma once
 #include <vector>
 
+#include "baker/render/image.hpp"
 #include "samples/demo/simulate.hpp"
-#include "samples/render/image.hpp"
 
 namespace sinew::demo {
 

@@ -1,12 +1,12 @@
-// pictures.hpp  A recorded run as pictures: a PNG sequence, a film, a contact sheet, a large still, the
-// crowd.
+// pictures.hpp  A recorded run as pictures: a contact sheet, a large still, a film, the crowd.
 #pragma once
 #include "samples/demo/simulate.hpp"
 
 namespace sinew::demo {
 
-// Into options.frames: frame_0000.png ..., animation.mp4 and animation.gif (with ffmpeg), contact_sheet.png,
-// still.png, and crowd.png when there are several instances. Prints where they are.
-void make_pictures(const Run& run, const CharacterFile& character, const Options& options);
+// Into options.frames: contact_sheet.png and still.png; with options.picture_fps frame_0000.png ...,
+// animation.mp4 and animation.gif (with ffmpeg); crowd.png when there are several instances. Prints where
+// they are. other: film_set.hpp.
+void make_pictures(const Run& run, const Run* other, const CharacterFile& character, const Options& options);
 
 }  // namespace sinew::demo

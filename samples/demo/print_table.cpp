@@ -1,4 +1,5 @@
 // print_table.cpp  The run's summary for a person; see summary.hpp.
+#include <algorithm>
 #include <cinttypes>
 #include <cmath>
 #include <cstdio>
@@ -17,9 +18,31 @@ void print_head(const Run& run, const CharacterFile& character, const Options& o
               run.instances == 1 ? "" : "s", run.frames.size(), 1e3 / run.fps, options.threads,
               options.threads == 1 ? "" : "s");
   if (std::isfinite(options.budget_us)) {
-    std::printf("budget %g us a frame\n\n", options.budget_us);
+    std::printf("budget %g us a frame, ", options.budget_us);
   } else {
-    std::printf("no budget\n\n");
+    std::printf("no budget, ");
+  }
+  std::printf(run.contacts ? "contacts with its own body\n" : "no contacts\n");
+}
+
+void print_parts(const std::string& name, const Run& run) {
+  if (run.parts.empty()) {
+    std::printf("\n  %s: no soft part and no rod\n", name.c_str());
+    return;
+  }
+  const double height_mm = 1000 * static_cast<double>(run.asset.height_m);
+  size_t width = std::max<size_t>(16, name.size());
+  for (const PartMotion& part : run.parts) width = std::max(width, part.name.size());
+  std::printf("\n  %-*s %5s %8s %15s %10s %17s %10s\n", static_cast<int>(width), name.c_str(), "kind", "Hz",
+              "most moved, mm", "of height", "2 s still, mm", "of height");
+  for (const PartMotion& part : run.parts) {
+    std::printf("  %-*s %5s ", static_cast<int>(width), part.name.c_str(), part.is_rod ? "rod" : "soft");
+    if (part.is_rod)
+      std::printf("%8s", "");
+    else
+      std::printf("%8.2f", part.frequency_hz);
+    std::printf(" %15.1f %8.2f %% %17.2f %8.3f %%\n", part.largest_mm, 100 * part.largest_mm / height_mm,
+                part.still_mm, 100 * part.still_mm / height_mm);
   }
 }
 
@@ -68,11 +91,13 @@ void print_reasons(const Summary& summary) {
   std::printf("\n  why:");
   for (const ReasonShare& reason : summary.reasons)
     std::printf(" %s %.1f %%", reason.name.c_str(), 100 * reason.share);
-  std::printf(
-      "\n  expected error, of skinning's: mean %.2f, worst frame %.2f; left unspent while one was denied: "
-      "median %.1f %%, p99 %.1f %%\n",
-      summary.expected_error.mean, summary.expected_error.max, 100 * summary.unspent.median,
-      100 * summary.unspent.p99);
+  std::printf("\n  expected error, of skinning's: ");
+  if (summary.expected_error)
+    std::printf("mean %.2f, worst frame %.2f", summary.expected_error->mean, summary.expected_error->max);
+  else
+    std::printf("not measured");
+  std::printf("; left unspent while one was denied: median %.1f %%, p99 %.1f %%\n",
+              100 * summary.unspent.median, 100 * summary.unspent.p99);
 }
 
 void print_error(const char* name, const Spread& error, double of_skinning) {
@@ -90,10 +115,12 @@ void print_errors(const Summary& summary) {
 
 }  // namespace
 
-void print_table(const Summary& summary, const Run& run, const CharacterFile& character,
+void print_table(const Summary& summary, const Run& run, const Run* other, const CharacterFile& character,
                  const Options& options) {
   print_head(run, character, options);
-  std::printf("  %-16s %10s %10s %10s\n", "stage, us", "median", "p99", "worst");
+  print_parts(run.name, run);
+  if (other != nullptr) print_parts(other->name, *other);
+  std::printf("\n  %-16s %10s %10s %10s\n", "stage, us", "median", "p99", "worst");
   for (const StageTime& stage : summary.step) print_stage(stage);
   std::printf("  around it:\n");
   for (const StageTime& stage : summary.engine) print_stage(stage);

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 #include "baker/common/bad_input.hpp"
 #include "baker/common/progress.hpp"
+#include "baker/preview/pack_mesh.hpp"
 #include "samples/demo/thread_pool.hpp"
 #include "samples/demo/trace.hpp"
 #include "samples/demo/turning_camera.hpp"
@@ -16,6 +18,7 @@ namespace {
 
 constexpr size_t kLargestCrowd = 100;  // in the picture
 constexpr double kPhase_s = 0.37;      // between neighbours, so that no two move alike
+constexpr size_t kKept = 24;           // snapshots of a run that is not filmed
 
 using Positions = std::vector<Eigen::Vector3f>;
 using Clock = std::chrono::steady_clock;
@@ -38,8 +41,8 @@ ReadDef read_into(Positions& positions, Space space) {
 // A world, its asset and its instances, moved together.
 class Stage {
  public:
-  Stage(const CharacterFile& character, const WorldDef& def, double budget_us)
-      : joints_(character.view.joints.size()) {
+  Stage(const CharacterFile& character, const WorldDef& def, double budget_us, bool contacts)
+      : contacts_(contacts && !character.view.proxies.empty()), joints_(character.view.joints.size()) {
     require(World::create(def, &world_));
     require(world_.load_asset_file(character.path.c_str(), &asset_));
     require(world_.asset_info(asset_, &info_));
@@ -49,7 +52,9 @@ class Stage {
   // Nearer instances (those added first) matter more.
   void add(const RootTransform& place, float importance) {
     InstanceId id;
-    require(world_.create_instance({.asset = asset_, .importance = importance, .root = place}, &id));
+    require(world_.create_instance(
+        {.asset = asset_, .importance = importance, .root = place, .contacts = {.own_body = contacts_}},
+        &id));
     instances_.push_back(id);
     places_.push_back(place);
   }
@@ -75,12 +80,14 @@ class Stage {
   void look(const View& view) { require(world_.set_views({&view, 1})); }
   FrameReport step(double dt_s) { return world_.step(static_cast<float>(dt_s)); }
   size_t size() const { return instances_.size(); }
+  bool contacts() const { return contacts_; }
   const AssetInfo& info() const { return info_; }
 
  private:
   World world_;
   AssetId asset_;
   AssetInfo info_;
+  bool contacts_;
   std::vector<InstanceId> instances_;
   std::vector<RootTransform> places_;
   std::vector<Matrix34> joints_;
@@ -95,7 +102,7 @@ RootTransform place_on_floor(int index, int count, double spacing_m) {
 }
 
 double spacing_of(const CharacterFile& character) {
-  const render::Mesh mesh = bind_mesh(character);
+  const render::Mesh mesh = baker::bind_mesh(character.view);
   const Eigen::Vector3f size = render::bounding_box(mesh.positions).sizes();
   return 1.25 * static_cast<double>(std::max({size.x(), size.z(), 0.3f * size.y()}));
 }
@@ -115,34 +122,66 @@ float mean_distance_mm(const Positions& a, const Positions& b, std::span<const u
 // The second world: the same character under a budget of nothing, which is skinning alone.
 class Witness {
  public:
-  Witness(const CharacterFile& character, const Motion& motion, const Trajectory* truth)
-      : stage_(character, {.max_assets = 1, .max_instances = 1}, 0),
+  Witness(const CharacterFile& character, const Motion& motion)
+      : stage_(character, {.max_assets = 1, .max_instances = 1}, 0, false),
         motion_(motion),
-        truth_(truth),
-        soft_(soft_vertices(character)) {
+        parts_(baker::parts_of(character.view)),
+        skinned_(stage_.info().vertex_count) {
     stage_.add({}, 1);
+    for (const baker::Part& part : parts_)
+      motions_.push_back({.name = part.name, .is_rod = part.is_rod, .frequency_hz = part.frequency_hz});
   }
 
-  Snapshot look(double t_s, double dt_s, const Positions& sinew) {
-    Snapshot out{.time_s = t_s, .motion = motion_.name_at(t_s), .sinew = sinew};
+  // Every frame, in its order.
+  void watch(double t_s, double dt_s, const Positions& sinew) {
+    follow(t_s, dt_s);
+    for (size_t p = 0; p < parts_.size(); ++p)
+      motions_[p].largest_mm = std::max(motions_[p].largest_mm, largest_mm(parts_[p], skinned_, sinew));
+  }
+  void watch_still(double t_s, double dt_s, const Positions& sinew) {
+    follow(t_s, dt_s);
+    for (size_t p = 0; p < parts_.size(); ++p) motions_[p].still_mm = largest_mm(parts_[p], skinned_, sinew);
+  }
+
+  const Positions& skinned() const { return skinned_; }  // as last watched
+  Snapshot snapshot(double t_s, const Positions& sinew) const {
+    Snapshot out{.time_s = t_s, .motion = motion_.name_at(t_s), .skinned = skinned_, .sinew = sinew};
     std::vector<Matrix34> joints(stage_.info().joint_count);
     motion_.pose_at(t_s, joints, &out.root);
-    stage_.pose(0, motion_, t_s);
-    stage_.step(dt_s);
-    out.skinned.resize(sinew.size());
-    stage_.read(0, Space::kCharacter, out.skinned);
-    if (truth_ == nullptr) return out;
-    out.truth.resize(sinew.size());
-    truth_->positions_at(t_s, out.truth);
-    out.error = {mean_distance_mm(out.skinned, out.truth, soft_), mean_distance_mm(sinew, out.truth, soft_)};
     return out;
   }
+  const std::vector<PartMotion>& motions() const { return motions_; }
 
  private:
+  void follow(double t_s, double dt_s) {
+    stage_.pose(0, motion_, t_s);
+    stage_.step(dt_s);
+    stage_.read(0, Space::kCharacter, skinned_);
+  }
+
   Stage stage_;
   const Motion& motion_;
-  const Trajectory* truth_;
+  std::vector<baker::Part> parts_;
+  Positions skinned_;
+  std::vector<PartMotion> motions_;
+};
+
+// The first instance's surface against ground truth.
+class Judge {
+ public:
+  Judge(const CharacterFile& character, const Trajectory& truth)
+      : truth_(truth), soft_(soft_vertices(character)), positions_(character.view.character->vertex_count) {}
+
+  Error error(double t_s, const Positions& skinned, const Positions& sinew) {
+    truth_.positions_at(t_s, positions_);
+    return {mean_distance_mm(skinned, positions_, soft_), mean_distance_mm(sinew, positions_, soft_)};
+  }
+  const Positions& positions() const { return positions_; }
+
+ private:
+  const Trajectory& truth_;
   std::vector<uint32_t> soft_;
+  Positions positions_;
 };
 
 FrameRecord run_frame(Stage& stage, const Motion& first, const Motion& others, double t_s, double dt_s,
@@ -158,6 +197,24 @@ FrameRecord run_frame(Stage& stage, const Motion& first, const Motion& others, d
   for (size_t i = stage.size(); i-- > 0;) stage.read(i, Space::kCharacter, positions);  // ends with the first
   record.read_us = microseconds_since(before_reads);
   return record;
+}
+
+// The frames of which pictures may be made: as many as a film takes, else a few, evenly spread.
+bool is_kept(size_t frame, size_t frames, const Options& options) {
+  if (options.frames.empty()) return false;
+  if (options.picture_fps > 0)
+    return frame % static_cast<size_t>(std::max(1.0, std::round(options.fps / options.picture_fps))) == 0;
+  return (frame + 1) * kKept / frames != frame * kKept / frames;
+}
+
+// All poses stay as they are, and what moves comes to rest.
+void hold_still(Stage& stage, Witness& witness, double t_s, const Options& options, Positions& positions) {
+  const auto frames = static_cast<size_t>(std::llround(kStill_s * options.fps));
+  for (size_t frame = 0; frame < frames; ++frame) {
+    stage.step(1 / options.fps);
+    stage.read(0, Space::kCharacter, positions);
+    witness.watch_still(t_s, 1 / options.fps, positions);
+  }
 }
 
 void count_guards(const Stage& stage, Run& run) {
@@ -192,36 +249,43 @@ Run simulate(const CharacterFile& character, const Motion& motion, const Traject
   Trace trace(!options.trace.empty());
   Stage stage(character,
               {.max_assets = 1, .max_instances = count, .tasks = pool.hook(), .profiler = trace.hook()},
-              options.budget_us);
+              options.budget_us, options.contacts);
   const double spacing_m = spacing_of(character), height_m = static_cast<double>(stage.info().height_m);
   fill_stage(stage, options.instances, spacing_m);
   const Motion& first = truth != nullptr ? *truth : motion;
-  Witness witness(character, first, truth);
-  const bool pictures = !options.frames.empty();
-  const auto every = static_cast<size_t>(std::max(1.0, std::round(options.fps / options.picture_fps)));
+  Witness witness(character, first);
+  std::optional<Judge> judge;
+  if (truth != nullptr) judge.emplace(character, *truth);
   const auto frames = static_cast<size_t>(std::llround(options.seconds * options.fps)) + 1;
 
-  Run run{.asset = stage.info(), .instances = options.instances, .fps = options.fps};
+  Run run{.asset = stage.info(),
+          .instances = options.instances,
+          .contacts = stage.contacts(),
+          .fps = options.fps};
   run.frames.reserve(frames);
   Positions positions(stage.info().vertex_count);
   baker::Progress progress("simulating", frames);
+  const double dt_s = 1 / options.fps;
   for (size_t frame = 0; frame < frames; ++frame) {
-    const double dt_s = 1 / options.fps, t_s = static_cast<double>(frame) / options.fps;
+    const double t_s = static_cast<double>(frame) / options.fps;
     trace.begin_frame();
     if (options.camera) stage.look(turning_camera(t_s, height_m, spacing_m));
     run.frames.push_back(run_frame(stage, first, motion, t_s, dt_s, positions));
     count_reasons(stage, run);
-    const bool picture = pictures && frame % every == 0;
-    if (picture || truth != nullptr) {
-      Snapshot snapshot = witness.look(t_s, dt_s, positions);
-      run.frames.back().error = snapshot.error;
-      if (picture) run.snapshots.push_back(std::move(snapshot));
+    witness.watch(t_s, dt_s, positions);
+    if (judge) run.frames.back().error = judge->error(t_s, witness.skinned(), positions);
+    if (is_kept(frame, frames, options)) {
+      run.snapshots.push_back(witness.snapshot(t_s, positions));
+      run.snapshots.back().error = run.frames.back().error;
+      if (judge) run.snapshots.back().truth = judge->positions();
     }
     progress.update(frame + 1);
   }
   count_guards(stage, run);
   if (!options.trace.empty()) trace.write(options.trace);
-  if (pictures && stage.size() > 1) run.crowd = look_at_crowd(stage);
+  if (!options.frames.empty() && stage.size() > 1) run.crowd = look_at_crowd(stage);
+  hold_still(stage, witness, static_cast<double>(frames - 1) / options.fps, options, positions);
+  run.parts = witness.motions();
   return run;
 }
 

@@ -8,6 +8,7 @@
 #include "samples/demo/character_file.hpp"
 #include "samples/demo/motion.hpp"
 #include "samples/demo/options.hpp"
+#include "samples/demo/part_motion.hpp"
 #include "samples/demo/trajectory.hpp"
 #include "sinew/sinew.hpp"
 
@@ -42,11 +43,14 @@ struct CrowdMember {
 };
 
 struct Run {
-  AssetInfo asset;
+  std::string name{};  // of the pack's file
+  AssetInfo asset{};
   int instances = 0;
+  bool contacts = false;  // with its own body
   double fps = 60;
   std::vector<FrameRecord> frames{};
   std::vector<Snapshot> snapshots{};  // empty unless pictures were asked for
+  std::vector<PartMotion> parts{};    // of the first instance
   std::vector<CrowdMember> crowd{};   // all instances (at most 100) after the last frame, with pictures
   std::array<uint64_t, kTierReasonCount> reasons{};                  // all instances, all frames
   uint64_t input_clamps = 0, displacement_clamps = 0, restarts = 0;  // all instances, all frames

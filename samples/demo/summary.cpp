@@ -1,12 +1,22 @@
 // summary.cpp  see summary.hpp.
 #include "samples/demo/summary.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace sinew::demo {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+// Coarser graphs follow the finest.
+bool is_measured(const CharacterFile& character, Tier tier) {
+  return std::ranges::any_of(character.view.tiers, [&](const pack::TierRecord& record) {
+    return record.tier == static_cast<uint32_t>(tier) && record.every == 1 && record.level == 0 &&
+           !std::isnan(record.error_ratio);
+  });
+}
 
 template <class Get>
 StageTime stage(const Run& run, const char* name, const Get& get) {
@@ -17,9 +27,10 @@ TierShare tier_share(const Run& run, const CharacterFile& character, Tier tier, 
                      uint32_t FrameReport::*instances) {
   double sum = 0;
   for (const FrameRecord& frame : run.frames) sum += frame.step.*instances;
-  TierShare out{name, sum / (run.instances * static_cast<double>(run.frames.size())), kUnknown, kUnknown};
+  TierShare out{name, tier, sum / (run.instances * static_cast<double>(run.frames.size())), kUnknown,
+                kUnknown};
   for (const pack::TierRecord& record : character.view.tiers) {
-    if (record.tier != static_cast<uint32_t>(tier) || record.every != 1) continue;
+    if (record.tier != static_cast<uint32_t>(tier) || record.every != 1 || record.level != 0) continue;
     out.baked_cost_us = static_cast<double>(record.cost_us);
     out.baked_error_mm = static_cast<double>(record.error_mm);
   }
@@ -42,6 +53,19 @@ Spread unspent_of(const Run& run) {
     if (frame.step.unspent_us > 0)
       shares.push_back(static_cast<double>(frame.step.unspent_us / frame.step.budget_us));
   return spread_of(std::move(shares));
+}
+
+// The runtime goes on with usual errors where none was baked: those are not this character's.
+std::optional<Spread> expected_error(const Run& run, const CharacterFile& character,
+                                     const std::vector<TierShare>& shares) {
+  for (const TierShare& share : shares) {
+    const bool is_simulated = share.tier >= Tier::kNetwork;
+    if (share.share > 0 && is_simulated && !is_measured(character, share.tier)) return std::nullopt;
+  }
+  const std::vector<double> errors =
+      column(run.frames, [](const FrameRecord& f) { return f.step.expected_error; });
+  if (std::ranges::any_of(errors, [](double error) { return std::isnan(error); })) return std::nullopt;
+  return spread_of(errors);
 }
 
 }  // namespace
@@ -67,8 +91,7 @@ Summary summarise(const Run& run, const CharacterFile& character) {
   }
   out.reasons = reason_shares(run);
   out.unspent = unspent_of(run);
-  out.expected_error =
-      spread_of(column(run.frames, [](const FrameRecord& f) { return f.step.expected_error; }));
+  out.expected_error = expected_error(run, character, out.tiers);
   for (const FrameRecord& frame : run.frames) {
     out.over_budget += frame.step.over_budget;
     out.cut += frame.step.instances_cut;

@@ -1,5 +1,6 @@
 // summary.hpp  A run in numbers: what the table prints and the report begins with.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct StageTime {
 
 struct TierShare {
   std::string name;
+  Tier tier = Tier::kSkinning;
   double share = 0;                              // of instances x frames
   double baked_cost_us = 0, baked_error_mm = 0;  // NaN: not in the pack, or not measured
 };
@@ -26,7 +28,9 @@ struct ReasonShare {
 
 struct Summary {
   std::vector<ReasonShare> reasons;
-  Spread expected_error;        // a share of skinning's, mean of the instances, over frames
+  // A share of skinning's, mean of the instances, over frames; null: not measured for all tiers that were
+  // used.
+  std::optional<Spread> expected_error;
   Spread unspent;               // of the budget, over the frames in which it kept an instance below its best
   std::vector<StageTime> step;  // the step's stages, then the whole step
   std::vector<StageTime> engine;  // what the engine does around it
@@ -40,11 +44,12 @@ struct Summary {
 
 Summary summarise(const Run& run, const CharacterFile& character);
 
-void print_table(const Summary& summary, const Run& run, const CharacterFile& character,
+// other: the run beside it, whose parts are told too; null: none.
+void print_table(const Summary& summary, const Run& run, const Run* other, const CharacterFile& character,
                  const Options& options);
 
 // Throws baker::BadInput when the path cannot be written.
-void write_report(const std::string& path, const Summary& summary, const Run& run,
+void write_report(const std::string& path, const Summary& summary, const Run& run, const Run* other,
                   const CharacterFile& character, const Options& options);
 
 }  // namespace sinew::demo

@@ -1,6 +1,8 @@
 // trajectory.hpp  The ground truth that `sinew-bake truth --positions` wrote: a motion, and where the surface
 // really went.
 #pragma once
+#include <Eigen/Core>
+
 #include "samples/demo/motion.hpp"
 
 namespace sinew::demo {

@@ -45,7 +45,7 @@ Json summary_json(const Summary& s, bool truth) {
               {"tiers", tiers(s.tiers)},
               {"expected_error_mm", number(s.expected_error_mm)},
               {"why", reasons(s.reasons)},
-              {"expected_error", spread(s.expected_error)},
+              {"expected_error", s.expected_error ? spread(*s.expected_error) : Json(nullptr)},
               {"unspent", spread(s.unspent)},
               {"frames_over_budget", s.over_budget},
               {"instances_cut", s.cut},
@@ -56,6 +56,20 @@ Json summary_json(const Summary& s, bool truth) {
               {"dropped_s", s.dropped_s}};
   if (truth)
     out["error_mm"] = {{"skinning", spread(s.skinning_error_mm)}, {"sinew", spread(s.sinew_error_mm)}};
+  return out;
+}
+
+Json parts_json(const Run& run) {
+  const double height_mm = 1000 * static_cast<double>(run.asset.height_m);
+  Json out = Json::array();
+  for (const PartMotion& part : run.parts)
+    out.push_back({{"name", part.name},
+                   {"kind", part.is_rod ? "rod" : "soft"},
+                   {"frequency_hz", number(part.frequency_hz)},
+                   {"largest_mm", part.largest_mm},
+                   {"largest_of_height", part.largest_mm / height_mm},
+                   {"still_mm", part.still_mm},
+                   {"still_of_height", part.still_mm / height_mm}});
   return out;
 }
 
@@ -83,7 +97,7 @@ Json frame_json(const FrameRecord& frame, bool truth) {
               {"extrapolated", r.instances_extrapolated},
               {"skinning", r.instances_skinned},
               {"cut", r.instances_cut},
-              {"expected_error", r.expected_error},
+              {"expected_error", number(static_cast<double>(r.expected_error))},
               {"unspent_us", r.unspent_us},
               {"restarts", r.restarts},
               {"over_budget", r.over_budget},
@@ -94,7 +108,7 @@ Json frame_json(const FrameRecord& frame, bool truth) {
 
 }  // namespace
 
-void write_report(const std::string& path, const Summary& summary, const Run& run,
+void write_report(const std::string& path, const Summary& summary, const Run& run, const Run* other,
                   const CharacterFile& character, const Options& options) {
   const bool truth = !options.truth.empty();
   Json out = {{"character", character.name()},
@@ -105,8 +119,11 @@ void write_report(const std::string& path, const Summary& summary, const Run& ru
               {"fps", run.fps},
               {"threads", options.threads},
               {"budget_us", number(options.budget_us)},
+              {"own_body_contacts", run.contacts},
+              {"parts", parts_json(run)},
               {"summary", summary_json(summary, truth)},
               {"frames", Json::array()}};
+  if (other != nullptr) out["compared"] = {{"name", other->name}, {"parts", parts_json(*other)}};
   for (const FrameRecord& frame : run.frames) out["frames"].push_back(frame_json(frame, truth));
   baker::write_file(path, std::string_view(out.dump(1)));
 }

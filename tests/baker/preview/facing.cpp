@@ -50,6 +50,7 @@ TEST_CASE("characters_whose_joints_tell_no_side_look_along_z") {
   CHECK(yaw_of({{"Bone", 1, 0}, {"Bone.001", -1, 0}}) == 0);
   CHECK(yaw_of({{"arm_l", 1, 0}}) == 0);
   CHECK(yaw_of({{"arm_l", 0, 0}, {"arm_r", 0, 0}}) == 0);
+  CHECK(yaw_of({{"arm_l", -1e-5f, 0}, {"arm_r", 1e-5f, 0}}) == 0);
   CHECK(yaw_of({{"arm_l", 0.3f, 1}, {"arm_r", 0.3f, 1}}) == 0);
 }
 
