@@ -31,7 +31,8 @@ void read_material(JsonSection& section, Recipe& recipe) {
   recipe.density_kg_m3 = section.number("density_kg_m3", recipe.density_kg_m3, 1, 1e5);
   recipe.damping_ratio = section.number("damping_ratio", recipe.damping_ratio, 0, 1);
   recipe.max_displacement = section.number("max_displacement", recipe.max_displacement, 0.01, 4);
-  recipe.voxels_high = whole_number(section, "voxels_high", recipe.voxels_high, 8, 200);
+  if (section.has("voxels_high"))
+    recipe.voxels_high = whole_number(section, "voxels_high", kUsualVoxelsHigh, 8, 200);
   recipe.rigid_stiffness = section.number("rigid_stiffness", recipe.rigid_stiffness, 0.01, 1);
   recipe.core_share = section.number("core_share", recipe.core_share, 0, 1);
   recipe.coreless_joints = section.texts("coreless_joints");

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "baker/common/bad_input.hpp"
+#include "baker/common/progress.hpp"
 #include "baker/common/write_file.hpp"
 #include "baker/import/import_gltf.hpp"
 #include "baker/mesh/tissue_layout.hpp"
@@ -82,6 +83,8 @@ Tissue make_tissue(Character& character, const Recipe& recipe) {
   Tissue tissue{.layout = layout_tissue(character, recipe), .truth = {}, .finest = {}, .coarser = {}};
   if (tissue.layout.regions.empty()) return tissue;
   tissue.truth = std::make_unique<TissueTruth>(character, tissue.layout, recipe);
+  const std::vector<std::string>& notes = tissue.truth->cage().notes;
+  character.notes.insert(character.notes.end(), notes.begin(), notes.end());
   tissue.finest = tissue.truth->modal_bases(tissue.layout, kMostModes);
   tissue.coarser = coarser_levels(character, recipe, *tissue.truth, tissue.layout, tissue.finest);
   return tissue;
@@ -158,8 +161,11 @@ void run_character(const CharacterOptions& options) {
   precision_of(options);
   std::optional<Safetensors> weights;
   if (!options.tissue.empty()) weights = read_safetensors(options.tissue);
+  std::optional<Progress> progress(std::in_place, "baking " + options.output, 10);
   Character character = import_character(options, recipe);
+  progress->update(1);
   const Tissue tissue = make_tissue(character, recipe);
+  progress->update(6);
   if (tissue.layout.regions.empty() && weights) {
     check_model(*weights);
     character.notes.push_back("nothing is soft tissue: " + options.tissue + " is not used");
@@ -173,6 +179,7 @@ void run_character(const CharacterOptions& options) {
   const LoadedPack pack =
       LoadedPack::from_bytes(bytes, options.character);  // what the runtime would refuse is not written
   write_file(options.output, bytes);
+  progress.reset();
   print_summary(options, character, pack);
 }
 
