@@ -4,11 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <nlohmann/json.hpp>
 
-#include "baker/common/bad_input.hpp"
 #include "baker/common/json_section.hpp"
-#include "baker/common/read_file.hpp"
 #include "pack/format.hpp"
 
 namespace sinew::baker {
@@ -99,18 +96,11 @@ ProxyRecipe read_proxy(JsonSection& section) {
   return proxy;
 }
 
-nlohmann::json parse(const std::string& path) {
-  nlohmann::json json = nlohmann::json::parse(read_text(path), nullptr, false, true);
-  if (json.is_discarded())
-    throw BadInput(path + ": this is not JSON; a recipe is an object { \"voxels_high\": 36, ... }");
-  return json;
-}
-
 }  // namespace
 
 Recipe read_recipe(const std::string& path) {
-  const nlohmann::json json = parse(path);
-  JsonSection section(json, path);
+  const JsonFile file = read_json_file(path);
+  JsonSection section(file);
   Recipe recipe;
   read_material(section, recipe);
   read_graph(section, recipe);

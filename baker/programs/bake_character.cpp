@@ -8,7 +8,7 @@
 #include "baker/common/bad_input.hpp"
 #include "baker/common/progress.hpp"
 #include "baker/common/write_file.hpp"
-#include "baker/import/import_gltf.hpp"
+#include "baker/mesh/import_character.hpp"
 #include "baker/mesh/tissue_layout.hpp"
 #include "baker/pack/character_pack.hpp"
 #include "baker/pack/network_pack.hpp"
@@ -27,13 +27,6 @@ struct CharacterOptions {
   std::vector<std::string> calibration;
   bool quick = false, keep_network = false;
 };
-
-Character import_character(const CharacterOptions& options, const Recipe& recipe) {
-  ImportOptions import;
-  import.unit_m = recipe.unit_m;
-  import.up = recipe.up;
-  return import_gltf(options.character, import);
-}
 
 void print_summary(const CharacterOptions& options, const Character& character, const LoadedPack& pack) {
   for (const std::string& note : character.notes) std::printf("note: %s\n", note.c_str());
@@ -157,12 +150,13 @@ std::vector<std::byte> measured(const Packer& packer, const Safetensors* weights
 }
 
 void run_character(const CharacterOptions& options) {
+  refuse_directory(options.output);
   const Recipe recipe = options.recipe.empty() ? Recipe{} : read_recipe(options.recipe);
   precision_of(options);
   std::optional<Safetensors> weights;
   if (!options.tissue.empty()) weights = read_safetensors(options.tissue);
   std::optional<Progress> progress(std::in_place, "baking " + options.output, 10);
-  Character character = import_character(options, recipe);
+  Character character = import_character(options.character, recipe);
   progress->update(1);
   const Tissue tissue = make_tissue(character, recipe);
   progress->update(6);
