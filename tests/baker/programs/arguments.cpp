@@ -73,6 +73,6 @@ TEST_CASE("help_goes_to_stdout_and_names_every_command") {
   const ProgramResult help = bake({"--help"});
   CHECK(help.exit_code == 0);
   CHECK(help.error.empty());
-  for (const char* command : {"creature", "character", "model", "check", "info", "judge", "truth"})
+  for (const char* command : {"audit", "creature", "character", "model", "check", "info", "judge", "truth"})
     CHECK_THAT(help.out, Catch::Contains(command));
 }
