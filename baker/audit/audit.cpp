@@ -14,14 +14,14 @@ namespace sinew::baker {
 namespace {
 
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
-constexpr double kBob_s = 4, kRest_s = 60, kQuickBob_s = 2, kQuickClip_s = 4;
+constexpr double kLongRest_s = 60, kQuickBob_s = 2, kQuickClip_s = 4;
 constexpr double kWatched_s = 10;  // a rod's residual: how far it still moves in the last of the rest
 
 class Auditor {
  public:
   explicit Auditor(const LoadedPack& pack) : pack_(pack), parts_(find_parts(pack.view())) {
     audit_.height_m = static_cast<double>(pack.view().character->height_m);
-    for (const Part& part : parts_.all) audit_.parts.push_back({part, {}, {}, {}, 0, kNotMeasured});
+    for (const AuditedPart& part : parts_.all) audit_.parts.push_back({part, {}, {}, {}, 0, kNotMeasured});
   }
 
   void play(
@@ -37,7 +37,7 @@ class Auditor {
       watch_rods(player);
       told();
     }
-    if (motion.resting_s >= kRest_s) resting_ = true, measure_residual(player);
+    if (motion.resting_s >= kLongRest_s) resting_ = true, measure_residual(player);
     given_up_ += player.report().restarts + player.report().fallbacks;
     recovered_ += player.report().rod_recoveries;
   }
@@ -119,12 +119,12 @@ class Auditor {
     if (!wrong.empty()) audit_.failures.push_back("'" + part.part.name + "': " + wrong);
   }
 
-  static double most_inverted(const Part& part) {
+  static double most_inverted(const AuditedPart& part) {
     return std::max(kMostInverted, 1.0 / static_cast<double>(std::max<size_t>(1, part.triangles)));
   }
 
   const LoadedPack& pack_;
-  const Parts parts_;
+  const AuditedParts parts_;
   Audit audit_;
   std::vector<Eigen::Matrix3Xf> rod_low_, rod_high_;
   size_t given_up_ = 0, recovered_ = 0;
@@ -140,10 +140,7 @@ void check(const LoadedPack& pack) {
 
 Audit run_audit(const LoadedPack& pack, const std::function<void(size_t, size_t)>& progress) {
   check(pack);
-  std::vector<AuditMotion> motions = root_motions(pack.view());
-  for (size_t clip = 0; clip < pack.view().clips.size(); ++clip)
-    motions.push_back(clip_motion(pack.view(), clip));
-  motions.push_back(bob_motion(pack.view(), kBob_s, kRest_s));
+  const std::vector<AuditMotion> motions = audit_motions(pack.view());
   double total_s = 0;
   for (const AuditMotion& motion : motions) total_s += motion.moving_s + motion.resting_s;
   const auto total = static_cast<size_t>(total_s * static_cast<double>(pack.view().network->rate_hz));

@@ -21,7 +21,7 @@ struct Moment {
 };
 
 struct PartAudit {
-  Part part;
+  AuditedPart part;
   Moment displacement_m, edge_stretch, inverted_share;
   double bob_m = 0;       // largest displacement while the root bobs
   double residual_m = 0;  // after a minute of rest, what is left of it; NaN: not measured

@@ -121,6 +121,15 @@ AuditMotion clip_motion(const pack::PackView& character, size_t index) {
           }};
 }
 
+std::vector<AuditMotion> audit_motions(const pack::PackView& character) {
+  constexpr double kBob_s = 4, kRest_s = 60;
+  std::vector<AuditMotion> motions = root_motions(character);
+  for (size_t clip = 0; clip < character.clips.size(); ++clip)
+    motions.push_back(clip_motion(character, clip));
+  motions.push_back(bob_motion(character, kBob_s, kRest_s));
+  return motions;
+}
+
 size_t liveliest_clip(const pack::PackView& character) {
   size_t best = 0;
   double most = -1;

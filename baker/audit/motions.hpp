@@ -24,6 +24,8 @@ AuditMotion bob_motion(const pack::PackView& character, double moving_s, double 
 // the height, as gravity has it.
 std::vector<AuditMotion> root_motions(const pack::PackView& character);
 AuditMotion clip_motion(const pack::PackView& character, size_t clip);
+// All that a whole audit plays.
+std::vector<AuditMotion> audit_motions(const pack::PackView& character);
 // That in which joints travel fastest in the mean; clips.size() > 0.
 size_t liveliest_clip(const pack::PackView& character);
 

@@ -22,7 +22,7 @@ double length_of(const pack::PackView& character, const pack::RodRecord& rod) {
   return *std::ranges::max_element(to_end);
 }
 
-void name_parts(const pack::PackView& character, Parts& parts) {
+void name_parts(const pack::PackView& character, AuditedParts& parts) {
   for (size_t r = 0; r < character.regions.size(); ++r) {
     const pack::RegionRecord& region = character.regions[r];
     parts.all.push_back({pack::string_at(character, region.name), false, region.radius_m,
@@ -36,10 +36,10 @@ void name_parts(const pack::PackView& character, Parts& parts) {
 
 }  // namespace
 
-Parts find_parts(const pack::PackView& character) {
-  Parts parts;
+AuditedParts find_parts(const pack::PackView& character) {
+  AuditedParts parts;
   name_parts(character, parts);
-  parts.of_vertex.assign(character.character->vertex_count, Parts::kNone);
+  parts.of_vertex.assign(character.character->vertex_count, AuditedParts::kNone);
   for (size_t v = 0; v < parts.of_vertex.size() && !character.joint_rods.empty(); ++v)
     if (const uint32_t rod = character.joint_rods[character.skin[v].joint[0]]; rod != pack::kNoIndex)
       parts.of_vertex[v] = static_cast<int>(parts.regions + rod);
@@ -54,7 +54,7 @@ Parts find_parts(const pack::PackView& character) {
                                 character.triangles[t + 2]};
     const int part =
         std::max({parts.of_vertex[corners[0]], parts.of_vertex[corners[1]], parts.of_vertex[corners[2]]});
-    if (part == Parts::kNone) continue;
+    if (part == AuditedParts::kNone) continue;
     parts.triangles.push_back(corners);
     parts.of_triangle.push_back(part);
     ++parts.all[static_cast<size_t>(part)].triangles;
@@ -62,7 +62,8 @@ Parts find_parts(const pack::PackView& character) {
       const uint32_t a = std::min(corners[k], corners[(k + 1) % 3]),
                      b = std::max(corners[k], corners[(k + 1) % 3]);
       const int of_edge = std::max(parts.of_vertex[a], parts.of_vertex[b]);
-      if (of_edge != Parts::kNone && seen.insert({a, b}).second) parts.edges.push_back({a, b, of_edge});
+      if (of_edge != AuditedParts::kNone && seen.insert({a, b}).second)
+        parts.edges.push_back({a, b, of_edge});
     }
   }
   return parts;

@@ -9,7 +9,7 @@
 
 namespace sinew::baker {
 
-struct Part {
+struct AuditedPart {
   std::string name;
   bool is_rod = false;
   double size_m = 0;    // a region's radius; a rod's longest way from root to tip
@@ -17,13 +17,13 @@ struct Part {
   size_t triangles = 0;
 };
 
-struct Parts {
+struct AuditedParts {
   static constexpr int kNone = -1;
   struct Edge {
     uint32_t a, b;
     int part;
   };
-  std::vector<Part> all;  // regions, then rods
+  std::vector<AuditedPart> all;  // regions, then rods
   size_t regions = 0;
   std::vector<int> of_vertex;                      // by which the vertex is moved, or kNone
   std::vector<Edge> edges;                         // each once, of which an end is a part's
@@ -31,6 +31,6 @@ struct Parts {
   std::vector<int> of_triangle;
 };
 
-Parts find_parts(const pack::PackView& character);
+AuditedParts find_parts(const pack::PackView& character);
 
 }  // namespace sinew::baker

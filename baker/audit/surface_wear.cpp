@@ -28,12 +28,12 @@ Eigen::Matrix3f turn_of(const std::vector<Eigen::Matrix3f>& turns, const pack::P
 
 }  // namespace
 
-std::vector<double> displacements_m(const Parts& parts, const pack::PackView& character,
+std::vector<double> displacements_m(const AuditedParts& parts, const pack::PackView& character,
                                     const Player& player) {
   std::vector<double> out(parts.all.size(), 0);
   for (size_t v = 0; v < parts.of_vertex.size(); ++v) {
     const int part = parts.of_vertex[v];
-    if (part == Parts::kNone || parts.all[static_cast<size_t>(part)].is_rod) continue;
+    if (part == AuditedParts::kNone || parts.all[static_cast<size_t>(part)].is_rod) continue;
     const auto at = static_cast<Eigen::Index>(v);
     // What hangs on a rod's bone and is soft beside is counted whole: an engine shows both.
     const double way = (player.shown().col(at) - player.skinned().col(at)).norm();
@@ -47,12 +47,13 @@ std::vector<double> displacements_m(const Parts& parts, const pack::PackView& ch
   return out;
 }
 
-std::vector<Wear> surface_wear(const Parts& parts, const pack::PackView& character, const Player& player) {
+std::vector<Wear> surface_wear(const AuditedParts& parts, const pack::PackView& character,
+                               const Player& player) {
   std::vector<Wear> wear(parts.all.size());
   const std::vector<double> displacements = displacements_m(parts, character, player);
   for (size_t p = 0; p < wear.size(); ++p) wear[p].displacement_m = displacements[p];
   const double shortest = kShortestEdge * static_cast<double>(character.character->height_m);
-  for (const Parts::Edge& edge : parts.edges) {
+  for (const AuditedParts::Edge& edge : parts.edges) {
     const double skinned = (player.skinned().col(edge.a) - player.skinned().col(edge.b)).norm();
     if (skinned < shortest) continue;
     const double shown = (player.shown().col(edge.a) - player.shown().col(edge.b)).norm();

@@ -14,9 +14,10 @@ struct Wear {
 };
 
 // A wear for each part, of the player's last read.
-std::vector<Wear> surface_wear(const Parts& parts, const pack::PackView& character, const Player& player);
+std::vector<Wear> surface_wear(const AuditedParts& parts, const pack::PackView& character,
+                               const Player& player);
 // Displacements alone.
-std::vector<double> displacements_m(const Parts& parts, const pack::PackView& character,
+std::vector<double> displacements_m(const AuditedParts& parts, const pack::PackView& character,
                                     const Player& player);
 
 }  // namespace sinew::baker

@@ -4,19 +4,22 @@
 
 #include "baker/audit/audit.hpp"
 #include "baker/audit/describe_audit.hpp"
+#include "baker/audit/sheet.hpp"
 #include "baker/common/bad_input.hpp"
 #include "baker/common/progress.hpp"
+#include "baker/common/write_file.hpp"
 #include "baker/programs/commands.hpp"
 
 namespace sinew::baker {
 namespace {
 
 struct AuditOptions {
-  std::string character;
+  std::string character, sheet;
   bool json = false;
 };
 
 int run(const AuditOptions& options) {
+  if (!options.sheet.empty()) refuse_directory(options.sheet);
   const LoadedPack pack = LoadedPack::from_file(options.character);
   if (pack.view().character == nullptr)
     throw BadInput(options.character +
@@ -36,6 +39,7 @@ int run(const AuditOptions& options) {
     for (const std::string& failure : audit.failures) std::printf("FAILED: %s\n", failure.c_str());
     if (audit.failures.empty()) std::printf("within all bounds\n");
   }
+  if (!options.sheet.empty()) write_audit_sheet(options.sheet, audit, pack);
   return audit.failures.empty() ? 0 : 1;
 }
 
@@ -47,6 +51,7 @@ void add_audit_command(CLI::App& app, int* exit_code) {
       "audit", "Plays a character's clips and standard motions; exit code 1 where it looks broken");
   command->add_option("character", options->character, "C.sinew")->required();
   command->add_flag("--json", options->json, "machine-readable");
+  command->add_option("-o,--output", options->sheet, "contact sheet of the worst moments, .png");
   command->callback([options, exit_code] { *exit_code = run(*options); });
 }
 
