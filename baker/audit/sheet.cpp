@@ -88,7 +88,11 @@ std::string caption_of(const Audit& audit, const Shot& shot) {
     std::snprintf(text, sizeof text, ": stretch %.2f, ", part.edge_stretch.value);
   else
     std::snprintf(text, sizeof text, ": moved %.3f heights, ", part.displacement_m.value / audit.height_m);
-  return part.part.name + text + shot.moment->motion + " at tick " + std::to_string(shot.moment->tick);
+  // Exporters set the skeleton's name before a clip's: "Armature|Run".
+  const std::string& motion = shot.moment->motion;
+  const size_t bar = motion.rfind('|');
+  return part.part.name + text + (bar == std::string::npos ? motion : "clip " + motion.substr(bar + 1)) +
+         ", tick " + std::to_string(shot.moment->tick);
 }
 
 void shoot(const LoadedPack& pack, const AuditedParts& parts, const Player& player, Shot& shot) {
