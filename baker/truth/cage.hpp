@@ -35,7 +35,7 @@ struct Cage {
 // bone's core, and hang on constrained ones by more than a corner or an edge (cage_support.hpp). Where the
 // recipe states no voxels_high, cells grow until at most kMostFreeNodes are free, and a note says so. Throws
 // BadInput when none is free.
-inline constexpr int kMostFreeNodes = 8000;  // bakes in a second or two; the cost grows as their square
+inline constexpr int kMostFreeNodes = 4000;  // a bake with its short truths then takes some ten seconds
 Cage build_cage(const Character& character, const TissueLayout& layout, const Recipe& recipe);
 
 }  // namespace sinew::baker
