@@ -6,7 +6,7 @@ set -euo pipefail
 packages=(
   g++ cmake ninja-build                                   # build
   libeigen3-dev libhwy-dev                                # runtime
-  libtinygltf-dev nlohmann-json3-dev libcli11-dev libmeshoptimizer-dev libstb-dev # baker
+  libtinygltf-dev nlohmann-json3-dev libcli11-dev libmeshoptimizer-dev libstb-dev libsuitesparse-dev # baker
   libbullet-dev                                           # runtime/bullet
   libembree-dev ffmpeg                                    # samples
   catch2                                                  # tests

@@ -19,13 +19,33 @@ std::string shortly(double number) {
 
 }  // namespace
 
+JsonSection::JsonSection(const nlohmann::json& json, std::string place, const JsonFile* file)
+    : json_(&json), file_(file), place_(std::move(place)) {
+  if (!json.is_object()) throw BadInput(where("") + "must be an object { ... }");
+}
+
 JsonSection::JsonSection(const nlohmann::json& json, std::string place)
-    : json_(&json), place_(std::move(place)) {
-  if (!json.is_object()) throw BadInput(place_ + ": must be an object { ... }");
+    : JsonSection(json, std::move(place), nullptr) {}
+
+JsonSection::JsonSection(const JsonFile& file) : JsonSection(file.json, file.path, &file) {}
+
+JsonSection JsonSection::inner(const nlohmann::json& json, const std::string& place) const {
+  return {json, place_ + "." + place, file_};
+}
+
+// The line of the key, or where it is missing, that of the section.
+std::string JsonSection::where(const std::string& key) const {
+  if (file_ == nullptr) return place_ + ": ";
+  const std::string inside = place_.substr(file_->path.size());
+  auto found = file_->line_of.find(inside + "." + key);
+  if (found == file_->line_of.end()) found = file_->line_of.find(inside);
+  std::string text = file_->path;
+  if (found != file_->line_of.end()) text += ":" + std::to_string(found->second);
+  return text + ": " + (inside.empty() ? "" : inside.substr(1) + ": ");
 }
 
 void JsonSection::complain(const std::string& key, const std::string& what) const {
-  throw BadInput(place_ + ": \"" + key + "\" " + what);
+  throw BadInput(where(key) + "\"" + key + "\" " + what);
 }
 
 const nlohmann::json* JsonSection::find(const std::string& key) {
@@ -133,8 +153,7 @@ std::vector<Eigen::VectorXd> JsonSection::rows(const std::string& key, long coun
   if (!value->is_array()) complain(key, "must be a list of rows of " + std::to_string(count) + " numbers");
   for (size_t i = 0; i < value->size(); ++i) {
     const nlohmann::json row = {{"row", (*value)[i]}};
-    rows.push_back(JsonSection(row, place_ + "." + key + "[" + std::to_string(i) + "]")
-                       .numbers("row", count, low, high));
+    rows.push_back(inner(row, key + "[" + std::to_string(i) + "]").numbers("row", count, low, high));
   }
   return rows;
 }
@@ -145,11 +164,11 @@ std::vector<JsonSection> JsonSection::sections(const std::string& key) {
   if (!value) return sections;
   if (!value->is_array()) complain(key, "must be a list of objects");
   for (size_t i = 0; i < value->size(); ++i)
-    sections.emplace_back((*value)[i], place_ + "." + key + "[" + std::to_string(i) + "]");
+    sections.push_back(inner((*value)[i], key + "[" + std::to_string(i) + "]"));
   return sections;
 }
 
-JsonSection JsonSection::section(const std::string& key) { return {need(key), place_ + "." + key}; }
+JsonSection JsonSection::section(const std::string& key) { return inner(need(key), key); }
 
 void JsonSection::finish() const {
   for (const auto& item : json_->items()) {

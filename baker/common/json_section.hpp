@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "baker/common/json_file.hpp"
+
 namespace sinew::baker {
 
 class JsonSection {
@@ -13,6 +15,8 @@ class JsonSection {
   // `place` says where in which file, as in `creature.json: body[3]`. Throws BadInput when `json` is not an
   // object.
   JsonSection(const nlohmann::json& json, std::string place);
+  // The whole of a file, which outlives it: complaints name lines, as in `creature.json:12: body[3]`.
+  explicit JsonSection(const JsonFile& file);
 
   bool has(const std::string& key);
   double number(const std::string& key, double otherwise, double low, double high);
@@ -36,7 +40,12 @@ class JsonSection {
   const nlohmann::json* find(const std::string& key);
   const nlohmann::json& need(const std::string& key);
 
+  JsonSection(const nlohmann::json& json, std::string place, const JsonFile* file);
+  JsonSection inner(const nlohmann::json& json, const std::string& place) const;
+  std::string where(const std::string& key) const;
+
   const nlohmann::json* json_;
+  const JsonFile* file_ = nullptr;
   std::string place_;
   std::vector<std::string> known_;
 };

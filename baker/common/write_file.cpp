@@ -79,7 +79,7 @@ void write_file(const std::string& path, std::span<const std::byte> bytes) {
   const std::string place = resolve_link(path);
   struct stat existing {};
   const bool exists = ::stat(place.c_str(), &existing) == 0;
-  if (exists && S_ISDIR(existing.st_mode)) refuse(path, "it is a directory");
+  if (exists && S_ISDIR(existing.st_mode)) refuse_directory(path);
   // Renaming over a device or a pipe would replace it: those are written to.
   const bool beside = !exists || S_ISREG(existing.st_mode);
   const std::string part_path = beside ? place + ".part-" + std::to_string(::getpid()) : place;
@@ -95,6 +95,12 @@ void write_file(const std::string& path, std::span<const std::byte> bytes) {
 
 void write_file(const std::string& path, std::string_view text) {
   write_file(path, std::as_bytes(std::span(text.data(), text.size())));
+}
+
+void refuse_directory(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error))
+    throw BadInput(path + ": cannot be written (it is a directory); name a file in it");
 }
 
 void make_folder(const std::string& path) {

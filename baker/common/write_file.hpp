@@ -11,6 +11,8 @@ namespace sinew::baker {
 // Throws BadInput naming the path when it cannot be written; nothing half-written is left behind.
 void write_file(const std::string& path, std::span<const std::byte> bytes);
 void write_file(const std::string& path, std::string_view text);
+// Throws BadInput where the path is a directory: for programs that work long before they write.
+void refuse_directory(const std::string& path);
 // With the folders above it. Throws BadInput when it is none afterwards.
 void make_folder(const std::string& path);
 

@@ -4,7 +4,6 @@
 
 #include "baker/common/bad_input.hpp"
 #include "baker/common/json_section.hpp"
-#include "baker/common/read_file.hpp"
 #include "baker/creature/clip.hpp"
 #include "baker/creature/creature.hpp"
 #include "baker/creature/skin.hpp"
@@ -79,7 +78,7 @@ Solid read_solid(JsonSection& json) {
 
 class RecipeReader {
  public:
-  RecipeReader(const nlohmann::json& json, const std::string& path) : root_(json, path) {}
+  explicit RecipeReader(const JsonFile& file) : root_(file) {}
 
   CreatureRecipe run() {
     recipe_.name = root_.text("name");
@@ -346,9 +345,8 @@ class RecipeReader {
 }  // namespace
 
 CreatureRecipe read_creature_recipe(const std::string& path) {
-  const nlohmann::json json = nlohmann::json::parse(read_text(path), nullptr, false, true);
-  if (json.is_discarded()) throw BadInput(path + ": not JSON; check its commas, quotes and brackets");
-  return RecipeReader(json, path).run();
+  const JsonFile file = read_json_file(path);
+  return RecipeReader(file).run();
 }
 
 }  // namespace sinew::baker

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
+
+#include "baker/import/file_kind.hpp"
 
 namespace sinew::baker {
 namespace {
@@ -21,6 +24,7 @@ constexpr uint32_t kJsonChunk = 0x4E4F534A, kBinChunk = 0x004E4942;
 bool read_regular_file(const std::string& path, std::vector<unsigned char>* out, std::string* error) {
   std::error_code code;
   if (!fs::exists(path, code)) return *error = "there is no such file", false;
+  if (fs::is_directory(path, code)) return *error = "this is a directory, not a file", false;
   if (!fs::is_regular_file(path, code)) return *error = "this is not a file", false;
   const uintmax_t size = fs::file_size(path, code);
   if (code || size > kMaxFileBytes) return *error = "the file is larger than 1 GiB", false;
@@ -147,8 +151,20 @@ bool load(tinygltf::Model* model, std::vector<unsigned char>& bytes, std::string
                                     base);
 }
 
+// A .gltf is a JSON object, behind a byte order mark or not.
+void check_json_begins(const Source& source, const std::vector<unsigned char>& bytes) {
+  constexpr unsigned char kByteOrderMark[] = {0xef, 0xbb, 0xbf};
+  auto at = bytes.begin();
+  if (bytes.size() >= 3 && std::equal(at, at + 3, kByteOrderMark)) at += 3;
+  at = std::find_if_not(at, bytes.end(), [](unsigned char c) { return std::isspace(c); });
+  if (at != bytes.end() && *at == '{') return;
+  const FileKind kind = kind_of_file(bytes);
+  source.refuse("", "not a glTF file: it begins like " + kind.what, kind.mend);
+}
+
 void check_container(const Source& source, std::vector<unsigned char>& bytes) {
   if (bytes.empty()) source.refuse("", "the file is empty", "export it again");
+  if (!is_glb(bytes)) check_json_begins(source, bytes);
   if (!is_glb(bytes))
     return check_json_depth(source, reinterpret_cast<const char*>(bytes.data()), bytes.size());
   check_glb(source, bytes);
@@ -172,6 +188,9 @@ tinygltf::Model read_gltf_file(Source& source) {
   } catch (const std::exception& exception) {
     error += exception.what();
   }
+  if (!loaded && error.find("\"asset\" object not found") != std::string::npos)
+    source.refuse("", "not a glTF file: it is JSON of another kind, without \"asset\"",
+                  "give the path of a .glb, .gltf or .vrm");
   if (!loaded) source.refuse("", error.empty() ? "this is not glTF" : error, mend_for(error));
   refuse_compression(source, model);
   // What tinygltf leaves out without failing, such as a primitive that has no attributes.

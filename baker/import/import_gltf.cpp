@@ -9,6 +9,7 @@
 
 #include "baker/import/clips.hpp"
 #include "baker/import/gltf_file.hpp"
+#include "baker/import/mesh_names.hpp"
 #include "baker/import/primitives.hpp"
 #include "baker/import/spring_bones.hpp"
 #include "baker/import/weld.hpp"
@@ -16,8 +17,9 @@
 namespace sinew::baker {
 namespace {
 
-constexpr double kTallestMetres = 20;     // a taller character was modelled in centimetres
-constexpr double kSmallestMetres = 0.02;  // a smaller one is imported, and the doubt noted
+// Heights that are taken as metres without a word. A taller character was modelled in centimetres; a smaller
+// one is imported as it is, and the doubt noted.
+constexpr double kSmallestMetres = 0.05, kTallestMetres = 50;
 constexpr double kLargestCoordinate = 1e7;
 
 void check_options(const ImportOptions& options, const Source& source) {
@@ -83,6 +85,7 @@ Character import_file(Source& source, const ImportOptions& options) {
   const AccessorReader accessors(model, source);
   SceneGraph graph = read_scene_graph(model, source);
   std::vector<MeshInstance> instances = find_meshes(model, graph, source);
+  leave_out_meshes(model, graph, options.without_meshes, source, instances);
   Joints joints = read_joints(model, graph, accessors, source, instances);
 
   Character character;

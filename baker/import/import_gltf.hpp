@@ -1,15 +1,16 @@
 // import_gltf.hpp  A skinned glTF 2.0 or VRM file made into a Character.
 #pragma once
 #include <string>
+#include <vector>
 
 #include "baker/import/character.hpp"
 
 namespace sinew::baker {
 
 struct ImportOptions {
-  double unit_m = 0;  // metres in one file unit; 0: guessed from the size (a character taller than 20 units
-                      // is in centimetres)
+  double unit_m = 0;  // metres in one file unit; 0: 1, but a character taller than 50 units is in centimetres
   char up = 'y';      // the file's up axis: 'y' (glTF's own) or 'z'
+  std::vector<std::string> without_meshes = {};  // names or prefix* of meshes, or of nodes that show them
   size_t max_vertices = 1'000'000;  // a larger character is refused before its buffers are copied
 };
 

@@ -4,11 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <nlohmann/json.hpp>
 
-#include "baker/common/bad_input.hpp"
 #include "baker/common/json_section.hpp"
-#include "baker/common/read_file.hpp"
 #include "pack/format.hpp"
 
 namespace sinew::baker {
@@ -31,7 +28,8 @@ void read_material(JsonSection& section, Recipe& recipe) {
   recipe.density_kg_m3 = section.number("density_kg_m3", recipe.density_kg_m3, 1, 1e5);
   recipe.damping_ratio = section.number("damping_ratio", recipe.damping_ratio, 0, 1);
   recipe.max_displacement = section.number("max_displacement", recipe.max_displacement, 0.01, 4);
-  recipe.voxels_high = whole_number(section, "voxels_high", recipe.voxels_high, 8, 200);
+  if (section.has("voxels_high"))
+    recipe.voxels_high = whole_number(section, "voxels_high", kUsualVoxelsHigh, 8, 200);
   recipe.rigid_stiffness = section.number("rigid_stiffness", recipe.rigid_stiffness, 0.01, 1);
   recipe.core_share = section.number("core_share", recipe.core_share, 0, 1);
   recipe.coreless_joints = section.texts("coreless_joints");
@@ -98,18 +96,11 @@ ProxyRecipe read_proxy(JsonSection& section) {
   return proxy;
 }
 
-nlohmann::json parse(const std::string& path) {
-  nlohmann::json json = nlohmann::json::parse(read_text(path), nullptr, false, true);
-  if (json.is_discarded())
-    throw BadInput(path + ": this is not JSON; a recipe is an object { \"voxels_high\": 36, ... }");
-  return json;
-}
-
 }  // namespace
 
 Recipe read_recipe(const std::string& path) {
-  const nlohmann::json json = parse(path);
-  JsonSection section(json, path);
+  const JsonFile file = read_json_file(path);
+  JsonSection section(file);
   Recipe recipe;
   read_material(section, recipe);
   read_graph(section, recipe);

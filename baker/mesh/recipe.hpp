@@ -31,6 +31,8 @@ struct ProxyRecipe {
   double radius_m = 0;  // 1e-3 .. 10
 };
 
+inline constexpr int kUsualVoxelsHigh = 36;
+
 struct Recipe {
   // Tissue material. Stiffness s maps to Young's modulus soft^(1-s) stiff^s. Where a recipe states a modulus,
   // regions without a frequency of their own have it as it is; else each region's moduli are scaled so that
@@ -42,7 +44,9 @@ struct Recipe {
   double density_kg_m3 = 1000;     // > 0
   double damping_ratio = 0.1;      // 0 .. 1, Rayleigh, at the first and third mode's neighbourhood
   double max_displacement = 0.35;  // 0.01 .. 4, share of a region's radius, approached smoothly
-  int voxels_high = 36;            // 8 .. 200, cage cells along the character's longest side
+  // 8 .. 200, cage cells along the character's longest side; absent: kUsualVoxelsHigh, or as many as keep a
+  // bake short (truth/cage.hpp).
+  std::optional<int> voxels_high;
   double rigid_stiffness = 0.95;   // painted stiffness from here on is constrained to the skinning
   double core_share = 0.45;        // 0 .. 1, share of the way from bone to skin that follows the bone rigidly
   std::vector<std::string> coreless_joints;  // names or prefix*: bones without a rigid core (ears, tails)

@@ -141,10 +141,10 @@ class Segmenter {
     }
     if (end_site(joint, begin, &site)) return site;
     if (parent_bone < 0)
-      refuse(
-          "bone " + quoted(joint) +
-          " is alone and has no end: a rod of one segment is none; name a bone with bones below it, or give "
-          "it an end bone");
+      refuse("bone " + quoted(joint) +
+             " is alone and nothing says where it ends; name a bone with bones below it, or add a bone at "
+             "its tip in "
+             "the file");
     const RodBone& parent = bones_[static_cast<size_t>(parent_bone)];
     return begin + parent.end - parent.begin;
   }

@@ -116,7 +116,8 @@ pack::InputRecord make_input(const Safetensors& weights, const std::string& name
   if (input == nullptr) {
     std::string known;
     for (const InputName& each : kInputNames) known += std::string(known.empty() ? "" : " ") + each.name;
-    refuse_key(weights, "inputs", "names '" + name + "'; known are " + known);
+    refuse_key(weights, "inputs",
+               "names '" + name + "', which this version does not have: train again; known are " + known);
   }
   if (!std::isfinite(scale)) refuse_key(weights, "input_scales", "is not finite for '" + name + "'");
   if (!(envelope > 0)) refuse_key(weights, "envelope", "is not above 0 for '" + name + "'");

@@ -6,8 +6,9 @@
 #include <stdexcept>
 
 #include "baker/common/bad_input.hpp"
+#include "baker/common/progress.hpp"
 #include "baker/common/write_file.hpp"
-#include "baker/import/import_gltf.hpp"
+#include "baker/mesh/import_character.hpp"
 #include "baker/mesh/tissue_layout.hpp"
 #include "baker/pack/character_pack.hpp"
 #include "baker/pack/network_pack.hpp"
@@ -28,13 +29,6 @@ struct CharacterOptions {
   std::vector<std::string> calibration;
   bool quick = false, keep_network = false;
 };
-
-Character import_character(const CharacterOptions& options, const Recipe& recipe) {
-  ImportOptions import;
-  import.unit_m = recipe.unit_m;
-  import.up = recipe.up;
-  return import_gltf(options.character, import);
-}
 
 void print_summary(const CharacterOptions& options, const Character& character, const TissueLayout& layout,
                    const LoadedPack& pack) {
@@ -86,6 +80,8 @@ Tissue make_tissue(Character& character, const Recipe& recipe) {
   Tissue tissue{.layout = layout_tissue(character, recipe), .truth = {}, .finest = {}, .coarser = {}};
   if (tissue.layout.regions.empty()) return tissue;
   tissue.truth = std::make_unique<TissueTruth>(character, tissue.layout, recipe);
+  const std::vector<std::string>& notes = tissue.truth->cage().notes;
+  character.notes.insert(character.notes.end(), notes.begin(), notes.end());
   tissue.finest = tissue.truth->modal_bases(tissue.layout, kMostModes);
   tissue.coarser = coarser_levels(character, recipe, *tissue.truth, tissue.layout, tissue.finest);
   return tissue;
@@ -158,12 +154,16 @@ std::vector<std::byte> measured(const Packer& packer, const Safetensors* weights
 }
 
 void run_character(const CharacterOptions& options) {
+  refuse_directory(options.output);
   const Recipe recipe = options.recipe.empty() ? Recipe{} : read_recipe(options.recipe);
   precision_of(options);
   std::optional<Safetensors> weights;
   if (!options.tissue.empty()) weights = read_safetensors(options.tissue);
-  Character character = import_character(options, recipe);
+  std::optional<Progress> progress(std::in_place, "baking " + options.output, 10);
+  Character character = import_character(options.character, recipe);
+  progress->update(1);
   const Tissue tissue = make_tissue(character, recipe);
+  progress->update(6);
   if (tissue.layout.regions.empty() && weights) {
     check_model(*weights);
     character.notes.push_back("nothing is soft tissue: " + options.tissue + " is not used");
@@ -178,6 +178,7 @@ void run_character(const CharacterOptions& options) {
       LoadedPack::from_bytes(bytes, options.character);  // what the runtime would refuse is not written
   if (!options.preview.empty()) write_preview(options.preview, pack.view());
   write_file(options.output, bytes);
+  progress.reset();
   print_summary(options, character, tissue.layout, pack);
 }
 

@@ -9,7 +9,8 @@
 #include "baker/common/bad_input.hpp"
 #include "baker/common/progress.hpp"
 #include "baker/common/safetensors.hpp"
-#include "baker/import/import_gltf.hpp"
+#include "baker/common/write_file.hpp"
+#include "baker/mesh/import_character.hpp"
 #include "baker/mesh/tissue_layout.hpp"
 #include "baker/programs/commands.hpp"
 #include "baker/truth/trajectory.hpp"
@@ -94,12 +95,10 @@ void run_truth(const TruthOptions& options) {
   require(options.substeps >= 1 && options.substeps <= 64, "--substeps", options.substeps, "1 to 64");
   require(options.strength > 0 && options.strength <= 10, "--strength", options.strength,
           "above 0, at most 10");
+  refuse_directory(options.output);
 
   const Recipe recipe = options.recipe.empty() ? Recipe{} : read_recipe(options.recipe);
-  ImportOptions import;
-  import.unit_m = recipe.unit_m;
-  import.up = recipe.up;
-  Character character = import_gltf(options.input, import);
+  Character character = import_character(options.input, recipe);
   const TissueLayout layout = layout_tissue(character, recipe);
   if (layout.regions.empty())
     throw BadInput(options.input +

@@ -16,6 +16,7 @@ void add_info_command(CLI::App& app, int* exit_code);
 void add_truth_command(CLI::App& app, int* exit_code);
 void add_rod_data_command(CLI::App& app, int* exit_code);
 void add_judge_command(CLI::App& app, int* exit_code);
+void add_audit_command(CLI::App& app, int* exit_code);
 
 // Throws BadInput for a --precision that this version cannot bake or run.
 pack::Precision parse_precision(const std::string& name);

@@ -2,22 +2,12 @@
 #include "baker/rods/rod_plan.hpp"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "baker/common/bad_input.hpp"
 #include "baker/common/json_section.hpp"
-#include "baker/common/read_file.hpp"
 
 namespace sinew::baker {
 namespace {
-
-nlohmann::json parse(const std::string& path) {
-  try {
-    return nlohmann::json::parse(read_text(path));
-  } catch (const nlohmann::json::exception& error) {
-    throw BadInput(path + ": not JSON: " + error.what());
-  }
-}
 
 uint64_t whole(JsonSection& section, const char* key, double otherwise, double low, double high) {
   const double value = section.number(key, otherwise, low, high);
@@ -59,8 +49,8 @@ bool share_a_seed(const RodLine& a, const RodLine& b) {
 }  // namespace
 
 RodPlan read_rod_plan(const std::string& path) {
-  const nlohmann::json json = parse(path);
-  JsonSection section(json, path);
+  const JsonFile file = read_json_file(path);
+  JsonSection section(file);
   RodPlan plan;
   plan.dt_s = section.number("dt_s", plan.dt_s, 1e-3, 0.1);
   plan.tolerance_rad = section.number("tolerance_rad", plan.tolerance_rad, 1e-6, 1e-2);

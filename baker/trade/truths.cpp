@@ -14,7 +14,7 @@
 #include "baker/common/bad_input.hpp"
 #include "baker/common/progress.hpp"
 #include "baker/common/write_file.hpp"
-#include "baker/import/import_gltf.hpp"
+#include "baker/mesh/import_character.hpp"
 #include "baker/mesh/tissue_layout.hpp"
 #include "baker/programs/true_motion.hpp"
 #include "baker/trade/fingerprint.hpp"
@@ -150,12 +150,7 @@ void simulate_all(const Body& body, const std::vector<Work>& work) {
 
 }  // namespace
 
-Character BakedFrom::import(const Recipe& as) const {
-  ImportOptions import;
-  import.unit_m = as.unit_m;
-  import.up = as.up;
-  return import_gltf(glb, import);
-}
+Character BakedFrom::import(const Recipe& as) const { return import_character(glb, as); }
 
 std::vector<std::string> simulate_clips(const BakedFrom& source, const std::vector<std::string>& clips,
                                         double seconds, const pack::PackView& character,

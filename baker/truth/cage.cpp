@@ -122,18 +122,16 @@ void check(const Character& character, const TissueLayout& layout, const Recipe&
     throw BadInput("cage: the layout has " + std::to_string(layout.stiffness.size()) +
                    " vertices and the character " + std::to_string(character.positions.size()) +
                    ": lay out the tissue of this character");
-  if (recipe.voxels_high < 1)
-    throw BadInput("cage: voxels_high is " + std::to_string(recipe.voxels_high) + ": give 8 to 200");
+  if (recipe.voxels_high && *recipe.voxels_high < 1)
+    throw BadInput("cage: voxels_high is " + std::to_string(*recipe.voxels_high) + ": give 8 to 200");
 }
 
-}  // namespace
-
-Cage build_cage(const Character& character, const TissueLayout& layout, const Recipe& recipe) {
-  check(character, layout, recipe);
+Cage build_cage(const Character& character, const TissueLayout& layout, const Recipe& recipe,
+                int voxels_high) {
   Cage cage;
-  cage.cell_m = longest_side(character) / recipe.voxels_high;
+  cage.cell_m = longest_side(character) / voxels_high;
   const VoxelMatter matter(character, cage.cell_m,
-                           recipe.voxels_high > kManyVoxels ? kFinePerCellManyVoxels : kFinePerCell);
+                           voxels_high > kManyVoxels ? kFinePerCellManyVoxels : kFinePerCell);
   const CageTopology topology(matter);
   const std::vector<PlacedSample> samples = placed_samples(character, topology, 0.5 * cage.cell_m);
   CageFields fields = fit_fields(character, effective_stiffness(layout), topology, samples);
@@ -148,6 +146,30 @@ Cage build_cage(const Character& character, const TissueLayout& layout, const Re
   hold_hinged_parts(cage);
   hold_useless_bodies(layout, cage);
   set_material(recipe, cage);
+  return cage;
+}
+
+int free_nodes(const Cage& cage) {
+  return static_cast<int>(std::count(cage.constrained.begin(), cage.constrained.end(), false));
+}
+
+}  // namespace
+
+Cage build_cage(const Character& character, const TissueLayout& layout, const Recipe& recipe) {
+  check(character, layout, recipe);
+  int voxels_high = recipe.voxels_high.value_or(kUsualVoxelsHigh);
+  Cage cage = build_cage(character, layout, recipe, voxels_high);
+  const int finest = free_nodes(cage);
+  while (!recipe.voxels_high && free_nodes(cage) > kMostFreeNodes) {
+    voxels_high = std::min(
+        voxels_high - 1, static_cast<int>(voxels_high * std::cbrt(1.0 * kMostFreeNodes / free_nodes(cage))));
+    cage = build_cage(character, layout, recipe, voxels_high);
+  }
+  if (free_nodes(cage) < finest)
+    cage.notes.push_back("much of it is soft: a cage of " + std::to_string(voxels_high) +
+                         " voxels in the place of " + std::to_string(kUsualVoxelsHigh) + " (" +
+                         std::to_string(free_nodes(cage)) + " free nodes, not " + std::to_string(finest) +
+                         "); the recipe's voxels_high states how many");
   if (std::all_of(cage.constrained.begin(), cage.constrained.end(), [](bool c) { return c; }))
     throw BadInput("cage: " + character.name +
                    " has no free node: paint softer, lower the recipe's core_share, or raise voxels_high");

@@ -5,6 +5,7 @@
 // weighs and resists by the share of it that is matter.
 #pragma once
 #include <array>
+#include <string>
 #include <vector>
 
 #include "baker/import/character.hpp"
@@ -21,6 +22,7 @@ struct Cage {
   std::vector<double> stiffness;               // a node, 0 soft .. 1 rigid
   std::vector<bool> constrained;               // a node: follows the skinning
   double cell_m = 0;
+  std::vector<std::string> notes;
 
   struct Place {
     int tetrahedron = 0;
@@ -30,8 +32,10 @@ struct Cage {
 };
 
 // Free are the nodes around soft regions that are neither as stiff as the recipe's rigid_stiffness nor in a
-// bone's core, and hang on constrained ones by more than a corner or an edge (cage_support.hpp). Throws
+// bone's core, and hang on constrained ones by more than a corner or an edge (cage_support.hpp). Where the
+// recipe states no voxels_high, cells grow until at most kMostFreeNodes are free, and a note says so. Throws
 // BadInput when none is free.
+inline constexpr int kMostFreeNodes = 4000;  // a bake with its short truths then takes some ten seconds
 Cage build_cage(const Character& character, const TissueLayout& layout, const Recipe& recipe);
 
 }  // namespace sinew::baker

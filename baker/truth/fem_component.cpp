@@ -56,7 +56,6 @@ void FemComponent::lay_out_matrix() {
               ? -1
               : static_cast<int>(&matrix_.coeffRef(3 * row, 3 * column + c) - matrix_.valuePtr());
   });
-  cholesky_.analyzePattern(matrix_);
 }
 
 Eigen::VectorXd FemComponent::gather(const Eigen::VectorXd& x) const {
@@ -138,12 +137,8 @@ const Eigen::SparseMatrix<double>& FemComponent::assemble(const Potential& poten
 }
 
 void FemComponent::factor(const Potential& potential, const Eigen::VectorXd& x) {
-  cholesky_.factorize(assemble(potential, x, false));
-  const auto positive = [&] {
-    return cholesky_.info() == Eigen::Success && cholesky_.vectorD().minCoeff() > 0;
-  };
-  if (!positive()) cholesky_.factorize(assemble(potential, x, true));
-  if (!positive())
+  if (factorizations_ == 0) cholesky_.analyze(matrix_);
+  if (!cholesky_.factor(assemble(potential, x, false)) && !cholesky_.factor(assemble(potential, x, true)))
     throw std::runtime_error(
         "fem: the stiffness matrix is singular: no constrained node holds this body in place");
   factor_positions_ = gather(x);

@@ -7,10 +7,10 @@
 // turned with the body (Procrustes): a body that only turned needs no new one. It decides speed alone;
 // convergence is the true gradient's.
 #pragma once
-#include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
 #include "baker/truth/fem_elements.hpp"
+#include "baker/truth/sparse_cholesky.hpp"
 
 namespace sinew::baker {
 
@@ -68,7 +68,7 @@ class FemComponent {
   std::vector<std::array<int, 48>>
       slots_;  // an element: first value of each of its 4x4 node blocks' 3 columns, or -1
   mutable Eigen::VectorXd scratch_;  // gradient of the whole body
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> cholesky_;
+  SparseCholesky cholesky_;
   Eigen::VectorXd factor_positions_;  // free nodes when it was made
   double factor_inertia_ = -1, factor_viscosity_ = -1;
   long factorizations_ = 0;

@@ -12,6 +12,7 @@
 #include "baker/mesh/carry.hpp"
 #include "baker/truth/body_parts.hpp"
 #include "baker/truth/modes.hpp"
+#include "baker/truth/sparse_cholesky.hpp"
 
 namespace sinew::baker {
 namespace {
@@ -211,7 +212,11 @@ void gather(const Part& part, const Seen& seen, const Cage& cage, Gathered* to) 
   const Region& region = seen.region();
   const MatrixXd loads = loads_from_nodes(part, layout, region, cage);
   append_modes(part, loads, seen, cage, &to->modes);
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> cholesky(part.stiffness);
+  SparseCholesky cholesky;
+  cholesky.analyze(part.stiffness);
+  if (!cholesky.factor(part.stiffness))
+    throw std::runtime_error("modal basis: no constrained node holds the flesh of region '" + region.name +
+                             "' in place");
   to->compliance += at_control_nodes(in_cage(part, cholesky.solve(loads), cage), layout, region, cage);
 }
 

@@ -1,4 +1,4 @@
-// modes.hpp  Lowest eigenpairs of K v = w^2 M v by shift-invert subspace iteration.
+// modes.hpp  Lowest eigenpairs of K v = w^2 M v by block Lanczos on the shifted inverse.
 #pragma once
 #include <Eigen/SparseCore>
 

@@ -41,6 +41,30 @@ bool noted(const Character& character, const std::string& text) {
 
 }  // namespace
 
+TEST_CASE("files_of_another_kind_are_refused_by_what_they_look_like") {
+  const std::vector<std::pair<std::string, std::string>> kinds = {
+      {std::string("Kaydara FBX Binary  \0\x1a", 22), "begins like an FBX; export the character as glTF"},
+      {"; FBX 7.4.0 project file\n", "begins like an FBX"},
+      {std::string("SINEWPK\0\6\0\0\0", 12), "begins like a baked .sinew; give the glTF or VRM"},
+      {"BLENDER-v300", "begins like a Blender file"},
+      {"<?xml version=\"1.0\"?><COLLADA/>", "begins like XML"},
+      {"PK\3\4 and more", "begins like a zip archive; unpack it"},
+      {"\x89PNG\r\n", "begins like a PNG picture"},
+      {"dear artist,\nhere is the wolf", "begins like a text; export"},
+      {std::string("\x10\0\0\0\0\0\0\0{\"a\":1}", 15), "begins like a .safetensors"},
+      {std::string("\1\2\3\xff zzz"), "begins like the bytes 01 02 03 ff"},
+      {"[1, 2]", "begins like a text"},
+      {"{\"regions\": []}", "is JSON of another kind"},
+  };
+  for (const auto& [bytes, says] : kinds) {
+    const std::string line = refusal(write_bytes("other.glb", bytes));
+    INFO(line);
+    CHECK(line.find("not a glTF file: it " + says) != std::string::npos);
+  }
+  const std::string folder = fs::temp_directory_path().string();
+  CHECK_THAT(refusal(folder), Catch::Contains("this is a directory"));
+}
+
 TEST_CASE("faulty_files_are_refused_by_name_and_place") {
   struct Fault {
     const char* name;
@@ -190,7 +214,7 @@ TEST_CASE("faulty_paths_and_options_are_refused") {
   CHECK(refusal("/").find("not a file") != std::string::npos);
   CHECK(refusal("/dev/zero").find("not a file") != std::string::npos);
   CHECK(refusal(write_bytes("empty.glb", "")).find("empty") != std::string::npos);
-  CHECK(refusal(write_bytes("text.gltf", "hello, world")).find("JSON") != std::string::npos);
+  CHECK(refusal(write_bytes("text.gltf", "hello, world")).find("not a glTF file") != std::string::npos);
   const std::string path = bar().write("good");
   CHECK(refusal(path, {.up = 'x'}).find("option up") != std::string::npos);
   CHECK(refusal(path, {.unit_m = -1}).find("unit_m") != std::string::npos);
@@ -279,4 +303,42 @@ TEST_CASE("bytes_flipped_anywhere_never_crash_the_importer") {
   }
   CHECK(imported > 0);
   CHECK(refused > 0);
+}
+
+TEST_CASE("meshes_named_by_the_recipe_are_left_out") {
+  TinyFile file = bar();
+  file.json["nodes"].push_back({{"name", "sword"}, {"mesh", 1}});
+  file.json["meshes"].push_back(file.json["meshes"][0]);
+  file.json["meshes"][1]["name"] = "steel";
+  file.json["scenes"][0]["nodes"] = {0, 2, 3};
+  const std::string path = file.write("meshes");
+  const auto with = [&](std::vector<std::string> names) {
+    ImportOptions options;
+    options.without_meshes = std::move(names);
+    return options;
+  };
+  CHECK_THAT(refusal(path, with({"swrod"})),
+             Catch::Contains("no mesh is named 'swrod'; the nearest is 'sword'"));
+  CHECK_THAT(refusal(path, with({"steal*"})), Catch::Contains("'steal*'"));
+  CHECK_THAT(refusal(path, with({"*"})), Catch::Contains("leaves every mesh out"));
+  CHECK(import_gltf(path).positions.size() == 12);
+  for (const char* name : {"sword", "steel", "sw*"}) {
+    const Character character = import_gltf(path, with({name}));
+    CHECK(character.positions.size() == 6);
+    CHECK(noted(character, "1 of 2 meshes are left out"));
+  }
+}
+
+TEST_CASE("characters_from_5_cm_to_50_m_are_in_metres") {
+  const auto height_of_scaled = [](double scale) {
+    TinyFile file = bar();
+    file.json["nodes"][0]["scale"] = {scale, scale, scale};
+    const Character character = import_gltf(file.write("tall"));
+    double high = 0;
+    for (const Vector3& p : character.positions) high = std::max(high, p.y());
+    return high;
+  };
+  for (const double height : {0.05, 1.8, 18.0, 30.0, 49.9})
+    CHECK(height_of_scaled(height / 2) == Approx(height));
+  CHECK(height_of_scaled(79.0 / 2) == Approx(0.79));
 }

@@ -57,10 +57,22 @@ TEST_CASE("paths_that_do_not_exist_are_named") {
   CHECK(folder.entries() == 0);
 }
 
+TEST_CASE("a_directory_in_the_place_of_a_file_is_named_before_any_work") {
+  const TemporaryFolder folder;
+  const std::string missing = folder.file("missing");
+  check_refused({"character", missing, "-o", folder.path()},
+                {folder.path(), "directory", "name a file in it"});
+  check_refused({"truth", missing, "--motion", "shake", "-o", folder.path()},
+                {"directory", "name a file in it"});
+  check_refused({"character", folder.path(), "-o", missing}, {folder.path(), "directory"});
+  check_refused({"character", missing, "--recipe", folder.path(), "-o", missing},
+                {folder.path(), "directory"});
+}
+
 TEST_CASE("help_goes_to_stdout_and_names_every_command") {
   const ProgramResult help = bake({"--help"});
   CHECK(help.exit_code == 0);
   CHECK(help.error.empty());
-  for (const char* command : {"creature", "character", "model", "check", "info", "judge", "truth"})
+  for (const char* command : {"audit", "creature", "character", "model", "check", "info", "judge", "truth"})
     CHECK_THAT(help.out, Catch::Contains(command));
 }

@@ -242,3 +242,27 @@ TEST_CASE("stiffness_maps_to_the_recipes_moduli") {
     CHECK(young <= bar.recipe.young_stiff_pa * (1 + kRounding));
   }
 }
+
+TEST_CASE("cells_grow_where_too_much_is_soft_unless_the_recipe_states_how_many") {
+  Bar bar;
+  bar.character = bare_character({Vector3(0, -0.45, 0), Vector3(0, 0.45, 0)});
+  add_box(bar.character, {-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, 0.2, 0);
+  bar.layout.stiffness.assign(bar.character.positions.size(), 0.1);
+  bar.layout.regions[0].vertices.clear();
+  for (size_t v = 0; v < bar.character.positions.size(); ++v)
+    bar.layout.regions[0].vertices.push_back(static_cast<int>(v));
+  bar.recipe.core_share = 0.2;
+  const auto free = [](const Cage& cage) {
+    return std::count(cage.constrained.begin(), cage.constrained.end(), false);
+  };
+  bar.recipe.voxels_high.reset();
+  const Cage bounded = build_cage(bar.character, bar.layout, bar.recipe);
+  CHECK(free(bounded) <= kMostFreeNodes);
+  CHECK(free(bounded) > kMostFreeNodes / 2);
+  REQUIRE(bounded.notes.size() == 1);
+  CHECK_THAT(bounded.notes[0], Catch::Contains("voxels_high"));
+  bar.recipe.voxels_high = 24;
+  const Cage stated = build_cage(bar.character, bar.layout, bar.recipe);
+  CHECK(free(stated) > kMostFreeNodes);
+  CHECK(stated.notes.empty());
+}

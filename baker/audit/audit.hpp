@@ -1,0 +1,42 @@
+// audit.hpp  Plays a character's clips and standard motions as an engine would, and says where it looks
+// broken.
+//
+// A Player makes a world, so that rods, guards and the smooth limits are what an engine gets. Bounds and
+// their reasons: bounds.hpp.
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "baker/audit/parts.hpp"
+#include "baker/programs/loaded_pack.hpp"
+
+namespace sinew::baker {
+
+// When something was worst.
+struct Moment {
+  double value = 0;
+  std::string motion;  // empty: never
+  size_t tick = 0;
+};
+
+struct PartAudit {
+  AuditedPart part;
+  Moment displacement_m, edge_stretch, inverted_share;
+  double bob_m = 0;       // largest displacement while the root bobs
+  double residual_m = 0;  // after a minute of rest, what is left of it; NaN: not measured
+};
+
+struct Audit {
+  double height_m = 0;
+  std::vector<PartAudit> parts;
+  std::vector<std::string> failures;  // a line each: part, what, how much, in which motion, the bound
+};
+
+// progress(done, of all) is called now and then; a pack without a character is refused with BadInput.
+Audit run_audit(const LoadedPack& pack, const std::function<void(size_t, size_t)>& progress);
+
+// The bob and the liveliest clip, about a second of work: one-line warnings, empty where all is well.
+std::vector<std::string> quick_audit(const LoadedPack& pack);
+
+}  // namespace sinew::baker

@@ -1,0 +1,23 @@
+// bounds.hpp  What an audit allows. A character beyond one of these looks broken to anybody.
+#pragma once
+
+namespace sinew::baker {
+
+// An edge's length over its length on the skinned surface. A painted texture is seen to smear from here on;
+// below it flesh only looks soft.
+inline constexpr double kMostEdgeStretch = 1.5;
+// Edges shorter than this share of the height are left out: they are seams and folds of the model, and a
+// hair's breadth doubles them.
+inline constexpr double kShortestEdge = 1e-4;
+// Triangles of a part that face away from where they face on the skinned surface, as a share of its triangles
+// in the worst tick; one triangle is allowed everywhere. Single slivers at a rim do no harm; a hundredth of a
+// part is a visible fold.
+inline constexpr double kMostInverted = 0.01;
+// What is left of the displacement after a minute of rest, over the height: a tenth of a pixel where a
+// character fills a screen of a thousand lines.
+inline constexpr double kMostResidual = 1e-4;
+// Largest displacement of flesh over the height, while the root bobs by a twentieth of the height: flesh does
+// not move much further than what shakes it. Rods are free to: a tail swings.
+inline constexpr double kMostDisplacement = 0.08;
+
+}  // namespace sinew::baker

@@ -1,0 +1,16 @@
+// mesh_names.hpp  Meshes left out by the names that artists gave them.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "baker/import/joints.hpp"
+
+namespace sinew::baker {
+
+// Drops the instances of which a name, or prefix*, is the mesh's or the showing node's. Throws BadInput for a
+// name that is no mesh's, with the nearest one, and where nothing is left.
+void leave_out_meshes(const tinygltf::Model& model, const SceneGraph& graph,
+                      const std::vector<std::string>& names, Source& source,
+                      std::vector<MeshInstance>& instances);
+
+}  // namespace sinew::baker

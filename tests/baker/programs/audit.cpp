@@ -1,0 +1,101 @@
+// audit.cpp  A character that tears is found out, one that only swings is not.
+#include "baker/audit/audit.hpp"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "baker/audit/bounds.hpp"
+#include "baker/common/bad_input.hpp"
+#include "baker/common/write_file.hpp"
+#include "baker/pack/character_pack.hpp"
+#include "tests/baker/common/temporary_folder.hpp"
+#include "tests/baker/programs/bake.hpp"
+#include "tests/pack/small_pack.hpp"
+
+using namespace sinew;
+using namespace sinew::test;
+
+namespace {
+
+// The small character, whose flesh answers so many times as much.
+std::vector<std::byte> character_of(double answer) {
+  const baker::Character character = small_character();
+  baker::TissueLayout layout = small_layout(character);
+  for (baker::Region& region : layout.regions) region.max_displacement = 4;
+  std::vector<baker::ModalBasis> modes = small_modes(layout);
+  for (baker::ModalBasis& basis : modes) basis.force *= answer, basis.rest *= answer;
+  return baker::pack_character(character, layout, modes);
+}
+
+constexpr double kTears = 30, kSwings = 1e-3;
+
+baker::LoadedPack loaded(const std::vector<std::byte>& bytes) {
+  return baker::LoadedPack::from_bytes(bytes, "test");
+}
+
+}  // namespace
+
+TEST_CASE("audit_refuses_what_is_no_baked_character") {
+  const TemporaryFolder folder;
+  const std::string missing = folder.file("missing.sinew"), model = folder.file("m.sinew"),
+                    damaged = folder.file("d.sinew"), text = folder.file("t.sinew");
+  std::vector<std::byte> bytes = character_of(kSwings);
+  baker::write_file(model, small_model());
+  bytes[bytes.size() / 2] ^= std::byte{1};
+  baker::write_file(damaged, bytes);
+  baker::write_file(text, std::string_view("hello"));
+  check_refused({"audit"}, {"character is required"});
+  check_refused({"audit", missing}, {missing, "No such file"});
+  check_refused({"audit", folder.path()}, {folder.path()});
+  check_refused({"audit", model}, {model, "without a character", "sinew-bake character"});
+  check_refused({"audit", damaged}, {damaged});
+  check_refused({"audit", text}, {text});
+  check_refused({"audit", model, "--xml"}, {"--xml"});
+  CHECK_THROWS_AS(baker::quick_audit(loaded(small_model())), baker::BadInput);
+}
+
+TEST_CASE("a_character_that_tears_fails_with_exit_code_1") {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("c.sinew");
+  baker::write_file(path, character_of(kTears));
+  const ProgramResult table = bake({"audit", path}), json = bake({"audit", path, "--json"});
+  CHECK(table.exit_code == 1);
+  CHECK(json.exit_code == 1);
+  CHECK_THAT(table.out, Catch::Contains("FAILED: 'belly': an edge is stretched by"));
+  CHECK_THAT(table.out, Catch::Contains("not measured"));
+  const auto told = nlohmann::json::parse(json.out);
+  CHECK(told["ok"] == false);
+  CHECK(told["failures"].size() >= 1);
+  CHECK(told["parts"][0]["edge_stretch"]["value"] > baker::kMostEdgeStretch);
+  CHECK_FALSE(baker::quick_audit(loaded(character_of(kTears))).empty());
+}
+
+TEST_CASE("a_character_that_only_swings_passes") {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("c.sinew");
+  baker::write_file(path, character_of(kSwings));
+  const ProgramResult table = bake({"audit", path}), json = bake({"audit", path, "--json"});
+  INFO(table.out << table.error);
+  CHECK(table.exit_code == 0);
+  CHECK_THAT(table.out, Catch::Contains("within all bounds"));
+  const auto told = nlohmann::json::parse(json.out);
+  CHECK(told["ok"] == true);
+  for (const auto& part : told["parts"]) {
+    CHECK(part["displacement_of_height"]["value"] > 0);  // it was played
+    CHECK(part["edge_stretch"]["value"] < 1.1);
+    CHECK(part["residual_of_height"] < baker::kMostResidual);
+    CHECK(part["first_hz"] == Approx(20 / 6.283185).epsilon(1e-4));
+  }
+  CHECK(baker::quick_audit(loaded(character_of(kSwings))).empty());
+}
+
+TEST_CASE("rods_are_audited_beside_regions") {
+  const baker::Audit audit = baker::run_audit(loaded(small_rod_pack()), [](size_t, size_t) {});
+  REQUIRE(audit.parts.size() >= 1);
+  const baker::PartAudit& rod = audit.parts.back();
+  CHECK(rod.part.is_rod);
+  CHECK(rod.part.name == "top");
+  CHECK(rod.part.size_m == Approx(0.5));
+  CHECK(rod.displacement_m.value > 0);
+  CHECK(rod.residual_m < baker::kMostResidual * audit.height_m);
+}
