@@ -23,7 +23,11 @@ constexpr double kThickBelly = 0.075;   // flesh of the height; a lean human's i
 constexpr double kMoves = 0.5;          // skin weight of a part's joints, of its largest
 constexpr double kMovesNothing = 0.02;  // largest skin weight
 constexpr double kThickPercentile = 0.75;
-constexpr double kNaturalDamping = 0.3;  // of rods
+constexpr double kNaturalDamping = 0.5;  // of rods: they trail and settle in a swing or two
+constexpr double kNaturalReach = 0.5;    // of a rod's length: it is not shown further from its pose
+
+// Hair and cloth hang down in every pose; muscles hold a tail or an ear where the artist posed it.
+bool hangs(SoftKind kind) { return kind == SoftKind::kHair || kind == SoftKind::kCloth; }
 constexpr size_t kFewestVertices = 4;
 
 constexpr const char* kGiveChain =
@@ -232,6 +236,8 @@ class Finder {
       rod.name = rod.root = name(joint);
       rod.frequency_hz = default_frequency_hz(kind, longest_chain_m(bones));
       rod.damping_ratio = kNaturalDamping;
+      rod.gravity = hangs(kind) ? 1 : 0;
+      rod.max_displacement = kNaturalReach;
       found_.rods.push_back(rod);
     } catch (const BadInput& refused) {
       if (moves_one_bone(joints)) return add_single(joint, kind);

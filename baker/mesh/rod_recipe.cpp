@@ -33,6 +33,7 @@ RodRecipe read_rod(JsonSection& section) {
   rod.drag_per_s = section.number("drag_per_s", rod.drag_per_s, 0, 1000);
   rod.gravity = section.number("gravity", rod.gravity, 0, 100);
   rod.sag = section.number("sag", rod.sag, 0, 1);
+  if (section.has("max_displacement")) rod.max_displacement = section.number("max_displacement", 0, 0.01, 2);
   section.finish();
   return rod;
 }

@@ -30,6 +30,9 @@ struct RodRecipe {
   // 0 .. 1, the share of gravity that bends what the artist posed. 0: the pose is what gravity has made of
   // it, and only turning against gravity is felt. 1: the pose is the shape without gravity.
   double sag = 0;
+  // 0.01 .. 2, share of its length that it is shown away from its pose at most, approached smoothly: an angle
+  // in radians. 0: no limit.
+  double max_displacement = 0;
 };
 
 // The list "rods". Throws BadInput as JsonSection does, and where moduli and a frequency are both stated.

@@ -223,6 +223,7 @@ Rod rod_of(const Character& character, const RodRecipe& recipe, const RodPlace& 
   apply(recipe, rod.bones);
   rod.gravity = recipe.gravity;
   rod.sag = recipe.sag;
+  rod.max_displacement = recipe.max_displacement;
   return rod;
 }
 

@@ -22,7 +22,7 @@ struct RodBone {
 struct Rod {
   std::string name;
   int attach = 0;  // the joint that the first bone hangs on
-  double gravity = 1, sag = 0;
+  double gravity = 1, sag = 0, max_displacement = 0;
   std::vector<RodBone> bones;
   Evidence evidence = Evidence::kRecipe;
   SoftKind kind = SoftKind::kOther;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "baker/audit/audit.hpp"
 #include "baker/common/bad_input.hpp"
 #include "baker/common/progress.hpp"
 #include "baker/common/write_file.hpp"
@@ -176,6 +177,8 @@ void run_character(const CharacterOptions& options) {
                                      : measured(packer, network, options.keep_network, character, tissue);
   const LoadedPack pack =
       LoadedPack::from_bytes(bytes, options.character);  // what the runtime would refuse is not written
+  if (!options.quick)
+    for (std::string& warning : quick_audit(pack)) character.notes.push_back("audit: " + std::move(warning));
   if (!options.preview.empty()) write_preview(options.preview, pack.view());
   write_file(options.output, bytes);
   progress.reset();

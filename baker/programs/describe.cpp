@@ -132,7 +132,8 @@ Json describe_rods(const pack::PackView& view) {
                     {"length_m", length_m},
                     {"young_modulus_pa", Json::array({softest_pa, stiffest_pa})},
                     {"gravity", rod.gravity},
-                    {"sag", rod.sag}});
+                    {"sag", rod.sag},
+                    {"turn_limit_rad", rod.turn_limit_rad}});
   }
   return rods;
 }

@@ -1,5 +1,6 @@
 // check_rods.cpp  Rods agree with the skeleton that they move, and are made of something.
 #include <cmath>
+#include <numbers>
 
 #include "pack/checks.hpp"
 
@@ -36,7 +37,9 @@ Status check_record(const PackView& pack, const RodRecord& rod, size_t index, ui
     return corrupt("rod %zu: gravity %g, outside 0..100", index, double{rod.gravity});
   if (!(rod.sag >= 0 && rod.sag <= 1))
     return corrupt("rod %zu: sag %g, outside 0..1", index, double{rod.sag});
-  return check_zero(rod.reserved, "rod", index);
+  if (!(rod.turn_limit_rad >= 0 && rod.turn_limit_rad <= std::numbers::pi_v<float>))
+    return corrupt("rod %zu: turn limit %g, outside 0..pi", index, double{rod.turn_limit_rad});
+  return check_zero({&rod.reserved, 1}, "rod", index);
 }
 
 Status check_material(const RodSegmentRecord& segment, size_t index) noexcept {

@@ -357,7 +357,9 @@ struct RodRecord {
   float gravity;                          // 0..100, times the earth's
   float sag;  // 0..1: share of gravity that bends the posed shape; the rest has bent it already in the bind
               // pose
-  uint32_t reserved[2];
+  // 0..pi, what a segment is shown turned against its rest stays below this, approached smoothly; 0: no limit.
+  float turn_limit_rad;
+  uint32_t reserved;
 };
 static_assert(sizeof(RodRecord) == 32);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "tissue/guard.hpp"
 #include "world/own_body.hpp"
 #include "world/pose.hpp"
 #include "world/rod_contacts.hpp"
@@ -120,6 +121,13 @@ void drive_rod(Instance& instance, uint32_t rod) noexcept {
   }
 }
 
+// As a region's displacement is held (tissue/guard.hpp): what is shown, not what swings on.
+Quaterniond limited(const Quaterniond& turn, float limit_rad) noexcept {
+  if (limit_rad == 0) return turn;
+  const Vector3d vector = logarithm(turn);
+  return exponential(double{tissue::limit_share(static_cast<float>(vector.norm()), limit_rad)} * vector);
+}
+
 void read_turns(Instance& instance) noexcept {
   const RodRig& rig = instance.asset->rods;
   for (const RodSeat& seat : rig.seats()) {
@@ -128,7 +136,7 @@ void read_turns(Instance& instance) noexcept {
       const rods::SegmentPose pose = instance.rod_batches[seat.batch].pose(seat.strand, k);
       const Quaterniond turn = rest_of(instance, 0, s).conjugate() * quaternion(pose.orientation);
       Eigen::Map<Eigen::Vector4f>(instance.rod_turn + size_t{4} * s) =
-          turn.normalized().coeffs().cast<float>();
+          limited(turn.normalized(), seat.turn_limit_rad).coeffs().cast<float>();
     }
   }
 }

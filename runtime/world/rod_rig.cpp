@@ -95,7 +95,7 @@ void fill_seats(const pack::PackView& pack, RodRig& rig) noexcept {
   uint32_t slot = 0;
   for (uint32_t rod = 0; rod < rig.rod_count; ++rod) {
     const uint32_t slots = pack.rods[rod].segment_count + 1;
-    RodSeat seat{rig.batch_count, 0, slot, slots};
+    RodSeat seat{rig.batch_count, 0, slot, slots, pack.rods[rod].turn_limit_rad};
     for (uint32_t other = rod; other-- > 0;) {
       const RodSeat& known = rig.seat_memory[other];
       if (!same_shape(pack, rod, other)) continue;

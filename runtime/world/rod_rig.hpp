@@ -25,6 +25,7 @@ struct RodSlot {
 struct RodSeat {
   uint32_t batch, strand;
   uint32_t first_slot, slot_count;
+  float turn_limit_rad;  // pack::RodRecord
 };
 
 struct RodRig {

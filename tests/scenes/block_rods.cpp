@@ -67,6 +67,7 @@ baker::Rod make_rod(const Chain& chain, const RodMatter& matter) {
   rod.attach = 1;
   rod.gravity = matter.gravity;
   rod.sag = matter.sag;
+  rod.max_displacement = matter.max_displacement;
   Vector3 begin = Vector3(0, kBlockJointHeight_m, 0) + chain.begin;
   for (uint32_t i = 0; i < chain.count; ++i, begin += chain.step) {
     baker::RodBone bone;

@@ -15,6 +15,7 @@ inline constexpr uint32_t kTail = 2, kHorns[] = {6, 9}, kTailedJoints = 12;
 struct RodMatter {
   double gravity = 1, sag = 0;
   double young_modulus_pa = 1e6;
+  double max_displacement = 0;
   bool bar = false;  // a capsule across and below the tail, that moves with the waist
 };
 

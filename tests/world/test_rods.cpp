@@ -25,7 +25,8 @@ const scenes::PackBytes& tailed_pack(const scenes::RodMatter& matter = {}) {
   static std::vector<std::pair<scenes::RodMatter, scenes::PackBytes>> packs;
   for (const auto& [known, pack] : packs)
     if (known.gravity == matter.gravity && known.sag == matter.sag &&
-        known.young_modulus_pa == matter.young_modulus_pa)
+        known.young_modulus_pa == matter.young_modulus_pa &&
+        known.max_displacement == matter.max_displacement)
       return pack;
   packs.reserve(16);  // references stay good
   packs.emplace_back(matter, scenes::soft_block({.network = false, .rods = matter}));
@@ -143,6 +144,25 @@ TEST_CASE("turned_against_gravity_a_rod_sags_and_turned_back_it_returns") {
   CHECK(largest_difference(stage.joints(), tilted.joints) > 0.01);
   stage.hold(standing(), 20);
   CHECK(largest_difference(stage.joints(), standing().joints) < 1e-3);  // what sleep leaves of the swing
+}
+
+// The tail's tip from its place, over the tail's length: an angle of 0.3 rad moves it by no more than that.
+TEST_CASE("a_rod_is_never_shown_further_from_its_pose_than_its_limit") {
+  constexpr double kLimit = 0.3;
+  double most[2] = {};
+  for (const bool limited : {false, true}) {
+    RodStage stage({.young_modulus_pa = 1e5, .max_displacement = limited ? kLimit : 0});
+    for (int f = 0; f < 240; ++f) {
+      const auto shaken = [](double t) { return scenes::shake(t, 4); };
+      stage.step_motion(shaken, kFrame_s);
+      const TailedPose pose = scenes::with_rods(shaken(stage.time_s));
+      const Eigen::Vector3d off = place(stage.joints()[kTail + 3]) - place(pose.joints[kTail + 3]);
+      most[limited] = std::max(most[limited], off.norm() / (3 * scenes::kBone_m));
+    }
+  }
+  CHECK(most[0] > 1.5 * kLimit);
+  CHECK(most[1] > 0.8 * kLimit);
+  CHECK(most[1] < kLimit);
 }
 
 TEST_CASE("a_moving_root_swings_the_tail_and_it_comes_to_rest") {
