@@ -53,6 +53,7 @@ TEST_CASE("audit_refuses_what_is_no_baked_character") {
   check_refused({"audit", damaged}, {damaged});
   check_refused({"audit", text}, {text});
   check_refused({"audit", model, "--xml"}, {"--xml"});
+  check_refused({"audit", model, "-o", folder.path()}, {folder.path(), "directory"});
   CHECK_THROWS_AS(warnings_on(small_model()), baker::BadInput);
 }
 
@@ -60,7 +61,9 @@ TEST_CASE("a_character_that_tears_fails_with_exit_code_1") {
   const TemporaryFolder folder;
   const std::string path = folder.file("c.sinew");
   baker::write_file(path, character_of(kTears));
-  const ProgramResult table = bake({"audit", path}), json = bake({"audit", path, "--json"});
+  const std::string sheet = folder.file("sheet.png");
+  const ProgramResult table = bake({"audit", path}), json = bake({"audit", path, "--json", "-o", sheet});
+  CHECK(std::filesystem::file_size(sheet) > 10'000);
   CHECK(table.exit_code == 1);
   CHECK(json.exit_code == 1);
   CHECK_THAT(table.out, Catch::Contains("FAILED: 'belly': an edge is stretched by"));
