@@ -22,6 +22,13 @@ double length_of(const pack::PackView& character, const pack::RodRecord& rod) {
   return *std::ranges::max_element(to_end);
 }
 
+size_t rod_of(const pack::PackView& character, uint32_t segment) {
+  const auto holds = [&](const pack::RodRecord& rod) {
+    return segment - rod.first_segment < rod.segment_count;
+  };
+  return static_cast<size_t>(std::ranges::find_if(character.rods, holds) - character.rods.begin());
+}
+
 void name_parts(const pack::PackView& character, AuditedParts& parts) {
   for (size_t r = 0; r < character.regions.size(); ++r) {
     const pack::RegionRecord& region = character.regions[r];
@@ -41,8 +48,8 @@ AuditedParts find_parts(const pack::PackView& character) {
   name_parts(character, parts);
   parts.of_vertex.assign(character.character->vertex_count, AuditedParts::kNone);
   for (size_t v = 0; v < parts.of_vertex.size() && !character.joint_rods.empty(); ++v)
-    if (const uint32_t rod = character.joint_rods[character.skin[v].joint[0]]; rod != pack::kNoIndex)
-      parts.of_vertex[v] = static_cast<int>(parts.regions + rod);
+    if (const uint32_t segment = character.joint_rods[character.skin[v].joint[0]]; segment != pack::kNoIndex)
+      parts.of_vertex[v] = static_cast<int>(parts.regions + rod_of(character, segment));
   for (size_t r = 0; r < character.regions.size(); ++r) {
     const pack::RegionRecord& region = character.regions[r];
     for (const uint32_t v : character.region_vertices.subspan(region.first_vertex, region.vertex_count))

@@ -94,14 +94,28 @@ TEST_CASE("a_character_that_only_swings_passes") {
   CHECK(warnings_on(character_of(kSwings)).empty());
 }
 
-TEST_CASE("rods_are_audited_beside_regions") {
-  const baker::LoadedPack pack = baker::LoadedPack::from_bytes(small_rod_pack(), "test");
+TEST_CASE("rods_are_audited_beside_regions_and_alone") {
+  const bool alone = GENERATE(false, true);
+  const baker::Character character = small_character();
+  baker::TissueLayout layout = small_layout(character);
+  layout.rods = small_rods();
+  if (alone) layout.regions.clear(), layout.nodes.clear(), layout.edges.clear();
+  const std::vector<std::byte> bytes = baker::pack_character(
+      character, layout, alone ? std::vector<baker::ModalBasis>{} : small_modes(layout));
+  const baker::LoadedPack pack = baker::LoadedPack::from_bytes(bytes, "test");
+  const baker::AuditedParts parts = baker::find_parts(pack.view());
+  for (size_t v = 0; v < parts.of_vertex.size(); ++v) {
+    REQUIRE(parts.of_vertex[v] < static_cast<int>(parts.all.size()));
+    // Every segment of the rod, the last of which is not its first, carries its joint's vertices.
+    if (alone) CHECK((parts.of_vertex[v] == 0) == (pack.view().skin[v].joint[0] > 0));
+  }
   const baker::Audit audit = baker::run_audit({pack.view(), pack.bytes()}, [](size_t, size_t) {});
-  REQUIRE(audit.parts.size() >= 1);
+  REQUIRE(audit.parts.size() == (alone ? 1 : 3));
   const baker::PartAudit& rod = audit.parts.back();
   CHECK(rod.part.is_rod);
   CHECK(rod.part.name == "top");
   CHECK(rod.part.size_m == Approx(0.5));
+  CHECK((rod.part.triangles > 0) == alone);
   CHECK(rod.displacement_m.value > 0);
   CHECK(rod.residual_m < baker::kMostResidual * audit.height_m);
 }
