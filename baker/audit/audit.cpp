@@ -19,8 +19,8 @@ constexpr double kWatched_s = 10;  // a rod's residual: how far it still moves i
 
 class Auditor {
  public:
-  explicit Auditor(const LoadedPack& pack) : pack_(pack), parts_(find_parts(pack.view())) {
-    audit_.height_m = static_cast<double>(pack.view().character->height_m);
+  explicit Auditor(const AuditedPack& pack) : pack_(pack), parts_(find_parts(pack.view)) {
+    audit_.height_m = static_cast<double>(pack.view.character->height_m);
     for (const AuditedPart& part : parts_.all) audit_.parts.push_back({part, {}, {}, {}, 0, kNotMeasured});
   }
 
@@ -32,7 +32,7 @@ class Auditor {
       player.advance();
       if (tick <= settled && (tick % stride() == 0 || tick == settled)) {
         player.read();
-        keep_worst(motion, tick, surface_wear(parts_, pack_.view(), player));
+        keep_worst(motion, tick, surface_wear(parts_, pack_.view, player));
       }
       watch_rods(player);
       told();
@@ -74,13 +74,13 @@ class Auditor {
 
   // In the last of a long rest, the box about each segment's end.
   void watch_rods(const Player& player) {
-    const auto watched = static_cast<size_t>(kWatched_s * static_cast<double>(pack_.view().network->rate_hz));
+    const auto watched = static_cast<size_t>(kWatched_s * static_cast<double>(pack_.view.network->rate_hz));
     if (player.tick() + watched < player.ticks() || player.tick() <= player.moving_ticks()) return;
     const bool first = rod_low_.empty() || player.tick() + watched == player.ticks();
-    rod_low_.resize(pack_.view().rods.size());
+    rod_low_.resize(pack_.view.rods.size());
     rod_high_.resize(rod_low_.size());
     for (size_t r = 0; r < rod_low_.size(); ++r) {
-      const Eigen::Matrix3Xf ends = player.rod_ends(pack_.view().rods[r], false);
+      const Eigen::Matrix3Xf ends = player.rod_ends(pack_.view.rods[r], false);
       rod_low_[r] = first ? ends : rod_low_[r].cwiseMin(ends);
       rod_high_[r] = first ? ends : rod_high_[r].cwiseMax(ends);
     }
@@ -89,7 +89,7 @@ class Auditor {
   // Flesh comes back to the skinning; a rod that sags stays where it hangs.
   void measure_residual(Player& player) {
     player.read();
-    const std::vector<double> left = displacements_m(parts_, pack_.view(), player);
+    const std::vector<double> left = displacements_m(parts_, pack_.view, player);
     for (size_t p = 0; p < left.size(); ++p)
       audit_.parts[p].residual_m =
           p < parts_.regions
@@ -123,7 +123,7 @@ class Auditor {
     return std::max(kMostInverted, 1.0 / static_cast<double>(std::max<size_t>(1, part.triangles)));
   }
 
-  const LoadedPack& pack_;
+  const AuditedPack pack_;
   const AuditedParts parts_;
   Audit audit_;
   std::vector<Eigen::Matrix3Xf> rod_low_, rod_high_;
@@ -131,31 +131,31 @@ class Auditor {
   bool resting_ = false;  // a long rest was played
 };
 
-void check(const LoadedPack& pack) {
-  if (pack.view().character == nullptr)
+void check(const AuditedPack& pack) {
+  if (pack.view.character == nullptr)
     throw BadInput("is a model without a character; bake one with: sinew-bake character IN.glb -o C.sinew");
 }
 
 }  // namespace
 
-Audit run_audit(const LoadedPack& pack, const std::function<void(size_t, size_t)>& progress) {
+Audit run_audit(const AuditedPack& pack, const std::function<void(size_t, size_t)>& progress) {
   check(pack);
-  const std::vector<AuditMotion> motions = audit_motions(pack.view());
+  const std::vector<AuditMotion> motions = audit_motions(pack.view);
   double total_s = 0;
   for (const AuditMotion& motion : motions) total_s += motion.moving_s + motion.resting_s;
-  const auto total = static_cast<size_t>(total_s * static_cast<double>(pack.view().network->rate_hz));
+  const auto total = static_cast<size_t>(total_s * static_cast<double>(pack.view.network->rate_hz));
   Auditor auditor(pack);
   size_t done = 0;
   for (const AuditMotion& motion : motions) auditor.play(motion, [&] { progress(++done, total); });
   return auditor.finish();
 }
 
-std::vector<std::string> quick_audit(const LoadedPack& pack) {
+std::vector<std::string> quick_audit(const AuditedPack& pack) {
   check(pack);
   Auditor auditor(pack);
-  auditor.play(bob_motion(pack.view(), kQuickBob_s, 0.5));
-  if (!pack.view().clips.empty()) {
-    AuditMotion clip = clip_motion(pack.view(), liveliest_clip(pack.view()));
+  auditor.play(bob_motion(pack.view, kQuickBob_s, 0.5));
+  if (!pack.view.clips.empty()) {
+    AuditMotion clip = clip_motion(pack.view, liveliest_clip(pack.view));
     clip.moving_s = std::min(clip.moving_s, kQuickClip_s);
     auditor.play(clip);
   }

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "baker/audit/audited_pack.hpp"
 #include "baker/audit/parts.hpp"
-#include "baker/programs/loaded_pack.hpp"
 
 namespace sinew::baker {
 
@@ -34,9 +34,9 @@ struct Audit {
 };
 
 // progress(done, of all) is called now and then; a pack without a character is refused with BadInput.
-Audit run_audit(const LoadedPack& pack, const std::function<void(size_t, size_t)>& progress);
+Audit run_audit(const AuditedPack& pack, const std::function<void(size_t, size_t)>& progress);
 
 // The bob and the liveliest clip, about a second of work: one-line warnings, empty where all is well.
-std::vector<std::string> quick_audit(const LoadedPack& pack);
+std::vector<std::string> quick_audit(const AuditedPack& pack);
 
 }  // namespace sinew::baker

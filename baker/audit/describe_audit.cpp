@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "baker/audit/bounds.hpp"
+#include "sinew/types.hpp"
 
 namespace sinew::baker {
 namespace {
@@ -43,7 +44,7 @@ std::string aligned(const std::vector<std::vector<std::string>>& rows) {
 
 }  // namespace
 
-Json audit_json(const Audit& audit, const LoadedPack& pack) {
+Json audit_json(const Audit& audit, const AuditedPack& pack) {
   Json parts = Json::array(), tiers = Json::array();
   for (const PartAudit& part : audit.parts)
     parts.push_back({{"name", part.part.name},
@@ -56,7 +57,7 @@ Json audit_json(const Audit& audit, const LoadedPack& pack) {
                      {"edge_stretch", moment(part.edge_stretch)},
                      {"inverted_share", moment(part.inverted_share)},
                      {"residual_of_height", finite(part.residual_m / audit.height_m)}});
-  for (const pack::TierRecord& tier : pack.view().tiers)
+  for (const pack::TierRecord& tier : pack.view.tiers)
     tiers.push_back({{"tier", kTierNames[tier.tier]},
                      {"level", tier.level},
                      {"error_mm", finite(static_cast<double>(tier.error_mm))},
@@ -73,7 +74,7 @@ Json audit_json(const Audit& audit, const LoadedPack& pack) {
           {"ok", audit.failures.empty()}};
 }
 
-std::string audit_table(const Audit& audit, const LoadedPack& pack) {
+std::string audit_table(const Audit& audit, const AuditedPack& pack) {
   std::vector<std::vector<std::string>> rows = {{"part", "kind", "Hz", "moved/size", "moved/height",
                                                  "bob/height", "stretch", "inverted", "residual/height",
                                                  "worst in"}};
@@ -86,7 +87,7 @@ std::string audit_table(const Audit& audit, const LoadedPack& pack) {
                     part.displacement_m.motion});
   std::string out = aligned(rows);
   rows = {{"tier", "level", "error mm", "of skinning"}};
-  for (const pack::TierRecord& tier : pack.view().tiers)
+  for (const pack::TierRecord& tier : pack.view.tiers)
     if (tier.tier != static_cast<uint32_t>(Tier::kSkinning))
       rows.push_back({kTierNames[tier.tier], std::to_string(tier.level),
                       number(static_cast<double>(tier.error_mm), "not measured"),

@@ -7,7 +7,7 @@
 
 namespace sinew::baker {
 
-nlohmann::ordered_json audit_json(const Audit& audit, const LoadedPack& pack);
-std::string audit_table(const Audit& audit, const LoadedPack& pack);
+nlohmann::ordered_json audit_json(const Audit& audit, const AuditedPack& pack);
+std::string audit_table(const Audit& audit, const AuditedPack& pack);
 
 }  // namespace sinew::baker

@@ -4,7 +4,7 @@
 
 namespace sinew::baker {
 
-void write_audit_sheet(const std::string& path, const Audit&, const LoadedPack&) {
+void write_audit_sheet(const std::string& path, const Audit&, const AuditedPack&) {
   throw BadInput(path + ": this build draws no pictures; leave -o out, or build with SINEW_BUILD_SAMPLES");
 }
 

@@ -22,6 +22,13 @@ double length_of(const pack::PackView& character, const pack::RodRecord& rod) {
   return *std::ranges::max_element(to_end);
 }
 
+size_t rod_of(const pack::PackView& character, uint32_t segment) {
+  const auto holds = [&](const pack::RodRecord& rod) {
+    return segment - rod.first_segment < rod.segment_count;
+  };
+  return static_cast<size_t>(std::ranges::find_if(character.rods, holds) - character.rods.begin());
+}
+
 void name_parts(const pack::PackView& character, AuditedParts& parts) {
   for (size_t r = 0; r < character.regions.size(); ++r) {
     const pack::RegionRecord& region = character.regions[r];
@@ -34,25 +41,15 @@ void name_parts(const pack::PackView& character, AuditedParts& parts) {
                          std::numeric_limits<double>::quiet_NaN()});
 }
 
-// Rods come after regions.
-std::vector<int> parts_of_segments(const pack::PackView& character, size_t regions) {
-  std::vector<int> of_segment(character.rod_segments.size(), AuditedParts::kNone);
-  for (size_t r = 0; r < character.rods.size(); ++r)
-    std::fill_n(of_segment.begin() + character.rods[r].first_segment, character.rods[r].segment_count,
-                static_cast<int>(regions + r));
-  return of_segment;
-}
-
 }  // namespace
 
 AuditedParts find_parts(const pack::PackView& character) {
   AuditedParts parts;
   name_parts(character, parts);
   parts.of_vertex.assign(character.character->vertex_count, AuditedParts::kNone);
-  const std::vector<int> of_segment = parts_of_segments(character, parts.regions);
   for (size_t v = 0; v < parts.of_vertex.size() && !character.joint_rods.empty(); ++v)
     if (const uint32_t segment = character.joint_rods[character.skin[v].joint[0]]; segment != pack::kNoIndex)
-      parts.of_vertex[v] = of_segment[segment];
+      parts.of_vertex[v] = static_cast<int>(parts.regions + rod_of(character, segment));
   for (size_t r = 0; r < character.regions.size(); ++r) {
     const pack::RegionRecord& region = character.regions[r];
     for (const uint32_t v : character.region_vertices.subspan(region.first_vertex, region.vertex_count))

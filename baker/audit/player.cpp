@@ -27,13 +27,13 @@ Eigen::Affine3f bind_of(const pack::JointRecord& joint) {
 
 }  // namespace
 
-Player::Player(const LoadedPack& pack, const AuditMotion& motion) : pack_(pack), motion_(motion) {
-  const pack::PackView& view = pack.view();
+Player::Player(const AuditedPack& pack, const AuditMotion& motion) : pack_(pack), motion_(motion) {
+  const pack::PackView& view = pack.view;
   WorldDef def;
   def.teleport_distance_m = std::numeric_limits<float>::infinity();  // an audit's motions have no cuts
   must(World::create(def, &world_));
   AssetId asset;
-  must(world_.load_asset(pack.bytes(), &asset));
+  must(world_.load_asset(pack.bytes, &asset));
   must(world_.create_instance({.asset = asset}, &instance_));
   tick_s_ = 1 / static_cast<double>(view.network->rate_hz);
   moving_ticks_ = static_cast<size_t>(std::lround(motion.moving_s / tick_s_));
@@ -60,7 +60,7 @@ void Player::advance() {
 }
 
 void Player::read() {
-  const pack::PackView& view = pack_.view();
+  const pack::PackView& view = pack_.view;
   must(world_.read_positions(instance_, {.out = shown_.data(), .capacity = view.character->vertex_count}));
   std::vector<Eigen::Matrix<float, 3, 4>> matrix(posed_.size());
   for (size_t j = 0; j < matrix.size(); ++j) {
@@ -79,13 +79,13 @@ void Player::read() {
 }
 
 Eigen::Matrix3f Player::turn_of(uint32_t joint) const {
-  const pack::PackView& view = pack_.view();
+  const pack::PackView& view = pack_.view;
   if (view.joint_rods.empty() || view.joint_rods[joint] == pack::kNoIndex) return Eigen::Matrix3f::Identity();
   return matrix_of(displayed_[joint]).leftCols<3>() * matrix_of(posed_[joint]).leftCols<3>().inverse();
 }
 
 Eigen::Matrix3Xf Player::rod_ends(const pack::RodRecord& rod, bool posed) const {
-  const pack::PackView& view = pack_.view();
+  const pack::PackView& view = pack_.view;
   const std::vector<Matrix34>& joints = posed ? posed_ : displayed_;
   Eigen::Matrix3Xf ends(3, rod.segment_count);
   for (uint32_t s = 0; s < rod.segment_count; ++s) {

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "baker/audit/audited_pack.hpp"
 #include "baker/audit/motions.hpp"
-#include "baker/programs/loaded_pack.hpp"
 #include "sinew/world.hpp"
 
 namespace sinew::baker {
@@ -12,7 +12,7 @@ namespace sinew::baker {
 class Player {
  public:
   // The pack and the motion outlive it. Throws BadInput where the runtime refuses the pack.
-  Player(const LoadedPack& pack, const AuditMotion& motion);
+  Player(const AuditedPack& pack, const AuditMotion& motion);
 
   size_t ticks() const { return ticks_; }  // of the motion
   size_t moving_ticks() const { return moving_ticks_; }
@@ -32,7 +32,7 @@ class Player {
  private:
   void set_pose();
 
-  const LoadedPack& pack_;
+  const AuditedPack pack_;
   const AuditMotion& motion_;
   World world_;
   InstanceId instance_;

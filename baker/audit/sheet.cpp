@@ -58,12 +58,12 @@ std::vector<float> redness(const AuditedParts& parts, const Player& player, doub
   return red;
 }
 
-render::Mesh mesh_of(const LoadedPack& pack, const AuditedParts& parts, const Player& player) {
-  render::Mesh mesh = bind_mesh(pack.view());
+render::Mesh mesh_of(const AuditedPack& pack, const AuditedParts& parts, const Player& player) {
+  render::Mesh mesh = bind_mesh(pack.view);
   for (size_t v = 0; v < mesh.positions.size(); ++v)
     mesh.positions[v] = player.shown().col(static_cast<Eigen::Index>(v));
-  mesh.normals = render::smooth_normals(mesh.positions, mesh.triangles, pack.view().welded);
-  const std::vector<float> red = redness(parts, player, static_cast<double>(pack.view().character->height_m));
+  mesh.normals = render::smooth_normals(mesh.positions, mesh.triangles, pack.view.welded);
+  const std::vector<float> red = redness(parts, player, static_cast<double>(pack.view.character->height_m));
   const render::Rgb signal = render::linear_from_srgb({215, 35, 25});
   for (size_t v = 0; v < red.size(); ++v) mesh.colors[v] += red[v] * (signal - mesh.colors[v]);
   return mesh;
@@ -95,21 +95,21 @@ std::string caption_of(const Audit& audit, const Shot& shot) {
          ", tick " + std::to_string(shot.moment->tick);
 }
 
-void shoot(const LoadedPack& pack, const AuditedParts& parts, const Player& player, Shot& shot) {
+void shoot(const AuditedPack& pack, const AuditedParts& parts, const Player& player, Shot& shot) {
   const render::Mesh mesh = mesh_of(pack, parts, player);
-  const float yaw_deg = facing_yaw_deg(pack.view());
+  const float yaw_deg = facing_yaw_deg(pack.view);
   render::RenderOptions options;
   options.width = kWidth_px;
   options.height = kHeight_px;
   options.samples = kSamples;
   options.floor_y = render::bounding_box(mesh.positions).min().y();
-  options.grid_m = render::grid_for_height(pack.view().character->height_m);
+  options.grid_m = render::grid_for_height(pack.view.character->height_m);
   options.gloss = 0.3f;
   options.studio = render::Studio::facing(yaw_deg);
   shot.cell.image = render::render(mesh, camera_of(mesh, parts, shot.part, yaw_deg), options);
 }
 
-void play_to_shots(const LoadedPack& pack, const AuditedParts& parts, const AuditMotion& motion,
+void play_to_shots(const AuditedPack& pack, const AuditedParts& parts, const AuditMotion& motion,
                    std::vector<Shot>& shots) {
   size_t last = 0;
   for (const Shot& shot : shots)
@@ -128,10 +128,10 @@ void play_to_shots(const LoadedPack& pack, const AuditedParts& parts, const Audi
 
 }  // namespace
 
-void write_audit_sheet(const std::string& path, const Audit& audit, const LoadedPack& pack) {
-  const AuditedParts parts = find_parts(pack.view());
+void write_audit_sheet(const std::string& path, const Audit& audit, const AuditedPack& pack) {
+  const AuditedParts parts = find_parts(pack.view);
   std::vector<Shot> shots = choose_shots(audit);
-  for (const AuditMotion& motion : audit_motions(pack.view())) play_to_shots(pack, parts, motion, shots);
+  for (const AuditMotion& motion : audit_motions(pack.view)) play_to_shots(pack, parts, motion, shots);
   std::vector<render::Cell> cells;
   for (Shot& shot : shots) {
     if (shot.cell.image.width == 0) continue;
@@ -139,7 +139,7 @@ void write_audit_sheet(const std::string& path, const Audit& audit, const Loaded
     cells.push_back(std::move(shot.cell));
   }
   if (cells.empty()) cells.push_back({render::Image(kWidth_px, kHeight_px), "nothing moves by itself"});
-  const std::string name = pack::string_at(pack.view(), pack.view().character->name);
+  const std::string name = pack::string_at(pack.view, pack.view.character->name);
   render::write_png(path,
                     render::contact_sheet(cells, std::min<int>(kColumns, static_cast<int>(cells.size())),
                                           name + ": worst moments; red is stretched beyond the bound"));

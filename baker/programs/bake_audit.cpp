@@ -9,6 +9,7 @@
 #include "baker/common/progress.hpp"
 #include "baker/common/write_file.hpp"
 #include "baker/programs/commands.hpp"
+#include "baker/programs/loaded_pack.hpp"
 
 namespace sinew::baker {
 namespace {
@@ -20,8 +21,9 @@ struct AuditOptions {
 
 int run(const AuditOptions& options) {
   if (!options.sheet.empty()) refuse_directory(options.sheet);
-  const LoadedPack pack = LoadedPack::from_file(options.character);
-  if (pack.view().character == nullptr)
+  const LoadedPack loaded = LoadedPack::from_file(options.character);
+  const AuditedPack pack{loaded.view(), loaded.bytes()};
+  if (pack.view.character == nullptr)
     throw BadInput(options.character +
                    ": is a model without a character; bake one with: sinew-bake character IN.glb -o C.sinew");
   Audit audit;

@@ -178,7 +178,7 @@ void run_character(const CharacterOptions& options) {
   const LoadedPack pack =
       LoadedPack::from_bytes(bytes, options.character);  // what the runtime would refuse is not written
   if (!options.quick)
-    for (std::string& warning : quick_audit(pack)) character.notes.push_back("audit: " + std::move(warning));
+    for (std::string& warning : quick_audit({pack.view(), pack.bytes()})) character.notes.push_back("audit: " + std::move(warning));
   if (!options.preview.empty()) write_preview(options.preview, pack.view());
   write_file(options.output, bytes);
   progress.reset();

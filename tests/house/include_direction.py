@@ -32,7 +32,8 @@ BAKER = {
     "rods": {"truth"},
     "render": set(),
     "preview": {"render"},
-    "programs": {"import", "mesh", "truth", "pack", "creature", "rods", "preview"},
+    "audit": {"preview", "render"},
+    "programs": {"audit", "import", "mesh", "truth", "pack", "creature", "rods", "preview"},
     "trade": {"import", "mesh", "truth", "pack", "programs", "render"},
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)

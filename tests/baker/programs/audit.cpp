@@ -8,6 +8,7 @@
 #include "baker/common/bad_input.hpp"
 #include "baker/common/write_file.hpp"
 #include "baker/pack/character_pack.hpp"
+#include "baker/programs/loaded_pack.hpp"
 #include "tests/baker/common/temporary_folder.hpp"
 #include "tests/baker/programs/bake.hpp"
 #include "tests/pack/small_pack.hpp"
@@ -29,8 +30,9 @@ std::vector<std::byte> character_of(double answer) {
 
 constexpr double kTears = 30, kSwings = 1e-3;
 
-baker::LoadedPack loaded(const std::vector<std::byte>& bytes) {
-  return baker::LoadedPack::from_bytes(bytes, "test");
+std::vector<std::string> warnings_on(const std::vector<std::byte>& bytes) {
+  const baker::LoadedPack pack = baker::LoadedPack::from_bytes(bytes, "test");
+  return baker::quick_audit({pack.view(), pack.bytes()});
 }
 
 }  // namespace
@@ -51,14 +53,17 @@ TEST_CASE("audit_refuses_what_is_no_baked_character") {
   check_refused({"audit", damaged}, {damaged});
   check_refused({"audit", text}, {text});
   check_refused({"audit", model, "--xml"}, {"--xml"});
-  CHECK_THROWS_AS(baker::quick_audit(loaded(small_model())), baker::BadInput);
+  check_refused({"audit", model, "-o", folder.path()}, {folder.path(), "directory"});
+  CHECK_THROWS_AS(warnings_on(small_model()), baker::BadInput);
 }
 
 TEST_CASE("a_character_that_tears_fails_with_exit_code_1") {
   const TemporaryFolder folder;
   const std::string path = folder.file("c.sinew");
   baker::write_file(path, character_of(kTears));
-  const ProgramResult table = bake({"audit", path}), json = bake({"audit", path, "--json"});
+  const std::string sheet = folder.file("sheet.png");
+  const ProgramResult table = bake({"audit", path}), json = bake({"audit", path, "--json", "-o", sheet});
+  CHECK(std::filesystem::file_size(sheet) > 10'000);
   CHECK(table.exit_code == 1);
   CHECK(json.exit_code == 1);
   CHECK_THAT(table.out, Catch::Contains("FAILED: 'belly': an edge is stretched by"));
@@ -67,7 +72,7 @@ TEST_CASE("a_character_that_tears_fails_with_exit_code_1") {
   CHECK(told["ok"] == false);
   CHECK(told["failures"].size() >= 1);
   CHECK(told["parts"][0]["edge_stretch"]["value"] > baker::kMostEdgeStretch);
-  CHECK_FALSE(baker::quick_audit(loaded(character_of(kTears))).empty());
+  CHECK_FALSE(warnings_on(character_of(kTears)).empty());
 }
 
 TEST_CASE("a_character_that_only_swings_passes") {
@@ -86,16 +91,31 @@ TEST_CASE("a_character_that_only_swings_passes") {
     CHECK(part["residual_of_height"] < baker::kMostResidual);
     CHECK(part["first_hz"] == Approx(20 / 6.283185).epsilon(1e-4));
   }
-  CHECK(baker::quick_audit(loaded(character_of(kSwings))).empty());
+  CHECK(warnings_on(character_of(kSwings)).empty());
 }
 
-TEST_CASE("rods_are_audited_beside_regions") {
-  const baker::Audit audit = baker::run_audit(loaded(small_rod_pack()), [](size_t, size_t) {});
-  REQUIRE(audit.parts.size() >= 1);
+TEST_CASE("rods_are_audited_beside_regions_and_alone") {
+  const bool alone = GENERATE(false, true);
+  const baker::Character character = small_character();
+  baker::TissueLayout layout = small_layout(character);
+  layout.rods = small_rods();
+  if (alone) layout.regions.clear(), layout.nodes.clear(), layout.edges.clear();
+  const std::vector<std::byte> bytes = baker::pack_character(
+      character, layout, alone ? std::vector<baker::ModalBasis>{} : small_modes(layout));
+  const baker::LoadedPack pack = baker::LoadedPack::from_bytes(bytes, "test");
+  const baker::AuditedParts parts = baker::find_parts(pack.view());
+  for (size_t v = 0; v < parts.of_vertex.size(); ++v) {
+    REQUIRE(parts.of_vertex[v] < static_cast<int>(parts.all.size()));
+    // Every segment of the rod, the last of which is not its first, carries its joint's vertices.
+    if (alone) CHECK((parts.of_vertex[v] == 0) == (pack.view().skin[v].joint[0] > 0));
+  }
+  const baker::Audit audit = baker::run_audit({pack.view(), pack.bytes()}, [](size_t, size_t) {});
+  REQUIRE(audit.parts.size() == (alone ? 1 : 3));
   const baker::PartAudit& rod = audit.parts.back();
   CHECK(rod.part.is_rod);
   CHECK(rod.part.name == "top");
   CHECK(rod.part.size_m == Approx(0.5));
+  CHECK((rod.part.triangles > 0) == alone);
   CHECK(rod.displacement_m.value > 0);
   CHECK(rod.residual_m < baker::kMostResidual * audit.height_m);
 }
