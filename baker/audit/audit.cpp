@@ -108,11 +108,13 @@ class Auditor {
       wrong += text;
       if (when != nullptr) wrong += " (" + when->motion + ", tick " + std::to_string(when->tick) + ")";
     };
-    hold(part.edge_stretch.value, kMostEdgeStretch, "an edge is stretched by", &part.edge_stretch);
-    hold(part.inverted_share.value, most_inverted(part.part), "share of triangles turned over",
-         &part.inverted_share);
-    if (!part.part.is_rod)
+    hold(part.edge_stretch.value, most_stretch(part.part.is_rod), "an edge is stretched by",
+         &part.edge_stretch);
+    if (!part.part.is_rod) {
+      hold(part.inverted_share.value, most_inverted(part.part), "share of triangles turned over",
+           &part.inverted_share);
       hold(part.bob_m / audit_.height_m, kMostDisplacement, "bobbing moves it by heights", nullptr);
+    }
     if (!std::isnan(part.residual_m) || resting_)
       hold(part.residual_m / audit_.height_m, kMostResidual, "after a minute of rest it is off by heights",
            nullptr);

@@ -6,10 +6,14 @@ namespace sinew::baker {
 // An edge's length over its length on the skinned surface. A painted texture is seen to smear from here on;
 // below it flesh only looks soft.
 inline constexpr double kMostEdgeStretch = 1.5;
-// Edges shorter than this share of the height are left out: they are seams and folds of the model, and a
-// hair's breadth doubles them.
-inline constexpr double kShortestEdge = 1e-4;
-// Triangles of a part that face away from where they face on the skinned surface, as a share of its triangles
+// Of rods, which turn bones and nothing else: what their skin stretches by is the file's own weights, under a
+// bend that its animator did not try.
+inline constexpr double kMostRodStretch = 2;
+constexpr double most_stretch(bool is_rod) { return is_rod ? kMostRodStretch : kMostEdgeStretch; }
+// Edges shorter than this share of the height are left out: two lines where a character fills a screen of a
+// thousand, they are seams and folds of the model, and a hair's breadth doubles them.
+inline constexpr double kShortestEdge = 2e-3;
+// Triangles of flesh that face away from where they face on the skinned surface, as a share of its triangles
 // in the worst tick; one triangle is allowed everywhere. Single slivers at a rim do no harm; a hundredth of a
 // part is a visible fold.
 inline constexpr double kMostInverted = 0.01;

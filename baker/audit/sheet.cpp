@@ -32,11 +32,12 @@ std::vector<Shot> choose_shots(const Audit& audit) {
   std::vector<Shot> shots;
   for (size_t p = 0; p < audit.parts.size(); ++p) {
     const PartAudit& part = audit.parts[p];
-    const bool torn = !(part.edge_stretch.value <= kMostEdgeStretch);
+    const double bound = most_stretch(part.part.is_rod);
+    const bool torn = !(part.edge_stretch.value <= bound);
     const Moment& moment = torn ? part.edge_stretch : part.displacement_m;
     if (moment.motion.empty()) continue;
     const double badness =
-        torn ? part.edge_stretch.value / kMostEdgeStretch : part.displacement_m.value / audit.height_m;
+        torn ? part.edge_stretch.value / bound : part.displacement_m.value / audit.height_m;
     shots.push_back({p, &moment, torn, std::isnan(badness) ? HUGE_VAL : badness, {}});
   }
   std::ranges::stable_sort(shots, std::greater<>{}, &Shot::badness);

@@ -95,7 +95,9 @@ void set_motion(const Recipe& recipe, const RegionRecipe* stated, Region& region
   region.kind = kind_of(region, stated);
   region.damping_ratio = from.damping_ratio.value_or(recipe.damping_ratio);
   region.intensity = from.intensity;
-  region.max_displacement = from.max_displacement.value_or(recipe.max_displacement);
+  const std::optional<double> most = from.max_displacement ? from.max_displacement : recipe.max_displacement;
+  region.states_limit = most.has_value();
+  region.max_displacement = most.value_or(region.max_displacement);
   if (from.frequency_hz)
     region.frequency_hz = *from.frequency_hz;
   else if (!recipe.states_moduli)

@@ -27,7 +27,8 @@ void read_material(JsonSection& section, Recipe& recipe) {
   recipe.poisson_ratio = section.number("poisson_ratio", recipe.poisson_ratio, 0, 0.49);
   recipe.density_kg_m3 = section.number("density_kg_m3", recipe.density_kg_m3, 1, 1e5);
   recipe.damping_ratio = section.number("damping_ratio", recipe.damping_ratio, 0, 1);
-  recipe.max_displacement = section.number("max_displacement", recipe.max_displacement, 0.01, 4);
+  if (section.has("max_displacement"))
+    recipe.max_displacement = section.number("max_displacement", 0, 0.01, 4);
   if (section.has("voxels_high"))
     recipe.voxels_high = whole_number(section, "voxels_high", kUsualVoxelsHigh, 8, 200);
   recipe.rigid_stiffness = section.number("rigid_stiffness", recipe.rigid_stiffness, 0.01, 1);

@@ -43,7 +43,8 @@ struct Recipe {
   double poisson_ratio = 0.42;     // 0 .. 0.49
   double density_kg_m3 = 1000;     // > 0
   double damping_ratio = 0.1;      // 0 .. 1, Rayleigh, at the first and third mode's neighbourhood
-  double max_displacement = 0.35;  // 0.01 .. 4, share of a region's radius, approached smoothly
+  // 0.01 .. 4, share of a region's radius, approached smoothly. Absent: 0.35, or what its skin can stretch.
+  std::optional<double> max_displacement = {};
   // 8 .. 200, cage cells along the character's longest side; absent: kUsualVoxelsHigh, or as many as keep a
   // bake short (truth/cage.hpp).
   std::optional<int> voxels_high;

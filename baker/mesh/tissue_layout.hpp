@@ -36,6 +36,7 @@ struct Region {
   double damping_ratio = 0.1;
   double intensity = 1;
   double max_displacement = 0.35;  // share of radius_m
+  bool states_limit = false;       // it is the recipe's
 };
 
 struct TissueLayout {

@@ -20,6 +20,7 @@
 #include "baker/programs/describe.hpp"
 #include "baker/programs/measure_tiers.hpp"
 #include "baker/programs/part_table.hpp"
+#include "baker/truth/stretch_limit.hpp"
 #include "baker/truth/tissue_truth.hpp"
 
 namespace sinew::baker {
@@ -84,6 +85,7 @@ Tissue make_tissue(Character& character, const Recipe& recipe) {
   const std::vector<std::string>& notes = tissue.truth->cage().notes;
   character.notes.insert(character.notes.end(), notes.begin(), notes.end());
   tissue.finest = tissue.truth->modal_bases(tissue.layout, kMostModes);
+  limit_by_stretch(character, tissue.finest, tissue.layout);
   tissue.coarser = coarser_levels(character, recipe, *tissue.truth, tissue.layout, tissue.finest);
   return tissue;
 }

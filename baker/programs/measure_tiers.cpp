@@ -15,7 +15,8 @@ namespace {
 
 constexpr uint64_t kSeed = 9100;  // no plan of the trainer reaches it
 constexpr double kStrength = 0.3, kRate_hz = 60;
-constexpr int kTicks = 90, kSubsteps = 4;
+constexpr int kTicks = 90, kFewerTicks = 50, kSubsteps = 4;
+constexpr long kLargeBody = 2000;  // free nodes of the cage; from there on fewer ticks keep a bake short
 
 // How far joints move in a clip, as mean speed.
 double motion_of(const Character& character, const Clip& clip) {
@@ -56,14 +57,16 @@ std::vector<TrueSurface> short_truths(const Character& character, const TissueLa
                                       const std::vector<ModalBasis>& modes, TissueTruth& truth,
                                       const pack::PackView& pack) {
   const std::vector<NamedMotion> motions = motions_of(character);
-  Progress progress("truth", motions.size() * kTicks);
+  const bool large = std::ranges::count(truth.cage().constrained, false) > kLargeBody;
+  const auto ticks = static_cast<size_t>(large ? kFewerTicks : kTicks);
+  Progress progress("truth", motions.size() * ticks);
   std::vector<TrueSurface> truths;
   for (const NamedMotion& motion : motions) {
     TrajectoryRecorder recorder(character, layout, {.rate_hz = kRate_hz, .positions = true}, modes);
     recorder.add(truth.start(motion.motion));
-    for (int tick = 1; tick <= kTicks; ++tick) {
+    for (size_t tick = 1; tick <= ticks; ++tick) {
       recorder.add(truth.advance(kRate_hz, kSubsteps));
-      progress.update(truths.size() * kTicks + static_cast<size_t>(tick));
+      progress.update(truths.size() * ticks + tick);
     }
     Safetensors file = recorder.finish({{"motion", motion.name}, {"rate_hz", "60"}});
     file.path = character.name + ": truth of " + motion.name;

@@ -36,7 +36,7 @@ Row row_of(const Rod& rod) {
           name_of(rod.evidence),
           defaults_of(rod.kind).name,
           text("%.2f", rod.frequency_hz),
-          "-",
+          rod.max_displacement > 0 ? text("%.2f", rod.max_displacement) : "-",
           text("rod of %d bone%s", static_cast<int>(bones), bones == 1 ? "" : "s")};
 }
 
@@ -61,7 +61,7 @@ std::vector<Row> rows_of(const std::vector<SkippedPart>& skipped) {
 }  // namespace
 
 std::string part_table(const TissueLayout& layout, const pack::PackView& pack) {
-  std::vector<Row> rows = {{"part", "evidence", "kind", "Hz", "limit/radius", ""}};
+  std::vector<Row> rows = {{"part", "evidence", "kind", "Hz", "limit/size", ""}};
   for (size_t r = 0; r < layout.regions.size(); ++r)
     rows.push_back(row_of(layout.regions[r], pack.region_modes[r].first_rad_per_s,
                           pack.regions[r].displacement_limit_m));
