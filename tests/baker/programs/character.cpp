@@ -78,7 +78,7 @@ TEST_CASE("a_table_says_of_every_part_what_it_is_and_why") {
   const ProgramResult result = bake(creature.bake_arguments(creature.pack));
   INFO(result.out);
   CHECK_THAT(result.out,
-             Catch::Contains("part") && Catch::Contains("evidence") && Catch::Contains("limit/radius"));
+             Catch::Contains("part") && Catch::Contains("evidence") && Catch::Contains("limit/size"));
   CHECK_THAT(result.out, Catch::Contains("painted") && Catch::Contains("soft tissue"));
 }
 
