@@ -121,10 +121,6 @@ class Auditor {
     if (!wrong.empty()) audit_.failures.push_back("'" + part.part.name + "': " + wrong);
   }
 
-  static double most_inverted(const AuditedPart& part) {
-    return std::max(kMostInverted, 1.0 / static_cast<double>(std::max<size_t>(1, part.triangles)));
-  }
-
   const AuditedPack pack_;
   const AuditedParts parts_;
   Audit audit_;
@@ -152,16 +148,21 @@ Audit run_audit(const AuditedPack& pack, const std::function<void(size_t, size_t
   return auditor.finish();
 }
 
-std::vector<std::string> quick_audit(const AuditedPack& pack) {
+double most_inverted(const AuditedPart& part) {
+  return std::max(kMostInverted, 1.0 / static_cast<double>(std::max<size_t>(1, part.triangles)));
+}
+
+Audit quick_audit(const AuditedPack& pack) {
   check(pack);
   Auditor auditor(pack);
   auditor.play(bob_motion(pack.view, kQuickBob_s, 0.5));
+  for (const AuditMotion& motion : root_motions(pack.view)) auditor.play(motion);
   if (!pack.view.clips.empty()) {
     AuditMotion clip = clip_motion(pack.view, liveliest_clip(pack.view));
     clip.moving_s = std::min(clip.moving_s, kQuickClip_s);
     auditor.play(clip);
   }
-  return auditor.finish().failures;
+  return auditor.finish();
 }
 
 }  // namespace sinew::baker

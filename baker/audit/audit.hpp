@@ -36,7 +36,10 @@ struct Audit {
 // progress(done, of all) is called now and then; a pack without a character is refused with BadInput.
 Audit run_audit(const AuditedPack& pack, const std::function<void(size_t, size_t)>& progress);
 
-// The bob and the liveliest clip, about a second of work: one-line warnings, empty where all is well.
-std::vector<std::string> quick_audit(const AuditedPack& pack);
+// The root's motions and the liveliest clip, without the minute of rest: a fraction of a second.
+Audit quick_audit(const AuditedPack& pack);
+
+// Of a part's triangles that may be turned over: kMostInverted, or one.
+double most_inverted(const AuditedPart& part);
 
 }  // namespace sinew::baker

@@ -23,6 +23,7 @@ struct Rod {
   std::string name;
   int attach = 0;  // the joint that the first bone hangs on
   double gravity = 1, sag = 0, max_displacement = 0;
+  bool states_limit = true;  // it is a recipe's, or a file's springs have none
   std::vector<RodBone> bones;
   Evidence evidence = Evidence::kRecipe;
   SoftKind kind = SoftKind::kOther;

@@ -5,7 +5,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "baker/audit/audit.hpp"
+#include "baker/audit/limit_factor.hpp"
 #include "baker/common/bad_input.hpp"
 #include "baker/common/progress.hpp"
 #include "baker/common/write_file.hpp"
@@ -20,7 +20,6 @@
 #include "baker/programs/describe.hpp"
 #include "baker/programs/measure_tiers.hpp"
 #include "baker/programs/part_table.hpp"
-#include "baker/truth/stretch_limit.hpp"
 #include "baker/truth/tissue_truth.hpp"
 
 namespace sinew::baker {
@@ -76,6 +75,22 @@ struct Tissue {
   std::unique_ptr<TissueTruth> truth;
   std::vector<ModalBasis> finest;
   std::vector<GraphLevel> coarser;
+
+  // Of a part, regions before rods; true where it is one that may be scaled, and was.
+  bool scale_limit(size_t part, double factor) {
+    const size_t regions = layout.regions.size();
+    if (factor >= 1) return false;
+    if (part >= regions) {
+      Rod& rod = layout.rods[part - regions];
+      if (rod.states_limit) return false;
+      rod.max_displacement *= factor;
+      return true;
+    }
+    if (layout.regions[part].states_limit) return false;
+    layout.regions[part].max_displacement *= factor;
+    for (GraphLevel& level : coarser) level.layout.regions[part].max_displacement *= factor;
+    return true;
+  }
 };
 
 Tissue make_tissue(Character& character, const Recipe& recipe) {
@@ -85,7 +100,6 @@ Tissue make_tissue(Character& character, const Recipe& recipe) {
   const std::vector<std::string>& notes = tissue.truth->cage().notes;
   character.notes.insert(character.notes.end(), notes.begin(), notes.end());
   tissue.finest = tissue.truth->modal_bases(tissue.layout, kMostModes);
-  limit_by_stretch(character, tissue.finest, tissue.layout);
   tissue.coarser = coarser_levels(character, recipe, *tissue.truth, tissue.layout, tissue.finest);
   return tissue;
 }
@@ -115,6 +129,20 @@ class Packer {
   const Tissue& tissue_;
   pack::Precision precision_;
 };
+
+// Flesh with a narrow rim tears where other flesh only swings: limits that no recipe states are lowered until
+// a quick audit of the modal base is within its bounds.
+void lower_limits(const Packer& packer, const std::string& name, Tissue& tissue) {
+  constexpr int kMostRounds = 4;
+  bool lowered = !tissue.layout.regions.empty() || !tissue.layout.rods.empty();
+  for (int round = 0; lowered && round < kMostRounds; ++round) {
+    const LoadedPack pack = LoadedPack::from_bytes(packer.pack(nullptr), name);
+    const Audit audit = quick_audit({pack.view(), pack.bytes()});
+    lowered = false;
+    for (size_t p = 0; p < audit.parts.size(); ++p)
+      lowered |= tissue.scale_limit(p, limit_factor(audit.parts[p], audit.height_m));
+  }
+}
 
 std::vector<std::byte> with_tiers(const std::vector<std::byte>& bytes,
                                   const std::vector<pack::TierRecord>& tiers) {
@@ -165,7 +193,7 @@ void run_character(const CharacterOptions& options) {
   std::optional<Progress> progress(std::in_place, "baking " + options.output, 10);
   Character character = import_character(options.character, recipe);
   progress->update(1);
-  const Tissue tissue = make_tissue(character, recipe);
+  Tissue tissue = make_tissue(character, recipe);
   progress->update(6);
   if (tissue.layout.regions.empty() && weights) {
     check_model(*weights);
@@ -173,6 +201,7 @@ void run_character(const CharacterOptions& options) {
     weights.reset();
   }
   const Packer packer(options, character, tissue);
+  lower_limits(packer, options.character, tissue);
   const Safetensors* network = weights ? &*weights : nullptr;
   const std::vector<std::byte> bytes =
       options.quick || !tissue.truth ? packer.pack(network)
@@ -180,7 +209,8 @@ void run_character(const CharacterOptions& options) {
   const LoadedPack pack =
       LoadedPack::from_bytes(bytes, options.character);  // what the runtime would refuse is not written
   if (!options.quick)
-    for (std::string& warning : quick_audit({pack.view(), pack.bytes()})) character.notes.push_back("audit: " + std::move(warning));
+    for (std::string& warning : quick_audit({pack.view(), pack.bytes()}).failures)
+      character.notes.push_back("audit: " + std::move(warning));
   if (!options.preview.empty()) write_preview(options.preview, pack.view());
   write_file(options.output, bytes);
   progress.reset();

@@ -1,5 +1,6 @@
 // audit.cpp  A character that tears is found out, one that only swings is not.
-#include "baker/audit/audit.hpp"
+#include <limits>
+#include "baker/audit/limit_factor.hpp"
 
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -32,10 +33,32 @@ constexpr double kTears = 30, kSwings = 1e-3;
 
 std::vector<std::string> warnings_on(const std::vector<std::byte>& bytes) {
   const baker::LoadedPack pack = baker::LoadedPack::from_bytes(bytes, "test");
-  return baker::quick_audit({pack.view(), pack.bytes()});
+  return baker::quick_audit({pack.view(), pack.bytes()}).failures;
 }
 
 }  // namespace
+
+TEST_CASE("a_part_beyond_a_bound_is_to_move_less_and_one_within_all_as_much") {
+  baker::PartAudit part;
+  part.part.triangles = 1000;
+  part.edge_stretch.value = 1.49;
+  part.inverted_share.value = 0.009;
+  part.bob_m = 0.079;
+  CHECK(baker::limit_factor(part, 1) == 1);
+  part.edge_stretch.value = 2;
+  CHECK(baker::limit_factor(part, 1) == Approx(0.85 * 0.5));
+  part.bob_m = 0.32;
+  CHECK(baker::limit_factor(part, 1) == Approx(0.85 * 0.25));
+  CHECK(baker::limit_factor(part, 10) == Approx(0.85 * 0.5));
+  part.part.is_rod = true;  // its bone may swing, and its skin stretch twofold
+  CHECK(baker::limit_factor(part, 1) == 1);
+  part.edge_stretch.value = std::numeric_limits<double>::infinity();
+  CHECK(baker::limit_factor(part, 1) == 0.2);
+  baker::PartAudit turned;
+  turned.part.triangles = 1000;
+  turned.inverted_share.value = 0.02;
+  CHECK(baker::limit_factor(turned, 1) < 1);
+}
 
 TEST_CASE("audit_refuses_what_is_no_baked_character") {
   const TemporaryFolder folder;
