@@ -237,6 +237,13 @@ std::vector<baker::GraphLevel> coarser_levels(const Character& character, const 
   return levels;
 }
 
+// What a load moves it by grows with the square.
+void slow_down(double share, baker::ModalBasis& basis) {
+  basis.rad_per_s *= share;
+  basis.rest_rad_per_s *= share;
+  basis.rest /= share * share;
+}
+
 }  // namespace
 
 PackBytes::PackBytes(const std::byte* data, size_t size) : memory_(size), size_(size) {
@@ -250,10 +257,12 @@ PackBytes soft_block(const BlockOptions& options) {
   const std::vector<baker::GraphLevel> coarser = coarser_levels(character, options, layout);
   if (options.rods) add_rods(*options.rods, character, layout);
   if (options.arms) add_arms(*options.arms, character, layout);
-  const baker::Safetensors weights = block_network(options);
+  const baker::Safetensors weights = options.weights ? *options.weights : block_network(options);
+  std::vector<baker::ModalBasis> modes = block_modes(layout);
+  for (baker::ModalBasis& basis : modes) slow_down(options.frequency_share, basis);
   const std::vector<std::byte> bytes =
-      baker::pack_character(character, layout, block_modes(layout), options.network ? &weights : nullptr,
-                            options.precision, block_ranges(), coarser);
+      baker::pack_character(character, layout, modes, options.network ? &weights : nullptr, options.precision,
+                            block_ranges(), coarser);
   return PackBytes(bytes.data(), bytes.size());
 }
 

@@ -1,0 +1,101 @@
+// test_any_weights.cpp  Whatever weights a network has, and whatever flesh it is put on, it does no harm.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include "tests/world/stage.hpp"
+
+using namespace sinew;
+using test::Stage;
+
+namespace {
+
+constexpr double kFrame_s = 1.0 / 60;
+
+baker::Safetensors shipped(const char* name) {
+  return baker::read_safetensors(std::string(SINEW_SOURCE_DIR "/assets/weights/") + name);
+}
+
+// All numbers Gaussian, of deviation 1.
+baker::Safetensors random_weights(uint32_t seed) {
+  baker::Safetensors weights = shipped("creature.safetensors");
+  std::mt19937 random(seed);
+  std::normal_distribution<float> gauss;
+  for (auto& [name, tensor] : weights.tensors)
+    for (size_t at = 0; at + sizeof(float) <= tensor.bytes.size(); at += sizeof(float)) {
+      const float value = gauss(random);
+      std::memcpy(tensor.bytes.data() + at, &value, sizeof value);
+    }
+  return weights;
+}
+
+// To and fro, up and down and round for two seconds at a random pace; then it stands.
+struct Shaking {
+  explicit Shaking(uint32_t seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> pace(0.5, 4), size(0.01, 0.06);
+    for (int axis = 0; axis < 3; ++axis) hz[axis] = pace(random), size_m[axis] = size(random);
+    turn_rad = 10 * size(random);
+  }
+  scenes::BlockPose operator()(double t) const {
+    const double eased = std::min(1.0, t / 0.3) * std::clamp((2 - t) / 0.3, 0.0, 1.0);
+    scenes::BlockPose pose = scenes::bent_pose(0.5 * eased * turn_rad * std::sin(6 * t));
+    for (int axis = 0; axis < 3; ++axis)
+      pose.root.position_m[axis] = eased * size_m[axis] * std::sin(2 * M_PI * hz[axis] * t);
+    return pose;
+  }
+  double hz[3], size_m[3], turn_rad;
+};
+
+struct Course {
+  double largest_m = 0, left_m = 0;  // while it is shaken; after `rest_s`
+};
+
+Course run(const scenes::BlockOptions& options, const Shaking& shaking, double rest_s) {
+  Stage stage(1, {.sleep_tolerance = 0}, scenes::soft_block(options));
+  Course course;
+  while (stage.time_s < 2) {
+    stage.step(shaking, kFrame_s);
+    course.largest_m = std::max(course.largest_m, test::largest_length(stage.read(0, Space::kBind)));
+  }
+  stage.play(shaking, rest_s);
+  course.left_m = test::largest_length(stage.read(0, Space::kBind));
+  CHECK(stage.report().restarts == 0);
+  return course;
+}
+
+}  // namespace
+
+// Of 0.05 to 20 Hz, wide limits, beside the same flesh on its modal base alone. The proof bounds the norm
+// over modes by 1.5 of the base's; a vertex, and frames that turn, add a little
+// (tissue/correction_budget.hpp).
+TEST_CASE("no_weights_move_flesh_much_further_than_its_base_nor_keep_it_from_rest") {
+  const std::vector<baker::Safetensors> all = {shipped("creature.safetensors"),
+                                               shipped("creature_wide.safetensors"), random_weights(1),
+                                               random_weights(2), random_weights(3)};
+  constexpr int kRegions = 600;
+  double most = 0, left = 0;
+  for (int i = 0; i < kRegions; ++i) {
+    const double hz = 0.05 * std::pow(20 / 0.05, i / (kRegions - 1.0));
+    scenes::BlockOptions options{
+        .cells = 3, .nodes = 8, .displacement_limit = 4, .frequency_share = hz / 3.5};
+    const Shaking shaking(static_cast<uint32_t>(i));
+    const double rest_s = std::min(20.0, 2 + 4 / hz);
+    options.network = false;
+    const Course base = run(options, shaking, rest_s);
+    options.network = true;
+    options.weights = &all[static_cast<size_t>(i) % all.size()];
+    const Course corrected = run(options, shaking, rest_s);
+    INFO("region " << i << ", " << hz << " Hz: base " << base.largest_m << " m, left " << base.left_m
+                   << "; corrected " << corrected.largest_m << " m, left " << corrected.left_m);
+    most = std::max(most, corrected.largest_m / base.largest_m);
+    left = std::max(left, (corrected.left_m - base.left_m) / base.largest_m);
+    CHECK(corrected.largest_m < 1.75 * base.largest_m);
+    CHECK(corrected.left_m < base.left_m +
+                                 0.5 * std::exp(-0.1 * 2 * M_PI * hz * rest_s) * corrected.largest_m +
+                                 1e-4 * base.largest_m);
+  }
+  WARN("corrected flesh moves " << most << " times as far as its base at most, and is left further off by "
+                                << left << " of that");
+}
