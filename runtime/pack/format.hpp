@@ -278,7 +278,7 @@ struct RegionRecord {
   uint32_t padded_vertices;             // vertex_count rounded up to 16; padding is zero
   float center_m[3];                    // mean of the nodes' bind positions
   float radius_m;                       // largest distance of a node from the centre, > 0
-  float displacement_limit_m;  // guard: |l| of a node beyond this is held and the states behind it reset, > 0
+  float displacement_limit_m;  // guard: |l| of every node stays below this, approached smoothly; > 0
   uint32_t touches_body;       // 1: the capsules of kProxies, where an instance asks for it; else 0
   uint32_t reserved;
 };
@@ -395,7 +395,8 @@ static_assert(sizeof(ClipRecord) == 32);
 // What a tier is worth. Ascending by tier, then by level, then by every; each once at most. With level 0 and
 // every 1 there are skinning, extrapolate, modal, and network where the pack has one; what else is there is
 // worth having.
-// Baked without sinew-trade: costs are the tier's operations at 60 GFLOP/s, and the errors the weights' own.
+// Baked without sinew-trade: costs are the tier's operations at 60 GFLOP/s, and the errors those of this
+// character along two short motions, or not measured.
 // Measured: errors over vertices that tissue moves, of extrapolate 12 ticks after the last simulated one.
 struct TierRecord {
   uint32_t tier;   // sinew::Tier

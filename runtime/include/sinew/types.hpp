@@ -173,9 +173,9 @@ struct InstanceReport {
   uint32_t ticks_since_network = 0;  // 0: its last tick was the network's; counts on where the asset has none
   // Counters since creation.
   uint32_t input_clamps = 0;         // network inputs outside the baked envelope
-  uint32_t displacement_clamps = 0;  // nodes held at the baked displacement bound
-  // The network's state was given up: NaN or infinity in it, or nodes held at their bound in more than 60
-  // ticks in a row. The modal base takes over for 60 ticks, then the network starts anew.
+  uint32_t displacement_clamps = 0;  // regions and ticks that would have gone beyond the baked bound
+  // The network's state was given up: NaN or infinity in it. The modal base takes over for 60 ticks, then the
+  // network starts anew.
   uint32_t fallbacks = 0;
   // All state was given up, faded to skinning and restarted: NaN or infinity in the modal base or the
   // springs.
