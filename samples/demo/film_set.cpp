@@ -131,9 +131,9 @@ std::vector<float> FilmSet::farthest_m() const {
 }
 
 // What moves by itself, and the body around it: enough to tell what is seen. What has flown off does not
-// count.
+// count. Where that is most of the character, all of it: a picture that cuts off a hat looks like a mistake.
 void FilmSet::add_framed(const Snapshot& snapshot, std::span<const uint32_t> moved, Positions* points) const {
-  constexpr float kOfParts = 0.2f, kOfHeight = 0.25f, kFlownOff = 0.1f;
+  constexpr float kOfParts = 0.2f, kOfHeight = 0.25f, kFlownOff = 0.1f, kMostOfBody = 0.5f;
   const Positions placed = on_floor(snapshot, snapshot.skinned), sinew = on_floor(snapshot, snapshot.sinew);
   const float height_m = run_.asset.height_m;
   Eigen::AlignedBox3f around;
@@ -145,6 +145,8 @@ void FilmSet::add_framed(const Snapshot& snapshot, std::span<const uint32_t> mov
   const float beyond = std::max(kOfParts * around.diagonal().norm(), kOfHeight * height_m);
   around.min().array() -= beyond;
   around.max().array() += beyond;
+  const Eigen::AlignedBox3f body = render::bounding_box(placed);
+  if (around.intersection(body).diagonal().norm() > kMostOfBody * body.diagonal().norm()) around.extend(body);
   add_within(around, placed, mesh_.triangles, points);
 }
 
