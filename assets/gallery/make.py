@@ -1,0 +1,224 @@
+#!/usr/bin/env python3
+# make.py  The gallery: bakes characters without and with a recipe, plays and audits them, draws pictures and writes the page.
+"""Usage: make.py CHARACTERS [BUILD] [--only FOLDER]... [--work DIR]
+
+CHARACTERS holds a folder a character of characters.json, with file.glb, .gltf or .vrm in it; BUILD is a build
+folder (build/release). Writes README.md and pictures beside this script; with --only pictures alone.
+"""
+import argparse
+import json
+import os
+import re
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+try:
+    from PIL import Image
+except ImportError:  # a Python without Debian's packages
+    system_python = "/usr/bin/python3"
+    if os.path.realpath(sys.executable) == os.path.realpath(system_python):
+        sys.exit("make.py: no PIL; run scripts/install_packages.sh")
+    os.execv(system_python, [system_python, *sys.argv])
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+WEIGHTS = ROOT / "assets/weights/creature.safetensors"
+PANEL_PIXELS, RAYS = 250, 48  # the demo draws its still half as large again
+WIDTH, MOST_BYTES = 1120, 150_000
+GAP, BACKGROUND = 4, (250, 252, 255)
+
+
+def run(command, allowed=(0,)):
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True)
+    if done.returncode not in allowed:
+        sys.exit(f"make.py: {' '.join(map(str, command))}: exit {done.returncode}\n{done.stderr or done.stdout}")
+    return done.stdout
+
+
+def part_rows(printed):
+    """The table of parts that a bake prints: name -> (evidence, kind, Hz, limit); parts that stay rigid are left out."""
+    lines = printed.splitlines()
+    header = next((i for i, line in enumerate(lines) if re.match(r"part +evidence +kind +Hz", line)), None)
+    rows = {}
+    if header is None:
+        return rows
+    starts = [lines[header].index(word) for word in ("evidence", "kind", "Hz", "limit")]
+    for line in lines[header + 1:]:
+        if not re.search(r"(soft tissue|rod of \d+ bones?)$", line):
+            continue
+        ends = [0, *starts, len(line)]
+        cells = [line[a:b].strip() for a, b in zip(ends, ends[1:])]
+        rows[cells[0]] = (cells[1], cells[2], cells[3], cells[4].split()[0])
+    return rows
+
+
+class Bake:
+    """One character baked one way: the pack, its table, its audit and what a bake cost."""
+
+    def __init__(self, tools, source, recipe, work):
+        self.pack = work / "character.sinew"
+        self.preview = work / "preview.png"
+        command = [tools / "sinew-bake", "character", source, "--tissue", WEIGHTS, "-o", self.pack, "--preview", self.preview]
+        if recipe:
+            command += ["--recipe", recipe]
+        start = time.monotonic()
+        printed = run(command)
+        self.seconds = time.monotonic() - start
+        self.parts = part_rows(printed)
+        left_out = re.search(r"network is left out: on this character its error is ([\d.]+)", printed)
+        self.left_out = float(left_out.group(1)) if left_out else None
+        self.info = json.loads(run([tools / "sinew-bake", "info", self.pack, "--json"]))
+        self.audit = json.loads(run([tools / "sinew-bake", "audit", self.pack, "--json"], allowed=(0, 1)))
+
+    def error_of(self, tier):
+        return next((t["error_ratio"] for t in self.info["tiers"] if t["tier"] == tier), None)
+
+    def most(self, key):
+        values = [part[key] for part in self.audit["parts"]]
+        return max((v["value"] if isinstance(v, dict) else v for v in values), default=None)
+
+
+def scaled(image):
+    return image.resize((WIDTH, round(image.height * WIDTH / image.width)), Image.LANCZOS)
+
+
+def compose(preview, still):
+    """The parts above what they do."""
+    images = [scaled(Image.open(path).convert("RGB")) for path in (preview, still) if path]
+    out = Image.new("RGB", (WIDTH, sum(i.height for i in images) + GAP * (len(images) - 1)), BACKGROUND)
+    y = 0
+    for image in images:
+        out.paste(image, (0, y))
+        y += image.height + GAP
+    return out
+
+
+def write_jpeg(image, path):
+    for quality in range(88, 40, -4):
+        image.save(path, quality=quality, optimize=True, progressive=True)
+        if path.stat().st_size <= MOST_BYTES:
+            return
+    sys.exit(f"make.py: {path}: more than {MOST_BYTES} bytes")
+
+
+def play(tools, bake, character, work):
+    """The liveliest moment, as skinning and Sinew show it and how far they are apart."""
+    command = [tools / "sinew-demo", bake.pack, "--frames", work / "pictures", "--view", character["view"],
+               "--width", PANEL_PIXELS, "--height", PANEL_PIXELS, "--samples", RAYS]
+    if character["clip"]:
+        command += ["--clip", character["clip"]]
+    run(command)
+    return work / "pictures/still.png"
+
+
+def make(tools, characters, character, work):
+    folder = character["folder"]
+    files = sorted((characters / folder).glob("file.*"))
+    if len(files) != 1:
+        sys.exit(f"make.py: {characters / folder}: needs one file.glb, file.gltf or file.vrm")
+    bakes = {}
+    for way, recipe in (("without", None), ("with", HERE / f"{folder}.json")):
+        place = work / folder / way
+        place.mkdir(parents=True, exist_ok=True)
+        source = place / (folder + files[0].suffix)  # pictures show the file's name
+        source.unlink(missing_ok=True)
+        source.symlink_to(files[0].resolve())
+        bake = bakes[way] = Bake(tools, source, recipe, place)
+        still = play(tools, bake, character, place) if bake.parts else None
+        write_jpeg(compose(bake.preview, still), HERE / f"{folder}_{way}.jpg")
+        print(f"{folder}, {way} a recipe: {len(bake.parts)} parts, {bake.seconds:.1f} s, "
+              f"{'passes' if bake.audit['ok'] else 'FAILS: ' + '; '.join(map(str, bake.audit['failures']))}", flush=True)
+    return bakes
+
+
+def figure(value, form):
+    return "–" if value is None else "0" if value == 0 else format(value, form)
+
+
+def network_of(bake):
+    if bake.left_out is not None:
+        return f"left out ({bake.left_out:.2f})"
+    error = bake.error_of("network")
+    return "–" if error is None else f"kept, {error:.2f}"
+
+
+def summary(made):
+    yield "| character | recipe | parts | largest displacement / height | bob / height | residual / height | edge stretch | audit | bake, s | error of springs | of modes | network |"
+    yield "|---|---|---:|---:|---:|---:|---:|---|---:|---:|---:|---|"
+    for character, bakes in made:
+        for way, bake in bakes.items():
+            cells = [f"[{character['title']}](#{character['title'].lower().replace(' ', '-')})", way, len(bake.parts),
+                     figure(bake.most("displacement_of_height"), ".3f"), figure(bake.most("bob_displacement_of_height"), ".3f"),
+                     figure(bake.most("residual_of_height"), ".0e"), figure(bake.most("edge_stretch"), ".2f"),
+                     "passes" if bake.audit["ok"] else "**fails**", f"{bake.seconds:.1f}",
+                     figure(bake.error_of("spring"), ".2f"), figure(bake.error_of("modal"), ".2f"), network_of(bake)]
+            yield "| " + " | ".join(map(str, cells)) + " |"
+
+
+def part_table(bakes):
+    yield "| recipe | part | evidence | kind | Hz | limit / size | displacement / height | bob / height | edge stretch |"
+    yield "|---|---|---|---|---:|---:|---:|---:|---:|"
+    for way, bake in bakes.items():
+        audited = {part["name"]: part for part in bake.audit["parts"]}
+        for name, (evidence, kind, hz, limit) in bake.parts.items():
+            part = audited[name]
+            yield (f"| {way} | `{name}` | {evidence} | {kind}, {'rod' if part['kind'] == 'rod' else 'soft'} | {hz} | {limit} | "
+                   f"{part['displacement_of_height']['value']:.3f} | {part['bob_displacement_of_height']:.3f} | {part['edge_stretch']['value']:.2f} |")
+
+
+def page(made):
+    yield """# Gallery
+
+Eight characters of others, baked as they are and with a recipe. `assets/gallery/make.py CHARACTERS build/release` makes this page and its
+pictures: it bakes each character both ways, plays and audits the packs and draws what it saw. The characters' files are not part of this repository.
+
+A picture shows on top what moves by itself, soft parts in colour and rods as lines, and below it the liveliest moment of four seconds: skinning alone, Sinew, and how
+far apart they are, the darkest at 5 % of the height. A character of which nothing moves has the upper half alone. Recipes are the JSON files beside this page;
+[their keys](../../docs/your-character.md#edit-the-recipe).
+"""
+    yield from summary(made)
+    yield """
+All but the bake's seconds (one core, preview and measured errors included) and errors come from `sinew-bake audit`: the largest over parts and motions, lengths as a share of the character's height. *bob*: while the root goes up
+and down by 5 % of the height, of which flesh may do 0.08; rods swing freely. *residual*: after a minute of rest, at most 1e-4. *edge stretch*: beyond skinning's, at most 1.5, of rods 2. Errors are distances from the finite-element truth of this
+character as a share of skinning's, over two short motions; rods have no such truth. The network is trained on other bodies and left out where it is not 5 % better than the modes: in brackets what it would have had.
+`sinew-train` trains it on the character."""
+    for character, bakes in made:
+        title, folder = character["title"], character["folder"]
+        yield f"\n## {title}\n\n{character['note']} [Recipe]({folder}.json).\n"
+        if any(bake.parts for bake in bakes.values()):
+            yield from part_table(bakes)
+        for way in bakes:
+            yield f"\n{way.capitalize()} a recipe:\n\n![{title} {way} a recipe]({folder}_{way}.jpg)"
+    yield "\n## Credits\n\nPictures and figures here are made from these works, which others made and licensed; all were baked by Sinew, which changes how they move.\n"
+    yield "| character | by | licence |\n|---|---|---|"
+    for character, _ in made:
+        yield f"| {character['title']} | {character['credit']} | {character['licence']} |"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("characters", type=Path)
+    parser.add_argument("build", type=Path, nargs="?", default=ROOT / "build/release")
+    parser.add_argument("--only", action="append", default=[])
+    parser.add_argument("--work", type=Path, default=ROOT / "out/gallery")
+    options = parser.parse_args()
+    tools = options.build.resolve() / "bin"
+    for program in ("sinew-bake", "sinew-demo"):
+        if not (tools / program).exists():
+            sys.exit(f"make.py: {tools / program} is missing; build it: cmake --build {options.build} --target sinew-bake sinew-demo")
+    listed = json.loads((HERE / "characters.json").read_text())
+    unknown = set(options.only) - {character["folder"] for character in listed}
+    if unknown:
+        sys.exit(f"make.py: --only {unknown.pop()}: not in characters.json")
+    chosen = [character for character in listed if not options.only or character["folder"] in options.only]
+    made = [(character, make(tools, options.characters, character, options.work)) for character in chosen]
+    if not options.only:
+        (HERE / "README.md").write_text("\n".join(page(made)) + "\n")
+    if not all(bake.audit["ok"] for _, bakes in made for bake in bakes.values()):
+        sys.exit(1)
+
+
+if __name__ == "__main__":
+    main()
