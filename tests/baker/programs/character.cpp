@@ -47,6 +47,22 @@ TEST_CASE("the_creature_bakes_to_a_character_with_clips_regions_and_the_same_byt
   CHECK(read_text(creature.pack) == read_text(creature.folder.file("again")));
 }
 
+TEST_CASE("info_lists_the_bones_and_meshes_of_a_file_that_is_to_be_baked") {
+  const Creature creature;
+  const std::string broken = creature.folder.file("broken.glb");
+  write_file(broken, std::string_view("GIF89a, and more"));
+  check_refused({"info", broken}, {"broken.glb", "not a glTF file"});
+  CHECK_THAT(bake({"info", creature.glb}).out, Catch::Contains("bones") && Catch::Contains("spine_"));
+  const auto description = nlohmann::json::parse(bake({"info", "--json", creature.glb}).out);
+  CHECK(description["bones"][0]["parent"] == "-");
+  size_t moved = 0, shown = 0;
+  for (const auto& bone : description["bones"]) moved += bone["vertices"].get<size_t>();
+  for (const auto& mesh : description["meshes"]) shown += mesh["vertices"].get<size_t>();
+  CHECK(moved == shown);
+  CHECK(moved > 500);
+  CHECK(description["clips"].size() >= 4);
+}
+
 // Its loose pieces meet the body in corners and edges of the cage, about which they would turn at no
 // frequency.
 TEST_CASE("a_real_vrm_bakes_with_its_springs_and_a_soft_trunk_to_a_pack_that_opens") {

@@ -1,0 +1,55 @@
+// describe_source.cpp  see describe_source.hpp.
+#include "baker/programs/describe_source.hpp"
+
+#include <algorithm>
+
+#include "baker/mesh/joint_names.hpp"
+
+namespace sinew::baker {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double height_m(const Character& character) {
+  if (character.positions.empty()) return 0;
+  const auto [low, high] =
+      std::ranges::minmax_element(character.positions, {}, [](const Vector3& p) { return p.y(); });
+  return high->y() - low->y();
+}
+
+Json describe_bones(const Character& character) {
+  std::vector<size_t> vertices(character.joint_node.size(), 0);
+  for (const Influences& skin : character.skin) ++vertices[static_cast<size_t>(skin.joint[0])];
+  Json bones = Json::array();
+  for (size_t j = 0; j < vertices.size(); ++j) {
+    const int parent = character.joint_parent[j];
+    bones.push_back({{"name", joint_name(character, j)},
+                     {"parent", parent < 0 ? "-" : joint_name(character, static_cast<size_t>(parent))},
+                     {"vertices", vertices[j]}});
+  }
+  return bones;
+}
+
+Json describe_meshes(const Character& character) {
+  Json meshes = Json::array();
+  for (const MeshSpan& mesh : character.meshes)
+    meshes.push_back({{"name", character.nodes[static_cast<size_t>(mesh.node)].name},
+                      {"vertices", mesh.vertex_count},
+                      {"skinned", mesh.skinned}});
+  return meshes;
+}
+
+}  // namespace
+
+Json describe_source(const Character& character) {
+  Json clips = Json::array();
+  for (const Clip& clip : character.clips)
+    clips.push_back({{"name", clip.name}, {"seconds", clip.duration_s}});
+  return {{"kind", "source"},
+          {"character", {{"name", character.name}, {"height_m", height_m(character)}}},
+          {"bones", describe_bones(character)},
+          {"meshes", describe_meshes(character)},
+          {"clips", std::move(clips)}};
+}
+
+}  // namespace sinew::baker
