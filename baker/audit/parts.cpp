@@ -38,7 +38,8 @@ void name_parts(const pack::PackView& character, AuditedParts& parts) {
   parts.regions = parts.all.size();
   for (const pack::RodRecord& rod : character.rods)
     parts.all.push_back({pack::string_at(character, rod.name), true, length_of(character, rod),
-                         std::numeric_limits<double>::quiet_NaN()});
+                         rod.frequency_hz > 0 ? static_cast<double>(rod.frequency_hz)
+                                              : std::numeric_limits<double>::quiet_NaN()});
 }
 
 }  // namespace

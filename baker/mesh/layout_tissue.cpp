@@ -81,6 +81,8 @@ struct Part {
 SoftKind kind_of(const Region& region, const RegionRecipe* stated) {
   if (stated && stated->kind) return *stated->kind;
   if (const auto kind = meaning_of(region.name).kind) return *kind;
+  // An artist who calls a region thigh_l means its flesh, where a bone of that name is a limb.
+  if (const auto kind = kind_called(region.name.substr(0, region.name.find('_')))) return *kind;
   if (stated)
     for (const std::string& joint : stated->joints)
       if (const auto kind = meaning_of(joint).kind) return *kind;

@@ -52,6 +52,7 @@ void add_rods(const Character& character, const std::vector<Rod>& rods, PackWrit
     record.segment_count = static_cast<uint32_t>(rod.bones.size());
     record.gravity = static_cast<float>(rod.gravity);
     record.sag = static_cast<float>(rod.sag);
+    record.frequency_hz = static_cast<float>(rod.frequency_hz);
     record.turn_limit_rad = static_cast<float>(rod.max_displacement);
     records.push_back(record);
     for (const RodBone& bone : rod.bones) segments.push_back(segment_record(bone));

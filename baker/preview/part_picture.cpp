@@ -120,15 +120,14 @@ Image view_from(const ViewSide& side, const render::Mesh& mesh, const std::vecto
 constexpr float kLetter_px = 12, kRow_px = 25, kMargin_px = 18, kSwatch_px = 16;
 
 std::string kind_of(const Part& part) {
-  if (part.is_rod)
-    return part.bones.size() == 1 ? "rod, 1 bone" : "rod, " + std::to_string(part.bones.size()) + " bones";
-  char text[48];
-  std::snprintf(text, sizeof text, "soft, %.3g Hz", part.frequency_hz);
-  return text;
+  char hz[24] = "";
+  if (part.frequency_hz > 0) std::snprintf(hz, sizeof hz, ", %.3g Hz", part.frequency_hz);
+  const std::string bones = std::to_string(part.bones.size()) + (part.bones.size() == 1 ? " bone" : " bones");
+  return (part.is_rod ? "rod, " + bones : "soft") + hz;
 }
 
 Image legend(const std::vector<Part>& parts, int height) {
-  constexpr float kWidestName_px = 300, kKind_px = 150, kTop_px = 60;
+  constexpr float kWidestName_px = 300, kKind_px = 190, kTop_px = 60;
   const render::TextStyle bold{.size_px = kLetter_px, .weight = 1.4f},
       pale{.size_px = kLetter_px, .color = render::kPaleInk};
   float name_px = 60;

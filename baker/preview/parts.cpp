@@ -24,7 +24,7 @@ Part soft_part(const pack::PackView& view, size_t index) {
 }
 
 Part rod_part(const pack::PackView& view, const pack::RodRecord& rod) {
-  Part part{pack::string_at(view, rod.name), true, std::numeric_limits<double>::quiet_NaN(), {}, {}, {}};
+  Part part{pack::string_at(view, rod.name), true, static_cast<double>(rod.frequency_hz), {}, {}, {}};
   const auto at = [](const float(&p)[3]) { return Eigen::Vector3f(p[0], p[1], p[2]); };
   for (const pack::RodSegmentRecord& s : view.rod_segments.subspan(rod.first_segment, rod.segment_count))
     part.bones.emplace_back(at(s.begin_m), at(s.end_m));

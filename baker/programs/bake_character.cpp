@@ -161,11 +161,6 @@ std::string network_note(const std::vector<pack::TierRecord>& tiers) {
   return text;
 }
 
-// A tier that errs as much as skinning is never worth its time: the runtime skins instead.
-bool never_moves(const std::vector<pack::TierRecord>& tiers) {
-  return error_ratio_of(tiers, Tier::kModal) >= 1 && !(error_ratio_of(tiers, Tier::kNetwork) < 1);
-}
-
 // The pack with the errors of this character, and without a network that does not pay on it.
 std::vector<std::byte> measured(const Packer& packer, const Safetensors* weights, bool keep_network,
                                 Character& character, const Tissue& tissue) {
@@ -180,10 +175,6 @@ std::vector<std::byte> measured(const Packer& packer, const Safetensors* weights
       bytes = packer.pack(nullptr);
       tiers = measured_tiers(LoadedPack::from_bytes(bytes, character.name), truths);
     }
-    if (never_moves(tiers))
-      character.notes.push_back(
-          "soft parts will not move: their error is no less than skinning's, which the runtime takes "
-          "instead; lower \"intensity\" or raise \"frequency_hz\"");
     return with_tiers(bytes, tiers);
   } catch (const std::runtime_error& problem) {
     const char* what =

@@ -127,6 +127,7 @@ Json describe_rods(const pack::PackView& view) {
     rods.push_back({{"name", string_at(view, rod.name)},
                     {"hangs_on", string_at(view, view.joints[rod.attach].name)},
                     {"bones", bones.size()},
+                    {"first_hz", rod.frequency_hz},
                     {"from", bones.front()},
                     {"to", bones.back()},
                     {"length_m", length_m},

@@ -39,7 +39,9 @@ Status check_record(const PackView& pack, const RodRecord& rod, size_t index, ui
     return corrupt("rod %zu: sag %g, outside 0..1", index, double{rod.sag});
   if (!(rod.turn_limit_rad >= 0 && rod.turn_limit_rad <= std::numbers::pi_v<float>))
     return corrupt("rod %zu: turn limit %g, outside 0..pi", index, double{rod.turn_limit_rad});
-  return check_zero({&rod.reserved, 1}, "rod", index);
+  if (!is_not_negative(rod.frequency_hz))
+    return corrupt("rod %zu: frequency %g Hz, below 0", index, double{rod.frequency_hz});
+  return {};
 }
 
 Status check_material(const RodSegmentRecord& segment, size_t index) noexcept {

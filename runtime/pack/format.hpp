@@ -359,7 +359,7 @@ struct RodRecord {
               // pose
   // 0..pi, what a segment is shown turned against its rest stays below this, approached smoothly; 0: no limit.
   float turn_limit_rad;
-  uint32_t reserved;
+  float frequency_hz;  // about that of its slowest swing, for tables; 0: not known
 };
 static_assert(sizeof(RodRecord) == 32);
 

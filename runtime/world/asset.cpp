@@ -24,9 +24,11 @@ constexpr float kUsualSkinningError = 5e-3f;
 // proved too dear is believed soon, and tried again after some ten seconds instead of one.
 constexpr frame::CostEstimate::Correction kWithSurface{.drift = 1e-3f, .rise = 0.5f};
 
-// What was not measured on a coarser graph follows from what was on the finest.
+// What was not measured on a coarser graph follows from what was on the finest. What an artist tuned to move
+// otherwise than the truth is still to move: it is bought last, not never.
 float told_error(const pack::PackView& pack, const pack::TierRecord& record) noexcept {
-  if (!std::isnan(record.error_ratio)) return record.error_ratio;
+  constexpr float kLastBought = 0.99f;
+  if (!std::isnan(record.error_ratio)) return std::min(record.error_ratio, kLastBought);
   float finest = frame::usual_error(static_cast<Tier>(record.tier), record.every);
   for (const pack::TierRecord& other : pack.tiers) {
     const bool same = other.tier == record.tier && other.every == record.every && other.level == 0;

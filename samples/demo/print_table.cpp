@@ -37,10 +37,10 @@ void print_parts(const std::string& name, const Run& run) {
               "most moved, mm", "of height", "2 s still, mm", "of height");
   for (const PartMotion& part : run.parts) {
     std::printf("  %-*s %5s ", static_cast<int>(width), part.name.c_str(), part.is_rod ? "rod" : "soft");
-    if (part.is_rod)
-      std::printf("%8s", "");
-    else
+    if (part.frequency_hz > 0)
       std::printf("%8.2f", part.frequency_hz);
+    else
+      std::printf("%8s", "");
     std::printf(" %15.1f %8.2f %% %17.2f %8.3f %%\n", part.largest_mm, 100 * part.largest_mm / height_mm,
                 part.still_mm, 100 * part.still_mm / height_mm);
   }

@@ -569,7 +569,7 @@ TEST_CASE("rods_that_disagree_with_the_skeleton_are_refused_by_name") {
       {"turn limit", rod([](RodRecord& r) { r.turn_limit_rad = kNan; })},
       {"turn limit", rod([](RodRecord& r) { r.turn_limit_rad = 4; })},
       {"sag", rod([](RodRecord& r) { r.sag = 1.5f; })},
-      {"reserved", rod([](RodRecord& r) { r.reserved = 1; })},
+      {"frequency", rod([](RodRecord& r) { r.frequency_hz = -1; })},
       {"parent", segment(0, [](RodSegmentRecord& s) { s.parent = 0; })},
       {"parent", segment(1, [](RodSegmentRecord& s) { s.parent = 1; })},  // a cycle
       {"parent", segment(1, [](RodSegmentRecord& s) { s.parent = kNoIndex; })},

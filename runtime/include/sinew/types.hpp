@@ -95,7 +95,7 @@ struct WorldDef {
   // 0..1, a share of a soft part's radius. A part that neither moves nor feels anything new by more than that
   // for half a swing falls asleep: it keeps its shape at next to no cost until it feels more
   // (runtime/world/sleep.hpp). 0: never.
-  float sleep_tolerance = 1e-4f;
+  float sleep_tolerance = 2e-5f;
   uint32_t report_history = 120;  // 0..65535 FrameReports kept for World::history
   BudgetMode budget_mode = BudgetMode::kTime;
   // Asked whether something hides what views show (World::set_views); null: nothing does. Outlives the world.
