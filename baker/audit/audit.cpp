@@ -14,7 +14,7 @@ namespace sinew::baker {
 namespace {
 
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
-constexpr double kLongRest_s = 60, kQuickBob_s = 2, kQuickClip_s = 4;
+constexpr double kLongRest_s = 60, kQuickBob_s = 2, kQuickClips_s = 60;
 constexpr double kWatched_s = 10;  // a rod's residual: how far it still moves in the last of the rest
 
 class Auditor {
@@ -157,9 +157,11 @@ Audit quick_audit(const AuditedPack& pack) {
   Auditor auditor(pack);
   auditor.play(bob_motion(pack.view, kQuickBob_s, 0.5));
   for (const AuditMotion& motion : root_motions(pack.view)) auditor.play(motion);
-  if (!pack.view.clips.empty()) {
-    AuditMotion clip = clip_motion(pack.view, liveliest_clip(pack.view));
-    clip.moving_s = std::min(clip.moving_s, kQuickClip_s);
+  double left_s = kQuickClips_s;
+  for (size_t c = 0; c < pack.view.clips.size() && left_s > 0; ++c) {
+    AuditMotion clip = clip_motion(pack.view, c);
+    clip.moving_s = std::min(clip.moving_s, left_s);
+    left_s -= clip.moving_s;
     auditor.play(clip);
   }
   return auditor.finish();

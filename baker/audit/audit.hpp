@@ -36,7 +36,7 @@ struct Audit {
 // progress(done, of all) is called now and then; a pack without a character is refused with BadInput.
 Audit run_audit(const AuditedPack& pack, const std::function<void(size_t, size_t)>& progress);
 
-// The root's motions and the liveliest clip, without the minute of rest: a fraction of a second.
+// The root's motions and the first minute of the clips, without the minute of rest: a fraction of a second.
 Audit quick_audit(const AuditedPack& pack);
 
 // Of a part's triangles that may be turned over: kMostInverted, or one.

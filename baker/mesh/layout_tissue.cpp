@@ -5,6 +5,7 @@
 #include "baker/mesh/bone_names.hpp"
 #include "baker/mesh/carry.hpp"
 #include "baker/mesh/control_nodes.hpp"
+#include "baker/mesh/crossed_capsules.hpp"
 #include "baker/mesh/flesh_shape.hpp"
 #include "baker/mesh/joint_names.hpp"
 #include "baker/mesh/named_parts.hpp"
@@ -252,6 +253,7 @@ TissueLayout layout_tissue(Character& character, const Recipe& recipe) {
   std::ranges::move(named.skipped, std::back_inserter(layout.skipped));
   const std::vector<bool> on_rods = joints_on_rods(character, layout.rods);
   layout.proxies = find_proxies(character, find_bones(character, {}), on_rods, recipe);
+  drop_crossed(character, layout.rods, recipe, layout.proxies);
 
   Recipe as = recipe;
   if (!painted && !states_regions) as.regions = std::move(named.regions);

@@ -130,18 +130,32 @@ class Packer {
   pack::Precision precision_;
 };
 
+std::string limit_note(const Region& before, const Region& after) {
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      "'%s' may move by %.2f of its radius, not %.2f: further its skin would tear; add bones around it, "
+      "or state max_displacement",
+      after.name.c_str(), after.max_displacement, before.max_displacement);
+  return text;
+}
+
 // Flesh with a narrow rim tears where other flesh only swings: limits that no recipe states are lowered until
 // a quick audit of the modal base is within its bounds.
-void lower_limits(const Packer& packer, const std::string& name, Tissue& tissue) {
-  constexpr int kMostRounds = 4;
+void lower_limits(const Packer& packer, Character& character, Tissue& tissue) {
+  constexpr int kMostRounds = 6;
+  const std::vector<Region> before = tissue.layout.regions;
   bool lowered = !tissue.layout.regions.empty() || !tissue.layout.rods.empty();
   for (int round = 0; lowered && round < kMostRounds; ++round) {
-    const LoadedPack pack = LoadedPack::from_bytes(packer.pack(nullptr), name);
+    const LoadedPack pack = LoadedPack::from_bytes(packer.pack(nullptr), character.name);
     const Audit audit = quick_audit({pack.view(), pack.bytes()});
     lowered = false;
     for (size_t p = 0; p < audit.parts.size(); ++p)
       lowered |= tissue.scale_limit(p, limit_factor(audit.parts[p], audit.height_m));
   }
+  for (size_t r = 0; r < before.size(); ++r)
+    if (tissue.layout.regions[r].max_displacement < before[r].max_displacement)
+      character.notes.push_back(limit_note(before[r], tissue.layout.regions[r]));
 }
 
 std::vector<std::byte> with_tiers(const std::vector<std::byte>& bytes,
@@ -201,7 +215,7 @@ void run_character(const CharacterOptions& options) {
     weights.reset();
   }
   const Packer packer(options, character, tissue);
-  lower_limits(packer, options.character, tissue);
+  lower_limits(packer, character, tissue);
   const Safetensors* network = weights ? &*weights : nullptr;
   const std::vector<std::byte> bytes =
       options.quick || !tissue.truth ? packer.pack(network)

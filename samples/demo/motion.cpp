@@ -131,7 +131,7 @@ std::vector<size_t> chosen_clips(const CharacterFile& character, const std::stri
   std::string known;
   for (size_t clip = 0; clip < character.view.clips.size(); ++clip) {
     const std::string clip_name = character.clip_name(clip);
-    if (name.empty() || name == clip_name) out.push_back(clip);
+    if (name.empty() || name == clip_name || clip_name.ends_with("|" + name)) out.push_back(clip);
     known += (known.empty() ? "" : ", ") + clip_name;
   }
   if (out.empty() && !name.empty()) {
