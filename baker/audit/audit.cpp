@@ -46,7 +46,7 @@ class Auditor {
     for (const PartAudit& part : audit_.parts) judge(part);
     if (given_up_ > 0)
       audit_.failures.push_back("its state was given up " + std::to_string(given_up_) +
-                                " times: nodes stood at their limit, or numbers were no numbers");
+                                " times: numbers were no numbers");
     if (recovered_ > 0)
       audit_.failures.push_back("rods had to be put together again " + std::to_string(recovered_) + " times");
     return std::move(audit_);

@@ -191,8 +191,8 @@ std::vector<std::byte> measured(const Packer& packer, const Safetensors* weights
     }
     return with_tiers(bytes, tiers);
   } catch (const std::runtime_error& problem) {
-    const char* what =
-        keep_network ? "errors are not measured: " : "errors are not measured, and a network is left out: ";
+    const char* what = keep_network || !weights ? "errors are not measured: "
+                                                : "errors are not measured, and a network is left out: ";
     character.notes.push_back(what + std::string(problem.what()));
     return packer.pack(keep_network ? weights : nullptr);
   }

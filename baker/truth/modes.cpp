@@ -42,6 +42,11 @@ Eigenmodes dense_modes(const Eigen::SparseMatrix<double>& stiffness, const Vecto
           scale.asDiagonal() * solver.eigenvectors().leftCols(wanted)};
 }
 
+// QR of a block that has lost rank returns directions of its own choice.
+MatrixXd orthonormal_to(const Eigen::Ref<const MatrixXd>& so_far, const MatrixXd& block) {
+  return orthonormal(block - so_far * (so_far.transpose() * block));
+}
+
 // The largest eigenvalues of B = sqrt(M) (K + shift M)^-1 sqrt(M), the inverses of what is wanted plus the
 // shift.
 Eigenmodes lanczos_modes(const Eigen::SparseMatrix<double>& stiffness, const VectorXd& root_mass,
@@ -70,7 +75,7 @@ Eigenmodes lanczos_modes(const Eigen::SparseMatrix<double>& stiffness, const Vec
     projected.block(0, known - block, known, block) = along;
     projected.block(known - block, 0, block, known) = along.transpose();
     if (known < wanted) {
-      basis.middleCols(known, block) = orthonormal(next);
+      basis.middleCols(known, block) = orthonormal_to(so_far, orthonormal(next));
       continue;
     }
     const Eigen::SelfAdjointEigenSolver<MatrixXd> ritz(projected.topLeftCorner(known, known));
@@ -80,7 +85,7 @@ Eigenmodes lanczos_modes(const Eigen::SparseMatrix<double>& stiffness, const Vec
     if ((residuals.array() <= kConverged * values.array()).all() || known + block > most)
       return {(values.cwiseInverse().array() - shift).cwiseMax(0),
               root_mass.cwiseInverse().asDiagonal() * (so_far * pairs)};
-    basis.middleCols(known, block) = orthonormal(next);
+    basis.middleCols(known, block) = orthonormal_to(so_far, orthonormal(next));
   }
 }
 

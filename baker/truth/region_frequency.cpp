@@ -56,6 +56,18 @@ void check_free(const TissueLayout& layout, const Recipe& recipe, const Found& f
           "under coreless_joints");
 }
 
+void check_reached(const TissueLayout& layout, const Recipe& recipe, const Found& found) {
+  constexpr double kFarOff = 0.05;
+  if (!recipe.states_regions) return;
+  for (size_t r = 0; r < layout.regions.size(); ++r) {
+    const double wanted = layout.regions[r].frequency_hz, is = found.first_hz[r];
+    if (wanted > 0 && std::abs(is / wanted - 1) > kFarOff)
+      throw BadInput("recipe: region '" + layout.regions[r].name + "': its frequency_hz of " +
+                     std::to_string(wanted) + " cannot be reached, it swings at " + std::to_string(is) +
+                     "; name more of its bones, or state another");
+  }
+}
+
 // A tetrahedron between two regions takes the mean of their factors.
 double factor_of(const std::array<int, 4>& corners, const Found& found, const std::vector<double>& factor) {
   double logarithm = 0;
@@ -73,7 +85,7 @@ double factor_of(const std::array<int, 4>& corners, const Found& found, const st
 
 Cage with_frequencies(Cage cage, const TissueLayout& layout, const Recipe& recipe) {
   const bool any = std::ranges::any_of(layout.regions, [](const Region& r) { return r.frequency_hz > 0; });
-  for (int round = 0; any && round < kMostRounds; ++round) {
+  for (int round = 0; any; ++round) {
     const MovingPart part = moving_part(cage, recipe);
     const Found found = find(cage, layout, part);
     check_free(layout, recipe, found);
@@ -86,6 +98,10 @@ Cage with_frequencies(Cage cage, const TissueLayout& layout, const Recipe& recip
       close = close && std::abs(wanted / found.first_hz[r] - 1) < kClose;
     }
     if (close) break;
+    if (round == kMostRounds) {
+      check_reached(layout, recipe, found);
+      break;
+    }
     for (const int element : part.cage_element)
       cage.young_pa[static_cast<size_t>(element)] *=
           factor_of(cage.tetrahedra[static_cast<size_t>(element)], found, factor);

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <new>
+#include <stdexcept>
+#include <string>
 
 namespace sinew::baker {
 namespace {
@@ -78,7 +80,9 @@ struct SparseCholesky::Impl {
   Impl& operator=(const Impl&) = delete;
 
   void check() const {
-    if (common.status < CHOLMOD_OK) throw std::bad_alloc();
+    if (common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
+    if (common.status < CHOLMOD_OK)
+      throw std::runtime_error("a sparse factorisation failed with status " + std::to_string(common.status));
   }
 };
 

@@ -112,7 +112,7 @@ TruthFrame TissueTruth::Impl::frame() const {
     for (size_t a = 0; a < 4; ++a) {
       const int node =
           part.node_of_cage[static_cast<size_t>(cage.tetrahedra[static_cast<size_t>(place.tetrahedron)][a])];
-      if (node >= 0) frame.truth[v] += place.weight[a] * displacement.segment<3>(3 * node);
+      if (node >= 0) frame.truth[v] += intensity[v] * place.weight[a] * displacement.segment<3>(3 * node);
     }
   }
   frame.elastic_energy_j = fem.elastic_energy() - fem.elastic_energy(skinned.after) +

@@ -29,7 +29,8 @@
 //   6  what a tier costs and how far it is off may be measured, its tail with it, and tiers simulated every
 //      second tick stand beside those of every tick
 //      since then, likewise: CharacterRecord::coarser_count with the sections kLevels, kPicks and kSpread,
-//      TierRecord::level, and RegionRecord::touches_body
+//      TierRecord::level, and RegionRecord::touches_body; RodRecord::turn_limit_rad and frequency_hz; a
+//      character of which nothing swings
 #pragma once
 #include <cstddef>
 #include <cstdint>

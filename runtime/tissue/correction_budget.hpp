@@ -20,7 +20,7 @@ namespace sinew::tissue {
 inline constexpr float kMostCorrection = 0.5f;  // k: 0.35 costs the shipped network 2 % in a shake, 0.25 22 %
 
 struct CorrectionStep {
-  std::span<const pack::ModeRecord> modes;  // underdamped; of others the energy counts as no less than zero
+  std::span<const pack::ModeRecord> modes;  // p is zero of those that do not swing
   const float* base = nullptr;              // [modes] b of this tick
   const float* d = nullptr;                 // [modes] of the last tick
   const float* d_before = nullptr;          // [modes] of the tick before it

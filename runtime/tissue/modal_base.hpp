@@ -11,8 +11,9 @@
 // phi is what a frame that turns does to what moves in it (Coriolis, centrifugal and Euler, exact for the
 // differences taken here). W(theta), the mean of the rotations from 0 to theta, is modal warping (Choi & Ko
 // 2005): a bent tail stays as long as it was. r is the answer of the modes left out, exact at rest (residual
-// flexibility; MacNeal 1971). On the modal base alone l = l^ and q = q^; a network corrects l^ to l, and
-// q_t = q^ + project (l_t - l^). No simulated sequence enters: modes, shapes and forces are the flesh's own.
+// flexibility; MacNeal 1971). On the modal base alone l = l^ and q = q^; a network corrects them by s p,
+// q_t = q^ + s p and l_t = l^ + shape s p, and e is then turned by the theta of the base alone
+// (tissue/correction_budget.hpp). No simulated sequence enters: modes, shapes and forces are the flesh's own.
 #pragma once
 #include <cstdint>
 #include <span>

@@ -79,8 +79,6 @@ void begin_network(Instance& instance) noexcept {
              instance.network_state);
   if (!remembered) state.network_begins = state.untouched ? 0 : kNetworkBeginTicks;
   state.forgotten = 0;
-  for (float* corrected : instance.corrected) std::fill_n(corrected, level.mode_count(), 0.0f);
-  std::fill_n(instance.swing, level.pack.regions.size(), 0.0f);
 }
 
 // Springs and modes are two laws: what one of them shows tells nothing of where the other would be, but where

@@ -375,10 +375,10 @@ void limit_part(Instance& instance, const Part& part) noexcept {
   if (share == 1) return;
   const size_t floats = size_t{3} * part.record.node_count, modes = part.base.modes.size();
   for (int tick = 0; tick < 2; ++tick) {
-    for (float* const* vectors : {instance.l, instance.r}) scale(share, vectors[tick] + part.vector, floats);
+    scale(share, instance.r[tick] + part.vector, floats);
     for (float* const* modal : {instance.q, instance.corrected}) scale(share, modal[tick] + part.mode, modes);
   }
-  scale(share, instance.u[1] + part.vector, floats);
+  scale(share, instance.l[0] + part.vector, floats);  // that of the last tick was shown: what rests, rests
   instance.swing[part.index] *= share * share;
 }
 
@@ -470,25 +470,37 @@ void count_corrections(Instance& instance, const Part& part, const float* correc
   }
 }
 
+// The share of a correction that the region's budget allows; the budget becomes this tick's.
+float spend_budget(Instance& instance, const Part& part, const float* correction) noexcept {
+  float base[pack::kMaxModes];
+  const float *d = instance.corrected[0] + part.mode, *d_before = instance.corrected[1] + part.mode;
+  for (size_t m = 0; m < part.base.modes.size(); ++m) {
+    const pack::ModeRecord& mode = part.base.modes[m];
+    base[m] = instance.q_hat[part.mode + m] - (mode.a1 * d[m] + mode.a2 * d_before[m]);
+  }
+  return tissue::bounded_share({.modes = part.base.modes,
+                                .base = base,
+                                .d = d,
+                                .d_before = d_before,
+                                .correction = correction,
+                                .pose_stays = pose_stays(instance, part)},
+                               instance.swing + part.index);
+}
+
 // The network's correction as modes have it, as much of it as its budget allows.
 void correct_modes(Instance& instance, const Part& part, float most) noexcept {
-  alignas(64) float correction[pack::kMaxModes] = {}, base[pack::kMaxModes];
+  alignas(64) float correction[pack::kMaxModes] = {};
   const size_t modes = part.base.modes.size();
   float* change = instance.region[0];
   for (size_t i = 0; i < size_t{3} * part.record.node_count; ++i)
     change[i] = most * (instance.l[0][part.vector + i] - instance.l_hat[part.vector + i]);
   tissue::modal_project(part.base, change, correction);
-  const float *d = instance.corrected[0] + part.mode, *d_before = instance.corrected[1] + part.mode;
-  for (size_t m = 0; m < modes; ++m)
-    base[m] =
-        instance.q_hat[part.mode + m] - (part.base.modes[m].a1 * d[m] + part.base.modes[m].a2 * d_before[m]);
-  const float share = tissue::bounded_share({.modes = part.base.modes,
-                                             .base = base,
-                                             .d = d,
-                                             .d_before = d_before,
-                                             .correction = correction,
-                                             .pose_stays = pose_stays(instance, part)},
-                                            instance.swing + part.index);
+  // The budget's proof wants modes that swing; the baker makes no others.
+  for (size_t m = 0; m < modes; ++m) {
+    const pack::ModeRecord& mode = part.base.modes[m];
+    if (mode.a1 * mode.a1 + 4 * mode.a2 >= 0) correction[m] = 0;
+  }
+  const float share = spend_budget(instance, part, correction);
   // A correction that is not finite takes no share, and 0 times it is none either.
   for (size_t m = 0; m < modes; ++m) correction[m] = share > 0 ? share * correction[m] : 0;
   simd::kernels().add_rows(part.base.shape, static_cast<uint32_t>(modes), part.base.padded, correction,
@@ -513,6 +525,17 @@ void take_back_to_network(Instance& instance) noexcept {
   for_each_awake_part(instance, [&](const Part& part) {
     tissue::write_output(instance.asset->network, instance.level->pack.regions.subspan(part.index, 1),
                          instance.level->node_count(), instance.l[0] + part.vector, instance.network_state);
+  });
+}
+
+// What a network corrected before goes on with the modes; the budget follows.
+void settle_on_base(Instance& instance) noexcept {
+  std::copy_n(instance.l_hat, floats_of(instance), instance.l[0]);
+  if (instance.asset->network.layers.empty()) return;
+  for_each_awake_part(instance, [&](const Part& part) {
+    const float none[pack::kMaxModes] = {};
+    spend_budget(instance, part, none);
+    count_corrections(instance, part, none);
   });
 }
 
@@ -562,7 +585,7 @@ bool simulate_tick(Instance& instance) noexcept {
   if (corrected)
     settle_on_network(instance);
   else
-    std::copy_n(instance.l_hat, floats_of(instance), instance.l[0]);
+    settle_on_base(instance);
   settle(instance);
   if (corrected) take_back_to_network(instance);
   return true;
@@ -613,7 +636,9 @@ void lift_displacement(Instance& instance) noexcept {
     std::copy_n(instance.u[tick], floats_of(instance), instance.l[tick]);
     std::fill_n(instance.r[tick], floats_of(instance), 0.0f);
     std::fill_n(instance.q[tick], instance.level->mode_count(), 0.0f);
+    std::fill_n(instance.corrected[tick], instance.level->mode_count(), 0.0f);
   }
+  std::fill_n(instance.swing, instance.level->pack.regions.size(), 0.0f);
   for_each_part(instance, [&](const Part& part) {
     for (int tick = 0; tick < 2; ++tick) {
       project_change(instance, part, instance.l[tick], instance.r[tick], instance.q[tick]);  // r is zero

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tissue/correction_budget.hpp"
 #include "tissue/node_drive.hpp"
 
 namespace sinew::world {
@@ -61,10 +62,26 @@ void for_each_region(Instance& instance, float tolerance, Work work) noexcept {
     work(r, region_at(instance, r, tolerance), instance.quiet_ticks[r]);
 }
 
+// Nothing of the last tick is left to go on with; the budget covers what corrections there are.
+void stop_region(Instance& instance, size_t region) noexcept {
+  const pack::PackView& pack = instance.level->pack;
+  const pack::RegionModesRecord& modes = pack.region_modes[region];
+  const size_t vector = size_t{3} * pack.regions[region].first_node,
+               floats = size_t{3} * pack.regions[region].node_count;
+  std::copy_n(instance.q[0] + modes.first_mode, modes.mode_count, instance.q[1] + modes.first_mode);
+  std::copy_n(instance.corrected[0] + modes.first_mode, modes.mode_count,
+              instance.corrected[1] + modes.first_mode);
+  float squared = 0;
+  for (uint32_t m = 0; m < modes.mode_count; ++m)
+    squared += instance.corrected[0][modes.first_mode + m] * instance.corrected[0][modes.first_mode + m];
+  instance.swing[region] = squared / (tissue::kMostCorrection * tissue::kMostCorrection);
+  for (float* const* ticks : {instance.r, instance.u})
+    std::copy_n(ticks[0] + vector, floats, ticks[1] + vector);
+}
+
 void fall_asleep(Instance& instance, size_t index, const Region& region) noexcept {
   const size_t vector = size_t{3} * region.record.first_node;
   stop_region(instance, index);
-  instance.swing[index] = 0;
   std::copy_n(instance.l[0] + vector, size_t{3} * region.record.node_count, instance.l[1] + vector);
 }
 
@@ -108,18 +125,6 @@ void watch_motion(Instance& instance, float tolerance) noexcept {
     quiet_ticks = quiet ? quiet_ticks + instance.state->since_ticks : 0;
     if (quiet_ticks >= enough) fall_asleep(instance, r, region);
   });
-}
-
-void stop_region(Instance& instance, size_t region) noexcept {
-  const pack::PackView& pack = instance.level->pack;
-  const pack::RegionModesRecord& modes = pack.region_modes[region];
-  const size_t vector = size_t{3} * pack.regions[region].first_node,
-               floats = size_t{3} * pack.regions[region].node_count;
-  std::copy_n(instance.q[0] + modes.first_mode, modes.mode_count, instance.q[1] + modes.first_mode);
-  std::copy_n(instance.corrected[0] + modes.first_mode, modes.mode_count,
-              instance.corrected[1] + modes.first_mode);
-  for (float* const* ticks : {instance.r, instance.u})
-    std::copy_n(ticks[0] + vector, floats, ticks[1] + vector);
 }
 
 }  // namespace sinew::world

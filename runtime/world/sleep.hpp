@@ -4,9 +4,6 @@
 //   quiet   in a tick: each node's felt acceleration is within s w1^2 of what it was as the quiet began, and
 //           its l moved by at most s w1 h: what swings at w1 or above swings by less than s
 //   asleep  after half a swing of quiet ticks, pi / (w1 h), as long as the felt acceleration stays that near
-//   settled where no source is asked, under a pose that has been the same bits for so long that what swings
-//           a third as damped as each of its modes, e^(-zeta w t / 3), is a thousandth of what it was: flesh
-//           is at rest, and a movement of 16 s w1 h a tick counts as quiet: a network's own hum
 // What the instance's level leaves out neither sleeps nor is awake.
 // A sleeping region keeps l, theta, q, r and its network's states, with no velocity, and is carried and shown
 // as ever. Its poses and drive are followed, so that the first tick in which it feels more is simulated like
@@ -26,8 +23,5 @@ uint32_t regions_asleep(const Instance& instance) noexcept;
 void watch_drive(Instance& instance, float tolerance) noexcept;
 // After its tissue: counts quiet ticks; what falls asleep stops.
 void watch_motion(Instance& instance, float tolerance) noexcept;
-
-// The region stands still: nothing of the last tick is left to go on with.
-void stop_region(Instance& instance, size_t region) noexcept;
 
 }  // namespace sinew::world

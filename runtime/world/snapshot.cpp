@@ -22,7 +22,7 @@ constexpr uint64_t kMagic = 0x31544154534e5753;  // "SWNSTAT1", little-endian
 // 10: the level of control graphs, and what its last change left. 11: the same in another order. 12: how
 // contacts' forces changed. 13: the update rate, and who was looked at last. 14: what was missed, and
 // whose tail rides. 15: regions that a change of level had again. 16: blends of any length.
-// 18: how long a tail fades.
+// 18: how long a tail fades. 19: what the corrections of a network may spend.
 constexpr uint32_t kVersion = 19;
 
 struct Header {
