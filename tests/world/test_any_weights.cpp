@@ -52,10 +52,23 @@ struct Course {
   double largest_m = 0, left_m = 0;  // while it is shaken; after `rest_s`
 };
 
-Course run(const scenes::BlockOptions& options, const Shaking& shaking, double rest_s) {
-  Stage stage(1, {.sleep_tolerance = 0}, scenes::soft_block(options));
+float modal_cost_us(const scenes::PackBytes& pack) {
+  pack::PackView view;
+  REQUIRE(pack::open_pack(pack.bytes(), &view).ok());
+  for (const pack::TierRecord& record : view.tiers)
+    if (record.tier == static_cast<uint32_t>(Tier::kModal)) return record.cost_us;
+  return 0;
+}
+
+// to_and_fro: the network is taken away and given back, half a second each.
+Course run(const scenes::BlockOptions& options, const Shaking& shaking, double rest_s,
+           bool to_and_fro = false) {
+  const scenes::PackBytes pack = scenes::soft_block(options);
+  Stage stage(1, {.sleep_tolerance = 0, .budget_mode = BudgetMode::kWorkUnits}, pack);
   Course course;
-  while (stage.time_s < 2) {
+  for (int frame = 0; stage.time_s < 2; ++frame) {
+    const bool less = to_and_fro && frame / 30 % 2 == 1;
+    REQUIRE(stage.world.set_budget_us(less ? 1.01f * modal_cost_us(pack) : 1e6f).ok());
     stage.step(shaking, kFrame_s);
     course.largest_m = std::max(course.largest_m, test::largest_length(stage.read(0, Space::kBind)));
   }
@@ -66,6 +79,25 @@ Course run(const scenes::BlockOptions& options, const Shaking& shaking, double r
 }
 
 }  // namespace
+
+// What it corrected goes on with the modes and counts when it is back: no new budget each time.
+TEST_CASE("a_network_that_comes_and_goes_does_no_more_harm") {
+  const baker::Safetensors wild = random_weights(4);
+  for (int i = 0; i < 40; ++i) {
+    const double hz = 0.05 * std::pow(20 / 0.05, i / 39.0);
+    scenes::BlockOptions options{
+        .cells = 3, .nodes = 8, .displacement_limit = 4, .frequency_share = hz / 3.5};
+    const Shaking shaking(static_cast<uint32_t>(i));
+    options.network = false;
+    const Course base = run(options, shaking, 1);
+    options.network = true;
+    options.weights = &wild;
+    const Course corrected = run(options, shaking, 1, true);
+    INFO("region " << i << ", " << hz << " Hz: base " << base.largest_m << " m, corrected "
+                   << corrected.largest_m);
+    CHECK(corrected.largest_m < 1.75 * base.largest_m);
+  }
+}
 
 // Of 0.05 to 20 Hz, wide limits, beside the same flesh on its modal base alone. The proof bounds the norm
 // over modes by 1.5 of the base's; a vertex, and frames that turn, add a little

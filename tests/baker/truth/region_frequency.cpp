@@ -1,10 +1,12 @@
 // region_frequency.cpp  Regions swing at the frequency that they are to have, whatever their size.
 #include "baker/truth/region_frequency.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <numbers>
 
 #include "baker/common/bad_input.hpp"
+#include "baker/truth/motion.hpp"
 #include "baker/truth/tissue_truth.hpp"
 #include "tests/baker/truth/bodies.hpp"
 
@@ -99,4 +101,24 @@ TEST_CASE("intensity_scales_what_a_load_moves") {
   CHECK((scaled[0].force - 2 * plain[0].force).norm() <= 1e-9 * plain[0].force.norm());
   CHECK((scaled[0].rest - 2 * plain[0].rest).norm() <= 1e-9 * plain[0].rest.norm());
   CHECK(scaled[1].force.norm() == 0);
+}
+
+TEST_CASE("intensity_scales_the_truth_as_it_scales_the_base") {
+  const auto largest_m = [](double intensity) {
+    Posts posts(1, 3, 3);
+    for (Region& region : posts.layout.regions) region.intensity = intensity;
+    TissueTruth truth(posts.character, posts.layout, posts.recipe);
+    truth.start(shake_motion(posts.character));
+    double most = 0;
+    for (int tick = 0; tick < 30; ++tick) {
+      const TruthFrame frame = truth.advance(60, 2);
+      for (size_t v = 0; v < frame.truth.size(); ++v)
+        most = std::max(most, (frame.truth[v] - frame.skinned[v]).norm());
+    }
+    return most;
+  };
+  const double physical_m = largest_m(1);
+  CHECK(physical_m > 1e-3);
+  CHECK(largest_m(2) == Approx(2 * physical_m));
+  CHECK(largest_m(0) == 0);
 }
