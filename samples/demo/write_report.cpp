@@ -65,7 +65,7 @@ Json parts_json(const Run& run) {
   for (const PartMotion& part : run.parts)
     out.push_back({{"name", part.name},
                    {"kind", part.is_rod ? "rod" : "soft"},
-                   {"frequency_hz", number(part.frequency_hz)},
+                   {"frequency_hz", part.frequency_hz > 0 ? number(part.frequency_hz) : nullptr},
                    {"largest_mm", part.largest_mm},
                    {"largest_of_height", part.largest_mm / height_mm},
                    {"still_mm", part.still_mm},
