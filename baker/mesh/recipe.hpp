@@ -38,18 +38,18 @@ struct Recipe {
   // regions without a frequency of their own have it as it is; else each region's moduli are scaled so that
   // its first mode has its frequency.
   bool states_moduli = false;
-  double young_soft_pa = 6e3;      // > 0
-  double young_stiff_pa = 1e5;     // >= young_soft_pa
-  double poisson_ratio = 0.42;     // 0 .. 0.49
-  double density_kg_m3 = 1000;     // > 0
-  double damping_ratio = 0.1;      // 0 .. 1, Rayleigh, at the first and third mode's neighbourhood
+  double young_soft_pa = 6e3;   // > 0
+  double young_stiff_pa = 1e5;  // >= young_soft_pa
+  double poisson_ratio = 0.42;  // 0 .. 0.49
+  double density_kg_m3 = 1000;  // > 0
+  double damping_ratio = 0.1;   // 0 .. 1, Rayleigh, at the first and third mode's neighbourhood
   // 0.01 .. 4, share of a region's radius, approached smoothly. Absent: 0.35, or what its skin can stretch.
   std::optional<double> max_displacement = {};
   // 8 .. 200, cage cells along the character's longest side; absent: kUsualVoxelsHigh, or as many as keep a
   // bake short (truth/cage.hpp).
   std::optional<int> voxels_high;
-  double rigid_stiffness = 0.95;   // painted stiffness from here on is constrained to the skinning
-  double core_share = 0.45;        // 0 .. 1, share of the way from bone to skin that follows the bone rigidly
+  double rigid_stiffness = 0.95;  // painted stiffness from here on is constrained to the skinning
+  double core_share = 0.45;       // 0 .. 1, share of the way from bone to skin that follows the bone rigidly
   std::vector<std::string> coreless_joints;  // names or prefix*: bones without a rigid core (ears, tails)
 
   // Control graph.

@@ -312,7 +312,7 @@ void add_named_rods(const Character& character, const std::vector<RodRecipe>& na
     place.root = joint_called(character, recipe.root, place.where);
     try {
       Rod rod = rod_of(character, recipe, place);
-    rod.states_limit = false;
+      rod.states_limit = false;
       describe(character, Evidence::kBoneName, rod);
       owners.take(taken, rod, place.where);
       taken.push_back(std::move(rod));

@@ -11,9 +11,9 @@
 
 namespace sinew::baker {
 
-// Of 1.5 s each, less of large bodies, of motions that no weights were trained on: random motion, and the clip that moves most, or
-// where there is none a shake. Throws std::runtime_error where a step of the
-// truth does not converge.
+// Of 1.5 s each, less of large bodies, of motions that no weights were trained on: random motion, and the
+// clip that moves most, or where there is none a shake. Throws std::runtime_error where a step of the truth
+// does not converge.
 std::vector<TrueSurface> short_truths(const Character& character, const TissueLayout& layout,
                                       const std::vector<ModalBasis>& modes, TissueTruth& truth,
                                       const pack::PackView& pack);

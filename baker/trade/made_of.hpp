@@ -5,8 +5,8 @@
 #include <string>
 
 #include "baker/programs/loaded_pack.hpp"
-#include "baker/trade/baked_from.hpp"
 #include "baker/programs/true_surface.hpp"
+#include "baker/trade/baked_from.hpp"
 
 namespace sinew::baker {
 

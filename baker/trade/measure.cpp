@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "baker/common/progress.hpp"
-#include "baker/trade/cost.hpp"
 #include "baker/programs/yardstick.hpp"
+#include "baker/trade/cost.hpp"
 #include "baker/trade/front.hpp"
 
 namespace sinew::baker {

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "baker/trade/row_cache.hpp"
 #include "baker/programs/true_surface.hpp"
+#include "baker/trade/row_cache.hpp"
 #include "baker/trade/variants.hpp"
 
 namespace sinew::baker {

@@ -279,8 +279,8 @@ struct RegionRecord {
   uint32_t padded_vertices;             // vertex_count rounded up to 16; padding is zero
   float center_m[3];                    // mean of the nodes' bind positions
   float radius_m;                       // largest distance of a node from the centre, > 0
-  float displacement_limit_m;  // guard: |l| of every node stays below this, approached smoothly; > 0
-  uint32_t touches_body;       // 1: the capsules of kProxies, where an instance asks for it; else 0
+  float displacement_limit_m;           // guard: |l| of every node stays below this, approached smoothly; > 0
+  uint32_t touches_body;                // 1: the capsules of kProxies, where an instance asks for it; else 0
   uint32_t reserved;
 };
 static_assert(sizeof(RegionRecord) == 64);
@@ -358,7 +358,8 @@ struct RodRecord {
   float gravity;                          // 0..100, times the earth's
   float sag;  // 0..1: share of gravity that bends the posed shape; the rest has bent it already in the bind
               // pose
-  // 0..pi, what a segment is shown turned against its rest stays below this, approached smoothly; 0: no limit.
+  // 0..pi, what a segment is shown turned against its rest stays below this, approached smoothly; 0: no
+  // limit.
   float turn_limit_rad;
   float frequency_hz;  // about that of its slowest swing, for tables; 0: not known
 };

@@ -199,7 +199,7 @@ struct Instance {
   // [modes]: by how much a network's corrections have moved q since it began, as modes go on with them.
   float* corrected[2] = {};
   float* swing = nullptr;  // [regions]: tissue/correction_budget.hpp
-  float* heard[2] = {};  // of the last two ticks that were simulated whole: a region after the other
+  float* heard[2] = {};    // of the last two ticks that were simulated whole: a region after the other
   float *tail = nullptr, *tail_velocity = nullptr;  // velocity a tick
   float* shown[2] = {};                             // newest first
   float* felt_asleep = nullptr;                     // m/s^2, when the region's quiet began (world/sleep.hpp)

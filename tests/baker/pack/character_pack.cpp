@@ -147,7 +147,7 @@ TEST_CASE("regions_keep_nodes_graph_and_carrying_weights") {
   CHECK(packed.view.carry[tip.carry + 16 + 4] == 0.0f);
   CHECK(packed.view.nodes[3].region == 1);
   CHECK(packed.view.nodes[1].stiffness == Approx(packed.character.stiffness[5]));
-  CHECK(packed.view.graph_values[0] == 0.5f);  // node 0 has one neighbour
+  CHECK(packed.view.graph_values[0] == 0.5f);        // node 0 has one neighbour
   CHECK(std::isnan(packed.view.tiers[2].error_mm));  // measured on another body
 }
 

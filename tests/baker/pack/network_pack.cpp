@@ -93,7 +93,9 @@ TEST_CASE("weights_with_bad_metadata_are_refused_by_key") {
 TEST_CASE("unknown_and_repeated_inputs_are_refused_by_name") {
   Safetensors weights = small_weights();
   weights.metadata["inputs"].replace(0, std::string("rest_position").size(), "rest_place");
-  CHECK_THAT(refusal(weights), Contains("names 'rest_place', which this version does not have: train again; known are rest_position"));
+  CHECK_THAT(
+      refusal(weights),
+      Contains("names 'rest_place', which this version does not have: train again; known are rest_position"));
   weights = small_weights();
   weights.metadata["inputs"].replace(0, std::string("rest_position").size(), "displacement");
   CHECK_THAT(refusal(weights), Contains("names 'displacement' twice"));

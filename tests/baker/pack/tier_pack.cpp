@@ -12,7 +12,6 @@ using namespace sinew::baker;
 
 namespace {
 
-
 pack::LayerRecord layer(uint32_t inputs, uint32_t channels, uint32_t has_self) {
   pack::LayerRecord record{};
   record.inputs = inputs;
