@@ -102,12 +102,11 @@ TEST_CASE("a_pose_that_was_set_and_taken_back_before_a_step_changes_nothing_show
   CHECK(stand(stage).instances_dormant == 1);
 }
 
-// Beside one that never sleeps, whose network goes on hearing what it may not correct, where the sleeper's
-// keeps its memory: that differs for the first swing, by less than a millimetre of twenty.
+// Beside one that never sleeps: the same bound as of sleep itself (test_sleep.cpp).
 TEST_CASE("what_wakes_moves_as_if_it_had_been_stepped_all_the_while") {
   pack::PackView view;
   REQUIRE(pack::open_pack(test::block_pack().bytes(), &view).ok());
-  const double bound_m = 20 * static_cast<double>(kTolerance * view.regions[0].radius_m);
+  const double bound_m = 6 * static_cast<double>(kTolerance * view.regions[0].radius_m);
   const auto again = [](double time_s) {
     return scenes::walk(time_s < 12 ? std::min(time_s, 2.0) : time_s - 10);
   };
