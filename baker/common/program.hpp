@@ -7,6 +7,7 @@
 #include <string>
 
 #include "baker/common/bad_input.hpp"
+#include "baker/common/input_files.hpp"
 
 namespace sinew::baker {
 
@@ -19,10 +20,11 @@ inline int refuse(const char* program, std::string message) {
   return kUnusableInput;
 }
 
-// Parses, then does work(), which returns the exit code.
+// Parses, then does work(), which returns the exit code. Outputs that are inputs are refused before.
 template <class Work>
 int run_program(const char* program, CLI::App& app, int argc, char** argv, Work work) {
   try {
+    keep_inputs(app);
     app.parse(argc, argv);
     return work();
   } catch (const CLI::ParseError& error) {

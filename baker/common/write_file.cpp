@@ -11,6 +11,7 @@
 #include <filesystem>
 
 #include "baker/common/bad_input.hpp"
+#include "baker/common/kept_files.hpp"
 
 namespace sinew::baker {
 namespace {
@@ -76,6 +77,7 @@ std::string resolve_link(const std::string& path) {
 }  // namespace
 
 void write_file(const std::string& path, std::span<const std::byte> bytes) {
+  refuse_over_kept(path);
   const std::string place = resolve_link(path);
   struct stat existing {};
   const bool exists = ::stat(place.c_str(), &existing) == 0;

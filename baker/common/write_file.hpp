@@ -8,7 +8,8 @@
 
 namespace sinew::baker {
 
-// Throws BadInput naming the path when it cannot be written; nothing half-written is left behind.
+// Throws BadInput naming the path when it cannot be written or is an input of this run (kept_files.hpp);
+// nothing half-written is left behind.
 void write_file(const std::string& path, std::span<const std::byte> bytes);
 void write_file(const std::string& path, std::string_view text);
 // Throws BadInput where the path is a directory: for programs that work long before they write.

@@ -53,7 +53,7 @@ void add_audit_command(CLI::App& app, int* exit_code) {
       "audit", "Plays a character's clips and standard motions; exit code 1 where it looks broken");
   command->add_option("character", options->character, "C.sinew")->required();
   command->add_flag("--json", options->json, "machine-readable");
-  command->add_option("-o,--output", options->sheet, "contact sheet of the worst moments, .png");
+  add_output(*command, "-o,--output", options->sheet, "contact sheet of the worst moments, .png");
   command->callback([options, exit_code] { *exit_code = run(*options); });
 }
 

@@ -252,8 +252,8 @@ void add_character_command(CLI::App& app, int*) {
                     "does not measure errors against ground truth, nor whether the network pays: for trying");
   command->add_flag("--keep-network", options->keep_network,
                     "packs the network whatever its error is; sinew-train has judged it on more motions");
-  command->add_option("-o,--output", options->output, "C.sinew")->required();
-  command->add_option("--preview", options->preview, "picture of what moves by itself, .png");
+  add_output(*command, "-o,--output", options->output, "C.sinew")->required();
+  add_output(*command, "--preview", options->preview, "picture of what moves by itself, .png");
   command->callback([options] { run_character(*options); });
 }
 

@@ -29,7 +29,7 @@ void add_creature_command(CLI::App& app, int*) {
   command->add_option("recipe", options->recipe, "JSON; see assets/creature/README.md")->required();
   CLI::Option* vertices = command->add_option("--vertices", options->vertices,
                                               "about so many, 200 to 50000; the recipe's own by default");
-  command->add_option("-o,--output", options->output, "C.glb")->required();
+  add_output(*command, "-o,--output", options->output, "C.glb")->required();
   command->callback([options, vertices] { run_creature(*options, vertices->count() > 0); });
 }
 

@@ -51,7 +51,7 @@ void add_model_command(CLI::App& app, int*) {
       "--calibrate", options->calibration,
       "reference vectors that int8 takes its scales from; by default those beside the weights, "
       "else a made-up motion");
-  command->add_option("-o,--output", options->output, "M.sinew")->required();
+  add_output(*command, "-o,--output", options->output, "M.sinew")->required();
   command->callback([options] { run_model(*options); });
 }
 

@@ -139,7 +139,7 @@ void add_truth_command(CLI::App& app, int*) {
   command->add_flag("--surface", options->surface,
                     "also the displacement of every carried vertex, and the carry weights");
   command->add_flag("--positions", options->positions, "also the true position of every vertex");
-  command->add_option("-o,--output", options->output, "trajectory, safetensors")->required();
+  add_output(*command, "-o,--output", options->output, "trajectory, safetensors")->required();
   command->callback([options] { run_truth(*options); });
 }
 

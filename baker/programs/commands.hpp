@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "baker/common/input_files.hpp"
 #include "pack/format.hpp"
 
 namespace sinew::baker {

@@ -7,6 +7,8 @@
 #include <cstring>
 #include <vector>
 
+#include "baker/common/kept_files.hpp"
+
 extern char** environ;
 
 namespace sinew::render {
@@ -36,6 +38,7 @@ std::vector<std::string> arguments(const Film& film) {
 }  // namespace
 
 std::string encode(const Film& film) {
+  baker::refuse_over_kept(film.path);
   std::vector<std::string> list = arguments(film);
   std::vector<char*> argv;
   for (std::string& argument : list) argv.push_back(argument.data());

@@ -70,6 +70,15 @@ std::vector<TrueSurface> find_truth(const Options& options, const LoadedPack& ch
                     character);
 }
 
+// What a run writes into its folder.
+void promise_files(const Options& options) {
+  const std::string stem = std::filesystem::path(options.character).stem().string();
+  for (const std::string& file :
+       {stem + ".sinew", std::string("trade.csv"), std::string("trade.json"), std::string("trade.svg"),
+        std::string("trade.png"), std::string("measured.json")})
+    promise_file(options.folder + "/" + file);
+}
+
 void write(const Measured& measured, const LoadedPack& character, const std::string& folder) {
   write_file(folder + "/trade.csv", std::string_view(as_csv(measured)));
   write_file(folder + "/trade.json", std::string_view(as_json(measured)));
@@ -81,6 +90,7 @@ void write(const Measured& measured, const LoadedPack& character, const std::str
 void run(Options options) {
   const auto start = std::chrono::steady_clock::now();
   if (!(options.seconds >= 0.1 && options.seconds <= 60)) throw BadInput("--seconds: must be from 0.1 to 60");
+  promise_files(options);
   const LoadedPack character = load(options.character);
   find_source(&options);
   const std::vector<TrueSurface> surfaces = find_truth(options, character);

@@ -13,6 +13,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "baker/common/kept_files.hpp"
 #include "perf/help.hpp"
 #include "perf/rods/peak.hpp"
 #include "perf/rods/start_files.hpp"
@@ -137,6 +138,8 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
+    for (const std::string& input : {request.network, request.examples}) sinew::baker::keep_file(input);
+    sinew::baker::promise_file(request.out);
     return run(request);
   } catch (const std::exception& problem) {
     std::fprintf(stderr, "perf_trade_rods: %s\n", problem.what());

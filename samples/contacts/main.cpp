@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "baker/common/program.hpp"
 #include "baker/common/write_file.hpp"
 #include "baker/render/encode.hpp"
 #include "samples/contacts/picture.hpp"
@@ -58,18 +59,10 @@ int main(int argc, char** argv) {
       "A soft creature leaps onto a crate and is caught between walls, contacts found by Bullet, and hugs "
       "its belly.");
   app.add_option("input", input, "character, .sinew, without rods")->required();
-  app.add_option("-o,--output", output, "folder of the pictures")->capture_default_str();
+  baker::add_output(app, "-o,--output", output, "folder of the pictures")->capture_default_str();
   app.add_option("--width", size.width, "of each picture, pixels")->check(CLI::Range(16, 4096));
   app.add_option("--height", size.height, "of each picture, pixels")->check(CLI::Range(16, 4096));
   app.add_option("--samples", size.samples, "a pixel")->check(CLI::Range(1, 4096));
   app.add_option("--threads", size.threads, "0: all")->check(CLI::Range(0, 256));
-  try {
-    app.parse(argc, argv);
-    return run(input, output, size);
-  } catch (const CLI::CallForHelp& help) {
-    return app.exit(help);
-  } catch (const std::exception& problem) {
-    std::fprintf(stderr, "sinew-contacts: %s\n", problem.what());
-    return 2;
-  }
+  return baker::run_program("sinew-contacts", app, argc, argv, [&] { return run(input, output, size); });
 }

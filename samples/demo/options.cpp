@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "baker/common/bad_input.hpp"
+#include "baker/common/input_files.hpp"
 #include "baker/common/within.hpp"
 
 namespace sinew::demo {
@@ -39,10 +40,11 @@ void add_crowd_options(CLI::App& app, Options* o) {
 }
 
 void add_output_options(CLI::App& app, Options* o) {
-  app.add_option("--report", o->report, "write every frame's times and tiers, .json");
-  app.add_option("--trace", o->trace,
-                 "write what ran when, .json for Perfetto or chrome://tracing; the last 300 frames");
-  app.add_option("--frames", o->frames, "write pictures into this folder: contact_sheet.png, still.png");
+  baker::add_output(app, "--report", o->report, "write every frame's times and tiers, .json");
+  baker::add_output(app, "--trace", o->trace,
+                    "write what ran when, .json for Perfetto or chrome://tracing; the last 300 frames");
+  baker::add_output(app, "--frames", o->frames,
+                    "write pictures into this folder: contact_sheet.png, still.png");
   app.add_option("--view", o->view, "side that pictures show: front, side, back; auto: where most moves")
       ->check(CLI::IsMember({"auto", "front", "side", "back"}))
       ->capture_default_str();
@@ -73,6 +75,7 @@ bool parse_options(int argc, char** argv, Options* out) {
   add_options(app, out);
   add_crowd_options(app, out);
   add_output_options(app, out);
+  baker::keep_inputs(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {
@@ -81,6 +84,9 @@ bool parse_options(int argc, char** argv, Options* out) {
   } catch (const CLI::ParseError& error) {
     throw baker::BadInput(std::string(error.what()) + "; see sinew-demo --help");
   }
+  if (!out->frames.empty())
+    for (const char* file : {"contact_sheet.png", "still.png", "crowd.png", "animation.mp4", "animation.gif"})
+      baker::promise_file(out->frames + "/" + file);
   if (!out->compare.empty() && !out->truth.empty())
     throw baker::BadInput(
         "--compare: not together with --truth; measure each pack against the truth by itself");

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "baker/common/bad_input.hpp"
+#include "baker/common/kept_files.hpp"
 #include "baker/common/progress.hpp"
 #include "baker/render/encode.hpp"
 #include "samples/demo/crowd_picture.hpp"
@@ -70,7 +71,9 @@ void remove_old_film(const std::filesystem::path& folder) {
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const std::string name = entry.path().filename();
     const bool is_frame = name.starts_with("frame_") && name.ends_with(".png");
-    if (is_frame || name == "animation.mp4" || name == "animation.gif") std::filesystem::remove(entry.path());
+    if (!is_frame && name != "animation.mp4" && name != "animation.gif") continue;
+    baker::refuse_over_kept(entry.path());
+    std::filesystem::remove(entry.path());
   }
 }
 

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "baker/common/bad_input.hpp"
+#include "baker/common/program.hpp"
 #include "baker/import/import_gltf.hpp"
 #include "baker/render/encode.hpp"
 #include "samples/portrait/views.hpp"
@@ -70,7 +70,7 @@ int main(int argc, char** argv) {
   Request request;
   CLI::App app("Pictures of a skinned glTF character from several sides.");
   app.add_option("input", request.input, "character, .glb .gltf .vrm")->required();
-  app.add_option("-o,--output", request.output, "picture, .png; with --turntable also .mp4 or .gif")
+  baker::add_output(app, "-o,--output", request.output, "picture, .png; with --turntable also .mp4 or .gif")
       ->required();
   app.add_option("--clip", request.clip, "pose from this clip; without: the rest pose");
   app.add_option("--time", request.time_s, "time in the clip, s");
@@ -81,13 +81,5 @@ int main(int argc, char** argv) {
   app.add_option("--height", request.size.height, "of each picture, pixels")->check(CLI::Range(16, 8192));
   app.add_option("--samples", request.size.samples, "a pixel")->check(CLI::Range(1, 4096));
   app.add_option("--threads", request.size.threads, "0: all")->check(CLI::Range(0, 256));
-  try {
-    app.parse(argc, argv);
-    return run(request);
-  } catch (const CLI::CallForHelp& help) {
-    return app.exit(help);
-  } catch (const std::exception& problem) {
-    std::fprintf(stderr, "sinew-portrait: %s\n", problem.what());
-    return 2;
-  }
+  return baker::run_program("sinew-portrait", app, argc, argv, [&] { return run(request); });
 }

@@ -4,3 +4,8 @@ import os
 from ..bodies import ROOT
 
 SHIPPED = os.path.join(ROOT, "assets", "weights", "creature.safetensors")
+
+
+def tissue_beside(output):
+    """Where the fine-tuned weights are written, beside C.sinew."""
+    return os.path.splitext(output)[0] + ".tissue.safetensors"

@@ -1,7 +1,7 @@
 """The last stage: the candidates on the held-out motions, and the one that is baked."""
-import os
 
 from ..safetensors import load, save
+from . import tissue_beside
 from .motions import RATE_HZ, SECONDS
 from .run import put, say
 from .verdict import BASE, TUNED, Row, best_of, pooled, reason, table
@@ -46,6 +46,6 @@ def finish(run, simulation, tuned, output, keep):
     why = reason(winner, errors) if rows else "the modal base alone; no held-out motion was simulated"
     say(f"{output}: {why}")
     if tuned and (keep or winner == TUNED):
-        beside = os.path.splitext(output)[0] + ".tissue.safetensors"
+        beside = tissue_beside(output)
         put(_stated(run, tuned, errors[TUNED]) if rows else tuned, beside)
         say(f"{beside}: the fine-tuned weights")

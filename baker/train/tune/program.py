@@ -1,11 +1,13 @@
 """sinew-train: what it is asked for, checked before anything is written."""
 import argparse
+import json
 import math
 import os
 import sys
+from urllib.parse import unquote
 
 from ..safetensors import BadData
-from . import SHIPPED
+from . import SHIPPED, tissue_beside
 
 NAME = "sinew-train"
 
@@ -43,6 +45,27 @@ def _need_file(path, what):
         raise BadData(f"{path}: no such file; give {what}")
 
 
+def _files_of(character):
+    """The character's file and those that a .gltf names: buffers and pictures beside it."""
+    files = [character]
+    try:
+        with open(character, encoding="utf-8") as f:
+            gltf = json.load(f)
+        uris = [one.get("uri", "") for kind in ("buffers", "images") for one in gltf.get(kind, [])]
+        files += [os.path.join(os.path.dirname(character), unquote(u)) for u in uris if not u.startswith("data:")]
+    except (ValueError, AttributeError, TypeError):
+        pass  # a .glb; what is damaged sinew-bake refuses
+    return files
+
+
+def _keep_inputs(a):
+    """Throws BadData where what will be written is what is read."""
+    inputs = [*_files_of(a.character), a.tissue, *([a.recipe] if a.recipe else [])]
+    for output in (a.output, tissue_beside(a.output)):
+        if os.path.isfile(output) and any(os.path.isfile(i) and os.path.samefile(i, output) for i in inputs):
+            raise BadData(f"{output} is the input; give another name")
+
+
 def _check(a):
     """Throws BadData where an argument cannot be used."""
     if not (0 < a.minutes < math.inf):
@@ -53,6 +76,7 @@ def _check(a):
     _need_file(a.tissue, "trained weights, as assets/weights/creature.safetensors")
     if a.recipe:
         _need_file(a.recipe, "a recipe, JSON")
+    _keep_inputs(a)
     if os.path.isdir(a.output):
         file = os.path.join(a.output, "C.sinew")
         raise BadData(f"{a.output}: is a directory; give a file's name, as {file}")

@@ -97,3 +97,46 @@ TEST_CASE("the_paper_s_network_is_packed_as_a_model") {
   CHECK(bake({"model", paper, "-o", output}).exit_code == 0);
   CHECK(nlohmann::json::parse(bake({"info", "--json", output}).out)["kind"] == "model");
 }
+
+TEST_CASE("an_output_that_is_an_input_is_refused_before_anything_is_read") {
+  const TemporaryFolder folder;
+  const auto made = [&](const std::string& name) {
+    write_file(folder.file(name), std::string_view("no such thing as this is asked for"));
+    return folder.file(name);
+  };
+  // None of them is what its program reads: whoever reads it first says so instead.
+  const std::string character = made("x.glb"), recipe = made("r.json"), weights = made("w.safetensors");
+  const std::string soft = folder.file("soft.glb"), hard = folder.file("hard.glb");
+  std::filesystem::create_symlink(character, soft);
+  std::filesystem::create_hard_link(character, hard);
+  const std::string dotted = folder.file("./x.glb"), out = folder.file("c.sinew");
+  const auto refused = [](const std::vector<std::string>& arguments, const std::string& output) {
+    check_refused(arguments, {output, "is the input; give another name"});
+  };
+  for (const std::string& output : {character, dotted, soft, hard})
+    refused({"character", character, "-o", output}, output);
+  refused({"character", soft, "-o", character}, character);
+  refused({"character", character, "--recipe", recipe, "-o", recipe}, recipe);
+  refused({"character", character, "-o", out, "--preview", character}, character);
+  refused({"character", character, "--tissue", weights, "-o", weights}, weights);
+  refused({"character", character, "-o", out, "--calibrate", weights, "--preview", weights}, weights);
+  refused({"truth", character, "--motion", "shake", "-o", character}, character);
+  refused({"model", weights, "-o", weights}, weights);
+  refused({"creature", recipe, "-o", recipe}, recipe);
+  refused({"audit", character, "-o", character}, character);
+  check_refused({"character", character, "-o", out, "--preview", out}, {out, "would be written twice"});
+  CHECK(read_text(character) == "no such thing as this is asked for");
+  CHECK(read_text(recipe) == read_text(character));
+  CHECK(read_text(weights) == read_text(character));
+  CHECK(!std::filesystem::exists(out));
+}
+
+TEST_CASE("a_buffer_beside_a_gltf_is_an_input_too") {
+  const TemporaryFolder folder;
+  const std::string gltf = folder.file("x.gltf"), buffer = folder.file("x.bin");
+  write_file(buffer, std::string_view("0123"));
+  write_file(gltf, std::string_view(
+                       R"({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 4, "uri": "x.bin"}]})"));
+  check_refused({"character", gltf, "-o", buffer}, {buffer, "is the input; give another name"});
+  CHECK(read_text(buffer) == "0123");
+}
