@@ -26,13 +26,19 @@ bool is_file(const std::string& path) {
   return fs::is_regular_file(path, error);
 }
 
-// Files that are not there yet are one file where their paths are.
+// Where a file that is not there yet would be, links that lead nowhere followed.
+fs::path place_of(fs::path path) {
+  std::error_code error;
+  for (int links = 0; links < 40 && fs::is_symlink(path, error); ++links)
+    path = path.parent_path() / fs::read_symlink(path, error);
+  return fs::weakly_canonical(fs::absolute(path, error), error);
+}
+
 bool same_file(const std::string& a, const std::string& b) {
   std::error_code error;
   if (is_file(a) && is_file(b)) return fs::equivalent(a, b, error);
   if (fs::exists(a, error) || fs::exists(b, error)) return false;
-  const fs::path first = fs::weakly_canonical(a, error);
-  return !error && first == fs::weakly_canonical(b, error) && !error;
+  return place_of(a) == place_of(b);
 }
 
 [[noreturn]] void refuse_input(const std::string& output, const std::string& input) {

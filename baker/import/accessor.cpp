@@ -2,6 +2,7 @@
 #include "baker/import/accessor.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 namespace sinew::baker {
@@ -164,6 +165,15 @@ std::vector<double> AccessorReader::numbers(int index, int components, const std
             decode(source.data + i * source.stride + k * size, accessor.componentType, accessor.normalized);
   if (accessor.sparse.isSparse) overwrite_sparse(accessor, components, place, &values);
   return values;
+}
+
+double AccessorReader::largest_integer(int index, const std::string& where) const {
+  const tinygltf::Accessor& accessor = at(index, where);
+  if (accessor.normalized || accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT) return 0;
+  const bool is_signed = accessor.componentType == TINYGLTF_COMPONENT_TYPE_BYTE ||
+                         accessor.componentType == TINYGLTF_COMPONENT_TYPE_SHORT;
+  const size_t bits = 8 * component_bytes(accessor.componentType) - (is_signed ? 1 : 0);
+  return std::ldexp(1.0, static_cast<int>(bits)) - 1;
 }
 
 bool AccessorReader::holds_indices(int index, const std::string& where) const {

@@ -21,6 +21,8 @@ class AccessorReader {
   int components(int accessor, const std::string& where) const;
   // Row after row, [count][components]; integers that are marked as normalised become 0..1 or -1..1.
   std::vector<double> numbers(int accessor, int components, const std::string& where) const;
+  // Of integers that are not marked as normalised the largest that their type holds; else 0.
+  double largest_integer(int accessor, const std::string& where) const;
   // Whether it holds unsigned integers, plain ones.
   bool holds_indices(int accessor, const std::string& where) const;
   // Unsigned integers of one component.

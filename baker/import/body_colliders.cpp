@@ -27,36 +27,57 @@ class ColliderReader {
       : graph_(graph), joint_node_(joint_node), source_(source) {}
 
   void read_version_0(const Value& extension) {
+    int index = 0;
     for (const Value& group : list(part(part(extension, "secondaryAnimation"), "colliderGroups"))) {
       for (const Value& sphere : list(part(group, "colliders"))) {
         const Vector3 middle = offset_of(part(sphere, "offset"));
-        add(part(group, "node"), middle, middle, part(sphere, "radius"));
+        add(part(group, "node"), middle, middle, part(sphere, "radius"), {index});
       }
+      ++index;
     }
   }
 
   void read_version_1(const Value& extension) {
+    const std::vector<std::vector<int>> groups = groups_of_colliders(extension);
+    size_t index = 0;
     for (const Value& collider : list(part(extension, "colliders"))) {
       const Value& shape = part(collider, "shape");
       const Value &sphere = part(shape, "sphere"), &capsule = part(shape, "capsule");
       const Value& round = capsule.IsObject() ? capsule : sphere;
       const Vector3 from = offset_of(part(round, "offset"));
       add(part(collider, "node"), from, capsule.IsObject() ? offset_of(part(capsule, "tail")) : from,
-          part(round, "radius"));
+          part(round, "radius"), groups[index++]);
     }
   }
 
   std::vector<BodyCollider> take() { return std::move(colliders_); }
 
  private:
-  void add(const Value& node, const Vector3& from, const Vector3& to, const Value& radius) {
+  static std::vector<std::vector<int>> groups_of_colliders(const Value& extension) {
+    std::vector<std::vector<int>> of_collider(list(part(extension, "colliders")).size());
+    int group = 0;
+    for (const Value& stated : list(part(extension, "colliderGroups"))) {
+      for (const Value& collider : list(part(stated, "colliders"))) {
+        const double index = number(collider, -1, -1, 1e9);
+        if (index >= 0 && index < static_cast<double>(of_collider.size()))
+          if (std::vector<int>& own = of_collider[static_cast<size_t>(index)];
+              own.empty() || own.back() != group)
+            own.push_back(group);
+      }
+      ++group;
+    }
+    return of_collider;
+  }
+
+  void add(const Value& node, const Vector3& from, const Vector3& to, const Value& radius,
+           const std::vector<int>& groups) {
     const int joint = joint_of(node_of(graph_, node));
     const double size = number(radius, 0, 0, kLargest);
     if (joint < 0 || !(size > 0))
       return source_.note(
           "a collider of spring bones",
           joint < 0 ? "is on no joint of the character's skin: left out" : "has no radius: left out");
-    if (colliders_.size() < kMostColliders) colliders_.push_back({joint, from, to, size});
+    if (colliders_.size() < kMostColliders) colliders_.push_back({joint, from, to, size, groups});
   }
 
   int joint_of(int node) const {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sinew::baker {
@@ -19,6 +20,17 @@ struct Influences {
   std::array<double, kInfluences> weight{};  // descending, sum 1
 };
 
+// What VRMC_node_constraint lets turn a node: kRotation: as its source turns; kRoll: as far as that turns
+// about an axis; kAim: towards the source.
+enum class ConstraintKind { kNone, kRotation, kRoll, kAim };
+
+struct Constraint {
+  ConstraintKind kind = ConstraintKind::kNone;
+  int source = 0;                   // node
+  Vector3 axis = Vector3::UnitX();  // of its own: kRoll, kAim
+  double weight = 1;                // 0 .. 1
+};
+
 struct Node {  // a node of the file's scene graph; parents come before children
   std::string name;
   int parent = -1;
@@ -27,6 +39,7 @@ struct Node {  // a node of the file's scene graph; parents come before children
   Vector3 translation = Vector3::Zero();
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
   Vector3 scale = Vector3::Ones();
+  Constraint constraint;
 };
 
 enum class Interpolation { kStep, kLinear, kCubicSpline };
@@ -47,15 +60,25 @@ struct Clip {
   std::vector<Channel> channels;
 };
 
+// What a VRM file states of a bone that swings.
+struct SpringNumbers {
+  double stiffness = 1;                           // 0 .. 4: pull to the rest direction
+  double gravity_power = 0;                       // pull along the direction
+  Vector3 gravity_direction = -Vector3::UnitY();  // unit
+  double drag_force = 0.4;  // 0 .. 1: share of its velocity that a bone loses in a frame
+  double hit_radius_m = 0;  // for collisions; 0: as thick as its flesh
+
+  bool operator==(const SpringNumbers&) const = default;
+};
+
 // Bones that a VRM file lets swing: a root joint and all that hangs on it, or what lies between it and `end`.
 struct SpringBones {
   std::string name;
-  int root = 0, end = -1;    // joints; -1: no end is stated, all below the root swings
-  int end_node = -1;         // where the bone of `end` ends; -1: where its child is
-  double stiffness = 1;      // 0 .. 4: pull to the rest direction
-  double gravity_power = 0;  // pull down
-  double drag_force = 0.4;   // 0 .. 1: share of its velocity that a bone loses in a frame
-  bool collides = false;     // with colliders that the file states
+  int root = 0, end = -1;      // joints; -1: no end is stated, all below the root swings
+  int end_node = -1;           // where the bone of `end` ends; -1: where its child is
+  SpringNumbers numbers = {};  // of the root, and of what has none of its own
+  std::vector<std::pair<int, SpringNumbers>> of_joints = {};
+  std::vector<int> collider_groups = {};  // of BodyCollider::groups, that it collides with
 };
 
 // A sphere or capsule that a VRM file lets springs collide with, in its joint's own space.
@@ -63,6 +86,7 @@ struct BodyCollider {
   int joint = 0;
   Vector3 from = Vector3::Zero(), to = Vector3::Zero();
   double radius_m = 0;
+  std::vector<int> groups = {};  // that it is in
 };
 
 // Vertices of one mesh of the file.
@@ -70,6 +94,8 @@ struct MeshSpan {
   int node = 0;  // that shows it
   size_t first_vertex = 0, vertex_count = 0;
   bool skinned = false;  // else it hangs on one joint
+  // Of a place in the bind pose to the file's own mesh space; of a skin without binds to the scene.
+  Matrix4 mesh_from_bind = Matrix4::Identity();
 };
 
 struct Character {
@@ -99,6 +125,9 @@ struct Character {
 
 // character-from-joint of every joint at t_s (clamped to the clip); clip null: the file's rest pose.
 std::vector<Matrix4> joint_matrices(const Character& character, const Clip* clip, double t_s);
+
+// character-from-joint of every joint as the skins were bound, which is no frame of the file's.
+std::vector<Matrix4> bind_matrices(const Character& character);
 
 // Linear blend skinning in double: positions of all vertices under these joint matrices.
 std::vector<Vector3> skin_positions(const Character& character, const std::vector<Matrix4>& joints);

@@ -2,14 +2,18 @@
 #include "baker/import/gltf_file.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <string_view>
 #include <system_error>
 
+#include "baker/common/bad_input.hpp"
+#include "baker/common/kept_files.hpp"
 #include "baker/import/file_kind.hpp"
+#include "baker/import/meshopt_views.hpp"
+#include "baker/import/required_extensions.hpp"
 
 namespace sinew::baker {
 namespace {
@@ -114,6 +118,7 @@ bool exists_beside(const std::string& path, void* base) {
 std::string unexpanded(const std::string& path, void*) { return path; }
 
 bool read_beside(std::vector<unsigned char>* out, std::string* error, const std::string& path, void*) {
+  keep_file(path);
   return read_regular_file(path, out, error);
 }
 
@@ -131,13 +136,11 @@ std::string mend_for(const std::string& error) {
   return "export the file again as glTF 2.0";
 }
 
-void refuse_compression(const Source& source, const tinygltf::Model& model) {
-  constexpr std::array<const char*, 3> kCompressed = {"KHR_draco_mesh_compression", "EXT_meshopt_compression",
-                                                      "KHR_meshopt_compression"};
-  for (const std::string& extension : model.extensionsRequired)
-    if (std::find(kCompressed.begin(), kCompressed.end(), extension) != kCompressed.end())
-      source.refuse("extensionsRequired", "the geometry is compressed by " + extension,
-                    "export without mesh compression (gltf-transform copy IN OUT unpacks it)");
+// A skin need not have inverse bind matrices (glTF 2.0, 3.7.3.1); tinygltf says that they are missing.
+void drop_false_faults(std::string& error) {
+  constexpr std::string_view kFalse = "'inverseBindMatrices' property is missing";
+  for (size_t at = error.find(kFalse); at != std::string::npos; at = error.find(kFalse))
+    error.erase(at, std::min(error.find('\n', at), error.size() - 1) + 1 - at);
 }
 
 bool load(tinygltf::Model* model, std::vector<unsigned char>& bytes, std::string base, std::string* error,
@@ -177,22 +180,28 @@ void check_container(const Source& source, std::vector<unsigned char>& bytes) {
 tinygltf::Model read_gltf_file(Source& source) {
   std::vector<unsigned char> bytes;
   std::string error, warning;
+  keep_file(source.path());
   if (!read_regular_file(source.path(), &bytes, &error))
     source.refuse("", error, "give the path of a .glb, .gltf or .vrm");
   check_container(source, bytes);
+  give_fallback_buffers_bytes(bytes);
 
   tinygltf::Model model;
   bool loaded = false;
   try {
     loaded = load(&model, bytes, base_folder(source.path()), &error, &warning);
+  } catch (const BadInput&) {  // of a file beside it that is to be written
+    throw;
   } catch (const std::exception& exception) {
     error += exception.what();
   }
+  drop_false_faults(error);
   if (!loaded && error.find("\"asset\" object not found") != std::string::npos)
     source.refuse("", "not a glTF file: it is JSON of another kind, without \"asset\"",
                   "give the path of a .glb, .gltf or .vrm");
   if (!loaded) source.refuse("", error.empty() ? "this is not glTF" : error, mend_for(error));
-  refuse_compression(source, model);
+  if (!model.skins.empty()) check_required_extensions(model, source);  // else it is refused for that
+  decode_meshopt_views(model, source);
   // What tinygltf leaves out without failing, such as a primitive that has no attributes.
   if (!error.empty()) source.note("", "read with faults: " + error);
   return model;

@@ -10,7 +10,9 @@
 #include "baker/import/clips.hpp"
 #include "baker/import/gltf_file.hpp"
 #include "baker/import/mesh_names.hpp"
+#include "baker/import/node_constraints.hpp"
 #include "baker/import/primitives.hpp"
+#include "baker/import/shown_meshes.hpp"
 #include "baker/import/spring_bones.hpp"
 #include "baker/import/weld.hpp"
 
@@ -77,6 +79,22 @@ void convert_axes(const ImportOptions& options, Source& source, Character& chara
   character.character_from_scene.topRows<3>() *= unit;
   const Matrix4 back = character.character_from_scene.inverse();
   for (Matrix4& bind : character.inverse_bind) bind = bind * back;
+  for (MeshSpan& mesh : character.meshes) mesh.mesh_from_bind = mesh.mesh_from_bind * back;
+  const auto convert = [&](SpringNumbers& numbers) {
+    numbers.gravity_direction = turn.topLeftCorner<3, 3>() * numbers.gravity_direction;
+    numbers.hit_radius_m *= unit;
+  };
+  for (SpringBones& spring : character.springs) {
+    convert(spring.numbers);
+    for (auto& [joint, numbers] : spring.of_joints) convert(numbers);
+  }
+}
+
+// Copies that the extension asks for are not made.
+void note_instancing(const tinygltf::Model& model, Source& source) {
+  for (const tinygltf::Node& node : model.nodes)
+    if (node.extensions.contains("EXT_mesh_gpu_instancing"))
+      source.note("node '" + node.name + "'", "EXT_mesh_gpu_instancing is not followed: it is there once");
 }
 
 Character import_file(Source& source, const ImportOptions& options) {
@@ -86,7 +104,10 @@ Character import_file(Source& source, const ImportOptions& options) {
   SceneGraph graph = read_scene_graph(model, source);
   std::vector<MeshInstance> instances = find_meshes(model, graph, source);
   leave_out_meshes(model, graph, options.without_meshes, source, instances);
-  Joints joints = read_joints(model, graph, accessors, source, instances);
+  keep_shown_meshes(model, graph, options.with_meshes, source, instances);
+  note_instancing(model, source);
+  read_node_constraints(model, graph, source);
+  Joints joints = read_joints(model, graph, accessors, spring_nodes(model, graph), source, instances);
 
   Character character;
   character.name = std::filesystem::path(source.path()).stem().string();

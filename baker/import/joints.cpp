@@ -2,8 +2,12 @@
 #include "baker/import/joints.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 
+#include "baker/import/bind_pose.hpp"
 #include "baker/import/pose.hpp"
 
 namespace sinew::baker {
@@ -12,18 +16,15 @@ namespace {
 constexpr const char* kMend = "the file is damaged; export it again";
 constexpr size_t kMaxSkins = 1024;
 constexpr size_t kMaxJoints = 65535;  // a vertex names its joints in 16 bits
-constexpr double kSingular = 1e-12;   // relative determinant of a matrix that flattens space
-constexpr double kSameBind = 1e-9;
+// Binds of one bone in several skins are one where they agree to the precision of floats, which exporters
+// that quantise each mesh in a space of its own do not keep better.
+constexpr double kSameTurn = 1e-5;   // of a bind's linear part
+constexpr double kSamePlace = 1e-5;  // of the skeleton's reach
+constexpr double kFarPlace = 1e-6;   // of the distance from the origin
 
 std::string skin_name(const tinygltf::Model& model, int skin) {
   const std::string& name = model.skins[static_cast<size_t>(skin)].name;
   return "skin " + std::to_string(skin) + (name.empty() ? "" : " '" + name + "'");
-}
-
-bool invertible(const Matrix4& matrix) {
-  const Eigen::Matrix3d linear = matrix.topLeftCorner<3, 3>();
-  const double scale = linear.colwise().norm().prod();
-  return matrix.allFinite() && scale > 0 && std::abs(linear.determinant()) > kSingular * scale;
 }
 
 std::vector<Matrix4> read_inverse_binds(const tinygltf::Model& model, int skin,
@@ -41,24 +42,37 @@ std::vector<Matrix4> read_inverse_binds(const tinygltf::Model& model, int skin,
   for (size_t j = 0; j < binds.size(); ++j) {
     binds[j] = Eigen::Map<const Matrix4>(values.data() + j * 16);
     binds[j].row(3) = Eigen::RowVector4d(0, 0, 0, 1);
-    if (!invertible(binds[j]))
+    if (!is_invertible(binds[j]))
       source.refuse(where, "matrix " + std::to_string(j) + " is not finite or flattens space", kMend);
   }
   return binds;
 }
 
+// How far joints rest from each other.
+double reach_of(const SceneGraph& graph, const std::vector<SkinBinds>& skins) {
+  Eigen::AlignedBox3d box;
+  for (const SkinBinds& skin : skins)
+    for (const int node : skin.nodes)
+      box.extend(Vector3(graph.rest[static_cast<size_t>(node)].topRightCorner<3, 1>()));
+  return box.isEmpty() ? 0 : box.diagonal().norm();
+}
+
 class JointList {
  public:
-  JointList(const SceneGraph& graph) : graph_(graph), at_node_(graph.nodes.size()) {}
+  JointList(const SceneGraph& graph, double reach)
+      : graph_(graph), reach_(reach), at_node_(graph.nodes.size()) {}
 
   int add(int node, const Matrix4& inverse_bind) {
     for (int joint : at_node_[static_cast<size_t>(node)])
-      if (inverse_bind_[static_cast<size_t>(joint)].isApprox(inverse_bind, kSameBind)) return joint;
+      if (is_same_bind(inverse_bind_[static_cast<size_t>(joint)].inverse(), inverse_bind.inverse()))
+        return joint;
     at_node_[static_cast<size_t>(node)].push_back(static_cast<int>(node_.size()));
     node_.push_back(node);
     inverse_bind_.push_back(inverse_bind);
     return at_node_[static_cast<size_t>(node)].back();
   }
+
+  bool has(int node) const { return !at_node_[static_cast<size_t>(node)].empty(); }
 
   // The first joint on the nearest node that carries one, from `node` upwards; -1 for none.
   int nearest(int node) const {
@@ -84,7 +98,15 @@ class JointList {
   }
 
  private:
+  bool is_same_bind(const Matrix4& a, const Matrix4& b) const {
+    const double turn = (a - b).topLeftCorner<3, 3>().cwiseAbs().maxCoeff();
+    const Vector3 from = a.topRightCorner<3, 1>(), to = b.topRightCorner<3, 1>();
+    return turn <= kSameTurn * a.topLeftCorner<3, 3>().cwiseAbs().maxCoeff() &&
+           (to - from).norm() <= kSamePlace * reach_ + kFarPlace * from.norm();
+  }
+
   const SceneGraph& graph_;
+  double reach_;
   std::vector<int> node_;
   std::vector<Matrix4> inverse_bind_;
   std::vector<std::vector<int>> at_node_;
@@ -109,33 +131,52 @@ std::vector<int> skin_nodes(const tinygltf::Model& model, const SceneGraph& grap
   return nodes;
 }
 
-// Scene-from-mesh by the skin's first root joint. Where the rest pose is the bind pose, every joint gives the
-// same.
-Matrix4 scene_from_mesh(const SceneGraph& graph, const std::vector<int>& nodes,
-                        const std::vector<Matrix4>& binds) {
-  std::vector<bool> in_skin(graph.nodes.size(), false), below(graph.nodes.size(), false);
-  for (int node : nodes) in_skin[static_cast<size_t>(node)] = true;
-  for (size_t i = 0; i < below.size(); ++i) {
-    const int up = graph.nodes[i].parent;
-    below[i] = up >= 0 && (in_skin[static_cast<size_t>(up)] || below[static_cast<size_t>(up)]);
+// Of all skins that a mesh of the scene has; the others stay empty.
+std::vector<SkinBinds> read_skins(const tinygltf::Model& model, const SceneGraph& graph,
+                                  const AccessorReader& accessors, const Source& source,
+                                  const std::vector<MeshInstance>& instances) {
+  std::vector<SkinBinds> skins(model.skins.size());
+  for (const MeshInstance& instance : instances) {
+    if (instance.skin < 0 || !skins[static_cast<size_t>(instance.skin)].nodes.empty()) continue;
+    SkinBinds& skin = skins[static_cast<size_t>(instance.skin)];
+    skin.nodes = skin_nodes(model, graph, instance.skin, source);
+    skin.inverse_bind = read_inverse_binds(model, instance.skin, accessors, source);
+    skin.mesh_node = instance.node;
+    // Identities for several joints are what a skin without binds has.
+    const auto is_identity = [](const Matrix4& bind) { return bind.isIdentity(0); };
+    skin.states_binds = model.skins[static_cast<size_t>(instance.skin)].inverseBindMatrices >= 0 &&
+                        (skin.nodes.size() == 1 || !std::ranges::all_of(skin.inverse_bind, is_identity));
   }
-  for (size_t j = 0; j < nodes.size(); ++j) {
-    const Matrix4 candidate = graph.rest[static_cast<size_t>(nodes[j])] * binds[j];
-    if (!below[static_cast<size_t>(nodes[j])] && invertible(candidate)) return candidate;
-  }
-  return Matrix4::Identity();
+  return skins;
 }
 
-void add_skin(const tinygltf::Model& model, const SceneGraph& graph, const AccessorReader& accessors,
-              const Source& source, int skin, JointList& list, std::vector<int>& of_skin,
-              Matrix4& bind_from_mesh) {
-  const std::vector<int> nodes = skin_nodes(model, graph, skin, source);
-  const std::vector<Matrix4> binds = read_inverse_binds(model, skin, accessors, source);
-  bind_from_mesh = scene_from_mesh(graph, nodes, binds);
-  const Matrix4 mesh_from_bind = bind_from_mesh.inverse();
-  for (size_t j = 0; j < nodes.size(); ++j) of_skin.push_back(list.add(nodes[j], binds[j] * mesh_from_bind));
+// Scene-from-mesh of each skin. One that rests as it was bound comes first, then the largest, so that others
+// stand on its skeleton.
+std::vector<Matrix4> bind_skins(const std::vector<SkinBinds>& skins, BindPose& pose) {
+  std::vector<std::pair<bool, size_t>> rank;
+  for (const SkinBinds& skin : skins)
+    rank.emplace_back(skin.states_binds && pose.rests_as_bound(skin), skin.nodes.size());
+  std::vector<size_t> order(skins.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::ranges::stable_sort(order, std::greater{}, [&](size_t s) { return rank[s]; });
+  std::vector<Matrix4> from_mesh(skins.size(), Matrix4::Identity());
+  for (const size_t s : order)
+    if (skins[s].states_binds) from_mesh[s] = pose.add_skin(skins[s]);
+  for (const size_t s : order)
+    if (!skins[s].states_binds) pose.add_resting_skin(skins[s]);
+  return from_mesh;
+}
+
+void add_joints(const SkinBinds& skin, const Matrix4& scene_from_mesh, const BindPose& pose,
+                const std::string& name, const Source& source, JointList& list, std::vector<int>& of_skin) {
+  const Matrix4 mesh_from_scene = scene_from_mesh.inverse();
+  for (size_t j = 0; j < skin.nodes.size(); ++j) {
+    Matrix4 joint_from_scene = skin.inverse_bind[j] * mesh_from_scene;
+    if (!skin.states_binds) joint_from_scene = pose.of_node(skin.nodes[j]).inverse();
+    of_skin.push_back(list.add(skin.nodes[j], joint_from_scene));
+  }
   if (list.size() > kMaxJoints)
-    source.refuse(skin_name(model, skin),
+    source.refuse(name,
                   "brings the joints to " + std::to_string(list.size()) + ", at most " +
                       std::to_string(kMaxJoints) + " are possible",
                   "split the character");
@@ -150,9 +191,35 @@ std::vector<bool> animated_nodes(const tinygltf::Model& model, const SceneGraph&
   return animated;
 }
 
+// Nodes with a mesh or a joint of a skin at or below them: what moves them is seen.
+std::vector<bool> carrying_nodes(const SceneGraph& graph, const JointList& list,
+                                 const std::vector<MeshInstance>& instances) {
+  std::vector<bool> carries(graph.nodes.size(), false);
+  for (const MeshInstance& instance : instances)
+    if (instance.skin < 0) carries[static_cast<size_t>(instance.node)] = true;
+  for (size_t i = carries.size(); i-- > 0;) {
+    if (list.has(static_cast<int>(i))) carries[i] = true;
+    const int up = graph.nodes[i].parent;
+    if (carries[i] && up >= 0) carries[static_cast<size_t>(up)] = true;
+  }
+  return carries;
+}
+
+// Nodes that springs move are joints as good as any.
+void add_swinging(const SceneGraph& graph, const BindPose& pose, const std::vector<bool>& swinging,
+                  const std::vector<MeshInstance>& instances, JointList& list) {
+  const std::vector<bool> carries = carrying_nodes(graph, list, instances);
+  for (size_t i = 0; i < swinging.size(); ++i) {
+    const auto node = static_cast<int>(i);
+    if (!swinging[i] || !carries[i] || list.has(node)) continue;
+    const Matrix4 bound = pose.of_node(node);
+    if (is_invertible(bound)) list.add(node, bound.inverse());
+  }
+}
+
 // A mesh without a skin moves with the joint above it, if nothing in between can move; else its own node
 // becomes a joint.
-void attach(const SceneGraph& graph, const std::vector<bool>& animated, JointList& list,
+void attach(const SceneGraph& graph, const BindPose& pose, const std::vector<bool>& animated, JointList& list,
             MeshInstance& instance, const Source& source) {
   Matrix4 joint_from_mesh = Matrix4::Identity();
   int node = instance.node;
@@ -167,13 +234,13 @@ void attach(const SceneGraph& graph, const std::vector<bool>& animated, JointLis
     instance.bind_from_mesh = list.inverse_bind(joint).inverse() * joint_from_mesh;
     return;
   }
-  const Matrix4& rest = graph.rest[static_cast<size_t>(instance.node)];
+  const Matrix4 bound = pose.of_node(instance.node);
   const std::string where = "node '" + graph.nodes[static_cast<size_t>(instance.node)].name + "'";
-  if (!invertible(rest))
+  if (!is_invertible(bound))
     source.refuse(where, "carries a mesh and its rest transform flattens space",
                   "give it a scale that is not zero");
-  instance.joint = list.add(instance.node, rest.inverse());
-  instance.bind_from_mesh = rest;
+  instance.joint = list.add(instance.node, bound.inverse());
+  instance.bind_from_mesh = bound;
 }
 
 // Joints in a parents-first order, everything that names them renumbered.
@@ -194,6 +261,15 @@ Joints in_order(const JointList& list, std::vector<std::vector<int>> of_skin,
   for (MeshInstance& instance : instances) instance.joint = place[static_cast<size_t>(instance.joint)];
   joints.of_skin = std::move(of_skin);
   return joints;
+}
+
+// Those that are no numbers count as zero.
+std::vector<double> morph_weights(const tinygltf::Model& model, const tinygltf::Node& node) {
+  std::vector<double> weights =
+      node.weights.empty() ? model.meshes[static_cast<size_t>(node.mesh)].weights : node.weights;
+  for (double& weight : weights)
+    if (!std::isfinite(weight)) weight = 0;
+  return weights;
 }
 
 }  // namespace
@@ -217,7 +293,10 @@ std::vector<MeshInstance> find_meshes(const tinygltf::Model& model, const SceneG
           kMend);
     const int index = graph.node_of_file[file];
     if (graph.in_scene[static_cast<size_t>(index)])
-      instances.push_back({.node = index, .mesh = node.mesh, .skin = node.skin < 0 ? -1 : node.skin});
+      instances.push_back({.node = index,
+                           .mesh = node.mesh,
+                           .skin = node.skin < 0 ? -1 : node.skin,
+                           .morph_weights = morph_weights(model, node)});
     else
       ++outside;
   }
@@ -229,28 +308,33 @@ std::vector<MeshInstance> find_meshes(const tinygltf::Model& model, const SceneG
 }
 
 Joints read_joints(const tinygltf::Model& model, const SceneGraph& graph, const AccessorReader& accessors,
-                   Source& source, std::vector<MeshInstance>& instances) {
+                   const std::vector<bool>& swinging, Source& source, std::vector<MeshInstance>& instances) {
   if (model.skins.size() > kMaxSkins)
     source.refuse("", "has " + std::to_string(model.skins.size()) + " skins, at most 1024 are possible",
                   "join the character's meshes");
-  JointList list(graph);
-  std::vector<std::vector<int>> of_skin(model.skins.size());
-  std::vector<Matrix4> bind_from_mesh(model.skins.size(), Matrix4::Identity());
+  const std::vector<SkinBinds> skins = read_skins(model, graph, accessors, source, instances);
+  BindPose pose(graph);
+  const std::vector<Matrix4> scene_from_mesh = bind_skins(skins, pose);
+  JointList list(graph, reach_of(graph, skins));
+  std::vector<std::vector<int>> of_skin(skins.size());
   for (MeshInstance& instance : instances) {
     if (instance.skin < 0) continue;
     const auto skin = static_cast<size_t>(instance.skin);
     if (of_skin[skin].empty())
-      add_skin(model, graph, accessors, source, instance.skin, list, of_skin[skin], bind_from_mesh[skin]);
-    instance.bind_from_mesh = bind_from_mesh[skin];
+      add_joints(skins[skin], scene_from_mesh[skin], pose, skin_name(model, instance.skin), source, list,
+                 of_skin[skin]);
+    instance.bind_from_mesh = scene_from_mesh[skin];
+    instance.in_joint_spaces = !skins[skin].states_binds;
     instance.joint = list.nearest(instance.node);
     if (instance.joint < 0) instance.joint = of_skin[skin].front();
   }
   if (list.size() == 0)
     source.refuse("", "this file has no skin: no mesh of its scene is bound to joints",
                   "bind the mesh to a skeleton and export with skinning");
+  add_swinging(graph, pose, swinging, instances, list);
   const std::vector<bool> animated = animated_nodes(model, graph);
   for (MeshInstance& instance : instances)
-    if (instance.skin < 0) attach(graph, animated, list, instance, source);
+    if (instance.skin < 0) attach(graph, pose, animated, list, instance, source);
   return in_order(list, std::move(of_skin), instances);
 }
 

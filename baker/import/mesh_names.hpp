@@ -7,6 +7,12 @@
 
 namespace sinew::baker {
 
+// For each instance, whether a name, or prefix*, is the mesh's or the showing node's. Throws BadInput for a
+// name that is no mesh's, with the nearest one; `key`: the recipe's.
+std::vector<bool> match_meshes(const tinygltf::Model& model, const SceneGraph& graph,
+                               const std::vector<std::string>& names, const std::string& key,
+                               const Source& source, const std::vector<MeshInstance>& instances);
+
 // Drops the instances of which a name, or prefix*, is the mesh's or the showing node's. Throws BadInput for a
 // name that is no mesh's, with the nearest one, and where nothing is left.
 void leave_out_meshes(const tinygltf::Model& model, const SceneGraph& graph,

@@ -1,7 +1,10 @@
 // pose.cpp  Clips sampled as glTF 2.0 prescribes (3.11, appendix C), and linear blend skinning.
 #include "baker/import/pose.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
+
+#include "baker/import/constraint.hpp"
 
 namespace sinew::baker {
 namespace {
@@ -96,10 +99,17 @@ std::vector<Matrix4> joint_matrices(const Character& character, const Clip* clip
   if (clip)
     for (const Channel& channel : clip->channels)
       apply(channel, t_s, nodes[static_cast<size_t>(channel.node)]);
+  follow_constraints(character.nodes, nodes);
   const std::vector<Matrix4> global = global_matrices(nodes, character.character_from_scene);
   std::vector<Matrix4> joints;
   joints.reserve(character.joint_node.size());
   for (int node : character.joint_node) joints.push_back(global[static_cast<size_t>(node)]);
+  return joints;
+}
+
+std::vector<Matrix4> bind_matrices(const Character& character) {
+  std::vector<Matrix4> joints;
+  for (const Matrix4& inverse_bind : character.inverse_bind) joints.push_back(inverse_bind.inverse());
   return joints;
 }
 

@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "baker/import/base_color_texture.hpp"
+#include "baker/import/bind_pose.hpp"
+#include "baker/import/paint.hpp"
 #include "baker/import/skin_weights.hpp"
 #include "baker/import/surface_color.hpp"
 #include "baker/import/triangles.hpp"
@@ -16,6 +19,54 @@ namespace {
 
 constexpr const char* kMend = "the file is damaged; export it again";
 constexpr size_t kMaxPrimitives = 65536;
+
+// What primitives share vertices by.
+using VertexKey = std::pair<std::map<std::string, int>, std::vector<std::map<std::string, int>>>;
+
+VertexKey key_of(const tinygltf::Primitive& primitive) { return {primitive.attributes, primitive.targets}; }
+
+bool is_morphed(const MeshInstance& instance) {
+  return std::ranges::any_of(instance.morph_weights, [](double weight) { return weight != 0; });
+}
+
+// Bind-from-file of each vertex.
+class VertexSpaces {
+ public:
+  VertexSpaces(const MeshInstance& instance, const Joints& joints, const std::vector<Influences>& influences)
+      : instance_(instance), influences_(influences) {
+    if (!instance.in_joint_spaces) return;
+    for (const Matrix4& inverse_bind : joints.inverse_bind)
+      bind_from_joint_.push_back(inverse_bind.inverse());
+  }
+
+  Matrix4 of(size_t vertex) const {
+    if (!instance_.in_joint_spaces) return instance_.bind_from_mesh;
+    Matrix4 sum = Matrix4::Zero();
+    const Influences& skin = influences_[vertex];
+    for (size_t k = 0; k < kInfluences && skin.weight[k] > 0; ++k)
+      sum += skin.weight[k] * bind_from_joint_[static_cast<size_t>(skin.joint[k])];
+    return sum;
+  }
+
+ private:
+  const MeshInstance& instance_;
+  const std::vector<Influences>& influences_;
+  std::vector<Matrix4> bind_from_joint_;
+};
+
+// A mesh that is hidden by a scale of zero has no way back.
+Matrix4 inverse_or_identity(const Matrix4& matrix) {
+  return is_invertible(matrix) ? Matrix4(matrix.inverse()) : Matrix4(Matrix4::Identity());
+}
+
+// Of directions that stay square to the surface: the cofactors, which a flattened space has, too.
+Eigen::Matrix3d of_normals(const Matrix4& matrix) {
+  const Eigen::Matrix3d m = matrix.topLeftCorner<3, 3>();
+  Eigen::Matrix3d cofactors;
+  for (int k = 0; k < 3; ++k)
+    cofactors.col(k) = Vector3(m.col((k + 1) % 3)).cross(Vector3(m.col((k + 2) % 3)));
+  return m.determinant() < 0 ? Eigen::Matrix3d(-cofactors) : cofactors;
+}
 
 class MeshReader {
  public:
@@ -30,18 +81,20 @@ class MeshReader {
 
   void append(const MeshInstance& instance) {
     const tinygltf::Mesh& mesh = model_.meshes[static_cast<size_t>(instance.mesh)];
-    std::map<std::map<std::string, int>, size_t> shared;  // attributes -> first vertex
+    std::map<VertexKey, size_t> shared;  // first vertex of each
     const size_t first = character_.positions.size();
     for (size_t p = 0; p < mesh.primitives.size(); ++p) {
       const tinygltf::Primitive& primitive = mesh.primitives[p];
       const std::string where = place(instance, p);
-      if (!usable(primitive, where)) continue;
-      const auto [found, fresh] = shared.try_emplace(primitive.attributes, character_.positions.size());
+      if (!usable(primitive, instance, where)) continue;
+      const auto [found, fresh] = shared.try_emplace(key_of(primitive), character_.positions.size());
       if (fresh) append_vertices(primitive, instance, where);
       append_faces(primitive, instance, found->second, where);
     }
     const size_t count = character_.positions.size() - first;
-    if (count > 0) character_.meshes.push_back({instance.node, first, count, instance.skin >= 0});
+    if (count > 0)
+      character_.meshes.push_back(
+          {instance.node, first, count, instance.skin >= 0, inverse_or_identity(instance.bind_from_mesh)});
   }
 
   void finish() {
@@ -56,14 +109,17 @@ class MeshReader {
            std::to_string(primitive);
   }
 
-  bool usable(const tinygltf::Primitive& primitive, const std::string& where) {
+  bool usable(const tinygltf::Primitive& primitive, const MeshInstance& instance, const std::string& where) {
     if (!is_triangle_mode(primitive.mode)) return source_.note(where, "points or lines: left out"), false;
     if (!primitive.attributes.contains("POSITION"))
       return source_.note(where, "no POSITION: left out"), false;
     if (primitive.extensions.contains("KHR_draco_mesh_compression"))
       source_.refuse(where, "is compressed by KHR_draco_mesh_compression", "export without mesh compression");
     if (!primitive.targets.empty())
-      source_.note(where, std::to_string(primitive.targets.size()) + " morph targets: ignored");
+      source_.note(where,
+                   std::to_string(primitive.targets.size()) +
+                       (is_morphed(instance) ? " morph targets: the shape that they have by default is baked"
+                                             : " morph targets: ignored"));
     return true;
   }
 
@@ -80,42 +136,65 @@ class MeshReader {
     return accessors_.numbers(found->second, width, place);
   }
 
+  // Of an attribute, with what the mesh's default morph weights add to it.
+  std::vector<double> morphed(const tinygltf::Primitive& primitive, const MeshInstance& instance,
+                              const std::string& name, size_t count, const std::string& where) const {
+    std::vector<double> values = attribute(primitive, name, 3, count, where);
+    if (values.empty()) return values;
+    for (size_t t = 0; t < std::min(primitive.targets.size(), instance.morph_weights.size()); ++t) {
+      const auto found = primitive.targets[t].find(name);
+      const double weight = instance.morph_weights[t];
+      if (found == primitive.targets[t].end() || weight == 0) continue;
+      const std::string place = where + " morph target " + std::to_string(t) + " " + name;
+      if (accessors_.count(found->second, place) != count)
+        source_.refuse(place,
+                       "has " + std::to_string(accessors_.count(found->second, place)) + " elements for " +
+                           std::to_string(count) + " vertices",
+                       kMend);
+      const std::vector<double> moved = accessors_.numbers(found->second, 3, place);
+      for (size_t i = 0; i < values.size(); ++i) values[i] += weight * moved[i];
+    }
+    return values;
+  }
+
   void append_vertices(const tinygltf::Primitive& primitive, const MeshInstance& instance,
                        const std::string& where) {
     const size_t count = accessors_.count(primitive.attributes.at("POSITION"), where + " POSITION");
-    append_positions(primitive, instance, count, where);
-    append_normals(primitive, instance, count, where);
+    const std::vector<double> places = morphed(primitive, instance, "POSITION", count, where);
     const auto influences = read_influences(primitive, count, instance, joints_, accessors_, where, source_);
+    const VertexSpaces spaces(instance, joints_, influences);
+    append_positions(places, spaces, where);
+    append_normals(morphed(primitive, instance, "NORMAL", count, where), spaces, count, where);
     character_.skin.insert(character_.skin.end(), influences.begin(), influences.end());
-    append_stiffness(primitive, count, where);
+    const std::vector<double> paint = read_paint(primitive, count, accessors_, where, source_);
+    painted_ = painted_ || !paint.empty();
+    character_.stiffness.insert(character_.stiffness.end(), paint.begin(), paint.end());
     const auto colors = read_vertex_colors(primitive, count, accessors_, where, source_);
     vertex_colors_.insert(vertex_colors_.end(), colors.begin(), colors.end());
     character_.colors.resize(character_.positions.size());
+    character_.stiffness.resize(character_.positions.size(), 1.0);
   }
 
-  void append_positions(const tinygltf::Primitive& primitive, const MeshInstance& instance, size_t count,
+  void append_positions(const std::vector<double>& values, const VertexSpaces& spaces,
                         const std::string& where) {
-    const std::vector<double> values = attribute(primitive, "POSITION", 3, count, where);
-    for (size_t v = 0; v < count; ++v) {
+    for (size_t v = 0; 3 * v < values.size(); ++v) {
       const Vector3 file(values[3 * v], values[3 * v + 1], values[3 * v + 2]);
       if (!file.allFinite())
         source_.refuse(where + " POSITION", "vertex " + std::to_string(v) + " is NaN or infinite",
                        "mend the mesh and export it again");
-      character_.positions.push_back((instance.bind_from_mesh * file.homogeneous()).head<3>());
+      character_.positions.push_back((spaces.of(v) * file.homogeneous()).head<3>());
     }
   }
 
   // Normals that the file lacks or that are no directions stay zero; smooth ones take their place later.
-  void append_normals(const tinygltf::Primitive& primitive, const MeshInstance& instance, size_t count,
+  void append_normals(const std::vector<double>& values, const VertexSpaces& spaces, size_t count,
                       const std::string& where) {
-    const std::vector<double> values = attribute(primitive, "NORMAL", 3, count, where);
     has_normals_ = has_normals_ && !values.empty();
-    const Eigen::Matrix3d turn = instance.bind_from_mesh.topLeftCorner<3, 3>().inverse().transpose();
     size_t unusable = 0;
     for (size_t v = 0; v < count; ++v) {
       Vector3 normal = Vector3::Zero();
       if (!values.empty()) {
-        normal = turn * Vector3(values[3 * v], values[3 * v + 1], values[3 * v + 2]);
+        normal = of_normals(spaces.of(v)) * Vector3(values[3 * v], values[3 * v + 1], values[3 * v + 2]);
         const bool direction = normal.allFinite() && normal.norm() > 0;
         if (!direction) ++unusable;
         normal = direction ? normal.normalized() : Vector3::Zero();
@@ -125,26 +204,12 @@ class MeshReader {
     if (unusable > 0) source_.note(where, std::to_string(unusable) + " normals are zero or NaN: computed");
   }
 
-  void append_stiffness(const tinygltf::Primitive& primitive, size_t count, const std::string& where) {
-    const std::vector<double> values = attribute(primitive, "_STIFFNESS", 1, count, where);
-    painted_ = painted_ || !values.empty();
-    size_t mended = 0;
-    for (size_t v = 0; v < count; ++v) {
-      const double value = values.empty() ? 1.0 : values[v];
-      const double usable = std::isfinite(value) ? std::clamp(value, 0.0, 1.0) : 1.0;
-      if (usable != value) ++mended;
-      character_.stiffness.push_back(usable);
-    }
-    if (mended > 0)
-      source_.note(where,
-                   std::to_string(mended) + " values of _STIFFNESS are outside 0..1: clamped, NaN is rigid");
-  }
-
   void append_faces(const tinygltf::Primitive& primitive, const MeshInstance& instance, size_t first,
                     const std::string& where) {
     const size_t count = accessors_.count(primitive.attributes.at("POSITION"), where + " POSITION");
     std::vector<std::array<int, 3>> faces = read_triangles(primitive, count, accessors_, where, source_);
-    const bool mirrored = instance.bind_from_mesh.topLeftCorner<3, 3>().determinant() < 0;
+    const bool mirrored =
+        !instance.in_joint_spaces && instance.bind_from_mesh.topLeftCorner<3, 3>().determinant() < 0;
     const LinearColor material = material_color(model_, primitive, where, source_);
     const std::vector<LinearColor> texture =
         textures_.at_vertices(primitive, count, accessors_, where, source_);
@@ -178,7 +243,7 @@ void check_size(const tinygltf::Model& model, const AccessorReader& accessors,
   size_t vertices = 0, corners = 0, primitives = 0;
   for (const MeshInstance& instance : instances) {
     const auto& list = model.meshes[static_cast<size_t>(instance.mesh)].primitives;
-    std::map<std::map<std::string, int>, bool> counted;
+    std::map<VertexKey, bool> counted;
     for (const tinygltf::Primitive& primitive : list) {
       const std::string where = "mesh " + std::to_string(instance.mesh);
       if (++primitives > kMaxPrimitives)
@@ -187,7 +252,7 @@ void check_size(const tinygltf::Model& model, const AccessorReader& accessors,
       if (position == primitive.attributes.end() || !is_triangle_mode(primitive.mode)) continue;
       const size_t count = accessors.count(position->second, where + " POSITION");
       corners += primitive.indices < 0 ? count : accessors.count(primitive.indices, where + " indices");
-      if (counted.try_emplace(primitive.attributes, true).second) vertices += count;
+      if (counted.try_emplace(key_of(primitive), true).second) vertices += count;
       if (count > max_vertices || vertices > max_vertices)
         source.refuse(where,
                       "the character has more than " + std::to_string(max_vertices) + " vertices (" +

@@ -7,9 +7,13 @@
 
 namespace sinew::baker {
 
-// VRM 0: extensions.VRM.secondaryAnimation.boneGroups, each bone a root with all that hangs on it. VRM 1:
+// Nodes of the graph that a file's springs move, whether joints or not; see read_spring_bones.
+std::vector<bool> spring_nodes(const tinygltf::Model& model, const SceneGraph& graph);
+
+// VRM 0: extensions.VRM.secondaryAnimation.boneGroups, each bone a root with all that hangs on it; a
+// bone below another root is part of that one's tree. VRM 1:
 // extensions.VRMC_springBone.springs, from the first to the last but one joint of each, which ends where the
-// last one is, with the numbers of the first; a spring of one joint is left out. What is damaged or names no
+// last one is; a spring of one joint is left out. What is damaged or names no
 // joint of `joint_node` is left out with a note: springs are ornament.
 std::vector<SpringBones> read_spring_bones(const tinygltf::Model& model, const SceneGraph& graph,
                                            const std::vector<int>& joint_node, Source& source);

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <unordered_map>
 
+#include "baker/import/smooth_groups.hpp"
+
 namespace sinew::baker {
 namespace {
 
@@ -69,18 +71,10 @@ void drop_degenerate_triangles(Character& character, Source& source) {
 }
 
 void compute_missing_normals(Character& character) {
-  std::vector<Vector3> sum(character.positions.size(), Vector3::Zero());
-  for (const auto& face : character.triangles) {
-    const Vector3& a = character.positions[static_cast<size_t>(face[0])];
-    const Vector3 twice_area = (character.positions[static_cast<size_t>(face[1])] - a)
-                                   .cross(character.positions[static_cast<size_t>(face[2])] - a);
-    for (int corner : face)
-      sum[static_cast<size_t>(character.welded[static_cast<size_t>(corner)])] += twice_area;
-  }
-  for (size_t v = 0; v < sum.size(); ++v) {
+  const std::vector<Vector3> areas = area_vectors(character, smooth_groups(character));
+  for (size_t v = 0; v < areas.size(); ++v) {
     if (!character.normals[v].isZero(0)) continue;
-    const Vector3& normal = sum[static_cast<size_t>(character.welded[v])];
-    character.normals[v] = normal.norm() > 0 ? normal.normalized() : Vector3::UnitY();
+    character.normals[v] = areas[v].norm() > 0 ? areas[v].normalized() : Vector3::UnitY();
   }
 }
 

@@ -29,7 +29,7 @@ const std::map<std::string_view, SoftKind>& soft_words() {
         {"hair",      "hairs",    "ponytail", "pigtail", "twintail",  "braid",      "braids",
          "plait",     "fringe",   "bang",     "bangs",   "ahoge",     "forelock",   "sideburn",
          "sideburns", "dread",    "dreads",   "mane",    "dreadlock", "dreadlocks", "beard",
-         "moustache", "mustache", "goatee",   "plume"});
+         "moustache", "mustache", "goatee",   "plume",   "lock",      "locks"});
     add(SoftKind::kTrunk, {"trunk", "proboscis"});
     add(SoftKind::kTentacle, {"tentacle", "tentacles"});
     add(SoftKind::kAntenna, {"antenna", "antennae", "antennas", "feeler", "feelers", "eyestalk", "barbel",

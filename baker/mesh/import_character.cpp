@@ -8,6 +8,7 @@ Character import_character(const std::string& path, const Recipe& recipe) {
   options.unit_m = recipe.unit_m;
   options.up = recipe.up;
   options.without_meshes = recipe.without_meshes;
+  options.with_meshes = recipe.with_meshes;
   return import_gltf(path, options);
 }
 

@@ -1,5 +1,6 @@
 // layout_tissue.cpp  The steps from a character to its soft regions and their control graph.
 #include <algorithm>
+#include <set>
 
 #include "baker/common/bad_input.hpp"
 #include "baker/mesh/bone_names.hpp"
@@ -7,6 +8,7 @@
 #include "baker/mesh/control_nodes.hpp"
 #include "baker/mesh/crossed_capsules.hpp"
 #include "baker/mesh/flesh_shape.hpp"
+#include "baker/mesh/hold_roots.hpp"
 #include "baker/mesh/joint_names.hpp"
 #include "baker/mesh/named_parts.hpp"
 #include "baker/mesh/node_order.hpp"
@@ -203,6 +205,14 @@ void join(const std::vector<bool>& other, std::vector<bool>& joints) {
   for (size_t j = 0; j < joints.size(); ++j) joints[j] = joints[j] || other[j];
 }
 
+void refuse_on_rods(const Character& character, const std::vector<bool>& joints,
+                    const std::vector<bool>& on_rods, const std::string& where) {
+  for (size_t j = 0; j < joints.size(); ++j)
+    if (joints[j] && on_rods[j])
+      throw BadInput(where + "nothing is soft: rods move its bones; let '" + joint_name(character, j) +
+                     "' be in one of them");
+}
+
 // A region of the recipe is not left without a part in silence.
 void check_all_found(const Character& character, const Recipe& recipe, const SoftParts& parts,
                      const std::vector<bool>& on_rods) {
@@ -213,13 +223,35 @@ void check_all_found(const Character& character, const Recipe& recipe, const Sof
     if (region.stiffness >= recipe.rigid_stiffness)
       throw BadInput(where + "nothing is soft: its stiffness is not below rigid_stiffness; make it softer");
     const std::vector<bool> own = match_joints(character, region.joints, where);
-    for (size_t j = 0; j < own.size(); ++j)
-      if (own[j] && on_rods[j])
-        throw BadInput(where + "nothing is soft: rods move its bones; let '" + joint_name(character, j) +
-                       "' be in one of them");
+    refuse_on_rods(character, own, on_rods, where);
     throw BadInput(where +
                    "nothing is soft: its bones move fewer than four vertices enough; name bones that "
                    "move flesh, or take it out");
+  }
+}
+
+// Nor is one of a painted character: where paint makes nothing of it soft, it is refused; where its flesh is
+// part of another region's, that is noted.
+void check_all_painted(Character& character, const Recipe& recipe, const TissueLayout& layout,
+                       const std::vector<bool>& on_rods) {
+  std::set<const RegionRecipe*> used;
+  for (const Region& region : layout.regions)
+    used.insert(stated_region(character, recipe, layout.stiffness, region.vertices));
+  for (const RegionRecipe& region : recipe.regions) {
+    if (used.contains(&region)) continue;
+    const std::string where = "recipe: region '" + region.name + "'";
+    const std::vector<bool> own = match_joints(character, region.joints, where);
+    bool soft = false;
+    for (const Region& other : layout.regions)
+      for (const int v : other.vertices)
+        soft = soft || own[static_cast<size_t>(character.skin[static_cast<size_t>(v)].joint[0])];
+    if (!soft) refuse_on_rods(character, own, on_rods, character.name + ": " + where + ": ");
+    if (!soft)
+      throw BadInput(
+          character.name + ": " + where +
+          ": nothing is soft: the file's _STIFFNESS is rigid where its bones are; paint it below " +
+          "rigid_stiffness there, or leave the attribute out");
+    character.notes.push_back(where + " is not used: its painted flesh is part of other regions");
   }
 }
 
@@ -235,6 +267,7 @@ void note_sheets(Character& character, const TissueLayout& layout) {
 }  // namespace
 
 TissueLayout layout_tissue(Character& character, const Recipe& recipe) {
+  hold_roots(character, recipe);
   const Surface surface = find_surface(character);
   const bool no_tissue = recipe.states_regions && recipe.regions.empty();
   const bool painted = !character.stiffness.empty() && !no_tissue;
@@ -254,6 +287,9 @@ TissueLayout layout_tissue(Character& character, const Recipe& recipe) {
   const std::vector<bool> on_rods = joints_on_rods(character, layout.rods);
   layout.proxies = find_proxies(character, find_bones(character, {}), on_rods, recipe);
   drop_crossed(character, layout.rods, recipe, layout.proxies);
+  for (Rod& rod : layout.rods)
+    if (rod.evidence == Evidence::kSpringBone && !character.colliders.empty())
+      rod.passed_proxies = proxies_outside(layout.proxies, rod.collider_groups);
 
   Recipe as = recipe;
   if (!painted && !states_regions) as.regions = std::move(named.regions);
@@ -271,6 +307,7 @@ TissueLayout layout_tissue(Character& character, const Recipe& recipe) {
                                              : Evidence::kBoneName;
   for (int id = 0; id < parts.count; ++id)
     append_finest({character, surface, parts, id}, as, evidence, layout);
+  if (painted && states_regions) check_all_painted(character, recipe, layout, on_rods);
   distinguish_names(layout.regions);
   note_sheets(character, layout);
   if (layout.regions.empty() && layout.rods.empty() && !no_tissue)

@@ -162,7 +162,8 @@ class Finder {
     const bool claimed = std::ranges::any_of(joints, [&](size_t j) { return done_[j]; });
     for (const size_t j : joints) done_[j] = true;
     if (claimed) return;
-    if (static_cast<double>(flesh.size()) > kMostOfBody * static_cast<double>(welded_))
+    if (!hangs(kind) &&  // a wig or a cape is a file of its own
+        static_cast<double>(flesh.size()) > kMostOfBody * static_cast<double>(welded_))
       return skip(name(joint), kind, "moves more than half of the character: a body, not a part of one");
     if (extent_m(character_, flesh) < kTooSmall * longest_m_)
       return skip(name(joint), kind, "too small to be seen swinging");
@@ -219,21 +220,18 @@ class Finder {
     const std::string why = against_tissue(joints);
     if (!why.empty()) return skip(name(joint), kind, why);
     RegionRecipe region;
-    region.name = name(joint);
+    region.name = unique_joint_name(character_, joint);
     region.kind = kind;
-    for (const size_t j : joints) region.joints.push_back(name(j));
+    for (const size_t j : joints) region.joints.push_back(unique_joint_name(character_, j));
     found_.regions.push_back(region);
   }
 
   void add_chain(size_t joint, SoftKind kind, const std::vector<size_t>& joints) {
-    size_t called_so = 0;
-    for (size_t j = 0; j < done_.size(); ++j) called_so += name(j) == name(joint) ? 1 : 0;
-    if (called_so > 1) return skip(name(joint), kind, "two bones have this name; rename one to let it swing");
     try {
       const std::vector<RodBone> bones =
           segment_bones(character_, {"bone name", static_cast<int>(joint), -1, -1});
       RodRecipe rod;
-      rod.name = rod.root = name(joint);
+      rod.name = rod.root = unique_joint_name(character_, joint);
       rod.frequency_hz = default_frequency_hz(kind, longest_chain_m(bones));
       rod.damping_ratio = kNaturalDamping;
       rod.gravity = hangs(kind) ? 1 : 0;

@@ -40,7 +40,7 @@ std::vector<Proxy> stated(const Character& character) {
     const Matrix4 bind = character.inverse_bind[static_cast<size_t>(c.joint)].inverse();
     const auto placed = [&](const Vector3& p) { return Vector3((bind * p.homogeneous()).head<3>()); };
     const double scale = std::cbrt(std::abs(bind.topLeftCorner<3, 3>().determinant()));
-    proxies.push_back({c.joint, placed(c.from), placed(c.to), scale * c.radius_m});
+    proxies.push_back({c.joint, placed(c.from), placed(c.to), scale * c.radius_m, c.groups});
   }
   return proxies;
 }
@@ -66,6 +66,15 @@ bool are_touched(const std::vector<bool>& on_rods, const Recipe& recipe) {
 }
 
 }  // namespace
+
+uint64_t proxies_outside(const std::vector<Proxy>& proxies, const std::vector<int>& groups) {
+  uint64_t outside = 0;
+  for (size_t p = 0; p < proxies.size(); ++p) {
+    const auto is_own = [&](int group) { return std::ranges::binary_search(groups, group); };
+    if (std::ranges::none_of(proxies[p].groups, is_own)) outside |= uint64_t{1} << p;
+  }
+  return outside;
+}
 
 std::vector<Proxy> find_proxies(Character& character, const Bones& bones, const std::vector<bool>& on_rods,
                                 const Recipe& recipe) {

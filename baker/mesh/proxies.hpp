@@ -1,6 +1,7 @@
 // proxies.hpp  Capsules about bones, for rods and soft parts to collide with where a mesh would cost too
 // much.
 #pragma once
+#include <cstdint>
 #include <vector>
 
 #include "baker/import/character.hpp"
@@ -13,7 +14,12 @@ struct Proxy {
   int joint = 0;
   Vector3 from = Vector3::Zero(), to = Vector3::Zero();  // bind pose
   double radius_m = 0;
+  std::vector<int> groups = {};  // of a file's collider: BodyCollider::groups
 };
+
+// Bits of the proxies, in their order, that a spring of these groups does not collide with: all of the file's
+// colliders that are in none of them.
+uint64_t proxies_outside(const std::vector<Proxy>& proxies, const std::vector<int>& groups);
 
 // None for a character without rods and regions that touch the body. The colliders that the file states,
 // where it has any; else a capsule for each bone that moves 20 vertices or more above all others, no rod's

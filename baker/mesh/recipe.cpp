@@ -108,6 +108,7 @@ Recipe read_recipe(const std::string& path) {
   recipe.states_regions = section.has("regions");
   for (JsonSection& region : section.sections("regions")) recipe.regions.push_back(read_region(region));
   recipe.without_meshes = section.texts("without_meshes");
+  recipe.with_meshes = section.texts("with_meshes");
   for (JsonSection& proxy : section.sections("proxies")) recipe.proxies.push_back(read_proxy(proxy));
   recipe.without_proxies = section.texts("without_proxies");
   if (section.has("rods")) recipe.rods = read_rod_recipes(section);

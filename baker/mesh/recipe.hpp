@@ -69,6 +69,8 @@ struct Recipe {
       false;  // an empty list too: nothing is soft. Else: by what the file and its names show
   // Meshes of the file that are not imported, by name or prefix*.
   std::vector<std::string> without_meshes;
+  // Of lesser levels of detail and invisible meshes, which are not imported unless they are named here.
+  std::vector<std::string> with_meshes;
 };
 
 // Throws BadInput: not JSON, an unknown key (named, with the nearest known one), a number outside its range.

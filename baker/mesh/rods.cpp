@@ -8,7 +8,8 @@
 //   gravity_power  bends a lone bone as far as there where gravity is 40 gravity_power / 9.80665 of the
 //                  earth's (a rod's mass lies along it, not at its end); it bends the posed shape: sag is 1
 //   drag_force d   takes 60 d / (1 - d) of the velocity a second
-// Colliders, hit radii and centres are not mapped.
+// A chain of version 1 has its own numbers at each joint, but for gravity. What collides is as thick as its
+// hit radius, and passes colliders that are in none of its groups. Centres are not followed.
 #include "baker/mesh/rods.hpp"
 
 #include <algorithm>
@@ -27,7 +28,9 @@ namespace {
 constexpr double kFrames_hz = 60, kGravity = 9.80665, kOfLoneBone = 40;
 constexpr double kMostGravity = 100;  // of the earth's: what a pack may hold, runtime/pack/check_rods.cpp
 constexpr double kLeastStiffness = 0.01,
-                 kMostDrag = 0.95;       // of springs: beyond them bones fall, or stand still
+                 kMostDrag = 0.95;  // of springs: beyond them bones fall, or stand still
+constexpr double kThinnest = 0.01,
+                 kThickest = 2;          // radius that a hit radius gives, shares of a bone's length
 constexpr double kLinkStiffness = 1000;  // times the stiffest joint of its rod
 
 rods::SegmentDef segment_of(const RodBone& bone) {
@@ -119,21 +122,28 @@ void apply(const RodRecipe& recipe, std::vector<RodBone>& bones) {
   set_damping(recipe, bones);
 }
 
+const SpringNumbers& numbers_at(const SpringBones& spring, int joint) {
+  const auto own = std::ranges::find(spring.of_joints, joint, [](const auto& bone) { return bone.first; });
+  return own == spring.of_joints.end() ? spring.numbers : own->second;
+}
+
 void apply(const SpringBones& spring, std::vector<RodBone>& bones) {
-  const double drag = std::min(spring.drag_force, kMostDrag);
   std::vector<double> square_frequency;
   for (RodBone& bone : bones) {
+    const SpringNumbers& numbers = numbers_at(spring, bone.joint);
+    const double drag = std::min(numbers.drag_force, kMostDrag), length = (bone.end - bone.begin).norm();
     bone.density_kg_m3 = RodRecipe{}.density_kg_m3;
     bone.drag_per_s = kFrames_hz * drag / (1 - drag);
-    square_frequency.push_back(kFrames_hz * std::max(spring.stiffness, kLeastStiffness) /
-                               (bone.end - bone.begin).norm());
+    if (!spring.collider_groups.empty() && numbers.hit_radius_m > 0)
+      bone.radius_m = std::clamp(numbers.hit_radius_m, kThinnest * length, kThickest * length);
+    square_frequency.push_back(kFrames_hz * std::max(numbers.stiffness, kLeastStiffness) / length);
   }
   stiffen(bones, square_frequency);
   stiffen_links(bones);
 }
 
 double gravity_of(const SpringBones& spring, const std::string& where, Character& character) {
-  const double gravity = kOfLoneBone * spring.gravity_power / kGravity;
+  const double gravity = kOfLoneBone * spring.numbers.gravity_power / kGravity;
   if (gravity > kMostGravity)
     character.notes.push_back(character.name + ": " + where + ": its gravityPower is " +
                               std::to_string(gravity) + " times the earth's gravity: taken as 100");
@@ -144,8 +154,22 @@ int joint_called(const Character& character, const std::string& name, const std:
   if (name.ends_with('*'))
     throw BadInput(character.name + ": " + where + ": '" + name +
                    "' may be many; a rod has one root and at most one end");
+  return static_cast<int>(find_joint(character, name, where));
+}
+
+// Of bones that have the name of the end those below the root are meant.
+int end_called(const Character& character, const std::string& name, int root, const std::string& where) {
+  if (name.ends_with('*')) return joint_called(character, name, where);
   const std::vector<bool> matched = match_joints(character, {name}, where);
-  return static_cast<int>(std::ranges::find(matched, true) - matched.begin());
+  int below = -1;
+  for (size_t j = 0; j < matched.size(); ++j) {
+    int up = static_cast<int>(j);
+    while (up >= 0 && up != root) up = character.joint_parent[static_cast<size_t>(up)];
+    if (!matched[j] || up != root) continue;
+    if (below >= 0) return joint_called(character, name, where);
+    below = static_cast<int>(j);
+  }
+  return below >= 0 ? below : joint_called(character, name, where);
 }
 
 // Which rod a joint is a bone of; -1: none.
@@ -233,7 +257,7 @@ std::vector<Rod> stated_rods(const Character& character, const std::vector<RodRe
   for (const RodRecipe& recipe : recipes) {
     RodPlace place{"recipe: rod '" + recipe.name + "'"};
     place.root = joint_called(character, recipe.root, place.where);
-    if (!recipe.end.empty()) place.end = joint_called(character, recipe.end, place.where);
+    if (!recipe.end.empty()) place.end = end_called(character, recipe.end, place.root, place.where);
     Rod rod = rod_of(character, recipe, place);
     describe(character, Evidence::kRecipe, rod);
     owners.take(rods, rod, place.where);
@@ -255,7 +279,7 @@ std::vector<Rod> rods_of_springs(Character& character, const std::vector<bool>& 
   Owners owners(character);
   bool collides = false;
   for (const SpringBones& spring : character.springs) {
-    const std::string& name = joint_name(character, static_cast<size_t>(spring.root));
+    const std::string name = unique_joint_name(character, static_cast<size_t>(spring.root));
     const RodPlace place{"spring bone '" + name + "'", spring.root, spring.end, spring.end_node};
     try {
       Rod rod = make_rod(character, place, name);
@@ -270,8 +294,10 @@ std::vector<Rod> rods_of_springs(Character& character, const std::vector<bool>& 
       }
       owners.take(rods, rod, place.where);
       rod.gravity = gravity_of(spring, place.where, character);
+      rod.gravity_direction = spring.numbers.gravity_direction;
+      rod.collider_groups = spring.collider_groups;
+      collides |= !spring.collider_groups.empty();
       rods.push_back(std::move(rod));
-      collides |= spring.collides;
     } catch (const BadInput& refused) {
       character.notes.push_back(std::string(refused.what()) + ": left out");
     }
@@ -281,7 +307,7 @@ std::vector<Rod> rods_of_springs(Character& character, const std::vector<bool>& 
                               " rods; a recipe's \"rods\" takes their place");
   if (collides)
     character.notes.push_back(
-        "spring bones: the file's colliders are what rods collide with; hit radii are not used");
+        "spring bones: the file's colliders are what rods collide with, each with its own groups");
   return rods;
 }
 

@@ -1,5 +1,6 @@
 // rods.hpp  Bones that swing as rods: which ones, their segments and what these are made of.
 #pragma once
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,10 @@ struct Rod {
   std::string name;
   int attach = 0;  // the joint that the first bone hangs on
   double gravity = 1, sag = 0, max_displacement = 0;
-  bool states_limit = true;  // it is a recipe's, or a file's springs have none
+  Vector3 gravity_direction = -Vector3::UnitY();  // unit
+  std::vector<int> collider_groups;               // of a spring: BodyCollider::groups
+  uint64_t passed_proxies = 0;  // a bit each of TissueLayout::proxies, which it does not collide with
+  bool states_limit = true;     // it is a recipe's, or a file's springs have none
   std::vector<RodBone> bones;
   Evidence evidence = Evidence::kRecipe;
   SoftKind kind = SoftKind::kOther;

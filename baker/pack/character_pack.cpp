@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "baker/common/bad_input.hpp"
+#include "baker/import/smooth_groups.hpp"
 #include "baker/mesh/node_record.hpp"
 #include "baker/pack/graph.hpp"
 #include "baker/pack/modes_pack.hpp"
@@ -57,6 +58,7 @@ void add_record(const Character& character, const TissueLayout& layout, size_t c
   record.rod_count = to_u32(layout.rods.size());
   record.proxy_count = to_u32(layout.proxies.size());
   record.coarser_count = to_u32(coarser);
+  record.mesh_count = character.meshes.empty() ? 1 : to_u32(character.meshes.size());
   pack.section(SectionKind::kCharacter, std::vector{record});
 }
 
@@ -92,7 +94,34 @@ void add_mesh(const Character& character, PackWriter& pack) {
   pack.section(SectionKind::kTriangles, triangles, 3);
   pack.section(SectionKind::kSkin, skin);
   pack.section(SectionKind::kColors, colors, 4);
-  pack.section(SectionKind::kWelded, std::vector<uint32_t>(character.welded.begin(), character.welded.end()));
+  const std::vector<int> groups = smooth_groups(character);
+  pack.section(SectionKind::kWelded, std::vector<uint32_t>(groups.begin(), groups.end()));
+  std::vector<float> faces;
+  for (const Vector3& area : area_vectors(character, groups))
+    append(area.norm() > 0 ? area.normalized() : Vector3::Zero(), &faces);
+  pack.section(SectionKind::kFaceNormals, faces, 3);
+}
+
+// Of a character that was made and not imported all vertices are one mesh.
+std::vector<MeshSpan> meshes_of(const Character& character) {
+  if (!character.meshes.empty()) return character.meshes;
+  return {{.vertex_count = character.positions.size()}};
+}
+
+void add_meshes(const Character& character, PackWriter& pack) {
+  std::vector<pack::MeshRecord> meshes;
+  for (const MeshSpan& span : meshes_of(character)) {
+    pack::MeshRecord mesh{};
+    const auto node = static_cast<size_t>(span.node);
+    mesh.name = pack.string(node < character.nodes.size() ? character.nodes[node].name : character.name);
+    mesh.first_vertex = to_u32(span.first_vertex);
+    mesh.vertex_count = to_u32(span.vertex_count);
+    std::vector<float> affine;
+    append_affine(span.mesh_from_bind, &affine);
+    std::ranges::copy(affine, mesh.mesh_from_bind);
+    meshes.push_back(mesh);
+  }
+  pack.section(SectionKind::kMeshes, meshes);
 }
 
 void check_duration(const Clip& clip) {
@@ -330,6 +359,7 @@ std::vector<std::byte> pack_character(const Character& character, const TissueLa
   add_record(character, layout, coarser.size(), pack);
   add_joints(character, pack);
   add_mesh(character, pack);
+  add_meshes(character, pack);
   add_clips(character, pack);
   const TissueOptions options{
       .grid = {.rate_hz = number_of(weights, "rate_hz", kRate_hz, 1, 1000),

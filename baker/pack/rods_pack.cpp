@@ -54,6 +54,9 @@ void add_rods(const Character& character, const std::vector<Rod>& rods, PackWrit
     record.sag = static_cast<float>(rod.sag);
     record.frequency_hz = static_cast<float>(rod.frequency_hz);
     record.turn_limit_rad = static_cast<float>(rod.max_displacement);
+    for (int axis = 0; axis < 3; ++axis)
+      record.gravity_direction[axis] = static_cast<float>(rod.gravity_direction[axis]);
+    record.passed_proxies = rod.passed_proxies;
     records.push_back(record);
     for (const RodBone& bone : rod.bones) segments.push_back(segment_record(bone));
   }

@@ -23,8 +23,8 @@ Json describe_bones(const Character& character) {
   Json bones = Json::array();
   for (size_t j = 0; j < vertices.size(); ++j) {
     const int parent = character.joint_parent[j];
-    bones.push_back({{"name", joint_name(character, j)},
-                     {"parent", parent < 0 ? "-" : joint_name(character, static_cast<size_t>(parent))},
+    bones.push_back({{"name", unique_joint_name(character, j)},
+                     {"parent", parent < 0 ? "-" : unique_joint_name(character, static_cast<size_t>(parent))},
                      {"vertices", vertices[j]}});
   }
   return bones;

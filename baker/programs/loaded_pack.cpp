@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "baker/common/bad_input.hpp"
+#include "baker/common/kept_files.hpp"
 #include "baker/pack/dense_pack.hpp"
 #include "baker/pack/network_pack.hpp"
 #include "baker/programs/calibrate.hpp"
@@ -63,6 +64,7 @@ std::vector<HeardRanges> ranges_for(const Safetensors& weights, pack::Precision 
   if (precision != pack::Precision::kInt8) return {};
   const LoadedPack floats = pack_network(weights, pack::Precision::kFloat32, {});
   const std::string vectors = calibration.empty() ? vectors_beside(weights.path) : calibration;
+  keep_file(vectors);
   return heard_ranges(floats.network(),
                       vectors.empty() ? made_up_vectors(floats.network()) : read_safetensors(vectors));
 }

@@ -8,7 +8,7 @@ from . import dataset
 from .inputs import FEEDBACK, columns
 from .modal_base import ModalBase
 from .rollout import moving_columns, raw_inputs, start, static_columns, tick
-from .safetensors import BadData, load, save
+from .safetensors import BadData, load, refuse_over, save
 from .weights import read_weights
 
 # The longest of these that was judged is the weights' stated error.
@@ -86,6 +86,7 @@ def export(run, data, metrics, out, name, model, body):
     """Writes out/name.safetensors, with its errors as `model` on `body` stated in it, and
     .vectors.safetensors. Throws BadData where the run is not of an Alt-ConvLSTM."""
     weights, place = os.path.join(run, "weights.safetensors"), os.path.join(out, name)
+    refuse_over([f"{place}.safetensors"], [weights])
     tensors, metadata = load(weights)
     if metadata.get("sinew.model") != "alt_conv_lstm":
         kind = metadata.get("sinew.model", "no model")

@@ -8,7 +8,7 @@ from .files import write_json
 from .rod_data import ANSWERS, read_runs
 from .rod_model import CopingNet
 from .rod_train import Batch, share_left
-from .safetensors import BadData, load, save
+from .safetensors import BadData, load, refuse_over, save
 
 NEIGHBOURS = 3
 LARGEST_EXAMPLE = 3.0  # of an answer, as the network's norm
@@ -75,6 +75,7 @@ def check_vectors(model, runs):
 def export_rods(run, data, out, name):
     """out/name.safetensors, .vectors.safetensors and .json."""
     path = os.path.join(run, "weights.safetensors")
+    refuse_over([os.path.join(out, f"{name}.safetensors")], [path])
     model, metadata = read_network(path)
     test, long = read_runs(data, "test"), read_runs(data, "long")
     guess = lambda batch: batch.guess(model)

@@ -23,6 +23,14 @@ class BadData(Exception):
     """Unusable input; the text is one line: what, where, how to mend."""
 
 
+def refuse_over(outputs, inputs):
+    """Throws BadData where a file that will be written is one that is read, through whatever links."""
+    there = [i for i in inputs if os.path.isfile(i)]
+    for output in outputs:
+        if os.path.isfile(output) and any(os.path.samefile(i, output) for i in there):
+            raise BadData(f"{output} is the input; give another name")
+
+
 def _header(path, file, size):
     (length,) = struct.unpack("<Q", file.read(8)) if size >= 8 else (0,)
     if not 2 <= length <= min(_LARGEST_HEADER, size - 8):

@@ -154,9 +154,7 @@ struct RandomTrack {
   }
 };
 
-LocalPose rest_pose(const Character& character) {
-  return local_pose(character, joint_matrices(character, static_cast<const Clip*>(nullptr), 0));
-}
+LocalPose rest_pose(const Character& character) { return local_pose(character, bind_matrices(character)); }
 
 // What posing needs of a character, without its mesh.
 Character skeleton_of(const Character& character) {
@@ -211,7 +209,7 @@ Motion shake_motion(const Character& character, uint64_t seed, double strength) 
         {0.025 * height * strength * random.direction(), kTau * random.uniform(1.2, 2.6), 0});
     turn.waves.push_back({0.12 * strength * random.direction(), kTau * random.uniform(0.8, 1.8), 0});
   }
-  const std::vector<Matrix4> rest = joint_matrices(character, static_cast<const Clip*>(nullptr), 0);
+  const std::vector<Matrix4> rest = bind_matrices(character);
   return [=](double t_s) {
     const double in = t_s - kPeriod_s * std::floor(t_s / kPeriod_s);
     const double active = Bout{kStill_s, kMoving_s}.activity(in);

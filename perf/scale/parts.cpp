@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "baker/common/bad_input.hpp"
-#include "core/flush_denormals.hpp"
+#include "core/floating_point.hpp"
 #include "perf/kernels/fma_peak.hpp"
 #include "perf/scale/crowd.hpp"
 #include "perf/scale/groups.hpp"
@@ -104,7 +104,7 @@ void put_part(const Case& of, const Part& part, double peak_gflops) {
 }  // namespace
 
 void measure_parts(const demo::CharacterFile& character, int rounds, const char* group) {
-  const core::FlushDenormals flush;
+  const core::FloatingPointScope mode;
   Subject subject(character), whole(character);
   Crowd crowd(character, 1);
   crowd.pose();

@@ -1,6 +1,6 @@
 // workers.cpp  One large network on one and on two workers, beside what two workers can do at all; and
 // several characters' control graphs as one network.
-#include "core/flush_denormals.hpp"
+#include "core/floating_point.hpp"
 #include "core/run_tasks.hpp"
 #include "perf/kernels/bench_data.hpp"
 #include "perf/kernels/fma_peak.hpp"
@@ -44,7 +44,7 @@ void run_peak(void*, uint32_t) {
 }  // namespace
 
 void measure_workers(int rounds) {
-  const core::FlushDenormals flush;
+  const core::FloatingPointScope mode;
   const PinnedPair pair;
   const TorusGraph graph(106, 65);
   RandomNetwork paper(paper_shape());
@@ -89,7 +89,7 @@ NetworkShape shape_of(const pack::PackView& pack) {
 }
 
 void measure_batches(const demo::CharacterFile& character, int rounds) {
-  const core::FlushDenormals flush;
+  const core::FloatingPointScope mode;
   RandomNetwork shipped(shape_of(character.view));
   const TorusGraph one(20, 12);
   for (const uint32_t copies : {1u, 2u, 4u, 8u, 16u}) {

@@ -46,6 +46,8 @@ Status check_counts(const PackView& pack) noexcept {
                           {"skin", pack.skin.size(), vertices},
                           {"colors", pack.colors.size(), 4 * vertices},
                           {"welded", pack.welded.size(), vertices},
+                          {"face normals", pack.face_normals.size(), 3 * vertices},
+                          {"meshes", pack.meshes.size(), record.mesh_count},
                           {"regions", pack.regions.size(), record.region_count},
                           {"nodes", pack.nodes.size(), record.node_count},
                           {"graph rows", pack.graph_rows.size(), uint64_t{record.node_count} + 1},
@@ -86,6 +88,32 @@ Status check_vertices(const PackView& pack) noexcept {
     if (first > vertex || pack.welded[first] != first)
       return corrupt("vertex %zu: welded to %u, which is not the first of its place", vertex, first);
   }
+  return {};
+}
+
+bool is_unit_or_zero(const float* v) noexcept { return is_unit(v) || (v[0] == 0 && v[1] == 0 && v[2] == 0); }
+
+Status check_face_normals(const PackView& pack) noexcept {
+  for (size_t vertex = 0; vertex < pack.character->vertex_count; ++vertex)
+    if (!is_unit_or_zero(&pack.face_normals[3 * vertex]))
+      return corrupt("vertex %zu: its triangles' normal is neither a unit vector nor zero", vertex);
+  return {};
+}
+
+Status check_meshes(const PackView& pack) noexcept {
+  uint64_t vertices = 0;
+  for (size_t index = 0; index < pack.meshes.size(); ++index) {
+    const MeshRecord& mesh = pack.meshes[index];
+    if (Status status = check_name(pack, mesh.name, "mesh", index); !status.ok()) return status;
+    if (mesh.first_vertex != vertices) return corrupt("mesh %zu: does not follow the mesh before it", index);
+    if (first_not_finite(mesh.mesh_from_bind) != std::size(mesh.mesh_from_bind))
+      return corrupt("mesh %zu: its matrix is not finite", index);
+    if (mesh.reserved != 0) return corrupt("mesh %zu: a reserved field is not zero", index);
+    vertices += mesh.vertex_count;
+  }
+  if (vertices != pack.character->vertex_count)
+    return corrupt("meshes: have %llu vertices, the character %u", static_cast<unsigned long long>(vertices),
+                   pack.character->vertex_count);
   return {};
 }
 
@@ -164,8 +192,9 @@ Status check_tiers(const PackView& pack) noexcept {
 }  // namespace
 
 Status check_character(const PackView& pack) noexcept {
-  constexpr Check kChecks[] = {check_inputs_there, check_record,    check_counts, check_joints,
-                               check_vertices,     check_triangles, check_clips,  check_tiers};
+  constexpr Check kChecks[] = {check_inputs_there, check_record,       check_counts,    check_joints,
+                               check_vertices,     check_face_normals, check_triangles, check_meshes,
+                               check_clips,        check_tiers};
   return run_checks(kChecks, pack);
 }
 

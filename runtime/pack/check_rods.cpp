@@ -41,7 +41,10 @@ Status check_record(const PackView& pack, const RodRecord& rod, size_t index, ui
     return corrupt("rod %zu: turn limit %g, outside 0..pi", index, double{rod.turn_limit_rad});
   if (!is_not_negative(rod.frequency_hz))
     return corrupt("rod %zu: frequency %g Hz, below 0", index, double{rod.frequency_hz});
-  return {};
+  if (!is_unit(rod.gravity_direction))
+    return corrupt("rod %zu: the direction of its gravity is not a unit vector", index);
+  if (rod.reserved0 != 0) return corrupt("rod %zu: a reserved field is not zero", index);
+  return check_zero(rod.reserved, "rod", index);
 }
 
 Status check_material(const RodSegmentRecord& segment, size_t index) noexcept {

@@ -31,6 +31,9 @@
 //      since then, likewise: CharacterRecord::coarser_count with the sections kLevels, kPicks and kSpread,
 //      TierRecord::level, and RegionRecord::touches_body; RodRecord::turn_limit_rad and frequency_hz; a
 //      character of which nothing swings
+//   7  normals are the file's own and turn with the surface (kFaceNormals; kWelded tells sides apart);
+//   kMeshes;
+//      a rod states which way its gravity pulls and which capsules it passes
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -38,7 +41,7 @@
 namespace sinew::pack {
 
 inline constexpr char kMagic[8] = {'S', 'I', 'N', 'E', 'W', 'P', 'K', '\0'};
-inline constexpr uint32_t kVersion = 6;
+inline constexpr uint32_t kVersion = 7;
 inline constexpr size_t kSectionAlignment = 64;
 inline constexpr uint32_t kNoIndex = 0xffffffffu;
 
@@ -86,14 +89,17 @@ enum class SectionKind : uint32_t {
   kInt8Scales = 16,   // float, >= 0: per_unit [k], then scale as kInt8Sums
   kDense = 17,        // DenseRecord x layers of a network of chains, which has no kLayers and no kInputs
 
-  kCharacter = 20,  // CharacterRecord x 1
-  kJoints = 21,     // JointRecord x joints
-  kPositions = 22,  // float[3] x vertices, bind pose, metres
-  kNormals = 23,    // float[3] x vertices, unit
-  kTriangles = 24,  // uint32[3] x triangles
-  kSkin = 25,       // SkinRecord x vertices
-  kColors = 26,     // uint8[4] x vertices, sRGB and alpha; for pictures, the runtime never reads it
-  kWelded = 27,     // uint32 x vertices: the first vertex at the same place; normals are smooth across seams
+  kCharacter = 20,    // CharacterRecord x 1
+  kJoints = 21,       // JointRecord x joints
+  kPositions = 22,    // float[3] x vertices, bind pose, metres
+  kNormals = 23,      // float[3] x vertices, unit; bind pose, the file's where it has any
+  kTriangles = 24,    // uint32[3] x triangles
+  kSkin = 25,         // SkinRecord x vertices
+  kColors = 26,       // uint8[4] x vertices, sRGB and alpha; for pictures, the runtime never reads it
+  kWelded = 27,       // uint32 x vertices: the first vertex at the same place that faces alike
+  kFaceNormals = 28,  // float[3] x vertices: of the triangles around its place and side, by area, bind pose;
+                      // unit, or zero where none has area
+  kMeshes = 29,       // MeshRecord x meshes
 
   kRegions = 30,         // RegionRecord x regions
   kNodes = 31,           // NodeRecord x nodes: control nodes of all regions, region after region
@@ -250,9 +256,21 @@ struct CharacterRecord {
   uint32_t rod_count;
   uint32_t proxy_count;    // 0..64
   uint32_t coarser_count;  // 0..3: control graphs of fewer nodes, beside the one that node_count counts
-  uint32_t reserved[5];
+  uint32_t mesh_count;
+  uint32_t reserved[4];
 };
 static_assert(sizeof(CharacterRecord) == 64);
+
+// A mesh as one node of the file shows it: its vertices, primitive after primitive, in the file's order.
+// Meshes follow each other and cover all vertices.
+struct MeshRecord {
+  uint32_t name;  // of the node
+  uint32_t first_vertex, vertex_count;
+  float
+      mesh_from_bind[12];  // of a place in the bind pose, metres, to the file's own mesh space; row-major 3x4
+  uint32_t reserved;
+};
+static_assert(sizeof(MeshRecord) == 64);
 
 struct JointRecord {
   uint32_t name;
@@ -361,9 +379,13 @@ struct RodRecord {
   // 0..pi, what a segment is shown turned against its rest stays below this, approached smoothly; 0: no
   // limit.
   float turn_limit_rad;
-  float frequency_hz;  // about that of its slowest swing, for tables; 0: not known
+  float frequency_hz;          // about that of its slowest swing, for tables; 0: not known
+  float gravity_direction[3];  // unit, in the world
+  uint32_t reserved0;
+  uint64_t passed_proxies;  // a bit each of kProxies, which it does not collide with
+  uint32_t reserved[2];
 };
-static_assert(sizeof(RodRecord) == 32);
+static_assert(sizeof(RodRecord) == 64);
 
 // A rigid piece of a rod and the joint that holds its beginning (rods/strand.hpp); bind pose, metres. Its
 // joint's parent is the joint of the bone that it hangs on.

@@ -51,6 +51,8 @@ PackView view_sections(const SectionTable& table) noexcept {
   view.skin = table.get<SkinRecord>(kSkin);
   view.colors = table.get<uint8_t>(kColors);
   view.welded = table.get<uint32_t>(kWelded);
+  view.face_normals = table.get<float>(kFaceNormals);
+  view.meshes = table.get<MeshRecord>(kMeshes);
   view.region_vertices = table.get<uint32_t>(kRegionVertices);
   view.modes = table.get<ModeRecord>(kModes);
   view.springs = table.get<SpringRecord>(kSprings);

@@ -42,6 +42,8 @@ struct PackView : LevelView {
   std::span<const SkinRecord> skin;
   std::span<const uint8_t> colors;  // 4 a vertex
   std::span<const uint32_t> welded;
+  std::span<const float> face_normals;  // 3 a vertex
+  std::span<const MeshRecord> meshes;
   std::span<const uint32_t> region_vertices;
   std::span<const ModeRecord> modes;
   std::span<const SpringRecord> springs;

@@ -36,6 +36,8 @@ inline constexpr SectionRule kSectionRules[] = {
     {SectionKind::kSkin, sizeof(SkinRecord), "skin"},
     {SectionKind::kColors, 4, "colors"},
     {SectionKind::kWelded, sizeof(uint32_t), "welded"},
+    {SectionKind::kFaceNormals, 3 * sizeof(float), "face normals"},
+    {SectionKind::kMeshes, sizeof(MeshRecord), "meshes"},
     {SectionKind::kRegions, sizeof(RegionRecord), "regions"},
     {SectionKind::kNodes, sizeof(NodeRecord), "nodes"},
     {SectionKind::kGraphRows, sizeof(uint32_t), "graph rows"},

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/flush_denormals.hpp"
+#include "core/floating_point.hpp"
 #include "core/status.hpp"
 #include "rods/rod_batch.hpp"
 #include "rods/strand_packer.hpp"
@@ -185,7 +185,7 @@ Status RodBatch::step(float dt_s, RodCollider* collider, RodReport* report) noex
                              "RodSettings::solver kLocal knows no contacts; create the batch with kDirect or "
                              "kCg, or step it without a collider");
   }
-  const core::FlushDenormals flush;
+  const core::FloatingPointScope mode;
   RodReport made;
   made.teleported = teleported_;
   teleported_ = 0;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/flush_denormals.hpp"
+#include "core/floating_point.hpp"
 #include "core/half.hpp"
 #include "core/run_tasks.hpp"
 #include "pack/int8_layout.hpp"
@@ -164,7 +164,7 @@ struct Pass {
 };
 
 void run_share(void* argument, uint32_t share) {
-  const core::FlushDenormals flush;
+  const core::FloatingPointScope mode;
   const auto& [step, layer] = *static_cast<const Pass*>(argument);
   const uint32_t nodes = step.graph.node_count, ranges = (nodes + kRangeNodes - 1) / kRangeNodes;
   const auto node_at = [&](uint32_t cut) {

@@ -153,6 +153,7 @@ AssetInfo describe(const Asset& asset) noexcept {
           .region_count = character.region_count,
           .node_count = character.node_count,
           .clip_count = character.clip_count,
+          .mesh_count = character.mesh_count,
           .proxy_count = character.proxy_count,
           .rod_count = character.rod_count,
           .graph_levels = asset.level_count,

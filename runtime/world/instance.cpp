@@ -120,6 +120,7 @@ void lay_out_scratch(const Asset& asset, core::Arena& arena, Instance& to) noexc
   to.delta = arena.take<float>(size_t{3} * nodes);
   to.carried = arena.take<float>(size_t{3} * asset.padded_vertices);
   to.surface = arena.take<float>(size_t{3} * asset.vertex_count());
+  to.areas = arena.take<float>(size_t{3} * asset.vertex_count());
   const size_t slots = asset.rods.slot_count;
   for (size_t tick = 0; tick < 2; ++tick) {
     to.rod_end[tick] = arena.take<double>(3 * slots);

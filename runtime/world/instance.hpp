@@ -259,6 +259,7 @@ struct Instance {
   uint32_t carried_level = 0;      // by whose weights it was carried
   float* carried = nullptr;        // of delta: a region after the other [3][padded_vertices], bind-pose axes
   float* surface = nullptr;        // [vertices][3], scratch of read_normals
+  float* areas = nullptr;          // the same
   Matrix34* rod_motion = nullptr;  // [slots]: how rods move the pose's bones, in the character's space
   Matrix34* rod_joints = nullptr;  // [joints], where there are rods: the pose's, moved by them
 

@@ -65,7 +65,7 @@ uint64_t passed_by(const pack::PackView& pack, const pack::RodRecord& rod, uint3
     passed &= touched_at_rest(pack, segment);
     own = segment.parent;
   }
-  return passed;
+  return passed | rod.passed_proxies;
 }
 
 rods::Capsule capsule_of(const Instance& instance, uint32_t proxy) noexcept {

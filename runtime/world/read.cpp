@@ -29,12 +29,10 @@ struct Chunk {
   float points[kChunk][3];
 };
 
-float* vertex_at(const ReadDef& def, size_t vertex) noexcept {
-  return reinterpret_cast<float*>(reinterpret_cast<std::byte*>(def.out) + vertex * def.stride_bytes);
-}
-
+// Written once and never read: engines map memory that reads slowly, or not at all.
 void store(const ReadDef& def, size_t vertex, const Vector3f& value) noexcept {
-  std::memcpy(vertex_at(def, vertex), value.data(), 3 * sizeof(float));
+  std::memcpy(reinterpret_cast<std::byte*>(def.out) + vertex * def.stride_bytes, value.data(),
+              3 * sizeof(float));
 }
 
 void bind_chunk(const Instance& instance, Chunk& chunk) noexcept {
@@ -178,17 +176,29 @@ void read_normals(const Instance& instance, const ReadDef& def) noexcept {
   const pack::PackView& pack = instance.level->pack;
   const uint32_t vertices = instance.asset->vertex_count();
   write_places(instance, {.out = instance.surface, .capacity = vertices});
-  simd::vertex_normals({.positions = instance.surface,
-                        .position_stride = 3 * sizeof(float),
-                        .triangles = pack.triangles,
-                        .welded = pack.welded,
-                        .out = def.out,
-                        .out_stride = def.stride_bytes});
-  if (def.space != Space::kWorld) return;
+  simd::sum_areas({.positions = instance.surface,
+                   .triangles = pack.triangles,
+                   .welded = pack.welded,
+                   .out = instance.areas});
   const Matrix3f rotation = placement_of(instance, def).rotation;
-  for (uint32_t v = 0; v < vertices; ++v) {
-    store(def, v, rotation * Vector3f(vertex_at(def, v)));
-  }
+  const SkinMatrices matrices(instance);
+  for_each_chunk(instance, [&](Chunk& chunk) {
+    const size_t first = chunk.first;
+    simd::turn_normals({.normals = &pack.normals[3 * first],
+                        .bind_faces = &pack.face_normals[3 * first],
+                        .welded = &pack.welded[first],
+                        .areas = instance.areas,
+                        .joints = pack.skin[first].joint,
+                        .weights = pack.skin[first].weight,
+                        .skin_stride = sizeof(pack::SkinRecord),
+                        .matrices = matrices.data(),
+                        .count = chunk.count,
+                        .out = chunk.points[0]});
+    for (uint32_t i = 0; i < chunk.count; ++i) {
+      const Vector3f normal(chunk.points[i]);
+      store(def, first + i, def.space == Space::kWorld ? rotation * normal : normal);
+    }
+  });
 }
 
 }  // namespace sinew::world

@@ -10,7 +10,7 @@ Status check_read(const ReadDef& def, uint32_t vertex_count, bool normals) noexc
 
 // The definition has been checked. Any number of threads at a time.
 void read_positions(const Instance& instance, const ReadDef& def) noexcept;
-// Uses the instance's surface scratch: one thread at a time an instance.
+// Uses the instance's scratch: one thread at a time an instance. Writes each normal once and reads none.
 void read_normals(const Instance& instance, const ReadDef& def) noexcept;
 
 }  // namespace sinew::world

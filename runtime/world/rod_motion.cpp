@@ -84,7 +84,8 @@ Vector3d felt_gravity(const Instance& instance, uint32_t rod, const RodSeat& sea
   const pack::RodRecord& record = instance.level->pack.rods[rod];
   const Quaterniond bind(instance.asset->rods.slots()[seat.first_slot].bind_xyzw);
   const Quaterniond turned = rest_of(instance, 0, seat.first_slot) * bind.conjugate();
-  const Vector3d g(0, -kGravity_m_s2, 0);
+  const Vector3d g =
+      kGravity_m_s2 * Eigen::Map<const Eigen::Vector3f>(record.gravity_direction).cast<double>();
   return double{record.gravity} * (g - (1 - double{record.sag}) * (turned * g));
 }
 

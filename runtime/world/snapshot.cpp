@@ -4,7 +4,7 @@
 
 #include <cstring>
 
-#include "core/flush_denormals.hpp"
+#include "core/floating_point.hpp"
 #include "core/hash.hpp"
 #include "core/status.hpp"
 #include "world/publish.hpp"
@@ -122,7 +122,7 @@ Status restore(Instance& instance, std::span<const std::byte> bytes) noexcept {
   instance.rods_anew = false;
   instance.told = {};
   bound_pose(instance);
-  const core::FlushDenormals flush;  // as in a step: the same bits are shown
+  const core::FloatingPointScope mode;  // as in a step: the same bits are shown
   publish(instance);
   return {};
 }

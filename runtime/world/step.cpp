@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <utility>
 
 #include "core/clock.hpp"
+#include "core/floating_point.hpp"
 #include "core/run_tasks.hpp"
 #include "world/fold.hpp"
 #include "world/hidden.hpp"
@@ -58,6 +60,7 @@ void run_idle_chunk(WorldState& world, uint32_t chunk) noexcept {
 
 // Idle chunks come behind what is in order.
 void run_one(void* argument, uint32_t index) {
+  const core::FloatingPointScope mode;
   WorldState& world = *static_cast<WorldState*>(argument);
   const auto active = static_cast<uint32_t>(world.running.size());
   if (index >= active) return run_idle_chunk(world, index - active);
@@ -138,6 +141,7 @@ void remember(WorldState& world, const FrameReport& report) noexcept {
 }  // namespace
 
 FrameReport step(WorldState& world, float dt_s) noexcept {
+  std::optional<core::FloatingPointScope> mode(std::in_place);
   const uint64_t start_ns = core::now_ns(world.def.clock);
   const auto since_start_us = [&] { return core::microseconds(core::now_ns(world.def.clock) - start_ns); };
   FrameReport report{.frame = world.frames++, .budget_us = world.budget_us};
@@ -148,7 +152,9 @@ FrameReport step(WorldState& world, float dt_s) noexcept {
   world.context = context_of(world, start_ns);
   scheduling.end();
   report.schedule_us = at.planned_us = since_start_us();
+  mode.reset();  // the caller's hook runs in the caller's mode: threads that it begins inherit it
   run(world);
+  mode.emplace();
   at.ran_us = since_start_us();
   Marker reporting(world.def.profiler, "report", kNoInstance);
   fold_results(world, report);

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "core/clock.hpp"
-#include "core/flush_denormals.hpp"
+#include "core/floating_point.hpp"
 #include "frame/scheduler.hpp"
 #include "world/affords_surface.hpp"
 #include "world/blend.hpp"
@@ -203,7 +203,7 @@ void sleep_on(Instance& instance) noexcept {
 }  // namespace
 
 void step_instance(Instance& instance, const TickContext& context, uint32_t slot) noexcept {
-  const core::FlushDenormals flush;
+  const core::FloatingPointScope mode;
   const Marker marker(context.profiler, "instance", slot);
   const uint64_t start_ns = core::now_ns(context.clock);
   const bool waits = catch_up_first(instance);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/assert_hook.hpp"
+#include "core/floating_point.hpp"
 #include "core/status.hpp"
 #include "simd/isa.hpp"
 #include "simd/kernels.hpp"
@@ -107,6 +108,7 @@ World& World::operator=(World&& other) noexcept {
 }
 
 Status World::create(const WorldDef& def, World* out) noexcept {
+  const core::FloatingPointScope mode;
   if (!out) return invalid("World::create: out is a null pointer");
   if (Status status = check_def(def); !status.ok()) return status;
   if (Status status = simd::check_environment(); !status.ok()) return status;
@@ -130,6 +132,7 @@ static Status add_asset(WorldState& state, Asset&& asset, AssetId* out) noexcept
 }
 
 Status World::load_asset(std::span<const std::byte> bytes, AssetId* out) noexcept {
+  const core::FloatingPointScope mode;
   if (!impl_) return null_world();
   if (!out) return invalid("load_asset: out is a null pointer");
   if (busy(*impl_)) return refuse_busy();
@@ -139,6 +142,7 @@ Status World::load_asset(std::span<const std::byte> bytes, AssetId* out) noexcep
 }
 
 Status World::load_asset_file(const char* path, AssetId* out) noexcept {
+  const core::FloatingPointScope mode;
   if (!impl_) return null_world();
   if (!path || !out) return invalid("load_asset_file: path or out is a null pointer");
   if (busy(*impl_)) return refuse_busy();
@@ -172,6 +176,22 @@ Status World::asset_info(AssetId id, AssetInfo* out) const noexcept {
   return {};
 }
 
+Status World::mesh_info(AssetId id, uint32_t mesh, MeshInfo* out) const noexcept {
+  Asset* asset = nullptr;
+  if (Status status = find_asset(impl_, id, &asset); !status.ok()) return status;
+  if (!out) return invalid("mesh_info: out is a null pointer");
+  if (mesh >= asset->pack.meshes.size())
+    return make_status(StatusCode::kInvalidArgument, "mesh_info: mesh %u, the asset has %zu", mesh,
+                       asset->pack.meshes.size());
+  const pack::MeshRecord& record = asset->pack.meshes[mesh];
+  *out = {.name = pack::string_at(asset->pack, record.name),
+          .first_vertex = record.first_vertex,
+          .vertex_count = record.vertex_count,
+          .mesh_from_bind = {}};
+  std::copy_n(record.mesh_from_bind, 12, &out->mesh_from_bind.m[0][0]);
+  return {};
+}
+
 const char* World::joint_name(AssetId id, uint32_t joint) const noexcept {
   Asset* asset = nullptr;
   if (!find_asset(impl_, id, &asset).ok() || joint >= asset->pack.joints.size()) return nullptr;
@@ -185,6 +205,7 @@ bool World::joint_is_on_rod(AssetId id, uint32_t joint) const noexcept {
 }
 
 Status World::bind_pose(AssetId id, std::span<Matrix34> out) const noexcept {
+  const core::FloatingPointScope mode;
   Asset* asset = nullptr;
   if (Status status = find_asset(impl_, id, &asset); !status.ok()) return status;
   if (out.size() != asset->pack.joints.size()) {
@@ -197,6 +218,7 @@ Status World::bind_pose(AssetId id, std::span<Matrix34> out) const noexcept {
 }
 
 Status World::create_instance(const InstanceDef& def, InstanceId* out) noexcept {
+  const core::FloatingPointScope mode;
   Asset* asset = nullptr;
   if (Status status = find_asset(impl_, def.asset, &asset); !status.ok()) return status;
   if (!out) return invalid("create_instance: out is a null pointer");
@@ -223,6 +245,7 @@ Status World::create_instance(const InstanceDef& def, InstanceId* out) noexcept 
 }
 
 Status World::destroy_instance(InstanceId id) noexcept {
+  const core::FloatingPointScope mode;
   Instance* instance = nullptr;
   if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
   if (busy(*impl_)) return refuse_busy();
@@ -234,6 +257,7 @@ Status World::destroy_instance(InstanceId id) noexcept {
 }
 
 Status World::set_pose(InstanceId id, const Pose& pose) noexcept {
+  const core::FloatingPointScope mode;
   Instance* instance = nullptr;
   if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
   if (busy(*impl_)) return refuse_busy();
@@ -254,6 +278,7 @@ Status World::set_pose(InstanceId id, const Pose& pose) noexcept {
 }
 
 Status World::set_importance(InstanceId id, float importance) noexcept {
+  const core::FloatingPointScope mode;
   Instance* instance = nullptr;
   if (Status status = find_state(impl_, id, &instance); !status.ok()) return status;
   if (busy(*impl_)) return refuse_busy();
@@ -263,6 +288,7 @@ Status World::set_importance(InstanceId id, float importance) noexcept {
 }
 
 Status World::set_views(std::span<const View> views) noexcept {
+  const core::FloatingPointScope mode;
   if (!impl_) return null_world();
   if (busy(*impl_)) return refuse_busy();
   if (views.size() > kMostViews)
@@ -277,6 +303,7 @@ Status World::set_views(std::span<const View> views) noexcept {
 }
 
 Status World::set_hidden(InstanceId id, bool hidden) noexcept {
+  const core::FloatingPointScope mode;
   Instance* instance = nullptr;
   if (Status status = find_state(impl_, id, &instance); !status.ok()) return status;
   if (busy(*impl_)) return refuse_busy();
@@ -286,6 +313,7 @@ Status World::set_hidden(InstanceId id, bool hidden) noexcept {
 }
 
 Status World::reset(InstanceId id) noexcept {
+  const core::FloatingPointScope mode;
   Instance* instance = nullptr;
   if (Status status = find_state(impl_, id, &instance); !status.ok()) return status;
   if (busy(*impl_)) return refuse_busy();
@@ -295,6 +323,7 @@ Status World::reset(InstanceId id) noexcept {
 }
 
 Status World::set_budget_us(float budget_us) noexcept {
+  const core::FloatingPointScope mode;
   if (!impl_) return null_world();
   if (busy(*impl_)) return refuse_busy();
   if (!(budget_us >= 0)) return invalid("set_budget_us: the budget must be >= 0 or infinity");
@@ -320,6 +349,7 @@ size_t World::history(std::span<FrameReport> out) const noexcept {
 }
 
 Status World::read_positions(InstanceId id, const ReadDef& def) const noexcept {
+  const core::FloatingPointScope mode;
   Instance* instance = nullptr;
   if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
   if (Status status = world::check_read(def, instance->asset->vertex_count(), false); !status.ok())
@@ -329,6 +359,7 @@ Status World::read_positions(InstanceId id, const ReadDef& def) const noexcept {
 }
 
 Status World::read_normals(InstanceId id, const ReadDef& def) const noexcept {
+  const core::FloatingPointScope mode;
   Instance* instance = nullptr;
   if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
   if (Status status = world::check_read(def, instance->asset->vertex_count(), true); !status.ok())
@@ -338,6 +369,7 @@ Status World::read_normals(InstanceId id, const ReadDef& def) const noexcept {
 }
 
 Status World::read_joint_matrices(InstanceId id, std::span<Matrix34> out) const noexcept {
+  const core::FloatingPointScope mode;
   Instance* instance = nullptr;
   if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
   const uint32_t joints = instance->asset->pack.character->joint_count;
@@ -351,6 +383,7 @@ Status World::read_joint_matrices(InstanceId id, std::span<Matrix34> out) const 
 }
 
 Status World::report(InstanceId id, InstanceReport* out) const noexcept {
+  const core::FloatingPointScope mode;
   Instance* instance = nullptr;
   if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
   if (!out) return invalid("report: out is a null pointer");
@@ -364,12 +397,14 @@ size_t World::state_bytes(InstanceId id) const noexcept {
 }
 
 Status World::save_state(InstanceId id, std::span<std::byte> out) const noexcept {
+  const core::FloatingPointScope mode;
   Instance* instance = nullptr;
   if (Status status = find_state(impl_, id, &instance); !status.ok()) return status;
   return world::save(*instance, out);
 }
 
 Status World::restore_state(InstanceId id, std::span<const std::byte> bytes) noexcept {
+  const core::FloatingPointScope mode;
   Instance* instance = nullptr;
   if (Status status = find_state(impl_, id, &instance); !status.ok()) return status;
   if (busy(*impl_)) return refuse_busy();

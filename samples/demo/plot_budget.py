@@ -146,6 +146,10 @@ def main():
     output = Path(arguments.output or arguments.report)
     try:
         figure = draw(read_report(arguments.report))
+        for suffix in (".png", ".svg"):
+            picture = output.with_suffix(suffix)
+            if picture.exists() and picture.samefile(arguments.report):
+                raise Unusable(f"{picture} is the input; give another name")
         for suffix, metadata in ((".png", {"Software": None}), (".svg", {"Date": None})):
             figure.savefig(output.with_suffix(suffix), dpi=150, metadata=metadata)
     except Unusable as error:

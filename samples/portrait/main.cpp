@@ -27,14 +27,20 @@ bool is_film(const std::string& path) { return path.ends_with(".mp4") || path.en
 int write_film(const std::vector<render::Cell>& cells, const std::string& path) {
   const std::filesystem::path folder = path + ".frames";
   std::filesystem::create_directories(folder);
+  std::vector<std::filesystem::path> frames;
   for (size_t i = 0; i < cells.size(); ++i) {
     char name[32];
     std::snprintf(name, sizeof name, "frame_%04zu.png", i);
-    render::write_png(folder / name, cells[i].image);
+    frames.push_back(folder / name);
+    render::write_png(frames.back(), cells[i].image);
   }
   const std::string trouble =
       render::encode({.pattern = folder / "frame_%04d.png", .fps = kFilmFps, .path = path});
-  if (trouble.empty()) std::filesystem::remove_all(folder);
+  if (trouble.empty()) {
+    for (const std::filesystem::path& frame : frames) std::filesystem::remove(frame);
+    std::error_code in_use;  // something else is in it
+    std::filesystem::remove(folder, in_use);
+  }
   if (!trouble.empty()) std::fprintf(stderr, "sinew-portrait: %s\n", trouble.c_str());
   return 0;
 }

@@ -119,6 +119,16 @@ bool has_ffmpeg() { return test::run_program({"/usr/bin/env", "ffmpeg", "-versio
 
 }  // namespace
 
+TEST_CASE("outputs_that_are_the_pack_are_refused") {
+  const TemporaryFolder folder;
+  const std::string pack = write_block(folder), still = folder.file("still.png");
+  check_refused({pack, "--report", pack}, {pack, "is the input; give another name"});
+  check_refused({pack, "--trace", folder.file("./block.sinew")}, {"is the input; give another name"});
+  std::filesystem::create_symlink(pack, still);
+  check_refused({pack, "--frames", still.substr(0, still.rfind('/'))},
+                {still, "is the input; give another name"});
+}
+
 TEST_CASE("demo_refuses_packs_it_cannot_play") {
   TemporaryFolder folder;
   check_refused({}, {"pack"});
@@ -178,7 +188,9 @@ TEST_CASE("demo_refuses_a_truth_that_does_not_fit") {
 TEST_CASE("demo_refuses_places_it_cannot_write_to") {
   TemporaryFolder folder;
   const std::string block = write_block(folder);
-  check_refused({block, "--frames", block}, {block, "cannot be made a folder"});
+  const std::string file = folder.file("file");
+  write_bytes(file, {});
+  check_refused({block, "--frames", file}, {file, "cannot be made a folder"});
   for (const char* option : {"--report", "--trace"}) {
     const ProgramResult result = demo({block, "--seconds", "0.1", option, folder.file("none/out.json")});
     CHECK(result.exit_code == 2);

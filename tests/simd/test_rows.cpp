@@ -1,5 +1,5 @@
 // test_rows.cpp  Weighted sums of rows, against plain sums in double.
-#include "core/flush_denormals.hpp"
+#include "core/floating_point.hpp"
 #include "tests/simd/every_isa.hpp"
 #include "tests/simd/test_data.hpp"
 
@@ -58,7 +58,7 @@ TEST_CASE("denormals_are_flushed_to_the_same_bits_on_all_targets_with_fma") {
   RowsCase c = rows_case(64, 176);
   for (size_t i = 0; i < c.rows.size(); ++i) c.rows[i] *= 1e-19f;
   for (size_t k = 0; k < c.count; ++k) c.weights[k] *= 1e-19f;
-  const core::FlushDenormals flush;
+  const core::FloatingPointScope mode;
   test::require_same_bits_where_fused(0xbdf9280ef707656d,
                                       [&](const simd::Kernels& kernels) { return added(kernels, c); });
 }

@@ -3,7 +3,7 @@
 #include <thread>
 #include <utility>
 
-#include "core/flush_denormals.hpp"
+#include "core/floating_point.hpp"
 #include "tests/simd/every_isa.hpp"
 #include "tests/tissue/reference_network.hpp"
 
@@ -136,7 +136,7 @@ TEST_CASE("narrow_layers_have_the_bits_of_the_general_kernels") {
 }
 
 TEST_CASE("a_step_on_workers_has_the_bits_of_a_step_alone") {
-  const core::FlushDenormals flush;
+  const core::FloatingPointScope mode;
   std::vector<TaskHook> hooks = {
       {}, hook_of([](TaskHook::Task task, void* argument, uint32_t count, void*) -> void* {
         for (uint32_t i = count; i > 0; --i) task(argument, i - 1);

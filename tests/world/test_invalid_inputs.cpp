@@ -209,6 +209,23 @@ TEST_CASE("reads_refuse_bad_definitions_and_write_nothing") {
   CHECK(std::ranges::all_of(out, [](float v) { return v == -7; }));
 }
 
+TEST_CASE("mesh_info_refuses_bad_ids_and_meshes_and_covers_all_vertices") {
+  Stage stage;
+  MeshInfo mesh;
+  check_refused(World().mesh_info(stage.asset, 0, &mesh), StatusCode::kInvalidArgument);
+  check_refused(stage.world.mesh_info({}, 0, &mesh), StatusCode::kStaleId);
+  check_refused(stage.world.mesh_info(stage.asset, 0, nullptr), StatusCode::kInvalidArgument);
+  check_refused(stage.world.mesh_info(stage.asset, stage.info.mesh_count, &mesh),
+                StatusCode::kInvalidArgument);
+  CHECK(mesh.name == nullptr);
+  REQUIRE(stage.info.mesh_count == 1);
+  REQUIRE(stage.world.mesh_info(stage.asset, 0, &mesh).ok());
+  CHECK(mesh.name != nullptr);
+  CHECK(mesh.first_vertex == 0);
+  CHECK(mesh.vertex_count == stage.info.vertex_count);
+  CHECK(mesh.mesh_from_bind.m[1][1] == 1);
+}
+
 TEST_CASE("joint_name_and_bind_pose_refuse_bad_ids_joints_and_sizes") {
   Stage stage(0);
   std::array<Matrix34, 3> joints{};

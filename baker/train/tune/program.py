@@ -6,7 +6,7 @@ import os
 import sys
 from urllib.parse import unquote
 
-from ..safetensors import BadData
+from ..safetensors import BadData, refuse_over
 from . import SHIPPED, tissue_beside
 
 NAME = "sinew-train"
@@ -61,9 +61,7 @@ def _files_of(character):
 def _keep_inputs(a):
     """Throws BadData where what will be written is what is read."""
     inputs = [*_files_of(a.character), a.tissue, *([a.recipe] if a.recipe else [])]
-    for output in (a.output, tissue_beside(a.output)):
-        if os.path.isfile(output) and any(os.path.isfile(i) and os.path.samefile(i, output) for i in inputs):
-            raise BadData(f"{output} is the input; give another name")
+    refuse_over([a.output, tissue_beside(a.output)], inputs)
 
 
 def _check(a):

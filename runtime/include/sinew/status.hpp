@@ -2,6 +2,11 @@
 #pragma once
 #include <cstdint>
 
+#ifdef Status
+#error \
+    "Status is a macro, as X11/Xlib.h defines it: #undef Status after that header and before sinew's (its type is int)"
+#endif
+
 namespace sinew {
 
 // Programmer errors go to the assert hook (see types.hpp); being over budget is a result in FrameReport. A

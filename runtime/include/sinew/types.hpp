@@ -232,8 +232,10 @@ struct FrameReport {
 enum class Space : uint32_t {
   kCharacter = 0,  // the pose's character space
   kWorld = 1,      // root applied, relative to origin_m below
-  // Bind-space displacement (a delta, not a place): add it to the bind position before GPU skinning, and the
-  // result is kCharacter's. Zero where nothing is carried.
+  // Displacement (a delta, not a place) before skinning: metres along the axes of character space, in which
+  // World::bind_pose has the joints (Y up; of a file in centimetres or with Z up it is not the file's). Added
+  // to the bind position before GPU skinning it gives kCharacter's. Zero where nothing is carried. For
+  // vertices as the file has them, MeshInfo::mesh_from_bind takes it to the file's mesh space.
   kBind = 2,
 };
 
@@ -245,9 +247,21 @@ struct ReadDef {
   size_t capacity = 0;  // vertices that fit; fewer than the asset's vertex_count: refused, nothing written
 };
 
+// Vertices of one mesh, as one node of the baked file shows it.
+struct MeshInfo {
+  const char* name = nullptr;  // of the node; lives as long as the asset
+  uint32_t first_vertex = 0,
+           vertex_count = 0;  // among the asset's; primitive after primitive, as in the file
+  // mesh space of the file from the bind pose (Space::kBind): of a bind position the whole matrix, of a
+  // displacement its first three columns. It holds the unit, the up axis and whatever space the exporter
+  // wrote the mesh in. Of a skin without bind matrices, whose rest pose was baked: to the file's scene.
+  Matrix34 mesh_from_bind = {};
+};
+
 struct AssetInfo {
   uint32_t vertex_count = 0, triangle_count = 0, joint_count = 0, region_count = 0, node_count = 0,
            clip_count = 0;
+  uint32_t mesh_count = 0;    // World::mesh_info
   uint32_t proxy_count = 0;   // capsules about bones, for ContactDef::own_body
   uint32_t rod_count = 0;     // chains and trees of bones that swing
   uint32_t graph_levels = 1;  // control graphs, each coarser than the one before, that tiers are simulated on

@@ -19,6 +19,10 @@
 // set_budget_us, reset, read_*, report, history, save_state and restore_state never allocate or block; the
 // others may allocate.
 //
+// Nothing here traps, and results do not depend on the calling thread's floating-point mode (rounding,
+// denormals, trap masks): every function computes in its own and gives the thread's back whole. Callbacks
+// that look something up inside a step (contacts, occlusion, clock, profiler) are called in the library's.
+//
 // Every function answers kInvalidArgument on a null world or for a null out, and kStaleId for an id that is
 // null or whose object is gone (a programmer error: the assert hook hears of it). After a refusal nothing has
 // changed.
@@ -50,6 +54,8 @@ class World {
   // kInvalidArgument while instances of it live.
   Status unload_asset(AssetId asset) noexcept;
   Status asset_info(AssetId asset, AssetInfo* out) const noexcept;
+  // mesh < AssetInfo::mesh_count, else kInvalidArgument and *out is untouched.
+  Status mesh_info(AssetId asset, uint32_t mesh, MeshInfo* out) const noexcept;
   // The joint's name in the file it was baked from, so that an engine can map its skeleton; lives as long as
   // the asset. Null for a stale id or joint >= joint_count.
   const char* joint_name(AssetId asset, uint32_t joint) const noexcept;
@@ -102,9 +108,10 @@ class World {
   // influences). Between ticks the displacement is carried on at its last velocity. From any number of
   // threads at a time while no function that is not const runs.
   Status read_positions(InstanceId instance, const ReadDef& def) const noexcept;
-  // Unit normals of the displaced surface (kCharacter or kWorld), smooth across seams; zero where no
-  // triangle has area. Cost as read_positions and O(triangles). From several threads at a time for
-  // different instances; for one instance, one thread at a time.
+  // Unit normals of the displaced surface (kCharacter or kWorld): in the bind pose the file's own, else these
+  // turned as the surface has turned there, so that hard edges stay hard and both sides of a sheet keep
+  // theirs. out is written once and never read. Cost as read_positions and O(vertices + triangles). From
+  // several threads at a time for different instances; for one instance, one thread at a time.
   Status read_normals(InstanceId instance, const ReadDef& def) const noexcept;
   // Character-from-joint of every joint at the time of the last step, for the engine's own skinning: the
   // pose's, but for bones that are rods and what hangs on them. The surface that read_positions gives is

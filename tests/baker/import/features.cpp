@@ -249,6 +249,39 @@ TEST_CASE("painted_stiffness_is_clamped_and_meshes_without_it_are_rigid") {
   CHECK(import_file(bar(), "unpainted").stiffness.empty());
 }
 
+TEST_CASE("paint_is_taken_in_any_case_of_letters_and_as_a_vector_or_colour") {
+  const std::vector<double> half(6, 0.5);
+  TinyFile file = bar();
+  file.attribute("_stiffness") = file.add_floats(std::vector<float>(18, 0.5f), "VEC3");
+  CHECK(import_file(file, "paint_vector").stiffness == half);
+  file = bar();
+  file.attribute("_Stiffness") = file.add<uint8_t>(std::vector<uint8_t>(24, 51), "VEC4", 5121, true);
+  CHECK(import_file(file, "paint_bytes").stiffness == std::vector<double>(6, 0.2));
+  file = bar();
+  file.attribute("_STIFFNESS") = file.add<uint8_t>({0, 51, 255, 255, 255, 255}, "SCALAR", 5121);
+  const Character plain = import_file(file, "paint_plain_bytes");  // whole numbers, and not marked as shares
+  CHECK(plain.stiffness == std::vector<double>{0, 0.2, 1, 1, 1, 1});
+  CHECK(!noted(plain, "_STIFFNESS"));
+  file = bar();
+  file.attribute("_STIFFNESS") = file.add_floats(std::vector<float>(16, 0.5f), "MAT4");
+  CHECK_THROWS_WITH(import_file(file, "paint_matrix"), Catch::Contains("_STIFFNESS"));
+}
+
+TEST_CASE("default_morph_weights_shape_the_bind_pose_the_node_s_before_the_mesh_s") {
+  TinyFile file = bar();
+  const int up = file.add_floats({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3"),
+            wide = file.add_floats({1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0}, "VEC3");
+  file.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", up}}, {{"POSITION", wide}}};
+  file.json["meshes"][0]["weights"] = {1, 0};
+  CHECK(import_file(file, "morph_mesh").positions[5] == Vector3(1, 2, 1));
+  file.json["nodes"][2]["weights"] = {0.5, 2};
+  const Character character = import_file(file, "morph_node");
+  CHECK(character.positions[5] == Vector3(3, 2, 0.5));
+  CHECK(noted(character, "the shape that they have by default is baked"));
+  file.json["meshes"][0]["primitives"][0]["targets"][1]["POSITION"] = file.add_floats({1, 2, 3}, "VEC3");
+  CHECK_THROWS_WITH(import_file(file, "morph_short"), Catch::Contains("morph target 1 POSITION"));
+}
+
 TEST_CASE("vertex_colours_multiply_the_material_and_become_srgb") {
   TinyFile file = bar();
   file.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {1, 0.5, 0, 0.5}}}}}};

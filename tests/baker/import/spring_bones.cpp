@@ -20,6 +20,14 @@ Character with(const char* extension, const nlohmann::json& content, const std::
   return import_gltf(file.write(name));
 }
 
+const std::string& node_name(const Character& character, int node) {
+  return character.nodes[static_cast<size_t>(node)].name;
+}
+
+const std::string& joint_name(const Character& character, int joint) {
+  return node_name(character, character.joint_node[static_cast<size_t>(joint)]);
+}
+
 }  // namespace
 
 TEST_CASE("damaged_spring_bones_are_left_out_and_the_character_is_read") {
@@ -29,8 +37,8 @@ TEST_CASE("damaged_spring_bones_are_left_out_and_the_character_is_read") {
   if (broken.is_discarded()) FAIL("the test's own JSON");
   const Character character = with("VRM", broken, "springs_broken");
   REQUIRE(character.springs.size() == 1);  // the last group's; its numbers are the standard's defaults
-  CHECK(character.springs[0].stiffness == 1);
-  CHECK(noted(character, "is no joint of the character's skin: left out"));
+  CHECK(character.springs[0].numbers.stiffness == 1);
+  CHECK(noted(character, "moves no bone that anything shown hangs on: left out"));
   CHECK(with("VRM", 3, "springs_number").springs.empty());
   CHECK(with("VRM", {{"secondaryAnimation", nullptr}}, "springs_null").springs.empty());
   CHECK(with("VRMC_springBone", {{"springs", {1, {{"joints", {}}}}}}, "springs_one_broken").springs.empty());
@@ -41,17 +49,17 @@ TEST_CASE("springs_of_version_0_are_roots_with_all_below") {
     {"comment": "hair", "stiffiness": 2.5, "gravityPower": 0.5, "gravityDir": {"x": 1, "y": 0, "z": 0}, "dragForce": 0.25,
      "hitRadius": 0.03, "colliderGroups": [0], "bones": [1, 0]}]}})"),
                                    "springs_0");
-  REQUIRE(character.springs.size() == 2);
+  REQUIRE(character.springs.size() == 1);  // `upper` hangs on `lower`, which is listed after it
   const SpringBones& spring = character.springs[0];
   CHECK(spring.name == "hair");
-  CHECK(character.nodes[static_cast<size_t>(character.joint_node[static_cast<size_t>(spring.root)])].name ==
-        "upper");
+  CHECK(joint_name(character, spring.root) == "lower");
   CHECK(spring.end == -1);
-  CHECK(spring.stiffness == 2.5);
-  CHECK(spring.gravity_power == 0.5);
-  CHECK(spring.drag_force == 0.25);
-  CHECK(spring.collides);
-  CHECK(noted(character, "gravityDir is not straight down"));
+  CHECK(spring.numbers.stiffness == 2.5);
+  CHECK(spring.numbers.gravity_power == 0.5);
+  CHECK(spring.numbers.drag_force == 0.25);
+  CHECK(spring.collider_groups == std::vector<int>{0});
+  CHECK(spring.numbers.gravity_direction == Vector3::UnitX());
+  CHECK(spring.numbers.hit_radius_m == 0.03);
 }
 
 TEST_CASE("colliders_are_spheres_in_version_0_and_capsules_too_in_version_1") {
@@ -97,14 +105,6 @@ Character with_springs(const char* springs, const std::string& name) {
   return import_gltf(file.write(name));
 }
 
-const std::string& node_name(const Character& character, int node) {
-  return character.nodes[static_cast<size_t>(node)].name;
-}
-
-const std::string& joint_name(const Character& character, int joint) {
-  return node_name(character, character.joint_node[static_cast<size_t>(joint)]);
-}
-
 }  // namespace
 
 TEST_CASE("springs_of_version_1_swing_all_joints_but_the_last_which_is_their_end") {
@@ -118,10 +118,10 @@ TEST_CASE("springs_of_version_1_swing_all_joints_but_the_last_which_is_their_end
   CHECK(joint_name(character, spring.root) == "lower");
   CHECK(joint_name(character, spring.end) == "upper");
   CHECK(node_name(character, spring.end_node) == "tip");
-  CHECK(spring.stiffness == 1.5);
-  CHECK(spring.drag_force == 0.25);
-  CHECK(spring.gravity_power == 2);
-  CHECK(!spring.collides);
+  CHECK(spring.numbers.stiffness == 1.5);
+  CHECK(spring.numbers.drag_force == 0.25);
+  CHECK(spring.numbers.gravity_power == 2);
+  CHECK(spring.collider_groups.empty());
   CHECK(!noted(character, "differ"));  // the last one's are no bone's
   CHECK(!noted(character, "gravityDir"));
 }
@@ -130,7 +130,7 @@ TEST_CASE("a_spring_of_one_joint_of_version_1_is_left_out") {
   const Character character =
       with_springs(R"([{"name": "stub", "joints": [{"node": 0}]}])", "springs_1_stub");
   CHECK(character.springs.empty());
-  CHECK(noted(character, "spring 'stub': of one joint, which nothing swings: left out"));
+  CHECK(noted(character, "spring 'stub' has one joint, which nothing swings: left out"));
 }
 
 TEST_CASE("a_spring_of_version_1_of_two_joints_is_one_bone") {
@@ -145,10 +145,10 @@ TEST_CASE("a_joint_that_says_nothing_has_the_numbers_of_its_version") {
       with("VRM", nlohmann::json::parse(R"({"secondaryAnimation": {"boneGroups": [{"bones": [0]}]}})"),
            "springs_0_bare")
           .springs.at(0);
-  CHECK((zero.stiffness == 1 && zero.gravity_power == 0 && zero.drag_force == 0.4));
+  CHECK((zero.numbers.stiffness == 1 && zero.numbers.gravity_power == 0 && zero.numbers.drag_force == 0.4));
   const SpringBones one =
       with_springs(R"([{"joints": [{"node": 0}, {"node": 1}]}])", "springs_1_bare").springs.at(0);
-  CHECK((one.stiffness == 1 && one.gravity_power == 0 && one.drag_force == 0.5));
+  CHECK((one.numbers.stiffness == 1 && one.numbers.gravity_power == 0 && one.numbers.drag_force == 0.5));
 }
 
 TEST_CASE("joints_outside_the_skin_end_a_spring_of_version_1") {
@@ -157,7 +157,7 @@ TEST_CASE("joints_outside_the_skin_end_a_spring_of_version_1") {
   REQUIRE(ends.springs.size() == 1);
   CHECK(joint_name(ends, ends.springs[0].end) == "tip");
   CHECK(node_name(ends, ends.springs[0].end_node) == "tip_end");
-  CHECK(!noted(ends, "not in the skin"));
+  CHECK(!noted(ends, "nothing that is shown"));
   TinyFile file = long_bar();
   file.json["nodes"][4]["children"] = {5};
   file.json["nodes"].push_back({{"name", "far_end"}, {"translation", {0, 1, 0}}});
@@ -167,13 +167,39 @@ TEST_CASE("joints_outside_the_skin_end_a_spring_of_version_1") {
   REQUIRE(outside.springs.size() == 1);
   CHECK(joint_name(outside, outside.springs[0].end) == "tip");
   CHECK(node_name(outside, outside.springs[0].end_node) == "tip_end");
-  CHECK(noted(outside, "spring 'hair': its last joints are not in the skin"));
+  CHECK(noted(outside, "spring 'hair' moves nothing that is shown with its last joints"));
 }
 
-TEST_CASE("joints_that_differ_and_gravity_that_rises_are_noted") {
-  const Character character = with_springs(R"([{"name": "tail", "joints": [
-    {"node": 0, "gravityPower": 1, "gravityDir": [0, 1, 0]}, {"node": 1, "stiffness": 2}, {"node": 3}]}])",
+TEST_CASE("each_joint_of_version_1_keeps_its_numbers_and_gravity_pulls_any_way") {
+  const Character character = with_springs(R"([{"name": "tail", "center": 0, "joints": [
+    {"node": 0, "gravityPower": 1, "gravityDir": [0, 3, 0]}, {"node": 1, "stiffness": 2, "hitRadius": 0.5}, {"node": 3}]}])",
                                            "springs_1_differ");
-  CHECK(noted(character, "spring 'tail': its joints differ in numbers: the first one's are taken for all"));
-  CHECK(noted(character, "gravityDir is not straight down"));
+  const SpringBones& spring = character.springs.at(0);
+  CHECK(spring.numbers.gravity_direction == Vector3::UnitY());
+  REQUIRE(spring.of_joints.size() == 2);
+  CHECK(spring.of_joints[0].second == spring.numbers);
+  CHECK(spring.of_joints[1].first == spring.end);
+  CHECK(spring.of_joints[1].second.stiffness == 2);
+  CHECK(spring.of_joints[1].second.hit_radius_m == 0.5);
+  CHECK(
+      noted(character, "spring 'tail' has joints that differ in gravity: the first one's is taken for all"));
+  CHECK(noted(character, "spring 'tail' states a center, which is not followed"));
+}
+
+TEST_CASE("a_chain_of_version_1_that_is_listed_in_pieces_or_from_its_tip_is_one") {
+  for (const char* springs :
+       {R"([{"joints": [{"node": 1, "stiffness": 2}, {"node": 3}]}, {"joints": [{"node": 0}, {"node": 1}]}])",
+        R"([{"joints": [{"node": 1, "stiffness": 2}, {"node": 3}]},
+            {"joints": [{"node": 0}, {"node": 1, "stiffness": 2}, {"node": 3}]}])",
+        R"([{"joints": [{"node": 3}, {"node": 1, "stiffness": 2}, {"node": 0}]}])"}) {
+    INFO(springs);
+    const Character character = with_springs(springs, "springs_1_pieces");
+    REQUIRE(character.springs.size() == 1);
+    const SpringBones& spring = character.springs[0];
+    CHECK(joint_name(character, spring.root) == "lower");
+    CHECK(joint_name(character, spring.end) == "upper");
+    CHECK(node_name(character, spring.end_node) == "tip");
+    REQUIRE(spring.of_joints.size() == 2);
+    CHECK(spring.of_joints[1].second.stiffness == 2);
+  }
 }

@@ -242,17 +242,29 @@ TEST_CASE("flesh_on_a_rod_is_not_soft_and_rods_alone_make_a_character") {
 
 TEST_CASE("springs_of_the_file_become_rods_unless_the_recipe_says_otherwise") {
   Character character = column();
-  character.springs = {
-      {.name = "hair", .root = 2, .stiffness = 2, .gravity_power = 0.5, .drag_force = 0.4, .collides = true},
-      {.name = "again", .root = 2},
-      {.name = "body", .root = 0}};
+  character.springs = {{.name = "hair",
+                        .root = 2,
+                        .numbers = {.stiffness = 2,
+                                    .gravity_power = 0.5,
+                                    .gravity_direction = Vector3::UnitX(),
+                                    .drag_force = 0.4,
+                                    .hit_radius_m = 0.03},
+                        .of_joints = {{3, {.stiffness = 2, .drag_force = 0.2, .hit_radius_m = 0.04}}},
+                        .collider_groups = {1}},
+                       {.name = "again", .root = 2},
+                       {.name = "body", .root = 0}};
   Character other = character;
   const std::vector<Rod> rods = find_rods(character, {});
   REQUIRE(rods.size() == 1);  // the second is in the first, the third hangs on nothing
   CHECK(rods[0].name == "bone_2");
   CHECK(rods[0].sag == 1);
   CHECK(rods[0].gravity == Approx(40 * 0.5 / 9.80665));
+  CHECK(rods[0].gravity_direction == Vector3::UnitX());
+  CHECK(rods[0].collider_groups == std::vector<int>{1});
   CHECK(rods[0].bones[0].drag_per_s == Approx(60 * 0.4 / 0.6));
+  CHECK(rods[0].bones[1].drag_per_s == Approx(60 * 0.2 / 0.8));  // its own number
+  CHECK(rods[0].bones[0].radius_m == 0.03);
+  CHECK(rods[0].bones[1].radius_m == 0.04);
   // w^2 = 60 stiffness / L of all that hangs on the last joint: its own bone.
   const RodBone& last = rods[0].bones[1];
   const double l = 0.5, r = last.radius_m, mass = 1000 * std::numbers::pi * r * r * l;
@@ -289,10 +301,10 @@ TEST_CASE("a_spring_ends_where_its_file_says") {
 
 TEST_CASE("a_spring_pulls_down_no_harder_than_a_pack_may_hold") {
   Character character = column();
-  character.springs = {{.name = "lead", .root = 2, .gravity_power = 100}};
+  character.springs = {{.name = "lead", .root = 2, .numbers = {.gravity_power = 100}}};
   CHECK(find_rods(character, {})[0].gravity == 100);  // not 40 * 100 / 9.80665
   CHECK(noted(character, "spring bone 'bone_2': its gravityPower is 407"));
-  character.springs[0].gravity_power = 24;  // 97.9
+  character.springs[0].numbers.gravity_power = 24;  // 97.9
   character.notes.clear();
   CHECK(find_rods(character, {})[0].gravity == Approx(40 * 24 / 9.80665));
   CHECK(!noted(character, "gravityPower"));

@@ -2,7 +2,9 @@
 was cut, what tuning does to weights, and what is baked."""
 import contextlib
 import io
+import json
 import os
+import shutil
 import sys
 import tempfile
 import time
@@ -100,6 +102,18 @@ class Refusals(Folder):
     def test_outputs_that_cannot_be_written(self):
         self.refused(self.glb, says="is a directory", output="")
         self.refused(self.glb, says="no folder", output="nowhere/out.sinew")
+
+    def test_outputs_that_are_inputs(self):
+        says = "is the input; give another name"
+        os.link(self.glb, self.place("same.glb"))
+        self.refused(self.glb, says=says, output="same.glb")
+        shutil.copy(SHIPPED, self.place("own.tissue.safetensors"))
+        beside = self.place("own.tissue.safetensors")  # where own.sinew's weights are written
+        self.refused(self.glb, "--tissue", beside, says=says, output="own.sinew")
+        with open(self.place("c.gltf"), "w", encoding="utf-8") as f:
+            json.dump({"buffers": [{"uri": "own.bin"}]}, f)
+        shutil.copy(self.glb, self.place("own.bin"))
+        self.refused(self.place("c.gltf"), says=says, output="own.bin")
 
     def test_weights_that_cannot_be_tuned(self):
         tensors, metadata = load(SHIPPED)

@@ -1,0 +1,382 @@
+// shared_cases.cpp  Files after public bug reports, baked and played: each behaves as its README says.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "baker/common/read_file.hpp"
+#include "baker/common/write_file.hpp"
+#include "baker/import/character.hpp"
+#include "sinew/sinew.hpp"
+#include "tests/baker/common/temporary_folder.hpp"
+#include "tests/baker/programs/bake.hpp"
+
+using namespace sinew;
+using namespace sinew::test;
+using baker::Vector3;
+
+namespace {
+
+// A case's folder; empty, and said so, where the reference data are not there.
+std::string case_file(const std::string& name) {
+  const std::string path = SINEW_SHARED_DIR "/cases/" + name;
+  if (std::filesystem::exists(path)) return path;
+  WARN("skipped: " << path << " is not there (CMake variable SINEW_SHARED_DIR)");
+  return "";
+}
+
+struct Baked {
+  TemporaryFolder folder;
+  std::string pack = folder.file("c.sinew"), said;
+  nlohmann::json info;
+
+  explicit Baked(const std::string& file, const std::string& recipe = "") {
+    std::vector<std::string> arguments = {"character", file, "--quick", "-o", pack};
+    if (!recipe.empty()) arguments.insert(arguments.end(), {"--recipe", recipe});
+    const ProgramResult result = bake(arguments);
+    must(result);
+    said = result.out;
+    info = nlohmann::json::parse(bake({"info", "--json", pack}).out);
+    CHECK_THAT(said, !Catch::Contains("damaged"));
+  }
+
+  nlohmann::json rod(const std::string& name) const {
+    for (const auto& rod : info["rods"])
+      if (rod["name"] == name) return rod;
+    FAIL("no rod '" << name << "' in " << said);
+    return {};
+  }
+};
+
+using RootMotion = std::function<Vector3(double t_s)>;
+Vector3 still(double) { return Vector3::Zero(); }
+Vector3 bob(double t_s) { return {0, 0.03 * std::sin(2 * std::numbers::pi * 2 * t_s), 0}; }
+// Half a second to the front and back again.
+Vector3 dash(double t_s) {
+  return {0, 0, t_s > 0.5 ? 0 : 0.1 * std::pow(std::sin(2 * std::numbers::pi * t_s), 2)};
+}
+
+// One character in its bind pose, moved as a whole.
+class Played {
+ public:
+  explicit Played(const Baked& baked, bool own_body = false) {
+    REQUIRE(World::create({}, &world).ok());
+    REQUIRE(world.load_asset_file(baked.pack.c_str(), &asset).ok());
+    REQUIRE(world.asset_info(asset, &info).ok());
+    REQUIRE(world.create_instance({.asset = asset, .contacts = {.own_body = own_body}}, &instance).ok());
+    joints.resize(info.joint_count);
+    REQUIRE(world.bind_pose(asset, joints).ok());
+  }
+
+  void play(
+      double seconds, const RootMotion& motion, const std::function<void()>& each = [] {}) {
+    for (int frame = 0; frame < seconds * 60; ++frame) {
+      const Vector3 root = motion(frame / 60.0);
+      const Pose pose{.joints = joints, .root = {.position_m = {root.x(), root.y(), root.z()}}};
+      REQUIRE(world.set_pose(instance, pose).ok());
+      world.step(1.0f / 60);
+      each();
+    }
+  }
+
+  std::vector<Vector3> positions() const { return read(false); }
+  std::vector<Vector3> normals() const { return read(true); }
+
+  // Where a joint is shown, in the character.
+  Vector3 place_of(const std::string& name) const {
+    std::vector<Matrix34> shown(info.joint_count);
+    REQUIRE(world.read_joint_matrices(instance, shown).ok());
+    for (uint32_t j = 0; j < info.joint_count; ++j)
+      if (world.joint_name(asset, j) == name)
+        return Eigen::Map<const Eigen::Matrix<float, 3, 4, Eigen::RowMajor>>(&shown[j].m[0][0])
+            .col(3)
+            .cast<double>();
+    FAIL("no joint " << name);
+    return {};
+  }
+
+  World world;
+  AssetId asset;
+  AssetInfo info;
+  InstanceId instance;
+  std::vector<Matrix34> joints;
+
+ private:
+  std::vector<Vector3> read(bool of_normals) const {
+    std::vector<float> out(size_t{3} * info.vertex_count);
+    const ReadDef def{.out = out.data(), .capacity = info.vertex_count};
+    REQUIRE((of_normals ? world.read_normals(instance, def) : world.read_positions(instance, def)).ok());
+    std::vector<Vector3> vectors;
+    for (size_t v = 0; v < info.vertex_count; ++v)
+      vectors.push_back(Eigen::Map<const Eigen::Vector3f>(&out[3 * v]).cast<double>());
+    return vectors;
+  }
+};
+
+std::vector<Vector3> read_normals_file(const std::string& path) {
+  std::ifstream file(path);
+  std::vector<Vector3> normals;
+  for (double x, y, z; file >> x >> y >> z;) normals.emplace_back(x, y, z);
+  return normals;
+}
+
+double least_cosine(const std::vector<Vector3>& a, const std::vector<Vector3>& b) {
+  REQUIRE(a.size() == b.size());
+  double least = 1;
+  for (size_t v = 0; v < a.size(); ++v) least = std::min(least, a[v].dot(b[v]));
+  return least;
+}
+
+double largest_difference(const std::vector<Vector3>& a, const std::vector<Vector3>& b) {
+  REQUIRE(a.size() == b.size());
+  double largest = 0;
+  for (size_t v = 0; v < a.size(); ++v) largest = std::max(largest, (a[v] - b[v]).norm());
+  return largest;
+}
+
+}  // namespace
+
+TEST_CASE("shared_equal_bone_names_are_refused_with_paths_that_a_recipe_may_use") {
+  const std::string file = case_file("duplicate_bone_names/duplicate_bone_names.gltf");
+  if (file.empty()) return;
+  const std::string recipe = case_file("duplicate_bone_names/recipe.json");
+  const TemporaryFolder folder;
+  check_refused(
+      {"character", file, "--recipe", recipe, "-o", folder.file("c.sinew")},
+      {"'ear_1' is the name of two bones", "root/hips/spine/head/ear_1#1", "root/hips/spine/head/ear_1#2"});
+  baker::write_file(
+      folder.file("r.json"),
+      std::string_view(R"({"rods": [{"root": "ear_1#1", "end": "ear_3"}, {"root": "head/ear_1#2"}]})"));
+  const Baked named(file, folder.file("r.json"));
+  CHECK(named.info["rods"].size() == 2);
+  CHECK(named.rod("ear_1#1")["bones"] == 3);
+  CHECK(Baked(file).info["rods"].size() == 2);  // by their names alone both ears swing
+}
+
+TEST_CASE("shared_bones_that_are_all_listed_as_roots_are_one_chain_in_any_order") {
+  const std::string file = case_file("every_bone_a_root/every_bone_a_root.gltf");
+  if (file.empty()) return;
+  const Baked baked(file);
+  REQUIRE(baked.info["rods"].size() == 2);
+  CHECK(baked.rod("ribbon_l_1")["bones"] == 4);
+  CHECK(baked.rod("ribbon_r_1")["bones"] == 4);
+  CHECK(baked.rod("ribbon_l_1")["first_hz"] == baked.rod("ribbon_r_1")["first_hz"]);
+}
+
+TEST_CASE("shared_hard_edges_have_the_file_s_normals_and_stay_hard_where_flesh_moves") {
+  const std::string file = case_file("flat_shaded/flat_shaded.gltf");
+  if (file.empty()) return;
+  Played played{Baked(file)};
+  const std::vector<Vector3> stated = read_normals_file(case_file("flat_shaded/normals.txt"));
+  const std::vector<Vector3> bound = played.positions();
+  CHECK(least_cosine(played.normals(), stated) > 0.99);
+  double turned = 1, sharpened = 0;
+  played.play(1, bob, [&] {
+    const std::vector<Vector3> normals = played.normals();
+    turned = std::min(turned, least_cosine(normals, stated));
+    for (size_t v = 1; v < normals.size(); ++v) {  // neighbours in the file share places and triangles
+      CHECK(normals[v].norm() == Approx(1).margin(1e-4));
+      if ((bound[v] - bound[v - 1]).norm() < 1e-9)
+        sharpened =
+            std::max(sharpened, std::abs(normals[v].dot(normals[v - 1]) - stated[v].dot(stated[v - 1])));
+    }
+  });
+  CHECK(turned < 0.999);  // flesh did move
+  CHECK(turned > 0.8);
+  CHECK(sharpened < 0.1);
+}
+
+TEST_CASE("shared_two_layers_of_a_sheet_keep_their_own_sides") {
+  const std::string file = case_file("two_sided_faces/two_sided_faces.gltf");
+  if (file.empty()) return;
+  Played played{Baked(file)};
+  const std::vector<Vector3> stated = read_normals_file(case_file("two_sided_faces/normals.txt"));
+  CHECK(least_cosine(played.normals(), stated) > 0.99);
+  played.play(1, bob);
+  for (const Vector3& normal : played.normals()) CHECK(normal.norm() == Approx(1).margin(1e-4));
+}
+
+TEST_CASE("shared_compressed_gltf_is_decoded") {
+  const std::string file = case_file("gltfpack_uri_less_buffer/packed.gltf");
+  if (file.empty()) return;
+  const Baked baked(file);
+  CHECK(baked.info["character"]["vertices"] == 370);
+  CHECK(baked.info["regions"].size() == 1);
+}
+
+TEST_CASE("shared_hair_in_a_file_of_its_own_swings_whole_and_is_held_by_the_node_above") {
+  const std::string file = case_file("hair_as_a_file_of_its_own/hair_by_name.gltf");
+  if (file.empty()) return;
+  const Baked baked(file);
+  CHECK(baked.rod("hair_l_1")["bones"] == 4);
+  CHECK(baked.rod("hair_l_1")["hangs_on"] == "head");
+}
+
+TEST_CASE("shared_levels_of_detail_are_one_body_and_the_note_names_the_others") {
+  const std::string file = case_file("lods_at_once/lods.gltf");
+  if (file.empty()) return;
+  const Baked baked(file);
+  CHECK(baked.info["character"]["vertices"] == 370);
+  CHECK(baked.info["regions"].size() == 1);
+  CHECK_THAT(baked.said, Catch::Contains("'body_LOD1', 'body_LOD2'") && Catch::Contains("\"with_meshes\""));
+}
+
+TEST_CASE("shared_default_morph_weights_shape_the_bind_pose") {
+  const std::string file = case_file("morph_default_weights/morph_default_weights.gltf");
+  if (file.empty()) return;
+  auto plain = nlohmann::json::parse(baker::read_text(file));
+  for (const char* kind : {"meshes", "nodes"})
+    for (auto& one : plain[kind]) one.erase("weights");
+  const TemporaryFolder folder;
+  baker::write_file(folder.file("plain.gltf"), std::string_view(plain.dump()));
+  const std::vector<Vector3> shown = Played(Baked(file)).positions(),
+                             without = Played(Baked(folder.file("plain.gltf"))).positions();
+  REQUIRE(shown.size() == without.size());
+  double further = 0, widest = 0, wide = 0;
+  for (size_t v = 0; v < shown.size(); ++v) {
+    further = std::max(further, shown[v].z() - without[v].z());
+    widest = std::max(widest, shown[v].x());
+    wide = std::max(wide, without[v].x());
+  }
+  CHECK(further == Approx(0.12).margin(0.015));  // the belly's foremost vertex
+  CHECK(widest > 1.03 * wide);
+}
+
+TEST_CASE("shared_paint_of_a_rigid_body_and_a_region_are_told_apart_by_name") {
+  const std::string file = case_file("region_over_rigid_paint/region_over_rigid_paint.gltf");
+  if (file.empty()) return;
+  const TemporaryFolder folder;
+  check_refused({"character", file, "--recipe", case_file("region_over_rigid_paint/recipe.json"), "-o",
+                 folder.file("c.sinew")},
+                {"region 'belly'", "_STIFFNESS"});
+}
+
+TEST_CASE("shared_paint_as_a_vector_and_in_small_letters_is_taken") {
+  for (const char* name : {"paint_as_vector/vector.gltf", "paint_as_vector/small_letters.gltf"}) {
+    const std::string file = case_file(name);
+    if (file.empty()) return;
+    const Baked baked(file);
+    CHECK(baked.info["regions"].size() == 1);
+    CHECK(baked.info["regions"][0]["vertices"] == 27);
+  }
+}
+
+TEST_CASE("shared_required_extensions_that_nobody_knows_are_refused_by_name") {
+  const std::string file = case_file("required_but_unknown/nobody_knows.gltf");
+  if (file.empty()) return;
+  const TemporaryFolder folder;
+  check_refused({"character", file, "-o", folder.file("c.sinew")}, {"ACME_folded_positions"});
+}
+
+TEST_CASE("shared_a_character_exported_lying_is_the_one_that_was_bound") {
+  const std::string standing = case_file("rest_is_not_bind/standing.gltf");
+  if (standing.empty()) return;
+  const Baked up(standing), down(case_file("rest_is_not_bind/lying.gltf"));
+  CHECK(up.info["character"]["height_m"].get<double>() == Approx(1.175).margin(1e-3));
+  CHECK(down.info["character"]["height_m"] == up.info["character"]["height_m"]);
+  CHECK(down.info["regions"] == up.info["regions"]);
+  CHECK(down.rod("tail_1")["first_hz"].get<double>() ==
+        Approx(up.rod("tail_1")["first_hz"].get<double>()).epsilon(1e-5));
+  Played a(up), b(down);
+  CHECK(largest_difference(a.positions(), b.positions()) < 1e-6);  // floats of a metre
+  a.play(2, still), b.play(2, still);
+  CHECK(largest_difference(a.positions(), b.positions()) < 1e-5);  // nothing hangs otherwise
+}
+
+TEST_CASE("shared_springs_on_nodes_without_a_skin_swing") {
+  const std::string file = case_file("springs_on_bare_nodes/springs_on_bare_nodes.gltf");
+  if (file.empty()) return;
+  const Baked baked(file);
+  CHECK(baked.info["rods"].size() == 3);
+  CHECK(baked.rod("earring_l_1")["bones"] == 2);
+  CHECK(baked.rod("earring_r_1")["hangs_on"] == "head");
+}
+
+TEST_CASE("shared_skins_whose_binds_differ_by_rounding_share_joints") {
+  const std::string file = case_file("two_skins_rounded/two_skins_rounded.gltf");
+  if (file.empty()) return;
+  Played played{Baked(file)};
+  CHECK(played.info.joint_count == 8);
+  const std::vector<Vector3> bound = played.positions();
+  std::vector<MeshInfo> meshes(played.info.mesh_count);
+  for (uint32_t m = 0; m < meshes.size(); ++m)
+    REQUIRE(played.world.mesh_info(played.asset, m, &meshes[m]).ok());
+  REQUIRE(meshes.size() == 3);
+  const double below_y = played.place_of("hair_2").y() - 0.03;  // above, the ribbon has no bone to share
+  std::vector<std::pair<size_t, size_t>> pairs;                 // of hair and ribbon, at one place
+  for (size_t h = meshes[1].first_vertex; h < meshes[1].first_vertex + meshes[1].vertex_count; ++h)
+    for (size_t r = meshes[2].first_vertex; r < meshes[2].first_vertex + meshes[2].vertex_count; ++r)
+      if ((bound[h] - bound[r]).norm() < 1e-6 && bound[h].y() < below_y) pairs.emplace_back(h, r);
+  REQUIRE(pairs.size() > 10);
+  double apart = 0, moved = 0;
+  played.play(1, bob, [&] {
+    const std::vector<Vector3> now = played.positions();
+    for (const auto& [h, r] : pairs) {
+      apart = std::max(apart, (now[h] - now[r]).norm());
+      moved = std::max(moved, (now[h] - bound[h]).norm());
+    }
+  });
+  CHECK(moved > 1e-3);
+  CHECK(apart < 1e-5);
+}
+
+TEST_CASE("shared_a_giant_is_as_tall_as_its_file_says_and_swings_slowly") {
+  const std::string file = case_file("giant_18_and_30_m/giant_18_m.gltf");
+  if (file.empty()) return;
+  const Baked smaller(file), larger(case_file("giant_18_and_30_m/giant_30_m.gltf"));
+  CHECK(smaller.info["character"]["height_m"].get<double>() == Approx(18).margin(0.01));
+  CHECK(larger.info["character"]["height_m"].get<double>() == Approx(30).margin(0.01));
+  const double fast = smaller.info["regions"][0]["first_hz"], slow = larger.info["regions"][0]["first_hz"];
+  CHECK(fast < 1);
+  CHECK(slow < fast);
+}
+
+TEST_CASE("shared_gravity_of_springs_pulls_the_way_they_say") {
+  const std::string file = case_file("vrm0_gravity_sideways/vrm0_gravity_sideways.gltf");
+  if (file.empty()) return;
+  Played played{Baked(file)};
+  const Vector3 wind = played.place_of("wind_4"), calm = played.place_of("still_4"),
+                up = played.place_of("up_4");
+  played.play(6, still);
+  const Vector3 blown = played.place_of("wind_4") - wind, left = played.place_of("still_4") - calm,
+                lifted = played.place_of("up_4") - up;
+  CHECK(blown.x() - left.x() > 0.03);
+  CHECK(lifted.y() > -1e-4);  // its stiffness holds it against the pull, which is as strong: it does not fall
+  CHECK(left.norm() < 1e-3);
+}
+
+TEST_CASE("shared_a_spring_collides_with_the_colliders_of_its_own_groups") {
+  const std::string file = case_file("vrm1_collider_groups/vrm1_collider_groups.gltf");
+  if (file.empty()) return;
+  const Baked baked(file);
+  Played with(baked, true), without(baked, false);
+  with.play(6, still), without.play(6, still);
+  const auto drop = [&](const std::string& joint) {
+    return (with.place_of(joint) - without.place_of(joint)).norm();
+  };
+  CHECK(drop("hair_4") < 1e-3);
+  CHECK(drop("skirt_4") > 0.02);
+}
+
+TEST_CASE("shared_a_chain_that_tapers_swings_further_and_slower_at_its_tip") {
+  const std::string file = case_file("vrm1_taper/vrm1_taper.gltf");
+  if (file.empty()) return;
+  const Baked baked(file);
+  CHECK(baked.rod("taper_1")["first_hz"].get<double>() < 0.5 * baked.rod("even_1")["first_hz"].get<double>());
+  Played played(baked);
+  const Vector3 taper = played.place_of("taper_5"), even = played.place_of("even_5");
+  double most_taper = 0, most_even = 0;
+  played.play(2, dash, [&] {
+    most_taper = std::max(most_taper, (played.place_of("taper_5") - taper).norm());
+    most_even = std::max(most_even, (played.place_of("even_5") - even).norm());
+  });
+  CHECK(most_taper > 2.5 * most_even);
+}
+
+TEST_CASE("shared_a_spring_with_a_center_is_noted") {
+  const std::string file = case_file("vrm1_center/vrm1_center.gltf");
+  if (file.empty()) return;
+  CHECK_THAT(Baked(file).said, Catch::Contains("spring 'own' states a center, which is not followed"));
+}
