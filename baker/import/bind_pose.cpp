@@ -80,15 +80,19 @@ Matrix4 BindPose::of_node(int node) const {
 // In which a mesh may have been modelled: those of the nodes above the skeleton, of the mesh's own and those
 // above it, unless that hangs on a bone, and the scene.
 std::vector<Matrix4> BindPose::likely_frames(const SkinBinds& skin, int root_joint) const {
+  constexpr int kMostFrames = 64;  // of the nearest nodes above
   std::vector<Matrix4> frames;
   const auto add_from = [&](int node) {
-    for (; node >= 0; node = graph_.nodes[static_cast<size_t>(node)].parent)
+    for (int up = 0; node >= 0 && up < kMostFrames;
+         ++up, node = graph_.nodes[static_cast<size_t>(node)].parent)
       if (is_invertible(graph_.rest[static_cast<size_t>(node)]))
         frames.push_back(graph_.rest[static_cast<size_t>(node)]);
   };
   add_from(graph_.nodes[static_cast<size_t>(root_joint)].parent);
+  std::vector<bool> in_skin(graph_.nodes.size(), false);
+  for (const int node : skin.nodes) in_skin[static_cast<size_t>(node)] = true;
   int above = skin.mesh_node;
-  while (above >= 0 && std::ranges::find(skin.nodes, above) == skin.nodes.end())
+  while (above >= 0 && !in_skin[static_cast<size_t>(above)])
     above = graph_.nodes[static_cast<size_t>(above)].parent;
   if (above < 0) add_from(skin.mesh_node);
   frames.push_back(Matrix4::Identity());

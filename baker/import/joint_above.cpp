@@ -13,9 +13,12 @@ void shift(int& index) {
   if (index >= 0) ++index;
 }
 
-// A node before all others, the parent of `below`.
-void add_root_node(Character& character, int below) {
-  for (Node& node : character.nodes) shift(node.parent), shift(node.constraint.source);
+// A node before all others, above all of them.
+void add_root_node(Character& character) {
+  for (Node& node : character.nodes) {
+    node.parent = node.parent < 0 ? 0 : node.parent + 1;
+    shift(node.constraint.source);
+  }
   for (int& node : character.joint_node) shift(node);
   for (Clip& clip : character.clips)
     for (Channel& channel : clip.channels) shift(channel.node);
@@ -24,7 +27,6 @@ void add_root_node(Character& character, int below) {
   Node root;
   root.name = "root";
   character.nodes.insert(character.nodes.begin(), root);
-  character.nodes[static_cast<size_t>(below) + 1].parent = 0;
 }
 
 void add_first_joint(Character& character, int node, const Matrix4& inverse_bind) {
@@ -61,7 +63,7 @@ void add_joint_above(Character& character, int joint) {
       flat ? character.inverse_bind[index] : Matrix4(local * character.inverse_bind[index]);
   if (above < 0) {
     inverse_bind = character.character_from_scene.inverse();
-    add_root_node(character, node);
+    add_root_node(character);
     above = 0;
   }
   add_first_joint(character, above, inverse_bind);

@@ -182,8 +182,11 @@ void add_joints(const SkinBinds& skin, const Matrix4& scene_from_mesh, const Bin
                   "split the character");
 }
 
+// By clips, or as other nodes turn.
 std::vector<bool> animated_nodes(const tinygltf::Model& model, const SceneGraph& graph) {
   std::vector<bool> animated(graph.nodes.size(), false);
+  for (size_t i = 0; i < animated.size(); ++i)
+    animated[i] = graph.nodes[i].constraint.kind != ConstraintKind::kNone;
   for (const tinygltf::Animation& animation : model.animations)
     for (const tinygltf::AnimationChannel& channel : animation.channels)
       if (channel.target_node >= 0 && static_cast<size_t>(channel.target_node) < animated.size())

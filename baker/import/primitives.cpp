@@ -19,6 +19,7 @@ namespace {
 
 constexpr const char* kMend = "the file is damaged; export it again";
 constexpr size_t kMaxPrimitives = 65536;
+constexpr size_t kMostTargets = 256;  // on each of the most vertices that there may be
 
 // What primitives share vertices by.
 using VertexKey = std::pair<std::map<std::string, int>, std::vector<std::map<std::string, int>>>;
@@ -32,12 +33,9 @@ bool is_morphed(const MeshInstance& instance) {
 // Bind-from-file of each vertex.
 class VertexSpaces {
  public:
-  VertexSpaces(const MeshInstance& instance, const Joints& joints, const std::vector<Influences>& influences)
-      : instance_(instance), influences_(influences) {
-    if (!instance.in_joint_spaces) return;
-    for (const Matrix4& inverse_bind : joints.inverse_bind)
-      bind_from_joint_.push_back(inverse_bind.inverse());
-  }
+  VertexSpaces(const MeshInstance& instance, const std::vector<Matrix4>& bind_from_joint,
+               const std::vector<Influences>& influences)
+      : instance_(instance), influences_(influences), bind_from_joint_(bind_from_joint) {}
 
   Matrix4 of(size_t vertex) const {
     if (!instance_.in_joint_spaces) return instance_.bind_from_mesh;
@@ -51,7 +49,7 @@ class VertexSpaces {
  private:
   const MeshInstance& instance_;
   const std::vector<Influences>& influences_;
-  std::vector<Matrix4> bind_from_joint_;
+  const std::vector<Matrix4>& bind_from_joint_;
 };
 
 // A mesh that is hidden by a scale of zero has no way back.
@@ -77,7 +75,10 @@ class MeshReader {
         joints_(joints),
         source_(source),
         character_(character),
-        textures_(model) {}
+        textures_(model) {
+    for (const Matrix4& inverse_bind : joints.inverse_bind)
+      bind_from_joint_.push_back(inverse_bind.inverse());
+  }
 
   void append(const MeshInstance& instance) {
     const tinygltf::Mesh& mesh = model_.meshes[static_cast<size_t>(instance.mesh)];
@@ -99,7 +100,8 @@ class MeshReader {
 
   void finish() {
     if (!painted_) character_.stiffness.clear();
-    if (!has_normals_) source_.note("", "no normals in at least one primitive: computed, smooth");
+    if (!has_normals_)
+      source_.note("", "no normals in at least one primitive: computed, smooth below 60 degrees");
   }
 
  private:
@@ -162,7 +164,7 @@ class MeshReader {
     const size_t count = accessors_.count(primitive.attributes.at("POSITION"), where + " POSITION");
     const std::vector<double> places = morphed(primitive, instance, "POSITION", count, where);
     const auto influences = read_influences(primitive, count, instance, joints_, accessors_, where, source_);
-    const VertexSpaces spaces(instance, joints_, influences);
+    const VertexSpaces spaces(instance, bind_from_joint_, influences);
     append_positions(places, spaces, where);
     append_normals(morphed(primitive, instance, "NORMAL", count, where), spaces, count, where);
     character_.skin.insert(character_.skin.end(), influences.begin(), influences.end());
@@ -233,6 +235,7 @@ class MeshReader {
   Source& source_;
   Character& character_;
   BaseColorTextures textures_;
+  std::vector<Matrix4> bind_from_joint_;
   std::vector<LinearColor> vertex_colors_;  // of all vertices so far
   bool painted_ = false, has_normals_ = true;
 };
@@ -240,7 +243,7 @@ class MeshReader {
 // Vertices and triangle corners that will be stored, counted from the accessors alone.
 void check_size(const tinygltf::Model& model, const AccessorReader& accessors,
                 const std::vector<MeshInstance>& instances, size_t max_vertices, const Source& source) {
-  size_t vertices = 0, corners = 0, primitives = 0;
+  size_t vertices = 0, corners = 0, primitives = 0, morphed = 0;
   for (const MeshInstance& instance : instances) {
     const auto& list = model.meshes[static_cast<size_t>(instance.mesh)].primitives;
     std::map<VertexKey, bool> counted;
@@ -252,7 +255,14 @@ void check_size(const tinygltf::Model& model, const AccessorReader& accessors,
       if (position == primitive.attributes.end() || !is_triangle_mode(primitive.mode)) continue;
       const size_t count = accessors.count(position->second, where + " POSITION");
       corners += primitive.indices < 0 ? count : accessors.count(primitive.indices, where + " indices");
-      if (counted.try_emplace(key_of(primitive), true).second) vertices += count;
+      if (counted.try_emplace(key_of(primitive), true).second) {
+        vertices += count;
+        if (is_morphed(instance))
+          morphed += count * std::min(primitive.targets.size(), instance.morph_weights.size());
+      }
+      if (morphed > kMostTargets * max_vertices)
+        source.refuse(where, "its morph targets move too many vertices by default",
+                      "bake their shape into it");
       if (count > max_vertices || vertices > max_vertices)
         source.refuse(where,
                       "the character has more than " + std::to_string(max_vertices) + " vertices (" +

@@ -98,9 +98,10 @@ class SpringReader {
       const int tree = root < 0 ? static_cast<int>(t) : outermost[static_cast<size_t>(root)];
       if (tree != static_cast<int>(t)) {
         const Tree& above = trees[static_cast<size_t>(tree)];
-        if (groups[above.group].numbers != groups[trees[t].group].numbers)
-          note(name_of(root),
-               "is below spring bone '" + name_of(above.root) + "', whose numbers are taken for it");
+        const SpringBones &own = groups[trees[t].group], &whole = groups[above.group];
+        if (whole.numbers != own.numbers || whole.collider_groups != own.collider_groups)
+          note(name_of(root), "is part of spring bone '" + name_of(above.root) +
+                                  "', whose numbers and colliders are taken for it");
         continue;
       }
       SpringBones spring = groups[trees[t].group];

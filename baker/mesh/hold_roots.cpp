@@ -10,22 +10,32 @@
 namespace sinew::baker {
 namespace {
 
-bool is_root_of_rod(const Character& character, const Recipe& recipe, size_t joint) {
-  const auto is_named = [&](const RodRecipe& rod) { return is_called(character, joint, rod.root); };
-  if (recipe.rods) return std::ranges::any_of(*recipe.rods, is_named);
-  const auto is_root = [&](const SpringBones& spring) { return spring.root == static_cast<int>(joint); };
-  if (std::ranges::any_of(character.springs, is_root)) return true;
-  const NameMeaning meaning = meaning_of(joint_name(character, joint));
-  return meaning.kind && swings_as_chain(*meaning.kind);
+// Joints without a parent that are roots of rods.
+std::vector<int> loose_roots(const Character& character, const Recipe& recipe) {
+  const JointNames names(character);
+  const auto is_root = [&](size_t joint) {
+    const auto is_named = [&](const RodRecipe& rod) { return names.is_called(joint, rod.root); };
+    if (recipe.rods) return std::ranges::any_of(*recipe.rods, is_named);
+    const auto is_spring = [&](const SpringBones& spring) { return spring.root == static_cast<int>(joint); };
+    const NameMeaning meaning = meaning_of(joint_name(character, joint));
+    return std::ranges::any_of(character.springs, is_spring) ||
+           (meaning.kind && swings_as_chain(*meaning.kind));
+  };
+  std::vector<int> roots;
+  for (size_t j = 0; j < character.joint_node.size(); ++j)
+    if (character.joint_parent[j] < 0 && is_root(j)) roots.push_back(static_cast<int>(j));
+  return roots;
 }
 
 }  // namespace
 
 void hold_roots(Character& character, const Recipe& recipe) {
-  for (size_t j = 0; j < character.joint_node.size(); ++j) {
-    if (character.joint_parent[j] >= 0 || !is_root_of_rod(character, recipe, j)) continue;
-    add_joint_above(character, static_cast<int>(j));
-    ++j;  // the new joint is the first: this one is the next now
+  std::vector<int> roots = loose_roots(character, recipe);
+  for (size_t i = 0; i < roots.size(); ++i) {
+    if (character.joint_parent[static_cast<size_t>(roots[i])] >= 0)
+      continue;  // by the joint of one before it
+    add_joint_above(character, roots[i]);
+    for (int& root : roots) ++root;
   }
 }
 

@@ -230,6 +230,12 @@ void check_all_found(const Character& character, const Recipe& recipe, const Sof
   }
 }
 
+bool is_moved_by(const Influences& skin, const std::vector<bool>& joints) {
+  for (size_t k = 0; k < kInfluences; ++k)
+    if (skin.weight[k] > 0 && joints[static_cast<size_t>(skin.joint[k])]) return true;
+  return false;
+}
+
 // Nor is one of a painted character: where paint makes nothing of it soft, it is refused; where its flesh is
 // part of another region's, that is noted.
 void check_all_painted(Character& character, const Recipe& recipe, const TissueLayout& layout,
@@ -244,13 +250,13 @@ void check_all_painted(Character& character, const Recipe& recipe, const TissueL
     bool soft = false;
     for (const Region& other : layout.regions)
       for (const int v : other.vertices)
-        soft = soft || own[static_cast<size_t>(character.skin[static_cast<size_t>(v)].joint[0])];
+        soft = soft || is_moved_by(character.skin[static_cast<size_t>(v)], own);
     if (!soft) refuse_on_rods(character, own, on_rods, character.name + ": " + where + ": ");
     if (!soft)
       throw BadInput(
           character.name + ": " + where +
-          ": nothing is soft: the file's _STIFFNESS is rigid where its bones are; paint it below " +
-          "rigid_stiffness there, or leave the attribute out");
+          ": nothing is soft: no part of four vertices or more that its bones move is painted below "
+          "rigid_stiffness in the file's _STIFFNESS; paint one, or leave the attribute out");
     character.notes.push_back(where + " is not used: its painted flesh is part of other regions");
   }
 }

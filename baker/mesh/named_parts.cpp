@@ -126,6 +126,7 @@ class Finder {
   Finder(const Character& character, const Surface& surface, const std::vector<bool>& claimed,
          NamedPartsWanted wanted)
       : character_(character),
+        names_(character),
         skeleton_(character),
         fastened_(fastened_to(character, surface)),
         wanted_(wanted),
@@ -220,9 +221,9 @@ class Finder {
     const std::string why = against_tissue(joints);
     if (!why.empty()) return skip(name(joint), kind, why);
     RegionRecipe region;
-    region.name = unique_joint_name(character_, joint);
+    region.name = names_.unique(joint);
     region.kind = kind;
-    for (const size_t j : joints) region.joints.push_back(unique_joint_name(character_, j));
+    for (const size_t j : joints) region.joints.push_back(names_.unique(j));
     found_.regions.push_back(region);
   }
 
@@ -231,7 +232,7 @@ class Finder {
       const std::vector<RodBone> bones =
           segment_bones(character_, {"bone name", static_cast<int>(joint), -1, -1});
       RodRecipe rod;
-      rod.name = rod.root = unique_joint_name(character_, joint);
+      rod.name = rod.root = names_.unique(joint);
       rod.frequency_hz = default_frequency_hz(kind, longest_chain_m(bones));
       rod.damping_ratio = kNaturalDamping;
       rod.gravity = hangs(kind) ? 1 : 0;
@@ -289,6 +290,7 @@ class Finder {
   }
 
   const Character& character_;
+  JointNames names_;
   Skeleton skeleton_;
   std::vector<int> fastened_;
   NamedPartsWanted wanted_;

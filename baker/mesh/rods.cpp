@@ -163,9 +163,10 @@ int end_called(const Character& character, const std::string& name, int root, co
   const std::vector<bool> matched = match_joints(character, {name}, where);
   int below = -1;
   for (size_t j = 0; j < matched.size(); ++j) {
+    if (!matched[j]) continue;
     int up = static_cast<int>(j);
     while (up >= 0 && up != root) up = character.joint_parent[static_cast<size_t>(up)];
-    if (!matched[j] || up != root) continue;
+    if (up != root) continue;
     if (below >= 0) return joint_called(character, name, where);
     below = static_cast<int>(j);
   }
@@ -277,9 +278,10 @@ std::vector<Rod> rods_of_springs(Character& character, const std::vector<bool>& 
                                  std::vector<SkippedPart>* skipped) {
   std::vector<Rod> rods;
   Owners owners(character);
+  const JointNames names(character);
   bool collides = false;
   for (const SpringBones& spring : character.springs) {
-    const std::string name = unique_joint_name(character, static_cast<size_t>(spring.root));
+    const std::string name = names.unique(static_cast<size_t>(spring.root));
     const RodPlace place{"spring bone '" + name + "'", spring.root, spring.end, spring.end_node};
     try {
       Rod rod = make_rod(character, place, name);

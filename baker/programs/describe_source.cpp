@@ -20,11 +20,12 @@ double height_m(const Character& character) {
 Json describe_bones(const Character& character) {
   std::vector<size_t> vertices(character.joint_node.size(), 0);
   for (const Influences& skin : character.skin) ++vertices[static_cast<size_t>(skin.joint[0])];
+  const JointNames names(character);
   Json bones = Json::array();
   for (size_t j = 0; j < vertices.size(); ++j) {
     const int parent = character.joint_parent[j];
-    bones.push_back({{"name", unique_joint_name(character, j)},
-                     {"parent", parent < 0 ? "-" : unique_joint_name(character, static_cast<size_t>(parent))},
+    bones.push_back({{"name", names.unique(j)},
+                     {"parent", parent < 0 ? "-" : names.unique(static_cast<size_t>(parent))},
                      {"vertices", vertices[j]}});
   }
   return bones;

@@ -8,8 +8,7 @@
 
 namespace sinew::core {
 
-// For a scope on this thread. The thread's own control word comes back whole at its end, its exception flags
-// too.
+// For a scope on this thread. The thread's own control word comes back whole at its end.
 class FloatingPointScope {
  public:
   FloatingPointScope() noexcept : saved_(read()) { write(kMode); }

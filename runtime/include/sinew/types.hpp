@@ -252,9 +252,10 @@ struct MeshInfo {
   const char* name = nullptr;  // of the node; lives as long as the asset
   uint32_t first_vertex = 0,
            vertex_count = 0;  // among the asset's; primitive after primitive, as in the file
-  // mesh space of the file from the bind pose (Space::kBind): of a bind position the whole matrix, of a
-  // displacement its first three columns. It holds the unit, the up axis and whatever space the exporter
-  // wrote the mesh in. Of a skin without bind matrices, whose rest pose was baked: to the file's scene.
+  // From the bind pose (Space::kBind, metres) to the mesh space of the file, in the file's unit: of a bind
+  // position the whole matrix, of a displacement its first three columns. It holds the unit, the up axis and
+  // whatever space the exporter wrote the mesh in. To the file's scene instead where a skin has no bind
+  // matrices (its rest pose was baked), and where the mesh's node flattens it.
   Matrix34 mesh_from_bind = {};
 };
 

@@ -108,7 +108,7 @@ TEST_CASE("a_skin_without_binds_has_the_shape_that_viewers_show") {
   CHECK(largest_difference(skin_positions(character, bind_matrices(character)), character.positions) <
         kRounding);
   CHECK(character.notes ==
-        std::vector<std::string>{"no normals in at least one primitive: computed, smooth"});
+        std::vector<std::string>{"no normals in at least one primitive: computed, smooth below 60 degrees"});
 }
 
 TEST_CASE("skins_stand_on_one_skeleton_and_share_joints_up_to_float_rounding") {

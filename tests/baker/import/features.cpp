@@ -280,6 +280,11 @@ TEST_CASE("default_morph_weights_shape_the_bind_pose_the_node_s_before_the_mesh_
   CHECK(noted(character, "the shape that they have by default is baked"));
   file.json["meshes"][0]["primitives"][0]["targets"][1]["POSITION"] = file.add_floats({1, 2, 3}, "VEC3");
   CHECK_THROWS_WITH(import_file(file, "morph_short"), Catch::Contains("morph target 1 POSITION"));
+  file.json["meshes"][0]["primitives"][0]["targets"] =
+      nlohmann::json::array_t(300, nlohmann::json{{"POSITION", up}});
+  file.json["nodes"][2]["weights"] = std::vector<double>(300, 1);
+  CHECK_THROWS_WITH(import_gltf(file.write("morph_many"), {.max_vertices = 6}),
+                    Catch::Contains("morph targets move too many vertices"));
 }
 
 TEST_CASE("vertex_colours_multiply_the_material_and_become_srgb") {

@@ -77,3 +77,18 @@ TEST_CASE("an_aim_constraint_points_its_axis_at_the_source") {
   const Matrix4 upper = joint_matrices(character, &character.clips.at(1), 1).at(1);
   CHECK((upper.topLeftCorner<3, 3>() * Vector3::UnitX() - Vector3::UnitY()).norm() < kRounding);
 }
+
+TEST_CASE("a_mesh_without_a_skin_follows_the_constraint_of_its_node") {
+  TinyFile file = constrained({{"rotation", {{"source", 3}}}}, kQuarterAboutX);
+  file.json["meshes"].push_back({{"primitives", {{{"attributes", {{"POSITION", 0}}}}}}});
+  file.json["nodes"].push_back(
+      {{"name", "eye"},
+       {"mesh", 1},
+       {"extensions", {{"VRMC_node_constraint", {{"constraint", {{"rotation", {{"source", 3}}}}}}}}}});
+  file.json["nodes"][0]["children"] = {1, 3, 4};
+  const Character character = import_gltf(file.write("constrained_eye"));
+  REQUIRE(character.joint_node.size() == 3);
+  const Matrix4 eye = joint_matrices(character, &character.clips.at(0), 1).at(2);
+  CHECK(Eigen::AngleAxisd(Eigen::Matrix3d(eye.topLeftCorner<3, 3>())).angle() ==
+        Approx(kQuarter).margin(kRounding));
+}
