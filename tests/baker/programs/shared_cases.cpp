@@ -1,4 +1,5 @@
 // shared_cases.cpp  Files after public bug reports, baked and played: each behaves as its README says.
+#include <Eigen/LU>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
@@ -8,7 +9,7 @@
 
 #include "baker/common/read_file.hpp"
 #include "baker/common/write_file.hpp"
-#include "baker/import/character.hpp"
+#include "baker/import/import_gltf.hpp"
 #include "sinew/sinew.hpp"
 #include "tests/baker/common/temporary_folder.hpp"
 #include "tests/baker/programs/bake.hpp"
@@ -221,6 +222,34 @@ TEST_CASE("shared_levels_of_detail_are_one_body_and_the_note_names_the_others") 
   CHECK(baked.info["character"]["vertices"] == 370);
   CHECK(baked.info["regions"].size() == 1);
   CHECK_THAT(baked.said, Catch::Contains("'body_LOD1', 'body_LOD2'") && Catch::Contains("\"with_meshes\""));
+}
+
+TEST_CASE("shared_clips_are_played_with_the_constraints_of_their_nodes") {
+  const std::string file = case_file("node_constraints/node_constraints.gltf");
+  if (file.empty()) return;
+  const baker::Character character = baker::import_gltf(file);
+  const auto turn_of = [&](const std::string& name, double t_s) {  // from its parent, from how it is bound
+    const auto joints = baker::joint_matrices(character, &character.clips.at(0), t_s);
+    const auto bound = baker::bind_matrices(character);
+    for (size_t j = 0; j < joints.size(); ++j) {
+      if (character.nodes[static_cast<size_t>(character.joint_node[j])].name != name) continue;
+      const auto up = static_cast<size_t>(character.joint_parent[j]);
+      const baker::Matrix4 local = joints[up].inverse() * joints[j], rest = bound[up].inverse() * bound[j];
+      return Eigen::AngleAxisd(Eigen::Matrix3d((rest.inverse() * local).topLeftCorner<3, 3>()));
+    }
+    FAIL("no joint " << name);
+    return Eigen::AngleAxisd();
+  };
+  double hand = 0, ear = 0;
+  for (const double share : {0.1, 0.25, 0.5, 0.75}) {
+    const double t_s = share * character.clips.at(0).duration_s;
+    CHECK(turn_of("lower_arm_twist", t_s).angle() == Approx(turn_of("hand", t_s).angle() / 2).margin(1e-4));
+    CHECK(turn_of("ear_l_1", t_s).angle() == Approx(turn_of("ear_r_1", t_s).angle()).margin(1e-4));
+    hand = std::max(hand, turn_of("hand", t_s).angle());
+    ear = std::max(ear, turn_of("ear_r_1", t_s).angle());
+  }
+  CHECK(hand > 0.1);
+  CHECK(ear > 0.1);
 }
 
 TEST_CASE("shared_default_morph_weights_shape_the_bind_pose") {
