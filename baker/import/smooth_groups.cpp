@@ -7,9 +7,9 @@
 namespace sinew::baker {
 namespace {
 
-// Cosines. Normals of a seam's two sides differ by what bytes round them to; edges of a mesh that states no
-// normals look hard from 60 degrees on.
-constexpr double kSameNormal = 0.99, kSmoothEdge = 0.5;
+// Cosines. Normals of a seam's two sides differ by what bytes round them to, facets of a low-poly body by
+// more; edges of a mesh that states no normals look hard from 60 degrees on.
+constexpr double kSameNormal = 0.9999, kSmoothEdge = 0.5;
 
 struct Facing {
   Vector3 direction = Vector3::Zero();
