@@ -202,7 +202,7 @@ class Segmenter {
       RodBone& bone = bones_[b];
       const double length = (bone.end - bone.begin).norm();
       if (count[b] > 0)
-        bone.radius_m = std::clamp(sum[b] / count[b], kThinnest * length, kThickest * length);
+        bone.radius_m = bone_radius_m(sum[b] / count[b], length);
       else
         bone.radius_m =
             bone.parent >= 0 ? bones_[static_cast<size_t>(bone.parent)].radius_m : kBareRadius * length;
@@ -218,6 +218,10 @@ class Segmenter {
 };
 
 }  // namespace
+
+double bone_radius_m(double radius_m, double length_m) {
+  return std::clamp(radius_m, kThinnest * length_m, kThickest * length_m);
+}
 
 std::vector<RodBone> segment_bones(const Character& character, const RodPlace& place) {
   return Segmenter(character, place).run();

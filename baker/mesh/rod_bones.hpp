@@ -11,6 +11,9 @@ struct RodPlace {
   int end_node = -1;       // below `end`'s: where its bone ends; -1: where its child is, else its end site
 };
 
+// A radius made fit for a bone of this length.
+double bone_radius_m(double radius_m, double length_m);
+
 // Joints, parents, begin and end of each bone; radii as the flesh is thick on them. Throws BadInput as
 // find_rods does.
 std::vector<RodBone> segment_bones(const Character& character, const RodPlace& place);

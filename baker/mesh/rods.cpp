@@ -28,9 +28,7 @@ namespace {
 constexpr double kFrames_hz = 60, kGravity = 9.80665, kOfLoneBone = 40;
 constexpr double kMostGravity = 100;  // of the earth's: what a pack may hold, runtime/pack/check_rods.cpp
 constexpr double kLeastStiffness = 0.01,
-                 kMostDrag = 0.95;  // of springs: beyond them bones fall, or stand still
-constexpr double kThinnest = 0.01,
-                 kThickest = 2;          // radius that a hit radius gives, shares of a bone's length
+                 kMostDrag = 0.95;       // of springs: beyond them bones fall, or stand still
 constexpr double kLinkStiffness = 1000;  // times the stiffest joint of its rod
 
 rods::SegmentDef segment_of(const RodBone& bone) {
@@ -135,7 +133,7 @@ void apply(const SpringBones& spring, std::vector<RodBone>& bones) {
     bone.density_kg_m3 = RodRecipe{}.density_kg_m3;
     bone.drag_per_s = kFrames_hz * drag / (1 - drag);
     if (!spring.collider_groups.empty() && numbers.hit_radius_m > 0)
-      bone.radius_m = std::clamp(numbers.hit_radius_m, kThinnest * length, kThickest * length);
+      bone.radius_m = bone_radius_m(numbers.hit_radius_m, length);
     square_frequency.push_back(kFrames_hz * std::max(numbers.stiffness, kLeastStiffness) / length);
   }
   stiffen(bones, square_frequency);
