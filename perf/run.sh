@@ -26,10 +26,10 @@ python3 perf/summarise.py "$measured"/*.json
 for vertices in 200 500 2000 7000 20000 50000; do
   build/release/bin/sinew-bake creature assets/creature/creature.json --vertices $vertices -o "$measured/$vertices.glb"
   build/release/bin/sinew-bake character "$measured/$vertices.glb" --recipe assets/creature/tissue.json \
-    --tissue assets/weights/creature.safetensors --keep-network -o "$measured/$vertices.sinew" >/dev/null
+    --tissue assets/weights/creature.safetensors --quick -o "$measured/$vertices.sinew" >/dev/null
 done
 build/release/bin/sinew-bake character "$measured/7000.glb" --recipe assets/creature/tissue.json \
-  --tissue assets/weights/creature_wide.safetensors --keep-network -o "$measured/wide.sinew" >/dev/null
+  --tissue assets/weights/creature_wide.safetensors --quick -o "$measured/wide.sinew" >/dev/null
 build/release/bin/perf_scale "$measured"/{200,500,2000,7000,20000,50000}.sinew --wide "$measured/wide.sinew" >"$measured/scale.csv"
 python=python3
 "$python" -c 'import matplotlib' 2>/dev/null || python=/usr/bin/python3
