@@ -20,7 +20,7 @@ body=$data/${BODY:-momo}
 packs=$(mktemp -d)
 trap 'rm -rf "$packs"' EXIT
 bake_as() {  # NAME PRECISION [--calibrate ...]
-  "$bake" character "$body/body.glb" --recipe "$body/tissue.json" --tissue "$weights" --precision "$2" "${@:3}" \
+  "$bake" character "$body/body.glb" --recipe "$body/tissue.json" --tissue "$weights" --keep-network --precision "$2" "${@:3}" \
     -o "$packs/$name.$1.sinew" >/dev/null
 }
 worst=0

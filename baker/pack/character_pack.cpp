@@ -20,7 +20,7 @@ namespace {
 using pack::SectionKind;
 
 constexpr double kMaxClipSeconds = 600;
-constexpr float kRate_hz = 60, kSubsteps = 4;  // where the weights do not say
+constexpr float kRate_hz = 60;  // where the weights do not say
 
 template <class Size>
 uint32_t to_u32(Size value) {
@@ -210,7 +210,7 @@ void add_graph(const GraphRows& graph, PackWriter& pack) {
 // ---- its levels ----
 
 struct TissueOptions {
-  TickGrid grid;
+  double rate_hz;
   std::string where;  // of complaints
 };
 
@@ -224,7 +224,7 @@ pack::LevelRecord add_tissue(const TissueLayout& layout, const std::vector<Modal
   const GraphRows graph = normalized_adjacency(layout.nodes.size(), layout.edges, options.where);
   record.graph_entries = to_u32(graph.columns.size());
   add_graph(graph, pack);
-  record.matrix_floats = add_modes(layout, modes, options.grid, first, pack);
+  record.matrix_floats = add_modes(layout, modes, options.rate_hz, first, pack);
   return record;
 }
 
@@ -361,10 +361,8 @@ std::vector<std::byte> pack_character(const Character& character, const TissueLa
   add_mesh(character, pack);
   add_meshes(character, pack);
   add_clips(character, pack);
-  const TissueOptions options{
-      .grid = {.rate_hz = number_of(weights, "rate_hz", kRate_hz, 1, 1000),
-               .substeps = static_cast<int>(number_of(weights, "base_substeps", kSubsteps, 1, 64))},
-      .where = character.name + ": control graph"};
+  const TissueOptions options{.rate_hz = number_of(weights, "rate_hz", kRate_hz, 1, 1000),
+                              .where = character.name + ": control graph"};
   const std::vector<pack::LevelRecord> levels = add_levels(layout, modes, coarser, options, pack);
   add_rods(character, layout.rods, pack);
   add_proxies(layout.proxies, pack);

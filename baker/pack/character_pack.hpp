@@ -17,7 +17,6 @@ inline constexpr double kClipRateHz = 60;
 // than the one before. Without weights (null) it has the tiers modal and spring, at 60 Hz. precision, ranges:
 // as add_network takes them. Beyond network_pack's keys, reads from the weights' metadata:
 //   frame, base          must be "bent" and "modal": what the network was trained on
-//   base_substeps        of the truth that it was trained on (default 4)
 // Throws BadInput: weights without `inputs`, or of another frame or base; more than 65,535 joints, a clip of
 // more than ten minutes, a basis that does not fit its region, a coarser graph that is not part of the finer
 // one, and what add_network refuses.

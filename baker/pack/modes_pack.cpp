@@ -2,7 +2,6 @@
 #include "baker/pack/modes_pack.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <cmath>
 
 #include "baker/common/bad_input.hpp"
@@ -75,8 +74,8 @@ void append_compliance(const ModalBasis& basis, int nodes, std::vector<float>* o
     for (Index column = 0; column < 3; ++column) out->push_back(static_cast<float>(compliance(row, column)));
 }
 
-pack::ModeRecord mode_record(double rad_per_s, double damping_ratio, const TickGrid& grid) {
-  const Recurrence r = modal_recurrence(rad_per_s, damping_ratio, grid);
+pack::ModeRecord mode_record(double rad_per_s, double damping_ratio, double rate_hz) {
+  const Recurrence r = modal_recurrence(rad_per_s, damping_ratio, rate_hz);
   return {static_cast<float>(rad_per_s), static_cast<float>(damping_ratio), r.a1, r.a2, r.gain, {}};
 }
 
@@ -87,7 +86,7 @@ struct Sections {
   std::vector<pack::SpringRecord> springs;
 };
 
-void append_region(const Region& region, const ModalBasis& basis, const TickGrid& grid, Sections* to) {
+void append_region(const Region& region, const ModalBasis& basis, double rate_hz, Sections* to) {
   const bool moves = basis.rad_per_s.size() > 0;
   const double first = moves ? basis.rad_per_s[0] : kUsual_rad_per_s;
   pack::RegionModesRecord record{};
@@ -96,33 +95,31 @@ void append_region(const Region& region, const ModalBasis& basis, const TickGrid
   record.matrices = to->matrices.size();
   record.padded = static_cast<uint32_t>((3 * region.node_count + 15) / 16 * 16);
   record.first_rad_per_s = static_cast<float>(first);
-  const Recurrence rest = modal_recurrence(basis.rest_rad_per_s, basis.rest_damping_ratio, grid);
+  const Recurrence rest = modal_recurrence(basis.rest_rad_per_s, basis.rest_damping_ratio, rate_hz);
   record.rest_a1 = rest.a1;
   record.rest_a2 = rest.a2;
   record.rest_gain = 1 - rest.a1 - rest.a2;
   to->regions.push_back(record);
   for (Index k = 0; k < basis.rad_per_s.size(); ++k)
-    to->modes.push_back(mode_record(basis.rad_per_s[k], basis.damping_ratio[k], grid));
+    to->modes.push_back(mode_record(basis.rad_per_s[k], basis.damping_ratio[k], rate_hz));
   append_matrices(basis, &to->matrices);
   append_compliance(basis, region.node_count, &to->compliance);
   const Recurrence spring =
-      modal_recurrence(first, moves ? basis.damping_ratio[0] : kUsualDampingRatio, grid);
+      modal_recurrence(first, moves ? basis.damping_ratio[0] : kUsualDampingRatio, rate_hz);
   to->springs.push_back({spring.a1, spring.a2, 1 - spring.a1 - spring.a2, 0});
 }
 
 }  // namespace
 
-Recurrence modal_recurrence(double rad_per_s, double damping_ratio, const TickGrid& grid) {
+Recurrence modal_recurrence(double rad_per_s, double damping_ratio, double rate_hz) {
   if (rad_per_s == 0) return {};
-  const double h = 1 / (grid.rate_hz * grid.substeps), w2 = rad_per_s * rad_per_s;
-  const double d = 1 + 2 * damping_ratio * rad_per_s * h + w2 * h * h;
-  Eigen::Matrix2d substep, tick = Eigen::Matrix2d::Identity();
-  substep << 1 - h * h * w2 / d, h / d, -h * w2 / d, 1 / d;
-  for (int s = 0; s < grid.substeps; ++s) tick = substep * tick;
+  const double decay = damping_ratio * rad_per_s / rate_hz, below = 1 - damping_ratio * damping_ratio;
+  const double root = std::sqrt(std::abs(below)) * rad_per_s / rate_hz;
   Recurrence r;
-  r.a1 = static_cast<float>(tick.trace());
-  r.a2 = static_cast<float>(-tick.determinant());
-  r.gain = static_cast<float>((1 - double{r.a1} - double{r.a2}) / w2);
+  r.a1 = static_cast<float>(below >= 0 ? 2 * std::exp(-decay) * std::cos(root)
+                                       : std::exp(root - decay) + std::exp(-root - decay));
+  r.a2 = static_cast<float>(-std::exp(-2 * decay));
+  r.gain = static_cast<float>((1 - double{r.a1} - double{r.a2}) / (rad_per_s * rad_per_s));
   return r;
 }
 
@@ -133,11 +130,11 @@ void check_modes(const TissueLayout& layout, const std::vector<ModalBasis>& mode
   for (size_t r = 0; r < modes.size(); ++r) check_basis(layout.regions[r], modes[r]);
 }
 
-uint64_t add_modes(const TissueLayout& layout, const std::vector<ModalBasis>& modes, const TickGrid& grid,
+uint64_t add_modes(const TissueLayout& layout, const std::vector<ModalBasis>& modes, double rate_hz,
                    bool first, PackWriter& pack) {
   check_modes(layout, modes);
   Sections sections;
-  for (size_t r = 0; r < modes.size(); ++r) append_region(layout.regions[r], modes[r], grid, &sections);
+  for (size_t r = 0; r < modes.size(); ++r) append_region(layout.regions[r], modes[r], rate_hz, &sections);
   pack.append(SectionKind::kRegionModes, sections.regions);
   pack.append(SectionKind::kModeMatrices, sections.matrices);
   pack.append(SectionKind::kCompliance, sections.compliance, 9);

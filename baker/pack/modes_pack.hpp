@@ -9,24 +9,15 @@
 
 namespace sinew::baker {
 
-// How time is cut: ticks of the network, and the backward Euler steps of the truth in each, whose numerical
-// damping the recurrences share.
-struct TickGrid {
-  double rate_hz = 60;
-  int substeps = 4;
-};
-
-// q_t = a1 q_{t-1} + a2 q_{t-2} + gain p: what backward Euler makes of q'' + 2 zeta w q' + w^2 q = p, p
-// constant over a tick. With h = 1 / (rate substeps), d = 1 + 2 zeta w h + w^2 h^2 and M of a substep on
-// (q, q'),
-//   M = [1 - h^2 w^2 / d, h / d; -h w^2 / d, 1 / d]   a1 = tr M^s   a2 = -det M^s   gain = (1 - a1 - a2) /
-//   w^2
-// a1 and a2 are rounded to float first: the static answer is then p / w^2 in float too. w = 0: nothing is
-// remembered, a1 = a2 = 0.
+// q_t = a1 q_{t-1} + a2 q_{t-2} + gain p: the poles of q'' + 2 zeta w q' + w^2 q = p, and its answer to a
+// steady p. With h = 1 / rate_hz,
+//   a1 = 2 e^(-zeta w h) cos(w h sqrt(1 - zeta^2))   a2 = -e^(-2 zeta w h)   gain = (1 - a1 - a2) / w^2
+// and cosh(w h sqrt(zeta^2 - 1)) where zeta > 1. a1 and a2 are rounded to float first: the static answer
+// is then p / w^2 in float too. w = 0: nothing is remembered, a1 = a2 = 0.
 struct Recurrence {
   float a1 = 0, a2 = 0, gain = 0;
 };
-Recurrence modal_recurrence(double rad_per_s, double damping_ratio, const TickGrid& grid);
+Recurrence modal_recurrence(double rad_per_s, double damping_ratio, double rate_hz);
 
 // Shapes are nearly dependent at few nodes: q of a displacement u is the least |shape q - u|^2 + kRidge nodes
 // sum (w_k / w_1)^2 q_k^2, stiff modes last.
@@ -39,7 +30,7 @@ void check_modes(const TissueLayout& layout, const std::vector<ModalBasis>& mode
 // Behind what the sections kRegionModes, kModeMatrices and kCompliance hold, a control graph's part; with the
 // first, kModes and kSprings. `modes` has one basis a region. Returns the floats of the matrices. Throws
 // BadInput as check_modes does.
-uint64_t add_modes(const TissueLayout& layout, const std::vector<ModalBasis>& modes, const TickGrid& grid,
+uint64_t add_modes(const TissueLayout& layout, const std::vector<ModalBasis>& modes, double rate_hz,
                    bool first, PackWriter& pack);
 
 }  // namespace sinew::baker

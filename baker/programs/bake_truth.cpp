@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "baker/common/bad_input.hpp"
@@ -23,7 +24,7 @@ struct TruthOptions {
   std::vector<std::string> held_out;
   uint64_t seed = 0;
   double strength = 1, seconds = 4, rate_hz = 60;
-  int substeps = 4;
+  std::optional<int> substeps;
   bool surface = false, positions = false;
 };
 
@@ -78,7 +79,7 @@ std::map<std::string, std::string> describe(const TruthOptions& options, const C
           {"seed", std::to_string(options.seed)},
           {"strength", number(options.strength)},
           {"rate_hz", number(options.rate_hz)},
-          {"substeps", std::to_string(options.substeps)},
+          {"substeps", std::to_string(*options.substeps)},
           {"seconds", number(options.seconds)},
           {"height_m", number(height_of(character))},
           {"regions", joined(regions)}};
@@ -88,11 +89,11 @@ void require(bool good, const char* option, double value, const char* range) {
   if (!good) throw BadInput(std::string(option) + " " + number(value) + ": must be " + range);
 }
 
-void run_truth(const TruthOptions& options) {
+void run_truth(TruthOptions options) {
   require(options.seconds > 0 && options.seconds <= 3600, "--seconds", options.seconds,
           "above 0, at most 3600");
   require(options.rate_hz >= 10 && options.rate_hz <= 240, "--rate", options.rate_hz, "10 to 240");
-  require(options.substeps >= 1 && options.substeps <= 64, "--substeps", options.substeps, "1 to 64");
+  if (const int s = options.substeps.value_or(1); s < 1 || s > 64) require(false, "--substeps", s, "1 to 64");
   require(options.strength > 0 && options.strength <= 10, "--strength", options.strength,
           "above 0, at most 10");
   refuse_directory(options.output);
@@ -107,13 +108,15 @@ void run_truth(const TruthOptions& options) {
   const Motion motion = make_motion(character, options);
 
   TissueTruth truth(character, layout, recipe);
+  const std::vector<ModalBasis> modes = truth.modal_bases(layout, kMostModes);
+  if (!options.substeps) options.substeps = usual_substeps(modes, options.rate_hz);
   TrajectoryRecorder recorder(character, layout, {options.rate_hz, options.surface, options.positions},
-                              truth.modal_bases(layout, kMostModes));
+                              modes);
   const auto ticks = static_cast<size_t>(std::lround(options.seconds * options.rate_hz));
   Progress progress("truth " + options.motion, ticks);
   recorder.add(truth.start(motion));
   for (size_t tick = 1; tick <= ticks; ++tick) {
-    recorder.add(truth.advance(options.rate_hz, options.substeps));
+    recorder.add(truth.advance(options.rate_hz, *options.substeps));
     progress.update(tick);
   }
   write_safetensors(options.output, recorder.finish(describe(options, character, layout)));
@@ -135,7 +138,8 @@ void add_truth_command(CLI::App& app, int*) {
   command->add_option("--strength", options->strength, "amplitude of the motion");
   command->add_option("--seconds", options->seconds, "simulated time");
   command->add_option("--rate", options->rate_hz, "ticks a second");
-  command->add_option("--substeps", options->substeps, "backward Euler steps a tick");
+  command->add_option("--substeps", options->substeps,
+                      "steps a tick; by default 240 a second, 480 where flesh swings above 6 Hz");
   command->add_flag("--surface", options->surface,
                     "also the displacement of every carried vertex, and the carry weights");
   command->add_flag("--positions", options->positions, "also the true position of every vertex");

@@ -15,7 +15,6 @@ namespace {
 
 constexpr uint64_t kSeed = 9100;  // no plan of the trainer reaches it
 constexpr double kStrength = 0.3, kLasts_s = 1.5, kLessLasts_s = 0.85;
-constexpr int kSubsteps = 4;
 constexpr long kLargeBody = 2000;  // free nodes of the cage; from there on fewer ticks keep a bake short
 
 // How far joints move in a clip, as mean speed.
@@ -60,13 +59,14 @@ std::vector<TrueSurface> short_truths(const Character& character, const TissueLa
   const bool large = std::ranges::count(truth.cage().constrained, false) > kLargeBody;
   const double rate_hz = static_cast<double>(pack.network->rate_hz);
   const auto ticks = static_cast<size_t>(std::lround((large ? kLessLasts_s : kLasts_s) * rate_hz));
+  const int substeps = usual_substeps(modes, rate_hz);
   Progress progress("truth", motions.size() * ticks);
   std::vector<TrueSurface> truths;
   for (const NamedMotion& motion : motions) {
     TrajectoryRecorder recorder(character, layout, {.rate_hz = rate_hz, .positions = true}, modes);
     recorder.add(truth.start(motion.motion));
     for (size_t tick = 1; tick <= ticks; ++tick) {
-      recorder.add(truth.advance(rate_hz, kSubsteps));
+      recorder.add(truth.advance(rate_hz, substeps));
       progress.update(truths.size() * ticks + tick);
     }
     Safetensors file =

@@ -24,7 +24,6 @@ namespace sinew::baker {
 namespace {
 
 constexpr uint64_t kOtherSeed = 7001;  // no plan of the trainer reaches it
-constexpr int kSubsteps = 4;
 
 struct Work {
   const Clip* clip;
@@ -61,7 +60,7 @@ std::string made_from(const BakedFrom& source, const Character& body, const Clip
   of.add_file(source.glb).add_file(source.recipe).add(clip.name);
   of.add_all(body.positions).add_all(body.skin).add_all(body.stiffness);
   for (const Channel& channel : clip.channels) of.add_all(channel.times_s).add_all(channel.values);
-  return of.add(std::to_string(rate_hz) + " " + std::to_string(kSubsteps)).text();
+  return of.add(std::to_string(rate_hz) + " " + kTrajectoryVersion).text();
 }
 
 std::string as_file_name(std::string clip) {
@@ -106,12 +105,13 @@ void tell_of_others(const std::vector<Work>& wanted, const std::vector<std::stri
 
 void simulate(const Body& body, const Work& work, std::atomic<size_t>& done) {
   TissueTruth truth(body.character, body.layout, body.recipe);
+  const std::vector<ModalBasis> modes = truth.modal_bases(body.layout, kMostModes);
+  const int substeps = usual_substeps(modes, body.rate_hz);
   TrajectoryRecorder recorder(body.character, body.layout,
-                              {.rate_hz = body.rate_hz, .surface = false, .positions = true},
-                              truth.modal_bases(body.layout, kMostModes));
+                              {.rate_hz = body.rate_hz, .surface = false, .positions = true}, modes);
   recorder.add(truth.start(clip_motion(body.character, *work.clip, work.seed)));
   for (size_t tick = 1; tick <= body.ticks; ++tick) {
-    recorder.add(truth.advance(body.rate_hz, kSubsteps));
+    recorder.add(truth.advance(body.rate_hz, substeps));
     ++done;
   }
   const auto rate = static_cast<long>(std::lround(body.rate_hz));

@@ -1,7 +1,7 @@
 """What a network has to beat: plain models, fitted on the training roll-outs of the body they are judged on.
 
 All are stable whatever the fit: frequencies and damping ratios are positive by construction, and the
-recurrence is that of backward Euler steps (modal_base.recurrence)."""
+recurrence is that of an oscillator (modal_base.recurrence)."""
 import copy
 import math
 
@@ -36,7 +36,7 @@ class Springs:
 
     def __init__(self, group, each_node):
         self.each_node, g = each_node, group
-        self.tick_s, self.substeps = g.base.tick_s, g.base.substeps
+        self.tick_s = g.base.tick_s
         self.region = torch.as_tensor(np.array(g.body.region)).long()
         n = len(self.region) if each_node else g.regions
         w = g.base.first[self.region] if each_node else g.base.first
@@ -61,7 +61,7 @@ class Springs:
 
     def roll_out(self, drive):
         """drive (T+1, N, B, 15), the first at rest -> (T+1, N, B, 3) metres."""
-        a1, a2, _ = recurrence(self.log_w.exp(), self.log_zeta.exp(), self.tick_s, self.substeps)
+        a1, a2, _ = recurrence(self.log_w.exp(), self.log_zeta.exp(), self.tick_s)
         if not self.each_node:
             a1, a2 = a1[self.region], a2[self.region]
         a1, a2 = a1[:, None, None], a2[:, None, None]
@@ -111,7 +111,7 @@ class Modal:
     def _use(self):
         b = self.base
         w, zeta, drive = (p.exp() for p in self.fitted)
-        a1, a2, gain = recurrence(b.rad_per_s * w, b.damping_ratio * zeta, b.tick_s, b.substeps)
+        a1, a2, gain = recurrence(b.rad_per_s * w, b.damping_ratio * zeta, b.tick_s)
         b.a1, b.a2, b.gain = a1[..., None], a2[..., None], (gain * drive)[..., None]
 
     def _run(self, group, sequences, ticks):

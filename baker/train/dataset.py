@@ -31,7 +31,7 @@ class Group:
         self.mask = torch.as_tensor(place, device=device)  # (R, n) real nodes
         self.P = self._graph(body, counts, first).to(device)
         tick_s = 1 / trajectories[0].rate_hz
-        self.base = ModalBase(body.bases, counts, tick_s, trajectories[0].substeps, device)
+        self.base = ModalBase(body.bases, counts, tick_s, device)
         self.radius = torch.as_tensor(np.array(body.radius_m, np.float32), device=device)[:, None, None, None]
         self.static = {
             "rest_position": self._pad(body.rest_position),
@@ -146,10 +146,9 @@ def read_split(folder, split, body=None):
             f"{os.path.join(folder, SHEET)}: no {split} sequences; run `baker/train generate` again"
         )
     out = [(b, read_trajectory(p)) for b, p in found]
-    for what in ("rate_hz", "substeps"):
-        values = {getattr(t, what) for _, t in out}
-        if len(values) > 1:
-            raise BadData(f"{folder}: sequences of several {what} ({sorted(values)}); one data set has one")
+    rates = {t.rate_hz for _, t in out}
+    if len(rates) > 1:
+        raise BadData(f"{folder}: sequences of several rate_hz ({sorted(rates)}); one data set has one")
     return out
 
 

@@ -35,7 +35,6 @@ def _in_double(group):
         group.body.bases,
         np.bincount(group.body.region),
         1 / group.trajectories[0].rate_hz,
-        group.trajectories[0].substeps,
         dtype=torch.float64,
     )
     for name in ("drive", "rotation", "displacement", "P", "radius"):

@@ -73,7 +73,9 @@ def is_done(path, job):
         have = read_trajectory(path)
     except BadData:
         return False
-    numbers = {"seed": job.seed, "strength": job.strength, "seconds": job.seconds, "substeps": job.substeps}
+    numbers = {"seed": job.seed, "strength": job.strength, "seconds": job.seconds}
+    if job.substeps:
+        numbers["substeps"] = job.substeps
     texts = {"motion": job.motion, "held_out": job.held_out}
     return (
         all(have.metadata.get(k) == f"{v:g}" for k, v in numbers.items())
@@ -90,7 +92,7 @@ def truth_command(bake, character, recipe, job, out):
         "seed": job.seed,
         "strength": f"{job.strength:g}",
         "seconds": f"{job.seconds:g}",
-        "substeps": job.substeps,
+        **({"substeps": job.substeps} if job.substeps else {}),
         **({"recipe": recipe} if recipe else {}),
         **({"hold-out": job.held_out} if job.held_out else {}),
     }

@@ -18,17 +18,15 @@ def projection(shape, rad_per_s):
     return np.linalg.solve(shape.T @ shape + ridge, shape.T)
 
 
-def recurrence(rad_per_s, damping_ratio, tick_s, substeps):
-    """a1, a2, gain of q_t = a1 q_{t-1} + a2 q_{t-2} + gain p: what `substeps` backward Euler steps make of an
-    oscillator, as in the ground truth. Tensors of any one shape; zero where rad_per_s is."""
-    w, h = rad_per_s, tick_s / substeps
-    d = 1 + 2 * damping_ratio * w * h + (w * h) ** 2
-    rows = [torch.stack([1 - (w * h) ** 2 / d, h / d], -1), torch.stack([-h * w * w / d, 1 / d], -1)]
-    tick = torch.linalg.matrix_power(torch.stack(rows, -2), substeps)
-    a1 = tick[..., 0, 0] + tick[..., 1, 1]
-    a2 = tick[..., 0, 1] * tick[..., 1, 0] - tick[..., 0, 0] * tick[..., 1, 1]
-    there = (w > 0).to(w.dtype)
-    return a1 * there, a2 * there, (1 - a1 - a2) / (w * w).clamp(min=1e-12) * there
+def recurrence(rad_per_s, damping_ratio, tick_s):
+    """a1, a2, gain of q_t = a1 q_{t-1} + a2 q_{t-2} + gain p, the oscillator's own poles, damped below or above
+    the critical ratio 1. Tensors of any one shape; zero where rad_per_s is."""
+    wh, below = rad_per_s * tick_s, 1 - damping_ratio.square()
+    decay, root = damping_ratio * wh, wh * below.abs().clamp(min=1e-12).sqrt()
+    swings, creeps = 2 * (-decay).exp() * root.cos(), (root - decay).exp() + (-root - decay).exp()
+    a1, a2 = torch.where(below >= 0, swings, creeps), -(-2 * decay).exp()
+    there = (wh > 0).to(wh.dtype)
+    return a1 * there, a2 * there, (1 - a1 - a2) / rad_per_s.square().clamp(min=1e-12) * there
 
 
 def cross(a, b):
@@ -100,12 +98,12 @@ class BaseState:
         )
 
 
-def _of_region(basis, tick_s, substeps):
+def _of_region(basis, tick_s):
     """name -> tensor in double precision, of one region."""
     b = {k: torch.as_tensor(np.array(v, float)) for k, v in basis.items()}
     w = b["rad_per_s"]
-    a1, a2, gain = (v[:, None] for v in recurrence(w, b["damping_ratio"], tick_s, substeps))
-    rest_a1, rest_a2, _ = (v.view(1, 1, 1) for v in recurrence(*b["rest_oscillator"], tick_s, substeps))
+    a1, a2, gain = (v[:, None] for v in recurrence(w, b["damping_ratio"], tick_s))
+    rest_a1, rest_a2, _ = (v.view(1, 1, 1) for v in recurrence(*b["rest_oscillator"], tick_s))
     return {
         **dict(first=w[0], rad_per_s=w, damping_ratio=b["damping_ratio"], a1=a1, a2=a2, gain=gain),
         **dict(shape=b["shape"], turn=b["turn"], force=b["force"]),
@@ -125,12 +123,12 @@ def _side_by_side(rows):
 class ModalBase:
     """Of one body's regions. `bases`: for each a dict of what trajectory.BASIS names."""
 
-    def __init__(self, bases, regions_nodes, tick_s, substeps, device="cpu", dtype=torch.float32):
-        self.tick_s, self.substeps = tick_s, substeps
+    def __init__(self, bases, regions_nodes, tick_s, device="cpu", dtype=torch.float32):
+        self.tick_s = tick_s
         self.frame_terms = self.warping = True  # off: the plain models of baselines.py
         self.regions, self.nodes = len(bases), max(regions_nodes)
         self.modes = max(len(b["rad_per_s"]) for b in bases)
-        regions = [_of_region(b, tick_s, substeps) for b in bases]
+        regions = [_of_region(b, tick_s) for b in bases]
         for name in regions[0]:
             setattr(self, name, _side_by_side([r[name] for r in regions]).to(device, dtype))
 
@@ -138,7 +136,7 @@ class ModalBase:
     def union(cls, bases):
         """Regions of several bodies, one after the other."""
         out = cls.__new__(cls)
-        out.tick_s, out.substeps = bases[0].tick_s, bases[0].substeps
+        out.tick_s = bases[0].tick_s
         out.frame_terms = out.warping = True
         out.regions = sum(b.regions for b in bases)
         out.nodes, out.modes = max(b.nodes for b in bases), max(b.modes for b in bases)

@@ -27,7 +27,7 @@ class Job:
     seed: int
     strength: float
     seconds: float
-    substeps: int
+    substeps: int = 0  # 0: as many as sinew-bake truth takes for the body
     held_out: str = ""  # a clip that random motions and leaps must not use
     surface: bool = False
 
@@ -79,7 +79,6 @@ def read_plan(path):
     plan = read_json(path)
     known_keys(path, plan, PLAN_KEYS)
     _whole(path, plan, "substeps", 1)
-    plan.setdefault("substeps", 4)
     strengths = plan.setdefault("strengths", {})
     known_keys(f"{path}: strengths", strengths, MOTIONS)
     for key in MOTIONS:
@@ -144,7 +143,7 @@ def _line_jobs(plan, line, clips):
             seed,
             float(strengths[i % len(strengths)]),
             float(line["seconds"]),
-            plan["substeps"],
+            plan.get("substeps", 0),
             unseen if motion in ("random", "leap") else "",
             bool(line.get("surface")),
         )

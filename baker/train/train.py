@@ -38,7 +38,7 @@ class Trainer:
         self.bodies = Union(train_groups)
         torch.manual_seed(options.seed)
         first = train_groups[0].trajectories[0]
-        self.rate_hz, self.substeps = first.rate_hz, first.substeps
+        self.rate_hz = first.rate_hz
         self.model, self.scaling = start or (
             _new_model(options),
             replace(measure_scaling(train_groups), without=tuple(options.without)),
@@ -265,7 +265,6 @@ def train(data, out, options, log=print):
         trainer.scaling,
         trainer.rate_hz,
         {
-            "base_substeps": trainer.substeps,
             "seed": options.seed,
             "recipe": json.dumps(vars(options)),
             "trained_minutes": f"{trainer.elapsed_s / 60:.2f}",

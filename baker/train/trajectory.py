@@ -5,7 +5,7 @@ import numpy as np
 
 from .safetensors import BadData, load
 
-VERSION = "3"
+VERSION = "4"
 DRIVE_WIDTH = 15
 BASIS = ("rad_per_s", "damping_ratio", "shape", "turn", "force", "rest", "rest_oscillator")
 _STILL = 1e-9  # metres: a displacement nowhere larger than this is no motion

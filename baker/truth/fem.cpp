@@ -1,4 +1,4 @@
-// fem.cpp  Elastic bodies on tetrahedra: backward Euler over each separate body's component.
+// fem.cpp  Elastic bodies on tetrahedra: BDF2 over each separate body's component.
 #include "baker/truth/fem.hpp"
 
 #include <Eigen/LU>
@@ -73,12 +73,22 @@ struct Fem::Impl {
   Eigen::VectorXd
       relative_velocity;  // against the undisturbed motion, in its turning axes: the next step's first guess
 
+  // What a step remembers for the next: where it began. dt_s 0: nothing.
+  struct Past {
+    double dt_s = 0;
+    Eigen::VectorXd positions, velocities;
+    Eigen::VectorXd displacement;                  // from the undisturbed motion, in axes that turn with it
+    std::vector<std::vector<LaneStrain>> strains;  // a component's blocks, in each element's bound axes
+  } past;
+
   template <typename Visit>  // visit(block)
   void each_block(const Visit& visit) const {
     for (const FemComponent& component : components)
       for (const ElementBlock& block : component.blocks()) visit(block);
     for (const ElementBlock& block : rigid_blocks) visit(block);
   }
+  Past now(const Eigen::VectorXd& x, const Eigen::VectorXd& v, const UndisturbedMotion* motion) const;
+  void follow(const Eigen::VectorXd& shape, double dt_s);
 };
 
 namespace {
@@ -156,6 +166,7 @@ Fem::Fem(Fem&&) noexcept = default;
 void Fem::reset(const Eigen::VectorXd& at) {
   positions = at;
   velocities = impl_->relative_velocity = Eigen::VectorXd::Zero(at.size());
+  impl_->past.dt_s = 0;
 }
 
 void Fem::reshape(const Eigen::VectorXd& unstressed) {
@@ -164,39 +175,68 @@ void Fem::reshape(const Eigen::VectorXd& unstressed) {
   for (ElementBlock& block : impl_->rigid_blocks) sinew::baker::reshape(block, unstressed.data());
 }
 
+void Fem::Impl::follow(const Eigen::VectorXd& shape, double dt_s) {
+  constexpr double kFastest_rad_per_s = 60;  // ten turns a second: limbs are slower
+  unstressed = shape;
+  for (FemComponent& component : components) component.follow(shape, kFastest_rad_per_s * dt_s);
+  for (ElementBlock& block : rigid_blocks)
+    sinew::baker::follow(block, shape.data(), kFastest_rad_per_s * dt_s);
+}
+
+Fem::Impl::Past Fem::Impl::now(const Eigen::VectorXd& x, const Eigen::VectorXd& v,
+                               const UndisturbedMotion* motion) const {
+  Past now{.dt_s = 0, .positions = x, .velocities = v, .displacement = x, .strains = {}};
+  if (motion) now.displacement -= motion->before;
+  now.strains.resize(components.size());
+  for (size_t c = 0; c < components.size(); ++c)
+    if (components[c].rayleigh_stiffness_s > 0)
+      for (const ElementBlock& block : components[c].blocks())
+        now.strains[c].push_back(
+            turned(transposed(block.turn), strain(elasticity, deformation_gradient(block, x.data()))));
+  return now;
+}
+
 namespace {
 
-// x_n carried along by the undisturbed motion: where mass damping wants each node.
-Eigen::VectorXd carried(const Eigen::VectorXd& x, const UndisturbedMotion* motion) {
-  if (!motion) return x;
-  Eigen::VectorXd to(x.size());
-  for (Eigen::Index i = 0; i < x.size(); i += 3)
-    to.segment<3>(i) = motion->after.segment<3>(i) + motion->turn[static_cast<size_t>(i / 3)] *
-                                                         (x.segment<3>(i) - motion->before.segment<3>(i));
-  return to;
+void turn_by(const std::vector<Eigen::Matrix3d>& turn, Eigen::VectorXd& v) {
+  for (Eigen::Index i = 0; i < v.size(); i += 3)
+    v.segment<3>(i) = (turn[static_cast<size_t>(i / 3)] * v.segment<3>(i)).eval();
 }
 
-// target += sign x strain at x, block by block.
-void add_strain(const FemComponent& component, Elasticity elasticity, const Eigen::VectorXd& x, double sign,
-                std::vector<LaneStrain>& target) {
-  if (target.empty()) {
-    LaneStrain none;
-    none.fill(Lanes::Zero());
-    target.assign(component.blocks().size(), none);
-  }
-  for (size_t b = 0; b < target.size(); ++b) {
-    const LaneStrain e = strain(elasticity, deformation_gradient(component.blocks()[b], x.data()));
-    for (size_t k = 0; k < 6; ++k) target[b][k] += sign * e[k];
-  }
+// BDF2 with equal steps is backward Euler over two thirds of one, from the last state and a third of how it
+// differs from the one before (Hairer and Wanner 1996, III.1); without a step before it is backward Euler.
+struct Formula {
+  double h_s, share;
+};
+
+Formula formula_of(double dt_s, double dt_before_s) {
+  if (dt_s != dt_before_s) return {dt_s, 0};
+  return {dt_s * 2 / 3, 1.0 / 3};
 }
 
-Potential step_potential(const FemComponent& component, double dt, const Eigen::VectorXd& x,
+Eigen::VectorXd from(const Formula& f, const Eigen::VectorXd& last, const Eigen::VectorXd& before) {
+  if (f.share == 0) return last;
+  return last + f.share * (last - before);
+}
+
+// Turned back into the world's axes. Empty without viscosity.
+std::vector<LaneStrain> from(const Formula& f, const std::vector<LaneStrain>& last,
+                             const std::vector<LaneStrain>& before, const FemComponent& component) {
+  std::vector<LaneStrain> out = last;
+  for (size_t b = 0; b < out.size(); ++b) {
+    for (size_t k = 0; k < 6 && f.share != 0; ++k) out[b][k] += f.share * (last[b][k] - before[b][k]);
+    out[b] = turned(component.blocks()[b].turn, out[b]);
+  }
+  return out;
+}
+
+Potential step_potential(const FemComponent& component, double h_s, const Eigen::VectorXd& x,
                          const Eigen::VectorXd& v, const Eigen::VectorXd& carried_x) {
   Potential p;
-  const double inertia = 1 / (dt * dt), drag = component.rayleigh_mass_per_s / dt;
+  const double inertia = 1 / (h_s * h_s), drag = component.rayleigh_mass_per_s / h_s;
   p.inertia_per_s2 = inertia + drag;
-  p.anchor = (inertia * (x + dt * v) + drag * carried_x) / p.inertia_per_s2;
-  p.viscosity = component.rayleigh_stiffness_s / dt;
+  p.anchor = (inertia * (x + h_s * v) + drag * carried_x) / p.inertia_per_s2;
+  p.viscosity = component.rayleigh_stiffness_s / h_s;
   return p;
 }
 
@@ -208,43 +248,38 @@ int Fem::step(double dt_s, const Eigen::VectorXd& target, const Eigen::VectorXd&
   if (target.size() != positions.size() || force.size() != positions.size())
     refuse("target and force need 3 values for each of " + std::to_string(mass.size()) + " nodes");
   constexpr int kPatience = 6;
-  const Eigen::VectorXd from = positions, along = carried(from, undisturbed);
+  Impl::Past now = impl_->now(positions, velocities, undisturbed), &past = impl_->past;
+  now.dt_s = dt_s;
+  const Formula formula = formula_of(dt_s, past.dt_s);
   Eigen::VectorXd& relative = impl_->relative_velocity;
-  for (Eigen::Index i = 0; i < mass.size(); ++i) {
-    if (undisturbed)
-      relative.segment<3>(3 * i) = undisturbed->turn[static_cast<size_t>(i)] * relative.segment<3>(3 * i);
-    else
-      relative.segment<3>(3 * i) = velocities.segment<3>(3 * i);
-    if (impl_->constrained[static_cast<size_t>(i)])
-      positions.segment<3>(3 * i) = target.segment<3>(3 * i);
-    else
-      positions.segment<3>(3 * i) = along.segment<3>(3 * i) + dt_s * relative.segment<3>(3 * i);
-  }
-  // Strains so far are measured against the old unstressed shape and new ones against the new: what the
-  // motion itself strains is not damped.
-  std::vector<std::vector<LaneStrain>> strains(impl_->components.size());
-  const auto add_strains = [&](const Eigen::VectorXd& x, double sign) {
-    for (size_t c = 0; c < strains.size(); ++c)
-      if (impl_->components[c].rayleigh_stiffness_s > 0)
-        add_strain(impl_->components[c], impl_->elasticity, x, sign, strains[c]);
-  };
-  add_strains(from, 1);
-  Eigen::VectorXd pull = force;
+  Eigen::VectorXd along = now.displacement;
   if (undisturbed) {
-    add_strains(undisturbed->before, -1);
-    reshape(undisturbed->after);
-    add_strains(undisturbed->after, 1);
-    pull -= elastic_force(undisturbed->after);  // of tetrahedra whose unstressed shape had to be bounded
+    for (Eigen::VectorXd* v : {&now.displacement, &past.displacement, &relative})
+      turn_by(undisturbed->turn, *v);
+    along = undisturbed->after + now.displacement;
+    impl_->follow(undisturbed->after, dt_s);
+  } else {
+    relative = velocities;
   }
+  positions = along + dt_s * relative;
+  for (Eigen::Index i = 0; i < mass.size(); ++i)
+    if (impl_->constrained[static_cast<size_t>(i)]) positions.segment<3>(3 * i) = target.segment<3>(3 * i);
+  const Eigen::VectorXd x = from(formula, now.positions, past.positions),
+                        v = from(formula, now.velocities, past.velocities);
+  Eigen::VectorXd carried = from(formula, now.displacement, past.displacement);
+  if (undisturbed) carried += undisturbed->after;
   int most = 0;
-  for (size_t c = 0; c < strains.size(); ++c) {
-    Potential p = step_potential(impl_->components[c], dt_s, from, velocities, along);
-    p.force = pull;
-    p.strain = std::move(strains[c]);
-    most = std::max(most, impl_->components[c].minimize(p, tolerance, kPatience, positions));
+  for (size_t c = 0; c < impl_->components.size(); ++c) {
+    FemComponent& component = impl_->components[c];
+    Potential p = step_potential(component, formula.h_s, x, v, carried);
+    p.force = force;
+    p.strain =
+        from(formula, now.strains[c], formula.share == 0 ? now.strains[c] : past.strains[c], component);
+    most = std::max(most, component.minimize(p, tolerance, kPatience, positions));
   }
-  velocities = (positions - from) / dt_s;
-  relative = (positions - along) / dt_s;
+  velocities = (positions - x) / formula.h_s;
+  relative = (positions - carried) / formula.h_s;
+  past = std::move(now);
   return most;
 }
 
@@ -261,6 +296,7 @@ int Fem::settle(const Eigen::VectorXd& force, double tolerance) {
     most = std::max(most, component.minimize(p, tolerance, 0, positions));
   }
   velocities.setZero();
+  impl_->past.dt_s = 0;
   return most;
 }
 

@@ -1,10 +1,12 @@
-// fem.hpp  Elastic bodies on tetrahedra: backward Euler, sparse Cholesky, Rayleigh damping.
+// fem.hpp  Elastic bodies on tetrahedra: BDF2, sparse Cholesky, Rayleigh damping.
 //
 // Damping C = alpha M + beta K: the stiffness part is the rest stiffness, acting on the rate of Green's
-// strain, so that no rotation is damped; the mass part acts on velocity. Backward Euler itself damps: a mode
-// of w rad/s by a ratio of about w dt / 2.
+// strain, so that no rotation is damped; the mass part acts on velocity. BDF2's own damping of a mode of
+// w rad/s is a ratio of about (w dt)^3 / 4; the first step, and each of another length than the one before,
+// is backward Euler.
 // A body may be given the motion that it has when nothing disturbs it (a skinned character's). Its unstressed
-// shape then follows that motion step by step, and damping acts on what departs from it.
+// shape then follows that motion step by step, its stiffness turning with it, and damping acts on what
+// departs from it.
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -57,11 +59,10 @@ class Fem {
 
   // At rest at these positions; forgets the past.
   void reset(const Eigen::VectorXd& at);
-  // These positions become the unstressed shape; mass stays. Tetrahedra that they distort too far keep a
-  // bounded one (fem_elements.hpp).
+  // These positions become the unstressed shape; mass and stiffness stay (fem_elements.hpp).
   void reshape(const Eigen::VectorXd& unstressed);
 
-  // One backward Euler step until the gradient of the step's potential is below `tolerance` times the weight
+  // One step until the gradient of the step's potential is below `tolerance` times the weight
   // and `force` of each separate body. `target` gives the constrained nodes' new positions (3 a node; others
   // ignored); `force` is added (3 a node). Returns the iterations taken, the most of any body; throws
   // std::runtime_error when it does not converge.

@@ -74,6 +74,10 @@ void FemComponent::reshape(const Eigen::VectorXd& unstressed) {
   for (ElementBlock& block : blocks_) sinew::baker::reshape(block, unstressed.data());
 }
 
+void FemComponent::follow(const Eigen::VectorXd& unstressed, double most_rad) {
+  for (ElementBlock& block : blocks_) sinew::baker::follow(block, unstressed.data(), most_rad);
+}
+
 double FemComponent::energy(const Potential& potential, const Eigen::VectorXd& x) const {
   double sum = 0;
   for (size_t b = 0; b < blocks_.size(); ++b) {

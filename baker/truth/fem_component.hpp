@@ -1,7 +1,7 @@
 // fem_component.hpp  One connected set of free nodes: its elements, its equations, and the solver that keeps
 // a factorisation.
 //
-// A backward Euler step minimises the incremental potential (Ortiz and Stainier 1999)
+// An implicit step minimises the incremental potential (Ortiz and Stainier 1999)
 //   sum m k/2 |x - anchor|^2 + W(x) + viscosity/2 (E(x) - strain):C:(E(x) - strain) - force.x
 // by L-BFGS around the factor of the Hessian at some earlier state. The factor is kept while it serves,
 // turned with the body (Procrustes): a body that only turned needs no new one. It decides speed alone;
@@ -17,7 +17,7 @@ namespace sinew::baker {
 struct Potential {
   double inertia_per_s2 = 0;       // k: 0 in statics
   Eigen::VectorXd anchor, force;   // 3 a node of the whole body
-  double viscosity = 0;            // beta / dt
+  double viscosity = 0;            // beta / h
   std::vector<LaneStrain> strain;  // a block of this component; empty without viscosity
 };
 
@@ -29,6 +29,7 @@ class FemComponent {
   const std::vector<int>& nodes() const { return nodes_; }
   const std::vector<ElementBlock>& blocks() const { return blocks_; }
   void reshape(const Eigen::VectorXd& unstressed);
+  void follow(const Eigen::VectorXd& unstressed, double most_rad);
   bool supported() const { return supported_; }  // some element reaches a constrained node
 
   // Moves the free entries of x to the minimum; returns the iterations taken. `patience`: poor iterations

@@ -162,7 +162,11 @@ std::vector<ElementBlock> element_blocks(const std::vector<Vector3>& rest,
     block.mu[lane] = young / (2 * (1 + nu));
     block.lambda[lane] = young * nu / ((1 + nu) * (1 - 2 * nu));
   }
-  for (ElementBlock& block : blocks) block.gradient = block.bind_gradient;
+  for (ElementBlock& block : blocks) {
+    for (size_t i = 0; i < 3; ++i)
+      for (size_t j = 0; j < 3; ++j) block.turn[i][j].setConstant(i == j), block.offset[i][j].setZero();
+    block.gradient = block.bind_gradient;
+  }
   return blocks;
 }
 
@@ -180,36 +184,83 @@ LaneMatrix edges(const ElementBlock& block, const double* positions) {
   return edge;
 }
 
-Matrix3 inverse_of_bounded_stretch(const Matrix3& f) {
-  const Eigen::JacobiSVD<Matrix3> svd(f, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Vector3 stretch = svd.singularValues();
-  if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0) stretch[2] = -stretch[2];
-  const Vector3 sign(1, 1, stretch[2] < 0 ? -1 : 1);
-  const Vector3 bounded = stretch.cwiseMax(kLeastStretch).cwiseMin(kMostStretch);
-  return svd.matrixV() * sign.cwiseQuotient(bounded).asDiagonal() * svd.matrixU().transpose();
+// The shape has been followed to block.turn.
+void stand_in(ElementBlock& block, const LaneMatrix& edges_of_shape) {
+  block.gradient = product(block.bind_gradient, transposed(block.turn));
+  const LaneMatrix stretched = product(edges_of_shape, block.gradient);
+  for (size_t i = 0; i < 3; ++i)
+    for (size_t j = 0; j < 3; ++j) block.offset[i][j] = (i == j ? 1.0 : 0.0) - stretched[i][j];
+}
+
+// r exp([w]x) for the quaternion (1, w / 2): the same direction, and by less where w is large.
+LaneMatrix turned_by(const LaneMatrix& r, const std::array<Lanes, 3>& w) {
+  const Lanes x = 0.5 * w[0], y = 0.5 * w[1], z = 0.5 * w[2];
+  const Lanes s = 2.0 / (1.0 + x * x + y * y + z * z);
+  return product(r, {{{1.0 - s * (y * y + z * z), s * (x * y - z), s * (x * z + y)},
+                      {s * (x * y + z), 1.0 - s * (x * x + z * z), s * (y * z - x)},
+                      {s * (x * z - y), s * (y * z + x), 1.0 - s * (x * x + y * y)}}});
+}
+
+// Newton's step from r, in its axes, towards the largest tr(r^T a): (tr(S) I - S)^-1 2 axl(S), S = r^T a;
+// along the gradient where that is not concave (Mueller et al. 2016 take it everywhere).
+std::array<Lanes, 3> towards_nearest(const LaneMatrix& r, const LaneMatrix& a) {
+  constexpr double kConcave = 1e-3;
+  const LaneMatrix s = product(transposed(r), a);
+  const Lanes trace = s[0][0] + s[1][1] + s[2][2];
+  const Lanes size = squared_norm(a).sqrt() + 1e-30;
+  const std::array<Lanes, 3> slope = {s[2][1] - s[1][2], s[0][2] - s[2][0], s[1][0] - s[0][1]};
+  LaneMatrix h;
+  for (size_t i = 0; i < 3; ++i)
+    for (size_t j = 0; j < 3; ++j) h[i][j] = (i == j ? trace : Lanes::Zero()) - 0.5 * (s[i][j] + s[j][i]);
+  const LaneMatrix c = cofactor(h);
+  const Lanes volume = determinant(h, c);
+  const auto concave =
+      h[0][0] > kConcave * size && c[2][2] > kConcave * size.square() && volume > kConcave * size.cube();
+  std::array<Lanes, 3> w;
+  for (size_t i = 0; i < 3; ++i)
+    w[i] = concave.select((c[i][0] * slope[0] + c[i][1] * slope[1] + c[i][2] * slope[2]) / volume,
+                          slope[i] / size);
+  return w;
 }
 
 }  // namespace
 
-void reshape(ElementBlock& block, const double* unstressed) {
-  const LaneMatrix f = product(edges(block, unstressed), block.bind_gradient), c = cofactor(f);
-  const Lanes volume = determinant(f, c), size2 = squared_norm(f);
-  LaneMatrix inverse;
+LaneMatrix transposed(const LaneMatrix& r) {
+  LaneMatrix t;
   for (size_t i = 0; i < 3; ++i)
-    for (size_t j = 0; j < 3; ++j) inverse[i][j] = c[j][i] / volume;
-  for (int lane = 0; lane < kLanes; ++lane) {
-    // The least singular value is volume / (product of the others), which is at most size2 / 2.
-    if (2 * volume[lane] >= kLeastStretch * size2[lane] && size2[lane] <= kMostStretch * kMostStretch)
-      continue;
-    const Matrix3 one = inverse_of_bounded_stretch(lane_of(f, lane));
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) inverse[static_cast<size_t>(i)][static_cast<size_t>(j)][lane] = one(i, j);
+    for (size_t j = 0; j < 3; ++j) t[i][j] = r[j][i];
+  return t;
+}
+
+LaneStrain turned(const LaneMatrix& r, const LaneStrain& e) {
+  const LaneMatrix t = product(product(r, full(e)), transposed(r));
+  return {t[0][0], t[1][1], t[2][2], t[0][1], t[1][2], t[2][0]};
+}
+
+void reshape(ElementBlock& block, const double* unstressed) {
+  const LaneMatrix shape = edges(block, unstressed);
+  block.turn = rotations(product(shape, block.bind_gradient));
+  stand_in(block, shape);
+}
+
+void follow(ElementBlock& block, const double* unstressed, double most_rad) {
+  constexpr int kSteps = 3;  // the first two bring what has turned by 0.1 rad to within 1e-6
+  const LaneMatrix shape = edges(block, unstressed), bent = product(shape, block.bind_gradient);
+  for (int step = 0; step < kSteps; ++step) {
+    std::array<Lanes, 3> w = towards_nearest(block.turn, bent);
+    const Lanes angle = (w[0].square() + w[1].square() + w[2].square()).sqrt();
+    const Lanes share = (most_rad / kSteps) / angle.max(most_rad / kSteps);
+    for (Lanes& one : w) one *= share;
+    block.turn = turned_by(block.turn, w);
   }
-  block.gradient = product(block.bind_gradient, inverse);
+  stand_in(block, shape);
 }
 
 LaneMatrix deformation_gradient(const ElementBlock& block, const double* positions) {
-  return product(edges(block, positions), block.gradient);
+  LaneMatrix f = product(edges(block, positions), block.gradient);
+  for (size_t i = 0; i < 3; ++i)
+    for (size_t j = 0; j < 3; ++j) f[i][j] += block.offset[i][j];
+  return f;
 }
 
 LaneStrain strain(Elasticity elasticity, const LaneMatrix& f) {

@@ -19,8 +19,10 @@ using LaneStrain = std::array<Lanes, 6>;  // xx yy zz xy yz zx
 
 struct ElementBlock {
   std::array<std::array<int, 4>, kLanes> node;  // a short block repeats its last element with volume 0
-  LaneMatrix gradient;       // [a][j]: gradient of the shape function of corner a + 1 in the unstressed shape
-  LaneMatrix bind_gradient;  // the same in the shape that gave volume and mass
+  LaneMatrix bind_gradient;  // B, [a][j]: gradient of the shape function of corner a + 1, as bound
+  LaneMatrix turn;           // R: how the unstressed shape has turned since
+  LaneMatrix gradient;       // B R^T
+  LaneMatrix offset;         // I - E(unstressed) B R^T
   Lanes volume, mu, lambda;  // Lame
 };
 
@@ -29,17 +31,22 @@ std::vector<ElementBlock> element_blocks(const std::vector<Vector3>& rest,
                                          const std::vector<std::array<int, 4>>& tetrahedra,
                                          const std::vector<int>& elements, const FemMaterial& material);
 
-// Makes this shape the unstressed one. Volume and mass stay. A tetrahedron that the shape squeezes below
-// kLeastStretch of its bind size along some axis, turns inside out, or draws beyond kMostStretch is
-// unstressed at that stretch only.
-inline constexpr double kLeastStretch = 0.3, kMostStretch = 3;
+// Makes this shape s the unstressed one: with E(x) the edges of a tetrahedron,
+//   F(x) = E(x) B R^T + (I - E(s) B R^T)
+// and R the rotation nearest to E(s) B. Volume, mass and stiffness stay those of the bound shape, however s
+// squeezes, draws or inverts the tetrahedron: only the axes turn.
 void reshape(ElementBlock& block, const double* unstressed);
+// The same, of a shape a little later: R follows by at most this angle. Where the nearest rotation jumps,
+// by half a turn where two stretches of an inverted tetrahedron cross, a displaced one feels no jump.
+void follow(ElementBlock& block, const double* unstressed, double most_rad);
 
 LaneMatrix deformation_gradient(const ElementBlock& block, const double* positions);
 
 // Green's strain; the linear material's is small strain. Neither sees a rotation that its material does not
 // see.
 LaneStrain strain(Elasticity elasticity, const LaneMatrix& f);
+LaneStrain turned(const LaneMatrix& r, const LaneStrain& e);  // r e r^T
+LaneMatrix transposed(const LaneMatrix& r);
 
 Lanes energy_density(Elasticity elasticity, const ElementBlock& block, const LaneMatrix& f);
 // First Piola-Kirchhoff.

@@ -1,4 +1,4 @@
-// local_pose.hpp  Poses as joint-local translation, rotation and scale: the form in which they blend.
+// local_pose.hpp  Poses as joint-local translation, rotation and scale: the form in which they are added up.
 #pragma once
 #include <vector>
 
@@ -16,26 +16,18 @@ struct LocalPose {  // a joint, relative to its parent joint; a joint without a 
 LocalPose local_pose(const Character& character, const std::vector<Matrix4>& joints);
 std::vector<Matrix4> joint_matrices(const Character& character, const LocalPose& pose);
 
-// a at weight 0, b at 1, beyond them outside 0..1; rotations along the shortest arc.
-LocalPose blend(const LocalPose& a, const LocalPose& b, double weight);
+// What leads from one pose to another, a joint; rotation: a vector in the joint's own axes, by the short way.
+struct PoseOffset {
+  std::vector<Vector3> translation, rotation, scale;
+};
+PoseOffset offset_between(const LocalPose& from, const LocalPose& to);
+// A share of an offset on top of a pose. The offset of two poses that stand still is fixed: it cannot change
+// to the other way round, as that between moving ones does where they are half a turn apart.
+LocalPose moved_by(LocalPose pose, const PoseOffset& offset, double share);
 
 Eigen::Quaterniond rotation_from_vector(const Vector3& rotation_vector);
 
 // 0 before 0, 1 from 1 on, in between a quintic with two continuous derivatives.
 double ease(double x);
-
-// A looped clip whose second derivative is continuous: a periodic uniform cubic B-spline over samples at the
-// clip's keys' pace. It rounds the kinks of linear and step keys; a last pose that is not the first is eased
-// into it.
-class SmoothClip {
- public:
-  SmoothClip(const Character& character, const Clip& clip);
-  LocalPose at(double t_s) const;  // any time
-  double duration_s() const { return duration_s_; }
-
- private:
-  double duration_s_ = 0;
-  std::vector<LocalPose> samples_;  // one period
-};
 
 }  // namespace sinew::baker

@@ -8,14 +8,13 @@
 
 #include "baker/truth/gesture.hpp"
 #include "baker/truth/local_pose.hpp"
+#include "baker/truth/smooth_clip.hpp"
 
 namespace sinew::baker {
 namespace {
 
 constexpr double kStill_s = 0.1;   // at rest at the start of random and shaken motions
-constexpr double kEaseIn_s = 0.5;  // from the rest pose into a clip
 constexpr double kRamp_s = 0.35;   // from stillness to full motion and back
-constexpr double kCrossFade_s = 0.35;
 constexpr double kLength_s = 600;  // random motions stand still afterwards
 
 // A sum of sines along fixed directions, zero in value at time 0.
@@ -82,18 +81,47 @@ RootTrack draw_sway(Random& random, double strength) {
   return track;
 }
 
-// A stretch of one clip at one speed; the next fades in over its first kCrossFade_s.
-struct ClipStretch {
-  double start_s;
-  size_t clip;
-  double phase_s, speed;
+// A clip in a bout: it runs while that lasts, and begins where the last one came to rest.
+struct BoutClip {
+  double start_s, length_s;
+  ClipRun run;
+  PoseOffset from_last;  // from where this run begins to where the last one ended
+  double fade_s = 0;     // over which that is given up
+
+  LocalPose at(double t_s) const {
+    const LocalPose pose = run.at(run_s(t_s - start_s, length_s));
+    const double left = fade_s > 0 ? 1 - ease((t_s - start_s) / fade_s) : 0;
+    return left > 0 ? moved_by(pose, from_last, left) : pose;
+  }
 };
 
-std::vector<ClipStretch> draw_clips(Random& random, size_t clip_count) {
-  std::vector<ClipStretch> stretches;
-  for (double t = 0; clip_count > 0 && t < kLength_s; t += random.uniform(1.2, 3.5))
-    stretches.push_back({t, random.below(clip_count), random.uniform(0, 10), random.uniform(0.7, 1.4)});
-  return stretches;
+// Time to give up an offset in: so that it takes no joint more than these accelerations.
+double fade_of(const PoseOffset& offset, double strength) {
+  constexpr double kEasePeak = 10 / std::numbers::sqrt3, kTurn_rad_per_s2 = 30, kShift_m_per_s2 = 10;
+  constexpr double kShortest_s = 0.35, kLongest_s = 1.4;
+  double largest = 0;
+  for (size_t j = 0; j < offset.rotation.size(); ++j)
+    largest = std::max({largest, offset.rotation[j].norm() / kTurn_rad_per_s2,
+                        offset.translation[j].norm() / kShift_m_per_s2});
+  return std::clamp(std::sqrt(kEasePeak * largest / strength), kShortest_s, kLongest_s);
+}
+
+std::vector<BoutClip> draw_clips(Random& random, const std::vector<std::shared_ptr<const SmoothClip>>& clips,
+                                 const std::vector<Bout>& bouts, double strength) {
+  std::vector<BoutClip> out;
+  for (const Bout& bout : bouts) {
+    if (clips.empty()) break;
+    const auto& clip = clips[random.below(clips.size())];
+    const double start_s = random.uniform(0, clip->duration_s());
+    const ClipRun run(clip, start_s, std::sqrt(strength) * random.uniform(0.7, 1.4));
+    BoutClip next{bout.start_s, bout.end_s - bout.start_s, run, {}};
+    if (!out.empty()) {
+      next.from_last = offset_between(run.at(0), out.back().at(bout.start_s));
+      next.fade_s = fade_of(next.from_last, strength);
+    }
+    out.push_back(std::move(next));
+  }
+  return out;
 }
 
 std::vector<Sway> draw_joint_noise(Random& random, size_t joints, double strength) {
@@ -111,27 +139,17 @@ std::vector<Sway> draw_joint_noise(Random& random, size_t joints, double strengt
 struct RandomTrack {
   Character character;
   LocalPose rest;
-  std::vector<SmoothClip> clips;
-  std::vector<ClipStretch> stretches;
+  std::vector<std::shared_ptr<const SmoothClip>> clips;
+  std::vector<BoutClip> bout_clips;  // in order
   std::vector<Bout> bouts;
   std::vector<Sway> noise;
   JointGestures strikes;
   RootTrack root;
-  double clip_share = 1;
-
-  LocalPose stretch_pose(const ClipStretch& s, double t_s) const {
-    return clips[s.clip].at(s.phase_s + s.speed * (t_s - s.start_s));
-  }
 
   LocalPose clip_pose(double t_s) const {
-    const auto next = std::upper_bound(stretches.begin(), stretches.end(), t_s,
-                                       [](double t, const ClipStretch& s) { return t < s.start_s; });
-    if (next == stretches.begin()) return rest;
-    const ClipStretch& now = *(next - 1);
-    const double in = (t_s - now.start_s) / kCrossFade_s;
-    const LocalPose pose = stretch_pose(now, t_s);
-    if (in >= 1 || next - 1 == stretches.begin()) return pose;
-    return blend(stretch_pose(*(next - 2), t_s), pose, ease(in));
+    if (bout_clips.empty()) return rest;
+    const auto next = std::ranges::upper_bound(bout_clips, t_s, {}, &BoutClip::start_s);
+    return next == bout_clips.begin() ? next->run.at(0) : (next - 1)->at(t_s);
   }
 
   double activity(double t_s) const {
@@ -145,7 +163,7 @@ struct RandomTrack {
 
   WorldPose at(double t_s) const {
     const double active = activity(t_s);
-    LocalPose pose = blend(rest, clip_pose(t_s), clip_share * active);
+    LocalPose pose = clip_pose(t_s);
     for (size_t j = 0; j < noise.size(); ++j)
       pose.rotation[j] = pose.rotation[j] * rotation_from_vector(active * noise[j].at(t_s));
     for (size_t j = 0; j < strikes.size(); ++j)
@@ -174,12 +192,11 @@ std::shared_ptr<RandomTrack> draw_track(Random& random, const Character& charact
   track->rest = rest_pose(character);
   for (const Clip& clip : character.clips)
     if (std::find(held_out.begin(), held_out.end(), clip.name) == held_out.end())
-      track->clips.emplace_back(character, clip);
-  track->stretches = draw_clips(random, track->clips.size());
+      track->clips.push_back(std::make_shared<const SmoothClip>(character, clip));
   track->bouts = draw_bouts(random);
+  track->bout_clips = draw_clips(random, track->clips, track->bouts, strength);
   track->noise = draw_joint_noise(random, track->rest.rotation.size(), strength);
   track->root = draw_sway(random, strength);
-  track->clip_share = std::min(strength, 1.0);
   return track;
 }
 
@@ -187,14 +204,11 @@ std::shared_ptr<RandomTrack> draw_track(Random& random, const Character& charact
 
 Motion clip_motion(const Character& character, const Clip& clip, uint64_t seed, double strength) {
   Random random(seed);
-  const double phase = seed == 0 ? 0 : random.uniform(0, clip.duration_s);
-  const double speed = seed == 0 ? 1 : random.uniform(0.75, 1.3);
+  const double start_s = seed == 0 ? 0 : random.uniform(0, clip.duration_s);
+  const double speed = std::sqrt(strength) * (seed == 0 ? 1 : random.uniform(0.75, 1.3));
   const auto skeleton = std::make_shared<const Character>(skeleton_of(character));
-  const auto smooth = std::make_shared<const SmoothClip>(*skeleton, clip);
-  return [=, rest = rest_pose(character)](double t_s) {
-    const LocalPose pose = blend(rest, smooth->at(phase + speed * t_s), strength * ease(t_s / kEaseIn_s));
-    return WorldPose{joint_matrices(*skeleton, pose), Matrix4::Identity()};
-  };
+  const ClipRun run(std::make_shared<const SmoothClip>(*skeleton, clip), start_s, speed);
+  return [=](double t_s) { return WorldPose{joint_matrices(*skeleton, run.at(t_s)), Matrix4::Identity()}; };
 }
 
 Motion shake_motion(const Character& character, uint64_t seed, double strength) {

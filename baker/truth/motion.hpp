@@ -15,21 +15,23 @@ struct WorldPose {
 };
 
 // Pose at any time >= 0; its second derivative is continuous, so that truth may sample it between ticks. At
-// time 0 every motion is the file's rest pose at the origin, at rest. The same arguments give the same
-// motion.
+// time 0 every motion is at rest, the root at the origin, in the pose in which a clip begins or in the rest
+// pose. The same arguments give the same motion. strength: of the accelerations.
 using Motion = std::function<WorldPose(double t_s)>;
 
-// The clip, looped, the root at the origin; eased in from the rest pose over the first half second. strength:
-// amplitude about the rest pose. seed 0: the clip as it is; others: another speed (0.75 to 1.3) and start.
+// The clip, looped or to and fro (smooth_clip.hpp), the root at the origin; it comes up to speed within half
+// a second. seed 0: the clip as it is; others: another speed (0.75 to 1.3) and start. strength: of its
+// accelerations, by its speed.
 Motion clip_motion(const Character& character, const Clip& clip, uint64_t seed = 0, double strength = 1);
 
 // The built-in shake for characters without clips: the root moves and turns, the joints rest; still for the
 // first tenth of a second and for the last of every four. seed: other frequencies and directions.
 Motion shake_motion(const Character& character, uint64_t seed = 0, double strength = 1);
 
-// Clips cross-faded at random, band-limited joint noise, root dashes, sways and turns, with stretches of
-// stillness in the rest pose; still for the first tenth of a second and after ten minutes. held_out: names of
-// clips it must not use.
+// Bouts of clips drawn at random, with band-limited joint noise, root dashes, sways and turns on top, and
+// stretches of stillness in between, where a clip rests in its last pose; a bout leads from there into its
+// own clip. Still for the first tenth of a second and after ten minutes. held_out: names of clips it must not
+// use.
 Motion random_motion(const Character& character, uint64_t seed, double strength,
                      const std::vector<std::string>& held_out = {});
 

@@ -3,6 +3,7 @@
 #include "baker/truth/tissue_truth.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "baker/common/bad_input.hpp"
@@ -17,7 +18,6 @@ namespace {
 
 constexpr double kTolerance =
     1e-5;  // of a body's weight: below a thousandth of a millimetre at the frequencies of flesh
-const Vector3 kGravity(0, -9.80665, 0);
 
 }  // namespace
 
@@ -27,6 +27,7 @@ struct TissueTruth::Impl {
   MovingPart part;
   Fem fem;
   Motion motion;
+  Vector3 gravity_m_s2 = Vector3::Zero();
   long ticks = 0;
   double time_s = 0;
   UndisturbedMotion skinned;
@@ -94,7 +95,7 @@ void TissueTruth::Impl::substep(double dt_s) {
   for (size_t i = 0; i < rotation.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
     skinned.turn[i] = rotation[i] * before[i].transpose();
-    force.segment<3>(3 * at) = fem.mass[at] * (kGravity - rotation[i] * kGravity);
+    force.segment<3>(3 * at) = fem.mass[at] * (gravity_m_s2 - rotation[i] * gravity_m_s2);
   }
   fem.step(dt_s, skinned.after, force, kTolerance, &skinned);
 }
@@ -115,8 +116,7 @@ TruthFrame TissueTruth::Impl::frame() const {
       if (node >= 0) frame.truth[v] += intensity[v] * place.weight[a] * displacement.segment<3>(3 * node);
     }
   }
-  frame.elastic_energy_j = fem.elastic_energy() - fem.elastic_energy(skinned.after) +
-                           fem.elastic_force(skinned.after).dot(displacement);
+  frame.elastic_energy_j = fem.elastic_energy();
   for (size_t i = 0; i < part.rest.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
     if (!part.constrained[i])
@@ -125,8 +125,9 @@ TruthFrame TissueTruth::Impl::frame() const {
   return frame;
 }
 
-TruthFrame TissueTruth::start(const Motion& motion) {
+TruthFrame TissueTruth::start(const Motion& motion, const Vector3& gravity_m_s2) {
   impl_->motion = motion;
+  impl_->gravity_m_s2 = gravity_m_s2;
   impl_->ticks = 0;
   impl_->time_s = 0;
   impl_->skin_cage(motion(0));
@@ -156,5 +157,13 @@ std::vector<ModalBasis> TissueTruth::modal_bases(const TissueLayout& layout, int
                                    finest);
 }
 std::vector<double> TissueTruth::frequencies_hz(int count) const { return impl_->fem.frequencies_hz(count); }
+
+int usual_substeps(const std::vector<ModalBasis>& modes, double rate_hz) {
+  constexpr double kFast_rad_per_s = 2 * M_PI * 6, kSlow_hz = 240, kFast_hz = 480;
+  const bool fast = std::ranges::any_of(modes, [](const ModalBasis& basis) {
+    return basis.rad_per_s.size() > 0 && basis.rad_per_s[0] > kFast_rad_per_s;
+  });
+  return std::max(1, static_cast<int>(std::ceil((fast ? kFast_hz : kSlow_hz) / rate_hz - 1e-9)));
+}
 
 }  // namespace sinew::baker

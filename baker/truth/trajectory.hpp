@@ -13,7 +13,7 @@
 //   its own skin, region after region; region.vertices (Vr) i32, region.vertex_count (R) i32,
 //   carry.{r} (nodes, vertices of region r)
 // with `positions`: positions (T+1,V,3) f32 truth relative to the root
-// Metadata: sinew.trajectory = 3 and the caller's.
+// Metadata: sinew.trajectory = 4 and the caller's.
 #pragma once
 #include <Eigen/Core>
 #include <map>
@@ -26,7 +26,7 @@
 
 namespace sinew::baker {
 
-inline constexpr char kTrajectoryVersion[] = "3";
+inline constexpr char kTrajectoryVersion[] = "4";
 
 struct TrajectoryOptions {
   double rate_hz = 60;

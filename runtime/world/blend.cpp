@@ -197,7 +197,6 @@ void enter_tier(Instance& instance, Tier tier) noexcept {
   if (tier == Tier::kSpring && has_base(state.tier)) blend_laws(instance);
   if (tier == Tier::kNetwork && state.tier != Tier::kNetwork) begin_network(instance);
   if (tier != state.tier) wake_regions(instance);
-  instance.settles &= has_base(tier);
   if (tier == Tier::kSkinning) state.tail_ticks = std::max(state.tail_ticks, kCarryTicks);
   state.tier = tier;
 }
@@ -211,7 +210,6 @@ void restart(Instance& instance) noexcept {
   state.tier = Tier::kSkinning;
   state.motion_stale = 1;
   state.restarting = 1;
-  instance.settles = false;
   state.forgotten = 1;
   wake_regions(instance);
   ++state.restarts;

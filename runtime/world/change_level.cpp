@@ -249,8 +249,6 @@ void go_one_level(Instance& instance, bool finer) noexcept {
   point_to_state(instance);
 }
 
-bool has_base(Tier tier) noexcept { return tier == Tier::kModal || tier == Tier::kNetwork; }
-
 // Nothing is seen of it: the seam takes it.
 void show_settled(Instance& instance, const float* moved) noexcept {
   const float simulated = instance.shown_shares().simulated;
@@ -286,7 +284,6 @@ void begin_at_level(Instance& instance, uint32_t level) noexcept {
   state.seam_ticks = kBlendInTicks;
   state.motion_stale = 1;
   state.heard_by = static_cast<uint32_t>(HeardBy::kNobody);
-  instance.settles = false;
 }
 
 }  // namespace
@@ -315,7 +312,6 @@ void change_level(Instance& instance, uint32_t level) noexcept {
   if (shows && instance.pushes) take_pushes(instance, instance.asset->levels[level]);
   uint32_t* const regained_end = instance.regained + instance.level->pack.regions.size();
   if (state.seam_ticks == kBlendInTicks) std::fill(instance.regained, regained_end, 0u);
-  instance.raised_from = state.level;
   while (state.level != level) go_one_level(instance, level < state.level);
   state.seam_ticks = shows ? 0 : kBlendInTicks;
   const bool ramps = std::any_of(instance.regained, regained_end, [](uint32_t is) { return is != 0; });
@@ -323,7 +319,6 @@ void change_level(Instance& instance, uint32_t level) noexcept {
   if (shows) end_seam(instance);
   wake_regions(instance);
   state.heard_by = static_cast<uint32_t>(HeardBy::kNobody);
-  instance.settles = instance.level_raised && has_base(state.tier);
   if (instance.level_raised && state.spacing_ticks > 1) state.motion_stale = 1;
 }
 

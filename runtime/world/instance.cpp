@@ -250,7 +250,7 @@ void forget_motion(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   forget_displacement(instance);
   state.at_start = 1;
-  instance.settles = instance.displaced = false;
+  instance.displaced = false;
   state.still_ticks = 0;
   wake(instance);
   state.render_fraction = 0;

@@ -178,8 +178,6 @@ struct Instance {
   AssetId asset_id;
   const GraphLevel* level = nullptr;  // of the asset: state->level
   bool level_raised = false;          // in this step: its nodes' past poses are not known
-  uint32_t raised_from = 0;           // likewise: the level that it had
-  bool settles = false;               // likewise, and its r is what was spread
   bool rods_anew = false;   // in this tick: rods are taken to where they are shown before they go on
   bool rods_shown = false;  // published joints are not the pose's
   // own_body and surface: only where there is something to touch. Without a source and soft parts that touch

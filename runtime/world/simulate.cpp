@@ -226,35 +226,6 @@ void make_up(Instance& instance, const Part& part, const float* change) noexcept
   }
 }
 
-// How much of what would hold it r has.
-float share_of_rest(const float* r, const float* rest, size_t floats) noexcept {
-  float along = 0, whole = 0;
-  for (size_t i = 0; i < floats; ++i) along += r[i] * rest[i], whole += rest[i] * rest[i];
-  return whole > std::numeric_limits<float>::min() ? along / whole : 0;
-}
-
-// Of what was spread to a region's new nodes r keeps what lies along what would hold it, of both ticks; l
-// goes with it, and carry tells how far that of the newer one does. u of the older is not used any more.
-void begin_along_rest(Instance& instance, const Part& part, const float* rest) noexcept {
-  const size_t floats = size_t{3} * part.record.node_count;
-  for (const int tick : {1, 0}) {
-    float *r = instance.r[tick] + part.vector, *l = instance.l[tick] + part.vector;
-    const float share = share_of_rest(r, rest, floats);
-    for (size_t i = 0; i < floats; ++i) {
-      const float moved = share * rest[i] - r[i];
-      instance.carry[part.vector + i] = moved;
-      l[i] += moved;
-      r[i] += moved;
-    }
-  }
-}
-
-// In this step, by a change of level.
-bool has_new_nodes(const Instance& instance, const Part& part) noexcept {
-  const GraphLevel& had = instance.asset->levels[instance.raised_from];
-  return instance.settles && part.record.node_count > had.pack.regions[part.index].node_count;
-}
-
 // As so much of what it hears would hold it for ever, in q, r and l, whose change is in carry.
 void begin_modes_at_rest(Instance& instance, const Part& part, const float* heard, float share) noexcept {
   const tissue::ModalBase& base = part.base;
@@ -283,14 +254,12 @@ void begin_modes_at_rest(Instance& instance, const Part& part, const float* hear
 
 // Where the tick begins something at rest, carry tells by how much l moved. False: nothing.
 bool begin_part(Instance& instance, const Part& part, const float* heard) noexcept {
-  const bool begins = begins_at_rest(instance, part), settles = has_new_nodes(instance, part);
+  const bool begins = begins_at_rest(instance, part);
   if (begins)
     begin_modes_at_rest(instance, part, heard, lasting_share(part, instance.felt + part.vector, 3));
-  else if (settles)
-    begin_along_rest(instance, part, heard);
   else
     std::fill_n(instance.carry + part.vector, 3 * part.record.node_count, 0.0f);
-  return begins || settles;
+  return begins;
 }
 
 // theta that turns e: of the modal base alone, so that it hears nothing of what a network corrects while the
@@ -317,7 +286,6 @@ void hear_modes(Instance& instance) noexcept {
     if (instance.state->spacing_ticks > 1) make_up(instance, part, heard);
   });
   if (moved) settle_rest(instance, instance.carry);
-  instance.settles = false;
   remember_hearer(instance);
 }
 

@@ -117,7 +117,6 @@ Status restore(Instance& instance, std::span<const std::byte> bytes) noexcept {
     return corrupt("names a control graph, a tier or an update rate that there is not");
   std::memcpy(instance.state, payload.data(), instance.state_bytes);
   restore_rods(instance, payload.data() + instance.state_bytes);
-  instance.level_raised = instance.settles = false;
   point_to_state(instance);
   instance.rods_anew = false;
   instance.told = {};

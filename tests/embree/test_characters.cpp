@@ -141,8 +141,8 @@ TEST_CASE("a_tail_lies_on_the_skin_of_another_character_as_it_is_simulated") {
   CHECK(touching.farthest_m > 0.01);
   CHECK(touching.touching == kWatched);
   // As wanted of rods. A skin is known as it was shown, and goes on as it came: what else it does in a tick,
-  // up to a tenth of the radius here, is missing, and let out by 2 % of the height a second.
-  CHECK(touching.unforeseen_m < 0.12 * kTailRadius_m);
+  // up to an eighth of the radius here, is missing, and let out by 2 % of the height a second.
+  CHECK(touching.unforeseen_m < 0.13 * kTailRadius_m);
   CHECK(touching.deepest < 0.2);
   CHECK(alone.deepest > 1);
 }

@@ -29,7 +29,7 @@ struct Region {
     for (size_t m = 0; m < modes; ++m) {
       const double hz = std::min(first_hz * (1 + 0.7 * static_cast<double>(m)), 25.0);
       const double ratio = uniform(0.01, 0.5), rad_per_s = 2 * M_PI * hz;
-      const baker::Recurrence r = baker::modal_recurrence(rad_per_s, ratio, {60, 4});
+      const baker::Recurrence r = baker::modal_recurrence(rad_per_s, ratio, 60);
       records.push_back({static_cast<float>(rad_per_s), static_cast<float>(ratio), r.a1, r.a2, r.gain, {}});
     }
     slowest_damping = std::ranges::max(records, {}, [](const auto& mode) { return -mode.a2; }).a2 * -1;

@@ -59,7 +59,7 @@ struct Body {
 };
 
 pack::ModeRecord mode(double rad_per_s, double damping_ratio) {
-  const baker::Recurrence r = baker::modal_recurrence(rad_per_s, damping_ratio, {60, 4});
+  const baker::Recurrence r = baker::modal_recurrence(rad_per_s, damping_ratio, 60);
   return {static_cast<float>(rad_per_s), static_cast<float>(damping_ratio), r.a1, r.a2, r.gain, {}};
 }
 
@@ -197,7 +197,7 @@ TEST_CASE("modal_base_answers_a_constant_acceleration_with_its_static_shape") {
 // One oscillator for all that the modes leave out: rest e when it has died down.
 TEST_CASE("what_the_modes_left_out_answers_as_one_oscillator") {
   Body body = point(mode(25, 0.2));
-  const baker::Recurrence oscillator = baker::modal_recurrence(90, 0.2, {60, 4});
+  const baker::Recurrence oscillator = baker::modal_recurrence(90, 0.2, 60);
   body.rest_a1 = oscillator.a1;
   body.rest_a2 = oscillator.a2;
   body.rest_gain = 1 - oscillator.a1 - oscillator.a2;
@@ -235,10 +235,10 @@ TEST_CASE("modal_energy_never_grows_without_drive") {
   for (const double w : {8.0, 25.0, 60.0, 188.0}) {
     for (const double zeta : {0.0, 0.1, 0.8}) {
       INFO(w << " rad/s, damping " << zeta);
-      const double h = 1.0 / 240, d = 1 + 2 * zeta * w * h + w * w * h * h;
-      Eigen::Matrix2d step, tick = Eigen::Matrix2d::Identity();
-      step << 1 - h * h * w * w / d, h / d, -h * w * w / d, 1 / d;
-      for (int s = 0; s < 4; ++s) tick = step * tick;
+      const double t = 1.0 / 60, s = w * std::sqrt(1 - zeta * zeta), decay = std::exp(-zeta * w * t);
+      const double c = decay * std::cos(s * t), b = decay * std::sin(s * t) / s;
+      Eigen::Matrix2d tick;
+      tick << c + zeta * w * b, b, -w * w * b, c - zeta * w * b;
       Body body = point(mode(w, zeta));
       body.q = {0.05f, 0, 0};
       body.q_before = {static_cast<float>((0.05 - tick(0, 1) * 0.3) / tick(0, 0)), 0, 0};
@@ -250,16 +250,16 @@ TEST_CASE("modal_energy_never_grows_without_drive") {
         const double v = (static_cast<double>(body.q[0]) - tick(0, 0) * q) / tick(0, 1);
         const double energy = (v * v + w * w * q * q) / 2;
         if (t == 0) first = energy;
-        CHECK(energy <= before + 1e-5 * first);  // the velocity is a difference of floats over a tick
+        CHECK(energy <= before + 1e-4 * first);  // the velocity is a difference of floats over a tick
         before = energy;
       }
-      CHECK(before < first);
+      CHECK(before < (zeta > 0 ? 1 : 1.001) * first);
     }
   }
 }
 
 TEST_CASE("modal_base_has_the_same_bits_on_all_targets_with_fma") {
-  test::require_same_bits_where_fused(0xa27f324eea79cbfc, [](const simd::Kernels&) {
+  test::require_same_bits_where_fused(0xa18a7ea9e3a3d300, [](const simd::Kernels&) {
     Body body = rod();
     std::mt19937 random(1);  // not a sine: its last bit differs between processors
     std::vector<float> felt(3 * kRodNodes), out;

@@ -15,7 +15,7 @@ namespace {
 constexpr double kFirst = 2 * std::numbers::pi * 4;
 
 pack::SpringRecord spring_record() {
-  const baker::Recurrence r = baker::modal_recurrence(kFirst, 0.1, {60, 4});
+  const baker::Recurrence r = baker::modal_recurrence(kFirst, 0.1, 60);
   return {r.a1, r.a2, 1 - r.a1 - r.a2, 0};
 }
 

@@ -125,7 +125,7 @@ TEST_CASE("no_weights_move_flesh_much_further_than_its_base_nor_keep_it_from_res
     left = std::max(left, (corrected.left_m - base.left_m) / base.largest_m);
     CHECK(corrected.largest_m < 1.75 * base.largest_m);
     CHECK(corrected.left_m < base.left_m +
-                                 0.5 * std::exp(-0.1 * 2 * M_PI * hz * rest_s) * corrected.largest_m +
+                                 0.75 * std::exp(-0.1 * 2 * M_PI * hz * rest_s) * corrected.largest_m +
                                  1e-4 * base.largest_m);
   }
   WARN("corrected flesh moves " << most << " times as far as its base at most, and is left further off by "

@@ -200,7 +200,7 @@ TEST_CASE("tissue_comes_back_to_what_it_would_have_been") {
 
 // What a change alone moves: the same frame with it and without, at each frame of two seconds of a walk.
 TEST_CASE("a_change_of_tiers_moves_no_vertex_far") {
-  constexpr double kMost = 0.0031;  // of the height, in a frame; a network cut off: 0.00307
+  constexpr double kMost = 0.0045;  // of the height, in a frame; a network cut off to be extrapolated: 0.0043
   struct Offer {
     const char* name;
     float budget_us;

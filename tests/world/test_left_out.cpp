@@ -177,7 +177,7 @@ TEST_CASE("what_is_had_again_against_a_wall_is_pressed_no_further_than_what_stay
       most = std::max(most, simulated_m(back));
     }
     INFO(static_cast<int>(tier) << ": " << most << " and " << simulated_m(stays));
-    CHECK(most < 2 * simulated_m(stays));
+    CHECK(most < 2.1 * simulated_m(stays));  // a load that is there at once swings as far again
   }
 }
 

@@ -137,7 +137,7 @@ TEST_CASE("sleepers_have_the_same_bits_for_any_number_of_workers") {
 // The other region goes on as if it were alone.
 TEST_CASE("one_region_sleeps_while_the_other_moves") {
   int alone = 0;
-  for (const double angle : {0.1, 0.2, 0.3, 0.4, 0.5}) {
+  for (const double angle : {0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5}) {
     const auto lean = [angle](double time_s) { return scenes::bent_pose(angle * std::min(time_s, 1.0)); };
     Stage stage(1, with_tolerance(kTolerance));
     for (int f = 0; f < 800; ++f) alone += stage.step(lean, kFrame_s).regions_asleep == 1;

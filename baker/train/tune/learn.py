@@ -31,7 +31,6 @@ def provenance(run, tuner, jobs, begun):
     """Metadata: where tuned weights come from. begun: the Start that they were trained from."""
     minutes = float(begun.metadata.get("tuned_minutes", 0)) + tuner.elapsed_s / 60
     return {
-        "base_substeps": tuner.substeps,
         "seed": tuner.options.seed,
         "recipe": json.dumps(vars(tuner.options)),
         "parent": os.path.basename(run.start.path),

@@ -25,7 +25,7 @@ def held_out_clip(clips):
     return clips[len(clips) // 2] if len(clips) > 1 else ""
 
 
-def _split_jobs(split, body, clips, substeps):
+def _split_jobs(split, body, clips):
     """A split's motions without end. A clip's seed 0 is the clip as it is; others play it from elsewhere, at
     another speed."""
     held_out = held_out_clip(clips)
@@ -39,10 +39,10 @@ def _split_jobs(split, body, clips, substeps):
         strength = STRENGTHS[kind][round_ % len(STRENGTHS[kind])]
         motion, seed = (f"clip:{mine[which]}", round_) if kind == CLIP else (kind, FIRST_SEED[split] + number)
         avoided = "" if kind == CLIP else unseen
-        yield Job(body, split, motion, seed, strength, SECONDS, substeps, avoided)
+        yield Job(body, split, motion, seed, strength, SECONDS, held_out=avoided)
 
 
-def motions_of(body, clips, substeps):
+def motions_of(body, clips):
     """All motions in the order in which they are simulated."""
-    of = {key: _split_jobs(split, body, clips, substeps) for key, split in SPLITS.items()}
+    of = {key: _split_jobs(split, body, clips) for key, split in SPLITS.items()}
     return [next(of[key]) for key in itertools.islice(itertools.cycle(ORDER), MOST_MOTIONS)]

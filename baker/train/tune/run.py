@@ -41,7 +41,7 @@ class Run:
 def _folder_name(run, base):
     """The base's pack holds mesh, clips, regions and modes: whatever the truth depends on changes it."""
     recipe = [run.baker.recipe] if run.baker.recipe else []
-    return f"{hash_of(base, *recipe)[:12]}-{run.start.substeps}-{VERSION}"
+    return f"{hash_of(base, *recipe)[:12]}-{VERSION}"
 
 
 def _check_soft(run, regions):

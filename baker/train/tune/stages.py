@@ -38,7 +38,7 @@ def simulate(run, processes):
             f"all ends in {in_words(run.budget.left_s())}"
         )
 
-    jobs = motions_of(os.path.basename(run.folder), run.clips, run.start.substeps)
+    jobs = motions_of(os.path.basename(run.folder), run.clips)
     simulation = Simulation(run.baker, run.cache, processes, run.stop, report).run(jobs, end_s)
     line.clear()
     run.budget.motion_s = simulation.mean_s() or run.budget.motion_s

@@ -22,11 +22,6 @@ class Start:
         shipped = os.path.exists(SHIPPED) and os.path.samefile(self.path, SHIPPED)
         return "shipped" if shipped else os.path.splitext(os.path.basename(self.path))[0]
 
-    @property
-    def substeps(self):
-        """Of the ground truth that they were trained on, and are tuned on."""
-        return int(read_number(self.path, self.metadata, "base_substeps", 4))
-
 
 def read_start(path):
     """Throws BadData where the weights are none that can be tuned for a character."""

@@ -63,8 +63,8 @@ TEST_CASE("characters_that_cannot_be_packed_are_refused_with_the_reason") {
   CHECK_THROWS_WITH(pack_small(character, repeated), Contains("bar: control graph"));
 
   Safetensors weights = test::small_weights();
-  weights.metadata["base_substeps"] = "0";
-  CHECK_THROWS_WITH(pack_small(character, layout, weights), Contains("'base_substeps' holds 0"));
+  weights.metadata["rate_hz"] = "0";
+  CHECK_THROWS_WITH(pack_small(character, layout, weights), Contains("'rate_hz' holds 0"));
 
   character.clips[0].duration_s = 601;
   CHECK_THROWS_WITH(pack_small(character, layout), Contains("clip 'swing' lasts 601"));

@@ -65,8 +65,9 @@ def main():
     parser.add_argument("command")
     parser.add_argument("input")
     parser.add_argument("-o", dest="output", default="")
-    for option, kind in (("seed", int), ("strength", float), ("seconds", float), ("substeps", int)):
+    for option, kind in (("seed", int), ("strength", float), ("seconds", float)):
         parser.add_argument(f"--{option}", type=kind)
+    parser.add_argument("--substeps", type=int, default=4)
     for option in ("recipe", "motion", "hold-out", "tissue"):
         parser.add_argument(f"--{option}", default="")
     for option in ("surface", "json", "quick", "keep-network"):

@@ -6,7 +6,6 @@ import numpy as np
 from train.modal_base import LARGEST_TURN
 
 H = 1 / 60
-SUBSTEPS = 4
 SIZES = (10, 6)  # nodes of each region
 MODES = 8
 RADIUS_M = 0.1
@@ -29,19 +28,11 @@ def turn_and_mean(theta):
     return turn, np.eye(3) + (1 - np.cos(a)) / a * k + (1 - np.sin(a) / a) * k @ k
 
 
-def recurrence(w, zeta, substeps=SUBSTEPS):
-    """a1, a2, gain of each mode, by stepping an oscillator from two starts."""
-
-    def tick(q, v, p):
-        h = H / substeps
-        for _ in range(substeps):
-            v = (v + h * (p - w * w * q)) / (1 + 2 * zeta * w * h + (w * h) ** 2)
-            q = q + h * v
-        return q, v
-
-    one, zero = np.ones_like(w), np.zeros_like(w)
-    (qq, vq), (qv, vv) = tick(one, zero, zero), tick(zero, one, zero)
-    a1, a2 = qq + vv, qv * vq - qq * vv
+def recurrence(w, zeta):
+    """a1, a2, gain of each mode, from the two roots of s^2 + 2 zeta w s + w^2."""
+    root = w * np.sqrt(np.asarray(zeta**2 - 1, complex))
+    first, second = (np.exp(H * (sign * root - zeta * w)) for sign in (1, -1))
+    a1, a2 = (first + second).real, -(first * second).real
     return a1, a2, (1 - a1 - a2) / (w * w)
 
 
@@ -187,12 +178,12 @@ def trajectory(seed, ticks=120, strength=1.0, body_seed=0, hardening=HARDENING, 
     for r, b in enumerate(bases):
         tensors.update({f"modes.{r}.{k}": v for k, v in _written(b).items()})
     metadata = {
-        "sinew.trajectory": 3,
+        "sinew.trajectory": 4,
         "character": "synthetic",
         "motion": "random",
         "seed": seed,
         "rate_hz": 60,
-        "substeps": SUBSTEPS,
+        "substeps": 4,
         "seconds": ticks / 60,
         "height_m": 1,
         "strength": strength,

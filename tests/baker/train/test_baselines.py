@@ -21,7 +21,7 @@ def ratio(model, group):
 def detuned(base, factor):
     """The same modes, `factor` times as fast."""
     rad_per_s = base.rad_per_s * factor
-    values = recurrence(rad_per_s, base.damping_ratio, base.tick_s, base.substeps)
+    values = recurrence(rad_per_s, base.damping_ratio, base.tick_s)
     base.rad_per_s = rad_per_s
     base.a1, base.a2, base.gain = (v[..., None] for v in values)
 
@@ -97,7 +97,7 @@ class OneSpring(unittest.TestCase):
         for p in springs.parameters:
             p.data.normal_(0, 4)
         w, zeta = springs.log_w.exp().double(), springs.log_zeta.exp().double()
-        a1, a2, _ = (v.detach() for v in recurrence(w, zeta, 1 / 60, 4))
+        a1, a2, _ = (v.detach() for v in recurrence(w, zeta, 1 / 60))
         companion = torch.stack([torch.stack([a1, a2], -1), torch.stack([a1 * 0 + 1, a1 * 0], -1)], -2)
         self.assertLess(float(torch.linalg.eigvals(companion).abs().max()), 1)
 

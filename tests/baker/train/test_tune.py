@@ -152,7 +152,7 @@ class Refusals(Folder):
 
 class Motions(unittest.TestCase):
     def split(self, clips):
-        jobs = motions_of("body", clips, 4)
+        jobs = motions_of("body", clips)
         return jobs, {s: [j for j in jobs if j.split == s] for s in SPLITS}
 
     def test_no_motion_is_in_two_splits_or_made_twice(self):
@@ -189,7 +189,7 @@ class Motions(unittest.TestCase):
 class Simulations(Folder):
     def setUp(self):
         super().setUp()
-        self.jobs = motions_of("body", ["walk", "run"], 4)[:8]
+        self.jobs = motions_of("body", ["walk", "run"])[:8]
         os.makedirs(self.place("body"))
 
     def run_all(self, end_s=1e9, stop=None, report=lambda s: None, processes=2):
@@ -323,7 +323,7 @@ class Learning(Folder):
 
     def setUp(self):
         super().setUp()
-        self.jobs = motions_of("body", [], synthetic.SUBSTEPS)[:5]
+        self.jobs = motions_of("body", [])[:5]
         self.done = {}
         for number, job in enumerate(self.jobs):
             self.done[job] = support.write_trajectory(self.place(f"{number}.safetensors"), number, ticks=60)

@@ -141,34 +141,31 @@ TEST_CASE("a_step_of_endless_length_is_the_static_equilibrium") {
   }
 }
 
-TEST_CASE("free_linear_vibration_loses_what_backward_euler_predicts_and_never_gains") {
+TEST_CASE("free_linear_vibration_loses_what_bdf2_predicts") {
   constexpr double kFirstModesShare = 0.9;  // of the energy of a tip-loaded beam
   constexpr double kDt = 1e-3;
   Fem fem = beam(rubber(Elasticity::kLinear));
   const Eigen::VectorXd rest = fem.positions, none = Eigen::VectorXd::Zero(rest.size());
   fem.settle(gravity(fem, {0, -0.1, 0}), 1e-10);
-  const double w = 2 * M_PI * fem.frequencies_hz(1)[0], loss = 1 / (1 + w * w * kDt * kDt);
-  const double start = energy(fem);
-  double before = start, predicted = start;
-  for (int i = 0; i < 400; ++i) {
-    fem.step(kDt, rest, none, 1e-10);
-    predicted *= loss;  // of the slowest mode: all others lose more
-    CHECK(energy(fem) <= before);
-    CHECK(energy(fem) <= predicted * (1 + 1e-6));
-    CHECK(energy(fem) >= predicted * kFirstModesShare);
-    before = energy(fem);
-  }
+  const double x = 2 * M_PI * fem.frequencies_hz(1)[0] * kDt, start = energy(fem);
+  for (int i = 0; i < 400; ++i) fem.step(kDt, rest, none, 1e-10);
+  const double predicted = start * std::exp(-0.5 * std::pow(x, 4) * 400);  // of the slowest mode
+  CHECK(energy(fem) < start);
+  CHECK(energy(fem) >= predicted * kFirstModesShare);
 }
 
-TEST_CASE("free_neo_hookean_vibration_never_gains_energy") {
+// Its energy in BDF2's own norm never grows; kinetic and elastic energy alternate within a swing, by a share
+// of (w dt)^2.
+TEST_CASE("free_neo_hookean_vibration_gains_no_energy") {
+  constexpr double kWithinASwing = 0.01;
   Fem fem = beam(rubber());
   const Eigen::VectorXd rest = fem.positions, none = Eigen::VectorXd::Zero(rest.size());
   fem.settle(gravity(fem, {0, -30, 0}));
-  double before = energy(fem);
-  for (int i = 0; i < 200; ++i) {
+  double least = energy(fem);
+  for (int i = 0; i < 400; ++i) {
     fem.step(2e-3, rest, none, 1e-8);
-    CHECK(energy(fem) <= before * (1 + 1e-9));
-    before = energy(fem);
+    CHECK(energy(fem) <= least * (1 + kWithinASwing));
+    least = std::min(least, energy(fem));
   }
 }
 
@@ -190,8 +187,8 @@ TEST_CASE("a_thrown_bodys_angular_momentum_drifts_with_the_step_only") {
     return (angular_momentum(fem) - start).norm() / start.norm();
   };
   const double coarse = drift(2e-3), fine = drift(1e-3);
-  CHECK(coarse < 0.03);
-  CHECK(fine / coarse == Approx(0.5).margin(0.1));
+  CHECK(coarse < 0.003);
+  CHECK(fine / coarse < 0.4);  // a quarter, but for the first step
 }
 
 TEST_CASE("damping_is_the_ratio_asked_for_at_the_first_mode") {
@@ -205,7 +202,7 @@ TEST_CASE("damping_is_the_ratio_asked_for_at_the_first_mode") {
   const int steps = static_cast<int>(periods * 2 * M_PI / w / std::sqrt(1 - kRatio * kRatio) / kDt);
   for (int i = 0; i < steps; ++i) fem.step(kDt, rest, none, 1e-10);
   const double ratio = std::log(start / energy(fem)) / (2 * w * kDt * steps);
-  CHECK(ratio == Approx(kRatio + 0.5 * w * kDt).epsilon(kWithin));
+  CHECK(ratio == Approx(kRatio).epsilon(kWithin));
 }
 
 TEST_CASE("a_body_that_follows_a_turning_motion_is_not_damped_against_the_world") {
@@ -223,15 +220,22 @@ TEST_CASE("a_body_that_follows_a_turning_motion_is_not_damped_against_the_world"
   // to damp.
   constexpr double kDt = 1e-3, kPace = 0.01;
   fem.reset(turned(0));
-  fem.velocities = (turned(0) - turned(-kPace)) / kDt;
+  Eigen::VectorXd speed = (turned(0) - turned(-kPace)) / kDt, speed_before = speed;
+  fem.velocities = speed;
   UndisturbedMotion motion{turned(0), {}, std::vector<Eigen::Matrix3d>(static_cast<size_t>(fem.mass.size()))};
   double largest = 0;
   for (int i = 1; i <= 50; ++i) {
     motion.before = turned((i - 1) * kPace);
     motion.after = turned(i * kPace);
     for (auto& turn : motion.turn) turn = Eigen::AngleAxisd(kPace, Vector3::UnitZ()).toRotationMatrix();
-    Eigen::VectorXd force =
-        (turned(i * kPace) - 2 * turned((i - 1) * kPace) + turned((i - 2) * kPace)) / (kDt * kDt);
+    const double h = i == 1 ? kDt : kDt * 2 / 3, share = i == 1 ? 0 : 1.0 / 3;
+    const auto from = [&](const Eigen::VectorXd& last, const Eigen::VectorXd& before) -> Eigen::VectorXd {
+      return last + share * (last - before);
+    };
+    const Eigen::VectorXd v = (motion.after - from(turned((i - 1) * kPace), turned((i - 2) * kPace))) / h;
+    Eigen::VectorXd force = (v - from(speed, speed_before)) / h;
+    speed_before = speed;
+    speed = v;
     for (Eigen::Index k = 0; k < fem.mass.size(); ++k) force.segment<3>(3 * k) *= fem.mass[k];
     fem.step(kDt, motion.after, force, 1e-9, &motion);
     largest = std::max(largest, (fem.positions - motion.after).cwiseAbs().maxCoeff());
@@ -256,8 +260,7 @@ TEST_CASE("a_reshaped_body_is_unstressed_in_its_new_shape") {
   CHECK(std::abs(fem.elastic_energy(bent)) < 1e-9);
   CHECK(fem.frequencies_hz(1)[0] > 0);
   fem.reshape(flattened);
-  CHECK(std::isfinite(fem.elastic_force(flattened).norm()));
-  CHECK(fem.elastic_force(flattened).norm() > 1);  // unstressed at a bounded squeeze, not at none
+  CHECK(fem.elastic_force(flattened).norm() < 1e-9);
 }
 
 TEST_CASE("the_unstressed_shape_follows_the_undisturbed_motion") {
@@ -271,17 +274,65 @@ TEST_CASE("the_unstressed_shape_follows_the_undisturbed_motion") {
 }
 
 TEST_CASE("kept_factorisations_do_not_change_the_result") {
-  // The same steps, once with every step's factorisation made anew (another dt in between asks for one).
-  Fem kept = beam(rubber()), anew = beam(rubber());
-  const Eigen::VectorXd rest = kept.positions, force = gravity(kept, {0, -9.8, 3});
+  // The same steps twice: of a body that has been bent and shaken before, and keeps that factorisation.
+  Fem used = beam(rubber()), fresh = beam(rubber());
+  const Eigen::VectorXd rest = used.positions, force = gravity(used, {0, -9.8, 3});
+  for (int i = 0; i < 30; ++i) used.step(5e-3, rest, 3 * gravity(used, {0, 9.8, -9.8}), 1e-10);
+  const long before = used.factorizations();
+  used.reset(rest);
   for (int i = 0; i < 30; ++i) {
-    kept.step(5e-3, rest, force, 1e-10);
-    const Eigen::VectorXd x = anew.positions, v = anew.velocities;
-    anew.step(6e-3, rest, force, 1e-10);
-    anew.positions = x, anew.velocities = v;
-    anew.step(5e-3, rest, force, 1e-10);
+    used.step(5e-3, rest, force, 1e-10);
+    fresh.step(5e-3, rest, force, 1e-10);
   }
-  CHECK(kept.factorizations() < 10);
-  CHECK(anew.factorizations() >= 60);
-  CHECK((kept.positions - anew.positions).cwiseAbs().maxCoeff() < 1e-9);
+  CHECK(used.factorizations() - before < 5);
+  CHECK(fresh.factorizations() < 10);
+  CHECK((used.positions - fresh.positions).cwiseAbs().maxCoeff() < 1e-9);
+}
+
+namespace {
+
+// One tetrahedron, held by its base. Skinning carries its tip through the base and squeezes it from a side,
+// so that its two mirrored stretches cross: the rotation nearest to it there jumps by half a turn.
+Body tetrahedron() {
+  Body body;
+  body.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  body.tetrahedra = {{0, 1, 2, 3}};
+  return body;
+}
+
+Eigen::VectorXd turned_inside_out(double t) {
+  Eigen::VectorXd x = tetrahedron().flat();
+  x[7] = 1 - 0.7 * t * t;
+  x[11] = 1 - 2 * t;
+  x[8] = 0.002;
+  return x;
+}
+
+}  // namespace
+
+TEST_CASE("a_displaced_element_feels_no_jump_while_skinning_turns_it_inside_out") {
+  const Body body = tetrahedron();
+  const std::vector<bool> held = {true, true, true, false};
+  constexpr int kSteps = 400;
+  const Vector3 aside(0.05, -0.03, 0.04);
+  Fem fem(body.nodes, body.tetrahedra, held, rubber());
+  const auto force_at = [&](const Eigen::VectorXd& skinned) {
+    Eigen::VectorXd x = skinned;
+    x.tail<3>() += aside;
+    return Vector3(fem.elastic_force(x).tail<3>());
+  };
+  const double at_rest = force_at(body.flat()).norm();
+  UndisturbedMotion motion{body.flat(), {}, std::vector<Eigen::Matrix3d>(4, Eigen::Matrix3d::Identity())};
+  Vector3 before = force_at(body.flat());
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(12);
+  for (int i = 1; i <= kSteps; ++i) {
+    motion.after = turned_inside_out(static_cast<double>(i) / kSteps);
+    fem.step(1.0 / 240, motion.after, none, 1e-9, &motion);
+    motion.before = motion.after;
+    const Vector3 now = force_at(motion.after);
+    CHECK((now - before).norm() < 0.3 * at_rest);  // a quarter turn takes five steps and more
+    CHECK(now.norm() < 3 * at_rest);               // as stiff as bound
+    CHECK((fem.positions - motion.after).cwiseAbs().maxCoeff() < 0.5);
+    before = now;
+  }
 }

@@ -118,6 +118,45 @@ TEST_CASE("a_bent_standing_character_departs_by_turned_gravity_only") {
   CHECK(largest(displacement(frame)) > 1e-3);
 }
 
+TEST_CASE("flesh_that_skinning_turns_inside_out_stays_where_it_is_skinned") {
+  // Twisted by more than half a turn about the vertical the joint collapses to a candy wrapper; sheared flat
+  // beyond that, no gravity turns.
+  const Bar bar;
+  WorldPose twisted = bar.bind();
+  twisted.joints[1].block<3, 3>(0, 0) = Eigen::AngleAxisd(3.1, Vector3::UnitY()).toRotationMatrix();
+  twisted.joints[1](1, 3) -= 0.5;
+  TissueTruth truth = bar.truth();
+  truth.start([&](double) { return twisted; });
+  TruthFrame frame;
+  for (int i = 0; i < 60; ++i) frame = truth.advance(kRate_hz, 4);
+  CHECK(largest(displacement(frame)) < 1e-9);
+  CHECK(frame.elastic_energy_j < 1e-12);
+}
+
+TEST_CASE("without_inertia_and_turned_gravity_nothing_moves") {
+  // A motion that folds and twists the bar, slowed down 16 times: accelerations are 256 times smaller.
+  constexpr double kSlower = 16, kInertiaLeft = 0.02;  // 1 / 256 moves as much; the rest is resonance
+  const Bar bar;
+  const auto largest_at = [&](double pace) {
+    TissueTruth truth = bar.truth();
+    truth.start(
+        [&](double t) {
+          WorldPose pose = bar.bent(1.3 * (1 - std::cos(12 * pace * t)));
+          pose.joints[1].block<3, 3>(0, 0) *=
+              Eigen::AngleAxisd(1.2 * (1 - std::cos(7 * pace * t)), Vector3::UnitY()).toRotationMatrix();
+          return pose;
+        },
+        Vector3::Zero());
+    double most = 0;
+    for (int i = 0; i < std::lround(45 / pace); ++i)
+      most = std::max(most, largest(displacement(truth.advance(kRate_hz, 4))));
+    return most;
+  };
+  const double fast = largest_at(1), slow = largest_at(1 / kSlower);
+  CHECK(fast > 0.05);
+  CHECK(slow < kInertiaLeft * fast);
+}
+
 TEST_CASE("a_character_turned_or_far_away_moves_the_same") {
   const Bar bar;
   Matrix4 elsewhere = Matrix4::Identity();
@@ -184,13 +223,14 @@ TEST_CASE("steady_flight_is_not_damped_against_the_world") {
 }
 
 TEST_CASE("a_folded_joint_stays_bounded") {
-  // Skinning turns the flesh inside a sharp bend inside out; truth may not blow up there.
+  // Skinning turns the flesh inside a sharp bend inside out; truth may not blow up there. The 0.6 m above the
+  // joint are so soft that gravity, turned by the bend, swings them down; nowhere further than that.
   const Bar bar;
   TissueTruth truth = bar.truth();
   truth.start([&](double t) { return bar.bent(2.6 * ease(2 * t)); });
   double most = 0;
   for (int i = 0; i < 90; ++i) most = std::max(most, largest(displacement(truth.advance(kRate_hz, 4))));
-  CHECK(most < 0.5);
+  CHECK(most < 0.8);
 }
 
 TEST_CASE("soft_arms_of_a_real_character_survive_a_sharp_elbow") {
@@ -236,6 +276,17 @@ TEST_CASE("the_motion_is_sampled_at_every_substep") {
     CHECK(std::any_of(times.begin(), times.end(), [&](double s) { return std::abs(s - t) < 1e-12; }));
 }
 
+TEST_CASE("stiff_flesh_takes_more_substeps") {
+  ModalBasis slow, fast;
+  slow.rad_per_s = Eigen::VectorXd::Constant(1, 2 * M_PI * 5.9);
+  fast.rad_per_s = Eigen::VectorXd::Constant(1, 2 * M_PI * 6.1);
+  CHECK(usual_substeps({}, 60) == 4);
+  CHECK(usual_substeps({slow, {}}, 60) == 4);
+  CHECK(usual_substeps({slow, fast}, 60) == 8);
+  CHECK(usual_substeps({slow}, 240) == 1);
+  CHECK(usual_substeps({slow}, 25) == 10);
+}
+
 TEST_CASE("more_substeps_converge") {
   const Bar bar;
   const auto run = [&](int substeps) {
@@ -246,5 +297,5 @@ TEST_CASE("more_substeps_converge") {
     return displacement(frame);
   };
   const auto coarse = run(4), middle = run(8), fine = run(16);
-  CHECK(difference(middle, fine) < 0.7 * difference(coarse, middle));
+  CHECK(difference(middle, fine) < 0.3 * difference(coarse, middle));  // a quarter: of the second order
 }

@@ -117,7 +117,7 @@ TEST_CASE("displacement_lies_along_each_nodes_own_frame") {
   CHECK((at(displacement, 3) - Vector3(0.02 * std::sin(bend), 0.02 * std::cos(bend), 0.01)).norm() < kFloat);
   CHECK((at(file.need("drive", {1, 2, kNodeDriveWidth}), kNodeDriveWidth + 12) - Vector3(0, 0, quarter / 8))
             .norm() < kFloat);
-  CHECK(file.metadata.at("sinew.trajectory") == "3");
+  CHECK(file.metadata.at("sinew.trajectory") == "4");
   CHECK(file.metadata.at("motion") == "none");
 }
 
