@@ -54,7 +54,9 @@ pack::TierRecord record_of(Tier tier, uint32_t level, uint64_t ops, float ratio 
           .error_mm = kNotMeasured,
           .error_ratio = ratio,
           .error_p95_mm = kNotMeasured,
-          .level = level};
+          .level = level,
+          .worst_error_ratio = kNotMeasured,
+          .worst_clip = pack::kNoIndex};
 }
 
 }  // namespace

@@ -175,20 +175,31 @@ std::string network_note(const std::vector<pack::TierRecord>& tiers) {
   return text;
 }
 
+std::string no_gain_note(double ratio) {
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "its flesh is %.2f of skinning's error off the truth: a world leaves it to skinning; state a "
+                "higher frequency_hz or max_displacement",
+                ratio);
+  return text;
+}
+
 // The pack with the errors of this character, and without a network that does not pay on it.
-std::vector<std::byte> measured(const Packer& packer, const Safetensors* weights, bool keep_network,
-                                Character& character, const Tissue& tissue) {
+std::vector<std::byte> measured(const Packer& packer, const Recipe& recipe, const Safetensors* weights,
+                                bool keep_network, Character& character, const Tissue& tissue) {
   std::vector<std::byte> bytes = packer.pack(weights);
   try {
     LoadedPack pack = LoadedPack::from_bytes(bytes, character.name);
     const std::vector<TrueSurface> truths =
-        short_truths(character, tissue.layout, tissue.finest, *tissue.truth, pack.view());
+        short_truths(character, tissue.layout, recipe, tissue.finest, pack.view());
     std::vector<pack::TierRecord> tiers = measured_tiers(pack, truths);
     if (weights && !keep_network && !network_pays(tiers)) {
       character.notes.push_back(network_note(tiers));
       bytes = packer.pack(nullptr);
       tiers = measured_tiers(LoadedPack::from_bytes(bytes, character.name), truths);
     }
+    if (const double modal = error_ratio_of(tiers, Tier::kModal); !(modal < 1))
+      character.notes.push_back(no_gain_note(modal));
     return with_tiers(bytes, tiers);
   } catch (const std::runtime_error& problem) {
     const char* what = keep_network || !weights ? "errors are not measured: "
@@ -218,8 +229,9 @@ void run_character(const CharacterOptions& options) {
   lower_limits(packer, character, tissue);
   const Safetensors* network = weights ? &*weights : nullptr;
   const std::vector<std::byte> bytes =
-      options.quick || !tissue.truth ? packer.pack(network)
-                                     : measured(packer, network, options.keep_network, character, tissue);
+      options.quick || !tissue.truth
+          ? packer.pack(network)
+          : measured(packer, recipe, network, options.keep_network, character, tissue);
   const LoadedPack pack =
       LoadedPack::from_bytes(bytes, options.character);  // what the runtime would refuse is not written
   if (!options.quick)

@@ -149,6 +149,12 @@ Json describe_clips(const pack::PackView& view) {
   return clips;
 }
 
+std::string worst_motion(const pack::PackView& view, const pack::TierRecord& tier) {
+  if (std::isnan(tier.worst_error_ratio)) return "-";
+  if (tier.worst_clip == pack::kNoIndex) return view.clips.empty() ? "random or shake" : "random";
+  return std::string(string_at(view, view.clips[tier.worst_clip].name));
+}
+
 Json describe_tiers(const pack::PackView& view) {
   constexpr const char* kNames[] = {"skinning", "extrapolate", "network", "spring", "modal"};
   Json tiers = Json::array();
@@ -160,7 +166,9 @@ Json describe_tiers(const pack::PackView& view) {
                      {"cost_p99_us", tier.cost_p99_us},
                      {"error_mm", tier.error_mm},
                      {"error_ratio", tier.error_ratio},
-                     {"error_p95_mm", tier.error_p95_mm}});
+                     {"error_p95_mm", tier.error_p95_mm},
+                     {"worst_ratio", tier.worst_error_ratio},
+                     {"worst_along", worst_motion(view, tier)}});
   return tiers;
 }
 

@@ -11,11 +11,11 @@
 
 namespace sinew::baker {
 
-// Of 1.5 s each, less of large bodies, of motions that no weights were trained on: random motion, and the
-// clip that moves most, or where there is none a shake. Throws std::runtime_error where a step of the truth
-// does not converge.
+// Of 1.5 s each, less of large bodies, of motions that no weights were trained on: random motion and up to five
+// of the character's clips, evenly picked of those in which joints move, or where there is none a shake. On all
+// cores. Throws std::runtime_error where a step of the truth does not converge.
 std::vector<TrueSurface> short_truths(const Character& character, const TissueLayout& layout,
-                                      const std::vector<ModalBasis>& modes, TissueTruth& truth,
+                                      const Recipe& recipe, const std::vector<ModalBasis>& modes,
                                       const pack::PackView& pack);
 
 // The pack's tiers with the errors measured in closed loop along these motions. Throws BadInput where nothing
@@ -26,7 +26,7 @@ std::vector<pack::TierRecord> measured_tiers(const LoadedPack& character,
 // A network is worth its time where its error is smaller than its modal base's by this share.
 inline constexpr double kNetworkMargin = 0.05;
 
-// Whether the network's mean error lies below its modal base's by kNetworkMargin, at the finest level.
+// Whether the network's median error lies below its modal base's by kNetworkMargin, at the finest level.
 bool network_pays(const std::vector<pack::TierRecord>& tiers);
 
 // A tier's at level 0; NaN: it has none.

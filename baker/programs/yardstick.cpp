@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "baker/common/bad_input.hpp"
@@ -61,11 +62,16 @@ Matrix3f skin_of(const pack::SkinRecord& skin, const float* matrices) {
 // Distances of one way, and what skinning was off there.
 class Yardstick::Sums {
  public:
-  void add(size_t tick, float mm, float skinning_mm) {
+  explicit Sums(size_t motions) : motions_(motions) {}
+
+  void add(size_t motion, size_t tick, float mm, float skinning_mm) {
     all_.add(mm, skinning_mm);
     if (tick <= kShortTicks) first_.add(mm, skinning_mm);
+    motions_[motion].mm += static_cast<double>(mm);
+    motions_[motion].skinning_mm += static_cast<double>(skinning_mm);
+    motions_[motion].count += 1;
   }
-  Error error() { return {all_.spread(), first_.spread()}; }
+  Error error() { return {all_.spread(), first_.spread(), ratios()}; }
 
  private:
   struct Distances {
@@ -92,7 +98,23 @@ class Yardstick::Sums {
     }
   };
 
+  struct Along {
+    double mm = 0, skinning_mm = 0, count = 0;
+    double skinning() const { return count > 0 ? skinning_mm / count : 0; }
+  };
+
+  std::vector<double> ratios() const {
+    constexpr double kHardly = 0.02;  // of what skinning is off along the liveliest
+    const double liveliest = std::ranges::max(motions_, {}, &Along::skinning).skinning();
+    std::vector<double> out;
+    for (const Along& along : motions_)
+      out.push_back(along.skinning() > kHardly * liveliest ? along.mm / along.skinning_mm
+                                                           : std::numeric_limits<double>::quiet_NaN());
+    return out;
+  }
+
   Distances all_, first_;
+  std::vector<Along> motions_;
 };
 
 Yardstick::Yardstick(const LoadedPack& character, std::span<const TrueSurface> surfaces)
@@ -139,30 +161,30 @@ const float* Yardstick::truth(size_t motion, size_t tick, size_t vertex) const {
 }
 
 Error Yardstick::of_skinning() const {
-  Sums sums;
+  Sums sums(surfaces_.size());
   for (size_t m = 0; m < surfaces_.size(); ++m)
     for (size_t k = vertices_.size(); k < skinning_mm_[m].size(); ++k)
-      sums.add(k / vertices_.size(), skinning_mm_[m][k], skinning_mm_[m][k]);
+      sums.add(m, k / vertices_.size(), skinning_mm_[m][k], skinning_mm_[m][k]);
   return sums.error();
 }
 
 Error Yardstick::of_previous_frame() const {
-  Sums sums;
+  Sums sums(surfaces_.size());
   for (size_t m = 0; m < surfaces_.size(); ++m)
     for (size_t k = vertices_.size(); k < previous_mm_[m].size(); ++k)
-      sums.add(k / vertices_.size(), previous_mm_[m][k], skinning_mm_[m][k]);
+      sums.add(m, k / vertices_.size(), previous_mm_[m][k], skinning_mm_[m][k]);
   return sums.error();
 }
 
 Error Yardstick::of(const LoadedPack& character, Tier tier, uint32_t every, uint32_t level) const {
-  Sums sums;
+  Sums sums(surfaces_.size());
   for (size_t m = 0; m < surfaces_.size(); ++m) {
     ClosedLoop loop(character, surfaces_[m].motion());
     for (size_t tick = 1; tick <= ticks_of(surfaces_[m]); ++tick) {
       loop.tick(tier, every, level);
       const std::vector<float> places = positions_of(loop);
       for (size_t i = 0; i < vertices_.size(); ++i)
-        sums.add(tick, distance_mm(&places[3 * vertices_[i]], truth(m, tick, i)),
+        sums.add(m, tick, distance_mm(&places[3 * vertices_[i]], truth(m, tick, i)),
                  skinning_mm_[m][tick * vertices_.size() + i]);
     }
   }
@@ -170,7 +192,7 @@ Error Yardstick::of(const LoadedPack& character, Tier tier, uint32_t every, uint
 }
 
 Error Yardstick::of_extrapolation(const LoadedPack& character, size_t ticks) const {
-  Sums sums;
+  Sums sums(surfaces_.size());
   for (size_t m = 0; m < surfaces_.size(); ++m) {
     ClosedLoop loop(character, surfaces_[m].motion());
     ClosedLoop::Checkpoint left;
@@ -180,7 +202,7 @@ Error Yardstick::of_extrapolation(const LoadedPack& character, size_t ticks) con
       for (size_t k = 0; k < ticks; ++k) loop.tick(Tier::kExtrapolate);
       const std::vector<float> places = positions_of(loop);
       for (size_t i = 0; i < vertices_.size(); ++i)
-        sums.add(tick, distance_mm(&places[3 * vertices_[i]], truth(m, tick, i)),
+        sums.add(m, tick, distance_mm(&places[3 * vertices_[i]], truth(m, tick, i)),
                  skinning_mm_[m][tick * vertices_.size() + i]);
       loop.restore(left);
     }

@@ -16,6 +16,7 @@ struct Spread {
 // Of ticks 1 .. 600, and of the first 50 of them.
 struct Error : Spread {
   Spread in_50;
+  std::vector<double> ratios = {};  // a motion; NaN: next to the liveliest nothing moves in it
 };
 
 inline constexpr size_t kMostTicks = 600;

@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/common/progress.hpp"
+#include "baker/common/on_all_cores.hpp"
 #include "baker/common/write_file.hpp"
 #include "baker/mesh/import_character.hpp"
 #include "baker/mesh/tissue_layout.hpp"
@@ -121,31 +121,9 @@ void simulate(const Body& body, const Work& work, std::atomic<size_t>& done) {
                                                 {"rate_hz", std::to_string(rate)}}));
 }
 
-// One trajectory a core at a time; the first fault is thrown when all have ended.
 void simulate_all(const Body& body, const std::vector<Work>& work) {
-  std::atomic<size_t> next{0}, done{0}, running{0};
-  std::exception_ptr fault;
-  std::mutex lock;
-  const auto run = [&] {
-    try {
-      for (size_t i = next++; i < work.size(); i = next++) simulate(body, work[i], done);
-    } catch (...) {
-      const std::lock_guard guard(lock);
-      if (!fault) fault = std::current_exception();
-    }
-    --running;
-  };
-  std::vector<std::thread> threads;
-  const size_t cores = std::max(1u, std::thread::hardware_concurrency());
-  running = std::min(work.size(), cores);
-  for (size_t t = 0, count = running; t < count; ++t) threads.emplace_back(run);
-  Progress progress("ground truth", work.size() * body.ticks);
-  while (running > 0) {
-    progress.update(done);
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  }
-  for (std::thread& thread : threads) thread.join();
-  if (fault) std::rethrow_exception(fault);
+  on_all_cores("ground truth", work.size() * body.ticks, work.size(),
+               [&](size_t piece, std::atomic<size_t>& done) { simulate(body, work[piece], done); });
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "baker/trade/write_tiers.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <tuple>
 
 #include "baker/common/write_file.hpp"
@@ -25,7 +26,9 @@ pack::TierRecord to_record(const Row& row, double base_us) {
           .error_mm = number(row.error.mean_mm),
           .error_ratio = number(row.error.ratio),
           .error_p95_mm = number(row.error.p95_mm),
-          .level = row.level};
+          .level = row.level,
+          .worst_error_ratio = std::numeric_limits<float>::quiet_NaN(),
+          .worst_clip = pack::kNoIndex};
 }
 
 }  // namespace

@@ -135,7 +135,7 @@ def energy(group, methods):
 
 def stability(network, group, gain):
     """Driven for 200 ticks at `gain`, then left alone for a minute: largest displacement and what is left.
-    The largest |c|; the largest displacement as a share of its limit (the guard fires above 1)."""
+    The largest |c|."""
     s, watch, driven = torch.arange(min(3, group.count)), {}, min(200, group.ticks)
     u = roll_out(
         network.model, network.scaling, group, driven + STILL_TICKS, s, gain, still_after=driven, watch=watch
@@ -147,7 +147,6 @@ def stability(network, group, gain):
         "residue_mean_mm": round(1e3 * float(u[-1].mean()), 5),
         "residue_largest_mm": round(1e3 * float(u[-1].max()), 5),
         "residue_share_of_height": float(f"{float(u[-1].max()) / height_m:.2e}"),
-        "largest_share_of_limit": round(watch["radii"] / network.scaling.displacement_limit, 3),
         "largest_cell": round(watch.get("cell", 0.0), 2),
     }
 

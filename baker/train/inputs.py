@@ -42,5 +42,4 @@ class Scaling:
     scale: dict  # name -> number
     length_unit: float  # in region radii
     envelope: dict  # name -> largest |value x scale| let through
-    displacement_limit: float  # in region radii; the runtime holds a node there
     without: tuple = ()  # ablations: inputs that are fed zero; "base": no modal base. Never shipped.

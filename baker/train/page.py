@@ -81,7 +81,6 @@ def stability_table(metrics):
         "network": lambda m: m["network"],
         "drive": lambda m: f"x {m['gain']:g}",
         "largest, mm": lambda m: m["largest_mm"],
-        "share of its limit": lambda m: m["largest_share_of_limit"],
         "largest cell": lambda m: m["largest_cell"],
         "left after a minute, mean mm": lambda m: m["residue_mean_mm"],
         "largest mm": lambda m: m["residue_largest_mm"],

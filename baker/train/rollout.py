@@ -129,8 +129,7 @@ def roll_out(model, scaling, group, ticks=None, sequences=None, gain=1.0, still_
     """Displacement (T+1, N, B, 3) metres of a group's sequences from rest.
 
     gain: factor on what drives the tissue. still_after: the character stands still from this tick on, for as
-    long as `ticks` says. watch: a dict that receives the largest |c| as 'cell' and the largest |l|, in region
-    radii, as 'radii'."""
+    long as `ticks` says. watch: a dict that receives the largest |c| as 'cell'."""
     s = torch.arange(group.count, device=group.device) if sequences is None else torch.as_tensor(sequences)
     ticks, chunk = ticks or group.ticks, 100
     moving = min(ticks, group.ticks, still_after or ticks)
@@ -145,13 +144,11 @@ def roll_out(model, scaling, group, ticks=None, sequences=None, gain=1.0, still_
                 state = tick(model, packed, group, scaling, static, state, gain * felt[t], drive[t], now)
                 out.append(group.flatten(state.base.u))
                 if watch is not None:
-                    _watch(watch, group, state)
+                    _watch(watch, state)
     return torch.stack(out)
 
 
-def _watch(watch, group, state):
-    radii = float((state.base.l.norm(dim=-1, keepdim=True) / group.radius).max())
-    watch["radii"] = max(watch.get("radii", 0.0), radii)
+def _watch(watch, state):
     watch["cell"] = max(watch.get("cell", 0.0), largest_cell(state.memory) if state.memory else 0.0)
 
 

@@ -1,12 +1,11 @@
-"""Input scales, envelopes and limits, measured on the training data with the modal base running."""
+"""Input scales and envelopes, measured on the training data with the modal base running."""
 import torch
 
 from .inputs import DRIVE, ORDER, STATIC, Scaling
 from .rollout import raw_inputs, start, tick
 
 SCALED_SIZE = 0.3  # mean size of a scaled input
-ENVELOPE_MARGIN = 1.2  # of the largest input and displacement seen in training
-LEAST_LIMIT = 0.75  # region radii
+ENVELOPE_MARGIN = 1.2  # of the largest input seen in training
 LENGTH_UNIT = 0.1  # region radii
 
 
@@ -34,7 +33,7 @@ class Sizes:
 
 def _run_base(group, sizes):
     """What a network would be fed along the roll-outs of the modal base alone."""
-    plain = Scaling({}, LENGTH_UNIT, {}, 1.0)
+    plain = Scaling({}, LENGTH_UNIT, {})
     s = torch.arange(group.count, device=group.device)
     state, mask = start(None, group, len(s)), group.mask
     with torch.no_grad():
@@ -59,10 +58,8 @@ def measure_scaling(groups):
             sizes.add(k, g.static[k][g.mask])
     of = lambda k: _round(SCALED_SIZE / sizes.mean(k)) if sizes.mean(k) > 1e-6 else 1.0
     scale = {k: 1.0 if k in STATIC else of(k) for k in ORDER}
-    reach = max(float((g.displacement.norm(dim=-1).amax((0, 1)) / g.radius_m()).max()) for g in groups)
     return Scaling(
         scale,
         LENGTH_UNIT,
         {k: max(1e-3, _round(ENVELOPE_MARGIN * sizes.largest(k) * scale[k], 4)) for k in ORDER},
-        max(LEAST_LIMIT, _round(ENVELOPE_MARGIN * reach)),
     )

@@ -31,7 +31,6 @@ def weights_metadata(options, scaling, rate_hz, extra):
         "output_leak": f"{options.output_leak:.9g}",
         "hidden_leak": f"{options.hidden_leak:.9g}",
         "state_clamp": f"{options.state_clamp:.9g}",
-        "displacement_limit": f"{scaling.displacement_limit:g}",
         **extra,
     }
 
@@ -78,7 +77,6 @@ def _read_scaling(path, metadata):
         named["input_scales"],
         read_number(path, metadata, "length_unit", 1),
         named["envelope"],
-        read_number(path, metadata, "displacement_limit", 0.75),
         tuple(k for k in metadata.get("without", "").split(",") if k),
     )
 

@@ -157,8 +157,11 @@ Status check_tier(const PackView& pack, const TierRecord& record, size_t index) 
   if (!std::isfinite(record.cost_us) || record.cost_us < 0 || !is_known_or_nan(record.cost_p99_us))
     return corrupt("tier %zu: cost %g us, p99 %g us", index, double{record.cost_us},
                    double{record.cost_p99_us});
-  for (const float error : {record.error_mm, record.error_ratio, record.error_p95_mm})
+  for (const float error :
+       {record.error_mm, record.error_ratio, record.error_p95_mm, record.worst_error_ratio})
     if (!is_known_or_nan(error)) return corrupt("tier %zu: an error is negative or infinite", index);
+  if (record.worst_clip != kNoIndex && record.worst_clip >= pack.clips.size())
+    return corrupt("tier %zu: clip %u of %zu", index, record.worst_clip, pack.clips.size());
   return {};
 }
 

@@ -34,6 +34,7 @@
 //   7  normals are the file's own and turn with the surface (kFaceNormals; kWelded tells sides apart);
 //   kMeshes;
 //      a rod states which way its gravity pulls and which capsules it passes
+//   8  a tier tells its error along the motion in which it is largest, and which that is
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -41,7 +42,7 @@
 namespace sinew::pack {
 
 inline constexpr char kMagic[8] = {'S', 'I', 'N', 'E', 'W', 'P', 'K', '\0'};
-inline constexpr uint32_t kVersion = 7;
+inline constexpr uint32_t kVersion = 8;
 inline constexpr size_t kSectionAlignment = 64;
 inline constexpr uint32_t kNoIndex = 0xffffffffu;
 
@@ -420,20 +421,23 @@ static_assert(sizeof(ClipRecord) == 32);
 // every 1 there are skinning, extrapolate, modal, and network where the pack has one; what else is there is
 // worth having.
 // Baked without sinew-trade: costs are the tier's operations at 60 GFLOP/s, and the errors those of this
-// character along two short motions, or not measured.
+// character along a few short motions, or not measured.
 // Measured: errors over vertices that tissue moves, of extrapolate 12 ticks after the last simulated one.
 struct TierRecord {
   uint32_t tier;   // sinew::Tier
   uint32_t every;  // ticks from one that is simulated whole to the next: 1 or 2; 1 where nothing is simulated
   float cost_us;   // a tick and instance on one core, in the long run, beyond skinning's; corrected online.
                    // skinning: what an instance takes in every step
-  float cost_p99_us;   // in one of a hundred of the ticks that are simulated whole; NaN: not measured
-  float error_mm;      // mean against ground truth on held-out motion; NaN: not measured
-  float error_ratio;   // the same as a share of skinning's error; NaN: not measured
-  float error_p95_mm;  // in one of twenty of the vertices and ticks; NaN: not measured
-  uint32_t level;      // of control graphs, 0 the finest; 0 where nothing is simulated
+  float cost_p99_us;  // in one of a hundred of the ticks that are simulated whole; NaN: not measured
+  float error_mm;     // mean against ground truth on held-out motion; NaN: not measured
+  float
+      error_ratio;  // a share of skinning's: the median over motions, sinew-trade's of all; NaN: not measured
+  float error_p95_mm;       // in one of twenty of the vertices and ticks; NaN: not measured
+  uint32_t level;           // of control graphs, 0 the finest; 0 where nothing is simulated
+  float worst_error_ratio;  // along the motion in which it is largest; NaN: not measured
+  uint32_t worst_clip;      // that motion, of kClips; kNoIndex: no clip of this pack, or not measured
 };
-static_assert(sizeof(TierRecord) == 32);
+static_assert(sizeof(TierRecord) == 40);
 constexpr bool is_every(uint32_t every) noexcept { return every == 1 || every == 2; }
 
 }  // namespace sinew::pack

@@ -24,21 +24,15 @@ constexpr float kUsualSkinningError = 5e-3f;
 // proved too dear is believed soon, and tried again after some ten seconds instead of one.
 constexpr frame::CostEstimate::Correction kWithSurface{.drift = 1e-3f, .rise = 0.5f};
 
-// What was not measured on a coarser graph follows from what was on the finest. What an artist tuned to move
-// otherwise than the truth is still to move: errors beyond a bound come below one, in the same order.
-float below_skinning(float error) noexcept {
-  constexpr float kBound = 0.9f;
-  return error > kBound ? 1 - (1 - kBound) * kBound / error : error;
-}
-
+// What was not measured on a coarser graph follows from what was on the finest.
 float told_error(const pack::PackView& pack, const pack::TierRecord& record) noexcept {
-  if (!std::isnan(record.error_ratio)) return below_skinning(record.error_ratio);
+  if (!std::isnan(record.error_ratio)) return record.error_ratio;
   float finest = frame::usual_error(static_cast<Tier>(record.tier), record.every);
   for (const pack::TierRecord& other : pack.tiers) {
     const bool same = other.tier == record.tier && other.every == record.every && other.level == 0;
     if (same && !std::isnan(other.error_ratio)) finest = other.error_ratio;
   }
-  return below_skinning(frame::coarser_error(finest, record.level));
+  return frame::coarser_error(finest, record.level);
 }
 
 void read_point(const pack::PackView& pack, const pack::TierRecord& record, Asset& asset) noexcept {

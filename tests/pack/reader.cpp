@@ -383,6 +383,8 @@ TEST_CASE("tier_faults_are_refused_by_name") {
                  {"tier 2: an error", tier(2, [](auto& t) { t.error_mm = -1; })},
                  {"tier 2: an error", tier(2, [](auto& t) { t.error_ratio = kInfinity; })},
                  {"tier 2: an error", tier(2, [](auto& t) { t.error_p95_mm = -1; })},
+                 {"tier 2: an error", tier(2, [](auto& t) { t.worst_error_ratio = -1; })},
+                 {"tier 2: clip 1 of 1", tier(2, [](auto& t) { t.worst_clip = 1; })},
                  {"tier 2: level 1", tier(2, [](auto& t) { t.level = 1; })}});
 }
 

@@ -174,8 +174,16 @@ TEST_CASE("the_camera_stands_where_it_is_told_and_by_itself_where_most_moves") {
 TEST_CASE("an_error_is_expected_only_where_it_was_measured_for_all_tiers_that_were_used") {
   constexpr float kNotMeasured = std::numeric_limits<float>::quiet_NaN();
   const auto record = [](Tier tier, float ratio, uint32_t level = 0) {
-    return pack::TierRecord{
-        static_cast<uint32_t>(tier), 1, 1, kNotMeasured, kNotMeasured, ratio, kNotMeasured, level};
+    return pack::TierRecord{static_cast<uint32_t>(tier),
+                            1,
+                            1,
+                            kNotMeasured,
+                            kNotMeasured,
+                            ratio,
+                            kNotMeasured,
+                            level,
+                            kNotMeasured,
+                            pack::kNoIndex};
   };
   const pack::TierRecord tiers[] = {record(Tier::kSkinning, 1), record(Tier::kExtrapolate, kNotMeasured),
                                     record(Tier::kNetwork, 0.25f), record(Tier::kNetwork, kNotMeasured, 1),

@@ -18,7 +18,7 @@ from train.export import check_vectors  # noqa: E402
 from train.inputs import FEEDBACK, INPUT_WIDTH, ORDER, columns  # noqa: E402
 from train.rollout import bounded, error_ratio, roll_out, truth  # noqa: E402
 from train.safetensors import BadData  # noqa: E402
-from train.scaling import ENVELOPE_MARGIN, LEAST_LIMIT, SCALED_SIZE, measure_scaling  # noqa: E402
+from train.scaling import ENVELOPE_MARGIN, SCALED_SIZE, measure_scaling  # noqa: E402
 from train.train import Trainer, train  # noqa: E402
 from train.train_options import TrainOptions  # noqa: E402
 from train.weights import read_weights  # noqa: E402
@@ -216,10 +216,6 @@ class Scales(unittest.TestCase):
         for name in ORDER:
             most = np.float32(self.scaling.envelope[name])
             self.assertEqual(bounded(torch.tensor([1e9, -1e9]), name, self.scaling).tolist(), [most, -most])
-
-    def test_the_displacement_limit_holds_what_was_seen(self):
-        reach = float(self.group.displacement.norm(dim=-1).max()) / synthetic.RADIUS_M
-        self.assertGreaterEqual(self.scaling.displacement_limit, max(LEAST_LIMIT, reach))
 
 
 class Episodes(unittest.TestCase):

@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# Measures how far the ground truth is from itself on the creature and on the gallery's characters, whose files lie in the folder that is
+# given, a folder each, and rewrites assets/evaluation/truth/. Half an hour on two cores.
+# usage: truth.sh CHARACTERS
+set -euo pipefail
+cd "$(dirname "$0")/.."
+characters=$(realpath "${1:?usage: truth.sh CHARACTERS (a folder of the gallery's characters)}")
+
+cmake --preset release -DSINEW_BUILD_PERF=ON | grep "^-- perf:" || true
+cmake --build --preset release --target perf_truth sinew-bake
+measured=$(mktemp -d)
+trap 'rm -rf "$measured"' EXIT
+build/release/bin/sinew-bake creature assets/creature/creature.json -o "$measured/creature.glb" >/dev/null
+
+measure_all() {
+  build/release/bin/perf_truth "$measured/creature.glb" --name creature --recipe assets/creature/tissue.json "$@"
+  for recipe in $(grep -l '"regions"' assets/gallery/*_*.json); do
+    name=$(basename "$recipe" .json)
+    build/release/bin/perf_truth "$(ls "$characters/$name"/file.* | head -n 1)" --name "$name" --recipe "$recipe" "$@"
+  done
+}
+measure_all >"$measured/some.csv"
+measure_all --clips 1000 --slow-alone >"$measured/all.csv"
+"${PYTHON:-/usr/bin/python3}" perf/summarise_truth.py "$measured/some.csv" "$measured/all.csv"

@@ -1,0 +1,169 @@
+// main.cpp  perf_truth: how far the ground truth is from itself: without inertia, at shorter steps and on a
+// finer cage.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "baker/common/bad_input.hpp"
+#include "baker/common/on_all_cores.hpp"
+#include "baker/mesh/import_character.hpp"
+#include "baker/mesh/tissue_layout.hpp"
+#include "baker/truth/tissue_truth.hpp"
+
+using namespace sinew::baker;
+
+namespace {
+
+constexpr double kRate_hz = 60, kSlower = 16;
+constexpr int kManySubsteps = 64, kFiner = 2;
+
+struct Options {
+  std::string character, recipe;
+  size_t clips = 5;
+  double seconds = 1.5;
+  bool slow_alone = false;
+};
+
+// What a character is simulated from; large, and shared.
+struct Body {
+  Character character;
+  Recipe recipe;
+  TissueLayout layout;
+
+  explicit Body(const Options& options, int finer = 1)
+      : recipe(options.recipe.empty() ? Recipe{} : read_recipe(options.recipe)) {
+    character = import_character(options.character, recipe);
+    recipe.voxels_high *= finer;
+    layout = layout_tissue(character, recipe);
+    if (layout.regions.empty()) throw BadInput(options.character + ": no part is soft tissue");
+  }
+};
+
+// Displacements of the regions' vertices, tick by tick, in the character's axes.
+using Roll = std::vector<Vector3>;
+
+struct Run {
+  double pace = 1;
+  int substeps = 0;  // 0: as usual
+  bool gravity = true;
+};
+
+Roll roll_out(const Body& body, const Motion& motion, const Options& options, const Run& run) {
+  TissueTruth truth(body.character, body.layout, body.recipe);
+  const int usual = usual_substeps(truth.modal_bases(body.layout, kMostModes), kRate_hz);
+  const auto paced = [&](double t_s) { return motion(run.pace * t_s); };
+  if (run.gravity)
+    truth.start(paced);
+  else
+    truth.start(paced, Vector3::Zero());
+  Roll roll;
+  const long ticks = std::lround(options.seconds / run.pace * kRate_hz);
+  for (long tick = 0; tick < ticks; ++tick) {
+    const TruthFrame frame = truth.advance(kRate_hz, run.substeps > 0 ? run.substeps : usual);
+    const Eigen::Matrix3d axes = frame.pose.root.topLeftCorner<3, 3>();
+    for (const Region& region : body.layout.regions)
+      for (const int v : region.vertices) {
+        const auto at = static_cast<size_t>(v);
+        roll.emplace_back(axes.transpose() * (frame.truth[at] - frame.skinned[at]));
+      }
+  }
+  return roll;
+}
+
+double mean_of(const Roll& roll) {
+  double sum = 0;
+  for (const Vector3& u : roll) sum += u.norm();
+  return sum / static_cast<double>(roll.size());
+}
+
+double share_off(const Roll& roll, const Roll& reference) {
+  double off = 0, whole = 0;
+  for (size_t i = 0; i < roll.size(); ++i)
+    off += (roll[i] - reference[i]).norm(), whole += reference[i].norm();
+  return off / whole;
+}
+
+struct Row {
+  std::string motion;
+  double mean_mm = 0, slow_share = 0;
+  std::optional<double> many_substeps, finer_cage;
+  std::string fault;
+};
+
+std::string told(const std::optional<double>& share) {
+  char text[32] = "";
+  if (share) std::snprintf(text, sizeof text, "%.4f", *share);
+  return text;
+}
+
+Row measure(const Body& body, const Body* finer, const std::string& name, const Motion& motion,
+            const Options& options) {
+  Row row{.motion = name};
+  try {
+    const Roll still = roll_out(body, motion, options, {.pace = 1 / kSlower, .gravity = false});
+    const Roll moving = roll_out(body, motion, options, {.gravity = false});
+    row.slow_share = mean_of(still) / mean_of(moving);
+    const Roll usual = roll_out(body, motion, options, {});
+    row.mean_mm = 1e3 * mean_of(usual);
+    if (options.slow_alone) return row;
+    const Roll many = roll_out(body, motion, options, {.substeps = kManySubsteps});
+    row.many_substeps = share_off(usual, many);
+    if (finer) row.finer_cage = share_off(usual, roll_out(*finer, motion, options, {}));
+  } catch (const std::runtime_error& fault) {
+    row.fault = fault.what();
+  }
+  return row;
+}
+
+std::vector<Row> measure_all(const Options& options) {
+  const Body body(options);
+  const std::optional<Body> finer =
+      options.slow_alone ? std::nullopt : std::optional<Body>(std::in_place, options, kFiner);
+  std::vector<std::pair<std::string, Motion>> motions;
+  const std::vector<Clip>& clips = body.character.clips;
+  const size_t picked = std::min(options.clips, clips.size());
+  for (size_t k = 0; k < picked; ++k) {
+    const Clip& clip = clips[picked == 1 ? 0 : k * (clips.size() - 1) / (picked - 1)];
+    motions.emplace_back(clip.name, clip_motion(body.character, clip));
+  }
+  if (motions.empty()) motions.emplace_back("shake", shake_motion(body.character));
+  std::vector<Row> rows(motions.size());
+  on_all_cores("truth", rows.size(), rows.size(), [&](size_t m, std::atomic<size_t>& done) {
+    rows[m] = measure(body, finer ? &*finer : nullptr, motions[m].first, motions[m].second, options);
+    ++done;
+  });
+  return rows;
+}
+
+void print(const std::string& name, const std::vector<Row>& rows) {
+  for (const Row& row : rows)
+    std::printf("\"%s\",\"%s\",%.3f,%.4f,%s,%s,\"%s\"\n", name.c_str(), row.motion.c_str(), row.mean_mm,
+                row.slow_share, told(row.many_substeps).c_str(), told(row.finer_cage).c_str(),
+                row.fault.c_str());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("How far a character's ground truth is from itself, as shares of its mean displacement: CSV");
+  Options options;
+  std::string name;
+  app.add_option("character", options.character, "skinned glTF or VRM")->required();
+  app.add_option("--name", name, "what the rows call it")->required();
+  app.add_option("--recipe", options.recipe, "JSON; see baker/mesh/recipe.hpp");
+  app.add_option("--clips", options.clips, "so many, evenly picked");
+  app.add_option("--seconds", options.seconds, "of each")->check(CLI::Range(0.1, 60.0));
+  app.add_flag("--slow-alone", options.slow_alone, "neither shorter steps nor a finer cage: for all clips");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    print(name, measure_all(options));
+  } catch (const std::exception& fault) {
+    std::fprintf(stderr, "perf_truth: %s\n", fault.what());
+    return 2;
+  }
+  return 0;
+}
