@@ -139,7 +139,7 @@ void add_truth_command(CLI::App& app, int*) {
   command->add_option("--seconds", options->seconds, "simulated time");
   command->add_option("--rate", options->rate_hz, "ticks a second");
   command->add_option("--substeps", options->substeps,
-                      "steps a tick; by default 240 a second, 480 where flesh swings above 6 Hz");
+                      "steps a tick; by default 80 a period of the fastest soft part, 240 to 480 a second");
   command->add_flag("--surface", options->surface,
                     "also the displacement of every carried vertex, and the carry weights");
   command->add_flag("--positions", options->positions, "also the true position of every vertex");

@@ -159,11 +159,12 @@ std::vector<ModalBasis> TissueTruth::modal_bases(const TissueLayout& layout, int
 std::vector<double> TissueTruth::frequencies_hz(int count) const { return impl_->fem.frequencies_hz(count); }
 
 int usual_substeps(const std::vector<ModalBasis>& modes, double rate_hz) {
-  constexpr double kFast_rad_per_s = 2 * M_PI * 6, kSlow_hz = 240, kFast_hz = 480;
-  const bool fast = std::ranges::any_of(modes, [](const ModalBasis& basis) {
-    return basis.rad_per_s.size() > 0 && basis.rad_per_s[0] > kFast_rad_per_s;
-  });
-  return std::max(1, static_cast<int>(std::ceil((fast ? kFast_hz : kSlow_hz) / rate_hz - 1e-9)));
+  constexpr double kStepsAPeriod = 80, kFewest_hz = 240, kMost_hz = 480, kRounding = 1e-9;
+  double fastest_hz = 0;
+  for (const ModalBasis& basis : modes)
+    if (basis.rad_per_s.size() > 0) fastest_hz = std::max(fastest_hz, basis.rad_per_s[0] / (2 * M_PI));
+  const double steps_hz = std::clamp(kStepsAPeriod * fastest_hz, kFewest_hz, kMost_hz);
+  return std::max(1, static_cast<int>(std::ceil(steps_hz / rate_hz - kRounding)));
 }
 
 }  // namespace sinew::baker
