@@ -4,7 +4,7 @@
 # usage: truth.sh CHARACTERS
 set -euo pipefail
 cd "$(dirname "$0")/.."
-characters=$(realpath "${1:?usage: truth.sh CHARACTERS (a folder of the gallery's characters)}")
+characters=$(realpath "${1:?usage: truth.sh CHARACTERS (a folder with a folder for each character of the gallery)}")
 
 cmake --preset release -DSINEW_BUILD_PERF=ON | grep "^-- perf:" || true
 cmake --build --preset release --target perf_truth sinew-bake

@@ -153,16 +153,30 @@ int free_nodes(const Cage& cage) {
   return static_cast<int>(std::count(cage.constrained.begin(), cage.constrained.end(), false));
 }
 
+Cage checked(Cage cage, const Character& character) {
+  if (free_nodes(cage) == 0)
+    throw BadInput("cage: " + character.name +
+                   " has no free node: paint softer, lower the recipe's core_share, or raise voxels_high");
+  return cage;
+}
+
 }  // namespace
 
 Cage build_cage(const Character& character, const TissueLayout& layout, const Recipe& recipe) {
   check(character, layout, recipe);
   int voxels_high = recipe.voxels_high.value_or(kUsualVoxelsHigh);
   Cage cage = build_cage(character, layout, recipe, voxels_high);
+  if (recipe.voxels_high) return checked(std::move(cage), character);
+  const auto with_free_nodes = [&](int wanted) {
+    return static_cast<int>(voxels_high * std::cbrt(1.0 * wanted / std::max(1, free_nodes(cage))));
+  };
+  if (free_nodes(cage) < kFewFreeNodes) {
+    voxels_high = std::min(kMostVoxelsHigh, with_free_nodes(kFewFreeNodes));
+    cage = build_cage(character, layout, recipe, voxels_high);
+  }
   const int finest = free_nodes(cage);
-  while (!recipe.voxels_high && free_nodes(cage) > kMostFreeNodes) {
-    voxels_high = std::min(
-        voxels_high - 1, static_cast<int>(voxels_high * std::cbrt(1.0 * kMostFreeNodes / free_nodes(cage))));
+  while (free_nodes(cage) > kMostFreeNodes) {
+    voxels_high = std::min(voxels_high - 1, with_free_nodes(kMostFreeNodes));
     cage = build_cage(character, layout, recipe, voxels_high);
   }
   if (free_nodes(cage) < finest)
@@ -170,10 +184,7 @@ Cage build_cage(const Character& character, const TissueLayout& layout, const Re
                          " voxels in the place of " + std::to_string(kUsualVoxelsHigh) + " (" +
                          std::to_string(free_nodes(cage)) + " free nodes, not " + std::to_string(finest) +
                          "); the recipe's voxels_high states how many");
-  if (std::all_of(cage.constrained.begin(), cage.constrained.end(), [](bool c) { return c; }))
-    throw BadInput("cage: " + character.name +
-                   " has no free node: paint softer, lower the recipe's core_share, or raise voxels_high");
-  return cage;
+  return checked(std::move(cage), character);
 }
 
 }  // namespace sinew::baker

@@ -33,8 +33,9 @@ struct Cage {
 
 // Free are the nodes around soft regions that are neither as stiff as the recipe's rigid_stiffness nor in a
 // bone's core, and hang on constrained ones by more than a corner or an edge (cage_support.hpp). Where the
-// recipe states no voxels_high, cells grow until at most kMostFreeNodes are free, and a note says so. Throws
-// BadInput when none is free.
+// recipe states no voxels_high, cells shrink until kFewFreeNodes are free, or as many as kMostVoxelsHigh
+// give, and grow until at most kMostFreeNodes are, of which a note tells. Throws BadInput when none is free.
+inline constexpr int kFewFreeNodes = 1500, kMostVoxelsHigh = 64;  // thin parts: two cells are no flesh
 inline constexpr int kMostFreeNodes = 4000;  // a bake with its short truths then takes some ten seconds
 Cage build_cage(const Character& character, const TissueLayout& layout, const Recipe& recipe);
 
