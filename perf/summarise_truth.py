@@ -91,7 +91,7 @@ def main(some_path, all_path):
     page = [
         "# How far the truth is from itself",
         "",
-        "Made by `perf/truth.sh`. Distances over the vertices that tissue moves, 1.5 s of each clip from its start, as shares of the mean displacement: the median over clips, the largest and its clip. An error that is stated",
+        "Made by `perf/truth.sh`. Distances over the vertices that tissue moves, 1.5 s of each clip from its start (1 s of all clips), as shares of the mean displacement: the median over clips, the largest and its clip. An error that is stated",
         "against this truth means nothing below them. The character's own cage and steps (80 in a period of the fastest soft part, 240 to 480 a second) are held against 64 substeps a tick and against cells half as large;",
         "without gravity and 16 times slower nothing is left to move flesh but a 256th of the inertia.",
         "",

