@@ -1,6 +1,6 @@
 """Writes assets/evaluation/truth/: the page, its picture and the tables that it is made of.
 
-usage: summarise_truth.py SOME.csv ALL.csv      what perf_truth wrote of a few clips, and of all with --slow-alone
+usage: summarise_truth.py SOME.csv ALL.csv      what perf_truth wrote of a few clips, and of all with --slow
 """
 import csv
 import pathlib
@@ -52,11 +52,11 @@ def table(some, every):
         cells = [
             name,
             f"{len(mine)} of {len(all_)}",
-            f"{statistics.median(values(mine, 'mean_mm')):.2f}",
+            f"{statistics.median(values(mine, 'mean_mm') or [0]):.2f}",
             told(all_, "slow"),
             told(mine, "many"),
             told(mine, "finer"),
-            str(sum(bool(row["fault"]) for row in mine + all_)),
+            str(len({row["clip"] for row in mine + all_ if row["fault"]})),
         ]
         lines.append("| " + " | ".join(cells) + " |")
     return lines
@@ -91,7 +91,7 @@ def main(some_path, all_path):
     page = [
         "# How far the truth is from itself",
         "",
-        "Made by `perf/truth.sh`. Distances over the vertices that tissue moves, 1.5 s of each clip from its start (1 s of all clips), as shares of the mean displacement: the median over clips, the largest and its clip. An error that is stated",
+        "Made by `perf/truth.sh`. Distances over the vertices that tissue moves, 1.5 s of each clip from its start (half a second of all clips in slow motion), as shares of the mean displacement: the median over clips, the largest and its clip. An error that is stated",
         "against this truth means nothing below them. The character's own cage and steps (80 in a period of the fastest soft part, 240 to 480 a second) are held against 64 substeps a tick and against cells half as large;",
         "without gravity and 16 times slower nothing is left to move flesh but a 256th of the inertia.",
         "",

@@ -45,8 +45,8 @@ struct Recipe {
   double damping_ratio = 0.1;   // 0 .. 1, Rayleigh, at the first and third mode's neighbourhood
   // 0.01 .. 4, share of a region's radius, approached smoothly. Absent: 0.35, or what its skin can stretch.
   std::optional<double> max_displacement = {};
-  // 8 .. 200, cage cells along the character's longest side; absent: by how much is soft (truth/cage.hpp),
-  // about kUsualVoxelsHigh.
+  // 8 .. 200, cage cells along the character's longest side; absent: kUsualVoxelsHigh, or by how much is
+  // soft (truth/cage.hpp)
   std::optional<int> voxels_high;
   double rigid_stiffness = 0.95;  // painted stiffness from here on is constrained to the skinning
   double core_share = 0.45;       // 0 .. 1, share of the way from bone to skin that follows the bone rigidly

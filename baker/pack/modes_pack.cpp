@@ -2,7 +2,9 @@
 #include "baker/pack/modes_pack.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "baker/common/bad_input.hpp"
 
@@ -113,12 +115,16 @@ void append_region(const Region& region, const ModalBasis& basis, double rate_hz
 
 Recurrence modal_recurrence(double rad_per_s, double damping_ratio, double rate_hz) {
   if (rad_per_s == 0) return {};
-  const double decay = damping_ratio * rad_per_s / rate_hz, below = 1 - damping_ratio * damping_ratio;
-  const double root = std::sqrt(std::abs(below)) * rad_per_s / rate_hz;
+  const double swung = rad_per_s / rate_hz, decay = damping_ratio * swung;
+  const double below = 1 - damping_ratio * damping_ratio, root = std::sqrt(std::abs(below)) * swung;
   Recurrence r;
-  r.a1 = static_cast<float>(below >= 0 ? 2 * std::exp(-decay) * std::cos(root)
-                                       : std::exp(root - decay) + std::exp(-root - decay));
-  r.a2 = static_cast<float>(-std::exp(-2 * decay));
+  if (below < 0) {
+    r.a1 = static_cast<float>(std::exp(root - decay) + std::exp(-root - decay));
+    r.a2 = static_cast<float>(-std::exp(-2 * decay));
+  } else if (root < std::numbers::pi) {
+    r.a1 = static_cast<float>(2 * std::exp(-decay) * std::cos(root));
+    r.a2 = std::max(std::nextafter(-1.0f, 0.0f), static_cast<float>(-std::exp(-2 * decay)));
+  }
   r.gain = static_cast<float>((1 - double{r.a1} - double{r.a2}) / (rad_per_s * rad_per_s));
   return r;
 }

@@ -13,7 +13,8 @@ namespace sinew::baker {
 // steady p. With h = 1 / rate_hz,
 //   a1 = 2 e^(-zeta w h) cos(w h sqrt(1 - zeta^2))   a2 = -e^(-2 zeta w h)   gain = (1 - a1 - a2) / w^2
 // and cosh(w h sqrt(zeta^2 - 1)) where zeta > 1. a1 and a2 are rounded to float first: the static answer
-// is then p / w^2 in float too. w = 0: nothing is remembered, a1 = a2 = 0.
+// is then p / w^2 in float too. What swings by half a turn and more in a tick answers at once, and w = 0
+// nothing: a1 = a2 = 0. Undamped, a2 is the float next to -1.
 struct Recurrence {
   float a1 = 0, a2 = 0, gain = 0;
 };

@@ -1,6 +1,8 @@
 // bake_character.cpp  sinew-bake character: a skinned character, its modes and trained weights to one .sinew
 // file.
+#include <cmath>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -190,16 +192,17 @@ std::vector<std::byte> measured(const Packer& packer, const Recipe& recipe, cons
   std::vector<std::byte> bytes = packer.pack(weights);
   try {
     LoadedPack pack = LoadedPack::from_bytes(bytes, character.name);
-    const std::vector<TrueSurface> truths =
-        short_truths(character, tissue.layout, recipe, tissue.finest, pack.view());
+    const ShortTruths truths = short_truths(character, tissue.layout, recipe, tissue.finest, pack.view());
     std::vector<pack::TierRecord> tiers = measured_tiers(pack, truths);
     if (weights && !keep_network && !network_pays(tiers)) {
       character.notes.push_back(network_note(tiers));
       bytes = packer.pack(nullptr);
       tiers = measured_tiers(LoadedPack::from_bytes(bytes, character.name), truths);
     }
-    if (const double modal = error_ratio_of(tiers, Tier::kModal); !(modal < 1))
-      character.notes.push_back(no_gain_note(modal));
+    double least = std::numeric_limits<double>::infinity();
+    for (const Tier tier : {Tier::kSpring, Tier::kModal, Tier::kNetwork})
+      least = std::fmin(least, error_ratio_of(tiers, tier));
+    if (least >= 1 && std::isfinite(least)) character.notes.push_back(no_gain_note(least));
     return with_tiers(bytes, tiers);
   } catch (const std::runtime_error& problem) {
     const char* what = keep_network || !weights ? "errors are not measured: "

@@ -151,7 +151,7 @@ Json describe_clips(const pack::PackView& view) {
 
 std::string worst_motion(const pack::PackView& view, const pack::TierRecord& tier) {
   if (std::isnan(tier.worst_error_ratio)) return "-";
-  if (tier.worst_clip == pack::kNoIndex) return view.clips.empty() ? "random or shake" : "random";
+  if (tier.worst_clip == pack::kNoIndex) return "random or shake";
   return std::string(string_at(view, view.clips[tier.worst_clip].name));
 }
 

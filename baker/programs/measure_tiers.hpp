@@ -11,17 +11,21 @@
 
 namespace sinew::baker {
 
-// Of 1.5 s each, less of large bodies, of motions that no weights were trained on: random motion and up to five
-// of the character's clips, evenly picked of those in which joints move, or where there is none a shake. On all
-// cores. Throws std::runtime_error where a step of the truth does not converge.
-std::vector<TrueSurface> short_truths(const Character& character, const TissueLayout& layout,
-                                      const Recipe& recipe, const std::vector<ModalBasis>& modes,
-                                      const pack::PackView& pack);
+// What short_truths gives; clips: which of the character's each motion is, pack::kNoIndex: none.
+struct ShortTruths {
+  std::vector<TrueSurface> surfaces;
+  std::vector<uint32_t> clips;
+};
+
+// Of 1.5 s each, 0.85 s of large bodies, of motions that no weights were trained on: random motion and up to
+// five of the character's clips, evenly picked of those in which joints move, or where there is none a shake.
+// On all cores. Throws std::runtime_error, naming the motion, where a step of the truth does not converge.
+ShortTruths short_truths(const Character& character, const TissueLayout& layout, const Recipe& recipe,
+                         const std::vector<ModalBasis>& modes, const pack::PackView& pack);
 
 // The pack's tiers with the errors measured in closed loop along these motions. Throws BadInput where nothing
 // moves in them.
-std::vector<pack::TierRecord> measured_tiers(const LoadedPack& character,
-                                             const std::vector<TrueSurface>& truths);
+std::vector<pack::TierRecord> measured_tiers(const LoadedPack& character, const ShortTruths& truths);
 
 // A network is worth its time where its error is smaller than its modal base's by this share.
 inline constexpr double kNetworkMargin = 0.05;

@@ -6,10 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
-#include <mutex>
-#include <thread>
 
 #include "baker/common/bad_input.hpp"
 #include "baker/common/on_all_cores.hpp"

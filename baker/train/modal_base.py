@@ -20,13 +20,15 @@ def projection(shape, rad_per_s):
 
 def recurrence(rad_per_s, damping_ratio, tick_s):
     """a1, a2, gain of q_t = a1 q_{t-1} + a2 q_{t-2} + gain p, the oscillator's own poles, damped below or above
-    the critical ratio 1. Tensors of any one shape; zero where rad_per_s is."""
-    wh, below = rad_per_s * tick_s, 1 - damping_ratio.square()
-    decay, root = damping_ratio * wh, wh * below.abs().clamp(min=1e-12).sqrt()
-    swings, creeps = 2 * (-decay).exp() * root.cos(), (root - decay).exp() + (-root - decay).exp()
+    the critical ratio 1. What swings by half a turn and more in a tick answers at once. Tensors of any one
+    shape; zero where rad_per_s is."""
+    swung, below = rad_per_s * tick_s, 1 - damping_ratio.square()
+    decay, root = damping_ratio * swung, swung * below.abs().clamp(min=1e-12).sqrt()
+    swings, creeps = 2 * (-decay).exp() * root.cos(), (root - decay).clamp(max=0).exp() + (-root - decay).exp()
     a1, a2 = torch.where(below >= 0, swings, creeps), -(-2 * decay).exp()
-    there = (wh > 0).to(wh.dtype)
-    return a1 * there, a2 * there, (1 - a1 - a2) / rad_per_s.square().clamp(min=1e-12) * there
+    remembers = ((swung > 0) & ((below < 0) | (root < math.pi))).to(swung.dtype)
+    a1, a2, there = a1 * remembers, a2 * remembers, (swung > 0).to(swung.dtype)
+    return a1, a2, (1 - a1 - a2) / rad_per_s.square().clamp(min=1e-12) * there
 
 
 def cross(a, b):

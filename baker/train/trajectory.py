@@ -47,10 +47,6 @@ class Trajectory:
         return float(self.metadata["rate_hz"])
 
     @property
-    def substeps(self):
-        return int(self.metadata["substeps"])
-
-    @property
     def name(self):
         return f"{self.metadata.get('motion', '?')}#{self.metadata.get('seed', '?')}"
 
@@ -125,15 +121,14 @@ def _check_metadata(path, metadata):
             f"{path}: trajectory version {version}, this trainer reads {VERSION}; "
             "make it again with sinew-bake truth"
         )
-    for key, kind in (("rate_hz", float), ("substeps", int)):
-        try:
-            good = 0 < kind(metadata[key]) < float("inf")
-        except (KeyError, ValueError):
-            good = False
-        if not good:
-            raise BadData(
-                f"{path}: metadata {key} is {metadata.get(key)}: not a number above 0; make the file again"
-            )
+    try:
+        good = 0 < float(metadata["rate_hz"]) < float("inf")
+    except (KeyError, ValueError):
+        good = False
+    if not good:
+        raise BadData(
+            f"{path}: metadata rate_hz is {metadata.get('rate_hz')}: not a number above 0; make the file again"
+        )
 
 
 def read_trajectory(path):

@@ -170,18 +170,18 @@ Cage build_cage(const Character& character, const TissueLayout& layout, const Re
   const auto with_free_nodes = [&](int wanted) {
     return static_cast<int>(voxels_high * std::cbrt(1.0 * wanted / std::max(1, free_nodes(cage))));
   };
-  if (free_nodes(cage) < kFewFreeNodes) {
-    voxels_high = std::min(kMostVoxelsHigh, with_free_nodes(kFewFreeNodes));
+  while (free_nodes(cage) < kFewFreeNodes && voxels_high < kMostVoxelsHigh) {
+    voxels_high = std::clamp(with_free_nodes(kFewFreeNodes), voxels_high + 1, kMostVoxelsHigh);
     cage = build_cage(character, layout, recipe, voxels_high);
   }
-  const int finest = free_nodes(cage);
+  const int finest = free_nodes(cage), finest_high = voxels_high;
   while (free_nodes(cage) > kMostFreeNodes) {
     voxels_high = std::min(voxels_high - 1, with_free_nodes(kMostFreeNodes));
     cage = build_cage(character, layout, recipe, voxels_high);
   }
   if (free_nodes(cage) < finest)
     cage.notes.push_back("much of it is soft: a cage of " + std::to_string(voxels_high) +
-                         " voxels in the place of " + std::to_string(kUsualVoxelsHigh) + " (" +
+                         " voxels in the place of " + std::to_string(finest_high) + " (" +
                          std::to_string(free_nodes(cage)) + " free nodes, not " + std::to_string(finest) +
                          "); the recipe's voxels_high states how many");
   return checked(std::move(cage), character);

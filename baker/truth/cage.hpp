@@ -36,7 +36,7 @@ struct Cage {
 // recipe states no voxels_high, cells shrink until kFewFreeNodes are free, or as many as kMostVoxelsHigh
 // give, and grow until at most kMostFreeNodes are, of which a note tells. Throws BadInput when none is free.
 inline constexpr int kFewFreeNodes = 1500, kMostVoxelsHigh = 64;  // thin parts: two cells are no flesh
-inline constexpr int kMostFreeNodes = 4000;  // a bake with its short truths then takes some ten seconds
+inline constexpr int kMostFreeNodes = 4000;  // with the short truths of a bake: a quarter of a minute
 Cage build_cage(const Character& character, const TissueLayout& layout, const Recipe& recipe);
 
 }  // namespace sinew::baker

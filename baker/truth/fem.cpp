@@ -74,12 +74,12 @@ struct Fem::Impl {
       relative_velocity;  // against the undisturbed motion, in its turning axes: the next step's first guess
 
   // What a step remembers for the next: where it began. dt_s 0: nothing.
-  struct Past {
+  struct StepStart {
     double dt_s = 0;
     Eigen::VectorXd positions, velocities;
     Eigen::VectorXd displacement;                  // from the undisturbed motion, in axes that turn with it
     std::vector<std::vector<LaneStrain>> strains;  // a component's blocks, in each element's bound axes
-  } past;
+  } last;
 
   template <typename Visit>  // visit(block)
   void each_block(const Visit& visit) const {
@@ -87,7 +87,8 @@ struct Fem::Impl {
       for (const ElementBlock& block : component.blocks()) visit(block);
     for (const ElementBlock& block : rigid_blocks) visit(block);
   }
-  Past now(const Eigen::VectorXd& x, const Eigen::VectorXd& v, const UndisturbedMotion* motion) const;
+  StepStart start_of(const Eigen::VectorXd& x, const Eigen::VectorXd& v,
+                     const UndisturbedMotion* motion) const;
   void follow(const Eigen::VectorXd& shape, double dt_s);
 };
 
@@ -166,10 +167,11 @@ Fem::Fem(Fem&&) noexcept = default;
 void Fem::reset(const Eigen::VectorXd& at) {
   positions = at;
   velocities = impl_->relative_velocity = Eigen::VectorXd::Zero(at.size());
-  impl_->past.dt_s = 0;
+  impl_->last.dt_s = 0;
 }
 
 void Fem::reshape(const Eigen::VectorXd& unstressed) {
+  impl_->last.dt_s = 0;
   impl_->unstressed = unstressed;
   for (FemComponent& component : impl_->components) component.reshape(unstressed);
   for (ElementBlock& block : impl_->rigid_blocks) sinew::baker::reshape(block, unstressed.data());
@@ -183,17 +185,17 @@ void Fem::Impl::follow(const Eigen::VectorXd& shape, double dt_s) {
     sinew::baker::follow(block, shape.data(), kFastest_rad_per_s * dt_s);
 }
 
-Fem::Impl::Past Fem::Impl::now(const Eigen::VectorXd& x, const Eigen::VectorXd& v,
-                               const UndisturbedMotion* motion) const {
-  Past now{.dt_s = 0, .positions = x, .velocities = v, .displacement = x, .strains = {}};
-  if (motion) now.displacement -= motion->before;
-  now.strains.resize(components.size());
+Fem::Impl::StepStart Fem::Impl::start_of(const Eigen::VectorXd& x, const Eigen::VectorXd& v,
+                                         const UndisturbedMotion* motion) const {
+  StepStart start{.dt_s = 0, .positions = x, .velocities = v, .displacement = x, .strains = {}};
+  if (motion) start.displacement -= motion->before;
+  start.strains.resize(components.size());
   for (size_t c = 0; c < components.size(); ++c)
     if (components[c].rayleigh_stiffness_s > 0)
       for (const ElementBlock& block : components[c].blocks())
-        now.strains[c].push_back(
+        start.strains[c].push_back(
             turned(transposed(block.turn), strain(elasticity, deformation_gradient(block, x.data()))));
-  return now;
+  return start;
 }
 
 namespace {
@@ -206,7 +208,7 @@ void turn_by(const std::vector<Eigen::Matrix3d>& turn, Eigen::VectorXd& v) {
 // BDF2 with equal steps is backward Euler over two thirds of one, from the last state and a third of how it
 // differs from the one before (Hairer and Wanner 1996, III.1); without a step before it is backward Euler.
 struct Formula {
-  double h_s, share;
+  double h_s, extrapolated;
 };
 
 Formula formula_of(double dt_s, double dt_before_s) {
@@ -215,8 +217,8 @@ Formula formula_of(double dt_s, double dt_before_s) {
 }
 
 Eigen::VectorXd from(const Formula& f, const Eigen::VectorXd& last, const Eigen::VectorXd& before) {
-  if (f.share == 0) return last;
-  return last + f.share * (last - before);
+  if (f.extrapolated == 0) return last;
+  return last + f.extrapolated * (last - before);
 }
 
 // Turned back into the world's axes. Empty without viscosity.
@@ -224,7 +226,8 @@ std::vector<LaneStrain> from(const Formula& f, const std::vector<LaneStrain>& la
                              const std::vector<LaneStrain>& before, const FemComponent& component) {
   std::vector<LaneStrain> out = last;
   for (size_t b = 0; b < out.size(); ++b) {
-    for (size_t k = 0; k < 6 && f.share != 0; ++k) out[b][k] += f.share * (last[b][k] - before[b][k]);
+    for (size_t k = 0; k < 6 && f.extrapolated != 0; ++k)
+      out[b][k] += f.extrapolated * (last[b][k] - before[b][k]);
     out[b] = turned(component.blocks()[b].turn, out[b]);
   }
   return out;
@@ -248,15 +251,15 @@ int Fem::step(double dt_s, const Eigen::VectorXd& target, const Eigen::VectorXd&
   if (target.size() != positions.size() || force.size() != positions.size())
     refuse("target and force need 3 values for each of " + std::to_string(mass.size()) + " nodes");
   constexpr int kPatience = 6;
-  Impl::Past now = impl_->now(positions, velocities, undisturbed), &past = impl_->past;
-  now.dt_s = dt_s;
-  const Formula formula = formula_of(dt_s, past.dt_s);
+  Impl::StepStart start = impl_->start_of(positions, velocities, undisturbed), &last = impl_->last;
+  const Formula formula = formula_of(dt_s, last.dt_s);
+  last.dt_s = 0;  // until this step is over
   Eigen::VectorXd& relative = impl_->relative_velocity;
-  Eigen::VectorXd along = now.displacement;
+  Eigen::VectorXd along = start.displacement;
   if (undisturbed) {
-    for (Eigen::VectorXd* v : {&now.displacement, &past.displacement, &relative})
+    for (Eigen::VectorXd* v : {&start.displacement, &last.displacement, &relative})
       turn_by(undisturbed->turn, *v);
-    along = undisturbed->after + now.displacement;
+    along = undisturbed->after + start.displacement;
     impl_->follow(undisturbed->after, dt_s);
   } else {
     relative = velocities;
@@ -264,22 +267,23 @@ int Fem::step(double dt_s, const Eigen::VectorXd& target, const Eigen::VectorXd&
   positions = along + dt_s * relative;
   for (Eigen::Index i = 0; i < mass.size(); ++i)
     if (impl_->constrained[static_cast<size_t>(i)]) positions.segment<3>(3 * i) = target.segment<3>(3 * i);
-  const Eigen::VectorXd x = from(formula, now.positions, past.positions),
-                        v = from(formula, now.velocities, past.velocities);
-  Eigen::VectorXd carried = from(formula, now.displacement, past.displacement);
+  const Eigen::VectorXd x = from(formula, start.positions, last.positions),
+                        v = from(formula, start.velocities, last.velocities);
+  Eigen::VectorXd carried = from(formula, start.displacement, last.displacement);
   if (undisturbed) carried += undisturbed->after;
   int most = 0;
   for (size_t c = 0; c < impl_->components.size(); ++c) {
     FemComponent& component = impl_->components[c];
     Potential p = step_potential(component, formula.h_s, x, v, carried);
     p.force = force;
-    p.strain =
-        from(formula, now.strains[c], formula.share == 0 ? now.strains[c] : past.strains[c], component);
+    p.strain = from(formula, start.strains[c], formula.extrapolated == 0 ? start.strains[c] : last.strains[c],
+                    component);
     most = std::max(most, component.minimize(p, tolerance, kPatience, positions));
   }
   velocities = (positions - x) / formula.h_s;
   relative = (positions - carried) / formula.h_s;
-  past = std::move(now);
+  last = std::move(start);
+  last.dt_s = dt_s;
   return most;
 }
 
@@ -296,7 +300,7 @@ int Fem::settle(const Eigen::VectorXd& force, double tolerance) {
     most = std::max(most, component.minimize(p, tolerance, 0, positions));
   }
   velocities.setZero();
-  impl_->past.dt_s = 0;
+  impl_->last.dt_s = 0;
   return most;
 }
 
@@ -344,6 +348,7 @@ void Fem::damp(const std::vector<double>& ratios) {
   if (ratios.size() != impl_->components.size())
     refuse(std::to_string(ratios.size()) + " damping ratios for " + std::to_string(impl_->components.size()) +
            " bodies: give one a body");
+  impl_->last.dt_s = 0;
   for (size_t c = 0; c < ratios.size(); ++c) {
     FemComponent& component = impl_->components[c];
     const double ratio = ratios[c];

@@ -54,8 +54,9 @@ class Fem {
   ~Fem();
   Fem(Fem&&) noexcept;
 
-  Eigen::VectorXd positions, velocities;  // 3 a node; constrained entries are the caller's
-  Eigen::VectorXd mass;                   // lumped, 1 a node
+  // 3 a node; constrained entries are the caller's. Whoever writes others between steps calls reset() first.
+  Eigen::VectorXd positions, velocities;
+  Eigen::VectorXd mass;  // lumped, 1 a node
 
   // At rest at these positions; forgets the past.
   void reset(const Eigen::VectorXd& at);

@@ -30,12 +30,12 @@ LocalPose weighted_sum(const std::array<const LocalPose*, 4>& poses, const std::
 }
 
 struct Step {
-  double turn_rad, shift;
+  double turn_rad, shift, stretch;
 };
 
 Step step_of(const LocalPose& a, const LocalPose& b, size_t joint) {
   return {a.rotation[joint].angularDistance(b.rotation[joint]),
-          (a.translation[joint] - b.translation[joint]).norm()};
+          (a.translation[joint] - b.translation[joint]).norm(), (a.scale[joint] - b.scale[joint]).norm()};
 }
 
 // How far joints are from their parents: what a shift of one is small against.
@@ -48,17 +48,20 @@ double reach_of(const LocalPose& pose) {
 // The last of the samples is the clip's end, and is left out of a loop: no joint may then step further over
 // the seam than anywhere else.
 bool leads_on(const std::vector<LocalPose>& samples) {
-  constexpr double kRoom = 1.05, kLeastTurn_rad = 0.01, kLeastShift = 1e-3;
+  constexpr double kRoom = 1.05, kLeastTurn_rad = 0.01, kLeastShift = 1e-3, kLeastStretch = 0.01;
   const LocalPose &first = samples.front(), &last = samples[samples.size() - 2];
   const double least_shift = kLeastShift * reach_of(first);
   for (size_t j = 0; j < first.rotation.size(); ++j) {
-    Step largest{kLeastTurn_rad, least_shift};
+    Step largest{kLeastTurn_rad, least_shift, kLeastStretch};
     for (size_t i = 1; i < samples.size(); ++i) {
       const Step step = step_of(samples[i - 1], samples[i], j);
-      largest = {std::max(largest.turn_rad, step.turn_rad), std::max(largest.shift, step.shift)};
+      largest = {std::max(largest.turn_rad, step.turn_rad), std::max(largest.shift, step.shift),
+                 std::max(largest.stretch, step.stretch)};
     }
     const Step seam = step_of(last, first, j);
-    if (seam.turn_rad > kRoom * largest.turn_rad || seam.shift > kRoom * largest.shift) return false;
+    if (seam.turn_rad > kRoom * largest.turn_rad || seam.shift > kRoom * largest.shift ||
+        seam.stretch > kRoom * largest.stretch)
+      return false;
   }
   return true;
 }

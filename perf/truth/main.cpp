@@ -12,6 +12,7 @@
 #include "baker/common/on_all_cores.hpp"
 #include "baker/mesh/import_character.hpp"
 #include "baker/mesh/tissue_layout.hpp"
+#include "baker/truth/pick_clips.hpp"
 #include "baker/truth/tissue_truth.hpp"
 
 using namespace sinew::baker;
@@ -25,7 +26,7 @@ struct Options {
   std::string character, recipe;
   size_t clips = 5;
   double seconds = 1.5;
-  bool slow_alone = false;
+  bool slow = false;
 };
 
 // What a character is simulated from; large, and shared.
@@ -96,8 +97,8 @@ double share_off(const Roll& roll, const Roll& reference) {
 
 struct Row {
   std::string motion = {};
-  double mean_mm = 0, slow_share = 0;
-  std::optional<double> many_substeps = {}, finer_cage = {};
+  double mean_mm = 0;
+  std::optional<double> slow_share = {}, many_substeps = {}, finer_cage = {};
   std::string fault = {};
 };
 
@@ -115,12 +116,16 @@ struct NamedMotion {
 Row measure(const Body& body, const NamedMotion& of, const Options& options) {
   Row row{.motion = of.name};
   try {
-    const Roll still = roll_out(body, of.motion, options, {.pace = 1 / kSlower, .gravity = false});
-    row.slow_share = mean_of(still) / mean_of(roll_out(body, of.motion, options, {.gravity = false}));
-    const Roll usual = roll_out(body, of.motion, options, {});
-    row.mean_mm = 1e3 * mean_of(usual);
-    if (!options.slow_alone)
+    if (options.slow) {
+      const Roll still = roll_out(body, of.motion, options, {.pace = 1 / kSlower, .gravity = false});
+      const Roll moving = roll_out(body, of.motion, options, {.gravity = false});
+      row.mean_mm = 1e3 * mean_of(moving);
+      row.slow_share = mean_of(still) / mean_of(moving);
+    } else {
+      const Roll usual = roll_out(body, of.motion, options, {});
+      row.mean_mm = 1e3 * mean_of(usual);
       row.many_substeps = share_off(usual, roll_out(body, of.motion, options, {.substeps = kManySubsteps}));
+    }
   } catch (const std::runtime_error& fault) {
     row.fault = fault.what();
   }
@@ -132,22 +137,23 @@ void hold_against_finer_cage(const Body& body, const std::vector<NamedMotion>& m
                              const Options& options, std::vector<Row>* rows) {
   const auto liveliest = std::ranges::max_element(*rows, {}, &Row::mean_mm);
   const Motion& motion = motions[static_cast<size_t>(liveliest - rows->begin())].motion;
-  Roll rolls[2];
-  on_all_cores("cages", 2, 2, [&](size_t k, std::atomic<size_t>& done) {
-    rolls[k] =
-        k == 0 ? roll_out(body, motion, options, {}) : roll_out(body.with_finer_cage(), motion, options, {});
-    ++done;
-  });
-  liveliest->finer_cage = share_off(rolls[0], rolls[1]);
+  try {
+    Roll rolls[2];
+    on_all_cores("cages", 2, 2, [&](size_t k, std::atomic<size_t>& done) {
+      rolls[k] = roll_out(k == 0 ? body : body.with_finer_cage(), motion, options, {});
+      ++done;
+    });
+    liveliest->finer_cage = share_off(rolls[0], rolls[1]);
+  } catch (const std::runtime_error& fault) {
+    liveliest->fault = std::string("finer cage: ") + fault.what();
+  }
 }
 
 std::vector<Row> measure_all(const Options& options) {
   const Body body(options);
   std::vector<NamedMotion> motions;
-  const std::vector<Clip>& clips = body.character.clips;
-  const size_t picked = std::min(options.clips, clips.size());
-  for (size_t k = 0; k < picked; ++k) {
-    const Clip& clip = clips[picked == 1 ? 0 : k * (clips.size() - 1) / (picked - 1)];
+  for (const size_t c : pick_clips(body.character, options.clips)) {
+    const Clip& clip = body.character.clips[c];
     motions.push_back({clip.name, clip_motion(body.character, clip)});
   }
   if (motions.empty()) motions.push_back({"shake", shake_motion(body.character)});
@@ -156,14 +162,14 @@ std::vector<Row> measure_all(const Options& options) {
     rows[m] = measure(body, motions[m], options);
     ++done;
   });
-  if (!options.slow_alone) hold_against_finer_cage(body, motions, options, &rows);
+  if (!options.slow) hold_against_finer_cage(body, motions, options, &rows);
   return rows;
 }
 
 void print(const std::string& name, const std::vector<Row>& rows) {
   for (const Row& row : rows)
-    std::printf("\"%s\",\"%s\",%.3f,%.4f,%s,%s,\"%s\"\n", name.c_str(), row.motion.c_str(), row.mean_mm,
-                row.slow_share, told(row.many_substeps).c_str(), told(row.finer_cage).c_str(),
+    std::printf("\"%s\",\"%s\",%.3f,%s,%s,%s,\"%s\"\n", name.c_str(), row.motion.c_str(), row.mean_mm,
+                told(row.slow_share).c_str(), told(row.many_substeps).c_str(), told(row.finer_cage).c_str(),
                 row.fault.c_str());
 }
 
@@ -176,9 +182,10 @@ int main(int argc, char** argv) {
   app.add_option("character", options.character, "skinned glTF or VRM")->required();
   app.add_option("--name", name, "what the rows call it")->required();
   app.add_option("--recipe", options.recipe, "JSON; see baker/mesh/recipe.hpp");
-  app.add_option("--clips", options.clips, "so many, evenly picked");
+  app.add_option("--clips", options.clips, "so many, evenly picked of those in which joints move");
   app.add_option("--seconds", options.seconds, "of each")->check(CLI::Range(0.1, 60.0));
-  app.add_flag("--slow-alone", options.slow_alone, "neither shorter steps nor a finer cage: for all clips");
+  app.add_flag("--slow", options.slow,
+               "16 times slower and without gravity, not at shorter steps and on a finer cage");
   CLI11_PARSE(app, argc, argv);
   try {
     print(name, measure_all(options));

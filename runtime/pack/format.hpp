@@ -422,14 +422,14 @@ static_assert(sizeof(ClipRecord) == 32);
 // worth having.
 // Baked without sinew-trade: costs are the tier's operations at 60 GFLOP/s, and the errors those of this
 // character along a few short motions, or not measured.
-// Measured: errors over vertices that tissue moves, of extrapolate 12 ticks after the last simulated one.
+// Measured: errors over vertices that tissue moves, of extrapolate 4 ticks after the last simulated one.
 struct TierRecord {
   uint32_t tier;   // sinew::Tier
   uint32_t every;  // ticks from one that is simulated whole to the next: 1 or 2; 1 where nothing is simulated
   float cost_us;   // a tick and instance on one core, in the long run, beyond skinning's; corrected online.
                    // skinning: what an instance takes in every step
   float cost_p99_us;  // in one of a hundred of the ticks that are simulated whole; NaN: not measured
-  float error_mm;     // mean against ground truth on held-out motion; NaN: not measured
+  float error_mm;     // mean against ground truth; NaN: not measured
   float
       error_ratio;  // a share of skinning's: the median over motions, sinew-trade's of all; NaN: not measured
   float error_p95_mm;       // in one of twenty of the vertices and ticks; NaN: not measured

@@ -4,8 +4,7 @@
 // (pack::LevelRecord). One level at a time:
 //   coarser  each node keeps what it had: u, l, r, theta, poses, network's memory
 //   finer    q stays. With S how a coarser level spreads over a finer one (kSpread), of both ticks:
-//            r = S r,  l = shape q + S (l - shape q before), until r is told anew by the next tick,  theta
-//            and u as in tissue/modal_base.hpp; on springs u = S u. Past poses are the new nodes' own, along
+//            r = S r,  l = shape q + S (l - shape q before),  theta and u as in tissue/modal_base.hpp; on springs u = S u. Past poses are the new nodes' own, along
 //            the path of the pose. A node remembers of the network what the coarser node did that carries
 //            most of it
 //   left out a region that a level has no nodes for is forgotten there. Where it is had again it begins at
@@ -22,10 +21,8 @@ namespace sinew::world {
 // To a level of its asset, before a step in which it is simulated.
 void change_level(Instance& instance, uint32_t level) noexcept;
 
-// In the first tick on a finer level, once it is heard what would hold new nodes: r keeps of what was spread
-// what lies along that, in both ticks. What was spread would swing, for what the modes leave is not smooth
-// from node to node; all of a load that comes at once would be a jump. And in the first tick of what begins
-// at rest. moved: by how much l of the newer tick was moved, [nodes][3], overwritten; u follows.
+// In the first tick of what begins at rest. moved: by how much l of the newer tick was moved, [nodes][3],
+// overwritten; u follows.
 void settle_rest(Instance& instance, float* moved) noexcept;
 
 // Floats of Instance::level_scratch.

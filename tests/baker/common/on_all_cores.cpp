@@ -2,7 +2,9 @@
 #include "baker/common/on_all_cores.hpp"
 
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 using namespace sinew::baker;
@@ -16,9 +18,15 @@ TEST_CASE("every_piece_is_worked_on_once") {
 
 TEST_CASE("the_first_fault_is_thrown_when_all_have_ended_and_none_begins_after_it") {
   std::atomic<size_t> begun{0};
+  std::atomic<bool> thrown{false};
   const auto work = [&](size_t piece, std::atomic<size_t>&) {
     ++begun;
-    if (piece == 3) throw std::runtime_error("piece 3");
+    if (piece == 3) thrown = true, throw std::runtime_error("piece 3");
+    // Whoever comes later gives the fault time to be told.
+    if (piece > 3) {
+      while (!thrown) std::this_thread::yield();
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
   };
   CHECK_THROWS_WITH(on_all_cores("work", 100000, 100000, work), "piece 3");
   CHECK(begun < 100000);

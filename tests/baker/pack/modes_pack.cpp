@@ -99,6 +99,27 @@ TEST_CASE("the_recurrence_is_the_oscillator_s_at_the_ticks") {
     }
 }
 
+TEST_CASE("what_swings_faster_than_ticks_can_tell_answers_at_once") {
+  for (const double w : {190.0, 377.0, 5000.0}) {
+    const Recurrence r = modal_recurrence(w, 0.1, kRate_hz);
+    CHECK(r.a1 == 0);
+    CHECK(r.a2 == 0);
+    CHECK(double{r.gain} == Approx(1 / (w * w)).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("undamped_flesh_is_packed") {
+  const Character character = test::small_character();
+  const TissueLayout layout = test::small_layout(character);
+  std::vector<ModalBasis> modes = test::small_modes(layout);
+  for (ModalBasis& basis : modes) basis.damping_ratio.setZero(), basis.rest_damping_ratio = 0;
+  test::PackEditor editor(pack_character(character, layout, modes));
+  pack::PackView view;
+  const Status status = editor.open(&view);
+  INFO(status.message);
+  CHECK(status.ok());
+}
+
 TEST_CASE("the_recurrence_rests_where_the_spring_does") {
   for (const double w : {0.5, 6.0, 60.0, 600.0}) {
     const Recurrence r = modal_recurrence(w, 0.1, kRate_hz);

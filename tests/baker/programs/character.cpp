@@ -189,6 +189,12 @@ TEST_CASE("errors_are_those_of_the_character_that_is_baked_and_a_network_that_do
   CHECK_THAT(bake_with(shipped, {}), !Catch::Contains("left out"));
   CHECK(error_of("network").get<double>() < 0.95 * error_of("modal").get<double>());
   CHECK(error_of("modal").get<double>() < 0.3);
+  const auto described = nlohmann::json::parse(bake({"info", "--json", creature.pack}).out);
+  for (const auto& tier : described["tiers"]) {
+    if (tier["tier"] != "modal") continue;
+    CHECK(tier["worst_ratio"].get<double>() > tier["error_ratio"].get<double>());  // the median's
+    CHECK_THAT(tier["worst_along"].get<std::string>(), Catch::Matches("idle|walk|hop|shake|random or shake"));
+  }
 
   // Weights of random numbers.
   creature.glb = coarse;

@@ -32,7 +32,8 @@ def recurrence(w, zeta):
     """a1, a2, gain of each mode, from the two roots of s^2 + 2 zeta w s + w^2."""
     root = w * np.sqrt(np.asarray(zeta**2 - 1, complex))
     first, second = (np.exp(H * (sign * root - zeta * w)) for sign in (1, -1))
-    a1, a2 = (first + second).real, -(first * second).real
+    remembers = np.abs(root.imag) * H < np.pi
+    a1, a2 = remembers * (first + second).real, remembers * -(first * second).real
     return a1, a2, (1 - a1 - a2) / (w * w)
 
 

@@ -266,3 +266,25 @@ TEST_CASE("cells_grow_where_too_much_is_soft_unless_the_recipe_states_how_many")
   CHECK(free(stated) > kMostFreeNodes);
   CHECK(stated.notes.empty());
 }
+
+TEST_CASE("cells_shrink_where_little_is_soft") {
+  // The tip of a post, two cells thick at the usual resolution.
+  Character character = bare_character({Vector3(0, 0, 0)});
+  add_box(character, {-0.02, 0, -0.02}, {0.02, 1, 0.02}, 0.02, 0);
+  TissueLayout layout;
+  layout.regions.emplace_back();
+  for (size_t v = 0; v < character.positions.size(); ++v) {
+    const bool soft = character.positions[v].y() > 0.7;
+    layout.stiffness.push_back(soft ? 0 : 1);
+    if (soft) layout.regions[0].vertices.push_back(static_cast<int>(v));
+  }
+  Recipe recipe;
+  recipe.coreless_joints = {"joint_0"};
+  const auto free = [](const Cage& cage) {
+    return std::count(cage.constrained.begin(), cage.constrained.end(), false);
+  };
+  const Cage chosen = build_cage(character, layout, recipe);
+  CHECK(chosen.cell_m == Approx(1.0 / kMostVoxelsHigh));  // even so fewer than kFewFreeNodes are free
+  recipe.voxels_high = kUsualVoxelsHigh;
+  CHECK(free(chosen) > 2 * free(build_cage(character, layout, recipe)));
+}

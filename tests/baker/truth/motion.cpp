@@ -9,6 +9,7 @@
 
 #include "baker/import/import_gltf.hpp"
 #include "baker/truth/local_pose.hpp"
+#include "baker/truth/pick_clips.hpp"
 
 using namespace sinew::baker;
 
@@ -157,6 +158,16 @@ TEST_CASE("a_clip_that_does_not_lead_on_to_its_start_goes_to_and_fro") {
   CHECK(hastened(c, c.clips[0]) < 1.01);
 }
 
+TEST_CASE("a_clip_of_one_pose_stands_still") {
+  Character c = marionette();
+  c.clips[0].duration_s = 0;
+  c.clips[0].channels[0].times_s = {0};
+  c.clips[0].channels[0].values = {std::sin(0.3), 0, 0, std::cos(0.3)};
+  const Motion motion = clip_motion(c, c.clips[0]);
+  for (const double t : {0.0, 0.7, 5.0}) CHECK(angle_at(motion, t) == Approx(0.6));
+  for (double t = 0; t < 10; t += 0.5) CHECK(head(random_motion(c, 2, 1), t).allFinite());
+}
+
 TEST_CASE("a_joint_that_turns_round_and_round_is_never_hurried") {
   // A whole turn in a second, from half a turn on: by the short way to any pose it would change sides.
   Character c = marionette();
@@ -190,6 +201,21 @@ TEST_CASE("no_joint_moves_faster_than_in_its_clip") {
       }
     }
   CHECK(clips > 50);
+}
+
+TEST_CASE("clips_are_picked_evenly_of_those_that_move") {
+  Character c = marionette();
+  CHECK(pick_clips(c, 5) == std::vector<size_t>{0, 1});
+  const Clip nod = c.clips[0];
+  Clip still = nod;
+  still.channels.clear();
+  c.clips.assign(11, nod);
+  c.clips.insert(c.clips.begin(), still);
+  CHECK(pick_clips(c, 5) == std::vector<size_t>{1, 3, 6, 8, 11});
+  CHECK(pick_clips(c, 1) == std::vector<size_t>{1});
+  CHECK(pick_clips(c, 0).empty());
+  c.clips.assign(3, still);
+  CHECK(pick_clips(c, 5).empty());
 }
 
 TEST_CASE("seeds_repeat_and_differ") {
