@@ -39,7 +39,8 @@ def told(rows, field):
     if not found:
         return "-"
     worst, clip = max(found)
-    return f"{statistics.median(v for v, _ in found):.3f}, {worst:.3f} ({clip})"
+    name = clip.replace("|", "\\|")
+    return f"{statistics.median(v for v, _ in found):.3f}, {worst:.3f} ({name})"
 
 
 def table(some, every):
