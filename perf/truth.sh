@@ -5,6 +5,17 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 characters=$(realpath "${1:?usage: truth.sh CHARACTERS (a folder with a folder for each character of the gallery)}")
+recipes=$(grep -l '"regions"' assets/gallery/*_*.json)
+
+file_of() {
+  local file
+  for file in "$characters/$(basename "$1" .json)"/file.{glb,gltf,vrm}; do
+    [ ! -e "$file" ] || { echo "$file"; return; }
+  done
+  echo "truth.sh: no $characters/$(basename "$1" .json)/file.glb; give the folder of the gallery's characters" >&2
+  return 2
+}
+for recipe in $recipes; do file_of "$recipe" >/dev/null; done
 
 cmake --preset release -DSINEW_BUILD_PERF=ON | grep "^-- perf:" || true
 cmake --build --preset release --target perf_truth sinew-bake
@@ -14,9 +25,8 @@ build/release/bin/sinew-bake creature assets/creature/creature.json -o "$measure
 
 measure_all() {
   build/release/bin/perf_truth "$measured/creature.glb" --name creature --recipe assets/creature/tissue.json "$@"
-  for recipe in $(grep -l '"regions"' assets/gallery/*_*.json); do
-    name=$(basename "$recipe" .json)
-    build/release/bin/perf_truth "$(ls "$characters/$name"/file.* | head -n 1)" --name "$name" --recipe "$recipe" "$@"
+  for recipe in $recipes; do
+    build/release/bin/perf_truth "$(file_of "$recipe")" --name "$(basename "$recipe" .json)" --recipe "$recipe" "$@"
   done
 }
 measure_all >"$measured/some.csv"

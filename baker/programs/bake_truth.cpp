@@ -135,7 +135,8 @@ void add_truth_command(CLI::App& app, int*) {
                    "a clip that random motions and leaps must not use; repeatable")
       ->allow_extra_args(false);
   command->add_option("--seed", options->seed, "variant of the motion; a clip's seed 0 is the clip as it is");
-  command->add_option("--strength", options->strength, "of the motion's accelerations; a clip's, by its speed");
+  command->add_option("--strength", options->strength,
+                      "of the motion's accelerations; a clip's, by its speed");
   command->add_option("--seconds", options->seconds, "simulated time");
   command->add_option("--rate", options->rate_hz, "ticks a second");
   command->add_option("--substeps", options->substeps,

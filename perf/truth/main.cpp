@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -82,9 +83,11 @@ Roll roll_out(const Body& body, const Motion& motion, const Options& options, co
   return roll;
 }
 
+// Throws std::runtime_error where nothing moves.
 double mean_of(const Roll& roll) {
   double sum = 0;
   for (const Vector3& u : roll) sum += u.norm();
+  if (!(sum > 0)) throw std::runtime_error("nothing moves");
   return sum / static_cast<double>(roll.size());
 }
 

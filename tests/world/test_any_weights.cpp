@@ -124,6 +124,7 @@ TEST_CASE("no_weights_move_flesh_much_further_than_its_base_nor_keep_it_from_res
     most = std::max(most, corrected.largest_m / base.largest_m);
     left = std::max(left, (corrected.left_m - base.left_m) / base.largest_m);
     CHECK(corrected.largest_m < 1.75 * base.largest_m);
+    // What it may add beside the largest above, three quarters, fades as the flesh does.
     CHECK(corrected.left_m < base.left_m +
                                  0.75 * std::exp(-0.1 * 2 * M_PI * hz * rest_s) * corrected.largest_m +
                                  1e-4 * base.largest_m);
