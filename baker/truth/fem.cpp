@@ -68,8 +68,6 @@ struct Fem::Impl {
   Elasticity elasticity;
   std::vector<bool> constrained;
   std::deque<FemComponent> components;
-  std::vector<ElementBlock>
-      rigid_blocks;  // elements without a free node: they count in energy and force alone
   Eigen::VectorXd
       relative_velocity;  // against the undisturbed motion, in its turning axes: the next step's first guess
 
@@ -85,7 +83,6 @@ struct Fem::Impl {
   void each_block(const Visit& visit) const {
     for (const FemComponent& component : components)
       for (const ElementBlock& block : component.blocks()) visit(block);
-    for (const ElementBlock& block : rigid_blocks) visit(block);
   }
   StepStart start_of(const Eigen::VectorXd& x, const Eigen::VectorXd& v,
                      const UndisturbedMotion* motion) const;
@@ -96,7 +93,6 @@ namespace {
 
 struct Grouping {
   std::map<size_t, std::vector<int>> nodes, elements;  // by component root
-  std::vector<int> rigid;
 };
 
 Grouping group(const Tetrahedra& tetrahedra, const std::vector<bool>& constrained) {
@@ -113,9 +109,7 @@ Grouping group(const Tetrahedra& tetrahedra, const std::vector<bool>& constraine
         sets.join(static_cast<size_t>(first_free(t)), static_cast<size_t>(node));
   Grouping groups;
   for (size_t e = 0; e < tetrahedra.size(); ++e) {
-    if (!has_free(tetrahedra[e]))
-      groups.rigid.push_back(static_cast<int>(e));
-    else
+    if (has_free(tetrahedra[e]))
       groups.elements[sets.find(static_cast<size_t>(first_free(tetrahedra[e])))].push_back(
           static_cast<int>(e));
   }
@@ -154,7 +148,6 @@ Fem::Fem(std::vector<Vector3> rest, Tetrahedra tetrahedra, std::vector<bool> con
     impl_->components.back().rayleigh_mass_per_s = material.rayleigh_mass_per_s;
     impl_->components.back().rayleigh_stiffness_s = material.rayleigh_stiffness_s;
   }
-  if (!groups.rigid.empty()) impl_->rigid_blocks = element_blocks(rest, tetrahedra, groups.rigid, material);
   impl_->elasticity = material.elasticity;
   impl_->constrained = std::move(constrained);
   impl_->unstressed = Eigen::Map<const Eigen::VectorXd>(rest.data()->data(), 3 * mass.size());
@@ -174,15 +167,12 @@ void Fem::reshape(const Eigen::VectorXd& unstressed) {
   impl_->last.dt_s = 0;
   impl_->unstressed = unstressed;
   for (FemComponent& component : impl_->components) component.reshape(unstressed);
-  for (ElementBlock& block : impl_->rigid_blocks) sinew::baker::reshape(block, unstressed.data());
 }
 
 void Fem::Impl::follow(const Eigen::VectorXd& shape, double dt_s) {
   constexpr double kFastest_rad_per_s = 60;  // ten turns a second: limbs are slower
   unstressed = shape;
   for (FemComponent& component : components) component.follow(shape, kFastest_rad_per_s * dt_s);
-  for (ElementBlock& block : rigid_blocks)
-    sinew::baker::follow(block, shape.data(), kFastest_rad_per_s * dt_s);
 }
 
 Fem::Impl::StepStart Fem::Impl::start_of(const Eigen::VectorXd& x, const Eigen::VectorXd& v,

@@ -77,7 +77,8 @@ class Fem {
   void damp(double ratio);
   void damp(const std::vector<double>& ratios);  // one a separate body, in the order of linear()
 
-  Eigen::VectorXd elastic_force(const Eigen::VectorXd& at) const;  // 3 a node, constrained ones too
+  // Of the tetrahedra around free nodes; force: 3 a node, constrained ones too.
+  Eigen::VectorXd elastic_force(const Eigen::VectorXd& at) const;
   double elastic_energy(const Eigen::VectorXd& at) const;
   double elastic_energy() const { return elastic_energy(positions); }
   double kinetic_energy() const;

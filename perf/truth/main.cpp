@@ -95,6 +95,7 @@ double share_off(const Roll& roll, const Roll& reference) {
   double off = 0, whole = 0;
   for (size_t i = 0; i < roll.size(); ++i)
     off += (roll[i] - reference[i]).norm(), whole += reference[i].norm();
+  if (!(whole > 0)) throw std::runtime_error("nothing moves");
   return off / whole;
 }
 
