@@ -84,11 +84,11 @@ bool solve(const Matrix& matrix, std::span<NodeContact> contacts) {
 
 }  // namespace
 
-void press(const ModalBase& base, std::span<NodeContact> contacts, float* felt, float* scratch, float* answer,
+bool press(const ModalBase& base, std::span<NodeContact> contacts, float* felt, float* scratch, float* answer,
            const ModalTick& tick) noexcept {
   Matrix matrix;
   fill(base, contacts, scratch, answer, &matrix);
-  if (!solve(matrix, contacts)) return;
+  if (!solve(matrix, contacts)) return false;
   const uint32_t floats = 3 * base.node_count;
   std::fill_n(felt, floats, 0.0f);
   for (const NodeContact& contact : contacts) {
@@ -103,6 +103,7 @@ void press(const ModalBase& base, std::span<NodeContact> contacts, float* felt, 
   }
   modal_turn(base, tick.q, scratch, tick.theta);
   warp(tick.theta, tick.l, base.node_count, tick.u);
+  return true;
 }
 
 }  // namespace sinew::tissue

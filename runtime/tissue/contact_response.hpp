@@ -31,9 +31,9 @@ struct ModalTick {
 
 // Finds the forces of at most kMostNodeContacts contacts of different nodes, and takes q, r, l, theta and u
 // on by them. felt: [node_count][3], written over; scratch: [padded + padded_modes], answer: [padded]; all
-// 64-byte aligned. Without gaps below zero nothing changes. Cost: a response row each contact and a small
-// matrix.
-void press(const ModalBase& base, std::span<NodeContact> contacts, float* felt, float* scratch, float* answer,
+// 64-byte aligned. False: without gaps below zero nothing changes. Cost: a response row each contact and a
+// small matrix.
+bool press(const ModalBase& base, std::span<NodeContact> contacts, float* felt, float* scratch, float* answer,
            const ModalTick& tick) noexcept;
 
 }  // namespace sinew::tissue

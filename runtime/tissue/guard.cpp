@@ -53,6 +53,12 @@ float largest_displacement_m(const float* l, uint32_t nodes) noexcept {
   return largest_m;
 }
 
+float hold_within(float limit_m, uint32_t nodes, float* u) noexcept {
+  const float largest_m = largest_displacement_m(u, nodes), share = limit_share(largest_m, limit_m);
+  for (size_t i = 0; share != 1 && i < size_t{3} * nodes; ++i) u[i] *= share;
+  return largest_m;
+}
+
 void read_output(const Network& network, std::span<const pack::RegionRecord> regions, uint32_t node_count,
                  const float* state, float* l) noexcept {
   const OutputRows rows = output_rows(network, node_count, state);
@@ -68,9 +74,20 @@ void write_output(const Network& network, std::span<const pack::RegionRecord> re
                   const float* l, float* state) noexcept {
   const OutputRows rows = output_rows(network, node_count, state);
   for (const pack::RegionRecord& region : regions) {
-    const float unit_m = length_unit_m(network, region);
+    const float share =
+        limit_share(largest_displacement_m(l, region.node_count), region.displacement_limit_m);
+    const float unit_m = length_unit_m(network, region) / share;
     for (uint32_t node = region.first_node; node < region.first_node + region.node_count; ++node, l += 3)
       write_node(rows, node, unit_m, l);
+  }
+}
+
+void carry_to(const Network& network, const pack::RegionRecord& region, uint32_t node_count, const float* l,
+              const float* state, float* carry) noexcept {
+  const OutputRows rows = output_rows(network, node_count, state);
+  const float unit_m = length_unit_m(network, region);
+  for (uint32_t node = region.first_node; node < region.first_node + region.node_count; ++node) {
+    for (int axis = 0; axis < 3; ++axis) *carry++ = *l++ / unit_m - rows.of(node)[axis];
   }
 }
 

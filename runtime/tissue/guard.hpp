@@ -18,19 +18,26 @@ bool network_is_finite(const Network& network, uint32_t node_count, const float*
 // Up to this share of its limit a displacement is left alone; from there it approaches the limit smoothly.
 inline constexpr float kFreeShare = 0.6f;
 
-// What a region's displacement, with everything that it moves by, is scaled with so that the largest stays
-// below the limit: 1 up to kFreeShare of it. A scaled state is a state of the same linear system, with less
-// energy; holding single nodes would push stiff modes with what was cut off. largest_m not finite: 1 for NaN.
+// What a region's displacement is shown with so that the largest stays below the limit: 1 up to kFreeShare of
+// it. largest_m not finite: 1 for NaN.
 float limit_share(float largest_m, float limit_m) noexcept;
 
 // Of [nodes][3]; lengths by hypot, for the square of a wild displacement may overflow.
 float largest_displacement_m(const float* l, uint32_t nodes) noexcept;
 
-// l ([node_count][3], metres) of y and back.
+// Scales a region's displacement to what may be shown of it, and returns how large it was. What swings is not
+// scaled: it would lose energy that the tissue has.
+float hold_within(float limit_m, uint32_t nodes, float* u) noexcept;
+
+// l ([node_count][3], metres) of y and back; what is beyond a region's limit is remembered as it is shown.
 void read_output(const Network& network, std::span<const pack::RegionRecord> regions, uint32_t node_count,
                  const float* state, float* l) noexcept;
 void write_output(const Network& network, std::span<const pack::RegionRecord> regions, uint32_t node_count,
                   const float* l, float* state) noexcept;
+
+// What a network's step adds to the region's y ([nodes][3]) so that it starts from this l.
+void carry_to(const Network& network, const pack::RegionRecord& region, uint32_t node_count, const float* l,
+              const float* state, float* carry) noexcept;
 
 // The state of a network that stands at l with no memory: y of the last layer is that, everything else zero.
 void rebase_state(const Network& network, std::span<const pack::RegionRecord> regions, uint32_t node_count,

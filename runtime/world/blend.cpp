@@ -56,9 +56,11 @@ void begin_tail(Instance& instance, float velocity_kept) noexcept {
 void begin_simulation(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   pose_at_start(instance);
-  for (int tick = 0; tick < 2; ++tick)
+  for (int tick = 0; tick < 2; ++tick) {
     tissue::along_frame(instance.poses[0], instance.shown[tick], instance.level->node_count(),
                         instance.u[tick]);
+    copy(instance, instance.u[tick], instance.l[tick]);
+  }
   take_rods_as_shown(instance);
   state.motion_stale = 1;
   state.blend_ticks = state.untouched ? kBlendInTicks : 0.0f;

@@ -171,6 +171,8 @@ void turn_and_warp(const Instance& instance, const GraphLevel& level, int tick) 
                        instance.theta + vector);
     tissue::warp(instance.theta + vector, instance.l[tick] + vector, level.pack.regions[r].node_count,
                  instance.u[tick] + vector);
+    tissue::hold_within(level.pack.regions[r].displacement_limit_m, level.pack.regions[r].node_count,
+                        instance.u[tick] + vector);
   }
 }
 
@@ -219,7 +221,8 @@ void raise(Instance& instance) noexcept {
   for (float* vectors : {instance.shown[0], instance.shown[1], instance.tail, instance.tail_velocity})
     spread(instance, fine, vectors);
   if (instance.state->tier == Tier::kSpring)
-    for (float* u : instance.u) spread(instance, fine, u);
+    for (float* const* ticks : {instance.u, instance.l})
+      for (int tick = 0; tick < 2; ++tick) spread(instance, fine, ticks[tick]);
   else if (frame::is_simulated(instance.state->tier))
     raise_base(instance, fine);
   raise_memory(instance, fine);
@@ -288,9 +291,8 @@ void begin_at_level(Instance& instance, uint32_t level) noexcept {
 
 }  // namespace
 
-void settle_rest(Instance& instance, float* moved) noexcept {
+void settle_rest(Instance& instance, const float* moved) noexcept {
   const uint32_t nodes = instance.level->node_count();
-  tissue::warp(instance.theta, moved, nodes, moved);
   for (float* u : instance.u)
     for (size_t i = 0; i < size_t{3} * nodes; ++i) u[i] += moved[i];
   if (instance.shown_shares().simulated > 0) show_settled(instance, moved);

@@ -21,9 +21,8 @@ namespace sinew::world {
 // To a level of its asset, before a step in which it is simulated.
 void change_level(Instance& instance, uint32_t level) noexcept;
 
-// In the first tick of what begins at rest. moved: by how much l of the newer tick was moved, [nodes][3],
-// overwritten; u follows.
-void settle_rest(Instance& instance, float* moved) noexcept;
+// In the first tick of what begins at rest. moved: by how much u of the newer tick is to move, [nodes][3].
+void settle_rest(Instance& instance, const float* moved) noexcept;
 
 // Floats of Instance::level_scratch.
 size_t change_scratch_floats(const Asset& asset) noexcept;

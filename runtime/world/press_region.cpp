@@ -23,7 +23,7 @@ tissue::NodeContact contact_of(const Instance& instance, const pack::RegionRecor
                                const Touch& touch) {
   const Vector3f in_frame = Eigen::Map<const Rows33>(instance.poses[0][touch.node].rotation).transpose() *
                             ConstVector(touch.normal);
-  // Springs have neither theta nor l.
+  // Springs do not turn.
   const bool spring = instance.state->tier == Tier::kSpring;
   const float half = spring ? 0 : 0.5f;
   const float half_turn[3] = {half * instance.theta[3 * touch.node],
@@ -31,8 +31,7 @@ tissue::NodeContact contact_of(const Instance& instance, const pack::RegionRecor
                               half * instance.theta[3 * touch.node + 2]};
   tissue::NodeContact contact{.node = touch.node - region.first_node};
   tissue::turn_back(half_turn, in_frame.data(), 1, contact.normal);
-  const float* displaced = (spring ? instance.u[0] : instance.l[0]) + size_t{3} * touch.node;
-  const float along = ConstVector(contact.normal).dot(ConstVector(displaced));
+  const float along = in_frame.dot(ConstVector(instance.u[0] + size_t{3} * touch.node));
   const float most = std::max(0.0f, kMostAsked * region.displacement_limit_m - along);
   contact.gap_m = std::max(touch.gap_m, -most);
   return contact;
@@ -78,13 +77,15 @@ void press_modes(Instance& instance, uint32_t r, std::span<tissue::NodeContact> 
   const GraphLevel& level = *instance.level;
   const pack::RegionRecord& region = level.pack.regions[r];
   const size_t vector = size_t{3} * region.first_node, mode = level.pack.region_modes[r].first_mode;
-  tissue::press(tissue::modal_base(level.pack, r), contacts, instance.felt + vector, instance.region[0],
-                instance.region[1],
-                {.q = instance.q[0] + mode,
-                 .r = instance.r[0] + vector,
-                 .l = instance.l[0] + vector,
-                 .theta = instance.theta + vector,
-                 .u = instance.u[0] + vector});
+  const tissue::ModalTick tick{.q = instance.q[0] + mode,
+                               .r = instance.r[0] + vector,
+                               .l = instance.l[0] + vector,
+                               .theta = instance.theta + vector,
+                               .u = instance.u[0] + vector};
+  if (!tissue::press(tissue::modal_base(level.pack, r), contacts, instance.felt + vector, instance.region[0],
+                     instance.region[1], tick))
+    return;
+  tissue::hold_within(region.displacement_limit_m, region.node_count, instance.u[0] + vector);
   if (instance.state->tier == Tier::kNetwork)
     tissue::write_output(instance.asset->network, level.pack.regions.subspan(r, 1), level.node_count(),
                          instance.l[0] + vector, instance.network_state);
@@ -94,7 +95,9 @@ void press_springs(Instance& instance, const pack::RegionRecord& region,
                    std::span<const tissue::NodeContact> contacts) {
   for (const tissue::NodeContact& contact : contacts) {
     const size_t at = size_t{3} * (region.first_node + contact.node);
-    MapVector(instance.u[0] + at) -= std::min(contact.gap_m, 0.0f) * ConstVector(contact.normal);
+    const Vector3f push = -std::min(contact.gap_m, 0.0f) * ConstVector(contact.normal);
+    MapVector(instance.l[0] + at) += push;
+    MapVector(instance.u[0] + at) += push;
   }
 }
 

@@ -82,15 +82,11 @@ void remember_hearer(Instance& instance) noexcept {
   instance.state->heard_by = static_cast<uint32_t>(hearer(instance.state->tier));
 }
 
-void scale(float share, float* values, size_t count) noexcept {
-  for (size_t i = 0; i < count; ++i) values[i] *= share;
-}
-
-// The share that a region's displacement is scaled by; counts it where it would have gone beyond the limit.
-float limit_of(Instance& instance, const Part& part, const float* displacement) noexcept {
-  const float largest_m = tissue::largest_displacement_m(displacement, part.record.node_count);
-  instance.state->displacement_clamps += largest_m > part.record.displacement_limit_m;
-  return tissue::limit_share(largest_m, part.record.displacement_limit_m);
+// u of this tick is what may be shown of it; counts it where it would have gone beyond the limit.
+void hold_shown(Instance& instance, const Part& part) noexcept {
+  const float limit_m = part.record.displacement_limit_m;
+  const float largest_m = tissue::hold_within(limit_m, part.record.node_count, instance.u[0] + part.vector);
+  instance.state->displacement_clamps += largest_m > limit_m;
 }
 
 // In this tick, and next to nothing of it is seen yet: a change of level had the region again, or all of the
@@ -117,8 +113,8 @@ void begin_springs_at_rest(Instance& instance, const Part& part) noexcept {
     const float *felt = instance.drive + tissue::kNodeDriveWidth * n,
                 *row = instance.level->pack.compliance.data() + 9 * n;
     for (size_t axis = 0; axis < 3; ++axis, row += 3)
-      for (float* u : instance.u)
-        u[3 * n + axis] = share * (row[0] * felt[0] + row[1] * felt[1] + row[2] * felt[2]);
+      for (float* l : instance.l)
+        l[3 * n + axis] = share * (row[0] * felt[0] + row[1] * felt[1] + row[2] * felt[2]);
   }
 }
 
@@ -138,8 +134,8 @@ void hear_springs(Instance& instance) noexcept {
       const float *change = instance.region[0] + 3 * i, *row = pack.compliance.data() + 9 * (part.node + i);
       for (size_t axis = 0; axis < 3; ++axis, row += 3) {
         const float at_rest = spring.gain * (row[0] * change[0] + row[1] * change[1] + row[2] * change[2]);
-        instance.u[0][part.vector + 3 * i + axis] += missed.now * at_rest;
-        instance.u[1][part.vector + 3 * i + axis] += missed.before * at_rest;
+        instance.l[0][part.vector + 3 * i + axis] += missed.now * at_rest;
+        instance.l[1][part.vector + 3 * i + axis] += missed.before * at_rest;
       }
     }
   });
@@ -152,14 +148,12 @@ bool spring_tick(Instance& instance) noexcept {
   for_each_part(instance, [&](const Part& part) {
     tissue::spring_step(pack.springs[part.index], pack.compliance.data() + 9 * part.node,
                         listen(instance, part, 3 * part.record.node_count), 3, part.record.node_count,
-                        instance.u[0] + part.vector, instance.u[1] + part.vector);
+                        instance.l[0] + part.vector, instance.l[1] + part.vector);
   });
-  if (!tissue::all_finite(instance.u[0], floats_of(instance))) return false;
-  for_each_part(instance, [&](const Part& part) {
-    const float share = limit_of(instance, part, instance.u[0] + part.vector);
-    if (share == 1) return;
-    for (float* u : instance.u) scale(share, u + part.vector, 3 * part.record.node_count);
-  });
+  if (!tissue::all_finite(instance.l[0], floats_of(instance))) return false;
+  std::copy_n(instance.u[0], floats_of(instance), instance.u[1]);
+  std::copy_n(instance.l[0], floats_of(instance), instance.u[0]);
+  for_each_part(instance, [&](const Part& part) { hold_shown(instance, part); });
   return true;
 }
 
@@ -225,7 +219,7 @@ void make_up(Instance& instance, const Part& part, const float* change) noexcept
   }
 }
 
-// As so much of what it hears would hold it for ever, in q, r and l, whose change is in carry.
+// As so much of what it hears would hold it for ever, in q, r and l; carry is what is then shown, less u.
 void begin_modes_at_rest(Instance& instance, const Part& part, const float* heard, float share) noexcept {
   const tissue::ModalBase& base = part.base;
   float *q[2] = {instance.q[0] + part.mode, instance.q[1] + part.mode},
@@ -238,20 +232,17 @@ void begin_modes_at_rest(Instance& instance, const Part& part, const float* hear
   const auto modes = static_cast<uint32_t>(base.modes.size());
   simd::kernels().add_rows(base.shape, modes, base.padded, q[0], l);
   for (size_t i = 0; i < floats; ++i) l[i] += r[0][i] = r[1][i] = share * heard[i];
-  const float limited = tissue::limit_share(tissue::largest_displacement_m(l, part.record.node_count),
-                                            part.record.displacement_limit_m);
-  for (int tick = 0; tick < 2; ++tick) scale(limited, q[tick], modes), scale(limited, r[tick], floats);
-  scale(limited, l, floats);
-  for (size_t i = 0; i < floats; ++i) {
-    instance.carry[part.vector + i] = l[i] - instance.l[0][part.vector + i];
-    for (float* tick : instance.l) tick[part.vector + i] = l[i];
-  }
-  tissue::modal_turn(base, q[0], l, instance.theta + part.vector);
+  for (float* tick : instance.l) std::copy_n(l, floats, tick + part.vector);
+  float *theta = instance.theta + part.vector, *moved = instance.carry + part.vector;
+  tissue::modal_turn(base, q[0], l, theta);
+  tissue::warp(theta, instance.l[0] + part.vector, part.record.node_count, moved);
+  tissue::hold_within(part.record.displacement_limit_m, part.record.node_count, moved);
+  for (size_t i = 0; i < floats; ++i) moved[i] -= instance.u[0][part.vector + i];
   for (float* corrected : instance.corrected) std::fill_n(corrected + part.mode, modes, 0.0f);
   instance.swing[part.index] = 0;
 }
 
-// Where the tick begins something at rest, carry tells by how much l moved. False: nothing.
+// Where the tick begins something at rest, carry tells by how much u moved. False: nothing.
 bool begin_part(Instance& instance, const Part& part, const float* heard) noexcept {
   const bool begins = begins_at_rest(instance, part);
   if (begins)
@@ -335,25 +326,11 @@ void take_base_answer(Instance& instance) noexcept {
   std::copy_n(instance.q_hat, instance.level->mode_count(), instance.q[0]);
 }
 
-// Scales all that a region moves by, where it would go beyond its limit: of this tick and the last, and what
-// corrections and their budget are of it.
-void limit_part(Instance& instance, const Part& part) noexcept {
-  const float share = limit_of(instance, part, instance.l[0] + part.vector);
-  if (share == 1) return;
-  const size_t floats = size_t{3} * part.record.node_count, modes = part.base.modes.size();
-  for (int tick = 0; tick < 2; ++tick) {
-    scale(share, instance.r[tick] + part.vector, floats);
-    for (float* const* modal : {instance.q, instance.corrected}) scale(share, modal[tick] + part.mode, modes);
-  }
-  scale(share, instance.l[0] + part.vector, floats);  // that of the last tick was shown: what rests, rests
-  instance.swing[part.index] *= share * share;
-}
-
 // theta and u follow from q and l.
 void settle(Instance& instance) noexcept {
   for_each_awake_part(instance, [&](const Part& part) {
-    limit_part(instance, part);
     turn_and_warp(instance, part);
+    hold_shown(instance, part);
   });
 }
 
@@ -377,9 +354,8 @@ void assemble(Instance& instance) noexcept {
         tissue::assemble_inputs(asset.network, sources, instance.inputs + stride * part.node);
     instance.state->input_clamps += clamped;
     instance.trust[part.index] = tissue::trust_in(asset.network, sources, clamped);
-    const float unit_m = tissue::length_unit_m(asset.network, part.record);
-    for (size_t i = part.vector; i < part.vector + 3 * part.record.node_count; ++i)
-      instance.carry[i] = (instance.l_hat[i] - instance.l[0][i]) / unit_m;
+    tissue::carry_to(asset.network, part.record, instance.level->node_count(), instance.l_hat + part.vector,
+                     instance.network_state, instance.carry + part.vector);
   });
 }
 
@@ -581,6 +557,8 @@ void answer_of_modes(Instance& instance, const Part& part, int tick) noexcept {
     l[i] = held[i] + instance.r[tick][part.vector + i];
   tissue::modal_turn(part.base, q, held, instance.theta + part.vector);
   tissue::warp(instance.theta + part.vector, l, part.record.node_count, instance.u[tick] + part.vector);
+  tissue::hold_within(part.record.displacement_limit_m, part.record.node_count,
+                      instance.u[tick] + part.vector);
 }
 
 }  // namespace
@@ -600,7 +578,6 @@ void take_back_corrections(Instance& instance) noexcept {
 
 void lift_displacement(Instance& instance) noexcept {
   for (int tick = 0; tick < 2; ++tick) {
-    std::copy_n(instance.u[tick], floats_of(instance), instance.l[tick]);
     std::fill_n(instance.r[tick], floats_of(instance), 0.0f);
     std::fill_n(instance.q[tick], instance.level->mode_count(), 0.0f);
     std::fill_n(instance.corrected[tick], instance.level->mode_count(), 0.0f);

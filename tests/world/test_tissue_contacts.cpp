@@ -116,7 +116,8 @@ TEST_CASE("a_wall_in_the_flesh_holds_it_off_on_every_simulated_tier") {
 TEST_CASE("what_a_wall_pushes_the_network_remembers") {
   HalfSpaces wall;
   wall.walls = {right_wall(0.02)};
-  test::ToldBlock touching(test::block_pack(), {.source = &wall}), free(test::block_pack());
+  const scenes::PackBytes wide = scenes::soft_block({.displacement_limit = 4});  // it is shown whole
+  test::ToldBlock touching(wide, {.source = &wall}), free(wide);
   const size_t nodes = touching.asset().node_count();
   std::vector<float> remembered(3 * nodes);
   for (int t = 0; t < 30; ++t) {
