@@ -13,6 +13,9 @@ struct Vector {
 Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 Vector operator*(float s, const Vector& v) { return {s * v.x, s * v.y, s * v.z}; }
 Vector vector_at(const float* v) { return {v[0], v[1], v[2]}; }
+Vector cross(const Vector& a, const Vector& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
 
 void put(const Vector& v, float*& out) {
   *out++ = v.x;
@@ -25,6 +28,17 @@ Vector into_axes(const NodePose& pose, const Vector& v) {
   const float* r = pose.rotation;
   return {r[0] * v.x + r[3] * v.y + r[6] * v.z, r[1] * v.x + r[4] * v.y + r[7] * v.z,
           r[2] * v.x + r[5] * v.y + r[8] * v.z};
+}
+
+// exp([bend]x) v by series, exact to float for the bends there are (tissue/node_bend.hpp).
+Vector turned(const float* bend, const Vector& v) {
+  const Vector b = vector_at(bend);
+  const float squared = b.x * b.x + b.y * b.y + b.z * b.z;
+  const float sine = 1 - squared * (1.0f / 6 - squared * (1.0f / 120 - squared / 5040));
+  const float cosine = 0.5f - squared * (1.0f / 24 - squared * (1.0f / 720 - squared / 40320));
+  const Vector once = cross(b, v), twice = cross(b, once);
+  return {v.x + sine * once.x + cosine * twice.x, v.y + sine * once.y + cosine * twice.y,
+          v.z + sine * once.z + cosine * twice.z};
 }
 
 // Second difference of the root's place: in double first, since places may be millions of metres from the
@@ -63,10 +77,10 @@ void compute_node_drive(const NodeMotion& motion, float tick_s, uint32_t count, 
     const Vector change = step - step_before;
     const Vector push{-rate2 * (change.x + root.x), -rate2 * (change.y + root.y) - kGravity,
                       -rate2 * (change.z + root.z)};
-    const Vector gravity{0, -kGravity, 0};
+    const Vector gravity{0, -kGravity, 0}, bound = turned(now.bend, gravity);
     const Vector omega = rate * turn_a_tick(before, now), omega_before = rate * turn_a_tick(before2, before);
-    put(into_axes(now, push) - gravity, out);
-    put(into_axes(now, gravity) - gravity, out);
+    put(into_axes(now, push) - bound, out);
+    put(into_axes(now, gravity) - bound, out);
     put(omega, out);
     put(rate * (omega - omega_before), out);
     put(vector_at(now.bend), out);

@@ -2,13 +2,13 @@
 // (tissue/node_bend.hpp).
 //
 // With x its skinned place in the world, R its frame, g gravity, and ticks h apart, backward differences (the
-// future is not known at run time):
-//   felt acceleration  f     = R_t^T (g - (x_t - 2 x_{t-1} + x_{t-2}) / h^2) - g
-//   gravity change           = R_t^T g - g
+// future is not known at run time); bend is what its flesh is turned beyond R, and so exp([bend]x) g gravity
+// as the bound flesh bears it:
+//   felt acceleration  f     = R_t^T (g - (x_t - 2 x_{t-1} + x_{t-2}) / h^2) - exp([bend_t]x) g
+//   gravity change           = R_t^T g - exp([bend_t]x) g
 //   angular velocity   omega = vee((A - A^T) / 2) / h,  A = R_{t-1}^T R_t     the sine of a tick's turn
 //   angular acceleration     = (omega_t - omega_{t-1}) / h
-//   bend                     what its flesh is turned beyond it: a quarter of the region's bend
-//                            (tissue/node_bend.hpp)
+//   bend                     of t: a quarter of the region's bend (tissue/node_bend.hpp)
 // All are zero for a character that stands still in its bind pose. The trainer's data sets are written
 // through this same code, so network and runtime cannot disagree on an input.
 #pragma once

@@ -68,6 +68,24 @@ TEST_CASE("acceleration_is_felt_the_other_way_along_the_node_s_axes") {
   CHECK((drive.felt - want).norm() < kRounding);
 }
 
+// Of the bound shape's gravity, which its rest shape bears, flesh that is bent beyond its frame feels what it
+// had in itself.
+TEST_CASE("bent_flesh_at_rest_feels_what_its_own_turn_changes_of_gravity") {
+  const Vector3d bend(0.3, -0.2, 0.4);
+  tissue::NodePose pose = test::node_pose(test::turned(0.4));
+  for (int k = 0; k < 3; ++k) pose.bend[k] = static_cast<float>(bend[k]);
+  const tissue::NodeMotion motion{{}, {&pose, &pose, &pose}};
+  float out[tissue::kNodeDriveWidth];
+  tissue::compute_node_drive(motion, static_cast<float>(kTick_s), 1, out);
+  const Matrix3d frame = test::turned(0.4);
+  const Matrix3d flesh = frame * Eigen::AngleAxisd(bend.norm(), bend.normalized()).toRotationMatrix();
+  const Vector3d want = frame.transpose() * (kGravity - flesh * kGravity);
+  for (int k = 0; k < 3; ++k) {
+    CHECK(static_cast<double>(out[k]) == Approx(want[k]).margin(1e-5));
+    CHECK(static_cast<double>(out[3 + k]) == Approx(want[k]).margin(1e-5));
+  }
+}
+
 TEST_CASE("the_bend_is_told_as_the_newest_frame_has_it") {
   tissue::NodePose poses[2] = {test::node_pose(upright(0)), test::node_pose(upright(0))};
   for (int k = 0; k < 3; ++k) poses[0].bend[k] = 0.1f * static_cast<float>(k + 1);

@@ -51,7 +51,8 @@ TEST_CASE("first_pose_counts_as_held_for_ever") {
   const auto bent_far_away = [](double) { return scenes::bent_pose(0.7, 50); };
   // Gravity has turned against the upper joint; nothing has moved. Only that small static pull may show.
   stage.step(bent_far_away, kFrame_s);
-  constexpr double kOneTickOfGravity_m = 9.81 / 3600 * 1.5;
+  // What turning by the bend changes of it; the tip of the first mode goes further than the nodes' mean.
+  const double kOneTickOfGravity_m = 2 * std::sin(0.35) * 9.81 / 3600 * 2.3;
   CHECK(test::largest_length(deltas(stage)) < kOneTickOfGravity_m);
 }
 

@@ -67,6 +67,7 @@ def _basis(rng, rest, edges):
         force=phi.T / np.sqrt(n),
         rest=compliance - (phi / w**2) @ phi.T,
         rest_oscillator=np.array([next_w, damping(next_w)]),
+        first=np.array([w[0], damping(w[0])]),
     )
 
 
@@ -116,8 +117,9 @@ def drive_of(place, frame, bend):
     omega = np.stack(odd, -1) / (2 * H)
     gravity = np.broadcast_to(GRAVITY, place.shape)
     alpha = (omega - before(omega)) / H
+    bound = apply(turn_and_mean(bend)[0], gravity)
     return np.concatenate(
-        [apply(back, gravity - acceleration) - gravity, apply(back, gravity) - gravity, omega, alpha, bend], -1
+        [apply(back, gravity - acceleration) - bound, apply(back, gravity) - bound, omega, alpha, bend], -1
     )
 
 
