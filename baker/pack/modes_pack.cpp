@@ -32,7 +32,9 @@ void check_basis(const Region& region, const ModalBasis& basis) {
                     (basis.damping_ratio.array() >= 0).all() && basis.damping_ratio.allFinite() &&
                     basis.rest.allFinite() && basis.rest_rad_per_s >= 0 &&
                     std::isfinite(basis.rest_rad_per_s) && basis.rest_damping_ratio >= 0 &&
-                    std::isfinite(basis.rest_damping_ratio);
+                    std::isfinite(basis.rest_damping_ratio) && (modes == 0 || basis.first_rad_per_s > 0) &&
+                    std::isfinite(basis.first_rad_per_s) && basis.first_damping_ratio >= 0 &&
+                    std::isfinite(basis.first_damping_ratio);
   if (!good)
     throw BadInput("region '" + region.name +
                    "': its modes hold numbers that are not finite; is the mesh damaged there?");
@@ -90,7 +92,7 @@ struct Sections {
 
 void append_region(const Region& region, const ModalBasis& basis, double rate_hz, Sections* to) {
   const bool moves = basis.rad_per_s.size() > 0;
-  const double first = moves ? basis.rad_per_s[0] : kUsual_rad_per_s;
+  const double first = moves ? basis.first_rad_per_s : kUsual_rad_per_s;
   pack::RegionModesRecord record{};
   record.first_mode = static_cast<uint32_t>(to->modes.size());
   record.mode_count = static_cast<uint32_t>(basis.rad_per_s.size());
@@ -107,7 +109,7 @@ void append_region(const Region& region, const ModalBasis& basis, double rate_hz
   append_matrices(basis, &to->matrices);
   append_compliance(basis, region.node_count, &to->compliance);
   const Recurrence spring =
-      modal_recurrence(first, moves ? basis.damping_ratio[0] : kUsualDampingRatio, rate_hz);
+      modal_recurrence(first, moves ? basis.first_damping_ratio : kUsualDampingRatio, rate_hz);
   to->springs.push_back({spring.a1, spring.a2, 1 - spring.a1 - spring.a2, 0});
 }
 

@@ -107,7 +107,7 @@ def _of_region(basis, tick_s):
     a1, a2, gain = (v[:, None] for v in recurrence(w, b["damping_ratio"], tick_s))
     rest_a1, rest_a2, _ = (v.view(1, 1, 1) for v in recurrence(*b["rest_oscillator"], tick_s))
     return {
-        **dict(first=w[0], rad_per_s=w, damping_ratio=b["damping_ratio"], a1=a1, a2=a2, gain=gain),
+        **dict(first=b["first"][0], rad_per_s=w, damping_ratio=b["damping_ratio"], a1=a1, a2=a2, gain=gain),
         **dict(shape=b["shape"], turn=b["turn"], force=b["force"]),
         "project": torch.as_tensor(projection(b["shape"].numpy(), w.numpy())),
         **dict(rest=b["rest"], rest_a1=rest_a1, rest_a2=rest_a2),

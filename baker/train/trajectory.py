@@ -5,9 +5,9 @@ import numpy as np
 
 from .safetensors import BadData, load
 
-VERSION = "4"
+VERSION = "5"
 DRIVE_WIDTH = 15
-BASIS = ("rad_per_s", "damping_ratio", "shape", "turn", "force", "rest", "rest_oscillator")
+BASIS = ("rad_per_s", "damping_ratio", "shape", "turn", "force", "rest", "rest_oscillator", "first")
 _STILL = 1e-9  # metres: a displacement nowhere larger than this is no motion
 
 
@@ -23,7 +23,7 @@ class Body:
     radius_m: np.ndarray  # (R,)
     region_names: tuple
     bases: list  # a region: rad_per_s (K,), damping_ratio (K,), shape and turn (3n, K), force (K, 3n),
-    # rest (3n, 3n), rest_oscillator (2,)
+    # rest (3n, 3n), rest_oscillator and first (2,)
 
     def same_as(self, other):
         arrays = lambda b: (b.rest_position, b.rest_normal, b.stiffness, b.region, b.edges, b.radius_m)
@@ -77,11 +77,12 @@ def _read_bases(path, tensors, nodes_of_region):
         n, name = 3 * int(nodes), f"modes.{r}."
         w = _need(path, tensors, name + "rad_per_s", (1, -1))[0]
         _checked(path, name + "rad_per_s", len(w) and (w > 0).all(), "no modes, or not all above 0 rad/s")
-        shapes = ((1, len(w)), (n, len(w)), (n, len(w)), (len(w), n), (n, n), (1, 2))
+        shapes = ((1, len(w)), (n, len(w)), (n, len(w)), (len(w), n), (n, n), (1, 2), (1, 2))
         values = [_need(path, tensors, name + k, shape) for k, shape in zip(BASIS[1:], shapes)]
-        for k, value in (("damping_ratio", values[0]), ("rest_oscillator", values[-1])):
+        for k, value in (("damping_ratio", values[0]), ("rest_oscillator", values[-2]), ("first", values[-1])):
             _checked(path, name + k, (value >= 0).all(), "below 0")
-        bases.append(dict(zip(BASIS, [w, values[0][0], *values[1:-1], values[-1][0]])))
+        _checked(path, name + "first", values[-1][0, 0] > 0, "not above 0 rad/s")
+        bases.append(dict(zip(BASIS, [w, values[0][0], *values[1:-2], values[-2][0], values[-1][0]])))
     return bases
 
 

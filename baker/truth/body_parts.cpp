@@ -2,6 +2,9 @@
 #include "baker/truth/body_parts.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include "baker/truth/modes.hpp"
 
 namespace sinew::baker {
 namespace {
@@ -56,6 +59,13 @@ Eigen::SparseMatrix<double> block_of(const Eigen::SparseMatrix<double>& whole,
   Eigen::SparseMatrix<double> block(row_of(nodes.size()), row_of(nodes.size()));
   block.setFromTriplets(entries.begin(), entries.end());
   return block;
+}
+
+double first_rad_per_s(const FemLinear& body, const std::vector<size_t>& nodes) {
+  Eigen::VectorXd mass(row_of(nodes.size()));
+  for (size_t i = 0; i < nodes.size(); ++i)
+    mass.segment<3>(row_of(i)) = body.mass.segment<3>(row_of(nodes[i]));
+  return std::sqrt(lowest_modes(block_of(body.stiffness, nodes), mass, 1).squared_rad_per_s[0]);
 }
 
 }  // namespace sinew::baker

@@ -20,4 +20,7 @@ std::map<int, std::vector<size_t>> split_by_region(const FemLinear& body, const 
 Eigen::SparseMatrix<double> block_of(const Eigen::SparseMatrix<double>& whole,
                                      const std::vector<size_t>& nodes);
 
+// The lowest mode of some nodes, all others held still.
+double first_rad_per_s(const FemLinear& body, const std::vector<size_t>& nodes);
+
 }  // namespace sinew::baker

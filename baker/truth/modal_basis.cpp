@@ -5,12 +5,11 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <string>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/mesh/carry.hpp"
 #include "baker/truth/body_parts.hpp"
+#include "baker/truth/load_weights.hpp"
 #include "baker/truth/modes.hpp"
 #include "baker/truth/sparse_cholesky.hpp"
 
@@ -24,46 +23,25 @@ using Eigen::VectorXd;
 // A mode this high answers within a tick of 60 Hz and hardly at all; but a stiff region keeps its first few.
 constexpr double kHighest_rad_per_s = 2 * M_PI * 30;
 constexpr size_t kFewest = 6;
+constexpr int kMostShared = 96;        // modes of a body that several regions take theirs from
+constexpr double kSlowest = 1e-12;     // rad/s squared
 constexpr double kMostDamping = 0.95;  // of a mode: the correction's budget needs modes that swing
 
-// One body's share of a region.
-struct Part {
+// A body and its lowest modes; all that its regions show is of these.
+struct Body {
   std::vector<int> cage_node;
-  Eigen::SparseMatrix<double> stiffness;
-  Eigenmodes modes;
+  const FemLinear& linear;
   VectorXd mass;  // a node
-  double rayleigh_mass_per_s = 0, rayleigh_stiffness_s = 0;
+  Eigenmodes modes;
+  MatrixXd shape, turn;  // (3 cage nodes, modes), zero where the body is not; see warping_turn
+  SparseCholesky stiffness;
 };
 
-Part solve_part(const FemLinear& body, const std::vector<size_t>& nodes, const std::vector<int>& cage_node,
-                int count) {
-  Part part;
-  part.rayleigh_mass_per_s = body.rayleigh_mass_per_s;
-  part.rayleigh_stiffness_s = body.rayleigh_stiffness_s;
-  part.mass.resize(static_cast<Index>(nodes.size()));
-  VectorXd mass(row_of(nodes.size()));
-  for (size_t i = 0; i < nodes.size(); ++i) {
-    part.cage_node.push_back(cage_node[static_cast<size_t>(body.nodes[nodes[i]])]);
-    mass.segment<3>(row_of(i)) = body.mass.segment<3>(row_of(nodes[i]));
-    part.mass[static_cast<Index>(i)] = body.mass[row_of(nodes[i])];
-  }
-  part.stiffness = block_of(body.stiffness, nodes);
-  part.modes = lowest_modes(part.stiffness, mass, count);
-  return part;
-}
-
-// At its own first mode and at three times that, where the body's is another region's.
-void damp_part(double ratio, Part* part) {
-  const double first = std::sqrt(part->modes.squared_rad_per_s[0]);
-  part->rayleigh_mass_per_s = 1.5 * ratio * first;
-  part->rayleigh_stiffness_s = 0.5 * ratio / first;
-}
-
-// Displacements of the part, a column each, at every node of the cage; zero where the part is not.
-MatrixXd in_cage(const Part& part, const MatrixXd& columns, const Cage& cage) {
+// Displacements of the body, a column each, at every node of the cage; zero where the body is not.
+MatrixXd in_cage(const Body& body, const MatrixXd& columns, const Cage& cage) {
   MatrixXd out = MatrixXd::Zero(row_of(cage.nodes.size()), columns.cols());
-  for (size_t i = 0; i < part.cage_node.size(); ++i)
-    out.middleRows<3>(row_of(static_cast<size_t>(part.cage_node[i]))) = columns.middleRows<3>(row_of(i));
+  for (size_t i = 0; i < body.cage_node.size(); ++i)
+    out.middleRows<3>(row_of(static_cast<size_t>(body.cage_node[i]))) = columns.middleRows<3>(row_of(i));
   return out;
 }
 
@@ -87,21 +65,21 @@ Eigen::Matrix3d cross_matrix(const Vector3& v) {
   return Eigen::Matrix3d{{0, -v.z(), v.y()}, {v.z(), 0, -v.x()}, {-v.y(), v.x(), 0}};
 }
 
-// How the flesh of a part turns for small q.
+// How the flesh of a body turns for small q.
 struct Turning {
   MatrixXd turn;   // (3 cage nodes, modes): half the curl, in the mean, by volume, of the tetrahedra around
-  VectorXd share;  // of each mode's gradient (squared, over the part) what is rotation: 1 a rigid turn, 1/2 a
+  VectorXd share;  // of each mode's gradient (squared, over the body) what is rotation: 1 a rigid turn, 1/2 a
                    // simple shear, 0 a stretch
 };
 
-Turning turning_in_cage(const MatrixXd& shape, const Part& part, const Cage& cage) {
-  std::vector<bool> in_part(cage.nodes.size(), false);
-  for (const int node : part.cage_node) in_part[static_cast<size_t>(node)] = true;
+Turning turning_in_cage(const MatrixXd& shape, const std::vector<int>& cage_node, const Cage& cage) {
+  std::vector<bool> in_body(cage.nodes.size(), false);
+  for (const int node : cage_node) in_body[static_cast<size_t>(node)] = true;
   MatrixXd turn = MatrixXd::Zero(shape.rows(), shape.cols());
   VectorXd volume = VectorXd::Zero(static_cast<Index>(cage.nodes.size()));
   VectorXd rotation = VectorXd::Zero(shape.cols()), gradient = rotation;
   for (const auto& corners : cage.tetrahedra) {
-    if (std::none_of(corners.begin(), corners.end(), [&](int n) { return in_part[static_cast<size_t>(n)]; }))
+    if (std::none_of(corners.begin(), corners.end(), [&](int n) { return in_body[static_cast<size_t>(n)]; }))
       continue;
     const Tetrahedron t = tetrahedron_of(cage, corners);
     MatrixXd curl = MatrixXd::Zero(3, shape.cols());
@@ -144,34 +122,30 @@ MatrixXd at_control_nodes(const MatrixXd& in_cage, const TissueLayout& layout, c
   return out;
 }
 
-// Inertial forces on the part (3 part nodes, 3 control nodes) of felt accelerations at the control nodes,
-// carried through the flesh.
-MatrixXd loads_from_nodes(const Part& part, const TissueLayout& layout, const Region& region,
-                          const Cage& cage) {
-  std::vector<Vector3> nodes, flesh;
-  for (int n = 0; n < region.node_count; ++n)
-    nodes.push_back(layout.nodes[static_cast<size_t>(region.first_node + n)].position);
-  for (const int node : part.cage_node) flesh.push_back(cage.nodes[static_cast<size_t>(node)]);
-  const std::vector<std::vector<double>> carry = carry_weights(nodes, {}, flesh);
-  MatrixXd loads = MatrixXd::Zero(row_of(flesh.size()), 3 * region.node_count);
-  for (size_t n = 0; n < nodes.size(); ++n)
-    for (size_t c = 0; c < flesh.size(); ++c)
-      loads.block<3, 3>(row_of(c), row_of(n))
-          .diagonal()
-          .setConstant(carry[n][c] * part.mass[static_cast<Index>(c)]);
-  return loads;
+Body solve_body(const FemLinear& linear, const std::vector<int>& cage_node, int count, const Cage& cage) {
+  Body body{{}, linear, {}, lowest_modes(linear.stiffness, linear.mass, count), {}, {}, {}};
+  body.mass = linear.mass(Eigen::seq(0, Eigen::last, 3));
+  for (const int node : linear.nodes) body.cage_node.push_back(cage_node[static_cast<size_t>(node)]);
+  body.shape = in_cage(body, body.modes.shape, cage);
+  body.turn = warping_turn(turning_in_cage(body.shape, body.cage_node, cage));
+  body.stiffness.analyze(linear.stiffness);
+  if (!body.stiffness.factor(linear.stiffness))
+    throw std::runtime_error("modal basis: no constrained node holds the flesh in place");
+  return body;
 }
 
 struct Mode {
   double rad_per_s, damping_ratio;
   VectorXd shape, turn;
   Eigen::RowVectorXd force;
+  double swings;  // how far the region goes in it under loads of all kinds, s^2
 };
 
 // What a region gathers from the bodies it has a share of.
 struct Gathered {
   std::vector<Mode> modes;
   MatrixXd compliance;  // (3 nodes, 3 nodes), s^2: the answer to a steady felt acceleration
+  double first_rad_per_s = 0, first_damping_ratio = 0;
 };
 
 // A region in the layout that is baked, and in the finest, whose nodes say how large a mode is.
@@ -181,43 +155,75 @@ struct Seen {
   const Region& region() const { return layout.regions[index]; }
 };
 
+// Inertial forces on the body (3 body nodes, 3 control nodes) of felt accelerations at the control nodes.
+MatrixXd loads_from_nodes(const Body& body, const MatrixXd& shape, const Seen& seen, const Cage& cage) {
+  const Region& region = seen.region();
+  LoadPlaces nodes, flesh;
+  for (int n = 0; n < region.node_count; ++n) {
+    const ControlNode& node = seen.layout.nodes[static_cast<size_t>(region.first_node + n)];
+    nodes.push_back(node.position, node.skin);
+  }
+  for (const int node : body.cage_node)
+    flesh.push_back(cage.nodes[static_cast<size_t>(node)], cage.skin[static_cast<size_t>(node)]);
+  const MatrixXd answers = body.modes.squared_rad_per_s.cwiseMax(kSlowest).cwiseInverse().asDiagonal();
+  nodes.answers = shape * answers;
+  flesh.answers = body.modes.shape * answers;
+  const MatrixXd weights = load_weights(nodes, flesh);
+  MatrixXd loads = MatrixXd::Zero(row_of(flesh.size()), 3 * region.node_count);
+  for (Index c = 0; c < weights.rows(); ++c)
+    for (Index n = 0; n < weights.cols(); ++n)
+      loads.block<3, 3>(3 * c, 3 * n).diagonal().setConstant(weights(c, n) * body.mass[c]);
+  return loads;
+}
+
 VectorXd sizes_of(const MatrixXd& everywhere, const Seen& seen, const Cage& cage) {
   const Region& region = seen.finest.regions[seen.index];
   const MatrixXd shape = at_control_nodes(everywhere, seen.finest, region, cage);
   return shape.colwise().norm().transpose() / std::sqrt(static_cast<double>(region.node_count));
 }
 
-void append_modes(const Part& part, const MatrixXd& loads, const Seen& seen, const Cage& cage,
-                  std::vector<Mode>* modes) {
-  const TissueLayout& layout = seen.layout;
-  const Region& region = seen.region();
-  const MatrixXd everywhere = in_cage(part, part.modes.shape, cage);
-  const MatrixXd shape = at_control_nodes(everywhere, layout, region, cage);
-  const VectorXd sizes = sizes_of(everywhere, seen, cage);
-  const Turning turning = turning_in_cage(everywhere, part, cage);
-  const MatrixXd turn = at_control_nodes(warping_turn(turning), layout, region, cage);
-  const MatrixXd force = part.modes.shape.transpose() * loads;
+double damping_of(const FemLinear& body, double rad_per_s) {
+  const double ratio = 0.5 * (body.rayleigh_mass_per_s / rad_per_s + body.rayleigh_stiffness_s * rad_per_s);
+  return std::min(ratio, kMostDamping);
+}
+
+void append_modes(const Body& body, const MatrixXd& shape, const MatrixXd& loads, const Seen& seen,
+                  const Cage& cage, std::vector<Mode>* modes) {
+  const VectorXd sizes = sizes_of(body.shape, seen, cage);
+  const MatrixXd turn = at_control_nodes(body.turn, seen.layout, seen.region(), cage);
+  const MatrixXd force = body.modes.shape.transpose() * loads;
   for (Index k = 0; k < shape.cols(); ++k) {
-    const double w = std::sqrt(part.modes.squared_rad_per_s[k]);
-    const double size = sizes[k];
+    const double squared = body.modes.squared_rad_per_s[k], w = std::sqrt(squared), size = sizes[k];
     if (!(w > 0) || !(size > 0)) continue;
-    const double ratio = 0.5 * (part.rayleigh_mass_per_s / w + part.rayleigh_stiffness_s * w);
-    modes->push_back(
-        {w, std::min(ratio, kMostDamping), shape.col(k) / size, turn.col(k) / size, force.row(k) * size});
+    modes->push_back({w, damping_of(body.linear, w), shape.col(k) / size, turn.col(k) / size,
+                      force.row(k) * size, size / squared});
   }
 }
 
-void gather(const Part& part, const Seen& seen, const Cage& cage, Gathered* to) {
+void gather(const Body& body, const Seen& seen, const Cage& cage, Gathered* to) {
   const TissueLayout& layout = seen.layout;
   const Region& region = seen.region();
-  const MatrixXd loads = loads_from_nodes(part, layout, region, cage);
-  append_modes(part, loads, seen, cage, &to->modes);
-  SparseCholesky cholesky;
-  cholesky.analyze(part.stiffness);
-  if (!cholesky.factor(part.stiffness))
-    throw std::runtime_error("modal basis: no constrained node holds the flesh of region '" + region.name +
-                             "' in place");
-  to->compliance += at_control_nodes(in_cage(part, cholesky.solve(loads), cage), layout, region, cage);
+  const MatrixXd shape = at_control_nodes(body.shape, layout, region, cage);
+  const MatrixXd loads = loads_from_nodes(body, shape, seen, cage);
+  append_modes(body, shape, loads, seen, cage, &to->modes);
+  to->compliance += at_control_nodes(in_cage(body, body.stiffness.solve(loads), cage), layout, region, cage);
+}
+
+// Of the region with all else held still.
+void take_first(const FemLinear& body, const std::vector<size_t>& nodes, Gathered* to) {
+  const double first = first_rad_per_s(body, nodes);
+  if (to->first_rad_per_s > 0 && to->first_rad_per_s <= first) return;
+  to->first_rad_per_s = first;
+  to->first_damping_ratio = damping_of(body, first);
+}
+
+// Modes in which other regions swing and this one hardly does are not worth a tick's time.
+void drop_still_modes(std::vector<Mode>* modes) {
+  constexpr double kHardly = 1e-3;
+  const auto size = [](const Mode& mode) { return mode.swings * mode.rad_per_s * mode.rad_per_s; };
+  double most = 0;
+  for (const Mode& mode : *modes) most = std::max(most, size(mode));
+  std::erase_if(*modes, [&](const Mode& mode) { return size(mode) < kHardly * most; });
 }
 
 size_t kept_modes(const std::vector<Mode>& ascending, int count) {
@@ -227,18 +233,20 @@ size_t kept_modes(const std::vector<Mode>& ascending, int count) {
   return std::min({ascending.size(), static_cast<size_t>(count), std::max(below, kFewest)});
 }
 
-// Of a shape's first columns: those of a beam, bent either way.
-int stillest_node(const MatrixXd& shape) {
-  const auto first = shape.leftCols(std::min<Index>(2, shape.cols()));
+// Where the region is held: the node that goes least far.
+int stillest_node(const std::vector<Mode>& modes, int nodes) {
+  VectorXd far = VectorXd::Zero(nodes);
+  for (const Mode& mode : modes)
+    for (Index n = 0; n < nodes; ++n) far[n] += (mode.swings * mode.shape.segment<3>(3 * n)).squaredNorm();
   Index least = 0;
-  for (Index n = 0; n < first.rows() / 3; ++n)
-    if (first.middleRows<3>(3 * n).norm() < first.middleRows<3>(3 * least).norm()) least = n;
+  if (nodes > 0) far.minCoeff(&least);
   return static_cast<int>(least);
 }
 
 // intensity scales what is answered to a load, and so every displacement.
 ModalBasis basis_of(Gathered gathered, int nodes, int count, double intensity) {
   std::vector<Mode>& modes = gathered.modes;
+  drop_still_modes(&modes);
   std::stable_sort(modes.begin(), modes.end(),
                    [](const Mode& a, const Mode& b) { return a.rad_per_s < b.rad_per_s; });
   const auto kept = static_cast<Index>(kept_modes(modes, count));
@@ -262,7 +270,9 @@ ModalBasis basis_of(Gathered gathered, int nodes, int count, double intensity) {
     basis.rest_rad_per_s = next.rad_per_s;
     basis.rest_damping_ratio = next.damping_ratio;
   }
-  basis.anchor_node = stillest_node(basis.shape);
+  basis.anchor_node = stillest_node(modes, nodes);
+  basis.first_rad_per_s = gathered.first_rad_per_s;
+  basis.first_damping_ratio = gathered.first_damping_ratio;
   basis.force *= intensity;
   basis.rest *= intensity;
   return basis;
@@ -278,13 +288,17 @@ std::vector<ModalBasis> modal_bases(const TissueLayout& layout, const Cage& cage
   for (const Region& region : layout.regions)
     gathered.push_back({{}, MatrixXd::Zero(3 * region.node_count, 3 * region.node_count)});
   const TissueLayout& of = finest != nullptr ? *finest : layout;
-  for (const FemLinear& body : bodies)
-    for (const auto& [region, nodes] : split_by_region(body, of, cage, cage_node)) {
+  for (const FemLinear& linear : bodies) {
+    const auto parts = split_by_region(linear, of, cage, cage_node);
+    if (parts.empty()) continue;
+    const int shared = std::min(kMostShared / count, static_cast<int>(parts.size()));
+    Body body = solve_body(linear, cage_node, count * std::max(1, shared) + 1, cage);
+    for (const auto& [region, nodes] : parts) {
       const auto index = static_cast<size_t>(region);
-      Part part = solve_part(body, nodes, cage_node, count + 1);
-      if (layout.regions[index].frequency_hz > 0) damp_part(layout.regions[index].damping_ratio, &part);
-      gather(part, {layout, of, index}, cage, &gathered[index]);
+      gather(body, {layout, of, index}, cage, &gathered[index]);
+      take_first(linear, nodes, &gathered[index]);
     }
+  }
   std::vector<ModalBasis> bases;
   for (size_t r = 0; r < layout.regions.size(); ++r)
     bases.push_back(

@@ -5,8 +5,10 @@
 // where r is what the modes left out would add. They answer together, as one oscillator at the frequency of
 // the first of them that is exact at rest (residual flexibility; MacNeal 1971):
 //   r'' + 2 zeta w r' + w^2 r = w^2 rest f
-// with f_i at the control nodes: between them it is interpolated through the flesh (carry.hpp). Other regions
-// hold still. No simulated sequence is needed.
+// with f_i at the control nodes, from which all flesh's is estimated (load_weights.hpp). The modes are those of
+// the whole body of flesh that the region lies in, so that a part of it swings as the others let it, and their
+// damping is the body's; the other regions hear the same motion at nodes of their own. No simulated sequence
+// is needed.
 #pragma once
 #include "baker/mesh/tissue_layout.hpp"
 #include "baker/truth/cage.hpp"
@@ -27,7 +29,8 @@ struct ModalBasis {
   Eigen::MatrixXd rest;   // (3 nodes, 3 nodes), s^2: what the modes left out answer to a steady felt
                           // acceleration
   double rest_rad_per_s = 0, rest_damping_ratio = 0;
-  int anchor_node = 0;  // moved least by the first modes: where the region is held (tissue/node_bend.hpp)
+  int anchor_node = 0;  // goes least far in its modes: where the region is held (tissue/node_bend.hpp)
+  double first_rad_per_s = 0, first_damping_ratio = 0;  // of the region with all else held still; 0: no modes
 };
 
 // cage_node: a node of `bodies` -> of the cage. One basis a region; fewer than `count` modes where a region

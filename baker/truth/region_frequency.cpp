@@ -8,7 +8,6 @@
 
 #include "baker/common/bad_input.hpp"
 #include "baker/truth/body_parts.hpp"
-#include "baker/truth/modes.hpp"
 #include "baker/truth/moving_part.hpp"
 
 namespace sinew::baker {
@@ -23,14 +22,6 @@ struct Found {
   std::vector<int> region_of_node;  // a cage node, -1: none
 };
 
-double first_frequency_hz(const FemLinear& body, const std::vector<size_t>& nodes) {
-  Eigen::VectorXd mass(row_of(nodes.size()));
-  for (size_t i = 0; i < nodes.size(); ++i)
-    mass.segment<3>(row_of(i)) = body.mass.segment<3>(row_of(nodes[i]));
-  const Eigenmodes modes = lowest_modes(block_of(body.stiffness, nodes), mass, 1);
-  return std::sqrt(modes.squared_rad_per_s[0]) / (2 * std::numbers::pi);
-}
-
 Found find(const Cage& cage, const TissueLayout& layout, const MovingPart& part) {
   Fem fem(part.rest, part.tetrahedra, part.constrained, part.material);
   Found found{std::vector<double>(layout.regions.size(), 0), std::vector<int>(cage.nodes.size(), -1)};
@@ -39,7 +30,7 @@ Found find(const Cage& cage, const TissueLayout& layout, const MovingPart& part)
       for (const size_t n : nodes)
         found.region_of_node[static_cast<size_t>(part.cage_node[static_cast<size_t>(body.nodes[n])])] =
             region;
-      const double hz = first_frequency_hz(body, nodes);
+      const double hz = first_rad_per_s(body, nodes) / (2 * std::numbers::pi);
       double& first = found.first_hz[static_cast<size_t>(region)];
       first = first > 0 ? std::min(first, hz) : hz;
     }

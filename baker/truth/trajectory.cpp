@@ -179,6 +179,8 @@ void TrajectoryRecorder::add_modes(Safetensors* file) const {
     file->tensors[name + ".rest"] = rows(modes_[r].rest);
     file->tensors[name + ".rest_oscillator"] =
         rows(Eigen::RowVector2d(modes_[r].rest_rad_per_s, modes_[r].rest_damping_ratio));
+    file->tensors[name + ".first"] =
+        rows(Eigen::RowVector2d(modes_[r].first_rad_per_s, modes_[r].first_damping_ratio));
   }
 }
 

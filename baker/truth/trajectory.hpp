@@ -8,12 +8,12 @@
 //   node.rest_position (N,3) less the region's centre, in radii   node.rest_normal (N,3)   node.stiffness
 //   (N,1)   node.region (N) i32   edges (m,2) i32   region.radius_m (R)
 //   modes.{r}.rad_per_s, .damping_ratio (1,K)   .shape, .turn (3n,K)   .force (K,3n)   .rest (3n,3n)
-//   .rest_oscillator (1,2) rad/s and damping ratio, of modal_basis.hpp
+//   .rest_oscillator, .first (1,2) rad/s and damping ratio, of modal_basis.hpp
 // with `surface`: surface (T+1,Vr,3) f16 true displacement of the carried vertices, each along the axes of
 //   its own skin, region after region; region.vertices (Vr) i32, region.vertex_count (R) i32,
 //   carry.{r} (nodes, vertices of region r)
 // with `positions`: positions (T+1,V,3) f32 truth relative to the root
-// Metadata: sinew.trajectory = 4 and the caller's.
+// Metadata: sinew.trajectory = 5 and the caller's.
 #pragma once
 #include <Eigen/Core>
 #include <map>
@@ -26,7 +26,7 @@
 
 namespace sinew::baker {
 
-inline constexpr char kTrajectoryVersion[] = "4";
+inline constexpr char kTrajectoryVersion[] = "5";
 
 struct TrajectoryOptions {
   double rate_hz = 60;

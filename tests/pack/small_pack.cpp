@@ -216,7 +216,7 @@ std::vector<baker::ModalBasis> small_modes(const baker::TissueLayout& layout) {
     const Eigen::Index rows = 3 * region.node_count, count = modes.empty() ? 3 : 2;
     modes.push_back({Eigen::VectorXd::LinSpaced(count, 20, 60), Eigen::VectorXd::Constant(count, 0.1),
                      numbers(rows, count), numbers(rows, count), numbers(count, rows),
-                     1e-3 * numbers(rows, rows), 80, 0.2, modes.empty() ? 1 : 0});
+                     1e-3 * numbers(rows, rows), 80, 0.2, modes.empty() ? 1 : 0, 20, 0.1});
   }
   return modes;
 }

@@ -56,6 +56,8 @@ ModalBasis region_modes(const baker::TissueLayout& layout, const baker::Region& 
                    kRest_s2 * Eigen::MatrixXd::Identity(rows, rows),
                    2 * std::numbers::pi * kRest_hz,
                    kDampingRatio};
+  basis.first_rad_per_s = 2 * std::numbers::pi * kModes[0].frequency_hz;
+  basis.first_damping_ratio = kDampingRatio;
   for (Eigen::Index k = 0; k < count; ++k) {
     const BlockMode& mode = kModes[k];
     basis.rad_per_s[k] = 2 * std::numbers::pi * mode.frequency_hz;

@@ -241,6 +241,7 @@ std::vector<baker::GraphLevel> coarser_levels(const Character& character, const 
 void slow_down(double share, baker::ModalBasis& basis) {
   basis.rad_per_s *= share;
   basis.rest_rad_per_s *= share;
+  basis.first_rad_per_s *= share;
   basis.rest /= share * share;
 }
 

@@ -69,6 +69,8 @@ TEST_CASE("bases_that_do_not_fit_are_refused_by_region") {
   CHECK_THAT(refusal([](auto& m) { m[0].rest(3, 3) = kNan; }), Contains("'belly': its modes hold"));
   CHECK_THAT(refusal([](auto& m) { m[0].rest_rad_per_s = kNan; }), Contains("'belly': its modes hold"));
   CHECK_THAT(refusal([](auto& m) { m[0].rest_damping_ratio = -1; }), Contains("'belly': its modes hold"));
+  CHECK_THAT(refusal([](auto& m) { m[0].first_rad_per_s = 0; }), Contains("'belly': its modes hold"));
+  CHECK_THAT(refusal([](auto& m) { m[0].first_damping_ratio = kNan; }), Contains("'belly': its modes hold"));
   const auto too_many = [](auto& m) {
     m[0] = {Eigen::VectorXd::Ones(65),
             Eigen::VectorXd::Ones(65),

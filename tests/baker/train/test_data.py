@@ -167,7 +167,7 @@ class Refusals(Folder):
             self.refused("tensor region.radius_m")
 
     def test_modes_that_are_none(self):
-        broken = (("rad_per_s", 0), ("rad_per_s", -3), ("damping_ratio", -1), ("rest_oscillator", -1))
+        broken = (("rad_per_s", 0), ("rad_per_s", -3), ("damping_ratio", -1), ("rest_oscillator", -1), ("first", 0))
         for name, value in broken:
             self.changed(f"modes.1.{name}", (0, 1), value)
             self.refused(f"modes.1.{name}")

@@ -158,7 +158,7 @@ class Base(unittest.TestCase):
         n, ticks = 2, 30
         one, none = np.eye(3 * n), np.zeros((3 * n, 3 * n))
         basis = dict(rad_per_s=np.full(3 * n, 1e-4), damping_ratio=np.zeros(3 * n), shape=one, turn=none)
-        basis.update(force=one, rest=none, rest_oscillator=np.ones(2))
+        basis.update(force=one, rest=none, rest_oscillator=np.ones(2), first=np.ones(2))
         base = ModalBase([basis], [n], TICK_S, **DOUBLE)
         generator = np.random.default_rng(1)
         frame, _ = synthetic.turn_and_mean(np.cumsum(generator.normal(size=(ticks, n, 3)) * 0.1, 0))

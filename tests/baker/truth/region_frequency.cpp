@@ -53,7 +53,7 @@ struct Posts {
   }
 };
 
-double first_hz(const ModalBasis& basis) { return basis.rad_per_s[0] / (2 * std::numbers::pi); }
+double first_hz(const ModalBasis& basis) { return basis.first_rad_per_s / (2 * std::numbers::pi); }
 
 }  // namespace
 

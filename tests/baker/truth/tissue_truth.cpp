@@ -278,12 +278,12 @@ TEST_CASE("the_motion_is_sampled_at_every_substep") {
 
 TEST_CASE("stiff_flesh_takes_more_substeps") {
   ModalBasis slow, fast;
-  slow.rad_per_s = Eigen::VectorXd::Constant(1, 2 * M_PI * 2.9);
-  fast.rad_per_s = Eigen::VectorXd::Constant(1, 2 * M_PI * 4);
+  slow.first_rad_per_s = 2 * M_PI * 2.9;
+  fast.first_rad_per_s = 2 * M_PI * 4;
   CHECK(usual_substeps({}, 60) == 4);
   CHECK(usual_substeps({slow, {}}, 60) == 4);
   CHECK(usual_substeps({slow, fast}, 60) == 6);
-  fast.rad_per_s *= 10;
+  fast.first_rad_per_s *= 10;
   CHECK(usual_substeps({slow, fast}, 60) == 8);
   CHECK(usual_substeps({slow}, 240) == 1);
   CHECK(usual_substeps({slow}, 25) == 10);

@@ -77,6 +77,8 @@ ModalBasis one_mode() {
   basis.rest(0, 5) = 7;
   basis.rest_rad_per_s = 40;
   basis.rest_damping_ratio = 0.5;
+  basis.first_rad_per_s = 11;
+  basis.first_damping_ratio = 0.2;
   return basis;
 }
 
@@ -117,7 +119,7 @@ TEST_CASE("displacement_lies_along_each_nodes_own_frame") {
   CHECK((at(displacement, 3) - Vector3(0.02 * std::sin(bend), 0.02 * std::cos(bend), 0.01)).norm() < kFloat);
   CHECK((at(file.need("drive", {1, 2, kNodeDriveWidth}), kNodeDriveWidth + 12) - Vector3(0, 0, quarter / 8))
             .norm() < kFloat);
-  CHECK(file.metadata.at("sinew.trajectory") == "4");
+  CHECK(file.metadata.at("sinew.trajectory") == "5");
   CHECK(file.metadata.at("motion") == "none");
 }
 
@@ -205,6 +207,7 @@ TEST_CASE("the_modes_are_written_region_by_region") {
   CHECK(file.need("modes.0.force", {1, 6}).as_f32() == Values{3, 6, 9, 12, 15, 18});
   CHECK(file.need("modes.0.rest", {6, 6}).as_f32()[5] == 7);
   CHECK(file.need("modes.0.rest_oscillator", {1, 2}).as_f32() == Values{40, 0.5f});
+  CHECK(file.need("modes.0.first", {1, 2}).as_f32() == Values{11, 0.2f});
 }
 
 TEST_CASE("statics_pose_and_optional_tensors_are_there") {
