@@ -5,10 +5,10 @@
 // where r is what the modes left out would add. They answer together, as one oscillator at the frequency of
 // the first of them that is exact at rest (residual flexibility; MacNeal 1971):
 //   r'' + 2 zeta w r' + w^2 r = w^2 rest f
-// with f_i at the control nodes, from which all flesh's is estimated (load_weights.hpp). The modes are those of
-// the whole body of flesh that the region lies in, so that a part of it swings as the others let it, and their
-// damping is the body's; the other regions hear the same motion at nodes of their own. No simulated sequence
-// is needed.
+// with f_i at the control nodes, from which all flesh's is estimated (load_weights.hpp). The modes are those
+// of the whole body of flesh that the region lies in, so that a part of it swings as the others let it, and
+// their damping is the body's; the other regions hear the same motion at nodes of their own. No simulated
+// sequence is needed.
 #pragma once
 #include "baker/mesh/tissue_layout.hpp"
 #include "baker/truth/cage.hpp"

@@ -161,8 +161,7 @@ std::vector<double> TissueTruth::frequencies_hz(int count) const { return impl_-
 int usual_substeps(const std::vector<ModalBasis>& modes, double rate_hz) {
   constexpr double kStepsAPeriod = 80, kFewest_hz = 240, kMost_hz = 480, kRounding = 1e-9;
   double fastest_hz = 0;
-  for (const ModalBasis& basis : modes)
-    fastest_hz = std::max(fastest_hz, basis.first_rad_per_s / (2 * M_PI));
+  for (const ModalBasis& basis : modes) fastest_hz = std::max(fastest_hz, basis.first_rad_per_s / (2 * M_PI));
   const double steps_hz = std::clamp(kStepsAPeriod * fastest_hz, kFewest_hz, kMost_hz);
   return std::max(1, static_cast<int>(std::ceil(steps_hz / rate_hz - kRounding)));
 }
