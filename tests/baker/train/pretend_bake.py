@@ -23,7 +23,7 @@ def truth(a):
     ticks = round(a.seconds * RATE_HZ)
     t = np.arange(ticks + 1)[:, None, None] / RATE_HZ
     n = 3 * NODES
-    shapes = dict(zip(BASIS, ((1, 2), (1, 2), (n, 2), (n, 2), (2, n), (n, n), (1, 2))))
+    shapes = dict(zip(BASIS, ((1, 2), (1, 2), (n, 2), (n, 2), (2, n), (n, n), (1, 2), (1, 2))))
     tensors = {
         "drive": np.full((ticks + 1, NODES, DRIVE_WIDTH), a.strength),
         "rotation": np.tile(np.eye(3).ravel(), (ticks + 1, NODES, 1)),

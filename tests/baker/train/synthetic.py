@@ -181,7 +181,7 @@ def trajectory(seed, ticks=120, strength=1.0, body_seed=0, hardening=HARDENING, 
     for r, b in enumerate(bases):
         tensors.update({f"modes.{r}.{k}": v for k, v in _written(b).items()})
     metadata = {
-        "sinew.trajectory": 4,
+        "sinew.trajectory": 5,
         "character": "synthetic",
         "motion": "random",
         "seed": seed,

@@ -106,10 +106,10 @@ class Refusals(Folder):
         self.refused("modes.1.turn[4, 2]")
 
     def test_other_versions(self):
-        for version in ("3", "5", ""):
+        for version in ("4", "6", ""):
             self.metadata["sinew.trajectory"] = version
             self.write()
-            self.refused(f"version {version}", "reads 4")
+            self.refused(f"version {version}", "reads 5")
         del self.metadata["sinew.trajectory"]
         self.write()
         self.refused("version None")
@@ -167,10 +167,12 @@ class Refusals(Folder):
             self.refused("tensor region.radius_m")
 
     def test_modes_that_are_none(self):
-        broken = (("rad_per_s", 0), ("rad_per_s", -3), ("damping_ratio", -1), ("rest_oscillator", -1), ("first", 0))
+        broken = (("rad_per_s", 0), ("rad_per_s", -3), ("damping_ratio", -1), ("rest_oscillator", -1), ("first", -1))
         for name, value in broken:
             self.changed(f"modes.1.{name}", (0, 1), value)
             self.refused(f"modes.1.{name}")
+        self.changed("modes.1.first", (0, 0), 0)
+        self.refused("modes.1.first")
         self.write(**{"modes.0.rad_per_s": np.zeros((1, 0), np.float32)})
         self.refused("modes.0.rad_per_s")
 
