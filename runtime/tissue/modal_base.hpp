@@ -7,7 +7,8 @@
 //   e     = exp([theta_{t-1}]x)^T (f + phi)
 //   q^    = a1 q_{t-1} + a2 q_{t-2} + gain force e
 //   r     = rest_a1 r_{t-1} + rest_a2 r_{t-2} + rest_gain rest e,   l^ = shape q^ + r
-//   theta = turn q_t, |theta| held at 2 rad,          u_t = W(theta) l_t
+//   theta = turn q_t, |theta| held at 2 rad,          u_t = W(theta) l_t, held within the region's limit
+//                                                     (tissue/guard.hpp) where it is to be shown
 // phi is what a frame that turns does to what moves in it (Coriolis, centrifugal and Euler, exact for the
 // differences taken here). W(theta), the mean of the rotations from 0 to theta, is modal warping (Choi & Ko
 // 2005): a bent tail stays as long as it was. r is the answer of the modes left out, exact at rest (residual

@@ -148,9 +148,10 @@ struct ShownShares {
 };
 
 // Arrays are [nodes][3] in metres along each node's frame (tissue/node_bend.hpp) unless said otherwise; l,
-// theta and q as in tissue/modal_base.hpp, stale on springs. "Shown" is what is published, along the axes of
-// the flesh, as is the tail: poses need not be followed to carry them on. shown = b u + (1 - b) tail, b
-// rising smoothly from 0 to 1 in kBlendInTicks or more (world/blend_pace.hpp). The tail is the displacement
+// theta and q as in tissue/modal_base.hpp, on springs l is what swings and theta and q are stale. u is what
+// may be shown of l, within the region's limit (tissue/guard.hpp). "Shown" is what is published, along the
+// axes of the flesh, as is the tail: poses need not be followed to carry them on. shown = b u + (1 - b) tail,
+// b rising smoothly from 0 to 1 in kBlendInTicks or more (world/blend_pace.hpp). The tail is the displacement
 // shown when simulation was last left, carried on with damped velocity and then faded to zero; or, where it
 // stays, brought to a stand; or, where it rides, what that was off, and shown = u + (1 - b) tail, b rising
 // more gently.

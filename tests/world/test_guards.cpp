@@ -112,7 +112,7 @@ TEST_CASE("an_hour_at_the_limit_winds_nothing_up") {
         REQUIRE(stage.world.set_budget_us(test::tier_cost_us(tier) * 4.04f).ok());
         for (double t = 0; t < (hour ? 3600 : 10); t += kLong_s)
           spins ? stage.step(spun, kLong_s) : stage.step(shaken, kLong_s);
-        CHECK((spins || stage.report().displacement_clamps > 0));
+        CHECK(stage.report().displacement_clamps > 0);
         REQUIRE(stage.report().tier == tier);
         stage.play([](double) { return scenes::bind_pose(); }, 2);
         left_m[hour] = test::largest_length(stage.read(0, Space::kBind));
