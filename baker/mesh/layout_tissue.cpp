@@ -5,6 +5,7 @@
 #include "baker/common/bad_input.hpp"
 #include "baker/mesh/bone_names.hpp"
 #include "baker/mesh/carry.hpp"
+#include "baker/mesh/clip_frequency.hpp"
 #include "baker/mesh/control_nodes.hpp"
 #include "baker/mesh/crossed_capsules.hpp"
 #include "baker/mesh/flesh_shape.hpp"
@@ -103,6 +104,7 @@ void set_motion(const Recipe& recipe, const RegionRecipe* stated, Region& region
   const std::optional<double> most = from.max_displacement ? from.max_displacement : recipe.max_displacement;
   region.states_limit = most.has_value();
   region.max_displacement = most.value_or(region.max_displacement);
+  region.states_frequency = from.frequency_hz.has_value();
   if (from.frequency_hz)
     region.frequency_hz = *from.frequency_hz;
   else if (!recipe.states_moduli)
@@ -316,6 +318,7 @@ TissueLayout layout_tissue(Character& character, const Recipe& recipe) {
   if (painted && states_regions) check_all_painted(character, recipe, layout, on_rods);
   distinguish_names(layout.regions);
   note_sheets(character, layout);
+  fit_frequencies(character, layout);
   if (layout.regions.empty() && layout.rods.empty() && !no_tissue)
     character.notes.push_back(how_to_make_soft(character));
   return layout;

@@ -32,7 +32,8 @@ struct Region {
   bool touches_body = false;  // RegionRecipe::touches_body
   Evidence evidence = Evidence::kRecipe;
   SoftKind kind = SoftKind::kOther;
-  double frequency_hz = 0;  // what its first mode is to have; 0: what its moduli give
+  double frequency_hz = 0;        // what its first mode is to have; 0: what its moduli give
+  bool states_frequency = false;  // it is the recipe's
   double damping_ratio = 0.1;
   double intensity = 1;
   double max_displacement = 0.35;  // share of radius_m

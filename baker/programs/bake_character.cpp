@@ -186,6 +186,20 @@ std::string no_gain_note(double ratio) {
   return text;
 }
 
+// Flesh that a recipe does not let go so far is too soft for its size, or for its clips.
+void note_too_soft(const TissueLayout& layout, const ShortTruths& truths, std::vector<std::string>& notes) {
+  for (size_t r = 0; r < layout.regions.size(); ++r) {
+    const Region& region = layout.regions[r];
+    if (truths.moved_radii[r] <= std::max(1.0, region.max_displacement)) continue;
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  "'%s' would move by %.1f times its radius but for its limit: it is too soft for its size; "
+                  "state a higher frequency_hz",
+                  region.name.c_str(), truths.moved_radii[r]);
+    notes.push_back(text);
+  }
+}
+
 // The pack with the errors of this character, and without a network that does not pay on it.
 std::vector<std::byte> measured(const Packer& packer, const Recipe& recipe, const Safetensors* weights,
                                 bool keep_network, Character& character, const Tissue& tissue) {
@@ -193,6 +207,7 @@ std::vector<std::byte> measured(const Packer& packer, const Recipe& recipe, cons
   try {
     LoadedPack pack = LoadedPack::from_bytes(bytes, character.name);
     const ShortTruths truths = short_truths(character, tissue.layout, recipe, tissue.finest, pack.view());
+    note_too_soft(tissue.layout, truths, character.notes);
     std::vector<pack::TierRecord> tiers = measured_tiers(pack, truths);
     if (weights && !keep_network && !network_pays(tiers)) {
       character.notes.push_back(network_note(tiers));

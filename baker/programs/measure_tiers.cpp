@@ -34,6 +34,14 @@ std::vector<NamedMotion> motions_of(const Character& character) {
   return motions;
 }
 
+// Keeps the furthest that a control node of each region has been from its skinned place, in radii.
+void note_moved(const TissueLayout& layout, const TruthFrame& frame, std::vector<double>& radii) {
+  for (const ControlNode& node : layout.nodes) {
+    const auto v = static_cast<size_t>(node.vertex), r = static_cast<size_t>(node.region);
+    radii[r] = std::max(radii[r], (frame.truth[v] - frame.skinned[v]).norm() / layout.regions[r].radius_m);
+  }
+}
+
 // NaN of none.
 float median(std::vector<double> values) {
   std::erase_if(values, [](double value) { return std::isnan(value); });
@@ -52,6 +60,7 @@ ShortTruths short_truths(const Character& character, const TissueLayout& layout,
   const int substeps = usual_substeps(modes, rate_hz);
   const auto most_ticks = static_cast<size_t>(std::lround(kLasts_s * rate_hz));
   std::vector<Safetensors> files(motions.size());
+  std::vector<std::vector<double>> moved(motions.size(), std::vector<double>(layout.regions.size(), 0));
   const auto simulate = [&](size_t m, std::atomic<size_t>& done) {
     TissueTruth truth(character, layout, recipe);
     const bool large = std::ranges::count(truth.cage().constrained, false) > kLargeBody;
@@ -60,7 +69,9 @@ ShortTruths short_truths(const Character& character, const TissueLayout& layout,
     recorder.add(truth.start(motions[m].motion));
     for (size_t tick = 1; tick <= ticks; ++tick) {
       try {
-        recorder.add(truth.advance(rate_hz, substeps));
+        const TruthFrame frame = truth.advance(rate_hz, substeps);
+        note_moved(layout, frame, moved[m]);
+        recorder.add(frame);
       } catch (const std::runtime_error& fault) {
         throw std::runtime_error(motions[m].name + ": " + fault.what());
       }
@@ -73,9 +84,12 @@ ShortTruths short_truths(const Character& character, const TissueLayout& layout,
   };
   on_all_cores("truth", motions.size() * most_ticks, motions.size(), simulate);
   ShortTruths truths;
+  truths.moved_radii.assign(layout.regions.size(), 0);
   for (size_t m = 0; m < motions.size(); ++m) {
     truths.surfaces.emplace_back(files[m], pack);
     truths.clips.push_back(motions[m].clip);
+    for (size_t r = 0; r < moved[m].size(); ++r)
+      truths.moved_radii[r] = std::max(truths.moved_radii[r], moved[m][r]);
     files[m] = {};  // all of them are large
   }
   return truths;

@@ -11,10 +11,11 @@
 
 namespace sinew::baker {
 
-// What short_truths gives; clips: which of the character's each motion is, pack::kNoIndex: none.
+// What short_truths gives.
 struct ShortTruths {
   std::vector<TrueSurface> surfaces;
-  std::vector<uint32_t> clips;
+  std::vector<uint32_t> clips;      // which of the character's each motion is, pack::kNoIndex: none
+  std::vector<double> moved_radii;  // how far each region's flesh went without a limit, over its radius
 };
 
 // Of 1.5 s each, 0.85 s of large bodies, of motions that no weights were trained on: random motion and up to
