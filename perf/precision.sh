@@ -24,7 +24,7 @@ bake_as() {  # NAME PRECISION [--calibrate ...]
     -o "$packs/$name.$1.sinew" >/dev/null
 }
 worst=0
-for weights in ${WEIGHTS:-assets/weights/creature.safetensors assets/weights/creature_wide.safetensors}; do
+for weights in ${WEIGHTS:-assets/weights/creature.safetensors}; do
   name=$(basename "$weights" .safetensors)
   for precision in fp32 fp16 int8; do
     calibrate=()

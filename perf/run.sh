@@ -28,9 +28,7 @@ for vertices in 200 500 2000 7000 20000 50000; do
   build/release/bin/sinew-bake character "$measured/$vertices.glb" --recipe assets/creature/tissue.json \
     --tissue assets/weights/creature.safetensors --quick -o "$measured/$vertices.sinew" >/dev/null
 done
-build/release/bin/sinew-bake character "$measured/7000.glb" --recipe assets/creature/tissue.json \
-  --tissue assets/weights/creature_wide.safetensors --quick -o "$measured/wide.sinew" >/dev/null
-build/release/bin/perf_scale "$measured"/{200,500,2000,7000,20000,50000}.sinew --wide "$measured/wide.sinew" >"$measured/scale.csv"
+build/release/bin/perf_scale "$measured"/{200,500,2000,7000,20000,50000}.sinew >"$measured/scale.csv"
 python=python3
 "$python" -c 'import matplotlib' 2>/dev/null || python=/usr/bin/python3
 "$python" perf/summarise_scale.py "$measured/scale.csv"

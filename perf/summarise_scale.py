@@ -29,13 +29,13 @@ def number(value, digits=1):
     return "" if value is None else f"{value:.{digits}f}"
 
 
-def parts_table(parts, title="of a tick of one character"):
+def parts_table(parts):
     lines = []
     for (subject, *_), of in parts.items():
         if "us" in of:
             share = of.get("share_of_peak")
             lines.append([subject, number(of["us"]), number(of.get("mega_operations"), 2), number(share, 2)])
-    return table([title, "us", "mega_operations", "share_of_peak"], lines)
+    return table(["of a tick of one character", "us", "mega_operations", "share_of_peak"], lines)
 
 
 def vertices_table(cases):
@@ -74,15 +74,12 @@ def sleep_table(cases):
 
 def figures_table(groups):
     """What the project asks for of one character and of a large network, beside what was measured."""
-    ticks = {network: next(of for (subject, *_), of in groups[group].items() if subject == "whole tick")
-             for network, group in (("creature", "parts"), ("creature_wide", "parts_wide")) if group in groups}
+    tick = next(of for (subject, *_), of in groups["parts"].items() if subject == "whole tick")
     state_kb = next(of for (_, vertices, *_), of in groups["vertices"].items() if vertices > 6000)["state_bytes"] / 1e3
     ratios = {subject: of["one_over_two"] for (subject, *_), of in groups["workers"].items()}
     peak = ratios.pop("fma_peak")
-    lines = []
-    for network, tick in ticks.items():
-        lines += [[f"character with `{network}`, share of float32 peak", number(tick["share_of_peak"], 2), "0.25", "0.50"],
-                  [f"character with `{network}`, us a tick", number(tick["us"]), "200", "80"]]
+    lines = [["character with `creature`, share of float32 peak", number(tick["share_of_peak"], 2), "0.25", "0.50"],
+             ["character with `creature`, us a tick", number(tick["us"]), "200", "80"]]
     lines += [["character, state of an instance, kB", number(state_kb, 0), "1000", "200"]]
     lines += [[f"{subject}, two workers / one", f"{ratio:.2f} (fma_peak: {peak:.2f})", "1.7", "1.9"]
               for subject, ratio in ratios.items()]
@@ -107,11 +104,7 @@ def plot(groups, path):
     figure.savefig(path, dpi=100)
 
 
-def wide_parts_table(parts):
-    return parts_table(parts, "of a tick with `creature_wide`")
-
-
-TABLES = {"parts": parts_table, "parts_wide": wide_parts_table, "vertices": vertices_table, "instances": instances_table, "workers": workers_table,
+TABLES = {"parts": parts_table, "vertices": vertices_table, "instances": instances_table, "workers": workers_table,
           "batches": batches_table, "sleep": sleep_table}
 
 

@@ -18,7 +18,7 @@ recipe=assets/creature/tissue.json weights=assets/weights
 }
 # The hop is held out of all training (assets/bodies/plan.json).
 build/release/bin/sinew-trade "$out/creature.sinew" --recipe $recipe --tissue $weights/creature.safetensors \
-  $weights/creature_wide.safetensors --clip hop -o "$out/trade"
+  --clip hop -o "$out/trade"
 python=python3
 "$python" -c 'import matplotlib' 2>/dev/null || python=/usr/bin/python3
 "$python" perf/summarise_tiers.py "$out/trade"

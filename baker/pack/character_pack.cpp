@@ -300,7 +300,7 @@ void check_wiring(const Safetensors& weights) {
     throw BadInput(
         weights.path +
         ": metadata key 'without': trained with inputs left out, for comparison only; train without it");
-  for (const auto& [key, wanted] : {std::pair{"frame", "bent"}, std::pair{"base", "modal"}}) {
+  for (const auto& [key, wanted] : {std::pair{"frame", "bent"}, std::pair{"base", "modal_2"}}) {
     const auto found = weights.metadata.find(key);
     if (found == weights.metadata.end() || found->second != wanted)
       throw BadInput(weights.path + ": metadata key '" + key + "' is not '" + wanted +

@@ -16,7 +16,8 @@ inline constexpr double kClipRateHz = 60;
 // The whole file; `modes`: one basis a region; `coarser`: control graphs beside it, each with fewer nodes
 // than the one before. Without weights (null) it has the tiers modal and spring, at 60 Hz. precision, ranges:
 // as add_network takes them. Beyond network_pack's keys, reads from the weights' metadata:
-//   frame, base          must be "bent" and "modal": what the network was trained on
+//   frame, base          must be "bent" and "modal_2" (bodies' whole modes; before: each region's own): what
+//                        the network was trained on
 // Throws BadInput: weights without `inputs`, or of another frame or base; more than 65,535 joints, a clip of
 // more than ten minutes, a basis that does not fit its region, a coarser graph that is not part of the finer
 // one, and what add_network refuses.

@@ -13,7 +13,7 @@ build=${1:-$root/build/release}
 work=${2:-$build/train}
 python=${PYTHON:-/usr/bin/python3}
 out=${OUT:-$root/assets}
-networks=${NETWORKS:-creature=8,3:27 creature_wide=16,3:30}
+networks=${NETWORKS:-creature=8,3:27}
 bake=$build/bin/sinew-bake
 
 [ -x "$bake" ] || { echo "retrain.sh: no $bake; build the project first, or name its build folder" >&2; exit 2; }

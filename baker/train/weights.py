@@ -8,6 +8,8 @@ from .model import AltConvLSTM, ModelOptions
 from .safetensors import BadData, load, save
 from .vanilla import FORMS, ConvLSTM
 
+BASE = "modal_2"  # of whole bodies' modes; weights on another are refused
+
 
 def _join(numbers):
     return ",".join(f"{float(n):.9g}" for n in numbers)
@@ -24,7 +26,7 @@ def weights_metadata(options, scaling, rate_hz, extra):
         "input_scales": _join(scaling.scale[k] for k in ORDER),
         "envelope": _join(scaling.envelope[k] for k in ORDER),
         "frame": "bent",
-        "base": "none" if "base" in scaling.without else "modal",
+        "base": "none" if "base" in scaling.without else BASE,
         **({"without": ",".join(scaling.without)} if scaling.without else {}),
         "length_unit": f"{scaling.length_unit:.9g}",
         "output_scale": f"{options.output_scale:.9g}",

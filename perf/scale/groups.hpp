@@ -7,7 +7,7 @@
 namespace sinew::perf {
 
 // Where a tick of one character goes, each part against the multiply-add peak of the same process.
-void measure_parts(const demo::CharacterFile& character, int rounds, const char* group);
+void measure_parts(const demo::CharacterFile& character, int rounds);
 // One to 500 instances, on one and on two workers.
 void measure_crowds(const demo::CharacterFile& character, int rounds);
 // One instance of each character, ascending in vertices.

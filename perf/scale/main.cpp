@@ -12,7 +12,6 @@ using namespace sinew;
 
 struct Options {
   std::vector<std::string> packs;
-  std::string wide_pack;
   int rounds = 31;
 };
 
@@ -28,9 +27,7 @@ void run(const Options& options) {
   std::vector<demo::CharacterFile> characters;
   for (const std::string& pack : options.packs) characters.push_back(demo::open_character(pack));
   perf::put_header();
-  perf::measure_parts(usual(characters), options.rounds, "parts");
-  if (!options.wide_pack.empty())
-    perf::measure_parts(demo::open_character(options.wide_pack), options.rounds, "parts_wide");
+  perf::measure_parts(usual(characters), options.rounds);
   perf::measure_vertices(characters, options.rounds);
   perf::measure_crowds(usual(characters), options.rounds);
   perf::measure_sleep(usual(characters));
@@ -44,8 +41,6 @@ int main(int argc, char** argv) {
   Options options;
   CLI::App app("Times ticks of characters as they grow in number and size; CSV to standard output");
   app.add_option("packs", options.packs, "C.sinew..., one character at several resolutions")->required();
-  app.add_option("--wide", options.wide_pack,
-                 "C.sinew, a character with a wider network: a tick's parts alone");
   app.add_option("--rounds", options.rounds, "repetitions behind each median")->check(CLI::Range(1, 1000));
   CLI11_PARSE(app, argc, argv);
   try {

@@ -103,7 +103,7 @@ void put_part(const Case& of, const Part& part, double peak_gflops) {
 
 }  // namespace
 
-void measure_parts(const demo::CharacterFile& character, int rounds, const char* group) {
+void measure_parts(const demo::CharacterFile& character, int rounds) {
   const core::FloatingPointScope mode;
   Subject subject(character), whole(character);
   Crowd crowd(character, 1);
@@ -152,7 +152,7 @@ void measure_parts(const demo::CharacterFile& character, int rounds, const char*
       {"read: positions", us("positions"), 0},
       {"read: normals", us("normals"), 0},
   };
-  const Case of{.group = group,
+  const Case of{.group = "parts",
                 .subject = "peak",
                 .vertices = pack.character->vertex_count,
                 .instances = 1,

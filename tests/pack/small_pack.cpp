@@ -130,7 +130,7 @@ baker::Safetensors small_weights() {
       "velocity,felt_step,base_step,turn,frequency";
   weights.metadata.insert({{"inputs", inputs},
                            {"frame", "bent"},
-                           {"base", "modal"},
+                           {"base", "modal_2"},
                            {"input_scales", "1,1,1,0.01,0.1,0.1,1,10,1,10,1,1"},
                            {"envelope", "2,2,2,8,8,8,8,8,8,8,8,8"},
                            {"length_unit", "0.01"},

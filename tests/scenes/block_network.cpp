@@ -107,7 +107,7 @@ baker::Safetensors block_network(const BlockOptions& options) {
       {"channels", "8,3"},
       {"rate_hz", std::to_string(options.rate_hz)},
       {"frame", "bent"},
-      {"base", "modal"},
+      {"base", "modal_2"},
       {"inputs",
        "felt_step,base_step,gravity_change,angular_velocity,angular_acceleration,displacement,velocity,turn,"
        "stiffness,frequency"},

@@ -99,20 +99,26 @@ TEST_CASE("a_network_that_comes_and_goes_does_no_more_harm") {
   }
 }
 
-// Of 0.05 to 20 Hz, without limits, beside the same flesh on its modal base alone. The proof bounds the norm
-// over modes by 1.5 of the base's; a vertex, and frames that turn, add a little
+constexpr int kRegions = 300;
+
+double region_hz(int i) { return 0.05 * std::pow(20 / 0.05, i / (kRegions - 1.0)); }
+
+std::vector<baker::Safetensors> all_weights() {
+  return {shipped("creature.safetensors"), random_weights(1), random_weights(2), random_weights(3)};
+}
+
+// Of 0.05 to 20 Hz, without limits, beside the same flesh on its modal base alone, while frames do not turn:
+// the proof bounds the norm over modes by 1.5 of the base's; a vertex adds a little
 // (tissue/correction_budget.hpp).
 TEST_CASE("no_weights_move_flesh_much_further_than_its_base_nor_keep_it_from_rest") {
-  const std::vector<baker::Safetensors> all = {shipped("creature.safetensors"),
-                                               shipped("creature_wide.safetensors"), random_weights(1),
-                                               random_weights(2), random_weights(3)};
-  constexpr int kRegions = 600;
+  const std::vector<baker::Safetensors> all = all_weights();
   double most = 0, left = 0;
   for (int i = 0; i < kRegions; ++i) {
-    const double hz = 0.05 * std::pow(20 / 0.05, i / (kRegions - 1.0));
+    const double hz = region_hz(i);
     scenes::BlockOptions options{
         .cells = 3, .nodes = 8, .displacement_limit = 1000, .frequency_share = hz / 3.5};
-    const Shaking shaking(static_cast<uint32_t>(i));
+    Shaking shaking(static_cast<uint32_t>(i));
+    shaking.turn_rad = 0;
     const double rest_s = std::min(20.0, 2 + 4 / hz);
     options.network = false;
     const Course base = run(options, shaking, rest_s);
@@ -123,12 +129,34 @@ TEST_CASE("no_weights_move_flesh_much_further_than_its_base_nor_keep_it_from_res
                    << "; corrected " << corrected.largest_m << " m, left " << corrected.left_m);
     most = std::max(most, corrected.largest_m / base.largest_m);
     left = std::max(left, (corrected.left_m - base.left_m) / base.largest_m);
-    CHECK(corrected.largest_m < 1.75 * base.largest_m);
-    // What it may add beside the largest above, three quarters, fades as the flesh does.
+    CHECK(corrected.largest_m < 1.6 * base.largest_m);
+    // What it may add, half of the largest above, fades as the flesh does.
     CHECK(corrected.left_m < base.left_m +
-                                 0.75 * std::exp(-0.1 * 2 * M_PI * hz * rest_s) * corrected.largest_m +
+                                 0.5 * std::exp(-0.1 * 2 * M_PI * hz * rest_s) * corrected.largest_m +
                                  1e-4 * base.largest_m);
   }
   WARN("corrected flesh moves " << most << " times as far as its base at most, and is left further off by "
                                 << left << " of that");
+}
+
+// Turning frames hear of corrections, which the proof leaves out: of flesh slower than a third of a hertz,
+// whose frames turn faster than it swings, a limit keeps what is shown. Four radii are the widest.
+TEST_CASE("where_frames_turn_no_weights_show_flesh_much_further_out_than_its_base_does") {
+  const std::vector<baker::Safetensors> all = all_weights();
+  double most = 0;
+  for (int i = 0; i < kRegions; ++i) {
+    scenes::BlockOptions options{
+        .cells = 3, .nodes = 8, .displacement_limit = 4, .frequency_share = region_hz(i) / 3.5};
+    const Shaking shaking(static_cast<uint32_t>(i));
+    options.network = false;
+    const Course base = run(options, shaking, 0);
+    options.network = true;
+    options.weights = &all[static_cast<size_t>(i) % all.size()];
+    const Course corrected = run(options, shaking, 0);
+    INFO("region " << i << ", " << region_hz(i) << " Hz: base " << base.largest_m << " m, corrected "
+                   << corrected.largest_m << " m");
+    most = std::max(most, corrected.largest_m / base.largest_m);
+    CHECK(corrected.largest_m < 1.6 * base.largest_m);
+  }
+  WARN("corrected flesh is shown " << most << " times as far out as its base at most");
 }

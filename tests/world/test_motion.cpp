@@ -83,7 +83,7 @@ TEST_CASE("motion_is_the_same_at_every_frame_rate") {
     double fps,
         bound_share;  // of the mean displacement; 15 and 30: a pose between two frames is guessed from three
   };
-  constexpr Row kRows[] = {{15, 0.085}, {20, 0.038}, {30, 0.012}, {60, 1e-3}, {120, 1e-3}, {240, 1e-3}};
+  constexpr Row kRows[] = {{15, 0.078}, {20, 0.034}, {30, 0.0095}, {60, 1e-3}, {120, 1e-3}, {240, 1e-3}};
   constexpr int kSamples = 25;
   const auto sample = [&](double fps) {
     Stage stage;

@@ -4,7 +4,7 @@ import os
 from dataclasses import dataclass
 
 from ..safetensors import BadData
-from ..weights import read_number, read_weights
+from ..weights import BASE, read_number, read_weights
 from . import SHIPPED
 from .motions import RATE_HZ
 
@@ -26,9 +26,9 @@ class Start:
 def read_start(path):
     """Throws BadData where the weights are none that can be tuned for a character."""
     model, scaling, metadata = read_weights(path)
-    if metadata["sinew.model"] != "alt_conv_lstm" or scaling is None or "base" in scaling.without:
+    if metadata["sinew.model"] != "alt_conv_lstm" or scaling is None or metadata.get("base") != BASE:
         raise BadData(
-            f"{path}: not a network of this version's inputs on a modal base; give weights as "
+            f"{path}: not a network of this version's inputs and modal base; give weights as "
             "assets/weights/creature.safetensors"
         )
     if read_number(path, metadata, "rate_hz", RATE_HZ) != RATE_HZ:

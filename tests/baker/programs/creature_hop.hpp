@@ -33,7 +33,7 @@ struct CreatureHop {
  private:
   void make(const Def& def) const {
     must(bake({"creature", kAssets + "creature/creature.json", "-o", glb, "--vertices", "800"}));
-    must(bake({"character", glb, "--recipe", recipe, "--tissue", weights, "--keep-network", "-o", pack}));
+    must(bake({"character", glb, "--recipe", recipe, "--tissue", weights, "-o", pack}));
     must(bake({"truth", glb, "--recipe", recipe, "--motion", "clip:hop", "--seconds", def.seconds,
                "--positions", "-o", truth}));
     def.more(*this);

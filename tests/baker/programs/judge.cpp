@@ -25,7 +25,7 @@ class Hop : public CreatureHop {
   }
   static void bake_others(const CreatureHop& hop) {
     for (const char* precision : {"fp32", "fp16", "int8"})
-      character(hop, precision, {"--tissue", hop.weights, "--keep-network", "--precision", precision});
+      character(hop, precision, {"--tissue", hop.weights, "--precision", precision});
     character(hop, "modes", {});
   }
   static void character(const CreatureHop& hop, const std::string& name, std::vector<std::string> more) {
@@ -147,11 +147,11 @@ TEST_CASE("reduced_precision_adds_less_than_a_tenth_of_the_error_on_every_instru
 // bound either, and the same again.
 TEST_CASE("int8_takes_its_scales_from_true_motions_in_closed_loop") {
   const auto packed = [](const std::string& name, const std::vector<std::string>& more) {
-    std::vector<std::string> arguments = {
-        "character",   hop().glb,       "--recipe",
-        hop().recipe,  "--tissue",      kAssets + "weights/creature.safetensors",
-        "--precision", "int8",          "--keep-network",
-        "-o",          hop().pack(name)};
+    std::vector<std::string> arguments = {"character",   hop().glb,
+                                          "--recipe",    hop().recipe,
+                                          "--tissue",    kAssets + "weights/creature.safetensors",
+                                          "--precision", "int8",
+                                          "-o",          hop().pack(name)};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
   };

@@ -127,7 +127,8 @@ class Refusals(Folder):
             ({**metadata, "envelope": "1,2"}, "metadata envelope"),
             ({**metadata, "channels": "8,many"}, "metadata channels"),
             ({**metadata, "sinew.model": "coping_net"}, "coping_net"),
-            ({**metadata, "without": "base"}, "modal base"),
+            ({**metadata, "base": "none"}, "modal base"),
+            ({**metadata, "base": "modal"}, "modal base"),
             ({**metadata, "rate_hz": "30"}, "30 ticks a second"),
         ):
             save(path, tensors, changed)
