@@ -182,7 +182,7 @@ far apart they are, the darkest at 5 % of the height. A character of which nothi
     yield """
 All but the bake's seconds (two cores, preview and measured errors included) and errors come from `sinew-bake audit`: the largest over parts and motions, lengths as a share of the character's height. *bob*: while the root goes up
 and down by 5 % of the height, of which flesh may do 0.08; rods swing freely. *residual*: after a minute of rest, at most 1e-4. *edge stretch*: beyond skinning's, at most 1.5, of rods 2. Errors are distances from the finite-element truth of this
-character as a share of skinning's, the median over a random motion and up to five clips; rods have no such truth. The network is trained on other bodies and left out where it is not 5 % better than the modes: in brackets what it would have had.
+character as a share of skinning's, the median over a random motion and up to five clips; rods have no such truth. Truth and tiers are shown held at the part's limit: where they lie at it, what is compared is a direction. The network is trained on other bodies and left out where it is not 5 % better than the modes: in brackets what it would have had.
 `sinew-train` trains it on the character."""
     for character, bakes in made:
         title, folder = character["title"], character["folder"]

@@ -2,6 +2,7 @@
 #include "baker/mesh/clip_frequency.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -9,19 +10,23 @@
 namespace sinew::baker {
 namespace {
 
-constexpr double kTick_s = 1.0 / 60, kMostOfClip_s = 10;
+constexpr double kTick_s = 1.0 / 60, kMostOfClip_s = 4;
+constexpr double kSettled_s = 2;                       // a clip is repeated so long before it counts
 constexpr double kMostAtLimit = 0.1;                   // of the ticks
 constexpr double kStep = 1.1, kMostFrequency_hz = 25;  // of the search; what a recipe may state
+constexpr int kMostNodes = 40;                         // of a region
 
-using Matrix3X = Eigen::Matrix3Xd;  // of a region: a node
+using Matrix3X = Eigen::Matrix3Xf;  // of a region: a node
 
 // What a tick of a clip adds to flesh's acceleration against its skinned place: [tick], m/s^2.
 using Shake = std::vector<Matrix3X>;
 
-Matrix3X skinned_nodes(const TissueLayout& layout, const Region& region, const std::vector<Matrix4>& skin) {
-  Matrix3X places = Matrix3X::Zero(3, region.node_count);
-  for (int n = 0; n < region.node_count; ++n) {
-    const ControlNode& node = layout.nodes[static_cast<size_t>(region.first_node + n)];
+Eigen::Matrix3Xd skinned_nodes(const TissueLayout& layout, const Region& region,
+                               const std::vector<Matrix4>& skin) {
+  const int step = (region.node_count + kMostNodes - 1) / kMostNodes;
+  Eigen::Matrix3Xd places = Eigen::Matrix3Xd::Zero(3, (region.node_count + step - 1) / step);
+  for (int n = 0; n < places.cols(); ++n) {
+    const ControlNode& node = layout.nodes[static_cast<size_t>(region.first_node + n * step)];
     for (size_t k = 0; k < kInfluences; ++k)
       if (node.skin.weight[k] > 0)
         places.col(n) +=
@@ -43,21 +48,20 @@ std::vector<std::vector<Shake>> shakes_of(const Character& character, const Tiss
   std::vector<std::vector<Shake>> shakes(layout.regions.size());
   for (const Clip& clip : character.clips) {
     const long ticks = std::lround(std::min(clip.duration_s, kMostOfClip_s) / kTick_s);
-    std::vector<std::vector<Matrix3X>> places(layout.regions.size());
+    std::vector<std::array<Eigen::Matrix3Xd, 3>> places(layout.regions.size());  // newest first
     for (auto& of_region : shakes) of_region.emplace_back();
     for (long t = 0; t <= ticks; ++t) {
       std::vector<Matrix4> skin = joint_matrices(character, &clip, static_cast<double>(t) * kTick_s);
       for (size_t j = 0; j < skin.size(); ++j) skin[j] *= character.inverse_bind[j];
       for (size_t r = 0; r < layout.regions.size(); ++r) {
         const Region& region = layout.regions[r];
-        std::vector<Matrix3X>& past = places[r];
-        past.push_back(skinned_nodes(layout, region, skin));
+        std::array<Eigen::Matrix3Xd, 3>& past = places[r];
+        std::ranges::rotate(past, past.begin() + 2);
+        past[0] = skinned_nodes(layout, region, skin);
         if (t < 2) continue;
-        const size_t last = past.size() - 1;
-        const Matrix3X acceleration =
-            (past[last] - 2 * past[last - 1] + past[last - 2]) / (kTick_s * kTick_s);
-        shakes[r].back().push_back((-acceleration).colwise() +
-                                   weight_change(skin[static_cast<size_t>(region.frame_joint)]));
+        const Eigen::Matrix3Xd acceleration = (past[0] - 2 * past[1] + past[2]) / (kTick_s * kTick_s);
+        const Vector3 weight = weight_change(skin[static_cast<size_t>(region.frame_joint)]);
+        shakes[r].back().push_back(((-acceleration).colwise() + weight).cast<float>());
       }
     }
   }
@@ -67,15 +71,15 @@ std::vector<std::vector<Shake>> shakes_of(const Character& character, const Tiss
 // x'' = -w^2 x - 2 z w x' + shake, exact over a tick in which the shake is constant.
 class Oscillators {
  public:
-  Oscillators(double frequency_hz, double damping_ratio, int nodes)
+  Oscillators(double frequency_hz, double damping_ratio, Eigen::Index nodes)
       : x_(Matrix3X::Zero(3, nodes)), v_(Matrix3X::Zero(3, nodes)) {
     constexpr double kMostDamping = 0.95;  // the formula is of what swings
     const double w = 2 * std::numbers::pi * frequency_hz, z = std::min(damping_ratio, kMostDamping);
     const double damped = w * std::sqrt(1 - z * z), fade = std::exp(-z * w * kTick_s);
     const double c = fade * std::cos(damped * kTick_s), s = fade * std::sin(damped * kTick_s) / damped;
-    square_ = w * w;
-    xx_ = c + z * w * s, xv_ = s;
-    vx_ = -square_ * s, vv_ = c - z * w * s;
+    square_ = static_cast<float>(w * w);
+    xx_ = static_cast<float>(c + z * w * s), xv_ = static_cast<float>(s);
+    vx_ = static_cast<float>(-w * w * s), vv_ = static_cast<float>(c - z * w * s);
   }
 
   void step(const Matrix3X& shake) {
@@ -83,11 +87,11 @@ class Oscillators {
     x_ = rest + xx_ * y + xv_ * v;
     v_ = vx_ * y + vv_ * v;
   }
-  double largest_m() const { return x_.colwise().norm().maxCoeff(); }
+  double largest_m() const { return static_cast<double>(x_.colwise().norm().maxCoeff()); }
 
  private:
   Matrix3X x_, v_;
-  double square_, xx_, xv_, vx_, vv_;
+  float square_, xx_, xv_, vx_, vv_;
 };
 
 // The share of the clips' ticks in which the region, swinging at this frequency, is beyond its limit.
@@ -95,42 +99,64 @@ double share_at_limit(const std::vector<Shake>& clips, const Region& region, dou
   const double limit_m = region.max_displacement * region.radius_m;
   size_t ticks = 0, beyond = 0;
   for (const Shake& clip : clips) {
-    Oscillators flesh(frequency_hz, region.damping_ratio, region.node_count);
-    for (const Matrix3X& shake : clip) {
-      flesh.step(shake);
-      beyond += region.intensity * flesh.largest_m() > limit_m;
-    }
+    if (clip.empty()) continue;
+    Oscillators flesh(frequency_hz, region.damping_ratio, clip.front().cols());
+    const auto repeats = static_cast<int>(kSettled_s / (static_cast<double>(clip.size()) * kTick_s)) + 1;
+    for (int pass = 0; pass <= repeats; ++pass)
+      for (const Matrix3X& shake : clip) {
+        flesh.step(shake);
+        beyond += pass == repeats && region.intensity * flesh.largest_m() > limit_m;
+      }
     ticks += clip.size();
   }
   return ticks > 0 ? static_cast<double>(beyond) / static_cast<double>(ticks) : 0;
 }
 
-std::string note_on(const Region& region, double fits_hz, double share) {
+// To two figures, as notes print it: who states what a note says is not told so again.
+double rounded_up(double frequency_hz) {
+  const double unit = std::pow(10, std::floor(std::log10(frequency_hz)) - 1);
+  return std::min(std::ceil(frequency_hz / unit - 1e-9) * unit, kMostFrequency_hz);
+}
+
+// The lowest of the search that lets the region swing; the highest where none does.
+double fitting_hz(const std::vector<Shake>& clips, const Region& region) {
+  double fits_hz = rounded_up(region.frequency_hz);
+  while (fits_hz < kMostFrequency_hz && share_at_limit(clips, region, fits_hz) > kMostAtLimit)
+    fits_hz = rounded_up(kStep * fits_hz);
+  return fits_hz;
+}
+
+std::string note_on(const Region& region, double share, double fits_hz, bool fits) {
   char text[240];
-  std::snprintf(
-      text, sizeof text,
-      region.states_frequency
-          ? "'%s' stands at its limit in %.0f %% of its clips' ticks: at its frequency_hz of %.2g it is "
-            "too soft for them; %.2g would do"
-          : "'%s' would stand at its limit in %.0f %% of its clips' ticks at the usual %.2g Hz: it "
-            "swings at %.2g; state frequency_hz to have it softer",
-      region.name.c_str(), 100 * share, region.frequency_hz, fits_hz);
+  if (!region.states_frequency)
+    std::snprintf(
+        text, sizeof text,
+        "'%s' would stand at its limit in %.0f %% of its clips' ticks at the usual %.2g Hz: it swings "
+        "at %.2g; state frequency_hz to have it softer",
+        region.name.c_str(), 100 * share, region.frequency_hz, fits_hz);
+  else
+    std::snprintf(
+        text, sizeof text,
+        "'%s' stands at its limit in %.0f %% of its clips' ticks: its frequency_hz of %.2g is too soft "
+        "for them; %s %.2g would do",
+        region.name.c_str(), 100 * share, region.frequency_hz, fits ? "from" : "not even", fits_hz);
   return text;
 }
 
 }  // namespace
 
 void fit_frequencies(Character& character, TissueLayout& layout) {
+  const auto swings = [](const Region& region) { return region.frequency_hz > 0; };
+  if (character.clips.empty() || std::ranges::none_of(layout.regions, swings)) return;
   const std::vector<std::vector<Shake>> shakes = shakes_of(character, layout);
   for (size_t r = 0; r < layout.regions.size(); ++r) {
     Region& region = layout.regions[r];
-    if (!(region.frequency_hz > 0)) continue;
+    if (!swings(region)) continue;
     const double share = share_at_limit(shakes[r], region, region.frequency_hz);
     if (share <= kMostAtLimit) continue;
-    double fits_hz = region.frequency_hz;
-    while (fits_hz < kMostFrequency_hz && share_at_limit(shakes[r], region, fits_hz) > kMostAtLimit)
-      fits_hz = std::min(kStep * fits_hz, kMostFrequency_hz);
-    character.notes.push_back(note_on(region, fits_hz, share));
+    const double fits_hz = fitting_hz(shakes[r], region);
+    const bool fits = share_at_limit(shakes[r], region, fits_hz) <= kMostAtLimit;
+    character.notes.push_back(note_on(region, share, fits_hz, fits));
     if (!region.states_frequency) region.frequency_hz = fits_hz;
   }
 }

@@ -186,7 +186,7 @@ std::string no_gain_note(double ratio) {
   return text;
 }
 
-// Flesh that a recipe does not let go so far is too soft for its size, or for its clips.
+// A likely cause of a large error: what a limit has to hold back by so much is too soft for its size.
 void note_too_soft(const TissueLayout& layout, const ShortTruths& truths, std::vector<std::string>& notes) {
   for (size_t r = 0; r < layout.regions.size(); ++r) {
     const Region& region = layout.regions[r];

@@ -51,12 +51,14 @@ std::vector<const Clip*> chosen(const Character& character, const std::vector<st
   return out;
 }
 
-// Channels and mesh too: a .gltf has them in other files.
-std::string made_from(const BakedFrom& source, const Character& body, const Clip& clip, double rate_hz) {
+// Channels and mesh too: a .gltf has them in other files. Frequencies go by all clips (mesh/clip_frequency.hpp).
+std::string made_from(const BakedFrom& source, const Character& body, const TissueLayout& layout,
+                      const Clip& clip, double rate_hz) {
   Fingerprint of;
   of.add_file(source.glb).add_file(source.recipe).add(clip.name);
   of.add_all(body.positions).add_all(body.skin).add_all(body.stiffness);
   for (const Channel& channel : clip.channels) of.add_all(channel.times_s).add_all(channel.values);
+  for (const Region& region : layout.regions) of.add(std::to_string(region.frequency_hz));
   return of.add(std::to_string(rate_hz) + " " + kTrajectoryVersion).text();
 }
 
@@ -74,7 +76,7 @@ std::string in_seconds(double seconds) {
 }
 
 // Whatever a truth depends on is in its file's name.
-std::vector<Work> work_of(const BakedFrom& source, const Character& body,
+std::vector<Work> work_of(const BakedFrom& source, const Character& body, const TissueLayout& layout,
                           const std::vector<const Clip*>& clips, double seconds, double rate_hz,
                           const std::string& folder) {
   std::vector<Work> out;
@@ -82,7 +84,7 @@ std::vector<Work> work_of(const BakedFrom& source, const Character& body,
     for (const Clip* clip : clips)
       out.push_back({clip, seed,
                      folder + "/" + as_file_name(clip->name) + "_" + std::to_string(seed) + "_" +
-                         in_seconds(seconds) + "_" + made_from(source, body, *clip, rate_hz) +
+                         in_seconds(seconds) + "_" + made_from(source, body, layout, *clip, rate_hz) +
                          ".safetensors"});
   return out;
 }
@@ -138,7 +140,7 @@ std::vector<std::string> simulate_clips(const BakedFrom& source, const std::vect
     throw BadInput(source.glb +
                    ": with this recipe it is another character than the pack; give what it was baked from");
   const double rate_hz = static_cast<double>(character.network->rate_hz);
-  std::vector<Work> wanted = work_of(source, body, chosen(body, clips, source.glb), seconds, rate_hz, folder);
+  std::vector<Work> wanted = work_of(source, body, layout, chosen(body, clips, source.glb), seconds, rate_hz, folder);
   std::vector<std::string> paths;
   for (const Work& work : wanted) paths.push_back(work.path);
   std::erase_if(wanted, [](const Work& work) { return std::filesystem::exists(work.path); });

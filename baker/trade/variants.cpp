@@ -13,12 +13,22 @@ namespace {
 
 constexpr int kLevels[] = {10, 20, 60};  // nodes a region
 
+// Those of the truth: what clips allow is looked at at the nodes (mesh/clip_frequency.hpp).
+void take_frequencies(const BakedFrom& source, TissueLayout& layout) {
+  const Recipe recipe = source.read();
+  Character character = source.import(recipe);
+  const TissueLayout own = layout_tissue(character, recipe);
+  for (size_t r = 0; r < layout.regions.size(); ++r)
+    layout.regions[r].frequency_hz = own.regions[r].frequency_hz;
+}
+
 LoadedPack bake(const BakedFrom& source, int nodes_per_region, const std::string& weights_path,
                 pack::Precision precision) {
   Recipe recipe = source.read();
   if (nodes_per_region > 0) recipe.nodes_per_region = nodes_per_region;
   Character character = source.import(recipe);
-  const TissueLayout layout = layout_tissue(character, recipe);
+  TissueLayout layout = layout_tissue(character, recipe);
+  if (nodes_per_region > 0) take_frequencies(source, layout);
   const std::vector<ModalBasis> modes =
       TissueTruth(character, layout, recipe).modal_bases(layout, kMostModes);
   std::vector<HeardRanges> ranges;

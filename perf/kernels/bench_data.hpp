@@ -76,7 +76,7 @@ inline NetworkShape control_graph_shape() { return {34, {16, 16, 3}, true, 20, 1
 
 // The shipped networks' on as many: narrow layers, and so wide an input that it is most of their products.
 inline NetworkShape creature_shape() { return {56, {8, 3}, true, 20, 12}; }
-inline NetworkShape creature_wide_shape() { return {56, {16, 3}, true, 20, 12}; }
+inline NetworkShape wide_shape() { return {56, {16, 3}, true, 20, 12}; }
 
 // One matrix product of a step: [nodes x depth] [depth x columns].
 struct ProductShape {

@@ -55,14 +55,14 @@ BENCHMARK_CAPTURE(run_network, creature_fp16, creature_shape(), pack::Precision:
 BENCHMARK_CAPTURE(run_network, creature_int8, creature_shape(), pack::Precision::kInt8)
     ->Name("alt_conv_lstm_int8_creature")
     ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(run_network, creature_wide, creature_wide_shape(), pack::Precision::kFloat32)
-    ->Name("alt_conv_lstm_creature_wide")
+BENCHMARK_CAPTURE(run_network, wide, wide_shape(), pack::Precision::kFloat32)
+    ->Name("alt_conv_lstm_wide")
     ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(run_network, creature_wide_fp16, creature_wide_shape(), pack::Precision::kHalfStates)
-    ->Name("alt_conv_lstm_fp16_creature_wide")
+BENCHMARK_CAPTURE(run_network, wide_fp16, wide_shape(), pack::Precision::kHalfStates)
+    ->Name("alt_conv_lstm_fp16_wide")
     ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(run_network, creature_wide_int8, creature_wide_shape(), pack::Precision::kInt8)
-    ->Name("alt_conv_lstm_int8_creature_wide")
+BENCHMARK_CAPTURE(run_network, wide_int8, wide_shape(), pack::Precision::kInt8)
+    ->Name("alt_conv_lstm_int8_wide")
     ->Unit(benchmark::kMicrosecond);
 
 }  // namespace

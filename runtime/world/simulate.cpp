@@ -456,11 +456,13 @@ void correct_modes(Instance& instance, const Part& part, float most) noexcept {
 
 // l of this tick is the network's, as far as modes can have it and its budget lets it.
 void settle_on_network(Instance& instance) noexcept {
-  tissue::read_output(instance.asset->network, instance.level->pack.regions, instance.level->node_count(),
-                      instance.network_state, instance.l[0]);
   const float begun = begun_share(instance);
-  for_each_awake_part(
-      instance, [&](const Part& part) { correct_modes(instance, part, begun * instance.trust[part.index]); });
+  // What sleeps keeps its l, of which the network remembers only what is shown.
+  for_each_awake_part(instance, [&](const Part& part) {
+    tissue::read_output(instance.asset->network, instance.level->pack.regions.subspan(part.index, 1),
+                        instance.level->node_count(), instance.network_state, instance.l[0] + part.vector);
+    correct_modes(instance, part, begun * instance.trust[part.index]);
+  });
 }
 
 // The network goes on from what was taken of its answer.

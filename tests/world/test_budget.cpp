@@ -127,7 +127,7 @@ TEST_CASE("costs_are_corrected_until_hardly_anybody_is_cut") {
   WARN("of " << kFrames << " frames more than 5 % over budget " << over << ", cut instances " << cut
              << ", simulated a frame " << static_cast<double>(simulated) / kFrames);
   CHECK(cut <= kFrames / 5);
-  CHECK(over == 0);  // where those that fall asleep and wake come to more than was learnt
+  CHECK(over == 0);
   CHECK(simulated >= 2 * kFrames);
 }
 

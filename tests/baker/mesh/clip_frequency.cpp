@@ -88,3 +88,33 @@ TEST_CASE("clips_of_no_length_ask_nothing_of_a_frequency") {
   CHECK(layout_tissue(character, soft_middle()).regions.at(0).frequency_hz ==
         layout_tissue(without, soft_middle()).regions.at(0).frequency_hz);
 }
+
+// The root lies down and stays: flesh hangs by its own weight to the side, and less.
+TEST_CASE("a_pose_in_which_flesh_sags_beyond_its_limit_counts_as_a_shake_does") {
+  Character lying = column();
+  Clip clip{.name = "lie", .duration_s = 2, .channels = {}};
+  const double half = std::numbers::pi / 4;
+  clip.channels.push_back(
+      {.node = 0,
+       .path = Path::kRotation,
+       .times_s = {0, 2},
+       .values = {0, 0, std::sin(half), std::cos(half), 0, 0, std::sin(half), std::cos(half)}});
+  lying.clips.push_back(clip);
+  Recipe recipe = soft_middle();
+  recipe.max_displacement = 0.05;
+  const Region raised = layout_tissue(lying, recipe).regions.at(0);
+  REQUIRE(lying.notes.size() == 1);
+  // It swings in from the bind pose and past its rest by half as much again or less, with damping 0.1.
+  const double sag_m = std::sqrt(2) * 9.81 / std::pow(2 * std::numbers::pi * raised.frequency_hz, 2);
+  CHECK(sag_m < raised.max_displacement * raised.radius_m);
+  CHECK(4 * sag_m > raised.max_displacement * raised.radius_m);
+}
+
+TEST_CASE("where_no_frequency_would_do_a_note_says_so") {
+  Character thrown = shaken_column(1000);
+  Recipe recipe = soft_middle();
+  recipe.regions[0].frequency_hz = 2;
+  layout_tissue(thrown, recipe);
+  REQUIRE(thrown.notes.size() == 1);
+  CHECK_THAT(thrown.notes[0], Catch::Contains("not even 25"));
+}

@@ -93,7 +93,7 @@ TEST_CASE("truth_that_is_not_this_character_s_is_refused") {
   check_refused({"judge", hop().pack("fp32"), "--truth", hop().truth, "--ticks", "600"}, {"shorter"});
 }
 
-// The evaluation page has 0.062 of skinning's error left on whole hops; any pose, frame or state out of step
+// The evaluation page has 0.09 of skinning's error left on whole hops; any pose, frame or state out of step
 // with the truth leaves several times as much, and a truth of the other sign all of it and more.
 TEST_CASE("the_closed_loop_follows_the_truth_and_the_error_is_counted_against_it") {
   const auto ratio_of = [](const nlohmann::json& report) {
