@@ -477,7 +477,8 @@ TEST_CASE("a_character_of_rods_alone_swings") {
 }
 
 TEST_CASE("a_character_of_which_nothing_swings_follows_its_pose") {
-  Stage stage(1, {}, scenes::soft_block({.regions = 0, .network = false}));
+  const scenes::PackBytes pack = scenes::soft_block({.regions = 0, .network = false});
+  Stage stage(1, {}, pack);
   CHECK(stage.info.region_count == 0);
   std::vector<Matrix34> joints(stage.info.joint_count);
   for (int f = 0; f < 60; ++f) {
