@@ -48,7 +48,8 @@ def colours_of(methods):
 def roll_outs(metrics, path):
     """Error against roll-out length, a panel a body; the legend in a panel of its own."""
     bodies = list(metrics["bodies"])
-    across, down = min(3, len(bodies) + 1), len(bodies) // 3 + 1
+    across = min(4, len(bodies) + 1)
+    down = len(bodies) // across + 1
     figure, grid = _pyplot().subplots(down, across, figsize=(4.6 * across, 3.8 * down), squeeze=False)
     axes, spare = grid.flat[: len(bodies)], grid.flat[len(bodies) :]
     for a, body in zip(axes, bodies):
