@@ -51,7 +51,8 @@ std::vector<const Clip*> chosen(const Character& character, const std::vector<st
   return out;
 }
 
-// Channels and mesh too: a .gltf has them in other files. Frequencies go by all clips (mesh/clip_frequency.hpp).
+// Channels and mesh too: a .gltf has them in other files. Frequencies go by all clips
+// (mesh/clip_frequency.hpp).
 std::string made_from(const BakedFrom& source, const Character& body, const TissueLayout& layout,
                       const Clip& clip, double rate_hz) {
   Fingerprint of;
@@ -140,7 +141,8 @@ std::vector<std::string> simulate_clips(const BakedFrom& source, const std::vect
     throw BadInput(source.glb +
                    ": with this recipe it is another character than the pack; give what it was baked from");
   const double rate_hz = static_cast<double>(character.network->rate_hz);
-  std::vector<Work> wanted = work_of(source, body, layout, chosen(body, clips, source.glb), seconds, rate_hz, folder);
+  std::vector<Work> wanted =
+      work_of(source, body, layout, chosen(body, clips, source.glb), seconds, rate_hz, folder);
   std::vector<std::string> paths;
   for (const Work& work : wanted) paths.push_back(work.path);
   std::erase_if(wanted, [](const Work& work) { return std::filesystem::exists(work.path); });
