@@ -132,6 +132,32 @@ TEST_CASE("output_is_told_in_shares_of_each_region_s_radius") {
   for (size_t i = 0; i < wanted.size(); ++i) CHECK(read[i] == Approx(wanted[i]).margin(kRounding));
 }
 
+TEST_CASE("what_is_beyond_a_limit_is_shown_and_remembered_by_the_same_share_and_swings_on_whole") {
+  Fixture fixture;
+  const float wild_m = 3 * kLimit;
+  fixture.set_l(1, wild_m, 0, 0);
+  const std::vector<float> whole = fixture.l;
+  const float share = tissue::limit_share(wild_m, kLimit);
+  REQUIRE(share < 0.5f);
+
+  std::vector<float> shown = fixture.l;
+  CHECK(tissue::hold_within(kLimit, 3, shown.data()) == Approx(wild_m));
+  CHECK(shown[3] == Approx(share * wild_m));
+  CHECK(shown[0] == Approx(share * whole[0]));  // the region as one
+  CHECK(shown[9] == whole[9]);                  // the other region is its own
+
+  tissue::write_output(fixture.network, fixture.regions, kNodes, fixture.l.data(), fixture.state.data());
+  CHECK(fixture.l == whole);
+  CHECK(fixture.y(1)[0] == Approx(share * wild_m / kUnit));
+  CHECK(fixture.y(3)[0] == Approx(whole[9] / (0.5f * kUnit)));
+
+  // A step starts from all of it, whatever is remembered.
+  std::vector<float> carry(9);
+  tissue::carry_to(fixture.network, fixture.regions[0], kNodes, fixture.l.data(), fixture.state.data(),
+                   carry.data());
+  CHECK(carry[3] == Approx((1 - share) * wild_m / kUnit));
+}
+
 TEST_CASE("rebase_state_keeps_no_memory_and_write_output_all_of_it") {
   Fixture fixture;
   tissue::write_output(fixture.network, fixture.regions, kNodes, fixture.l.data(), fixture.state.data());
