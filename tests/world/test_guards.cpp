@@ -1,11 +1,11 @@
 // test_guards.cpp  Each guard is seen to fire, and the world goes on.
-#include <cstring>
 #include <limits>
 
-#include "tests/world/stage.hpp"
-#include "world/instance.hpp"
+#include "tests/world/poison.hpp"
 
 using namespace sinew;
+using test::in_network;
+using test::poison;
 using test::Stage;
 
 namespace {
@@ -13,35 +13,6 @@ namespace {
 constexpr double kFrame_s = 1.0 / 60;
 
 scenes::BlockPose strong_shake(double t) { return scenes::shake(t, 12); }
-
-// Bytes of a snapshot's header and its checksum's place; world/snapshot.cpp.
-constexpr size_t kHeaderBytes = 40, kChecksumAt = 24;
-
-// A NaN in the state, at the place that `where` points to in a twin, smuggled in through a snapshot whose
-// checksum is right.
-template <class Where>
-void poison(Stage& stage, const Where& where, const scenes::PackBytes& pack = test::block_pack()) {
-  world::Asset asset;
-  world::Instance twin;
-  REQUIRE(world::open_asset(pack.bytes(), &asset).ok());
-  REQUIRE(world::make_instance(asset, {}, &twin).ok());
-  const auto at = static_cast<size_t>(reinterpret_cast<std::byte*>(where(twin)) -
-                                      reinterpret_cast<std::byte*>(twin.state));
-  std::vector<std::byte> bytes = stage.save();
-  const float nan = std::numeric_limits<float>::quiet_NaN();
-  std::memcpy(bytes.data() + kHeaderBytes + at, &nan, sizeof nan);
-  const uint64_t checksum = core::hash64(std::span(bytes).subspan(kHeaderBytes));
-  std::memcpy(bytes.data() + kChecksumAt, &checksum, sizeof checksum);
-  REQUIRE(stage.world.restore_state(stage.blocks[0], bytes).ok());
-}
-
-// The first channel of a node's row, of halves the second: the others may be padding, which nothing reads.
-auto in_network(double share) {
-  return [share](const world::Instance& twin) {
-    const size_t floats = tissue::state_floats(twin.asset->network, twin.asset->node_count());
-    return twin.network_state + static_cast<size_t>(share * static_cast<double>(floats)) / 16 * 16;
-  };
-}
 
 struct Place {
   const char* name;
