@@ -9,5 +9,5 @@ cmake --build --preset release --target perf_jumps sinew-bake sinew-trade
 measured=$(mktemp -d)
 trap 'rm -rf "$measured"' EXIT
 character=${SINEW_CHARACTER:-$(perf/traded_creature.sh "$measured")}
-build/release/bin/perf_jumps "$character" --rates >"$measured/jumps.csv"
+build/release/bin/perf_jumps "$character" >"$measured/jumps.csv"
 python3 perf/summarise_jumps.py "$measured/jumps.csv"

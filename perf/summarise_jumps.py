@@ -26,11 +26,10 @@ def told(rows, measure):
 
 def kinds(rows):
     """What the scheduler may choose: between tiers that are simulated, to being left alone, and back."""
-    chosen = [row for row in rows if row["chosen"] == "1"]
-    simulated = {row["to"] for row in chosen if row["to"] != LEFT}
-    back = [row for row in chosen if row["from"] not in simulated]
-    return {"between tiers that are simulated": [row for row in chosen if row not in back and row["to"] != LEFT],
-            "to being left alone": [row for row in chosen if row["to"] == LEFT], "coming back": back}
+    simulated = {row["to"] for row in rows if row["to"] != LEFT}
+    back = [row for row in rows if row["from"] not in simulated]
+    return {"between tiers that are simulated": [row for row in rows if row not in back and row["to"] != LEFT],
+            "to being left alone": [row for row in rows if row["to"] == LEFT], "coming back": back}
 
 
 def clips(rows):
@@ -44,9 +43,8 @@ def of_clip(rows, clip):
 def lines_of(rows):
     heads = ["from"] + [f"{clip}: worst beyond both, %" for clip in clips(rows)]
     lines = []
-    chosen = [row for row in rows if row["chosen"] == "1"]
-    for name in dict.fromkeys(row["from"] for row in chosen):
-        of = [row for row in chosen if row["from"] == name]
+    for name in dict.fromkeys(row["from"] for row in rows):
+        of = [row for row in rows if row["from"] == name]
         worst = [largest(of_clip(of, clip), MEASURES[0]) for clip in clips(rows)]
         lines.append([name] + [f"{row[MEASURES[0]]} to {row['to']}" for row in worst])
     return heads, lines
@@ -55,14 +53,13 @@ def lines_of(rows):
 def summary(rows):
     """For each clip the largest of what the scheduler may choose, beside how far a tier itself moves a vertex in a frame."""
     beyond = "coming back, beyond the tier before too"
-    heads = ["clip", "a tier itself moves a vertex in a frame by up to, %", "measure", *kinds(rows), beyond, "with rates that are not bought"]
+    heads = ["clip", "a tier itself moves a vertex in a frame by up to, %", "measure", *kinds(rows), beyond]
     lines = []
     for clip in clips(rows):
         of = of_clip(rows, clip)
         for label, measure in (("beyond both", MEASURES[0]), ("at once", MEASURES[1])):
             cells = [told(kind, measure) for kind in kinds(of).values()]
             cells.append(told(kinds(of)["coming back"], BEYOND_ALL) if measure == MEASURES[0] else "")
-            cells.append(told([row for row in of if row["chosen"] == "0"], measure))
             lines.append([clip, of[0]["own_step_percent"], label] + cells)
     return table(heads, lines)
 

@@ -25,7 +25,6 @@ def verdict(row):
     if row["kind"] == "baseline":
         return "baseline"
     words = ["variant"] if row["kind"] == "variant" else []
-    words += [] if row["bought"] else ["not bought"]
     return "; ".join(words + ([f"dominated by {row['dominated_by']}"] if row["dominated_by"] else []))
 
 

@@ -48,7 +48,6 @@ TierOps ops_of(const TierWork& work) {
 
 pack::TierRecord record_of(Tier tier, uint32_t level, uint64_t ops, float ratio = kNotMeasured) {
   return {.tier = static_cast<uint32_t>(tier),
-          .every = 1,
           .cost_us = cost_us(ops),
           .cost_p99_us = kNotMeasured,
           .error_mm = kNotMeasured,

@@ -24,14 +24,14 @@ ClosedLoop::ClosedLoop(const LoadedPack& character, const TrueMotion& motion) : 
   Status status = world::open_asset(character.bytes(), &asset_);
   if (status.ok()) status = world::make_instance(asset_, {}, &instance_);
   if (!status.ok()) throw BadInput(status.message);
-  step(Tier::kSkinning, 1, 0, 0);  // the first pose was held; what the tissue feels begins with the next
+  step(Tier::kSkinning, 0, 0);  // the first pose was held; what the tissue feels begins with the next
 }
 
 void ClosedLoop::tick() { tick(asset_.best()); }
 
-void ClosedLoop::tick(Tier tier, uint32_t every, uint32_t level) {
+void ClosedLoop::tick(Tier tier, uint32_t level) {
   ++tick_;
-  step(tier, every, level, 1);
+  step(tier, level, 1);
 }
 
 void ClosedLoop::save(Checkpoint* to) const {
@@ -49,7 +49,7 @@ void ClosedLoop::restore(const Checkpoint& from) {
 
 // A step of so many ticks, ending at the pose of tick_; a guard may have ruled the tier out, as in
 // world/step.cpp.
-void ClosedLoop::step(Tier tier, uint32_t every, uint32_t level, uint32_t ticks) {
+void ClosedLoop::step(Tier tier, uint32_t level, uint32_t ticks) {
   world::InstanceState& state = *instance_.state;
   std::ranges::copy(motion_.joints(tick_), instance_.next_joints);
   state.next_root = motion_.root(tick_);
@@ -59,8 +59,7 @@ void ClosedLoop::step(Tier tier, uint32_t every, uint32_t level, uint32_t ticks)
   instance_.plan = {.ticks = {.ticks = ticks, .first_tick_s = asset_.tick_s},
                     .dt_s = asset_.tick_s,
                     .tier = tier,
-                    .level = level,
-                    .every = every};
+                    .level = level};
   const uint64_t start_ns = thread_ns();
   world::step_instance(instance_, {});
   step_ns_ = thread_ns() - start_ns;

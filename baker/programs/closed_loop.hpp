@@ -19,8 +19,8 @@ class ClosedLoop {
   ClosedLoop& operator=(const ClosedLoop&) = delete;
 
   void tick();  // to the motion's next tick; as many as it has
-  // In this tier, which may change from tick to tick; every, level: see world::InstancePlan.
-  void tick(Tier tier, uint32_t every = 1, uint32_t level = 0);
+  // In this tier, which may change from tick to tick, on a level of control graphs.
+  void tick(Tier tier, uint32_t level = 0);
   // Where it stands, to go back to.
   struct Checkpoint {
     size_t tick = 0;
@@ -39,7 +39,7 @@ class ClosedLoop {
   uint32_t fallbacks() const { return instance_.state->fallbacks + instance_.state->restarts; }
 
  private:
-  void step(Tier tier, uint32_t every, uint32_t level, uint32_t ticks);
+  void step(Tier tier, uint32_t level, uint32_t ticks);
 
   const TrueMotion& motion_;
   world::Asset asset_;

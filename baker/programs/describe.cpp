@@ -161,7 +161,6 @@ Json describe_tiers(const pack::PackView& view) {
   for (const pack::TierRecord& tier : view.tiers)
     tiers.push_back({{"tier", kNames[tier.tier]},
                      {"level", tier.level},
-                     {"every", tier.every},
                      {"cost_us", tier.cost_us},
                      {"cost_p99_us", tier.cost_p99_us},
                      {"error_mm", tier.error_mm},

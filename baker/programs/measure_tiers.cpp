@@ -102,7 +102,7 @@ std::vector<pack::TierRecord> measured_tiers(const LoadedPack& character, const 
     const auto kind = static_cast<Tier>(tier.tier);
     const Error error = kind == Tier::kSkinning      ? yardstick.of_skinning()
                         : kind == Tier::kExtrapolate ? yardstick.of_extrapolation(character, kCarriedTicks)
-                                                     : yardstick.of(character, kind, tier.every, tier.level);
+                                                     : yardstick.of(character, kind, tier.level);
     tier.error_mm = static_cast<float>(error.mean_mm);
     tier.error_ratio = median(error.ratios);
     tier.error_p95_mm = static_cast<float>(error.p95_mm);
@@ -117,7 +117,7 @@ std::vector<pack::TierRecord> measured_tiers(const LoadedPack& character, const 
 
 double error_ratio_of(const std::vector<pack::TierRecord>& tiers, Tier tier) {
   for (const pack::TierRecord& record : tiers)
-    if (record.tier == static_cast<uint32_t>(tier) && record.level == 0 && record.every == 1)
+    if (record.tier == static_cast<uint32_t>(tier) && record.level == 0)
       return static_cast<double>(record.error_ratio);
   return std::numeric_limits<double>::quiet_NaN();
 }

@@ -176,12 +176,12 @@ Error Yardstick::of_previous_frame() const {
   return sums.error();
 }
 
-Error Yardstick::of(const LoadedPack& character, Tier tier, uint32_t every, uint32_t level) const {
+Error Yardstick::of(const LoadedPack& character, Tier tier, uint32_t level) const {
   Sums sums(surfaces_.size());
   for (size_t m = 0; m < surfaces_.size(); ++m) {
     ClosedLoop loop(character, surfaces_[m].motion());
     for (size_t tick = 1; tick <= ticks_of(surfaces_[m]); ++tick) {
-      loop.tick(tier, every, level);
+      loop.tick(tier, level);
       const std::vector<float> places = positions_of(loop);
       for (size_t i = 0; i < vertices_.size(); ++i)
         sums.add(m, tick, distance_mm(&places[3 * vertices_[i]], truth(m, tick, i)),

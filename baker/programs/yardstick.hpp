@@ -33,7 +33,7 @@ class Yardstick {
   // The true displacement of the tick before, turned with the skin.
   Error of_previous_frame() const;
   // In closed loop from the motions' start.
-  Error of(const LoadedPack& character, Tier tier, uint32_t every, uint32_t level) const;
+  Error of(const LoadedPack& character, Tier tier, uint32_t level) const;
   // So many ticks after a character in its best tier was left alone, again and again.
   Error of_extrapolation(const LoadedPack& character, size_t ticks) const;
 

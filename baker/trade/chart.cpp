@@ -145,7 +145,7 @@ RgbBytes color_of(const Row& row) {
 
 using Dot = std::pair<Point, const Row*>;
 
-bool is_on_front(const Row& row) { return row.is_bought() && row.dominated_by.empty(); }
+bool is_on_front(const Row& row) { return row.dominated_by.empty(); }
 
 void draw_names(Paper& paper, const std::vector<Dot>& dots, std::span<const Point> front) {
   constexpr float kTall = 18, kAboveLine = 13.5f;  // of a name's box, and of that its baseline
@@ -180,7 +180,7 @@ void draw_legend(Paper& paper) {
     paper.text({x + 14, kHeight - 17}, words, "start");
   };
   entry(130, kTier, true, "tier on the front");
-  entry(350, kTier, false, "tier, dominated or not bought");
+  entry(350, kTier, false, "tier, dominated");
   entry(700, kVariant, true, "baked otherwise");
   entry(910, kVariant, false, "the same, dominated");
 }

@@ -21,31 +21,20 @@ double quantile(std::vector<double>& values, double share) {
   return *at;
 }
 
-class Steps {
- public:
-  void add(const ClosedLoop& loop) {
-    const bool simulated = loop.instance().heard_now;
-    (simulated ? simulated_ : between_).push_back(static_cast<double>(loop.step_ns()) * 1e-3);
-  }
-  Cost cost() {
-    std::vector<double>& told = simulated_.empty() ? between_ : simulated_;
-    const double many = static_cast<double>(simulated_.size()), few = static_cast<double>(between_.size());
-    return {.p50_us = quantile(told, 0.5),
-            .p99_us = quantile(told, 0.99),
-            .mean_us = (many * quantile(simulated_, 0.5) + few * quantile(between_, 0.5)) / (many + few)};
-  }
+Cost cost_of(std::vector<double> steps_us) {
+  const double median_us = quantile(steps_us, 0.5);
+  return {.p50_us = median_us, .p99_us = quantile(steps_us, 0.99), .mean_us = median_us};
+}
 
- private:
-  std::vector<double> simulated_, between_;
-};
+double last_step_us(const ClosedLoop& loop) { return static_cast<double>(loop.step_ns()) * 1e-3; }
 
 // True where the step counts.
-bool step(ClosedLoop& loop, size_t tick, Tier tier, uint32_t every, uint32_t level) {
+bool step(ClosedLoop& loop, size_t tick, Tier tier, uint32_t level) {
   const bool begins = tier == Tier::kExtrapolate && tick % (kCarriedTicks + 1) == 0;
   if (begins)
     loop.tick();
   else
-    loop.tick(tier, every, level);
+    loop.tick(tier, level);
   return !begins;
 }
 
@@ -61,24 +50,23 @@ size_t crowd_of(const LoadedPack& character, const TrueMotion& motion) {
 
 namespace {
 
-Cost along(const LoadedPack& character, const TrueMotion& motion, Tier tier, uint32_t every, uint32_t level) {
+Cost along(const LoadedPack& character, const TrueMotion& motion, Tier tier, uint32_t level) {
   ClosedLoop loop(character, motion);
-  Steps steps;
+  std::vector<double> steps_us;
   const size_t last = std::min(motion.ticks(), kMostTicks);
   for (size_t tick = 1; tick <= last; ++tick) {
-    const bool counts = step(loop, tick - 1, tier, every, level);
-    if (counts && tick > std::min(kWarmUpTicks, last / 2)) steps.add(loop);
+    const bool counts = step(loop, tick - 1, tier, level);
+    if (counts && tick > std::min(kWarmUpTicks, last / 2)) steps_us.push_back(last_step_us(loop));
   }
-  return steps.cost();
+  return cost_of(std::move(steps_us));
 }
 
 }  // namespace
 
-Cost warm_cost(const LoadedPack& character, const TrueMotion& motion, Tier tier, uint32_t every,
-               uint32_t level) {
-  Cost best = along(character, motion, tier, every, level);
+Cost warm_cost(const LoadedPack& character, const TrueMotion& motion, Tier tier, uint32_t level) {
+  Cost best = along(character, motion, tier, level);
   for (int pass = 1; pass < kWarmPasses; ++pass) {
-    const Cost cost = along(character, motion, tier, every, level);
+    const Cost cost = along(character, motion, tier, level);
     if (cost.mean_us < best.mean_us) best = cost;
   }
   return best;
@@ -91,16 +79,16 @@ Crowd::Crowd(const LoadedPack& character, const TrueMotion& motion) {
   rounds_ = std::min(motion.ticks(), kWarmUpTicks / 2 + std::max<size_t>(12, kColdSteps / count));
 }
 
-Cost Crowd::cold_cost(Tier tier, uint32_t every, uint32_t level) {
+Cost Crowd::cold_cost(Tier tier, uint32_t level) {
   for (const auto& loop : loops_) loop->restore(start_);
-  Steps steps;
+  std::vector<double> steps_us;
   for (size_t tick = 1; tick <= rounds_; ++tick) {
     for (const auto& loop : loops_) {
-      const bool counts = step(*loop, tick - 1, tier, every, level);
-      if (counts && tick > std::min(kWarmUpTicks / 2, rounds_ / 2)) steps.add(*loop);
+      const bool counts = step(*loop, tick - 1, tier, level);
+      if (counts && tick > std::min(kWarmUpTicks / 2, rounds_ / 2)) steps_us.push_back(last_step_us(*loop));
     }
   }
-  return steps.cost();
+  return cost_of(std::move(steps_us));
 }
 
 }  // namespace sinew::baker

@@ -15,7 +15,7 @@ bool dominates(const Row& a, const Row& b) {
 std::string dominator(const Row& row, const std::vector<Row>& rows) {
   const Row* best = nullptr;
   for (const Row& other : rows) {
-    const bool may = (other.kind == "tier" || row.kind == "variant") && other.is_bought();
+    const bool may = other.kind == "tier" || row.kind == "variant";
     if (!may || !other.costs() || other.tier == Tier::kExtrapolate || !dominates(other, row)) continue;
     if (!best || other.error.ratio < best->error.ratio) best = &other;
   }

@@ -16,7 +16,7 @@ namespace {
 struct Way {
   std::string name, kind;
   Tier tier;
-  uint32_t every, level;
+  uint32_t level;
   std::function<void(Row*)> measure;
 };
 
@@ -36,10 +36,9 @@ std::string left_out(const LoadedPack& character, uint32_t level) {
   return names;
 }
 
-std::string name_of(const LoadedPack& character, Tier tier, uint32_t every, uint32_t level) {
+std::string name_of(const LoadedPack& character, Tier tier, uint32_t level) {
   constexpr const char* kNames[] = {"skinning", "extrapolate", "network", "spring", "modal"};
   std::string name = kNames[static_cast<size_t>(tier)];
-  if (every > 1) name += " every " + std::to_string(every);
   if (level == 0) return name;
   name += " on " + std::to_string(nodes_a_region(character, level)) + " nodes";
   return name + left_out(character, level);
@@ -49,40 +48,40 @@ class Ways {
  public:
   Ways(const Yardstick& yardstick, const TrueMotion& motion) : yardstick_(yardstick), motion_(motion) {}
 
-  void add_tier(const LoadedPack& character, Tier tier, uint32_t every, uint32_t level) {
-    ways_.push_back(
-        {name_of(character, tier, every, level), "tier", tier, every, level, [=, this, &character](Row* row) {
-           if (!crowd_) crowd_.emplace(character, motion_);
-           tell_cost(character, *crowd_, row);
-           row->error = tier == Tier::kSkinning      ? yardstick_.of_skinning()
-                        : tier == Tier::kExtrapolate ? yardstick_.of_extrapolation(character, kCarriedTicks)
-                                                     : yardstick_.of(character, tier, every, level);
-         }});
+  void add_tier(const LoadedPack& character, Tier tier, uint32_t level) {
+    ways_.push_back({name_of(character, tier, level), "tier", tier, level, [=, this, &character](Row* row) {
+                       if (!crowd_) crowd_.emplace(character, motion_);
+                       tell_cost(character, *crowd_, row);
+                       row->error = tier == Tier::kSkinning ? yardstick_.of_skinning()
+                                    : tier == Tier::kExtrapolate
+                                        ? yardstick_.of_extrapolation(character, kCarriedTicks)
+                                        : yardstick_.of(character, tier, level);
+                     }});
   }
   void add_baselines(const LoadedPack& character) {
-    ways_.push_back({"previous frame's displacement", "baseline", Tier::kSkinning, 1, 0,
+    ways_.push_back({"previous frame's displacement", "baseline", Tier::kSkinning, 0,
                      [this](Row* row) { row->error = yardstick_.of_previous_frame(); }});
     for (const size_t ticks : {1, 2, 8})
       ways_.push_back(
-          {"extrapolate, after " + std::to_string(ticks), "baseline", Tier::kExtrapolate, 1, 0,
+          {"extrapolate, after " + std::to_string(ticks), "baseline", Tier::kExtrapolate, 0,
            [=, this, &character](Row* row) { row->error = yardstick_.of_extrapolation(character, ticks); }});
   }
   void add_variant(const LoadedPack& character, const Variant& variant, Tier tier) {
-    const std::string name = name_of(character, tier, 1, 0) + ", " + variant.name;
-    ways_.push_back({name, "variant", tier, 1, 0, [=, this](Row* row) {
+    const std::string name = name_of(character, tier, 0) + ", " + variant.name;
+    ways_.push_back({name, "variant", tier, 0, [=, this](Row* row) {
                        const LoadedPack baked = variant.bake();
                        crowd_.reset();  // memory for one at a time
                        Crowd crowd(baked, motion_);
                        tell_cost(baked, crowd, row);
-                       row->error = yardstick_.of(baked, tier, 1, 0);
+                       row->error = yardstick_.of(baked, tier, 0);
                      }});
   }
   const std::vector<Way>& all() const { return ways_; }
 
  private:
   void tell_cost(const LoadedPack& character, Crowd& crowd, Row* row) const {
-    row->warm = warm_cost(character, motion_, row->tier, row->every, row->level);
-    row->cold = crowd.cold_cost(row->tier, row->every, row->level);
+    row->warm = warm_cost(character, motion_, row->tier, row->level);
+    row->cold = crowd.cold_cost(row->tier, row->level);
   }
 
   const Yardstick& yardstick_;
@@ -92,14 +91,12 @@ class Ways {
 };
 
 void add_tiers(const LoadedPack& character, Ways* to) {
-  to->add_tier(character, Tier::kSkinning, 1, 0);
-  to->add_tier(character, Tier::kExtrapolate, 1, 0);
+  to->add_tier(character, Tier::kSkinning, 0);
+  to->add_tier(character, Tier::kExtrapolate, 0);
   for (const Tier tier : {Tier::kSpring, Tier::kModal, Tier::kNetwork}) {
     if (tier == Tier::kNetwork && !pack::has_network(character.view())) continue;
-    for (uint32_t level = 0; level < character.view().level_count; ++level) {
-      to->add_tier(character, tier, 1, level);
-      if (tier != Tier::kNetwork) to->add_tier(character, tier, 2, level);
-    }
+    for (uint32_t level = 0; level < character.view().level_count; ++level)
+      to->add_tier(character, tier, level);
   }
 }
 
@@ -118,7 +115,6 @@ Row unmeasured(const Way& way) {
   row.name = way.name;
   row.kind = way.kind;
   row.tier = way.tier;
-  row.every = way.every;
   row.level = way.level;
   return row;
 }

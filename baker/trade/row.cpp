@@ -68,7 +68,7 @@ bool took_time(const Cost& cost) { return cost.p50_us > 0 && cost.p99_us > 0 && 
 
 bool is_possible(const Row& row) {
   const bool is_kind = row.kind == "tier" || row.kind == "variant" || row.kind == "baseline";
-  return is_kind && static_cast<uint32_t>(row.tier) < kTierCount && row.every > 0 &&
+  return is_kind && static_cast<uint32_t>(row.tier) < kTierCount &&
          (!row.costs() || (took_time(row.warm) && took_time(row.cold)));
 }
 
@@ -78,8 +78,6 @@ nlohmann::ordered_json to_json(const Row& row) {
   return {{"name", row.name},
           {"kind", row.kind},
           {"tier", static_cast<uint32_t>(row.tier)},
-          {"every", row.every},
-          {"bought", row.is_bought()},
           {"level", row.level},
           {"warm", to_json(row.warm)},
           {"cold", to_json(row.cold)},
@@ -98,7 +96,6 @@ std::optional<Row> row_from(const nlohmann::json& json) {
   row.name = read.text("name");
   row.kind = read.text("kind");
   row.tier = static_cast<Tier>(read.count("tier"));
-  row.every = read.count("every");
   row.level = read.count("level");
   row.warm = read.cost("warm");
   row.cold = read.cost("cold");

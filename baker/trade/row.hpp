@@ -7,12 +7,10 @@
 
 #include "baker/programs/yardstick.hpp"
 #include "sinew/types.hpp"
-#include "world/bought_rates.hpp"
 
 namespace sinew::baker {
 
-// Of one step of one instance, microseconds of the thread's own time: p50 and p99 of the steps that simulate
-// (of all, where none does), and the mean step in the long run, p50 each of those that do and those between.
+// Of one step of one instance, microseconds of the thread's own time.
 struct Cost {
   double p50_us = 0, p99_us = 0, mean_us = 0;
 };
@@ -21,15 +19,12 @@ struct Row {
   std::string name;
   std::string kind;  // "tier": of the character itself; "variant": of one baked otherwise; "baseline": none
   Tier tier = Tier::kSkinning;
-  uint32_t every = 1;
   uint32_t level = 0;  // of control graphs
   Cost warm, cold;
   Error error;
   std::string dominated_by;  // empty: on the front
 
   bool costs() const { return kind != "baseline"; }
-  // The scheduler never buys such a rate: it is measured only.
-  bool is_bought() const { return every <= world::kMostEvery; }
 };
 
 nlohmann::ordered_json to_json(const Row& row);

@@ -52,9 +52,9 @@ void RowCache::take_up(const nlohmann::json& rows) {
 std::optional<Row> RowCache::find(const Row& way) const {
   const auto found = std::ranges::find(rows_, way.name, &Row::name);
   if (found == rows_.end()) return std::nullopt;
-  const auto key = [](const Row& row) { return std::tie(row.kind, row.tier, row.every, row.level); };
+  const auto key = [](const Row& row) { return std::tie(row.kind, row.tier, row.level); };
   if (key(*found) == key(way)) return *found;
-  std::fprintf(stderr, "sinew-trade: %s: \"%s\" is of another tier, rate or level; it is measured anew\n",
+  std::fprintf(stderr, "sinew-trade: %s: \"%s\" is of another tier or level; it is measured anew\n",
                path_.c_str(), way.name.c_str());
   return std::nullopt;
 }

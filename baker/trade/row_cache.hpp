@@ -14,7 +14,7 @@ class RowCache {
   // The rows that the file holds, if they are made of the same (made_of.hpp). Else it is begun anew, and rows
   // that are none are left out; one line on standard error says either.
   RowCache(std::string path, nlohmann::ordered_json made_of);
-  // What was measured of that way to run a character. One of its name but another kind, tier, every or level
+  // What was measured of that way to run a character. One of its name but another kind, tier or level
   // is not it, which one line on standard error says.
   std::optional<Row> find(const Row& way) const;
   void add(const Row& row);  // in the place of one of its name; writes the file

@@ -34,7 +34,6 @@ std::string listed(const Spread& e) {
 std::string verdict_of(const Row& row) {
   if (row.kind == "baseline") return "baseline";
   std::string verdict = row.dominated_by.empty() ? "" : "dominated by " + row.dominated_by;
-  if (!row.is_bought()) verdict = "not bought" + (verdict.empty() ? "" : "; " + verdict);
   return row.kind == "variant" ? "variant; " + (verdict.empty() ? "on the front" : verdict) : verdict;
 }
 
@@ -61,15 +60,14 @@ std::string as_csv(const Measured& measured) {
   std::string out = printed("# %s, %s, %zu vertices\n", measured.character.c_str(),
                             measured.processor.c_str(), measured.vertices);
   for (const std::string& motion : measured.motions) out += "# " + motion + "\n";
-  out += "name,kind,every,level,bought,warm_mean_us,warm_p50_us,warm_p99_us,cold_mean_us,cold_p50_us,";
+  out += "name,kind,level,warm_mean_us,warm_p50_us,warm_p99_us,cold_mean_us,cold_p50_us,";
   out += "cold_p99_us,mean_mm,sd_mm,p95_mm,worst_mm,ratio,";
   out += "mean_50_mm,sd_50_mm,p95_50_mm,worst_50_mm,ratio_50,dominated_by\n";
   for (const Row& row : measured.rows) {
-    out +=
-        printed("%s,%s,%u,%u,%d,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%s,%s,%s\n", quoted(row.name).c_str(),
-                row.kind.c_str(), row.every, row.level, row.is_bought() ? 1 : 0, row.warm.mean_us,
-                row.warm.p50_us, row.warm.p99_us, row.cold.mean_us, row.cold.p50_us, row.cold.p99_us,
-                listed(row.error).c_str(), listed(row.error.in_50).c_str(), quoted(row.dominated_by).c_str());
+    out += printed("%s,%s,%u,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%s,%s,%s\n", quoted(row.name).c_str(),
+                   row.kind.c_str(), row.level, row.warm.mean_us, row.warm.p50_us, row.warm.p99_us,
+                   row.cold.mean_us, row.cold.p50_us, row.cold.p99_us, listed(row.error).c_str(),
+                   listed(row.error.in_50).c_str(), quoted(row.dominated_by).c_str());
   }
   return out;
 }

@@ -12,15 +12,14 @@ namespace sinew::baker {
 namespace {
 
 bool is_kept(const Row& row) {
-  const bool needed = row.every == 1 && row.level == 0 && row.tier != Tier::kSpring;
-  return row.kind == "tier" && row.is_bought() && (needed || row.dominated_by.empty());
+  const bool needed = row.level == 0 && row.tier != Tier::kSpring;
+  return row.kind == "tier" && (needed || row.dominated_by.empty());
 }
 
 // base_us: what a step takes without simulation.
 pack::TierRecord to_record(const Row& row, double base_us) {
   const auto number = [](double value) { return static_cast<float>(std::max(0.0, value)); };
   return {.tier = static_cast<uint32_t>(row.tier),
-          .every = row.every,
           .cost_us = number(row.warm.mean_us - base_us),
           .cost_p99_us = number(row.warm.p99_us - base_us),
           .error_mm = number(row.error.mean_mm),
@@ -40,7 +39,7 @@ std::vector<pack::TierRecord> tier_records(const std::vector<Row>& rows) {
   std::vector<pack::TierRecord> out;
   for (const Row& row : rows)
     if (is_kept(row)) out.push_back(to_record(row, row.tier == Tier::kSkinning ? 0 : base_us));
-  std::ranges::sort(out, {}, [](const pack::TierRecord& r) { return std::tuple(r.tier, r.level, r.every); });
+  std::ranges::sort(out, {}, [](const pack::TierRecord& r) { return std::tuple(r.tier, r.level); });
   return out;
 }
 

@@ -34,8 +34,7 @@ void JumpPlayer::step(const Way& way) {
   instance_.plan = {.ticks = {.ticks = 1, .first_tick_s = asset_.tick_s},
                     .dt_s = asset_.tick_s,
                     .tier = way.tier,
-                    .level = frame::is_simulated(way.tier) ? way.level : instance_.state->level,
-                    .every = way.every};
+                    .level = frame::is_simulated(way.tier) ? way.level : instance_.state->level};
   world::step_instance(instance_, {});
 }
 

@@ -13,7 +13,7 @@ namespace sinew::perf {
 
 struct Way {
   Tier tier = Tier::kSkinning;
-  uint32_t level = 0, every = 1;
+  uint32_t level = 0;
   bool hidden = false;  // passed by; shows what it did
 };
 

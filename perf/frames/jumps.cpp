@@ -23,15 +23,10 @@ using namespace sinew::perf;
 constexpr double kSeconds = 5;  // of each clip: once around, and over where it begins again
 
 // Those that the scheduler may choose: which of its points are on the front is decided anew at every step.
-// With `rates` also what it does not buy, modes in every second tick.
-std::vector<Way> simulated_ways(const world::Asset& asset, bool rates) {
+std::vector<Way> simulated_ways(const world::Asset& asset) {
   std::vector<Way> ways;
-  for (uint32_t i = 0; i < asset.point_count; ++i)
-    ways.push_back(
-        {.tier = asset.points[i].tier, .level = asset.points[i].graph, .every = asset.points[i].every});
-  for (size_t w = ways.size(); rates && w-- > 0;)
-    if (ways[w].tier == Tier::kModal)
-      ways.push_back({.tier = Tier::kModal, .level = ways[w].level, .every = 2});
+  for (const frame::Level& point : std::span(asset.points, asset.point_count))
+    ways.push_back({.tier = point.tier, .level = point.graph});
   return ways;
 }
 
@@ -59,14 +54,11 @@ constexpr size_t kFew = 4;  // of the first of these, after the worst tier too
 std::string name_of(const world::Asset& asset, const Way& way) {
   constexpr const char* kNames[] = {"skinning", "extrapolate", "network", "spring", "modal"};
   std::string name = kNames[static_cast<size_t>(way.tier)];
-  if (way.every > 1) name += " every " + std::to_string(way.every);
   if (!frame::is_simulated(way.tier) || asset.level_count == 1) return name;
   return name + " on " + level_name(asset.levels[way.level]);
 }
 
-bool is_same(const Way& a, const Way& b) {
-  return a.tier == b.tier && a.level == b.level && a.every == b.every;
-}
+bool is_same(const Way& a, const Way& b) { return a.tier == b.tier && a.level == b.level; }
 
 struct Table {
   JumpPlayer& player;
@@ -80,12 +72,11 @@ struct Table {
       if (is_same(ways[w], left) || (!frame::is_simulated(left.tier) && !frame::is_simulated(ways[w].tier)))
         continue;
       const Jump jump = largest_jump(player, stays, runs[w], ways[w]);
-      const bool is_chosen = ways[w].every == 1 && left.every == 1;
       const double percent = 100 / player.height_m();
-      std::printf("%s,\"%s\",%s,%d,%.3f,%.4f,%.3f,%.4f,%.4f,%.3f,%zu,%zu\n", clip.c_str(), from.c_str(),
-                  name_of(player.asset(), ways[w]).c_str(), is_chosen ? 1 : 0, 1e3 * jump.at_once_m,
-                  percent * jump.at_once_m, 1e3 * jump.beyond_m, percent * jump.beyond_m,
-                  percent * jump.beyond_all_m, percent * own_m, jump.change_tick, jump.after_ticks);
+      std::printf("%s,\"%s\",%s,%.3f,%.4f,%.3f,%.4f,%.4f,%.3f,%zu,%zu\n", clip.c_str(), from.c_str(),
+                  name_of(player.asset(), ways[w]).c_str(), 1e3 * jump.at_once_m, percent * jump.at_once_m,
+                  1e3 * jump.beyond_m, percent * jump.beyond_m, percent * jump.beyond_all_m, percent * own_m,
+                  jump.change_tick, jump.after_ticks);
     }
   }
 };
@@ -119,9 +110,9 @@ void tell_left_alone(const Table& table) {
   for (const Left& left : std::span(kLeft).first(kFew)) tell(left, left.name + after, worst);
 }
 
-void run(const demo::CharacterFile& character, const std::string& clip, bool rates, size_t apart_ticks) {
+void run(const demo::CharacterFile& character, const std::string& clip, size_t apart_ticks) {
   JumpPlayer player(character, clip, kSeconds);
-  std::vector<Way> ways = simulated_ways(player.asset(), rates);
+  std::vector<Way> ways = simulated_ways(player.asset());
   if (ways.empty()) throw std::runtime_error("the pack has no tier that simulates");
   const size_t simulated = ways.size();
   ways.push_back(kExtrapolated);
@@ -134,7 +125,7 @@ void run(const demo::CharacterFile& character, const std::string& clip, bool rat
 }
 
 // Of all clips, or one.
-void run_all(const std::string& path, const std::string& clip, bool rates, size_t apart_ticks) {
+void run_all(const std::string& path, const std::string& clip, size_t apart_ticks) {
   const demo::CharacterFile character = demo::open_character(path);
   if (character.view.clips.empty())
     throw std::runtime_error(path + ": the pack has no clips; bake it from a file with animations");
@@ -144,9 +135,9 @@ void run_all(const std::string& path, const std::string& clip, bool rates, size_
   if (clips.empty())
     throw std::runtime_error(path + ": no clip is called '" + clip + "'; sinew-bake info lists them");
   std::puts(
-      "clip,from,to,chosen,at_once_mm,at_once_percent,beyond_both_mm,beyond_both_percent,beyond_all_percent,"
+      "clip,from,to,at_once_mm,at_once_percent,beyond_both_mm,beyond_both_percent,beyond_all_percent,"
       "own_step_percent,change_tick,after_ticks");
-  for (const std::string& name : clips) run(character, name, rates, apart_ticks);
+  for (const std::string& name : clips) run(character, name, apart_ticks);
 }
 
 }  // namespace
@@ -155,8 +146,6 @@ int main(int count, char** arguments) {
   CLI::App app{"How far a change of tier moves a vertex, of all changes that can happen."};
   std::string path;
   app.add_option("pack", path, "C.sinew")->required();
-  bool rates = false;
-  app.add_flag("--rates", rates, "and of modes in every second tick, which it does not buy");
   std::string clip;
   app.add_option("--clip", clip, "along this one alone; all if not said");
   size_t apart_ticks = 7;
@@ -164,7 +153,7 @@ int main(int count, char** arguments) {
       ->check(CLI::Range(5, 240));
   CLI11_PARSE(app, count, arguments);
   try {
-    run_all(path, clip, rates, apart_ticks);
+    run_all(path, clip, apart_ticks);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "perf_jumps: %s\n", error.what());
     return 2;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace sinew::frame {
 namespace {
@@ -30,8 +29,8 @@ void list_levels(Front& front) noexcept {
     std::fill_n(front.level_at[tier], pack::kMostGraphLevels, lowest);
   }
   for (uint32_t i = 1; i < front.count; ++i)
-    if (const Level& level = front.levels[i]; level.every == 1)
-      front.level_at[static_cast<size_t>(level.tier)][level.graph] = static_cast<uint8_t>(i);
+    front.level_at[static_cast<size_t>(front.levels[i].tier)][front.levels[i].graph] =
+        static_cast<uint8_t>(i);
 }
 
 // The last level is no better bought than what comes behind it.
@@ -49,8 +48,7 @@ uint32_t coarser_above(const Front& front, uint32_t level) noexcept {
 
 }  // namespace
 
-float usual_error(Tier tier, uint32_t every) noexcept {
-  if (every != 1) return std::numeric_limits<float>::quiet_NaN();
+float usual_error(Tier tier) noexcept {
   constexpr float kNetwork = 0.08f, kModal = 0.15f, kSpring = 0.4f;
   if (tier == Tier::kNetwork) return kNetwork;
   if (tier == Tier::kModal) return kModal;
@@ -61,13 +59,6 @@ float coarser_error(float finest, uint32_t graph) noexcept {
   constexpr float kCoarser = 1.15f;
   for (uint32_t level = 0; level < graph; ++level) finest *= kCoarser;
   return finest;
-}
-
-uint8_t Front::find_level(Tier tier, uint32_t every, uint32_t graph) const noexcept {
-  for (uint32_t level = count; is_simulated(tier) && level-- > 1;)
-    if (levels[level].tier == tier && levels[level].graph == graph && levels[level].every == every)
-      return static_cast<uint8_t>(level);
-  return is_simulated(tier) && count > 1 ? 1 : 0;
 }
 
 void make_front(std::span<const Level> points, float publish_us, Front* out) noexcept {

@@ -11,20 +11,19 @@ namespace sinew::frame {
 // Springs, modes and networks: what is simulated tick by tick.
 constexpr bool is_simulated(Tier tier) noexcept { return tier >= Tier::kNetwork; }
 
-// A tier on a control graph at a rate, as it was baked or corrected. Level 0 of a front is not simulated: no
+// A tier on a control graph, as it was baked or corrected. Level 0 of a front is not simulated: no
 // cost, all of the error.
 struct Level {
   Tier tier = Tier::kExtrapolate;
-  uint32_t every = 1;  // ticks from one that is simulated to the next
-  float tick_us = 0;   // a tick, the long run's average: of one in `every`
+  float tick_us = 0;   // a tick
   float error = 1;     // a share of skinning's
   uint32_t graph = 0;  // level of control graphs, 0 the finest
 };
 
 inline constexpr uint32_t kMostLevels = 25;  // skinning, and as many points as a pack may hold, and to spare
 
-// Where an error was not measured: of the tier at every tick; NaN at other rates, which are then left out.
-float usual_error(Tier tier, uint32_t every) noexcept;
+// Where an error was not measured.
+float usual_error(Tier tier) noexcept;
 // On a coarser control graph, of what it is on the finest: a little more on each.
 float coarser_error(float finest, uint32_t graph) noexcept;
 
@@ -35,7 +34,7 @@ struct Front {
   Level levels[kMostLevels];
   float worth[kMostLevels] = {};       // error saved a microsecond by going from the level below to this one
   uint32_t coarser[kMostLevels] = {};  // the lowest level above it that is on a coarser graph; 0: none
-  uint8_t level_at[kTierCount][pack::kMostGraphLevels] = {};  // level_of, at every tick
+  uint8_t level_at[kTierCount][pack::kMostGraphLevels] = {};  // level_of
   uint32_t count = 1;
   float publish_us = 0;  // a step, of whatever is displaced
   float idle_us = 0;     // a step, of what is not
@@ -45,10 +44,9 @@ struct Front {
     return publish_us + ticks * levels[level].tick_us;
   }
   // The highest level that costs no more than the tier does; 0 for one that is not simulated.
-  uint8_t level_of(Tier tier, uint32_t every, uint32_t graph) const noexcept {
-    return every == 1 ? level_at[static_cast<size_t>(tier)][graph] : find_level(tier, every, graph);
+  uint8_t level_of(Tier tier, uint32_t graph) const noexcept {
+    return level_at[static_cast<size_t>(tier)][graph];
   }
-  uint8_t find_level(Tier tier, uint32_t every, uint32_t graph) const noexcept;
 };
 
 // Points in any order; those that are no numbers or not simulated are left out, as is what beyond

@@ -150,8 +150,6 @@ bool is_known_or_nan(float value) noexcept {
 Status check_tier(const PackView& pack, const TierRecord& record, size_t index) noexcept {
   constexpr auto kFirstSimulated = static_cast<uint32_t>(Tier::kNetwork);
   if (record.tier >= kTierCount) return corrupt("tier %zu: %u is not known", index, record.tier);
-  if (!is_every(record.every) || (record.every > 1 && record.tier < kFirstSimulated))
-    return corrupt("tier %zu: every %u ticks", index, record.every);
   if (record.level >= pack.level_count || (record.level > 0 && record.tier < kFirstSimulated))
     return corrupt("tier %zu: level %u", index, record.level);
   if (!std::isfinite(record.cost_us) || record.cost_us < 0 || !is_known_or_nan(record.cost_p99_us))
@@ -165,11 +163,9 @@ Status check_tier(const PackView& pack, const TierRecord& record, size_t index) 
   return {};
 }
 
-uint64_t tier_order(const TierRecord& record) noexcept {
-  return uint64_t{record.tier} << 32 | uint64_t{record.level} << 16 | record.every;
-}
+uint64_t tier_order(const TierRecord& record) noexcept { return uint64_t{record.tier} << 32 | record.level; }
 
-// With level 0 and every 1.
+// With level 0.
 uint32_t needed_tiers(const PackView& pack) noexcept {
   const auto bit = [](Tier tier) { return 1u << static_cast<uint32_t>(tier); };
   return bit(Tier::kSkinning) | bit(Tier::kExtrapolate) | bit(Tier::kModal) |
@@ -182,11 +178,10 @@ Status check_tiers(const PackView& pack) noexcept {
     const TierRecord& record = pack.tiers[index];
     if (Status status = check_tier(pack, record, index); !status.ok()) return status;
     if (index > 0 && tier_order(record) <= tier_order(pack.tiers[index - 1]))
-      return corrupt("tier %zu: %u at level %u every %u does not ascend", index, record.tier, record.level,
-                     record.every);
+      return corrupt("tier %zu: %u at level %u does not ascend", index, record.tier, record.level);
     if (record.tier == static_cast<uint32_t>(Tier::kNetwork) && !has_network(pack))
       return corrupt("tier %zu: a network that the character does not have", index);
-    if (record.every == 1 && record.level == 0) seen |= 1u << record.tier;
+    if (record.level == 0) seen |= 1u << record.tier;
   }
   const uint32_t needed = needed_tiers(pack);
   return (seen & needed) == needed ? Status{} : corrupt("tiers: not all that the character has");

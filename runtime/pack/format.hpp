@@ -35,6 +35,7 @@
 //   kMeshes;
 //      a rod states which way its gravity pulls and which capsules it passes
 //   8  a tier tells its error along the motion in which it is largest, and which that is
+//   9  a tier is simulated in every tick: the scheduler never bought another rate
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -42,7 +43,7 @@
 namespace sinew::pack {
 
 inline constexpr char kMagic[8] = {'S', 'I', 'N', 'E', 'W', 'P', 'K', '\0'};
-inline constexpr uint32_t kVersion = 8;
+inline constexpr uint32_t kVersion = 9;
 inline constexpr size_t kSectionAlignment = 64;
 inline constexpr uint32_t kNoIndex = 0xffffffffu;
 
@@ -424,11 +425,10 @@ static_assert(sizeof(ClipRecord) == 32);
 // character along a few short motions, or not measured.
 // Measured: errors over vertices that tissue moves, of extrapolate 4 ticks after the last simulated one.
 struct TierRecord {
-  uint32_t tier;   // sinew::Tier
-  uint32_t every;  // ticks from one that is simulated whole to the next: 1 or 2; 1 where nothing is simulated
-  float cost_us;   // a tick and instance on one core, in the long run, beyond skinning's; corrected online.
-                   // skinning: what an instance takes in every step
-  float cost_p99_us;  // in one of a hundred of the ticks that are simulated whole; NaN: not measured
+  uint32_t tier;      // sinew::Tier
+  float cost_us;      // a tick and instance on one core, beyond skinning's; corrected online.
+                      // skinning: what an instance takes in every step
+  float cost_p99_us;  // in one of a hundred of the ticks; NaN: not measured
   float error_mm;     // mean against ground truth; NaN: not measured
   float
       error_ratio;  // a share of skinning's: the median over motions, sinew-trade's of all; NaN: not measured
@@ -437,7 +437,6 @@ struct TierRecord {
   float worst_error_ratio;  // along the motion in which it is largest; NaN: not measured
   uint32_t worst_clip;      // that motion, of kClips; kNoIndex: no clip of this pack, or not measured
 };
-static_assert(sizeof(TierRecord) == 40);
-constexpr bool is_every(uint32_t every) noexcept { return every == 1 || every == 2; }
+static_assert(sizeof(TierRecord) == 36);
 
 }  // namespace sinew::pack

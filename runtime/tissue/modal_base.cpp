@@ -92,15 +92,6 @@ void modal_answer(const ModalBase& base, const float* heard, const ModalState& s
   }
 }
 
-Ramp ramp(float a1, float a2, uint32_t k) noexcept {
-  Ramp at{0, 0};
-  for (uint32_t j = 1; j < 2 * k - 1; ++j) {
-    const float share = static_cast<float>(j) / static_cast<float>(k);
-    at = {a1 * at.now + a2 * at.before + share, at.now};
-  }
-  return at;
-}
-
 void modal_project(const ModalBase& base, const float* l, float* q) noexcept {
   alignas(64) float add[pack::kMaxModes];
   simd::kernels().add_rows(base.project, 3 * base.node_count, base.padded_modes, l, add);

@@ -66,12 +66,6 @@ void modal_hear(const ModalBase& base, const float* felt, const float* theta, fl
 // And what it answers.
 void modal_answer(const ModalBase& base, const float* heard, const ModalState& state,
                   const ModalAnswer& answer) noexcept;
-// Where an oscillator stands, in units of gain, that heard 1/k, 2/k ... (2k - 2)/k: in the last of these
-// ticks and in the one before. k = 1: 0 and 0.
-struct Ramp {
-  float now, before;
-};
-Ramp ramp(float a1, float a2, uint32_t k) noexcept;
 // q += project l.
 void modal_project(const ModalBase& base, const float* l, float* q) noexcept;
 // theta = turn q, held.

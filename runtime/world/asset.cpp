@@ -8,7 +8,6 @@
 
 #include "core/status.hpp"
 #include "world/affords_surface.hpp"
-#include "world/bought_rates.hpp"
 #include "world/instance.hpp"
 #include "world/own_body_touches.hpp"
 #include "world/pose_bound.hpp"
@@ -27,9 +26,9 @@ constexpr frame::CostEstimate::Correction kWithSurface{.drift = 1e-3f, .rise = 0
 // What was not measured on a coarser graph follows from what was on the finest.
 float told_error(const pack::PackView& pack, const pack::TierRecord& record) noexcept {
   if (!std::isnan(record.error_ratio)) return record.error_ratio;
-  float finest = frame::usual_error(static_cast<Tier>(record.tier), record.every);
+  float finest = frame::usual_error(static_cast<Tier>(record.tier));
   for (const pack::TierRecord& other : pack.tiers) {
-    const bool same = other.tier == record.tier && other.every == record.every && other.level == 0;
+    const bool same = other.tier == record.tier && other.level == 0;
     if (same && !std::isnan(other.error_ratio)) finest = other.error_ratio;
   }
   return frame::coarser_error(finest, record.level);
@@ -37,11 +36,8 @@ float told_error(const pack::PackView& pack, const pack::TierRecord& record) noe
 
 void read_point(const pack::PackView& pack, const pack::TierRecord& record, Asset& asset) noexcept {
   const auto tier = static_cast<Tier>(record.tier);
-  if (!frame::is_simulated(tier) || record.every > kMostEvery || asset.point_count == frame::kMostLevels)
-    return;
-  asset.points[asset.point_count++] = {tier, record.every, record.cost_us, told_error(pack, record),
-                                       record.level};
-  if (record.every != 1) return;
+  if (!frame::is_simulated(tier) || asset.point_count == frame::kMostLevels) return;
+  asset.points[asset.point_count++] = {tier, record.cost_us, told_error(pack, record), record.level};
   asset.costs.cost.of(tier, record.level) = frame::CostEstimate(record.cost_us);
   asset.surface_costs.cost.of(tier, record.level) = affords_surface(tier, record.level)
                                                         ? frame::CostEstimate(record.cost_us, kWithSurface)
@@ -81,18 +77,15 @@ Status check_runnable(const pack::PackView& pack) noexcept {
 }
 
 void measure_level(const pack::PackView& pack, Asset& asset) noexcept {
-  uint32_t heard_floats = 0;
   for (const pack::RegionModesRecord& modes : pack.region_modes) {
     const uint32_t floats = modes.padded + static_cast<uint32_t>(pack::round_up_16(modes.mode_count));
     asset.widest_region = std::max(asset.widest_region, floats);
-    heard_floats += floats;
   }
-  asset.heard_floats = std::max(asset.heard_floats, heard_floats);
 }
 
 void read_levels(const pack::PackView& pack, Asset& asset) noexcept {
   asset.level_count = pack.level_count;
-  asset.widest_region = asset.heard_floats = 0;
+  asset.widest_region = 0;
   for (uint32_t l = 0; l < pack.level_count; ++l) {
     GraphLevel& level = asset.levels[l];
     level.pack = pack::at_level(pack, l);
@@ -131,10 +124,10 @@ Status open_asset(std::span<const std::byte> bytes, Asset* out) noexcept {
   return {};
 }
 
-float error_of(const Asset& asset, Tier tier, uint32_t every, uint32_t level) noexcept {
+float error_of(const Asset& asset, Tier tier, uint32_t level) noexcept {
   for (uint32_t i = 0; i < asset.point_count; ++i) {
     const frame::Level& point = asset.points[i];
-    if (point.tier == tier && point.graph == level && point.every == every) return point.error;
+    if (point.tier == tier && point.graph == level) return point.error;
   }
   return 1;
 }

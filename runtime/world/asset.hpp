@@ -34,7 +34,6 @@ struct Asset {
   uint32_t padded_vertices = 0;  // carried vertices of all regions, each region padded
   // Of the level that takes the most:
   uint32_t widest_region = 0;  // floats of its nodes' x y z and of its modes, each padded
-  uint32_t heard_floats = 0;   // of its nodes' x y z and of its modes, each padded, of all regions
   float reach_m = 0;           // world/pose_bound.hpp
   uint32_t live_instances = 0, surface_instances = 0;  // the latter with ContactDef::surface
   TierCosts costs, surface_costs;                      // the latter of instances with ContactDef::surface
@@ -50,7 +49,7 @@ struct Asset {
 };
 
 // A tier's baked error, a share of skinning's; 1 of what is not simulated.
-float error_of(const Asset& asset, Tier tier, uint32_t every, uint32_t level) noexcept;
+float error_of(const Asset& asset, Tier tier, uint32_t level) noexcept;
 
 // On refusal *out is untouched.
 Status open_asset(std::span<const std::byte> bytes, Asset* out) noexcept;

@@ -50,7 +50,6 @@ bool catch_up_first(Instance& instance) noexcept {
   if (instance.plan.level >= state.level || !catches_up(instance)) return false;
   instance.plan.tier = state.left_tier;
   instance.plan.level = static_cast<uint8_t>(state.level);
-  instance.plan.every = 1;
   return true;
 }
 
@@ -61,7 +60,6 @@ void begin_gap(Instance& instance) noexcept {
 
 void miss_tick(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
-  instance.heard_now = false;
   if (state.missed_ticks <= kCaughtUpTicks) ++state.missed_ticks;
   if (state.missed_ticks > kCaughtUpTicks || state.tier != Tier::kExtrapolate) state.motion_stale = 1;
 }

@@ -13,7 +13,6 @@
 #include "world/blend.hpp"
 #include "world/motion.hpp"
 #include "world/sleep.hpp"
-#include "world/update_rate.hpp"
 
 namespace sinew::world {
 namespace {
@@ -286,7 +285,6 @@ void begin_at_level(Instance& instance, uint32_t level) noexcept {
   wake_regions(instance);
   state.seam_ticks = kBlendInTicks;
   state.motion_stale = 1;
-  state.heard_by = static_cast<uint32_t>(HeardBy::kNobody);
 }
 
 }  // namespace
@@ -320,8 +318,6 @@ void change_level(Instance& instance, uint32_t level) noexcept {
   if ((instance.level_raised || ramps) && frame::is_simulated(state.tier)) show_anew(instance);
   if (shows) end_seam(instance);
   wake_regions(instance);
-  state.heard_by = static_cast<uint32_t>(HeardBy::kNobody);
-  if (instance.level_raised && state.spacing_ticks > 1) state.motion_stale = 1;
 }
 
 }  // namespace sinew::world

@@ -31,7 +31,7 @@ bool is_shown_still(const Instance& instance) noexcept {
 bool has_its_best(const Instance& instance) noexcept {
   const InstanceState& state = *instance.state;
   const frame::Front& front = costs_of(instance).front;
-  return front.level_of(state.tier, state.every, state.level) == front.best();
+  return front.level_of(state.tier, state.level) == front.best();
 }
 
 bool may_be_dormant(const Instance& instance) noexcept {
@@ -80,7 +80,6 @@ void stay_dormant(Instance& instance) noexcept {
   instance.plan.cost_us = 0;
   state.remainder_s = ticks.remainder_s;
   state.render_fraction = static_cast<float>(ticks.remainder_s / instance.asset->tick_s);
-  state.ticks += ticks.ticks;
   state.dt_before_s = instance.plan.dt_s;
   state.held_s += dt_s;
   state.turn_left_s = std::max(0.0f, state.turn_left_s - dt_s);

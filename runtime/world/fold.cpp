@@ -97,7 +97,7 @@ float add_active(const Instance& instance, const PlanRow& row, FrameReport& repo
   report.fallbacks += instance.fell_back;
   report.regions_asleep += row.regions_asleep;
   count_tier(frame::is_simulated(row.tier) || row.shows ? row.tier : Tier::kSkinning, report);
-  return error_of(*row.asset, row.tier, row.every, row.level);
+  return error_of(*row.asset, row.tier, row.level);
 }
 
 // Likewise, of one that is dormant.
@@ -107,7 +107,7 @@ float add_dormant(const Instance& instance, FrameReport& report) noexcept {
   report.regions_asleep +=
       static_cast<uint32_t>(instance.level->pack.regions.size()) - instance.level->regions_left_out();
   count_tier(tier, report);
-  return error_of(*instance.asset, tier, instance.state->every, instance.state->level);
+  return error_of(*instance.asset, tier, instance.state->level);
 }
 
 float add_idle(FrameReport& report) noexcept {

@@ -27,7 +27,7 @@ namespace sinew::world {
 namespace {
 
 static_assert(std::is_trivially_copyable_v<InstanceState>, "saved as bytes");
-static_assert(sizeof(InstanceState) == 424, "no padding: equal states are equal bytes");
+static_assert(sizeof(InstanceState) == 400, "no padding: equal states are equal bytes");
 static_assert(offsetof(InstanceState, root) == kPlannedStateBytes, "what is planned by comes first");
 
 float smooth_step(float t) noexcept { return t * t * (3 - 2 * t); }
@@ -57,7 +57,6 @@ void lay_out_state(const Asset& asset, core::Arena& arena, Instance& to) noexcep
   for (float*& r : to.r) r = arena.take<float>(vectors);
   for (float*& q : to.corrected) q = arena.take<float>(asset.mode_count());
   to.swing = arena.take<float>(asset.pack.regions.size());
-  for (float*& heard : to.heard) heard = arena.take<float>(asset.heard_floats);
   to.tail = arena.take<float>(vectors);
   to.tail_velocity = arena.take<float>(vectors);
   for (float*& shown : to.shown) shown = arena.take<float>(vectors);
@@ -203,7 +202,6 @@ Status make_instance(Asset& asset, const InstanceDef& def, Instance* out) noexce
   new (made.state) InstanceState();
   point_to_state(made);
   made.state->root = def.root;
-  made.state->ticks = asset.live_instances;  // not all in the same tick
   made.state->importance = frame::sane_importance(def.importance);
   bind_pose(asset.pack.joints, made.joints);
   std::copy_n(made.joints, asset.pack.character->joint_count, made.joints_before);
@@ -284,7 +282,7 @@ InstanceReport describe(const Instance& instance, InstanceId id) noexcept {
   return {.instance = id,
           .tier = simulated || blend > 0 ? state.tier : Tier::kSkinning,
           .why = reason_of(instance, asleep),
-          .error = state.hidden ? 1 : error_of(*instance.asset, state.tier, state.every, state.level),
+          .error = state.hidden ? 1 : error_of(*instance.asset, state.tier, state.level),
           .graph_level = state.level,
           .blend = blend,
           .ticks_since_network = state.ticks_since_network,

@@ -87,16 +87,9 @@ struct InstanceState {
   Tier left_tier = Tier::kSkinning;           // world/catch_up.hpp: what it had before it was left alone
   uint16_t missed_ticks = 0, tail_rides = 0;  // likewise: since then; the tail counts from what is simulated
   uint32_t first_joints = 0;                  // which of pose_joints is the pose before the present one
-  // world/update_rate.hpp:
-  uint32_t ticks = 0;                   // counts on for ever: whose turn it is
-  uint32_t every = 1;                   // in the last step
-  uint32_t looked = 0;                  // world/look.hpp: the number of the last look at it
-  uint32_t since_ticks = 1;             // from the last tick that was heard to this one
-  uint32_t spacing_ticks = 1;           // between the last two of them, and so between poses
-  uint32_t heard_by = 0;                // HeardBy: whose `heard` is
-  float heard_stretch = 1;              // this spacing over that of the two ticks of `heard`
-  uint32_t still_ticks = 0;             // world/dormant.hpp
-  uint32_t seam_ticks = kBlendInTicks;  // since the level changed, at most kBlendInTicks
+  uint32_t looked = 0;                        // world/look.hpp: the number of the last look at it
+  uint32_t still_ticks = 0;                   // world/dormant.hpp
+  uint32_t seam_ticks = kBlendInTicks;        // since the level changed, at most kBlendInTicks
 };
 inline constexpr size_t kPlannedStateBytes = offsetof(InstanceState, root);
 static_assert(kPlannedStateBytes == 64);  // a cache line
@@ -132,7 +125,6 @@ struct InstancePlan {
   double dt_s = 0;
   Tier tier = Tier::kSkinning;
   uint32_t level = 0;  // of control graphs
-  uint32_t every = 1;  // 1 or 2: ticks from one that is simulated whole to the next (world/update_rate.hpp)
   float cost_us = 0;   // expected
   float behind_us =
       0;  // that those which run later are expected to take; idle ones as one step in twenty does
@@ -170,7 +162,6 @@ struct Instance {
 
   bool entered = false;        // in the last step: simulation began anew, which costs more than to go on
   uint8_t made_up = 0;         // in the last step: missed ticks that were simulated after all
-  bool heard_now = false;      // in the last tick: it was simulated whole
   bool parts_ready = false;    // in this step: the parts are filled in
   bool changed_level = false;  // in the last step
   bool refined = false;        // to a finer one
@@ -197,8 +188,7 @@ struct Instance {
   float *q[2] = {}, *r[2] = {};                    // q: [modes of all regions]
   // [modes]: by how much a network's corrections have moved q since it began, as modes go on with them.
   float* corrected[2] = {};
-  float* swing = nullptr;  // [regions]: tissue/correction_budget.hpp
-  float* heard[2] = {};    // of the last two ticks that were simulated whole: a region after the other
+  float* swing = nullptr;                           // [regions]: tissue/correction_budget.hpp
   float *tail = nullptr, *tail_velocity = nullptr;  // velocity a tick
   float* shown[2] = {};                             // newest first
   float* felt_asleep = nullptr;                     // m/s^2, when the region's quiet began (world/sleep.hpp)

@@ -20,7 +20,7 @@ void refresh_front(const Asset& asset, TierCosts& costs) noexcept {
   for (uint32_t i = 0; i < asset.point_count; ++i) {
     now[i] = asset.points[i];
     const frame::CostEstimate& tick = costs.cost.of(now[i].tier, now[i].graph);
-    now[i].tick_us = tick.estimate_us() / static_cast<float>(now[i].every);
+    now[i].tick_us = tick.estimate_us();
   }
   frame::make_front({now, asset.point_count}, costs.cost.publish.estimate_us(), &costs.front);
 }
@@ -108,7 +108,7 @@ Candidate candidate_of(const Terms& terms, const PlanRow& row, uint32_t ticks, u
           .change_us = terms.measured ? change_us(row, ticks) : 0,
           .turn_left_s = row.turn_left_s,
           .missed = terms.measured ? row.missed : uint8_t{0},
-          .has = front.level_of(row.tier, row.every, row.level),
+          .has = front.level_of(row.tier, row.level),
           .graph = row.level,
           .top = highest(terms, row),
           .keeps_level = ticks == 0 && terms.has_budget && !row.hidden};
@@ -230,7 +230,6 @@ void give_answer(bool has_budget, const PlanRow& row, const Candidate& c, PlanAn
   const frame::Level& level = c.front->levels[c.level];
   const bool carried = has_budget & !row.restarting & !row.hidden, none = c.level == 0;
   const Tier given = none & !carried ? Tier::kSkinning : level.tier;  // of level 0: extrapolated
-  const uint32_t every = c.keeps_level ? row.every : level.every;
   const uint32_t graph = c.keeps_level | none ? row.level : level.graph;
   const Tier tier = c.keeps_level ? Tier{row.tier} : given;
   const bool idle = is_idle(row, tier);
@@ -239,7 +238,6 @@ void give_answer(bool has_budget, const PlanRow& row, const Candidate& c, PlanAn
   plan.why = kTold[static_cast<size_t>(c.reason)];
   plan.tier = tier;
   plan.level = static_cast<uint8_t>(graph);
-  plan.every = static_cast<uint8_t>(every);
   plan.idle = idle;
 }
 

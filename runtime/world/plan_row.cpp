@@ -24,7 +24,6 @@ void copy_to_row(const Instance& instance, PlanRow* row) noexcept {
   row->cost_factor = instance.cost_factor;
   row->tier = state.tier;
   row->level = static_cast<uint8_t>(state.level);
-  row->every = static_cast<uint8_t>(state.every);
   row->dormant = static_cast<uint8_t>(state.dormant);
   row->restarting = state.restarting != 0;
   row->hidden = state.hidden != 0;

@@ -20,7 +20,7 @@ struct alignas(64) PlanRow {
   float waited_s = 0, held_s = 0, turn_left_s = 0;
   float cost_factor = 1;
   Tier tier : 8 = Tier::kSkinning;
-  uint8_t level = 0, every = 1, dormant = 0;
+  uint8_t level = 0, dormant = 0;
   bool restarting : 1 = false, hidden : 1 = false, hidden_by_caller : 1 = false, displaced : 1 = false;
   bool falls_back : 1 = false;   // the network is not to be had
   bool was_cut : 1 = false;      // cut or held
@@ -45,7 +45,7 @@ struct PlanAnswer {
   float turn_left_s = 0;  // of InstanceState
   Tier tier = Tier::kSkinning;
   TierReason why = TierReason::kBudget;
-  uint8_t level = 0, every = 1;
+  uint8_t level = 0;
   bool idle = false;  // neither simulated nor displaced
 };
 

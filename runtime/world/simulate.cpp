@@ -16,7 +16,6 @@
 #include "tissue/spring.hpp"
 #include "world/change_level.hpp"
 #include "world/sleep.hpp"
-#include "world/update_rate.hpp"
 
 namespace sinew::world {
 namespace {
@@ -25,21 +24,23 @@ namespace {
 struct Part {
   const pack::RegionRecord& record;
   tissue::ModalBase base;
-  size_t index, node, vector, mode, heard;
+  size_t index, node, vector, mode;
   float first_rad_per_s;
 };
 
 template <class Work>
 void for_each_part(const Instance& instance, Work work) noexcept {
   const pack::PackView& pack = instance.level->pack;
-  size_t heard = 0;
   for (size_t r = 0; r < pack.regions.size(); ++r) {
     const size_t node = pack.regions[r].first_node;
-    const Part part{
-        pack.regions[r], tissue::modal_base(pack, r),     r,     node,
-        3 * node,        pack.region_modes[r].first_mode, heard, pack.region_modes[r].first_rad_per_s};
+    const Part part{pack.regions[r],
+                    tissue::modal_base(pack, r),
+                    r,
+                    node,
+                    3 * node,
+                    pack.region_modes[r].first_mode,
+                    pack.region_modes[r].first_rad_per_s};
     work(part);
-    heard += part.base.padded + part.base.padded_modes;
   }
 }
 
@@ -51,36 +52,6 @@ void for_each_awake_part(const Instance& instance, Work work) noexcept {
 }
 
 size_t floats_of(const Instance& instance) noexcept { return size_t{3} * instance.level->node_count(); }
-
-// What was heard in the tick that is simulated whole; then `heard` is how it differs from what was expected
-// of it, per k ticks: of what came evenly since the one before.
-void hear(Instance& instance, const Part& part, size_t floats, float* heard) noexcept {
-  float *last = instance.heard[0] + part.heard, *before = instance.heard[1] + part.heard;
-  const InstanceState& state = *instance.state;
-  const bool knows = state.heard_by == static_cast<uint32_t>(hearer(state.tier));
-  const float stretch = state.heard_stretch;
-  for (size_t i = 0; i < floats; ++i) {
-    const float now = heard[i], slope = knows ? stretch * (last[i] - before[i]) : 0;
-    before[i] = knows ? last[i] : now;
-    last[i] = now;
-    heard[i] = now - before[i] - slope;
-  }
-}
-
-// What this tick hears: what was heard k ticks apart is of k ticks ago, and goes on as it did.
-const float* listen(Instance& instance, const Part& part, size_t floats) noexcept {
-  const InstanceState& state = *instance.state;
-  const float *last = instance.heard[0] + part.heard, *before = instance.heard[1] + part.heard;
-  const uint32_t k = state.spacing_ticks, since = instance.heard_now ? 0 : state.since_ticks;
-  if (k - 1 + since == 0) return last;
-  const float on = static_cast<float>(k - 1 + since) / static_cast<float>(k);
-  for (size_t i = 0; i < floats; ++i) instance.region[0][i] = last[i] + on * (last[i] - before[i]);
-  return instance.region[0];
-}
-
-void remember_hearer(Instance& instance) noexcept {
-  instance.state->heard_by = static_cast<uint32_t>(hearer(instance.state->tier));
-}
 
 // u of this tick is what may be shown of it; counts it where it would have gone beyond the limit.
 void hold_shown(Instance& instance, const Part& part) noexcept {
@@ -118,37 +89,13 @@ void begin_springs_at_rest(Instance& instance, const Part& part) noexcept {
   }
 }
 
-// What grew while nobody listened, and what is heard from here on.
-void hear_springs(Instance& instance) noexcept {
-  const pack::PackView& pack = instance.level->pack;
-  for_each_part(instance, [&](const Part& part) {
-    for (size_t i = 0; i < part.record.node_count; ++i)
-      std::copy_n(instance.drive + tissue::kNodeDriveWidth * (part.node + i), 3, instance.region[0] + 3 * i);
-    hear(instance, part, 3 * part.record.node_count, instance.region[0]);
-    if (begins_at_rest(instance, part)) begin_springs_at_rest(instance, part);
-    const uint32_t k = instance.state->spacing_ticks;
-    if (k == 1) return;
-    const pack::SpringRecord& spring = pack.springs[part.index];
-    const tissue::Ramp missed = tissue::ramp(spring.a1, spring.a2, k);
-    for (size_t i = 0; i < part.record.node_count; ++i) {
-      const float *change = instance.region[0] + 3 * i, *row = pack.compliance.data() + 9 * (part.node + i);
-      for (size_t axis = 0; axis < 3; ++axis, row += 3) {
-        const float at_rest = spring.gain * (row[0] * change[0] + row[1] * change[1] + row[2] * change[2]);
-        instance.l[0][part.vector + 3 * i + axis] += missed.now * at_rest;
-        instance.l[1][part.vector + 3 * i + axis] += missed.before * at_rest;
-      }
-    }
-  });
-  remember_hearer(instance);
-}
-
 bool spring_tick(Instance& instance) noexcept {
   const pack::PackView& pack = instance.level->pack;
-  if (instance.heard_now) hear_springs(instance);
   for_each_part(instance, [&](const Part& part) {
+    if (begins_at_rest(instance, part)) begin_springs_at_rest(instance, part);
     tissue::spring_step(pack.springs[part.index], pack.compliance.data() + 9 * part.node,
-                        listen(instance, part, 3 * part.record.node_count), 3, part.record.node_count,
-                        instance.l[0] + part.vector, instance.l[1] + part.vector);
+                        instance.drive + tissue::kNodeDriveWidth * part.node, tissue::kNodeDriveWidth,
+                        part.record.node_count, instance.l[0] + part.vector, instance.l[1] + part.vector);
   });
   if (!tissue::all_finite(instance.l[0], floats_of(instance))) return false;
   std::copy_n(instance.u[0], floats_of(instance), instance.u[1]);
@@ -159,22 +106,6 @@ bool spring_tick(Instance& instance) noexcept {
 
 // ---- modes ----
 
-// phi of frames whose last poses lie several ticks apart: what turning adds to what moves at v in them,
-// -(alpha x u + 2 omega x v + omega x (omega x u)).
-void turning_term(Instance& instance, const Part& part) noexcept {
-  using Eigen::Vector3f;
-  const auto rate = static_cast<float>(1 / instance.asset->tick_s);
-  const auto at = [](const float* v) { return Eigen::Map<const Vector3f>(v); };
-  for (size_t n = part.node; n < part.node + part.record.node_count; ++n) {
-    const float* drive = instance.drive + tissue::kNodeDriveWidth * n;
-    const Vector3f omega = at(drive + 6), alpha = at(drive + 9), u = at(instance.u[0] + 3 * n);
-    const Vector3f v = rate * (u - at(instance.u[1] + 3 * n));
-    Eigen::Map<Vector3f>(instance.felt + 3 * n) =
-        -(alpha.cross(u) + 2 * omega.cross(v) + omega.cross(omega.cross(u)));
-  }
-}
-
-// Exact for poses of each tick.
 void frame_term(Instance& instance, const Part& part) noexcept {
   const tissue::NodePose* const poses[3] = {instance.poses[0] + part.node, instance.poses[1] + part.node,
                                             instance.poses[2] + part.node};
@@ -185,10 +116,7 @@ void frame_term(Instance& instance, const Part& part) noexcept {
 
 // f + phi.
 void feel(Instance& instance, const Part& part) noexcept {
-  if (instance.state->spacing_ticks == 1)
-    frame_term(instance, part);
-  else
-    turning_term(instance, part);
+  frame_term(instance, part);
   for (size_t n = part.node; n < part.node + part.record.node_count; ++n) {
     for (size_t k = 0; k < 3; ++k)
       instance.felt[3 * n + k] += instance.drive[tissue::kNodeDriveWidth * n + k];
@@ -200,23 +128,6 @@ void answer_as_before(Instance& instance) noexcept {
   std::copy_n(instance.q[0], instance.level->mode_count(), instance.q_hat);
   std::copy_n(instance.r[0], floats_of(instance), instance.r_hat);
   std::copy_n(instance.l[0], floats_of(instance), instance.l_hat);
-}
-
-// q and r of the last two ticks, as they had been had they heard this much more in the end.
-void make_up(Instance& instance, const Part& part, const float* change) noexcept {
-  const tissue::ModalBase& base = part.base;
-  const uint32_t k = instance.state->spacing_ticks;
-  const tissue::Ramp rest = tissue::ramp(base.rest_a1, base.rest_a2, k);
-  for (size_t i = 0; i < size_t{3} * base.node_count; ++i) {
-    instance.r[0][part.vector + i] += rest.now * base.rest_gain * change[i];
-    instance.r[1][part.vector + i] += rest.before * base.rest_gain * change[i];
-  }
-  for (size_t m = 0; m < base.modes.size(); ++m) {
-    const pack::ModeRecord& mode = base.modes[m];
-    const tissue::Ramp missed = tissue::ramp(mode.a1, mode.a2, k);
-    instance.q[0][part.mode + m] += missed.now * mode.gain * change[base.padded + m];
-    instance.q[1][part.mode + m] += missed.before * mode.gain * change[base.padded + m];
-  }
 }
 
 // As so much of what it hears would hold it for ever, in q, r and l; carry is what is then shown, less u.
@@ -264,35 +175,25 @@ const float* theta_of_base(Instance& instance, const Part& part) noexcept {
   return theta;
 }
 
-// felt = f + phi, then e; what is heard.
-void hear_modes(Instance& instance) noexcept {
+// q_hat, r_hat and l_hat; felt is then e. False where they are not finite.
+bool base_step(Instance& instance) noexcept {
+  if (regions_asleep(instance) + instance.level->regions_left_out() > 0) answer_as_before(instance);
   bool moved = false;
   for_each_awake_part(instance, [&](const Part& part) {
     feel(instance, part);
     float *felt = instance.felt + part.vector, *heard = instance.region[0];
     tissue::modal_hear(part.base, felt, theta_of_base(instance, part), felt, heard);
     moved |= begin_part(instance, part, heard);
-    hear(instance, part, part.base.padded + part.base.padded_modes, heard);
-    if (instance.state->spacing_ticks > 1) make_up(instance, part, heard);
-  });
-  if (moved) settle_rest(instance, instance.carry);
-  remember_hearer(instance);
-}
-
-// q_hat, r_hat and l_hat. False where they are not finite.
-bool base_step(Instance& instance) noexcept {
-  if (instance.heard_now) hear_modes(instance);
-  if (regions_asleep(instance) + instance.level->regions_left_out() > 0) answer_as_before(instance);
-  for_each_awake_part(instance, [&](const Part& part) {
     const tissue::ModalState state{.q = instance.q[0] + part.mode,
                                    .q_before = instance.q[1] + part.mode,
                                    .r = instance.r[0] + part.vector,
                                    .r_before = instance.r[1] + part.vector};
     tissue::modal_answer(
-        part.base, listen(instance, part, part.base.padded + part.base.padded_modes), state,
+        part.base, heard, state,
         {.q = instance.q_hat + part.mode, .r = instance.r_hat + part.vector, .l = instance.region[1]});
     std::copy_n(instance.region[1], 3 * part.record.node_count, instance.l_hat + part.vector);
   });
+  if (moved) settle_rest(instance, instance.carry);
   return tissue::all_finite(instance.l_hat, floats_of(instance)) &&
          tissue::all_finite(instance.q_hat, instance.level->mode_count());
 }
@@ -516,8 +417,7 @@ void drive_nodes(Instance& instance) noexcept {
     motion.pose[tick] = instance.poses[tick];
     std::copy_n(instance.state->tick_root_m[tick], 3, motion.root_position_m[tick]);
   }
-  const double step_s = instance.state->spacing_ticks * instance.asset->tick_s;
-  tissue::compute_node_drive(motion, static_cast<float>(step_s), instance.level->node_count(),
+  tissue::compute_node_drive(motion, static_cast<float>(instance.asset->tick_s), instance.level->node_count(),
                              instance.drive);
 }
 

@@ -7,10 +7,9 @@ namespace sinew::world {
 // drive of this tick, from the poses.
 void drive_nodes(Instance& instance) noexcept;
 
-// u of this tick, heard anew or gone on with (instance.heard_now, world/update_rate.hpp), and l, theta and q
-// where the tier has a modal base. A network whose state is given up leaves the tick, and the tier, to the
-// base (see kFallbackTicks). Sleeping regions stay as they are. False: the base's own numbers are not finite,
-// and nothing of the state is of use any more.
+// u of this tick, and l, theta and q where the tier has a modal base. A network whose state is given up
+// leaves the tick, and the tier, to the base (see kFallbackTicks). Sleeping regions stay as they are. False:
+// the base's own numbers are not finite, and nothing of the state is of use any more.
 bool simulate_tick(Instance& instance) noexcept;
 
 // Most of the way to where modes alone would have gone since the network began, for its corrections would

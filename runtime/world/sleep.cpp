@@ -122,7 +122,7 @@ void watch_motion(Instance& instance, float tolerance) noexcept {
     const uint32_t enough = ticks_to_sleep(region);
     if (quiet_ticks >= enough) return;
     const bool quiet = tolerance > 0 && stays(instance, region);
-    quiet_ticks = quiet ? quiet_ticks + instance.state->since_ticks : 0;
+    quiet_ticks = quiet ? quiet_ticks + 1 : 0;
     if (quiet_ticks >= enough) fall_asleep(instance, r, region);
   });
 }

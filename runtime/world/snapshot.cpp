@@ -23,8 +23,8 @@ constexpr uint64_t kMagic = 0x31544154534e5753;  // "SWNSTAT1", little-endian
 // contacts' forces changed. 13: the update rate, and who was looked at last. 14: what was missed, and
 // whose tail rides. 15: regions that a change of level had again. 16: blends of any length.
 // 18: how long a tail fades. 19: what the corrections of a network may spend.
-// 20: flesh beyond its limit swings on in l, springs too.
-constexpr uint32_t kVersion = 20;
+// 20: flesh beyond its limit swings on in l. 21: no update rates.
+constexpr uint32_t kVersion = 21;
 
 struct Header {
   uint64_t magic, fingerprint, payload_bytes, checksum;
@@ -114,8 +114,8 @@ Status restore(Instance& instance, std::span<const std::byte> bytes) noexcept {
   InstanceState state;
   std::memcpy(&state, payload.data(), sizeof state);
   if (state.level >= instance.asset->level_count || static_cast<uint32_t>(state.tier) >= kTierCount ||
-      static_cast<uint32_t>(state.left_tier) >= kTierCount || !pack::is_every(state.every))
-    return corrupt("names a control graph, a tier or an update rate that there is not");
+      static_cast<uint32_t>(state.left_tier) >= kTierCount)
+    return corrupt("names a control graph or a tier that there is not");
   std::memcpy(instance.state, payload.data(), instance.state_bytes);
   restore_rods(instance, payload.data() + instance.state_bytes);
   point_to_state(instance);

@@ -28,7 +28,6 @@ Instance& take_answer(const WorldState& world, uint32_t slot, frame::TickPlans& 
                    .dt_s = world.dt_s,
                    .tier = answer.tier,
                    .level = answer.level,
-                   .every = answer.every,
                    .cost_us = answer.cost_us,
                    .behind_us = answer.behind_us,
                    .why = answer.why};

@@ -22,26 +22,15 @@
 #include "world/simulate.hpp"
 #include "world/sleep.hpp"
 #include "world/tissue_contacts.hpp"
-#include "world/update_rate.hpp"
 
 namespace sinew::world {
 namespace {
 
-// Between ticks that are simulated whole.
-void carried_tick(Instance& instance, const ClockHook& clock) noexcept {
-  const uint64_t start_ns = core::now_ns(clock);
-  if (!simulate_tick(instance)) restart(instance);
-  ++instance.state->since_ticks;
-  instance.times.tissue_ns += core::now_ns(clock) - start_ns;
-}
-
 void simulated_tick(Instance& instance, double time_s, const TickContext& context, uint32_t slot) noexcept {
   const ClockHook& clock = context.clock;
-  if (!begin_tick(instance)) return carried_tick(instance, clock);
   const uint64_t start_ns = core::now_ns(clock);
   Marker driving(context.profiler, "drive", slot);
   follow_motion(instance, time_s);
-  respace_past(instance);
   drive_nodes(instance);
   driving.end();
   const uint64_t driven_ns = core::now_ns(clock);
@@ -53,7 +42,6 @@ void simulated_tick(Instance& instance, double time_s, const TickContext& contex
     restart(instance);
   watch_motion(instance, context.sleep_tolerance);
   tissue.end();
-  instance.state->since_ticks = 1;
   const uint64_t soft_ns = core::now_ns(clock);
   Marker rods(context.profiler, "rods", slot);
   if (frame::is_simulated(instance.state->tier)) simulate_rods(instance, context.sleep_tolerance);
@@ -65,13 +53,10 @@ void simulated_tick(Instance& instance, double time_s, const TickContext& contex
 
 void simulate_missed(Instance& instance, const TickContext& context, uint32_t slot) noexcept {
   InstanceState& state = *instance.state;
-  const uint32_t now = state.ticks;
   for (uint32_t left = state.missed_ticks; left > 0 && frame::is_simulated(state.tier); --left) {
-    state.ticks = now - left;
     simulated_tick(instance, instance.plan.ticks.first_tick_s - left * instance.asset->tick_s, context, slot);
     instance.touch_count = 0;
   }
-  state.ticks = now;
   if (frame::is_simulated(state.tier)) ride_on(instance);
 }
 
@@ -99,7 +84,6 @@ void run_ticks(Instance& instance, const TickContext& context, uint32_t slot) no
     show_tick(instance);
     push_out(instance, context, slot);
     state.untouched = 0;
-    ++state.ticks;
   }
   state.remainder_s = ticks.remainder_s;
   state.render_fraction = static_cast<float>(ticks.remainder_s / instance.asset->tick_s);
@@ -161,7 +145,6 @@ void meet_deadline(Instance& instance, const TickContext& context, uint64_t now_
   instance.cut = plan.tier != planned || plan.level != level;
   const bool late = static_cast<double>(costs_of(instance).cost.publish.p95_us()) > left_us;
   instance.held = late && !frame::is_simulated(plan.tier) && instance.displaced;
-  if (instance.cut) plan.every = 1;
 }
 
 void age(Instance& instance, bool rose) noexcept {
@@ -226,7 +209,6 @@ void step_instance(Instance& instance, const TickContext& context, uint32_t slot
   if (instance.changed_level) change_level(instance, instance.plan.level);
   end_gap(instance, goes_on);
   enter_tier(instance, tier);
-  instance.state->every = instance.plan.every;
   take_pose(instance, context.teleport_distance_m);
   watch_pose(instance);
   run_ticks(instance, context, slot);
@@ -256,7 +238,6 @@ void step_idle(Instance& instance, const TickContext& context) noexcept {
     state.untouched = 0;
   }
   state.tier = instance.plan.tier;
-  state.every = instance.plan.every;
   state.fallback_ticks -= std::min(state.fallback_ticks, ticks.ticks);
   state.ticks_since_network += ticks.ticks;
   state.remainder_s = ticks.remainder_s;

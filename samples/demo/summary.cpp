@@ -13,8 +13,7 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 // Coarser graphs follow the finest.
 bool is_measured(const CharacterFile& character, Tier tier) {
   return std::ranges::any_of(character.view.tiers, [&](const pack::TierRecord& record) {
-    return record.tier == static_cast<uint32_t>(tier) && record.every == 1 && record.level == 0 &&
-           !std::isnan(record.error_ratio);
+    return record.tier == static_cast<uint32_t>(tier) && record.level == 0 && !std::isnan(record.error_ratio);
   });
 }
 
@@ -30,7 +29,7 @@ TierShare tier_share(const Run& run, const CharacterFile& character, Tier tier, 
   TierShare out{name, tier, sum / (run.instances * static_cast<double>(run.frames.size())), kUnknown,
                 kUnknown};
   for (const pack::TierRecord& record : character.view.tiers) {
-    if (record.tier != static_cast<uint32_t>(tier) || record.every != 1 || record.level != 0) continue;
+    if (record.tier != static_cast<uint32_t>(tier) || record.level != 0) continue;
     out.baked_cost_us = static_cast<double>(record.cost_us);
     out.baked_error_mm = static_cast<double>(record.error_mm);
   }

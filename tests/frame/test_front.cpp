@@ -53,9 +53,8 @@ TEST_CASE("usual_tiers_are_all_on_their_front") {
   CHECK(front.levels[1].tier == Tier::kSpring);
   CHECK(front.levels[2].tier == Tier::kModal);
   CHECK(front.levels[3].tier == Tier::kNetwork);
-  CHECK(front.level_of(Tier::kModal, 1, 0) == 2);
-  CHECK(front.level_of(Tier::kExtrapolate, 1, 0) == 0);
-  CHECK(front.level_of(Tier::kModal, 2, 0) == 1);
+  CHECK(front.level_of(Tier::kModal, 0) == 2);
+  CHECK(front.level_of(Tier::kExtrapolate, 0) == 0);
 }
 
 TEST_CASE("on_a_coarser_graph_a_tier_is_a_little_further_off_than_on_the_finest") {

@@ -369,14 +369,8 @@ TEST_CASE("tier_faults_are_refused_by_name") {
   const auto tier = [](size_t index, auto apply) { return change<TierRecord>(kTiers, index, apply); };
   check_refused(character_pack(),
                 {{"tier 2: 5 is not known", tier(2, [](auto& t) { t.tier = 5; })},
-                 {"tier 2: 1 at level 0 every 1 does not ascend", tier(2, [](auto& t) { t.tier = 1; })},
-                 {"tier 4: 3 at level 0 every 1 does not ascend", tier(4, [](auto& t) { t.tier = 3; })},
-                 {"tier 3: every 0", tier(3, [](auto& t) { t.every = 0; })},
-                 {"tier 3: every 3", tier(3, [](auto& t) { t.every = 3; })},
-                 {"tier 3: every 4", tier(3, [](auto& t) { t.every = 4; })},
-                 {"tier 1: every 2", tier(1, [](auto& t) { t.every = 2; })},
-                 {"tiers: not all", tier(4, [](auto& t) { t.every = 2; })},
-                 {"tiers: not all", tier(2, [](auto& t) { t.every = 2; })},
+                 {"tier 2: 1 at level 0 does not ascend", tier(2, [](auto& t) { t.tier = 1; })},
+                 {"tier 4: 3 at level 0 does not ascend", tier(4, [](auto& t) { t.tier = 3; })},
                  {"tier 2: cost nan", tier(2, [](auto& t) { t.cost_us = kNan; })},
                  {"tier 2: cost -1", tier(2, [](auto& t) { t.cost_us = -1; })},
                  {"p99 inf", tier(2, [](auto& t) { t.cost_p99_us = kInfinity; })},
@@ -386,18 +380,6 @@ TEST_CASE("tier_faults_are_refused_by_name") {
                  {"tier 2: an error", tier(2, [](auto& t) { t.worst_error_ratio = -1; })},
                  {"tier 2: clip 1 of 1", tier(2, [](auto& t) { t.worst_clip = 1; })},
                  {"tier 2: level 1", tier(2, [](auto& t) { t.level = 1; })}});
-}
-
-// Measured, springs may not be worth having, and tiers may be worth it at a lower rate.
-TEST_CASE("tiers_that_are_not_needed_may_be_left_out_or_be_simulated_less_often") {
-  PackEditor editor(character_pack());
-  editor.section<TierRecord>(SectionKind::kTiers)[3].every = 2;
-  editor.seal();
-  CHECK(editor.open().ok());
-  editor.section<TierRecord>(SectionKind::kTiers)[3] = editor.section<TierRecord>(SectionKind::kTiers)[2];
-  editor.section<TierRecord>(SectionKind::kTiers)[3].every = 2;
-  editor.seal();
-  CHECK(editor.open().ok());
 }
 
 TEST_CASE("tissue_faults_are_refused_by_name") {

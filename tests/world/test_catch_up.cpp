@@ -201,8 +201,8 @@ namespace {
 class Told : public test::ToldBlock {
  public:
   explicit Told(const ContactDef& contacts = {}) : ToldBlock(test::levels_pack(), contacts) {}
-  void play(const test::Motion& motion, Tier tier, uint32_t level, int ticks, uint32_t every = 1) {
-    ToldBlock::play(motion, {.tier = tier, .level = level, .every = every}, ticks);
+  void play(const test::Motion& motion, Tier tier, uint32_t level, int ticks) {
+    ToldBlock::play(motion, {.tier = tier, .level = level}, ticks);
   }
 };
 
@@ -328,22 +328,5 @@ TEST_CASE("what_touched_in_missed_ticks_is_not_pushed_nor_told_with_the_present_
     block.play(stands, Tier::kModal, 0, 1);
     REQUIRE(block.instance().made_up == missed);
     CHECK(block.instance().told.vertices == usual);
-  }
-}
-
-TEST_CASE("a_gap_between_ticks_that_are_simulated_whole_is_made_up_for") {
-  for (const Tier tier : {Tier::kSpring, Tier::kModal}) {
-    for (const int at : {90, 91}) {
-      for (const int missed : {1, 2}) {
-        Told steady, interrupted;
-        for (Told* block : {&steady, &interrupted}) block->play(scenes::walk, tier, 0, at, 2);
-        steady.play(scenes::walk, tier, 0, missed, 2);
-        interrupted.play(scenes::walk, Tier::kExtrapolate, 0, missed);
-        for (Told* block : {&steady, &interrupted})
-          block->play(scenes::walk, tier, 0, static_cast<int>(world::kBlendInTicks), 2);
-        INFO("tier " << static_cast<int>(tier) << ", at " << at << ", missed " << missed);
-        CHECK(test::largest_distance(steady.surface(), interrupted.surface()) < kRounding_m);
-      }
-    }
   }
 }

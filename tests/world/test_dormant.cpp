@@ -172,8 +172,7 @@ TEST_CASE("one_that_was_to_be_raised_and_is_late_sleeps_on_as_it_was") {
   REQUIRE(world::open_asset(test::block_pack().bytes(), &asset).ok());
   REQUIRE(world::make_instance(asset, {}, &block).ok());
   const auto step = [&](Tier tier, uint64_t deadline_ns) {
-    block.plan = {
-        .ticks = {.ticks = 1, .first_tick_s = asset.tick_s}, .dt_s = asset.tick_s, .tier = tier, .every = 1};
+    block.plan = {.ticks = {.ticks = 1, .first_tick_s = asset.tick_s}, .dt_s = asset.tick_s, .tier = tier};
     world::step_instance(
         block, {.clock = {}, .profiler = {}, .deadline_ns = deadline_ns, .sleep_tolerance = kTolerance});
   };

@@ -75,7 +75,7 @@ TEST_CASE("restore_refuses_foreign_bytes_and_changes_nothing") {
   check_refused(stage, other.save());
 }
 
-TEST_CASE("restore_refuses_a_tier_a_control_graph_and_an_update_rate_that_there_is_not") {
+TEST_CASE("restore_refuses_a_tier_and_a_control_graph_that_there_is_not") {
   constexpr size_t kHeader_bytes = 40, kChecksum_at = 24;
   Stage stage;
   stage.play(scenes::walk, 0.5);
@@ -92,8 +92,7 @@ TEST_CASE("restore_refuses_a_tier_a_control_graph_and_an_update_rate_that_there_
   check_refused(stage, changed([](world::InstanceState& s) { s.tier = static_cast<Tier>(kTierCount); }));
   check_refused(stage, changed([](world::InstanceState& s) { s.left_tier = static_cast<Tier>(kTierCount); }));
   check_refused(stage, changed([](world::InstanceState& s) { s.level = 1; }));
-  check_refused(stage, changed([](world::InstanceState& s) { s.every = 3; }));
-  const std::vector<std::byte> right = changed([](world::InstanceState& s) { s.every = 2; });
+  const std::vector<std::byte> right = changed([](world::InstanceState& s) { s.held_s = 2; });
   CHECK(stage.world.restore_state(stage.blocks[0], right).ok());
 }
 

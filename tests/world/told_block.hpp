@@ -13,15 +13,13 @@ namespace sinew::test {
 
 class ToldBlock {
  public:
-  explicit ToldBlock(const scenes::PackBytes& pack, const ContactDef& contacts = {},
-                     uint32_t made_before = 0) {
+  explicit ToldBlock(const scenes::PackBytes& pack, const ContactDef& contacts = {}) {
     REQUIRE(world::open_asset(pack.bytes(), &asset_).ok());
-    asset_.live_instances = made_before;
     REQUIRE(world::make_instance(asset_, {.contacts = contacts}, &block_).ok());
   }
   struct Plan {
     Tier tier;
-    uint32_t level = 0, every = 1;
+    uint32_t level = 0;
   };
   void tick(const Motion& motion, const Plan& plan) {
     time_s_ += asset_.tick_s;
@@ -32,8 +30,7 @@ class ToldBlock {
     block_.plan = {.ticks = {.ticks = 1, .first_tick_s = asset_.tick_s},
                    .dt_s = asset_.tick_s,
                    .tier = plan.tier,
-                   .level = plan.level,
-                   .every = plan.every};
+                   .level = plan.level};
     world::step_instance(block_, {.clock = {}, .profiler = {}, .sleep_tolerance = sleep_tolerance});
   }
   void play(const Motion& motion, const Plan& plan, int ticks) {

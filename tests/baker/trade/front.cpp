@@ -10,13 +10,11 @@ using namespace sinew::baker;
 
 namespace {
 
-Row row(const std::string& name, const std::string& kind, Tier tier, uint32_t every, double us,
-        double ratio) {
+Row row(const std::string& name, const std::string& kind, Tier tier, double us, double ratio) {
   Row out;
   out.name = name;
   out.kind = kind;
   out.tier = tier;
-  out.every = every;
   out.warm = {us, 2 * us, us};
   out.error.ratio = ratio;
   out.error.mean_mm = 10 * ratio;
@@ -24,49 +22,32 @@ Row row(const std::string& name, const std::string& kind, Tier tier, uint32_t ev
 }
 
 std::vector<Row> rows() {
-  return {row("skinning", "tier", Tier::kSkinning, 1, 2, 1),
-          row("extrapolate", "tier", Tier::kExtrapolate, 1, 1, 0.01),
-          row("spring", "tier", Tier::kSpring, 1, 40, 0.4),
-          row("spring 2", "tier", Tier::kSpring, 2, 20, 0.15),
-          row("modal", "tier", Tier::kModal, 1, 30, 0.2),
-          row("modal 2", "tier", Tier::kModal, 2, 35, 0.25),
-          row("network", "tier", Tier::kNetwork, 1, 100, 0.1),
-          row("cheap", "variant", Tier::kNetwork, 1, 25, 0.05),
-          row("dear", "variant", Tier::kNetwork, 1, 99, 0.06),
-          row("previous", "baseline", Tier::kSkinning, 1, 0, 0.001)};
+  return {row("skinning", "tier", Tier::kSkinning, 2, 1),
+          row("extrapolate", "tier", Tier::kExtrapolate, 1, 0.01),
+          row("spring", "tier", Tier::kSpring, 40, 0.4),
+          row("modal", "tier", Tier::kModal, 30, 0.2),
+          row("modal 2", "tier", Tier::kModal, 35, 0.25),
+          row("network", "tier", Tier::kNetwork, 100, 0.1),
+          row("cheap", "variant", Tier::kNetwork, 25, 0.05),
+          row("dear", "variant", Tier::kNetwork, 99, 0.06),
+          row("previous", "baseline", Tier::kSkinning, 0, 0.001)};
 }
 
 }  // namespace
 
-// Extrapolate and baselines would dominate all others by their numbers, and so would a spring in every second
-// tick, which the scheduler does not buy; variants are no tiers to be had.
+// Extrapolate and baselines would dominate all others by their numbers; variants are no tiers to be had.
 TEST_CASE("a_row_is_dominated_by_what_is_cheaper_and_nearer_and_to_be_had") {
   std::vector<Row> all = rows();
   find_dominated(&all);
-  const char* const wanted[] = {"", "", "modal", "", "", "modal", "", "", "cheap", ""};
+  const char* const wanted[] = {"", "", "modal", "", "modal", "", "", "cheap", ""};
   for (size_t i = 0; i < all.size(); ++i) {
     INFO(all[i].name);
     CHECK(all[i].dominated_by == wanted[i]);
   }
 }
 
-// As spring every 2 on 20 nodes once drove out springs on 10, and modes on 10.
-TEST_CASE("a_rate_that_is_not_bought_drives_out_no_tier_that_is_and_is_not_baked") {
-  std::vector<Row> all = {
-      row("skinning", "tier", Tier::kSkinning, 1, 2, 1), row("spring", "tier", Tier::kSpring, 1, 10, 0.4),
-      row("modal 2", "tier", Tier::kModal, 2, 9, 0.2), row("modal", "tier", Tier::kModal, 1, 12, 0.15)};
-  find_dominated(&all);
-  CHECK(all[1].dominated_by.empty());
-  CHECK_FALSE(all[2].is_bought());
-  CHECK(to_json(all[2]).at("bought") == false);
-  std::vector<std::pair<uint32_t, uint32_t>> kept;
-  for (const pack::TierRecord& tier : tier_records(all)) kept.emplace_back(tier.tier, tier.every);
-  CHECK(kept == std::vector<std::pair<uint32_t, uint32_t>>{{0, 1}, {3, 1}, {4, 1}});
-}
-
 TEST_CASE("equal_rows_do_not_dominate_each_other") {
-  std::vector<Row> two = {row("a", "tier", Tier::kModal, 1, 30, 0.2),
-                          row("b", "tier", Tier::kSpring, 1, 30, 0.2)};
+  std::vector<Row> two = {row("a", "tier", Tier::kModal, 30, 0.2), row("b", "tier", Tier::kSpring, 30, 0.2)};
   find_dominated(&two);
   CHECK(two[0].dominated_by.empty());
   CHECK(two[1].dominated_by.empty());
@@ -74,13 +55,13 @@ TEST_CASE("equal_rows_do_not_dominate_each_other") {
 
 TEST_CASE("dominated_tiers_are_not_baked_but_what_others_fall_back_to_is") {
   std::vector<Row> all = rows();
-  all[4].warm.mean_us = 200;  // modal, dominated: but networks fall back to it
+  all[3].warm.mean_us = 200;  // modal, dominated: but networks fall back to it
   find_dominated(&all);
-  REQUIRE(all[4].dominated_by == "network");
+  REQUIRE(all[3].dominated_by == "network");
   const std::vector<pack::TierRecord> tiers = tier_records(all);
-  std::vector<std::pair<uint32_t, uint32_t>> kept;
-  for (const pack::TierRecord& tier : tiers) kept.emplace_back(tier.tier, tier.every);
-  CHECK(kept == std::vector<std::pair<uint32_t, uint32_t>>{{0, 1}, {1, 1}, {2, 1}, {3, 1}, {4, 1}});
+  std::vector<uint32_t> kept;
+  for (const pack::TierRecord& tier : tiers) kept.push_back(tier.tier);
+  CHECK(kept == std::vector<uint32_t>{0, 1, 2, 3, 4});
   CHECK(tiers[0].cost_us == 2);  // what every step takes
   CHECK(tiers[1].cost_us == 0);  // beyond it, and never less than nothing
   CHECK(tiers[2].cost_us == 98);

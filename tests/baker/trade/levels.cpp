@@ -37,7 +37,7 @@ std::vector<Surface> surfaces(const LoadedPack& pack, const TrueMotion& motion, 
   std::vector<Surface> out;
   for (size_t tick = 0; tick < motion.ticks(); ++tick) {
     const Way& way = tick < change ? from : to;
-    loop.tick(way.tier, 1, way.level);
+    loop.tick(way.tier, way.level);
     const uint32_t vertices = pack.view().character->vertex_count;
     Surface surface(size_t{3} * vertices);
     world::read_positions(loop.instance(),
@@ -71,7 +71,7 @@ TEST_CASE("a_closed_loop_begins_at_rest_in_the_tier_that_it_is_told") {
   const TrueMotion motion(read_safetensors(hop().truth), pack.view());
   for (const Tier tier : {Tier::kModal, Tier::kNetwork, Tier::kSpring}) {
     ClosedLoop loop(pack, motion);
-    loop.tick(tier, 1, 0);
+    loop.tick(tier, 0);
     CHECK(loop.instance().state->tier == tier);
     CHECK(loop.instance().state->blend_ticks == world::kBlendInTicks);
     CHECK(loop.instance().state->network_begins == 0);
@@ -125,7 +125,7 @@ TEST_CASE("a_trade_measures_every_level_and_bakes_what_each_is_worth") {
   const auto coarse = std::ranges::count_if(baked.view().tiers, [](const auto& t) { return t.level > 0; });
   CHECK(coarse >= 2);
   for (const pack::TierRecord& tier : baked.view().tiers)
-    if (tier.tier == static_cast<uint32_t>(Tier::kModal) && tier.level == 2 && tier.every == 1)
+    if (tier.tier == static_cast<uint32_t>(Tier::kModal) && tier.level == 2)
       CHECK(double{tier.error_ratio} == Approx(ratio("modal on 10 nodes")));
   CHECK(baked.view().level_count == 4);
 }
