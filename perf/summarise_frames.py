@@ -28,7 +28,7 @@ def shares(row, clock):
 
 
 def frames_table(rows):
-    tiers = ("network", "modal", "spring", "extrapolated", "skinned", "hidden")
+    tiers = ("network", "modal", "extrapolated", "skinned", "hidden")
     lines = [[row["trouble"], row["instances"], f"{float(row['budget_us']):g}", row["frames"], *shares(row, "cpu"),
               *shares(row, "wall"), f"{float(row['schedule_us_p50']):.1f}",
               *[f"{100 * float(row[tier]):.0f}" for tier in tiers], f"{100 * float(row['unspent_p50']):.1f}",

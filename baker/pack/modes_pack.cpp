@@ -1,4 +1,4 @@
-// modes_pack.cpp  Modal bases to the sections that the tiers modal and spring run on.
+// modes_pack.cpp  Modal bases to the sections that modes run on.
 #include "baker/pack/modes_pack.hpp"
 
 #include <Eigen/Cholesky>
@@ -68,16 +68,6 @@ void append_matrices(const ModalBasis& basis, std::vector<float>* out) {
   append_rows(projection(basis).transpose(), out);
 }
 
-// C_i: the static displacement of each node under a uniform felt acceleration, row-major 3x3.
-void append_compliance(const ModalBasis& basis, int nodes, std::vector<float>* out) {
-  MatrixXd uniform = MatrixXd::Zero(basis.force.rows(), 3);
-  for (int n = 0; n < nodes; ++n) uniform += basis.force.middleCols(3 * n, 3);
-  MatrixXd compliance = basis.shape * basis.rad_per_s.cwiseAbs2().cwiseInverse().asDiagonal() * uniform;
-  for (int n = 0; n < nodes; ++n) compliance += basis.rest.middleCols(3 * n, 3);
-  for (Index row = 0; row < 3 * nodes; ++row)
-    for (Index column = 0; column < 3; ++column) out->push_back(static_cast<float>(compliance(row, column)));
-}
-
 pack::ModeRecord mode_record(double rad_per_s, double damping_ratio, double rate_hz) {
   const Recurrence r = modal_recurrence(rad_per_s, damping_ratio, rate_hz);
   return {static_cast<float>(rad_per_s), static_cast<float>(damping_ratio), r.a1, r.a2, r.gain, {}};
@@ -86,8 +76,7 @@ pack::ModeRecord mode_record(double rad_per_s, double damping_ratio, double rate
 struct Sections {
   std::vector<pack::RegionModesRecord> regions;
   std::vector<pack::ModeRecord> modes;
-  std::vector<float> matrices, compliance;
-  std::vector<pack::SpringRecord> springs;
+  std::vector<float> matrices;
 };
 
 void append_region(const Region& region, const ModalBasis& basis, double rate_hz, Sections* to) {
@@ -103,14 +92,14 @@ void append_region(const Region& region, const ModalBasis& basis, double rate_hz
   record.rest_a1 = rest.a1;
   record.rest_a2 = rest.a2;
   record.rest_gain = 1 - rest.a1 - rest.a2;
+  const Recurrence swing =
+      modal_recurrence(first, moves ? basis.first_damping_ratio : kUsualDampingRatio, rate_hz);
+  record.first_a1 = swing.a1;
+  record.first_a2 = swing.a2;
   to->regions.push_back(record);
   for (Index k = 0; k < basis.rad_per_s.size(); ++k)
     to->modes.push_back(mode_record(basis.rad_per_s[k], basis.damping_ratio[k], rate_hz));
   append_matrices(basis, &to->matrices);
-  append_compliance(basis, region.node_count, &to->compliance);
-  const Recurrence spring =
-      modal_recurrence(first, moves ? basis.first_damping_ratio : kUsualDampingRatio, rate_hz);
-  to->springs.push_back({spring.a1, spring.a2, 1 - spring.a1 - spring.a2, 0});
 }
 
 }  // namespace
@@ -145,10 +134,8 @@ uint64_t add_modes(const TissueLayout& layout, const std::vector<ModalBasis>& mo
   for (size_t r = 0; r < modes.size(); ++r) append_region(layout.regions[r], modes[r], rate_hz, &sections);
   pack.append(SectionKind::kRegionModes, sections.regions);
   pack.append(SectionKind::kModeMatrices, sections.matrices);
-  pack.append(SectionKind::kCompliance, sections.compliance, 9);
   if (first) {
     pack.section(SectionKind::kModes, sections.modes);
-    pack.section(SectionKind::kSprings, sections.springs);
   }
   return sections.matrices.size();
 }

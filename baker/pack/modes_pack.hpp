@@ -1,4 +1,4 @@
-// modes_pack.hpp  Modal bases to the sections that the tiers modal and spring run on.
+// modes_pack.hpp  Modal bases to the sections that modes run on.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -29,7 +29,7 @@ inline constexpr double kRidge = 1e-3;
 void check_modes(const TissueLayout& layout, const std::vector<ModalBasis>& modes);
 
 // Behind what the sections kRegionModes, kModeMatrices and kCompliance hold, a control graph's part; with the
-// first, kModes and kSprings. `modes` has one basis a region. Returns the floats of the matrices. Throws
+// first, and kModes. `modes` has one basis a region. Returns the floats of the matrices. Throws
 // BadInput as check_modes does.
 uint64_t add_modes(const TissueLayout& layout, const std::vector<ModalBasis>& modes, double rate_hz,
                    bool first, PackWriter& pack);

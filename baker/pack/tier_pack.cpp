@@ -34,16 +34,15 @@ uint64_t multiply_adds(std::span<const pack::LayerRecord> layers, size_t nodes, 
 namespace {
 
 struct TierOps {
-  uint64_t extrapolation, spring, modal, network;
+  uint64_t extrapolation, modal, network;
 };
 
 TierOps ops_of(const TierWork& work) {
-  // A node's share: its damped coordinates; its frame, drive and spring; its terms and warp. The last two are
-  // scalar code: so many multiply-adds of the kernels take as long.
-  constexpr uint64_t kExtrapolationOps = 3, kSpringOps = 1900, kModalOps = 1100, kRodSegmentOps = 30000;
-  const uint64_t spring = work.nodes * kSpringOps + work.rod_segments * kRodSegmentOps;
-  const uint64_t modal = spring + work.nodes * kModalOps + work.mode_floats;
-  return {work.nodes * kExtrapolationOps, spring, modal, modal + work.network_multiply_adds};
+  // A node's share: its damped coordinates; its frame, drive, terms and warp, which are scalar code: so many
+  // multiply-adds of the kernels take as long.
+  constexpr uint64_t kExtrapolationOps = 3, kModalOps = 3000, kRodSegmentOps = 30000;
+  const uint64_t modal = work.nodes * kModalOps + work.rod_segments * kRodSegmentOps + work.mode_floats;
+  return {work.nodes * kExtrapolationOps, modal, modal + work.network_multiply_adds};
 }
 
 pack::TierRecord record_of(Tier tier, uint32_t level, uint64_t ops, float ratio = kNotMeasured) {
@@ -68,7 +67,6 @@ std::vector<pack::TierRecord> make_tiers(std::span<const TierWork> work) {
   if (work[0].network_multiply_adds > 0) {
     for (uint32_t l = 0; l < ops.size(); ++l) tiers.push_back(record_of(Tier::kNetwork, l, ops[l].network));
   }
-  for (uint32_t l = 0; l < ops.size(); ++l) tiers.push_back(record_of(Tier::kSpring, l, ops[l].spring));
   for (uint32_t l = 0; l < ops.size(); ++l) tiers.push_back(record_of(Tier::kModal, l, ops[l].modal));
   return tiers;
 }

@@ -215,7 +215,7 @@ std::vector<std::byte> measured(const Packer& packer, const Recipe& recipe, cons
       tiers = measured_tiers(LoadedPack::from_bytes(bytes, character.name), truths);
     }
     double least = std::numeric_limits<double>::infinity();
-    for (const Tier tier : {Tier::kSpring, Tier::kModal, Tier::kNetwork})
+    for (const Tier tier : {Tier::kModal, Tier::kNetwork})
       least = std::fmin(least, error_ratio_of(tiers, tier));
     if (least >= 1 && std::isfinite(least)) character.notes.push_back(no_gain_note(least));
     return with_tiers(bytes, tiers);
@@ -269,8 +269,7 @@ void add_character_command(CLI::App& app, int*) {
       app.add_subcommand("character", "Packs a skinned character with its tissue's modes and network");
   command->add_option("character", options->character, "skinned glTF or VRM")->required();
   command->add_option("--recipe", options->recipe, "JSON; see baker/mesh/recipe.hpp");
-  command->add_option("--tissue", options->tissue,
-                      "trained weights, safetensors; without: tiers modal and spring only");
+  command->add_option("--tissue", options->tissue, "trained weights, safetensors; without: modes only");
   add_precision_option(command, &options->precision);
   command
       ->add_option("--calibrate", options->calibration,

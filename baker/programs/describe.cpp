@@ -156,7 +156,7 @@ std::string worst_motion(const pack::PackView& view, const pack::TierRecord& tie
 }
 
 Json describe_tiers(const pack::PackView& view) {
-  constexpr const char* kNames[] = {"skinning", "extrapolate", "network", "spring", "modal"};
+  constexpr const char* kNames[] = {"skinning", "extrapolate", "network", "", "modal"};
   Json tiers = Json::array();
   for (const pack::TierRecord& tier : view.tiers)
     tiers.push_back({{"tier", kNames[tier.tier]},

@@ -37,7 +37,7 @@ std::string left_out(const LoadedPack& character, uint32_t level) {
 }
 
 std::string name_of(const LoadedPack& character, Tier tier, uint32_t level) {
-  constexpr const char* kNames[] = {"skinning", "extrapolate", "network", "spring", "modal"};
+  constexpr const char* kNames[] = {"skinning", "extrapolate", "network", "", "modal"};
   std::string name = kNames[static_cast<size_t>(tier)];
   if (level == 0) return name;
   name += " on " + std::to_string(nodes_a_region(character, level)) + " nodes";
@@ -93,7 +93,7 @@ class Ways {
 void add_tiers(const LoadedPack& character, Ways* to) {
   to->add_tier(character, Tier::kSkinning, 0);
   to->add_tier(character, Tier::kExtrapolate, 0);
-  for (const Tier tier : {Tier::kSpring, Tier::kModal, Tier::kNetwork}) {
+  for (const Tier tier : {Tier::kModal, Tier::kNetwork}) {
     if (tier == Tier::kNetwork && !pack::has_network(character.view())) continue;
     for (uint32_t level = 0; level < character.view().level_count; ++level)
       to->add_tier(character, tier, level);

@@ -12,7 +12,7 @@ namespace sinew::baker {
 namespace {
 
 bool is_kept(const Row& row) {
-  const bool needed = row.level == 0 && row.tier != Tier::kSpring;
+  const bool needed = row.level == 0;
   return row.kind == "tier" && (needed || row.dominated_by.empty());
 }
 

@@ -52,7 +52,7 @@ constexpr Left kLeft[] = {{"extrapolate for 1", kExtrapolated, 1},
 constexpr size_t kFew = 4;  // of the first of these, after the worst tier too
 
 std::string name_of(const world::Asset& asset, const Way& way) {
-  constexpr const char* kNames[] = {"skinning", "extrapolate", "network", "spring", "modal"};
+  constexpr const char* kNames[] = {"skinning", "extrapolate", "network", "", "modal"};
   std::string name = kNames[static_cast<size_t>(way.tier)];
   if (!frame::is_simulated(way.tier) || asset.level_count == 1) return name;
   return name + " on " + level_name(asset.levels[way.level]);

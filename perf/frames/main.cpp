@@ -66,9 +66,9 @@ void put_scene(const Scene& scene, const std::vector<FrameCost>& frames) {
   put_quantiles(frames, [&](const FrameCost& f) { return f.wall_us / scene.budget_us; });
   put_quantiles(frames, [](const FrameCost& f) { return f.report.schedule_us; });
   for (const auto count :
-       {&FrameReport::instances_network, &FrameReport::instances_modal, &FrameReport::instances_spring,
-        &FrameReport::instances_extrapolated, &FrameReport::instances_skinned, &FrameReport::instances_cut,
-        &FrameReport::instances_dormant, &FrameReport::instances_hidden})
+       {&FrameReport::instances_network, &FrameReport::instances_modal, &FrameReport::instances_extrapolated,
+        &FrameReport::instances_skinned, &FrameReport::instances_cut, &FrameReport::instances_dormant,
+        &FrameReport::instances_hidden})
     std::printf(",%.4f", share_of_tier(frames, count, scene.instances));
   std::printf(",%.4f,%.4f\n", unspent(frames, scene.budget_us), mean_error(frames));
   std::fflush(stdout);
@@ -78,7 +78,7 @@ void put_header() {
   std::printf("trouble,instances,budget_us,frames");
   for (const char* of : {"cpu", "wall", "schedule_us"})
     std::printf(",%s_p50,%s_p99,%s_p999,%s_worst", of, of, of, of);
-  std::puts(",network,modal,spring,extrapolated,skinned,cut,dormant,hidden,unspent_p50,expected_error");
+  std::puts(",network,modal,extrapolated,skinned,cut,dormant,hidden,unspent_p50,expected_error");
 }
 
 bool is_wanted(const Scene& scene, const Options& options) {

@@ -49,10 +49,9 @@ uint32_t coarser_above(const Front& front, uint32_t level) noexcept {
 }  // namespace
 
 float usual_error(Tier tier) noexcept {
-  constexpr float kNetwork = 0.08f, kModal = 0.15f, kSpring = 0.4f;
+  constexpr float kNetwork = 0.08f, kModal = 0.15f;
   if (tier == Tier::kNetwork) return kNetwork;
-  if (tier == Tier::kModal) return kModal;
-  return tier == Tier::kSpring ? kSpring : 1;
+  return tier == Tier::kModal ? kModal : 1;
 }
 
 float coarser_error(float finest, uint32_t graph) noexcept {

@@ -8,7 +8,7 @@
 
 namespace sinew::frame {
 
-// Springs, modes and networks: what is simulated tick by tick.
+// Modes and networks: what is simulated tick by tick.
 constexpr bool is_simulated(Tier tier) noexcept { return tier >= Tier::kNetwork; }
 
 // A tier on a control graph, as it was baked or corrected. Level 0 of a front is not simulated: no

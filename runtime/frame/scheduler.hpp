@@ -72,15 +72,10 @@ struct alignas(64) Candidate {
     return has > 0 && to_level > has && front->levels[to_level].graph < graph;
   }
   float refining_us(uint32_t to_level) const noexcept { return refines(to_level) ? change_us : 0; }
-  // On the control graph it has, on which a finer one waits for the next step, or in modes and networks on a
-  // coarser one (world/catch_up.hpp).
-  bool makes_up_on(const Level& level) const noexcept {
-    return missed > 0 && (level.graph <= graph || level.tier != Tier::kSpring);
-  }
   // What a level takes in this step, whole; no more than that where it waits.
   float cost_us(uint32_t of_level) const noexcept {
     if (of_level == 0) return base_us;
-    const bool makes_up = makes_up_on(front->levels[of_level]);
+    const bool makes_up = missed > 0;
     return front->step_us(of_level, (ticks + (makes_up ? static_cast<float>(missed) : 0)) * cost_factor) +
            (has == 0 && !makes_up ? enter_us : 0) + refining_us(of_level);
   }

@@ -26,7 +26,6 @@ bool take_level(const PackView& pack, uint32_t index, LevelView& rest, LevelView
          take(rest.carry, record.carry_floats, &out->carry) &&
          take(rest.region_modes, regions, &out->region_modes) &&
          take(rest.mode_matrices, record.matrix_floats, &out->mode_matrices) &&
-         take(rest.compliance, 9 * nodes, &out->compliance) &&
          take(rest.picks, index > 0 ? nodes : 0, &out->picks) &&
          take(rest.spread, record.spread_floats, &out->spread);
 }
@@ -34,8 +33,7 @@ bool take_level(const PackView& pack, uint32_t index, LevelView& rest, LevelView
 bool is_used_up(const LevelView& rest) noexcept {
   return rest.regions.empty() && rest.nodes.empty() && rest.graph_rows.empty() &&
          rest.graph_columns.empty() && rest.graph_values.empty() && rest.carry.empty() &&
-         rest.region_modes.empty() && rest.mode_matrices.empty() && rest.compliance.empty() &&
-         rest.picks.empty() && rest.spread.empty();
+         rest.region_modes.empty() && rest.mode_matrices.empty() && rest.picks.empty() && rest.spread.empty();
 }
 
 // ---- a coarser level against the next finer one ----

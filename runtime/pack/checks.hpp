@@ -10,7 +10,7 @@ Status check_dense(const PackView& pack) noexcept;    // the same of a network o
 Status check_int8(const PackView& pack) noexcept;     // what an int8 network has beside; after check_network
 Status check_character(const PackView& pack) noexcept;  // joints, mesh, skin, clips, tiers
 Status check_tissue(const PackView& pack) noexcept;     // regions, nodes, graph, carry; after check_character
-Status check_modes(const PackView& pack) noexcept;  // modal bases, compliance, springs; after check_tissue
+Status check_modes(const PackView& pack) noexcept;      // after check_tissue
 // Gives each control graph its part of what levels share, and puts the finest in view. Before all that looks
 // at tissue; of what the parts hold nothing is checked.
 Status cut_levels(PackView* pack) noexcept;

@@ -35,7 +35,7 @@
 //   kMeshes;
 //      a rod states which way its gravity pulls and which capsules it passes
 //   8  a tier tells its error along the motion in which it is largest, and which that is
-//   9  a tier is simulated in every tick: the scheduler never bought another rate
+//   9  no update rates and no spring tier: the scheduler bought neither
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -117,8 +117,7 @@ enum class SectionKind : uint32_t {
   kClips = 40,       // ClipRecord x clips
   kClipFrames = 41,  // float[12]: character-from-joint, [frame][joint], row-major 3x4
 
-  kCompliance = 45,  // float[9] x nodes: C, row-major 3x3, s^2 (metres of displacement a felt m/s^2)
-  kSprings = 46,     // SpringRecord x regions
+  // 45 and 46 were the spring tier's.
 
   // Of a character with coarser control graphs beside its own; see LevelRecord.
   kLevels = 47,  // LevelRecord x 1 + coarser_count, finest first
@@ -134,7 +133,7 @@ enum class SectionKind : uint32_t {
   kProxies = 63,    // ProxyRecord x proxies
 };
 
-// kNone: a character of modes and springs alone; no layers, inputs or weights, and of the record only rate_hz
+// kNone: a character of modes alone; no layers, inputs or weights, and of the record only rate_hz
 // counts, all else is zero.
 // kDeepEmulator, kCopingNet: networks of chains of dense layers; models only.
 enum class ModelKind : uint32_t { kNone = 0, kAltConvLstm = 1, kDeepEmulator = 2, kCopingNet = 3 };
@@ -319,7 +318,7 @@ inline constexpr uint32_t kMostGraphLevels = 4;  // of control graphs
 // A control graph. Each level is a whole one: kRegions, kNodes, kGraphRows, kGraphColumns, kGraphValues,
 // kCarry, kRegionModes, kModeMatrices and kCompliance hold one level's part after the other, finest first,
 // and what is an index or an offset there counts from the beginning of its level's part. Regions, the
-// vertices that each carries, kModes and kSprings are the same for all: a level's modes are the finest
+// vertices that each carries, kModes is the same for all: a level's modes are the finest
 // level's, seen at its own nodes, and nodes are held and turned alike. A level's nodes are nodes of the next
 // finer one, ascending in kPicks, region by region. In kSpread, level after level of the coarser ones and
 // region after region, how their displacement spreads over the next finer level's: [nodes of the
@@ -348,7 +347,8 @@ struct RegionModesRecord {
   float first_rad_per_s;            // w1, > 0; a region without modes has one too, for its length of time
   float rest_a1, rest_a2;           // stable, as a mode's
   float rest_gain;                  // 1 - rest_a1 - rest_a2
-  uint32_t reserved[7];
+  float first_a1, first_a2;         // of w1, as a mode's: how what is left alone swings on
+  uint32_t reserved[5];
 };
 static_assert(sizeof(RegionModesRecord) == 64);
 
@@ -360,14 +360,6 @@ struct ModeRecord {
   uint32_t reserved[3];
 };
 static_assert(sizeof(ModeRecord) == 32);
-
-// The spring tier of a region: u_t = a1 u_{t-1} + a2 u_{t-2} + gain C f, the recurrence of its first mode.
-struct SpringRecord {
-  float a1, a2;  // stable, as a mode's
-  float gain;    // 1 - a1 - a2
-  uint32_t reserved;
-};
-static_assert(sizeof(SpringRecord) == 16);
 
 // Bones that swing: a chain or tree of segments, the first of which hangs on a bone that no rod moves. A
 // character has regions, rods or both.

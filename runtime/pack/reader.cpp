@@ -22,7 +22,6 @@ LevelView view_tissue(const SectionTable& table) noexcept {
           .carry = table.get<float>(kCarry),
           .region_modes = table.get<RegionModesRecord>(kRegionModes),
           .mode_matrices = table.get<float>(kModeMatrices),
-          .compliance = table.get<float>(kCompliance),
           .picks = table.get<uint32_t>(kPicks),
           .spread = table.get<float>(kSpread)};
 }
@@ -55,7 +54,6 @@ PackView view_sections(const SectionTable& table) noexcept {
   view.meshes = table.get<MeshRecord>(kMeshes);
   view.region_vertices = table.get<uint32_t>(kRegionVertices);
   view.modes = table.get<ModeRecord>(kModes);
-  view.springs = table.get<SpringRecord>(kSprings);
   view.clips = table.get<ClipRecord>(kClips);
   view.clip_frames = table.get<float>(kClipFrames);
   view.tiers = table.get<TierRecord>(kTiers);

@@ -17,8 +17,7 @@ struct LevelView {
   std::span<const float> carry;
   std::span<const RegionModesRecord> region_modes;
   std::span<const float> mode_matrices;
-  std::span<const float> compliance;  // 9 a node
-  std::span<const uint32_t> picks;    // a node; of the finest none, as the next
+  std::span<const uint32_t> picks;  // a node; of the finest none, as the next
   std::span<const float> spread;
 };
 
@@ -46,7 +45,6 @@ struct PackView : LevelView {
   std::span<const MeshRecord> meshes;
   std::span<const uint32_t> region_vertices;
   std::span<const ModeRecord> modes;
-  std::span<const SpringRecord> springs;
   std::span<const ClipRecord> clips;
   std::span<const float> clip_frames;  // 12 a joint and frame
   std::span<const TierRecord> tiers;

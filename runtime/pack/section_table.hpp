@@ -50,8 +50,6 @@ inline constexpr SectionRule kSectionRules[] = {
     {SectionKind::kModeMatrices, sizeof(float), "mode matrices"},
     {SectionKind::kClips, sizeof(ClipRecord), "clips"},
     {SectionKind::kClipFrames, 12 * sizeof(float), "clip frames"},
-    {SectionKind::kCompliance, 9 * sizeof(float), "compliance"},
-    {SectionKind::kSprings, sizeof(SpringRecord), "springs"},
     {SectionKind::kLevels, sizeof(LevelRecord), "levels"},
     {SectionKind::kPicks, sizeof(uint32_t), "picks"},
     {SectionKind::kSpread, sizeof(float), "spread"},

@@ -29,12 +29,12 @@ void copy(const Instance& instance, const float* from, float* to) noexcept {
 // middle as in the mean.
 uint16_t fade_ticks_of(const Instance& instance) noexcept {
   constexpr float kStep = 0.0028f, kSteepest = 1.5f;  // of the height
-  const float least = instance.state->tier == Tier::kSpring ? kSpringFadeTicks : kFadeTicks;
   float far_m = 0;
   for (const float* u = instance.tail; u != instance.tail + floats_of(instance); u += 3)
     far_m = std::max(far_m, std::hypot(u[0], u[1], u[2]));
   const float ticks = kSteepest * far_m / (kStep * instance.level->pack.character->height_m);
-  return static_cast<uint16_t>(std::min(std::max(least, std::ceil(ticks)), float{kLongestFadeTicks}));
+  return static_cast<uint16_t>(
+      std::min(std::max(float{kFadeTicks}, std::ceil(ticks)), float{kLongestFadeTicks}));
 }
 
 void begin_tail(Instance& instance, float velocity_kept) noexcept {
@@ -45,7 +45,7 @@ void begin_tail(Instance& instance, float velocity_kept) noexcept {
   begin_rod_tails(instance, velocity_kept);
   instance.state->fade_ticks = fade_ticks_of(instance);
   instance.state->tail_ticks = 0;
-  instance.state->tail_rides = instance.state->tail_stays = 0;
+  instance.state->tail_rides = 0;
 }
 
 // From what is shown. What was not simulated for a while is blended in; from rest there is nothing to blend:
@@ -64,10 +64,10 @@ void begin_simulation(Instance& instance) noexcept {
   take_rods_as_shown(instance);
   state.motion_stale = 1;
   state.blend_ticks = state.untouched ? kBlendInTicks : 0.0f;
-  state.lifted = 0;
   const bool rests = state.tail_ticks > kCaughtUpTicks && !state.untouched;
   state.from_shown = !rests && !state.untouched;
   state.rest_ticks = !rests ? 0 : state.dt_before_s > 0 ? 1 : 2;
+  lift_displacement(instance);
 }
 
 // A network that missed a moment keeps its memory, of everything but where the tissue is. At rest an empty
@@ -83,32 +83,10 @@ void begin_network(Instance& instance) noexcept {
   state.forgotten = 0;
 }
 
-// Springs and modes are two laws: what one of them shows tells nothing of where the other would be, but where
-// the load would hold it, and there it begins. What was shown comes to a stand meanwhile, so that what hangs
-// still does not fall; a tick sooner where the level changes as well, for between other nodes some of the
-// surface is faster than it was.
-void blend_laws(Instance& instance) noexcept {
-  InstanceState& state = *instance.state;
-  begin_tail(instance, instance.changed_level ? kCarryDamping : 1);
-  if (state.blend_ticks >= kBlendInTicks) state.lifted = 1;  // else rods are on their way, too
-  state.tail_stays = 1;
-  state.from_shown = 0;
-  state.blend_ticks = 0;
-  state.forgotten = 1;
-  state.rest_ticks = std::max(state.rest_ticks, state.dt_before_s > 0 ? 1u : 2u);
-}
-
-void begin_base(Instance& instance) noexcept {
-  lift_displacement(instance);
-  if (instance.state->tier == Tier::kSpring) blend_laws(instance);
-}
-
 // Where ticks were missed, what is taken back holds them back enough.
 void hand_to_modes(Instance& instance) noexcept {
   instance.made_up > 0 ? take_back_corrections(instance) : slow_modes(instance);
 }
-
-bool has_base(Tier tier) noexcept { return tier == Tier::kModal || tier == Tier::kNetwork; }
 
 // A tail may not run where the network may not go.
 void hold_at_limit(float* u, float* velocity, float limit_m) noexcept {
@@ -145,15 +123,14 @@ void hold_speed(Instance& instance, size_t node, const float* before) noexcept {
 
 // What is not driven swings as its first mode does, u_t = a1 u_{t-1} + a2 u_{t-2}. What it was driven
 // by is let go of over the ticks until the fade, and never wholly, for a force that ends at once is seen as a
-// jump; and it is damped from the first on. What stays is only damped.
+// jump; and it is damped from the first on.
 void swing_tail(Instance& instance, size_t r) noexcept {
   constexpr float kFreest = 0.9f;
   const pack::RegionRecord& region = instance.level->pack.regions[r];
-  const pack::SpringRecord& spring = instance.level->pack.springs[r];
+  const pack::RegionModesRecord& modes = instance.level->pack.region_modes[r];
   const uint32_t tick = instance.state->tail_ticks;
-  const bool swings = tick <= kCarryTicks && !instance.state->tail_stays;
-  const float free = swings ? std::min(static_cast<float>(tick) / kCarryTicks, kFreest) : 0;
-  const float pull = free * (spring.a1 + spring.a2 - 1), drag = free * (1 + spring.a2);
+  const float free = tick <= kCarryTicks ? std::min(static_cast<float>(tick) / kCarryTicks, kFreest) : 0;
+  const float pull = free * (modes.first_a1 + modes.first_a2 - 1), drag = free * (1 + modes.first_a2);
   for (size_t n = region.first_node; n < region.first_node + region.node_count; ++n) {
     float *u = instance.tail + 3 * n, *velocity = instance.tail_velocity + 3 * n;
     const float before[3] = {velocity[0], velocity[1], velocity[2]};
@@ -194,9 +171,7 @@ void enter_tier(Instance& instance, Tier tier) noexcept {
     begin_tail(instance, 1);
     begin_gap(instance);
   }
-  if (has_base(tier) && !has_base(state.tier)) begin_base(instance);
   if (tier == Tier::kModal && state.tier == Tier::kNetwork) hand_to_modes(instance);
-  if (tier == Tier::kSpring && has_base(state.tier)) blend_laws(instance);
   if (tier == Tier::kNetwork && state.tier != Tier::kNetwork) begin_network(instance);
   if (tier != state.tier) wake_regions(instance);
   if (tier == Tier::kSkinning) state.tail_ticks = std::max(state.tail_ticks, kCarryTicks);
@@ -243,8 +218,8 @@ void show_tick(Instance& instance) noexcept {
   copy(instance, instance.shown[0], instance.shown[1]);
   if (simulates) take_simulated(instance, 0, instance.shown[0]);
   if (blends) advance_blend(instance);
-  if (state.blend_ticks == kBlendInTicks) state.tail_rides = state.tail_stays = 0;
-  show_rods(instance, state.lifted && simulates ? 1 : instance.simulated_share());
+  if (state.blend_ticks == kBlendInTicks) state.tail_rides = 0;
+  show_rods(instance, instance.simulated_share());
   const auto [simulated, tail] = instance.shown_shares();
   if (simulated == 1 && tail == 0) return;
   for (size_t i = 0; i < floats_of(instance); ++i) {
@@ -258,7 +233,6 @@ void show_nothing(Instance& instance) noexcept {
   state.fade_ticks = kFadeTicks;
   state.seam_ticks = kBlendInTicks;
   state.restarting = 0;
-  state.tail_stays = 0;
   for (float* none : {instance.shown[0], instance.shown[1], instance.tail, instance.tail_velocity})
     std::memset(none, 0, sizeof(float) * floats_of(instance));
   forget_rods(instance);

@@ -6,9 +6,8 @@
 namespace sinew::world {
 
 // At the start of a step. Leaving simulation begins a tail; coming back begins a blend, from what is shown
-// or, after more ticks than are caught up with, from rest under the load. So do springs where modes or
-// network were, and these where springs were; modes and network hand their displacement on to each other
-// without one.
+// or, after more ticks than are caught up with, from rest under the load. Modes and network hand their
+// displacement on to each other without one.
 void enter_tier(Instance& instance, Tier tier) noexcept;
 
 // A guard fired: the state is worthless. Fades what was shown last to skinning; then simulation starts anew.

@@ -63,11 +63,11 @@ float share_of(const Instance& instance) noexcept {
   return instance.state->tail_rides ? 1 - instance.shown_shares().tail : instance.simulated_share();
 }
 
-// What began elsewhere than it would have been swings on, and a landing swings it further: springs, and what
-// began at rest, for longer. How much of that is seen grows with the share.
+// What began elsewhere than it would have been swings on, and a landing swings it further: what began at
+// rest, for longer. How much of that is seen grows with the share.
 float usual_pace(const InstanceState& state, float own_m, float slow_m) noexcept {
   if (state.tail_rides) return 1;
-  if (state.tier == Tier::kSpring || !state.from_shown) return std::clamp(slow_m / own_m, kLeastPace, 1.0f);
+  if (!state.from_shown) return std::clamp(slow_m / own_m, kLeastPace, 1.0f);
   return state.blend_ticks >= kLate ? std::clamp(slow_m / own_m, kLatePace, 1.0f) : 1;
 }
 

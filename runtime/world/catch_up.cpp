@@ -27,14 +27,11 @@ bool knows_poses(const Instance& instance) noexcept {
 }
 
 // On the level that it has, which a finer one for the same tier or a network waits for, or on a coarser one,
-// whose nodes keep what they had; springs are another law, and what modes missed is not theirs to make up
-// for.
+// whose nodes keep what they had.
 bool may_go_on(const Instance& instance) noexcept {
   const InstanceState& state = *instance.state;
   const InstancePlan& plan = instance.plan;
-  if (plan.level == state.level) return true;
-  if (plan.level < state.level) return plan.tier == state.left_tier || plan.tier == Tier::kNetwork;
-  return plan.tier != Tier::kSpring && state.left_tier != Tier::kSpring;
+  return plan.level >= state.level || plan.tier == state.left_tier || plan.tier == Tier::kNetwork;
 }
 
 }  // namespace
@@ -82,7 +79,6 @@ void ride_on(Instance& instance) noexcept {
   ride_rods(instance);
   state.missed_ticks = 0;
   state.blend_ticks = 0;
-  state.lifted = state.tail_stays = 0;
   state.rest_ticks = 0;
   state.tail_rides = 1;
 }

@@ -17,8 +17,8 @@ void miss_tick(Instance& instance) noexcept;
 
 // That it can make up for in its next step, 0: none, or too many.
 uint32_t missed_so_far(const Instance& instance) noexcept;
-// With the plan as it is: all of them, on the level that it has, or modes and networks on a coarser one, by
-// poses that are known. Frames much shorter than a tick leave no pose of a missed one.
+// With the plan as it is: all of them, on the level that it has or a coarser one, by poses that are known.
+// Frames much shorter than a tick leave no pose of a missed one.
 bool catches_up(const Instance& instance) noexcept;
 // A finer level that is planned waits for the next step, in which it is planned anew: this one has the tier
 // that it left. Returns whether it waits.

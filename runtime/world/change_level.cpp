@@ -219,11 +219,7 @@ void raise(Instance& instance) noexcept {
   const GraphLevel& fine = instance.level[-1];
   for (float* vectors : {instance.shown[0], instance.shown[1], instance.tail, instance.tail_velocity})
     spread(instance, fine, vectors);
-  if (instance.state->tier == Tier::kSpring)
-    for (float* const* ticks : {instance.u, instance.l})
-      for (int tick = 0; tick < 2; ++tick) spread(instance, fine, ticks[tick]);
-  else if (frame::is_simulated(instance.state->tier))
-    raise_base(instance, fine);
+  if (frame::is_simulated(instance.state->tier)) raise_base(instance, fine);
   raise_memory(instance, fine);
   for (size_t r = 0; r < fine.pack.regions.size(); ++r)
     if (instance.level->leaves_out(r) && !fine.leaves_out(r)) instance.regained[r] = kRegainedNow;

@@ -77,7 +77,6 @@ void learn_costs(Instance& instance, const PlanRow& row) noexcept {
 void count_tier(Tier tier, FrameReport& report) noexcept {
   report.instances_network += tier == Tier::kNetwork;
   report.instances_modal += tier == Tier::kModal;
-  report.instances_spring += tier == Tier::kSpring;
   report.instances_extrapolated += tier == Tier::kExtrapolate;
   report.instances_skinned += tier == Tier::kSkinning;
 }

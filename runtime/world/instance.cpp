@@ -143,7 +143,7 @@ float Instance::simulated_share() const noexcept {
 
 float Instance::tail_share(float ahead) const noexcept {
   const float faded = static_cast<float>(state->tail_ticks) + ahead - static_cast<float>(kCarryTicks);
-  if (state->tail_stays || faded <= 0) return 1;
+  if (faded <= 0) return 1;
   return smooth_step(1 - std::min(faded / static_cast<float>(state->fade_ticks), 1.0f));
 }
 
@@ -238,7 +238,7 @@ void forget_displacement(Instance& instance) noexcept {
   state.tier = Tier::kSkinning;  // so that simulation starts anew, from zero
   state.fallback_ticks = 0;
   state.tail_ticks = kCarryTicks + kFadeTicks;
-  state.tail_rides = state.tail_stays = 0;
+  state.tail_rides = 0;
   state.fade_ticks = kFadeTicks;
   state.rest_ticks = 0;
   state.seam_ticks = kBlendInTicks;

@@ -23,7 +23,6 @@ namespace sinew::world {
 inline constexpr uint32_t kCarryTicks = 4;  // swings on before the fade begins: by then it is more than half
                                             // as far off as skinning, and soon as far
 inline constexpr uint32_t kFadeTicks = 12;  // from there to skinning, at least
-inline constexpr uint32_t kSpringFadeTicks = 16;   // of springs, which are further off
 inline constexpr uint32_t kLongestFadeTicks = 28;  // of what would else be seen to go
 inline constexpr uint32_t kBlendInTicks = 20;  // from that to simulation, when it comes back: by then most
                                                // of the swing of starting from the wrong place has died down
@@ -81,9 +80,7 @@ struct InstanceState {
   uint32_t rod_quiet_ticks = 0;  // world/rod_sleep.hpp
   uint32_t teleported = 0;       // in the last step
   uint32_t hidden_ticks = 0;     // world/hidden.hpp
-  uint16_t lifted = 0;           // the blend is from one law to another: rods went on
-  uint8_t tail_stays = 0;        // likewise: the tail comes to a stand and does not fade
-  uint8_t from_shown = 0;        // simulation came back from what was shown, and not from rest
+  uint32_t from_shown = 0;       // simulation came back from what was shown, and not from rest
   Tier left_tier = Tier::kSkinning;           // world/catch_up.hpp: what it had before it was left alone
   uint16_t missed_ticks = 0, tail_rides = 0;  // likewise: since then; the tail counts from what is simulated
   uint32_t first_joints = 0;                  // which of pose_joints is the pose before the present one
@@ -140,12 +137,12 @@ struct ShownShares {
 };
 
 // Arrays are [nodes][3] in metres along each node's frame (tissue/node_bend.hpp) unless said otherwise; l,
-// theta and q as in tissue/modal_base.hpp, on springs l is what swings and theta and q are stale. u is what
+// theta and q as in tissue/modal_base.hpp. u is what
 // may be shown of l, within the region's limit (tissue/guard.hpp). "Shown" is what is published, along the
 // axes of the flesh, as is the tail: poses need not be followed to carry them on. shown = b u + (1 - b) tail,
 // b rising smoothly from 0 to 1 in kBlendInTicks or more (world/blend_pace.hpp). The tail is the displacement
 // shown when simulation was last left, carried on with damped velocity and then faded to zero; or, where it
-// stays, brought to a stand; or, where it rides, what that was off, and shown = u + (1 - b) tail, b rising
+// rides, what that was off, and shown = u + (1 - b) tail, b rising
 // more gently.
 struct Instance {
   // What a plan does to those that it passes over, and what a report asks, comes first: kPlannedBytes of it.

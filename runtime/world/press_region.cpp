@@ -23,12 +23,8 @@ tissue::NodeContact contact_of(const Instance& instance, const pack::RegionRecor
                                const Touch& touch) {
   const Vector3f in_frame = Eigen::Map<const Rows33>(instance.poses[0][touch.node].rotation).transpose() *
                             ConstVector(touch.normal);
-  // Springs do not turn.
-  const bool spring = instance.state->tier == Tier::kSpring;
-  const float half = spring ? 0 : 0.5f;
-  const float half_turn[3] = {half * instance.theta[3 * touch.node],
-                              half * instance.theta[3 * touch.node + 1],
-                              half * instance.theta[3 * touch.node + 2]};
+  const float* turn = instance.theta + size_t{3} * touch.node;
+  const float half_turn[3] = {0.5f * turn[0], 0.5f * turn[1], 0.5f * turn[2]};
   tissue::NodeContact contact{.node = touch.node - region.first_node};
   tissue::turn_back(half_turn, in_frame.data(), 1, contact.normal);
   const float along = in_frame.dot(ConstVector(instance.u[0] + size_t{3} * touch.node));
@@ -91,16 +87,6 @@ void press_modes(Instance& instance, uint32_t r, std::span<tissue::NodeContact> 
                          instance.l[0] + vector, instance.network_state);
 }
 
-void press_springs(Instance& instance, const pack::RegionRecord& region,
-                   std::span<const tissue::NodeContact> contacts) {
-  for (const tissue::NodeContact& contact : contacts) {
-    const size_t at = size_t{3} * (region.first_node + contact.node);
-    const Vector3f push = -std::min(contact.gap_m, 0.0f) * ConstVector(contact.normal);
-    MapVector(instance.l[0] + at) += push;
-    MapVector(instance.u[0] + at) += push;
-  }
-}
-
 }  // namespace
 
 void press_region(Instance& instance, uint32_t r, std::span<const Touch> touches) noexcept {
@@ -113,10 +99,7 @@ void press_region(Instance& instance, uint32_t r, std::span<const Touch> touches
     MapVector(mean.normal) = mean_normal(touches, *chosen[c]);
     contacts[c] = contact_of(instance, region, mean);
   }
-  if (instance.state->tier == Tier::kSpring)
-    press_springs(instance, region, {contacts, count});
-  else
-    press_modes(instance, r, {contacts, count});
+  press_modes(instance, r, {contacts, count});
   instance.quiet_ticks[r] = 0;
 }
 

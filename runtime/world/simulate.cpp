@@ -1,4 +1,4 @@
-// simulate.cpp  One tick of springs, of modes, or of modes under a network.
+// simulate.cpp  One tick of modes, or of modes under a network.
 #include "world/simulate.hpp"
 
 #include <Eigen/Geometry>
@@ -13,7 +13,6 @@
 #include "tissue/modal_base.hpp"
 #include "tissue/network.hpp"
 #include "tissue/node_drive.hpp"
-#include "tissue/spring.hpp"
 #include "world/change_level.hpp"
 #include "world/sleep.hpp"
 
@@ -73,35 +72,6 @@ float lasting_share(const Part& part, const float* felt, size_t stride) noexcept
   for (size_t n = 0; n < part.record.node_count; ++n, felt += stride)
     most = std::max(most, std::hypot(felt[0], felt[1], felt[2]));
   return most > kMost_m_s2 ? kMost_m_s2 / most : 1.0f;
-}
-
-// ---- springs ----
-
-void begin_springs_at_rest(Instance& instance, const Part& part) noexcept {
-  const float share =
-      lasting_share(part, instance.drive + tissue::kNodeDriveWidth * part.node, tissue::kNodeDriveWidth);
-  for (size_t n = part.node; n < part.node + part.record.node_count; ++n) {
-    const float *felt = instance.drive + tissue::kNodeDriveWidth * n,
-                *row = instance.level->pack.compliance.data() + 9 * n;
-    for (size_t axis = 0; axis < 3; ++axis, row += 3)
-      for (float* l : instance.l)
-        l[3 * n + axis] = share * (row[0] * felt[0] + row[1] * felt[1] + row[2] * felt[2]);
-  }
-}
-
-bool spring_tick(Instance& instance) noexcept {
-  const pack::PackView& pack = instance.level->pack;
-  for_each_part(instance, [&](const Part& part) {
-    if (begins_at_rest(instance, part)) begin_springs_at_rest(instance, part);
-    tissue::spring_step(pack.springs[part.index], pack.compliance.data() + 9 * part.node,
-                        instance.drive + tissue::kNodeDriveWidth * part.node, tissue::kNodeDriveWidth,
-                        part.record.node_count, instance.l[0] + part.vector, instance.l[1] + part.vector);
-  });
-  if (!tissue::all_finite(instance.l[0], floats_of(instance))) return false;
-  std::copy_n(instance.u[0], floats_of(instance), instance.u[1]);
-  std::copy_n(instance.l[0], floats_of(instance), instance.u[0]);
-  for_each_part(instance, [&](const Part& part) { hold_shown(instance, part); });
-  return true;
 }
 
 // ---- modes ----
@@ -422,7 +392,6 @@ void drive_nodes(Instance& instance) noexcept {
 }
 
 bool simulate_tick(Instance& instance) noexcept {
-  if (instance.state->tier == Tier::kSpring) return spring_tick(instance);
   if (!base_step(instance)) return false;
   const bool corrected = instance.state->tier == Tier::kNetwork && network_step(instance);
   shift_back(instance);

@@ -1,4 +1,4 @@
-// simulate.hpp  One tick of springs, of modes, or of modes under a network: from drive to u.
+// simulate.hpp  One tick of modes, or of modes under a network: from drive to u.
 #pragma once
 #include "world/instance.hpp"
 
@@ -7,7 +7,7 @@ namespace sinew::world {
 // drive of this tick, from the poses.
 void drive_nodes(Instance& instance) noexcept;
 
-// u of this tick, and l, theta and q where the tier has a modal base. A network whose state is given up
+// u, l, theta and q of this tick. A network whose state is given up
 // leaves the tick, and the tier, to the base (see kFallbackTicks). Sleeping regions stay as they are. False:
 // the base's own numbers are not finite, and nothing of the state is of use any more.
 bool simulate_tick(Instance& instance) noexcept;

@@ -85,11 +85,6 @@ void fall_asleep(Instance& instance, size_t index, const Region& region) noexcep
   std::copy_n(instance.l[0] + vector, size_t{3} * region.record.node_count, instance.l[1] + vector);
 }
 
-// Springs are not worth it.
-bool may_sleep(const Instance& instance) noexcept {
-  return instance.state->tier == Tier::kModal || instance.state->tier == Tier::kNetwork;
-}
-
 }  // namespace
 
 void wake_regions(Instance& instance) noexcept {
@@ -117,7 +112,7 @@ void watch_drive(Instance& instance, float tolerance) noexcept {
 }
 
 void watch_motion(Instance& instance, float tolerance) noexcept {
-  if (!may_sleep(instance)) return;
+  if (!frame::is_simulated(instance.state->tier)) return;
   for_each_region(instance, tolerance, [&](size_t r, const Region& region, uint32_t& quiet_ticks) {
     const uint32_t enough = ticks_to_sleep(region);
     if (quiet_ticks >= enough) return;

@@ -117,10 +117,7 @@ float most_us(const Instance& instance, const TickContext& context) noexcept {
 }
 
 // The next cheaper one that it may fall to at once.
-Tier below(Tier tier) noexcept {
-  if (tier == Tier::kNetwork) return Tier::kModal;
-  return tier == Tier::kModal ? Tier::kSpring : Tier::kExtrapolate;
-}
+Tier below(Tier tier) noexcept { return tier == Tier::kNetwork ? Tier::kModal : Tier::kExtrapolate; }
 
 // Nothing of it is known that says it will be late.
 bool is_in_time(const Instance& instance, const TickContext& context, double left_us) noexcept {
@@ -157,7 +154,7 @@ void age(Instance& instance, bool rose) noexcept {
 
 // In rising quality.
 uint32_t quality(Tier tier) noexcept {
-  constexpr uint32_t kQuality[kTierCount] = {0, 0, 3, 1, 2};
+  constexpr uint32_t kQuality[kTierCount] = {0, 0, 2, 0, 1};
   return kQuality[static_cast<size_t>(tier)];
 }
 

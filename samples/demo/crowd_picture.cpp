@@ -26,7 +26,7 @@ struct TierLook {
 constexpr TierLook kLooks[] = {{"skinning", {128, 138, 152}, 0.9f, {96, 104, 118}},
                                {"extrapolated", {236, 190, 60}, 0.8f, {150, 104, 0}},
                                {"network", {0, 0, 0}, 0, {38, 44, 54}},
-                               {"spring", {132, 70, 160}, 0.8f, {112, 50, 140}},
+                               {},  // no tier
                                {"modal", {44, 111, 187}, 0.8f, {24, 84, 150}}};
 
 constexpr TierLook kOutOfView = {"out of view", {214, 218, 224}, 0.97f, {120, 126, 136}};
@@ -54,8 +54,7 @@ void draw_counts(render::Image& image, const Run& run, const Options& options) {
     title += ", " + std::to_string(std::lround(options.budget_us)) + " us a frame";
   render::draw_text(image, 18, 34, title, {.size_px = 16, .weight = 1.4f});
   int line = 0;
-  constexpr Tier kFromTheBest[] = {Tier::kNetwork, Tier::kModal, Tier::kSpring, Tier::kExtrapolate,
-                                   Tier::kSkinning};
+  constexpr Tier kFromTheBest[] = {Tier::kNetwork, Tier::kModal, Tier::kExtrapolate, Tier::kSkinning};
   std::vector<const TierLook*> looks;
   for (const Tier tier : kFromTheBest) looks.push_back(&look_of({.tier = tier}));
   looks.push_back(&kOutOfView);

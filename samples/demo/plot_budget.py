@@ -19,7 +19,7 @@ from matplotlib.ticker import MaxNLocator
 STAGES = [("schedule_us", "schedule", "#8d99ae"), ("drive_us", "drive", "#4f9d8c"),
           ("tissue_us", "tissue", "#2c6fbb"), ("rods_us", "rods", "#c88a5a"), ("publish_us", "publish", "#b07aa1")]
 REST = ("rest of the step", "#cfd4dc")
-TIERS = [("network", "network", "#2c6fbb"), ("modal", "modal", "#7db3e0"), ("spring", "spring", "#c88a5a"),
+TIERS = [("network", "network", "#2c6fbb"), ("modal", "modal", "#7db3e0"),
          ("extrapolated", "extrapolated", "#eebc3c"), ("skinning", "skinning", "#b9bfc9")]
 LIMIT = "#c0392b"
 HEADROOM = 1.25          # over the tallest ordinary frame

@@ -82,7 +82,6 @@ Summary summarise(const Run& run, const CharacterFile& character) {
   out.tiers = {
       tier_share(run, character, Tier::kNetwork, "network", &FrameReport::instances_network),
       tier_share(run, character, Tier::kModal, "modal", &FrameReport::instances_modal),
-      tier_share(run, character, Tier::kSpring, "spring", &FrameReport::instances_spring),
       tier_share(run, character, Tier::kExtrapolate, "extrapolated", &FrameReport::instances_extrapolated),
       tier_share(run, character, Tier::kSkinning, "skinning", &FrameReport::instances_skinned)};
   for (const TierShare& tier : out.tiers) {

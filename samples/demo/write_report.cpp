@@ -74,7 +74,7 @@ Json parts_json(const Run& run) {
 }
 
 const char* name_of(Tier tier) {
-  constexpr const char* kNames[kTierCount] = {"skinning", "extrapolated", "network", "spring", "modal"};
+  constexpr const char* kNames[kTierCount] = {"skinning", "extrapolated", "network", "", "modal"};
   return kNames[static_cast<size_t>(tier)];
 }
 
@@ -93,7 +93,6 @@ Json frame_json(const FrameRecord& frame, bool truth) {
               {"read_us", frame.read_us},
               {"network", r.instances_network},
               {"modal", r.instances_modal},
-              {"spring", r.instances_spring},
               {"extrapolated", r.instances_extrapolated},
               {"skinning", r.instances_skinned},
               {"cut", r.instances_cut},

@@ -156,7 +156,9 @@ std::vector<std::byte> pack_haired(const Bust& bust, const Locks& locks) {
   for (const BustProxy& p : bust.proxies)
     layout.proxies.push_back({static_cast<int>(joint_of(p)), p.from, p.to, p.radius_m});
   layout.stiffness = character.stiffness;
-  return baker::pack_character(character, layout, {});
+  // A second control graph like the first, on which rods touch the capsules.
+  const baker::GraphLevel same{layout, {}};
+  return baker::pack_character(character, layout, {}, nullptr, pack::Precision::kFloat32, {}, {&same, 1});
 }
 
 std::vector<Matrix34> haired_pose(std::span<const LockBone> bones, const Turning& turning) {

@@ -56,9 +56,9 @@ void run(const Request& request, const Named& named) {
 
 constexpr uint32_t kSettling = 60;  // ticks
 
-void tell(sample::TieredHair& hair, const char* name, Tier tier, uint32_t ticks) {
+void tell(sample::TieredHair& hair, const char* name, sample::Touches touches, uint32_t ticks) {
   (void)hair.take_measure();
-  for (uint32_t i = 0; i < ticks; ++i) hair.step(tier, true);
+  for (uint32_t i = 0; i < ticks; ++i) hair.step(touches, true);
   std::printf("%s\n", sample::tier_line(hair, name).c_str());
   std::fflush(stdout);
 }
@@ -70,21 +70,21 @@ void tell(const char* to, const sample::TierJump& jump, double height_m) {
       to, 1e3 * jump.after_m, 100 * jump.after_m / height_m, 1e3 * jump.later_m);
 }
 
-void skip(sample::TieredHair& hair, Tier tier, uint32_t ticks) {
-  for (uint32_t i = 0; i < ticks; ++i) hair.step(tier);
+void skip(sample::TieredHair& hair, sample::Touches touches, uint32_t ticks) {
+  for (uint32_t i = 0; i < ticks; ++i) hair.step(touches);
 }
 
 // A row on capsules, one on skin.
 void show_tiers(const Request& request, sample::TieredHair& hair) {
   const auto start = hair.mark();
   std::vector<render::Cell> cells;
-  for (const Tier tier : {Tier::kSpring, Tier::kModal}) {
+  for (const sample::Touches touches : {sample::Touches::kCapsules, sample::Touches::kSkin}) {
     hair.go_back(start);
     for (const double moment_s : {2.2, 3.1, 4.3}) {
-      while (hair.time_s() < moment_s - 1e-3) hair.step(tier);
+      while (hair.time_s() < moment_s - 1e-3) hair.step(touches);
       char caption[40];
-      std::snprintf(caption, sizeof caption, "%s, %.1f s", tier == Tier::kModal ? "skin" : "capsules",
-                    moment_s);
+      std::snprintf(caption, sizeof caption, "%s, %.1f s",
+                    touches == sample::Touches::kSkin ? "skin" : "capsules", moment_s);
       cells.push_back({sample::picture(hair, request.size), caption});
     }
   }
@@ -97,13 +97,13 @@ void run_tiers(const Request& request) {
   sample::TieredHair hair(request.style, request.vertices);
   const auto start = hair.mark();
   const uint32_t ticks = request.steps / 2;
-  for (const Tier tier : {Tier::kModal, Tier::kSpring}) {
+  for (const sample::Touches touches : {sample::Touches::kSkin, sample::Touches::kCapsules}) {
     hair.go_back(start);
-    skip(hair, tier, kSettling);
-    tell(hair, tier == Tier::kModal ? "modal" : "spring", tier, ticks);
+    skip(hair, touches, kSettling);
+    tell(hair, touches == sample::Touches::kSkin ? "finest graph" : "coarser graph", touches, ticks);
   }
-  skip(hair, Tier::kModal, 3 * kSettling);
-  tell(hair, "modal, three seconds after that", Tier::kModal, ticks);
+  skip(hair, sample::Touches::kSkin, 3 * kSettling);
+  tell(hair, "finest graph, three seconds after that", sample::Touches::kSkin, ticks);
   hair.go_back(start);
   show_tiers(request, hair);
   hair.go_back(start);

@@ -47,17 +47,19 @@ TieredHair::TieredHair(const HairStyle& style, size_t vertices)
   accept(world::make_instance(asset_, def, &instance_));
 }
 
-void TieredHair::step(Tier tier, bool measures) {
+void TieredHair::step(Touches touches, bool measures) {
   ++tick_;
   const Turning turning = turning_at(time_s());
   const std::vector<float> skin = haired_skin(bust_, turning);
   const double begin_us = thread_us();
   accept(skin_.move_surface(skin_id_, {.places_m = skin, .dt_s = static_cast<float>(asset_.tick_s)}));
-  if (tier == Tier::kModal) measure_.refit_us.push_back(thread_us() - begin_us);
+  if (touches == Touches::kSkin) measure_.refit_us.push_back(thread_us() - begin_us);
   std::ranges::copy(haired_pose(bones_, turning), instance_.next_joints);
   instance_.state->has_next = 1;
-  instance_.plan = {
-      .ticks = {.ticks = 1, .first_tick_s = asset_.tick_s}, .dt_s = asset_.tick_s, .tier = tier};
+  instance_.plan = {.ticks = {.ticks = 1, .first_tick_s = asset_.tick_s},
+                    .dt_s = asset_.tick_s,
+                    .tier = Tier::kModal,
+                    .level = touches == Touches::kSkin ? 0u : 1u};
   world::step_instance(instance_, {});
   ++measure_.steps;
   measure_.rods_us.push_back(1e-3 * static_cast<double>(instance_.times.rods_ns));
@@ -145,13 +147,13 @@ Steps steps_between(const Places& before, const Places& after) {
   return out;
 }
 
-Run run_in(TieredHair& hair, Tier tier, uint32_t ticks) {
+Run run_in(TieredHair& hair, Touches touches, uint32_t ticks) {
   const TieredHair::Mark start = hair.mark();
   Run run;
   std::vector<Steps> own;
   run.frames.push_back(hair.places());
   for (uint32_t t = 1; t <= ticks; ++t) {
-    hair.step(tier);
+    hair.step(touches);
     run.frames.push_back(hair.places());
     own.push_back(steps_between(run.frames[t - 1], run.frames[t]));
     run.steps.push_back(own.back());
@@ -165,14 +167,14 @@ Run run_in(TieredHair& hair, Tier tier, uint32_t ticks) {
 }
 
 // Beyond both, of all changes from one to the other.
-TierJump largest_jump(TieredHair& hair, const Run& from, const Run& to, Tier tier) {
+TierJump largest_jump(TieredHair& hair, const Run& from, const Run& to, Touches touches) {
   TierJump largest;
   for (size_t m = 0; m < from.marks.size(); ++m) {
     const size_t first = (m + 1) * kApart;
     Places before = from.frames[first];
     hair.go_back(from.marks[m]);
     for (size_t t = first; t < std::min(first + 2 * kWatched, from.steps.size()); ++t) {
-      hair.step(tier);
+      hair.step(touches);
       Places now = hair.places();
       const Steps steps = steps_between(before, now);
       double& most = t < first + kWatched ? largest.after_m : largest.later_m;
@@ -188,9 +190,9 @@ TierJump largest_jump(TieredHair& hair, const Run& from, const Run& to, Tier tie
 
 TierJumps tier_jumps(TieredHair& hair, uint32_t ticks) {
   const TieredHair::Mark start = hair.mark();
-  const Run skin = run_in(hair, Tier::kModal, ticks), capsules = run_in(hair, Tier::kSpring, ticks);
-  const TierJumps jumps = {largest_jump(hair, skin, capsules, Tier::kSpring),
-                           largest_jump(hair, capsules, skin, Tier::kModal)};
+  const Run skin = run_in(hair, Touches::kSkin, ticks), capsules = run_in(hair, Touches::kCapsules, ticks);
+  const TierJumps jumps = {largest_jump(hair, skin, capsules, Touches::kCapsules),
+                           largest_jump(hair, capsules, skin, Touches::kSkin)};
   hair.go_back(start);
   return jumps;
 }

@@ -1,4 +1,5 @@
-// tiers.hpp  Hair of a character whose tier changes: on its skin where the tier affords it, else on capsules.
+// tiers.hpp  Hair of a character whose control graph changes: on its skin where the graph affords it, else on
+// capsules.
 #pragma once
 #include <string>
 #include <utility>
@@ -11,6 +12,9 @@
 
 namespace sinew::sample {
 
+// What its control graph affords: the finest its skin, a coarser one the capsules about its bones.
+enum class Touches { kSkin, kCapsules };
+
 class TieredHair {
  public:
   using Places = std::vector<Eigen::Vector3d>;  // where bones begin and end, one after the other
@@ -21,7 +25,7 @@ class TieredHair {
 
   TieredHair(const HairStyle& style, size_t vertices);
   // One tick of a sixtieth of a second. `measures`: looks for penetration as well, which is not timed.
-  void step(Tier tier, bool measures = false);
+  void step(Touches touches, bool measures = false);
   Places places() const;
 
   Mark mark() const;

@@ -9,10 +9,10 @@
 
 namespace sinew::test {
 
-inline constexpr float kSpring_us = 1, kModal_us = 4, kNetwork_us = 10;
+inline constexpr float kCoarse_us = 1, kModal_us = 4, kNetwork_us = 10;
 
 inline frame::Front usual_front(float publish_us = 0) {
-  const frame::Level points[] = {{.tier = Tier::kSpring, .tick_us = kSpring_us, .error = 0.4f},
+  const frame::Level points[] = {{.tier = Tier::kModal, .tick_us = kCoarse_us, .error = 0.4f, .graph = 1},
                                  {.tier = Tier::kModal, .tick_us = kModal_us, .error = 0.15f},
                                  {.tier = Tier::kNetwork, .tick_us = kNetwork_us, .error = 0.08f}};
   frame::Front front;

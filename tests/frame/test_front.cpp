@@ -50,7 +50,7 @@ TEST_CASE("more_points_than_a_front_holds_are_left_out") {
 TEST_CASE("usual_tiers_are_all_on_their_front") {
   const Front front = test::usual_front();
   REQUIRE(front.count == 4);
-  CHECK(front.levels[1].tier == Tier::kSpring);
+  CHECK(front.levels[1].graph == 1);
   CHECK(front.levels[2].tier == Tier::kModal);
   CHECK(front.levels[3].tier == Tier::kNetwork);
   CHECK(front.level_of(Tier::kModal, 0) == 2);
@@ -66,16 +66,16 @@ TEST_CASE("on_a_coarser_graph_a_tier_is_a_little_further_off_than_on_the_finest"
 }
 
 TEST_CASE("dearer_and_no_better_is_dropped") {
-  const Front front = front_of({{.tier = Tier::kSpring, .tick_us = 5, .error = 0.3f},
+  const Front front = front_of({{.tier = Tier::kNetwork, .tick_us = 5, .error = 0.3f, .graph = 1},
                                 {.tier = Tier::kModal, .tick_us = 4, .error = 0.3f},
                                 {.tier = Tier::kNetwork, .tick_us = 6, .error = 0.3f}});
   REQUIRE(front.count == 2);
   CHECK(front.levels[1].tier == Tier::kModal);
 }
 
-// Publishing is paid with the first level, so that a cheap spring may not be worth it.
+// Publishing is paid with the first level, so that a cheap coarse graph may not be worth it.
 TEST_CASE("what_the_first_level_pays_for_publishing_decides_whether_it_is_worth_it") {
-  const std::vector<Level> points = {{.tier = Tier::kSpring, .tick_us = 10, .error = 0.5f},
+  const std::vector<Level> points = {{.tier = Tier::kModal, .tick_us = 10, .error = 0.5f, .graph = 1},
                                      {.tier = Tier::kModal, .tick_us = 25, .error = 0.2f}};
   CHECK(front_of(points, 0).count == 3);
   const Front published = front_of(points, 40);

@@ -86,7 +86,7 @@ TEST_CASE("levels_that_do_not_fit_are_refused_by_name") {
                  {"level 1: a weight of spread is not finite", set<float>(kSpread, 1, kNan)},
                  {"level 1: padding of spread", set<float>(kSpread, 3, 1.0f)},
                  {"tier 3: level 2", change<TierRecord>(kTiers, 3, [](auto& t) { t.level = 2; })},
-                 {"tier 3: 3 at level 0 does not ascend",
+                 {"tier 3: 4 at level 0 does not ascend",
                   change<TierRecord>(kTiers, 3, [](auto& t) { t.level = 0; })}});
 }
 

@@ -363,14 +363,14 @@ TEST_CASE("character_faults_are_refused_by_name") {
                  {"strings", [](PackEditor& e) { e.section<char>(kStrings).back() = 'x'; }}});
 }
 
-// skinning, extrapolate, network, spring, modal.
+// skinning, extrapolate, network, modal.
 TEST_CASE("tier_faults_are_refused_by_name") {
   using enum SectionKind;
   const auto tier = [](size_t index, auto apply) { return change<TierRecord>(kTiers, index, apply); };
   check_refused(character_pack(),
                 {{"tier 2: 5 is not known", tier(2, [](auto& t) { t.tier = 5; })},
                  {"tier 2: 1 at level 0 does not ascend", tier(2, [](auto& t) { t.tier = 1; })},
-                 {"tier 4: 3 at level 0 does not ascend", tier(4, [](auto& t) { t.tier = 3; })},
+                 {"tier 3: 3 is not known", tier(3, [](auto& t) { t.tier = 3; })},
                  {"tier 2: cost nan", tier(2, [](auto& t) { t.cost_us = kNan; })},
                  {"tier 2: cost -1", tier(2, [](auto& t) { t.cost_us = -1; })},
                  {"p99 inf", tier(2, [](auto& t) { t.cost_p99_us = kInfinity; })},
@@ -426,7 +426,6 @@ TEST_CASE("mode_faults_are_refused_by_name") {
   using enum SectionKind;
   const auto region = [](auto apply) { return change<RegionModesRecord>(kRegionModes, 1, apply); };
   const auto mode = [](auto apply) { return change<ModeRecord>(kModes, 4, apply); };
-  const auto spring = [](auto apply) { return change<SpringRecord>(kSprings, 1, apply); };
   check_refused(
       character_pack(),
       {{"region modes 1: 65 modes", region([](auto& r) { r.mode_count = 65; })},
@@ -438,9 +437,10 @@ TEST_CASE("mode_faults_are_refused_by_name") {
        {"region modes 1: matrices do not follow", region([](auto& r) { r.matrices += 16; })},
        {"region modes 1: matrices do not follow", region([](auto& r) { r.matrices = ~uint64_t{0}; })},
        {"region modes 1: the rest's recurrence", region([](auto& r) { r.rest_a1 = 2.5f; })},
+       {"region modes 1: the first mode's recurrence", region([](auto& r) { r.first_a1 = 2.5f; })},
        {"region modes 1: the rest's recurrence", region([](auto& r) { r.rest_a2 = kNan; })},
        {"region modes 1: rest_gain", region([](auto& r) { r.rest_gain = kInfinity; })},
-       {"region modes 1: reserved", region([](auto& r) { r.reserved[6] = 1; })},
+       {"region modes 1: reserved", region([](auto& r) { r.reserved[4] = 1; })},
        {"that no region owns",  // all zero, so that rows of other lengths have good padding
         [](PackEditor& editor) {
           std::ranges::fill(editor.section<float>(kModeMatrices), 0.0f);
@@ -460,11 +460,7 @@ TEST_CASE("mode_faults_are_refused_by_name") {
        {"mode 4: its recurrence", mode([](auto& m) { m.a1 = m.a2 - 1; })},
        {"mode 4: its recurrence", mode([](auto& m) { m.a1 = kNan; })},
        {"mode 4: gain", mode([](auto& m) { m.gain = kInfinity; })},
-       {"mode 4: reserved", mode([](auto& m) { m.reserved[2] = 1; })},
-       {"spring 1: its recurrence", spring([](auto& s) { s.a1 = 2.5f; })},
-       {"spring 1: gain", spring([](auto& s) { s.gain = kNan; })},
-       {"spring 1: reserved", spring([](auto& s) { s.reserved = 1; })},
-       {"compliance: number 7", set<float>(kCompliance, 7, kInfinity)}});
+       {"mode 4: reserved", mode([](auto& m) { m.reserved[2] = 1; })}});
 }
 
 TEST_CASE("a_character_without_a_network_is_taken_and_must_be_without_all_of_it") {
@@ -476,7 +472,7 @@ TEST_CASE("a_character_without_a_network_is_taken_and_must_be_without_all_of_it"
   REQUIRE(taken.ok());
   CHECK_FALSE(has_network(view));
   CHECK(view.network->rate_hz == 60);
-  CHECK(view.tiers.size() == 4);
+  CHECK(view.tiers.size() == 3);
 
   using enum SectionKind;
   const auto network = [](auto apply) { return change<NetworkRecord>(kNetwork, 0, apply); };

@@ -65,9 +65,8 @@ double read_modes(const PackView& view) {
         uint64_t{3} * view.regions[r].node_count * (modes.padded + 2 * round_up_16(modes.mode_count));
     if (floats > 0) sum += view.mode_matrices[modes.matrices + floats - 1];
     for (uint32_t k = 0; k < modes.mode_count; ++k) sum += view.modes[modes.first_mode + k].gain;
-    sum += view.springs[r].gain;
+    sum += view.region_modes[r].first_a1;
   }
-  for (size_t node = 0; node < view.nodes.size(); ++node) sum += view.compliance[9 * node + 8];
   return sum;
 }
 

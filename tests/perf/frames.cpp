@@ -43,8 +43,7 @@ TEST_CASE("in_every_scene_each_character_has_one_tier_or_none_to_see") {
     if (is_yardstick(row)) continue;
     INFO(row.at("trouble") << " " << row.at("instances") << " " << row.at("budget_us"));
     double sum = 0;
-    for (const std::string of : {"network", "modal", "spring", "extrapolated", "skinned"})
-      sum += number(row, of);
+    for (const std::string of : {"network", "modal", "extrapolated", "skinned"}) sum += number(row, of);
     CHECK(sum + number(row, "hidden") > 0);
     CHECK(sum < 1 + 5 * 5e-5);  // each rounded to four digits
     CHECK(number(row, "expected_error") > 0);

@@ -31,8 +31,8 @@ void bake_tiers(const CreatureHop& hop) {
   const std::vector<baker::Row> rows = {
       row(Tier::kSkinning, 0, yardstick.of_skinning()),
       row(Tier::kExtrapolate, kShownCost_us, yardstick.of_extrapolation(character, baker::kCarriedTicks)),
-      row(Tier::kModal, kModalCost_us, yardstick.of(character, Tier::kModal, 1, 0)),
-      row(Tier::kNetwork, kNetworkCost_us, yardstick.of(character, Tier::kNetwork, 1, 0))};
+      row(Tier::kModal, kModalCost_us, yardstick.of(character, Tier::kModal, 0)),
+      row(Tier::kNetwork, kNetworkCost_us, yardstick.of(character, Tier::kNetwork, 0))};
   baker::write_with_tiers(hop.folder.file("tiered.sinew"), character, baker::tier_records(rows));
 }
 

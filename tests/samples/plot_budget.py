@@ -13,7 +13,7 @@ PNG_START = b"\x89PNG\r\n\x1a\n"
 
 def frame(index, over=False):
     return {"time_s": index / 60, "total_us": 5000 if over else 480 + index, "schedule_us": 2, "drive_us": 90,
-            "tissue_us": 700, "rods_us": 40, "publish_us": 60, "network": 3, "modal": 0, "spring": 0, "extrapolated": 1,
+            "tissue_us": 700, "rods_us": 40, "publish_us": 60, "network": 3, "modal": 0, "extrapolated": 1,
             "skinning": 0, "cut": int(over),
             "first": {"tier": "extrapolated" if index > 40 else "network", "blend": 1.0}}
 

@@ -222,8 +222,8 @@ TEST_CASE("demo_report_holds_every_frame") {
   REQUIRE(report["frames"].size() == 16);
   for (const auto& frame : report["frames"]) {
     CHECK(frame["ticks"].get<int>() <= 4);
-    CHECK(frame["network"].get<int>() + frame["modal"].get<int>() + frame["spring"].get<int>() +
-              frame["extrapolated"].get<int>() + frame["skinning"].get<int>() ==
+    CHECK(frame["network"].get<int>() + frame["modal"].get<int>() + frame["extrapolated"].get<int>() +
+              frame["skinning"].get<int>() ==
           2);
     CHECK(frame["total_us"].get<double>() > 0);
     CHECK(frame["first"]["tier"] == "network");

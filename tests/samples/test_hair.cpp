@@ -59,13 +59,13 @@ TEST_CASE("hair_touches_the_skin_where_its_tier_affords_it_and_is_off_it_again_a
       hair({"-o", folder.file("out"), "--against", "tiers", "--steps", "240", "--vertices", "3000"});
   INFO(result.error);
   REQUIRE(result.exit_code == 0);
-  const size_t spring = result.out.find("spring: rods touch capsules"),
+  const size_t coarser = result.out.find("coarser graph: rods touch capsules"),
                again = result.out.find("after that: rods touch the skin");
-  REQUIRE(result.out.find("modal: rods touch the skin") == 0);
-  REQUIRE(spring != std::string::npos);
+  REQUIRE(result.out.find("finest graph: rods touch the skin") == 0);
+  REQUIRE(coarser != std::string::npos);
   REQUIRE(again != std::string::npos);
   CHECK(number_after(result.out, "deepest ") < 0.2);                // as above
-  CHECK(number_after(result.out.substr(spring), "deepest ") > 1);   // no capsule is a chest
+  CHECK(number_after(result.out.substr(coarser), "deepest ") > 1);  // no capsule is a chest
   CHECK(number_after(result.out.substr(again), "deepest ") < 0.2);  // none was trapped
   CHECK(number_after(result.out, "to capsules moves the end of a bone by ") < 6);
   CHECK(number_after(result.out, "to the skin moves the end of a bone by ") < 6);

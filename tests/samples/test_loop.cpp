@@ -176,7 +176,6 @@ TEST_CASE("an_error_is_expected_only_where_it_was_measured_for_all_tiers_that_we
   const auto record = [](Tier tier, float ratio, uint32_t level = 0) {
     return pack::TierRecord{static_cast<uint32_t>(tier),
                             1,
-                            1,
                             kNotMeasured,
                             kNotMeasured,
                             ratio,

@@ -31,7 +31,7 @@ struct BlockOptions {
   double rate_hz = 60;
   uint64_t seed = 1;
   double displacement_limit = 0.75;             // share of a region's radius
-  bool network = true;                          // false: modes and springs alone
+  bool network = true;                          // false: modes alone
   const baker::Safetensors* weights = nullptr;  // in the place of the small network
   double frequency_share = 1;                   // of block_modes.hpp's frequencies
   pack::Precision precision = pack::Precision::kFloat32;

@@ -13,7 +13,6 @@
 #include "tissue/modal_base.hpp"
 #include "tissue/node_bend.hpp"
 #include "tissue/node_drive.hpp"
-#include "tissue/spring.hpp"
 
 using namespace sinew;
 
@@ -70,8 +69,6 @@ TEST_CASE("a_tick_of_drive_base_inputs_network_and_guard_allocates_nothing") {
   const tissue::ModalBase base{
       modes, kNodes, kPadded, kPaddedModes, matrix.data(), matrix.data(), response.data(), project.data(),
       0,     0,      1};
-  const pack::SpringRecord spring{1.8f, -0.9f, 0.1f, 0};
-  const std::vector<float> compliance(9 * kNodes);
   test::Floats state(tissue::state_floats(network, kNodes)), z(kNodes * tissue::input_stride(network));
   test::Floats scratch(tissue::scratch_floats(network, kNodes));
   std::vector<float> u(kNodes * 3), u_before(u), theta(u), felt(u), r(u), r_hat(u), q(2), q_before(2),
@@ -97,8 +94,6 @@ TEST_CASE("a_tick_of_drive_base_inputs_network_and_guard_allocates_nothing") {
     tissue::modal_project(base, l.data(), q.data());
     tissue::modal_turn(base, q.data(), room.data(), theta.data());
     tissue::warp(theta.data(), l.data(), kNodes, u.data());
-    tissue::spring_step(spring, compliance.data(), drive.data(), tissue::kNodeDriveWidth, kNodes, u.data(),
-                        u_before.data());
     tissue::rebase_state(network, {&region, 1}, kNodes, u.data(), state.data());
   };
   tick();

@@ -174,7 +174,6 @@ void play_crowd(GoldenRecorder& recorder, WorldDef def) {
 constexpr GoldenScene kScenes[] = {
     {"network", [](GoldenRecorder& to) { play_tier(to, Tier::kNetwork); }},
     {"modal", [](GoldenRecorder& to) { play_tier(to, Tier::kModal); }},
-    {"spring", [](GoldenRecorder& to) { play_tier(to, Tier::kSpring); }},
     {"extrapolate", [](GoldenRecorder& to) { play_tier(to, Tier::kExtrapolate); }},
     {"skinning",
      [](GoldenRecorder& to) {

@@ -122,8 +122,7 @@ TEST_CASE("changing_tiers_does_not_pop") {
   CHECK(flickering_m < kPop * usual_m);
 }
 
-// Springs, modes and network hand displacement and velocity on without a blend. A spring's place need not be
-// a shape of the modes: what is left out is what a switch may move.
+// Modes and network hand displacement and velocity on without a blend.
 TEST_CASE("tier_switches_are_continuous") {
   constexpr double kMost_mm =
       6;  // in a frame, beyond what the motion itself does; it displaces by up to 56 mm
@@ -145,18 +144,11 @@ TEST_CASE("tier_switches_are_continuous") {
     Stage stage(1, {.budget_mode = BudgetMode::kWorkUnits});
     return 1e3 * largest_change(settle(stage), 600, [&](int) { return budget(tier); });
   };
-  const double network_mm = steady(Tier::kNetwork), modal_mm = steady(Tier::kModal),
-               spring_mm = steady(Tier::kSpring);
+  const double network_mm = steady(Tier::kNetwork), modal_mm = steady(Tier::kModal);
   const double network_modal_mm = switched(Tier::kNetwork, Tier::kModal);
-  const double modal_spring_mm = switched(Tier::kModal, Tier::kSpring);
-  const double network_spring_mm = switched(Tier::kNetwork, Tier::kSpring);
-  WARN("largest change in a frame: network " << network_mm << " mm, modal " << modal_mm << ", spring "
-                                             << spring_mm << "; network-modal " << network_modal_mm
-                                             << ", modal-spring " << modal_spring_mm << ", network-spring "
-                                             << network_spring_mm);
+  WARN("largest change in a frame: network " << network_mm << " mm, modal " << modal_mm << "; network-modal "
+                                             << network_modal_mm);
   CHECK(network_modal_mm < std::max(network_mm, modal_mm) + kMost_mm);
-  CHECK(modal_spring_mm < std::max(modal_mm, spring_mm) + kMost_mm);
-  CHECK(network_spring_mm < std::max(network_mm, spring_mm) + kMost_mm);
 }
 
 TEST_CASE("modes_go_on_where_the_network_left_them") {
@@ -207,7 +199,6 @@ TEST_CASE("a_change_of_tiers_moves_no_vertex_far") {
   };
   const Offer offers[] = {{"network", kAll},
                           {"modal", test::tier_cost_us(Tier::kModal) * 1.01f},
-                          {"spring", test::tier_cost_us(Tier::kSpring) * 1.01f},
                           {"extrapolated", kNothing_us},
                           {"skinning", 0}};
   for (const Offer& from : offers) {

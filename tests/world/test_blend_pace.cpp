@@ -41,37 +41,13 @@ TEST_CASE("a_blend_that_would_move_something_far_takes_longer_and_ends_within_th
 
 TEST_CASE("a_blend_that_moves_nothing_far_takes_the_stated_ticks") {
   const auto stands = [](double) { return scenes::bind_pose(); };
-  for (const Tier tier : {Tier::kModal, Tier::kSpring}) {
-    Block block;
-    block.play(stands, {.tier = tier}, 60);
-    block.play(stands, {.tier = Tier::kSkinning}, 60);
-    block.play(stands, {.tier = tier}, static_cast<int>(world::kBlendInTicks) - 1);
-    CHECK(block.blend_ticks() < world::kBlendInTicks);
-    block.tick(stands, {.tier = tier});
-    CHECK(block.blend_ticks() == world::kBlendInTicks);
-  }
-}
-
-TEST_CASE("flesh_that_hangs_still_stays_where_it_hangs_as_its_law_changes") {
-  constexpr double kBeside = 0.01;
-  const auto bent = [](double time_s) { return scenes::bent_pose(std::min(1.0, time_s)); };
-  for (const auto& [from, to] : {std::pair{Tier::kModal, Tier::kSpring},
-                                 {Tier::kNetwork, Tier::kSpring},
-                                 {Tier::kSpring, Tier::kModal}}) {
-    Block block, there;
-    block.play(bent, {.tier = from}, 600);
-    there.play(bent, {.tier = to}, 600);
-    const double left = test::largest_length(block.surface()), right = test::largest_length(there.surface());
-    REQUIRE(std::min(left, right) > 1e-3);
-    for (uint32_t t = 0; t < 2 * world::kBlendInTicks; ++t) {
-      block.tick(bent, {.tier = to});
-      const double shown = test::largest_length(block.surface());
-      INFO(static_cast<int>(from) << " to " << static_cast<int>(to) << ", after " << t << ": " << shown / left
-                                  << ", in the end " << right / left);
-      CHECK(shown > (1 - kBeside) * std::min(left, right));
-      CHECK(shown < (1 + kBeside) * std::max(left, right));
-    }
-  }
+  Block block;
+  block.play(stands, {.tier = Tier::kModal}, 60);
+  block.play(stands, {.tier = Tier::kSkinning}, 60);
+  block.play(stands, {.tier = Tier::kModal}, static_cast<int>(world::kBlendInTicks) - 1);
+  CHECK(block.blend_ticks() < world::kBlendInTicks);
+  block.tick(stands, {.tier = Tier::kModal});
+  CHECK(block.blend_ticks() == world::kBlendInTicks);
 }
 
 // Each tick's difference, of what the twins show.
@@ -153,52 +129,48 @@ TEST_CASE("modes_that_make_up_for_a_network_take_back_most_of_what_it_corrected"
   CHECK(with < 0.6 * without);
 }
 
-TEST_CASE("what_is_left_alone_fades_for_longer_the_further_it_hangs_and_springs_for_longer_than_modes") {
-  const auto faded_after = [](Tier tier, const auto& motion) {
+TEST_CASE("what_is_left_alone_fades_for_longer_the_further_it_hangs") {
+  const auto faded_after = [](const auto& motion) {
     Block block;
-    block.play(motion, {.tier = tier}, 120);
+    block.play(motion, {.tier = Tier::kModal}, 120);
     uint32_t ticks = 0;
     do block.tick(motion, {.tier = Tier::kExtrapolate});
     while (++ticks < 60 && test::largest_length(block.surface()) > 0);
     return ticks - world::kCarryTicks;
   };
   const auto strolls = [](double time_s) { return scenes::walk(0.2 * time_s); };
-  CHECK(faded_after(Tier::kModal, strolls) == world::kFadeTicks);
-  CHECK(faded_after(Tier::kSpring, strolls) == world::kSpringFadeTicks);
-  CHECK(faded_after(Tier::kModal, scenes::walk) > world::kFadeTicks);
-  CHECK(faded_after(Tier::kModal, shaken) == world::kLongestFadeTicks);
+  CHECK(faded_after(strolls) == world::kFadeTicks);
+  CHECK(faded_after(scenes::walk) > world::kFadeTicks);
+  CHECK(faded_after(shaken) == world::kLongestFadeTicks);
 }
 
 // What began elsewhere than it would have been swings on: its last ticks go half as fast. So does what missed
-// too little to begin at rest, and cannot be caught up with: springs, on a coarser level.
+// too little to begin at rest, and cannot be caught up with: other than it was, on a finer level.
 TEST_CASE("a_blend_from_what_was_shown_ends_slowly_where_something_moves") {
   Block block;
-  block.play(shaken, {.tier = Tier::kSpring}, 120);
+  block.play(shaken, {.tier = Tier::kNetwork, .level = 1}, 120);
   block.play(shaken, {.tier = Tier::kExtrapolate}, 2);
   uint32_t ticks = 0;
-  do block.tick(shaken, {.tier = Tier::kModal, .level = 1});
+  do block.tick(shaken, {.tier = Tier::kModal});
   while (++ticks < 100 && block.blend_ticks() < world::kBlendInTicks);
   CHECK(ticks > world::kBlendInTicks + 4);
   CHECK(ticks < 2 * world::kBlendInTicks);
 }
 
-// From rest, and from springs, which are another law.
-TEST_CASE("a_blend_to_modes_that_begin_elsewhere_takes_longer_where_something_moves") {
-  const auto blended_after = [](Tier before, const auto& pose) {
+TEST_CASE("a_blend_to_modes_that_begin_at_rest_takes_longer_where_something_moves") {
+  const auto blended_after = [](const auto& pose) {
     Block block;
-    block.play(pose, {.tier = before == Tier::kSpring ? Tier::kSpring : Tier::kModal}, 120);
-    block.play(pose, {.tier = before}, 60);
+    block.play(pose, {.tier = Tier::kModal}, 120);
+    block.play(pose, {.tier = Tier::kSkinning}, 60);
     uint32_t ticks = 0;
     do block.tick(pose, {.tier = Tier::kModal});
     while (++ticks < 100 && block.blend_ticks() < world::kBlendInTicks);
     return ticks;
   };
   const auto stands = [](double) { return scenes::bind_pose(); };
-  for (const Tier before : {Tier::kSkinning, Tier::kSpring}) {
-    CHECK(blended_after(before, stands) == world::kBlendInTicks);
-    CHECK(blended_after(before, shaken) > 2 * world::kBlendInTicks);
-    CHECK(blended_after(before, shaken) <= world::kLongestBlendTicks);
-  }
+  CHECK(blended_after(stands) == world::kBlendInTicks);
+  CHECK(blended_after(shaken) > 2 * world::kBlendInTicks);
+  CHECK(blended_after(shaken) <= world::kLongestBlendTicks);
 }
 
 TEST_CASE("a_blend_saved_between_its_ticks_goes_on_with_the_same_bits") {

@@ -122,7 +122,7 @@ TEST_CASE("costs_are_corrected_until_hardly_anybody_is_cut") {
     const FrameReport report = stage.step(scenes::walk, 1.0 / 60);
     cut += report.instances_cut;
     over += report.total_us > 1.05f * report.budget_us;
-    simulated += report.instances_network + report.instances_modal + report.instances_spring;
+    simulated += report.instances_network + report.instances_modal;
   }
   WARN("of " << kFrames << " frames more than 5 % over budget " << over << ", cut instances " << cut
              << ", simulated a frame " << static_cast<double>(simulated) / kFrames);
@@ -164,7 +164,7 @@ TEST_CASE("one_preempted_coming_into_view_does_not_take_simulation_from_the_othe
       stage.play(scenes::walk, 0.5);
       REQUIRE(stage.world.set_hidden(stage.blocks[7], false).ok());
       const FrameReport report = stage.step(scenes::walk, 1.0 / 60);
-      counts.push_back(report.instances_network + report.instances_modal + report.instances_spring);
+      counts.push_back(report.instances_network + report.instances_modal);
       if (second == 0) clock.first_end = clock.looks.load();
       stage.play(scenes::walk, 0.5);
     }
@@ -208,8 +208,8 @@ TEST_CASE("report_counts_every_instance_once_and_measures_its_stages") {
   for (int f = 0; f < 60; ++f) {
     const FrameReport report = stage.step(scenes::walk, 1.0 / 60);
     CHECK(report.frame == static_cast<uint64_t>(f));
-    CHECK(report.instances_network + report.instances_modal + report.instances_spring +
-              report.instances_extrapolated + report.instances_skinned ==
+    CHECK(report.instances_network + report.instances_modal + report.instances_extrapolated +
+              report.instances_skinned ==
           6);
     const float stages_us =
         report.schedule_us + report.drive_us + report.tissue_us + report.rods_us + report.publish_us;
@@ -245,7 +245,7 @@ TEST_CASE("nobody_goes_unsimulated_longer_than_the_stated_bound") {
   constexpr size_t kCount = 9;
   Stage stage(0, {.budget_mode = BudgetMode::kWorkUnits});
   for (size_t i = 0; i < kCount; ++i) stage.add(i == 0 ? 1e-3f : 1000);
-  const float cheapest_us = std::min(test::tier_cost_us(Tier::kSpring), test::tier_cost_us(Tier::kModal));
+  const float cheapest_us = test::tier_cost_us(Tier::kModal);
   REQUIRE(stage.world.set_budget_us(2.1f * cheapest_us).ok());
   const double bound_s = 2 + double{kCount} * (0.5 + 1.0 / 60);
   std::vector<uint32_t> waited(kCount);
@@ -545,7 +545,7 @@ TEST_CASE("a_hundred_thousand_instances_live_are_served_within_the_budget_and_go
   CHECK(crowd.world.create_instance({.asset = crowd.asset}, &made).code == StatusCode::kOutOfCapacity);
   for (int f = 0; f < 5; ++f) {
     const FrameReport report = crowd.world.step(1.0f / 60);
-    const uint32_t simulated = report.instances_modal + report.instances_spring;
+    const uint32_t simulated = report.instances_modal;
     CHECK_FALSE(report.over_budget);
     CHECK(simulated > 0);
     CHECK(simulated + report.instances_extrapolated + report.instances_skinned == kMany);
@@ -571,7 +571,7 @@ TEST_CASE("a_hundred_thousand_before_and_behind_a_camera_are_all_counted_and_tak
   REQUIRE(crowd.world.set_views({&view, 1}).ok());
   for (int f = 0; f < 3; ++f) {
     const FrameReport report = crowd.world.step(1.0f / 60);
-    const uint32_t simulated = report.instances_modal + report.instances_spring;
+    const uint32_t simulated = report.instances_modal;
     CHECK(report.instances_hidden == kMany / 2);
     CHECK(simulated + report.instances_extrapolated + report.instances_skinned == kMany / 2);
     CHECK(simulated <= kMany / 100);

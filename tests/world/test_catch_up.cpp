@@ -44,7 +44,7 @@ struct Pair {
   double apart_m() const { return test::largest_distance(interrupted.read(), steady.read()); }
 };
 
-constexpr Tier kSimulated[] = {Tier::kSpring, Tier::kModal, Tier::kNetwork};
+constexpr Tier kSimulated[] = {Tier::kModal, Tier::kNetwork};
 
 }  // namespace
 

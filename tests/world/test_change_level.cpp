@@ -12,7 +12,7 @@ using namespace sinew;
 
 namespace {
 
-constexpr Tier kSimulated[] = {Tier::kSpring, Tier::kModal, Tier::kNetwork};
+constexpr Tier kSimulated[] = {Tier::kModal, Tier::kNetwork};
 constexpr uint32_t kLevels = 3;
 
 class Block : public test::ToldBlock {
@@ -168,21 +168,6 @@ TEST_CASE("what_the_modes_leave_goes_on_as_it_was_spread_on_a_finer_level") {
     for (int at = 70; at < 91; ++at) sum += rest_off(from, at) / 21;
     INFO("from " << from << ": " << sum << " of it off");
     CHECK(sum < 0.2);  // 0.88 where it begins at rest
-  }
-}
-
-// Between coarser nodes some of the surface is faster than it was.
-TEST_CASE("what_was_shown_comes_to_a_stand_a_tick_sooner_where_law_and_level_change_at_once") {
-  Block stays, coarser;
-  for (Block* block : {&stays, &coarser}) block->play(scenes::walk, Tier::kModal, 0, 90);
-  const std::span<const uint32_t> picks = stays.asset().levels[1].pack.picks;
-  stays.tick(scenes::walk, Tier::kSpring, 0);
-  coarser.tick(scenes::walk, Tier::kSpring, 1);
-  for (size_t n = 0; n < picks.size(); ++n) {
-    for (size_t k = 0; k < 3; ++k) {
-      const float fine = stays.instance().tail_velocity[size_t{3} * picks[n] + k];
-      CHECK(coarser.instance().tail_velocity[3 * n + k] == Approx(world::kCarryDamping * fine).margin(1e-7));
-    }
   }
 }
 

@@ -75,7 +75,7 @@ TEST_CASE("an_hour_at_the_limit_winds_nothing_up") {
   const auto shaken = [](double t) { return scenes::shake(t, 3 * 4); };
   const auto spun = [](double t) { return scenes::bent_pose(0, 0, 30 * t); };
   constexpr double kLong_s = 1.0 / 15;  // four ticks a step
-  for (const Tier tier : {Tier::kNetwork, Tier::kModal, Tier::kSpring})
+  for (const Tier tier : {Tier::kNetwork, Tier::kModal})
     for (const bool spins : {false, true}) {
       double left_m[2], after_m[2];
       for (const int hour : {0, 1}) {
@@ -146,21 +146,6 @@ TEST_CASE("nan_in_the_base_fades_to_skinning_and_restarts") {
   }
 }
 
-TEST_CASE("nan_on_springs_fades_to_skinning_and_restarts") {
-  Stage stage(1, {.budget_mode = BudgetMode::kWorkUnits});
-  REQUIRE(stage.world.set_budget_us(test::tier_cost_us(Tier::kSpring) * 1.01f).ok());
-  stage.play(scenes::walk, 1);
-  REQUIRE(stage.report().tier == Tier::kSpring);
-  poison(stage, [](const world::Instance& t) { return t.l[0] + 20; });
-  uint32_t restarts = 0;
-  for (int f = 0; f < 90; ++f) {
-    restarts += stage.step(scenes::walk, kFrame_s).restarts;
-    REQUIRE(test::all_finite(stage.read()));
-  }
-  CHECK(restarts == 1);
-  CHECK(stage.report().tier == Tier::kSpring);
-}
-
 TEST_CASE("restarts_and_fallbacks_do_not_pop") {
   constexpr double kPop = 2;  // as in test_blend
   Stage restarted, fallen, sound;
@@ -181,7 +166,7 @@ TEST_CASE("restarts_and_fallbacks_do_not_pop") {
 // rest again when the motion is. A mode of 3.5 Hz damped by 0.1 falls to exp(-0.1 2 pi 3.5 5) = 2e-5 in five
 // seconds.
 TEST_CASE("overdriven_x3_returns_to_rest") {
-  for (const Tier tier : {Tier::kNetwork, Tier::kModal, Tier::kSpring}) {
+  for (const Tier tier : {Tier::kNetwork, Tier::kModal}) {
     INFO("tier " << static_cast<uint32_t>(tier));
     Stage stage(1, {.budget_mode = BudgetMode::kWorkUnits});
     REQUIRE(stage.world.set_budget_us(test::tier_cost_us(tier) * 1.01f).ok());

@@ -8,7 +8,7 @@ using namespace sinew;
 
 namespace {
 
-constexpr Tier kSimulated[] = {Tier::kSpring, Tier::kModal, Tier::kNetwork};
+constexpr Tier kSimulated[] = {Tier::kModal, Tier::kNetwork};
 constexpr uint32_t kWhole = 2, kLess = 3;  // levels of ten nodes a region, with both and with the right alone
 
 const scenes::PackBytes& left_out_pack() {
@@ -77,7 +77,7 @@ TEST_CASE("a_region_that_is_left_out_fades_and_when_it_is_had_again_swings_as_be
 }
 
 TEST_CASE("what_begins_under_a_load_that_lasts_begins_where_it_hangs") {
-  // By a network that forgot; begun at zero, springs have 0.2 too little when they are blended in.
+  // By a network that forgot; begun at zero, it has 0.2 too little when they are blended in.
   constexpr float kSwings = 0.15f;
   const auto bent = [](double time_s) { return scenes::bent_pose(0.3 * std::min(1.0, time_s)); };
   for (const Tier tier : kSimulated)
@@ -131,7 +131,7 @@ TEST_CASE("what_is_had_again_on_another_tier_begins_at_rest_too") {
   const auto bent = [](double time_s) { return scenes::bent_pose(0.3 * std::min(1.0, time_s)); };
   Block stays, back;
   stays.play(bent, {.tier = Tier::kModal, .level = kWhole}, 660);
-  back.play(bent, {.tier = Tier::kSpring, .level = kLess}, 620);
+  back.play(bent, {.tier = Tier::kNetwork, .level = kLess}, 620);
   for (int t = 0; t < 40; ++t) {
     back.tick(bent, {.tier = Tier::kModal, .level = kWhole});
     CHECK(largest(back.of_region(0)) < 1.02f * largest(stays.of_region(0)));
@@ -165,7 +165,7 @@ TEST_CASE("a_jolt_in_the_tick_of_coming_back_throws_nothing_further_than_it_thro
 
 TEST_CASE("what_is_had_again_against_a_wall_is_pressed_no_further_than_what_stayed") {
   const auto stands = [](double) { return scenes::bind_pose(); };
-  for (const Tier tier : {Tier::kSpring, Tier::kModal}) {
+  for (const Tier tier : kSimulated) {
     scenes::HalfSpaces wall;
     wall.walls = {{{-0.14, 0, 0}, {1, 0, 0}}};
     Block stays({.source = &wall}), back({.source = &wall});

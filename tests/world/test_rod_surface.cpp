@@ -116,7 +116,7 @@ TEST_CASE("a_surface_that_is_the_source_is_refused_and_one_of_a_character_withou
 
 TEST_CASE("rods_lie_on_skin_in_tiers_that_afford_it_and_on_capsules_in_all_others") {
   // The first is never bought here: rods cost most, and hardly less on it.
-  CHECK_FALSE(world::affords_surface(Tier::kSpring, 0));
+  CHECK_FALSE(world::affords_surface(Tier::kExtrapolate, 0));
   CHECK(world::affords_surface(Tier::kModal, 0));
   const std::pair<Tier, uint32_t> all[] = {{Tier::kNetwork, 0}, {Tier::kNetwork, 1}, {Tier::kModal, 1}};
   for (const auto& [tier, level] : all) {

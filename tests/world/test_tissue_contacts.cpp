@@ -98,7 +98,7 @@ TEST_CASE("what_is_far_away_changes_no_bit") {
 }
 
 TEST_CASE("a_wall_in_the_flesh_holds_it_off_on_every_simulated_tier") {
-  for (const Tier tier : {Tier::kNetwork, Tier::kModal, Tier::kSpring}) {
+  for (const Tier tier : {Tier::kNetwork, Tier::kModal}) {
     HalfSpaces wall;
     wall.walls = {right_wall(0.02)};
     Touching stage(&wall, {.budget_mode = BudgetMode::kWorkUnits});
@@ -241,27 +241,6 @@ TEST_CASE("a_snapshot_without_contacts_is_refused_by_an_instance_with_them") {
   Touching stage(&wall);
   Stage alone;
   CHECK(stage.world.restore_state(stage.blocks[0], alone.save()).code == StatusCode::kCorrupt);
-}
-
-TEST_CASE("springs_that_come_after_modes_are_pressed_by_where_they_are") {
-  HalfSpaces wall;
-  Touching stage(&wall, {.budget_mode = BudgetMode::kWorkUnits});
-  // Wild modes leave their last l and theta behind.
-  stage.play([](double t) { return scenes::shake(t, 3); }, 1.03);
-  REQUIRE(stage.world.set_budget_us(1.01f * test::tier_cost_us(Tier::kSpring)).ok());
-  stage.play(stands, 1);
-  REQUIRE(stage.report().tier == Tier::kSpring);
-  wall.walls = {right_wall(0.02)};
-  stage.play(stands, 0.5);
-  const std::vector<float> pressed = stage.read();
-  wall.walls.clear();
-  stage.step(stands, kFrame_s);
-  // It was the springs that were pushed: a tick later they are not yet back.
-  Stage alone(1, {.budget_mode = BudgetMode::kWorkUnits});
-  REQUIRE(alone.world.set_budget_us(1.01f * test::tier_cost_us(Tier::kSpring)).ok());
-  alone.play(stands, 0.5);
-  CHECK(test::largest_distance(stage.read(), alone.read()) >
-        0.5 * test::largest_distance(pressed, alone.read()));
 }
 
 TEST_CASE("what_was_touched_is_forgotten_where_nothing_is_simulated_and_after_a_reset") {

@@ -80,7 +80,7 @@ TEST_CASE(
   for (int f = 0; f < 60; ++f) {
     REQUIRE(stage.world.set_budget_us(f % 20 < 10 ? 1e6f : 20).ok());
     const FrameReport report = stage.step(scenes::walk, 1.0 / 60);
-    const uint32_t simulated = report.instances_network + report.instances_modal + report.instances_spring;
+    const uint32_t simulated = report.instances_network + report.instances_modal;
     CHECK(simulated + report.instances_extrapolated + report.instances_skinned == kBlocks);
     if (f % 20 == 9) CHECK(simulated == kBlocks);
     for (size_t i = 0; i < kBlocks; ++i)

@@ -138,13 +138,12 @@ struct InstanceDef {
   ContactDef contacts = {};
 };
 
-// What an instance got in a frame. In rising quality: skinning, extrapolate, spring, modal, network; the last
-// three are simulated. Values are baked into packs: never renumbered.
+// What an instance got in a frame. In rising quality: skinning, extrapolate, modal, network; the last two are
+// simulated. Values are baked into packs: never renumbered, and 3 is not used again.
 enum class Tier : uint32_t {
   kSkinning = 0,     // displacement is zero, or fading to it (12 to 28 ticks, 0.2 to 0.47 s at 60 Hz)
   kExtrapolate = 1,  // the last displacement swings on, damped (4 ticks), then fades
   kNetwork = 2,      // the modal base, corrected by the asset's network
-  kSpring = 3,       // a damped spring at each control node
   kModal = 4,        // the modes of each soft part, from its flesh: no training
 };
 inline constexpr uint32_t kTierCount = 5;
@@ -177,8 +176,7 @@ struct InstanceReport {
   // The network's state was given up: NaN or infinity in it. The modal base takes over for 60 ticks, then the
   // network starts anew.
   uint32_t fallbacks = 0;
-  // All state was given up, faded to skinning and restarted: NaN or infinity in the modal base or the
-  // springs.
+  // All state was given up, faded to skinning and restarted: NaN or infinity in the modal base.
   uint32_t restarts = 0;
   uint32_t regions_asleep = 0;    // soft parts at rest, left out until they feel more
   uint32_t regions_left_out = 0;  // soft parts that its control graph does not have: they are skinned
@@ -207,13 +205,12 @@ struct FrameReport {
   float dropped_s = 0;  // time beyond max_ticks_per_step, not simulated; the most of any instance
   float budget_us = 0;  // as set; infinity: no limit
   float total_us = 0;   // the whole step
-  // Stages: choosing tiers; poses, node frames and drive; modes, springs, network and guards; bones that are
+  // Stages: choosing tiers; poses, node frames and drive; modes, network and guards; bones that are
   // rods; displacement brought to the render time and the surface. The last four are summed over the
   // instances: on several threads they may exceed total_us.
   float schedule_us = 0, drive_us = 0, tissue_us = 0, rods_us = 0, publish_us = 0;
   // Each instance once; one whose extrapolation has faded away counts as skinned.
-  uint32_t instances_network = 0, instances_modal = 0, instances_spring = 0, instances_extrapolated = 0,
-           instances_skinned = 0;
+  uint32_t instances_network = 0, instances_modal = 0, instances_extrapolated = 0, instances_skinned = 0;
   uint32_t instances_hidden = 0;  // nobody sees them; in none of the counts above
   uint32_t instances_dormant =
       0;                       // asleep under an unchanged pose and not stepped; in the counts of their tiers

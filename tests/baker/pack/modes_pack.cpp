@@ -187,24 +187,6 @@ TEST_CASE("a_displacement_that_two_modes_explain_goes_to_the_softer") {
   CHECK(q[0] > 5 * q[1]);  // by the square of their frequencies, 20 and 60 rad/s
 }
 
-// What the modes and the rest settle to under one felt acceleration everywhere.
-TEST_CASE("compliance_is_the_modes_static_answer") {
-  const Character character = test::small_character();
-  const TissueLayout layout = test::small_layout(character);
-  const std::vector<ModalBasis> modes = test::small_modes(layout);
-  test::PackEditor editor(pack_character(character, layout, modes));
-  pack::PackView view;
-  REQUIRE(editor.open(&view).ok());
-  const Eigen::Vector3d felt(1, -2, 0.5);
-  const Eigen::VectorXd forces = modes[0].force * felt.replicate(3, 1);
-  const Eigen::VectorXd u = modes[0].shape * forces.cwiseQuotient(modes[0].rad_per_s.cwiseAbs2()) +
-                            modes[0].rest * felt.replicate(3, 1);
-  for (int row = 0; row < 9; ++row) {
-    const float* c = view.compliance.data() + 3 * row;
-    CHECK(c[0] * felt[0] + c[1] * felt[1] + c[2] * felt[2] == Approx(u[row]).margin(1e-8));
-  }
-}
-
 TEST_CASE("a_region_without_modes_is_packed_and_stands_still") {
   const Character character = test::small_character();
   const TissueLayout layout = test::small_layout(character);
@@ -223,7 +205,6 @@ TEST_CASE("a_region_without_modes_is_packed_and_stands_still") {
   INFO(status.message);
   REQUIRE(status.ok());
   CHECK(view.region_modes[0].mode_count == 0);
-  CHECK(view.compliance[4] == 0);
   CHECK(view.modes.size() == 2);
   CHECK((view.region_modes[0].rest_a1 == 0 && view.region_modes[0].rest_a2 == 0));
 }

@@ -157,7 +157,7 @@ TEST_CASE("without_weights_a_character_is_packed_with_its_modes") {
   CHECK(description["network"]["model"] == "none");
   std::vector<std::string> tiers;
   for (const auto& tier : description["tiers"]) tiers.push_back(tier["tier"]);
-  CHECK(tiers == std::vector<std::string>{"skinning", "extrapolate", "spring", "modal"});
+  CHECK(tiers == std::vector<std::string>{"skinning", "extrapolate", "modal"});
   for (const auto& region : description["regions"]) {
     CHECK(region["modes"].get<int>() >= 6);
     CHECK(region["first_hz"].get<double>() > 1);

@@ -24,7 +24,7 @@ Row row(const std::string& name, const std::string& kind, Tier tier, double us, 
 std::vector<Row> rows() {
   return {row("skinning", "tier", Tier::kSkinning, 2, 1),
           row("extrapolate", "tier", Tier::kExtrapolate, 1, 0.01),
-          row("spring", "tier", Tier::kSpring, 40, 0.4),
+          row("coarse", "tier", Tier::kModal, 40, 0.4),
           row("modal", "tier", Tier::kModal, 30, 0.2),
           row("modal 2", "tier", Tier::kModal, 35, 0.25),
           row("network", "tier", Tier::kNetwork, 100, 0.1),
@@ -47,7 +47,7 @@ TEST_CASE("a_row_is_dominated_by_what_is_cheaper_and_nearer_and_to_be_had") {
 }
 
 TEST_CASE("equal_rows_do_not_dominate_each_other") {
-  std::vector<Row> two = {row("a", "tier", Tier::kModal, 30, 0.2), row("b", "tier", Tier::kSpring, 30, 0.2)};
+  std::vector<Row> two = {row("a", "tier", Tier::kModal, 30, 0.2), row("b", "tier", Tier::kNetwork, 30, 0.2)};
   find_dominated(&two);
   CHECK(two[0].dominated_by.empty());
   CHECK(two[1].dominated_by.empty());

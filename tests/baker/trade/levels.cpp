@@ -69,7 +69,7 @@ double largest_jump(const std::vector<Surface>& changes, const std::vector<Surfa
 TEST_CASE("a_closed_loop_begins_at_rest_in_the_tier_that_it_is_told") {
   const LoadedPack pack = LoadedPack::from_file(hop().pack);
   const TrueMotion motion(read_safetensors(hop().truth), pack.view());
-  for (const Tier tier : {Tier::kModal, Tier::kNetwork, Tier::kSpring}) {
+  for (const Tier tier : {Tier::kModal, Tier::kNetwork}) {
     ClosedLoop loop(pack, motion);
     loop.tick(tier, 0);
     CHECK(loop.instance().state->tier == tier);
