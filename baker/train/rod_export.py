@@ -108,7 +108,7 @@ def export_examples(data, out, name, count, seed):
         inputs.append(run.told[step, segment])
         answers.append(np.clip(run.answers[step, segment], -LARGEST_EXAMPLE, LARGEST_EXAMPLE))
     inputs, answers = np.stack(inputs), np.stack(answers).reshape(count, ANSWERS)
-    about = {"purpose": "examples of RodStart::kKnn (rods/knn_start.hpp)", "seed": seed, "train_runs": len(runs)}
+    about = {"purpose": "examples of starts (baker/research/rods/nearest_start.hpp)", "seed": seed, "train_runs": len(runs)}
     save(os.path.join(out, f"{name}.safetensors"), {"inputs": inputs, "answers": answers}, about)
     test = read_runs(data, "test")[::4]
     metrics = {"count": count, "neighbours": NEIGHBOURS, "test_runs": len(test)}

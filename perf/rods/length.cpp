@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <random>
 
+#include "baker/research/rods/compared_solver.hpp"
 #include "perf/help.hpp"
 #include "tests/rods/rod_scenes.hpp"
 
@@ -19,7 +20,7 @@ constexpr float kDt_s = 0.02f;
 constexpr double kGravity_m_s2 = 9.81;
 
 struct Run {
-  rods::RodSolver solver = rods::RodSolver::kDirect;
+  baker::SolverKind solver = baker::SolverKind::kDirect;
   rods::RodStart start = rods::RodStart::kPrevious;
   uint32_t segments = 30;
   float young_pa = 1e6f;
@@ -45,7 +46,8 @@ void guess(rods::RodBatch* batch, std::mt19937* random) {
 
 Lengths simulate(const Run& run) {
   const test::Segments rod = test::straight_rod({.segments = run.segments, .young_pa = run.young_pa});
-  rods::RodBatch batch = test::batch_of({rod}, {.solver = run.solver, .start = run.start});
+  baker::ComparedSolver solver = {.kind = run.solver};
+  rods::RodBatch batch = test::batch_of({rod}, {.solver = solver.solver(), .start = run.start});
   const double began = test::energy(batch, rod, kGravity_m_s2).sum_j();
   const double fall = 2 * run.segments * rods::segment_inertia(rod[0]).mass_kg * kGravity_m_s2;
   std::mt19937 random(1);
@@ -66,10 +68,9 @@ Lengths simulate(const Run& run) {
 }
 
 void print(const Run& run) {
-  const char* const solvers[] = {"direct", "cg", "local"};
   const char* const starts[] = {"zero", "previous", "given"};
   const Lengths l = simulate(run);
-  std::printf("%s,%s,%u,%.0e,%d,%.6f,%.6f,%.1e,%.3f,%.2f,%u,%u\n", solvers[static_cast<int>(run.solver)],
+  std::printf("%s,%s,%u,%.0e,%d,%.6f,%.6f,%.1e,%.3f,%.2f,%u,%u\n", name_of(run.solver),
               starts[static_cast<int>(run.start)], run.segments, static_cast<double>(run.young_pa), run.steps,
               l.longest, l.shortest, l.stretch, l.energy, static_cast<double>(l.iterations) / run.steps,
               l.unconverged, l.rejoined);
@@ -91,7 +92,7 @@ void print_all() {
   }
   for (const uint32_t segments : {10u, 30u, 200u}) {
     for (const float young : {1e4f, 1e6f}) {
-      print({.solver = rods::RodSolver::kLocal, .segments = segments, .young_pa = young, .steps = 1000});
+      print({.solver = baker::SolverKind::kLocal, .segments = segments, .young_pa = young, .steps = 1000});
     }
   }
 }

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "baker/research/rods/compared_solver.hpp"
 #include "perf/help.hpp"
 #include "perf/rods/peak.hpp"
 #include "rods/rod_batch.hpp"
@@ -39,16 +40,16 @@ struct Worst {
   }
 };
 
-const char* name_of(rods::RodSolver solver) { return solver == rods::RodSolver::kCg ? "cg" : "direct"; }
 const char* name_of(rods::RodStart start) { return start == rods::RodStart::kZero ? "zero" : "previous"; }
 
-void run(const Scene& scene, rods::RodStart start, rods::RodSolver solver = rods::RodSolver::kDirect) {
+void run(const Scene& scene, rods::RodStart start, baker::SolverKind kind = baker::SolverKind::kDirect) {
   const test::Segments rod = test::straight_rod(scene.shape);
   const std::vector<test::Segments> strands =
       scene.strands == 1 ? std::vector<test::Segments>{rod} : test::varied(rod, scene.strands);
-  rods::RodBatch batch = test::batch_of(strands, {.solver = solver, .start = start});
+  baker::ComparedSolver solver = {.kind = kind};
+  rods::RodBatch batch = test::batch_of(strands, {.solver = solver.solver(), .start = start});
   std::vector<double> step_us, iteration_us;
-  double iterations = 0, inner = 0;
+  double iterations = 0;
   uint32_t unconverged = 0;
   Worst worst;
   for (int i = 0; i < scene.steps; ++i) {
@@ -58,11 +59,11 @@ void run(const Scene& scene, rods::RodStart start, rods::RodSolver solver = rods
     step_us.push_back(us / scene.strands);
     iteration_us.push_back(us / (static_cast<double>(report.iterations_sum) * scene.shape.segments));
     iterations += static_cast<double>(report.iterations_sum) / scene.strands / scene.steps;
-    inner += static_cast<double>(report.cg_iterations) / scene.strands / scene.steps;
     unconverged += report.unconverged;
     worst.look(batch, strands);
   }
-  std::printf("%s,%s,%s,%u,%u,%.0e,%.3f,%.4f,%.2f,%.0f,%.1e,%.6f,%u\n", scene.name, name_of(solver),
+  const double inner = static_cast<double>(solver.cg_iterations) / scene.strands / scene.steps;
+  std::printf("%s,%s,%s,%u,%u,%.0e,%.3f,%.4f,%.2f,%.0f,%.1e,%.6f,%u\n", scene.name, name_of(kind),
               name_of(start), scene.strands, scene.shape.segments, static_cast<double>(scene.shape.young_pa),
               median(step_us), median(iteration_us), iterations, inner, worst.gap, worst.length_ratio,
               unconverged);
@@ -94,7 +95,7 @@ void run_all() {
     for (const uint32_t segments : {30u, 50u, 100u, 200u}) {
       for (const float young : {1e4f, 1e6f, 1e8f}) run(single(segments, young), start);
     }
-    for (const float young : {1e4f, 1e6f}) run(single(30, young), start, rods::RodSolver::kCg);
+    for (const float young : {1e4f, 1e6f}) run(single(30, young), start, baker::SolverKind::kCg);
   }
 }
 

@@ -2,15 +2,16 @@
 #pragma once
 #include <cstring>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "baker/common/bad_input.hpp"
 #include "baker/pack/dense_pack.hpp"
+#include "baker/research/rods/nearest_start.hpp"
 #include "core/aligned_block.hpp"
 #include "pack/reader.hpp"
 #include "rods/coping_net.hpp"
-#include "rods/knn_start.hpp"
 
 namespace sinew::perf {
 
@@ -46,13 +47,13 @@ class ExampleFile {
     const baker::Safetensors file = baker::read_safetensors(path);
     inputs_ = file.need("inputs", {-1, simd::kRodStartInputs}).as_f32();
     answers_ = file.need("answers", {-1, simd::kRodStartNumbers}).as_f32();
-    view_ = {inputs_, answers_};
+    nearest_ = std::make_unique<baker::NearestStart>(inputs_, answers_);
   }
-  const rods::StartExamples* examples() const { return &view_; }
+  rods::RodCorrection nearest() const { return nearest_->correction(); }
 
  private:
   std::vector<float> inputs_, answers_;
-  rods::StartExamples view_;
+  std::unique_ptr<baker::NearestStart> nearest_;
 };
 
 }  // namespace sinew::perf

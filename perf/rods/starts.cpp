@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "baker/common/bad_input.hpp"
+#include "baker/research/rods/compared_solver.hpp"
 #include "baker/rods/rod_run.hpp"
 #include "baker/truth/random.hpp"
 #include "perf/help.hpp"
@@ -77,19 +78,22 @@ struct Sums {  // over strands, but for `most`, which is over groups
 
 struct Contender {
   std::string name;
+  std::unique_ptr<baker::ComparedSolver> solver;
   rods::RodSettings settings;
   double noise = -1;  // not negative: given what is true, disturbed
   rods::RodBatch batch;
   std::array<Sums, 2> sums;
 };
 
-std::vector<Contender> contenders(const Given& given, rods::RodSolver solver) {
+std::vector<Contender> contenders(const Given& given, baker::SolverKind solver) {
   std::vector<Contender> out;
   const auto add = [&](const std::string& name, rods::RodStart start, double noise = -1) {
     Contender& who = out.emplace_back();
     who.name = name;
     who.noise = noise;
-    who.settings.solver = solver;
+    who.solver = std::make_unique<baker::ComparedSolver>();
+    who.solver->kind = solver;
+    who.settings.solver = who.solver->solver();
     who.settings.start = start;
     who.settings.max_iterations = 30;
     return &who.settings;
@@ -97,7 +101,7 @@ std::vector<Contender> contenders(const Given& given, rods::RodSolver solver) {
   add("zero", rods::RodStart::kZero);
   add("previous", rods::RodStart::kPrevious);
   add("continued", rods::RodStart::kContinued);
-  if (given.examples) add("knn", rods::RodStart::kKnn)->examples = given.examples->examples();
+  if (given.examples) add("knn", rods::RodStart::kContinued)->correction = given.examples->nearest();
   for (const auto& network : given.networks) {
     add(network->name(), rods::RodStart::kLearned)->network = network->net();
   }
@@ -128,6 +132,7 @@ void step(uint32_t at, const Strands& strands, const rods::RodBatch& truth, bake
   strands.drive(at, &who->batch);
   if (who->noise >= 0) give(truth, who->noise, random, &who->batch);
   rods::RodReport report;
+  const uint32_t cg_before = who->solver->cg_iterations;
   const double begin = thread_us();
   who->batch.step(kDt_s, &report);
   const double us = thread_us() - begin;
@@ -135,21 +140,20 @@ void step(uint32_t at, const Strands& strands, const rods::RodBatch& truth, bake
   Sums& sums = (*totals)[at < kTrainedSteps ? 0 : 1];
   sums.newton += report.iterations_sum;
   sums.most += report.iterations;
-  sums.cg += report.cg_iterations;
+  sums.cg += who->solver->cg_iterations - cg_before;
   sums.us += us;
   sums.unconverged += report.unconverged;
   sums.steps += 1;
   sums.strand_steps += who->batch.strand_count();
 }
 
-void print(const Case& c, size_t segments, rods::RodSolver solver, const Contender& who) {
+void print(const Case& c, size_t segments, baker::SolverKind solver, const Contender& who) {
   for (size_t h = 0; h < 2; ++h) {
     const Sums& s = who.sums[h];
     if (s.steps == 0) continue;
     std::printf("%s,%zu,%.0e,%s,%s,%s,%.3f,%.3f,%.1f,%.3f,%u\n", c.name.c_str(), segments, c.range.softest_pa,
-                solver == rods::RodSolver::kCg ? "cg" : "direct", who.name.c_str(),
-                h == 0 ? "within" : "beyond", s.newton / s.strand_steps, s.most / s.steps,
-                s.cg / s.strand_steps, s.us / s.strand_steps, s.unconverged);
+                name_of(solver), who.name.c_str(), h == 0 ? "within" : "beyond", s.newton / s.strand_steps,
+                s.most / s.steps, s.cg / s.strand_steps, s.us / s.strand_steps, s.unconverged);
   }
   std::fflush(stdout);
 }
@@ -171,8 +175,8 @@ void run_batch(const Strands& strands, uint32_t steps, std::vector<Contender>* t
 }
 
 void run(const Case& c, const Given& given) {
-  for (const rods::RodSolver solver : {rods::RodSolver::kDirect, rods::RodSolver::kCg}) {
-    const bool alone = solver == rods::RodSolver::kCg || c.range.kind == baker::RodKind::kTree;
+  for (const baker::SolverKind solver : {baker::SolverKind::kDirect, baker::SolverKind::kCg}) {
+    const bool alone = solver == baker::SolverKind::kCg || c.range.kind == baker::RodKind::kTree;
     std::vector<Contender> totals = contenders(given, solver);
     size_t segments = 0;
     for (uint32_t i = 0; i < (alone ? c.alone : 1); ++i) {
@@ -206,7 +210,7 @@ void print_costs(const Given& given) {
   for (const double n : {16.0, 50.0, 100.0}) {
     const Case c = {"bending_rod", {baker::RodKind::kBendingRod, n, n, 1e7, 1e7, 1}};
     const Strands strands(c, c.strands, kFirstSeed);
-    std::vector<Contender> all = contenders(given, rods::RodSolver::kDirect);
+    std::vector<Contender> all = contenders(given, baker::SolverKind::kDirect);
     all.resize(all.size() - 3);
     for (Contender& who : all) who.settings.max_iterations = 1, who.settings.tolerance_rad = 1;
     all[0].settings.max_iterations = 30;

@@ -50,9 +50,9 @@ constexpr TradeScene kScenes[] = {
     {"tree", true, false, 1.0f / 60, tree, nothing, shake},
     {"collisions", false, true, 1.0f / 60, chain, over_capsule_onto_floor, stay}};
 
-constexpr TradeSolver kSolvers[] = {{"direct", rods::RodSolver::kDirect, true, 40, false},
-                                    {"cg", rods::RodSolver::kCg, true, 6, true},
-                                    {"local", rods::RodSolver::kLocal, false, 120, true}};
+constexpr TradeSolver kSolvers[] = {{"direct", baker::SolverKind::kDirect, true, 40, false},
+                                    {"cg", baker::SolverKind::kCg, true, 6, true},
+                                    {"local", baker::SolverKind::kLocal, false, 120, true}};
 
 constexpr TradeStart kStarts[] = {{"zero", rods::RodStart::kZero},
                                   {"previous", rods::RodStart::kPrevious},

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "rods/rod_batch.hpp"
+#include "baker/research/rods/compared_solver.hpp"
 
 namespace sinew::perf {
 
@@ -24,7 +24,7 @@ struct TradeScene {
 
 struct TradeSolver {
   const char* name;
-  rods::RodSolver solver;
+  baker::SolverKind kind;
   bool contacts;             // knows them
   uint32_t most_iterations;  // given up beyond
   bool inner;                // iterates inside an iteration: slow on long rods, so measured at fewer states
@@ -33,8 +33,8 @@ struct TradeSolver {
 struct TradeStart {
   const char* name;
   rods::RodStart start;
-  const rods::CopingNet* network = nullptr;       // of kLearned
-  const rods::StartExamples* examples = nullptr;  // of kKnn
+  const rods::CopingNet* network = nullptr;  // of kLearned
+  rods::RodCorrection correction = {};       // of kContinued
 };
 
 std::span<const TradeScene> trade_scenes();

@@ -89,7 +89,8 @@ int run(const Request& request) {
   std::unique_ptr<ExampleFile> examples;
   if (!request.examples.empty()) {
     examples = std::make_unique<ExampleFile>(request.examples);
-    starts.push_back({.name = "knn", .start = sinew::rods::RodStart::kKnn, .examples = examples->examples()});
+    starts.push_back(
+        {.name = "knn", .start = sinew::rods::RodStart::kContinued, .correction = examples->nearest()});
   }
   if (!request.network.empty()) {
     network = std::make_unique<StartNetwork>(request.network);

@@ -56,8 +56,7 @@ class CaseRun {
   std::vector<Reached> run() {
     std::vector<Tally> tallies(std::size(kResiduals));
     // With the case's own start, for what it remembers of the steps before.
-    rods::RodSettings tight = settings(1e-6, 200, false);
-    tight.solver = rods::RodSolver::kDirect;
+    rods::RodSettings tight = settings({}, 200, false);
     tight.tolerance_rad = 1e-4f;
     Rig scene = made(tight);
     for (int step = 0; step < kSteps; ++step) {
@@ -106,16 +105,18 @@ class CaseRun {
   }
 
   // CG is asked for a tenth of what is wanted, down to what floats can.
-  rods::RodSettings settings(double residual, uint32_t iterations, bool report) const {
-    return {.solver = case_.solver->solver,
+  baker::ComparedSolver solver_for(double residual) const {
+    return {.kind = case_.solver->kind,
+            .cg = {.tolerance = static_cast<float>(std::max(0.1 * residual, 1e-7)), .max_iterations = 2000}};
+  }
+  rods::RodSettings settings(rods::RodSolver solver, uint32_t iterations, bool report) const {
+    return {.solver = solver,
             .start = case_.start->start,
             .max_iterations = iterations,
             .tolerance_rad = 1e-6f,
-            .cg_tolerance = static_cast<float>(std::max(0.1 * residual, 1e-7)),
-            .cg_max_iterations = 2000,
             .report_residual = report,
             .network = case_.start->network,
-            .examples = case_.start->examples};
+            .correction = case_.start->correction};
   }
 
   void try_all(const Rig& from, std::vector<Tally>* tallies) const {
@@ -125,7 +126,7 @@ class CaseRun {
     uint32_t k = 1;
     for (size_t i = 0; i < tallies->size(); ++i) {
       // With a tighter inner tolerance fewer iterations may do.
-      if (case_.solver->solver == rods::RodSolver::kCg && k <= case_.solver->most_iterations) k = 1;
+      if (case_.solver->kind == baker::SolverKind::kCg && k <= case_.solver->most_iterations) k = 1;
       k = try_one(from, exact, k, kResiduals[i], &(*tallies)[i]);
     }
   }
@@ -133,14 +134,15 @@ class CaseRun {
   // From so many iterations on: fewer left more than this. Returns how many it took.
   uint32_t try_one(const Rig& from, const Rig& exact, uint32_t k, double residual, Tally* tally) const {
     while (k <= case_.solver->most_iterations) {
-      Rig tried = made(settings(residual, k, true));
+      baker::ComparedSolver solver = solver_for(residual);
+      Rig tried = made(settings(solver.solver(), k, true));
       tried.take_state(from);
       const rods::RodReport report = tried.step(case_.scene->dt_s);
       if (solved(report, residual)) {
         tally->us.push_back(time_us(from, residual, k));
         tally->errors.push_back(apart(tried.batch, exact.batch));
         tally->iterations += k;
-        tally->inner += static_cast<double>(report.cg_iterations) / case_.strands;
+        tally->inner += static_cast<double>(solver.cg_iterations) / case_.strands;
         tally->most = std::max(tally->most, k);
         return k;
       }
@@ -151,7 +153,8 @@ class CaseRun {
   }
 
   double time_us(const Rig& from, double residual, uint32_t iterations) const {
-    Rig timed = made(settings(residual, iterations, false));
+    baker::ComparedSolver solver = solver_for(residual);
+    Rig timed = made(settings(solver.solver(), iterations, false));
     std::vector<double> us;
     for (int i = 0; i <= kRepeats; ++i) {
       timed.take_state(from);

@@ -14,20 +14,9 @@ Status bad_setting(const char* name, double value, const char* range) {
 }
 
 Status check_settings(const RodSettings& s) {
-  if (s.solver > RodSolver::kLocal)
-    return bad_setting("solver", static_cast<double>(s.solver), "kDirect, kCg or kLocal");
-  if (!(s.cg_tolerance >= 1e-7f && s.cg_tolerance <= 1)) {
-    return bad_setting("cg_tolerance", static_cast<double>(s.cg_tolerance), "1e-7 to 1");
-  }
-  if (s.cg_max_iterations < 1 || s.cg_max_iterations > 100000) {
-    return bad_setting("cg_max_iterations", s.cg_max_iterations, "1 to 100000");
-  }
-  if (s.local_sweeps < 1 || s.local_sweeps > 10000) {
-    return bad_setting("local_sweeps", s.local_sweeps, "1 to 10000");
-  }
   if (s.start > RodStart::kLearned) {
     return bad_setting("start", static_cast<double>(s.start),
-                       "kZero, kPrevious, kGiven, kContinued, kKnn or kLearned");
+                       "kZero, kPrevious, kGiven, kContinued or kLearned");
   }
   if (s.max_iterations < 1 || s.max_iterations > 1000) {
     return bad_setting("max_iterations", s.max_iterations, "1 to 1000");
@@ -42,8 +31,7 @@ Status check_settings(const RodSettings& s) {
   for (const float g : s.gravity_m_s2) {
     if (!std::isfinite(g)) return bad_setting("gravity_m_s2", static_cast<double>(g), "finite numbers");
   }
-  if (s.start == RodStart::kLearned) return check_learned_start(s.network);
-  return s.start == RodStart::kKnn ? check_examples(s.examples) : Status{};
+  return s.start == RodStart::kLearned ? check_learned_start(s.network) : Status{};
 }
 
 Status check_shape(const StrandDef& first, const StrandDef& strand, uint32_t index) {

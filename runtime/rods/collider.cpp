@@ -70,7 +70,7 @@ struct ColliderBuilder {
     const auto by_default =
         static_cast<uint32_t>(std::clamp<uint64_t>(four_each, kLeastContacts, kMostContacts));
     to.capacity_ = to.settings_.contact_capacity ? to.settings_.contact_capacity : by_default;
-    const bool all = to.settings_.rods_collide, packs = batch.settings_.solver == RodSolver::kDirect;
+    const bool all = to.settings_.rods_collide, packs = !batch.settings_.solver.iterate;
     to.home_groups_ = all ? groups() : std::min(groups(), kGroupsAtOnce);
     to.packed_groups_ = all || !packs || to.width_ != 16 ? 0 : to.home_groups_ / 2;
   }

@@ -82,7 +82,6 @@ Status RodBatch::create(std::span<const StrandDef> strands, const RodSettings& s
   RodBatchBuilder builder{made};
   made.settings_ = settings;
   if (settings.start == RodStart::kLearned) made.net_ = start_net(*settings.network);
-  if (settings.start == RodStart::kKnn) made.examples_ = start_examples(*settings.examples);
   made.strand_count_ = static_cast<uint32_t>(strands.size());
   made.segment_count_ = static_cast<uint32_t>(strands[0].segments.size());
   made.width_ = strands.size() > kNarrow ? kWide : kNarrow;

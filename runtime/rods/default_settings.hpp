@@ -1,4 +1,4 @@
-// default_settings.hpp  Solver and start for a kind of rod, as measured.
+// default_settings.hpp  The start for a kind of rod, as measured.
 #pragma once
 #include "rods/rod_batch.hpp"
 
@@ -16,8 +16,6 @@ struct RodKind {
 // it. A test holds it to the table of measurements. The direct solver from the last steps' forces continued
 // is the fastest on average over each scene that was measured without contacts; in single cases another start
 // is up to 1.6 times as fast.
-constexpr RodSettings default_settings(const RodKind&) noexcept {
-  return {.solver = RodSolver::kDirect, .start = RodStart::kContinued};
-}
+constexpr RodSettings default_settings(const RodKind&) noexcept { return {.start = RodStart::kContinued}; }
 
 }  // namespace sinew::rods

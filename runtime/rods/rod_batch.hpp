@@ -13,21 +13,12 @@
 
 #include "core/aligned_block.hpp"
 #include "rods/collider.hpp"
-#include "rods/knn_start.hpp"
 #include "rods/learned_start.hpp"
 #include "rods/strand.hpp"
 #include "rods/turn.hpp"
 #include "simd/rod_job.hpp"
 
 namespace sinew::rods {
-
-enum class RodSolver : uint32_t {
-  kDirect = 0,  // exact, O(segments)
-  kCg = 1,      // conjugate gradients, preconditioned by the diagonal: for comparing
-  // Joint by joint (Gauss-Seidel, XPBD): a sweep costs less than an exact solution, and long or stiff strands
-  // need hundreds. What it leaves undone is stretch and bend, never momentum.
-  kLocal = 2,
-};
 
 // Where a step's iteration starts. Free motion is what a segment would do without joints.
 enum class RodStart : uint32_t {
@@ -39,30 +30,40 @@ enum class RodStart : uint32_t {
   // have served the last step best (simd/rod_start-inl.hpp). As kPrevious until four steps converged;
   // contacts' forces from two on, as the last step changed them.
   kContinued = 3,
-  kKnn = 4,      // kContinued, corrected by the nearest of RodSettings::examples: a baseline, for comparing
-  kLearned = 5,  // kContinued, corrected by RodSettings::network
+  kLearned = 4,  // kContinued, corrected by RodSettings::network
+};
+
+// For comparing methods (baker/research): another solver's iteration of a group, as simd::RodCalls::direct
+// does it, and what it does before the first; another correction of kContinued, as
+// simd::RodStartCalls::add_network. None by default. `self` is handed on and outlives the batch; `width` is
+// of the group.
+struct RodSolver {
+  void (*begin)(void* self, const simd::RodJob& job, uint32_t width) = nullptr;
+  uint32_t (*iterate)(void* self, const simd::RodJob& job, uint32_t width) = nullptr;
+  void* self = nullptr;
+};
+struct RodCorrection {
+  void (*correct)(void* self, const simd::RodJob& job, const simd::RodStartJob& start,
+                  uint32_t width) = nullptr;
+  void* self = nullptr;
 };
 
 struct RodSettings {
-  RodSolver solver = RodSolver::kDirect;
+  RodSolver solver = {};
   RodStart start = RodStart::kPrevious;
   uint32_t max_iterations = 12;  // 1 to 1000
   // 1e-6 to 1: the iteration ends where it turned no segment by more. Stretch is then at most its square over
   // two: 5e-5 at the default.
   float tolerance_rad = 0.01f;
-  // 1e-7 to 1: kCg's residual against that of the step's first system from kZero, whatever the start.
-  float cg_tolerance = 1e-4f;
-  uint32_t cg_max_iterations = 1000;  // 1 to 100000, of one linear system
-  uint32_t local_sweeps = 10;         // 1 to 10000: kLocal's over all joints, in each iteration
   float gravity_m_s2[3] = {0, -9.81f, 0};
   // A pose given for a fixed segment further away than this many of its strand's lengths carries the strand
   // along as it is, without inertia. Finite, above 0.
   float teleport_lengths = 2;
   // Fills RodReport::residual, for a fifth of an iteration's time.
   bool report_residual = false;
-  const CopingNet* network = nullptr;       // of kLearned; what it points to outlives the batch
-  const StartExamples* examples = nullptr;  // of kKnn; the same
-  bool keeps_start_inputs = false;          // for training: kContinued then has start_inputs as well
+  const CopingNet* network = nullptr;  // of kLearned; what it points to outlives the batch
+  RodCorrection correction = {};       // of kContinued
+  bool keeps_start_inputs = false;     // for training: kContinued then has start_inputs as well
 };
 
 struct SegmentPose {
@@ -82,7 +83,7 @@ struct SegmentStart {
                         0};  // minus the derivative of the bending energy by the Darboux vector times length
 };
 
-// What kKnn and kLearned were told of a segment and its joint, and what they correct: simd/rod_start_job.hpp.
+// What kLearned was told of a segment and its joint, and what it corrects: simd/rod_start_job.hpp.
 // Numbers in the strand's own units: its mean segment's length and mass, and seconds.
 struct StartInputs {
   float told[simd::kRodStartInputs];
@@ -94,7 +95,6 @@ struct StartInputs {
 struct RodReport {
   uint32_t iterations = 0;      // most of any strand
   uint32_t iterations_sum = 0;  // of all strands
-  uint32_t cg_iterations = 0;   // kCg's, of all strands
   uint32_t unconverged = 0;     // strands whose last iteration turned a segment by more than the tolerance
   uint32_t rejoined = 0;   // of these, strands torn by more than half a segment: put together at their joints
   uint32_t recovered = 0;  // strands that were not finite: put back at rest shape where they are held
@@ -139,8 +139,7 @@ class RodBatch {
 
   // dt_s in (0, 1]; otherwise refused, and nothing moves. Allocates nothing.
   Status step(float dt_s, RodReport* report) noexcept;
-  // The same among obstacles and with one another. Refused as well: a collider made for another shape,
-  // RodSolver::kLocal.
+  // The same among obstacles and with one another. Refused as well: a collider made for another shape.
   Status step(float dt_s, RodCollider* collider, RodReport* report) noexcept;
 
   // What `from` has come to, its targets and forces too, with this batch's own settings. Refused: one not
@@ -154,7 +153,7 @@ class RodBatch {
   // What kPrevious starts from: of the last step; zeros where the strand did not converge.
   SegmentStart last_forces(uint32_t strand, uint32_t segment) const noexcept;
 
-  // For training, of the last step; zeros but with kKnn, kLearned or keeps_start_inputs.
+  // For training, of the last step; zeros but with kLearned, a correction or keeps_start_inputs.
   StartInputs start_inputs(uint32_t strand, uint32_t segment) const noexcept;
 
   // ---- rod_state.cpp: for what keeps a batch in a pose, in a snapshot, with a character ----
@@ -241,7 +240,8 @@ class RodBatch {
   void end_group(uint32_t group, const simd::RodJob& job, RodReport* report) noexcept;
   bool has_history() const noexcept { return settings_.start >= RodStart::kContinued; }
   bool has_inputs() const noexcept {
-    return settings_.start >= RodStart::kKnn || (has_history() && settings_.keeps_start_inputs);
+    return settings_.start == RodStart::kLearned ||
+           (has_history() && (settings_.keeps_start_inputs || settings_.correction.correct));
   }
   simd::RodStartJob start_job(uint32_t group) const noexcept;
   void tell_fixed_inputs() noexcept;
@@ -284,7 +284,6 @@ class RodBatch {
   uint32_t* slot_parents_ = nullptr;    // [slots] slots
   RodSettings settings_;
   simd::RodStartNet net_{};
-  simd::RodStartExamples examples_{};
   uint32_t strand_count_ = 0, segment_count_ = 0, width_ = 0, teleported_ = 0, newest_ = 0;
 };
 

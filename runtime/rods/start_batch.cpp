@@ -35,7 +35,8 @@ void RodBatch::make_start(uint32_t group, const simd::RodJob& job) const noexcep
   const simd::RodStartCalls& call = calls(width_);
   call.continue_start(job, start);
   if (settings_.start == RodStart::kLearned) call.add_network(job, start, net_);
-  if (settings_.start == RodStart::kKnn) call.add_nearest(job, start, examples_);
+  const RodCorrection& correction = settings_.correction;
+  if (correction.correct) correction.correct(correction.self, job, start, width_);
 }
 
 // What does not change from step to step: where a segment lies along the strand, in joints from the root over

@@ -16,12 +16,6 @@ const simd::RodCalls& calls(uint32_t width) {
   return width == 16 ? kernels.wide : kernels.narrow;
 }
 
-using Iteration = uint32_t (*)(const simd::RodJob& job);
-Iteration iteration(const simd::RodCalls& calls, RodSolver solver) {
-  if (solver == RodSolver::kCg) return calls.cg;
-  return solver == RodSolver::kLocal ? calls.local : calls.direct;
-}
-
 }  // namespace
 
 simd::RodJob RodBatch::group_job(uint32_t group, float dt_s, float* scratch) const noexcept {
@@ -33,10 +27,7 @@ simd::RodJob RodBatch::group_job(uint32_t group, float dt_s, float* scratch) con
           .segments = segment_count_,
           .dt_s = dt_s,
           .tolerance_rad = settings_.tolerance_rad,
-          .start_from_zero = settings_.start == RodStart::kZero,
-          .cg_tolerance = settings_.cg_tolerance,
-          .cg_iterations = settings_.cg_max_iterations,
-          .local_sweeps = settings_.local_sweeps};
+          .start_from_zero = settings_.start == RodStart::kZero};
 }
 
 simd::RodJob RodBatch::home_job(uint32_t place, float dt_s, const RodCollider& collider) const noexcept {
@@ -46,20 +37,22 @@ simd::RodJob RodBatch::home_job(uint32_t place, float dt_s, const RodCollider& c
 }
 
 void RodBatch::begin_group(uint32_t group, const simd::RodJob& job) const noexcept {
-  const simd::RodCalls& call = calls(width_);
   const uint32_t count = std::min(width_, strand_count_ - group * width_);
   for (uint32_t i = 0; i < width_; ++i) job.lanes[simd::kLaneActive * width_ + i] = i < count ? 1.0f : 0.0f;
   std::fill_n(job.lanes + simd::kLaneLargestShare * width_, width_, simd::kRodLargestShare);
   make_start(group, job);
-  call.predict(job);
-  if (settings_.solver == RodSolver::kCg) call.measure_cg(job);
+  calls(width_).predict(job);
+  const RodSolver& solver = settings_.solver;
+  if (solver.begin) solver.begin(solver.self, job, width_);
 }
 
 // A group, if it has strands to iterate. Returns how many are not converged.
 uint32_t RodBatch::iterate(const simd::RodJob& job) const noexcept {
   const float* lanes = job.lanes + simd::kLaneActive * width_;
   const bool any = std::any_of(lanes, lanes + width_, [](float x) { return x != 0; });
-  return any ? iteration(calls(width_), settings_.solver)(job) : 0;
+  if (!any) return 0;
+  const RodSolver& solver = settings_.solver;
+  return solver.iterate ? solver.iterate(solver.self, job, width_) : calls(width_).direct(job);
 }
 
 void RodBatch::iterate_homes(float dt_s, const RodCollider& collider) const noexcept {
@@ -101,7 +94,6 @@ void RodBatch::end_group(uint32_t group, const simd::RodJob& job, RodReport* rep
     const auto iterations = static_cast<uint32_t>(lane(simd::kLaneIterations));
     report->iterations = std::max(report->iterations, iterations);
     report->iterations_sum += iterations;
-    report->cg_iterations += static_cast<uint32_t>(lane(simd::kLaneCgIterations));
     if (settings_.report_residual) {
       const float residual =
           lane(simd::kLaneBroken) != 0 ? std::numeric_limits<float>::infinity() : lane(simd::kLaneResidual);
@@ -179,11 +171,6 @@ Status RodBatch::step(float dt_s, RodCollider* collider, RodReport* report) noex
                              "one for it",
                              collider->strand_count_, collider->segment_count_, strand_count_,
                              segment_count_);
-  }
-  if (collider && settings_.solver == RodSolver::kLocal) {
-    return core::make_status(StatusCode::kInvalidArgument,
-                             "RodSettings::solver kLocal knows no contacts; create the batch with kDirect or "
-                             "kCg, or step it without a collider");
   }
   const core::FloatingPointScope mode;
   RodReport made;

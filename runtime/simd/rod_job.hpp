@@ -90,8 +90,6 @@ enum RodLaneField : uint32_t {
   kLaneMoved,                      // by that change, a point on a segment's axis, at most
   kLaneLargestShare,               // that the next may take
   kLaneIterations,
-  kLaneCgIterations,
-  kLaneCgScale,     // what kCg's residuals are measured by, squared: its zero start's first
   kLaneKnownSteps,  // how many of the last steps' results a start may use, at most kRodStartKnown + 1
   kLaneResidual,    // what residual() found
   kLaneBroken,      // 1 where a step left something that is not finite
@@ -110,11 +108,8 @@ struct RodJob {
   const uint32_t* parents;  // [segments], each less than its own index; parents[0] is 0
   uint32_t segments;
   float dt_s;
-  float tolerance_rad;     // converged: no segment turned more in an iteration
-  bool start_from_zero;    // else from kRodStart*
-  float cg_tolerance;      // of the residual's preconditioned norm against kLaneCgScale's
-  uint32_t cg_iterations;  // at most, of one linear system
-  uint32_t local_sweeps;   // of one linear system
+  float tolerance_rad;   // converged: no segment turned more in an iteration
+  bool start_from_zero;  // else from kRodStart*
   // Null where the group touches nothing; else aligned alike. What is in it is used up by an iteration.
   float* contacts = nullptr;         // [segments][kRodContactRows][width]
   const uint8_t* touched = nullptr;  // [segments] 0 where all rows are zero
@@ -125,12 +120,8 @@ struct RodCalls {
   RodStartCalls start;
   // Where segments go without joints, and the first iterate.
   void (*predict)(const RodJob& job);
-  // Before the first iteration of cg: fills kLaneCgScale. The first iterate stays.
-  void (*measure_cg)(const RodJob& job);
   // One Newton iteration. Returns how many lanes are not converged.
   uint32_t (*direct)(const RodJob& job);
-  uint32_t (*cg)(const RodJob& job);
-  uint32_t (*local)(const RodJob& job);
   // Fills kLaneResidual; the iterate stays.
   void (*residual)(const RodJob& job);
   // Takes the iterate over as the new state.

@@ -15,12 +15,9 @@
 #include "simd/rod_contacts-inl.hpp"
 #include "simd/rod_residual-inl.hpp"
 #include "simd/rod_direct-inl.hpp"
-#include "simd/rod_cg-inl.hpp"
-#include "simd/rod_local-inl.hpp"
 #include "simd/tanh-inl.hpp"
 #include "simd/rod_start-inl.hpp"
 #include "simd/rod_learned-inl.hpp"
-#include "simd/rod_knn-inl.hpp"
 #include "simd/rod_pack-inl.hpp"
 // clang-format on
 
@@ -30,13 +27,9 @@ template <size_t kWidth>
 constexpr RodCalls rod_calls() {
   return {.start = {.continue_start = rod_continue<kWidth>,
                     .add_network = rod_add_network<kWidth>,
-                    .add_nearest = rod_add_nearest<kWidth>,
                     .encode_joints = rod_encode_joints<kWidth>},
           .predict = rod_predict<kWidth>,
-          .measure_cg = rod_measure_cg<kWidth>,
           .direct = rod_direct<kWidth>,
-          .cg = rod_cg<kWidth>,
-          .local = rod_local<kWidth>,
           .residual = rod_residual<kWidth>,
           .finish = rod_finish<kWidth>,
           .move_lanes = rod_move_lanes<kWidth>};

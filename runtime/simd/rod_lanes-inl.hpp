@@ -1,6 +1,7 @@
 // rod_lanes-inl.hpp  Quaternions of many strands at once, and a group's records.
 //
-// As all of rod_*-inl.hpp, included by rod_kernels.cpp alone, once a target: no include guard.
+// As all of rod_*-inl.hpp, included by files that are compiled once a target (rod_kernels.cpp, and
+// baker/research/rods/kernels.cpp): no include guard.
 HWY_BEFORE_NAMESPACE();
 namespace sinew::simd::HWY_NAMESPACE {
 template <class V>
@@ -51,6 +52,12 @@ HWY_INLINE Four<V> turned(const Four<V>& q, const Three<V>& turn) {
   const Three<V> half = scaled(hn::Set(d, 0.5f), turn);
   return normalised(product(q, Four<V>{half.x, half.y, half.z, hn::Set(d, 1)}));
 }
+
+// Of a segment: place, then rotation; of a joint: force, then moment.
+template <class V>
+struct Six {
+  Three<V> f, t;
+};
 
 // Own axes in the world.
 template <class V>

@@ -27,14 +27,6 @@ struct RodStartNet {
   uint32_t latent, blocks, depth;  // latent a multiple of 8, at most pack::kPanel
 };
 
-// Examples; a guess is the mean of those whose inputs are nearest.
-struct RodStartExamples {
-  const float* inputs;   // [count][kRodStartInputs]
-  const float* answers;  // [count][kRodStartNumbers]
-  uint32_t count;        // at least kRodNeighbours
-};
-inline constexpr uint32_t kRodNeighbours = 3;  // Shao et al. 2021, Sec. 4
-
 // Arrays of a group are aligned like its records.
 struct RodStartJob {
   float* history;    // [segments][kRodStartAges][kRodStartNumbers][width]
@@ -61,8 +53,6 @@ struct RodStartCalls {
   // Adds the network's outputs, times scales, to what continue_start left; to strands alone whose inputs mean
   // something: kRodStartKnown + 1 results.
   void (*add_network)(const RodJob& job, const RodStartJob& start, const RodStartNet& net);
-  // The same by the nearest examples.
-  void (*add_nearest)(const RodJob& job, const RodStartJob& start, const RodStartExamples& examples);
   // joints [segments][kRodJointInputs][width] to encodings.
   void (*encode_joints)(const RodJob& job, const RodStartNet& net, const float* joints, float* encodings,
                         float* planes);

@@ -135,7 +135,6 @@ void rod_predict(const RodJob& job) {
       start_iterate(g, i, square);
     }
     g.set_lane(kLaneIterations, hn::Zero(d));
-    g.set_lane(kLaneCgIterations, hn::Zero(d));
     g.set_lane(kLaneBroken, hn::Zero(d));
   });
 }

@@ -1,4 +1,4 @@
-// start_scenes.hpp  Networks and examples for starts, made up, and a group of lanes to try kernels on.
+// start_scenes.hpp  Networks for starts, made up, and a group of lanes to try kernels on.
 #pragma once
 #include <array>
 #include <vector>
@@ -58,19 +58,6 @@ class RandomCopingNet {
   }
   PackedModel packed_;
   rods::CopingNet net_;
-};
-
-// Three examples at one place, whose mean answer is `answer` everywhere, and one far away.
-struct MadeUpExamples {
-  explicit MadeUpExamples(float answer, float far = 100) {
-    for (const float by : {-0.5f, 0.0f, 0.5f, far}) {
-      inputs.insert(inputs.end(), simd::kRodStartInputs, by == far ? far : 0.0f);
-      answers.insert(answers.end(), simd::kRodStartNumbers, by == far ? far : answer + by);
-    }
-    view = {inputs, answers};
-  }
-  std::vector<float> inputs, answers;
-  rods::StartExamples view;
 };
 
 // Memory of a group, all zeros but for orientations, which are none.

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "tests/pack/count_allocations.hpp"
-#include "tests/rods/contact_scenes.hpp"
+#include "tests/rods/recorded_scenes.hpp"
 #include "tests/simd/every_isa.hpp"
 
 using namespace sinew;
@@ -35,41 +35,6 @@ void check_says(const Status& status, const std::string& expected) {
   CHECK(std::string(status.message).find(expected) != std::string::npos);
 }
 
-// Poses and velocities of all strands.
-void append_state(const test::RodBatch& batch, std::vector<float>* out) {
-  for (uint32_t s = 0; s < batch.strand_count(); ++s) {
-    for (uint32_t i = 0; i < batch.segment_count(); ++i) {
-      const rods::SegmentPose pose = batch.pose(s, i);
-      const rods::SegmentVelocity v = batch.velocity(s, i);
-      for (const double x : pose.position_m) out->push_back(static_cast<float>(x));
-      for (const float q : pose.orientation) out->push_back(q);
-      for (const float x : v.linear_m_s) out->push_back(x);
-      for (const float x : v.angular_rad_s) out->push_back(x);
-    }
-  }
-}
-
-// Rods that fall on one another, a floor, a ball and a bar that turns: `count` of them, 40 steps.
-std::vector<float> state_after_falling(rods::RodSolver solver, bool rods_collide, int count) {
-  std::vector<test::Segments> strands;
-  for (int i = 0; i < count; ++i) {
-    strands.push_back(i % 2 ? test::crossing_rod(0.1 + 0.05 * i, 0.025 + 0.021 * i, 7)
-                            : test::lying_rod(0.025 + 0.021 * i, 7));
-  }
-  test::RodBatch batch = test::batch_of(strands, {.solver = solver});
-  rods::RodCollider collider = test::collider_of(batch, {.rods_collide = rods_collide});
-  const rods::Plane floor = {.friction = 0.4f};
-  const rods::Sphere ball = {.middle_m = {0.5, 0.02, 0.1}, .radius_m = 0.06f};
-  const rods::Capsule bar = {
-      .ends_m = {{0.2, 0, -1}, {0.2, 0.1, 1}}, .radius_m = 0.03f, .motion = {.angular_rad_s = {0, 0, 2}}};
-  REQUIRE((collider.set_planes({&floor, 1}).ok() && collider.set_spheres({&ball, 1}).ok()));
-  REQUIRE(collider.set_capsules({&bar, 1}).ok());
-  for (int i = 0; i < 40; ++i) test::step(batch, collider);
-  std::vector<float> out;
-  append_state(batch, &out);
-  return out;
-}
-
 }  // namespace
 
 TEST_CASE("a_collider_refuses_bad_settings_obstacles_and_batches_and_stays_as_it_was") {
@@ -96,8 +61,6 @@ TEST_CASE("a_collider_refuses_bad_settings_obstacles_and_batches_and_stays_as_it
   check_says(collider.set_points({&bad, 1}), "contact point 0: along is 3");
   test::RodBatch other = test::batch_of({test::lying_rod(0.05, 5)});
   check_says(other.step(test::kFrame_s, &collider, nullptr), "the collider is for 1 strands of 10 segments");
-  test::RodBatch sweeping = test::batch_of({test::lying_rod(0.05)}, {.solver = rods::RodSolver::kLocal});
-  check_says(sweeping.step(test::kFrame_s, &collider, nullptr), "kLocal knows no contacts");
   check_says(batch.step(-1, &collider, nullptr), "dt_s is -1");
   for (int i = 0; i < 60; ++i) test::step(batch, collider);
   CHECK(batch.pose(0, 4).position_m[1] == Approx(0.01).margin(0.0005));  // the first floor still holds it
@@ -133,20 +96,12 @@ TEST_CASE("a_step_with_contacts_allocates_nothing") {
   CHECK(test::allocation_count() == before);
 }
 
-TEST_CASE("contacts_have_the_same_bits_on_all_targets_with_fma_by_both_solvers_in_narrow_groups_and_wide") {
-  const auto produce = [](const simd::Kernels&) {
+TEST_CASE("contacts_have_the_same_bits_on_all_targets_with_fma_in_narrow_groups_and_wide") {
+  test::require_same_bits_where_fused(0xc47246eab3a71ff2, [](const simd::Kernels&) {
     std::vector<float> out;
-    for (const rods::RodSolver solver : {rods::RodSolver::kDirect, rods::RodSolver::kCg}) {
-      for (const bool rods_collide : {false, true}) {
-        for (const int count : {3, 18}) {
-          const std::vector<float> state = state_after_falling(solver, rods_collide, count);
-          out.insert(out.end(), state.begin(), state.end());
-        }
-      }
-    }
+    test::append_fallen({}, &out);
     return out;
-  };
-  test::require_same_bits_where_fused(0x9cdf64be3157c977, produce);
+  });
 }
 
 TEST_CASE("a_collider_that_is_empty_or_far_away_changes_no_bit") {
@@ -166,8 +121,8 @@ TEST_CASE("a_collider_that_is_empty_or_far_away_changes_no_bit") {
           test::step(alone, test::kFrame_s);
         }
         std::vector<float> expected, found;
-        append_state(alone, &expected);
-        append_state(batch, &found);
+        test::append_states(alone, &expected);
+        test::append_states(batch, &found);
         INFO(count << " strands");
         CHECK(expected.size() == found.size());
         CHECK(std::memcmp(expected.data(), found.data(), expected.size() * sizeof(float)) == 0);

@@ -142,11 +142,6 @@ TEST_CASE("a_rod_slides_down_an_incline_only_where_it_is_steeper_than_friction_h
   CHECK(slide(0.3, 0).acceleration == Approx(kGravity * std::sin(0.3)).margin(0.01));
 }
 
-TEST_CASE("cg_slides_as_direct_slides") {
-  const double angle = std::atan(0.8), expected = slide(angle, 0.5f).acceleration;
-  CHECK(slide(angle, 0.5f, {.solver = rods::RodSolver::kCg}).acceleration == Approx(expected).margin(0.02));
-}
-
 TEST_CASE("a_rod_at_rest_on_a_plane_goes_on_converging_at_the_finest_tolerance") {
   test::RodBatch batch =
       test::batch_of({test::lying_rod(0.01)}, {.max_iterations = 100, .tolerance_rad = 1e-6f});
@@ -388,18 +383,15 @@ TEST_CASE("what_begins_clear_of_a_wall_is_held_by_it_where_its_root_pulls_it_the
   const rods::Plane wall = {.point_m = {0, -0.011, 0}, .normal = {0, 1, 0}};
   test::RodSettings settings;
   settings.gravity_m_s2[0] = 9.81f, settings.gravity_m_s2[1] = 0;
-  for (const rods::RodSolver solver : {rods::RodSolver::kDirect, rods::RodSolver::kCg}) {
-    settings.solver = solver;
-    test::RodBatch batch = test::batch_of({rod}, settings);
-    rods::RodCollider collider = on_floor(batch, wall, {.rods_collide = false});
-    rods::SegmentPose root = batch.pose(0, 0);
-    root.position_m[1] -= 0.01;
-    REQUIRE(batch.set_target(0, 0, root).ok());
-    const test::RodReport report = test::step(batch, collider);
-    CHECK(report.contacts >= 5);
-    CHECK(report.contacts_unconverged == 0);
-    for (uint32_t i = 1; i < 6; ++i) CHECK(test::end_of(batch, rod, i)[1] > -0.001 - kDeepest * 0.01);
-  }
+  test::RodBatch batch = test::batch_of({rod}, settings);
+  rods::RodCollider collider = on_floor(batch, wall, {.rods_collide = false});
+  rods::SegmentPose root = batch.pose(0, 0);
+  root.position_m[1] -= 0.01;
+  REQUIRE(batch.set_target(0, 0, root).ok());
+  const test::RodReport report = test::step(batch, collider);
+  CHECK(report.contacts >= 5);
+  CHECK(report.contacts_unconverged == 0);
+  for (uint32_t i = 1; i < 6; ++i) CHECK(test::end_of(batch, rod, i)[1] > -0.001 - kDeepest * 0.01);
 }
 
 TEST_CASE("a_rod_just_above_a_floor_that_another_is_thrown_onto_is_held_by_the_floor_in_the_same_step") {

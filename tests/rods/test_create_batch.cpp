@@ -15,11 +15,6 @@ struct BadSetting {
 };
 
 const BadSetting kBad[] = {
-    {"RodSettings::solver is 9", [](test::RodSettings& s) { s.solver = static_cast<rods::RodSolver>(9); }},
-    {"RodSettings::cg_tolerance is 0", [](test::RodSettings& s) { s.cg_tolerance = 0; }},
-    {"RodSettings::cg_max_iterations is 0", [](test::RodSettings& s) { s.cg_max_iterations = 0; }},
-    {"RodSettings::local_sweeps is 0", [](test::RodSettings& s) { s.local_sweeps = 0; }},
-    {"RodSettings::local_sweeps is 10001", [](test::RodSettings& s) { s.local_sweeps = 10001; }},
     {"RodSettings::start is 9", [](test::RodSettings& s) { s.start = static_cast<rods::RodStart>(9); }},
     {"RodSettings::max_iterations is 0", [](test::RodSettings& s) { s.max_iterations = 0; }},
     {"RodSettings::max_iterations is 1001", [](test::RodSettings& s) { s.max_iterations = 1001; }},

@@ -129,18 +129,15 @@ TEST_CASE("a_root_that_flies_a_kilometre_within_a_step_is_followed_or_joined_and
   }
 }
 
-TEST_CASE("whatever_a_solver_leaves_undone_a_rod_stays_within_reach_of_where_it_is_held") {
-  for (const auto solver : {rods::RodSolver::kDirect, rods::RodSolver::kCg, rods::RodSolver::kLocal}) {
-    for (const uint32_t count : {30u, 200u}) {
-      for (const float young : {1e4f, 1e9f}) {
-        const test::Segments rod = test::straight_rod({.segments = count, .young_pa = young});
-        test::RodBatch batch = test::batch_of(
-            {rod}, {.solver = solver, .max_iterations = 1, .cg_max_iterations = 5, .local_sweeps = 1});
-        for (int i = 0; i < 200; ++i) REQUIRE(test::step(batch, 0.02f).recovered == 0);
-        INFO("solver " << static_cast<int>(solver) << ", " << count << " segments, E " << young);
-        const rods::SegmentPose root = batch.pose(0, 0);
-        CHECK(test::distance(batch.pose(0, count - 1).position_m, root.position_m) < 1.5 * 4);
-      }
+TEST_CASE("whatever_is_left_undone_a_rod_stays_within_reach_of_where_it_is_held") {
+  for (const uint32_t count : {30u, 200u}) {
+    for (const float young : {1e4f, 1e9f}) {
+      const test::Segments rod = test::straight_rod({.segments = count, .young_pa = young});
+      test::RodBatch batch = test::batch_of({rod}, {.max_iterations = 1});
+      for (int i = 0; i < 200; ++i) REQUIRE(test::step(batch, 0.02f).recovered == 0);
+      INFO(count << " segments, E " << young);
+      const rods::SegmentPose root = batch.pose(0, 0);
+      CHECK(test::distance(batch.pose(0, count - 1).position_m, root.position_m) < 1.5 * 4);
     }
   }
 }

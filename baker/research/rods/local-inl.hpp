@@ -1,4 +1,4 @@
-// rod_local-inl.hpp  The linear system by block Gauss-Seidel over joints, as XPBD solves it (Macklin 2016;
+// local-inl.hpp  The linear system by block Gauss-Seidel over joints, as XPBD solves it (Macklin 2016;
 // Kugelstadt, Schoemer 2016, Section 4).
 //
 // A visit to a joint solves its own six rows exactly and moves both of its segments at once:
@@ -143,10 +143,10 @@ HWY_INLINE typename G::V visit_joint(const G& g, size_t i, size_t parent) {
 
 // Returns the square of how far off the worst joint of the last sweep was.
 template <class G>
-HWY_INLINE typename G::V sweep(const G& g, const RodJob& job) {
+HWY_INLINE typename G::V sweep(const G& g, const RodJob& job, uint32_t sweeps) {
   using V = typename G::V;
   V worst = hn::Zero(hn::DFromV<V>());
-  for (uint32_t k = 0; k < job.local_sweeps; ++k) {
+  for (uint32_t k = 0; k < sweeps; ++k) {
     worst = hn::Zero(hn::DFromV<V>());
     for (size_t i = 1; i < job.segments; ++i) worst = hn::Max(worst, visit_joint(g, i, job.parents[i]));
   }
@@ -168,13 +168,13 @@ HWY_INLINE typename G::V take_sweeps(const G& g, const RodJob& job) {
 }
 
 template <size_t kWidth>
-uint32_t rod_local(const RodJob& job) {
+uint32_t rod_local(const RodJob& job, uint32_t sweeps) {
   uint32_t active = 0;
   for_lanes<kWidth>(job, [&](const auto& g) HWY_ATTR {
     linearise(g, job);
     for (size_t i = 0; i < job.segments; ++i) start_sweeps(g, i);
     for (size_t i = 1; i < job.segments; ++i) factorise_joint(g, i, job.parents[i]);
-    g.set_lane(kLaneHeldMiss, sweep(g, job));
+    g.set_lane(kLaneHeldMiss, sweep(g, job, sweeps));
     active += apply_changes(g, job, take_sweeps(g, job));
   });
   return active;

@@ -1,4 +1,4 @@
-// rod_cg-inl.hpp  The linear system by conjugate gradients, preconditioned by its diagonal (Shao et al. 2021,
+// cg-inl.hpp  The linear system by conjugate gradients, preconditioned by its diagonal (Shao et al. 2021,
 // Algorithm 1).
 //
 //   (J W J^T + alpha) delta(f, t) = -(C + alpha (f, t)) + J W g,   delta x = W (J^T delta(f, t) - g)
@@ -7,7 +7,7 @@
 // condition grows with segments^4: for comparing, and for what a good start leaves to do. A strand that is
 // done stays as it is.
 //
-// An iteration ends where the residual r has r . P r <= cg_tolerance^2 (r . P r of the step's first system
+// An iteration ends where the residual r has r . P r <= tolerance^2 (r . P r of the step's first system
 // from free motion without forces), P the inverse diagonal: not against the residual of the start it was
 // given, so that a better start has less to do and a perfect one nothing.
 HWY_BEFORE_NAMESPACE();
@@ -23,10 +23,9 @@ enum CgField : uint32_t {
   kCgChange = kCgDiagonal + 6
 };
 
-template <class V>
-struct Six {
-  Three<V> f, t;
-};
+// In a row that the root, which has no joint, leaves free: what residuals are measured by, squared.
+inline constexpr size_t kCgScale = kRodGap;
+
 template <class G>
 HWY_INLINE Six<typename G::V> six(const G& g, size_t i, size_t field) {
   return {g.get3(i, field), g.get3(i, field + 3)};
@@ -239,16 +238,17 @@ HWY_INLINE typename G::V improve(const G& g, const RodJob& job, M active, typena
 inline constexpr float kCgRounding = 1e-6f;
 
 template <class G>
-HWY_INLINE void solve_gradient(const G& g, const RodJob& job) {
+HWY_INLINE void solve_gradient(const G& g, const RodJob& job, const baker::CgLimits& limits,
+                               uint32_t* iterations) {
   using V = typename G::V;
   const hn::DFromV<V> d;
-  const V one = hn::Set(d, 1), zero = hn::Zero(d);
+  const V zero = hn::Zero(d);
   V energy = start_gradient(g, job);
-  const V enough = hn::Max(hn::Mul(hn::Set(d, job.cg_tolerance * job.cg_tolerance), g.lane(kLaneCgScale)),
+  const V enough = hn::Max(hn::Mul(hn::Set(d, limits.tolerance * limits.tolerance), g.get(0, kCgScale)),
                            hn::Mul(hn::Set(d, kCgRounding * kCgRounding), energy));
   auto active = hn::And(hn::Gt(g.lane(kLaneActive), zero), hn::Gt(energy, enough));
-  for (uint32_t k = 0; k < job.cg_iterations && !hn::AllFalse(d, active); ++k) {
-    g.set_lane(kLaneCgIterations, hn::Add(g.lane(kLaneCgIterations), hn::IfThenElseZero(active, one)));
+  for (uint32_t k = 0; k < limits.max_iterations && !hn::AllFalse(d, active); ++k) {
+    *iterations += static_cast<uint32_t>(hn::CountTrue(d, active));
     energy = improve(g, job, active, energy);
     active = hn::And(active, hn::Gt(energy, enough));
   }
@@ -276,19 +276,19 @@ void rod_measure_cg(const RodJob& job) {
     const LanesOf<kWidth> d;
     for (size_t i = 0; i < job.segments; ++i) start_iterate(g, i, hn::Zero(d));
     linearise(g, job);
-    g.set_lane(kLaneCgScale, start_gradient(g, job));
+    g.set(0, kCgScale, start_gradient(g, job));
     for (size_t i = 0; i < job.segments; ++i) start_iterate(g, i, start_square(d, job));
   });
 }
 
 template <size_t kWidth>
-uint32_t rod_cg(const RodJob& job) {
+uint32_t rod_cg(const RodJob& job, const baker::CgLimits& limits, uint32_t* iterations) {
   uint32_t active = 0;
   for_lanes<kWidth>(job, [&](const auto& g) HWY_ATTR {
     linearise(g, job);
     add_contact_forces(g, job);
     factorise_contacts(g, job);
-    solve_gradient(g, job);
+    solve_gradient(g, job, limits, iterations);
     active += apply_changes(g, job, change_bodies(g, job));
   });
   return active;

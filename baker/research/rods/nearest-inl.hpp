@@ -1,4 +1,4 @@
-// rod_knn-inl.hpp  A start by the nearest of kept examples, the mean of three (Shao et al. 2021, Sec. 4).
+// nearest-inl.hpp  A start by the nearest of kept examples, the mean of three (Shao et al. 2021, Sec. 4).
 //
 // Every segment is compared with every example: a baseline, not meant to be fast. Cost a segment and vector
 // of strands: kRodStartInputs multiply-adds an example.
@@ -8,7 +8,7 @@ namespace sinew::simd::HWY_NAMESPACE {
 // The nearest so far, nearest first.
 template <class V>
 struct Nearest {
-  V far[kRodNeighbours], index[kRodNeighbours];
+  V far[baker::kNeighbours], index[baker::kNeighbours];
 };
 
 // Ties keep the earlier example.
@@ -16,7 +16,7 @@ template <class V>
 HWY_INLINE void offer(V far, V index, Nearest<V>* nearest) {
   auto closer = hn::Lt(far, nearest->far[0]);
   SINEW_UNROLL
-  for (size_t k = 0; k < kRodNeighbours; ++k) {
+  for (size_t k = 0; k < baker::kNeighbours; ++k) {
     closer = hn::Or(closer, hn::Lt(far, nearest->far[k]));  // what is moved down moves the next one down
     const V was = nearest->far[k], whose = nearest->index[k];
     nearest->far[k] = hn::IfThenElse(closer, far, was);
@@ -27,7 +27,7 @@ HWY_INLINE void offer(V far, V index, Nearest<V>* nearest) {
 }
 
 template <size_t kWidth, class D>
-HWY_INLINE Nearest<hn::Vec<D>> find_nearest(D d, const RodStartExamples& examples, const float* told) {
+HWY_INLINE Nearest<hn::Vec<D>> find_nearest(D d, const baker::ExampleRows& examples, const float* told) {
   using V = hn::Vec<D>;
   const V none = hn::Zero(d), most = hn::Set(d, 3e38f);
   Nearest<V> nearest = {{most, most, most}, {none, none, none}};
@@ -46,22 +46,22 @@ HWY_INLINE Nearest<hn::Vec<D>> find_nearest(D d, const RodStartExamples& example
 
 // The mean answer of each lane's neighbours, [kRodStartNumbers][width].
 template <size_t kWidth, class D>
-HWY_INLINE void mean_answers(D d, const RodStartExamples& examples, const Nearest<hn::Vec<D>>& nearest,
+HWY_INLINE void mean_answers(D d, const baker::ExampleRows& examples, const Nearest<hn::Vec<D>>& nearest,
                              float* out) {
   HWY_ALIGN float index[kWidth];
   for (size_t k = 0; k < kRodStartNumbers; ++k) hn::Store(hn::Zero(d), d, out + k * kWidth);
-  for (size_t n = 0; n < kRodNeighbours; ++n) {
+  for (size_t n = 0; n < baker::kNeighbours; ++n) {
     hn::Store(nearest.index[n], d, index);
     for (size_t lane = 0; lane < hn::MaxLanes(d); ++lane) {
       const float* answer = examples.answers + static_cast<size_t>(index[lane]) * kRodStartNumbers;
       for (size_t k = 0; k < kRodStartNumbers; ++k)
-        out[k * kWidth + lane] += answer[k] * (1.0f / kRodNeighbours);
+        out[k * kWidth + lane] += answer[k] * (1.0f / baker::kNeighbours);
     }
   }
 }
 
 template <size_t kWidth>
-void rod_add_nearest(const RodJob& job, const RodStartJob& start, const RodStartExamples& examples) {
+void rod_add_nearest(const RodJob& job, const RodStartJob& start, const baker::ExampleRows& examples) {
   for_lanes<kWidth>(job, [&](const auto& g) HWY_ATTR {
     using V = hn::Vec<LanesOf<kWidth>>;
     const LanesOf<kWidth> d;

@@ -1,6 +1,7 @@
 // test_local.cpp  Joint by joint to the direct solver's answer, and what few sweeps lack of it.
 #include <catch2/catch.hpp>
 
+#include "baker/research/rods/compared_solver.hpp"
 #include "tests/rods/rod_scenes.hpp"
 #include "tests/simd/every_isa.hpp"
 
@@ -10,18 +11,20 @@ namespace {
 
 constexpr float kDt_s = 0.02f;
 
-test::RodSettings local(uint32_t iterations, uint32_t sweeps, float tolerance_rad = 1e-4f) {
-  return {.solver = rods::RodSolver::kLocal,
-          .max_iterations = iterations,
-          .tolerance_rad = tolerance_rad,
-          .local_sweeps = sweeps};
-}
+struct Local {
+  explicit Local(uint32_t sweeps) : solver{.kind = baker::SolverKind::kLocal, .local_sweeps = sweeps} {}
+  test::RodSettings settings(uint32_t iterations, float tolerance_rad = 1e-4f) {
+    return {.solver = solver.solver(), .max_iterations = iterations, .tolerance_rad = tolerance_rad};
+  }
+  baker::ComparedSolver solver;
+};
 
 // Of a segment's length, and of the largest force, after some steps: what the tolerance lets stand over as
 // many.
 void check_like_direct(const test::Segments& segments, int steps) {
   test::RodBatch direct = test::batch_of({segments}, {.max_iterations = 100, .tolerance_rad = 1e-4f});
-  test::RodBatch swept = test::batch_of({segments}, local(200, 400));
+  Local local(400);
+  test::RodBatch swept = test::batch_of({segments}, local.settings(200));
   for (int i = 0; i < steps; ++i) {
     test::step(direct, kDt_s);
     REQUIRE(test::step(swept, kDt_s).unconverged == 0);
@@ -71,8 +74,9 @@ TEST_CASE("a_strand_in_local_does_not_know_of_its_neighbours") {
   for (const size_t count : {2u, 5u, 17u}) {
     std::vector<test::Segments> strands(count, stiff);
     strands[count - 1] = soft;
-    test::RodBatch batch = test::batch_of(strands, local(12, 10));
-    test::RodBatch alone = test::batch_of({soft}, local(12, 10));
+    Local local(10);
+    test::RodBatch batch = test::batch_of(strands, local.settings(12));
+    test::RodBatch alone = test::batch_of({soft}, local.settings(12));
     for (int i = 0; i < 20; ++i) {
       test::step(batch, kDt_s);
       test::step(alone, kDt_s);
@@ -87,7 +91,8 @@ TEST_CASE("a_strand_in_local_does_not_know_of_its_neighbours") {
 TEST_CASE("few_sweeps_leave_stretch_and_more_sweeps_less") {
   const auto stretch = [](uint32_t sweeps) {
     const test::Segments rod = test::straight_rod({.segments = 30, .young_pa = 1e6f});
-    test::RodBatch batch = test::batch_of({rod}, local(12, sweeps, 0.01f));
+    Local local(sweeps);
+    test::RodBatch batch = test::batch_of({rod}, local.settings(12, 0.01f));
     double largest = 0;
     for (int i = 0; i < 100; ++i) {
       test::step(batch, kDt_s);
@@ -104,7 +109,8 @@ TEST_CASE("few_sweeps_leave_stretch_and_more_sweeps_less") {
 TEST_CASE("momentum_is_kept_however_few_sweeps_there_are") {
   const test::Segments rod =
       test::straight_rod({.segments = 20, .young_pa = 1e6f, .length_m = 1, .radius_m = 0.01f, .held = false});
-  test::RodSettings settings = local(2, 1);
+  Local local(1);
+  test::RodSettings settings = local.settings(2);
   settings.gravity_m_s2[1] = 0;
   test::RodBatch batch = test::batch_of({rod}, settings);
   for (uint32_t i = 0; i < 20; ++i) {

@@ -13,17 +13,6 @@ using namespace sinew;
 
 namespace {
 
-const char* name_of(rods::RodSolver solver) {
-  switch (solver) {
-    case rods::RodSolver::kDirect:
-      return "direct";
-    case rods::RodSolver::kCg:
-      return "cg";
-    case rods::RodSolver::kLocal:
-      return "local";
-  }
-  return "";
-}
 const char* name_of(rods::RodStart start) {
   switch (start) {
     case rods::RodStart::kZero:
@@ -34,8 +23,6 @@ const char* name_of(rods::RodStart start) {
       return "given";
     case rods::RodStart::kContinued:
       return "continued";
-    case rods::RodStart::kKnn:
-      return "knn";
     case rods::RodStart::kLearned:
       return "learned";
   }
@@ -109,7 +96,7 @@ TEST_CASE("no_other_settings_were_measured_to_be_faster_than_the_defaults") {
     std::map<std::string, Scene> scenes;
     for (const auto& [key, rows] : cases_of(path)) {
       const rods::RodSettings chosen = rods::default_settings(kind_of(rows[0]));
-      const std::string option = std::string(name_of(chosen.solver)) + " " + name_of(chosen.start);
+      const std::string option = std::string("direct ") + name_of(chosen.start);
       Scene& scene = scenes[rows[0].of.at("scene") + " x " + rows[0].of.at("strands")];
       double fastest = HUGE_VAL, own = -1;
       for (const Row& row : rows) {
@@ -147,7 +134,7 @@ TEST_CASE("in_contact_no_other_settings_were_measured_to_be_faster_over_the_case
     const auto cases = cases_of(path);
     for (const auto& [key, rows] : cases) {
       const rods::RodSettings chosen = rods::default_settings(kind_of(rows[0]));
-      const std::string option = std::string(name_of(chosen.solver)) + " " + name_of(chosen.start);
+      const std::string option = std::string("direct ") + name_of(chosen.start);
       const auto own =
           std::find_if(rows.begin(), rows.end(), [&](const Row& row) { return row.option() == option; });
       REQUIRE(own != rows.end());
