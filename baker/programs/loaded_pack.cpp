@@ -33,6 +33,18 @@ LoadedPack pack_network(const Safetensors& weights, pack::Precision precision,
   return LoadedPack::from_bytes(writer.finish(), weights.path);
 }
 
+// Of each hidden layer; empty but for int8.
+std::vector<HeardRanges> ranges_for(const Safetensors& weights, pack::Precision precision,
+                                    const std::string& calibration) {
+  check_precision(weights, precision);
+  if (precision != pack::Precision::kInt8) return {};
+  const LoadedPack floats = pack_network(weights, pack::Precision::kFloat32, {});
+  const std::string vectors = calibration.empty() ? vectors_beside(weights.path) : calibration;
+  keep_file(vectors);
+  return heard_ranges(floats.network(),
+                      vectors.empty() ? made_up_vectors(floats.network()) : read_safetensors(vectors));
+}
+
 }  // namespace
 
 LoadedPack LoadedPack::from_file(const std::string& path) {
@@ -56,17 +68,6 @@ LoadedPack LoadedPack::from_weights(const std::string& path, pack::Precision pre
                                     const std::string& calibration) {
   const Safetensors weights = read_safetensors(path);
   return pack_network(weights, precision, ranges_for(weights, precision, calibration));
-}
-
-std::vector<HeardRanges> ranges_for(const Safetensors& weights, pack::Precision precision,
-                                    const std::string& calibration) {
-  check_precision(weights, precision);
-  if (precision != pack::Precision::kInt8) return {};
-  const LoadedPack floats = pack_network(weights, pack::Precision::kFloat32, {});
-  const std::string vectors = calibration.empty() ? vectors_beside(weights.path) : calibration;
-  keep_file(vectors);
-  return heard_ranges(floats.network(),
-                      vectors.empty() ? made_up_vectors(floats.network()) : read_safetensors(vectors));
 }
 
 void LoadedPack::open(std::span<const std::byte> bytes, const std::string& path) {

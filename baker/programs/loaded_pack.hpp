@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "baker/common/safetensors.hpp"
-#include "baker/pack/int8_pack.hpp"
 #include "core/aligned_block.hpp"
 #include "pack/mapped_file.hpp"
 #include "pack/reader.hpp"
@@ -41,11 +40,6 @@ class LoadedPack {
   pack::PackView view_;
   std::span<const std::byte> bytes_;
 };
-
-// Of each hidden layer, for a pack of this precision; empty but for int8. calibration: as from_weights takes
-// it.
-std::vector<HeardRanges> ranges_for(const Safetensors& weights, pack::Precision precision,
-                                    const std::string& calibration);
 
 // By the first bytes, or by its name where they are missing or damaged.
 bool looks_like_pack(const std::string& path);

@@ -51,6 +51,11 @@ Status check_precision(const PackView& pack) noexcept {
                              "pack: network precision %u is not known to this build; update sinew or bake it "
                              "with --precision fp32",
                              precision);
+  if (pack.kind == FileKind::kCharacter && precision != 0)
+    return core::make_status(StatusCode::kUnsupported,
+                             "pack: the character's network is in %s, and characters run in fp32 only; bake "
+                             "it anew with sinew-bake character",
+                             kPrecisionNames[precision]);
   return {};
 }
 

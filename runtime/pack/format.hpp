@@ -144,7 +144,7 @@ inline constexpr const char* kModelNames[] = {"none", "alt_conv_lstm", "deep_emu
 //   gate = start + scale[gate] sum_k q_k w[k][gate],  q_k = round(per_unit[k] v_k) within +-127
 // where v is what the layer hears, one after the other, each padded to whole 16: P x and x (not in the first
 // layer, x only with W_s), P h, P y, and start is the bias, in the first layer and what x gives it. Gate o
-// hears P y in a sum of its own. The float tensors are there all the same.
+// hears P y in a sum of its own. The float tensors are there all the same. Both are of models only.
 enum class Precision : uint32_t { kFloat32 = 0, kHalfStates = 1, kInt8 = 2 };
 inline constexpr const char* kPrecisionNames[] = {"fp32", "fp16", "int8"};  // as --precision has them
 

@@ -165,22 +165,17 @@ TEST_CASE("int8_sections_that_are_too_short_or_too_long_are_refused") {
   }
 }
 
-TEST_CASE("a_character_of_any_precision_is_taken_and_its_int8_faults_refused_by_name") {
-  using enum SectionKind;
+TEST_CASE("a_character_in_another_precision_names_the_command_that_rebakes_it") {
   for (const Precision precision : {Precision::kHalfStates, Precision::kInt8}) {
-    const std::vector<std::byte> good = test::small_character_pack(precision);
-    PackView view;
-    REQUIRE(PackEditor(good).open(&view).ok());
-    CHECK(view.network->precision == precision);
-    CHECK(view.int8_weights.empty() == (precision != Precision::kInt8));
+    const auto is_reduced = [=](NetworkRecord& n) { n.precision = precision; };
+    PackEditor editor(character_pack());
+    change<NetworkRecord>(SectionKind::kNetwork, 0, is_reduced)(editor);
+    editor.seal();
+    const Status status = editor.open();
+    CHECK(status.code == StatusCode::kUnsupported);
+    CHECK_THAT(status.message, Contains(kPrecisionNames[static_cast<uint32_t>(precision)]) &&
+                                   Contains("fp32 only; bake it anew with sinew-bake character"));
   }
-  const auto is_int8 = [](NetworkRecord& n) { n.precision = Precision::kInt8; };
-  check_refused(character_pack(), {{"int8: 0 weights, 0 sums and 0 scales, the layers make 1792, 80 and 112",
-                                    change<NetworkRecord>(kNetwork, 0, is_int8)}});
-  check_refused(test::small_character_pack(Precision::kInt8),
-                {{"layer 0: int8 sums", set<int32_t>(kInt8Sums, 7, 1)},
-                 {"int8 weights: a number below -127", set<int8_t>(kInt8Weights, 3, int8_t{-128})},
-                 {"int8 scales", set<float>(kInt8Scales, 2, kNan)}});
 }
 
 TEST_CASE("faults_of_a_network_of_chains_are_refused_by_name") {

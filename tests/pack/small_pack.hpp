@@ -23,7 +23,7 @@ std::vector<baker::ModalBasis> small_modes(const baker::TissueLayout& layout);  
 
 std::vector<std::byte> small_model();
 std::vector<std::byte> small_chain_model();  // of small_coping_net
-std::vector<std::byte> small_character_pack(pack::Precision precision = pack::Precision::kFloat32);
+std::vector<std::byte> small_character_pack();
 std::vector<std::byte> small_weightless_pack();
 // The same with a coarser control graph: two nodes of three, one of two.
 baker::GraphLevel small_coarser_level(const baker::TissueLayout& layout);
