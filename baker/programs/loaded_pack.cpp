@@ -9,6 +9,7 @@
 #include "baker/pack/dense_pack.hpp"
 #include "baker/pack/network_pack.hpp"
 #include "baker/programs/calibrate.hpp"
+#include "baker/research/precision/check_int8.hpp"
 
 namespace sinew::baker {
 
@@ -71,17 +72,22 @@ LoadedPack LoadedPack::from_weights(const std::string& path, pack::Precision pre
 }
 
 void LoadedPack::open(std::span<const std::byte> bytes, const std::string& path) {
-  const Status status = pack::open_pack(bytes, &view_);
+  Status status = pack::open_pack(bytes, &view_);
+  if (status.ok()) status = check_int8(view_);
   if (!status.ok()) throw BadInput(path + ": " + status.message);
   bytes_ = bytes;
 }
 
 tissue::Network LoadedPack::network() const {
-  return {view_.network,
-          view_.layers,
-          view_.inputs,
-          view_.weights.data(),
-          {view_.int8_weights.data(), view_.int8_sums.data(), view_.int8_scales.data()}};
+  return {view_.network, view_.layers, view_.inputs, view_.weights.data()};
+}
+
+bool LoadedPack::is_reduced() const {
+  return view_.network->precision != pack::Precision::kFloat32 && view_.layers.size() > 1;
+}
+
+ReducedNetwork LoadedPack::reduced_network() const {
+  return {network(), {view_.int8_weights.data(), view_.int8_sums.data(), view_.int8_scales.data()}};
 }
 
 tissue::DeepEmulator LoadedPack::deep_emulator() const { return {view_.dense, view_.weights.data()}; }

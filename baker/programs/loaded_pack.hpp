@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "baker/common/safetensors.hpp"
+#include "baker/research/precision/reduced_network.hpp"
 #include "core/aligned_block.hpp"
 #include "pack/mapped_file.hpp"
 #include "pack/reader.hpp"
@@ -27,8 +28,11 @@ class LoadedPack {
 
   const pack::PackView& view() const { return view_; }
   std::span<const std::byte> bytes() const { return bytes_; }
+  // Runs in another precision than float32; a network of one layer, which has nothing to reduce, does not.
+  bool is_reduced() const;
   // Each where the pack's model is that one.
-  tissue::Network network() const;
+  tissue::Network network() const;  // its float tensors, whatever its precision
+  ReducedNetwork reduced_network() const;
   tissue::DeepEmulator deep_emulator() const;
   rods::CopingNet coping_net() const;
 

@@ -30,10 +30,11 @@ BAKER = {
     "truth": {"import", "mesh"},
     "pack": {"import", "mesh", "truth"},
     "rods": {"truth"},
+    "research": {"pack"},
     "render": set(),
     "preview": {"render"},
     "audit": {"preview", "render"},
-    "programs": {"audit", "import", "mesh", "truth", "pack", "creature", "rods", "preview"},
+    "programs": {"audit", "import", "mesh", "truth", "pack", "creature", "rods", "preview", "research"},
     "trade": {"import", "mesh", "truth", "pack", "programs", "render"},
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)

@@ -227,6 +227,11 @@ std::vector<std::byte> small_model() {
   return writer.finish();
 }
 
+std::vector<baker::HeardRanges> small_paper_ranges() {
+  const std::vector<float> inputs(9, 1.0f), channels(5, 1.0f);
+  return {{inputs, inputs, channels, channels}};
+}
+
 std::vector<std::byte> small_chain_model() {
   baker::PackWriter writer(pack::FileKind::kModel);
   baker::add_chains(small_coping_net(), writer);
