@@ -349,13 +349,12 @@ std::vector<pack::LayerRecord> add_no_network(PackWriter& pack) {
 
 std::vector<std::byte> pack_character(const Character& character, const TissueLayout& layout,
                                       const std::vector<ModalBasis>& modes, const Safetensors* weights,
-                                      pack::Precision precision, std::span<const HeardRanges> ranges,
                                       std::span<const GraphLevel> coarser) {
   if (weights != nullptr) check_wiring(*weights);
   check_joint_count(character);
   PackWriter pack(pack::FileKind::kCharacter);
   const std::vector<pack::LayerRecord> layers =
-      weights != nullptr ? add_network(*weights, pack, precision, ranges) : add_no_network(pack);
+      weights != nullptr ? add_network(*weights, pack) : add_no_network(pack);
   add_record(character, layout, coarser.size(), pack);
   add_joints(character, pack);
   add_mesh(character, pack);

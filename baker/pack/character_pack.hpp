@@ -7,15 +7,14 @@
 #include "baker/common/safetensors.hpp"
 #include "baker/import/character.hpp"
 #include "baker/mesh/tissue_layout.hpp"
-#include "baker/pack/int8_pack.hpp"
 #include "baker/truth/graph_level.hpp"
 
 namespace sinew::baker {
 
 inline constexpr double kClipRateHz = 60;
 // The whole file; `modes`: one basis a region; `coarser`: control graphs beside it, each with fewer nodes
-// than the one before. Without weights (null) it has the tier modal, at 60 Hz. precision, ranges:
-// as add_network takes them. Beyond network_pack's keys, reads from the weights' metadata:
+// than the one before. Without weights (null) it has the tier modal, at 60 Hz. Beyond
+// network_pack's keys, reads from the weights' metadata:
 //   frame, base          must be "bent" and "modal_2" (bodies' whole modes; before: each region's own): what
 //                        the network was trained on
 // Throws BadInput: weights without `inputs`, or of another frame or base; more than 65,535 joints, a clip of
@@ -24,8 +23,6 @@ inline constexpr double kClipRateHz = 60;
 std::vector<std::byte> pack_character(const Character& character, const TissueLayout& layout,
                                       const std::vector<ModalBasis>& modes,
                                       const Safetensors* weights = nullptr,
-                                      pack::Precision precision = pack::Precision::kFloat32,
-                                      std::span<const HeardRanges> ranges = {},
                                       std::span<const GraphLevel> coarser = {});
 
 }  // namespace sinew::baker

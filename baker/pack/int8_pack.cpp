@@ -6,7 +6,6 @@
 #include <string>
 
 #include "baker/common/bad_input.hpp"
-#include "pack/int8_layout.hpp"
 #include "pack/weight_layout.hpp"
 
 namespace sinew::baker {

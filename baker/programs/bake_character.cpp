@@ -17,7 +17,6 @@
 #include "baker/pack/network_pack.hpp"
 #include "baker/pack/pack_writer.hpp"
 #include "baker/preview/write_preview.hpp"
-#include "baker/programs/calibrate.hpp"
 #include "baker/programs/commands.hpp"
 #include "baker/programs/describe.hpp"
 #include "baker/programs/measure_tiers.hpp"
@@ -28,8 +27,7 @@ namespace sinew::baker {
 namespace {
 
 struct CharacterOptions {
-  std::string character, recipe, tissue, output, preview, precision = "fp32";
-  std::vector<std::string> calibration;
+  std::string character, recipe, tissue, output, preview;
   bool quick = false, keep_network = false;
 };
 
@@ -41,34 +39,6 @@ void print_summary(const CharacterOptions& options, const Character& character, 
   nlohmann::ordered_json description = describe_pack(pack);
   for (const char* detail : {"network", "metadata"}) description.erase(detail);  // `info` shows them
   std::printf("%s: %s", options.output.c_str(), format_description(description).c_str());
-}
-
-pack::Precision precision_of(const CharacterOptions& options) {
-  const pack::Precision precision = parse_precision(options.precision);
-  check_calibration(precision, !options.calibration.empty());
-  if (precision != pack::Precision::kFloat32 && options.tissue.empty())
-    throw BadInput("--precision " + options.precision +
-                   ": is a network's, and there is no --tissue; leave it out or give weights");
-  return precision;
-}
-
-// A file of trajectories; else of vectors.
-bool holds_motion(const std::string& path) {
-  return read_safetensors(path).metadata.contains("sinew.trajectory");
-}
-
-// floats: the character in float32.
-std::vector<HeardRanges> int8_ranges(const CharacterOptions& options, const Safetensors& weights,
-                                     const std::vector<std::byte>& floats) {
-  const std::vector<std::string>& files = options.calibration;
-  if (!files.empty() && holds_motion(files.front()))
-    return heard_ranges(LoadedPack::from_bytes(floats, options.character), files);
-  if (files.size() > 1)
-    throw BadInput("--calibrate " + files.front() +
-                   ": is of vectors, of which one file is taken; give true "
-                   "motions, or it alone");
-  return widened(ranges_for(weights, pack::Precision::kInt8, files.empty() ? "" : files.front()),
-                 kBeyondVectors);
 }
 
 // A character's tissue before it is packed; of rods alone it has neither truth nor bases.
@@ -106,30 +76,18 @@ Tissue make_tissue(Character& character, const Recipe& recipe) {
   return tissue;
 }
 
-// Packs it with the precision and weights of the options.
+// Packs it with these weights, or without.
 class Packer {
  public:
-  Packer(const CharacterOptions& options, const Character& character, const Tissue& tissue)
-      : options_(options), character_(character), tissue_(tissue), precision_(precision_of(options)) {}
+  Packer(const Character& character, const Tissue& tissue) : character_(character), tissue_(tissue) {}
 
   std::vector<std::byte> pack(const Safetensors* weights) const {
-    std::vector<HeardRanges> ranges;
-    if (weights && precision_ == pack::Precision::kInt8)
-      ranges = int8_ranges(options_, *weights, packed(weights, pack::Precision::kFloat32, {}));
-    return packed(weights, weights ? precision_ : pack::Precision::kFloat32, ranges);
+    return pack_character(character_, tissue_.layout, tissue_.finest, weights, tissue_.coarser);
   }
 
  private:
-  std::vector<std::byte> packed(const Safetensors* weights, pack::Precision precision,
-                                std::span<const HeardRanges> ranges) const {
-    return pack_character(character_, tissue_.layout, tissue_.finest, weights, precision, ranges,
-                          tissue_.coarser);
-  }
-
-  const CharacterOptions& options_;
   const Character& character_;
   const Tissue& tissue_;
-  pack::Precision precision_;
 };
 
 std::string limit_note(const Region& before, const Region& after) {
@@ -230,7 +188,6 @@ std::vector<std::byte> measured(const Packer& packer, const Recipe& recipe, cons
 void run_character(const CharacterOptions& options) {
   refuse_directory(options.output);
   const Recipe recipe = options.recipe.empty() ? Recipe{} : read_recipe(options.recipe);
-  precision_of(options);
   std::optional<Safetensors> weights;
   if (!options.tissue.empty()) weights = read_safetensors(options.tissue);
   std::optional<Progress> progress(std::in_place, "baking " + options.output, 10);
@@ -243,7 +200,7 @@ void run_character(const CharacterOptions& options) {
     character.notes.push_back("nothing is soft tissue: " + options.tissue + " is not used");
     weights.reset();
   }
-  const Packer packer(options, character, tissue);
+  const Packer packer(character, tissue);
   lower_limits(packer, character, tissue);
   const Safetensors* network = weights ? &*weights : nullptr;
   const std::vector<std::byte> bytes =
@@ -270,13 +227,6 @@ void add_character_command(CLI::App& app, int*) {
   command->add_option("character", options->character, "skinned glTF or VRM")->required();
   command->add_option("--recipe", options->recipe, "JSON; see baker/mesh/recipe.hpp");
   command->add_option("--tissue", options->tissue, "trained weights, safetensors; without: modes only");
-  add_precision_option(command, &options->precision);
-  command
-      ->add_option("--calibrate", options->calibration,
-                   "true motions of this character (sinew-bake truth) that int8 takes its scales from, in "
-                   "closed loop; or a file of vectors; by default those beside the weights, else a made-up "
-                   "motion. Repeatable")
-      ->allow_extra_args(false);
   command->add_flag("--quick", options->quick,
                     "does not measure errors against ground truth, nor whether the network pays: for trying");
   command->add_flag("--keep-network", options->keep_network,

@@ -55,6 +55,7 @@ RollOutError error_of(const LoadedPack& model, const std::string& path, const Sa
     case pack::ModelKind::kAltConvLstm:
       break;
   }
+  if (model.is_reduced()) return roll_out(model.reduced_network(), vectors);
   return roll_out(model.network(), vectors);
 }
 

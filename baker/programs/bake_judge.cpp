@@ -47,15 +47,10 @@ struct Sums {
 };
 
 struct Judged {
-  std::string path, precision;
+  std::string path;
   std::vector<Sums> sums;  // one for each of the options' ticks
   uint32_t held = 0, fallbacks = 0;
 };
-
-const char* precision_of(const pack::PackView& view) {
-  if (!pack::has_network(view)) return "modes";
-  return pack::kPrecisionNames[static_cast<uint32_t>(view.network->precision)];
-}
 
 void add_tick(const JudgeOptions& options, size_t tick, const TrueMotion& motion, const float* u,
               const float* first, size_t nodes, Judged* to) {
@@ -101,19 +96,18 @@ double added_share(const Sums& of, const Sums& first) { return of.error / first.
 
 void print_table(const JudgeOptions& options, const std::vector<Judged>& judged) {
   std::printf("%zu motions; errors are means over control nodes and ticks\n", options.truth.size());
-  std::printf("%9s %6s %10s %12s %9s %9s  %s\n", "precision", "ticks", "error mm", "of skinning", "added",
-              "apart", "character");
+  std::printf("%6s %10s %12s %9s %9s  %s\n", "ticks", "error mm", "of skinning", "added", "apart",
+              "character");
   for (const Judged& one : judged) {
     for (size_t k = 0; k < options.ticks.size(); ++k) {
       const Sums &sums = one.sums[k], &first = judged.front().sums[k];
       if (sums.nodes == 0) continue;
-      std::printf("%9s %6zu %10.4f %12.4f %+8.2f%% %8.2f%%  %s\n", one.precision.c_str(), options.ticks[k],
-                  sums.mean_mm(), sums.ratio(), 100 * added_share(sums, first),
-                  100 * sums.apart / first.error, one.path.c_str());
+      std::printf("%6zu %10.4f %12.4f %+8.2f%% %8.2f%%  %s\n", options.ticks[k], sums.mean_mm(), sums.ratio(),
+                  100 * added_share(sums, first), 100 * sums.apart / first.error, one.path.c_str());
     }
     if (one.held + one.fallbacks > 0)
-      std::printf("%9s guards: %u nodes held, %u times given up  %s\n", one.precision.c_str(), one.held,
-                  one.fallbacks, one.path.c_str());
+      std::printf("guards: %u nodes held, %u times given up  %s\n", one.held, one.fallbacks,
+                  one.path.c_str());
   }
 }
 
@@ -121,10 +115,8 @@ nlohmann::ordered_json described(const JudgeOptions& options, const std::vector<
   nlohmann::ordered_json out = {
       {"motions", options.truth}, {"characters", nlohmann::json::array()}, {"ok", ok}};
   for (const Judged& one : judged) {
-    nlohmann::ordered_json character = {{"character", one.path},
-                                        {"precision", one.precision},
-                                        {"nodes_held", one.held},
-                                        {"fallbacks", one.fallbacks}};
+    nlohmann::ordered_json character = {
+        {"character", one.path}, {"nodes_held", one.held}, {"fallbacks", one.fallbacks}};
     for (size_t k = 0; k < options.ticks.size(); ++k) {
       const Sums &sums = one.sums[k], &first = judged.front().sums[k];
       if (sums.nodes == 0) continue;
@@ -179,9 +171,8 @@ int run_judge(const JudgeOptions& options) {
   choose_isa(options.isa);
   const std::vector<LoadedPack> characters = load_characters(options);
   std::vector<Judged> judged;
-  for (size_t c = 0; c < characters.size(); ++c)
-    judged.push_back(
-        {options.characters[c], precision_of(characters[c].view()), std::vector<Sums>(options.ticks.size())});
+  for (const std::string& path : options.characters)
+    judged.push_back({path, std::vector<Sums>(options.ticks.size())});
   for (const std::string& truth : options.truth) follow(options, characters, truth, &judged);
   check_all_judged(options, judged.front());
   const bool ok = within(options, judged);

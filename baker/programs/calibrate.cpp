@@ -9,7 +9,6 @@
 
 #include "baker/common/bad_input.hpp"
 #include "baker/pack/network_pack.hpp"
-#include "baker/programs/closed_loop.hpp"
 #include "baker/programs/roll_out.hpp"
 
 namespace sinew::baker {
@@ -135,38 +134,6 @@ std::vector<HeardRanges> heard_ranges(const tissue::Network& network, const Safe
   roll_out(network, vectors,
            [&](const GraphRows& graph, float* state) { raise_layers(network, graph, state, &ranges); });
   check_finite(ranges, vectors.path);
-  return ranges;
-}
-
-std::vector<HeardRanges> heard_ranges(const LoadedPack& character,
-                                      std::span<const std::string> trajectories) {
-  const pack::PackView& view = character.view();
-  const GraphRows graph = {{view.graph_rows.begin(), view.graph_rows.end()},
-                           {view.graph_columns.begin(), view.graph_columns.end()},
-                           {view.graph_values.begin(), view.graph_values.end()}};
-  std::vector<HeardRanges> ranges = nothing_heard(character.network());
-  for (const std::string& path : trajectories) {
-    const TrueMotion motion(read_safetensors(path), view);
-    ClosedLoop loop(character, motion);
-    for (size_t tick = 0; tick < motion.ticks(); ++tick) {
-      loop.tick();
-      raise_layers(loop.network(), graph, loop.network_state(), &ranges);
-    }
-    if (loop.fallbacks() > 0)
-      throw BadInput(
-          path +
-          ": the guards gave the network up along this motion, so what it hears there says little; "
-          "calibrate with others");
-  }
-  return ranges;
-}
-
-std::vector<HeardRanges> widened(std::vector<HeardRanges> ranges, float factor) {
-  for (HeardRanges& layer : ranges) {
-    for (std::vector<float>* kind : {&layer.px, &layer.x, &layer.h, &layer.y}) {
-      for (float& range : *kind) range *= factor;
-    }
-  }
   return ranges;
 }
 

@@ -1,12 +1,10 @@
 // calibrate.hpp  What each layer of a network hears over a roll-out, for the scales of its int8 form.
 #pragma once
-#include <span>
 #include <string>
 #include <vector>
 
 #include "baker/common/safetensors.hpp"
 #include "baker/pack/int8_pack.hpp"
-#include "baker/programs/loaded_pack.hpp"
 #include "tissue/network.hpp"
 
 namespace sinew::baker {
@@ -14,15 +12,6 @@ namespace sinew::baker {
 // Of each hidden layer. vectors: as roll_out takes them; what they expect is not looked at. Throws BadInput
 // as roll_out does, and when the network leaves finite numbers.
 std::vector<HeardRanges> heard_ranges(const tissue::Network& network, const Safetensors& vectors);
-
-// The same of a float32 character in closed loop along true motions. Throws BadInput as TrueMotion does, and
-// when the guards give the network up.
-std::vector<HeardRanges> heard_ranges(const LoadedPack& character, std::span<const std::string> trajectories);
-
-// What a network hears in other regions, bodies and motions than the one region's that vectors hold: ranges
-// this much wider, chosen on validation motions of the shipped networks.
-inline constexpr float kBeyondVectors = 8;
-std::vector<HeardRanges> widened(std::vector<HeardRanges> ranges, float factor);
 
 // Fifty steps of a made-up motion for a network that comes without reference vectors: a sphere that sways and
 // turns (the paper's wiring), or inputs that wander within their envelope.

@@ -9,6 +9,7 @@
 #include "baker/pack/dense_pack.hpp"
 #include "baker/pack/network_pack.hpp"
 #include "baker/programs/calibrate.hpp"
+#include "baker/research/precision/check_int8.hpp"
 
 namespace sinew::baker {
 
@@ -31,6 +32,18 @@ LoadedPack pack_network(const Safetensors& weights, pack::Precision precision,
   else
     add_chains(weights, writer);
   return LoadedPack::from_bytes(writer.finish(), weights.path);
+}
+
+// Of each hidden layer; empty but for int8.
+std::vector<HeardRanges> ranges_for(const Safetensors& weights, pack::Precision precision,
+                                    const std::string& calibration) {
+  check_precision(weights, precision);
+  if (precision != pack::Precision::kInt8) return {};
+  const LoadedPack floats = pack_network(weights, pack::Precision::kFloat32, {});
+  const std::string vectors = calibration.empty() ? vectors_beside(weights.path) : calibration;
+  keep_file(vectors);
+  return heard_ranges(floats.network(),
+                      vectors.empty() ? made_up_vectors(floats.network()) : read_safetensors(vectors));
 }
 
 }  // namespace
@@ -58,29 +71,23 @@ LoadedPack LoadedPack::from_weights(const std::string& path, pack::Precision pre
   return pack_network(weights, precision, ranges_for(weights, precision, calibration));
 }
 
-std::vector<HeardRanges> ranges_for(const Safetensors& weights, pack::Precision precision,
-                                    const std::string& calibration) {
-  check_precision(weights, precision);
-  if (precision != pack::Precision::kInt8) return {};
-  const LoadedPack floats = pack_network(weights, pack::Precision::kFloat32, {});
-  const std::string vectors = calibration.empty() ? vectors_beside(weights.path) : calibration;
-  keep_file(vectors);
-  return heard_ranges(floats.network(),
-                      vectors.empty() ? made_up_vectors(floats.network()) : read_safetensors(vectors));
-}
-
 void LoadedPack::open(std::span<const std::byte> bytes, const std::string& path) {
-  const Status status = pack::open_pack(bytes, &view_);
+  Status status = pack::open_pack(bytes, &view_);
+  if (status.ok()) status = check_int8(view_);
   if (!status.ok()) throw BadInput(path + ": " + status.message);
   bytes_ = bytes;
 }
 
 tissue::Network LoadedPack::network() const {
-  return {view_.network,
-          view_.layers,
-          view_.inputs,
-          view_.weights.data(),
-          {view_.int8_weights.data(), view_.int8_sums.data(), view_.int8_scales.data()}};
+  return {view_.network, view_.layers, view_.inputs, view_.weights.data()};
+}
+
+bool LoadedPack::is_reduced() const {
+  return view_.network->precision != pack::Precision::kFloat32 && view_.layers.size() > 1;
+}
+
+ReducedNetwork LoadedPack::reduced_network() const {
+  return {network(), {view_.int8_weights.data(), view_.int8_sums.data(), view_.int8_scales.data()}};
 }
 
 tissue::DeepEmulator LoadedPack::deep_emulator() const { return {view_.dense, view_.weights.data()}; }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "baker/common/safetensors.hpp"
-#include "baker/pack/int8_pack.hpp"
+#include "baker/research/precision/reduced_network.hpp"
 #include "core/aligned_block.hpp"
 #include "pack/mapped_file.hpp"
 #include "pack/reader.hpp"
@@ -28,8 +28,11 @@ class LoadedPack {
 
   const pack::PackView& view() const { return view_; }
   std::span<const std::byte> bytes() const { return bytes_; }
+  // Runs in another precision than float32; a network of one layer, which has nothing to reduce, does not.
+  bool is_reduced() const;
   // Each where the pack's model is that one.
-  tissue::Network network() const;
+  tissue::Network network() const;  // its float tensors, whatever its precision
+  ReducedNetwork reduced_network() const;
   tissue::DeepEmulator deep_emulator() const;
   rods::CopingNet coping_net() const;
 
@@ -41,11 +44,6 @@ class LoadedPack {
   pack::PackView view_;
   std::span<const std::byte> bytes_;
 };
-
-// Of each hidden layer, for a pack of this precision; empty but for int8. calibration: as from_weights takes
-// it.
-std::vector<HeardRanges> ranges_for(const Safetensors& weights, pack::Precision precision,
-                                    const std::string& calibration);
 
 // By the first bytes, or by its name where they are missing or damaged.
 bool looks_like_pack(const std::string& path);

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "baker/common/bad_input.hpp"
 #include "baker/pack/graph.hpp"
 #include "baker/pack/network_pack.hpp"
 #include "baker/programs/reference_vectors.hpp"
-#include "core/half.hpp"
 #include "tissue/inputs.hpp"
 
 namespace sinew::baker {
@@ -17,10 +17,30 @@ namespace {
 
 constexpr size_t kAxes = 3;
 
+// ---- of a network in any precision ----
+
+const tissue::Network& floats_of(const tissue::Network& network) { return network; }
+const tissue::Network& floats_of(const ReducedNetwork& network) { return network.floats; }
+
+float* output_of(const tissue::Network& network, uint32_t nodes, float* state) {
+  return tissue::layer_state(network, nodes, static_cast<uint32_t>(network.layers.size() - 1), state).y;
+}
+float* output_of(const ReducedNetwork& network, uint32_t nodes, float* state) {
+  return last_state(network, nodes, state).y;
+}
+
+tissue::LayerState values_of(const tissue::Network& network, uint32_t nodes, uint32_t layer, float* state) {
+  return tissue::layer_state(network, nodes, layer, state);
+}
+LayerValues values_of(const ReducedNetwork& network, uint32_t nodes, uint32_t layer, float* state) {
+  return layer_values(network, nodes, layer, state);
+}
+
 // What is needed to take steps, whatever feeds them.
+template <class Network>
 class Stepper {
  public:
-  Stepper(const tissue::Network& network, const Safetensors& vectors, const AfterStep& after_step)
+  Stepper(const Network& network, const Safetensors& vectors, const AfterStep& after_step)
       : network_(network),
         after_step_(after_step),
         vectors_(vectors),
@@ -29,10 +49,10 @@ class Stepper {
         rows_(normalized_adjacency(nodes_, read_edges(vectors), vectors.path + ": tensor 'edges'")),
         y0_(vectors.tensors.at("y0").as_f32()),
         expected_(vectors.tensors.at("y").as_f32()),
-        stride_(tissue::input_stride(network)),
+        stride_(tissue::input_stride(floats_of(network))),
         z_(nodes_ * stride_),
-        state_(tissue::state_floats(network, count())),
-        scratch_(tissue::scratch_floats(network, count())) {
+        state_(state_floats(network, count())),
+        scratch_(scratch_floats(network, count())) {
     float* y = output_state();
     if (nodes_ == 0 || steps_ == 0)
       throw BadInput(vectors.path + ": holds " + std::to_string(nodes_) + " nodes and " +
@@ -49,7 +69,7 @@ class Stepper {
   // carry: [nodes][3] or null. The output comes back as [nodes][3].
   const std::vector<float>& step(size_t index, const float* carry) {
     const tissue::Graph graph{count(), rows_.rows.data(), rows_.columns.data(), rows_.values.data()};
-    tissue::network_step(network_, graph, z_.data(), carry, state_.data(), scratch_.data());
+    network_step(network_, graph, z_.data(), carry, state_.data(), scratch_.data());
     if (after_step_) after_step_(rows_, state_.data());
     output_.resize(nodes_ * kAxes);
     for (size_t k = 0; k < output_.size(); ++k) {
@@ -60,22 +80,16 @@ class Stepper {
   }
 
   RollOutError finish() {
-    for (uint32_t l = 0; l < network_.layers.size(); ++l) {
-      if (!tissue::keeps_halves(network_, l))
-        compare_planes(l, tissue::layer_state(network_, count(), l, state_.data()));
-      else
-        compare_planes(l, tissue::half_layer_state(network_, count(), l, state_.data()));
-    }
+    for (uint32_t l = 0; l < layers().size(); ++l)
+      compare_planes(l, values_of(network_, count(), l, state_.data()));
     return error_.result(steps_);
   }
 
  private:
   uint32_t count() const { return static_cast<uint32_t>(nodes_); }
-  uint32_t last_padded() const { return network_.layers.back().padded; }
-  float* output_state() {
-    const auto last = static_cast<uint32_t>(network_.layers.size() - 1);
-    return tissue::layer_state(network_, count(), last, state_.data()).y;
-  }
+  std::span<const pack::LayerRecord> layers() const { return floats_of(network_).layers; }
+  uint32_t last_padded() const { return layers().back().padded; }
+  float* output_state() { return output_of(network_, count(), state_.data()); }
 
   // P x, x [nodes][width].
   std::vector<float> aggregated(const std::vector<float>& x, size_t width) const {
@@ -89,29 +103,26 @@ class Stepper {
     return {sum.begin(), sum.end()};
   }
 
-  static float value_of(float value) { return value; }
-  static float value_of(uint16_t half) { return core::half_to_float(half); }
-
   template <class Planes>
   void compare_planes(uint32_t l, const Planes& state) {
     const std::string prefix = "final." + std::to_string(l) + ".";
-    compare_state(prefix + "h", state.h, network_.layers[l]);
-    compare_state(prefix + "c", state.c, network_.layers[l]);
-    compare_state(prefix + "y", state.y, network_.layers[l]);
+    compare_state(prefix + "h", state.h, layers()[l]);
+    compare_state(prefix + "c", state.c, layers()[l]);
+    compare_state(prefix + "y", state.y, layers()[l]);
   }
 
-  template <class T>
-  void compare_state(const std::string& name, const T* values, const pack::LayerRecord& layer) {
+  template <class Values>
+  void compare_state(const std::string& name, const Values& values, const pack::LayerRecord& layer) {
     if (!vectors_.tensors.contains(name)) return;
     std::vector<float> expected =
         vectors_.need(name, {static_cast<long>(nodes_), static_cast<long>(layer.channels)}).as_f32();
-    const bool is_hidden_y = name.back() == 'y' && &layer != &network_.layers.back();
+    const bool is_hidden_y = name.back() == 'y' && &layer != &layers().back();
     if (is_hidden_y) expected = aggregated(expected, layer.channels);  // the runtime keeps P y
     for (size_t k = 0; k < expected.size(); ++k)
-      error_.add(value_of(values[k / layer.channels * layer.padded + k % layer.channels]), expected[k]);
+      error_.add(values[k / layer.channels * layer.padded + k % layer.channels], expected[k]);
   }
 
-  const tissue::Network& network_;
+  const Network& network_;
   const AfterStep& after_step_;
   const Safetensors& vectors_;
   size_t nodes_, steps_;
@@ -123,9 +134,9 @@ class Stepper {
 };
 
 // Input: X_t, X_t - X_{t-1}, Y_0 - X_0; the last layer carries X_t - X_{t-1} (arXiv 2006.07818 Eq. 9-11).
-RollOutError roll_out_paper(const tissue::Network& network, const Safetensors& vectors,
-                            const AfterStep& after_step) {
-  Stepper stepper(network, vectors, after_step);
+template <class Network>
+RollOutError roll_out_paper(const Network& network, const Safetensors& vectors, const AfterStep& after_step) {
+  Stepper<Network> stepper(network, vectors, after_step);
   const size_t floats = stepper.nodes() * kAxes;
   const std::vector<float> x =
       vectors.need("x", {static_cast<long>(stepper.steps() + 1), static_cast<long>(stepper.nodes()), 3})
@@ -160,16 +171,18 @@ FeedBack find_feed_back(const tissue::Network& network, pack::InputKind kind) {
   return {};
 }
 
-void feed_back(const FeedBack& to, size_t k, float value, Stepper* stepper) {
+template <class Network>
+void feed_back(const FeedBack& to, size_t k, float value, Stepper<Network>* stepper) {
   if (to.record == nullptr) return;
   const float scaled = std::clamp(value * to.record->scale, -to.record->envelope, to.record->envelope);
   stepper->input(k / kAxes)[to.column + k % kAxes] = scaled;
 }
 
-RollOutError roll_out_inputs(const tissue::Network& network, const Safetensors& vectors,
+template <class Network>
+RollOutError roll_out_inputs(const Network& network, const Safetensors& vectors,
                              const AfterStep& after_step) {
-  Stepper stepper(network, vectors, after_step);
-  const size_t width = network.record->input_width, nodes = stepper.nodes();
+  Stepper<Network> stepper(network, vectors, after_step);
+  const size_t width = floats_of(network).record->input_width, nodes = stepper.nodes();
   const std::vector<float> z =
       vectors
           .need("z", {static_cast<long>(stepper.steps()), static_cast<long>(nodes), static_cast<long>(width)})
@@ -179,8 +192,8 @@ RollOutError roll_out_inputs(const tissue::Network& network, const Safetensors& 
       based
           ? vectors.need("carry", {static_cast<long>(stepper.steps()), static_cast<long>(nodes), 3}).as_f32()
           : std::vector<float>();
-  const FeedBack displacement = find_feed_back(network, pack::InputKind::kDisplacement);
-  const FeedBack velocity = find_feed_back(network, pack::InputKind::kVelocity);
+  const FeedBack displacement = find_feed_back(floats_of(network), pack::InputKind::kDisplacement);
+  const FeedBack velocity = find_feed_back(floats_of(network), pack::InputKind::kVelocity);
   std::vector<float> now = stepper.start(), before = now;
   for (size_t t = 0; t < stepper.steps(); ++t) {
     for (size_t node = 0; node < nodes; ++node)
@@ -194,17 +207,26 @@ RollOutError roll_out_inputs(const tissue::Network& network, const Safetensors& 
   return stepper.finish();
 }
 
-}  // namespace
-
-RollOutError roll_out(const tissue::Network& network, const Safetensors& vectors,
-                      const AfterStep& after_step) {
+template <class Network>
+RollOutError roll_out_any(const Network& network, const Safetensors& vectors, const AfterStep& after_step) {
   check_vectors(vectors, "alt_conv_lstm");
-  const bool paper = network.inputs.empty();
+  const bool paper = floats_of(network).inputs.empty();
   if (paper != vectors.tensors.contains("x"))
     throw BadInput(vectors.path + ": these vectors are of " +
                    (paper ? "stated inputs (z)" : "the paper's wiring (x)") +
                    ", the network is of the other; check it with vectors that were written with it");
   return paper ? roll_out_paper(network, vectors, after_step) : roll_out_inputs(network, vectors, after_step);
+}
+
+}  // namespace
+
+RollOutError roll_out(const tissue::Network& network, const Safetensors& vectors,
+                      const AfterStep& after_step) {
+  return roll_out_any(network, vectors, after_step);
+}
+
+RollOutError roll_out(const ReducedNetwork& network, const Safetensors& vectors) {
+  return roll_out_any(network, vectors, {});
 }
 
 }  // namespace sinew::baker

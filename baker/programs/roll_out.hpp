@@ -6,6 +6,7 @@
 #include "baker/common/safetensors.hpp"
 #include "baker/pack/graph.hpp"
 #include "baker/programs/reference_vectors.hpp"
+#include "baker/research/precision/reduced_network.hpp"
 #include "rods/coping_net.hpp"
 #include "tissue/deep_emulator.hpp"
 #include "tissue/network.hpp"
@@ -21,6 +22,7 @@ namespace sinew::baker {
 using AfterStep = std::function<void(const GraphRows& graph, float* state)>;
 RollOutError roll_out(const tissue::Network& network, const Safetensors& vectors,
                       const AfterStep& after_step = {});
+RollOutError roll_out(const ReducedNetwork& network, const Safetensors& vectors);
 
 // edges (m,2) undirected, x (T+3,n,3), material (n,3), constrained (n), u_1, u_0, u_m1 (n,3), y (T,n,3): step
 // t, from 1, reads x[t+1], x[t], x[t-1] and the last three dynamic frames, at first u_1, u_0, u_m1, and gives

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 
-#include "baker/programs/calibrate.hpp"
 #include "baker/trade/fingerprint.hpp"
 #include "baker/trade/processor.hpp"
 #include "sinew/isa.hpp"
@@ -26,7 +25,7 @@ std::string of_motions(std::span<const TrueSurface> surfaces) {
 std::string of_source(const BakedFrom& source) {
   Fingerprint of;
   of.add_file(source.glb).add_file(source.recipe);
-  for (const std::string& weights : source.weights) of.add_file(weights).add_file(vectors_beside(weights));
+  for (const std::string& weights : source.weights) of.add_file(weights);
   return of.text();
 }
 

@@ -5,7 +5,6 @@
 
 #include "baker/mesh/tissue_layout.hpp"
 #include "baker/pack/character_pack.hpp"
-#include "baker/programs/calibrate.hpp"
 #include "baker/truth/tissue_truth.hpp"
 
 namespace sinew::baker {
@@ -22,8 +21,7 @@ void take_frequencies(const BakedFrom& source, TissueLayout& layout) {
     layout.regions[r].frequency_hz = own.regions[r].frequency_hz;
 }
 
-LoadedPack bake(const BakedFrom& source, int nodes_per_region, const std::string& weights_path,
-                pack::Precision precision) {
+LoadedPack bake(const BakedFrom& source, int nodes_per_region, const std::string& weights_path) {
   Recipe recipe = source.read();
   if (nodes_per_region > 0) recipe.nodes_per_region = nodes_per_region;
   Character character = source.import(recipe);
@@ -31,12 +29,8 @@ LoadedPack bake(const BakedFrom& source, int nodes_per_region, const std::string
   if (nodes_per_region > 0) take_frequencies(source, layout);
   const std::vector<ModalBasis> modes =
       TissueTruth(character, layout, recipe).modal_bases(layout, kMostModes);
-  std::vector<HeardRanges> ranges;
   const Safetensors weights = read_safetensors(weights_path);
-  if (precision == pack::Precision::kInt8)
-    ranges = widened(ranges_for(weights, precision, ""), kBeyondVectors);
-  return LoadedPack::from_bytes(pack_character(character, layout, modes, &weights, precision, ranges),
-                                source.glb);
+  return LoadedPack::from_bytes(pack_character(character, layout, modes, &weights), source.glb);
 }
 
 }  // namespace
@@ -47,13 +41,10 @@ std::vector<Variant> variants_of(const BakedFrom& source) {
   const std::string own = source.weights.front();
   for (const int nodes : kLevels)
     out.push_back({std::to_string(nodes) + " nodes a region",
-                   [&source, nodes, own] { return bake(source, nodes, own, pack::Precision::kFloat32); }});
-  for (const auto precision : {pack::Precision::kHalfStates, pack::Precision::kInt8})
-    out.push_back({pack::kPrecisionNames[static_cast<uint32_t>(precision)],
-                   [&source, precision, own] { return bake(source, 0, own, precision); }});
+                   [&source, nodes, own] { return bake(source, nodes, own); }});
   for (size_t w = 1; w < source.weights.size(); ++w)
     out.push_back({std::filesystem::path(source.weights[w]).stem().string(),
-                   [&source, w] { return bake(source, 0, source.weights[w], pack::Precision::kFloat32); }});
+                   [&source, w] { return bake(source, 0, source.weights[w]); }});
   return out;
 }
 

@@ -1,4 +1,4 @@
-// variants.hpp  The character baked otherwise: control graphs of other sizes, precisions, other networks.
+// variants.hpp  The character baked otherwise: control graphs of other sizes, other networks.
 #pragma once
 #include <functional>
 #include <string>

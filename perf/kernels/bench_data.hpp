@@ -7,7 +7,6 @@
 #include <random>
 #include <vector>
 
-#include "pack/int8_layout.hpp"
 #include "simd/isa.hpp"
 #include "simd/kernels.hpp"
 #include "tissue/network.hpp"
@@ -122,29 +121,11 @@ struct RandomNetwork {
     record.state_clamp = 8;
     record.length_unit = 1;
   }
-  tissue::Network view() {
-    return {&record, layers, {}, weights.data(), {int8_weights.data(), int8_sums.data(), int8_scales.data()}};
-  }
-  // Bytes of any value, scaled so that gates stay near one; the sums are not theirs, which costs no time.
-  void make_int8() {
-    record.precision = pack::Precision::kInt8;
-    size_t bytes = 0, sums = 0, numbers = 0;
-    for (size_t l = 0; l + 1 < layers.size(); ++l) {
-      const pack::Int8Extent extent = pack::int8_extent(layers[l], l == 0);
-      bytes += extent.weights, sums += extent.sums, numbers += extent.scales;
-    }
-    int8_weights = Aligned<int8_t>(bytes);
-    int8_sums = Aligned<int32_t>(sums);
-    int8_scales = random_floats(numbers, 1e-3f);
-    for (size_t i = 0; i < bytes; ++i) int8_weights[i] = static_cast<int8_t>(i % 255 - 127);
-    for (size_t i = 0; i < numbers; ++i) int8_scales[i] = std::abs(int8_scales[i]);
-  }
+  tissue::Network view() { return {&record, layers, {}, weights.data()}; }
 
   std::vector<pack::LayerRecord> layers;
   pack::NetworkRecord record{};
-  Floats weights, int8_scales{0};
-  Aligned<int8_t> int8_weights{0};
-  Aligned<int32_t> int8_sums{0};
+  Floats weights;
 
  private:
   size_t layout(const NetworkShape& shape) {

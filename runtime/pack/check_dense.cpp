@@ -50,8 +50,7 @@ Status check_record(const PackView& pack) noexcept {
   const bool empty = record.input_width == 0 && record.output_scale == 0 && record.output_leak == 0 &&
                      record.hidden_leak == 0 && record.state_clamp == 0 && record.length_unit == 0;
   if (!empty) return corrupt("network: fields of an alt_conv_lstm in another model");
-  const bool has_int8 = !pack.int8_weights.empty() || !pack.int8_sums.empty() || !pack.int8_scales.empty();
-  if (!pack.layers.empty() || !pack.inputs.empty() || has_int8)
+  if (!pack.layers.empty() || !pack.inputs.empty() || has_int8(pack))
     return corrupt("network: layers, inputs or int8 weights of an alt_conv_lstm in another model");
   const Status status = is_coping_net(pack) ? check_coping_sizes(record) : check_deep_sizes(record);
   if (!status.ok()) return status;

@@ -36,9 +36,8 @@ Status check_nothing(const PackView& pack) noexcept {
                      record.state_clamp == 0 && record.length_unit == 0 &&
                      record.precision == Precision::kFloat32 && record.blocks == 0 && record.depth == 0;
   if (!empty) return corrupt("network: fields of a network that is not there");
-  const bool has_int8 = !pack.int8_weights.empty() || !pack.int8_sums.empty() || !pack.int8_scales.empty();
   if (!pack.layers.empty() || !pack.inputs.empty() || !pack.weights.empty() || !pack.dense.empty() ||
-      has_int8)
+      has_int8(pack))
     return corrupt("network: layers, inputs or weights of a network that is not there");
   if (!is_positive(record.rate_hz)) return corrupt("network: rate %g Hz", double{record.rate_hz});
   return check_zero(record.reserved, "network", 0);
@@ -51,6 +50,13 @@ Status check_precision(const PackView& pack) noexcept {
                              "pack: network precision %u is not known to this build; update sinew or bake it "
                              "with --precision fp32",
                              precision);
+  if (pack.kind == FileKind::kCharacter && precision != 0)
+    return core::make_status(StatusCode::kUnsupported,
+                             "pack: the character's network is in %s, and characters run in fp32 only; bake "
+                             "it anew with sinew-bake character",
+                             kPrecisionNames[precision]);
+  if (pack.network->precision != Precision::kInt8 && has_int8(pack))
+    return corrupt("network: int8 sections of a network in %s", kPrecisionNames[precision]);
   return {};
 }
 
@@ -184,7 +190,7 @@ Status check_network(const PackView& pack) noexcept {
   if (pack.network == nullptr) return corrupt("it has no network record, or more than one");
   if (!has_network(pack)) return check_nothing(pack);
   if (is_chain_model(pack.network->model)) return check_dense(pack);
-  constexpr Check kChecks[] = {check_record, check_inputs, check_layers, check_weights, check_int8};
+  constexpr Check kChecks[] = {check_record, check_inputs, check_layers, check_weights};
   return run_checks(kChecks, pack);
 }
 

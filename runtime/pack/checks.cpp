@@ -20,6 +20,10 @@ Status corrupt(const char* format, ...) noexcept {
   return core::make_status(StatusCode::kCorrupt, "pack: %s; the file is damaged, bake it again", what);
 }
 
+bool has_int8(const PackView& pack) noexcept {
+  return !pack.int8_weights.empty() || !pack.int8_sums.empty() || !pack.int8_scales.empty();
+}
+
 size_t first_not_finite(std::span<const float> values) noexcept {
   const auto found = std::ranges::find_if(values, [](float v) { return !std::isfinite(v); });
   return static_cast<size_t>(found - values.begin());

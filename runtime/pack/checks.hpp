@@ -5,9 +5,8 @@
 
 namespace sinew::pack {
 
-Status check_network(const PackView& pack) noexcept;  // network, layers, inputs, weights
-Status check_dense(const PackView& pack) noexcept;    // the same of a network of chains
-Status check_int8(const PackView& pack) noexcept;     // what an int8 network has beside; after check_network
+Status check_network(const PackView& pack) noexcept;    // network, layers, inputs, weights
+Status check_dense(const PackView& pack) noexcept;      // the same of a network of chains
 Status check_character(const PackView& pack) noexcept;  // joints, mesh, skin, clips, tiers
 Status check_tissue(const PackView& pack) noexcept;     // regions, nodes, graph, carry; after check_character
 Status check_modes(const PackView& pack) noexcept;      // after check_tissue
@@ -22,6 +21,8 @@ Status check_proxies(const PackView& pack) noexcept;  // capsules about bones; a
 
 // "pack: <what>; the file is damaged, bake it again"
 [[gnu::format(printf, 1, 2)]] Status corrupt(const char* format, ...) noexcept;
+
+bool has_int8(const PackView& pack) noexcept;  // any of the int8 sections
 
 // Index of the first NaN or infinity; values.size() if there is none.
 size_t first_not_finite(std::span<const float> values) noexcept;

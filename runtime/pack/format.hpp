@@ -84,7 +84,7 @@ enum class SectionKind : uint32_t {
   kLayers = 11,   // LayerRecord x layers
   kInputs = 12,   // InputRecord x inputs; a model without: the paper's wiring
   kWeights = 13,  // float; the layers' tensors, laid out as LayerRecord says
-  // Of an int8 network, hidden layer after hidden layer without gaps (pack/int8_layout.hpp); k in fours:
+  // Of an int8 network, hidden layer after hidden layer, no gaps (baker/pack/int8_layout.hpp); k in fours:
   kInt8Weights = 14,  // int8, +-127: for each 16 channels [k of x, h / 4][i f c o][16][4], then
                       // [k of P y / 4][i f][16][4]; behind all channels gate o's [k of P y / 4][padded][4]
   kInt8Sums = 15,     // int32: 128 sum_k w, [padded / 16][i f c o][16], then [padded] of gate o's P y
@@ -144,7 +144,7 @@ inline constexpr const char* kModelNames[] = {"none", "alt_conv_lstm", "deep_emu
 //   gate = start + scale[gate] sum_k q_k w[k][gate],  q_k = round(per_unit[k] v_k) within +-127
 // where v is what the layer hears, one after the other, each padded to whole 16: P x and x (not in the first
 // layer, x only with W_s), P h, P y, and start is the bias, in the first layer and what x gives it. Gate o
-// hears P y in a sum of its own. The float tensors are there all the same.
+// hears P y in a sum of its own. The float tensors are there all the same. Both are of models only.
 enum class Precision : uint32_t { kFloat32 = 0, kHalfStates = 1, kInt8 = 2 };
 inline constexpr const char* kPrecisionNames[] = {"fp32", "fp16", "int8"};  // as --precision has them
 

@@ -29,7 +29,7 @@ struct PackView : LevelView {
   std::span<const LayerRecord> layers;
   std::span<const InputRecord> inputs;
   std::span<const float> weights;
-  std::span<const int8_t> int8_weights;  // empty but in an int8 network, as the next two
+  std::span<const int8_t> int8_weights;  // empty but in an int8 model, as the next two; not looked into
   std::span<const int32_t> int8_sums;
   std::span<const float> int8_scales;
   std::span<const DenseRecord> dense;  // of a network of chains, which has no layers

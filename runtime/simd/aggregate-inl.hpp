@@ -1,8 +1,8 @@
 // aggregate-inl.hpp  Sparse rows times dense rows: what a node hears from its neighbours.
 //
 //   out[i - first][:] = sum_e values[e] x[columns[e]][:],  e = rows[i] .. rows[i+1] - 1 in order
-//   x [nodes][stride] floats or halves, out [last - first][stride], stride a multiple of kBlock, 64-byte
-//   aligned
+//   x [nodes][stride] floats, or what load_state reads, out [last - first][stride], stride a multiple of
+//   kBlock, 64-byte aligned
 //
 // A row of P has about seven entries; the sum of one column block is a chain, and neighbouring blocks and
 // nodes hide its latency.
@@ -55,11 +55,6 @@ HWY_INLINE void aggregate_rows(const SparseRows& graph, const T* x, size_t strid
   const auto store = [&]<size_t kVectors>(uint32_t i, size_t j, const Vector(&sum)[kVectors])
                          HWY_ATTR { store_vectors(sum, out + i * stride + j); };
   aggregate_into(graph, x, stride, first, last, store);
-}
-
-void aggregate(const SparseRows& graph, const float* x, size_t stride, uint32_t first, uint32_t last,
-               float* out) {
-  aggregate_rows(graph, x, stride, first, last, out);
 }
 
 }  // namespace sinew::simd::HWY_NAMESPACE

@@ -14,7 +14,7 @@
 namespace sinew::simd {
 namespace {
 
-constexpr size_t kMaxTables = 19;  // Highway's dynamic targets, the fallback, and one with dot products
+constexpr size_t kMaxTables = 18;  // Highway's dynamic targets, and the fallback
 
 struct Available {
   std::array<const Kernels*, kMaxTables> tables{};
@@ -26,7 +26,7 @@ struct Available {
 void add_table(const Kernels* table, Available* list) {
   const auto end = list->tables.begin() + static_cast<std::ptrdiff_t>(list->count);
   if (list->count == kMaxTables || std::find(list->tables.begin(), end, table) != end) return;
-  const char* name = table->name ? table->name : hwy::TargetName(table->target);
+  const char* name = hwy::TargetName(table->target);
   auto& text = list->text[list->count];
   for (size_t i = 0; name[i] && i + 1 < text.size(); ++i) {
     text[i] = name[i] >= 'A' && name[i] <= 'Z' ? static_cast<char>(name[i] - 'A' + 'a') : name[i];
@@ -35,9 +35,7 @@ void add_table(const Kernels* table, Available* list) {
   list->names[list->count++] = text.data();
 }
 
-bool runs_here(const Kernels& table) {
-  return (hwy::SupportedTargets() & table.target) != 0 && (!table.runs || table.runs());
-}
+bool runs_here(const Kernels& table) { return (hwy::SupportedTargets() & table.target) != 0; }
 
 // The fallback runs everywhere, whatever the processor says of itself.
 void find_available(Available* list) {

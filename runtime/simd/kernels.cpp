@@ -12,10 +12,6 @@
 
 #include "simd/kernel_tables.hpp"
 
-#if HWY_ARCH_ARM_A64 && defined(__linux__)
-#include <sys/auxv.h>
-#endif
-
 // In this order: each needs the ones before it.
 // clang-format off
 #include "simd/vectors-inl.hpp"
@@ -26,8 +22,6 @@
 #include "simd/product-inl.hpp"
 #include "simd/layer-inl.hpp"
 #include "simd/narrow-inl.hpp"
-#include "simd/dot-inl.hpp"
-#include "simd/int8_layer-inl.hpp"
 #include "simd/mlp-inl.hpp"
 #include "simd/carry-inl.hpp"
 #include "simd/rows-inl.hpp"
@@ -47,45 +41,32 @@ extern const RodTouchKernels kRodTouchKernels;  // rod_touch_kernels.cpp
 extern const RodForceKernels kRodForceKernels;  // the same
 extern const SurfaceWalks kSurfaceWalks;        // surface_walk_kernels.cpp
 
-template <class Dot>
-constexpr Kernels kernels_with(const char* name, bool (*runs)()) {
-  return {
-      .target = HWY_TARGET,
-      .name = name,
-      .runs = runs,
-      .fused = HWY_NATIVE_FMA != 0,
-      .aggregate = aggregate,
-      .layer_cells = any_layer_cells<Dot>,
-      .layer_output = any_layer_output<Dot>,
-      .aggregate_planes = aggregate_planes,
-      .narrow_cells = narrow_cells,
-      .narrow_output = narrow_output,
-      .mlp = mlp,
-      .carry = carry,
-      .add_rows = add_rows,
-      .skin = skin,
-      .hold_columns = hold_columns,
-      .share_bend = share_bend,
-      .turn = turn,
-      .turn_back = turn_back,
-      .warp = warp,
-      .pose_frames = pose_frames,
-      .sigmoid = sigmoid<FineTanh>,
-      .tanh = tanh<FineTanh>,
-      .coarse_sigmoid = sigmoid<CoarseTanh>,
-      .coarse_tanh = tanh<CoarseTanh>,
-      .rods = &kRodKernels,
-      .rod_touches = &kRodTouchKernels,
-      .rod_forces = &kRodForceKernels,
-      .surface_walks = &kSurfaceWalks,
-  };
-}
-
-constexpr Kernels kKernels = kernels_with<BasicDot>(nullptr, nullptr);
-#ifdef SINEW_FAST_DOT
-#undef SINEW_FAST_DOT
-constexpr Kernels kFastDotKernels = kernels_with<FastDot>(kFastDotName, has_fast_dot);
-#endif
+constexpr Kernels kKernels = {
+    .target = HWY_TARGET,
+    .fused = HWY_NATIVE_FMA != 0,
+    .aggregate = aggregate_rows<float>,
+    .layer_cells = layer_cells<LayerJob>,
+    .layer_output = layer_output<LayerJob>,
+    .aggregate_planes = aggregate_planes,
+    .narrow_cells = narrow_cells,
+    .narrow_output = narrow_output,
+    .mlp = mlp,
+    .carry = carry,
+    .add_rows = add_rows,
+    .skin = skin,
+    .hold_columns = hold_columns,
+    .share_bend = share_bend,
+    .turn = turn,
+    .turn_back = turn_back,
+    .warp = warp,
+    .pose_frames = pose_frames,
+    .sigmoid = sigmoid<FineTanh>,
+    .tanh = tanh<FineTanh>,
+    .rods = &kRodKernels,
+    .rod_touches = &kRodTouchKernels,
+    .rod_forces = &kRodForceKernels,
+    .surface_walks = &kSurfaceWalks,
+};
 
 }  // namespace sinew::simd::HWY_NAMESPACE
 
@@ -93,15 +74,7 @@ constexpr Kernels kFastDotKernels = kernels_with<FastDot>(kFastDotName, has_fast
 namespace sinew::simd {
 
 std::span<const Kernels* const> compiled_kernels() noexcept {
-  static const Kernels* const tables[] = {
-#if HWY_TARGETS & HWY_AVX3
-    &N_AVX3::kFastDotKernels,
-#elif (HWY_TARGETS & HWY_NEON) && HWY_ARCH_ARM_A64 && defined(__linux__)
-    &N_NEON::kFastDotKernels,
-#endif
-    HWY_CHOOSE_TARGET_LIST(kKernels),
-    HWY_CHOOSE_FALLBACK(kKernels)
-  };
+  static const Kernels* const tables[] = {HWY_CHOOSE_TARGET_LIST(kKernels), HWY_CHOOSE_FALLBACK(kKernels)};
   return tables;
 }
 

@@ -29,23 +29,11 @@ struct SparseRows {
   const float* values;
 };
 
-using Half = uint16_t;  // IEEE binary16
-
-// What a hidden layer's products need to be those of bytes (simd/int8_layer-inl.hpp); layouts as
-// pack/format.hpp has them at kInt8Weights.
-struct Int8Layer {
-  const int8_t* w = nullptr;    // null: the products are of floats
-  const int8_t* w_o = nullptr;  // of P y, gate o
-  const int32_t* sums = nullptr;
-  const float* scale = nullptr;
-  const float* per_unit = nullptr;  // [depth]
-  uint32_t depth = 0;               // of what is quantised: x, x again with w_s, h, y, each padded
-  bool hears_x = false;             // else x is multiplied in floats
-};
-
 // One layer of an Alt-ConvLSTM at one step; equations in pack/format.hpp, NetworkRecord. A layer with y_next
-// is the last one. Plane: [nodes][padded]. The arithmetic is float whatever the state is kept as.
-struct LayerJob {
+// is the last one. Plane: [nodes][padded]. X is what x is kept as, T what h, c and y are; the arithmetic is
+// float whatever they are, and so are they in the runtime (another form: baker/research/precision).
+template <class X, class T>
+struct LayerJobOf {
   SparseRows graph{};
   uint32_t inputs = 0, channels = 0, padded = 0;  // F_in, F, F rounded up to kBlock
   const float* w_x = nullptr;                     // [padded / 16][inputs][4][16]
@@ -53,15 +41,13 @@ struct LayerJob {
   const float* w_h = nullptr;                     // [padded / 16][channels][4][16]
   const float* w_y = nullptr;                     // pack/weight_layout.hpp, peephole_at
   const float* bias = nullptr;                    // [4][padded]
-  bool x_is_half = false, state_is_half = false;  // of x; of h, c and y, a hidden layer's only: else floats
-  Int8Layer int8{};
-  const void* x = nullptr;  // [nodes][x_stride] padded; read with w_s only
+  const X* x = nullptr;                           // [nodes][x_stride] padded; read with w_s only
   size_t x_stride = 0;
   const float* px = nullptr;  // [last - first][x_stride], P x of the nodes of one call of layer_cells
   float* pc = nullptr;        // [last - first][padded], where a hidden layer_output leaves P c: the next px
-  void* h = nullptr;          // plane, of t-1; layer_output makes it t
-  void* c = nullptr;          // plane, of t-1; layer_cells makes it t
-  void* y = nullptr;          // plane, of t-1; layer_output makes it t. In a hidden layer P y
+  T* h = nullptr;             // plane, of t-1; layer_output makes it t
+  T* c = nullptr;             // plane, of t-1; layer_cells makes it t
+  T* y = nullptr;             // plane, of t-1; layer_output makes it t. In a hidden layer P y
   const float* carry = nullptr;  // [nodes][3] added to the last layer's y, or null
   float y_keep = 1, y_gain = 1;  // y = y_keep y + y_gain c + carry; a hidden layer's gain is 1
   float clamp = 0;               // bound on |c|; infinity: none
@@ -74,6 +60,8 @@ struct LayerJob {
   const float* ph = nullptr;      // plane, P h of t-1
   const float* py = nullptr;      // last layer: plane, P y of t-1
 };
+
+using LayerJob = LayerJobOf<float, float>;
 
 // Floats of LayerJob::tile.
 size_t tile_floats(uint32_t padded) noexcept;
@@ -160,10 +148,8 @@ struct TurnJob {
 struct SurfaceWalks;  // simd/surface_walk.hpp
 
 struct Kernels {
-  int64_t target;    // Highway's bit
-  const char* name;  // of what it needs beyond that target, or null: the target's own
-  bool (*runs)();    // whether this processor has that, or null
-  bool fused;        // has FMA: belongs to the targets that give the same bits
+  int64_t target;  // Highway's bit
+  bool fused;      // has FMA: belongs to the targets that give the same bits
 
   // out[i - first] = sum_e values[e] x[columns[e]], rows of `stride` floats [padded], nodes first..last.
   void (*aggregate)(const SparseRows& graph, const float* x, size_t stride, uint32_t first, uint32_t last,
@@ -199,8 +185,6 @@ struct Kernels {
   // Of `count` floats, any count and alignment; NaN stays NaN. Maximum errors: simd/tanh-inl.hpp.
   void (*sigmoid)(const float* x, size_t count, float* out);
   void (*tanh)(const float* x, size_t count, float* out);
-  void (*coarse_sigmoid)(const float* x, size_t count, float* out);
-  void (*coarse_tanh)(const float* x, size_t count, float* out);
   const RodKernels* rods;
   const RodTouchKernels* rod_touches;
   const RodForceKernels* rod_forces;

@@ -10,10 +10,11 @@
 // y of a hidden layer is heard only through P, and P c is what the next layer's x becomes: so P y is kept
 // instead of y, and its aggregation costs nothing.
 //
-// T is what h, c and y are kept as, float or Half; what is read from them is summed, multiplied and added as
-// floats. Shapes: kernels.hpp, LayerJob. Nodes go by kRangeNodes. For each block of channels the weights of
-// its gates (at most 100 KB in the paper's network) are read from L2 by one tile of kTileRows nodes after the
-// other, and a tile's gates become cells while they are in L1. Between the passes a_o waits in output_gate.
+// What is read of x, h, c and y is summed, multiplied and added as floats, whatever they are kept as
+// (state-inl.hpp). Job: a LayerJobOf. Shapes: kernels.hpp, LayerJobOf. Nodes go by kRangeNodes. For each
+// block of channels the weights of its gates (at most 100 KB in the paper's network) are read from L2 by one
+// tile of kTileRows nodes after the other, and a tile's gates become cells while they are in L1. Between the
+// passes a_o waits in output_gate.
 HWY_BEFORE_NAMESPACE();
 namespace sinew::simd::HWY_NAMESPACE {
 
@@ -34,13 +35,14 @@ struct Plane {
   }
 };
 
-HWY_INLINE void copy_floats(const float* from, size_t count, float* out) {
-  for (size_t j = 0; j < count; j += kLanes) hn::Store(hn::Load(Floats(), from + j), Floats(), out + j);
+template <class T>
+HWY_INLINE void copy_floats(const float* from, size_t count, T* out) {
+  for (size_t j = 0; j < count; j += kLanes) store_state(hn::Load(Floats(), from + j), out + j);
 }
 
 // P x of the range's nodes, in `out`.
-template <class T>
-HWY_INLINE Plane aggregated(const LayerJob& job, Range range, const T* x, float* out) {
+template <class Job, class T>
+HWY_INLINE Plane aggregated(const Job& job, Range range, const T* x, float* out) {
   aggregate_rows(job.graph, x, job.padded, range.first, range.first + range.count, out);
   return {out, job.padded};
 }
@@ -52,10 +54,10 @@ HWY_INLINE void fetch_early(const T* row, size_t count) {
 }
 
 // P h of the range's nodes to use(node of the range, first column, sums); what their cells need is asked for.
-template <class T, class Use>
-HWY_INLINE void hear_hidden(const LayerJob& job, Range range, const Use& use) {
+template <class Job, class Use>
+HWY_INLINE void hear_hidden(const Job& job, Range range, const Use& use) {
   const size_t p = job.padded;
-  const T *c = static_cast<const T*>(job.c), *y = static_cast<const T*>(job.y);
+  const auto *c = job.c, *y = job.y;
   const auto take = [&]<size_t kVectors>(uint32_t i, size_t j, const Vector(&sum)[kVectors]) HWY_ATTR {
     const size_t at = (range.first + i) * p + j, count = kVectors * kLanes;
     fetch_early(c + at, count);
@@ -63,7 +65,7 @@ HWY_INLINE void hear_hidden(const LayerJob& job, Range range, const Use& use) {
     fetch_early(job.output_gate + at, count);
     use(i, j, sum);
   };
-  aggregate_into(job.graph, static_cast<const T*>(job.h), p, range.first, range.first + range.count, take);
+  aggregate_into(job.graph, job.h, p, range.first, range.first + range.count, take);
 }
 
 // The range's own rows as floats: where they lie, or in `out`.
@@ -72,10 +74,9 @@ HWY_INLINE Plane own_rows(Range range, const T* x, size_t stride, float* out) {
   return {floats_of(x + range.first * stride, range.count * stride, out), stride};
 }
 
-HWY_INLINE Plane own_x(const LayerJob& job, Range range, float* out) {
-  if (!job.w_s) return {};
-  return job.x_is_half ? own_rows(range, static_cast<const Half*>(job.x), job.x_stride, out)
-                       : own_rows(range, static_cast<const float*>(job.x), job.x_stride, out);
+template <class Job>
+HWY_INLINE Plane own_x(const Job& job, Range range, float* out) {
+  return job.w_s ? own_rows(range, job.x, job.x_stride, out) : Plane{};
 }
 
 // What the nodes of a range hear, row 0 the first node's.
@@ -85,7 +86,8 @@ struct Heard {
 
 // a and the peepholes of gates i f c o, channels j .. j + kBlock - 1, of a tile, in gates
 // [kTileRows][4][kBlock].
-HWY_INLINE void sum_gates(const LayerJob& job, const Heard& heard, uint32_t tile, uint32_t end, size_t j,
+template <class Job>
+HWY_INLINE void sum_gates(const Job& job, const Heard& heard, uint32_t tile, uint32_t end, size_t j,
                           float* gates) {
   const size_t p = job.padded, row = 4 * kBlock, inputs = job.inputs, channels = job.channels;
   Term terms[4];
@@ -128,60 +130,56 @@ HWY_INLINE void update_cells(const float* gates, float bound, T* c, float* outpu
   }
 }
 
-HWY_INLINE void update_output_state(const LayerJob& job, uint32_t node) {
+template <class Job>
+HWY_INLINE void update_output_state(const Job& job, uint32_t node) {
   const Floats d;
   const size_t at = node * size_t{job.padded};
-  const auto *y = static_cast<const float*>(job.y), *c = static_cast<const float*>(job.c);
   const Vector keep = hn::Set(d, job.y_keep), gain = hn::Set(d, job.y_gain);
   for (size_t j = at; j < at + job.padded; j += kLanes) {
-    const Vector kept = hn::Mul(keep, hn::Load(d, y + j));
-    hn::Store(hn::MulAdd(gain, hn::Load(d, c + j), kept), d, job.y_next + j);
+    const Vector kept = hn::Mul(keep, load_state(job.y + j));
+    hn::Store(hn::MulAdd(gain, load_state(job.c + j), kept), d, job.y_next + j);
   }
   if (job.carry) {
     for (size_t axis = 0; axis < 3; ++axis) job.y_next[at + axis] += job.carry[node * 3 + axis];
   }
 }
 
-template <class T>
-HWY_INLINE void range_cells(const LayerJob& job, Range range, const float* px) {
+template <class Job>
+HWY_INLINE void range_cells(const Job& job, Range range, const float* px) {
   const size_t p = job.padded;
-  T* c = static_cast<T*>(job.c);
-  const T* y = static_cast<const T*>(job.y);
   float* rows = job.tile + kTileRows * 4 * kBlock;
   const auto store = [&]<size_t kVectors>(uint32_t i, size_t j, const Vector(&sum)[kVectors])
                          HWY_ATTR { store_vectors(sum, rows + i * p + j); };
-  hear_hidden<T>(job, range, store);
+  hear_hidden(job, range, store);
   const Plane ph = {rows, p};
   float* more = rows + kRangeNodes * p;
-  const Plane py = job.y_next ? aggregated(job, range, y, more) : own_rows(range, y, p, more);
+  const Plane py = job.y_next ? aggregated(job, range, job.y, more) : own_rows(range, job.y, p, more);
   const Heard heard = {{px, job.x_stride}, own_x(job, range, more + kRangeNodes * p), ph, py};
   for (size_t j = 0; j < p; j += kBlock) {
     for (uint32_t tile = 0; tile < range.count; tile += kTileRows) {
       sum_gates(job, heard, tile, range.count, j, job.tile);
       for (uint32_t i = tile; i < HWY_MIN(tile + kTileRows, range.count); ++i) {
         const size_t at = (range.first + i) * p + j;
-        update_cells(job.tile + (i - tile) * 4 * kBlock, job.clamp, c + at, job.output_gate + at);
+        update_cells(job.tile + (i - tile) * 4 * kBlock, job.clamp, job.c + at, job.output_gate + at);
       }
     }
   }
   for (uint32_t i = 0; job.y_next && i < range.count; ++i) update_output_state(job, range.first + i);
 }
 
-void layer_cells(const LayerJob& job, uint32_t first, uint32_t last) {
-  for (uint32_t node = first; node < last; node += kRangeNodes) {
-    const float* px = job.px + (node - first) * job.x_stride;
-    if (job.state_is_half) range_cells<Half>(job, range_at(node, last), px);
-    if (!job.state_is_half) range_cells<float>(job, range_at(node, last), px);
-  }
+template <class Job>
+void layer_cells(const Job& job, uint32_t first, uint32_t last) {
+  for (uint32_t node = first; node < last; node += kRangeNodes)
+    range_cells(job, range_at(node, last), job.px + (node - first) * job.x_stride);
 }
 
 // P c of the range's nodes in pc, and with it P y, which also goes to use(node of the range, first column, P
 // y).
-template <class T, class Use>
-HWY_INLINE void hear_cells(const LayerJob& job, Range range, float* pc, const Use& use) {
+template <class Job, class Use>
+HWY_INLINE void hear_cells(const Job& job, Range range, float* pc, const Use& use) {
   const size_t p = job.padded, first = range.first * p;
   const Vector keep = hn::Set(Floats(), job.y_keep);
-  T *py = static_cast<T*>(job.y) + first, *h = static_cast<T*>(job.h) + first;
+  auto *py = job.y + first, *h = job.h + first;
   const auto take = [&]<size_t kVectors>(uint32_t i, size_t j, const Vector(&sum)[kVectors]) HWY_ATTR {
     const size_t at = i * p + j, count = kVectors * kLanes;
     if (i + kTileRows < range.count) fetch_early(py + at + kTileRows * p, count);
@@ -196,16 +194,16 @@ HWY_INLINE void hear_cells(const LayerJob& job, Range range, float* pc, const Us
     }
     use(i, j, next);
   };
-  aggregate_into(job.graph, static_cast<const T*>(job.c), p, range.first, range.first + range.count, take);
+  aggregate_into(job.graph, job.c, p, range.first, range.first + range.count, take);
 }
 
 // P y of t: of the last layer in `out`, of another as floats, where it lies or in `out`, and P c in pc.
-template <class T>
-HWY_INLINE Plane peepholes(const LayerJob& job, Range range, float* pc, float* out) {
+template <class Job>
+HWY_INLINE Plane peepholes(const Job& job, Range range, float* pc, float* out) {
   if (job.y_next) return aggregated(job, range, job.y_next, out);
   const auto nothing = []<size_t kVectors>(uint32_t, size_t, const Vector(&)[kVectors]) HWY_ATTR {};
-  hear_cells<T>(job, range, pc, nothing);
-  return own_rows(range, static_cast<const T*>(job.y), job.padded, out);
+  hear_cells(job, range, pc, nothing);
+  return own_rows(range, job.y, job.padded, out);
 }
 
 template <class Curve = FineTanh>
@@ -221,42 +219,37 @@ HWY_INLINE void update_hidden(const float* gate, const T* c, size_t count, T* h)
     store_state(next_hidden(hn::Load(d, gate + j), load_state(c + j)), h + j);
 }
 
-template <size_t kVectors, class T>
-HWY_INLINE void output_columns(const LayerJob& job, Range range, const Plane& py, size_t j) {
+template <size_t kVectors, class Job>
+HWY_INLINE void output_columns(const Job& job, Range range, const Plane& py, size_t j) {
   constexpr size_t kColumns = kVectors * kLanes;
   const size_t p = job.padded;
   const Plane waiting = {job.output_gate + range.first * p + j, p};
   const size_t panel = j / pack::kPanel * pack::kPanel, width = HWY_MIN(size_t{pack::kPanel}, p - panel);
   const float* w_o = job.w_y + (2 * p + panel) * job.channels + (j - panel);
-  const T* c = static_cast<const T*>(job.c);
-  T* h = static_cast<T*>(job.h);
   for (uint32_t tile = 0; tile < range.count; tile += kTileRows) {
     const Term term = {py.tile(tile, range.count), job.channels, w_o, width};
     multiply<kVectors, 0>({waiting.tile(tile, range.count), &term, 1, kLanes, job.tile, kColumns}, 0);
     for (uint32_t i = tile; i < HWY_MIN(tile + kTileRows, range.count); ++i) {
       const size_t at = (range.first + i) * p + j;
-      update_hidden(job.tile + (i - tile) * kColumns, c + at, kColumns, h + at);
+      update_hidden(job.tile + (i - tile) * kColumns, job.c + at, kColumns, job.h + at);
     }
   }
 }
 
-template <class T>
-HWY_INLINE void range_output(const LayerJob& job, Range range, float* pc) {
+template <class Job>
+HWY_INLINE void range_output(const Job& job, Range range, float* pc) {
   const size_t p = job.padded, at = range.first * p;
   float* rows = job.tile + kTileRows * 4 * kBlock;
-  const Plane py = peepholes<T>(job, range, pc, rows);
-  const auto body = [&]<size_t kVectors>(size_t j)
-                        HWY_ATTR { output_columns<kVectors, T>(job, range, py, j); };
+  const Plane py = peepholes(job, range, pc, rows);
+  const auto body = [&]<size_t kVectors>(size_t j) HWY_ATTR { output_columns<kVectors>(job, range, py, j); };
   for_columns(p, body);
-  if (job.y_next) copy_floats(job.y_next + at, range.count * p, static_cast<float*>(job.y) + at);
+  if (job.y_next) copy_floats(job.y_next + at, range.count * p, job.y + at);
 }
 
-void layer_output(const LayerJob& job, uint32_t first, uint32_t last) {
-  for (uint32_t node = first; node < last; node += kRangeNodes) {
-    float* pc = job.pc + (node - first) * job.padded;
-    if (job.state_is_half) range_output<Half>(job, range_at(node, last), pc);
-    if (!job.state_is_half) range_output<float>(job, range_at(node, last), pc);
-  }
+template <class Job>
+void layer_output(const Job& job, uint32_t first, uint32_t last) {
+  for (uint32_t node = first; node < last; node += kRangeNodes)
+    range_output(job, range_at(node, last), job.pc + (node - first) * job.padded);
 }
 
 }  // namespace sinew::simd::HWY_NAMESPACE

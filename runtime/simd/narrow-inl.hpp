@@ -113,8 +113,7 @@ template <size_t kWidth>
 HWY_INLINE void narrow_cell_states(const LayerJob& job, Range range, const float* gates) {
   const Floats d;
   const size_t at = range.first * size_t{kBlock};
-  const TileRows gate = {gates, 4 * kWidth, range.count},
-                 cells = {static_cast<float*>(job.c) + at, kBlock, range.count};
+  const TileRows gate = {gates, 4 * kWidth, range.count}, cells = {job.c + at, kBlock, range.count};
   const auto gate_at = [&](size_t which, size_t i, size_t j) HWY_ATTR {
     return load_rows<kWidth>(d, {gate.first + which * kWidth + j, gate.stride, gate.count}, i);
   };
@@ -134,7 +133,7 @@ HWY_INLINE void narrow_cell_states(const LayerJob& job, Range range, const float
 template <size_t kWidth>
 HWY_INLINE void narrow_range_cells(const LayerJob& job, Range range, const float* px) {
   const size_t at = range.first * size_t{kBlock};
-  const Plane py = {(job.py ? job.py : static_cast<const float*>(job.y)) + at, kBlock};
+  const Plane py = {(job.py ? job.py : job.y) + at, kBlock};
   const Plane x = own_x(job, range, job.tile + kRangeNodes * 4 * kWidth);
   narrow_gates<kWidth>(job, {{px, job.x_stride}, x, {job.ph + at, kBlock}, py}, range.count, job.tile);
   narrow_cell_states<kWidth>(job, range, job.tile);
@@ -157,8 +156,8 @@ HWY_INLINE void narrow_tile_output(const LayerJob& job, Range range, const Plane
   const Floats d;
   const size_t at = range.first * size_t{kBlock};
   const Plane waiting = {job.output_gate + at, kBlock};
-  const Plane cells = {static_cast<const float*>(job.c) + at, kBlock};
-  const Plane hidden = {static_cast<const float*>(job.h) + at, kBlock};
+  const Plane cells = {job.c + at, kBlock};
+  const Plane hidden = {job.h + at, kBlock};
   const Term term = {py.tile(tile, range.count), job.channels, job.w_y + 2 * kBlock * job.channels, kBlock};
   const auto body = [&]<size_t kVectors>(size_t j) HWY_ATTR {
     const Plane from = {waiting.rows + j, kBlock};
@@ -177,10 +176,10 @@ template <size_t kWidth>
 HWY_INLINE void narrow_range_output(const LayerJob& job, Range range, float* pc) {
   const size_t at = range.first * size_t{kBlock};
   float* rows = job.tile + kTileRows * 4 * kBlock;
-  const Plane py = peepholes<float>(job, range, pc, rows);
+  const Plane py = peepholes(job, range, pc, rows);
   for (uint32_t tile = 0; tile < range.count; tile += kTileRows)
     narrow_tile_output<kWidth>(job, range, py, tile);
-  if (job.y_next) copy_floats(job.y_next + at, range.count * size_t{kBlock}, static_cast<float*>(job.y) + at);
+  if (job.y_next) copy_floats(job.y_next + at, range.count * size_t{kBlock}, job.y + at);
 }
 
 void narrow_output(const LayerJob& job, uint32_t first, uint32_t last) {

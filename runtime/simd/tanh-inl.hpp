@@ -8,10 +8,6 @@
 // rounding below them reaches beyond 1. Largest errors (every float of 2^-15 <= |x| < 64, each sixteenth
 // beyond; with FMA, without): tanh 3.6e-7, 4.0e-7 relative; sigmoid 1.9e-7, 2.2e-7 absolute. Never beyond 1
 // in magnitude; exact at 0; NaN stays NaN. Cost: 8 FMA, 2 mul, 1 div, 2 min or max; sigmoid 1 FMA more.
-//
-// CoarseTanh, for int8 layers: degree 2 and |x| <= 5.02, from the same iteration on the absolute error, which
-// is 4.4e-5 for tanh and 2.2e-5 for sigmoid: a fifth of what a cell above 1/2 may lose as it is rounded to a
-// half. Never beyond 1 - 4.3e-5; exact at 0; NaN stays NaN. Cost: 4 FMA fewer.
 HWY_BEFORE_NAMESPACE();
 namespace sinew::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -48,12 +44,6 @@ struct FineTanh {
   static constexpr float kBound = 8;
   static constexpr float kP[] = {1.0f, 1.338102557e-1f, 3.495588020e-3f, 2.060907912e-5f, 1.335465375e-8f};
   static constexpr float kQ[] = {1.0f, 4.671434116e-1f, 2.587698186e-2f, 3.285634585e-4f, 7.776555864e-7f};
-};
-
-struct CoarseTanh {
-  static constexpr float kBound = 5.02f;
-  static constexpr float kP[] = {9.99805987e-1f, 1.01655945e-1f, 6.52992633e-4f};
-  static constexpr float kQ[] = {1.0f, 4.34426397e-1f, 1.26192803e-2f};
 };
 
 // sum_k scale^(k + first) coefficients[k] s^k

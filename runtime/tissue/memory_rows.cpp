@@ -18,8 +18,7 @@ Plane plane_of(const Network& network, uint32_t node_count, uint32_t index, floa
   const uint32_t layer = index / 3;
   const LayerState planes = layer_state(network, node_count, layer, state);
   float* const at[] = {planes.h, planes.c, planes.y};
-  const size_t number_bytes = keeps_halves(network, layer) ? sizeof(uint16_t) : sizeof(float);
-  return {reinterpret_cast<std::byte*>(at[index % 3]), network.layers[layer].padded * number_bytes};
+  return {reinterpret_cast<std::byte*>(at[index % 3]), network.layers[layer].padded * sizeof(float)};
 }
 
 uint32_t plane_count(const Network& network) { return 3 * static_cast<uint32_t>(network.layers.size()); }

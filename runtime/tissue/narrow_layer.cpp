@@ -12,8 +12,7 @@ constexpr uint32_t kGates = 4, kPeepholes = 2;  // W_y: gates i and f, o behind 
 
 uint32_t gate_width(const Network& network, uint32_t l) {
   const uint32_t channels = network.layers[l].channels;
-  if (keeps_halves(network, l) || channels > 8) return 0;
-  return channels <= 4 ? 4 : 8;
+  return channels > 8 ? 0 : channels <= 4 ? 4 : 8;
 }
 
 size_t packed_rows(const pack::LayerRecord& layer) {

@@ -1,4 +1,4 @@
-// narrow_layer.hpp  Layers of at most eight channels that keep floats: their weights packed anew for each
+// narrow_layer.hpp  Layers of at most eight channels: their weights packed anew for each
 // step, and what they hear gathered at its start (simd/narrow-inl.hpp).
 //
 // A pack's weights are in one layout, 16 floats a gate (pack/format.hpp). Packing a layer of 8 channels and

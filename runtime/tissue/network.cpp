@@ -5,9 +5,7 @@
 #include <cmath>
 
 #include "core/floating_point.hpp"
-#include "core/half.hpp"
 #include "core/run_tasks.hpp"
-#include "pack/int8_layout.hpp"
 #include "simd/kernels.hpp"
 #include "tissue/narrow_layer.hpp"
 
@@ -37,20 +35,12 @@ Scratch scratch_of(const Network& network, uint32_t node_count) {
           narrow.packed_floats, inputs * kRangeNodes, simd::tile_floats(static_cast<uint32_t>(widest))};
 }
 
-constexpr size_t kLineFloats = 16;
-
 // Floats that one of a layer's planes takes.
 size_t plane_floats(const Network& network, uint32_t node_count, uint32_t layer) {
-  const size_t count = size_t{network.layers[layer].padded} * node_count;
-  return keeps_halves(network, layer) ? (count / 2 + kLineFloats - 1) / kLineFloats * kLineFloats : count;
+  return size_t{network.layers[layer].padded} * node_count;
 }
 
-// Where a layer's h, c and y start.
-struct Planes {
-  float *h, *c, *y;
-};
-
-Planes planes_of(const Network& network, uint32_t node_count, uint32_t layer, float* state) {
+LayerState planes_of(const Network& network, uint32_t node_count, uint32_t layer, float* state) {
   for (uint32_t l = 0; l < layer; ++l) state += 3 * plane_floats(network, node_count, l);
   const size_t plane = plane_floats(network, node_count, layer);
   return {state, state + plane, state + 2 * plane};
@@ -81,24 +71,6 @@ void set_weights(const Network& network, const pack::LayerRecord& layer, simd::L
   job->bias = weights + layer.bias;
 }
 
-void set_int8(const Network& network, uint32_t layer, simd::LayerJob* job) {
-  if (network.record->precision != pack::Precision::kInt8 || layer + 1 == network.layers.size()) return;
-  Int8Weights at = network.int8;
-  for (uint32_t l = 0; l < layer; ++l) {
-    const pack::Int8Extent before = pack::int8_extent(network.layers[l], l == 0);
-    at = {at.weights + before.weights, at.sums + before.sums, at.scales + before.scales};
-  }
-  const pack::Int8Extent extent = pack::int8_extent(network.layers[layer], layer == 0);
-  const size_t p = job->padded;
-  job->int8 = {.w = at.weights,
-               .w_o = at.weights + extent.weights - p * p,
-               .sums = at.sums,
-               .scale = at.scales + extent.depth,
-               .per_unit = at.scales,
-               .depth = extent.depth,
-               .hears_x = layer > 0};
-}
-
 // The last layer accumulates the output; the others only remember.
 void set_accumulation(const Step& step, bool is_last, float* y_next, simd::LayerJob* job) {
   const pack::NetworkRecord& record = *step.network.record;
@@ -112,14 +84,11 @@ void set_accumulation(const Step& step, bool is_last, float* y_next, simd::Layer
 // `own`: scratch of the share of nodes that it is for.
 simd::LayerJob job_of(const Step& step, uint32_t l, float* own) {
   const uint32_t nodes = step.graph.node_count;
-  const Planes state = planes_of(step.network, nodes, l, step.state);
+  const LayerState state = planes_of(step.network, nodes, l, step.state);
   simd::LayerJob job{.graph = {step.graph.rows, step.graph.columns, step.graph.values}};
   set_weights(step.network, step.network.layers[l], &job);
-  set_int8(step.network, l, &job);
   set_accumulation(step, l + 1 == step.network.layers.size(), step.y_next(), &job);
   job.x = l == 0 ? step.z : planes_of(step.network, nodes, l - 1, step.state).c;
-  job.x_is_half = l > 0 && keeps_halves(step.network, l - 1);
-  job.state_is_half = keeps_halves(step.network, l);
   job.x_stride = pad_to_block(job.inputs);
   job.px = job.pc = own;  // P x of a layer is P c of the one before
   job.h = state.h;
@@ -183,13 +152,6 @@ float largest_magnitude(const float* values, size_t count) {
   return largest;
 }
 
-// Magnitudes of halves order as their bits do, infinity and NaN at the end.
-float largest_magnitude(const uint16_t* halves, size_t count) {
-  uint32_t largest = 0;
-  for (size_t i = 0; i < count; ++i) largest = std::max(largest, halves[i] & 0x7fffu);
-  return core::half_to_float(static_cast<uint16_t>(largest));
-}
-
 }  // namespace
 
 size_t state_floats(const Network& network, uint32_t node_count) noexcept {
@@ -209,19 +171,7 @@ size_t shared_scratch_floats(const Network& network, uint32_t node_count) noexce
 }
 
 LayerState layer_state(const Network& network, uint32_t node_count, uint32_t layer, float* state) noexcept {
-  const Planes planes = planes_of(network, node_count, layer, state);
-  return {planes.h, planes.c, planes.y};
-}
-
-bool keeps_halves(const Network& network, uint32_t layer) noexcept {
-  return network.record->precision != pack::Precision::kFloat32 && layer + 1 < network.layers.size();
-}
-
-HalfLayerState half_layer_state(const Network& network, uint32_t node_count, uint32_t layer,
-                                float* state) noexcept {
-  const Planes planes = planes_of(network, node_count, layer, state);
-  const auto halves = [](float* plane) { return reinterpret_cast<uint16_t*>(plane); };
-  return {halves(planes.h), halves(planes.c), halves(planes.y)};
+  return planes_of(network, node_count, layer, state);
 }
 
 void network_step(const Network& network, const Graph& graph, const float* z, const float* carry,
@@ -253,9 +203,7 @@ float largest_cell(const Network& network, uint32_t node_count, const float* sta
   float largest = 0;
   for (uint32_t l = 0; l < network.layers.size(); ++l) {
     float* c = planes_of(network, node_count, l, const_cast<float*>(state)).c;
-    const size_t count = size_t{network.layers[l].padded} * node_count;
-    const float in_layer = keeps_halves(network, l) ? largest_magnitude(reinterpret_cast<uint16_t*>(c), count)
-                                                    : largest_magnitude(c, count);
+    const float in_layer = largest_magnitude(c, plane_floats(network, node_count, l));
     if (!(in_layer <= largest)) largest = in_layer;
     if (std::isnan(largest)) return largest;
   }

@@ -18,24 +18,16 @@ struct Graph {  // P in CSR, nodes x nodes
   const float* values = nullptr;
 };
 
-struct Int8Weights {  // as pack/format.hpp, kInt8Weights, has them
-  const int8_t* weights = nullptr;
-  const int32_t* sums = nullptr;
-  const float* scales = nullptr;
-};
-
-struct Network {  // views into a pack; trivially copyable
+struct Network {  // views into a pack, of float32; trivially copyable
   const pack::NetworkRecord* record = nullptr;
   std::span<const pack::LayerRecord> layers;
   std::span<const pack::InputRecord> inputs;
   const float* weights = nullptr;
-  Int8Weights int8{};  // of an int8 network
 };
 
 // Floats of state for node_count nodes: for each layer h, c, y as [node_count][padded], where y of a hidden
-// layer is P y, for it is heard through P only. Of a network of precision fp16 or int8, a hidden layer's
-// planes hold halves, each plane to the next multiple of 64 bytes. 64-byte aligned, zero is the start (the
-// paper's wiring: y of the last layer starts at Y_0). Scratch is not state: nothing in it survives a step.
+// layer is P y, for it is heard through P only. 64-byte aligned, zero is the start (the paper's wiring: y of
+// the last layer starts at Y_0). Scratch is not state: nothing in it survives a step.
 size_t state_floats(const Network& network, uint32_t node_count) noexcept;
 size_t scratch_floats(const Network& network, uint32_t node_count) noexcept;
 
@@ -44,22 +36,12 @@ struct LayerState {
   float* c;
   float* y;
 };
-// Of a layer that does not keep halves.
 LayerState layer_state(const Network& network, uint32_t node_count, uint32_t layer, float* state) noexcept;
-
-struct HalfLayerState {
-  uint16_t* h;
-  uint16_t* c;
-  uint16_t* y;
-};
-bool keeps_halves(const Network& network, uint32_t layer) noexcept;
-HalfLayerState half_layer_state(const Network& network, uint32_t node_count, uint32_t layer,
-                                float* state) noexcept;
 
 // One step. z: [node_count][input_width rounded up to 16], padding zero. carry: [node_count][3] added to the
 // last layer's y, or null. After it the last layer's y (first 3 of each row of `padded`) is the output. The
 // same bits on every target with FMA; the sums run over k in order, whatever the vector width. A NaN in a
-// state, or an infinity outside a clamped cell, reaches the output in the same step, in every precision.
+// state, or an infinity outside a clamped cell, reaches the output in the same step.
 void network_step(const Network& network, const Graph& graph, const float* z, const float* carry,
                   float* state, float* scratch) noexcept;
 

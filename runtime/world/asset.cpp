@@ -111,11 +111,7 @@ Status open_asset(std::span<const std::byte> bytes, Asset* out) noexcept {
   asset.pack = view;
   asset.touchable = std::move(touchable);
   asset.rods = std::move(rods);
-  asset.network = {view.network,
-                   view.layers,
-                   view.inputs,
-                   view.weights.data(),
-                   {view.int8_weights.data(), view.int8_sums.data(), view.int8_scales.data()}};
+  asset.network = {view.network, view.layers, view.inputs, view.weights.data()};
   asset.tick_s = 1 / static_cast<double>(view.network->rate_hz);
   asset.fingerprint = fingerprint_of(bytes);
   read_levels(view, asset);

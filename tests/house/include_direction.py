@@ -30,7 +30,7 @@ BAKER = {
     "truth": {"import", "mesh"},
     "pack": {"import", "mesh", "truth"},
     "rods": {"truth"},
-    "research": set(),
+    "research": {"pack"},
     "render": set(),
     "preview": {"render"},
     "audit": {"preview", "render"},

@@ -157,8 +157,7 @@ TEST_CASE("a_coarser_graph_that_is_no_part_of_the_finer_one_is_not_packed") {
     std::vector<baker::GraphLevel> coarser = {test::small_coarser_level(layout)};
     spoil(coarser[0]);
     try {
-      baker::pack_character(character, layout, test::small_modes(layout), nullptr, Precision::kFloat32, {},
-                            coarser);
+      baker::pack_character(character, layout, test::small_modes(layout), nullptr, coarser);
     } catch (const baker::BadInput& error) {
       return std::string(error.what());
     }

@@ -47,24 +47,6 @@ std::function<void(PackEditor&)> set(SectionKind kind, size_t index, T value) {
   return change<T>(kind, index, [=](T& element) { element = value; });
 }
 
-std::vector<std::byte> int8_model() {
-  baker::PackWriter writer(FileKind::kModel);
-  const std::vector<float> inputs(9, 1.0f), channels(5, 1.0f);
-  const std::vector<baker::HeardRanges> ranges(1, {inputs, inputs, channels, channels});
-  baker::add_network(test::small_paper_weights(), writer, Precision::kInt8, ranges);
-  return writer.finish();
-}
-
-// The editor's section, an element longer or shorter.
-template <class T>
-void add_resized(PackEditor& from, SectionKind kind, int by, baker::PackWriter* writer) {
-  const std::span<T> section = from.section<T>(kind);
-  std::vector<T> elements(section.begin(), section.end());
-  if (by > 0) elements.push_back(T{});
-  if (by < 0) elements.pop_back();
-  writer->section(kind, elements);
-}
-
 void check_refused(std::span<const std::byte> good, const std::vector<Damage>& damages) {
   for (const Damage& damage : damages) {
     PackEditor editor(good);
@@ -131,56 +113,30 @@ TEST_CASE("header_and_table_faults_are_refused_by_name") {
   }
 }
 
-TEST_CASE("int8_faults_are_refused_by_name") {
+TEST_CASE("a_precision_that_is_not_known_or_not_that_of_the_sections_is_refused") {
   using enum SectionKind;
-  const std::vector<std::byte> model = int8_model();
-  REQUIRE(PackEditor(model).open().ok());
   const auto precision = [](Precision value) {
     return change<NetworkRecord>(kNetwork, 0, [=](NetworkRecord& n) { n.precision = value; });
   };
-  check_refused(model, {{"precision 3 is not known", precision(Precision{3}), StatusCode::kUnsupported},
-                        {"the layers make 0, 0 and 0", precision(Precision::kFloat32)},
-                        {"the layers make 0, 0 and 0", precision(Precision::kHalfStates)},
-                        {"int8 weights: a number below -127", set<int8_t>(kInt8Weights, 3, int8_t{-128})},
-                        {"layer 0: int8 sums", set<int32_t>(kInt8Sums, 7, 1)},
-                        {"int8 scales", set<float>(kInt8Scales, 2, -1.0f)},
-                        {"int8 scales", set<float>(kInt8Scales, 2, kInfinity)},
-                        {"int8 scales", set<float>(kInt8Scales, 2, kNan)}});
+  baker::PackWriter writer(FileKind::kModel);
+  baker::add_network(test::small_paper_weights(), writer, Precision::kInt8, test::small_paper_ranges());
+  check_refused(writer.finish(),
+                {{"precision 3 is not known", precision(Precision{3}), StatusCode::kUnsupported},
+                 {"int8 sections of a network in fp32", precision(Precision::kFloat32)},
+                 {"int8 sections of a network in fp16", precision(Precision::kHalfStates)}});
 }
 
-TEST_CASE("int8_sections_that_are_too_short_or_too_long_are_refused") {
-  using enum SectionKind;
-  PackEditor good(int8_model());
-  for (const SectionKind kind : {kInt8Weights, kInt8Sums, kInt8Scales}) {
-    for (const int by : {-1, 1}) {
-      baker::PackWriter writer(FileKind::kModel);
-      baker::add_network(test::small_paper_weights(), writer);
-      add_resized<int8_t>(good, kInt8Weights, kind == kInt8Weights ? by : 0, &writer);
-      add_resized<int32_t>(good, kInt8Sums, kind == kInt8Sums ? by : 0, &writer);
-      add_resized<float>(good, kInt8Scales, kind == kInt8Scales ? by : 0, &writer);
-      const auto is_int8 = [](NetworkRecord& n) { n.precision = Precision::kInt8; };
-      check_refused(writer.finish(),
-                    {{"the layers make 1792, 80 and 112", change<NetworkRecord>(kNetwork, 0, is_int8)}});
-    }
-  }
-}
-
-TEST_CASE("a_character_of_any_precision_is_taken_and_its_int8_faults_refused_by_name") {
-  using enum SectionKind;
+TEST_CASE("a_character_in_another_precision_names_the_command_that_rebakes_it") {
   for (const Precision precision : {Precision::kHalfStates, Precision::kInt8}) {
-    const std::vector<std::byte> good = test::small_character_pack(precision);
-    PackView view;
-    REQUIRE(PackEditor(good).open(&view).ok());
-    CHECK(view.network->precision == precision);
-    CHECK(view.int8_weights.empty() == (precision != Precision::kInt8));
+    const auto is_reduced = [=](NetworkRecord& n) { n.precision = precision; };
+    PackEditor editor(character_pack());
+    change<NetworkRecord>(SectionKind::kNetwork, 0, is_reduced)(editor);
+    editor.seal();
+    const Status status = editor.open();
+    CHECK(status.code == StatusCode::kUnsupported);
+    CHECK_THAT(status.message, Contains(kPrecisionNames[static_cast<uint32_t>(precision)]) &&
+                                   Contains("fp32 only; bake it anew with sinew-bake character"));
   }
-  const auto is_int8 = [](NetworkRecord& n) { n.precision = Precision::kInt8; };
-  check_refused(character_pack(), {{"int8: 0 weights, 0 sums and 0 scales, the layers make 1792, 80 and 112",
-                                    change<NetworkRecord>(kNetwork, 0, is_int8)}});
-  check_refused(test::small_character_pack(Precision::kInt8),
-                {{"layer 0: int8 sums", set<int32_t>(kInt8Sums, 7, 1)},
-                 {"int8 weights: a number below -127", set<int8_t>(kInt8Weights, 3, int8_t{-128})},
-                 {"int8 scales", set<float>(kInt8Scales, 2, kNan)}});
 }
 
 TEST_CASE("faults_of_a_network_of_chains_are_refused_by_name") {

@@ -227,6 +227,11 @@ std::vector<std::byte> small_model() {
   return writer.finish();
 }
 
+std::vector<baker::HeardRanges> small_paper_ranges() {
+  const std::vector<float> inputs(9, 1.0f), channels(5, 1.0f);
+  return {{inputs, inputs, channels, channels}};
+}
+
 std::vector<std::byte> small_chain_model() {
   baker::PackWriter writer(pack::FileKind::kModel);
   baker::add_chains(small_coping_net(), writer);
@@ -254,8 +259,7 @@ std::vector<std::byte> small_levels_pack() {
   const baker::Character character = small_character();
   const baker::TissueLayout layout = small_layout(character);
   const std::vector<baker::GraphLevel> coarser = {small_coarser_level(layout)};
-  return baker::pack_character(character, layout, small_modes(layout), nullptr, pack::Precision::kFloat32, {},
-                               coarser);
+  return baker::pack_character(character, layout, small_modes(layout), nullptr, coarser);
 }
 
 std::vector<std::byte> small_left_out_pack() {
@@ -264,8 +268,7 @@ std::vector<std::byte> small_left_out_pack() {
   const baker::GraphLevel coarser = small_coarser_level(layout);
   const baker::TissueLayout less = baker::leave_out(coarser.layout, {"tip"}, "small pack");
   const std::vector<baker::GraphLevel> levels = {coarser, {less, small_modes(less)}};
-  return baker::pack_character(character, layout, small_modes(layout), nullptr, pack::Precision::kFloat32, {},
-                               levels);
+  return baker::pack_character(character, layout, small_modes(layout), nullptr, levels);
 }
 
 std::vector<baker::Rod> small_rods() {
@@ -288,13 +291,11 @@ std::vector<std::byte> small_rod_pack() {
   return baker::pack_character(character, layout, small_modes(layout));
 }
 
-std::vector<std::byte> small_character_pack(pack::Precision precision) {
+std::vector<std::byte> small_character_pack() {
   const baker::Character character = small_character();
   const baker::TissueLayout layout = small_layout(character);
   const baker::Safetensors weights = small_weights();
-  const std::vector<float> inputs(32, 1.0f), channels(5, 1.0f);
-  const std::vector<baker::HeardRanges> ranges(1, {inputs, inputs, channels, channels});
-  return baker::pack_character(character, layout, small_modes(layout), &weights, precision, ranges);
+  return baker::pack_character(character, layout, small_modes(layout), &weights);
 }
 
 }  // namespace sinew::test

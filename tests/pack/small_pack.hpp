@@ -7,23 +7,25 @@
 #include "baker/common/safetensors.hpp"
 #include "baker/import/character.hpp"
 #include "baker/mesh/tissue_layout.hpp"
+#include "baker/pack/int8_pack.hpp"
 #include "baker/truth/graph_level.hpp"
 #include "pack/format.hpp"
 
 namespace sinew::test {
 
-baker::Safetensors small_weights();        // 32 -> 5 3, self weights, every input
-baker::Safetensors small_paper_weights();  // 9 -> 5 3, the paper's wiring
-baker::Safetensors small_deep_emulator();  // the paper's sizes
-baker::Safetensors small_coping_net();     // latent 5, 2 blocks, depth 1
-baker::Character small_character();        // a bar of 12 vertices on three joints, one clip
+baker::Safetensors small_weights();                    // 32 -> 5 3, self weights, every input
+baker::Safetensors small_paper_weights();              // 9 -> 5 3, the paper's wiring
+std::vector<baker::HeardRanges> small_paper_ranges();  // of it, all 1
+baker::Safetensors small_deep_emulator();              // the paper's sizes
+baker::Safetensors small_coping_net();                 // latent 5, 2 blocks, depth 1
+baker::Character small_character();                    // a bar of 12 vertices on three joints, one clip
 baker::TissueLayout small_layout(const baker::Character& character);  // two regions of 3 and 2 nodes
 
 std::vector<baker::ModalBasis> small_modes(const baker::TissueLayout& layout);  // three and two
 
 std::vector<std::byte> small_model();
 std::vector<std::byte> small_chain_model();  // of small_coping_net
-std::vector<std::byte> small_character_pack(pack::Precision precision = pack::Precision::kFloat32);
+std::vector<std::byte> small_character_pack();
 std::vector<std::byte> small_weightless_pack();
 // The same with a coarser control graph: two nodes of three, one of two.
 baker::GraphLevel small_coarser_level(const baker::TissueLayout& layout);

@@ -122,9 +122,4 @@ baker::Safetensors block_network(const BlockOptions& options) {
   return file;
 }
 
-std::vector<baker::HeardRanges> block_ranges() {
-  const auto all = [](size_t count, float range) { return std::vector<float>(count, range); };
-  return {{all(kInputs, 1), all(kInputs, 1), all(kHidden, 1), all(kHidden, 5)}};
-}
-
 }  // namespace sinew::scenes

@@ -262,8 +262,7 @@ PackBytes soft_block(const BlockOptions& options) {
   std::vector<baker::ModalBasis> modes = block_modes(layout);
   for (baker::ModalBasis& basis : modes) slow_down(options.frequency_share, basis);
   const std::vector<std::byte> bytes =
-      baker::pack_character(character, layout, modes, options.network ? &weights : nullptr, options.precision,
-                            block_ranges(), coarser);
+      baker::pack_character(character, layout, modes, options.network ? &weights : nullptr, coarser);
   return PackBytes(bytes.data(), bytes.size());
 }
 

@@ -9,7 +9,6 @@
 
 #include "baker/common/safetensors.hpp"
 #include "core/aligned_block.hpp"
-#include "pack/format.hpp"
 #include "tests/scenes/block_arms.hpp"
 #include "tests/scenes/block_rods.hpp"
 
@@ -30,11 +29,10 @@ struct BlockOptions {
   int nodes = 14;   // a region
   double rate_hz = 60;
   uint64_t seed = 1;
-  double displacement_limit = 0.75;             // share of a region's radius
-  bool network = true;                          // false: modes alone
-  const baker::Safetensors* weights = nullptr;  // in the place of the small network
-  double frequency_share = 1;                   // of block_modes.hpp's frequencies
-  pack::Precision precision = pack::Precision::kFloat32;
+  double displacement_limit = 0.75;              // share of a region's radius
+  bool network = true;                           // false: modes alone
+  const baker::Safetensors* weights = nullptr;   // in the place of the small network
+  double frequency_share = 1;                    // of block_modes.hpp's frequencies
   std::optional<RodMatter> rods = std::nullopt;  // a tail and horns (block_rods.hpp)
   std::vector<int> coarser_nodes = {};           // a region, of coarser control graphs
   bool leaves_out = false;                       // one graph more: the last without the left region

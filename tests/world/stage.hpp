@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <optional>
 #include <vector>
 
 #include "core/hash.hpp"
@@ -17,15 +16,10 @@ namespace sinew::test {
 
 using Motion = std::function<scenes::BlockPose(double time_s)>;
 
-inline constexpr pack::Precision kPrecisions[] = {pack::Precision::kFloat32, pack::Precision::kHalfStates,
-                                                  pack::Precision::kInt8};
-
 // Made once a process: baking it is the slow part.
-inline const scenes::PackBytes& block_pack(pack::Precision precision = pack::Precision::kFloat32) {
-  static std::optional<scenes::PackBytes> packs[std::size(kPrecisions)];
-  std::optional<scenes::PackBytes>& pack = packs[static_cast<uint32_t>(precision)];
-  if (!pack) pack = scenes::soft_block({.precision = precision});
-  return *pack;
+inline const scenes::PackBytes& block_pack() {
+  static const scenes::PackBytes pack = scenes::soft_block();
+  return pack;
 }
 
 // The same without a network.

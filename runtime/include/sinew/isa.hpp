@@ -2,8 +2,8 @@
 //
 // Chosen once, at first use: the one that the environment variable SINEW_ISA names, or the best the processor
 // has when it names none. One that is not available is refused by World::create, and by `sinew-bake check`
-// and `judge`; what runs without them uses the best. Targets with fused multiply-adds (avx3_vnni, avx3, avx2,
-// neon_dot, neon) give the same bits.
+// and `judge`; what runs without them uses the best. Targets with fused multiply-adds (avx3, avx2, neon)
+// give the same bits.
 #pragma once
 #include <span>
 
@@ -11,8 +11,8 @@
 
 namespace sinew {
 
-// Names of the targets this build has and this processor runs, best first ("avx3_vnni", "avx3", "avx2",
-// "sse4", "ssse3", "neon_dot", "neon", "emu128", "scalar"). Never empty; they live as long as the process.
+// Names of the targets this build has and this processor runs, best first ("avx3", "avx2", "sse4",
+// "ssse3", "neon", "emu128", "scalar"). Never empty; they live as long as the process.
 std::span<const char* const> available_isas() noexcept;
 const char* active_isa() noexcept;
 

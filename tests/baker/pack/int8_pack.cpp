@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "baker/common/bad_input.hpp"
+#include "baker/pack/int8_layout.hpp"
 #include "baker/pack/network_pack.hpp"
-#include "pack/int8_layout.hpp"
 #include "tests/pack/small_pack.hpp"
 
 using namespace sinew;
@@ -117,7 +117,7 @@ TEST_CASE("the_largest_weight_of_a_column_in_units_of_what_it_hears_becomes_127"
   ranges.h = {8, 6, 2, 1, 1};
   const HalfWeights network;
   const Int8Sections made = network.quantized(ranges);
-  const pack::Int8Extent extent = pack::int8_extent(network.layers[0], true);
+  const Int8Extent extent = int8_extent(network.layers[0], true);
   REQUIRE(made.weights.size() == extent.weights);
   REQUIRE(made.sums.size() == extent.sums);
   REQUIRE(made.scales.size() == extent.scales);

@@ -211,40 +211,6 @@ TEST_CASE("errors_are_those_of_the_character_that_is_baked_and_a_network_that_do
   CHECK(error_of("modal").is_null());
 }
 
-TEST_CASE("a_character_is_baked_in_the_precision_asked_for_and_calibrated_by_the_vectors_given") {
-  const Creature creature;
-  const std::string shipped = SINEW_SOURCE_DIR "/assets/weights/creature";
-  write_safetensors(creature.weights, read_safetensors(shipped + ".safetensors"));
-  const auto packed = [&](const char* name, std::vector<std::string> more) {
-    std::vector<std::string> arguments = creature.bake_arguments(creature.folder.file(name));
-    arguments.push_back("--keep-network");
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const ProgramResult result = bake(arguments);
-    INFO(result.error);
-    REQUIRE(result.exit_code == 0);
-    return read_text(creature.folder.file(name));
-  };
-  const auto precision_of = [&](const char* name) {
-    return nlohmann::json::parse(
-               bake({"info", "--json", creature.folder.file(name)}).out)["network"]["precision"]
-        .get<std::string>();
-  };
-  const std::string floats = packed("fp32", {}), halves = packed("fp16", {"--precision", "fp16"}),
-                    made_up = packed("int8", {"--precision", "int8"}),
-                    calibrated = packed(
-                        "int8c", {"--precision", "int8", "--calibrate", shipped + ".vectors.safetensors"});
-  CHECK(precision_of("fp32") == "fp32");
-  CHECK(precision_of("fp16") == "fp16");
-  CHECK(precision_of("int8c") == "int8");
-  CHECK(floats.size() == halves.size());
-  CHECK(floats.size() < made_up.size());
-  CHECK(made_up.size() == calibrated.size());
-  CHECK(made_up != calibrated);
-  write_safetensors(creature.folder.file("w.vectors.safetensors"),
-                    read_safetensors(shipped + ".vectors.safetensors"));
-  CHECK(packed("beside", {"--precision", "int8"}) == calibrated);
-}
-
 TEST_CASE("weights_of_the_first_version_are_refused_for_characters") {
   const Creature creature;
   Safetensors old = small_weights();

@@ -119,7 +119,7 @@ TEST_CASE("an_output_that_is_an_input_is_refused_before_anything_is_read") {
   refused({"character", character, "--recipe", recipe, "-o", recipe}, recipe);
   refused({"character", character, "-o", out, "--preview", character}, character);
   refused({"character", character, "--tissue", weights, "-o", weights}, weights);
-  refused({"character", character, "-o", out, "--calibrate", weights, "--preview", weights}, weights);
+  refused({"model", weights, "--precision", "int8", "--calibrate", recipe, "-o", recipe}, recipe);
   refused({"truth", character, "--motion", "shake", "-o", character}, character);
   refused({"model", weights, "-o", weights}, weights);
   refused({"creature", recipe, "-o", recipe}, recipe);

@@ -1,9 +1,7 @@
-// judge.cpp  Characters judged against ground truth in closed loop, the shipped weights in every precision.
+// judge.cpp  Characters judged against ground truth in closed loop.
 #include <nlohmann/json.hpp>
 
-#include "baker/common/read_file.hpp"
 #include "baker/common/safetensors.hpp"
-#include "simd/isa.hpp"
 #include "tests/baker/programs/creature_hop.hpp"
 
 using namespace sinew;
@@ -12,7 +10,7 @@ using namespace sinew::test;
 
 namespace {
 
-// 50 ticks, and the creature with the shipped weights in every precision.
+// 50 ticks, and the creature with the shipped weights and without.
 class Hop : public CreatureHop {
  public:
   Hop()
@@ -24,8 +22,7 @@ class Hop : public CreatureHop {
     return hop.folder.file(name + ".sinew");
   }
   static void bake_others(const CreatureHop& hop) {
-    for (const char* precision : {"fp32", "fp16", "int8"})
-      character(hop, precision, {"--tissue", hop.weights, "--precision", precision});
+    character(hop, "network", {"--tissue", hop.weights});
     character(hop, "modes", {});
   }
   static void character(const CreatureHop& hop, const std::string& name, std::vector<std::string> more) {
@@ -66,7 +63,7 @@ std::string changed_truth(const std::string& tensor, const Change& change) {
 
 TEST_CASE("truth_that_is_not_this_character_s_is_refused") {
   const auto refused = [](const std::string& truth, const std::vector<std::string>& words) {
-    check_refused({"judge", hop().pack("fp32"), "--truth", truth}, words);
+    check_refused({"judge", hop().pack("network"), "--truth", truth}, words);
   };
   refused(kAssets + "weights/creature.safetensors", {"is not a trajectory", "sinew-bake truth"});
   Safetensors old = read_safetensors(hop().truth);
@@ -90,7 +87,7 @@ TEST_CASE("truth_that_is_not_this_character_s_is_refused") {
   const std::string model = hop().folder.file("m.sinew");
   must(bake({"model", kAssets + "weights/creature.safetensors", "-o", model}));
   check_refused({"judge", model, "--truth", hop().truth}, {model, "without a character"});
-  check_refused({"judge", hop().pack("fp32"), "--truth", hop().truth, "--ticks", "600"}, {"shorter"});
+  check_refused({"judge", hop().pack("network"), "--truth", hop().truth, "--ticks", "600"}, {"shorter"});
 }
 
 // The evaluation page has 0.09 of skinning's error left on whole hops; any pose, frame or state out of step
@@ -99,79 +96,31 @@ TEST_CASE("the_closed_loop_follows_the_truth_and_the_error_is_counted_against_it
   const auto ratio_of = [](const nlohmann::json& report) {
     return report["characters"][0]["ticks"]["50"]["ratio"].get<double>();
   };
-  const nlohmann::json right = judged({hop().pack("fp32"), "--truth", hop().truth, "--ticks", "50"});
+  const nlohmann::json right = judged({hop().pack("network"), "--truth", hop().truth, "--ticks", "50"});
   INFO(right.dump());
   CHECK(ratio_of(right) < 0.15);
   CHECK(ratio_of(right) > 0.01);
   const std::string negated = changed_truth("displacement", [](auto& v) {
     for (float& value : v) value = -value;
   });
-  const nlohmann::json wrong = judged({hop().pack("fp32"), "--truth", negated, "--ticks", "50"});
+  const nlohmann::json wrong = judged({hop().pack("network"), "--truth", negated, "--ticks", "50"});
   CHECK(ratio_of(wrong) > 1.8);
   CHECK(ratio_of(wrong) < 2.2);
   // Twice the same motion is the same mean.
   const nlohmann::json twice =
-      judged({hop().pack("fp32"), "--truth", hop().truth, hop().truth, "--ticks", "50"});
+      judged({hop().pack("network"), "--truth", hop().truth, hop().truth, "--ticks", "50"});
   CHECK(ratio_of(twice) == Approx(ratio_of(right)).epsilon(1e-12));
 }
 
 TEST_CASE("a_character_adds_nothing_to_itself_and_a_worse_one_fails_the_check") {
   const nlohmann::json same =
-      judged({hop().pack("fp32"), hop().pack("fp32"), "--truth", hop().truth, "--most-added", "0"});
+      judged({hop().pack("network"), hop().pack("network"), "--truth", hop().truth, "--most-added", "0"});
   CHECK(same["characters"][1]["ticks"]["50"]["added"] == 0);
   CHECK(same["characters"][1]["ticks"]["50"]["apart"] == 0);
   const nlohmann::json modes =
-      judged({hop().pack("fp32"), hop().pack("modes"), "--truth", hop().truth, "--most-added", "0"}, 1);
-  CHECK(modes["characters"][1]["precision"] == "modes");
+      judged({hop().pack("network"), hop().pack("modes"), "--truth", hop().truth, "--most-added", "0"}, 1);
   CHECK(modes["characters"][1]["ticks"]["50"]["added"].get<double>() > 0);
   CHECK(modes["ok"] == false);
-}
-
-// The bound is the project's: at most a tenth of the float32 error after 50 ticks.
-TEST_CASE("reduced_precision_adds_less_than_a_tenth_of_the_error_on_every_instruction_set") {
-  for (const char* isa : simd::available_isas()) {
-    const nlohmann::json report = judged({hop().pack("fp32"), hop().pack("fp16"), hop().pack("int8"),
-                                          "--truth", hop().truth, "--most-added", "0.1", "--isa", isa});
-    INFO(isa << " " << report.dump());
-    CHECK(report["ok"] == true);
-    for (const size_t k : {1u, 2u}) {
-      const nlohmann::json& one = report["characters"][k];
-      CHECK(one["precision"] == (k == 1 ? "fp16" : "int8"));
-      CHECK(one["ticks"]["50"]["apart"].get<double>() > 0);  // it does work in that precision
-      CHECK(one["fallbacks"] == 0);
-    }
-  }
-}
-
-// Scales from the character's own closed loop: other bytes than the vectors' scales give, no worse than the
-// bound either, and the same again.
-TEST_CASE("int8_takes_its_scales_from_true_motions_in_closed_loop") {
-  const auto packed = [](const std::string& name, const std::vector<std::string>& more) {
-    std::vector<std::string> arguments = {"character",   hop().glb,
-                                          "--recipe",    hop().recipe,
-                                          "--tissue",    kAssets + "weights/creature.safetensors",
-                                          "--precision", "int8",
-                                          "-o",          hop().pack(name)};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return arguments;
-  };
-  must(bake(packed("tuned", {"--calibrate", hop().truth})));
-  must(bake(packed("again", {"--calibrate", hop().truth, "--calibrate", hop().truth})));
-  CHECK(read_text(hop().pack("tuned")) == read_text(hop().pack("again")));
-  CHECK(read_text(hop().pack("tuned")) != read_text(hop().pack("int8")));
-  const nlohmann::json report =
-      judged({hop().pack("fp32"), hop().pack("tuned"), "--truth", hop().truth, "--most-added", "0.1"});
-  CHECK(report["characters"][1]["ticks"]["50"]["apart"].get<double>() > 0);
-
-  const std::string vectors = kAssets + "weights/creature.vectors.safetensors";
-  check_refused(packed("no", {"--calibrate", vectors, "--calibrate", vectors}),
-                {vectors, "one file is taken"});
-  check_refused(packed("no", {"--calibrate", hop().truth, "--calibrate", vectors}),
-                {vectors, "is not a trajectory"});
-  check_refused(
-      packed("no", {"--calibrate", changed_truth("node.rest_position", [](auto& v) { v[0] += 1; })}),
-      {"control node 0 is not where"});
-  CHECK(!std::filesystem::exists(hop().pack("no")));
 }
 
 // An output that overshoots wildly: the budget keeps it from harm, but not from being wrong.

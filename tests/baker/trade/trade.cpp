@@ -199,7 +199,7 @@ TEST_CASE("without_truth_the_clips_are_simulated_once_and_variants_stand_beside"
   for (const auto& entry : fs::directory_iterator(out + "/truth")) truths.push_back(entry.path());
   REQUIRE(truths.size() == 2);
   const nlohmann::json rows = rows_of(out);
-  for (const char* name : {"network, 20 nodes a region", "modal, 60 nodes a region", "network, int8"})
+  for (const char* name : {"network, 20 nodes a region", "modal, 60 nodes a region"})
     CHECK(row_of(rows, name).at("kind") == "variant");
   const auto before = fs::last_write_time(truths.front());
   must(trade(arguments));

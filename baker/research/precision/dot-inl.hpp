@@ -122,7 +122,6 @@ struct FastDot {
 };
 
 inline bool has_fast_dot() { return __builtin_cpu_supports("avx512vnni") != 0; }
-inline constexpr const char* kFastDotName = "avx3_vnni";
 
 #elif HWY_TARGET == HWY_NEON && HWY_ARCH_ARM_A64 && defined(__linux__)
 #define SINEW_FAST_DOT 1
@@ -141,7 +140,6 @@ struct FastDot : BasicDot {
 };
 
 inline bool has_fast_dot() { return (getauxval(AT_HWCAP) & HWCAP_ASIMDDP) != 0; }
-inline constexpr const char* kFastDotName = "neon_dot";
 
 #endif
 

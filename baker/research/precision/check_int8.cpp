@@ -2,11 +2,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "baker/pack/int8_layout.hpp"
+#include "baker/research/precision/check_int8.hpp"
 #include "pack/checks.hpp"
-#include "pack/int8_layout.hpp"
 
-namespace sinew::pack {
+namespace sinew::baker {
 namespace {
+
+using pack::corrupt, pack::PackView;
 
 struct Int8Part {  // of one layer
   std::span<const int8_t> weights;
@@ -48,7 +51,7 @@ bool sums_agree(const Int8Part& part, uint32_t padded, uint32_t depth) noexcept 
 
 Status check_sizes(const PackView& pack) noexcept {
   uint64_t weights = 0, sums = 0, scales = 0;
-  for (size_t l = 0; pack.network->precision == Precision::kInt8 && l + 1 < pack.layers.size(); ++l) {
+  for (size_t l = 0; pack.network->precision == pack::Precision::kInt8 && l + 1 < pack.layers.size(); ++l) {
     const Int8Extent extent = int8_extent(pack.layers[l], l == 0);
     weights += extent.weights, sums += extent.sums, scales += extent.scales;
   }
@@ -83,9 +86,9 @@ Status check_sums(const PackView& pack) noexcept {
 
 }  // namespace
 
-Status check_int8(const PackView& pack) noexcept {
-  constexpr Check kChecks[] = {check_sizes, check_numbers, check_sums};
-  return run_checks(kChecks, pack);
+Status check_int8(const pack::PackView& pack) noexcept {
+  constexpr pack::Check kChecks[] = {check_sizes, check_numbers, check_sums};
+  return pack::run_checks(kChecks, pack);
 }
 
-}  // namespace sinew::pack
+}  // namespace sinew::baker

@@ -1,10 +1,10 @@
-// test_int8.cpp  Networks whose hidden products are of bytes: near the equations in double, the same bits on
+// int8.cpp  Networks whose hidden products are of bytes: near the equations in double, the same bits on
 // every target with FMA, and nothing that is not finite is lost in rounding.
 #include <cstring>
 #include <memory>
 
 #include "baker/pack/int8_pack.hpp"
-#include "pack/int8_layout.hpp"
+#include "baker/research/precision/reduced_network.hpp"
 #include "tests/simd/every_isa.hpp"
 #include "tests/tissue/reference_network.hpp"
 
@@ -37,8 +37,8 @@ struct Int8Twins {
         packed(shipped_record(), layers),
         nodes(nodes) {
     quantize();
-    state = std::make_unique<test::Floats>(tissue::state_floats(view(), nodes));
-    scratch = std::make_unique<test::Floats>(tissue::scratch_floats(view(), nodes), 1e30f);
+    state = std::make_unique<test::Floats>(state_floats(view(), nodes));
+    scratch = std::make_unique<test::Floats>(scratch_floats(view(), nodes), 1e30f);
     for (const test::PlainLayer& layer : layers) {
       const test::Rows zero(nodes * layer.channels, 0.0);
       reference.push_back({zero, zero, zero});
@@ -70,24 +70,22 @@ struct Int8Twins {
     std::memcpy(sums->data(), made.sums.data(), made.sums.size() * sizeof(int32_t));
     std::copy(made.scales.begin(), made.scales.end(), scales->data());
   }
-  tissue::Network view() {
-    tissue::Network network = packed.view();
-    network.int8 = {reinterpret_cast<const int8_t*>(weights->data()),
-                    reinterpret_cast<const int32_t*>(sums->data()), scales->data()};
-    return network;
+  baker::ReducedNetwork view() {
+    return {packed.view(),
+            {reinterpret_cast<const int8_t*>(weights->data()), reinterpret_cast<const int32_t*>(sums->data()),
+             scales->data()},
+            kernels};
   }
   void step() {
     const size_t width = layers.front().inputs, stride = simd::pad_to_block(width);
     test::Floats z = test::random_rows(random, nodes, width, stride, 1);
     const tissue::Graph rows{nodes, graph.rows.data(), graph.columns.data(), graph.values.data()};
-    tissue::network_step(view(), rows, z.data(), nullptr, state->data(), scratch->data());
+    network_step(view(), rows, z.data(), nullptr, state->data(), scratch->data());
     test::Rows x;
     for (size_t n = 0; n < nodes; ++n) x.insert(x.end(), &z[n * stride], &z[n * stride] + width);
     test::reference_step(layers, graph, packed.record(), x, nullptr, &reference);
   }
-  const float* output() {
-    return tissue::layer_state(view(), nodes, static_cast<uint32_t>(layers.size() - 1), state->data()).y;
-  }
+  const float* output() { return last_state(view(), nodes, state->data()).y; }
   double output_difference() {
     double worst = 0;
     for (size_t k = 0; k < nodes * size_t{3}; ++k) {
@@ -103,6 +101,7 @@ struct Int8Twins {
   std::vector<test::PlainLayer> layers;
   test::PackedNetwork packed;
   std::unique_ptr<test::Floats> weights, sums, scales, state, scratch;
+  const baker::LayerKernels* kernels = nullptr;
   std::vector<test::PlainState> reference;
   uint32_t nodes;
 };
@@ -124,11 +123,17 @@ TEST_CASE("int8_step_stays_near_the_equations_for_partial_ranges_tiles_and_block
   });
 }
 
+// With dot products of bytes and without.
 TEST_CASE("int8_step_has_the_same_bits_on_all_targets_with_fma") {
-  test::require_same_bits_where_fused(0x3d4d47bc8869b45a, [&](const simd::Kernels&) {
-    Int8Twins twins(55, {21, 40, 64, 33, 3}, true);
-    for (int step = 0; step < 12; ++step) twins.step();
-    return twins.state->copy();
+  test::for_every_isa([&](const char*, const simd::Kernels& of_floats) {
+    for (const baker::LayerKernels* kernels : baker::layer_kernels()) {
+      Int8Twins twins(55, {21, 40, 64, 33, 3}, true);
+      twins.kernels = kernels;
+      for (int step = 0; step < 12; ++step) twins.step();
+      const std::vector<float> state = twins.state->copy();
+      CHECK((!of_floats.fused || core::hash64(std::as_bytes(std::span(state))) == 0x3d4d47bc8869b45a));
+      CHECK(twins.output_difference() <= kInt8RollOut);
+    }
   });
 }
 
@@ -140,8 +145,7 @@ TEST_CASE("nan_in_any_state_reaches_the_output_of_an_int8_step") {
           if (plane == 1 && bad != 0x7e00) continue;  // an infinite cell is clamped
           Int8Twins twins(23, {9, 20, 33, 3}, true);
           twins.step();
-          const tissue::HalfLayerState layer =
-              tissue::half_layer_state(twins.view(), 23, l, twins.state->data());
+          const baker::HalfLayerState layer = hidden_state(twins.view(), 23, l, twins.state->data());
           (plane == 0 ? layer.h : plane == 1 ? layer.c : layer.y)[0] = bad;
           twins.step();
           INFO("layer " << l << ", plane " << plane);

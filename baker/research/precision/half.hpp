@@ -3,10 +3,12 @@
 #include <bit>
 #include <cstdint>
 
-namespace sinew::core {
+namespace sinew::baker {
+
+using Half = uint16_t;
 
 // Exact; infinity and NaN stay what they are.
-constexpr float half_to_float(uint16_t half) noexcept {
+constexpr float half_to_float(Half half) noexcept {
   const uint32_t magnitude = (half & 0x7fffu) << 13, sign = (half & 0x8000u) << 16;
   if (magnitude >= 31u << 23) return std::bit_cast<float>(sign | (magnitude + (224u << 23)));
   const float tiny = std::bit_cast<float>(magnitude + (113u << 23)) - 0x1p-14f;
@@ -14,4 +16,4 @@ constexpr float half_to_float(uint16_t half) noexcept {
   return sign != 0 ? -value : value;
 }
 
-}  // namespace sinew::core
+}  // namespace sinew::baker
