@@ -36,5 +36,16 @@ set(longest
   rods/contacts_have_the_same_bits_on_all_targets_with_fma_by_both_solvers_in_narrow_groups_and_wide
   rods/a_root_that_flies_a_kilometre_within_a_step_is_followed_or_joined_and_comes_to_rest
   tissue/int8_step_stays_near_the_equations_for_partial_ranges_tiles_and_blocks)
-set_tests_properties(${slow} ${longest} PROPERTIES LABELS slow)
-set_tests_properties(${longest} PROPERTIES COST 60)
+list(APPEND slow ${longest})
+foreach(test IN LISTS sinew_discovered)
+  list(FIND slow ${test} place)
+  if(place EQUAL -1)
+    set_tests_properties(${test} PROPERTIES LABELS fast)
+  else()
+    set_tests_properties(${test} PROPERTIES LABELS slow)
+  endif()
+  list(FIND longest ${test} place)
+  if(NOT place EQUAL -1)
+    set_tests_properties(${test} PROPERTIES COST 60)
+  endif()
+endforeach()
