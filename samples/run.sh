@@ -59,14 +59,16 @@ newer "$out/hop.truth.safetensors" "$out/creature.glb" "$tissue" || {
 # Films and large pictures; the demo alone makes small ones in seconds.
 quality=(--view front --width 360 --height 400 --samples 4)
 newer "$out/pictures/contact_sheet.png" "$out/creature.sinew" "$out/hop.truth.safetensors" "$bin/sinew-demo" ||
-  "$bin/sinew-demo" "$out/creature.sinew" --seconds 3 --truth "$out/hop.truth.safetensors" --frames "$out/pictures" --picture-fps 20 "${quality[@]}"
+  "$bin/sinew-demo" "$out/creature.sinew" --seconds 3 --truth "$out/hop.truth.safetensors" --frames "$out/pictures" --picture-fps 20 "${quality[@]}" >/dev/null
 wait "$the_rest_id" || { cat "$out/the_rest.txt" >&2; exit 1; }
 trap - EXIT
 cat "$out/the_rest.txt"
 rm "$out/the_rest.txt"
 newer "$out/pictures_rods/contact_sheet.png" "$out/creature_rods.sinew" "$bin/sinew-demo" ||
   "$bin/sinew-demo" "$out/creature_rods.sinew" --seconds 2.4 --clip hop --frames "$out/pictures_rods" --picture-fps 15 "${quality[@]}"
-
+echo
+echo "One creature against the ground truth of the hop:"
+"$bin/sinew-demo" "$out/creature.sinew" --seconds 3 --truth "$out/hop.truth.safetensors"
 echo
 echo "16 creatures, 10 seconds, 1500 us a frame:"
 "$bin/sinew-demo" "$out/creature.sinew" --instances 16 --seconds 10 --budget-us 1500 --report "$out/report.json"
