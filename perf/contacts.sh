@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-cmake --preset release -DSINEW_BUILD_PERF=ON | grep "^-- perf:" || true
+cmake --preset release | grep "^-- perf:" || true
 cmake --build --preset release --target perf_contacts perf_ropes perf_surfaces
 measured=$(mktemp -d)
 trap 'rm -rf "$measured"' EXIT

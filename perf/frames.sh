@@ -7,7 +7,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-cmake --preset release -DSINEW_BUILD_PERF=ON | grep "^-- perf:" || true
+cmake --preset release | grep "^-- perf:" || true
 cmake --build --preset release --target perf_frames perf_gaps sinew-bake sinew-trade
 measured=$(mktemp -d)
 trap 'rm -rf "$measured"' EXIT

@@ -1,13 +1,22 @@
 #!/usr/bin/env bash
 # Measures how far changes of tier move the creature's surface, and rewrites the table of jumps in perf/README.md. Twenty minutes; with
 # SINEW_CHARACTER, a pack that sinew-trade wrote, fifteen.
+# --quick: what to look at before and after a change of transitions, three minutes: along idle, walk and hop, with fewer moments of
+# change; prints the table and writes nothing but build/release/quick_character.sinew, which it bakes once. Delete that to bake it anew.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-cmake --preset release -DSINEW_BUILD_PERF=ON | grep "^-- perf:" || true
+cmake --preset release | grep "^-- perf:" || true
 cmake --build --preset release --target perf_jumps sinew-bake sinew-trade
 measured=$(mktemp -d)
 trap 'rm -rf "$measured"' EXIT
+if [ "${1:-}" = --quick ]; then
+  character=${SINEW_CHARACTER:-build/release/quick_character.sinew}
+  [ -e "$character" ] || cp "$(perf/traded_creature.sh "$measured" 1)" "$character"
+  build/release/bin/perf_jumps "$character" --quick >"$measured/jumps.csv"
+  python3 perf/summarise_jumps.py --print "$measured/jumps.csv"
+  exit
+fi
 character=${SINEW_CHARACTER:-$(perf/traded_creature.sh "$measured")}
 build/release/bin/perf_jumps "$character" >"$measured/jumps.csv"
 python3 perf/summarise_jumps.py "$measured/jumps.csv"

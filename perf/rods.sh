@@ -5,7 +5,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-cmake --preset release -DSINEW_BUILD_PERF=ON | grep "^-- perf:" || true
+cmake --preset release | grep "^-- perf:" || true
 cmake --build --preset release --target perf_rods perf_trade_rods
 measured=build/release/rods_trade.csv
 if [ "${1:-}" = --quick ]; then

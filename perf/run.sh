@@ -9,7 +9,7 @@ command -v dpkg-query >/dev/null && dpkg-query -W libbenchmark-dev >/dev/null 2>
   echo "perf/run.sh: Google Benchmark is missing: apt-get install libbenchmark-dev" >&2
   exit 2
 }
-cmake --preset release -DSINEW_BUILD_PERF=ON | grep "^-- perf:" || true
+cmake --preset release | grep "^-- perf:" || true
 cmake --build --preset release --target perf_kernels perf_scale sinew-bake
 measured=$(mktemp -d)
 trap 'rm -rf "$measured"' EXIT

@@ -1,6 +1,6 @@
 """Writes perf/results/<processor>_jumps.csv and the table of jumps in perf/README.md: of each tier that is changed from, the worst change.
 
-usage: summarise_jumps.py JUMPS.csv      what build/release/bin/perf_jumps wrote
+usage: summarise_jumps.py [--print] JUMPS.csv      what build/release/bin/perf_jumps wrote; --print: writes nothing, prints the table
 """
 import csv
 import pathlib
@@ -64,15 +64,16 @@ def summary(rows):
     return table(heads, lines)
 
 
-def main(path):
+def main(path, only_print):
     machine = processor()
     text = pathlib.Path(path).read_text()
-    (HERE / "results" / f"{file_name(machine)}_jumps.csv").write_text(text)
     rows = list(csv.DictReader(text.splitlines()))
     lines = [f"Processor: {machine}, one thread.", "", *summary(rows), "", *table(*lines_of(rows))]
-    put_between("jumps", lines)
+    if not only_print:
+        (HERE / "results" / f"{file_name(machine)}_jumps.csv").write_text(text)
+        put_between("jumps", lines)
     print("\n".join(lines))
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    main(sys.argv[-1], "--print" in sys.argv)

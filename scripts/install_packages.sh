@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs the Debian packages Sinew is built, tested and shown with. Does nothing, in well under a second, when all are there.
-# usage: install_packages.sh [PRESET]; with aarch64 also the cross compiler, an emulator and libraries of that architecture
+# usage: install_packages.sh [samples|PRESET]; samples: all but PyTorch, which only training and tests need; with aarch64 also the cross
+# compiler, an emulator and libraries of that architecture
 set -euo pipefail
 
 packages=(
@@ -10,8 +11,9 @@ packages=(
   libbullet-dev                                           # runtime/bullet
   libembree-dev ffmpeg                                    # samples
   catch2                                                  # tests
-  python3-torch python3-numpy python3-matplotlib libopenblas0-pthread # training and plots
+  python3-numpy python3-matplotlib libopenblas0-pthread   # plots
 )
+[ "${1:-}" = samples ] || packages+=(python3-torch)       # training
 foreign=
 if [ "${1:-}" = aarch64 ]; then
   packages+=(g++-aarch64-linux-gnu qemu-user libhwy-dev:arm64)

@@ -1,15 +1,13 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, runs every test; then those that cross-build for 64-bit Arm, when the tools for it are there.
-# Arguments go to ctest, and leave Arm out: tests/run.sh -R world/
+# --fast: only the fast ones, in at most three minutes after the build. Other arguments go to ctest: tests/run.sh -R world/
+# Both leave Arm out.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-precompile=ON
-[ -z "${CMAKE_CXX_COMPILER_LAUNCHER:-}" ] || precompile=OFF
-
 run_preset() {
   scripts/install_packages.sh "$1"
-  cmake --preset "$1" -DSINEW_PRECOMPILE="$precompile" -DSINEW_BUILD_PERF="$perf" >/dev/null
+  cmake --preset "$1" >/dev/null
   cmake --build --preset "$1"
   ctest --test-dir "build/$1" --output-on-failure -j "$(nproc)" "${@:2}"
 }
@@ -18,11 +16,8 @@ has_arm_tools() {
   command -v aarch64-linux-gnu-g++ && command -v qemu-aarch64 && dpkg-query -W libhwy-dev:arm64
 } >/dev/null 2>&1
 
-# What perf measures with is tested, too; once.
-perf=OFF
-[ "${SINEW_PRESET:-release}" != release ] || perf=ON
+[ "${1:-}" != --fast ] || set -- -L fast "${@:2}"
 run_preset "${SINEW_PRESET:-release}" "$@"
-perf=OFF
 if [ -n "${SINEW_PRESET:-}" ] || [ $# -gt 0 ]; then
   exit
 elif [ "$SECONDS" -gt 850 ]; then

@@ -11,6 +11,7 @@
 #include <exception>
 #include <span>
 #include <stdexcept>
+#include <string_view>
 
 #include "perf/frames/level_name.hpp"
 #include "perf/frames/tier_change.hpp"
@@ -124,14 +125,23 @@ void run(const demo::CharacterFile& character, const std::string& clip, size_t a
   tell_left_alone(table);
 }
 
-// Of all clips, or one.
-void run_all(const std::string& path, const std::string& clip, size_t apart_ticks) {
+// What is looked at before and after a change of transitions: the clips that are held to a bound, and few
+// moments of change.
+constexpr std::string_view kQuickClips[] = {"idle", "walk", "hop"};
+constexpr size_t kApartTicks = 7, kQuickApartTicks = 35;
+
+// Of all clips, one, or the quick ones.
+void run_all(const std::string& path, const std::string& clip, bool quick, size_t apart_ticks) {
   const demo::CharacterFile character = demo::open_character(path);
   if (character.view.clips.empty())
     throw std::runtime_error(path + ": the pack has no clips; bake it from a file with animations");
   std::vector<std::string> clips;
   for (size_t i = 0; i < character.view.clips.size(); ++i)
-    if (clip.empty() || character.clip_name(i) == clip) clips.push_back(character.clip_name(i));
+    if (clip.empty() ? !quick || std::ranges::count(kQuickClips, character.clip_name(i)) > 0
+                     : character.clip_name(i) == clip)
+      clips.push_back(character.clip_name(i));
+  if (clips.empty() && clip.empty())
+    throw std::runtime_error(path + ": no clip is called idle, walk or hop; sinew-bake info lists them");
   if (clips.empty())
     throw std::runtime_error(path + ": no clip is called '" + clip + "'; sinew-bake info lists them");
   std::puts(
@@ -148,12 +158,15 @@ int main(int count, char** arguments) {
   app.add_option("pack", path, "C.sinew")->required();
   std::string clip;
   app.add_option("--clip", clip, "along this one alone; all if not said");
-  size_t apart_ticks = 7;
+  bool quick = false;
+  app.add_flag("--quick", quick, "along idle, walk and hop only, 35 ticks from one change to the next");
+  size_t apart_ticks = 0;
   app.add_option("--apart", apart_ticks, "ticks from one change to the next; 7 if not said")
       ->check(CLI::Range(5, 240));
   CLI11_PARSE(app, count, arguments);
+  if (apart_ticks == 0) apart_ticks = quick ? kQuickApartTicks : kApartTicks;
   try {
-    run_all(path, clip, apart_ticks);
+    run_all(path, clip, quick, apart_ticks);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "perf_jumps: %s\n", error.what());
     return 2;

@@ -158,7 +158,7 @@ std::vector<std::byte> pack_haired(const Bust& bust, const Locks& locks) {
   layout.stiffness = character.stiffness;
   // A second control graph like the first, on which rods touch the capsules.
   const baker::GraphLevel same{layout, {}};
-  return baker::pack_character(character, layout, {}, nullptr, pack::Precision::kFloat32, {}, {&same, 1});
+  return baker::pack_character(character, layout, {}, nullptr, {&same, 1});
 }
 
 std::vector<Matrix34> haired_pose(std::span<const LockBone> bones, const Turning& turning) {

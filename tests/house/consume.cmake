@@ -15,7 +15,8 @@ if(HOW STREQUAL "find_package")
 else()
   # The core alone: neither adapter, whatever is installed.
   # That it builds, links and steps is looked at, not its speed.
-  set(arguments -DSINEW_SOURCE=${SOURCE} -DSINEW_BULLET=OFF -DSINEW_EMBREE=OFF -DCMAKE_CXX_FLAGS_RELEASE=-O0)
+  set(arguments -DSINEW_SOURCE=${SOURCE} -DSINEW_BULLET=OFF -DSINEW_EMBREE=OFF -DCMAKE_CXX_FLAGS_RELEASE=-O0
+    -DSINEW_PRECOMPILE=ON -DSINEW_INSTRUCTION_SETS=few)
 endif()
 run(${CMAKE_COMMAND} -S ${SOURCE}/tests/house/consumer -B ${work}/build -G Ninja -DCMAKE_BUILD_TYPE=${CONFIG}
     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_FLAGS=${FLAGS} ${arguments})

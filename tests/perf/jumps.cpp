@@ -63,6 +63,14 @@ TEST_CASE("in_a_shake_left_alone_no_vertex_jumps_by_0_7_percent_of_the_height") 
   }
 }
 
+TEST_CASE("a_quick_look_is_along_idle_walk_and_hop_alone") {
+  const ProgramResult result = run_program({SINEW_PERF_JUMPS, hop_of_crowd().tiered(), "--quick"});
+  must(result);
+  std::set<std::string> clips;
+  for (const Row& row : rows_of(result.out)) clips.insert(row.at("clip"));
+  CHECK(clips == std::set<std::string>{"hop", "idle", "walk"});
+}
+
 TEST_CASE("a_clip_that_is_not_there_is_refused_by_name") {
   const ProgramResult result = run_program({SINEW_PERF_JUMPS, hop_of_crowd().tiered(), "--clip", "swim"});
   CHECK(result.exit_code == 2);

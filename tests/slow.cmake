@@ -1,0 +1,56 @@
+# Tests of more than four seconds have the label slow, which tests/run.sh --fast leaves out. Those of more than half a minute are
+# started before all others, so that no processor waits for the last. Those that are no TEST_CASE say both where they are added.
+set(slow
+  baker_creature/the_body_is_closed_and_the_count_is_met_at_every_size
+  baker_programs/a_character_adds_nothing_to_itself_and_a_worse_one_fails_the_check
+  baker_programs/a_character_is_baked_in_the_precision_asked_for_and_calibrated_by_the_vectors_given
+  baker_programs/a_network_that_overshoots_a_thousandfold_is_left_out_of_the_pack
+  baker_programs/a_real_vrm_bakes_with_its_springs_and_a_soft_trunk_to_a_pack_that_opens
+  baker_programs/a_region_that_is_clear_of_no_capsule_is_named_as_it_is_baked
+  baker_programs/a_table_says_of_every_part_what_it_is_and_why
+  baker_programs/errors_are_those_of_the_character_that_is_baked_and_a_network_that_does_not_pay_is_left_out
+  baker_programs/int8_takes_its_scales_from_true_motions_in_closed_loop
+  baker_programs/reduced_precision_adds_less_than_a_tenth_of_the_error_on_every_instruction_set
+  baker_programs/the_closed_loop_follows_the_truth_and_the_error_is_counted_against_it
+  baker_programs/the_creature_bakes_to_a_character_with_clips_regions_and_the_same_bytes_twice
+  baker_programs/truth_that_is_not_this_character_s_is_refused
+  baker_programs/without_weights_a_character_is_packed_with_its_modes
+  baker_trade/a_change_of_the_creature_s_level_moves_no_vertex_by_more_than_a_tier_of_it_does
+  baker_trade/a_closed_loop_begins_at_rest_in_the_tier_that_it_is_told
+  baker_trade/an_unknown_clip_or_another_character_s_source_is_refused
+  baker_trade/unusable_input_of_a_trade_is_refused_by_name_and_leaves_nothing
+  bullet_allocations/finding_contacts_allocates_nothing
+  embree/at_most_two_of_ten_thousand_surfaces_at_fifty_metres_a_second_get_through_a_strand
+  perf/a_crowd_of_one_is_off_what_the_demo_is_off
+  perf/every_pair_of_tiers_and_every_way_to_be_left_alone_is_told_once_a_clip
+  perf/every_trouble_of_frames_is_run_and_told_in_order_of_rank
+  perf/in_a_shake_left_alone_no_vertex_jumps_by_0_7_percent_of_the_height
+  perf/in_every_scene_each_character_has_one_tier_or_none_to_see
+  perf/in_idle_and_walk_no_vertex_jumps_by_0_3_percent_of_the_height_and_by_0_5_in_the_hop
+  perf/who_is_looked_away_from_is_hidden_and_who_rests_under_no_load_is_asleep
+  rods/of_ten_thousand_capsules_at_fifty_metres_a_second_none_passes_through_a_rod_in_six_steps
+  rods/of_ten_thousand_rods_at_fifty_metres_a_second_none_passes_through_a_capsule_in_six_steps
+  samples_demo/pool_runs_every_index_once_in_every_job
+  world/a_change_of_level_makes_no_jump
+  world/an_hour_at_the_limit_winds_nothing_up
+  world/no_weights_move_flesh_much_further_than_its_base_nor_keep_it_from_rest)
+set(longest
+  baker_trade/a_trade_finds_the_front_bakes_it_and_goes_on_where_it_was_stopped
+  baker_trade/a_trade_measures_every_level_and_bakes_what_each_is_worth
+  baker_trade/without_truth_the_clips_are_simulated_once_and_variants_stand_beside
+  rods/contacts_have_the_same_bits_on_all_targets_with_fma_by_both_solvers_in_narrow_groups_and_wide
+  rods/a_root_that_flies_a_kilometre_within_a_step_is_followed_or_joined_and_comes_to_rest
+  tissue/int8_step_stays_near_the_equations_for_partial_ranges_tiles_and_blocks)
+list(APPEND slow ${longest})
+foreach(test IN LISTS sinew_discovered)
+  list(FIND slow ${test} place)
+  if(place EQUAL -1)
+    set_tests_properties(${test} PROPERTIES LABELS fast)
+  else()
+    set_tests_properties(${test} PROPERTIES LABELS slow)
+  endif()
+  list(FIND longest ${test} place)
+  if(NOT place EQUAL -1)
+    set_tests_properties(${test} PROPERTIES COST 60)
+  endif()
+endforeach()
