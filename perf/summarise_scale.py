@@ -54,12 +54,6 @@ def instances_table(cases):
     return table(columns, lines)
 
 
-def workers_table(cases):
-    lines = [[subject, number(of["one_us"]), number(of["two_us"]), number(of["one_over_two"], 2)]
-             for (subject, *_), of in cases.items()]
-    return table(["on two workers", "one, us", "two, us", "one / two"], lines)
-
-
 def batches_table(cases):
     lines = [[str(instances), number(of["apart_us"]), number(of["together_us"]), number(of["apart_us"] / of["together_us"], 2)]
              for (_, _, instances, _), of in cases.items()]
@@ -76,13 +70,9 @@ def figures_table(groups):
     """What the project asks for of one character and of a large network, beside what was measured."""
     tick = next(of for (subject, *_), of in groups["parts"].items() if subject == "whole tick")
     state_kb = next(of for (_, vertices, *_), of in groups["vertices"].items() if vertices > 6000)["state_bytes"] / 1e3
-    ratios = {subject: of["one_over_two"] for (subject, *_), of in groups["workers"].items()}
-    peak = ratios.pop("fma_peak")
     lines = [["character with `creature`, share of float32 peak", number(tick["share_of_peak"], 2), "0.25", "0.50"],
              ["character with `creature`, us a tick", number(tick["us"]), "200", "80"]]
     lines += [["character, state of an instance, kB", number(state_kb, 0), "1000", "200"]]
-    lines += [[f"{subject}, two workers / one", f"{ratio:.2f} (fma_peak: {peak:.2f})", "1.7", "1.9"]
-              for subject, ratio in ratios.items()]
     return table(["figure", "measured", "at least", "aim"], lines)
 
 
@@ -104,7 +94,7 @@ def plot(groups, path):
     figure.savefig(path, dpi=100)
 
 
-TABLES = {"parts": parts_table, "vertices": vertices_table, "instances": instances_table, "workers": workers_table,
+TABLES = {"parts": parts_table, "vertices": vertices_table, "instances": instances_table,
           "batches": batches_table, "sleep": sleep_table}
 
 

@@ -10,6 +10,7 @@
 #include "baker/pack/network_pack.hpp"
 #include "baker/programs/calibrate.hpp"
 #include "baker/research/precision/check_int8.hpp"
+#include "tissue/narrow_layer.hpp"
 
 namespace sinew::baker {
 
@@ -76,10 +77,14 @@ void LoadedPack::open(std::span<const std::byte> bytes, const std::string& path)
   if (status.ok()) status = check_int8(view_);
   if (!status.ok()) throw BadInput(path + ": " + status.message);
   bytes_ = bytes;
+  const tissue::Network floats = network();
+  narrow_ = core::AlignedBlock(tissue::narrow_floats(floats) * sizeof(float));
+  tissue::pack_narrow(floats, reinterpret_cast<float*>(narrow_.data()));
 }
 
 tissue::Network LoadedPack::network() const {
-  return {view_.network, view_.layers, view_.inputs, view_.weights.data()};
+  return {view_.network, view_.layers, view_.inputs, view_.weights.data(),
+          reinterpret_cast<const float*>(narrow_.data())};
 }
 
 bool LoadedPack::is_reduced() const {

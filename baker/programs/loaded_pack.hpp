@@ -40,7 +40,7 @@ class LoadedPack {
   void open(std::span<const std::byte> bytes, const std::string& path);
 
   pack::MappedFile file_;
-  core::AlignedBlock copy_;
+  core::AlignedBlock copy_, narrow_;  // narrow_: tissue/narrow_layer.hpp
   pack::PackView view_;
   std::span<const std::byte> bytes_;
 };

@@ -9,6 +9,7 @@
 
 #include "simd/isa.hpp"
 #include "simd/kernels.hpp"
+#include "tissue/narrow_layer.hpp"
 #include "tissue/network.hpp"
 
 namespace sinew::perf {
@@ -109,7 +110,8 @@ inline double product_mflop(const NetworkShape& shape) {
 
 // A network of this shape with small random weights.
 struct RandomNetwork {
-  explicit RandomNetwork(const NetworkShape& shape) : weights(random_floats(layout(shape), 0.05f)) {
+  explicit RandomNetwork(const NetworkShape& shape)
+      : weights(random_floats(layout(shape), 0.05f)), narrow(0) {
     record.model = pack::ModelKind::kAltConvLstm;
     record.layer_count = static_cast<uint32_t>(shape.channels.size());
     record.input_width = shape.inputs;
@@ -120,12 +122,14 @@ struct RandomNetwork {
     record.hidden_leak = 0.2f;
     record.state_clamp = 8;
     record.length_unit = 1;
+    narrow = Floats(tissue::narrow_floats(view()));
+    tissue::pack_narrow(view(), narrow.data());
   }
-  tissue::Network view() { return {&record, layers, {}, weights.data()}; }
+  tissue::Network view() { return {&record, layers, {}, weights.data(), narrow.data()}; }
 
   std::vector<pack::LayerRecord> layers;
   pack::NetworkRecord record{};
-  Floats weights;
+  Floats weights, narrow;
 
  private:
   size_t layout(const NetworkShape& shape) {

@@ -12,8 +12,6 @@ void measure_parts(const demo::CharacterFile& character, int rounds);
 void measure_crowds(const demo::CharacterFile& character, int rounds);
 // One instance of each character, ascending in vertices.
 void measure_vertices(const std::vector<demo::CharacterFile>& characters, int rounds);
-// The paper's network on 6,890 vertices, its layers split over two workers.
-void measure_workers(int rounds);
 // Regions that sleep: what is left out of clips, and what that adds to the surface.
 void measure_sleep(const demo::CharacterFile& character);
 // Instances' control graphs as one block-diagonal graph, against one network step each.

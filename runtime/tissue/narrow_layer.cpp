@@ -52,13 +52,16 @@ float* pack_layer(const pack::LayerRecord& layer, uint32_t width, const float* w
 
 }  // namespace
 
-NarrowScratch narrow_scratch(const Network& network, uint32_t node_count) noexcept {
-  NarrowScratch sizes;
-  for (uint32_t l = 0; l < network.layers.size(); ++l) {
-    sizes.heard += size_t{heard_planes(network, l)} * kBlock * node_count;
-    sizes.packed_floats += packed_floats(network, l);
-  }
-  return sizes;
+size_t narrow_floats(const Network& network) noexcept {
+  size_t floats = 0;
+  for (uint32_t l = 0; l < network.layers.size(); ++l) floats += packed_floats(network, l);
+  return floats;
+}
+
+size_t heard_floats(const Network& network, uint32_t node_count) noexcept {
+  size_t planes = 0;
+  for (uint32_t l = 0; l < network.layers.size(); ++l) planes += heard_planes(network, l);
+  return planes * kBlock * node_count;
 }
 
 void pack_narrow(const Network& network, float* packed) noexcept {
@@ -94,10 +97,11 @@ void hear_narrow(const Network& network, const Graph& graph, float* state, uint3
 }
 
 void set_narrow(const Network& network, uint32_t node_count, uint32_t l, const float* heard,
-                const float* packed, simd::LayerJob* job) noexcept {
+                simd::LayerJob* job) noexcept {
   job->gate_width = gate_width(network, l);
   if (job->gate_width == 0) return;
   const size_t plane = size_t{kBlock} * node_count;
+  const float* packed = network.narrow;
   for (uint32_t before = 0; before < l; ++before) {
     heard += heard_planes(network, before) * plane;
     packed += packed_floats(network, before);

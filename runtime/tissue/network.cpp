@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/floating_point.hpp"
-#include "core/run_tasks.hpp"
 #include "simd/kernels.hpp"
 #include "tissue/narrow_layer.hpp"
 
@@ -15,12 +13,11 @@ namespace {
 using simd::kRangeNodes;
 using simd::pad_to_block;
 
-// Output gates of two neighbouring layers, y_next of the last, what narrow layers hear and their weights;
-// then for each share of the nodes P x of a range and one tile; in floats.
+// Output gates of two neighbouring layers, y_next of the last, what narrow layers hear, P x of a range and
+// one tile; in floats.
 struct Scratch {
-  size_t gates, y_next, heard, packed, px, tile;
-  size_t common() const { return 2 * gates + y_next + heard + packed; }
-  size_t share() const { return px + tile; }
+  size_t gates, y_next, heard, px, tile;
+  size_t all() const { return 2 * gates + y_next + heard + px + tile; }
 };
 
 Scratch scratch_of(const Network& network, uint32_t node_count) {
@@ -30,9 +27,8 @@ Scratch scratch_of(const Network& network, uint32_t node_count) {
     widest = std::max(widest, last);
   }
   const size_t inputs = std::max(widest, pad_to_block(network.record->input_width));
-  const NarrowScratch narrow = narrow_scratch(network, node_count);
-  return {widest * node_count,  last * node_count,    narrow.heard,
-          narrow.packed_floats, inputs * kRangeNodes, simd::tile_floats(static_cast<uint32_t>(widest))};
+  return {widest * node_count, last * node_count, heard_floats(network, node_count), inputs * kRangeNodes,
+          simd::tile_floats(static_cast<uint32_t>(widest))};
 }
 
 // Floats that one of a layer's planes takes.
@@ -55,8 +51,7 @@ struct Step {
   Scratch sizes = scratch_of(network, graph.node_count);
   float* y_next() const { return scratch + 2 * sizes.gates; }
   float* heard() const { return y_next() + sizes.y_next; }
-  float* packed() const { return heard() + sizes.heard; }
-  float* share(uint32_t index) const { return scratch + sizes.common() + index * sizes.share(); }
+  float* px() const { return heard() + sizes.heard; }
 };
 
 void set_weights(const Network& network, const pack::LayerRecord& layer, simd::LayerJob* job) {
@@ -81,8 +76,7 @@ void set_accumulation(const Step& step, bool is_last, float* y_next, simd::Layer
   job->y_next = is_last ? y_next : nullptr;
 }
 
-// `own`: scratch of the share of nodes that it is for.
-simd::LayerJob job_of(const Step& step, uint32_t l, float* own) {
+simd::LayerJob job_of(const Step& step, uint32_t l) {
   const uint32_t nodes = step.graph.node_count;
   const LayerState state = planes_of(step.network, nodes, l, step.state);
   simd::LayerJob job{.graph = {step.graph.rows, step.graph.columns, step.graph.values}};
@@ -90,13 +84,13 @@ simd::LayerJob job_of(const Step& step, uint32_t l, float* own) {
   set_accumulation(step, l + 1 == step.network.layers.size(), step.y_next(), &job);
   job.x = l == 0 ? step.z : planes_of(step.network, nodes, l - 1, step.state).c;
   job.x_stride = pad_to_block(job.inputs);
-  job.px = job.pc = own;  // P x of a layer is P c of the one before
+  job.px = job.pc = step.px();  // P x of a layer is P c of the one before
   job.h = state.h;
   job.c = state.c;
   job.y = state.y;
   job.output_gate = step.scratch + l % 2 * step.sizes.gates;
-  job.tile = own + step.sizes.px;
-  set_narrow(step.network, nodes, l, step.heard(), step.packed(), &job);
+  job.tile = step.px() + step.sizes.px;
+  set_narrow(step.network, nodes, l, step.heard(), &job);
   return job;
 }
 
@@ -112,11 +106,10 @@ void run_output(const simd::LayerJob& job, uint32_t first, uint32_t last) {
 
 // Nodes first..last through the second pass of the layer before l and the first of l: what the one leaves in
 // cache the other takes.
-void layer_step(const Step& step, uint32_t l, uint32_t first_node, uint32_t last_node, float* own) {
+void layer_step(const Step& step, uint32_t l, uint32_t first_node, uint32_t last_node) {
   const simd::Kernels& kernels = simd::kernels();
   const auto layers = static_cast<uint32_t>(step.network.layers.size());
-  const simd::LayerJob before = job_of(step, l == 0 ? 0 : l - 1, own),
-                       now = job_of(step, l < layers ? l : 0, own);
+  const simd::LayerJob before = job_of(step, l == 0 ? 0 : l - 1), now = job_of(step, l < layers ? l : 0);
   if (l == 0) hear_narrow(step.network, step.graph, step.state, first_node, last_node, step.heard());
   for (uint32_t first = first_node; first < last_node; first += kRangeNodes) {
     const uint32_t last = std::min(first + kRangeNodes, last_node);
@@ -124,22 +117,6 @@ void layer_step(const Step& step, uint32_t l, uint32_t first_node, uint32_t last
     if (l > 0) run_output(before, first, last);
     if (l < layers) run_cells(now, first, last);
   }
-}
-
-// One layer's share of the nodes, in whole ranges.
-struct Pass {
-  const Step& step;
-  uint32_t layer;
-};
-
-void run_share(void* argument, uint32_t share) {
-  const core::FloatingPointScope mode;
-  const auto& [step, layer] = *static_cast<const Pass*>(argument);
-  const uint32_t nodes = step.graph.node_count, ranges = (nodes + kRangeNodes - 1) / kRangeNodes;
-  const auto node_at = [&](uint32_t cut) {
-    return std::min(nodes, ranges * cut / kNetworkShares * kRangeNodes);
-  };
-  layer_step(step, layer, node_at(share), node_at(share + 1), step.share(share));
 }
 
 // A NaN is kept.
@@ -161,13 +138,7 @@ size_t state_floats(const Network& network, uint32_t node_count) noexcept {
 }
 
 size_t scratch_floats(const Network& network, uint32_t node_count) noexcept {
-  const Scratch sizes = scratch_of(network, node_count);
-  return sizes.common() + sizes.share();
-}
-
-size_t shared_scratch_floats(const Network& network, uint32_t node_count) noexcept {
-  const Scratch sizes = scratch_of(network, node_count);
-  return sizes.common() + kNetworkShares * sizes.share();
+  return scratch_of(network, node_count).all();
 }
 
 LayerState layer_state(const Network& network, uint32_t node_count, uint32_t layer, float* state) noexcept {
@@ -183,19 +154,8 @@ void network_step(const Network& network, const Graph& graph, const float* z, co
 void network_step(const Network& network, const Graph& graph, std::span<const NodeRun> runs, const float* z,
                   const float* carry, float* state, float* scratch) noexcept {
   const Step step = {network, graph, z, carry, state, scratch};
-  pack_narrow(network, step.packed());
   for (uint32_t l = 0; l <= network.layers.size(); ++l) {
-    for (const NodeRun& run : runs) layer_step(step, l, run.first, run.last, step.share(0));
-  }
-}
-
-void network_step_on_workers(const TaskHook& tasks, const Network& network, const Graph& graph,
-                             const float* z, const float* carry, float* state, float* scratch) noexcept {
-  const Step step = {network, graph, z, carry, state, scratch};
-  pack_narrow(network, step.packed());
-  for (uint32_t l = 0; l <= network.layers.size(); ++l) {
-    Pass pass{step, l};
-    core::run_tasks(tasks, run_share, &pass, kNetworkShares);
+    for (const NodeRun& run : runs) layer_step(step, l, run.first, run.last);
   }
 }
 

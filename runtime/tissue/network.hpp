@@ -7,7 +7,6 @@
 #include <span>
 
 #include "pack/format.hpp"
-#include "sinew/types.hpp"
 
 namespace sinew::tissue {
 
@@ -18,11 +17,12 @@ struct Graph {  // P in CSR, nodes x nodes
   const float* values = nullptr;
 };
 
-struct Network {  // views into a pack, of float32; trivially copyable
+struct Network {  // views into a pack, of float32, and of what is packed once; trivially copyable
   const pack::NetworkRecord* record = nullptr;
   std::span<const pack::LayerRecord> layers;
   std::span<const pack::InputRecord> inputs;
   const float* weights = nullptr;
+  const float* narrow = nullptr;  // tissue/narrow_layer.hpp; null where no layer is narrow
 };
 
 // Floats of state for node_count nodes: for each layer h, c, y as [node_count][padded], where y of a hidden
@@ -52,15 +52,6 @@ struct NodeRun {
 };
 void network_step(const Network& network, const Graph& graph, std::span<const NodeRun> runs, const float* z,
                   const float* carry, float* state, float* scratch) noexcept;
-
-// The same step, denormals taken for zero as in a world's step, with each layer's nodes in kNetworkShares
-// tasks: the same bits for any number of workers. `tasks` is called once more than there are layers, each
-// time after the last has finished; the scratch is larger. Pays where a layer's share is tens of
-// microseconds: from about a thousand nodes of the paper's widths.
-inline constexpr uint32_t kNetworkShares = 16;
-size_t shared_scratch_floats(const Network& network, uint32_t node_count) noexcept;
-void network_step_on_workers(const TaskHook& tasks, const Network& network, const Graph& graph,
-                             const float* z, const float* carry, float* state, float* scratch) noexcept;
 
 // Largest |c| over all layers.
 float largest_cell(const Network& network, uint32_t node_count, const float* state) noexcept;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/status.hpp"
+#include "tissue/narrow_layer.hpp"
 #include "world/affords_surface.hpp"
 #include "world/instance.hpp"
 #include "world/own_body_touches.hpp"
@@ -76,6 +77,15 @@ Status check_runnable(const pack::PackView& pack) noexcept {
   return {};
 }
 
+Status pack_narrow_layers(const pack::PackView& pack, core::AlignedBlock* out) noexcept {
+  const tissue::Network network{pack.network, pack.layers, pack.inputs, pack.weights.data()};
+  core::AlignedBlock packed(tissue::narrow_floats(network) * sizeof(float));
+  if (!packed.data()) return make_status(StatusCode::kOutOfCapacity, "asset: no memory for its network");
+  tissue::pack_narrow(network, reinterpret_cast<float*>(packed.data()));
+  *out = std::move(packed);
+  return {};
+}
+
 void measure_level(const pack::PackView& pack, Asset& asset) noexcept {
   for (const pack::RegionModesRecord& modes : pack.region_modes) {
     const uint32_t floats = modes.padded + static_cast<uint32_t>(pack::round_up_16(modes.mode_count));
@@ -107,11 +117,15 @@ Status open_asset(std::span<const std::byte> bytes, Asset* out) noexcept {
   if (Status status = make_rod_rig(view, &rods); !status.ok()) return status;
   std::unique_ptr<uint64_t[]> touchable;
   if (Status status = find_touchable(view, &touchable); !status.ok()) return status;
+  core::AlignedBlock narrow;
+  if (Status status = pack_narrow_layers(view, &narrow); !status.ok()) return status;
   Asset& asset = *out;
   asset.pack = view;
   asset.touchable = std::move(touchable);
   asset.rods = std::move(rods);
   asset.network = {view.network, view.layers, view.inputs, view.weights.data()};
+  asset.narrow = std::move(narrow);
+  asset.network.narrow = reinterpret_cast<const float*>(asset.narrow.data());
   asset.tick_s = 1 / static_cast<double>(view.network->rate_hz);
   asset.fingerprint = fingerprint_of(bytes);
   read_levels(view, asset);

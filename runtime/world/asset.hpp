@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 
+#include "core/aligned_block.hpp"
 #include "frame/cost_model.hpp"
 #include "frame/front.hpp"
 #include "pack/mapped_file.hpp"
@@ -22,9 +23,10 @@ struct TierCosts {
 };
 
 struct Asset {
-  pack::MappedFile file;    // empty when the caller keeps the bytes
-  pack::PackView pack;      // the finest level in view
-  tissue::Network network;  // without layers where the character has none
+  pack::MappedFile file;      // empty when the caller keeps the bytes
+  pack::PackView pack;        // the finest level in view
+  tissue::Network network;    // without layers where the character has none
+  core::AlignedBlock narrow;  // its narrow layers' weights
   GraphLevel levels[pack::kMostGraphLevels];
   uint32_t level_count = 1;
   RodRig rods;

@@ -27,13 +27,6 @@ bool is_shown_still(const Instance& instance) noexcept {
          std::equal(instance.rod_shown[0], instance.rod_shown[0] + turns, instance.rod_shown[1]);
 }
 
-// By its front, not by what the step was told: that may have been less for a reason that is over.
-bool has_its_best(const Instance& instance) noexcept {
-  const InstanceState& state = *instance.state;
-  const frame::Front& front = costs_of(instance).front;
-  return front.level_of(state.tier, state.level) == front.best();
-}
-
 bool may_be_dormant(const Instance& instance) noexcept {
   const InstanceState& state = *instance.state;
   const Asset& asset = *instance.asset;
@@ -64,9 +57,7 @@ void watch_pose(Instance& instance) noexcept {
 }
 
 void fall_dormant(Instance& instance) noexcept {
-  if (!may_be_dormant(instance)) return;
-  const Dormancy dormancy = has_its_best(instance) ? Dormancy::kAtBest : Dormancy::kBelowBest;
-  instance.state->dormant = static_cast<uint32_t>(dormancy);
+  if (may_be_dormant(instance)) instance.state->dormant = 1;
 }
 
 void stay_dormant(Instance& instance) noexcept {
@@ -87,6 +78,6 @@ void stay_dormant(Instance& instance) noexcept {
   state.has_next = 0;
 }
 
-void wake(Instance& instance) noexcept { instance.state->dormant = static_cast<uint32_t>(Dormancy::kNone); }
+void wake(Instance& instance) noexcept { instance.state->dormant = 0; }
 
 }  // namespace sinew::world

@@ -4,15 +4,12 @@
 //   nothing fades, and for kStillTicks ticks the
 //            pose set was bit for bit the present one, or none was set.
 //   up again with another pose, a budget of 0, a reset, or out of sight; it goes on as if it had been stepped
-//            meanwhile. Where a budget once kept it below its best tier, it is also simulated at that when a
-//            step has room for it: the one that has waited longest, one a step.
-// It keeps its tier and is told as asleep; a step takes only its clock on.
+//            meanwhile.
+// It keeps its tier, the best or not, and is told as asleep; a step takes only its clock on.
 #pragma once
 #include "world/instance.hpp"
 
 namespace sinew::world {
-
-enum class Dormancy : uint32_t { kNone = 0, kAtBest = 1, kBelowBest = 2 };
 
 // The pose last set is the one the instance has.
 bool has_pose(const Instance& instance, std::span<const Matrix34> joints, const RootTransform& root) noexcept;

@@ -114,19 +114,6 @@ Candidate candidate_of(const Terms& terms, const PlanRow& row, uint32_t ticks, u
           .keeps_level = ticks == 0 && terms.has_budget && !row.hidden};
 }
 
-constexpr uint32_t kNone = UINT32_MAX;
-
-// Dormant, and below its best for longer than the one in that slot.
-bool waits_longer(const WorldState& world, const PlanRow& row, uint32_t than) noexcept {
-  if (row.dormant != static_cast<uint8_t>(Dormancy::kBelowBest)) return false;
-  return than == kNone || row.held_s > world.rows[than].held_s;
-}
-
-struct Gathered {
-  uint32_t candidates = 0;
-  uint32_t waiting = kNone;  // slot of the one that has had less than its best for longest
-};
-
 void sleep_on(WorldState& world, uint32_t slot, frame::TickPlans& plans) noexcept {
   Instance& instance = *world.instances.at(slot);
   PlanRow& row = world.rows[slot];
@@ -139,13 +126,6 @@ void sleep_on(WorldState& world, uint32_t slot, frame::TickPlans& plans) noexcep
   row.turn_left_s = row.state->turn_left_s;
   row.cost_factor = instance.cost_factor;
   row.was_cut = false;
-}
-
-// All but the one that waits: what becomes of it is seen once the others are provided for.
-void pass_dormant(WorldState& world, uint32_t slot, frame::TickPlans& plans, Gathered& gathered) noexcept {
-  uint32_t passed = slot;
-  if (waits_longer(world, world.rows[slot], gathered.waiting)) passed = std::exchange(gathered.waiting, slot);
-  if (passed != kNone) sleep_on(world, passed, plans);
 }
 
 void pass_unseen(WorldState& world, uint32_t slot, const frame::TickPlan& ticks) noexcept {
@@ -175,46 +155,24 @@ void count_ticks(const frame::TickPlan& plan, WorldState& world) noexcept {
   world.dropped_s = std::max(world.dropped_s, static_cast<float>(plan.dropped_s));
 }
 
-Gathered gather_candidates(WorldState& world) noexcept {
-  Gathered gathered;
+uint32_t gather_candidates(WorldState& world) noexcept {
+  uint32_t count = 0;
   frame::TickPlans plans = tick_plans(world);
   const Terms terms = terms_of(world);
   world.ticks = 0;
   world.dropped_s = 0;
   for_each_row(world, [&](PlanRow& row, uint32_t slot) {
-    bring_next_near(world, slot, gathered.candidates);
+    bring_next_near(world, slot, count);
     const frame::TickPlan& ticks = plans.of(row.remainder_s, row.asset->tick_s);
     if (!row.seen) return pass_unseen(world, slot, ticks);
     count_ticks(ticks, world);
     world.answers[slot].idle = false;
     if (row.dormant && terms.has_budget)
-      pass_dormant(world, slot, plans, gathered);
+      sleep_on(world, slot, plans);
     else  // made where it stays: a copy would wait for what has just been written
-      new (&world.candidates[gathered.candidates++]) Candidate(candidate_of(terms, row, ticks.ticks, slot));
+      new (&world.candidates[count++]) Candidate(candidate_of(terms, row, ticks.ticks, slot));
   });
-  return gathered;
-}
-
-// At its best once there is room for it beside all that is awake.
-void raise_waiting(WorldState& world, float budget_us, Gathered& gathered,
-                   frame::ScheduleResult& result) noexcept {
-  const uint32_t slot = gathered.waiting;
-  const PlanRow& row = world.rows[slot];
-  frame::TickPlans plans = tick_plans(world);
-  const uint32_t ticks = plans.of(row.remainder_s, row.asset->tick_s).ticks;
-  Candidate c = candidate_of(terms_of(world), row, ticks, slot);
-  c.level = c.top;
-  c.planned_us = c.cost_us(c.top);
-  c.reason = frame::Reason::kBest;
-  const bool fits = !result.denied && result.planned_us + c.planned_us <= budget_us;
-  if (c.keeps_level) return sleep_on(world, slot, plans);
-  if (!fits) {
-    row.state->held_s = 0;  // the next one's turn
-    result.denied = true;
-    return sleep_on(world, slot, plans);
-  }
-  result.planned_us += c.planned_us;
-  world.candidates[gathered.candidates++] = c;
+  return count;
 }
 
 // Of frame::Reason.
@@ -311,15 +269,12 @@ frame::ScheduleResult plan_step(WorldState& world, double dt_s) noexcept {
   world.dt_s = dt_s;
   for (uint32_t slot = 0; slot < world.assets.end(); ++slot)
     if (Asset* asset = world.assets.at(slot)) refresh_fronts(world, *asset);
-  Gathered gathered = gather_candidates(world);
+  const std::span<Candidate> candidates{world.candidates.get(), gather_candidates(world)};
   frame::ScheduleScratch& scratch = *world.scratch;
   float budget_us = world.budget_us;
   if (costs_are_measured(world) && budget_us > 0)
     budget_us = std::max(0.0f, budget_us - world.overhead.p95_us()) * world.capacity.scale();
-  frame::ScheduleResult result =
-      frame::schedule({world.candidates.get(), gathered.candidates}, budget_us, scratch);
-  if (gathered.waiting != kNone) raise_waiting(world, budget_us, gathered, result);
-  const std::span<const Candidate> candidates{world.candidates.get(), gathered.candidates};
+  const frame::ScheduleResult result = frame::schedule(candidates, budget_us, scratch);
   Ranking ranking(world);
   const bool has_budget = world.budget_us > 0;
   for (const Candidate& c : candidates) {

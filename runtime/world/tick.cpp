@@ -173,13 +173,6 @@ bool changes_what_rods_touch(const Instance& instance, Tier had) noexcept {
   return affords_surface(had, instance.state->level) != affords_surface(plan.tier, level);
 }
 
-// One that is asleep was to have better; late, it keeps what it has, and it is the next one's turn.
-void sleep_on(Instance& instance) noexcept {
-  instance.passed = true;
-  stay_dormant(instance);
-  instance.state->held_s = 0;
-}
-
 }  // namespace
 
 void step_instance(Instance& instance, const TickContext& context, uint32_t slot) noexcept {
@@ -188,7 +181,6 @@ void step_instance(Instance& instance, const TickContext& context, uint32_t slot
   const uint64_t start_ns = core::now_ns(context.clock);
   const bool waits = catch_up_first(instance);
   meet_deadline(instance, context, start_ns);
-  if (instance.cut && instance.state->dormant) return sleep_on(instance);
   const Tier tier = instance.plan.tier;
   const bool rose = !waits && rises(instance);
   instance.times = {};

@@ -3,10 +3,12 @@
 #pragma once
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "pack/weight_layout.hpp"
 #include "tests/simd/test_data.hpp"
+#include "tissue/narrow_layer.hpp"
 #include "tissue/network.hpp"
 
 namespace sinew::test {
@@ -45,8 +47,12 @@ class PackedNetwork {
     for (const PlainLayer& layer : layers) add_layer(layer);
     record_.layer_count = static_cast<uint32_t>(layers.size());
     record_.input_width = static_cast<uint32_t>(layers.front().inputs);
+    narrow_ = std::make_unique<Floats>(tissue::narrow_floats(view()));
+    tissue::pack_narrow(view(), narrow_->data());
   }
-  tissue::Network view() { return {&record_, records_, inputs, weights_.data()}; }
+  tissue::Network view() {
+    return {&record_, records_, inputs, weights_.data(), narrow_ ? narrow_->data() : nullptr};
+  }
   pack::NetworkRecord& record() { return record_; }
   std::vector<pack::InputRecord> inputs;
 
@@ -96,6 +102,7 @@ class PackedNetwork {
   pack::NetworkRecord record_;
   std::vector<pack::LayerRecord> records_;
   Floats weights_;
+  std::unique_ptr<Floats> narrow_;
   size_t end_ = 0;
 };
 

@@ -9,6 +9,7 @@
 #include "pack/reader.hpp"
 #include "tests/simd/every_isa.hpp"
 #include "tests/simd/test_data.hpp"
+#include "tissue/narrow_layer.hpp"
 #include "tissue/network.hpp"
 
 using namespace sinew;
@@ -39,6 +40,9 @@ struct Golden {
     INFO(status.message);
     REQUIRE(status.ok());
     network = {view.network, view.layers, view.inputs, view.weights.data()};
+    narrow = std::make_unique<test::Floats>(tissue::narrow_floats(network));
+    tissue::pack_narrow(network, narrow->data());
+    network.narrow = narrow->data();
   }
   std::vector<std::pair<int, int>> edges() const {
     const std::vector<int32_t> flat = vectors.need("edges", {-1, 2}).as_i32();
@@ -65,7 +69,7 @@ struct Golden {
   std::vector<float> x, y, y0;
   uint32_t nodes;
   baker::GraphRows graph;
-  std::unique_ptr<test::Floats> file;
+  std::unique_ptr<test::Floats> file, narrow;
   tissue::Network network;
 };
 

@@ -106,17 +106,6 @@ std::vector<float> stepped_alone(Case& of, uint32_t nodes) {
   });
 }
 
-std::vector<float> stepped_on(const TaskHook& tasks, Case& of, uint32_t nodes) {
-  test::Floats scratch(tissue::shared_scratch_floats(of.packed.view(), nodes), 1e30f);
-  return of.stepped([&](const tissue::Graph& graph, const float* z, const float* carry, float* state) {
-    tissue::network_step_on_workers(tasks, of.packed.view(), graph, z, carry, state, scratch.data());
-  });
-}
-
-TaskHook hook_of(decltype(TaskHook::enqueue) enqueue) {
-  return {.enqueue = enqueue, .finish = [](void*, void*) {}};
-}
-
 }  // namespace
 
 // 4 and 8 floats a gate, full and not; with a wide layer before and behind; nodes that fill no tile or range.
@@ -133,28 +122,4 @@ TEST_CASE("narrow_layers_have_the_bits_of_the_general_kernels") {
       }
     }
   });
-}
-
-TEST_CASE("a_step_on_workers_has_the_bits_of_a_step_alone") {
-  const core::FloatingPointScope mode;
-  std::vector<TaskHook> hooks = {
-      {}, hook_of([](TaskHook::Task task, void* argument, uint32_t count, void*) -> void* {
-        for (uint32_t i = count; i > 0; --i) task(argument, i - 1);
-        return nullptr;
-      })};
-#ifndef __aarch64__  // QEMU's user mode does not always end a thread
-  hooks.push_back(hook_of([](TaskHook::Task task, void* argument, uint32_t count, void*) -> void* {
-    const auto every_other = [=](uint32_t first) {
-      for (uint32_t i = first; i < count; i += 2) task(argument, i);
-    };
-    const std::jthread odd(every_other, 1u);
-    every_other(0);
-    return nullptr;
-  }));
-#endif
-  for (const uint32_t nodes : {2u, 49u, 48u * tissue::kNetworkShares + 5}) {
-    Case of(nodes, {33, 8, 3}, true);
-    const std::vector<float> alone = stepped_alone(of, nodes);
-    for (const TaskHook& tasks : hooks) REQUIRE(stepped_on(tasks, of, nodes) == alone);
-  }
 }

@@ -153,52 +153,19 @@ TEST_CASE("it_takes_nothing_of_the_budget") {
   CHECK(stage.report(1).dormant);
 }
 
-TEST_CASE("what_fell_asleep_below_its_best_has_it_once_there_is_room") {
+TEST_CASE("what_fell_asleep_below_its_best_sleeps_on_in_the_tier_that_it_has") {
   Stage stage(3, in_work_units());
   REQUIRE(stage.world.set_budget_us(0.95f * test::tier_cost_us(Tier::kNetwork)).ok());
   stage.play(walk_and_stand, 30);
   const FrameReport poor = stand(stage);
   REQUIRE(poor.instances_dormant == 3);
   REQUIRE(poor.instances_modal == 3);
+  const std::vector<float> before = stage.read();
   REQUIRE(stage.world.set_budget_us(std::numeric_limits<float>::infinity()).ok());
-  for (uint32_t raised = 1; raised <= 3; ++raised) CHECK(stand(stage).instances_network == raised);
-}
-
-TEST_CASE("one_that_was_to_be_raised_and_is_late_sleeps_on_as_it_was") {
-  world::Asset asset;
-  world::Instance block;
-  REQUIRE(world::open_asset(test::block_pack().bytes(), &asset).ok());
-  REQUIRE(world::make_instance(asset, {}, &block).ok());
-  const auto step = [&](Tier tier, uint64_t deadline_ns) {
-    block.plan = {.ticks = {.ticks = 1, .first_tick_s = asset.tick_s}, .dt_s = asset.tick_s, .tier = tier};
-    world::step_instance(
-        block, {.clock = {}, .profiler = {}, .deadline_ns = deadline_ns, .sleep_tolerance = kTolerance});
-  };
-  std::ranges::copy(scenes::bind_pose().joints, block.next_joints);
-  block.state->has_next = 1;
-  for (int tick = 0; tick < 600; ++tick) step(Tier::kModal, UINT64_MAX);
-  REQUIRE(block.state->dormant == static_cast<uint32_t>(world::Dormancy::kBelowBest));
-  step(Tier::kNetwork, 0);
-  CHECK(block.passed);
-  CHECK(block.state->held_s == 0);  // the next one's turn
-  CHECK_FALSE(block.cut);
-  CHECK(block.state->tier == Tier::kModal);
-  CHECK(block.state->dormant == static_cast<uint32_t>(world::Dormancy::kBelowBest));
-  CHECK(world::regions_asleep(block) == 2);
-}
-
-// Nothing is decided in a step without a tick; that is no reason to take what it has for its best.
-TEST_CASE("one_below_its_best_that_is_woken_and_sleeps_on_is_still_below_it") {
-  Stage stage(1, in_work_units());
-  REQUIRE(stage.world.set_budget_us(0.95f * test::tier_cost_us(Tier::kNetwork)).ok());
-  stage.play(walk_and_stand, 12);
-  REQUIRE(stage.report().dormant);
-  stage.pose(stage.blocks[0], moved(0.3));
-  stage.pose(stage.blocks[0], walk_and_stand(2));
-  stage.world.step(1e-4f);
-  REQUIRE(stage.report().dormant);
-  REQUIRE(stage.world.set_budget_us(std::numeric_limits<float>::infinity()).ok());
-  CHECK(stand(stage).instances_network == 1);
+  CHECK(stand(stage).instances_modal == 3);
+  CHECK(stage.read() == before);
+  for (const InstanceId block : stage.blocks) stage.pose(block, moved(0.3));
+  CHECK(stage.world.step(static_cast<float>(kFrame_s)).instances_network == 3);
 }
 
 TEST_CASE("before_its_first_pose_nothing_is_dormant") {
