@@ -5,10 +5,6 @@
 
 #include <algorithm>
 
-#include "baker/common/bad_input.hpp"
-#include "world/snapshot.hpp"
-#include "world/tick.hpp"
-
 namespace sinew::baker {
 namespace {
 
@@ -20,14 +16,12 @@ uint64_t thread_ns() {
 
 }  // namespace
 
-ClosedLoop::ClosedLoop(const LoadedPack& character, const TrueMotion& motion) : motion_(motion) {
-  Status status = world::open_asset(character.bytes(), &asset_);
-  if (status.ok()) status = world::make_instance(asset_, {}, &instance_);
-  if (!status.ok()) throw BadInput(status.message);
+ClosedLoop::ClosedLoop(const LoadedPack& character, const TrueMotion& motion)
+    : motion_(motion), lone_(character.bytes()) {
   step(Tier::kSkinning, 0, 0);  // the first pose was held; what the tissue feels begins with the next
 }
 
-void ClosedLoop::tick() { tick(asset_.best()); }
+void ClosedLoop::tick() { tick(lone_.asset().best()); }
 
 void ClosedLoop::tick(Tier tier, uint32_t level) {
   ++tick_;
@@ -36,32 +30,24 @@ void ClosedLoop::tick(Tier tier, uint32_t level) {
 
 void ClosedLoop::save(Checkpoint* to) const {
   to->tick = tick_;
-  to->state.resize(world::snapshot_bytes(instance_));
-  const Status status = world::save(instance_, to->state);
-  if (!status.ok()) throw BadInput(status.message);
+  to->state = lone_.save();
 }
 
 void ClosedLoop::restore(const Checkpoint& from) {
   tick_ = from.tick;
-  const Status status = world::restore(instance_, from.state);
-  if (!status.ok()) throw BadInput(status.message);
+  lone_.restore(from.state);
 }
 
 // A step of so many ticks, ending at the pose of tick_; a guard may have ruled the tier out, as in
 // world/step.cpp.
 void ClosedLoop::step(Tier tier, uint32_t level, uint32_t ticks) {
-  world::InstanceState& state = *instance_.state;
-  std::ranges::copy(motion_.joints(tick_), instance_.next_joints);
-  state.next_root = motion_.root(tick_);
-  state.has_next = 1;
+  const world::InstanceState& state = *lone_.instance().state;
+  std::ranges::copy(motion_.joints(tick_), lone_.joints().begin());
+  lone_.root() = motion_.root(tick_);
   if (tier == Tier::kNetwork && state.fallback_ticks > 0) tier = Tier::kModal;
   if (state.restarting != 0) tier = Tier::kSkinning;
-  instance_.plan = {.ticks = {.ticks = ticks, .first_tick_s = asset_.tick_s},
-                    .dt_s = asset_.tick_s,
-                    .tier = tier,
-                    .level = level};
   const uint64_t start_ns = thread_ns();
-  world::step_instance(instance_, {});
+  lone_.step({.tier = tier, .level = level}, ticks);
   step_ns_ = thread_ns() - start_ns;
 }
 

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "baker/common/lone_instance.hpp"
 #include "baker/programs/loaded_pack.hpp"
 #include "baker/programs/true_motion.hpp"
-#include "world/instance.hpp"
 
 namespace sinew::baker {
 
@@ -15,8 +15,6 @@ namespace sinew::baker {
 class ClosedLoop {
  public:
   ClosedLoop(const LoadedPack& character, const TrueMotion& motion);
-  ClosedLoop(const ClosedLoop&) = delete;
-  ClosedLoop& operator=(const ClosedLoop&) = delete;
 
   void tick();  // to the motion's next tick; as many as it has
   // In this tier, which may change from tick to tick, on a level of control graphs.
@@ -28,22 +26,21 @@ class ClosedLoop {
   };
   void save(Checkpoint* to) const;
   void restore(const Checkpoint& from);
-  const world::Instance& instance() const { return instance_; }
+  const world::Instance& instance() const { return lone_.instance(); }
   uint64_t step_ns() const { return step_ns_; }  // of the last tick, the thread's own time
   // [nodes][3], metres along each node's frame.
-  const float* displacement() const { return instance_.u[0]; }
-  const tissue::Network& network() const { return asset_.network; }
-  float* network_state() { return instance_.network_state; }
+  const float* displacement() const { return lone_.instance().u[0]; }
+  const tissue::Network& network() const { return lone_.asset().network; }
+  float* network_state() { return lone_.instance().network_state; }
   // Nodes held at their limit, and times that the network was given up, so far.
-  uint32_t held() const { return instance_.state->displacement_clamps; }
-  uint32_t fallbacks() const { return instance_.state->fallbacks + instance_.state->restarts; }
+  uint32_t held() const { return lone_.instance().state->displacement_clamps; }
+  uint32_t fallbacks() const { return lone_.instance().state->fallbacks + lone_.instance().state->restarts; }
 
  private:
   void step(Tier tier, uint32_t level, uint32_t ticks);
 
   const TrueMotion& motion_;
-  world::Asset asset_;
-  world::Instance instance_;
+  LoneInstance lone_;
   size_t tick_ = 0;
   uint64_t step_ns_ = 0;
 };

@@ -10,7 +10,7 @@
 
 #include "perf/help.hpp"
 #include "perf/scale/stopwatch.hpp"
-#include "rods/default_settings.hpp"
+#include "rods/rod_batch.hpp"
 #include "simd/isa.hpp"
 #include "tests/scenes/hair_on_head.hpp"
 
@@ -41,7 +41,7 @@ class Run {
       : hair_(hair),
         with_(with),
         turning_(turning),
-        batch_(hair.batch(rods::default_settings({.segments = 16, .young_pa = 1e6f, .contacts = true}))) {
+        batch_(hair.batch({.start = rods::RodStart::kContinued})) {
     ok_ = rods::RodCollider::create(batch_, {.rods_collide = with == With::kHeadAndRods}, &collider_).ok();
   }
 

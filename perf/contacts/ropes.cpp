@@ -112,7 +112,7 @@ Measured run_rods(const Obstacle& obstacle, uint32_t ropes) {
   test::RopeInBullet rope;
   rope.segments = segments_of(0, ropes);
   for (uint32_t r = 1; r < ropes; ++r) rope.others.push_back(segments_of(r, ropes));
-  const rods::RodSettings settings = rods::default_settings({.segments = kSegments, .contacts = true});
+  const rods::RodSettings settings = {.start = rods::RodStart::kContinued};
   const Status status = rope.create({.world = &world.world}, false, settings);
   if (!status.ok()) throw std::runtime_error(status.message);
   const auto take_step = [&] {

@@ -15,28 +15,20 @@
 #include <stdexcept>
 #include <string>
 
+#include "baker/common/lone_instance.hpp"
 #include "perf/frames/level_name.hpp"
-#include "perf/scale/require.hpp"
 #include "samples/demo/trajectory.hpp"
-#include "world/instance.hpp"
-#include "world/read.hpp"
-#include "world/snapshot.hpp"
-#include "world/tick.hpp"
 
 namespace {
 
 using namespace sinew;
-using perf::require;
 
 constexpr uint32_t kApart = 7, kSettled = 2 * kApart;  // ticks
 constexpr uint32_t kGaps[] = {1, 2, 3, 8, 40};
 constexpr std::array<uint32_t, 3> kEnds = {4, 12, 40};  // of what is told after a gap
 using Shares = std::array<double, 1 + kEnds.size()>;
 
-struct Way {
-  Tier tier;
-  uint32_t level;
-};
+using Way = baker::LoneInstance::Plan;
 
 // Of a tick.
 struct Seen {
@@ -46,55 +38,36 @@ struct Seen {
 
 class Player {
  public:
-  Player(const demo::CharacterFile& character, const demo::Trajectory& truth) : truth_(truth) {
-    require(world::open_asset(character.file.bytes(), &asset_));
-    require(world::make_instance(asset_, {}, &instance_));
-    shown_.resize(asset_.vertex_count());
-    true_.resize(asset_.vertex_count());
-  }
+  Player(const demo::CharacterFile& character, const demo::Trajectory& truth)
+      : truth_(truth), lone_(character.file.bytes()), true_(asset().vertex_count()) {}
   Seen step(const Way& way) {
     const double time_s = ++tick_ / truth_.rate_hz();
-    truth_.pose_at(time_s, {instance_.next_joints, asset_.pack.joints.size()}, &instance_.state->next_root);
-    instance_.state->has_next = 1;
-    instance_.plan = {.ticks = {.ticks = 1, .first_tick_s = asset_.tick_s},
-                      .dt_s = asset_.tick_s,
-                      .tier = way.tier,
-                      .level = way.level};
-    world::step_instance(instance_, {});
-    return {error_mm(time_s), displacement()};
+    truth_.pose_at(time_s, lone_.joints(), &lone_.root());
+    lone_.step(way);
+    return {error_mm(time_s), lone_.positions(Space::kBind)};
   }
-  std::vector<std::byte> save() const {
-    std::vector<std::byte> state(world::snapshot_bytes(instance_));
-    require(world::save(instance_, state));
-    return state;
-  }
+  std::vector<std::byte> save() const { return lone_.save(); }
   void restore(const std::vector<std::byte>& state, uint32_t tick) {
-    require(world::restore(instance_, state));
+    lone_.restore(state);
     tick_ = tick;
   }
-  const world::Asset& asset() const { return asset_; }
+  const world::Asset& asset() const { return lone_.asset(); }
   uint32_t ticks() const { return static_cast<uint32_t>(std::lround(truth_.seconds() * truth_.rate_hz())); }
 
  private:
   double error_mm(double time_s) {
-    world::read_positions(instance_, {.out = shown_.data()->data(), .capacity = asset_.vertex_count()});
+    const std::vector<float> shown = lone_.positions();
     truth_.positions_at(time_s, true_);
     double sum_m = 0;
-    for (const uint32_t v : asset_.pack.region_vertices)
-      sum_m += static_cast<double>((shown_[v] - true_[v]).norm());
-    return 1e3 * sum_m / static_cast<double>(asset_.pack.region_vertices.size());
-  }
-  std::vector<float> displacement() const {
-    std::vector<float> out(size_t{3} * asset_.vertex_count());
-    world::read_positions(instance_,
-                          {.space = Space::kBind, .out = out.data(), .capacity = asset_.vertex_count()});
-    return out;
+    for (const uint32_t v : asset().pack.region_vertices)
+      sum_m +=
+          static_cast<double>((Eigen::Map<const Eigen::Vector3f>(&shown[size_t{3} * v]) - true_[v]).norm());
+    return 1e3 * sum_m / static_cast<double>(asset().pack.region_vertices.size());
   }
 
   const demo::Trajectory& truth_;
-  world::Asset asset_;
-  world::Instance instance_;
-  std::vector<Eigen::Vector3f> shown_, true_;
+  baker::LoneInstance lone_;
+  std::vector<Eigen::Vector3f> true_;
   uint32_t tick_ = 0;
 };
 

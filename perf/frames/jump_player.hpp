@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "baker/common/lone_instance.hpp"
 #include "perf/frames/pose_tape.hpp"
-#include "world/asset.hpp"
-#include "world/instance.hpp"
 
 namespace sinew::perf {
 
@@ -33,16 +32,13 @@ class JumpPlayer {
   Mark mark() const;
   void go_back(const Mark& mark);
   size_t ticks() const;  // of the clips
-  double height_m() const { return static_cast<double>(asset_.pack.character->height_m); }
-  const world::Asset& asset() const { return asset_; }
+  double height_m() const { return lone_.height_m(); }
+  const world::Asset& asset() const { return lone_.asset(); }
 
  private:
-  void pass_by();
-
   double seconds_;
   PoseTape tape_;
-  world::Asset asset_;
-  world::Instance instance_;
+  baker::LoneInstance lone_;
   size_t tick_ = 0;
 };
 

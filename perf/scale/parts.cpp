@@ -4,7 +4,7 @@
 // clips. A part that goes on from its own answer settles; what it costs does not depend on that.
 #include <cstring>
 
-#include "baker/common/bad_input.hpp"
+#include "baker/common/lone_instance.hpp"
 #include "core/floating_point.hpp"
 #include "perf/kernels/fma_peak.hpp"
 #include "perf/scale/crowd.hpp"
@@ -18,7 +18,6 @@
 #include "world/blend.hpp"
 #include "world/publish.hpp"
 #include "world/simulate.hpp"
-#include "world/tick.hpp"
 
 namespace sinew::perf {
 namespace {
@@ -29,22 +28,13 @@ constexpr double kTick_s = 1.0 / 60;
 // An instance outside a world, so that its parts can be called one by one.
 class Subject {
  public:
-  explicit Subject(const demo::CharacterFile& character) : motion_(demo::make_motion(character, "")) {
-    Status status = world::open_asset(character.file.bytes(), &asset_);
-    if (status.ok()) status = world::make_instance(asset_, {}, &instance_);
-    if (!status.ok()) throw baker::BadInput(status.message);
+  explicit Subject(const demo::CharacterFile& character)
+      : lone_(character.file.bytes()), motion_(demo::make_motion(character, "")) {
     for (int frame = 0; frame < kWarmFrames; ++frame) pose(), step();
   }
 
-  void pose() {
-    const std::span<Matrix34> joints(instance_.next_joints, asset_.pack.character->joint_count);
-    motion_->pose_at(kTick_s * ++frame_, joints, &instance_.state->next_root);
-    instance_.state->has_next = 1;
-  }
-  void step() {
-    instance_.plan = {.ticks = {.ticks = 1, .first_tick_s = kTick_s}, .dt_s = kTick_s, .tier = asset_.best()};
-    world::step_instance(instance_, {});
-  }
+  void pose() { motion_->pose_at(kTick_s * ++frame_, lone_.joints(), &lone_.root()); }
+  void step() { lone_.step({.tier = asset_.best()}); }
 
   void pose_nodes() {
     const pack::PackView& pack = asset_.pack;
@@ -77,11 +67,10 @@ class Subject {
     world::publish(instance_);
   }
 
-  const world::Asset& asset() const { return asset_; }
-
  private:
-  world::Asset asset_;
-  world::Instance instance_;
+  baker::LoneInstance lone_;
+  const world::Asset& asset_ = lone_.asset();
+  world::Instance& instance_ = lone_.instance();
   std::unique_ptr<demo::Motion> motion_;
   int frame_ = 0;
   float nudge_m_ = 1e-4f;

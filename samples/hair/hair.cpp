@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "rods/default_settings.hpp"
+#include "rods/rod_batch.hpp"
 #include "tests/rods/rod_scenes.hpp"
 
 namespace sinew::sample {
@@ -60,8 +60,7 @@ Hair::Hair(const HairStyle& style, Against against, size_t vertices)
     : bust_(make_bust(vertices)), strands_(groom(bust_, style)), against_(against) {
   std::vector<rods::StrandDef> defs;
   for (const auto& s : strands_) defs.push_back({s});
-  rods::RodSettings settings =
-      rods::default_settings({.segments = style.segments, .young_pa = 4e6f, .contacts = true});
+  rods::RodSettings settings{.start = rods::RodStart::kContinued};
   settings.max_iterations = kMostIterations;
   accept(rods::RodBatch::create(defs, settings, &batch_));
   const uint32_t most = kHitsASegment * style.strands * style.segments;

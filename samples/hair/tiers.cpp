@@ -7,8 +7,6 @@
 #include <stdexcept>
 
 #include "world/rod_publish.hpp"
-#include "world/snapshot.hpp"
-#include "world/tick.hpp"
 
 namespace sinew::sample {
 namespace {
@@ -41,10 +39,8 @@ TieredHair::TieredHair(const HairStyle& style, size_t vertices)
   pack_ = copied(bytes);
   skin_ = skin_of(bust_, &skin_id_);
   looked_at_ = skin_of(bust_, &looked_id_);
-  accept(world::open_asset({pack_.data(), bytes.size()}, &asset_));
-  InstanceDef def;
-  def.contacts = {.own_body = true, .surface = &skin_};
-  accept(world::make_instance(asset_, def, &instance_));
+  lone_ = std::make_unique<baker::LoneInstance>(std::span(pack_.data(), bytes.size()),
+                                                ContactDef{.own_body = true, .surface = &skin_});
 }
 
 void TieredHair::step(Touches touches, bool measures) {
@@ -52,17 +48,12 @@ void TieredHair::step(Touches touches, bool measures) {
   const Turning turning = turning_at(time_s());
   const std::vector<float> skin = haired_skin(bust_, turning);
   const double begin_us = thread_us();
-  accept(skin_.move_surface(skin_id_, {.places_m = skin, .dt_s = static_cast<float>(asset_.tick_s)}));
+  accept(skin_.move_surface(skin_id_, {.places_m = skin, .dt_s = static_cast<float>(lone_->tick_s())}));
   if (touches == Touches::kSkin) measure_.refit_us.push_back(thread_us() - begin_us);
-  std::ranges::copy(haired_pose(bones_, turning), instance_.next_joints);
-  instance_.state->has_next = 1;
-  instance_.plan = {.ticks = {.ticks = 1, .first_tick_s = asset_.tick_s},
-                    .dt_s = asset_.tick_s,
-                    .tier = Tier::kModal,
-                    .level = touches == Touches::kSkin ? 0u : 1u};
-  world::step_instance(instance_, {});
+  std::ranges::copy(haired_pose(bones_, turning), lone_->joints().begin());
+  lone_->step({.tier = Tier::kModal, .level = touches == Touches::kSkin ? 0u : 1u});
   ++measure_.steps;
-  measure_.rods_us.push_back(1e-3 * static_cast<double>(instance_.times.rods_ns));
+  measure_.rods_us.push_back(1e-3 * static_cast<double>(lone_->instance().times.rods_ns));
   const InstanceReport told = report();
   measure_.contacts += told.rod_contacts;
   measure_.contacts_most = std::max<uint64_t>(measure_.contacts_most, told.rod_contacts);
@@ -74,7 +65,7 @@ void TieredHair::step(Touches touches, bool measures) {
 }
 
 TieredHair::Places TieredHair::places() const {
-  const Matrix34* joints = world::shown_joints(instance_) + kBustJoints;
+  const Matrix34* joints = world::shown_joints(lone_->instance()) + kBustJoints;
   Places out;
   for (size_t b = 0; b < bones_.size(); ++b) {
     out.push_back(moved(joints[b], Eigen::Vector3d::Zero()));
@@ -90,7 +81,7 @@ void TieredHair::look() {
     ContactProbe probe{.radius_m = bones_[b].radius_m};
     for (size_t e = 0; e < 2; ++e)
       for (double(*at)[3] : {probe.start_m, probe.end_m}) std::copy_n(ends[2 * b + e].data(), 3, at[e]);
-    const uint32_t found = looked_at_.find({&probe, 1}, static_cast<float>(asset_.tick_s), hits);
+    const uint32_t found = looked_at_.find({&probe, 1}, static_cast<float>(lone_->tick_s()), hits);
     ++measure_.looked_at;
     for (const ContactHit& hit : std::span(hits).first(std::min(found, kHitsAtOnce))) {
       const double deep = -hit.gap_m / static_cast<double>(probe.radius_m);
@@ -100,14 +91,10 @@ void TieredHair::look() {
   }
 }
 
-TieredHair::Mark TieredHair::mark() const {
-  std::vector<std::byte> state(world::snapshot_bytes(instance_));
-  accept(world::save(instance_, state));
-  return {std::move(state), tick_};
-}
+TieredHair::Mark TieredHair::mark() const { return {lone_->save(), tick_}; }
 
 void TieredHair::go_back(const Mark& mark) {
-  accept(world::restore(instance_, mark.state));
+  lone_->restore(mark.state);
   tick_ = mark.tick;
   accept(skin_.move_surface(skin_id_, {.places_m = haired_skin(bust_, turning_at(time_s()))}));
 }

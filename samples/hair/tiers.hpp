@@ -1,14 +1,15 @@
 // tiers.hpp  Hair of a character whose control graph changes: on its skin where the graph affords it, else on
 // capsules.
 #pragma once
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "baker/common/lone_instance.hpp"
 #include "core/aligned_block.hpp"
 #include "samples/hair/character.hpp"
 #include "samples/hair/hair.hpp"
-#include "world/instance.hpp"
 
 namespace sinew::sample {
 
@@ -31,11 +32,11 @@ class TieredHair {
   Mark mark() const;
   void go_back(const Mark& mark);
 
-  double time_s() const { return tick_ * asset_.tick_s; }
+  double time_s() const { return tick_ * lone_->tick_s(); }
   const Bust& bust() const { return bust_; }
   const Locks& locks() const { return locks_; }
-  double height_m() const { return static_cast<double>(asset_.pack.character->height_m); }
-  InstanceReport report() const { return world::describe(instance_, {}); }
+  double height_m() const { return lone_->height_m(); }
+  InstanceReport report() const { return world::describe(lone_->instance(), {}); }
   // Since the last call.
   HairMeasure take_measure() { return std::exchange(measure_, {}); }
 
@@ -49,8 +50,7 @@ class TieredHair {
   core::AlignedBlock pack_;
   SurfaceContacts skin_, looked_at_;
   SurfaceId skin_id_, looked_id_;
-  world::Asset asset_;
-  world::Instance instance_;
+  std::unique_ptr<baker::LoneInstance> lone_;
   uint32_t tick_ = 0;
   HairMeasure measure_;
 };

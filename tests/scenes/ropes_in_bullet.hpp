@@ -6,7 +6,7 @@
 
 #include "bullet/touch.hpp"
 #include "rods/collider.hpp"
-#include "rods/default_settings.hpp"
+#include "rods/rod_batch.hpp"
 #include "sinew/bullet.hpp"
 #include "tests/scenes/bullet_world.hpp"
 #include "tests/scenes/rod_through.hpp"

@@ -10,11 +10,13 @@ using namespace sinew::baker;
 
 namespace {
 
-Row row(const std::string& name, const std::string& kind, Tier tier, double us, double ratio) {
+Row row(const std::string& name, const std::string& kind, Tier tier, double us, double ratio,
+        uint32_t level = 0) {
   Row out;
   out.name = name;
   out.kind = kind;
   out.tier = tier;
+  out.level = level;
   out.warm = {us, 2 * us, us};
   out.error.ratio = ratio;
   out.error.mean_mm = 10 * ratio;
@@ -24,9 +26,9 @@ Row row(const std::string& name, const std::string& kind, Tier tier, double us, 
 std::vector<Row> rows() {
   return {row("skinning", "tier", Tier::kSkinning, 2, 1),
           row("extrapolate", "tier", Tier::kExtrapolate, 1, 0.01),
-          row("coarse", "tier", Tier::kModal, 40, 0.4),
+          row("coarser", "tier", Tier::kModal, 40, 0.4, 1),
           row("modal", "tier", Tier::kModal, 30, 0.2),
-          row("modal 2", "tier", Tier::kModal, 35, 0.25),
+          row("coarsest", "tier", Tier::kModal, 35, 0.25, 2),
           row("network", "tier", Tier::kNetwork, 100, 0.1),
           row("cheap", "variant", Tier::kNetwork, 25, 0.05),
           row("dear", "variant", Tier::kNetwork, 99, 0.06),
@@ -61,7 +63,7 @@ TEST_CASE("dominated_tiers_are_not_baked_but_what_others_fall_back_to_is") {
   const std::vector<pack::TierRecord> tiers = tier_records(all);
   std::vector<uint32_t> kept;
   for (const pack::TierRecord& tier : tiers) kept.push_back(tier.tier);
-  CHECK(kept == std::vector<uint32_t>{0, 1, 2, 3, 4});
+  CHECK(kept == std::vector<uint32_t>{0, 1, 2, 4, 4});
   CHECK(tiers[0].cost_us == 2);  // what every step takes
   CHECK(tiers[1].cost_us == 0);  // beyond it, and never less than nothing
   CHECK(tiers[2].cost_us == 98);

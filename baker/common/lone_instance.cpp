@@ -1,0 +1,65 @@
+// lone_instance.cpp  see lone_instance.hpp.
+#include "baker/common/lone_instance.hpp"
+
+#include "baker/common/bad_input.hpp"
+#include "frame/front.hpp"
+#include "world/hidden.hpp"
+#include "world/plan_row.hpp"
+#include "world/read.hpp"
+#include "world/snapshot.hpp"
+#include "world/tick.hpp"
+
+namespace sinew::baker {
+namespace {
+
+void accept(const Status& status) {
+  if (!status.ok()) throw BadInput(status.message);
+}
+
+}  // namespace
+
+LoneInstance::LoneInstance(std::span<const std::byte> pack, const ContactDef& contacts) {
+  accept(world::open_asset(pack, &asset_));
+  InstanceDef def;
+  def.contacts = contacts;
+  accept(world::make_instance(asset_, def, &instance_));
+}
+
+std::span<Matrix34> LoneInstance::joints() {
+  return {instance_.next_joints, asset_.pack.character->joint_count};
+}
+
+void LoneInstance::step(const Plan& plan, uint32_t ticks) {
+  instance_.state->has_next = 1;
+  instance_.plan = {.ticks = {.ticks = ticks, .first_tick_s = asset_.tick_s},
+                    .dt_s = asset_.tick_s,
+                    .tier = plan.tier,
+                    .level = frame::is_simulated(plan.tier) ? plan.level : instance_.state->level};
+  world::step_instance(instance_, {.clock = {}, .profiler = {}, .sleep_tolerance = sleep_tolerance});
+}
+
+void LoneInstance::step_hidden() {
+  instance_.state->has_next = 1;
+  if (instance_.state->hidden == 0) world::hide(instance_);
+  world::PlanRow row;
+  row.state = instance_.state;
+  world::copy_to_row(instance_, &row);
+  world::pass_by({.ticks = 1}, row);
+  world::keep_hidden_ticks(row);
+}
+
+std::vector<float> LoneInstance::positions(Space space) const {
+  std::vector<float> out(size_t{3} * asset_.vertex_count());
+  world::read_positions(instance_, {.space = space, .out = out.data(), .capacity = asset_.vertex_count()});
+  return out;
+}
+
+std::vector<std::byte> LoneInstance::save() const {
+  std::vector<std::byte> state(world::snapshot_bytes(instance_));
+  accept(world::save(instance_, state));
+  return state;
+}
+
+void LoneInstance::restore(std::span<const std::byte> state) { accept(world::restore(instance_, state)); }
+
+}  // namespace sinew::baker
