@@ -50,7 +50,7 @@ set -m  # a process group of its own, so that nothing of it goes on when this sc
 the_rest >"$out/the_rest.txt" 2>&1 &
 the_rest_id=$!
 set +m
-trap 'kill -- "-$the_rest_id" 2>/dev/null || true' EXIT
+trap 'kill -- "-$the_rest_id" 2>/dev/null || true; cat "$out/the_rest.txt" >&2; rm -f "$out/the_rest.txt"' EXIT
 
 newer "$out/hop.truth.safetensors" "$out/creature.glb" "$tissue" || {
   echo "Simulating the ground truth of the hop (once)"
@@ -60,7 +60,7 @@ newer "$out/hop.truth.safetensors" "$out/creature.glb" "$tissue" || {
 quality=(--view front --width 360 --height 400 --samples 4)
 newer "$out/pictures/contact_sheet.png" "$out/creature.sinew" "$out/hop.truth.safetensors" "$bin/sinew-demo" ||
   "$bin/sinew-demo" "$out/creature.sinew" --seconds 3 --truth "$out/hop.truth.safetensors" --frames "$out/pictures" --picture-fps 20 "${quality[@]}" >/dev/null
-wait "$the_rest_id" || { cat "$out/the_rest.txt" >&2; exit 1; }
+wait "$the_rest_id"  # where it failed, the trap says why
 trap - EXIT
 cat "$out/the_rest.txt"
 rm "$out/the_rest.txt"

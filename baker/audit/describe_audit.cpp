@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kTierNames[] = {"skinning", "extrapolate", "network", "spring", "modal"};
+constexpr const char* kTierNames[] = {"skinning", "extrapolate", "network", "", "modal"};
 
 Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 

@@ -1,7 +1,7 @@
 // lone_instance.hpp  One instance of a character outside a world: stepped a tick at a time in the tier that
 // it is told, where a world's scheduler would choose.
 //
-// What measures, draws and tests single tiers is built on it; nothing else drives world::Instance by hand.
+// What measures, draws and tests single tiers is built on it; nothing else steps a world::Instance by hand.
 #pragma once
 #include <cstddef>
 #include <cstdint>

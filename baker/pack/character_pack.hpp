@@ -12,8 +12,8 @@
 namespace sinew::baker {
 
 inline constexpr double kClipRateHz = 60;
-// The whole file; `modes`: one basis a region; `coarser`: control graphs beside it, each with fewer nodes
-// than the one before. Without weights (null) it has the tier modal, at 60 Hz. Beyond
+// The whole file; `modes`: one basis a region; `coarser`: control graphs beside it, each with fewer nodes,
+// where it has any, than the one before. Without weights (null) it has the tier modal, at 60 Hz. Beyond
 // network_pack's keys, reads from the weights' metadata:
 //   frame, base          must be "bent" and "modal_2" (bodies' whole modes; before: each region's own): what
 //                        the network was trained on

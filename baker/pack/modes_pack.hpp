@@ -28,9 +28,9 @@ inline constexpr double kRidge = 1e-3;
 // numbers that are not finite.
 void check_modes(const TissueLayout& layout, const std::vector<ModalBasis>& modes);
 
-// Behind what the sections kRegionModes, kModeMatrices and kCompliance hold, a control graph's part; with the
-// first, and kModes. `modes` has one basis a region. Returns the floats of the matrices. Throws
-// BadInput as check_modes does.
+// Behind what the sections kRegionModes and kModeMatrices hold, a control graph's part; with the first,
+// kModes as well. `modes` has one basis a region. Returns the floats of the matrices. Throws BadInput as
+// check_modes does.
 uint64_t add_modes(const TissueLayout& layout, const std::vector<ModalBasis>& modes, double rate_hz,
                    bool first, PackWriter& pack);
 

@@ -79,6 +79,7 @@ void LoadedPack::open(std::span<const std::byte> bytes, const std::string& path)
   bytes_ = bytes;
   const tissue::Network floats = network();
   narrow_ = core::AlignedBlock(tissue::narrow_floats(floats) * sizeof(float));
+  if (!narrow_.data()) throw std::bad_alloc();
   tissue::pack_narrow(floats, reinterpret_cast<float*>(narrow_.data()));
 }
 

@@ -191,7 +191,7 @@ void write_chart(const std::string& stem, const Measured& measured) {
   std::vector<double> costs, ratios;
   for (const Row& row : measured.rows) {
     if (!row.costs()) continue;
-    costs.push_back(std::max(row.warm.mean_us, 1e-3));
+    costs.push_back(std::max(row.warm.p50_us, 1e-3));
     ratios.push_back(std::max(row.error.ratio, 1e-6));
   }
   const Axis x = axis_of(costs, kLeft, kRight);
@@ -202,7 +202,7 @@ void write_chart(const std::string& stem, const Measured& measured) {
   std::vector<Dot> dots;
   for (const Row& row : measured.rows)
     if (row.costs())
-      dots.push_back({{x.at(std::max(row.warm.mean_us, 1e-3)), y.at(std::max(row.error.ratio, 1e-6))}, &row});
+      dots.push_back({{x.at(std::max(row.warm.p50_us, 1e-3)), y.at(std::max(row.error.ratio, 1e-6))}, &row});
   const std::vector<Point> front = front_of(dots);
   paper.line(front, 2, kTier);
   for (const auto& [at, row] : dots) paper.dot(at, color_of(*row), is_on_front(*row));

@@ -7,8 +7,8 @@ namespace {
 bool is_simulated(const Row& row) { return row.costs() && row.tier >= Tier::kNetwork; }
 
 bool dominates(const Row& a, const Row& b) {
-  const bool no_worse = a.warm.mean_us <= b.warm.mean_us && a.error.ratio <= b.error.ratio;
-  return no_worse && (a.warm.mean_us < b.warm.mean_us || a.error.ratio < b.error.ratio);
+  const bool no_worse = a.warm.p50_us <= b.warm.p50_us && a.error.ratio <= b.error.ratio;
+  return no_worse && (a.warm.p50_us < b.warm.p50_us || a.error.ratio < b.error.ratio);
 }
 
 // The nearest to the truth of those that do.

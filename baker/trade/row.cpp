@@ -7,7 +7,7 @@ namespace sinew::baker {
 namespace {
 
 nlohmann::ordered_json to_json(const Cost& cost) {
-  return {{"p50_us", cost.p50_us}, {"p99_us", cost.p99_us}, {"mean_us", cost.mean_us}};
+  return {{"p50_us", cost.p50_us}, {"p99_us", cost.p99_us}};
 }
 
 nlohmann::ordered_json to_json(const Spread& spread) {
@@ -40,7 +40,7 @@ class Reader {
     is_whole_ &= has(key);
     if (!is_whole_) return {};
     Reader inner(json_.at(key));
-    const Cost out{inner.number("p50_us"), inner.number("p99_us"), inner.number("mean_us")};
+    const Cost out{inner.number("p50_us"), inner.number("p99_us")};
     is_whole_ &= inner.is_whole();
     return out;
   }
@@ -64,7 +64,7 @@ class Reader {
   bool is_whole_ = true;
 };
 
-bool took_time(const Cost& cost) { return cost.p50_us > 0 && cost.p99_us > 0 && cost.mean_us > 0; }
+bool took_time(const Cost& cost) { return cost.p50_us > 0 && cost.p99_us > 0; }
 
 bool is_possible(const Row& row) {
   const bool is_kind = row.kind == "tier" || row.kind == "variant" || row.kind == "baseline";

@@ -12,7 +12,7 @@ namespace sinew::baker {
 
 // Of one step of one instance, microseconds of the thread's own time.
 struct Cost {
-  double p50_us = 0, p99_us = 0, mean_us = 0;
+  double p50_us = 0, p99_us = 0;
 };
 
 struct Row {

@@ -11,16 +11,13 @@
 namespace sinew::baker {
 namespace {
 
-bool is_kept(const Row& row) {
-  const bool needed = row.level == 0;
-  return row.kind == "tier" && (needed || row.dominated_by.empty());
-}
+bool is_kept(const Row& row) { return row.kind == "tier" && (row.level == 0 || row.dominated_by.empty()); }
 
 // base_us: what a step takes without simulation.
 pack::TierRecord to_record(const Row& row, double base_us) {
   const auto number = [](double value) { return static_cast<float>(std::max(0.0, value)); };
   return {.tier = static_cast<uint32_t>(row.tier),
-          .cost_us = number(row.warm.mean_us - base_us),
+          .cost_us = number(row.warm.p50_us - base_us),
           .cost_p99_us = number(row.warm.p99_us - base_us),
           .error_mm = number(row.error.mean_mm),
           .error_ratio = number(row.error.ratio),
@@ -35,7 +32,7 @@ pack::TierRecord to_record(const Row& row, double base_us) {
 std::vector<pack::TierRecord> tier_records(const std::vector<Row>& rows) {
   double base_us = 0;
   for (const Row& row : rows)
-    if (row.kind == "tier" && row.tier == Tier::kSkinning) base_us = row.warm.mean_us;
+    if (row.kind == "tier" && row.tier == Tier::kSkinning) base_us = row.warm.p50_us;
   std::vector<pack::TierRecord> out;
   for (const Row& row : rows)
     if (is_kept(row)) out.push_back(to_record(row, row.tier == Tier::kSkinning ? 0 : base_us));

@@ -147,9 +147,7 @@ bool is_known_or_nan(float value) noexcept {
 
 Status check_tier(const PackView& pack, const TierRecord& record, size_t index) noexcept {
   constexpr auto kFirstSimulated = static_cast<uint32_t>(Tier::kNetwork);
-  constexpr uint32_t kWasSpring = 3;
-  if (record.tier >= kTierCount || record.tier == kWasSpring)
-    return corrupt("tier %zu: %u is not known", index, record.tier);
+  if (!is_tier(record.tier)) return corrupt("tier %zu: %u is not known", index, record.tier);
   if (record.level >= pack.level_count || (record.level > 0 && record.tier < kFirstSimulated))
     return corrupt("tier %zu: level %u", index, record.level);
   if (!std::isfinite(record.cost_us) || record.cost_us < 0 || !is_known_or_nan(record.cost_p99_us))

@@ -316,9 +316,9 @@ static_assert(sizeof(NodeRecord) == 80);
 inline constexpr uint32_t kMostGraphLevels = 4;  // of control graphs
 
 // A control graph. Each level is a whole one: kRegions, kNodes, kGraphRows, kGraphColumns, kGraphValues,
-// kCarry, kRegionModes, kModeMatrices and kCompliance hold one level's part after the other, finest first,
+// kCarry, kRegionModes and kModeMatrices hold one level's part after the other, finest first,
 // and what is an index or an offset there counts from the beginning of its level's part. Regions, the
-// vertices that each carries, kModes is the same for all: a level's modes are the finest
+// vertices that each carries, and kModes are the same for all: a level's modes are the finest
 // level's, seen at its own nodes, and nodes are held and turned alike. A level's nodes are nodes of the next
 // finer one, ascending in kPicks, region by region. In kSpread, level after level of the coarser ones and
 // region after region, how their displacement spreads over the next finer level's: [nodes of the
@@ -430,5 +430,7 @@ struct TierRecord {
   uint32_t worst_clip;      // that motion, of kClips; kNoIndex: no clip of this pack, or not measured
 };
 static_assert(sizeof(TierRecord) == 36);
+// 3 was a model of springs.
+constexpr bool is_tier(uint32_t tier) noexcept { return tier < 5 && tier != 3; }
 
 }  // namespace sinew::pack

@@ -28,6 +28,9 @@ Status check_settings(const RodSettings& s) {
     return bad_setting("teleport_lengths", static_cast<double>(s.teleport_lengths),
                        "a finite number above 0");
   }
+  if (s.correction.correct && s.start != RodStart::kContinued) {
+    return bad_setting("start", static_cast<double>(s.start), "kContinued, which a correction corrects");
+  }
   for (const float g : s.gravity_m_s2) {
     if (!std::isfinite(g)) return bad_setting("gravity_m_s2", static_cast<double>(g), "finite numbers");
   }

@@ -22,7 +22,7 @@ struct Network {  // views into a pack, of float32, and of what is packed once; 
   std::span<const pack::LayerRecord> layers;
   std::span<const pack::InputRecord> inputs;
   const float* weights = nullptr;
-  const float* narrow = nullptr;  // tissue/narrow_layer.hpp; null where no layer is narrow
+  const float* narrow = nullptr;  // tissue/narrow_layer.hpp
 };
 
 // Floats of state for node_count nodes: for each layer h, c, y as [node_count][padded], where y of a hidden

@@ -1,7 +1,7 @@
 // blend_pace.hpp  How fast simulation is blended in.
 //
 // A blend takes kBlendInTicks. To what began at rest, which swings on for longer where it began elsewhere
-// than it would have been, it takes up to kLongestBlendTicks by how far they move a node in a tick; one that
+// than it would have been, it takes up to kLongestBlendTicks by how far it moves a node in a tick; one that
 // began from what was shown ends half as fast where something moves. Where it would move a node further in a
 // tick than simulation itself does by more than a share of the character's height, it goes on by less than a
 // tick: at least by so much that it is over after kLongestBlendTicks. How far that is is found anew in every

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <limits>
 #include <new>
-#include <utility>
 
 #include "world/dormant.hpp"
 #include "world/hidden.hpp"

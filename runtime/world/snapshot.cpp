@@ -113,8 +113,8 @@ Status restore(Instance& instance, std::span<const std::byte> bytes) noexcept {
   }
   InstanceState state;
   std::memcpy(&state, payload.data(), sizeof state);
-  if (state.level >= instance.asset->level_count || static_cast<uint32_t>(state.tier) >= kTierCount ||
-      static_cast<uint32_t>(state.left_tier) >= kTierCount)
+  if (state.level >= instance.asset->level_count || !pack::is_tier(static_cast<uint32_t>(state.tier)) ||
+      !pack::is_tier(static_cast<uint32_t>(state.left_tier)))
     return corrupt("names a control graph or a tier that there is not");
   std::memcpy(instance.state, payload.data(), instance.state_bytes);
   restore_rods(instance, payload.data() + instance.state_bytes);

@@ -65,7 +65,7 @@ void tell(sample::TieredHair& hair, const char* name, sample::Touches touches, u
 
 void tell(const char* to, const sample::TierJump& jump, double height_m) {
   std::printf(
-      "a change %s moves the end of a bone by %.2f mm a frame beyond what both tiers do, %.3f %% of the "
+      "a change %s moves the end of a bone by %.2f mm a frame beyond what it does on either, %.3f %% of the "
       "height, and in the 44 frames after those by %.2f mm\n",
       to, 1e3 * jump.after_m, 100 * jump.after_m / height_m, 1e3 * jump.later_m);
 }
@@ -89,7 +89,7 @@ void show_tiers(const Request& request, sample::TieredHair& hair) {
     }
   }
   const std::string path = std::filesystem::path(request.folder) / "hair_tiers.png";
-  render::write_png(path, render::contact_sheet(cells, 3, "What hair touches follows the tier"));
+  render::write_png(path, render::contact_sheet(cells, 3, "What hair touches follows the control graph"));
   std::printf("%s\n", path.c_str());
 }
 

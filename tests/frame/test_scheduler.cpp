@@ -63,7 +63,7 @@ float unit(std::mt19937& random) { return std::uniform_real_distribution<float>(
 
 Front random_front(float scale_us, std::mt19937& random) {
   std::vector<Level> points;
-  for (const Tier tier : {Tier::kModal, Tier::kModal, Tier::kNetwork, Tier::kModal})
+  for (const Tier tier : {Tier::kModal, Tier::kNetwork, Tier::kModal, Tier::kNetwork})
     points.push_back({.tier = tier,
                       .tick_us = scale_us * (0.2f + 4 * unit(random)),
                       .error = 0.05f + 0.8f * unit(random)});

@@ -23,7 +23,7 @@ void bake_tiers(const CreatureHop& hop) {
     return baker::Row{.name = {},
                       .kind = "tier",
                       .tier = tier,
-                      .warm = {us, us, us},
+                      .warm = {us, us},
                       .cold = {},
                       .error = error,
                       .dominated_by = {}};

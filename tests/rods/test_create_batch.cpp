@@ -16,6 +16,10 @@ struct BadSetting {
 
 const BadSetting kBad[] = {
     {"RodSettings::start is 9", [](test::RodSettings& s) { s.start = static_cast<rods::RodStart>(9); }},
+    {"RodSettings::start is 1; give kContinued",
+     [](test::RodSettings& s) {
+       s.correction.correct = [](void*, const simd::RodJob&, const simd::RodStartJob&, uint32_t) {};
+     }},
     {"RodSettings::max_iterations is 0", [](test::RodSettings& s) { s.max_iterations = 0; }},
     {"RodSettings::max_iterations is 1001", [](test::RodSettings& s) { s.max_iterations = 1001; }},
     {"RodSettings::tolerance_rad is 0", [](test::RodSettings& s) { s.tolerance_rad = 0; }},

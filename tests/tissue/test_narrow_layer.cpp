@@ -1,9 +1,6 @@
-// test_narrow_layer.cpp  Layers of few channels have the bits of the general kernels; a step on workers those
-// of a step alone.
-#include <thread>
+// test_narrow_layer.cpp  Layers of few channels have the bits of the general kernels.
 #include <utility>
 
-#include "core/floating_point.hpp"
 #include "tests/simd/every_isa.hpp"
 #include "tests/tissue/reference_network.hpp"
 

@@ -77,7 +77,7 @@ TEST_CASE("a_region_that_is_left_out_fades_and_when_it_is_had_again_swings_as_be
 }
 
 TEST_CASE("what_begins_under_a_load_that_lasts_begins_where_it_hangs") {
-  // By a network that forgot; begun at zero, it has 0.2 too little when they are blended in.
+  // By a network that forgot; begun at zero, it has 0.2 too little when it is blended in.
   constexpr float kSwings = 0.15f;
   const auto bent = [](double time_s) { return scenes::bent_pose(0.3 * std::min(1.0, time_s)); };
   for (const Tier tier : kSimulated)

@@ -54,13 +54,18 @@ Scratch scratch_of(const ReducedNetwork& network, uint32_t node_count) {
           simd::tile_floats(static_cast<uint32_t>(widest))};
 }
 
+const LayerKernels& best_kernels() {
+  static const LayerKernels& best = *layer_kernels().front();
+  return best;
+}
+
 // What network_step is given.
 struct Step {
   const ReducedNetwork& network;
   const tissue::Graph& graph;
   const float *z, *carry;
   float *state, *scratch;
-  const LayerKernels& kernels = network.kernels ? *network.kernels : *layer_kernels().front();
+  const LayerKernels& kernels = network.kernels ? *network.kernels : best_kernels();
   Scratch sizes = scratch_of(network, graph.node_count);
   float* y_next() const { return scratch + 2 * sizes.gates; }
   float* px() const { return y_next() + sizes.y_next; }

@@ -146,7 +146,7 @@ enum class Tier : uint32_t {
   kNetwork = 2,      // the modal base, corrected by the asset's network
   kModal = 4,        // the modes of each soft part, from its flesh: no training
 };
-inline constexpr uint32_t kTierCount = 5;
+inline constexpr uint32_t kTierCount = 5;  // of values, with the one that is not used
 
 // Why an instance got what it got.
 enum class TierReason : uint32_t {

@@ -17,7 +17,7 @@ Row row(const std::string& name, const std::string& kind, Tier tier, double us, 
   out.kind = kind;
   out.tier = tier;
   out.level = level;
-  out.warm = {us, 2 * us, us};
+  out.warm = {us, 2 * us};
   out.error.ratio = ratio;
   out.error.mean_mm = 10 * ratio;
   return out;
@@ -57,7 +57,7 @@ TEST_CASE("equal_rows_do_not_dominate_each_other") {
 
 TEST_CASE("dominated_tiers_are_not_baked_but_what_others_fall_back_to_is") {
   std::vector<Row> all = rows();
-  all[3].warm.mean_us = 200;  // modal, dominated: but networks fall back to it
+  all[3].warm.p50_us = 200;  // modal, dominated: but networks fall back to it
   find_dominated(&all);
   REQUIRE(all[3].dominated_by == "network");
   const std::vector<pack::TierRecord> tiers = tier_records(all);

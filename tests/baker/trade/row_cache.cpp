@@ -25,7 +25,7 @@ Row measured_row(const std::string& name = "modal") {
   row.name = name;
   row.kind = "tier";
   row.tier = Tier::kModal;
-  row.warm = row.cold = {.p50_us = 7, .p99_us = 9, .mean_us = 7};
+  row.warm = row.cold = {.p50_us = 7, .p99_us = 9};
   row.error = {{.mean_mm = 1, .sd_mm = 2, .p95_mm = 3, .worst_mm = 4, .ratio = 0.1},
                {.mean_mm = 2, .sd_mm = 3, .p95_mm = 4, .worst_mm = 5, .ratio = 0.2}};
   return row;
@@ -50,7 +50,7 @@ TEST_CASE("rows_of_another_program_processor_instruction_set_or_source_are_not_t
     REQUIRE(made_of.contains(name));
     std::filesystem::remove(path);
     RowCache(path, made_of).add(measured_row());
-    CHECK(RowCache(path, made_of).find(measured_row())->warm.mean_us == 7);
+    CHECK(RowCache(path, made_of).find(measured_row())->warm.p50_us == 7);
     nlohmann::ordered_json another = made_of;
     another[name] = "another";
     CHECK_FALSE(RowCache(path, another).find(measured_row()));
@@ -78,14 +78,14 @@ TEST_CASE("a_row_without_its_figures_is_left_out_and_the_rows_beside_it_are_not"
     CHECK_FALSE(is_taken_up(row));
     for (const nlohmann::json& other :
          {nlohmann::json(), nlohmann::json(-1), nlohmann::json("much"), nlohmann::json::array({1}),
-          nlohmann::json(true), nlohmann::json({{"p50_us", 1}, {"p99_us", nullptr}, {"mean_us", 1}})}) {
+          nlohmann::json(true), nlohmann::json({{"p50_us", 1}, {"p99_us", nullptr}})}) {
       INFO(other.dump());
       row[key] = other;
       CHECK_FALSE(is_taken_up(row));
     }
   }
   for (const char* cost : {"warm", "cold"})
-    for (const char* of : {"p50_us", "p99_us", "mean_us"}) {
+    for (const char* of : {"p50_us", "p99_us"}) {
       nlohmann::json row = whole;
       row[cost][of] = 0;  // no step takes no time
       CHECK_FALSE(is_taken_up(row));
