@@ -41,6 +41,7 @@ struct RodSolver {
   void (*begin)(void* self, const simd::RodJob& job, uint32_t width) = nullptr;
   uint32_t (*iterate)(void* self, const simd::RodJob& job, uint32_t width) = nullptr;
   void* self = nullptr;
+  bool knows_contacts = true;  // else its batches step without a collider alone
 };
 struct RodCorrection {
   void (*correct)(void* self, const simd::RodJob& job, const simd::RodStartJob& start,
@@ -139,7 +140,8 @@ class RodBatch {
 
   // dt_s in (0, 1]; otherwise refused, and nothing moves. Allocates nothing.
   Status step(float dt_s, RodReport* report) noexcept;
-  // The same among obstacles and with one another. Refused as well: a collider made for another shape.
+  // The same among obstacles and with one another. Refused as well: a collider made for another shape, a
+  // solver that knows no contacts.
   Status step(float dt_s, RodCollider* collider, RodReport* report) noexcept;
 
   // What `from` has come to, its targets and forces too, with this batch's own settings. Refused: one not

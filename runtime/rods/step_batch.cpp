@@ -172,6 +172,10 @@ Status RodBatch::step(float dt_s, RodCollider* collider, RodReport* report) noex
                              collider->strand_count_, collider->segment_count_, strand_count_,
                              segment_count_);
   }
+  if (collider && !settings_.solver.knows_contacts) {
+    return core::make_status(StatusCode::kInvalidArgument,
+                             "RodSettings::solver knows no contacts; step the batch without a collider");
+  }
   const core::FloatingPointScope mode;
   RodReport made;
   made.teleported = teleported_;

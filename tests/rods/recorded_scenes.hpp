@@ -4,17 +4,22 @@
 
 namespace sinew::test {
 
+// Pose and linear velocity of a segment.
+inline void append_motion(const RodBatch& batch, uint32_t strand, uint32_t segment, std::vector<float>* out) {
+  const rods::SegmentPose pose = batch.pose(strand, segment);
+  for (const double x : pose.position_m) out->push_back(static_cast<float>(x));
+  out->insert(out->end(), std::begin(pose.orientation), std::end(pose.orientation));
+  const rods::SegmentVelocity v = batch.velocity(strand, segment);
+  out->insert(out->end(), std::begin(v.linear_m_s), std::end(v.linear_m_s));
+}
+
 // Poses, velocities and forces of a strand.
 inline void append_state(const RodBatch& batch, uint32_t strand, std::vector<float>* out) {
   for (uint32_t i = 0; i < batch.segment_count(); ++i) {
-    const rods::SegmentPose pose = batch.pose(strand, i);
-    const rods::SegmentVelocity v = batch.velocity(strand, i);
+    append_motion(batch, strand, i, out);
     const rods::SegmentStart joint = batch.last_forces(strand, i);
-    for (const double x : pose.position_m) out->push_back(static_cast<float>(x));
-    for (const float q : pose.orientation) out->push_back(q);
-    for (const float x : v.linear_m_s) out->push_back(x);
-    for (const float f : joint.force_n) out->push_back(f);
-    for (const float m : joint.moment_nm) out->push_back(m);
+    out->insert(out->end(), std::begin(joint.force_n), std::end(joint.force_n));
+    out->insert(out->end(), std::begin(joint.moment_nm), std::end(joint.moment_nm));
   }
 }
 
@@ -33,12 +38,9 @@ inline void append_bent(const RodSettings& settings, std::vector<float>* out) {
 inline void append_states(const RodBatch& batch, std::vector<float>* out) {
   for (uint32_t s = 0; s < batch.strand_count(); ++s) {
     for (uint32_t i = 0; i < batch.segment_count(); ++i) {
-      const rods::SegmentPose pose = batch.pose(s, i);
+      append_motion(batch, s, i, out);
       const rods::SegmentVelocity v = batch.velocity(s, i);
-      for (const double x : pose.position_m) out->push_back(static_cast<float>(x));
-      for (const float q : pose.orientation) out->push_back(q);
-      for (const float x : v.linear_m_s) out->push_back(x);
-      for (const float x : v.angular_rad_s) out->push_back(x);
+      out->insert(out->end(), std::begin(v.angular_rad_s), std::end(v.angular_rad_s));
     }
   }
 }

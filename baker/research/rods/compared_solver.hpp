@@ -12,8 +12,7 @@ enum class SolverKind : uint32_t {
   kDirect = 0,  // the runtime's own
   kCg = 1,      // conjugate gradients, preconditioned by the diagonal
   // Joint by joint (Gauss-Seidel, XPBD): a sweep costs less than an exact solution, and long or stiff strands
-  // need hundreds. What it leaves undone is stretch and bend, never momentum. It knows no contacts: not for
-  // batches that are stepped with a collider.
+  // need hundreds. What it leaves undone is stretch and bend, never momentum. It knows no contacts.
   kLocal = 2,
 };
 const char* name_of(SolverKind kind) noexcept;
@@ -22,12 +21,12 @@ const char* name_of(SolverKind kind) noexcept;
 struct ComparedSolver {
   SolverKind kind = SolverKind::kDirect;
   CgLimits cg = {};
-  uint32_t local_sweeps = 10;  // over all joints, in each iteration
+  uint32_t local_sweeps = 10;  // over all joints, in each iteration; 1 to 10000
 
   uint32_t cg_iterations = 0;  // of all strands so far
 
-  // For RodSettings::solver.
-  rods::RodSolver solver() noexcept;
+  // For RodSettings::solver. Throws BadInput for a number outside its range.
+  rods::RodSolver solver();
 };
 
 }  // namespace sinew::baker

@@ -5,8 +5,8 @@
 namespace sinew::baker {
 
 struct CgLimits {
-  float tolerance = 1e-4f;  // cg-inl.hpp; below 1e-7 floats do not follow
-  uint32_t max_iterations = 1000;
+  float tolerance = 1e-4f;         // cg-inl.hpp; 1e-7 to 1
+  uint32_t max_iterations = 1000;  // 1 to 100000
 };
 
 // A guess is the mean of the examples whose inputs are nearest.

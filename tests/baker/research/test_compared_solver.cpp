@@ -2,11 +2,31 @@
 // iterations leave.
 #include "baker/research/rods/compared_solver.hpp"
 
+#include "baker/common/bad_input.hpp"
 #include "tests/rods/recorded_scenes.hpp"
 #include "tests/simd/every_isa.hpp"
 
 using namespace sinew;
 using baker::SolverKind;
+
+TEST_CASE("numbers_outside_their_range_make_no_solver") {
+  const baker::ComparedSolver bad[] = {{.cg = {.tolerance = 0}},      {.cg = {.tolerance = std::nanf("")}},
+                                       {.cg = {.max_iterations = 0}}, {.cg = {.max_iterations = 100001}},
+                                       {.local_sweeps = 0},           {.local_sweeps = 10001}};
+  for (baker::ComparedSolver solver : bad) CHECK_THROWS_AS(solver.solver(), baker::BadInput);
+}
+
+TEST_CASE("the_local_solver_is_refused_with_a_collider_and_nothing_moves") {
+  baker::ComparedSolver solver = {.kind = SolverKind::kLocal};
+  test::RodBatch batch = test::batch_of({test::straight_rod({.segments = 4})}, {.solver = solver.solver()});
+  rods::RodCollider collider = test::collider_of(batch, {});
+  const rods::SegmentPose before = batch.pose(0, 3);
+  rods::RodReport report;
+  const Status status = batch.step(0.02f, &collider, &report);
+  CHECK(status.code == StatusCode::kInvalidArgument);
+  CHECK_THAT(status.message, Catch::Contains("knows no contacts"));
+  CHECK(test::distance(before.position_m, batch.pose(0, 3).position_m) == 0);
+}
 
 TEST_CASE("rods_have_the_same_bits_on_all_targets_with_fma_by_every_solver_in_narrow_groups_and_wide") {
   test::require_same_bits_where_fused(0x5ad359be847c9619, [](const simd::Kernels&) {
