@@ -1,10 +1,10 @@
 // test_rod_plan.cpp  Plans of rods, and what is refused of them.
 #include <catch2/catch.hpp>
-#include <filesystem>
 
 #include "baker/common/bad_input.hpp"
 #include "baker/common/write_file.hpp"
 #include "baker/rods/rod_plan.hpp"
+#include "tests/baker/common/temporary_folder.hpp"
 
 using namespace sinew;
 using Catch::Contains;
@@ -15,7 +15,8 @@ const std::string kGood =
     R"("scene": "helix", "split": "train", "segments": [10, 20], "young_pa": [1e4, 1e6], "runs": 4)";
 
 std::string refusal(const std::string& text) {
-  const std::string path = (std::filesystem::temp_directory_path() / "sinew_rod_plan.json").string();
+  const test::TemporaryFolder folder;
+  const std::string path = folder.file("plan.json");
   baker::write_file(path, text);
   try {
     baker::read_rod_plan(path);
