@@ -103,10 +103,16 @@ Recipe read_recipe(const std::string& path) {
   const JsonFile file = read_json_file(path);
   JsonSection section(file);
   Recipe recipe;
+  section.text("note", "");
   read_material(section, recipe);
   read_graph(section, recipe);
   recipe.states_regions = section.has("regions");
-  for (JsonSection& region : section.sections("regions")) recipe.regions.push_back(read_region(region));
+  for (JsonSection& region : section.sections("regions")) {
+    region.text("note", "");
+    const bool enabled = region.flag("enabled", true);
+    const RegionRecipe read = read_region(region);
+    if (enabled) recipe.regions.push_back(read);
+  }
   recipe.without_meshes = section.texts("without_meshes");
   recipe.with_meshes = section.texts("with_meshes");
   for (JsonSection& proxy : section.sections("proxies")) recipe.proxies.push_back(read_proxy(proxy));

@@ -73,7 +73,9 @@ struct Recipe {
   std::vector<std::string> with_meshes;
 };
 
-// Throws BadInput: not JSON, an unknown key (named, with the nearest known one), a number outside its range.
+// A region or rod of which "enabled" is false is read and checked, and is as if it were not there; "note" is
+// for its reader. Throws BadInput: not JSON, an unknown key (named, with the nearest known one), a number
+// outside its range.
 Recipe read_recipe(const std::string& path);
 
 }  // namespace sinew::baker

@@ -42,7 +42,12 @@ RodRecipe read_rod(JsonSection& section) {
 
 std::vector<RodRecipe> read_rod_recipes(JsonSection& section) {
   std::vector<RodRecipe> rods;
-  for (JsonSection& rod : section.sections("rods")) rods.push_back(read_rod(rod));
+  for (JsonSection& rod : section.sections("rods")) {
+    rod.text("note", "");
+    const bool enabled = rod.flag("enabled", true);
+    const RodRecipe read = read_rod(rod);
+    if (enabled) rods.push_back(read);
+  }
   return rods;
 }
 

@@ -76,6 +76,11 @@ TEST_CASE("wrong_recipes_are_refused_by_key") {
        "\"touches_body\" must be true or false"},
       {R"({"regions": [{"name": "belly", "joints": ["spine"], "touch_body": true}]})", "touches_body"},
       {R"({"touches_body": true})", "touches_body"},
+      {R"({"regions": [{"name": "belly", "joints": ["spine"], "enabled": 0}]})",
+       "\"enabled\" must be true or false"},
+      {R"({"regions": [{"name": "belly", "joints": [], "enabled": false}]})", "joints"},
+      {R"({"rods": [{"root": "tail", "enabled": false, "density_kg_m3": 0}]})", "density_kg_m3"},
+      {R"({"note": 3})", "\"note\""},
       {R"({"rods": {"root": "tail"}})", "list"},
       {R"({"rods": [{"name": "tail"}]})", "root"},
       {R"({"rods": [{"root": "tail", "radius": 0.1}]})", "radius_m"},
@@ -133,6 +138,18 @@ TEST_CASE("every_key_of_a_recipe_is_read_and_absent_ones_keep_their_default") {
   CHECK(recipe.regions[0].stiffness == 0.3);
   CHECK_FALSE(recipe.regions[0].touches_body);
   CHECK(recipe.regions[1].touches_body);
+}
+
+TEST_CASE("what_is_not_enabled_is_as_if_it_were_not_there") {
+  const Recipe recipe = read_recipe(write(R"({
+    "note": "of a test",
+    "regions": [{"name": "belly", "joints": ["spine"], "enabled": false, "note": "a doubt"},
+                {"name": "cheek", "joints": ["jaw"], "enabled": true, "note": "none"}],
+    "rods": [{"root": "tail", "enabled": false, "note": "a doubt"}]})"));
+  REQUIRE(recipe.regions.size() == 1);
+  CHECK(recipe.regions[0].name == "cheek");
+  REQUIRE(recipe.rods.has_value());
+  CHECK(recipe.rods->empty());
 }
 
 TEST_CASE("levels_take_the_place_of_one_number_of_nodes") {
