@@ -3,8 +3,8 @@
 
 namespace sinew::baker {
 
-// An edge's length over its length on the skinned surface. A painted texture is seen to smear from here on;
-// below it flesh only looks soft.
+// An edge's length over its length on the skinned surface, or over that in the bind pose where the pose
+// presses it together. A painted texture is seen to smear from here on; below it flesh only looks soft.
 inline constexpr double kMostEdgeStretch = 1.5;
 // Of rods, which turn bones and nothing else: what their skin stretches by is the file's own weights, under a
 // bend that its animator did not try.

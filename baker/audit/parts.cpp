@@ -57,6 +57,12 @@ AuditedParts find_parts(const pack::PackView& character) {
       parts.of_vertex[v] = static_cast<int>(r);
   }
   std::set<std::array<uint32_t, 2>> seen;
+  const auto length = [&](uint32_t a, uint32_t b) {
+    const float* positions = character.positions.data();
+    return std::hypot(double{positions[3 * a]} - positions[3 * b],
+                      double{positions[3 * a + 1]} - positions[3 * b + 1],
+                      double{positions[3 * a + 2]} - positions[3 * b + 2]);
+  };
   for (size_t t = 0; t + 2 < character.triangles.size(); t += 3) {
     const std::array corners = {character.triangles[t], character.triangles[t + 1],
                                 character.triangles[t + 2]};
@@ -71,7 +77,7 @@ AuditedParts find_parts(const pack::PackView& character) {
                      b = std::max(corners[k], corners[(k + 1) % 3]);
       const int of_edge = std::max(parts.of_vertex[a], parts.of_vertex[b]);
       if (of_edge != AuditedParts::kNone && seen.insert({a, b}).second)
-        parts.edges.push_back({a, b, of_edge});
+        parts.edges.push_back({a, b, of_edge, length(a, b)});
     }
   }
   return parts;

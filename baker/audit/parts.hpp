@@ -1,5 +1,6 @@
 // parts.hpp  The soft parts and rods of a pack, and what of its surface is whose.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -22,6 +23,10 @@ struct AuditedParts {
   struct Edge {
     uint32_t a, b;
     int part;
+    double bind_m;
+    // Times its length: of how it is skinned, or, where a pose presses it together, of the bind pose, in
+    // which its texture was painted.
+    double stretch(double skinned_m, double shown_m) const { return shown_m / std::max(skinned_m, bind_m); }
   };
   std::vector<AuditedPart> all;  // regions, then rods
   size_t regions = 0;

@@ -52,8 +52,8 @@ std::vector<float> redness(const AuditedParts& parts, const Player& player, doub
     const double skinned = (player.skinned().col(edge.a) - player.skinned().col(edge.b)).norm();
     if (skinned < kShortestEdge * height_m) continue;
     const double shown = (player.shown().col(edge.a) - player.shown().col(edge.b)).norm();
-    const auto here =
-        static_cast<float>(std::clamp((shown / skinned - 1.1) / (kMostEdgeStretch - 1.1), 0.0, 1.0));
+    const auto here = static_cast<float>(
+        std::clamp((edge.stretch(skinned, shown) - 1.1) / (kMostEdgeStretch - 1.1), 0.0, 1.0));
     for (const uint32_t v : {edge.a, edge.b}) red[v] = std::max(red[v], here);
   }
   return red;

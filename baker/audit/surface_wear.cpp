@@ -58,7 +58,7 @@ std::vector<Wear> surface_wear(const AuditedParts& parts, const pack::PackView& 
     if (skinned < shortest) continue;
     const double shown = (player.shown().col(edge.a) - player.shown().col(edge.b)).norm();
     double& most = wear[static_cast<size_t>(edge.part)].edge_stretch;
-    most = std::max(most, shown / skinned);
+    most = std::max(most, edge.stretch(skinned, shown));
   }
   std::vector<Eigen::Matrix3f> turns;
   for (uint32_t j = 0; j < character.joints.size(); ++j) turns.push_back(player.turn_of(j));

@@ -22,7 +22,9 @@ const std::map<std::string_view, SoftKind>& soft_words() {
     add(SoftKind::kBreast, {"breast", "breasts", "bust", "busts", "boob", "boobs", "bosom", "pectoral"});
     add(SoftKind::kGlute, {"glute", "glutes", "gluteus", "butt", "buttock", "buttocks", "bum"});
     add(SoftKind::kCheek, {"cheek", "cheeks", "jowl", "jowls"});
-    add(SoftKind::kOther, {"dewlap", "wattle", "udder", "hump"});
+    add(SoftKind::kUdder, {"udder"});
+    add(SoftKind::kHump, {"hump"});
+    add(SoftKind::kOther, {"dewlap", "wattle"});
     add(SoftKind::kEar, {"ear", "ears"});
     add(SoftKind::kTail, {"tail", "tails"});
     add(SoftKind::kHair,
@@ -78,6 +80,9 @@ const Words kHard = {"armor",    "armour",  "plate",    "guard",     "metal",   
                      "piece",    "muff",    "horn",     "spike",     "spikes",   "blade",    "sword",
                      "weapon",   "socket",  "slot",     "prop",      "buckle",   "brooch",   "earring",
                      "earrings", "hairpin", "hairband", "headphone", "earphone", "taillight"};
+
+const Words kHardBody = {"armor",    "armour", "knight",  "robot",  "mech",   "mecha", "droid", "android",
+                         "skeleton", "golem",  "machine", "cyborg", "statue", "car",   "truck", "tank"};
 
 const Words kBeside = {"left", "right", "front", "back", "side", "upper", "lower",
                        "mid",  "outer", "inner", "root", "base", "tip",   "center"};
@@ -182,6 +187,11 @@ NameMeaning meaning_of(const std::string& name) {
   meaning.face = !meaning.kind && any_of(kFace);
   meaning.body = meaning.face || (!meaning.kind && any_of(kBody));
   return meaning;
+}
+
+bool is_hard_body(const std::string& name) {
+  const std::vector<std::string> words = words_of(name);
+  return std::ranges::any_of(words, [](const std::string& word) { return kHardBody.contains(word); });
 }
 
 bool swings_as_chain(SoftKind kind) {

@@ -24,6 +24,9 @@ struct NameMeaning {
 // only where the name says so ("thigh_jiggle_l"), and a limb otherwise.
 NameMeaning meaning_of(const std::string& name);
 
+// A mesh or file whose name says that it is hard all over: armour, a robot, a skeleton.
+bool is_hard_body(const std::string& name);
+
 // Chains of bones of this kind swing as rods.
 bool swings_as_chain(SoftKind kind);
 

@@ -81,29 +81,18 @@ struct Part {
   PartSurface view() const { return {character, surface, parts.part, id, vertices, rim}; }
 };
 
-// By its name, else by its bones'.
-SoftKind kind_of(const Region& region, const RegionRecipe* stated) {
-  if (stated && stated->kind) return *stated->kind;
-  if (const auto kind = meaning_of(region.name).kind) return *kind;
-  // An artist who calls a region thigh_l means its flesh, where a bone of that name is a limb.
-  if (const auto kind = kind_called(region.name.substr(0, region.name.find('_')))) return *kind;
-  if (stated)
-    for (const std::string& joint : stated->joints)
-      if (const auto kind = meaning_of(joint).kind) return *kind;
-  return SoftKind::kOther;
-}
-
 // What it moves like: as stated, else by its kind and size, or by the recipe's moduli.
 void set_motion(const Recipe& recipe, const RegionRecipe* stated, Region& region) {
   const RegionRecipe fallback;
   const RegionRecipe& from = stated ? *stated : fallback;
   region.touches_body = from.touches_body;
-  region.kind = kind_of(region, stated);
+  region.kind = kind_of_region(region.name, stated);
   region.damping_ratio = from.damping_ratio.value_or(recipe.damping_ratio);
   region.intensity = from.intensity;
   const std::optional<double> most = from.max_displacement ? from.max_displacement : recipe.max_displacement;
   region.states_limit = most.has_value();
-  region.max_displacement = most.value_or(region.max_displacement);
+  region.max_displacement = most.value_or(
+      from.side == BodySide::kAround ? Region{}.max_displacement : defaults_of(region.kind).max_displacement);
   region.states_frequency = from.frequency_hz.has_value();
   if (from.frequency_hz)
     region.frequency_hz = *from.frequency_hz;
@@ -300,7 +289,9 @@ TissueLayout layout_tissue(Character& character, const Recipe& recipe) {
       rod.passed_proxies = proxies_outside(layout.proxies, rod.collider_groups);
 
   Recipe as = recipe;
-  if (!painted && !states_regions) as.regions = std::move(named.regions);
+  if (!painted && !states_regions)
+    for (const Candidate& found : named.regions) as.regions.push_back(found.region);
+  layout.doubtful = std::move(named.doubtful);
   layout.coreless = match_joints(character, recipe.coreless_joints, "recipe: coreless_joints");
   join(named.coreless, layout.coreless);
   join(flesh_joints(character), layout.coreless);
@@ -310,11 +301,12 @@ TissueLayout layout_tissue(Character& character, const Recipe& recipe) {
   const SoftParts parts = find_soft_parts(character, surface, as.rigid_stiffness, stiffness);
   if (!painted && states_regions) check_all_found(character, recipe, parts, on_rods);
   layout.stiffness = std::move(stiffness.of_vertex);
-  const Evidence evidence = painted          ? Evidence::kPainted
-                            : states_regions ? Evidence::kRecipe
-                                             : Evidence::kBoneName;
+  const auto evidence_of = [&](int id) {
+    if (painted || states_regions) return painted ? Evidence::kPainted : Evidence::kRecipe;
+    return named.regions[static_cast<size_t>(parts.region[static_cast<size_t>(id)])].evidence;
+  };
   for (int id = 0; id < parts.count; ++id)
-    append_finest({character, surface, parts, id}, as, evidence, layout);
+    append_finest({character, surface, parts, id}, as, evidence_of(id), layout);
   if (painted && states_regions) check_all_painted(character, recipe, layout, on_rods);
   distinguish_names(layout.regions);
   note_sheets(character, layout);

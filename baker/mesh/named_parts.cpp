@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "baker/common/bad_input.hpp"
+#include "baker/mesh/anatomy_parts.hpp"
 #include "baker/mesh/bone_names.hpp"
 #include "baker/mesh/bones.hpp"
 #include "baker/mesh/flesh_shape.hpp"
@@ -142,6 +143,7 @@ class Finder {
     for (size_t j = 0; j < done_.size(); ++j)
       if (!done_[j] && skeleton_.meaning[j].kind) look_at(j, *skeleton_.meaning[j].kind);
     look_at_meshes();
+    if (wanted_.regions) look_at_shape();
     return std::move(found_);
   }
 
@@ -224,7 +226,7 @@ class Finder {
     region.name = names_.unique(joint);
     region.kind = kind;
     for (const size_t j : joints) region.joints.push_back(names_.unique(j));
-    found_.regions.push_back(region);
+    found_.regions.push_back({region, Evidence::kBoneName, "bone '" + name(joint) + "'", ""});
   }
 
   void add_chain(size_t joint, SoftKind kind, const std::vector<size_t>& joints) {
@@ -257,6 +259,16 @@ class Finder {
     if (!why.empty()) return skip(name(joint), kind, why + "; " + kGiveChain);
     found_.coreless[joint] = true;
     add_region(joint, kind, {joint});
+  }
+
+  // What a name has said already is not said again.
+  void look_at_shape() {
+    for (Candidate& part : anatomy_parts(character_, done_)) {
+      const bool named = std::ranges::any_of(
+          found_.regions, [&](const Candidate& other) { return other.region.kind == part.region.kind; });
+      if (named) continue;
+      (part.doubt.empty() ? found_.regions : found_.doubtful).push_back(std::move(part));
+    }
   }
 
   // Meshes that hang on one bone as a whole: what their names promise, and the rest in one line.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "baker/import/character.hpp"
+#include "baker/mesh/candidate.hpp"
 #include "baker/mesh/evidence.hpp"
 #include "baker/mesh/recipe.hpp"
 #include "baker/mesh/surface.hpp"
@@ -12,8 +13,9 @@ namespace sinew::baker {
 
 struct NamedParts {
   std::vector<RodRecipe> rods;
-  std::vector<RegionRecipe> regions;
-  std::vector<bool> coreless;  // a joint: its bone lies in the region's flesh, which moves as a whole
+  std::vector<Candidate> regions;   // without a doubt
+  std::vector<Candidate> doubtful;  // that stay rigid unless a recipe takes them up
+  std::vector<bool> coreless;       // a joint: its bone lies in the region's flesh, which moves as a whole
   std::vector<SkippedPart> skipped;
 };
 

@@ -68,6 +68,16 @@ void read_graph(JsonSection& section, Recipe& recipe) {
   recipe.up = up[0];
 }
 
+void read_side(JsonSection& section, RegionRecipe& region) {
+  if (section.has("side")) {
+    region.side = side_called(section.text("side"));
+    if (!region.side) section.complain("side", "is none of " + side_names());
+  }
+  if (!section.flag("around", false)) return;
+  if (region.side) section.complain("around", "means all sides, and a side is stated too; give one");
+  region.side = BodySide::kAround;
+}
+
 RegionRecipe read_region(JsonSection& section) {
   RegionRecipe region;
   region.name = section.text("name");
@@ -77,9 +87,12 @@ RegionRecipe read_region(JsonSection& section) {
   region.touches_body = section.flag("touches_body", region.touches_body);
   if (section.has("kind")) {
     const std::optional<SoftKind> kind = kind_called(section.text("kind"));
-    if (!kind) section.complain("kind", "is none of belly, breast, glute, thigh, cheek, ear, tail, other");
+    if (!kind)
+      section.complain("kind",
+                       "is none of belly, breast, glute, thigh, cheek, udder, hump, ear, tail, other");
     region.kind = kind;
   }
+  read_side(section, region);
   if (section.has("frequency_hz")) region.frequency_hz = section.number("frequency_hz", 0, 0.05, 25);
   if (section.has("damping_ratio")) region.damping_ratio = section.number("damping_ratio", 0, 0, 0.95);
   region.intensity = section.number("intensity", region.intensity, 0, 2);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "baker/mesh/body_side.hpp"
 #include "baker/mesh/rod_recipe.hpp"
 #include "baker/mesh/soft_kind.hpp"
 
@@ -19,6 +20,7 @@ struct RegionRecipe {
   bool touches_body = false;        // the capsules about the character's bones, but for those that carry it
   // What the default frequency goes by; absent: what its name says, then its bones'.
   std::optional<SoftKind> kind = {};
+  std::optional<BodySide> side = {};  // of its bones, on which it is soft; absent: its kind's (body_side.hpp)
   std::optional<double> frequency_hz = {};      // 0.05 .. 25, of its first mode; absent: see Recipe
   std::optional<double> damping_ratio = {};     // 0 .. 0.95; absent: Recipe::damping_ratio
   double intensity = 1;                         // 0 none .. 1 physical .. 2: scales its displacement

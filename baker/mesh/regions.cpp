@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "baker/mesh/bone_names.hpp"
 #include "baker/mesh/joint_names.hpp"
 
 namespace sinew::baker {
@@ -58,6 +59,17 @@ std::vector<double> soft_weight(const Character& character, const std::vector<do
 }
 
 }  // namespace
+
+SoftKind kind_of_region(const std::string& name, const RegionRecipe* stated) {
+  if (stated && stated->kind) return *stated->kind;
+  if (const auto kind = meaning_of(name).kind) return *kind;
+  // An artist who calls a region thigh_l means its flesh, where a bone of that name is a limb.
+  if (const auto kind = kind_called(name.substr(0, name.find('_')))) return *kind;
+  if (stated)
+    for (const std::string& joint : stated->joints)
+      if (const auto kind = meaning_of(joint).kind) return *kind;
+  return SoftKind::kOther;
+}
 
 SoftParts find_soft_parts(Character& character, const Surface& surface, double rigid_stiffness,
                           Stiffness& stiffness) {

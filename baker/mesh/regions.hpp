@@ -11,6 +11,9 @@
 
 namespace sinew::baker {
 
+// As stated, else by its name, else by its bones'.
+SoftKind kind_of_region(const std::string& name, const RegionRecipe* stated);
+
 struct SoftParts {
   std::vector<int> part;    // welded vertex -> part, -1: rigid
   std::vector<int> region;  // of each part, whose it is (Stiffness::region); -1: painted

@@ -13,6 +13,8 @@ enum class SoftKind {
   kGlute,
   kThigh,
   kCheek,
+  kUdder,
+  kHump,
   kEar,
   // Chains of bones that swing as rods; a tail without a chain is soft tissue.
   kTail,
@@ -30,6 +32,7 @@ enum class SoftKind {
 struct KindDefaults {
   const char* name;  // as tables and a recipe's "kind" have it
   double frequency_hz, length_m;
+  double max_displacement;  // of a region's radius
 };
 
 const KindDefaults& defaults_of(SoftKind kind);

@@ -3,10 +3,14 @@
 
 #include <algorithm>
 
+#include "baker/mesh/anatomy.hpp"
+#include "baker/mesh/body_side.hpp"
 #include "baker/mesh/bones.hpp"
 #include "baker/mesh/flesh_shape.hpp"
 #include "baker/mesh/joint_names.hpp"
 #include "baker/mesh/named_parts.hpp"
+#include "baker/mesh/regions.hpp"
+#include "baker/mesh/rim.hpp"
 
 namespace sinew::baker {
 namespace {
@@ -14,6 +18,8 @@ namespace {
 // Shares of the region's largest skin weight, and of its thickest flesh, between which softness comes in:
 // bones that are added to move flesh often have less than half of it.
 constexpr double kWeightFrom = 0.25, kWeightTo = 0.75, kFleshFrom = 0.25, kFleshTo = 0.7;
+// Skin weight of the bones over which a rim may reach.
+constexpr double kOpenFrom = 0.3, kOpenTo = 0.8;
 
 double smooth_step(double low, double high, double value) {
   const double t = std::clamp((value - low) / (high - low), 0.0, 1.0);
@@ -40,10 +46,17 @@ void hold_seams(const Surface& surface, const std::vector<int>& owner, std::vect
   softness = std::move(held);
 }
 
+// What a region is to move by, of its radius.
+double wanted_share(const RegionRecipe& region, SoftKind kind) {
+  return region.max_displacement.value_or(defaults_of(kind).max_displacement);
+}
+
 class StatedRegions {
  public:
   StatedRegions(const Character& character, const Surface& surface, const std::vector<bool>& coreless)
       : character_(character),
+        surface_(surface),
+        anatomy_(find_anatomy(character)),
         flesh_(flesh_joints(character)),
         thickness_(flesh_thickness(character, find_bones(character, flesh_))),
         fastened_(fastened_to(character, surface)),
@@ -56,9 +69,13 @@ class StatedRegions {
     for (size_t j = 0; j < added.size(); ++j) added[j] = added[j] && joints[j];
     double most = 0, thickest = 0;
     for (const Influences& skin : character_.skin) most = std::max(most, weight_of(skin, joints));
-    for (size_t v = 0; v < thickness_.size(); ++v)
-      if (weight_of(character_.skin[v], joints) > kWeightTo * most)
-        thickest = std::max(thickest, thickness_[v]);
+    std::vector<bool> reached;
+    for (size_t v = 0; v < thickness_.size(); ++v) {
+      reached.push_back(weight_of(character_.skin[v], joints) > kWeightTo * most);
+      if (reached[v]) thickest = std::max(thickest, thickness_[v]);
+    }
+    const SoftKind kind = kind_of_region(region.name, &region);
+    const auto side = side_share(character_, anatomy_, kind, region.side, joints, reached);
     std::vector<double> soft;
     for (size_t v = 0; v < thickness_.size(); ++v) {
       const Influences& skin = character_.skin[v];
@@ -67,13 +84,38 @@ class StatedRegions {
       const double share = weight > 0 ? weight_of(skin, added) / weight : 0;
       const double coreless = std::max(weight_of(skin, coreless_), share);
       soft.push_back(smooth_step(kWeightFrom * most, kWeightTo * most, weight) *
-                     (coreless + (1 - coreless) * flesh));
+                     (coreless + (1 - coreless) * (side ? (*side)[v] : flesh)));
     }
     hold_fastened(soft);
+    if (side) fade(joints, *side, wanted_share(region, kind), soft);
     return soft;
   }
 
  private:
+  // Softness of one side fades over a width of its own, whatever the bones' weights do there.
+  void fade(const std::vector<bool>& joints, const std::vector<double>& side, double wanted_share,
+            std::vector<double>& soft) const {
+    const std::vector<bool> may = around(joints);
+    std::vector<double> open;
+    for (size_t v = 0; v < soft.size(); ++v)
+      open.push_back(
+          std::max(soft[v], side[v] * smooth_step(kOpenFrom, kOpenTo, weight_of(character_.skin[v], may))));
+    fade_rim(character_, surface_, open, rim_width_m(character_, surface_, soft, wanted_share), soft);
+  }
+
+  // Joints over whose skin a rim may reach: of the trunk's regions the trunk, else bones beside its own.
+  std::vector<bool> around(const std::vector<bool>& joints) const {
+    std::vector<bool> may = joints;
+    for (size_t j = 0; j < joints.size(); ++j) {
+      if (joints[j] && anatomy_->trunk[j]) return anatomy_->trunk;
+      const int up = character_.joint_parent[j];
+      if (up < 0) continue;
+      if (joints[j]) may[static_cast<size_t>(up)] = true;
+      if (joints[static_cast<size_t>(up)]) may[j] = true;
+    }
+    return may;
+  }
+
   void hold_fastened(std::vector<double>& soft) const {
     const auto is_fastened = [&](size_t v) {
       return fastened_[static_cast<size_t>(character_.welded[v])] >= 0;
@@ -86,6 +128,8 @@ class StatedRegions {
   }
 
   const Character& character_;
+  const Surface& surface_;
+  std::optional<Anatomy> anatomy_;
   std::vector<bool> flesh_;
   std::vector<double> thickness_;
   std::vector<int> fastened_;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "baker/import/character.hpp"
+#include "baker/mesh/candidate.hpp"
 #include "baker/mesh/evidence.hpp"
 #include "baker/mesh/proxies.hpp"
 #include "baker/mesh/recipe.hpp"
@@ -49,6 +50,7 @@ struct TissueLayout {
   std::vector<Proxy> proxies;              // what rods and regions collide with
   std::vector<Rod> rods;                   // what hangs on their bones is not soft: the rods move it
   std::vector<SkippedPart> skipped;        // evidence that came to nothing
+  std::vector<Candidate> doubtful;         // of no recipe: what may be soft and stays rigid
 };
 
 // Parts by evidence: what the recipe states, what is painted, the file's spring bones, bone names; geometry

@@ -421,12 +421,12 @@ TEST_CASE("real_characters_swing_where_their_names_say_so") {
   const Names locks = {"HairBall_Center", "HairBall_L",         "HairBall_R",         "FrontHair_L",
                        "FrontHair_R",     "FrontHair_Center_L", "FrontHair_Center_R", "Ribbon"};
   for (const Wanted& wanted :
-       {Wanted{"khronos_fox/file.glb", {"b_Tail01_012"}, {}},
-        Wanted{"quaternius_wolf/file.glb", {"Tail1", "Ear1.L", "Ear1.R"}, {}},
+       {Wanted{"khronos_fox/file.glb", {"b_Tail01_012"}, {"belly"}},
+        Wanted{"quaternius_wolf/file.glb", {"Tail1", "Ear1.L", "Ear1.R"}, {"belly"}},
         Wanted{"godette_vrm0/file.vrm", locks, {}}, Wanted{"kaykit_mage/file.glb", {}, {}},
         Wanted{"khronos_cesium_man/file.glb", {}, {}}, Wanted{"khronos_rigged_simple/file.gltf", {}, {}},
-        Wanted{"raylib_greenman/file.glb", {}, {}},
-        Wanted{"mh_heavy_male/file.glb", {}, {"breast_l", "breast_r"}}}) {
+        Wanted{"raylib_greenman/file.glb", {}, {"belly"}},
+        Wanted{"mh_heavy_male/file.glb", {}, {"belly", "breast_l", "breast_r"}}}) {
     INFO(wanted.file);
     Character character = import_gltf(std::string(SINEW_SHARED_DIR "/characters/") + wanted.file);
     const TissueLayout layout = layout_tissue(character, {});

@@ -1,11 +1,11 @@
 // audit.cpp  A character that tears is found out, one that only swings is not.
-#include <limits>
-#include "baker/audit/limit_factor.hpp"
-
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "baker/audit/bounds.hpp"
+#include "baker/audit/limit_factor.hpp"
+#include "baker/audit/parts.hpp"
 #include "baker/common/bad_input.hpp"
 #include "baker/common/write_file.hpp"
 #include "baker/pack/character_pack.hpp"
@@ -37,6 +37,12 @@ std::vector<std::string> warnings_on(const std::vector<std::byte>& bytes) {
 }
 
 }  // namespace
+
+TEST_CASE("an_edge_that_a_pose_presses_together_is_stretched_beyond_its_bind_length_alone") {
+  const baker::AuditedParts::Edge edge{0, 1, 0, 1.0};
+  CHECK(edge.stretch(0.4, 1.0) == 1);  // flesh gives back what the pose took
+  CHECK(edge.stretch(1.2, 1.8) == Approx(1.5));
+}
 
 TEST_CASE("a_part_beyond_a_bound_is_to_move_less_and_one_within_all_as_much") {
   baker::PartAudit part;
