@@ -24,6 +24,7 @@ constexpr std::array<KindDefaults, static_cast<size_t>(SoftKind::kCount)> kDefau
     {"antenna", 4, 0.2},
     {"fin", 2.5, 0.3},
     {"cloth", 1.5, 0.6},
+    {"hat", 4, 0.35},
 }};
 
 }  // namespace
