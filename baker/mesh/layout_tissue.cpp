@@ -208,6 +208,14 @@ Links links_of_pieces(const Character& character, const Surface& surface, double
   return island_links(character, surface, label);
 }
 
+// Vertices that the recipe's regions name as pieces.
+std::vector<bool> pieces_in(const Character& character, const Surface& surface, const Recipe& recipe) {
+  const PieceRegions pieces(character, surface, recipe.regions);
+  std::vector<bool> in(character.positions.size());
+  for (size_t v = 0; v < in.size(); ++v) in[v] = pieces.claims(v);
+  return in;
+}
+
 // Joints that hardly move anything but what a region of pieces has.
 std::vector<bool> joints_of_pieces(const Character& character, const RegionScope& scope) {
   constexpr double kMostly = 0.8;  // of a joint's weight
@@ -343,7 +351,9 @@ TissueLayout layout_tissue(Character& character, const Recipe& recipe) {
   layout.rods = find_rods(character, recipe, claimed, &layout.skipped);
   join(joints_on_rods(character, layout.rods), claimed);
   NamedParts named = named_parts(character, surface, claimed,
-                                 {.rods = !recipe.rods.has_value(), .regions = !painted && !states_regions});
+                                 {.rods = !recipe.rods.has_value(),
+                                  .regions = !painted && !states_regions,
+                                  .has_region = pieces_in(character, surface, recipe)});
   add_named_rods(character, named.rods, layout.rods, layout.skipped);
   std::ranges::move(named.skipped, std::back_inserter(layout.skipped));
   const std::vector<bool> on_rods = joints_on_rods(character, layout.rods);
@@ -366,11 +376,14 @@ TissueLayout layout_tissue(Character& character, const Recipe& recipe) {
   const SoftParts parts = find_soft_parts(character, joined, as.rigid_stiffness, stiffness);
   if (!painted && states_regions) check_all_found(character, surface, recipe, parts, on_rods);
   layout.stiffness = std::move(stiffness.of_vertex);
-  const Evidence evidence = painted          ? Evidence::kPainted
-                            : states_regions ? Evidence::kRecipe
-                                             : Evidence::kBoneName;
-  for (int id = 0; id < parts.count; ++id)
+  const auto evidence_of = [&](int region) {
+    if (painted) return Evidence::kPainted;
+    return states_regions ? Evidence::kRecipe : named.evidence[static_cast<size_t>(region)];
+  };
+  for (int id = 0; id < parts.count; ++id) {
+    const Evidence evidence = evidence_of(parts.region[static_cast<size_t>(id)]);
     append_finest({character, joined, parts, id}, as, evidence, layout);
+  }
   if (painted && states_regions) check_all_painted(character, surface, recipe, layout, on_rods);
   distinguish_names(layout.regions);
   note_sheets(character, layout);

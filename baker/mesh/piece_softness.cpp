@@ -104,13 +104,16 @@ double BodyUnder::gap_m(int joint, const Vector3& place, double reach_m) const {
 
 PieceReach piece_reach(const Character& character, const BodyUnder& body, const std::vector<bool>& piece) {
   const std::vector<int> vertices = members(piece);
-  PieceReach reach{std::vector<double>(piece.size(), 0), 0, extent_m(character, vertices)};
+  PieceReach reach;
+  reach.softness.assign(piece.size(), 0);
+  reach.extent_m = extent_m(character, vertices);
   std::vector<double> out;
   for (const int v : vertices)
     out.push_back(
         body.out_m(character.skin[static_cast<size_t>(v)], character.positions[static_cast<size_t>(v)]));
   if (out.empty()) return reach;
   const auto [least, most] = std::ranges::minmax(out);
+  reach.farthest_m = most - least;
   std::vector<double> gap_m;
   for (size_t i = 0; i < out.size(); ++i) {
     const auto v = static_cast<size_t>(vertices[i]);
@@ -120,7 +123,7 @@ PieceReach piece_reach(const Character& character, const BodyUnder& body, const 
   if (!reach.swings()) return reach;
   for (size_t i = 0; i < out.size(); ++i) {
     const auto v = static_cast<size_t>(vertices[i]);
-    const double way = (out[i] - least) / (most - least);
+    const double way = (out[i] - least) / reach.farthest_m;
     const double free = smooth_step(kTouches * reach.extent_m, kFree * reach.extent_m, gap_m[i]);
     const double hangs = smooth_step(kAttachedTo, kHangsFrom, way);
     reach.softness[v] = smooth_step(0, 1, way) * (free + (1 - free) * hangs);

@@ -41,6 +41,7 @@ struct PieceReach {
   std::vector<double> softness;  // a vertex: 0 held, 1 at the farthest; 0 where it is not of the piece
   double sticks_out_m =
       0;  // its farthest vertex, of the capsules and of the flesh; more than kSticksOut is not told apart
+  double farthest_m = 0;  // its farthest vertex, of the capsules alone
   double extent_m = 0;
   bool swings() const { return sticks_out_m >= kSticksOut * extent_m && extent_m > 0; }
 };
