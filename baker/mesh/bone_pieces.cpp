@@ -32,7 +32,8 @@ struct Naming {
   bool hard = false;
 };
 
-// What one of a vertex's names says, the mesh's before the material's; hard where any is.
+// What a vertex's names say: the mesh's, and where those say nothing, as of a body of one mesh, the
+// material's.
 class Names {
  public:
   explicit Names(const Character& character) : mesh_(character.positions.size(), -1), material_(mesh_) {
@@ -53,8 +54,7 @@ class Names {
     const Naming none,
         &mesh = mesh_[vertex] < 0 ? none : of_mesh_[static_cast<size_t>(mesh_[vertex])],
         &material = material_[vertex] < 0 ? none : of_material_[static_cast<size_t>(material_[vertex])];
-    if (mesh.hard || material.hard) return {.hard = true};
-    return mesh.kind ? mesh : material;
+    return mesh.hard || mesh.kind ? mesh : material;
   }
   int mesh(size_t vertex) const { return mesh_[vertex]; }
   int material(size_t vertex) const { return material_[vertex]; }
@@ -93,12 +93,14 @@ class PieceFinder {
     extent_m_ = box.diagonal().norm();
   }
 
-  std::vector<BonePiece> run() {
+  std::vector<BonePiece> run(bool unnamed_too) {
     std::vector<bool> in_piece(character_.positions.size(), false);
     gather_named(in_piece);
-    const BodyUnder body(character_, in_piece);
-    for (BonePiece& piece : found_) judge_named(body, in_piece, piece);
-    add_unnamed(in_piece);
+    if (!found_.empty()) {
+      const BodyUnder body(character_, in_piece);
+      for (BonePiece& piece : found_) judge_named(body, in_piece, piece);
+    }
+    if (unnamed_too) add_unnamed(in_piece);
     return std::move(found_);
   }
 
@@ -256,8 +258,12 @@ class PieceFinder {
 
 }  // namespace
 
+std::vector<BonePiece> named_pieces(const Character& character, const Surface& surface) {
+  return PieceFinder(character, surface).run(false);
+}
+
 std::vector<BonePiece> bone_pieces(const Character& character, const Surface& surface) {
-  return PieceFinder(character, surface).run();
+  return PieceFinder(character, surface).run(true);
 }
 
 }  // namespace sinew::baker

@@ -21,9 +21,11 @@ struct BonePiece {
   std::string doubt;                        // why it may not be soft for all that; empty: it is certain
 };
 
-// Those with names first, one for each name and bone, in the order of their vertices; then, of what no name
-// calls hard, what sticks out far, the largest of it. Geometry says where a piece is, not of what it is made:
-// without a name it is doubtful.
+// One for each name and bone, in the order of their vertices.
+std::vector<BonePiece> named_pieces(const Character& character, const Surface& surface);
+
+// Those, and then, of what no name calls hard, what sticks out far, the largest of it. Geometry says where a
+// piece is, not of what it is made: without a name it is doubtful.
 std::vector<BonePiece> bone_pieces(const Character& character, const Surface& surface);
 
 }  // namespace sinew::baker

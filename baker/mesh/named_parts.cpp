@@ -270,9 +270,8 @@ class Finder {
 
   // What mesh and material names promise of what hangs on one bone.
   void look_at_pieces() {
-    for (const BonePiece& piece : bone_pieces(character_, surface_)) {
+    for (const BonePiece& piece : named_pieces(character_, surface_)) {
       const auto joint = static_cast<size_t>(piece.joint);
-      if (!piece.is_named) continue;
       for (const int v : piece.vertices) listed_[static_cast<size_t>(v)] = true;
       const bool has_region = std::ranges::any_of(
           piece.vertices, [&](int v) { return wanted_.has_region[static_cast<size_t>(v)]; });

@@ -46,9 +46,11 @@ TEST_CASE("a_body_alone_and_hard_things_on_it_are_no_pieces") {
   const size_t first = bust.figure.character.positions.size();
   bust.figure.sheet({bust.chest}, {0, 0.4, -0.5}, {0.1, 0, 0});
   bust.figure.mesh("Great_Sword", false);
+  paint(bust.figure.character, "Ribbon", first);  // its grip is wound with one
+  const size_t thing = bust.figure.character.positions.size();
   bust.figure.sheet({bust.chest}, {0.2, 0.4, -0.5}, {0.1, 0, 0});
   bust.figure.mesh("Thing", false);
-  paint(bust.figure.character, "Metal", first);
+  paint(bust.figure.character, "Metal", thing);
   const int slot = bust.figure.joint("weapon_slot", bust.chest, {0.3, 1.2, 0});
   bust.figure.sheet({slot}, {0.9, 1.2, 0}, {0, 0.05, 0});
   bust.figure.mesh("Ribbon", false);  // whatever is held there
