@@ -96,6 +96,14 @@ struct MeshSpan {
   bool skinned = false;  // else it hangs on one joint
   // Of a place in the bind pose to the file's own mesh space; of a skin without binds to the scene.
   Matrix4 mesh_from_bind = Matrix4::Identity();
+  std::string name = {};  // the mesh's own, beside its node's
+};
+
+// Vertices of the triangles that one material of the file paints. Where primitives share vertices, one may be
+// on several.
+struct MaterialVertices {
+  std::string name;
+  std::vector<int> vertices;  // ascending
 };
 
 struct Character {
@@ -114,7 +122,8 @@ struct Character {
   std::vector<std::array<uint8_t, 4>> colors;  // material x vertex colour; for pictures
   std::vector<double> stiffness;               // painted _STIFFNESS, 0 soft .. 1 rigid; empty: not painted
   std::vector<std::array<int, 3>> triangles;
-  std::vector<MeshSpan> meshes;  // in the order of their vertices
+  std::vector<MeshSpan> meshes;             // in the order of their vertices
+  std::vector<MaterialVertices> materials;  // those in use that have names, in the file's order
 
   std::vector<int> welded;  // vertex -> first vertex at the same place with the same influences
   std::vector<Clip> clips;

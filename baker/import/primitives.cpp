@@ -94,11 +94,17 @@ class MeshReader {
     }
     const size_t count = character_.positions.size() - first;
     if (count > 0)
-      character_.meshes.push_back(
-          {instance.node, first, count, instance.skin >= 0, inverse_or_identity(instance.bind_from_mesh)});
+      character_.meshes.push_back({instance.node, first, count, instance.skin >= 0,
+                                   inverse_or_identity(instance.bind_from_mesh), mesh.name});
   }
 
   void finish() {
+    for (auto& [material, vertices] : painted_by_) {
+      std::ranges::sort(vertices);
+      vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+      character_.materials.push_back(
+          {model_.materials[static_cast<size_t>(material)].name, std::move(vertices)});
+    }
     if (!painted_) character_.stiffness.clear();
     if (!has_normals_)
       source_.note("", "no normals in at least one primitive: computed, smooth below 60 degrees");
@@ -227,6 +233,14 @@ class MeshReader {
       }
     }
     character_.triangles.insert(character_.triangles.end(), faces.begin(), faces.end());
+    note_material(primitive.material, faces);
+  }
+
+  void note_material(int material, const std::vector<std::array<int, 3>>& faces) {
+    const auto index = static_cast<size_t>(material);
+    if (material < 0 || index >= model_.materials.size() || model_.materials[index].name.empty()) return;
+    std::vector<int>& vertices = painted_by_[material];
+    for (const auto& face : faces) vertices.insert(vertices.end(), face.begin(), face.end());
   }
 
   const tinygltf::Model& model_;
@@ -236,7 +250,8 @@ class MeshReader {
   Character& character_;
   BaseColorTextures textures_;
   std::vector<Matrix4> bind_from_joint_;
-  std::vector<LinearColor> vertex_colors_;  // of all vertices so far
+  std::vector<LinearColor> vertex_colors_;      // of all vertices so far
+  std::map<int, std::vector<int>> painted_by_;  // the file's material -> vertices, often doubled
   bool painted_ = false, has_normals_ = true;
 };
 

@@ -46,6 +46,24 @@ const std::map<std::string_view, SoftKind>& soft_words() {
   return kWords;
 }
 
+// Of meshes and materials alone: a bone of a hat is no chain, and those of feathers are a wing's.
+const std::map<std::string_view, SoftKind>& piece_words() {
+  static const std::map<std::string_view, SoftKind> kWords = [] {
+    std::map<std::string_view, SoftKind> words;
+    for (const auto& [word, kind] : soft_words())
+      if (kind == SoftKind::kEar || kind == SoftKind::kTail || kind == SoftKind::kHair ||
+          kind == SoftKind::kFin || kind == SoftKind::kCloth)
+        words[word] = kind;
+    for (const std::string_view word : {"hat", "hood", "bonnet", "beret", "beanie", "sombrero", "turban"})
+      words[word] = SoftKind::kHat;
+    for (const std::string_view word : {"feather", "feathers"}) words[word] = SoftKind::kFin;
+    for (const std::string_view word : {"wig", "bun"}) words[word] = SoftKind::kHair;
+    words["pompom"] = SoftKind::kCloth;
+    return words;
+  }();
+  return kWords;
+}
+
 // With one of these a limb's name means the flesh on it.
 const Words kFlesh = {"jiggle", "jiggles", "jiggly", "wobble", "wobbly", "flab", "flesh", "fat"};
 
@@ -74,12 +92,14 @@ const Words kHelper = {"ik",     "fk",  "ctrl",     "ctl",    "control", "contro
                        "wgt",    "aim", "effector", "facial", "tweak"};
 
 // Hard things that are named after the part that they are on.
-const Words kHard = {"armor",    "armour",  "plate",    "guard",     "metal",    "pin",      "clip",
-                     "band",     "ring",    "rings",    "light",     "lights",   "gate",     "rotor",
-                     "wing",     "gun",     "hook",     "lid",       "door",     "phone",    "phones",
-                     "piece",    "muff",    "horn",     "spike",     "spikes",   "blade",    "sword",
-                     "weapon",   "socket",  "slot",     "prop",      "buckle",   "brooch",   "earring",
-                     "earrings", "hairpin", "hairband", "headphone", "earphone", "taillight"};
+const Words kHard = {
+    "armor",   "armour",   "plate",     "guard",     "metal",     "pin",     "clip",    "band",    "ring",
+    "rings",   "light",    "lights",    "gate",      "rotor",     "wing",    "gun",     "hook",    "lid",
+    "door",    "phone",    "phones",    "piece",     "muff",      "horn",    "spike",   "spikes",  "blade",
+    "sword",   "weapon",   "socket",    "slot",      "prop",      "buckle",  "brooch",  "earring", "earrings",
+    "hairpin", "hairband", "headphone", "earphone",  "taillight", "helmet",  "helm",    "crown",   "mask",
+    "staff",   "wand",     "book",      "spellbook", "shield",    "axe",     "hammer",  "dagger",  "knife",
+    "spear",   "mace",     "arrow",     "quiver",    "handslot",  "glasses", "goggles", "gauntlet"};
 
 const Words kHardBody = {"armor",    "armour", "knight",  "robot",  "mech",   "mecha", "droid", "android",
                          "skeleton", "golem",  "machine", "cyborg", "statue", "car",   "truck", "tank"};
@@ -98,8 +118,8 @@ const std::map<std::string_view, std::string_view> kTogether = {
     {"eyebrow", "eye"},     {"eyelid", "eye"}};
 
 bool known(std::string_view word) {
-  return soft_words().contains(word) || kFlesh.contains(word) || kFace.contains(word) ||
-         kBody.contains(word) || kHelper.contains(word) || kHard.contains(word);
+  return piece_words().contains(word) || soft_words().contains(word) || kFlesh.contains(word) ||
+         kFace.contains(word) || kBody.contains(word) || kHelper.contains(word) || kHard.contains(word);
 }
 
 // "lefttail", "tailroot": what is left without the word beside it, where that says something.
@@ -147,11 +167,12 @@ std::optional<SoftKind> flesh_of(const std::vector<std::string>& words) {
 }
 
 // The last word's, unless something hard follows.
-std::optional<SoftKind> kind_of(const std::vector<std::string>& words) {
+std::optional<SoftKind> kind_of(const std::vector<std::string>& words,
+                                const std::map<std::string_view, SoftKind>& soft) {
   std::optional<SoftKind> kind;
   for (const std::string& word : words) {
-    const auto found = soft_words().find(word);
-    if (found == soft_words().end()) {
+    const auto found = soft.find(word);
+    if (found == soft.end()) {
       if (kHard.contains(word)) kind.reset();
       continue;
     }
@@ -182,7 +203,9 @@ NameMeaning meaning_of(const std::string& name) {
   NameMeaning meaning;
   meaning.helper = any_of(kHelper);
   if (meaning.helper) return meaning;
-  meaning.kind = kind_of(words);
+  meaning.kind = kind_of(words, soft_words());
+  meaning.piece = kind_of(words, piece_words());
+  meaning.hard = !meaning.piece && any_of(kHard);
   if (!meaning.kind) meaning.kind = flesh_of(words);
   meaning.face = !meaning.kind && any_of(kFace);
   meaning.body = meaning.face || (!meaning.kind && any_of(kBody));

@@ -13,10 +13,12 @@ namespace sinew::baker {
 std::vector<std::string> words_of(const std::string& name);
 
 struct NameMeaning {
-  std::optional<SoftKind> kind;  // of a part that swings
-  bool body = false;             // of the skeleton that animators move: head, spine, limbs, wings, the face
-  bool face = false;             // of it, a head or what is on one
-  bool helper = false;           // of the rig: controls, targets, ends, twists; it says nothing of its own
+  std::optional<SoftKind> kind;   // of a part that swings
+  std::optional<SoftKind> piece;  // of a piece of surface with that name: hair, cloth, a hat, ...
+  bool hard = false;              // horn, metal, leather: what is so named never swings
+  bool body = false;              // of the skeleton that animators move: head, spine, limbs, wings, the face
+  bool face = false;              // of it, a head or what is on one
+  bool helper = false;            // of the rig: controls, targets, ends, twists; it says nothing of its own
 };
 
 // By whole words, as Mixamo, Rigify, Unreal, VRoid, MakeHuman, Biped, KayKit and Quaternius use them. The

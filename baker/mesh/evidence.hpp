@@ -8,10 +8,11 @@
 namespace sinew::baker {
 
 // From the strongest on: what a stronger one claims, a weaker one leaves.
-enum class Evidence { kRecipe, kPainted, kSpringBone, kBoneName, kMeshName, kShape };
+enum class Evidence { kRecipe, kPainted, kSpringBone, kBoneName, kMeshName, kMaterialName, kShape };
 
 constexpr const char* name_of(Evidence evidence) {
-  constexpr const char* kNames[] = {"recipe", "painted", "spring bone", "bone name", "mesh name", "shape"};
+  constexpr const char* kNames[] = {"recipe",    "painted",       "spring bone", "bone name",
+                                    "mesh name", "material name", "shape"};
   return kNames[static_cast<size_t>(evidence)];
 }
 

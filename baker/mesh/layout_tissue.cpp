@@ -10,9 +10,12 @@
 #include "baker/mesh/crossed_capsules.hpp"
 #include "baker/mesh/flesh_shape.hpp"
 #include "baker/mesh/hold_roots.hpp"
+#include "baker/mesh/join_islands.hpp"
 #include "baker/mesh/joint_names.hpp"
 #include "baker/mesh/named_parts.hpp"
 #include "baker/mesh/node_order.hpp"
+#include "baker/mesh/piece_softness.hpp"
+#include "baker/mesh/region_scope.hpp"
 #include "baker/mesh/regions.hpp"
 #include "baker/mesh/stiffness.hpp"
 #include "baker/mesh/tissue_layout.hpp"
@@ -81,18 +84,30 @@ struct Part {
   PartSurface view() const { return {character, surface, parts.part, id, vertices, rim}; }
 };
 
+// Hair, cloth and felt trail and settle in a swing or two, and are not shown further from their pose than a
+// share of their radius that no one takes for rubber.
+constexpr double kPieceDamping = 0.3, kPieceReach = 0.3;
+
+// Of its radius, of a region that states none.
+double usual_limit(const Region& region, const RegionRecipe& from) {
+  if (region.is_piece) return kPieceReach;
+  return from.side == BodySide::kAround ? Region{}.max_displacement
+                                        : defaults_of(region.kind).max_displacement;
+}
+
 // What it moves like: as stated, else by its kind and size, or by the recipe's moduli.
 void set_motion(const Recipe& recipe, const RegionRecipe* stated, Region& region) {
   const RegionRecipe fallback;
   const RegionRecipe& from = stated ? *stated : fallback;
   region.touches_body = from.touches_body;
   region.kind = kind_of_region(region.name, stated);
-  region.damping_ratio = from.damping_ratio.value_or(recipe.damping_ratio);
+  region.is_piece = selects_piece(from);
+  region.damping_ratio = from.damping_ratio.value_or(
+      region.is_piece ? std::max(recipe.damping_ratio, kPieceDamping) : recipe.damping_ratio);
   region.intensity = from.intensity;
   const std::optional<double> most = from.max_displacement ? from.max_displacement : recipe.max_displacement;
   region.states_limit = most.has_value();
-  region.max_displacement = most.value_or(
-      from.side == BodySide::kAround ? Region{}.max_displacement : defaults_of(region.kind).max_displacement);
+  region.max_displacement = most.value_or(usual_limit(region, from));
   region.states_frequency = from.frequency_hz.has_value();
   if (from.frequency_hz)
     region.frequency_hz = *from.frequency_hz;
@@ -124,9 +139,9 @@ void append_finest(const Part& part, const Recipe& recipe, Evidence evidence, Ti
   Edges edges = connect_nodes(part.view(), nodes, recipe.neighbours);
   order_for_cache(nodes, edges);
   const int owner = part.parts.region[static_cast<size_t>(part.id)];
-  const RegionRecipe* stated = owner >= 0
-                                   ? &recipe.regions[static_cast<size_t>(owner)]
-                                   : stated_region(part.character, recipe, layout.stiffness, part.vertices);
+  const RegionRecipe* stated =
+      owner >= 0 ? &recipe.regions[static_cast<size_t>(owner)]
+                 : stated_region(part.character, part.surface, recipe, layout.stiffness, part.vertices);
   Region& region = append_region(part, nodes, edges, layout);
   region.name = stated ? stated->name : region_name(part.character, layout.stiffness, part.vertices);
   region.evidence = evidence;
@@ -171,14 +186,51 @@ void hold_on_rods(const Character& character, const std::vector<Rod>& rods, std:
   }
 }
 
+void join(const std::vector<bool>& other, std::vector<bool>& joints) {
+  for (size_t j = 0; j < joints.size(); ++j) joints[j] = joints[j] || other[j];
+}
+
+// What of a piece is soft stays one part, though its islands meet only where they are held.
+Links links_of_pieces(const Character& character, const Surface& surface, double rigid_stiffness,
+                      const Stiffness& stiffness) {
+  if (stiffness.piece.empty()) return {};
+  std::vector<int> label = stiffness.piece;
+  for (size_t v = 0; v < label.size(); ++v)
+    if (stiffness.of_vertex[v] >= rigid_stiffness) label[v] = -1;
+  return island_links(character, surface, label);
+}
+
+// Vertices that the recipe's regions name as pieces.
+std::vector<bool> pieces_in(const Character& character, const Surface& surface, const Recipe& recipe) {
+  const PieceRegions pieces(character, surface, recipe.regions);
+  std::vector<bool> in(character.positions.size());
+  for (size_t v = 0; v < in.size(); ++v) in[v] = pieces.claims(v);
+  return in;
+}
+
+// Joints that hardly move anything but what a region of pieces has.
+std::vector<bool> joints_of_pieces(const Character& character, const RegionScope& scope) {
+  constexpr double kMostly = 0.8;  // of a joint's weight
+  std::vector<double> own(scope.joints.size(), 0), all = own;
+  for (size_t v = 0; v < character.skin.size(); ++v)
+    for (size_t k = 0; k < kInfluences; ++k) {
+      const auto j = static_cast<size_t>(character.skin[v].joint[k]);
+      all[j] += character.skin[v].weight[k];
+      if (scope.vertices[v]) own[j] += character.skin[v].weight[k];
+    }
+  std::vector<bool> joints(own.size());
+  for (size_t j = 0; j < joints.size(); ++j)
+    joints[j] = scope.joints[j] && own[j] > 0 && own[j] > kMostly * all[j];
+  return joints;
+}
+
 // Joints whose flesh stronger evidence than springs and names has: regions of the recipe, and paint.
-std::vector<bool> claimed_joints(const Character& character, const Recipe& recipe) {
+std::vector<bool> claimed_joints(const Character& character, const Surface& surface, const Recipe& recipe) {
   constexpr double kPainted = 0.2;  // of a joint's flesh, by weight
   std::vector<bool> claimed(character.joint_node.size(), false);
   for (const RegionRecipe& region : recipe.regions) {
-    const std::vector<bool> own =
-        match_joints(character, region.joints, "recipe: region '" + region.name + "'");
-    for (size_t j = 0; j < own.size(); ++j) claimed[j] = claimed[j] || own[j];
+    const RegionScope scope = scope_of(character, surface, region);
+    join(selects_piece(region) ? joints_of_pieces(character, scope) : scope.joints, claimed);
   }
   if (character.stiffness.empty() || (recipe.states_regions && recipe.regions.empty())) return claimed;
   std::vector<double> soft(claimed.size(), 0), all(claimed.size(), 0);
@@ -192,57 +244,69 @@ std::vector<bool> claimed_joints(const Character& character, const Recipe& recip
   return claimed;
 }
 
-void join(const std::vector<bool>& other, std::vector<bool>& joints) {
-  for (size_t j = 0; j < joints.size(); ++j) joints[j] = joints[j] || other[j];
-}
-
-void refuse_on_rods(const Character& character, const std::vector<bool>& joints,
-                    const std::vector<bool>& on_rods, const std::string& where) {
-  for (size_t j = 0; j < joints.size(); ++j)
-    if (joints[j] && on_rods[j])
-      throw BadInput(where + "nothing is soft: rods move its bones; let '" + joint_name(character, j) +
-                     "' be in one of them");
-}
-
-// A region of the recipe is not left without a part in silence.
-void check_all_found(const Character& character, const Recipe& recipe, const SoftParts& parts,
-                     const std::vector<bool>& on_rods) {
-  for (size_t r = 0; r < recipe.regions.size(); ++r) {
-    if (std::ranges::find(parts.region, static_cast<int>(r)) != parts.region.end()) continue;
-    const RegionRecipe& region = recipe.regions[r];
-    const std::string where = character.name + ": recipe: region '" + region.name + "': ";
-    if (region.stiffness >= recipe.rigid_stiffness)
-      throw BadInput(where + "nothing is soft: its stiffness is not below rigid_stiffness; make it softer");
-    const std::vector<bool> own = match_joints(character, region.joints, where);
-    refuse_on_rods(character, own, on_rods, where);
-    throw BadInput(where +
-                   "nothing is soft: its bones move fewer than four vertices enough; name bones that "
-                   "move flesh, or take it out");
-  }
-}
-
 bool is_moved_by(const Influences& skin, const std::vector<bool>& joints) {
   for (size_t k = 0; k < kInfluences; ++k)
     if (skin.weight[k] > 0 && joints[static_cast<size_t>(skin.joint[k])]) return true;
   return false;
 }
 
+// Where rods move a bone that the region names, or what it names.
+void refuse_on_rods(const Character& character, const RegionScope& scope, const std::vector<bool>& on_rods,
+                    const std::string& where) {
+  const bool names_bones = std::ranges::find(scope.joints, false) != scope.joints.end();
+  std::vector<bool> joints = names_bones ? scope.joints : std::vector<bool>(scope.joints.size(), false);
+  for (size_t v = 0; v < scope.vertices.size() && !names_bones; ++v)
+    for (size_t k = 0; k < kInfluences && scope.vertices[v]; ++k)
+      if (character.skin[v].weight[k] > 0) joints[static_cast<size_t>(character.skin[v].joint[k])] = true;
+  for (size_t j = 0; j < joints.size(); ++j)
+    if (joints[j] && on_rods[j])
+      throw BadInput(where + "nothing is soft: rods move its bones; let '" + joint_name(character, j) +
+                     "' be in one of them");
+}
+
+void refuse_close(const PieceRegions& pieces, size_t region, const std::string& where) {
+  char text[240];
+  std::snprintf(text, sizeof text,
+                "nothing is soft: it sticks out of the flesh of its bones by %.0f %% of its extent, and "
+                "pieces stay rigid below %.0f %%; name a piece that hangs free, or take it out",
+                100 * pieces.share_out(region), 100 * kSticksOut);
+  if (pieces.share_out(region) < kSticksOut) throw BadInput(where + text);
+}
+
+// A region of the recipe is not left without a part in silence.
+void check_all_found(const Character& character, const Surface& surface, const Recipe& recipe,
+                     const SoftParts& parts, const std::vector<bool>& on_rods) {
+  for (size_t r = 0; r < recipe.regions.size(); ++r) {
+    if (std::ranges::find(parts.region, static_cast<int>(r)) != parts.region.end()) continue;
+    const RegionRecipe& region = recipe.regions[r];
+    const std::string where = character.name + ": recipe: region '" + region.name + "': ";
+    if (region.stiffness >= recipe.rigid_stiffness)
+      throw BadInput(where + "nothing is soft: its stiffness is not below rigid_stiffness; make it softer");
+    refuse_on_rods(character, scope_of(character, surface, region), on_rods, where);
+    if (selects_piece(region)) refuse_close(PieceRegions(character, surface, recipe.regions), r, where);
+    throw BadInput(where +
+                   "nothing is soft: its bones move fewer than four vertices enough; name bones that "
+                   "move flesh, or take it out");
+  }
+}
+
 // Nor is one of a painted character: where paint makes nothing of it soft, it is refused; where its flesh is
 // part of another region's, that is noted.
-void check_all_painted(Character& character, const Recipe& recipe, const TissueLayout& layout,
-                       const std::vector<bool>& on_rods) {
+void check_all_painted(Character& character, const Surface& surface, const Recipe& recipe,
+                       const TissueLayout& layout, const std::vector<bool>& on_rods) {
   std::set<const RegionRecipe*> used;
   for (const Region& region : layout.regions)
-    used.insert(stated_region(character, recipe, layout.stiffness, region.vertices));
+    used.insert(stated_region(character, surface, recipe, layout.stiffness, region.vertices));
   for (const RegionRecipe& region : recipe.regions) {
     if (used.contains(&region)) continue;
     const std::string where = "recipe: region '" + region.name + "'";
-    const std::vector<bool> own = match_joints(character, region.joints, where);
+    const RegionScope scope = scope_of(character, surface, region);
     bool soft = false;
     for (const Region& other : layout.regions)
       for (const int v : other.vertices)
-        soft = soft || is_moved_by(character.skin[static_cast<size_t>(v)], own);
-    if (!soft) refuse_on_rods(character, own, on_rods, character.name + ": " + where + ": ");
+        soft = soft || (scope.vertices[static_cast<size_t>(v)] &&
+                        is_moved_by(character.skin[static_cast<size_t>(v)], scope.joints));
+    if (!soft) refuse_on_rods(character, scope, on_rods, character.name + ": " + where + ": ");
     if (!soft)
       throw BadInput(
           character.name + ": " + where +
@@ -254,7 +318,8 @@ void check_all_painted(Character& character, const Recipe& recipe, const TissueL
 
 void note_sheets(Character& character, const TissueLayout& layout) {
   for (const Region& region : layout.regions)
-    if (region.evidence == Evidence::kRecipe && thickness_share(character, region.vertices) < kThinSheet)
+    if (region.evidence == Evidence::kRecipe && !region.is_piece &&
+        thickness_share(character, region.vertices) < kThinSheet)
       character.notes.push_back(
           "region '" + region.name +
           "' is a thin sheet, which cells of tissue do not follow well: a chain of bones "
@@ -274,11 +339,13 @@ TissueLayout layout_tissue(Character& character, const Recipe& recipe) {
         "the file paints _STIFFNESS: the recipe's regions only say names and what they touch");
 
   TissueLayout layout;
-  std::vector<bool> claimed = claimed_joints(character, recipe);
+  std::vector<bool> claimed = claimed_joints(character, surface, recipe);
   layout.rods = find_rods(character, recipe, claimed, &layout.skipped);
   join(joints_on_rods(character, layout.rods), claimed);
   NamedParts named = named_parts(character, surface, claimed,
-                                 {.rods = !recipe.rods.has_value(), .regions = !painted && !states_regions});
+                                 {.rods = !recipe.rods.has_value(),
+                                  .regions = !painted && !states_regions,
+                                  .has_region = pieces_in(character, surface, recipe)});
   add_named_rods(character, named.rods, layout.rods, layout.skipped);
   std::ranges::move(named.skipped, std::back_inserter(layout.skipped));
   const std::vector<bool> on_rods = joints_on_rods(character, layout.rods);
@@ -298,16 +365,20 @@ TissueLayout layout_tissue(Character& character, const Recipe& recipe) {
   Stiffness stiffness = painted ? painted_stiffness(character)
                                 : stated_stiffness(character, surface, as.regions, layout.coreless);
   hold_on_rods(character, layout.rods, stiffness.of_vertex);
-  const SoftParts parts = find_soft_parts(character, surface, as.rigid_stiffness, stiffness);
-  if (!painted && states_regions) check_all_found(character, recipe, parts, on_rods);
+  const Surface joined =
+      with_links(surface, links_of_pieces(character, surface, as.rigid_stiffness, stiffness));
+  const SoftParts parts = find_soft_parts(character, joined, as.rigid_stiffness, stiffness);
+  if (!painted && states_regions) check_all_found(character, surface, recipe, parts, on_rods);
   layout.stiffness = std::move(stiffness.of_vertex);
-  const auto evidence_of = [&](int id) {
-    if (painted || states_regions) return painted ? Evidence::kPainted : Evidence::kRecipe;
-    return named.regions[static_cast<size_t>(parts.region[static_cast<size_t>(id)])].evidence;
+  const auto evidence_of = [&](int region) {
+    if (painted) return Evidence::kPainted;
+    return states_regions ? Evidence::kRecipe : named.regions[static_cast<size_t>(region)].evidence;
   };
-  for (int id = 0; id < parts.count; ++id)
-    append_finest({character, surface, parts, id}, as, evidence_of(id), layout);
-  if (painted && states_regions) check_all_painted(character, recipe, layout, on_rods);
+  for (int id = 0; id < parts.count; ++id) {
+    const Evidence evidence = evidence_of(parts.region[static_cast<size_t>(id)]);
+    append_finest({character, joined, parts, id}, as, evidence, layout);
+  }
+  if (painted && states_regions) check_all_painted(character, surface, recipe, layout, on_rods);
   distinguish_names(layout.regions);
   note_sheets(character, layout);
   fit_frequencies(character, layout);
@@ -324,11 +395,12 @@ TissueLayout coarser_layout(const Character& character, const Recipe& recipe, co
   for (int id = 0; id < parts.count; ++id)
     for (const int v : finest.regions[static_cast<size_t>(id)].vertices)
       if (character.welded[static_cast<size_t>(v)] == v) parts.part[static_cast<size_t>(v)] = id;
+  const Surface joined = with_links(surface, island_links(character, surface, parts.part));
   TissueLayout layout;
   layout.stiffness = finest.stiffness;
   layout.coreless = finest.coreless;
   for (int id = 0; id < parts.count; ++id)
-    append_coarser({character, surface, parts, id}, recipe, finest, held[static_cast<size_t>(id)],
+    append_coarser({character, joined, parts, id}, recipe, finest, held[static_cast<size_t>(id)],
                    nodes_per_region, layout);
   return layout;
 }

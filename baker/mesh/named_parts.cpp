@@ -10,6 +10,7 @@
 #include "baker/common/bad_input.hpp"
 #include "baker/mesh/anatomy_parts.hpp"
 #include "baker/mesh/bone_names.hpp"
+#include "baker/mesh/bone_pieces.hpp"
 #include "baker/mesh/bones.hpp"
 #include "baker/mesh/flesh_shape.hpp"
 #include "baker/mesh/joint_names.hpp"
@@ -128,12 +129,17 @@ class Finder {
          NamedPartsWanted wanted)
       : character_(character),
         names_(character),
+        surface_(surface),
         skeleton_(character),
         fastened_(fastened_to(character, surface)),
-        wanted_(wanted),
+        wanted_(std::move(wanted)),
         done_(claimed),
+        taken_(claimed),
         longest_m_(longest_side(character)) {
     done_.resize(skeleton_.parent.size(), false);
+    taken_.resize(done_.size(), false);
+    wanted_.has_region.resize(character.positions.size(), false);
+    listed_.assign(character.positions.size(), false);
     found_.coreless.assign(done_.size(), false);
     for (size_t v = 0; v < character.welded.size(); ++v)
       welded_ += character.welded[v] == static_cast<int>(v) ? 1 : 0;
@@ -142,6 +148,7 @@ class Finder {
   NamedParts run() {
     for (size_t j = 0; j < done_.size(); ++j)
       if (!done_[j] && skeleton_.meaning[j].kind) look_at(j, *skeleton_.meaning[j].kind);
+    look_at_pieces();
     look_at_meshes();
     if (wanted_.regions) look_at_shape();
     return std::move(found_);
@@ -225,7 +232,7 @@ class Finder {
     RegionRecipe region;
     region.name = names_.unique(joint);
     region.kind = kind;
-    for (const size_t j : joints) region.joints.push_back(names_.unique(j));
+    for (const size_t j : joints) region.joints.push_back(names_.unique(j)), taken_[j] = true;
     found_.regions.push_back({region, Evidence::kBoneName, "bone '" + name(joint) + "'", ""});
   }
 
@@ -240,6 +247,7 @@ class Finder {
       rod.gravity = hangs(kind) ? 1 : 0;
       rod.max_displacement = kNaturalReach;
       found_.rods.push_back(rod);
+      for (const size_t j : joints) taken_[j] = true;
     } catch (const BadInput& refused) {
       if (moves_one_bone(joints)) return add_single(joint, kind);
       skip(name(joint), kind, refused.what());
@@ -271,7 +279,29 @@ class Finder {
     }
   }
 
-  // Meshes that hang on one bone as a whole: what their names promise, and the rest in one line.
+  // What mesh and material names promise of what hangs on one bone.
+  void look_at_pieces() {
+    for (const BonePiece& piece : named_pieces(character_, surface_)) {
+      const auto joint = static_cast<size_t>(piece.joint);
+      for (const int v : piece.vertices) listed_[static_cast<size_t>(v)] = true;
+      const bool has_region = std::ranges::any_of(
+          piece.vertices, [&](int v) { return wanted_.has_region[static_cast<size_t>(v)]; });
+      if (has_region || taken_[joint]) continue;
+      const std::string part = piece.region.name;
+      if (!piece.doubt.empty()) {
+        skip(part, *piece.region.kind, piece.doubt, piece.evidence);
+      } else if (wanted_.regions) {
+        std::erase_if(found_.skipped, [&](const SkippedPart& other) { return other.part == name(joint); });
+        found_.regions.push_back({piece.region, piece.evidence, piece.why, ""});
+      } else {
+        skip(part, *piece.region.kind,
+             "hangs on one bone, '" + name(joint) + "'; a region of the recipe that names it lets it swing",
+             piece.evidence);
+      }
+    }
+  }
+
+  // Other meshes that hang on one bone as a whole, in one line.
   void look_at_meshes() {
     if (character_.meshes.size() < 2) return;
     std::string others;
@@ -279,14 +309,8 @@ class Finder {
     for (const MeshSpan& mesh : character_.meshes) {
       const int joint = one_joint(mesh);
       if (joint < 0 || done_[static_cast<size_t>(joint)]) continue;
-      const std::string& called = character_.nodes[static_cast<size_t>(mesh.node)].name;
-      const NameMeaning meaning = meaning_of(called);
-      if (meaning.kind && swings_as_chain(*meaning.kind) && wanted_.rods)
-        skip(called, *meaning.kind,
-             "hangs on one bone, '" + name(static_cast<size_t>(joint)) + "'; " + kGiveChain,
-             Evidence::kMeshName);
-      else if (!mesh.skinned)
-        others += (count++ > 0 ? ", " : "") + called;
+      if (mesh.skinned || listed_[mesh.first_vertex] || wanted_.has_region[mesh.first_vertex]) continue;
+      others += (count++ > 0 ? ", " : "") + character_.nodes[static_cast<size_t>(mesh.node)].name;
     }
     if (count > 0) skip(others, SoftKind::kOther, "each is fastened to one bone", Evidence::kMeshName);
   }
@@ -303,10 +327,13 @@ class Finder {
 
   const Character& character_;
   JointNames names_;
+  const Surface& surface_;
   Skeleton skeleton_;
   std::vector<int> fastened_;
   NamedPartsWanted wanted_;
   std::vector<bool> done_;
+  std::vector<bool> taken_;   // joints of stronger evidence, and of what was found
+  std::vector<bool> listed_;  // vertices of pieces that names speak of
   double longest_m_;
   size_t welded_ = 0;
   std::vector<double> thickness_;

@@ -1,4 +1,4 @@
-// named_parts.hpp  The soft parts and rods that bone names point at, as an artist's recipe would state them.
+// named_parts.hpp  The soft parts and rods that names point at, as an artist's recipe would state them.
 #pragma once
 #include <string>
 #include <vector>
@@ -21,12 +21,15 @@ struct NamedParts {
 
 struct NamedPartsWanted {
   bool rods = true, regions = true;
+  std::vector<bool> has_region = {};  // vertices of pieces that the recipe names; empty: of none
 };
 
 // Never of what a joint of `claimed` moves, of a bone on which a limb or the head hangs (but for a belly with
 // thick flesh), of what only helps the rig, and of what would be too small to be seen. Two bones in a row, or
-// one with an end site, become a rod where their kind swings as a chain; flesh becomes a region; sheets,
-// shells and pieces that are fastened to one bone stay rigid and are listed with what would let them swing.
+// one with an end site, become a rod where their kind swings as a chain; flesh becomes a region; sheets
+// and shells stay rigid and are listed with what would let them swing. So are pieces that are fastened to one
+// bone, but for those of which mesh or material say that they are soft and which stick out (bone_pieces.hpp):
+// these are regions.
 NamedParts named_parts(const Character& character, const Surface& surface, const std::vector<bool>& claimed,
                        NamedPartsWanted wanted);
 

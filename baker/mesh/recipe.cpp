@@ -77,19 +77,28 @@ void read_side(JsonSection& section, RegionRecipe& region) {
   if (region.side) section.complain("around", "means all sides, and a side is stated too; give one");
   region.side = BodySide::kAround;
 }
+constexpr double kFarthest_m = 1e7;  // as far as the import lets a vertex lie
 
 RegionRecipe read_region(JsonSection& section) {
   RegionRecipe region;
   region.name = section.text("name");
   region.joints = section.texts("joints");
-  if (region.joints.empty()) section.complain("joints", "must name at least one joint, or a prefix*");
+  if (section.has("mesh")) region.mesh = section.text("mesh");
+  if (section.has("material")) region.material = section.text("material");
+  if (section.has("island_at"))
+    region.island_at = section.vector3("island_at", Eigen::Vector3d::Zero(), -kFarthest_m, kFarthest_m);
+  if (region.joints.empty() && region.mesh.empty() && region.material.empty() && !region.island_at)
+    section.complain("joints",
+                     "must name at least one joint, or a prefix*; or name a piece by mesh, material or "
+                     "island_at");
   region.stiffness = section.number("stiffness", region.stiffness, 0, 1);
   region.touches_body = section.flag("touches_body", region.touches_body);
   if (section.has("kind")) {
     const std::optional<SoftKind> kind = kind_called(section.text("kind"));
     if (!kind)
       section.complain("kind",
-                       "is none of belly, breast, glute, thigh, cheek, udder, hump, ear, tail, other");
+                       "is none of belly, breast, glute, thigh, cheek, udder, hump, ear, tail, hair, cloth, "
+                       "fin, hat, other");
     region.kind = kind;
   }
   read_side(section, region);

@@ -1,5 +1,6 @@
 // recipe.hpp  What an artist states about a character's tissue; every key of the JSON file is optional.
 #pragma once
+#include <Eigen/Core>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,14 +11,15 @@
 
 namespace sinew::baker {
 
-// A soft part by its bones. Softness grows with the skin weight of these joints and with the flesh over their
-// bones (bones without a rigid core: with the weight alone). Where two regions meet, the skin between them
-// stays rigid.
+// A soft part by its bones, or a piece of the surface; of what it names of both, what all have in common. On
+// bones softness grows with their skin weight and with the flesh over them (bones without a rigid core: with
+// the weight alone); a piece is held at the body and softest where it sticks out furthest
+// (piece_softness.hpp). Where two regions meet, the skin between them stays rigid.
 struct RegionRecipe {
   std::string name;
-  std::vector<std::string> joints;  // names or prefix*
-  double stiffness = 0.1;           // 0 soft .. 1 rigid at its softest point
-  bool touches_body = false;        // the capsules about the character's bones, but for those that carry it
+  std::vector<std::string> joints = {};  // names or prefix*
+  double stiffness = 0.1;                // 0 soft .. 1 rigid at its softest point
+  bool touches_body = false;  // the capsules about the character's bones, but for those that carry it
   // What the default frequency goes by; absent: what its name says, then its bones'.
   std::optional<SoftKind> kind = {};
   std::optional<BodySide> side = {};  // of its bones, on which it is soft; absent: its kind's (body_side.hpp)
@@ -25,6 +27,8 @@ struct RegionRecipe {
   std::optional<double> damping_ratio = {};     // 0 .. 0.95; absent: Recipe::damping_ratio
   double intensity = 1;                         // 0 none .. 1 physical .. 2: scales its displacement
   std::optional<double> max_displacement = {};  // of its radius, 0.01 .. 4; absent: Recipe::max_displacement
+  std::string mesh = {}, material = {};         // name or prefix*; a mesh's own or its node's
+  std::optional<Eigen::Vector3d> island_at = {};  // m, bind pose: the connected piece that is nearest to it
 };
 
 // Of a capsule that rods and regions collide with, its bone by name or prefix*.

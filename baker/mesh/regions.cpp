@@ -8,6 +8,7 @@
 
 #include "baker/mesh/bone_names.hpp"
 #include "baker/mesh/joint_names.hpp"
+#include "baker/mesh/region_scope.hpp"
 
 namespace sinew::baker {
 namespace {
@@ -68,6 +69,9 @@ SoftKind kind_of_region(const std::string& name, const RegionRecipe* stated) {
   if (stated)
     for (const std::string& joint : stated->joints)
       if (const auto kind = meaning_of(joint).kind) return *kind;
+  if (stated)
+    for (const std::string& piece : {stated->mesh, stated->material})
+      if (const auto kind = meaning_of(piece).kind) return *kind;
   return SoftKind::kOther;
 }
 
@@ -127,17 +131,19 @@ int frame_joint(const Character& character, const std::vector<int>& rim, const s
   return largest(weight_a_joint(character, where, std::vector<double>(where.size(), 1)));
 }
 
-const RegionRecipe* stated_region(const Character& character, const Recipe& recipe,
+const RegionRecipe* stated_region(const Character& character, const Surface& surface, const Recipe& recipe,
                                   const std::vector<double>& stiffness, const std::vector<int>& vertices) {
-  const std::vector<double> weight = soft_weight(character, stiffness, vertices);
   const RegionRecipe* stated = nullptr;
   double best = 0, all = 0;
-  for (double value : weight) all += value;
+  for (double value : soft_weight(character, stiffness, vertices)) all += value;
   for (const RegionRecipe& region : recipe.regions) {
-    const std::vector<bool> joints =
-        match_joints(character, region.joints, "recipe: region '" + region.name + "'");
+    const RegionScope scope = scope_of(character, surface, region);
+    std::vector<int> own;
+    for (const int v : vertices)
+      if (scope.vertices[static_cast<size_t>(v)]) own.push_back(v);
+    const std::vector<double> weight = soft_weight(character, stiffness, own);
     double sum = 0;
-    for (size_t j = 0; j < joints.size(); ++j) sum += joints[j] ? weight[j] : 0;
+    for (size_t j = 0; j < weight.size(); ++j) sum += scope.joints[j] ? weight[j] : 0;
     if (sum > best) best = sum, stated = &region;
   }
   return best > all / 2 ? stated : nullptr;

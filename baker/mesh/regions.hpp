@@ -36,7 +36,7 @@ std::vector<int> rim_vertices(const Surface& surface, const SoftParts& parts, in
 int frame_joint(const Character& character, const std::vector<int>& rim, const std::vector<int>& vertices);
 
 // Of painted parts, the recipe's region that has most of the part's weight where it is soft; null: none has.
-const RegionRecipe* stated_region(const Character& character, const Recipe& recipe,
+const RegionRecipe* stated_region(const Character& character, const Surface& surface, const Recipe& recipe,
                                   const std::vector<double>& stiffness, const std::vector<int>& vertices);
 
 // Of the joint that has most of that weight.

@@ -27,6 +27,7 @@ constexpr std::array<KindDefaults, static_cast<size_t>(SoftKind::kCount)> kDefau
     {"antenna", 4, 0.2, 0.35},
     {"fin", 2.5, 0.3, 0.35},
     {"cloth", 1.5, 0.6, 0.35},
+    {"hat", 4, 0.35, 0.35},
 }};
 
 }  // namespace

@@ -24,6 +24,7 @@ enum class SoftKind {
   kAntenna,
   kFin,
   kCloth,
+  kHat,  // a piece of felt or straw, never a chain
   kCount
 };
 

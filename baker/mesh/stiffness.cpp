@@ -9,6 +9,7 @@
 #include "baker/mesh/flesh_shape.hpp"
 #include "baker/mesh/joint_names.hpp"
 #include "baker/mesh/named_parts.hpp"
+#include "baker/mesh/piece_softness.hpp"
 #include "baker/mesh/regions.hpp"
 #include "baker/mesh/rim.hpp"
 
@@ -53,14 +54,16 @@ double wanted_share(const RegionRecipe& region, SoftKind kind) {
 
 class StatedRegions {
  public:
-  StatedRegions(const Character& character, const Surface& surface, const std::vector<bool>& coreless)
+  StatedRegions(const Character& character, const Surface& surface, const std::vector<bool>& coreless,
+                const PieceRegions& pieces)
       : character_(character),
         surface_(surface),
         anatomy_(find_anatomy(character)),
         flesh_(flesh_joints(character)),
         thickness_(flesh_thickness(character, find_bones(character, flesh_))),
         fastened_(fastened_to(character, surface)),
-        coreless_(coreless) {}
+        coreless_(coreless),
+        pieces_(pieces) {}
 
   std::vector<double> softness(const RegionRecipe& region) const {
     const std::vector<bool> joints =
@@ -71,7 +74,7 @@ class StatedRegions {
     for (const Influences& skin : character_.skin) most = std::max(most, weight_of(skin, joints));
     std::vector<bool> reached;
     for (size_t v = 0; v < thickness_.size(); ++v) {
-      reached.push_back(weight_of(character_.skin[v], joints) > kWeightTo * most);
+      reached.push_back(!pieces_.claims(v) && weight_of(character_.skin[v], joints) > kWeightTo * most);
       if (reached[v]) thickest = std::max(thickest, thickness_[v]);
     }
     const SoftKind kind = kind_of_region(region.name, &region);
@@ -134,6 +137,7 @@ class StatedRegions {
   std::vector<double> thickness_;
   std::vector<int> fastened_;
   const std::vector<bool>& coreless_;
+  const PieceRegions& pieces_;
 };
 
 void equal_at_seams(const Character& character, Stiffness& stiffness) {
@@ -141,13 +145,29 @@ void equal_at_seams(const Character& character, Stiffness& stiffness) {
     const auto welded = static_cast<size_t>(character.welded[v]);
     stiffness.of_vertex[v] = stiffness.of_vertex[welded];
     stiffness.region[v] = stiffness.region[welded];
+    if (!stiffness.piece.empty()) stiffness.piece[v] = stiffness.piece[welded];
   }
+}
+
+// Of every soft vertex the piece that it is of, numbered through all regions.
+std::vector<int> pieces_of(const PieceRegions& pieces, const std::vector<int>& region) {
+  const int regions = region.empty() ? 0 : *std::ranges::max_element(region) + 1;
+  std::vector<int> piece(region.size(), -1);
+  int first = 0;
+  for (int r = 0; r < regions; ++r) {
+    const std::vector<int>& own = pieces.pieces(static_cast<size_t>(r));
+    if (own.empty()) continue;
+    for (size_t v = 0; v < piece.size(); ++v)
+      if (region[v] == r && own[v] >= 0) piece[v] = first + own[v];
+    first += *std::ranges::max_element(own) + 1;
+  }
+  return piece;
 }
 
 }  // namespace
 
 Stiffness painted_stiffness(const Character& character) {
-  Stiffness painted{character.stiffness, std::vector<int>(character.stiffness.size(), -1)};
+  Stiffness painted{character.stiffness, std::vector<int>(character.stiffness.size(), -1), {}};
   equal_at_seams(character, painted);
   return painted;
 }
@@ -155,14 +175,18 @@ Stiffness painted_stiffness(const Character& character) {
 Stiffness stated_stiffness(const Character& character, const Surface& surface,
                            const std::vector<RegionRecipe>& regions, const std::vector<bool>& coreless) {
   std::vector<double> best(character.positions.size(), 0);
-  Stiffness stated{std::vector<double>(best.size(), 1), std::vector<int>(best.size(), -1)};
+  Stiffness stated{std::vector<double>(best.size(), 1), std::vector<int>(best.size(), -1), {}};
   if (regions.empty()) return stated;
-  const StatedRegions found(character, surface, coreless);
+  const PieceRegions pieces(character, surface, regions);
+  const StatedRegions found(character, surface, coreless, pieces);
   for (size_t r = 0; r < regions.size(); ++r) {
-    const std::vector<double> soft = found.softness(regions[r]);
+    const bool of_pieces = selects_piece(regions[r]);
+    const std::vector<double> soft = of_pieces ? pieces.softness(r) : found.softness(regions[r]);
     for (size_t v = 0; v < best.size(); ++v)
-      if (soft[v] > best[v]) best[v] = soft[v], stated.region[v] = static_cast<int>(r);
+      if (soft[v] > best[v] && (of_pieces || !pieces.claims(v)))
+        best[v] = soft[v], stated.region[v] = static_cast<int>(r);
   }
+  if (pieces.are_there()) stated.piece = pieces_of(pieces, stated.region);
   hold_seams(surface, stated.region, best);
   for (size_t v = 0; v < best.size(); ++v)
     if (best[v] > 0)

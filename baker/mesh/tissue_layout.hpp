@@ -33,6 +33,7 @@ struct Region {
   bool touches_body = false;  // RegionRecipe::touches_body
   Evidence evidence = Evidence::kRecipe;
   SoftKind kind = SoftKind::kOther;
+  bool is_piece = false;          // of surface that the region names, and not flesh over bones
   double frequency_hz = 0;        // what its first mode is to have; 0: what its moduli give
   bool states_frequency = false;  // it is the recipe's
   double damping_ratio = 0.1;

@@ -287,6 +287,29 @@ TEST_CASE("default_morph_weights_shape_the_bind_pose_the_node_s_before_the_mesh_
                     Catch::Contains("morph targets move too many vertices"));
 }
 
+TEST_CASE("names_of_meshes_and_materials_are_kept_with_the_vertices_that_have_them") {
+  TinyFile file = bar();
+  file.json["meshes"][0]["name"] = "Ladder";
+  file.json["materials"] = {{{"name", "Wood"}}, nlohmann::json::object(), {{"name", "Rope"}}};
+  auto& primitives = file.json["meshes"][0]["primitives"];
+  const int low = file.add<uint16_t>({0, 1, 2}, "SCALAR", 5123),
+            high = file.add<uint16_t>({2, 3, 5, 2, 5, 4}, "SCALAR", 5123);
+  primitives.push_back(primitives[0]);
+  primitives.push_back(primitives[0]);
+  for (size_t p = 0; p < 3; ++p) primitives[p]["material"] = std::array{2, 0, 1}[p];
+  primitives[0]["indices"] = high;
+  primitives[1]["indices"] = low;
+  const Character character = import_file(file, "materials");
+  CHECK(character.meshes.at(0).name == "Ladder");
+  REQUIRE(character.materials.size() == 2);  // one has no name
+  CHECK(character.materials[0].name == "Wood");
+  CHECK(character.materials[0].vertices == std::vector<int>{0, 1, 2});
+  CHECK(character.materials[1].name == "Rope");
+  CHECK(character.materials[1].vertices == std::vector<int>{2, 3, 4, 5});
+  primitives[0]["material"] = 17;  // drawn white, and painted by none
+  CHECK(import_file(file, "materials_wrong").materials.size() == 1);
+}
+
 TEST_CASE("vertex_colours_multiply_the_material_and_become_srgb") {
   TinyFile file = bar();
   file.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {1, 0.5, 0, 0.5}}}}}};

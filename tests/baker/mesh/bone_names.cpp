@@ -134,3 +134,23 @@ TEST_CASE("names_of_the_body_and_of_helpers_are_told_apart") {
   CHECK(meaning_of("ik_hand_gun").helper);
   CHECK_FALSE(meaning_of("ik_hand_gun").body);
 }
+
+TEST_CASE("names_of_pieces_are_those_of_hair_hats_and_cloth_unless_they_are_hard") {
+  const auto piece = [](const std::string& name) { return meaning_of(name).piece; };
+  for (const char* name : {"Helmet", "Hat_Buckle", "Horn.L", "1H_Wand", "2H_Staff", "Spellbook_open", "Sword",
+                           "Shield_Badge", "Cape_Clip", "Rogue_Dagger", "Knight_Mask"}) {
+    INFO(name);
+    CHECK_FALSE(piece(name).has_value());
+    CHECK(meaning_of(name).hard);
+  }
+  CHECK(piece("Mage_Hat") == SoftKind::kHat);
+  CHECK_FALSE(meaning_of("Mage_Hat").kind.has_value());  // a bone of that name is no chain
+  CHECK(piece("Helmet_Feather") == SoftKind::kFin);      // the last word decides
+  CHECK(piece("M_Hair_01") == SoftKind::kHair);
+  CHECK(piece("Rogue_Cape") == SoftKind::kCloth);
+  for (const char* name : {"Body", "Chatter", "That", "Belly", "Antenna", "Mage_Head"}) {
+    INFO(name);
+    CHECK_FALSE(piece(name).has_value());
+    CHECK_FALSE(meaning_of(name).hard);
+  }
+}

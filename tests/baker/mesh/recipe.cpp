@@ -70,6 +70,13 @@ TEST_CASE("wrong_recipes_are_refused_by_key") {
       {R"({"up": "x"})", "\"up\""},
       {R"({"regions": [{"name": "belly"}]})", "joints"},
       {R"({"regions": [{"joints": ["spine"]}]})", "name"},
+      {R"({"regions": [{"name": "belly"}]})", "or name a piece by mesh, material or island_at"},
+      {R"({"regions": [{"name": "cape", "mesh": ""}]})", "\"mesh\""},
+      {R"({"regions": [{"name": "cape", "mesh": ["Cape"]}]})", "\"mesh\""},
+      {R"({"regions": [{"name": "cape", "material": 3}]})", "\"material\""},
+      {R"({"regions": [{"name": "cape", "island_at": [0, 1]}]})", "\"island_at\""},
+      {R"({"regions": [{"name": "cape", "island_at": [0, 1, 1e9]}]})", "\"island_at\""},
+      {R"({"regions": [{"name": "cape", "kind": "felt", "mesh": "Cape"}]})", "fin, hat, other"},
       {R"({"regions": [{"name": "belly", "joints": ["spine"], "stiffness": 2}]})", "stiffness"},
       {R"({"regions": [{"name": "belly", "joints": ["spine"], "softness": 1}]})", "softness"},
       {R"({"regions": [{"name": "belly", "joints": ["spine"], "touches_body": "yes"}]})",
@@ -143,6 +150,20 @@ TEST_CASE("every_key_of_a_recipe_is_read_and_absent_ones_keep_their_default") {
   CHECK(recipe.regions[0].stiffness == 0.3);
   CHECK_FALSE(recipe.regions[0].touches_body);
   CHECK(recipe.regions[1].touches_body);
+}
+
+TEST_CASE("pieces_of_a_region_are_read_with_bones_and_without") {
+  const Recipe recipe = read_recipe(write(R"({"regions": [
+    {"name": "cape", "mesh": "Mage_Cape"}, {"name": "hair", "material": "Hair*", "joints": ["head"], "kind": "hair"},
+    {"name": "tuft", "island_at": [0, 1.5, -0.25]}]})"));
+  REQUIRE(recipe.regions.size() == 3);
+  CHECK(recipe.regions[0].mesh == "Mage_Cape");
+  CHECK(recipe.regions[0].joints.empty());
+  CHECK_FALSE(recipe.regions[0].island_at.has_value());
+  CHECK(recipe.regions[1].material == "Hair*");
+  CHECK(recipe.regions[1].kind == SoftKind::kHair);
+  REQUIRE(recipe.regions[2].island_at.has_value());
+  CHECK(*recipe.regions[2].island_at == Eigen::Vector3d(0, 1.5, -0.25));
 }
 
 TEST_CASE("what_is_not_enabled_is_as_if_it_were_not_there") {
