@@ -9,6 +9,7 @@ struct RodPlace {
   std::string where;       // "recipe: rod 'tail'"
   int root = 0, end = -1;  // end -1: all below the root
   int end_node = -1;       // below `end`'s: where its bone ends; -1: where its child is, else its end site
+  double tail_m = 0;       // of a root that is alone: so long, away from its parent; 0: it is refused
 };
 
 // A radius made fit for a bone of this length.

@@ -280,7 +280,8 @@ std::vector<Rod> rods_of_springs(Character& character, const std::vector<bool>& 
   bool collides = false;
   for (const SpringBones& spring : character.springs) {
     const std::string name = names.unique(static_cast<size_t>(spring.root));
-    const RodPlace place{"spring bone '" + name + "'", spring.root, spring.end, spring.end_node};
+    const RodPlace place{"spring bone '" + name + "'", spring.root, spring.end, spring.end_node,
+                         spring.tail_m};
     try {
       Rod rod = make_rod(character, place, name);
       apply(spring, rod.bones);
