@@ -135,8 +135,8 @@ class Segmenter {
   }
 
   Vector3 end_of(int joint, int parent_bone, const Vector3& begin) const {
-    if (joint == place_.end && place_.end_node >= 0) {
-      const Vector3 end = place_below(joint, place_.end_node);
+    if (joint == place_.end && (place_.end_place || place_.end_node >= 0)) {
+      const Vector3 end = place_.end_place ? *place_.end_place : place_below(joint, place_.end_node);
       if ((end - begin).norm() > no_length_m_) return end;
       refuse("bone " + quoted(joint) + " begins where it ends: a segment has a length; end the rod above it");
     }
