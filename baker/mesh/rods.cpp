@@ -338,6 +338,7 @@ std::vector<Rod> rods_of_springs(Character& character, const std::vector<bool>& 
       Rod rod = make_rod(character, place, name);
       apply(spring, rod.bones);
       rod.sag = 1;
+      rod.states_limit = false;
       describe(character, Evidence::kSpringBone, rod);
       if (moves_claimed(rod, claimed)) {
         if (skipped != nullptr)

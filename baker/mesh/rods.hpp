@@ -28,7 +28,7 @@ struct Rod {
   Vector3 gravity_direction = -Vector3::UnitY();  // unit
   std::vector<int> collider_groups;               // of a spring: BodyCollider::groups
   uint64_t passed_proxies = 0;  // a bit each of TissueLayout::proxies, which it does not collide with
-  bool states_limit = true;     // it is a recipe's, or a file's springs have none
+  bool states_limit = true;     // it is a recipe's; else it may be lowered, where there is none too
   std::vector<RodBone> bones;
   Evidence evidence = Evidence::kRecipe;
   SoftKind kind = SoftKind::kOther;
