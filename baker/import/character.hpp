@@ -74,8 +74,10 @@ struct SpringNumbers {
 // Bones that a VRM file lets swing: a root joint and all that hangs on it, or what lies between it and `end`.
 struct SpringBones {
   std::string name;
-  int root = 0, end = -1;      // joints; -1: no end is stated, all below the root swings
-  int end_node = -1;           // where the bone of `end` ends; -1: where its child is
+  int root = 0, end = -1;  // joints; -1: no end is stated, all below the root swings
+  int end_node = -1;       // where the bone of `end` ends; -1: where its child is
+  // Of a root with nothing below it: so long, pointing away from its parent. 0: such a root has no end.
+  double tail_m = 0;
   SpringNumbers numbers = {};  // of the root, and of what has none of its own
   std::vector<std::pair<int, SpringNumbers>> of_joints = {};
   std::vector<int> collider_groups = {};  // of BodyCollider::groups, that it collides with

@@ -86,6 +86,7 @@ void convert_axes(const ImportOptions& options, Source& source, Character& chara
   };
   for (SpringBones& spring : character.springs) {
     convert(spring.numbers);
+    spring.tail_m *= unit;
     for (auto& [joint, numbers] : spring.of_joints) convert(numbers);
   }
 }

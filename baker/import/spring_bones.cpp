@@ -14,6 +14,7 @@ using tinygltf::Value;
 
 constexpr size_t kMostSprings = 1000;
 constexpr double kLargestHit = 100;  // radius, in the file's units
+constexpr double kTail = 0.07;       // of a bone of version 0 without one below it: UniVRM's, file's units
 
 std::string text(const Value& value) { return value.IsString() ? value.Get<std::string>() : ""; }
 
@@ -86,6 +87,7 @@ class SpringReader {
     for (const Value& group : list(part(part(extension, "secondaryAnimation"), "boneGroups"))) {
       SpringBones spring;
       spring.numbers = numbers_of(group, kVersion0);
+      spring.tail_m = kTail;
       spring.name = text(part(group, "comment"));
       spring.collider_groups = groups_of(group);
       note_center(group, spring.name);

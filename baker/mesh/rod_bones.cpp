@@ -125,9 +125,18 @@ class Segmenter {
     return (bind * to_node).topRightCorner<3, 1>();
   }
 
+  // As far on as the place says, away from the joint's parent.
+  Vector3 tail_of(int joint, const Vector3& begin) const {
+    const Vector3 along = begin - place_of(character_, character_.joint_parent[static_cast<size_t>(joint)]);
+    if (place_.tail_m > 0 && along.norm() > no_length_m_) return begin + place_.tail_m * along.normalized();
+    refuse("bone " + quoted(joint) +
+           " is alone and nothing says where it ends; name a bone with bones below it, or add a bone at its "
+           "tip in the file");
+  }
+
   Vector3 end_of(int joint, int parent_bone, const Vector3& begin) const {
-    if (joint == place_.end && place_.end_node >= 0) {
-      const Vector3 end = place_below(joint, place_.end_node);
+    if (joint == place_.end && (place_.end_place || place_.end_node >= 0)) {
+      const Vector3 end = place_.end_place ? *place_.end_place : place_below(joint, place_.end_node);
       if ((end - begin).norm() > no_length_m_) return end;
       refuse("bone " + quoted(joint) + " begins where it ends: a segment has a length; end the rod above it");
     }
@@ -140,11 +149,7 @@ class Segmenter {
              " begin in one place: a segment has a length; end the rod above them or move one");
     }
     if (end_site(joint, begin, &site)) return site;
-    if (parent_bone < 0)
-      refuse("bone " + quoted(joint) +
-             " is alone and nothing says where it ends; name a bone with bones below it, or add a bone at "
-             "its tip in "
-             "the file");
+    if (parent_bone < 0) return tail_of(joint, begin);
     const RodBone& parent = bones_[static_cast<size_t>(parent_bone)];
     return begin + parent.end - parent.begin;
   }

@@ -1,5 +1,7 @@
 // rod_bones.hpp  The segments of a bone chain or tree in the bind pose.
 #pragma once
+#include <optional>
+
 #include "baker/mesh/rods.hpp"
 
 namespace sinew::baker {
@@ -9,6 +11,8 @@ struct RodPlace {
   std::string where;       // "recipe: rod 'tail'"
   int root = 0, end = -1;  // end -1: all below the root
   int end_node = -1;       // below `end`'s: where its bone ends; -1: where its child is, else its end site
+  double tail_m = 0;       // of a root that is alone: so long, away from its parent; 0: it is refused
+  std::optional<Vector3> end_place = {};  // where `end`'s bone ends, before all that
 };
 
 // A radius made fit for a bone of this length.

@@ -13,6 +13,7 @@ RodRecipe read_rod(JsonSection& section) {
   rod.root = section.text("root");
   rod.name = section.text("name", rod.root);
   if (section.has("end")) rod.end = section.text("end");
+  if (section.has("end_joint")) rod.end_joint = section.text("end_joint");
   if (section.has("radius_m")) rod.radius_m = section.number("radius_m", 0, 1e-5, 10);
   rod.density_kg_m3 = section.number("density_kg_m3", rod.density_kg_m3, 1, 1e5);
   if (section.has("frequency_hz")) {
@@ -33,7 +34,12 @@ RodRecipe read_rod(JsonSection& section) {
   rod.drag_per_s = section.number("drag_per_s", rod.drag_per_s, 0, 1000);
   rod.gravity = section.number("gravity", rod.gravity, 0, 100);
   rod.sag = section.number("sag", rod.sag, 0, 1);
-  if (section.has("max_displacement")) rod.max_displacement = section.number("max_displacement", 0, 0.01, 2);
+  if (section.has("max_displacement")) {
+    rod.max_displacement = section.number("max_displacement", 0, 0.01, 2);
+    if (section.has("end_joint"))
+      section.complain("max_displacement",
+                       "says how far a free end may go, and end_joint holds it; state one of them");
+  }
   section.finish();
   return rod;
 }

@@ -12,6 +12,10 @@ struct RodRecipe {
   std::string name;  // its root's where none is stated
   std::string root;  // the first bone that swings; it hangs on its parent, which does not
   std::string end;   // the last one, below the root: a chain. Empty: all bones below the root, a tree
+  // A strap's: the bone that holds the last one's end as well. Empty: none, unless max_displacement is not
+  // stated and the skin leaves no doubt (rod_end.hpp). Frequency and damping ratio are those of the rod with
+  // its end free.
+  std::string end_joint = {};
 
   double radius_m = 0;  // 0: as thick as the flesh on each bone; else above 0 .. 10
   // 1 .. 1e5. Heavier than 1000 it swings slower, by the square root, and air takes less of its velocity;
@@ -31,11 +35,12 @@ struct RodRecipe {
   // it, and only turning against gravity is felt. 1: the pose is the shape without gravity.
   double sag = 0;
   // 0.01 .. 2, share of its length that it is shown away from its pose at most, approached smoothly: an angle
-  // in radians. 0: no limit.
+  // in radians. 0: no limit. Not beside end_joint.
   double max_displacement = 0;
 };
 
-// The list "rods". Throws BadInput as JsonSection does, and where moduli and a frequency are both stated.
+// The list "rods". Throws BadInput as JsonSection does, and where moduli and a frequency are both stated, or
+// what holds the end and how far it may go.
 std::vector<RodRecipe> read_rod_recipes(JsonSection& section);
 
 }  // namespace sinew::baker

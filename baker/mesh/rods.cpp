@@ -20,6 +20,7 @@
 #include "baker/mesh/bone_names.hpp"
 #include "baker/mesh/joint_names.hpp"
 #include "baker/mesh/rod_bones.hpp"
+#include "baker/mesh/rod_end.hpp"
 #include "rods/section.hpp"
 
 namespace sinew::baker {
@@ -241,23 +242,74 @@ void describe(const Character& character, Evidence evidence, Rod& rod) {
   rod.frequency_hz = slowest_swing(rod.bones) / (2 * std::numbers::pi);
 }
 
-Rod rod_of(const Character& character, const RodRecipe& recipe, const RodPlace& place) {
-  Rod rod = make_rod(character, place, recipe.name);
+// What the recipe's rods move, whether they can be made or not.
+std::vector<bool> joints_on_stated(const Character& character, const std::vector<RodRecipe>& recipes) {
+  std::vector<bool> on(character.joint_node.size(), false);
+  for (const RodRecipe& recipe : recipes)
+    on[static_cast<size_t>(joint_called(character, recipe.root, "recipe: rod '" + recipe.name + "'"))] = true;
+  for (size_t j = 0; j < on.size(); ++j)
+    if (const int up = character.joint_parent[j]; up >= 0 && on[static_cast<size_t>(up)]) on[j] = true;
+  return on;
+}
+
+// The bone that a strap's end is sewn to, as the recipe says.
+SewnEnd stated_end(const Character& character, const RodRecipe& recipe, const Rod& rod,
+                   const std::vector<bool>& on_rods, const std::string& where) {
+  const int joint = joint_called(character, recipe.end_joint, where + ": end_joint");
+  if (on_rods[static_cast<size_t>(joint)])
+    throw BadInput(character.name + ": " + where + ": end_joint '" + recipe.end_joint +
+                   "' is moved by a rod; name a bone that none moves");
+  if (!is_chain(rod))
+    throw BadInput(character.name + ": " + where +
+                   ": it has branches, and end_joint holds the end of one; state the rod's end");
+  return {joint, find_seam(character, rod, joint, on_rods).value_or(rod.bones.back().end)};
+}
+
+// The same bones, the last one up to where it is sewn on.
+void hold_end(const Character& character, const SewnEnd& sewn, RodPlace place, Rod& rod) {
+  place.end = rod.bones.back().joint;
+  place.end_place = sewn.place;
+  rod.bones = segment_bones(character, place);
+  rod.end_joint = sewn.joint;
+}
+
+std::string end_note(const Character& character, const Rod& rod, const std::string& where) {
+  return character.name + ": " + where + ": its last bone's skin goes on to bone '" +
+         joint_name(character, static_cast<size_t>(rod.end_joint)) +
+         "', which holds its end as well; state end_joint for another one, or max_displacement to let it "
+         "swing";
+}
+
+// Before its bones get their stiffness, which counts on their lengths.
+void hold_end(Character& character, const RodRecipe& recipe, const std::vector<bool>& on_rods,
+              const RodPlace& place, Rod& rod) {
+  if (!recipe.end_joint.empty())
+    return hold_end(character, stated_end(character, recipe, rod, on_rods, place.where), place, rod);
+  if (recipe.max_displacement > 0) return;
+  const std::optional<SewnEnd> found = find_sewn_end(character, rod, on_rods);
+  if (!found) return;
+  hold_end(character, *found, place, rod);
+  character.notes.push_back(end_note(character, rod, place.where));
+}
+
+void apply(const RodRecipe& recipe, Rod& rod) {
   apply(recipe, rod.bones);
   rod.gravity = recipe.gravity;
   rod.sag = recipe.sag;
   rod.max_displacement = recipe.max_displacement;
-  return rod;
 }
 
-std::vector<Rod> stated_rods(const Character& character, const std::vector<RodRecipe>& recipes) {
+std::vector<Rod> stated_rods(Character& character, const std::vector<RodRecipe>& recipes) {
   std::vector<Rod> rods;
+  const std::vector<bool> on_rods = joints_on_stated(character, recipes);
   Owners owners(character);
   for (const RodRecipe& recipe : recipes) {
     RodPlace place{"recipe: rod '" + recipe.name + "'"};
     place.root = joint_called(character, recipe.root, place.where);
     if (!recipe.end.empty()) place.end = end_called(character, recipe.end, place.root, place.where);
-    Rod rod = rod_of(character, recipe, place);
+    Rod rod = make_rod(character, place, recipe.name);
+    hold_end(character, recipe, on_rods, place, rod);
+    apply(recipe, rod);
     describe(character, Evidence::kRecipe, rod);
     owners.take(rods, rod, place.where);
     rods.push_back(std::move(rod));
@@ -280,11 +332,13 @@ std::vector<Rod> rods_of_springs(Character& character, const std::vector<bool>& 
   bool collides = false;
   for (const SpringBones& spring : character.springs) {
     const std::string name = names.unique(static_cast<size_t>(spring.root));
-    const RodPlace place{"spring bone '" + name + "'", spring.root, spring.end, spring.end_node};
+    const RodPlace place{"spring bone '" + name + "'", spring.root, spring.end, spring.end_node,
+                         spring.tail_m};
     try {
       Rod rod = make_rod(character, place, name);
       apply(spring, rod.bones);
       rod.sag = 1;
+      rod.states_limit = false;
       describe(character, Evidence::kSpringBone, rod);
       if (moves_claimed(rod, claimed)) {
         if (skipped != nullptr)
@@ -337,7 +391,8 @@ void add_named_rods(const Character& character, const std::vector<RodRecipe>& na
     RodPlace place{"bone '" + recipe.name + "'"};
     place.root = joint_called(character, recipe.root, place.where);
     try {
-      Rod rod = rod_of(character, recipe, place);
+      Rod rod = make_rod(character, place, recipe.name);
+      apply(recipe, rod);
       rod.states_limit = false;
       describe(character, Evidence::kBoneName, rod);
       owners.take(taken, rod, place.where);

@@ -22,12 +22,13 @@ struct RodBone {
 
 struct Rod {
   std::string name;
-  int attach = 0;  // the joint that the first bone hangs on
+  int attach = 0;      // the joint that the first bone hangs on
+  int end_joint = -1;  // that holds the last bone's end as well, of a chain; -1: it is free
   double gravity = 1, sag = 0, max_displacement = 0;
   Vector3 gravity_direction = -Vector3::UnitY();  // unit
   std::vector<int> collider_groups;               // of a spring: BodyCollider::groups
   uint64_t passed_proxies = 0;  // a bit each of TissueLayout::proxies, which it does not collide with
-  bool states_limit = true;     // it is a recipe's, or a file's springs have none
+  bool states_limit = true;     // it is a recipe's; else it may be lowered, where there is none too
   std::vector<RodBone> bones;
   Evidence evidence = Evidence::kRecipe;
   SoftKind kind = SoftKind::kOther;
@@ -41,7 +42,8 @@ struct Rod {
 //
 // Throws BadInput with the rod and the bone, for the recipe's: a bone that is not there (with the nearest
 // name), an end that is not below the root, a root without a parent, a single bone without an end, two joints
-// in one place, a bone in two rods, a rod that hangs on another one.
+// in one place, a bone in two rods, a rod that hangs on another one, an end held by a bone that a rod moves
+// or of a rod with branches.
 //
 // claimed: joints that stronger evidence than a spring has; a spring that moves one is skipped.
 std::vector<Rod> find_rods(Character& character, const Recipe& recipe, const std::vector<bool>& claimed = {},

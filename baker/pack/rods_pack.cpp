@@ -48,6 +48,7 @@ void add_rods(const Character& character, const std::vector<Rod>& rods, PackWrit
     pack::RodRecord record{};
     record.name = pack.string(rod.name);
     record.attach = static_cast<uint32_t>(rod.attach);
+    record.end_holder = static_cast<uint32_t>(rod.end_joint + 1);
     record.first_segment = static_cast<uint32_t>(segments.size());
     record.segment_count = static_cast<uint32_t>(rod.bones.size());
     record.gravity = static_cast<float>(rod.gravity);

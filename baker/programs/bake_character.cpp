@@ -48,14 +48,15 @@ struct Tissue {
   std::vector<ModalBasis> finest;
   std::vector<GraphLevel> coarser;
 
-  // Of a part, regions before rods; true where it is one that may be scaled, and was.
-  bool scale_limit(size_t part, double factor) {
+  // Of a part that moves by this share of its size, regions before rods; true where it is one that may be
+  // scaled, and was.
+  bool scale_limit(size_t part, double factor, double moved_share) {
     const size_t regions = layout.regions.size();
     if (factor >= 1) return false;
     if (part >= regions) {
       Rod& rod = layout.rods[part - regions];
       if (rod.states_limit) return false;
-      rod.max_displacement *= factor;
+      rod.max_displacement = factor * (rod.max_displacement > 0 ? rod.max_displacement : moved_share);
       return true;
     }
     if (layout.regions[part].states_limit) return false;
@@ -100,22 +101,38 @@ std::string limit_note(const Region& before, const Region& after) {
   return text;
 }
 
-// Flesh with a narrow rim tears where other flesh only swings: limits that no recipe states are lowered until
-// a quick audit of the modal base is within its bounds.
+std::string limit_note(const Rod& rod) {
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "'%s' may swing by %.2f of its length: further its skin would tear; mend its weights, or "
+                "state max_displacement in a recipe's \"rods\"",
+                rod.name.c_str(), rod.max_displacement);
+  return text;
+}
+
+// Flesh with a narrow rim tears where other flesh only swings, and so does skin of which a lock has a part:
+// limits that no recipe states are lowered until a quick audit of the modal base is within its bounds.
 void lower_limits(const Packer& packer, Character& character, Tissue& tissue) {
   constexpr int kMostRounds = 6;
   const std::vector<Region> before = tissue.layout.regions;
+  const std::vector<Rod> rods_before = tissue.layout.rods;
   bool lowered = !tissue.layout.regions.empty() || !tissue.layout.rods.empty();
   for (int round = 0; lowered && round < kMostRounds; ++round) {
     const LoadedPack pack = LoadedPack::from_bytes(packer.pack(nullptr), character.name);
     const Audit audit = quick_audit({pack.view(), pack.bytes()});
     lowered = false;
-    for (size_t p = 0; p < audit.parts.size(); ++p)
-      lowered |= tissue.scale_limit(p, limit_factor(audit.parts[p], audit.height_m));
+    for (size_t p = 0; p < audit.parts.size(); ++p) {
+      const PartAudit& part = audit.parts[p];
+      lowered |= tissue.scale_limit(p, limit_factor(part, audit.height_m),
+                                    part.displacement_m.value / part.part.size_m);
+    }
   }
   for (size_t r = 0; r < before.size(); ++r)
     if (tissue.layout.regions[r].max_displacement < before[r].max_displacement)
       character.notes.push_back(limit_note(before[r], tissue.layout.regions[r]));
+  for (size_t r = 0; r < rods_before.size(); ++r)
+    if (tissue.layout.rods[r].max_displacement != rods_before[r].max_displacement)
+      character.notes.push_back(limit_note(tissue.layout.rods[r]));
 }
 
 std::vector<std::byte> with_tiers(const std::vector<std::byte>& bytes,

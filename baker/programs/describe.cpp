@@ -124,17 +124,19 @@ Json describe_rods(const pack::PackView& view) {
       stiffest_pa = std::max(stiffest_pa, double{s.young_modulus_pa});
       bones.push_back(string_at(view, view.joints[s.joint].name));
     }
-    rods.push_back({{"name", string_at(view, rod.name)},
-                    {"hangs_on", string_at(view, view.joints[rod.attach].name)},
-                    {"bones", bones.size()},
-                    {"first_hz", rod.frequency_hz},
-                    {"from", bones.front()},
-                    {"to", bones.back()},
-                    {"length_m", length_m},
-                    {"young_modulus_pa", Json::array({softest_pa, stiffest_pa})},
-                    {"gravity", rod.gravity},
-                    {"sag", rod.sag},
-                    {"turn_limit_rad", rod.turn_limit_rad}});
+    rods.push_back(
+        {{"name", string_at(view, rod.name)},
+         {"hangs_on", string_at(view, view.joints[rod.attach].name)},
+         {"end_held_by", rod.end_holder == 0 ? "" : string_at(view, view.joints[rod.end_holder - 1].name)},
+         {"bones", bones.size()},
+         {"first_hz", rod.frequency_hz},
+         {"from", bones.front()},
+         {"to", bones.back()},
+         {"length_m", length_m},
+         {"young_modulus_pa", Json::array({softest_pa, stiffest_pa})},
+         {"gravity", rod.gravity},
+         {"sag", rod.sag},
+         {"turn_limit_rad", rod.turn_limit_rad}});
   }
   return rods;
 }

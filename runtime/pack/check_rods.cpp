@@ -31,6 +31,8 @@ Status check_record(const PackView& pack, const RodRecord& rod, size_t index, ui
     return corrupt("rod %zu: hangs on joint %u of %zu", index, rod.attach, pack.joints.size());
   if (rod.segment_count < 1 || rod.segment_count > kMostSegments)
     return corrupt("rod %zu: %u segments, outside 1..65535", index, rod.segment_count);
+  if (rod.end_holder != 0 && rod.segment_count == kMostSegments)
+    return corrupt("rod %zu: 65535 segments and a held end, at most 65534", index);
   if (rod.first_segment != first || rod.segment_count > pack.rod_segments.size() - first)
     return corrupt("rod %zu: segments do not follow the rod before it", index);
   if (!is_not_negative(rod.gravity) || rod.gravity > kMostGravity)
@@ -43,7 +45,9 @@ Status check_record(const PackView& pack, const RodRecord& rod, size_t index, ui
     return corrupt("rod %zu: frequency %g Hz, below 0", index, double{rod.frequency_hz});
   if (!is_unit(rod.gravity_direction))
     return corrupt("rod %zu: the direction of its gravity is not a unit vector", index);
-  if (rod.reserved0 != 0) return corrupt("rod %zu: a reserved field is not zero", index);
+  if (rod.end_holder > pack.joints.size())
+    return corrupt("rod %zu: its end is held by joint %u of %zu", index, rod.end_holder - 1,
+                   pack.joints.size());
   return check_zero(rod.reserved, "rod", index);
 }
 
@@ -89,6 +93,8 @@ Status check_segment(const PackView& pack, const RodRecord& rod, uint32_t own) n
   const RodSegmentRecord& segment = pack.rod_segments[index];
   if ((segment.parent == kNoIndex) != (own == 0) || (own > 0 && segment.parent >= own))
     return corrupt("rod segment %zu: its parent does not come before it", index);
+  if (rod.end_holder != 0 && own > 0 && segment.parent != own - 1)
+    return corrupt("rod segment %zu: a branch of a rod whose end is held", index);
   if (Status status = check_place(segment, index); !status.ok()) return status;
   if (Status status = check_material(segment, index); !status.ok()) return status;
   if (own > 0) {
@@ -133,9 +139,13 @@ Status check_carried(const PackView& pack) noexcept {
     if (!own && carrier != inherited)
       return corrupt("joint rods %zu: neither the joint's own segment nor its parent's", j);
   }
-  for (size_t index = 0; index < pack.rods.size(); ++index)
-    if (pack.joint_rods[pack.rods[index].attach] != kNoIndex)
+  for (size_t index = 0; index < pack.rods.size(); ++index) {
+    const RodRecord& rod = pack.rods[index];
+    if (pack.joint_rods[rod.attach] != kNoIndex)
       return corrupt("rod %zu: hangs on a bone that a rod moves", index);
+    if (rod.end_holder != 0 && pack.joint_rods[rod.end_holder - 1] != kNoIndex)
+      return corrupt("rod %zu: its end is held by a bone that a rod moves", index);
+  }
   return {};
 }
 

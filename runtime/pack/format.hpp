@@ -36,6 +36,8 @@
 //      a rod states which way its gravity pulls and which capsules it passes
 //   8  a tier tells its error along the motion in which it is largest, and which that is
 //   9  no update rates and no spring tier: the scheduler bought neither
+//      since then without a new version, for a reader that does not know it refuses the field:
+//      RodRecord::end_holder
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -375,7 +377,9 @@ struct RodRecord {
   float turn_limit_rad;
   float frequency_hz;          // about that of its slowest swing, for tables; 0: not known
   float gravity_direction[3];  // unit, in the world
-  uint32_t reserved0;
+  // 0: its end is free. Else 1 + the joint that holds the last segment's end as it held it in the bind pose;
+  // moved by no rod, and each segment hangs on the one before.
+  uint32_t end_holder;
   uint64_t passed_proxies;  // a bit each of kProxies, which it does not collide with
   uint32_t reserved[2];
 };

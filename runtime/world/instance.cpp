@@ -68,9 +68,9 @@ void lay_out_state(const Asset& asset, core::Arena& arena, Instance& to) noexcep
     *turns = arena.take<float>(4 * slots);
   to.rod_tail_velocity = arena.take<float>(3 * slots);
   to.rod_asleep = arena.take<double>(4 * slots);
-  to.rod_hold_asleep = arena.take<double>(size_t{3} * asset.rods.rod_count);
+  to.rod_hold_asleep = arena.take<double>(size_t{3} * asset.rods.hold_count());
   for (double*& rest : to.rod_rest) rest = arena.take<double>(4 * slots);
-  for (double*& hold : to.rod_hold) hold = arena.take<double>(size_t{3} * asset.rods.rod_count);
+  for (double*& hold : to.rod_hold) hold = arena.take<double>(size_t{3} * asset.rods.hold_count());
   if (to.contacts.own_body)
     for (double*& ends : to.proxy_ends) ends = arena.take<double>(6 * asset.pack.proxies.size());
   if (soft_parts_touch(asset, to.contacts)) {

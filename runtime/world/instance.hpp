@@ -197,8 +197,8 @@ struct Instance {
   float *rod_turn = nullptr, *rod_shown[2] = {}, *rod_tail = nullptr;
   float* rod_tail_velocity = nullptr;                        // [slots][3]: rotation vector a tick
   double *rod_asleep = nullptr, *rod_hold_asleep = nullptr;  // rest and hold when their quiet began
-  // Of the last two ticks, newest first: [slots][4] segments' orientations in the world at rest, [rods][3]
-  // where their holders end, from rod_anchor_m.
+  // Of the last two ticks, newest first: [slots][4] segments' orientations in the world at rest, and where
+  // rods are held, [rods][3] then [held ends][3], from rod_anchor_m.
   double *rod_rest[2] = {}, *rod_hold[2] = {};
   double* proxy_ends[2] = {};  // likewise, [proxies][2][3]; null: it does not touch its body
   // Of soft parts that may touch something, else null: how vertices are pushed, laid out and along axes as

@@ -97,7 +97,7 @@ void pass_proxies(const Instance& instance, uint32_t batch, rods::RodCollider& c
   for (uint32_t rod = 0; rod < instance.asset->rods.rod_count; ++rod) {
     const RodSeat& seat = instance.asset->rods.seats()[rod];
     if (seat.batch != batch) continue;
-    for (uint32_t k = 1; k < seat.slot_count; ++k) {
+    for (uint32_t k = 1; k <= seat.segment_count(); ++k) {
       (void)collider.set_passed(seat.strand, k, passed_by(pack, pack.rods[rod], k - 1));  // it is there
     }
   }

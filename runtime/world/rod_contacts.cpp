@@ -71,7 +71,7 @@ void choose_touched(Instance& instance, rods::RodCollider& collider) noexcept {
 Eigen::AlignedBox3d box_of_rods(const Instance& instance) noexcept {
   Eigen::AlignedBox3d box;
   for (const RodSeat& seat : instance.asset->rods.seats()) {
-    for (uint32_t k = 1; k < seat.slot_count; ++k) {
+    for (uint32_t k = 1; k <= seat.segment_count(); ++k) {
       const RodSlot& slot = instance.asset->rods.slots()[seat.first_slot + k];
       const rods::SegmentPose pose = instance.rod_batches[seat.batch].pose(seat.strand, k);
       const Vector3d middle = Eigen::Map<const Vector3d>(pose.position_m);
@@ -140,8 +140,8 @@ bool surface_is_near(const Instance& instance, const RodSeat& seat) noexcept {
   ContactProbe probes[kAtOnce];
   ContactHit hit;
   const auto tick_s = static_cast<float>(instance.asset->tick_s);
-  for (uint32_t first = 1; first < seat.slot_count; first += kAtOnce) {
-    const uint32_t count = std::min(kAtOnce, seat.slot_count - first);
+  for (uint32_t first = 1; first <= seat.segment_count(); first += kAtOnce) {
+    const uint32_t count = std::min(kAtOnce, seat.segment_count() + 1 - first);
     for (uint32_t i = 0; i < count; ++i) probes[i] = probe_of(instance, seat, first + i);
     if (instance.contacts.surface->find({probes, count}, tick_s, {&hit, 1}) > 0) return true;
   }

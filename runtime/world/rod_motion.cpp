@@ -40,6 +40,15 @@ Vector3d half_axis(const RodSlot& slot, const Quaterniond& turn) noexcept {
   return turn * Vector3d(0, 0, slot.length_m / 2);
 }
 
+bool is_end(const RodSeat& seat, uint32_t slot) noexcept {
+  return slot > seat.first_slot + seat.segment_count();
+}
+
+Vector3d hold_of_end(const Instance& instance, const RodSeat& seat, int tick) noexcept {
+  const size_t hold = size_t{instance.asset->rods.rod_count} + seat.end_hold;
+  return Eigen::Map<const Vector3d>(instance.rod_hold[tick] + 3 * hold);
+}
+
 // Where a segment is when its rod is turned as rod_turn says against the rest of a tick; parents first.
 struct Placed {
   Quaterniond turn;
@@ -54,6 +63,7 @@ Placed place_segment(Instance& instance, const RodSeat& seat, uint32_t rod, uint
     end = Eigen::Map<const Vector3d>(instance.rod_hold[tick] + size_t{3} * rod);
     return {turn, end - half};
   }
+  if (is_end(seat, s)) return {turn, hold_of_end(instance, seat, tick) + half};
   const Vector3d begin = Eigen::Map<const Vector3d>(instance.rod_end[tick] + size_t{3} * slot.parent);
   end = begin + 2 * half;
   return {turn, begin + half};
@@ -102,6 +112,13 @@ Quaterniond led_rest(const Instance& instance, uint32_t s) noexcept {
   return (now * exponential(lead * logarithm(step))).normalized();
 }
 
+void drive_end(const Instance& instance, const RodSeat& seat, rods::RodBatch& batch) noexcept {
+  const uint32_t k = seat.slot_count - 1, s = seat.first_slot + k;
+  const Quaterniond held = rest_of(instance, 0, s);
+  const Vector3d half = half_axis(instance.asset->rods.slots()[s], held);
+  (void)batch.set_target(seat.strand, k, pose_of(held, hold_of_end(instance, seat, 0) + half));
+}
+
 // Where it is held, its shape at rest, what pulls at it.
 void drive_rod(Instance& instance, uint32_t rod) noexcept {
   const RodRig& rig = instance.asset->rods;
@@ -116,10 +133,12 @@ void drive_rod(Instance& instance, uint32_t rod) noexcept {
     const RodSlot& slot = rig.slots()[seat.first_slot + k];
     float rest[4], force_n[3];
     Eigen::Vector4f::Map(rest) = led_rest(instance, seat.first_slot + k).coeffs().cast<float>();
-    Eigen::Vector3f::Map(force_n) = (double{slot.mass_kg} * gravity).cast<float>();
     (void)batch.set_rest(seat.strand, k, rest);
+    if (k > seat.segment_count()) continue;
+    Eigen::Vector3f::Map(force_n) = (double{slot.mass_kg} * gravity).cast<float>();
     (void)batch.set_force(seat.strand, k, force_n);
   }
+  if (seat.end_hold != pack::kNoIndex) drive_end(instance, seat, batch);
 }
 
 // As a region's displacement is held (tissue/guard.hpp): what is shown, not what swings on.
@@ -132,7 +151,7 @@ Quaterniond limited(const Quaterniond& turn, float limit_rad) noexcept {
 void read_turns(Instance& instance) noexcept {
   const RodRig& rig = instance.asset->rods;
   for (const RodSeat& seat : rig.seats()) {
-    for (uint32_t k = 1; k < seat.slot_count; ++k) {
+    for (uint32_t k = 1; k <= seat.segment_count(); ++k) {
       const uint32_t s = seat.first_slot + k;
       const rods::SegmentPose pose = instance.rod_batches[seat.batch].pose(seat.strand, k);
       const Quaterniond turn = rest_of(instance, 0, s).conjugate() * quaternion(pose.orientation);
@@ -154,7 +173,7 @@ void rest_rods(Instance& instance, const Matrix34* joints, const RootTransform& 
   const RodRig& rig = instance.asset->rods;
   if (rig.rod_count == 0) return;
   std::copy_n(instance.rod_rest[0], size_t{4} * rig.slot_count, instance.rod_rest[1]);
-  std::copy_n(instance.rod_hold[0], size_t{3} * rig.rod_count, instance.rod_hold[1]);
+  std::copy_n(instance.rod_hold[0], size_t{3} * rig.hold_count(), instance.rod_hold[1]);
   const Quaterniond world = quaternion(root.rotation_xyzw);
   const Vector3d place =
       Eigen::Map<const Vector3d>(root.position_m) - Eigen::Map<const Vector3d>(instance.state->rod_anchor_m);
@@ -169,6 +188,14 @@ void rest_rods(Instance& instance, const Matrix34* joints, const RootTransform& 
     const Matrix34& first = joints[rig.slots()[rig.seats()[rod].first_slot + 1].bone];
     MapPlace(instance.rod_hold[0] + size_t{3} * rod) =
         place + world * Vector3d(first.m[0][3], first.m[1][3], first.m[2][3]);
+  }
+  for (uint32_t e = 0; e < rig.end_count; ++e) {
+    const RodEnd& end = rig.ends()[e];
+    const auto joint =
+        Eigen::Map<const Eigen::Matrix<float, 3, 4, Eigen::RowMajor>>(&joints[end.joint].m[0][0])
+            .cast<double>();
+    MapPlace(instance.rod_hold[0] + 3 * (size_t{rig.rod_count} + e)) =
+        place + world * (joint.leftCols<3>() * Eigen::Map<const Vector3d>(end.place_m) + joint.col(3));
   }
 }
 

@@ -6,6 +6,8 @@
 // swing about it. Each segment feels gravity (g - (1 - sag) R g), R how the holder has turned since the bind
 // pose: with sag 0 gravity has already bent what was posed, as in tissue.
 //
+// A rod whose end is held has a second holder there, which a joint of the pose moves.
+//
 // Rods live in the world's axes, from an anchor near the root. Where ticks were not followed (a start, a tier
 // without simulation, dropped time) they are taken along: set to how they are shown, with the pose's
 // velocity. A teleport moves anchor and rods rigidly with the root.

@@ -52,7 +52,7 @@ void publish_rods(Instance& instance) noexcept {
   if (!instance.rods_shown) return;
   for (const RodSeat& seat : rig.seats()) {
     map(instance.rod_motion[seat.first_slot]).setIdentity();
-    for (uint32_t k = 1; k < seat.slot_count; ++k) move_bone(instance, seat.first_slot + k);
+    for (uint32_t k = 1; k <= seat.segment_count(); ++k) move_bone(instance, seat.first_slot + k);
   }
   for (uint32_t j = 0; j < instance.level->pack.character->joint_count; ++j) {
     const uint32_t carrier = rig.joint_slots[j];

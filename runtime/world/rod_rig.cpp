@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <new>
+#include <numbers>
 
 #include "core/status.hpp"
 #include "core/turn_between.hpp"
@@ -17,6 +18,9 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using pack::kNoIndex;
+
+// About how long a torn seam takes to close: within a tick it would throw the rod.
+constexpr float kSeamDamping_s = 0.05f;
 
 Vector3d vector(const float (&v)[3]) noexcept { return Eigen::Map<const Eigen::Vector3f>(v).cast<double>(); }
 
@@ -48,6 +52,7 @@ rods::SegmentDef define_segment(const pack::RodSegmentRecord& record) noexcept {
 
 bool same_shape(const pack::PackView& pack, uint32_t a, uint32_t b) noexcept {
   const auto one = segments_of(pack, a), other = segments_of(pack, b);
+  if ((pack.rods[a].end_holder != 0) != (pack.rods[b].end_holder != 0)) return false;
   return std::ranges::equal(one, other, {}, &pack::RodSegmentRecord::parent, &pack::RodSegmentRecord::parent);
 }
 
@@ -64,6 +69,30 @@ RodSlot make_slot(const Matrix34& bind, const Quaterniond& axes) noexcept {
   Eigen::Map<Eigen::Vector4d>(slot.offset_xyzw) = (joint.conjugate() * axes).normalized().coeffs();
   Eigen::Map<Eigen::Vector4d>(slot.bind_xyzw) = axes.coeffs();
   return slot;
+}
+
+Vector3d in_joint(const Matrix34& bind, const Vector3d& place) noexcept {
+  const auto from =
+      Eigen::Map<const Eigen::Matrix<float, 3, 4, Eigen::RowMajor>>(&bind.m[0][0]).cast<double>();
+  return from.leftCols<3>().inverse() * (place - from.col(3));
+}
+
+// The slots before it are there.
+void fill_end(const pack::PackView& pack, uint32_t rod, const Matrix34* bind, RodRig& rig) noexcept {
+  const RodSeat& seat = rig.seat_memory[rod];
+  const uint32_t own = seat.first_slot + seat.slot_count - 1, holder = pack.rods[rod].end_holder - 1;
+  const RodSlot& last = rig.slot_memory[own - 1];
+  RodSlot& slot = rig.slot_memory[own];
+  slot = make_slot(bind[holder], Quaterniond(last.bind_xyzw));
+  slot.joint = holder;
+  slot.parent = own - 1;
+  slot.bone = kNoIndex;
+  slot.length_m = last.length_m;
+  slot.radius_m = last.radius_m;
+  slot.damping_s = kSeamDamping_s;
+  RodEnd& end = rig.end_memory[seat.end_hold];
+  end.joint = holder;
+  Eigen::Map<Vector3d>(end.place_m) = in_joint(bind[holder], vector(segments_of(pack, rod).back().end_m));
 }
 
 void fill_slots(const pack::PackView& pack, uint32_t rod, const Matrix34* bind, RodRig& rig) noexcept {
@@ -89,13 +118,16 @@ void fill_slots(const pack::PackView& pack, uint32_t rod, const Matrix34* bind, 
     slot.damping_s = def.damping_s;
     slot.mass_kg = static_cast<float>(rods::segment_inertia(def).mass_kg);
   }
+  if (pack.rods[rod].end_holder != 0) fill_end(pack, rod, bind, rig);
 }
 
 void fill_seats(const pack::PackView& pack, RodRig& rig) noexcept {
-  uint32_t slot = 0;
+  uint32_t slot = 0, ends = 0;
   for (uint32_t rod = 0; rod < rig.rod_count; ++rod) {
-    const uint32_t slots = pack.rods[rod].segment_count + 1;
-    RodSeat seat{rig.batch_count, 0, slot, slots, pack.rods[rod].turn_limit_rad};
+    const bool end_held = pack.rods[rod].end_holder != 0;
+    const uint32_t slots = pack.rods[rod].segment_count + 1 + end_held;
+    RodSeat seat{
+        rig.batch_count, 0, slot, slots, pack.rods[rod].turn_limit_rad, end_held ? ends++ : kNoIndex};
     for (uint32_t other = rod; other-- > 0;) {
       const RodSeat& known = rig.seat_memory[other];
       if (!same_shape(pack, rod, other)) continue;
@@ -107,6 +139,25 @@ void fill_seats(const pack::PackView& pack, RodRig& rig) noexcept {
     rig.seat_memory[rod] = seat;
     slot += slots;
   }
+}
+
+// The seam turns freely and closes but for a hundredth of the gap. It gives, because what is held twice may
+// not reach.
+void define_end(const Vector3d& place, std::span<rods::SegmentDef> out) noexcept {
+  constexpr double kGive = 0.01, kTick_s = 1.0 / 60;
+  constexpr float kHinge = 1e-4f;  // of the bones' moduli
+  const rods::SegmentDef& last = out[out.size() - 2];
+  rods::SegmentDef& end = out.back();
+  end = last;
+  end.parent = static_cast<uint32_t>(out.size()) - 2;
+  end.fixed = true;
+  for (int k = 0; k < 3; ++k) end.position_m[k] = 2 * place[k] - last.position_m[k];
+  const double area = std::numbers::pi * double{last.radius_m} * double{last.radius_m};
+  const double give_m_n = kGive * kTick_s * kTick_s / rods::segment_inertia(last).mass_kg;
+  end.stretch_modulus_pa = static_cast<float>(double{last.length_m} / (give_m_n * area));
+  end.young_modulus_pa *= kHinge;
+  end.torsion_modulus_pa *= kHinge;
+  end.damping_s = kSeamDamping_s;
 }
 
 void fill_joint_slots(const pack::PackView& pack, RodRig& rig) noexcept {
@@ -128,12 +179,14 @@ Status make_rod_rig(const pack::PackView& pack, RodRig* out) noexcept {
   if (pack.rods.empty()) return {};
   RodRig rig;
   rig.rod_count = static_cast<uint32_t>(pack.rods.size());
-  rig.slot_count = static_cast<uint32_t>(pack.rod_segments.size()) + rig.rod_count;
+  for (const pack::RodRecord& rod : pack.rods) rig.end_count += rod.end_holder != 0;
+  rig.slot_count = static_cast<uint32_t>(pack.rod_segments.size()) + rig.hold_count();
   rig.slot_memory.reset(new (std::nothrow) RodSlot[rig.slot_count]);
   rig.seat_memory.reset(new (std::nothrow) RodSeat[rig.rod_count]);
+  rig.end_memory.reset(new (std::nothrow) RodEnd[rig.end_count]);
   rig.joint_slots.reset(new (std::nothrow) uint32_t[pack.joints.size()]);
   const std::unique_ptr<Matrix34[]> bind(new (std::nothrow) Matrix34[pack.joints.size()]);
-  if (!rig.slot_memory || !rig.seat_memory || !rig.joint_slots || !bind)
+  if (!rig.slot_memory || !rig.seat_memory || !rig.end_memory || !rig.joint_slots || !bind)
     return core::make_status(StatusCode::kOutOfCapacity, "load_asset: no memory for %u rods", rig.rod_count);
   std::fill_n(rig.joint_slots.get(), pack.joints.size(), kNoIndex);
   bind_pose(pack.joints, bind.get());
@@ -157,6 +210,7 @@ void define_strand(const pack::PackView& pack, const RodRig& rig, uint32_t rod,
   out[0].fixed = true;
   const Vector3d axis = vector(segments[0].end_m) - vector(segments[0].begin_m);
   for (int k = 0; k < 3; ++k) out[0].position_m[k] -= axis[k];
+  if (rig.seats()[rod].end_hold != kNoIndex) define_end(vector(segments.back().end_m), out);
 }
 
 }  // namespace sinew::world

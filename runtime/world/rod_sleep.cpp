@@ -22,10 +22,10 @@ double half_turn(const T* a, const T* b) noexcept {
   return std::sqrt(square) / 2;  // chord over two
 }
 
-// Without the holder, which the character does not have.
+// Without holders, which the character does not have.
 double length_of(const RodRig& rig, const RodSeat& seat) noexcept {
   double length_m = 0;
-  for (const RodSlot& slot : rig.slots().subspan(seat.first_slot + 1, seat.slot_count - 1))
+  for (const RodSlot& slot : rig.slots().subspan(seat.first_slot + 1, seat.segment_count()))
     length_m += static_cast<double>(slot.length_m);
   return length_m;
 }
@@ -37,11 +37,16 @@ bool is_held_alike(const Instance& instance, double tolerance) noexcept {
     if (!(2 * half_turn(instance.rod_rest[0] + size_t{4} * s, instance.rod_asleep + size_t{4} * s) <=
           tolerance))
       return false;
+  const auto moved_m = [&](size_t hold) {
+    const double *now = instance.rod_hold[0] + 3 * hold, *then = instance.rod_hold_asleep + 3 * hold;
+    return std::hypot(now[0] - then[0], now[1] - then[1], now[2] - then[2]);
+  };
   for (uint32_t rod = 0; rod < rig.rod_count; ++rod) {
-    const double *now = instance.rod_hold[0] + size_t{3} * rod,
-                 *then = instance.rod_hold_asleep + size_t{3} * rod;
-    const double moved_m = std::hypot(now[0] - then[0], now[1] - then[1], now[2] - then[2]);
-    if (!(moved_m <= tolerance * length_of(rig, rig.seats()[rod]))) return false;
+    const RodSeat& seat = rig.seats()[rod];
+    const double near_m = tolerance * length_of(rig, seat);
+    if (!(moved_m(rod) <= near_m)) return false;
+    if (seat.end_hold != pack::kNoIndex && !(moved_m(size_t{rig.rod_count} + seat.end_hold) <= near_m))
+      return false;
   }
   return true;
 }
@@ -72,7 +77,7 @@ bool rods_sleep_on(Instance& instance, float tolerance) noexcept {
   const RodRig& rig = instance.asset->rods;
   quiet_ticks = 0;
   std::copy_n(instance.rod_rest[0], size_t{4} * rig.slot_count, instance.rod_asleep);
-  std::copy_n(instance.rod_hold[0], size_t{3} * rig.rod_count, instance.rod_hold_asleep);
+  std::copy_n(instance.rod_hold[0], size_t{3} * rig.hold_count(), instance.rod_hold_asleep);
   return false;
 }
 

@@ -505,6 +505,13 @@ TEST_CASE("rods_that_disagree_with_the_skeleton_are_refused_by_name") {
       {"turn limit", rod([](RodRecord& r) { r.turn_limit_rad = kNan; })},
       {"turn limit", rod([](RodRecord& r) { r.turn_limit_rad = 4; })},
       {"sag", rod([](RodRecord& r) { r.sag = 1.5f; })},
+      {"its end is held by joint 3 of 3", rod([](RodRecord& r) { r.end_holder = 4; })},
+      {"held by a bone that a rod moves", rod([](RodRecord& r) { r.end_holder = 3; })},
+      {"a branch of a rod whose end is held",
+       [=](PackEditor& editor) {
+         rod([](RodRecord& r) { r.end_holder = 1; })(editor);
+         segment(2, [](RodSegmentRecord& s) { s.parent = 0; })(editor);
+       }},
       {"frequency", rod([](RodRecord& r) { r.frequency_hz = -1; })},
       {"parent", segment(0, [](RodSegmentRecord& s) { s.parent = 0; })},
       {"parent", segment(1, [](RodSegmentRecord& s) { s.parent = 1; })},  // a cycle

@@ -170,7 +170,7 @@ TEST_CASE("a_frame_allocates_nothing") {
 }
 
 TEST_CASE("a_frame_of_rods_allocates_nothing") {
-  const scenes::PackBytes pack = scenes::soft_block({.rods = scenes::RodMatter{}});
+  const scenes::PackBytes pack = scenes::soft_block({.rods = scenes::RodMatter{.sewn = true}});
   Stage stage(3, {}, pack);
   CHECK(allocations_of_frames(stage) == 0);
 }

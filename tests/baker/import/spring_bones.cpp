@@ -54,6 +54,7 @@ TEST_CASE("springs_of_version_0_are_roots_with_all_below") {
   CHECK(spring.name == "hair");
   CHECK(joint_name(character, spring.root) == "lower");
   CHECK(spring.end == -1);
+  CHECK(spring.tail_m == 0.07);  // UniVRM's
   CHECK(spring.numbers.stiffness == 2.5);
   CHECK(spring.numbers.gravity_power == 0.5);
   CHECK(spring.numbers.drag_force == 0.25);

@@ -95,6 +95,9 @@ TEST_CASE("wrong_recipes_are_refused_by_key") {
       {R"({"note": 3})", "\"note\""},
       {R"({"rods": {"root": "tail"}})", "list"},
       {R"({"rods": [{"name": "tail"}]})", "root"},
+      {R"({"rods": [{"root": "strap", "end_joint": ""}]})", "\"end_joint\" must be a text"},
+      {R"({"rods": [{"root": "strap", "end_joint": "buckle", "max_displacement": 0.5}]})",
+       "how far a free end may go, and end_joint holds it"},
       {R"({"rods": [{"root": "tail", "radius": 0.1}]})", "radius_m"},
       {R"({"rods": [{"root": "tail", "radius_m": 0}]})", "radius_m"},
       {R"({"rods": [{"root": "tail", "density_kg_m3": 0}]})", "density_kg_m3"},
@@ -193,7 +196,7 @@ TEST_CASE("levels_take_the_place_of_one_number_of_nodes") {
 TEST_CASE("every_key_of_a_rod_is_read_and_absent_ones_keep_their_default") {
   const Recipe recipe = read_recipe(write(R"({"rods": [
     {"root": "tail_1"},
-    {"name": "ear", "root": "ear_1", "end": "ear_3", "radius_m": 0.02, "density_kg_m3": 300, "young_modulus_pa": 2e5,
+    {"name": "ear", "root": "ear_1", "end": "ear_3", "end_joint": "head", "radius_m": 0.02, "density_kg_m3": 300, "young_modulus_pa": 2e5,
      "torsion_modulus_pa": 3e5, "damping_s": 0.1, "drag_per_s": 2, "gravity": 0.5, "sag": 0.25},
     {"root": "mane", "frequency_hz": 2.5}]})"));
   REQUIRE(recipe.rods.has_value());
@@ -201,6 +204,7 @@ TEST_CASE("every_key_of_a_rod_is_read_and_absent_ones_keep_their_default") {
   REQUIRE(rods.size() == 3);
   CHECK(rods[0].name == "tail_1");
   CHECK(rods[0].end.empty());
+  CHECK(rods[0].end_joint.empty());
   CHECK(rods[0].radius_m == 0);
   CHECK(rods[0].young_modulus_pa == RodRecipe().young_modulus_pa);
   CHECK(rods[0].torsion_modulus_pa == rods[0].young_modulus_pa);
@@ -208,6 +212,7 @@ TEST_CASE("every_key_of_a_rod_is_read_and_absent_ones_keep_their_default") {
   CHECK(rods[1].name == "ear");
   CHECK(rods[1].root == "ear_1");
   CHECK(rods[1].end == "ear_3");
+  CHECK(rods[1].end_joint == "head");
   CHECK(rods[1].radius_m == 0.02);
   CHECK(rods[1].density_kg_m3 == 300);
   CHECK(rods[1].young_modulus_pa == 2e5);

@@ -299,6 +299,21 @@ TEST_CASE("a_spring_ends_where_its_file_says") {
   CHECK(noted(character, "bone 'bone_3' begins where it ends"));
 }
 
+TEST_CASE("a_lone_spring_has_a_tail_that_points_away_from_its_parent") {
+  Character character = column();
+  add_joint(character, "leaf", 1, {0.3, 0.5, 0.4});
+  add_joint(character, "stuck", 1, {0, 0.5, 0});  // where its parent is: nothing says which way
+  character.springs = {{.name = "leaf", .root = 4}, {.name = "stuck", .root = 5, .tail_m = 0.07}};
+  CHECK(find_rods(character, {}).empty());
+  CHECK(noted(character, "spring bone 'leaf': bone 'leaf' is alone"));  // without a tail
+  CHECK(noted(character, "spring bone 'stuck': bone 'stuck' is alone"));
+  character.springs[0].tail_m = 0.07;
+  const std::vector<Rod> rods = find_rods(character, {});
+  REQUIRE(rods.size() == 1);
+  REQUIRE(rods[0].bones.size() == 1);
+  CHECK((rods[0].bones[0].end - Vector3(0.342, 0.5, 0.456)).norm() < kRounding);
+}
+
 TEST_CASE("a_spring_pulls_down_no_harder_than_a_pack_may_hold") {
   Character character = column();
   character.springs = {{.name = "lead", .root = 2, .numbers = {.gravity_power = 100}}};

@@ -20,6 +20,7 @@ TEST_CASE("rods_come_out_of_a_pack_as_they_went_in") {
   REQUIRE(view.rods.size() == 1);
   CHECK(std::string(string_at(view, view.rods[0].name)) == rod.name);
   CHECK(view.rods[0].attach == 0);
+  CHECK(view.rods[0].end_holder == 0);  // none
   CHECK(view.rods[0].gravity == 2);
   CHECK(view.rods[0].sag == 0.25f);
   REQUIRE(view.rod_segments.size() == 3);
@@ -38,6 +39,17 @@ TEST_CASE("rods_come_out_of_a_pack_as_they_went_in") {
   }
   CHECK(std::vector<uint32_t>(view.joint_rods.begin(), view.joint_rods.end()) ==
         std::vector<uint32_t>{pack::kNoIndex, 0, 2});
+}
+
+TEST_CASE("who_holds_a_rod_s_end_is_in_the_pack") {
+  const Character character = test::small_character();
+  TissueLayout layout = test::small_layout(character);
+  layout.rods = test::small_rods();
+  layout.rods[0].end_joint = 0;
+  test::PackEditor editor(pack_character(character, layout, test::small_modes(layout)));
+  pack::PackView view;
+  REQUIRE(editor.open(&view).ok());
+  CHECK(view.rods[0].end_holder == 1);
 }
 
 TEST_CASE("rods_cost_every_simulated_tier_and_no_other") {

@@ -89,6 +89,23 @@ TEST_CASE("a_real_vrm_bakes_with_its_springs_and_a_soft_trunk_to_a_pack_that_ope
   CHECK(nlohmann::json::parse(bake({"info", "--json", pack}).out)["regions"].empty());
 }
 
+TEST_CASE("springs_of_a_file_swing_no_further_than_their_skin_holds_and_a_note_says_which") {
+  const std::string vrm = SINEW_SHARED_DIR "/characters/godette_vrm0/file.vrm";
+  if (!std::filesystem::exists(vrm)) {
+    WARN("skipped: no " << vrm << "; set SINEW_SHARED_DIR");
+    return;
+  }
+  const TemporaryFolder folder;
+  const std::string pack = folder.file("godette.sinew");
+  const ProgramResult result = bake({"character", vrm, "--quick", "-o", pack});
+  must(result);
+  must(bake({"audit", pack}));
+  CHECK_THAT(result.out, Catch::Contains("note: 'FrontHair_Center_R' may swing by") &&
+                             !Catch::Contains("'HairBall_L' may swing"));
+  for (const auto& rod : nlohmann::json::parse(bake({"info", "--json", pack}).out)["rods"])
+    if (rod["name"] == "HairBall_L") CHECK(rod["turn_limit_rad"] == 0);  // none, as the file says
+}
+
 TEST_CASE("a_table_says_of_every_part_what_it_is_and_why") {
   const Creature creature;
   const ProgramResult result = bake(creature.bake_arguments(creature.pack));

@@ -2,6 +2,7 @@
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -55,6 +56,10 @@ struct Baked {
 using RootMotion = std::function<Vector3(double t_s)>;
 Vector3 still(double) { return Vector3::Zero(); }
 Vector3 bob(double t_s) { return {0, 0.03 * std::sin(2 * std::numbers::pi * 2 * t_s), 0}; }
+// Half a second up and down again.
+Vector3 hop(double t_s) {
+  return {0, t_s > 0.5 ? 0 : 0.12 * std::pow(std::sin(2 * std::numbers::pi * t_s), 2), 0};
+}
 // Half a second to the front and back again.
 Vector3 dash(double t_s) {
   return {0, 0, t_s > 0.5 ? 0 : 0.1 * std::pow(std::sin(2 * std::numbers::pi * t_s), 2)};
@@ -87,16 +92,14 @@ class Played {
   std::vector<Vector3> normals() const { return read(true); }
 
   // Where a joint is shown, in the character.
-  Vector3 place_of(const std::string& name) const {
-    std::vector<Matrix34> shown(info.joint_count);
-    REQUIRE(world.read_joint_matrices(instance, shown).ok());
-    for (uint32_t j = 0; j < info.joint_count; ++j)
-      if (world.joint_name(asset, j) == name)
-        return Eigen::Map<const Eigen::Matrix<float, 3, 4, Eigen::RowMajor>>(&shown[j].m[0][0])
-            .col(3)
-            .cast<double>();
-    FAIL("no joint " << name);
-    return {};
+  Vector3 place_of(const std::string& name) const { return shown(index_of(name)).col(3); }
+
+  // What a joint's matrix is shown turned by, against the pose.
+  double turn_of(const std::string& name) const {
+    const uint32_t joint = index_of(name);
+    const Eigen::Matrix3d turn =
+        shown(joint).leftCols<3>() * matrix_of(joints[joint]).leftCols<3>().transpose();
+    return Eigen::AngleAxisd(turn).angle();
   }
 
   World world;
@@ -106,6 +109,24 @@ class Played {
   std::vector<Matrix34> joints;
 
  private:
+  using RowMatrix34d = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
+  static RowMatrix34d matrix_of(const Matrix34& m) {
+    return Eigen::Map<const Eigen::Matrix<float, 3, 4, Eigen::RowMajor>>(&m.m[0][0]).cast<double>();
+  }
+
+  uint32_t index_of(const std::string& name) const {
+    for (uint32_t j = 0; j < info.joint_count; ++j)
+      if (world.joint_name(asset, j) == name) return j;
+    FAIL("no joint " << name);
+    return 0;
+  }
+
+  RowMatrix34d shown(uint32_t joint) const {
+    std::vector<Matrix34> all(info.joint_count);
+    REQUIRE(world.read_joint_matrices(instance, all).ok());
+    return matrix_of(all[joint]);
+  }
+
   std::vector<Vector3> read(bool of_normals) const {
     std::vector<float> out(size_t{3} * info.vertex_count);
     const ReadDef def{.out = out.data(), .capacity = info.vertex_count};
@@ -440,4 +461,55 @@ TEST_CASE("shared_a_spring_with_a_center_is_noted") {
   const std::string file = case_file("vrm1_center/vrm1_center.gltf");
   if (file.empty()) return;
   CHECK_THAT(Baked(file).said, Catch::Contains("spring 'own' states a center, which is not followed"));
+}
+
+TEST_CASE("shared_a_spring_of_version_0_without_a_bone_below_it_swings") {
+  const std::string file = case_file("vrm0_lone_leaf_spring/vrm0_lone_leaf_spring.gltf");
+  if (file.empty()) return;
+  const Baked baked(file);
+  CHECK_THAT(baked.said, !Catch::Contains("left out"));
+  Played played(baked);
+  double left = 0, right = 0;
+  played.play(1, hop, [&] {
+    left = std::max(left, played.turn_of("leaf_L"));
+    right = std::max(right, played.turn_of("leaf_R"));
+  });
+  CHECK(left > 0.1);                           // radians
+  CHECK(right == Approx(left).epsilon(1e-3));  // mirrored, in floats
+}
+
+TEST_CASE("shared_a_strap_stays_a_strap_where_it_is_sewn_on") {
+  const std::string file = case_file("strap_both_ends/strap_both_ends.gltf");
+  if (file.empty()) return;
+  const Baked baked(file, case_file("strap_both_ends/recipe.json"));
+  CHECK(baked.rod("strap_1")["end_held_by"] == "buckle");
+  CHECK_THAT(baked.said, Catch::Contains("rod 'strap_1'") && Catch::Contains("bone 'buckle'"));
+  Played played(baked);
+  const baker::LoadedPack pack = baker::LoadedPack::from_file(baked.pack);
+  const pack::PackView& view = pack.view();
+  constexpr size_t kFirst = 370, kSides = 6, kRings = 16;  // of the file's vertices
+  const auto lengths = [&] {
+    const std::vector<Vector3> now = played.positions();
+    std::vector<double> out;
+    Vector3 before = Vector3::Zero();
+    for (size_t ring = 0; ring < kRings; ++ring) {
+      Vector3 middle = Vector3::Zero();
+      for (size_t side = 0; side < kSides; ++side) middle += now[kFirst + ring * kSides + side] / kSides;
+      if (ring > 0) out.push_back((middle - before).norm());
+      before = middle;
+    }
+    return out;
+  };
+  const std::vector<double> bound = lengths();
+  double longest = 0, moved = 0;
+  for (uint32_t frame = 0; frame < view.clips[0].frame_count; ++frame) {
+    const size_t floats = size_t{12} * view.joints.size();
+    std::memcpy(played.joints.data(), view.clip_frames.data() + frame * floats, floats * sizeof(float));
+    played.play(1.0 / 60, still);
+    const std::vector<double> now = lengths();
+    for (size_t k = 0; k < now.size(); ++k) longest = std::max(longest, now[k] / bound[k]);
+    moved = std::max(moved, played.turn_of("strap_5"));
+  }
+  CHECK(longest < 1.2);
+  CHECK(moved > 0.3);  // radians, of 40 degrees that the strap does not follow
 }
