@@ -116,7 +116,7 @@ struct Character {
   std::vector<std::array<int, 3>> triangles;
   std::vector<MeshSpan> meshes;  // in the order of their vertices
 
-  std::vector<int> welded;  // vertex -> first vertex at the same place with the same influences
+  std::vector<int> welded;  // vertex -> first vertex at much the same place with much the same influences
   std::vector<Clip> clips;
   std::vector<SpringBones> springs;
   std::vector<BodyCollider> colliders;
