@@ -6,10 +6,12 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <optional>
 
 #include "baker/common/read_file.hpp"
 #include "baker/common/write_file.hpp"
 #include "baker/import/import_gltf.hpp"
+#include "baker/mesh/closest_place.hpp"
 #include "baker/programs/loaded_pack.hpp"
 #include "sinew/sinew.hpp"
 #include "tests/baker/common/temporary_folder.hpp"
@@ -554,4 +556,130 @@ TEST_CASE("shared_two_meshes_whose_rims_nearly_meet_are_one_belly") {
   const Rims smoothed = rims_of_two_meshes(edited.write(folder));
   CHECK(smoothed.moved_m > 5e-3);
   CHECK(smoothed.apart_m < 1e-4);  // beyond what the skinning itself parts them by
+}
+
+namespace {
+
+// One mesh of a character, as it stands now, and how far a place is above it: below 0 inside.
+class Standing {
+ public:
+  Standing(const baker::Character& source, size_t mesh, const std::vector<Vector3>& now) {
+    character_.positions = now;
+    character_.triangles = source.triangles;
+    const baker::MeshSpan& span = source.meshes.at(mesh);
+    std::vector<int> own;
+    for (size_t t = 0; t < source.triangles.size(); ++t)
+      if (static_cast<size_t>(source.triangles[t][0]) - span.first_vertex < span.vertex_count)
+        own.push_back(static_cast<int>(t));
+    tree_.emplace(character_, std::move(own));
+  }
+
+  double above_m(const Vector3& place) const {
+    const baker::SurfacePlace found = tree_->find(place, 10).value();
+    const auto& face = character_.triangles[static_cast<size_t>(found.triangle)];
+    const auto at = [&](size_t k) { return character_.positions[static_cast<size_t>(face[k])]; };
+    const Vector3 normal = (at(1) - at(0)).cross(at(2) - at(0));
+    return std::copysign(found.distance_m, normal.dot(place - found.position));
+  }
+
+ private:
+  baker::Character character_;
+  std::optional<baker::ClosestPlace> tree_;
+};
+
+struct Worn {
+  double least_m = 1, largest_m = 0;  // of the gap, shirt to skin and skin to shirt
+  double moved_m = 0;                 // the most of a vertex of the shirt, against where it is bound
+  size_t watched = 0;
+};
+
+constexpr double kBob_m = 0.05;
+Vector3 high_bob(double t_s) { return {0, kBob_m * std::sin(2 * std::numbers::pi * 2 * t_s), 0}; }
+Vector3 hop(double t_s) {
+  return {0, t_s > 0.5 ? 0 : 0.25 * std::pow(std::sin(std::numbers::pi * t_s / 0.5), 2), 0};
+}
+
+// Vertices of either layer that the other one lies 6 mm over or under, in a bob and a hop.
+Worn worn(const std::string& file, const std::string& recipe = "") {
+  const Baked baked(file, recipe);
+  CHECK(baked.info["regions"].size() == 1);
+  const baker::Character source = baker::import_gltf(file);
+  const auto in = [&](size_t mesh, size_t v) {
+    return v - source.meshes[mesh].first_vertex < source.meshes[mesh].vertex_count;
+  };
+  // above[v]: of a shirt's vertex over the body, of a body's vertex under the shirt.
+  const auto gap_of = [&](const std::vector<Vector3>& now, const std::vector<size_t>& watched) {
+    const Standing body(source, 0, now), shirt(source, 1, now);
+    std::vector<double> gaps;
+    for (const size_t v : watched) gaps.push_back(in(1, v) ? body.above_m(now[v]) : -shirt.above_m(now[v]));
+    return gaps;
+  };
+  std::vector<bool> used(source.positions.size(), false);
+  for (const auto& face : source.triangles)
+    for (const int corner : face) used[static_cast<size_t>(corner)] = true;
+  std::vector<size_t> all, watched;
+  for (size_t v = 0; v < used.size(); ++v)
+    if (used[v]) all.push_back(v);
+  const std::vector<double> bound = gap_of(source.positions, all);
+  for (size_t i = 0; i < all.size(); ++i)
+    if (bound[i] > 5e-3 && bound[i] < 6.1e-3) watched.push_back(all[i]);
+  Worn result{.watched = watched.size()};
+  for (const RootMotion& motion : {RootMotion(high_bob), RootMotion(hop)}) {
+    Played played(baked);
+    const std::vector<Vector3> before = played.positions();
+    played.play(2, motion, [&] {
+      const std::vector<Vector3> now = played.positions();
+      for (const double gap : gap_of(now, watched)) {
+        result.least_m = std::min(result.least_m, gap);
+        result.largest_m = std::max(result.largest_m, gap);
+      }
+      for (size_t v = 0; v < now.size(); ++v)
+        if (in(1, v)) result.moved_m = std::max(result.moved_m, (now[v] - before[v]).norm());
+    });
+  }
+  INFO(result.watched << " watched, gap " << result.least_m << " to " << result.largest_m << ", moved "
+                      << result.moved_m);
+  CHECK(result.least_m > 4e-3);
+  CHECK(result.largest_m < 8e-3);
+  CHECK(result.moved_m > 5e-3);
+  return result;
+}
+
+// The body without its triangles under the shirt, but for a ring at either end.
+std::string without_belly(const std::string& file, const TemporaryFolder& folder) {
+  EditedCase edited(file);
+  std::vector<uint16_t> kept;
+  for (const auto& face : edited.character.triangles) {
+    bool body = true, under = true;
+    for (const int corner : face) {
+      const auto v = static_cast<size_t>(corner);
+      const double y = edited.character.positions[v].y();
+      body = body && v < edited.character.meshes[0].vertex_count;
+      under = under && y > 0.79 && y < 1.16;
+    }
+    for (const int corner : face)
+      if (body && !under) kept.push_back(static_cast<uint16_t>(corner));
+  }
+  edited.primitive(0)["indices"] = edited.add(kept, "SCALAR", 1, 5123);
+  return edited.write(folder);
+}
+
+}  // namespace
+
+TEST_CASE("shared_a_shirt_moves_with_the_belly_beneath_and_without_it_as_the_belly_did") {
+  const std::string file = case_file("shirt_over_a_belly/shirt_painted.gltf");
+  if (file.empty()) return;
+  const TemporaryFolder folder, cut, named;
+  const Worn painted = worn(file);
+  CHECK(painted.watched > 250);
+  const Worn alone = worn(without_belly(file, cut));
+  CHECK(alone.watched > 30);
+  CHECK(alone.moved_m == Approx(painted.moved_m).epsilon(0.5));
+  // The same by a recipe, of a file without paint.
+  auto plain = nlohmann::json::parse(baker::read_text(file));
+  for (auto& mesh : plain["meshes"]) mesh["primitives"][0]["attributes"].erase("_STIFFNESS");
+  baker::write_file(named.file("plain.gltf"), std::string_view(plain.dump()));
+  baker::write_file(named.file("r.json"),
+                    std::string_view(R"({"regions": [{"name": "belly", "joints": ["hips", "spine"]}]})"));
+  CHECK(worn(named.file("plain.gltf"), named.file("r.json")).watched > 250);
 }
