@@ -683,3 +683,28 @@ TEST_CASE("shared_a_shirt_moves_with_the_belly_beneath_and_without_it_as_the_bel
                     std::string_view(R"({"regions": [{"name": "belly", "joints": ["hips", "spine"]}]})"));
   CHECK(worn(named.file("plain.gltf"), named.file("r.json")).watched > 250);
 }
+
+TEST_CASE("shared_an_audit_says_how_far_a_shirt_stands_off_and_fails_where_it_crosses") {
+  const std::string file = case_file("shirt_over_a_belly/shirt_painted.gltf");
+  if (file.empty()) return;
+  const TemporaryFolder folder;
+  baker::write_file(folder.file("apart.json"),
+                    std::string_view(R"({"layer_m": 0, "max_displacement": 0.3})"));
+  const Baked together(file), apart(file, folder.file("apart.json"));
+  const ProgramResult good = bake({"audit", together.pack, "--json"}),
+                      bad = bake({"audit", apart.pack, "--json"}), table = bake({"audit", apart.pack});
+  const auto gap = nlohmann::json::parse(good.out)["parts"][0]["layer_gap"];
+  CHECK(gap["least_m"] > 4e-3);
+  CHECK(gap["largest_m"] < 8e-3);
+  CHECK(gap["file_least_m"].get<double>() == Approx(5.6e-3).margin(1e-4));  // 6 mm out, where the body leans
+  CHECK(gap["file_largest_m"].get<double>() == Approx(5.9e-3).margin(1e-4));
+  CHECK(gap["crossed_m"]["value"] == 0);
+  CHECK_THAT(good.out, !Catch::Contains("layers cross"));
+  CHECK(bad.exit_code == 1);
+  double least_m = 1;
+  const auto told = nlohmann::json::parse(bad.out);
+  for (const auto& part : told["parts"])
+    least_m = std::min(least_m, part["layer_gap"]["least_m"].get<double>());
+  CHECK(least_m < 0);
+  CHECK_THAT(table.out, Catch::Contains("its layers cross") && Catch::Contains("layer_m"));
+}
