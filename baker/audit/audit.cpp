@@ -19,9 +19,14 @@ constexpr double kWatched_s = 10;  // a rod's residual: how far it still moves i
 
 class Auditor {
  public:
-  explicit Auditor(const AuditedPack& pack) : pack_(pack), parts_(find_parts(pack.view)) {
+  explicit Auditor(const AuditedPack& pack)
+      : pack_(pack), parts_(find_parts(pack.view)), gaps_(pack.view, parts_) {
     audit_.height_m = static_cast<double>(pack.view.character->height_m);
-    for (const AuditedPart& part : parts_.all) audit_.parts.push_back({part, {}, {}, {}, 0, kNotMeasured});
+    for (const AuditedPart& part : parts_.all) {
+      PartAudit& audit = audit_.parts.emplace_back();
+      audit.part = part;
+      audit.residual_m = kNotMeasured;
+    }
   }
 
   void play(
@@ -32,7 +37,7 @@ class Auditor {
       player.advance();
       if (tick <= settled && (tick % stride() == 0 || tick == settled)) {
         player.read();
-        keep_worst(motion, tick, surface_wear(parts_, pack_.view, player));
+        keep_worst(motion, tick, surface_wear(parts_, pack_.view, player), gaps_.of(player));
       }
       watch_rods(player);
       told();
@@ -58,7 +63,8 @@ class Auditor {
   // Large surfaces are looked at less often: swings last many ticks.
   size_t stride() const { return 1 + parts_.of_vertex.size() / 50'000; }
 
-  void keep_worst(const AuditMotion& motion, size_t tick, const std::vector<Wear>& wear) {
+  void keep_worst(const AuditMotion& motion, size_t tick, const std::vector<Wear>& wear,
+                  const std::vector<LayerGap>& gaps) {
     const auto keep = [&](Moment& worst, double value) {
       if (value > worst.value || std::isnan(value)) worst = {value, motion.name, tick};
     };
@@ -68,6 +74,8 @@ class Auditor {
       keep(part.edge_stretch, wear[p].edge_stretch);
       keep(part.inverted_share, static_cast<double>(wear[p].inverted) /
                                     static_cast<double>(std::max<size_t>(1, part.part.triangles)));
+      keep(part.layers_cross_m, gaps[p].crossed_m);
+      part.layers.take(gaps[p]);
       if (motion.name == "bob") part.bob_m = std::max(part.bob_m, wear[p].displacement_m);
     }
   }
@@ -114,6 +122,11 @@ class Auditor {
       hold(part.inverted_share.value, most_inverted(part.part), "share of triangles turned over",
            &part.inverted_share);
       hold(part.bob_m / audit_.height_m, kMostDisplacement, "bobbing moves it by heights", nullptr);
+      const double crossed = part.layers_cross_m.value / audit_.height_m;
+      hold(crossed, kMostCrossing, "its layers cross, which skinning keeps apart, by heights",
+           &part.layers_cross_m);
+      if (crossed > kMostCrossing)
+        wrong += ": paint or state both soft, weigh both on the same bones, or raise the recipe's layer_m";
     }
     if (!std::isnan(part.residual_m) || resting_)
       hold(part.residual_m / audit_.height_m, kMostResidual, "after a minute of rest it is off by heights",
@@ -123,6 +136,7 @@ class Auditor {
 
   const AuditedPack pack_;
   const AuditedParts parts_;
+  const LayerGaps gaps_;
   Audit audit_;
   std::vector<Eigen::Matrix3Xf> rod_low_, rod_high_;
   size_t given_up_ = 0, recovered_ = 0;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "baker/audit/audited_pack.hpp"
+#include "baker/audit/layer_gaps.hpp"
 #include "baker/audit/parts.hpp"
 
 namespace sinew::baker {
@@ -23,6 +24,8 @@ struct Moment {
 struct PartAudit {
   AuditedPart part;
   Moment displacement_m, edge_stretch, inverted_share;
+  Moment layers_cross_m;  // how deep layers have crossed that skinning keeps apart
+  LayerGap layers = {};   // between them, over all motions
   double bob_m = 0;       // largest displacement while the root bobs
   double residual_m = 0;  // after a minute of rest, what is left of it; NaN: not measured
 };

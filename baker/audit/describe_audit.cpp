@@ -21,11 +21,24 @@ Json moment(const Moment& worst, double unit = 1) {
   return {{"value", finite(worst.value / unit)}, {"motion", worst.motion}, {"tick", worst.tick}};
 }
 
+Json layers(const PartAudit& part) {
+  if (!part.layers.any()) return nullptr;
+  return {{"least_m", part.layers.least_m},
+          {"largest_m", part.layers.largest_m},
+          {"file_least_m", part.layers.file_least_m},
+          {"file_largest_m", part.layers.file_largest_m},
+          {"crossed_m", moment(part.layers_cross_m)}};
+}
+
 std::string number(double value, const char* otherwise) {
   if (!std::isfinite(value)) return otherwise;
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", value);
   return text;
+}
+
+std::string range_mm(double least_m, double largest_m) {
+  return number(1e3 * least_m, "-") + " .. " + number(1e3 * largest_m, "-");
 }
 
 // Columns as wide as their widest cell.
@@ -56,7 +69,8 @@ Json audit_json(const Audit& audit, const AuditedPack& pack) {
                      {"bob_displacement_of_height", finite(part.bob_m / audit.height_m)},
                      {"edge_stretch", moment(part.edge_stretch)},
                      {"inverted_share", moment(part.inverted_share)},
-                     {"residual_of_height", finite(part.residual_m / audit.height_m)}});
+                     {"residual_of_height", finite(part.residual_m / audit.height_m)},
+                     {"layer_gap", layers(part)}});
   for (const pack::TierRecord& tier : pack.view.tiers)
     tiers.push_back({{"tier", kTierNames[tier.tier]},
                      {"level", tier.level},
@@ -67,7 +81,8 @@ Json audit_json(const Audit& audit, const AuditedPack& pack) {
            {{"edge_stretch", kMostEdgeStretch},
             {"inverted_share", kMostInverted},
             {"residual_of_height", kMostResidual},
-            {"bob_displacement_of_height", kMostDisplacement}}},
+            {"bob_displacement_of_height", kMostDisplacement},
+            {"crossed_of_height", kMostCrossing}}},
           {"parts", parts},
           {"tiers", tiers},
           {"failures", audit.failures},
@@ -77,13 +92,15 @@ Json audit_json(const Audit& audit, const AuditedPack& pack) {
 std::string audit_table(const Audit& audit, const AuditedPack& pack) {
   std::vector<std::vector<std::string>> rows = {{"part", "kind", "Hz", "moved/size", "moved/height",
                                                  "bob/height", "stretch", "inverted", "residual/height",
-                                                 "worst in"}};
+                                                 "layers mm", "skinned mm", "worst in"}};
   for (const PartAudit& part : audit.parts)
     rows.push_back({part.part.name, part.part.is_rod ? "rod" : "region", number(part.part.first_hz, "-"),
                     number(part.displacement_m.value / part.part.size_m, "NaN"),
                     number(part.displacement_m.value / audit.height_m, "NaN"),
                     number(part.bob_m / audit.height_m, "NaN"), number(part.edge_stretch.value, "NaN"),
                     number(part.inverted_share.value, "NaN"), number(part.residual_m / audit.height_m, "-"),
+                    part.layers.any() ? range_mm(part.layers.least_m, part.layers.largest_m) : "-",
+                    part.layers.any() ? range_mm(part.layers.file_least_m, part.layers.file_largest_m) : "-",
                     part.displacement_m.motion});
   std::string out = aligned(rows);
   rows = {{"tier", "level", "error mm", "of skinning"}};

@@ -127,7 +127,7 @@ struct Character {
   std::vector<MeshSpan> meshes;             // in the order of their vertices
   std::vector<MaterialVertices> materials;  // those in use that have names, in the file's order
 
-  std::vector<int> welded;  // vertex -> first vertex at the same place with the same influences
+  std::vector<int> welded;  // vertex -> first vertex at much the same place with much the same influences
   std::vector<Clip> clips;
   std::vector<SpringBones> springs;
   std::vector<BodyCollider> colliders;

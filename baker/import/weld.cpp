@@ -2,25 +2,24 @@
 #include "baker/import/weld.hpp"
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
+#include <functional>
 #include <unordered_map>
+#include <vector>
 
 #include "baker/import/smooth_groups.hpp"
 
 namespace sinew::baker {
 namespace {
 
-constexpr double kSameWeight = 1e-3;     // exporters round weights to 8 or 16 bits
+// Of the character's longest side: what conversions between spaces leave of a place that was one.
+constexpr double kSamePlace = 1e-6;
+// Sum over the joints. Exporters round weights to 8 or 16 bits, and smooth each mesh for itself up to its
+// rim.
+constexpr double kSameWeights = 0.02;
 constexpr double kFlatTriangle = 1e-12;  // doubled area as a share of the longest side squared
-
-struct PlaceHash {
-  size_t operator()(const Vector3& place) const {
-    size_t hash = 0;
-    for (Eigen::Index k = 0; k < 3; ++k) hash = hash * 0x9e3779b97f4a7c15u + std::hash<double>{}(place[k]);
-    return hash;
-  }
-};
 
 double weight_of(const Influences& influences, int joint) {
   for (size_t k = 0; k < kInfluences; ++k)
@@ -29,12 +28,72 @@ double weight_of(const Influences& influences, int joint) {
 }
 
 bool same_influences(const Influences& a, const Influences& b) {
-  for (size_t k = 0; k < kInfluences; ++k)
-    if (std::abs(weight_of(b, a.joint[k]) - weight_of(a, a.joint[k])) > kSameWeight ||
-        std::abs(weight_of(a, b.joint[k]) - weight_of(b, b.joint[k])) > kSameWeight)
-      return false;
-  return true;
+  double apart = 0;
+  for (size_t k = 0; k < kInfluences; ++k) {
+    if (a.weight[k] > 0) apart += std::abs(a.weight[k] - weight_of(b, a.joint[k]));
+    if (b.weight[k] > 0 && !(weight_of(a, b.joint[k]) > 0)) apart += b.weight[k];
+  }
+  return apart < kSameWeights;
 }
+
+// Distinct vertices by place. Cells are many tolerances wide, so that a place seldom reaches into a second
+// one; where it does, that is searched too.
+class PlacesFound {
+ public:
+  explicit PlacesFound(const Character& character) : character_(character) {
+    Eigen::AlignedBox3d box;
+    for (const Vector3& place : character.positions) box.extend(place);
+    corner_ = box.isEmpty() ? Vector3::Zero() : box.min();
+    tolerance_ = box.isEmpty() ? 0 : kSamePlace * box.sizes().maxCoeff();
+    cell_ = tolerance_ > 0 ? kCell * tolerance_ : 1;
+  }
+
+  // The first one at the vertex's place that moves as it does; -1: none, it is distinct.
+  int first_like(size_t vertex) const {
+    int first = -1;
+    each_cell(vertex, tolerance_, [&](const Cell& cell) {
+      const auto found = distinct_.find(cell);
+      if (found == distinct_.end()) return;
+      for (const int other : found->second)
+        if ((first < 0 || other < first) && are_one(static_cast<size_t>(other), vertex)) first = other;
+    });
+    return first;
+  }
+
+  void add(size_t vertex) {
+    each_cell(vertex, 0, [&](const Cell& cell) { distinct_[cell].push_back(static_cast<int>(vertex)); });
+  }
+
+ private:
+  static constexpr double kCell = 16;  // tolerances
+  using Cell = std::array<int64_t, 3>;
+  struct CellHash {
+    size_t operator()(const Cell& cell) const {
+      size_t hash = 0;
+      for (const int64_t k : cell) hash = hash * 0x9e3779b97f4a7c15u + std::hash<int64_t>{}(k);
+      return hash;
+    }
+  };
+
+  bool are_one(size_t a, size_t b) const {
+    return (character_.positions[a] - character_.positions[b]).norm() <= tolerance_ &&
+           same_influences(character_.skin[a], character_.skin[b]);
+  }
+
+  template <typename Visit>
+  void each_cell(size_t vertex, double reach, const Visit& visit) const {
+    const Vector3 at = character_.positions[vertex] - corner_;
+    const auto cell_of = [&](double way) { return static_cast<int64_t>(std::floor(way / cell_)); };
+    for (int64_t x = cell_of(at.x() - reach); x <= cell_of(at.x() + reach); ++x)
+      for (int64_t y = cell_of(at.y() - reach); y <= cell_of(at.y() + reach); ++y)
+        for (int64_t z = cell_of(at.z() - reach); z <= cell_of(at.z() + reach); ++z) visit(Cell{x, y, z});
+  }
+
+  const Character& character_;
+  Vector3 corner_;
+  double tolerance_ = 0, cell_ = 1;
+  std::unordered_map<Cell, std::vector<int>, CellHash> distinct_;
+};
 
 bool degenerate(const Character& character, const std::array<int, 3>& face) {
   const Vector3& a = character.positions[static_cast<size_t>(face[0])];
@@ -47,20 +106,12 @@ bool degenerate(const Character& character, const std::array<int, 3>& face) {
 }  // namespace
 
 void weld_vertices(Character& character) {
-  const size_t count = character.positions.size();
-  std::unordered_map<Vector3, int, PlaceHash> newest;  // place -> newest distinct vertex there
-  std::vector<int> before(count, -1);  // the distinct vertex at the same place before this one
-  character.welded.resize(count);
-  for (size_t v = 0; v < count; ++v) {
-    const Vector3 place = character.positions[v] + Vector3::Zero();  // -0 and 0 are one place
-    const auto [found, fresh] = newest.try_emplace(place, static_cast<int>(v));
-    int other = fresh ? -1 : found->second;
-    while (other >= 0 && !same_influences(character.skin[static_cast<size_t>(other)], character.skin[v]))
-      other = before[static_cast<size_t>(other)];
-    character.welded[v] = other >= 0 ? other : static_cast<int>(v);
-    if (other >= 0 || fresh) continue;
-    before[v] = found->second;
-    found->second = static_cast<int>(v);
+  PlacesFound places(character);
+  character.welded.resize(character.positions.size());
+  for (size_t v = 0; v < character.welded.size(); ++v) {
+    const int first = places.first_like(v);
+    character.welded[v] = first >= 0 ? first : static_cast<int>(v);
+    if (first < 0) places.add(v);
   }
 }
 

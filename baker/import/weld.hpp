@@ -5,7 +5,8 @@
 
 namespace sinew::baker {
 
-// Fills character.welded: first vertex at the same place with the same influences.
+// Fills character.welded: the first vertex at the same place, to a millionth of the character's longest side,
+// that the same joints move, to a fiftieth of the weight. Rims of meshes that meet so are one surface.
 void weld_vertices(Character& character);
 // Triangles whose corners coincide or lie on a line.
 void drop_degenerate_triangles(Character& character, Source& source);

@@ -1,5 +1,6 @@
 // layout_tissue.cpp  The steps from a character to its soft regions and their control graph.
 #include <algorithm>
+#include <cstdio>
 #include <set>
 
 #include "baker/common/bad_input.hpp"
@@ -12,6 +13,7 @@
 #include "baker/mesh/hold_roots.hpp"
 #include "baker/mesh/join_islands.hpp"
 #include "baker/mesh/joint_names.hpp"
+#include "baker/mesh/layers.hpp"
 #include "baker/mesh/named_parts.hpp"
 #include "baker/mesh/node_order.hpp"
 #include "baker/mesh/piece_softness.hpp"
@@ -80,7 +82,7 @@ struct Part {
   const Surface& surface;
   const SoftParts& parts;
   int id;
-  std::vector<int> vertices = part_vertices(parts, id), rim = rim_vertices(surface, parts, id);
+  std::vector<int> vertices = part_vertices(surface, parts, id), rim = rim_vertices(surface, parts, id);
   PartSurface view() const { return {character, surface, parts.part, id, vertices, rim}; }
 };
 
@@ -128,6 +130,7 @@ Region& append_region(const Part& part, const std::vector<int>& nodes, const Edg
   measure(node_places, region);
   region.carry = carry_weights(node_places, places(character, sample_rim(character, part.rim, kRimAnchors)),
                                places(character, region.vertices));
+  carry_alike(part.surface, region.vertices, region.carry);
   for (const auto& [a, b] : edges) layout.edges.emplace_back(region.first_node + a, region.first_node + b);
   append_nodes(character, nodes, static_cast<int>(layout.regions.size()), layout);
   layout.regions.push_back(std::move(region));
@@ -316,6 +319,29 @@ void check_all_painted(Character& character, const Surface& surface, const Recip
   }
 }
 
+// Names of the meshes that have a soft vertex on another piece's flesh.
+std::string names_of_layers(const Character& character, const Surface& surface, const SoftParts& parts) {
+  std::string names;
+  for (const MeshSpan& mesh : character.meshes) {
+    bool lies = false;
+    for (size_t v = mesh.first_vertex; v < mesh.first_vertex + mesh.vertex_count; ++v)
+      lies = lies || (surface.lies(v) && parts.part[static_cast<size_t>(character.welded[v])] >= 0);
+    if (lies)
+      names += (names.empty() ? "'" : ", '") + character.nodes[static_cast<size_t>(mesh.node)].name + "'";
+  }
+  return names;
+}
+
+void note_layers(Character& character, const Surface& surface, const SoftParts& parts, double reach_m) {
+  const std::string names = names_of_layers(character, surface, parts);
+  if (names.empty()) return;
+  char reach[32];
+  std::snprintf(reach, sizeof reach, "%.3g", reach_m);
+  character.notes.push_back(names + ": what lies within " + reach +
+                            " m of another piece's soft flesh moves with it; the recipe's layer_m states "
+                            "how far, 0 lets each move by itself");
+}
+
 void note_sheets(Character& character, const TissueLayout& layout) {
   for (const Region& region : layout.regions)
     if (region.evidence == Evidence::kRecipe && !region.is_piece &&
@@ -330,7 +356,7 @@ void note_sheets(Character& character, const TissueLayout& layout) {
 
 TissueLayout layout_tissue(Character& character, const Recipe& recipe) {
   hold_roots(character, recipe);
-  const Surface surface = find_surface(character);
+  Surface surface = find_surface(character);
   const bool no_tissue = recipe.states_regions && recipe.regions.empty();
   const bool painted = !character.stiffness.empty() && !no_tissue;
   const bool states_regions = recipe.states_regions || !recipe.regions.empty();
@@ -364,12 +390,19 @@ TissueLayout layout_tissue(Character& character, const Recipe& recipe) {
   join(flesh_joints(character), layout.coreless);
   Stiffness stiffness = painted ? painted_stiffness(character)
                                 : stated_stiffness(character, surface, as.regions, layout.coreless);
+  const double reach_m = recipe.layer_m.value_or(usual_layer_m(character));
+  std::vector<bool> soft;
+  for (const double of : stiffness.of_vertex) soft.push_back(of < as.rigid_stiffness);
+  lay_on_flesh(character, find_overlaps(character, surface, soft, reach_m), as.rigid_stiffness, surface,
+               stiffness);
   hold_on_rods(character, layout.rods, stiffness.of_vertex);
   const Surface joined =
       with_links(surface, links_of_pieces(character, surface, as.rigid_stiffness, stiffness));
   const SoftParts parts = find_soft_parts(character, joined, as.rigid_stiffness, stiffness);
   if (!painted && states_regions) check_all_found(character, surface, recipe, parts, on_rods);
+  note_layers(character, surface, parts, reach_m);
   layout.stiffness = std::move(stiffness.of_vertex);
+  layout.lies_on = surface.lies_on;
   const auto evidence_of = [&](int region) {
     if (painted) return Evidence::kPainted;
     return states_regions ? Evidence::kRecipe : named.regions[static_cast<size_t>(region)].evidence;
@@ -389,7 +422,8 @@ TissueLayout layout_tissue(Character& character, const Recipe& recipe) {
 
 TissueLayout coarser_layout(const Character& character, const Recipe& recipe, const TissueLayout& finest,
                             const std::vector<int>& held, int nodes_per_region) {
-  const Surface surface = find_surface(character);
+  Surface surface = find_surface(character);
+  link_layers(character, finest.lies_on, surface);
   SoftParts parts{
       std::vector<int>(character.positions.size(), -1), {}, static_cast<int>(finest.regions.size())};
   for (int id = 0; id < parts.count; ++id)
@@ -399,6 +433,7 @@ TissueLayout coarser_layout(const Character& character, const Recipe& recipe, co
   TissueLayout layout;
   layout.stiffness = finest.stiffness;
   layout.coreless = finest.coreless;
+  layout.lies_on = finest.lies_on;
   for (int id = 0; id < parts.count; ++id)
     append_coarser({character, joined, parts, id}, recipe, finest, held[static_cast<size_t>(id)],
                    nodes_per_region, layout);

@@ -62,6 +62,7 @@ void read_graph(JsonSection& section, Recipe& recipe) {
     recipe.nodes_per_region =
         whole_number(section, "nodes_per_region", recipe.nodes_per_region, kFewestNodes, kMostNodes);
   recipe.neighbours = whole_number(section, "neighbours", recipe.neighbours, 2, 16);
+  if (section.has("layer_m")) recipe.layer_m = section.number("layer_m", 0, 0, 10);
   recipe.unit_m = section.number("unit_m", recipe.unit_m, 0, 1e6);
   const std::string up = section.text("up", std::string(1, recipe.up));
   if (up != "y" && up != "z") section.complain("up", "is \"" + up + "\"; it must be \"y\" or \"z\"");

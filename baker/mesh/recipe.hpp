@@ -65,7 +65,10 @@ struct Recipe {
   // at most.
   std::vector<std::string> left_out;
   int neighbours = 6;  // 2 .. 16
-  double unit_m = 0;   // see ImportOptions
+  // 0 .. 10: what lies as near to another piece's soft flesh moves with it, 0: nothing does. Absent: as
+  // kLayerShare says (layers.hpp).
+  std::optional<double> layer_m = {};
+  double unit_m = 0;  // see ImportOptions
   char up = 'y';
   std::optional<std::vector<RodRecipe>> rods;  // absent: from the file's spring bones, where it has any
   std::vector<ProxyRecipe> proxies;            // radii that take the place of fitted ones

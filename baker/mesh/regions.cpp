@@ -8,6 +8,7 @@
 
 #include "baker/mesh/bone_names.hpp"
 #include "baker/mesh/joint_names.hpp"
+#include "baker/mesh/layers.hpp"
 #include "baker/mesh/region_scope.hpp"
 
 namespace sinew::baker {
@@ -37,11 +38,11 @@ struct Piece {
   Eigen::AlignedBox3d box = {};
 };
 
-std::vector<Piece> pieces_of(const Character& character, const std::vector<int>& part,
+std::vector<Piece> pieces_of(const Character& character, const Surface& surface, const std::vector<int>& part,
                              const std::vector<int>& region) {
   std::vector<Piece> pieces;
   for (size_t v = 0; v < part.size(); ++v) {
-    if (part[v] < 0) continue;
+    if (part[v] < 0 || surface.lies(v)) continue;
     pieces.resize(std::max(pieces.size(), static_cast<size_t>(part[v]) + 1));
     Piece& piece = pieces[static_cast<size_t>(part[v])];
     ++piece.vertices;
@@ -79,8 +80,8 @@ SoftParts find_soft_parts(Character& character, const Surface& surface, double r
                           Stiffness& stiffness) {
   std::vector<bool> soft(stiffness.of_vertex.size());
   for (size_t v = 0; v < soft.size(); ++v) soft[v] = stiffness.of_vertex[v] < rigid_stiffness;
-  SoftParts found{connected_parts(surface, soft), {}, 0};
-  const std::vector<Piece> pieces = pieces_of(character, found.part, stiffness.region);
+  SoftParts found{layered_parts(surface, soft), {}, 0};
+  const std::vector<Piece> pieces = pieces_of(character, surface, found.part, stiffness.region);
   std::map<int, double> largest_of;
   for (const Piece& piece : pieces)
     largest_of[piece.region] = std::max(largest_of[piece.region], piece.box.diagonal().norm());
@@ -109,19 +110,20 @@ SoftParts find_soft_parts(Character& character, const Surface& surface, double r
   return found;
 }
 
-std::vector<int> part_vertices(const SoftParts& parts, int id) {
+std::vector<int> part_vertices(const Surface& surface, const SoftParts& parts, int id) {
   std::vector<int> vertices;
   for (size_t v = 0; v < parts.part.size(); ++v)
-    if (parts.part[v] == id) vertices.push_back(static_cast<int>(v));
+    if (parts.part[v] == id && !surface.lies(v)) vertices.push_back(static_cast<int>(v));
   return vertices;
 }
 
 std::vector<int> rim_vertices(const Surface& surface, const SoftParts& parts, int id) {
   std::set<int> rim;
   for (size_t v = 0; v < parts.part.size(); ++v) {
-    if (parts.part[v] != id) continue;
+    if (parts.part[v] != id || surface.lies(v)) continue;
     for (int next : surface.neighbours[v])
-      if (parts.part[static_cast<size_t>(next)] < 0) rim.insert(next);
+      if (parts.part[static_cast<size_t>(next)] < 0 && !surface.lies(static_cast<size_t>(next)))
+        rim.insert(next);
   }
   return {rim.begin(), rim.end()};
 }

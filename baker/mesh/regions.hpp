@@ -26,8 +26,8 @@ struct SoftParts {
 SoftParts find_soft_parts(Character& character, const Surface& surface, double rigid_stiffness,
                           Stiffness& stiffness);
 
-// Welded vertices of a part, ascending.
-std::vector<int> part_vertices(const SoftParts& parts, int id);
+// Welded vertices of a part that lie on no other piece, ascending.
+std::vector<int> part_vertices(const Surface& surface, const SoftParts& parts, int id);
 
 // Rigid vertices that the part touches, ascending.
 std::vector<int> rim_vertices(const Surface& surface, const SoftParts& parts, int id);

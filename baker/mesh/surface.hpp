@@ -1,15 +1,23 @@
 // surface.hpp  The welded surface as a graph: who touches whom, and how far it is along the skin.
 #pragma once
+#include <utility>
 #include <vector>
 
 #include "baker/import/character.hpp"
 
 namespace sinew::baker {
 
+// Of a vertex that lies on another piece of surface: welded vertices of that, which lie on nothing, and their
+// shares, sum 1.
+using LiesOn = std::vector<std::pair<int, double>>;
+
 struct Surface {
   // Neighbours of a welded vertex over triangle edges, ascending; empty for vertices that are welded to
   // another or in no triangle.
   std::vector<std::vector<int>> neighbours;
+  std::vector<LiesOn> lies_on;  // a vertex (layers.hpp); empty: nothing lies on another piece
+
+  bool lies(size_t vertex) const { return !lies_on.empty() && !lies_on[vertex].empty(); }
 };
 
 Surface find_surface(const Character& character);

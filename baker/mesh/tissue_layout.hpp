@@ -10,6 +10,7 @@
 #include "baker/mesh/proxies.hpp"
 #include "baker/mesh/recipe.hpp"
 #include "baker/mesh/rods.hpp"
+#include "baker/mesh/surface.hpp"
 
 namespace sinew::baker {
 
@@ -45,6 +46,7 @@ struct Region {
 struct TissueLayout {
   std::vector<double> stiffness;  // a vertex: painted, or as the recipe's or named bones' regions state it
   std::vector<bool> coreless;     // a joint: no rigid core about its bone
+  std::vector<LiesOn> lies_on;    // a vertex, as of Surface
   std::vector<Region> regions;
   std::vector<ControlNode> nodes;          // region after region
   std::vector<std::pair<int, int>> edges;  // undirected, no self-loops, each region connected

@@ -126,6 +126,20 @@ void check(const Character& character, const TissueLayout& layout, const Recipe&
     throw BadInput("cage: voxels_high is " + std::to_string(*recipe.voxels_high) + ": give 8 to 200");
 }
 
+// A vertex in the matter that it is of; one that lies on another piece in the matter beneath, at the place
+// that it lies on.
+Cage::Place place_of(const Character& character, const TissueLayout& layout, const CageTopology& topology,
+                     size_t v) {
+  if (layout.lies_on.empty() || layout.lies_on[v].empty())
+    return topology.place(character.positions[v], -character.normals[v]);
+  Vector3 place = Vector3::Zero(), normal = Vector3::Zero();
+  for (const auto& [base, share] : layout.lies_on[v]) {
+    place += share * character.positions[static_cast<size_t>(base)];
+    normal += share * character.normals[static_cast<size_t>(base)];
+  }
+  return topology.place(place, -normal.normalized());
+}
+
 Cage build_cage(const Character& character, const TissueLayout& layout, const Recipe& recipe,
                 int voxels_high) {
   Cage cage;
@@ -136,7 +150,7 @@ Cage build_cage(const Character& character, const TissueLayout& layout, const Re
   const std::vector<PlacedSample> samples = placed_samples(character, topology, 0.5 * cage.cell_m);
   CageFields fields = fit_fields(character, effective_stiffness(layout), topology, samples);
   for (size_t v = 0; v < character.positions.size(); ++v)
-    cage.surface.push_back(topology.place(character.positions[v], -character.normals[v]));
+    cage.surface.push_back(place_of(character, layout, topology, v));
   cage.nodes = topology.nodes;
   cage.tetrahedra = topology.tetrahedra;
   cage.fill = topology.fill;

@@ -28,7 +28,7 @@ struct Cage {
     int tetrahedron = 0;
     std::array<double, 4> weight{};  // sum 1; slightly negative where the vertex lies just outside
   };
-  std::vector<Place> surface;  // a vertex of the character
+  std::vector<Place> surface;  // a vertex of the character; of one that lies on another piece, where it does
 };
 
 // Free are the nodes around soft regions that are neither as stiff as the recipe's rigid_stiffness nor in a

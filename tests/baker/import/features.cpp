@@ -190,6 +190,31 @@ TEST_CASE("vertices_doubled_by_a_seam_are_welded_only_if_they_move_alike") {
   CHECK(character.welded == std::vector<int>{0, 1, 2, 2, 4, 5});  // 4 hangs on the upper joint alone
 }
 
+TEST_CASE("places_that_differ_by_rounding_are_welded_wherever_they_lie") {
+  constexpr float kHeight = 2, kAside = 0.5e-6f * kHeight, kApart = 2e-6f * kHeight;
+  for (int step = 0; step < 100; ++step) {  // across whatever cells they are sorted into
+    const float x = 0.3f + 0.37e-6f * static_cast<float>(step);
+    TinyFile file = bar();
+    file.attribute("POSITION") =
+        file.add_floats({0, 0, 0, 1, 0, 0, x, 1, 0, x - kAside, 1, 0, x + kApart, 1, 0, 1, 2, 0}, "VEC3");
+    file.attribute("WEIGHTS_0") = file.add_floats(
+        {1, 0, 0, 0, 1, 0, 0, 0, .5f, .5f, 0, 0, .5f, .5f, 0, 0, .5f, .5f, 0, 0, 0, 1, 0, 0}, "VEC4");
+    INFO(x);
+    CHECK(import_file(file, "rounded").welded == std::vector<int>{0, 1, 2, 2, 4, 5});
+  }
+}
+
+TEST_CASE("seams_whose_weights_were_smoothed_on_either_side_are_welded") {
+  TinyFile file = bar();
+  file.attribute("POSITION") =
+      file.add_floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 1, 2, 0}, "VEC3");  // 2, 3 and 4
+  file.attribute("WEIGHTS_0") = file.add_floats(
+      {1, 0, 0, 0, 1, 0, 0, 0, .5f, .5f, 0, 0, .504f, .496f, 0, 0, .52f, .48f, 0, 0, 0, 1, 0, 0}, "VEC4");
+  const Character character = import_file(file, "smoothed");
+  CHECK(character.welded == std::vector<int>{0, 1, 2, 2, 4, 5});
+  CHECK(character.skin[3].weight[0] == Approx(0.504));  // each is skinned as the file says
+}
+
 TEST_CASE("meshes_without_skin_move_rigidly_with_what_is_above_them") {
   TinyFile file = bar();
   file.json["meshes"].push_back({{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 3}}}}});

@@ -66,6 +66,10 @@ TEST_CASE("wrong_recipes_are_refused_by_key") {
       {R"({"levels": [40], "left_out": "cheek"})", "\"left_out\" must be a list of texts"},
       {R"({"levels": [40, 20, 10, 5], "left_out": ["cheek"]})",
        "\"left_out\" asks for one control graph more"},
+      {R"({"layer_m": -0.1})", "\"layer_m\" is -0.1"},
+      {R"({"layer_m": 11})", "\"layer_m\" is 11"},
+      {R"({"layer_m": "near"})", "layer_m"},
+      {R"({"layers_m": 0.01})", "layer_m"},
       {R"({"unit_m": -1})", "unit_m"},
       {R"({"up": "x"})", "\"up\""},
       {R"({"regions": [{"name": "belly"}]})", "joints"},
@@ -132,9 +136,10 @@ TEST_CASE("every_key_of_a_recipe_is_read_and_absent_ones_keep_their_default") {
   const Recipe recipe = read_recipe(write(R"({
     "young_soft_pa": 1000, "young_stiff_pa": 2000, "poisson_ratio": 0.3, "density_kg_m3": 900, "damping_ratio": 0.2,
     "voxels_high": 20, "rigid_stiffness": 0.5, "core_share": 0.25, "coreless_joints": ["ear_*"], "nodes_per_region": 12,
-    "neighbours": 4, "unit_m": 0.01, "up": "z", "regions": [{"name": "belly", "joints": ["spine_*", "pelvis"], "stiffness": 0.3},
+    "neighbours": 4, "layer_m": 0.02, "unit_m": 0.01, "up": "z", "regions": [{"name": "belly", "joints": ["spine_*", "pelvis"], "stiffness": 0.3},
                 {"name": "cheek", "joints": ["head"], "touches_body": true}]})"));
   CHECK(recipe.young_soft_pa == 1000);
+  CHECK(recipe.layer_m == 0.02);
   CHECK(recipe.young_stiff_pa == 2000);
   CHECK(recipe.poisson_ratio == 0.3);
   CHECK(recipe.density_kg_m3 == 900);

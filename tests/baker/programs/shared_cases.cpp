@@ -7,10 +7,12 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <optional>
 
 #include "baker/common/read_file.hpp"
 #include "baker/common/write_file.hpp"
 #include "baker/import/import_gltf.hpp"
+#include "baker/mesh/closest_place.hpp"
 #include "baker/programs/loaded_pack.hpp"
 #include "sinew/sinew.hpp"
 #include "tests/baker/common/temporary_folder.hpp"
@@ -512,4 +514,269 @@ TEST_CASE("shared_a_strap_stays_a_strap_where_it_is_sewn_on") {
   }
   CHECK(longest < 1.2);
   CHECK(moved > 0.3);  // radians, of 40 degrees that the strap does not follow
+}
+
+namespace {
+
+// A copy of a case of which single accessors are other values, kept in a buffer of their own.
+class EditedCase {
+ public:
+  explicit EditedCase(const std::string& file)
+      : json_(nlohmann::json::parse(baker::read_text(file))), character(baker::import_gltf(file)) {}
+
+  template <class T>
+  int add(const std::vector<T>& values, const std::string& type, size_t width, int component_type) {
+    json_["bufferViews"].push_back(
+        {{"buffer", 1}, {"byteOffset", bytes_.size()}, {"byteLength", values.size() * sizeof(T)}});
+    bytes_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+    json_["accessors"].push_back({{"bufferView", json_["bufferViews"].size() - 1},
+                                  {"componentType", component_type},
+                                  {"count", values.size() / width},
+                                  {"type", type}});
+    return static_cast<int>(json_["accessors"].size()) - 1;
+  }
+
+  // Of one mesh, each vertex's weight of its first joint by so much less and of its second by so much more.
+  void shift_weights(size_t mesh, float by) {
+    std::vector<float> weights, joints;
+    for (size_t k = 0; k < character.meshes[mesh].vertex_count; ++k) {
+      const baker::Influences& skin = character.skin[character.meshes[mesh].first_vertex + k];
+      for (size_t i = 0; i < 4; ++i) {
+        const float shift = skin.weight[1] <= 0 || i > 1 ? 0 : i == 0 ? -by : by;
+        weights.push_back(static_cast<float>(skin.weight[i]) + shift);
+        joints.push_back(static_cast<float>(skin.joint[i]));
+      }
+    }
+    primitive(mesh)["attributes"]["WEIGHTS_0"] = add(weights, "VEC4", 4, 5126);
+    const std::vector<uint16_t> whole(joints.begin(), joints.end());
+    primitive(mesh)["attributes"]["JOINTS_0"] = add(whole, "VEC4", 4, 5123);
+  }
+
+  nlohmann::json& primitive(size_t mesh) { return json_["meshes"][mesh]["primitives"][0]; }
+
+  std::string write(const TemporaryFolder& folder) {
+    json_["buffers"].push_back({{"uri", "edited.bin"}, {"byteLength", bytes_.size()}});
+    baker::write_file(folder.file("edited.bin"), std::string_view(bytes_));
+    baker::write_file(folder.file("edited.gltf"), std::string_view(json_.dump()));
+    return folder.file("edited.gltf");
+  }
+
+ private:
+  nlohmann::json json_;
+  std::string bytes_;
+
+ public:
+  const baker::Character character;
+};
+
+// Plays the first clip of the file that it was baked from.
+void play_clip(Played& played, const baker::Character& source, const std::function<void()>& each) {
+  const baker::Clip& clip = source.clips.at(0);
+  for (int frame = 0; frame < clip.duration_s * 60; ++frame) {
+    const auto joints = baker::joint_matrices(source, &clip, frame / 60.0);
+    REQUIRE(joints.size() == played.joints.size());
+    std::vector<Matrix34> pose(joints.size());
+    for (size_t j = 0; j < joints.size(); ++j)
+      Eigen::Map<Eigen::Matrix<float, 3, 4, Eigen::RowMajor>>(&pose[j].m[0][0]) =
+          joints[j].topRows<3>().cast<float>();
+    REQUIRE(played.world.set_pose(played.instance, {.joints = pose, .root = {}}).ok());
+    played.world.step(1.0f / 60);
+    each();
+  }
+}
+
+struct Rims {
+  double apart_m = 0, moved_m = 0;  // the most along the clip; moved: against the skinning
+};
+
+Rims rims_of_two_meshes(const std::string& file) {
+  const Baked baked(file);
+  CHECK(baked.info["regions"].size() == 1);
+  const baker::Character source = baker::import_gltf(file);
+  Played played(baked);
+  std::vector<std::pair<size_t, size_t>> rims;  // of the lower mesh and the upper one, at one place
+  const size_t upper = source.meshes.at(1).first_vertex;
+  for (size_t a = 0; a < upper; ++a)
+    for (size_t b = upper; b < source.positions.size(); ++b)
+      if ((source.positions[a] - source.positions[b]).norm() < 1e-6) rims.emplace_back(a, b);
+  CHECK(rims.size() == 16);
+  Rims rim;
+  size_t frame = 0;
+  play_clip(played, source, [&] {
+    const auto now = played.positions();
+    const auto skinned = baker::skin_positions(
+        source, baker::joint_matrices(source, &source.clips.at(0), static_cast<double>(frame++) / 60));
+    for (const auto& [a, b] : rims) {
+      rim.apart_m = std::max(rim.apart_m, ((now[a] - now[b]) - (skinned[a] - skinned[b])).norm());
+      rim.moved_m = std::max(rim.moved_m, (now[a] - skinned[a]).norm());
+    }
+  });
+  return rim;
+}
+
+}  // namespace
+
+TEST_CASE("shared_two_meshes_whose_rims_nearly_meet_are_one_belly") {
+  const std::string file = case_file("two_meshes_one_belly/two_meshes_one_belly.gltf");
+  if (file.empty()) return;
+  const Rims as_it_is = rims_of_two_meshes(file);
+  CHECK(as_it_is.moved_m > 5e-3);
+  CHECK(as_it_is.apart_m < 1e-4);
+  EditedCase edited(file);
+  edited.shift_weights(1, 0.004f);
+  const TemporaryFolder folder;
+  const Rims smoothed = rims_of_two_meshes(edited.write(folder));
+  CHECK(smoothed.moved_m > 5e-3);
+  CHECK(smoothed.apart_m < 1e-4);  // beyond what the skinning itself parts them by
+}
+
+namespace {
+
+// One mesh of a character, as it stands now, and how far a place is above it: below 0 inside.
+class Standing {
+ public:
+  Standing(const baker::Character& source, size_t mesh, const std::vector<Vector3>& now) {
+    character_.positions = now;
+    character_.triangles = source.triangles;
+    const baker::MeshSpan& span = source.meshes.at(mesh);
+    std::vector<int> own;
+    for (size_t t = 0; t < source.triangles.size(); ++t)
+      if (static_cast<size_t>(source.triangles[t][0]) - span.first_vertex < span.vertex_count)
+        own.push_back(static_cast<int>(t));
+    tree_.emplace(character_, std::move(own));
+  }
+
+  double above_m(const Vector3& place) const {
+    const baker::SurfacePlace found = tree_->find(place, 10).value();
+    const auto& face = character_.triangles[static_cast<size_t>(found.triangle)];
+    const auto at = [&](size_t k) { return character_.positions[static_cast<size_t>(face[k])]; };
+    const Vector3 normal = (at(1) - at(0)).cross(at(2) - at(0));
+    return std::copysign(found.distance_m, normal.dot(place - found.position));
+  }
+
+ private:
+  baker::Character character_;
+  std::optional<baker::ClosestPlace> tree_;
+};
+
+struct Worn {
+  double least_m = 1, largest_m = 0;  // of the gap, shirt to skin and skin to shirt
+  double moved_m = 0;                 // the most of a vertex of the shirt, against where it is bound
+  size_t watched = 0;
+};
+
+constexpr double kBob_m = 0.05;
+Vector3 high_bob(double t_s) { return {0, kBob_m * std::sin(2 * std::numbers::pi * 2 * t_s), 0}; }
+Vector3 high_hop(double t_s) {
+  return {0, t_s > 0.5 ? 0 : 0.25 * std::pow(std::sin(std::numbers::pi * t_s / 0.5), 2), 0};
+}
+
+// Vertices of either layer that the other one lies 6 mm over or under, in a bob and a hop.
+Worn worn(const std::string& file, const std::string& recipe = "") {
+  const Baked baked(file, recipe);
+  CHECK(baked.info["regions"].size() == 1);
+  const baker::Character source = baker::import_gltf(file);
+  const auto in = [&](size_t mesh, size_t v) {
+    return v - source.meshes[mesh].first_vertex < source.meshes[mesh].vertex_count;
+  };
+  // above[v]: of a shirt's vertex over the body, of a body's vertex under the shirt.
+  const auto gap_of = [&](const std::vector<Vector3>& now, const std::vector<size_t>& watched) {
+    const Standing body(source, 0, now), shirt(source, 1, now);
+    std::vector<double> gaps;
+    for (const size_t v : watched) gaps.push_back(in(1, v) ? body.above_m(now[v]) : -shirt.above_m(now[v]));
+    return gaps;
+  };
+  std::vector<bool> used(source.positions.size(), false);
+  for (const auto& face : source.triangles)
+    for (const int corner : face) used[static_cast<size_t>(corner)] = true;
+  std::vector<size_t> all, watched;
+  for (size_t v = 0; v < used.size(); ++v)
+    if (used[v]) all.push_back(v);
+  const std::vector<double> bound = gap_of(source.positions, all);
+  for (size_t i = 0; i < all.size(); ++i)
+    if (bound[i] > 5e-3 && bound[i] < 6.1e-3) watched.push_back(all[i]);
+  Worn result{.watched = watched.size()};
+  for (const RootMotion& motion : {RootMotion(high_bob), RootMotion(high_hop)}) {
+    Played played(baked);
+    const std::vector<Vector3> before = played.positions();
+    played.play(2, motion, [&] {
+      const std::vector<Vector3> now = played.positions();
+      for (const double gap : gap_of(now, watched)) {
+        result.least_m = std::min(result.least_m, gap);
+        result.largest_m = std::max(result.largest_m, gap);
+      }
+      for (size_t v = 0; v < now.size(); ++v)
+        if (in(1, v)) result.moved_m = std::max(result.moved_m, (now[v] - before[v]).norm());
+    });
+  }
+  INFO(result.watched << " watched, gap " << result.least_m << " to " << result.largest_m << ", moved "
+                      << result.moved_m);
+  CHECK(result.least_m > 4e-3);
+  CHECK(result.largest_m < 8e-3);
+  CHECK(result.moved_m > 5e-3);
+  return result;
+}
+
+// The body without its triangles under the shirt, but for a ring at either end.
+std::string without_belly(const std::string& file, const TemporaryFolder& folder) {
+  EditedCase edited(file);
+  std::vector<uint16_t> kept;
+  for (const auto& face : edited.character.triangles) {
+    bool body = true, under = true;
+    for (const int corner : face) {
+      const auto v = static_cast<size_t>(corner);
+      const double y = edited.character.positions[v].y();
+      body = body && v < edited.character.meshes[0].vertex_count;
+      under = under && y > 0.79 && y < 1.16;
+    }
+    for (const int corner : face)
+      if (body && !under) kept.push_back(static_cast<uint16_t>(corner));
+  }
+  edited.primitive(0)["indices"] = edited.add(kept, "SCALAR", 1, 5123);
+  return edited.write(folder);
+}
+
+}  // namespace
+
+TEST_CASE("shared_a_shirt_moves_with_the_belly_beneath_and_without_it_as_the_belly_did") {
+  const std::string file = case_file("shirt_over_a_belly/shirt_painted.gltf");
+  if (file.empty()) return;
+  const TemporaryFolder folder, cut, named;
+  const Worn painted = worn(file);
+  CHECK(painted.watched > 250);
+  const Worn alone = worn(without_belly(file, cut));
+  CHECK(alone.watched > 30);
+  CHECK(alone.moved_m == Approx(painted.moved_m).epsilon(0.5));
+  // The same by a recipe, of a file without paint.
+  auto plain = nlohmann::json::parse(baker::read_text(file));
+  for (auto& mesh : plain["meshes"]) mesh["primitives"][0]["attributes"].erase("_STIFFNESS");
+  baker::write_file(named.file("plain.gltf"), std::string_view(plain.dump()));
+  baker::write_file(named.file("r.json"),
+                    std::string_view(R"({"regions": [{"name": "belly", "joints": ["hips", "spine"]}]})"));
+  CHECK(worn(named.file("plain.gltf"), named.file("r.json")).watched > 250);
+}
+
+TEST_CASE("shared_an_audit_says_how_far_a_shirt_stands_off_and_fails_where_it_crosses") {
+  const std::string file = case_file("shirt_over_a_belly/shirt_painted.gltf");
+  if (file.empty()) return;
+  const TemporaryFolder folder;
+  baker::write_file(folder.file("apart.json"),
+                    std::string_view(R"({"layer_m": 0, "max_displacement": 0.3})"));
+  const Baked together(file), apart(file, folder.file("apart.json"));
+  const ProgramResult good = bake({"audit", together.pack, "--json"}),
+                      bad = bake({"audit", apart.pack, "--json"}), table = bake({"audit", apart.pack});
+  const auto gap = nlohmann::json::parse(good.out)["parts"][0]["layer_gap"];
+  CHECK(gap["least_m"] > 4e-3);
+  CHECK(gap["largest_m"] < 8e-3);
+  CHECK(gap["file_least_m"].get<double>() == Approx(5.6e-3).margin(1e-4));  // 6 mm out, where the body leans
+  CHECK(gap["file_largest_m"].get<double>() == Approx(5.9e-3).margin(1e-4));
+  CHECK(gap["crossed_m"]["value"] == 0);
+  CHECK_THAT(good.out, !Catch::Contains("layers cross"));
+  CHECK(bad.exit_code == 1);
+  double least_m = 1;
+  const auto told = nlohmann::json::parse(bad.out);
+  for (const auto& part : told["parts"])
+    least_m = std::min(least_m, part["layer_gap"]["least_m"].get<double>());
+  CHECK(least_m < 0);
+  CHECK_THAT(table.out, Catch::Contains("its layers cross") && Catch::Contains("layer_m"));
 }

@@ -184,6 +184,40 @@ TEST_CASE("rigid_flesh_is_exactly_the_skinning") {
     if (bar.character.positions[v].y() < -0.2) CHECK(frame.truth[v] == frame.skinned[v]);
 }
 
+TEST_CASE("a_plate_that_lies_on_flesh_moves_with_the_flesh_beneath") {
+  Bar bar;
+  const size_t first = bar.character.positions.size();
+  // A closed shell with air below it, of matter of its own.
+  add_box(bar.character, {-0.15, 0.1, 0.153}, {0.15, 0.4, 0.158}, 0.05, 0);
+  for (size_t v = 0; v < bar.character.positions.size(); ++v) {
+    const double y = bar.character.positions[v].y(), upper = ease((y + 0.1) / 0.4);
+    bar.character.stiffness.push_back(y > 0 && v < first ? 0.1 : 1);
+    bar.character.skin[v] = {};
+    bar.character.skin[v].joint = {0, 1};
+    bar.character.skin[v].weight = {1 - upper, upper};
+  }
+  bar.layout = layout_tissue(bar.character, bar.recipe);
+  TissueTruth truth = bar.truth();
+  truth.start([&](double t_s) {
+    WorldPose pose = bar.bind();
+    pose.root(0, 3) = 0.05 * std::sin(10 * t_s);
+    return pose;
+  });
+  double moved = 0, apart = 0;
+  for (int tick = 0; tick < 20; ++tick) {
+    const auto u = displacement(truth.advance(kRate_hz, 2));
+    for (size_t v = first; v < u.size(); ++v)
+      for (size_t beneath = 0; beneath < first; ++beneath) {
+        const Vector3 up = bar.character.positions[v] - bar.character.positions[beneath];
+        if (up.head<2>().norm() > 1e-9 || up.z() > 0.01) continue;
+        moved = std::max(moved, u[v].norm());
+        apart = std::max(apart, (u[v] - u[beneath]).norm());
+      }
+  }
+  CHECK(moved > 1e-3);
+  CHECK(apart < kSame_m);
+}
+
 TEST_CASE("the_same_motion_gives_the_same_bits_from_a_used_truth") {
   const Bar bar;
   TissueTruth truth = bar.truth(), fresh = bar.truth();
