@@ -106,6 +106,8 @@ class OverlapFinder {
     const double height = away.dot(normal);
     const bool touches = place->distance_m <= kTouching * reach_m_;
     if (!touches && place->facing < kAlongNormal) return;
+    // Two bodies that face each other over a gap, as two thighs do.
+    if (!touches && height > 0 && character_.normals[v].dot(normal) < 0) return;
     bool on_soft = false;
     for (size_t c = 0; c < 3; ++c)
       on_soft = on_soft || (place->share[c] > kNothing && soft_[welded(face[c])]);

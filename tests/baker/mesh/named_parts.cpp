@@ -138,9 +138,8 @@ TEST_CASE("breast_bones_that_share_their_flesh_with_the_chest_become_regions_of_
   CHECK_FALSE(layout.coreless[static_cast<size_t>(body.chest)]);
 
   Character again = body.figure.character;  // the same as a recipe states it
-  RegionRecipe bosom{"bosom", {"breast_l", "breast_r"}, 0.3};
-  bosom.side = BodySide::kAround;  // wider rims would make one part of both, over the chest between them
-  const TissueLayout stated = layout_tissue(again, with_regions({bosom, {"tum", {"spine_01"}}}));
+  const TissueLayout stated =
+      layout_tissue(again, with_regions({{"bosom", {"breast_l", "breast_r"}, 0.3}, {"tum", {"spine_01"}}}));
   CHECK(regions_of(stated) == Names{"bosom_l", "bosom_r", "tum"});
   CHECK(std::ranges::find(stated.regions, "bosom_l", &Region::name)->kind == SoftKind::kBreast);
   CHECK(std::ranges::find(stated.regions, "bosom_l", &Region::name)->evidence == Evidence::kRecipe);
