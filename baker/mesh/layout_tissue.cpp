@@ -148,6 +148,7 @@ void append_finest(const Part& part, const Recipe& recipe, Evidence evidence, Ti
   Region& region = append_region(part, nodes, edges, layout);
   region.name = stated ? stated->name : region_name(part.character, layout.stiffness, part.vertices);
   region.evidence = evidence;
+  region.recipe_region = owner;
   set_motion(recipe, stated, region);
 }
 
@@ -373,6 +374,7 @@ TissueLayout layout_tissue(Character& character, const Recipe& recipe) {
                                   .regions = !painted && !states_regions,
                                   .has_region = pieces_in(character, surface, recipe)});
   add_named_rods(character, named.rods, layout.rods, layout.skipped);
+  layout.found_rods = std::move(named.rods);
   std::ranges::move(named.skipped, std::back_inserter(layout.skipped));
   const std::vector<bool> on_rods = joints_on_rods(character, layout.rods);
   layout.proxies = find_proxies(character, find_bones(character, {}), on_rods, recipe);
@@ -384,7 +386,8 @@ TissueLayout layout_tissue(Character& character, const Recipe& recipe) {
   Recipe as = recipe;
   if (!painted && !states_regions)
     for (const Candidate& found : named.regions) as.regions.push_back(found.region);
-  layout.doubtful = std::move(named.doubtful);
+  layout.found_regions = named.regions;
+  std::ranges::move(named.doubtful, std::back_inserter(layout.found_regions));
   layout.coreless = match_joints(character, recipe.coreless_joints, "recipe: coreless_joints");
   join(named.coreless, layout.coreless);
   join(flesh_joints(character), layout.coreless);

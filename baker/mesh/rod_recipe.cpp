@@ -8,12 +8,35 @@ namespace {
 
 constexpr double kLeastModulus_pa = 1e-3, kMostModulus_pa = 1e12;
 
+// That a rod as the file has it does not have.
+constexpr const char* kKeysOfOwn[] = {"end",
+                                      "end_joint",
+                                      "radius_m",
+                                      "density_kg_m3",
+                                      "frequency_hz",
+                                      "young_modulus_pa",
+                                      "torsion_modulus_pa",
+                                      "damping_ratio",
+                                      "damping_s",
+                                      "drag_per_s",
+                                      "gravity",
+                                      "sag"};
+
 RodRecipe read_rod(JsonSection& section) {
   RodRecipe rod;
   rod.root = section.text("root");
   rod.name = section.text("name", rod.root);
   if (section.has("end")) rod.end = section.text("end");
   if (section.has("end_joint")) rod.end_joint = section.text("end_joint");
+  rod.as_in_file = section.flag("as_in_file", false);
+  if (rod.as_in_file) {
+    if (section.has("max_displacement"))
+      rod.max_displacement = section.number("max_displacement", 0, 0.01, 2);
+    for (const char* other : kKeysOfOwn)
+      if (section.has(other)) section.complain(other, "says otherwise than as_in_file; take one of them out");
+    section.finish();
+    return rod;
+  }
   if (section.has("radius_m")) rod.radius_m = section.number("radius_m", 0, 1e-5, 10);
   rod.density_kg_m3 = section.number("density_kg_m3", rod.density_kg_m3, 1, 1e5);
   if (section.has("frequency_hz")) {

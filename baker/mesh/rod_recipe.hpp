@@ -17,6 +17,10 @@ struct RodRecipe {
   // its end free.
   std::string end_joint = {};
 
+  // The file's own spring bones that begin at `root`, with their numbers and colliders: only max_displacement
+  // counts beside it.
+  bool as_in_file = false;
+
   double radius_m = 0;  // 0: as thick as the flesh on each bone; else above 0 .. 10
   // 1 .. 1e5. Heavier than 1000 it swings slower, by the square root, and air takes less of its velocity;
   // lighter, the other way round.

@@ -299,6 +299,37 @@ void apply(const RodRecipe& recipe, Rod& rod) {
   rod.max_displacement = recipe.max_displacement;
 }
 
+// As the file states it.
+Rod rod_of_spring(Character& character, const SpringBones& spring, const RodPlace& place,
+                  const std::string& name) {
+  Rod rod = make_rod(character, place, name);
+  apply(spring, rod.bones);
+  rod.sag = 1;
+  rod.states_limit = false;
+  describe(character, Evidence::kSpringBone, rod);
+  rod.gravity = gravity_of(spring, place.where, character);
+  rod.gravity_direction = spring.numbers.gravity_direction;
+  rod.collider_groups = spring.collider_groups;
+  return rod;
+}
+
+Rod rod_as_in_file(Character& character, const RodRecipe& recipe, const RodPlace& place) {
+  const auto spring = std::ranges::find(character.springs, place.root, &SpringBones::root);
+  if (spring == character.springs.end()) {
+    const JointNames names(character);
+    std::string known;
+    for (const SpringBones& other : character.springs)
+      known += (known.empty() ? "" : ", ") + names.unique(static_cast<size_t>(other.root));
+    throw BadInput(character.name + ": " + place.where +
+                   ": \"as_in_file\": no spring bones of the file begin at '" + recipe.root + "'; " +
+                   (known.empty() ? "it has none: state frequency_hz" : "they begin at " + known));
+  }
+  const RodPlace in_file{place.where, spring->root, spring->end, spring->end_node, spring->tail_m};
+  Rod rod = rod_of_spring(character, *spring, in_file, recipe.name);
+  if (recipe.max_displacement > 0) rod.max_displacement = recipe.max_displacement, rod.states_limit = true;
+  return rod;
+}
+
 std::vector<Rod> stated_rods(Character& character, const std::vector<RodRecipe>& recipes) {
   std::vector<Rod> rods;
   const std::vector<bool> on_rods = joints_on_stated(character, recipes);
@@ -307,10 +338,15 @@ std::vector<Rod> stated_rods(Character& character, const std::vector<RodRecipe>&
     RodPlace place{"recipe: rod '" + recipe.name + "'"};
     place.root = joint_called(character, recipe.root, place.where);
     if (!recipe.end.empty()) place.end = end_called(character, recipe.end, place.root, place.where);
-    Rod rod = make_rod(character, place, recipe.name);
-    hold_end(character, recipe, on_rods, place, rod);
-    apply(recipe, rod);
-    describe(character, Evidence::kRecipe, rod);
+    Rod rod;
+    if (recipe.as_in_file) {
+      rod = rod_as_in_file(character, recipe, place);
+    } else {
+      rod = make_rod(character, place, recipe.name);
+      hold_end(character, recipe, on_rods, place, rod);
+      apply(recipe, rod);
+      describe(character, Evidence::kRecipe, rod);
+    }
     owners.take(rods, rod, place.where);
     rods.push_back(std::move(rod));
   }
@@ -335,11 +371,7 @@ std::vector<Rod> rods_of_springs(Character& character, const std::vector<bool>& 
     const RodPlace place{"spring bone '" + name + "'", spring.root, spring.end, spring.end_node,
                          spring.tail_m};
     try {
-      Rod rod = make_rod(character, place, name);
-      apply(spring, rod.bones);
-      rod.sag = 1;
-      rod.states_limit = false;
-      describe(character, Evidence::kSpringBone, rod);
+      Rod rod = rod_of_spring(character, spring, place, name);
       if (moves_claimed(rod, claimed)) {
         if (skipped != nullptr)
           skipped->push_back(
@@ -347,9 +379,6 @@ std::vector<Rod> rods_of_springs(Character& character, const std::vector<bool>& 
         continue;
       }
       owners.take(rods, rod, place.where);
-      rod.gravity = gravity_of(spring, place.where, character);
-      rod.gravity_direction = spring.numbers.gravity_direction;
-      rod.collider_groups = spring.collider_groups;
       collides |= !spring.collider_groups.empty();
       rods.push_back(std::move(rod));
     } catch (const BadInput& refused) {

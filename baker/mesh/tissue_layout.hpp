@@ -34,6 +34,7 @@ struct Region {
   bool touches_body = false;  // RegionRecipe::touches_body
   Evidence evidence = Evidence::kRecipe;
   SoftKind kind = SoftKind::kOther;
+  int recipe_region = -1;         // of the recipe's, or of found_regions; -1: of paint
   bool is_piece = false;          // of surface that the region names, and not flesh over bones
   double frequency_hz = 0;        // what its first mode is to have; 0: what its moduli give
   bool states_frequency = false;  // it is the recipe's
@@ -53,7 +54,9 @@ struct TissueLayout {
   std::vector<Proxy> proxies;              // what rods and regions collide with
   std::vector<Rod> rods;                   // what hangs on their bones is not soft: the rods move it
   std::vector<SkippedPart> skipped;        // evidence that came to nothing
-  std::vector<Candidate> doubtful;         // of no recipe: what may be soft and stays rigid
+  // Where no recipe states regions or rods: what was found, the doubtful, which stays rigid, last.
+  std::vector<Candidate> found_regions;
+  std::vector<RodRecipe> found_rods;  // by names
 };
 
 // Parts by evidence: what the recipe states, what is painted, the file's spring bones, bone names; geometry

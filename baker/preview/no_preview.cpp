@@ -4,7 +4,7 @@
 
 namespace sinew::baker {
 
-void write_preview(const std::string& path, const pack::PackView&) {
+void write_preview(const std::string& path, const pack::PackView&, const std::vector<std::string>&) {
   throw BadInput(path +
                  ": this build draws no pictures; leave --preview out, or build with SINEW_BUILD_SAMPLES");
 }

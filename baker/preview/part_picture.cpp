@@ -158,7 +158,9 @@ Image legend(const std::vector<Part>& parts, int height) {
 }  // namespace
 
 Image part_picture(const pack::PackView& character, const PartPicture& picture) {
-  const std::vector<Part> parts = parts_of(character);
+  std::vector<Part> parts = parts_of(character);
+  for (size_t p = 0; p < std::min(parts.size(), picture.captions.size()); ++p)
+    parts[p].name = picture.captions[p] + " " + parts[p].name;
   render::Mesh mesh = bind_mesh(character);
   fade(mesh);
   for (size_t p = 0; p < parts.size(); ++p) paint(parts[p], color_of(p), mesh);
@@ -171,8 +173,9 @@ Image part_picture(const pack::PackView& character, const PartPicture& picture) 
   return render::side_by_side(panels);
 }
 
-void write_preview(const std::string& path, const pack::PackView& character) {
-  render::write_png(path, part_picture(character));
+void write_preview(const std::string& path, const pack::PackView& character,
+                   const std::vector<std::string>& captions) {
+  render::write_png(path, part_picture(character, {.captions = captions}));
 }
 
 }  // namespace sinew::baker

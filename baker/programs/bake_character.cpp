@@ -7,7 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "baker/audit/limit_factor.hpp"
+#include "baker/audit/audit.hpp"
 #include "baker/common/bad_input.hpp"
 #include "baker/common/progress.hpp"
 #include "baker/common/write_file.hpp"
@@ -17,6 +17,7 @@
 #include "baker/pack/network_pack.hpp"
 #include "baker/pack/pack_writer.hpp"
 #include "baker/preview/write_preview.hpp"
+#include "baker/programs/character_tissue.hpp"
 #include "baker/programs/commands.hpp"
 #include "baker/programs/describe.hpp"
 #include "baker/programs/measure_tiers.hpp"
@@ -39,100 +40,6 @@ void print_summary(const CharacterOptions& options, const Character& character, 
   nlohmann::ordered_json description = describe_pack(pack);
   for (const char* detail : {"network", "metadata"}) description.erase(detail);  // `info` shows them
   std::printf("%s: %s", options.output.c_str(), format_description(description).c_str());
-}
-
-// A character's tissue before it is packed; of rods alone it has neither truth nor bases.
-struct Tissue {
-  TissueLayout layout;
-  std::unique_ptr<TissueTruth> truth;
-  std::vector<ModalBasis> finest;
-  std::vector<GraphLevel> coarser;
-
-  // Of a part that moves by this share of its size, regions before rods; true where it is one that may be
-  // scaled, and was.
-  bool scale_limit(size_t part, double factor, double moved_share) {
-    const size_t regions = layout.regions.size();
-    if (factor >= 1) return false;
-    if (part >= regions) {
-      Rod& rod = layout.rods[part - regions];
-      if (rod.states_limit) return false;
-      rod.max_displacement = factor * (rod.max_displacement > 0 ? rod.max_displacement : moved_share);
-      return true;
-    }
-    if (layout.regions[part].states_limit) return false;
-    layout.regions[part].max_displacement *= factor;
-    for (GraphLevel& level : coarser) level.layout.regions[part].max_displacement *= factor;
-    return true;
-  }
-};
-
-Tissue make_tissue(Character& character, const Recipe& recipe) {
-  Tissue tissue{.layout = layout_tissue(character, recipe), .truth = {}, .finest = {}, .coarser = {}};
-  if (tissue.layout.regions.empty()) return tissue;
-  tissue.truth = std::make_unique<TissueTruth>(character, tissue.layout, recipe);
-  const std::vector<std::string>& notes = tissue.truth->cage().notes;
-  character.notes.insert(character.notes.end(), notes.begin(), notes.end());
-  tissue.finest = tissue.truth->modal_bases(tissue.layout, kMostModes);
-  tissue.coarser = coarser_levels(character, recipe, *tissue.truth, tissue.layout, tissue.finest);
-  return tissue;
-}
-
-// Packs it with these weights, or without.
-class Packer {
- public:
-  Packer(const Character& character, const Tissue& tissue) : character_(character), tissue_(tissue) {}
-
-  std::vector<std::byte> pack(const Safetensors* weights) const {
-    return pack_character(character_, tissue_.layout, tissue_.finest, weights, tissue_.coarser);
-  }
-
- private:
-  const Character& character_;
-  const Tissue& tissue_;
-};
-
-std::string limit_note(const Region& before, const Region& after) {
-  char text[200];
-  std::snprintf(
-      text, sizeof text,
-      "'%s' may move by %.2f of its radius, not %.2f: further its skin would tear; add bones around it, "
-      "or state max_displacement",
-      after.name.c_str(), after.max_displacement, before.max_displacement);
-  return text;
-}
-
-std::string limit_note(const Rod& rod) {
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "'%s' may swing by %.2f of its length: further its skin would tear; mend its weights, or "
-                "state max_displacement in a recipe's \"rods\"",
-                rod.name.c_str(), rod.max_displacement);
-  return text;
-}
-
-// Flesh with a narrow rim tears where other flesh only swings, and so does skin of which a lock has a part:
-// limits that no recipe states are lowered until a quick audit of the modal base is within its bounds.
-void lower_limits(const Packer& packer, Character& character, Tissue& tissue) {
-  constexpr int kMostRounds = 6;
-  const std::vector<Region> before = tissue.layout.regions;
-  const std::vector<Rod> rods_before = tissue.layout.rods;
-  bool lowered = !tissue.layout.regions.empty() || !tissue.layout.rods.empty();
-  for (int round = 0; lowered && round < kMostRounds; ++round) {
-    const LoadedPack pack = LoadedPack::from_bytes(packer.pack(nullptr), character.name);
-    const Audit audit = quick_audit({pack.view(), pack.bytes()});
-    lowered = false;
-    for (size_t p = 0; p < audit.parts.size(); ++p) {
-      const PartAudit& part = audit.parts[p];
-      lowered |= tissue.scale_limit(p, limit_factor(part, audit.height_m),
-                                    part.displacement_m.value / part.part.size_m);
-    }
-  }
-  for (size_t r = 0; r < before.size(); ++r)
-    if (tissue.layout.regions[r].max_displacement < before[r].max_displacement)
-      character.notes.push_back(limit_note(before[r], tissue.layout.regions[r]));
-  for (size_t r = 0; r < rods_before.size(); ++r)
-    if (tissue.layout.rods[r].max_displacement != rods_before[r].max_displacement)
-      character.notes.push_back(limit_note(tissue.layout.rods[r]));
 }
 
 std::vector<std::byte> with_tiers(const std::vector<std::byte>& bytes,
@@ -176,9 +83,9 @@ void note_too_soft(const TissueLayout& layout, const ShortTruths& truths, std::v
 }
 
 // The pack with the errors of this character, and without a network that does not pay on it.
-std::vector<std::byte> measured(const Packer& packer, const Recipe& recipe, const Safetensors* weights,
-                                bool keep_network, Character& character, const Tissue& tissue) {
-  std::vector<std::byte> bytes = packer.pack(weights);
+std::vector<std::byte> measured(const Recipe& recipe, const Safetensors* weights, bool keep_network,
+                                Character& character, const CharacterTissue& tissue) {
+  std::vector<std::byte> bytes = pack_tissue(character, tissue, weights);
   try {
     LoadedPack pack = LoadedPack::from_bytes(bytes, character.name);
     const ShortTruths truths = short_truths(character, tissue.layout, recipe, tissue.finest, pack.view());
@@ -186,7 +93,7 @@ std::vector<std::byte> measured(const Packer& packer, const Recipe& recipe, cons
     std::vector<pack::TierRecord> tiers = measured_tiers(pack, truths);
     if (weights && !keep_network && !network_pays(tiers)) {
       character.notes.push_back(network_note(tiers));
-      bytes = packer.pack(nullptr);
+      bytes = pack_tissue(character, tissue, nullptr);
       tiers = measured_tiers(LoadedPack::from_bytes(bytes, character.name), truths);
     }
     double least = std::numeric_limits<double>::infinity();
@@ -198,7 +105,7 @@ std::vector<std::byte> measured(const Packer& packer, const Recipe& recipe, cons
     const char* what = keep_network || !weights ? "errors are not measured: "
                                                 : "errors are not measured, and a network is left out: ";
     character.notes.push_back(what + std::string(problem.what()));
-    return packer.pack(keep_network ? weights : nullptr);
+    return pack_tissue(character, tissue, keep_network ? weights : nullptr);
   }
 }
 
@@ -210,20 +117,18 @@ void run_character(const CharacterOptions& options) {
   std::optional<Progress> progress(std::in_place, "baking " + options.output, 10);
   Character character = import_character(options.character, recipe);
   progress->update(1);
-  Tissue tissue = make_tissue(character, recipe);
+  CharacterTissue tissue = make_tissue(character, recipe);
   progress->update(6);
   if (tissue.layout.regions.empty() && weights) {
     check_model(*weights);
     character.notes.push_back("nothing is soft tissue: " + options.tissue + " is not used");
     weights.reset();
   }
-  const Packer packer(character, tissue);
-  lower_limits(packer, character, tissue);
+  lower_limits(character, tissue);
   const Safetensors* network = weights ? &*weights : nullptr;
   const std::vector<std::byte> bytes =
-      options.quick || !tissue.truth
-          ? packer.pack(network)
-          : measured(packer, recipe, network, options.keep_network, character, tissue);
+      options.quick || !tissue.truth ? pack_tissue(character, tissue, network)
+                                     : measured(recipe, network, options.keep_network, character, tissue);
   const LoadedPack pack =
       LoadedPack::from_bytes(bytes, options.character);  // what the runtime would refuse is not written
   if (!options.quick)

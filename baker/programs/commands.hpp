@@ -11,6 +11,7 @@ namespace sinew::baker {
 
 void add_creature_command(CLI::App& app, int* exit_code);
 void add_character_command(CLI::App& app, int* exit_code);
+void add_propose_command(CLI::App& app, int* exit_code);
 void add_model_command(CLI::App& app, int* exit_code);
 void add_check_command(CLI::App& app, int* exit_code);
 void add_info_command(CLI::App& app, int* exit_code);

@@ -9,6 +9,7 @@ int main(int argc, char** argv) {
   CLI::App app{"Bakes characters and trained weights into .sinew files."};
   app.require_subcommand(1);
   app.footer(
+      "  sinew-bake propose IN.glb -o R.json --preview parts.png      what may swing, as a recipe to edit\n"
       "  sinew-bake character IN.glb -o C.sinew --preview parts.png   a character, and a picture of its soft "
       "parts\n"
       "  sinew-bake info C.sinew                                      what is inside\n"
@@ -17,6 +18,7 @@ int main(int argc, char** argv) {
   int exit_code = 0;
   add_creature_command(app, &exit_code);
   add_character_command(app, &exit_code);
+  add_propose_command(app, &exit_code);
   add_model_command(app, &exit_code);
   add_check_command(app, &exit_code);
   add_info_command(app, &exit_code);

@@ -33,7 +33,7 @@ BAKER = {
     "research": {"pack"},
     "render": set(),
     "preview": {"render"},
-    "audit": {"preview", "render"},
+    "audit": {"import", "mesh", "preview", "render"},
     "programs": {"audit", "import", "mesh", "truth", "pack", "creature", "rods", "preview", "research"},
     "trade": {"import", "mesh", "truth", "pack", "programs", "render"},
 }

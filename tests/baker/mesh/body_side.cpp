@@ -159,20 +159,20 @@ TEST_CASE("without_a_recipe_only_a_belly_that_its_shape_makes_certain_is_soft") 
   CHECK(lay(upright(0.15, 0.15, 1).character).regions.size() == 1);
   const TissueLayout lean = lay(upright(0.1, 0, 1).character);
   CHECK(lean.regions.empty());
-  REQUIRE(lean.doubtful.size() == 3);  // belly, buttocks, thighs
-  CHECK_THAT(lean.doubtful[0].doubt, Catch::Contains("lean"));
+  REQUIRE(lean.found_regions.size() == 3);  // belly, buttocks, thighs
+  CHECK_THAT(lean.found_regions[0].doubt, Catch::Contains("lean"));
 
   Figure armoured = upright(0.15, 0.15, 1);
   armoured.character.nodes.back().name = "Knight_Body";
   const TissueLayout knight = lay(armoured.character);
   CHECK(knight.regions.empty());
-  REQUIRE(!knight.doubtful.empty());
-  CHECK_THAT(knight.doubtful[0].doubt, Catch::Contains("'Knight_Body' is named like something hard"));
+  REQUIRE(!knight.found_regions.empty());
+  CHECK_THAT(knight.found_regions[0].doubt, Catch::Contains("'Knight_Body' is named like something hard"));
 }
 
 TEST_CASE("what_has_no_limbs_has_no_side_and_nothing_in_doubt") {
   Character worm = column();
   const TissueLayout layout = layout_tissue(worm, {});
   CHECK(layout.regions.empty());
-  CHECK(layout.doubtful.empty());
+  CHECK(layout.found_regions.empty());
 }

@@ -117,6 +117,9 @@ TEST_CASE("wrong_recipes_are_refused_by_key") {
        "says the same as damping_ratio"},
       {R"({"rods": [{"root": "tail", "drag_per_s": -1}]})", "drag_per_s"},
       {R"({"rods": [{"root": "tail", "gravity": -1}]})", "gravity"},
+      {R"({"rods": [{"root": "tail", "as_in_file": 1}]})", "as_in_file"},
+      {R"({"rods": [{"root": "tail", "as_in_file": true, "frequency_hz": 2}]})",
+       "\"frequency_hz\" says otherwise than as_in_file"},
       {R"({"rods": [{"root": "tail", "sag": 2}]})", "sag"},
   };
   for (const auto& [text, says] : faults) {

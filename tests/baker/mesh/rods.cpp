@@ -299,6 +299,27 @@ TEST_CASE("a_spring_ends_where_its_file_says") {
   CHECK(noted(character, "bone 'bone_3' begins where it ends"));
 }
 
+TEST_CASE("a_rod_as_in_its_file_is_the_spring_that_begins_there_with_a_limit_of_the_recipe_s") {
+  Character character = column();
+  RodRecipe as_in_file = rooted("bone_2");
+  as_in_file.as_in_file = true;
+  CHECK_THAT(refusal(character, {as_in_file}),
+             Contains("no spring bones of the file begin at 'bone_2'") && Contains("it has none"));
+  character.springs = {{.name = "hair", .root = 1, .numbers = {.stiffness = 2, .gravity_power = 0.5}}};
+  CHECK_THAT(refusal(character, {as_in_file}), Contains("they begin at bone_1"));
+  as_in_file.root = as_in_file.name = "bone_1";
+  as_in_file.max_displacement = 0.3;
+  Character other = character;
+  const std::vector<Rod> stated = find_rods(character, with({as_in_file})), found = find_rods(other, {});
+  REQUIRE(stated.size() == 1);
+  REQUIRE(found.size() == 1);
+  CHECK(stated[0].frequency_hz == found[0].frequency_hz);
+  CHECK(stated[0].gravity == found[0].gravity);
+  CHECK(stated[0].sag == found[0].sag);
+  CHECK(stated[0].max_displacement == 0.3);
+  CHECK(stated[0].states_limit);
+}
+
 TEST_CASE("a_lone_spring_has_a_tail_that_points_away_from_its_parent") {
   Character character = column();
   add_joint(character, "leaf", 1, {0.3, 0.5, 0.4});
