@@ -419,7 +419,7 @@ TissueLayout layout_tissue(Character& character, const Recipe& recipe) {
   note_sheets(character, layout);
   fit_frequencies(character, layout);
   if (layout.regions.empty() && layout.rods.empty() && !no_tissue)
-    character.notes.push_back(how_to_make_soft(character));
+    character.notes.push_back(how_to_make_soft(character, layout.found_regions));
   return layout;
 }
 

@@ -359,7 +359,13 @@ std::vector<bool> flesh_joints(const Character& character) {
   return flesh;
 }
 
-std::string how_to_make_soft(const Character& character) {
+std::string how_to_make_soft(const Character& character, const std::vector<Candidate>& doubtful) {
+  std::string parts;
+  for (const Candidate& part : doubtful) parts += (parts.empty() ? "" : ", ") + part.region.name;
+  if (!parts.empty())
+    return "nothing swings: nothing of it is certain; in doubt are " + parts +
+           ": sinew-bake propose writes a recipe of them, to switch on";
+
   const Skeleton skeleton(character);
   const std::vector<double> thickness = flesh_thickness(character, find_bones(character, {}));
   std::vector<bool> leaf(skeleton.parent.size(), true);
@@ -377,9 +383,8 @@ std::string how_to_make_soft(const Character& character) {
   std::string names;
   for (size_t i = 0; i < std::min<size_t>(2, bones.size()); ++i)
     names += (i > 0 ? "\", \"" : "\"") + joint_name(character, bones[i].second);
-  return "nothing swings: no recipe, paint, spring bone or bone name says what is soft. For the bones with "
-         "the "
-         "thickest flesh, a recipe: {\"regions\": [{\"name\": \"belly\", \"joints\": [" +
+  return "nothing swings: no recipe, paint, spring bone, name or shape says what is soft. For the bones with "
+         "the thickest flesh, a recipe: {\"regions\": [{\"name\": \"belly\", \"joints\": [" +
          names + "\"]}]}";
 }
 

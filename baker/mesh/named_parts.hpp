@@ -37,6 +37,6 @@ NamedParts named_parts(const Character& character, const Surface& surface, const
 std::vector<bool> flesh_joints(const Character& character);
 
 // For a character with nothing that swings: how to say what should, with the bones that have most flesh.
-std::string how_to_make_soft(const Character& character);
+std::string how_to_make_soft(const Character& character, const std::vector<Candidate>& doubtful);
 
 }  // namespace sinew::baker
