@@ -5,17 +5,13 @@
 #include <cmath>
 #include <cstdint>
 
+#include "baker/common/smooth_step.hpp"
 #include "baker/creature/body_field.hpp"
 
 namespace sinew::baker {
 namespace {
 
 using Eigen::Vector3d;
-
-double smooth_step(double low, double high, double x) {
-  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
 
 class Brush {
  public:

@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 
+#include "baker/common/smooth_step.hpp"
 #include "baker/mesh/bone_names.hpp"
 #include "baker/mesh/bones.hpp"
 #include "baker/mesh/joint_names.hpp"
@@ -16,11 +17,6 @@ constexpr std::array<const char*, 7> kNames = {"around", "front",  "back",   "ab
                                                "below",  "inside", "outside"};
 constexpr double kMiddle = 0.75;     // of the farthest distance: from here on all is as soft as the middle
 constexpr double kBelowEyes = 0.15;  // of the head's height: where cheeks begin below the eyes
-
-double smooth_step(double value) {
-  const double t = std::clamp(value, 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
 
 // Unit, away from the bones; of what has a left and a right, on the side x of the plane of symmetry.
 Vector3 direction_of(const Anatomy& anatomy, BodySide side, double x) {
@@ -128,7 +124,7 @@ std::optional<std::vector<double>> side_share(const Character& character,
     if (reached[v]) farthest = std::max(farthest, out[v]);
   }
   if (!(farthest > 0)) return std::nullopt;
-  for (double& share : out) share = smooth_step(share / (kMiddle * farthest));
+  for (double& share : out) share = smooth_step(0, kMiddle * farthest, share);
   if (side || kind != SoftKind::kCheek) return out;
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (size_t v = 0; v < out.size(); ++v)
@@ -136,7 +132,7 @@ std::optional<std::vector<double>> side_share(const Character& character,
       low = std::min(low, character.positions[v].y()), high = std::max(high, character.positions[v].y());
   const double eyes = eye_height(character, reached);
   for (size_t v = 0; v < out.size(); ++v)
-    out[v] *= smooth_step((eyes - character.positions[v].y()) / (kBelowEyes * (high - low)));
+    out[v] *= smooth_step(0, kBelowEyes * (high - low), eyes - character.positions[v].y());
   return out;
 }
 

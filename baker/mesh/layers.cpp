@@ -33,6 +33,7 @@ struct Candidate {
   Overlap overlap;
   double distance_m = 0;
   bool on_soft = false;
+  bool faces = false;  // it, over a gap
 };
 
 class OverlapFinder {
@@ -106,13 +107,12 @@ class OverlapFinder {
     const double height = away.dot(normal);
     const bool touches = place->distance_m <= kTouching * reach_m_;
     if (!touches && place->facing < kAlongNormal) return;
-    // Two bodies that face each other over a gap, as two thighs do.
-    if (!touches && height > 0 && character_.normals[v].dot(normal) < 0) return;
     bool on_soft = false;
     for (size_t c = 0; c < 3; ++c)
       on_soft = on_soft || (place->share[c] > kNothing && soft_[welded(face[c])]);
-    candidates_[v].push_back({piece, {place->triangle, place->share}, place->distance_m, on_soft});
-    if (on_soft) over_soft_.insert({piece_[v], piece});
+    const bool faces = !touches && height > 0 && character_.normals[v].dot(normal) < 0;
+    candidates_[v].push_back({piece, {place->triangle, place->share}, place->distance_m, on_soft, faces});
+    if (on_soft && !faces) over_soft_.insert({piece_[v], piece});
     // Of two layers that face the same way, one is above the other.
     if (!touches && character_.normals[v].dot(normal) > 0) above_[{piece_[v], piece}] += height > 0 ? 1 : -1;
   }
@@ -128,12 +128,17 @@ class OverlapFinder {
     return own != its ? own > its : piece < other;
   }
 
+  // The inside of thick clothes faces the skin, and their outside looks where it does; two thighs face each
+  // other and nothing else.
+  bool look_the_same_way(int a, int b) const { return above_.contains({a, b}) || above_.contains({b, a}); }
+
   void choose(std::vector<Overlap>& overlaps) const {
     for (size_t v = 0; v < overlaps.size(); ++v) {
       double nearest = std::numeric_limits<double>::infinity();
       for (const Candidate& candidate : candidates_[v])
         if (candidate.distance_m < nearest && over_soft_.contains({piece_[v], candidate.piece}) &&
-            leads(candidate.piece, piece_[v]))
+            leads(candidate.piece, piece_[v]) &&
+            (!candidate.faces || look_the_same_way(candidate.piece, piece_[v])))
           nearest = candidate.distance_m, overlaps[v] = candidate.overlap;
     }
   }

@@ -15,6 +15,7 @@
 #include "baker/mesh/flesh_shape.hpp"
 #include "baker/mesh/joint_names.hpp"
 #include "baker/mesh/rod_bones.hpp"
+#include "baker/mesh/skin_weight.hpp"
 
 namespace sinew::baker {
 namespace {
@@ -79,13 +80,6 @@ struct Skeleton {
   std::vector<double> most_weight;  // of any vertex
   std::vector<int> body_below;      // a joint of the body that hangs on this one; -1: none
 };
-
-double weight_on(const Influences& skin, const std::vector<bool>& joints) {
-  double sum = 0;
-  for (size_t k = 0; k < kInfluences; ++k)
-    if (joints[static_cast<size_t>(skin.joint[k])]) sum += skin.weight[k];
-  return sum;
-}
 
 // Welded vertices that these joints move, as much as they move any.
 std::vector<int> flesh_of(const Character& character, const std::vector<size_t>& joints) {

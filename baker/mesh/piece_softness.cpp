@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "baker/common/smooth_step.hpp"
 #include "baker/mesh/flesh_shape.hpp"
 #include "baker/mesh/join_islands.hpp"
+#include "baker/mesh/skin_weight.hpp"
 #include "baker/mesh/triangle_distance.hpp"
 
 namespace sinew::baker {
@@ -19,23 +21,11 @@ constexpr double kTouches = 0.02, kFree = 0.06, kAttachedTo = 0.25, kHangsFrom =
 constexpr double kFarGap = 0.12;  // how far flesh is looked for: more than what sticks out must have
 constexpr double kWeightFrom = 0.25, kWeightTo = 0.75;  // of bones that the region names, too
 
-double smooth_step(double low, double high, double value) {
-  const double t = std::clamp((value - low) / (high - low), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
-
 double out_of(const FittedCapsule& capsule, const Vector3& p) {
   const Vector3 along = capsule.to - capsule.from;
   const double length2 = along.squaredNorm();
   const double share = length2 > 0 ? std::clamp((p - capsule.from).dot(along) / length2, 0.0, 1.0) : 0;
   return std::max(0.0, (p - capsule.from - share * along).norm() - capsule.radius_m);
-}
-
-double weight_on(const Influences& skin, const std::vector<bool>& joints) {
-  double sum = 0;
-  for (size_t k = 0; k < kInfluences; ++k)
-    if (joints[static_cast<size_t>(skin.joint[k])]) sum += skin.weight[k];
-  return sum;
 }
 
 std::vector<int> members(const std::vector<bool>& in) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "baker/common/smooth_step.hpp"
 #include "baker/mesh/anatomy.hpp"
 #include "baker/mesh/body_side.hpp"
 #include "baker/mesh/bones.hpp"
@@ -12,6 +13,7 @@
 #include "baker/mesh/piece_softness.hpp"
 #include "baker/mesh/regions.hpp"
 #include "baker/mesh/rim.hpp"
+#include "baker/mesh/skin_weight.hpp"
 
 namespace sinew::baker {
 namespace {
@@ -21,18 +23,6 @@ namespace {
 constexpr double kWeightFrom = 0.25, kWeightTo = 0.75, kFleshFrom = 0.25, kFleshTo = 0.7;
 // Skin weight of the bones over which a rim may reach.
 constexpr double kOpenFrom = 0.3, kOpenTo = 0.8;
-
-double smooth_step(double low, double high, double value) {
-  const double t = std::clamp((value - low) / (high - low), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
-
-double weight_of(const Influences& skin, const std::vector<bool>& joints) {
-  double sum = 0;
-  for (size_t k = 0; k < kInfluences; ++k)
-    if (joints[static_cast<size_t>(skin.joint[k])]) sum += skin.weight[k];
-  return sum;
-}
 
 // Between vertices that belong to different parts the skin is held: each part moves in its own bone's frame.
 // -1 belongs to all.
@@ -71,10 +61,10 @@ class StatedRegions {
     std::vector<bool> added = flesh_;
     for (size_t j = 0; j < added.size(); ++j) added[j] = added[j] && joints[j];
     double most = 0, thickest = 0;
-    for (const Influences& skin : character_.skin) most = std::max(most, weight_of(skin, joints));
+    for (const Influences& skin : character_.skin) most = std::max(most, weight_on(skin, joints));
     std::vector<bool> reached;
     for (size_t v = 0; v < thickness_.size(); ++v) {
-      reached.push_back(!pieces_.claims(v) && weight_of(character_.skin[v], joints) > kWeightTo * most);
+      reached.push_back(!pieces_.claims(v) && weight_on(character_.skin[v], joints) > kWeightTo * most);
       if (reached[v]) thickest = std::max(thickest, thickness_[v]);
     }
     const SoftKind kind = kind_of_region(region.name, &region);
@@ -82,10 +72,10 @@ class StatedRegions {
     std::vector<double> soft;
     for (size_t v = 0; v < thickness_.size(); ++v) {
       const Influences& skin = character_.skin[v];
-      const double weight = weight_of(skin, joints);
+      const double weight = weight_on(skin, joints);
       const double flesh = smooth_step(kFleshFrom * thickest, kFleshTo * thickest, thickness_[v]);
-      const double share = weight > 0 ? weight_of(skin, added) / weight : 0;
-      const double coreless = std::max(weight_of(skin, coreless_), share);
+      const double share = weight > 0 ? weight_on(skin, added) / weight : 0;
+      const double coreless = std::max(weight_on(skin, coreless_), share);
       soft.push_back(smooth_step(kWeightFrom * most, kWeightTo * most, weight) *
                      (coreless + (1 - coreless) * (side ? (*side)[v] : flesh)));
     }
@@ -102,7 +92,7 @@ class StatedRegions {
     std::vector<double> open;
     for (size_t v = 0; v < soft.size(); ++v)
       open.push_back(
-          std::max(soft[v], side[v] * smooth_step(kOpenFrom, kOpenTo, weight_of(character_.skin[v], may))));
+          std::max(soft[v], side[v] * smooth_step(kOpenFrom, kOpenTo, weight_on(character_.skin[v], may))));
     fade_rim(character_, surface_, open, rim_width_m(character_, surface_, soft, wanted_share), soft);
   }
 
