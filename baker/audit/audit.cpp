@@ -22,6 +22,8 @@ class Auditor {
   explicit Auditor(const AuditedPack& pack)
       : pack_(pack), parts_(find_parts(pack.view)), gaps_(pack.view, parts_) {
     audit_.height_m = static_cast<double>(pack.view.character->height_m);
+    audit_.vertices = parts_.of_vertex.size();
+    farthest_m_.setZero(static_cast<Eigen::Index>(audit_.vertices));
     for (const AuditedPart& part : parts_.all) {
       PartAudit& audit = audit_.parts.emplace_back();
       audit.part = part;
@@ -38,6 +40,9 @@ class Auditor {
       if (tick <= settled && (tick % stride() == 0 || tick == settled)) {
         player.read();
         keep_worst(motion, tick, surface_wear(parts_, pack_.view, player), gaps_.of(player));
+        if (motion.is_everyday)
+          farthest_m_ =
+              farthest_m_.cwiseMax((player.shown() - player.skinned()).colwise().norm().transpose());
       }
       watch_rods(player);
       told();
@@ -48,6 +53,7 @@ class Auditor {
   }
 
   Audit finish() {
+    count_moving();
     for (const PartAudit& part : audit_.parts) judge(part);
     if (given_up_ > 0)
       audit_.failures.push_back("its state was given up " + std::to_string(given_up_) +
@@ -78,6 +84,13 @@ class Auditor {
       part.layers.take(gaps[p]);
       if (motion.name == "bob") part.bob_m = std::max(part.bob_m, wear[p].displacement_m);
     }
+  }
+
+  void count_moving() {
+    for (size_t v = 0; v < parts_.of_vertex.size(); ++v)
+      if (parts_.of_vertex[v] != AuditedParts::kNone &&
+          static_cast<double>(farthest_m_(static_cast<Eigen::Index>(v))) >= kVisible * audit_.height_m)
+        ++audit_.parts[static_cast<size_t>(parts_.of_vertex[v])].moving;
   }
 
   // In the last of a long rest, the box about each segment's end.
@@ -138,6 +151,7 @@ class Auditor {
   const AuditedParts parts_;
   const LayerGaps gaps_;
   Audit audit_;
+  Eigen::VectorXf farthest_m_;  // of a vertex from its skinned place, in everyday motions
   std::vector<Eigen::Matrix3Xf> rod_low_, rod_high_;
   size_t given_up_ = 0, recovered_ = 0;
   bool resting_ = false;  // a long rest was played

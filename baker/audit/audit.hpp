@@ -28,10 +28,12 @@ struct PartAudit {
   LayerGap layers = {};   // between them, over all motions
   double bob_m = 0;       // largest displacement while the root bobs
   double residual_m = 0;  // after a minute of rest, what is left of it; NaN: not measured
+  size_t moving = 0;      // vertices that visibly move in the bob or a clip
 };
 
 struct Audit {
   double height_m = 0;
+  size_t vertices = 0;  // of the character, rigid ones too
   std::vector<PartAudit> parts;
   std::vector<std::string> failures;  // a line each: part, what, how much, in which motion, the bound
 };

@@ -24,6 +24,10 @@ inline constexpr double kMostResidual = 1e-4;
 // not move much further than what shakes it. Rods are free to: a tail swings.
 inline constexpr double kMostDisplacement = 0.08;
 
+// From here on a vertex visibly moves, over the height: five pixels where a character fills a screen of a
+// thousand lines. No bound: what moves less passes, and is hardly seen.
+inline constexpr double kVisible = 5e-3;
+
 // How deep one layer of surface may sink into another from which skinning keeps it, over the height: a
 // tenth of a pixel where a character fills a screen of a thousand lines. Beyond, skin shows through clothes.
 inline constexpr double kMostCrossing = 1e-4;

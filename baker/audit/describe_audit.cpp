@@ -30,12 +30,19 @@ Json layers(const PartAudit& part) {
           {"crossed_m", moment(part.layers_cross_m)}};
 }
 
+// Of the character's vertices.
+double moving_share(const PartAudit& part, const Audit& audit) {
+  return static_cast<double>(part.moving) / static_cast<double>(std::max<size_t>(1, audit.vertices));
+}
+
 std::string number(double value, const char* otherwise) {
   if (!std::isfinite(value)) return otherwise;
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", value);
   return text;
 }
+
+std::string percent(double share) { return number(100 * share, "-") + " %"; }
 
 std::string range_mm(double least_m, double largest_m) {
   return number(1e3 * least_m, "-") + " .. " + number(1e3 * largest_m, "-");
@@ -70,13 +77,17 @@ Json audit_json(const Audit& audit, const AuditedPack& pack) {
                      {"edge_stretch", moment(part.edge_stretch)},
                      {"inverted_share", moment(part.inverted_share)},
                      {"residual_of_height", finite(part.residual_m / audit.height_m)},
+                     {"moving_share", moving_share(part, audit)},
                      {"layer_gap", layers(part)}});
   for (const pack::TierRecord& tier : pack.view.tiers)
     tiers.push_back({{"tier", kTierNames[tier.tier]},
                      {"level", tier.level},
                      {"error_mm", finite(static_cast<double>(tier.error_mm))},
                      {"error_ratio", finite(static_cast<double>(tier.error_ratio))}});
+  double moving = 0;
+  for (const PartAudit& part : audit.parts) moving += moving_share(part, audit);
   return {{"height_m", audit.height_m},
+          {"moving_share", moving},
           {"bounds",
            {{"edge_stretch", kMostEdgeStretch},
             {"inverted_share", kMostInverted},
@@ -91,14 +102,15 @@ Json audit_json(const Audit& audit, const AuditedPack& pack) {
 
 std::string audit_table(const Audit& audit, const AuditedPack& pack) {
   std::vector<std::vector<std::string>> rows = {{"part", "kind", "Hz", "moved/size", "moved/height",
-                                                 "bob/height", "stretch", "inverted", "residual/height",
-                                                 "layers mm", "skinned mm", "worst in"}};
+                                                 "bob/height", "moving", "stretch", "inverted",
+                                                 "residual/height", "layers mm", "skinned mm", "worst in"}};
   for (const PartAudit& part : audit.parts)
     rows.push_back({part.part.name, part.part.is_rod ? "rod" : "region", number(part.part.first_hz, "-"),
                     number(part.displacement_m.value / part.part.size_m, "NaN"),
                     number(part.displacement_m.value / audit.height_m, "NaN"),
-                    number(part.bob_m / audit.height_m, "NaN"), number(part.edge_stretch.value, "NaN"),
-                    number(part.inverted_share.value, "NaN"), number(part.residual_m / audit.height_m, "-"),
+                    number(part.bob_m / audit.height_m, "NaN"), percent(moving_share(part, audit)),
+                    number(part.edge_stretch.value, "NaN"), number(part.inverted_share.value, "NaN"),
+                    number(part.residual_m / audit.height_m, "-"),
                     part.layers.any() ? range_mm(part.layers.least_m, part.layers.largest_m) : "-",
                     part.layers.any() ? range_mm(part.layers.file_least_m, part.layers.file_largest_m) : "-",
                     part.displacement_m.motion});

@@ -96,10 +96,12 @@ double seconds_of(const pack::ClipRecord& clip) {
 AuditMotion bob_motion(const pack::PackView& character, double moving_s, double resting_s) {
   constexpr double kRate_hz = 2, kEase_s = 0.5, kOfHeight = 0.05;
   const double amplitude_m = kOfHeight * static_cast<double>(character.character->height_m);
-  return of_root(character, "bob", moving_s, resting_s, [=](double t_s, RootTransform* root) {
+  AuditMotion bob = of_root(character, "bob", moving_s, resting_s, [=](double t_s, RootTransform* root) {
     const double strength = eased(t_s / kEase_s) * (1 - eased((t_s - moving_s + kEase_s) / kEase_s));
     root->position_m[1] = amplitude_m * strength * std::sin(kTau * kRate_hz * t_s);
   });
+  bob.is_everyday = true;
+  return bob;
 }
 
 std::vector<AuditMotion> root_motions(const pack::PackView& character) {
@@ -118,7 +120,8 @@ AuditMotion clip_motion(const pack::PackView& character, size_t index) {
                                          b = frame_of(character, clip, next);
             float* out = &joints[0].m[0][0];
             for (size_t i = 0; i < a.size(); ++i) out[i] = a[i] + share * (b[i] - a[i]);
-          }};
+          },
+          true};
 }
 
 std::vector<AuditMotion> audit_motions(const pack::PackView& character) {

@@ -16,6 +16,7 @@ struct AuditMotion {
   double moving_s = 0;   // how long the pose moves
   double resting_s = 0;  // and is then held
   std::function<void(double t_s, std::span<Matrix34> joints, RootTransform* root)> pose_at;
+  bool is_everyday = false;  // a clip or the bob: what moves in none of these is seldom seen to move
 };
 
 // The root goes up and down by 5 % of the height at 2 Hz, in the bind pose.

@@ -14,7 +14,9 @@ namespace sinew::baker {
 namespace {
 
 constexpr double kClose = 0.01;
-constexpr int kMostRounds = 4;  // one is exact where no tetrahedron is shared between regions
+// One is exact where no tetrahedron is shared between regions; a cape and hair that overlap take more than
+// four.
+constexpr int kMostRounds = 16;
 
 // Of one round: what each region swings at, and whose each free node of the cage is.
 struct Found {

@@ -123,6 +123,20 @@ TEST_CASE("a_character_that_only_swings_passes") {
   CHECK(warnings_on(character_of(kSwings)).empty());
 }
 
+TEST_CASE("vertices_that_visibly_move_are_counted_by_part_and_over_the_character") {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("c.sinew");
+  const auto told_of = [&](double answer) {
+    baker::write_file(path, character_of(answer));
+    return nlohmann::json::parse(bake({"audit", path, "--json"}).out);
+  };
+  const nlohmann::json still = told_of(0), moving = told_of(kTears);
+  CHECK(still["moving_share"] == 0);
+  // Four of twelve vertices are each part's; the ring at the root is nobody's.
+  for (const auto& part : moving["parts"]) CHECK(part["moving_share"].get<double>() == Approx(4.0 / 12));
+  CHECK(moving["moving_share"].get<double>() == Approx(8.0 / 12));
+}
+
 TEST_CASE("rods_are_audited_beside_regions_and_alone") {
   const bool alone = GENERATE(false, true);
   const baker::Character character = small_character();

@@ -16,15 +16,16 @@ namespace {
 
 constexpr double kClose = 0.011;  // what the tuning stops at, and a rounding
 
-// Two posts on one joint, a region each, soft above 0.4 of their height; `scale` is that in metres.
+// Two posts on one joint, a region each, soft above 0.4 of their height; `scale` is that in metres. From the
+// plane between them they are `aside` heights away, and 0.1 wide to either side.
 struct Posts {
   Character character;
   TissueLayout layout;
   Recipe recipe;
 
-  Posts(double scale, double first_hz, double second_hz)
+  Posts(double scale, double first_hz, double second_hz, double aside = 0.6)
       : character(sinew::test::bare_character({Vector3(0, 0, 0)})) {
-    for (const double x : {-0.6 * scale, 0.6 * scale})
+    for (const double x : {-aside * scale, aside * scale})
       sinew::test::add_box(character, {x - 0.1 * scale, 0, -0.1 * scale},
                            {x + 0.1 * scale, scale, 0.1 * scale}, 0.1 * scale, 0);
     layout.regions.resize(2);
@@ -73,6 +74,12 @@ TEST_CASE("regions_swing_at_their_frequencies_from_five_centimetres_to_fifty_met
     CHECK(first_hz(bases[0]) == Approx(2).epsilon(kClose));
     CHECK(first_hz(bases[1]) == Approx(7.5).epsilon(kClose));
   }
+}
+
+TEST_CASE("regions_that_share_cells_of_the_cage_swing_at_their_frequencies_all_the_same") {
+  const std::vector<ModalBasis> bases = Posts(1, 2, 40, 0.1).bases();  // the posts touch
+  CHECK(first_hz(bases[0]) == Approx(2).epsilon(kClose));
+  CHECK(first_hz(bases[1]) == Approx(40).epsilon(kClose));
 }
 
 TEST_CASE("a_region_without_a_frequency_keeps_its_moduli") {
