@@ -17,11 +17,18 @@ constexpr double kMedian = 0.02;      // of the height, from the plane of symmet
 constexpr double kSoles = 0.04;       // of the height: what is lower is foot
 constexpr double kFewestFeet = 1e-3;  // of the height: toes that point less far forward say nothing
 
-struct Skin {
-  std::vector<double> most, sum, aside;  // of a joint: largest and summed weight, summed weight times x
+// What is left and right of it is alike.
+struct MiddlePlane {
+  int axis = 0;  // across it: 0 x, 2 z
+  double at_m = 0;
+  double aside(const Vector3& place) const { return place[axis] - at_m; }
 };
 
-Skin weigh(const Character& character) {
+struct Skin {
+  std::vector<double> most, sum, aside;  // of a joint: largest and summed weight, that times the way aside
+};
+
+Skin weigh(const Character& character, const MiddlePlane& middle) {
   Skin skin{std::vector<double>(character.joint_node.size(), 0), {}, {}};
   skin.sum = skin.aside = skin.most;
   for (size_t v = 0; v < character.skin.size(); ++v)
@@ -30,7 +37,7 @@ Skin weigh(const Character& character) {
       const double weight = character.skin[v].weight[k];
       skin.most[joint] = std::max(skin.most[joint], weight);
       skin.sum[joint] += weight;
-      skin.aside[joint] += weight * character.positions[v].x();
+      skin.aside[joint] += weight * middle.aside(character.positions[v]);
     }
   return skin;
 }
@@ -59,10 +66,19 @@ int upper_end(const Character& character, const std::vector<NameMeaning>& meanin
   return head >= 0 ? head : other;
 }
 
-std::vector<bool> on_median(const std::vector<Vector3>& heads, double height) {
+std::vector<bool> on_median(const std::vector<Vector3>& heads, const MiddlePlane& middle, double height) {
   std::vector<bool> median;
-  for (const Vector3& place : heads) median.push_back(std::abs(place.x()) <= kMedian * height);
+  for (const Vector3& place : heads) median.push_back(std::abs(middle.aside(place)) <= kMedian * height);
   return median;
+}
+
+// Limbs come in pairs: the joint in the middle of all is the spine's, wherever the character stands.
+MiddlePlane plane_across(const std::vector<Vector3>& heads, int axis) {
+  std::vector<double> places;
+  for (const Vector3& place : heads) places.push_back(place[axis]);
+  const auto middle = places.begin() + static_cast<std::ptrdiff_t>(places.size() / 2);
+  std::ranges::nth_element(places, middle);
+  return {axis, *middle};
 }
 
 // Of each joint, whether a pair of limbs hangs on it: flesh to the left and to the right, each on two bones
@@ -84,26 +100,28 @@ std::vector<bool> carries_limbs(const Character& character, const std::vector<Na
   for (size_t j = 0; j < count; ++j) {
     const int up = character.joint_parent[j];
     if (up < 0 || meaning[j].kind || meaning[j].face || bones[j] < 2 || !(weight[j] > 0)) continue;
-    const double x = aside[j] / weight[j];
-    if (std::abs(x) > kMedian * height) (x > 0 ? left : right)[static_cast<size_t>(up)] = true;
+    const double way = aside[j] / weight[j];
+    if (std::abs(way) > kMedian * height) (way > 0 ? left : right)[static_cast<size_t>(up)] = true;
   }
   for (size_t j = 0; j < count; ++j) both[j] = left[j] && right[j];
   return both;
 }
 
-// Where the soles lie before the joints that move them; else +Z, as glTF has it.
-Vector3 where_feet_point(const Character& character, const std::vector<Vector3>& heads) {
+// Where the soles lie before the joints that move them; else +Z, as glTF has it, or +X.
+Vector3 where_feet_point(const Character& character, const std::vector<Vector3>& heads,
+                         const MiddlePlane& middle) {
+  const int along = 2 - middle.axis;
   double low = std::numeric_limits<double>::infinity();
   for (const Vector3& place : character.positions) low = std::min(low, place.y());
   const double height = bind_height(character);
   double ahead = 0, count = 0;
   for (size_t v = 0; v < character.positions.size(); ++v) {
     if (character.positions[v].y() > low + kSoles * height) continue;
-    ahead += character.positions[v].z() - heads[static_cast<size_t>(character.skin[v].joint[0])].z();
+    ahead += character.positions[v][along] - heads[static_cast<size_t>(character.skin[v].joint[0])][along];
     ++count;
   }
   const bool back = count > 0 && ahead / count < -kFewestFeet * height;
-  return back ? Vector3(-Vector3::UnitZ()) : Vector3(Vector3::UnitZ());
+  return (back ? -1 : 1) * Vector3::Unit(along);
 }
 
 // Between the first joint of the spine that carries limbs and the next one.
@@ -153,15 +171,16 @@ Vector3 nearest_on(const std::vector<Vector3>& line, const Vector3& place) {
   return best;
 }
 
-std::optional<Anatomy> find_anatomy(const Character& character) {
-  const Bones bones = find_bones(character, {});
-  const Skin skin = weigh(character);
-  std::vector<NameMeaning> meaning;
-  for (size_t j = 0; j < bones.head.size(); ++j) meaning.push_back(meaning_of(joint_name(character, j)));
-  const std::vector<bool> median = on_median(bones.head, bind_height(character));
+namespace {
+
+std::optional<Anatomy> anatomy_about(const Character& character, const Bones& bones,
+                                     const std::vector<NameMeaning>& meaning, const MiddlePlane& middle) {
+  const double height = bind_height(character);
+  const Skin skin = weigh(character, middle);
+  const std::vector<bool> median = on_median(bones.head, middle, height);
   const int end = upper_end(character, meaning, skin, median);
   if (end < 0) return std::nullopt;
-  const std::vector<bool> limbs = carries_limbs(character, meaning, skin, bind_height(character));
+  const std::vector<bool> limbs = carries_limbs(character, meaning, skin, height);
   Anatomy found;
   bool any_limbs = false;
   int after = -1;
@@ -184,9 +203,11 @@ std::optional<Anatomy> find_anatomy(const Character& character) {
   found.axis = along.normalized();
   found.lies = std::abs(found.axis.y()) < std::sqrt(0.5);
   found.forward = found.lies ? Vector3(Vector3(along.x(), 0, along.z()).normalized())
-                             : where_feet_point(character, bones.head);
+                             : where_feet_point(character, bones.head, middle);
+  found.aside = Vector3::Unit(middle.axis);
+  found.middle_m = middle.at_m;
   found.belly = between_limbs(found.spine, limbs);
-  found.thighs = upper_legs(character, found.spine, limbs, skin, bind_height(character));
+  found.thighs = upper_legs(character, found.spine, limbs, skin, height);
   found.trunk.assign(bones.head.size(), false);
   for (const int joint : found.spine) found.trunk[static_cast<size_t>(joint)] = true;
   for (size_t j = 0; j < found.trunk.size(); ++j) {
@@ -196,6 +217,18 @@ std::optional<Anatomy> find_anatomy(const Character& character) {
     found.trunk[j] = found.trunk[j] || added;
   }
   return found;
+}
+
+}  // namespace
+
+std::optional<Anatomy> find_anatomy(const Character& character) {
+  const Bones bones = find_bones(character, {});
+  if (bones.head.empty()) return std::nullopt;
+  std::vector<NameMeaning> meaning;
+  for (size_t j = 0; j < bones.head.size(); ++j) meaning.push_back(meaning_of(joint_name(character, j)));
+  for (const int axis : {0, 2})
+    if (auto found = anatomy_about(character, bones, meaning, plane_across(bones.head, axis))) return found;
+  return std::nullopt;
 }
 
 }  // namespace sinew::baker

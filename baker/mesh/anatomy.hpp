@@ -9,6 +9,8 @@ namespace sinew::baker {
 
 struct Anatomy {
   Vector3 forward = Vector3::UnitZ();  // unit, level: where feet point, and the head of what lies
+  Vector3 aside = Vector3::UnitX();    // unit, from right to left or the other way round
+  double middle_m = 0;                 // along `aside`, of the plane between left and right
   Vector3 axis = Vector3::UnitY();     // unit, along the spine to the neck
   bool lies = false;                   // the spine is nearer to level than to upright: a quadruped
   std::vector<int> spine;              // joints that move flesh, from the pelvis to below the neck
@@ -18,8 +20,8 @@ struct Anatomy {
   std::vector<bool> trunk;  // a joint: of the spine, or what riggers add to it that is no limb
 };
 
-// By names of heads and by limbs in pairs left and right of the plane x = 0. Nothing where there is no such
-// pair, as of a worm or a pillar.
+// By names of heads and by limbs in pairs, wherever the character stands and faces along x or z. Nothing
+// where there is no such pair, as of a worm or a pillar.
 std::optional<Anatomy> find_anatomy(const Character& character);
 
 // The point of the polyline that is nearest to a place.

@@ -18,9 +18,9 @@ constexpr std::array<const char*, 7> kNames = {"around", "front",  "back",   "ab
 constexpr double kMiddle = 0.75;     // of the farthest distance: from here on all is as soft as the middle
 constexpr double kBelowEyes = 0.15;  // of the head's height: where cheeks begin below the eyes
 
-// Unit, away from the bones; of what has a left and a right, on the side x of the plane of symmetry.
-Vector3 direction_of(const Anatomy& anatomy, BodySide side, double x) {
-  const Vector3 outward = Vector3::UnitX() * (x < 0 ? -1 : 1);
+// Unit, away from the bones.
+Vector3 direction_of(const Anatomy& anatomy, BodySide side, const Vector3& place) {
+  const Vector3 outward = anatomy.aside * (place.dot(anatomy.aside) < anatomy.middle_m ? -1 : 1);
   switch (side) {
     case BodySide::kFront:
       return anatomy.forward;
@@ -119,7 +119,7 @@ std::optional<std::vector<double>> side_share(const Character& character,
   for (size_t v = 0; v < out.size(); ++v) {
     const Vector3& place = character.positions[v];
     Vector3 towards = Vector3::Zero();
-    for (const BodySide one : sides) towards += direction_of(*anatomy, one, place.x());
+    for (const BodySide one : sides) towards += direction_of(*anatomy, one, place);
     out[v] = (place - nearest_on(line, place)).dot(towards.normalized());
     if (reached[v]) farthest = std::max(farthest, out[v]);
   }

@@ -11,10 +11,10 @@ namespace sinew::baker {
 namespace {
 
 constexpr double kTick_s = 1.0 / 60, kMostOfClip_s = 4;
-constexpr double kSettled_s = 2;                       // a clip is repeated so long before it counts
-constexpr double kMostAtLimit = 0.1;                   // of the ticks
-constexpr double kStep = 1.1, kMostFrequency_hz = 25;  // of the search; what a recipe may state
-constexpr int kMostNodes = 40;                         // of a region
+constexpr double kSettled_s = 2;      // a clip is repeated so long before it counts
+constexpr double kMostAtLimit = 0.1;  // of the ticks
+constexpr double kStep = 1.1;         // of the search
+constexpr int kMostNodes = 40;        // of a region
 
 using Matrix3X = Eigen::Matrix3Xf;  // of a region: a node
 

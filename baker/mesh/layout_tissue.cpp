@@ -4,6 +4,7 @@
 #include <set>
 
 #include "baker/common/bad_input.hpp"
+#include "baker/mesh/anatomy.hpp"
 #include "baker/mesh/bone_names.hpp"
 #include "baker/mesh/carry.hpp"
 #include "baker/mesh/clip_frequency.hpp"
@@ -248,12 +249,6 @@ std::vector<bool> claimed_joints(const Character& character, const Surface& surf
   return claimed;
 }
 
-bool is_moved_by(const Influences& skin, const std::vector<bool>& joints) {
-  for (size_t k = 0; k < kInfluences; ++k)
-    if (skin.weight[k] > 0 && joints[static_cast<size_t>(skin.joint[k])]) return true;
-  return false;
-}
-
 // Where rods move a bone that the region names, or what it names.
 void refuse_on_rods(const Character& character, const RegionScope& scope, const std::vector<bool>& on_rods,
                     const std::string& where) {
@@ -277,6 +272,19 @@ void refuse_close(const PieceRegions& pieces, size_t region, const std::string& 
   if (pieces.share_out(region) < kSticksOut) throw BadInput(where + text);
 }
 
+bool is_moved_by(const Influences& skin, const std::vector<bool>& joints) {
+  for (size_t k = 0; k < kInfluences; ++k)
+    if (skin.weight[k] > 0 && joints[static_cast<size_t>(skin.joint[k])]) return true;
+  return false;
+}
+
+// Of a piece of which its region's bones move nothing.
+void refuse_elsewhere(const Character& character, const RegionScope& scope, const std::string& where) {
+  for (size_t v = 0; v < scope.vertices.size(); ++v)
+    if (scope.vertices[v] && is_moved_by(character.skin[v], scope.joints)) return;
+  throw BadInput(where + "its bones move nothing of the piece that it names; take its joints out");
+}
+
 // A region of the recipe is not left without a part in silence.
 void check_all_found(const Character& character, const Surface& surface, const Recipe& recipe,
                      const SoftParts& parts, const std::vector<bool>& on_rods) {
@@ -286,7 +294,9 @@ void check_all_found(const Character& character, const Surface& surface, const R
     const std::string where = character.name + ": recipe: region '" + region.name + "': ";
     if (region.stiffness >= recipe.rigid_stiffness)
       throw BadInput(where + "nothing is soft: its stiffness is not below rigid_stiffness; make it softer");
-    refuse_on_rods(character, scope_of(character, surface, region), on_rods, where);
+    const RegionScope scope = scope_of(character, surface, region);
+    refuse_on_rods(character, scope, on_rods, where);
+    if (selects_piece(region)) refuse_elsewhere(character, scope, where);
     if (selects_piece(region)) refuse_close(PieceRegions(character, surface, recipe.regions), r, where);
     throw BadInput(where +
                    "nothing is soft: its bones move fewer than four vertices enough; name bones that "
@@ -343,6 +353,14 @@ void note_layers(Character& character, const Surface& surface, const SoftParts& 
                             "how far, 0 lets each move by itself");
 }
 
+// A stated side that nothing tells.
+void note_sides(Character& character, const Recipe& recipe) {
+  for (const RegionRecipe& region : recipe.regions)
+    if (region.side && region.side != BodySide::kAround && !find_anatomy(character))
+      character.notes.push_back("region '" + region.name +
+                                "': its side is not used: no limbs in pairs tell front from back");
+}
+
 void note_sheets(Character& character, const TissueLayout& layout) {
   for (const Region& region : layout.regions)
     if (region.evidence == Evidence::kRecipe && !region.is_piece &&
@@ -363,7 +381,7 @@ TissueLayout layout_tissue(Character& character, const Recipe& recipe) {
   const bool states_regions = recipe.states_regions || !recipe.regions.empty();
   if (painted && states_regions)
     character.notes.push_back(
-        "the file paints _STIFFNESS: the recipe's regions only say names and what they touch");
+        "the file paints _STIFFNESS: the recipe's regions only name them and say how they move");
 
   TissueLayout layout;
   std::vector<bool> claimed = claimed_joints(character, surface, recipe);
@@ -417,6 +435,7 @@ TissueLayout layout_tissue(Character& character, const Recipe& recipe) {
   if (painted && states_regions) check_all_painted(character, surface, recipe, layout, on_rods);
   distinguish_names(layout.regions);
   note_sheets(character, layout);
+  note_sides(character, recipe);
   fit_frequencies(character, layout);
   if (layout.regions.empty() && layout.rods.empty() && !no_tissue)
     character.notes.push_back(how_to_make_soft(character, layout.found_regions));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "baker/common/bad_input.hpp"
@@ -369,17 +370,23 @@ std::string how_to_make_soft(const Character& character, const std::vector<Candi
   for (size_t j = 0; j < skeleton.parent.size(); ++j) {
     const NameMeaning& meaning = skeleton.meaning[j];
     if (meaning.face || meaning.helper || !skeleton.moves_flesh(j)) continue;
+    if (skeleton.parent[j] < 0 && skeleton.parent.size() == 1) continue;  // nothing would hold it
     std::vector<double> own;
     for (const int v : flesh_of(character, {j})) own.push_back(thickness[static_cast<size_t>(v)]);
     bones.emplace_back((leaf[j] ? -1 : 0) + percentile(own, kThickPercentile) / bind_height(character), j);
   }
   std::ranges::sort(bones, std::greater{});
-  std::string names;
+  const std::string nothing =
+      "nothing swings: no recipe, paint, spring bone, name or shape says what is soft";
+  if (bones.empty()) return nothing;
+  const JointNames called(character);
+  nlohmann::json joints;
   for (size_t i = 0; i < std::min<size_t>(2, bones.size()); ++i)
-    names += (i > 0 ? "\", \"" : "\"") + joint_name(character, bones[i].second);
-  return "nothing swings: no recipe, paint, spring bone, name or shape says what is soft. For the bones with "
-         "the thickest flesh, a recipe: {\"regions\": [{\"name\": \"belly\", \"joints\": [" +
-         names + "\"]}]}";
+    joints.push_back(called.unique(bones[i].second));
+  return nothing +
+         ". For the bones with the thickest flesh, a recipe: {\"regions\": [{\"name\": \"belly\", "
+         "\"joints\": " +
+         joints.dump() + "}]}";
 }
 
 }  // namespace sinew::baker

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "baker/mesh/bone_pieces.hpp"
 #include "baker/mesh/joint_names.hpp"
@@ -70,10 +70,12 @@ ProposedRod proposed(const Character& character, const TissueLayout& layout, con
     proposed.rod.name = rod.name;
     proposed.rod.root = names.unique(static_cast<size_t>(rod.bones.front().joint));
     proposed.rod.as_in_file = true;
-    char text[96];
-    std::snprintf(text, sizeof text,
-                  "spring bone of the file, some %.3g Hz; without as_in_file the keys of rods count",
-                  rod.frequency_hz);
+    char text[160];
+    std::snprintf(
+        text, sizeof text,
+        "spring bone of the file; to change it put frequency_hz (now some %.3g) and damping_ratio in "
+        "the place of as_in_file",
+        rod.frequency_hz);
     proposed.why = text;
   }
   proposed.rod.max_displacement = rod.max_displacement;
@@ -112,18 +114,19 @@ Json json_of(const RodRecipe& rod) {
   return json;
 }
 
+std::string text_of_list(const Json& list) {
+  std::string text;
+  for (const Json& one : list) text += (text.empty() ? "" : ", ") + one.dump();
+  return "[" + text + "]";
+}
+
 // A key a line, lists in one.
 std::string text_of(const Json& entry) {
   std::string text = "    {";
   bool first = true;
   for (const auto& [key, value] : entry.items()) {
-    std::string list;
-    if (value.is_array()) {
-      for (const Json& one : value) list += (list.empty() ? "" : ", ") + one.dump();
-      list = "[" + list + "]";
-    }
     text += (first ? "\n      " : ",\n      ") + Json(key).dump() + ": " +
-            (value.is_array() ? list : value.dump());
+            (value.is_array() ? text_of_list(value) : value.dump());
     first = false;
   }
   return text + "\n    }";
@@ -133,6 +136,17 @@ std::string list_of(const std::string& key, const std::vector<Json>& entries) {
   std::string text = "  \"" + key + "\": [";
   for (size_t i = 0; i < entries.size(); ++i) text += (i > 0 ? ",\n" : "\n") + text_of(entries[i]);
   return text + (entries.empty() ? "]" : "\n  ]");
+}
+
+// How the file was read, where that is not usual.
+std::string keys_of_reading(const Recipe& recipe) {
+  std::string text;
+  if (recipe.unit_m > 0) text += "  \"unit_m\": " + number(recipe.unit_m).dump() + ",\n";
+  if (recipe.up != Recipe{}.up) text += "  \"up\": \"" + std::string(1, recipe.up) + "\",\n";
+  if (!recipe.without_meshes.empty())
+    text += "  \"without_meshes\": " + text_of_list(recipe.without_meshes) + ",\n";
+  if (!recipe.with_meshes.empty()) text += "  \"with_meshes\": " + text_of_list(recipe.with_meshes) + ",\n";
+  return text;
 }
 
 Json with_note(const Json& part, bool enabled, const std::string& note) {
@@ -173,10 +187,12 @@ Proposal propose(const Character& character, const TissueLayout& layout) {
   for (const BonePiece& piece :
        painted ? std::vector<BonePiece>{} : bone_pieces(character, find_surface(character)))
     if (!piece.is_named) proposal.regions.push_back({piece.region, Evidence::kShape, piece.why, piece.doubt});
-  std::map<std::string, int> called;
-  for (Candidate& part : proposal.regions)
-    if (const int before = called[part.region.name]++; before > 0)
-      part.region.name += "_" + std::to_string(before + 1);
+  std::set<std::string> taken;
+  for (Candidate& part : proposal.regions) {
+    const std::string name = part.region.name;
+    for (int number = 2; !taken.insert(part.region.name).second; ++number)
+      part.region.name = name + "_" + std::to_string(number);
+  }
   std::ranges::stable_partition(proposal.regions, [](const Candidate& c) { return c.doubt.empty(); });
   for (const Rod& rod : layout.rods) proposal.rods.push_back(proposed(character, layout, rod));
   return proposal;
@@ -191,7 +207,7 @@ Recipe recipe_of(const std::vector<Candidate>& regions, const std::vector<Propos
   return recipe;
 }
 
-std::string proposal_text(const Proposal& proposal, const std::string& file) {
+std::string proposal_text(const Proposal& proposal, const Recipe& read_by, const std::string& file) {
   size_t count = 0;
   std::vector<Json> regions, rods;
   for (const Candidate& part : proposal.regions) {
@@ -201,11 +217,11 @@ std::string proposal_text(const Proposal& proposal, const std::string& file) {
   }
   for (const ProposedRod& rod : proposal.rods)
     rods.push_back(with_note(json_of(rod.rod), true, std::to_string(++count) + ": " + rod.why));
-  const std::string note =
-      "What may swing of " + std::filesystem::path(file).filename().string() +
-      ". A part that is not enabled is in doubt; numbers are those of the preview. Rods that are "
-      "not listed are found again: an empty list means none.";
-  std::string text = "{\n  \"note\": " + Json(note).dump() + ",\n" + list_of("regions", regions);
+  const std::string note = "What may swing of " + std::filesystem::path(file).filename().string() +
+                           "; numbers are those of the preview. A part that is not enabled is in doubt, and "
+                           "one that is taken out stays rigid.";
+  std::string text =
+      "{\n  \"note\": " + Json(note).dump() + ",\n" + keys_of_reading(read_by) + list_of("regions", regions);
   if (!rods.empty()) text += ",\n" + list_of("rods", rods);
   return text + "\n}\n";
 }

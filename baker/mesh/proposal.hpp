@@ -31,6 +31,7 @@ Recipe recipe_of(const std::vector<Candidate>& regions, const std::vector<Propos
 void state_numbers(const TissueLayout& layout, int index, RegionRecipe& region);
 
 // The recipe as JSON: what is in doubt is not enabled, and notes number the parts from 1 and say why.
-std::string proposal_text(const Proposal& proposal, const std::string& file);
+// read_by: how the file is read (unit_m, up, meshes) goes along.
+std::string proposal_text(const Proposal& proposal, const Recipe& read_by, const std::string& file);
 
 }  // namespace sinew::baker

@@ -69,10 +69,17 @@ void read_graph(JsonSection& section, Recipe& recipe) {
   recipe.up = up[0];
 }
 
+// Of flesh over bones: a piece is soft where it sticks out.
 void read_side(JsonSection& section, RegionRecipe& region) {
+  for (const char* key : {"side", "around"})
+    for (const char* piece : {"mesh", "material", "island_at"})
+      if (section.has(key) && section.has(piece))
+        section.complain(
+            key, std::string("is of flesh over bones, not of a piece; take it or \"") + piece + "\" out");
   if (section.has("side")) {
     region.side = side_called(section.text("side"));
-    if (!region.side) section.complain("side", "is none of " + side_names());
+    if (!region.side)
+      section.complain("side", "is none of " + side_names() + "; all sides are \"around\": true");
   }
   if (!section.flag("around", false)) return;
   if (region.side) section.complain("around", "means all sides, and a side is stated too; give one");
@@ -96,10 +103,7 @@ RegionRecipe read_region(JsonSection& section) {
   region.touches_body = section.flag("touches_body", region.touches_body);
   if (section.has("kind")) {
     const std::optional<SoftKind> kind = kind_called(section.text("kind"));
-    if (!kind)
-      section.complain("kind",
-                       "is none of belly, breast, glute, thigh, cheek, udder, hump, ear, tail, hair, cloth, "
-                       "fin, hat, other");
+    if (!kind) section.complain("kind", "is none of " + kind_names());
     region.kind = kind;
   }
   read_side(section, region);

@@ -23,9 +23,10 @@ struct RegionRecipe {
   // What the default frequency goes by; absent: what its name says, then its bones'.
   std::optional<SoftKind> kind = {};
   std::optional<BodySide> side = {};  // of its bones, on which it is soft; absent: its kind's (body_side.hpp)
-  std::optional<double> frequency_hz = {};      // 0.05 .. 25, of its first mode; absent: see Recipe
-  std::optional<double> damping_ratio = {};     // 0 .. 0.95; absent: Recipe::damping_ratio
-  double intensity = 1;                         // 0 none .. 1 physical .. 2: scales its displacement
+  std::optional<double> frequency_hz = {};  // 0.05 .. 25, of its first mode; absent: see Recipe
+  std::optional<double> damping_ratio =
+      {};                // 0 .. 0.95; absent: Recipe::damping_ratio, of a piece 0.3 at least
+  double intensity = 1;  // 0 none .. 1 physical .. 2: scales its displacement
   std::optional<double> max_displacement = {};  // of its radius, 0.01 .. 4; absent: Recipe::max_displacement
   std::string mesh = {}, material = {};         // name or prefix*; a mesh's own or its node's
   std::optional<Eigen::Vector3d> island_at = {};  // m, bind pose: the connected piece that is nearest to it
@@ -49,7 +50,8 @@ struct Recipe {
   double poisson_ratio = 0.42;  // 0 .. 0.49
   double density_kg_m3 = 1000;  // > 0
   double damping_ratio = 0.1;   // 0 .. 1, Rayleigh, at the first and third mode's neighbourhood
-  // 0.01 .. 4, share of a region's radius, approached smoothly. Absent: 0.35, or what its skin can stretch.
+  // 0.01 .. 4, share of a region's radius, approached smoothly. Absent: its kind's (soft_kind.hpp), or
+  // less, as far as its skin can stretch.
   std::optional<double> max_displacement = {};
   // 8 .. 200, cage cells along the character's longest side; absent: kUsualVoxelsHigh, or by how much is
   // soft (truth/cage.hpp)

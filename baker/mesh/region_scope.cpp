@@ -97,6 +97,8 @@ Vertices of_island(const Character& character, const Surface& surface, const Vec
     if (distance_m < nearest_m) nearest_m = distance_m, nearest = v;
   }
   const double reach_m = kIslandReach * bind_height(character);
+  if (nearest_m > std::numeric_limits<double>::max())
+    throw BadInput(where + ": island_at is looked for in what has no triangles");
   if (!(nearest_m <= reach_m)) {
     char text[160];
     std::snprintf(text, sizeof text, ": no surface within %.3g m of island_at %s; the nearest is %.3g m away",

@@ -1,6 +1,7 @@
 // soft_kind.cpp  The table of kinds.
 #include "baker/mesh/soft_kind.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -36,13 +37,19 @@ const KindDefaults& defaults_of(SoftKind kind) { return kDefaults[static_cast<si
 
 double default_frequency_hz(SoftKind kind, double length_m) {
   const KindDefaults& defaults = defaults_of(kind);
-  return defaults.frequency_hz * std::sqrt(defaults.length_m / length_m);
+  return std::min(kMostFrequency_hz, defaults.frequency_hz * std::sqrt(defaults.length_m / length_m));
 }
 
 std::optional<SoftKind> kind_called(const std::string& name) {
   for (size_t kind = 0; kind < kDefaults.size(); ++kind)
     if (name == kDefaults[kind].name) return static_cast<SoftKind>(kind);
   return std::nullopt;
+}
+
+std::string kind_names() {
+  std::string names;
+  for (const KindDefaults& kind : kDefaults) names += (names.empty() ? "" : ", ") + std::string(kind.name);
+  return names;
 }
 
 }  // namespace sinew::baker

@@ -38,9 +38,12 @@ struct KindDefaults {
 
 const KindDefaults& defaults_of(SoftKind kind);
 
+inline constexpr double kMostFrequency_hz = 25;  // of a region, stated or not
+
 // length_m > 0: of a region its diameter, of a rod its longest chain.
 double default_frequency_hz(SoftKind kind, double length_m);
 
 std::optional<SoftKind> kind_called(const std::string& name);  // by KindDefaults::name
+std::string kind_names();                                      // of all, for messages
 
 }  // namespace sinew::baker

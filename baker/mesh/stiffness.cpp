@@ -37,11 +37,6 @@ void hold_seams(const Surface& surface, const std::vector<int>& owner, std::vect
   softness = std::move(held);
 }
 
-// What a region is to move by, of its radius.
-double wanted_share(const RegionRecipe& region, SoftKind kind) {
-  return region.max_displacement.value_or(defaults_of(kind).max_displacement);
-}
-
 class StatedRegions {
  public:
   StatedRegions(const Character& character, const Surface& surface, const std::vector<bool>& coreless,
@@ -80,7 +75,7 @@ class StatedRegions {
                      (coreless + (1 - coreless) * (side ? (*side)[v] : flesh)));
     }
     hold_fastened(soft);
-    if (side) fade(joints, *side, wanted_share(region, kind), soft);
+    if (side) fade(joints, *side, defaults_of(kind).max_displacement, soft);
     return soft;
   }
 

@@ -59,9 +59,9 @@ struct TissueLayout {
   std::vector<RodRecipe> found_rods;  // by names
 };
 
-// Parts by evidence: what the recipe states, what is painted, the file's spring bones, bone names; geometry
-// alone makes nothing soft. A bone is used once, by the strongest. A character of which nothing swings has no
-// regions and no rods, and a note that says how to change that.
+// Parts by evidence: what the recipe states, what is painted, the file's spring bones, bone names, names of
+// meshes and materials, shape. A bone is used once, by the strongest. A character of which nothing swings has
+// no regions and no rods, and a note that says how to change that.
 //
 // Throws BadInput as find_rods does, and: a recipe's joint that does not exist (named), a region of the
 // recipe that leaves nothing soft.

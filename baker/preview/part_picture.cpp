@@ -126,7 +126,7 @@ std::string kind_of(const Part& part) {
   return (part.is_rod ? "rod, " + bones : "soft") + hz;
 }
 
-Image legend(const std::vector<Part>& parts, int height) {
+Image legend(const std::vector<Part>& parts, const char* title, int height) {
   constexpr float kWidestName_px = 300, kKind_px = 190, kTop_px = 60;
   const render::TextStyle bold{.size_px = kLetter_px, .weight = 1.4f},
       pale{.size_px = kLetter_px, .color = render::kPaleInk};
@@ -135,7 +135,7 @@ Image legend(const std::vector<Part>& parts, int height) {
     name_px = std::max(name_px, std::min(kWidestName_px, render::text_width(part.name, bold)));
   const float name_at = kMargin_px + kSwatch_px + 10, kind_at = name_at + name_px + 14;
   Image image(static_cast<int>(kind_at + kKind_px), height, render::kPaper);
-  render::draw_text(image, kMargin_px, 34, "Moves by itself", {.size_px = 14, .weight = 1.4f});
+  render::draw_text(image, kMargin_px, 34, title, {.size_px = 14, .weight = 1.4f});
   if (parts.empty())
     render::draw_text(image, kMargin_px, kTop_px + 10, "nothing: no soft part, no rod", pale);
   const auto rows = static_cast<size_t>((static_cast<float>(height) - kTop_px - kMargin_px) / kRow_px);
@@ -169,7 +169,9 @@ Image part_picture(const pack::PackView& character, const PartPicture& picture) 
   std::vector<render::Panel> panels;
   for (const ViewSide& side : sides)
     panels.push_back({view_from(side, mesh, parts, picture), panels.empty() ? name : "", side.name});
-  panels.push_back({legend(parts, picture.height), "", ""});
+  panels.push_back(
+      {legend(parts, picture.captions.empty() ? "Moves by itself" : "May move by itself", picture.height), "",
+       ""});
   return render::side_by_side(panels);
 }
 

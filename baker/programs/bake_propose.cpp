@@ -1,4 +1,5 @@
 // bake_propose.cpp  sinew-bake propose: what may swing of a character, as a recipe to edit and a picture.
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -17,27 +18,52 @@ namespace sinew::baker {
 namespace {
 
 struct ProposeOptions {
-  std::string character, output, preview;
+  std::string character, recipe, output, preview;
 };
 
-// Numbers of what is in doubt, from a layout in which it is soft beside what is certain. What has nothing
-// soft even so is no candidate.
-void try_doubtful(const Character& character, Proposal& proposal) {
-  std::vector<Candidate> certain, doubtful;
-  for (Candidate& part : proposal.regions)
-    (part.doubt.empty() ? certain : doubtful).push_back(std::move(part));
-  proposal.regions = certain;
-  for (Candidate& part : doubtful) {
-    std::vector<Candidate> with = certain;
-    with.push_back(part);
-    Character copy = character;
-    try {
-      state_numbers(layout_tissue(copy, recipe_of(with, proposal.rods)), static_cast<int>(certain.size()),
-                    part.region);
-      proposal.regions.push_back(std::move(part));
-    } catch (const BadInput&) {
-    }
+// Of a recipe, how it reads a file.
+Recipe reading_of(const std::string& path) {
+  Recipe reading;
+  if (path.empty()) return reading;
+  const Recipe given = read_recipe(path);
+  reading.unit_m = given.unit_m;
+  reading.up = given.up;
+  reading.without_meshes = given.without_meshes;
+  reading.with_meshes = given.with_meshes;
+  return reading;
+}
+
+bool lays_out(const Character& character, const Recipe& recipe) {
+  Character copy = character;
+  try {
+    layout_tissue(copy, recipe);
+    return true;
+  } catch (const BadInput&) {
+    return false;
   }
+}
+
+// What has nothing soft beside the parts before it is no candidate.
+void drop_rigid(const Character& character, Proposal& proposal) {
+  if (lays_out(character, recipe_of(proposal.regions, proposal.rods))) return;
+  std::vector<Candidate> kept;
+  for (Candidate& part : proposal.regions) {
+    kept.push_back(std::move(part));
+    if (!kept.back().doubt.empty() && !lays_out(character, recipe_of(kept, proposal.rods))) kept.pop_back();
+  }
+  proposal.regions = std::move(kept);
+}
+
+// All parts at once: what is in doubt has its numbers beside all others, with limits that keep its skin
+// whole.
+CharacterTissue switch_all_on(const Character& character, Proposal& proposal) {
+  Character copy = character;
+  CharacterTissue all = make_tissue(copy, recipe_of(proposal.regions, proposal.rods));
+  lower_limits(copy, all);
+  for (size_t part = 0; part < proposal.regions.size(); ++part)
+    if (!proposal.regions[part].doubt.empty())
+      state_numbers(all.layout, static_cast<int>(part), proposal.regions[part].region);
+  return all;
 }
 
 std::string caption(size_t number, bool enabled) {
@@ -45,10 +71,9 @@ std::string caption(size_t number, bool enabled) {
 }
 
 // All parts, those in doubt too, with their numbers in the recipe.
-void draw(const ProposeOptions& options, const Character& character, const Proposal& proposal) {
-  Character copy = character;
-  const CharacterTissue all = make_tissue(copy, recipe_of(proposal.regions, proposal.rods));
-  const LoadedPack pack = LoadedPack::from_bytes(pack_tissue(copy, all, nullptr), options.character);
+void draw(const ProposeOptions& options, const Character& character, const Proposal& proposal,
+          const CharacterTissue& all) {
+  const LoadedPack pack = LoadedPack::from_bytes(pack_tissue(character, all, nullptr), options.character);
   std::vector<std::string> captions;
   for (const Region& region : all.layout.regions) {
     const auto part = static_cast<size_t>(std::max(0, region.recipe_region));
@@ -77,18 +102,20 @@ void print_summary(const ProposeOptions& options, const Proposal& proposal) {
 void run_propose(const ProposeOptions& options) {
   refuse_directory(options.output);
   if (!options.preview.empty()) refuse_directory(options.preview);
+  const Recipe reading = reading_of(options.recipe);
   std::optional<Progress> progress(std::in_place, "looking at " + options.character, 4);
-  const Character character = import_character(options.character, {});
+  const Character character = import_character(options.character, reading);
   progress->update(1);
   Character certain = character;
   CharacterTissue tissue = make_tissue(certain, {});
   lower_limits(certain, tissue);
   progress->update(2);
   Proposal proposal = propose(certain, tissue.layout);
-  try_doubtful(character, proposal);
+  drop_rigid(character, proposal);
+  const CharacterTissue all = switch_all_on(character, proposal);
   progress->update(3);
-  if (!options.preview.empty()) draw(options, character, proposal);
-  write_file(options.output, proposal_text(proposal, options.character));
+  if (!options.preview.empty()) draw(options, character, proposal, all);
+  write_file(options.output, proposal_text(proposal, reading, options.character));
   progress.reset();
   for (const std::string& note : certain.notes) std::printf("note: %s\n", note.c_str());
   print_summary(options, proposal);
@@ -101,6 +128,8 @@ void add_propose_command(CLI::App& app, int*) {
   CLI::App* command = app.add_subcommand(
       "propose", "Writes a recipe of all that may swing of a character, to edit and to bake it by");
   command->add_option("character", options->character, "skinned glTF or VRM")->required();
+  command->add_option("--recipe", options->recipe,
+                      "JSON that says how to read the file: unit_m, up, without_meshes, with_meshes");
   add_output(*command, "-o,--output", options->output, "R.json")->required();
   add_output(*command, "--preview", options->preview, "picture of the parts with their numbers, .png");
   command->callback([options] { run_propose(*options); });

@@ -1,6 +1,7 @@
 // body_side.cpp  Flesh lies where anatomy and gravity put it, and its rim is wide.
 #include "baker/mesh/body_side.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -96,6 +97,43 @@ TEST_CASE("the_belly_of_what_stands_is_soft_before_its_spine_wherever_its_feet_p
     CHECK((toes > 0 ? plus : minus) < kSoft);
     CHECK((toes > 0 ? minus : plus) == 1);
   }
+}
+
+TEST_CASE("a_belly_is_before_the_spine_wherever_a_character_stands_and_faces") {
+  const Character straight = upright(0.15, 0.15, 1).character;
+  Character before = straight;
+  const TissueLayout expected = layout_tissue(before, {});
+  REQUIRE(expected.regions.size() == 1);
+  Matrix4 aside = Matrix4::Identity(), turned = aside;
+  aside(0, 3) = 3;
+  turned.topLeftCorner<3, 3>() = Eigen::AngleAxisd(M_PI / 2, Vector3::UnitY()).toRotationMatrix();
+  for (const Matrix4& moved : {aside, turned}) {
+    Character character = straight;
+    for (Vector3& place : character.positions) place = (moved * place.homogeneous()).head<3>();
+    for (Vector3& normal : character.normals) normal = moved.topLeftCorner<3, 3>() * normal;
+    for (Matrix4& bind : character.inverse_bind) bind = bind * moved.inverse();
+    const TissueLayout layout = layout_tissue(character, {});
+    for (size_t v = 0; v < layout.stiffness.size(); ++v)
+      CHECK(layout.stiffness[v] == Approx(expected.stiffness[v]).margin(1e-6));  // of sums in another order
+  }
+}
+
+TEST_CASE("a_limit_that_a_recipe_states_does_not_change_what_is_soft") {
+  Character one = four_legged(0.25).character, other = one;
+  Recipe recipe = belly_on({"spine"});
+  const TissueLayout usual = layout_tissue(one, recipe);
+  recipe.regions[0].max_displacement = 0.02;
+  CHECK(layout_tissue(other, recipe).stiffness == usual.stiffness);
+}
+
+TEST_CASE("a_side_that_nothing_tells_is_noted") {
+  Character worm = column();
+  Recipe recipe = belly_on({"bone_1"});
+  recipe.regions[0].side = BodySide::kFront;
+  layout_tissue(worm, recipe);
+  CHECK(std::ranges::any_of(worm.notes, [](const std::string& note) {
+    return note.find("'belly': its side is not used: no limbs in pairs") != std::string::npos;
+  }));
 }
 
 TEST_CASE("a_region_is_soft_on_the_side_that_it_states_or_all_around") {

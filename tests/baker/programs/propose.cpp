@@ -63,6 +63,16 @@ TEST_CASE("a_proposal_refuses_what_it_cannot_read_or_write") {
   CHECK(folder.entries() == 1);
 }
 
+TEST_CASE("a_proposal_reads_a_file_as_a_recipe_says_and_says_so_too") {
+  const TemporaryFolder folder;
+  const std::string glb = folder.file("c.glb"), recipe = folder.file("r.json");
+  must(bake({"creature", SINEW_SOURCE_DIR "/assets/creature/creature.json", "-o", glb, "--vertices", "800"}));
+  write_file(recipe, std::string_view(R"({"unit_m": 0.1})"));
+  must(bake({"propose", glb, "--recipe", recipe, "-o", folder.file("p.json")}));
+  CHECK(nlohmann::json::parse(read_text(folder.file("p.json")))["unit_m"] == 0.1);
+  check_refused({"propose", glb, "--recipe", recipe, "-o", recipe}, {"r.json"});
+}
+
 TEST_CASE("painted_parts_are_proposed_by_name_and_bake_as_painted") {
   const TemporaryFolder folder;
   const std::string glb = folder.file("c.glb"), recipe = folder.file("r.json");
@@ -110,4 +120,8 @@ TEST_CASE("shared_what_is_in_doubt_is_proposed_switched_off_with_its_reason_and_
   proposal["regions"][0]["enabled"] = true;
   write_file(folder.file("r.json"), std::string_view(proposal.dump()));
   CHECK(baked(file, folder.file("r.json"), folder.file("on.sinew"))["regions"][0]["name"] == "belly");
+  for (auto& region : proposal["regions"]) region["enabled"] = true;
+  write_file(folder.file("r.json"), std::string_view(proposal.dump()));
+  baked(file, folder.file("r.json"), folder.file("all.sinew"));
+  CHECK(bake({"audit", folder.file("all.sinew")}).exit_code == 0);  // their limits keep the skin whole
 }
