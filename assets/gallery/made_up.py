@@ -77,7 +77,7 @@ def cow():
         rig.pair(leg + "_hoof{}", leg + "_lower{}", 0.2, 0.13, z)
     tail = [f"tail_0{k}" for k in range(1, 5)]
     for k, bone in enumerate(tail):
-        rig.bone(bone, tail[k - 1] if k else "pelvis", 0, 1.36 - 0.22 * k, -1.03 - 0.05 * k)
+        rig.bone(bone, tail[k - 1] if k else "pelvis", 0, 1.28 - 0.22 * k, -0.99 - 0.06 * k)
     rig.pair("ear_01{}", "head", 0.13, 1.74, 1.1)
     rig.pair("ear_02{}", "ear_01{}", 0.25, 1.72, 1.08)
     limbs = [Limb("pelvis", (0, 1.14, -0.78), (0, 1.12, -0.5), 0.27, 0.3), Limb("spine_01", (0, 1.04, -0.4), (0, 1.0, -0.1), 0.36, 0.38),
@@ -89,7 +89,7 @@ def cow():
                   Limb("fore_lower" + side, (x, 0.54, 0.48), (x, 0.16, 0.5), 0.085, 0.07), Limb("fore_hoof" + side, (x, 0.09, 0.5), (x, 0.08, 0.56), 0.08, 0.08)]
     skinned(rig, "Cow_Body", limbs, 0.063, 0.03, 0.07, {}, "Cow")
     along = np.linspace(0, 1, 13)
-    positions, triangles, _ = tube([(0, 1.36 - 0.86 * s, -1.03 - 0.2 * s) for s in along], [0.04 - 0.02 * s + 0.05 * max(0, s - 0.75) for s in along])
+    positions, triangles, _ = tube([(0, 1.28 - 0.86 * s, -0.99 - 0.24 * s) for s in along], [0.04 - 0.02 * s + 0.05 * max(0, s - 0.75) for s in along])
     positions, triangles = outward(positions, triangles)
     rig.meshes.append(Mesh("Cow_Tail", positions, triangles, along_chain(rig, tail, positions, 0.03), ["Cow"] * len(triangles)))
     for side, x in (("_l", 1), ("_r", -1)):

@@ -1,6 +1,7 @@
 // propose.cpp  A proposal is a recipe: unedited it bakes what no recipe bakes, and what is in doubt is off.
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "baker/common/read_file.hpp"
 #include "baker/common/write_file.hpp"
@@ -48,6 +49,14 @@ void check_same_parts(const nlohmann::json& a, const nlohmann::json& b) {
                 Approx(b[list][i][key].get<double>()).epsilon(kThreeDigits).margin(1e-6));
     }
   }
+}
+
+std::set<std::string> switched_on(const nlohmann::json& proposal) {
+  std::set<std::string> names;
+  for (const char* list : {"regions", "rods"})
+    for (const auto& part : proposal.value(list, nlohmann::json::array()))
+      if (part["enabled"]) names.insert(part["name"].get<std::string>());
+  return names;
 }
 
 }  // namespace
@@ -124,4 +133,25 @@ TEST_CASE("shared_what_is_in_doubt_is_proposed_switched_off_with_its_reason_and_
   write_file(folder.file("r.json"), std::string_view(proposal.dump()));
   baked(file, folder.file("r.json"), folder.file("all.sinew"));
   CHECK(bake({"audit", folder.file("all.sinew")}).exit_code == 0);  // their limits keep the skin whole
+}
+
+TEST_CASE("made_up_characters_have_switched_on_what_an_artist_would_and_nothing_hard") {
+  const TemporaryFolder folder;
+  const ProgramResult made =
+      run_program({SINEW_PYTHON, "-B", SINEW_SOURCE_DIR "/assets/gallery/made_up.py", folder.path()});
+  if (made.error.find("numpy") != std::string::npos) {
+    WARN("skipped: " SINEW_PYTHON " has no numpy");
+    return;
+  }
+  INFO(made.error);
+  REQUIRE(made.exit_code == 0);
+  const std::vector<std::pair<std::string, std::set<std::string>>> characters = {
+      {"cow", {"belly", "tail_01", "ear_01_l", "ear_01_r"}},
+      {"witch", {"Witch_Hat", "Witch_Hair", "Witch_Cape"}},
+      {"knight", {}},
+      {"ogre", {"belly", "Ogre_Beard"}}};
+  for (const auto& [name, expected] : characters) {
+    INFO(name);
+    CHECK(switched_on(proposal_of(folder.file(name + ".glb"), folder.file(name + ".json"))) == expected);
+  }
 }
