@@ -25,6 +25,8 @@ class ClosestPlace {
 
   // None where nothing is within reach.
   std::optional<SurfacePlace> find(const Vector3& point, double reach_m) const;
+  double distance_m(const Vector3& point, double reach_m) const;  // at most the reach
+  Eigen::AlignedBox3d box() const { return boxes_.empty() ? Eigen::AlignedBox3d() : boxes_.front().box; }
 
  private:
   struct Box {
@@ -34,6 +36,8 @@ class ClosestPlace {
   };
   int build(int first, int count);
   void search(int at, const Vector3& point, SurfacePlace& best) const;
+  void approach(int at, const Vector3& point, double& nearest_m) const;
+  bool second_is_nearer(int at, const Vector3& point) const;
   Eigen::AlignedBox3d box_of(int triangle) const;
 
   const Character& character_;
