@@ -99,16 +99,24 @@ class OverlapFinder {
   }
 
   bool same_bones(size_t vertex, const SurfacePlace& place) const {
-    std::map<int, double> apart;
-    for (size_t k = 0; k < kInfluences; ++k)
-      apart[character_.skin[vertex].joint[k]] += character_.skin[vertex].weight[k];
+    std::array<std::pair<int, double>, 4 * kInfluences> apart;  // a joint each
+    size_t count = 0;
+    const auto add = [&](int joint, double weight) {
+      size_t at = 0;
+      while (at < count && apart[at].first != joint) ++at;
+      if (at == count) apart[count++] = {joint, 0};
+      apart[at].second += weight;
+    };
+    const Influences& own = character_.skin[vertex];
+    for (size_t k = 0; k < kInfluences; ++k) add(own.joint[k], own.weight[k]);
     const auto& face = character_.triangles[static_cast<size_t>(place.triangle)];
     for (size_t c = 0; c < 3; ++c) {
       const Influences& skin = character_.skin[static_cast<size_t>(face[c])];
-      for (size_t k = 0; k < kInfluences; ++k) apart[skin.joint[k]] -= place.share[c] * skin.weight[k];
+      for (size_t k = 0; k < kInfluences; ++k) add(skin.joint[k], -place.share[c] * skin.weight[k]);
     }
+    std::sort(apart.begin(), apart.begin() + static_cast<std::ptrdiff_t>(count));
     double sum = 0;
-    for (const auto& [joint, weight] : apart) sum += std::abs(weight);
+    for (size_t i = 0; i < count; ++i) sum += std::abs(apart[i].second);
     return sum <= kSameBones;
   }
 
