@@ -29,7 +29,8 @@ int BoxTree::build(int first, int count) {
     return place(a) < place(b);
   });
   build(first, count / 2);
-  nodes_[at].second = build(first + count / 2, count - count / 2);
+  const int second = build(first + count / 2, count - count / 2);
+  nodes_[at].second = second;
   return static_cast<int>(at);
 }
 
