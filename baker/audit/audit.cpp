@@ -19,8 +19,8 @@ constexpr double kWatched_s = 10;  // a rod's residual: how far it still moves i
 
 class Auditor {
  public:
-  explicit Auditor(const AuditedPack& pack)
-      : pack_(pack), parts_(find_parts(pack.view)), gaps_(pack.view, parts_) {
+  Auditor(const AuditedPack& pack, const AuditedParts& parts, const LayerGaps& gaps)
+      : pack_(pack), parts_(parts), gaps_(gaps) {
     audit_.height_m = static_cast<double>(pack.view.character->height_m);
     audit_.vertices = parts_.of_vertex.size();
     farthest_m_.setZero(static_cast<Eigen::Index>(audit_.vertices));
@@ -148,8 +148,8 @@ class Auditor {
   }
 
   const AuditedPack pack_;
-  const AuditedParts parts_;
-  const LayerGaps gaps_;
+  const AuditedParts& parts_;
+  const LayerGaps& gaps_;
   Audit audit_;
   Eigen::VectorXf farthest_m_;  // of a vertex from its skinned place, in everyday motions
   std::vector<Eigen::Matrix3Xf> rod_low_, rod_high_;
@@ -170,7 +170,9 @@ Audit run_audit(const AuditedPack& pack, const std::function<void(size_t, size_t
   double total_s = 0;
   for (const AuditMotion& motion : motions) total_s += motion.moving_s + motion.resting_s;
   const auto total = static_cast<size_t>(total_s * static_cast<double>(pack.view.network->rate_hz));
-  Auditor auditor(pack);
+  const AuditedParts parts = find_parts(pack.view);
+  const LayerGaps gaps(pack.view, parts);
+  Auditor auditor(pack, parts, gaps);
   size_t done = 0;
   for (const AuditMotion& motion : motions) auditor.play(motion, [&] { progress(++done, total); });
   return auditor.finish();
@@ -182,7 +184,13 @@ double most_inverted(const AuditedPart& part) {
 
 Audit quick_audit(const AuditedPack& pack) {
   check(pack);
-  Auditor auditor(pack);
+  const AuditedParts parts = find_parts(pack.view);
+  return quick_audit(pack, parts, LayerGaps(pack.view, parts));
+}
+
+Audit quick_audit(const AuditedPack& pack, const AuditedParts& parts, const LayerGaps& gaps) {
+  check(pack);
+  Auditor auditor(pack, parts, gaps);
   auditor.play(bob_motion(pack.view, kQuickBob_s, 0.5));
   for (const AuditMotion& motion : root_motions(pack.view)) auditor.play(motion);
   double left_s = kQuickClips_s;

@@ -43,6 +43,8 @@ Audit run_audit(const AuditedPack& pack, const std::function<void(size_t, size_t
 
 // The root's motions and the first minute of the clips, without the minute of rest: a fraction of a second.
 Audit quick_audit(const AuditedPack& pack);
+// With parts and layers of the same character, found in a pack that has other limits at most.
+Audit quick_audit(const AuditedPack& pack, const AuditedParts& parts, const LayerGaps& gaps);
 
 // Of a part's triangles that may be turned over: kMostInverted, or one.
 double most_inverted(const AuditedPart& part);

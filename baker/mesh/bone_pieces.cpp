@@ -186,7 +186,13 @@ class PieceFinder {
     return character_.nodes[static_cast<size_t>(character_.meshes[static_cast<size_t>(mesh)].node)].name;
   }
 
-  // Islands, or whole meshes on one bone.
+  struct Unnamed {
+    double extent_m = 0;
+    int mesh = -1;  // that it is the whole of; -1: it is an island
+    std::vector<int> vertices = {};
+  };
+
+  // Islands, or whole meshes on one bone. None of the large ones is flesh that another hangs on.
   void add_unnamed(const std::vector<bool>& in_named) {
     const std::vector<int> island = connected_parts(surface_, std::vector<bool>(in_named.size(), true));
     std::map<std::pair<int, int>, std::vector<int>> groups;  // (mesh, -1) or (-1, island)
@@ -199,22 +205,33 @@ class PieceFinder {
           static_cast<int>(v));
     }
     const std::vector<size_t> flesh = flesh_counts(in_named);
-    std::vector<std::pair<double, BonePiece>> far;
+    std::vector<Unnamed> large;
+    std::vector<bool> no_flesh = in_named;
     for (auto& [key, vertices] : groups) {
       const double extent = extent_m(character_, vertices);
       if (extent < kLarge * extent_m_ || vertices.size() < kFewestVertices) continue;
       const auto joint = static_cast<size_t>(joint_of(static_cast<size_t>(vertices.front())));
       if (is_body(key.first, vertices.size(), flesh[joint])) continue;
-      std::vector<bool> own(in_named.size(), false), no_flesh = in_named;
-      for (const int v : vertices) own[static_cast<size_t>(v)] = no_flesh[static_cast<size_t>(v)] = true;
-      const BodyUnder body(character_, no_flesh);
-      const PieceReach reach = piece_reach(character_, body, own);
-      if (body.is_there() && reach.swings() && reach.farthest_m >= kFarOut * extent)
-        far.emplace_back(extent, unnamed(key.first, reach, std::move(vertices)));
+      for (const int v : vertices) no_flesh[static_cast<size_t>(v)] = true;
+      large.push_back({extent, key.first, std::move(vertices)});
     }
-    std::ranges::stable_sort(far, std::greater{}, [](const auto& piece) { return piece.first; });
-    far.resize(std::min(far.size(), kMostUnnamed));
-    for (auto& [extent, piece] : far) found_.push_back(std::move(piece));
+    if (large.empty()) return;
+    std::ranges::stable_sort(large, std::greater{}, &Unnamed::extent_m);
+    const BodyUnder body(character_, no_flesh);
+    if (body.is_there()) add_far_out(body, std::move(large));
+  }
+
+  void add_far_out(const BodyUnder& body, std::vector<Unnamed> large) {
+    size_t count = 0;
+    for (Unnamed& piece : large) {
+      if (count == kMostUnnamed) return;
+      std::vector<bool> own(character_.positions.size(), false);
+      for (const int v : piece.vertices) own[static_cast<size_t>(v)] = true;
+      const PieceReach reach = piece_reach(character_, body, own);
+      if (!reach.swings() || reach.farthest_m < kFarOut * piece.extent_m) continue;
+      found_.push_back(unnamed(piece.mesh, reach, std::move(piece.vertices)));
+      ++count;
+    }
   }
 
   int one_joint(int mesh) const {

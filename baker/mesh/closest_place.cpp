@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "baker/mesh/triangle_distance.hpp"
+
 namespace sinew::baker {
 namespace {
 
@@ -45,30 +47,32 @@ std::array<double, 3> nearest_share(const Corners& t, const Vector3& p) {
 
 ClosestPlace::ClosestPlace(const Character& character, std::vector<int> triangles)
     : character_(character), triangles_(std::move(triangles)) {
-  if (!triangles_.empty()) build(0, static_cast<int>(triangles_.size()));
+  if (triangles_.empty()) return;
+  std::vector<Boxed> all;
+  for (const int triangle : triangles_) {
+    const Corners t = corners_of(character_, triangle);
+    Boxed& one = all.emplace_back(triangle, Eigen::AlignedBox3d(t.a));
+    one.box.extend(t.b).extend(t.c);
+  }
+  build(all, 0, static_cast<int>(all.size()));
+  for (size_t i = 0; i < all.size(); ++i) triangles_[i] = all[i].triangle;
 }
 
-Eigen::AlignedBox3d ClosestPlace::box_of(int triangle) const {
-  const Corners t = corners_of(character_, triangle);
-  Eigen::AlignedBox3d box(t.a);
-  return box.extend(t.b).extend(t.c);
-}
-
-int ClosestPlace::build(int first, int count) {
+int ClosestPlace::build(std::vector<Boxed>& all, int first, int count) {
   const auto at = boxes_.size();
   boxes_.push_back({{}, first, count, 0});
-  for (int i = first; i < first + count; ++i)
-    boxes_[at].box.extend(box_of(triangles_[static_cast<size_t>(i)]));
+  const auto begin = all.begin() + first;
+  for (auto i = begin; i < begin + count; ++i) boxes_[at].box.extend(i->box);
   if (count <= kFewTriangles) return static_cast<int>(at);
   Eigen::Index axis = 0;
   boxes_[at].box.sizes().maxCoeff(&axis);
-  const auto begin = triangles_.begin() + first;
-  std::nth_element(begin, begin + count / 2, begin + count, [&](int a, int b) {
-    const double at_a = box_of(a).center()[axis], at_b = box_of(b).center()[axis];
-    return at_a != at_b ? at_a < at_b : a < b;
+  std::nth_element(begin, begin + count / 2, begin + count, [&](const Boxed& a, const Boxed& b) {
+    const double at_a = a.box.center()[axis], at_b = b.box.center()[axis];
+    return at_a != at_b ? at_a < at_b : a.triangle < b.triangle;
   });
-  build(first, count / 2);
-  boxes_[at].second = build(first + count / 2, count - count / 2);
+  build(all, first, count / 2);
+  const int second = build(all, first + count / 2, count - count / 2);
+  boxes_[at].second = second;
   return static_cast<int>(at);
 }
 
@@ -81,12 +85,37 @@ std::optional<SurfacePlace> ClosestPlace::find(const Vector3& point, double reac
   return best;
 }
 
+double ClosestPlace::distance_m(const Vector3& point, double reach_m) const {
+  double nearest_m = reach_m;
+  if (!boxes_.empty()) approach(0, point, nearest_m);
+  return nearest_m;
+}
+
+void ClosestPlace::approach(int at, const Vector3& point, double& nearest_m) const {
+  const Box& box = boxes_[static_cast<size_t>(at)];
+  if (box.box.exteriorDistance(point) > (1 + kSameDistance) * nearest_m) return;
+  if (box.second > 0) {
+    const bool swap = second_is_nearer(at, point);
+    approach(swap ? box.second : at + 1, point, nearest_m);
+    approach(swap ? at + 1 : box.second, point, nearest_m);
+    return;
+  }
+  for (int i = box.first; i < box.first + box.count; ++i) {
+    const Corners t = corners_of(character_, triangles_[static_cast<size_t>(i)]);
+    nearest_m = std::min(nearest_m, distance_to_triangle(point, t.a, t.b, t.c));
+  }
+}
+
+bool ClosestPlace::second_is_nearer(int at, const Vector3& point) const {
+  const auto away = [&](int half) { return boxes_[static_cast<size_t>(half)].box.exteriorDistance(point); };
+  return away(boxes_[static_cast<size_t>(at)].second) < away(at + 1);
+}
+
 void ClosestPlace::search(int at, const Vector3& point, SurfacePlace& best) const {
   const Box& box = boxes_[static_cast<size_t>(at)];
   if (box.box.exteriorDistance(point) > (1 + kSameDistance) * best.distance_m) return;
   if (box.second > 0) {
-    const auto away = [&](int half) { return boxes_[static_cast<size_t>(half)].box.exteriorDistance(point); };
-    const bool swap = away(box.second) < away(at + 1);
+    const bool swap = second_is_nearer(at, point);
     search(swap ? box.second : at + 1, point, best);
     search(swap ? at + 1 : box.second, point, best);
     return;

@@ -25,6 +25,8 @@ class ClosestPlace {
 
   // None where nothing is within reach.
   std::optional<SurfacePlace> find(const Vector3& point, double reach_m) const;
+  double distance_m(const Vector3& point, double reach_m) const;  // at most the reach
+  Eigen::AlignedBox3d box() const { return boxes_.empty() ? Eigen::AlignedBox3d() : boxes_.front().box; }
 
  private:
   struct Box {
@@ -32,9 +34,14 @@ class ClosestPlace {
     int first = 0, count = 0;  // of triangles_
     int second = 0;            // the other half's; the first one's follows its parent. 0: it has no halves
   };
-  int build(int first, int count);
+  struct Boxed {
+    int triangle = 0;
+    Eigen::AlignedBox3d box = {};
+  };
+  int build(std::vector<Boxed>& all, int first, int count);
   void search(int at, const Vector3& point, SurfacePlace& best) const;
-  Eigen::AlignedBox3d box_of(int triangle) const;
+  void approach(int at, const Vector3& point, double& nearest_m) const;
+  bool second_is_nearer(int at, const Vector3& point) const;
 
   const Character& character_;
   std::vector<int> triangles_;

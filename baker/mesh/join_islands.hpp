@@ -13,7 +13,7 @@ namespace sinew::baker {
 using Links = std::vector<std::pair<int, int>>;
 
 // The fewest and shortest links between vertices of one label (welded vertex -> label, -1: none) that connect
-// its islands, none longer than most_gap_m. O(n^2) for the n vertices of a label that has islands.
+// its islands, none longer than most_gap_m. Of as short ones those of the first vertices.
 Links island_links(const Character& character, const Surface& surface, const std::vector<int>& label,
                    double most_gap_m = std::numeric_limits<double>::infinity());
 

@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 
+#include "baker/mesh/box_tree.hpp"
 #include "baker/mesh/closest_place.hpp"
 #include "baker/mesh/flesh_shape.hpp"
 
@@ -19,6 +20,7 @@ namespace {
 constexpr double kAlongNormal = 0.5;  // least cosine: beside the end of a piece is not over it
 constexpr double kSameBones = 0.5;    // weights' differences, summed: a quarter of the weight on other bones
 constexpr double kTouching = 1e-6;    // of the reach: no direction to speak of
+constexpr double kBeyond = 1 + 1e-6;  // of the reach: pieces whose boxes are farther away are not asked
 constexpr double kNothing = 1e-9;     // of a share
 
 Vector3 area_vector(const Character& character, const std::array<int, 3>& face) {
@@ -50,11 +52,7 @@ class OverlapFinder {
     std::vector<Overlap> overlaps(character_.positions.size());
     find_soft_pieces();
     if (trees_.empty() || pieces_ < 2) return overlaps;
-    candidates_.resize(overlaps.size());
-    for (size_t v = 0; v < overlaps.size(); ++v)
-      if (piece_[v] >= 0)
-        for (const auto& [piece, tree] : trees_)
-          if (piece != piece_[v]) add_candidate(v, piece, tree);
+    find_candidates();
     choose(overlaps);
     free_half_fastened(overlaps);
     for (size_t v = 0; v < overlaps.size(); ++v)
@@ -81,20 +79,44 @@ class OverlapFinder {
       area_m2_[static_cast<size_t>(piece)] += area_vector(character_, face).norm();
       if (is_soft[static_cast<size_t>(piece)]) triangles[piece].push_back(static_cast<int>(t));
     }
-    for (auto& [piece, own] : triangles) trees_.try_emplace(piece, character_, std::move(own));
+    for (auto& [piece, own] : triangles) trees_.emplace_back(piece, ClosestPlace(character_, std::move(own)));
+  }
+
+  void find_candidates() {
+    candidates_.resize(piece_.size());
+    std::vector<Eigen::AlignedBox3d> boxes;
+    for (const auto& [piece, tree] : trees_) boxes.push_back(tree.box());
+    const BoxTree near(std::move(boxes));
+    std::vector<int> found;
+    for (size_t v = 0; v < piece_.size(); ++v) {
+      if (piece_[v] < 0) continue;
+      near.find(character_.positions[v], kBeyond * reach_m_, found);
+      for (const int i : found) {
+        const auto& [piece, tree] = trees_[static_cast<size_t>(i)];
+        if (piece != piece_[v]) add_candidate(v, piece, tree);
+      }
+    }
   }
 
   bool same_bones(size_t vertex, const SurfacePlace& place) const {
-    std::map<int, double> apart;
-    for (size_t k = 0; k < kInfluences; ++k)
-      apart[character_.skin[vertex].joint[k]] += character_.skin[vertex].weight[k];
+    std::array<std::pair<int, double>, 4 * kInfluences> apart;  // a joint each
+    size_t count = 0;
+    const auto add = [&](int joint, double weight) {
+      size_t at = 0;
+      while (at < count && apart[at].first != joint) ++at;
+      if (at == count) apart[count++] = {joint, 0};
+      apart[at].second += weight;
+    };
+    const Influences& own = character_.skin[vertex];
+    for (size_t k = 0; k < kInfluences; ++k) add(own.joint[k], own.weight[k]);
     const auto& face = character_.triangles[static_cast<size_t>(place.triangle)];
     for (size_t c = 0; c < 3; ++c) {
       const Influences& skin = character_.skin[static_cast<size_t>(face[c])];
-      for (size_t k = 0; k < kInfluences; ++k) apart[skin.joint[k]] -= place.share[c] * skin.weight[k];
+      for (size_t k = 0; k < kInfluences; ++k) add(skin.joint[k], -place.share[c] * skin.weight[k]);
     }
+    std::sort(apart.begin(), apart.begin() + static_cast<std::ptrdiff_t>(count));
     double sum = 0;
-    for (const auto& [joint, weight] : apart) sum += std::abs(weight);
+    for (size_t i = 0; i < count; ++i) sum += std::abs(apart[i].second);
     return sum <= kSameBones;
   }
 
@@ -156,8 +178,8 @@ class OverlapFinder {
   const double reach_m_;
   const std::vector<int> piece_, fastened_;  // a welded vertex
   int pieces_ = 0;
-  std::vector<double> area_m2_;        // a piece
-  std::map<int, ClosestPlace> trees_;  // of each piece that is soft somewhere
+  std::vector<double> area_m2_;                      // a piece
+  std::vector<std::pair<int, ClosestPlace>> trees_;  // of each piece that is soft somewhere, ascending
   std::vector<std::vector<Candidate>> candidates_;
   std::map<std::pair<int, int>, int>
       above_;  // pieces: vertices of the first above the second, less those below

@@ -2,13 +2,11 @@
 #include "baker/mesh/piece_softness.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "baker/common/smooth_step.hpp"
 #include "baker/mesh/flesh_shape.hpp"
 #include "baker/mesh/join_islands.hpp"
 #include "baker/mesh/skin_weight.hpp"
-#include "baker/mesh/triangle_distance.hpp"
 
 namespace sinew::baker {
 namespace {
@@ -38,10 +36,7 @@ std::vector<int> members(const std::vector<bool>& in) {
 }  // namespace
 
 BodyUnder::BodyUnder(const Character& character, const std::vector<bool>& is_piece)
-    : character_(character),
-      bones_(find_bones(character, {})),
-      capsule_(character.joint_node.size()),
-      triangles_(character.joint_node.size()) {
+    : character_(character), bones_(find_bones(character, {})), capsule_(character.joint_node.size()) {
   std::vector<std::vector<Vector3>> flesh(capsule_.size());
   for (size_t v = 0; v < character.positions.size(); ++v)
     if (!is_piece[v] && character.welded[v] == static_cast<int>(v))
@@ -49,10 +44,13 @@ BodyUnder::BodyUnder(const Character& character, const std::vector<bool>& is_pie
   for (size_t j = 0; j < flesh.size(); ++j)
     if (flesh[j].size() >= kFewestVertices)
       capsule_[j] = fit_capsule(flesh[j], bones_.tail[j] - bones_.head[j]);
-  for (const auto& face : character.triangles) {
-    const auto corner = static_cast<size_t>(face[0]);
-    if (!is_piece[corner]) triangles_[static_cast<size_t>(character.skin[corner].joint[0])].push_back(face);
+  std::vector<std::vector<int>> triangles(capsule_.size());
+  for (size_t t = 0; t < character.triangles.size(); ++t) {
+    const auto corner = static_cast<size_t>(character.triangles[t][0]);
+    const auto joint = static_cast<size_t>(character.skin[corner].joint[0]);
+    if (!is_piece[corner] && capsule_[joint]) triangles[joint].push_back(static_cast<int>(t));
   }
+  for (std::vector<int>& own : triangles) surface_.emplace_back(character, std::move(own));
 }
 
 bool BodyUnder::is_there() const {
@@ -78,18 +76,7 @@ double BodyUnder::out_m(const Influences& skin, const Vector3& place) const {
 
 double BodyUnder::gap_m(int joint, const Vector3& place, double reach_m) const {
   const int of = flesh_joint(joint);
-  double nearest = reach_m;
-  if (of < 0) return nearest;
-  for (const auto& face : triangles_[static_cast<size_t>(of)]) {
-    const auto corner = [&](size_t k) -> const Vector3& {
-      return character_.positions[static_cast<size_t>(face[k])];
-    };
-    const Vector3 low = corner(0).cwiseMin(corner(1)).cwiseMin(corner(2)),
-                  high = corner(0).cwiseMax(corner(1)).cwiseMax(corner(2));
-    if (((low - place).array() > nearest || (place - high).array() > nearest).any()) continue;
-    nearest = std::min(nearest, distance_to_triangle(place, corner(0), corner(1), corner(2)));
-  }
-  return nearest;
+  return of < 0 ? reach_m : surface_[static_cast<size_t>(of)].distance_m(place, reach_m);
 }
 
 PieceReach piece_reach(const Character& character, const BodyUnder& body, const std::vector<bool>& piece) {

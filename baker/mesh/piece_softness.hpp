@@ -6,6 +6,7 @@
 
 #include "baker/import/character.hpp"
 #include "baker/mesh/bones.hpp"
+#include "baker/mesh/closest_place.hpp"
 #include "baker/mesh/fit_capsule.hpp"
 #include "baker/mesh/recipe.hpp"
 #include "baker/mesh/region_scope.hpp"
@@ -32,8 +33,8 @@ class BodyUnder {
 
   const Character& character_;
   Bones bones_;
-  std::vector<std::optional<FittedCapsule>> capsule_;       // a joint
-  std::vector<std::vector<std::array<int, 3>>> triangles_;  // of a joint's flesh
+  std::vector<std::optional<FittedCapsule>> capsule_;  // a joint
+  std::vector<ClosestPlace> surface_;                  // of a joint's flesh
 };
 
 // How far one piece sticks out.

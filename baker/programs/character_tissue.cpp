@@ -2,7 +2,9 @@
 #include "baker/programs/character_tissue.hpp"
 
 #include <cstdio>
+#include <optional>
 
+#include "baker/audit/audit.hpp"
 #include "baker/audit/limit_factor.hpp"
 #include "baker/pack/character_pack.hpp"
 #include "baker/programs/loaded_pack.hpp"
@@ -70,10 +72,13 @@ void lower_limits(Character& character, CharacterTissue& tissue) {
   constexpr int kMostRounds = 6;
   const std::vector<Region> before = tissue.layout.regions;
   const std::vector<Rod> rods_before = tissue.layout.rods;
+  std::optional<AuditedParts> parts;  // the same in every round
+  std::optional<LayerGaps> gaps;
   bool lowered = !tissue.layout.regions.empty() || !tissue.layout.rods.empty();
   for (int round = 0; lowered && round < kMostRounds; ++round) {
     const LoadedPack pack = LoadedPack::from_bytes(pack_tissue(character, tissue, nullptr), character.name);
-    const Audit audit = quick_audit({pack.view(), pack.bytes()});
+    if (!gaps) gaps.emplace(pack.view(), parts.emplace(find_parts(pack.view())));
+    const Audit audit = quick_audit({pack.view(), pack.bytes()}, *parts, *gaps);
     lowered = false;
     for (size_t p = 0; p < audit.parts.size(); ++p) {
       const PartAudit& part = audit.parts[p];
