@@ -92,14 +92,15 @@ const Words kHelper = {"ik",     "fk",  "ctrl",     "ctl",    "control", "contro
                        "wgt",    "aim", "effector", "facial", "tweak"};
 
 // Hard things that are named after the part that they are on.
-const Words kHard = {
-    "armor",   "armour",   "plate",     "guard",     "metal",     "pin",     "clip",    "band",    "ring",
-    "rings",   "light",    "lights",    "gate",      "rotor",     "wing",    "gun",     "hook",    "lid",
-    "door",    "phone",    "phones",    "piece",     "muff",      "horn",    "spike",   "spikes",  "blade",
-    "sword",   "weapon",   "socket",    "slot",      "prop",      "buckle",  "brooch",  "earring", "earrings",
-    "hairpin", "hairband", "headphone", "earphone",  "taillight", "helmet",  "helm",    "crown",   "mask",
-    "staff",   "wand",     "book",      "spellbook", "shield",    "axe",     "hammer",  "dagger",  "knife",
-    "spear",   "mace",     "arrow",     "quiver",    "handslot",  "glasses", "goggles", "gauntlet"};
+const Words kHard = {"armor",     "armour",  "plate",    "guard",     "metal",    "pin",       "clip",
+                     "band",      "ring",    "rings",    "light",     "lights",   "gate",      "rotor",
+                     "wing",      "gun",     "hook",     "lid",       "door",     "phone",     "phones",
+                     "piece",     "muff",    "horn",     "spike",     "spikes",   "blade",     "sword",
+                     "weapon",    "socket",  "slot",     "prop",      "buckle",   "brooch",    "earring",
+                     "earrings",  "hairpin", "hairband", "headphone", "earphone", "taillight", "helmet",
+                     "helm",      "crown",   "mask",     "staff",     "broom",    "wand",      "book",
+                     "spellbook", "shield",  "axe",      "hammer",    "dagger",   "knife",     "spear",
+                     "mace",      "arrow",   "quiver",   "handslot",  "glasses",  "goggles",   "gauntlet"};
 
 const Words kHardBody = {"armor",    "armour", "knight",  "robot",  "mech",   "mecha", "droid", "android",
                          "skeleton", "golem",  "machine", "cyborg", "statue", "car",   "truck", "tank"};
