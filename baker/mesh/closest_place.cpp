@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "baker/mesh/triangle_distance.hpp"
-
 namespace sinew::baker {
 namespace {
 
@@ -83,27 +81,6 @@ std::optional<SurfacePlace> ClosestPlace::find(const Vector3& point, double reac
   if (!boxes_.empty()) search(0, point, best);
   if (best.triangle < 0) return std::nullopt;
   return best;
-}
-
-double ClosestPlace::distance_m(const Vector3& point, double reach_m) const {
-  double nearest_m = reach_m;
-  if (!boxes_.empty()) approach(0, point, nearest_m);
-  return nearest_m;
-}
-
-void ClosestPlace::approach(int at, const Vector3& point, double& nearest_m) const {
-  const Box& box = boxes_[static_cast<size_t>(at)];
-  if (box.box.exteriorDistance(point) > (1 + kSameDistance) * nearest_m) return;
-  if (box.second > 0) {
-    const bool swap = second_is_nearer(at, point);
-    approach(swap ? box.second : at + 1, point, nearest_m);
-    approach(swap ? at + 1 : box.second, point, nearest_m);
-    return;
-  }
-  for (int i = box.first; i < box.first + box.count; ++i) {
-    const Corners t = corners_of(character_, triangles_[static_cast<size_t>(i)]);
-    nearest_m = std::min(nearest_m, distance_to_triangle(point, t.a, t.b, t.c));
-  }
 }
 
 bool ClosestPlace::second_is_nearer(int at, const Vector3& point) const {

@@ -25,7 +25,6 @@ class ClosestPlace {
 
   // None where nothing is within reach.
   std::optional<SurfacePlace> find(const Vector3& point, double reach_m) const;
-  double distance_m(const Vector3& point, double reach_m) const;  // at most the reach
   Eigen::AlignedBox3d box() const { return boxes_.empty() ? Eigen::AlignedBox3d() : boxes_.front().box; }
 
  private:
@@ -40,7 +39,6 @@ class ClosestPlace {
   };
   int build(std::vector<Boxed>& all, int first, int count);
   void search(int at, const Vector3& point, SurfacePlace& best) const;
-  void approach(int at, const Vector3& point, double& nearest_m) const;
   bool second_is_nearer(int at, const Vector3& point) const;
 
   const Character& character_;

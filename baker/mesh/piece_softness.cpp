@@ -76,7 +76,9 @@ double BodyUnder::out_m(const Influences& skin, const Vector3& place) const {
 
 double BodyUnder::gap_m(int joint, const Vector3& place, double reach_m) const {
   const int of = flesh_joint(joint);
-  return of < 0 ? reach_m : surface_[static_cast<size_t>(of)].distance_m(place, reach_m);
+  if (of < 0) return reach_m;
+  const std::optional<SurfacePlace> nearest = surface_[static_cast<size_t>(of)].find(place, reach_m);
+  return nearest ? nearest->distance_m : reach_m;
 }
 
 PieceReach piece_reach(const Character& character, const BodyUnder& body, const std::vector<bool>& piece) {

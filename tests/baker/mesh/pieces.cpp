@@ -4,8 +4,8 @@
 #include <set>
 
 #include "baker/common/bad_input.hpp"
+#include "baker/mesh/closest_place.hpp"
 #include "baker/mesh/tissue_layout.hpp"
-#include "baker/mesh/triangle_distance.hpp"
 #include "figure.hpp"
 
 using namespace sinew::baker;
@@ -272,11 +272,15 @@ TEST_CASE("a_piece_on_bones_of_its_own_takes_them_from_rods") {
   CHECK(stiffness_between(character, layout, "Cape", 1.25, 1.35) > 0.95);
 }
 
-TEST_CASE("distances_to_a_triangle_are_those_to_its_face_edges_and_corners") {
-  const Vector3 a(0, 0, 0), b(1, 0, 0), c(0, 1, 0);
+TEST_CASE("the_closest_place_of_a_triangle_is_on_its_face_edges_or_corners") {
+  Character character;
+  character.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  character.triangles = {{0, 1, 2}};
+  const ClosestPlace triangle(character, {0});
   const double exact = 1e-12;  // of doubles of size one
-  CHECK(std::abs(distance_to_triangle({0.2, 0.2, -0.5}, a, b, c) - 0.5) < exact);
-  CHECK(std::abs(distance_to_triangle({1, 1, 0}, a, b, c) - std::sqrt(0.5)) < exact);
-  CHECK(std::abs(distance_to_triangle({-3, -4, 0}, a, b, c) - 5) < exact);
-  CHECK(std::abs(distance_to_triangle({0.5, -1, 0}, a, b, 0.5 * b) - 1) < exact);  // of no area
+  const auto distance_m = [&](const Vector3& p) { return triangle.find(p, 10).value().distance_m; };
+  CHECK(std::abs(distance_m({0.2, 0.2, -0.5}) - 0.5) < exact);
+  CHECK(std::abs(distance_m({1, 1, 0}) - std::sqrt(0.5)) < exact);
+  CHECK(std::abs(distance_m({-3, -4, 0}) - 5) < exact);
+  CHECK_FALSE(triangle.find({-3, -4, 0}, 4.9).has_value());
 }
