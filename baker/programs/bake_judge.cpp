@@ -8,7 +8,9 @@
 #include <optional>
 
 #include "baker/common/bad_input.hpp"
+#include "baker/common/input_files.hpp"
 #include "baker/common/progress.hpp"
+#include "baker/common/safetensors.hpp"
 #include "baker/programs/closed_loop.hpp"
 #include "baker/programs/commands.hpp"
 
@@ -20,6 +22,7 @@ constexpr double kMillimetres = 1e3;
 struct JudgeOptions {
   std::vector<std::string> characters, truth;
   std::vector<size_t> ticks = {10, 50, 200, 600};
+  std::string trace;
   std::optional<double> most_added;
   std::string isa;
   bool json = false;
@@ -27,37 +30,66 @@ struct JudgeOptions {
 
 // ---- what is added up ----
 
-// Distances of one character's nodes, over ticks 1 .. `ticks` of every motion that lasts so long.
-struct Sums {
-  double nodes = 0, error = 0, skinning = 0, apart = 0;  // apart: from the first character's
+// A node's displacement at two ticks.
+struct Moved {
+  const float *now, *before;
+};
 
-  void add(const float* u, const float* truth, const float* first) {
-    const auto distance = [](const float* a, const float* b) {
-      return std::hypot(double{a[0]} - double{b[0]}, double{a[1]} - double{b[1]},
-                        double{a[2]} - double{b[2]});
-    };
-    constexpr float kNowhere[3] = {};
+// Distances of one character's nodes, over ticks 1 .. `ticks` of every motion that lasts so long; apart: from
+// the first character's; change: of what happens from tick to tick.
+struct Sums {
+  double nodes = 0, error = 0, skinning = 0, apart = 0, change = 0, skinning_change = 0;
+  std::vector<float> errors;
+
+  void add(const Moved& u, const Moved& truth, const float* first) {
+    const double distance = length_of(u.now, truth.now);
     nodes += 1;
-    error += distance(u, truth);
-    skinning += distance(kNowhere, truth);
-    apart += distance(u, first);
+    error += distance;
+    errors.push_back(static_cast<float>(distance));
+    skinning += length_of(kNowhere, truth.now);
+    apart += length_of(u.now, first);
+    float own[3], true_change[3];
+    for (int k = 0; k < 3; ++k) {
+      own[k] = u.now[k] - u.before[k];
+      true_change[k] = truth.now[k] - truth.before[k];
+    }
+    change += length_of(own, true_change);
+    skinning_change += length_of(kNowhere, true_change);
   }
   double mean_mm() const { return kMillimetres * error / nodes; }
   double ratio() const { return error / skinning; }
+  double velocity_ratio() const { return skinning_change > 0 ? change / skinning_change : 0; }
+  // Of 20 node errors one is larger.
+  double p95_mm() const {
+    std::vector<float> sorted = errors;
+    const auto at = sorted.begin() + static_cast<long>(0.95 * static_cast<double>(sorted.size() - 1));
+    std::ranges::nth_element(sorted, at);
+    return kMillimetres * static_cast<double>(*at);
+  }
+
+ private:
+  static constexpr float kNowhere[3] = {};
+  static double length_of(const float* a, const float* b) {
+    return std::hypot(double{a[0]} - double{b[0]}, double{a[1]} - double{b[1]}, double{a[2]} - double{b[2]});
+  }
 };
 
 struct Judged {
   std::string path;
-  std::vector<Sums> sums;  // one for each of the options' ticks
+  std::vector<Sums> sums;    // one for each of the options' ticks
+  std::vector<float> trace;  // displacement [ticks + 1][nodes][3] along the last motion
   uint32_t held = 0, fallbacks = 0;
 };
 
-void add_tick(const JudgeOptions& options, size_t tick, const TrueMotion& motion, const float* u,
-              const float* first, size_t nodes, Judged* to) {
+// The tick that the trace ends with.
+void add_tick(const JudgeOptions& options, size_t tick, const TrueMotion& motion, const float* first,
+              size_t nodes, Judged* to) {
+  const float *u = &to->trace[3 * nodes * tick], *before = u - 3 * nodes;
+  const float *truth = motion.displacement(tick), *truth_before = motion.displacement(tick - 1);
   for (size_t k = 0; k < options.ticks.size(); ++k) {
     if (tick > options.ticks[k] || options.ticks[k] > motion.ticks()) continue;
-    for (size_t n = 0; n < nodes; ++n)
-      to->sums[k].add(u + 3 * n, motion.displacement(tick) + 3 * n, first + 3 * n);
+    for (size_t n = 0; n < 3 * nodes; n += 3)
+      to->sums[k].add({u + n, before + n}, {truth + n, truth_before + n}, first + n);
   }
 }
 
@@ -72,16 +104,19 @@ void follow(const JudgeOptions& options, const std::vector<LoadedPack>& characte
             std::vector<Judged>* judged) {
   const TrueMotion motion = read_motion(truth, characters);
   const size_t nodes = characters.front().view().nodes.size();
+  for (Judged& one : *judged) one.trace.assign(3 * nodes, 0.0f);  // at rest on the skinning
   std::vector<std::unique_ptr<ClosedLoop>> loops;
   for (const LoadedPack& character : characters)
     loops.push_back(std::make_unique<ClosedLoop>(character, motion));
   const size_t last = std::min(motion.ticks(), std::ranges::max(options.ticks));
   Progress progress("judging " + truth, last);
   for (size_t tick = 1; tick <= last; ++tick) {
-    for (const auto& loop : loops) loop->tick();
-    for (size_t c = 0; c < loops.size(); ++c)
-      add_tick(options, tick, motion, loops[c]->displacement(), loops[0]->displacement(), nodes,
-               &(*judged)[c]);
+    for (size_t c = 0; c < loops.size(); ++c) {
+      loops[c]->tick();
+      const float* u = loops[c]->displacement();
+      (*judged)[c].trace.insert((*judged)[c].trace.end(), u, u + 3 * nodes);
+      add_tick(options, tick, motion, loops[0]->displacement(), nodes, &(*judged)[c]);
+    }
     progress.update(tick);
   }
   for (size_t c = 0; c < loops.size(); ++c) {
@@ -121,7 +156,9 @@ nlohmann::ordered_json described(const JudgeOptions& options, const std::vector<
       const Sums &sums = one.sums[k], &first = judged.front().sums[k];
       if (sums.nodes == 0) continue;
       character["ticks"][std::to_string(options.ticks[k])] = {{"mean_mm", sums.mean_mm()},
+                                                              {"p95_mm", sums.p95_mm()},
                                                               {"ratio", sums.ratio()},
+                                                              {"velocity_ratio", sums.velocity_ratio()},
                                                               {"added", added_share(sums, first)},
                                                               {"apart", sums.apart / first.error}};
     }
@@ -145,6 +182,20 @@ void check_options(const JudgeOptions& options) {
   if (std::ranges::any_of(options.ticks, [](size_t t) { return t < 1 || t > 1'000'000; }))
     throw BadInput("--ticks: must be whole numbers from 1 to 1000000");
   if (!(options.most_added.value_or(0) >= 0)) throw BadInput("--most-added: must be a number from 0 up");
+  if (!options.trace.empty() && options.truth.size() != 1)
+    throw BadInput("--trace: is of one motion; give one --truth");
+}
+
+// displacement.K of the K-th character.
+void write_trace(const JudgeOptions& options, const std::vector<Judged>& judged, size_t nodes) {
+  if (options.trace.empty()) return;
+  Safetensors file{.path = options.trace, .metadata = {{"sinew.trace", "1"}}, .tensors = {}};
+  for (size_t c = 0; c < judged.size(); ++c) {
+    const std::vector<float>& trace = judged[c].trace;
+    file.tensors["displacement." + std::to_string(c)] =
+        tensor_f32({trace.size() / (3 * nodes), nodes, 3}, trace);
+  }
+  write_safetensors(options.trace, file);
 }
 
 std::vector<LoadedPack> load_characters(const JudgeOptions& options) {
@@ -172,8 +223,9 @@ int run_judge(const JudgeOptions& options) {
   const std::vector<LoadedPack> characters = load_characters(options);
   std::vector<Judged> judged;
   for (const std::string& path : options.characters)
-    judged.push_back({path, std::vector<Sums>(options.ticks.size())});
+    judged.push_back({.path = path, .sums = std::vector<Sums>(options.ticks.size()), .trace = {}});
   for (const std::string& truth : options.truth) follow(options, characters, truth, &judged);
+  write_trace(options, judged, characters.front().view().nodes.size());
   check_all_judged(options, judged.front());
   const bool ok = within(options, judged);
   if (options.json)
@@ -195,6 +247,11 @@ void add_judge_command(CLI::App& app, int* exit_code) {
       ->required();
   command->add_option("--truth", options->truth, "trajectories of sinew-bake truth")->required();
   command->add_option("--ticks", options->ticks, "roll-outs of so many ticks; by default 10 50 200 600");
+  command
+      ->add_option("--trace", options->trace,
+                   "T.safetensors: displacement of the control nodes after every tick, [ticks + 1][nodes][3] "
+                   "metres along their frames, of each character along one motion")
+      ->group(kOutputs);
   command->add_option("--most-added", options->most_added,
                       "exit 1 where a character adds more than this share to the first one's error");
   command->add_option("--isa", options->isa, "an instruction set of this processor; the best by default");

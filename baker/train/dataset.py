@@ -6,6 +6,7 @@ import numpy as np
 import torch
 
 from .inputs import FELT
+from .limit import within
 from .modal_base import ModalBase
 from .model import normalized_adjacency
 from .safetensors import BadData
@@ -16,9 +17,10 @@ SPLITS = ("train", "validation", "test", "long")
 
 
 class Group:
-    """Sequences of one body and one length. R regions, n nodes in the largest, S sequences, T ticks."""
+    """Sequences of one body and one length. R regions, n nodes in the largest, S sequences, T ticks. limits: of each
+    region, metres; the truth is held within it as the runtime's answer is."""
 
-    def __init__(self, trajectories, name="", device="cpu"):
+    def __init__(self, trajectories, name="", device="cpu", limits=None):
         body = trajectories[0].body
         self.body, self.trajectories, self.name, self.device = body, trajectories, name, device
         counts = np.bincount(body.region, minlength=len(body.radius_m))
@@ -42,7 +44,17 @@ class Group:
         self.drive = self._stack([t.drive for t in trajectories])  # (S, T+1, N, 15)
         self.rotation = self._stack([t.rotation for t in trajectories])  # (S, T+1, N, 9)
         self.displacement = self._stack([t.displacement for t in trajectories])  # (S, T+1, N, 3) metres
+        if limits is not None:
+            self._hold_within(torch.as_tensor(limits, dtype=torch.float32, device=device))
         self.count, self.ticks = self.drive.shape[0], self.drive.shape[1] - 1
+
+    def _hold_within(self, limits):
+        self.base.limit = limits
+        for r, limit in enumerate(limits):
+            nodes = torch.as_tensor(np.array(self.body.region) == r, device=self.device)
+            one = self.displacement[:, :, nodes].flatten(0, 1).transpose(0, 1)  # (n, S (T+1), 3)
+            shown = within(limit[None], one[None])[0].transpose(0, 1)
+            self.displacement[:, :, nodes] = shown.unflatten(0, self.displacement.shape[:2])
 
     def _stack(self, arrays):
         return torch.as_tensor(np.stack([np.asarray(a, np.float32) for a in arrays]), device=self.device)
@@ -158,10 +170,10 @@ def _alike(one, other):
     return name == other_name and len(a.drive) == len(b.drive) and a.body.same_as(b.body)
 
 
-def group(named, device="cpu"):
-    """One Group for each body and length of (body's name, trajectory) pairs."""
+def group(named, device="cpu", limits=None):
+    """One Group for each body and length of (body's name, trajectory) pairs; limits as of a Group, for all of them."""
     groups = []
     for name, t in named:
         mates = next((g for g in groups if _alike(g[0], (name, t))), None)
         mates.append((name, t)) if mates else groups.append([(name, t)])
-    return [Group([t for _, t in g], g[0][0], device) for g in groups]
+    return [Group([t for _, t in g], g[0][0], device, limits) for g in groups]

@@ -7,7 +7,7 @@ import torch
 from . import dataset
 from .inputs import FEEDBACK, columns
 from .modal_base import ModalBase
-from .rollout import moving_columns, raw_inputs, start, static_columns, tick
+from .rollout import bounded, start, static_columns, tick, told
 from .safetensors import BadData, load, refuse_over, save
 from .weights import read_weights
 
@@ -44,13 +44,13 @@ def _in_double(group):
 
 
 def check_vectors(weights, trajectory, ticks=VECTOR_TICKS):
-    """Tensors of a check file: one region's own roll-out in double precision, over the first `ticks` of a
-    trajectory.
+    """Tensors of a check file: a network's own roll-out on one region in double precision, its answers taken as they are,
+    told what else there is by a roll-out as the runtime's over the first `ticks` of a trajectory.
 
     edges (m, 2); z (T, n, F_in) with zeros where displacement and velocity go; carry (T, n, 3), y0 (n, 3) and
     y (T, n, 3) in length units. Displacement is the last tick's y x its scale, velocity y_{t-1} - y_{t-2} x
     its scale, with y_{-1} = y_0. What the frames and the base make of the displacement (turn, bent inputs)
-    stands in z as this roll-out had it."""
+    stands in z as the roll-out had it."""
     model, scaling, _ = read_weights(weights)
     model, group = model.double(), _in_double(dataset.group([("", trajectory)])[0])
     nodes, ticks = int(group.mask[0].sum()), min(ticks, group.ticks)
@@ -59,18 +59,20 @@ def check_vectors(weights, trajectory, ticks=VECTOR_TICKS):
     felt, drive, turn, _ = group.window(first, first, ticks)
     static, state, packed = static_columns(group, scaling, 1), start(model, group, 1), model.packed()
     zs, ys, carries = [], [], []
+    y, y_before, memory = state.base.l, state.base.l, state.memory
     with torch.no_grad():
         for t in range(ticks):
             now = (turn[0][t], turn[1][t])
-            _, l, force = group.base.predict(state.base, felt[t], now)
-            raw = raw_inputs(group, scaling, state.base, state.l_before, drive[t], l, force)
-            z = torch.cat([static, moving_columns(raw, scaling)], -1)
+            _, l, z, _ = told(group, scaling, static, state, felt[t], drive[t], now)
+            carry = l / unit - y
+            for k, fed in zip(FEEDBACK, (y, y - y_before)):
+                z[..., columns(k)] = bounded(fed, k, scaling)
+            (y, memory), y_before = model.step(packed, group.P, z, memory, y, carry), y
             for k in FEEDBACK:
                 z[..., columns(k)] = 0
-            zs.append(z[0, :nodes, 0].float())
-            carries.append(((l - state.base.l) / unit)[0, :nodes, 0].float())
+            for to, value in ((zs, z), (carries, carry), (ys, y)):
+                to.append(value[0, :nodes, 0].float())
             state = tick(model, packed, group, scaling, static, state, felt[t], drive[t], now)
-            ys.append((state.base.l / unit)[0, :nodes, 0].float())
     edges = np.array(trajectory.body.edges)
     return {
         "edges": edges[(edges < nodes).all(1)].astype(np.int32),

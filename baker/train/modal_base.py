@@ -1,12 +1,14 @@
 """The modal base that a network corrects (runtime/tissue/modal_base.hpp), for batches of sequences.
 
 Shapes: R regions of n nodes, K modes, B sequences. Displacements are (R, n, B, 3) in metres along the nodes'
-own frames; l is what the modes add up to, u the same after warping (Choi and Ko 2005)."""
+own frames; l is what the modes add up to, u the same after warping (Choi and Ko 2005) and as far as it may be shown."""
 import math
 from dataclasses import dataclass
 
 import numpy as np
 import torch
+
+from .limit import within
 
 LARGEST_TURN = 2.0  # rad: beyond it a linear turn means nothing
 PROJECTION_RIDGE = 1e-3  # shapes of one region are far from independent at few nodes
@@ -129,10 +131,16 @@ class ModalBase:
         self.tick_s = tick_s
         self.frame_terms = self.warping = True  # off: the plain models of baselines.py
         self.regions, self.nodes = len(bases), max(regions_nodes)
+        self.limit = torch.full((self.regions,), math.inf, device=device, dtype=dtype)  # metres, of what is shown
         self.modes = max(len(b["rad_per_s"]) for b in bases)
         regions = [_of_region(b, tick_s) for b in bases]
         for name in regions[0]:
             setattr(self, name, _side_by_side([r[name] for r in regions]).to(device, dtype))
+        self._tell_swings()
+
+    def _tell_swings(self):
+        """Which modes take corrections: a budget's proof wants that they swing."""
+        self.swings = (self.a1.square() + 4 * self.a2 < 0).to(self.a1.dtype)
 
     @classmethod
     def union(cls, bases):
@@ -159,13 +167,14 @@ class ModalBase:
         q = self.shape.new_zeros(self.regions, self.modes, batch)
         return BaseState(zero, zero, zero, q, q, zero, zero, zero)
 
-    def predict(self, state, felt, turn_now):
+    def predict(self, state, felt, turn_now, corrected=None):
         """What the modes alone do in a tick: (q, what the modes left out add to l), l, and the force along the turned
         flesh that drove them. felt (R, n, B, 3) m/s^2. turn_now: R_t^T R_{t-1} and R_t^T R_{t-2}, each
-        (R, n, B, 3, 3)."""
+        (R, n, B, 3, 3). corrected (R, K, B): what a network moved the modes by, which does not turn the force."""
         f = felt + self._frame_term(state, turn_now) if self.frame_terms else felt
         if self.warping:
-            f = turned(state.theta, f, transposed=True)
+            theta = state.theta if corrected is None else self._theta(state.q - corrected)
+            f = turned(theta, f, transposed=True)
         q = self.a1 * state.q + self.a2 * state.q_before + self.gain * self._gather(self.force, f)
         goal = self._apply(self.rest, f.transpose(2, 3).reshape(self.regions, 3 * self.nodes, -1))
         swing = self.rest_a1 * state.rest + self.rest_a2 * state.rest_before
@@ -182,7 +191,7 @@ class ModalBase:
         """l and q with warped(theta(q), l) = u, by a fixed point; good where turns stay below about 1 rad."""
         l = u
         for _ in range(12 if self.warping else 0):
-            theta = held(self._apply(self.turn, self._gather(self.project, l - rest)))
+            theta = self._theta(self._gather(self.project, l - rest))
             l = l + 0.8 * (u - warped(theta, l))
         return l, self._gather(self.project, l - rest)
 
@@ -191,15 +200,17 @@ class ModalBase:
         left out add is taken from `state`."""
         l, q = self.unwarped(u, state.rest)
         l_before, q_before = self.unwarped(u_before, state.rest_before)
-        theta = held(self._apply(self.turn, q)) if self.warping else torch.zeros_like(u)
+        theta = self._theta(q) if self.warping else torch.zeros_like(u)
         return BaseState(l, u, u_before, q, q_before, theta, state.rest, state.rest_before), l_before
 
-    def arrive(self, state, l, answer, correction=None):
-        """The state after a tick: the l and (q, rest) of predict(), and what a network adds to that l."""
+    def _theta(self, q):
+        return held(self._apply(self.turn, q))
+
+    def arrive(self, state, l, answer, taken=None):
+        """The state after a tick: the l and (q, rest) of predict(), and what a network moves the modes by, (R, K, B)."""
         q, rest = answer
-        if correction is not None:
-            l, q = l + correction, q + self._gather(self.project, correction)
-        if not self.warping:
-            return BaseState(l, l, state.u, q, state.q, torch.zeros_like(l), rest, state.rest)
-        theta = held(self._apply(self.turn, q))
-        return BaseState(l, warped(theta, l), state.u, q, state.q, theta, rest, state.rest)
+        if taken is not None:
+            l, q = l + self._apply(self.shape, taken), q + taken
+        theta = self._theta(q) if self.warping else torch.zeros_like(l)
+        u = within(self.limit, warped(theta, l) if self.warping else l)
+        return BaseState(l, u, state.u, q, state.q, theta, rest, state.rest)

@@ -1,14 +1,22 @@
-"""One tick of a network closed on its modal base, and whole roll-outs from rest, as the runtime runs them.
+"""One tick of a network closed on its modal base, and whole roll-outs from rest, as the runtime runs them
+(runtime/world/simulate.cpp).
 
-l_t = (what the modes make of l_{t-1}) + output_scale c_t: Alt-ConvLSTM's own Y_t = Y_{t-1} + C_t + (its
-carry), with the modal base in the place of the skinning's motion."""
+The network's answer is Alt-ConvLSTM's own Y_t = Y_{t-1} + C_t + (its carry), with what the modes make of l_{t-1} in
+the place of the skinning's motion. What it adds to the modes is bounded by a budget (correction.py), what is shown by
+the region's limit (limit.py), and a network far outside of what it was trained on is not trusted."""
 from dataclasses import dataclass, replace
 
 import torch
 
-from .inputs import AXIAL, CROSSED, DRIVE, INPUT_WIDTH, ORDER, STATIC, STATIC_WIDTH, WIDTH, columns
+from .correction import Corrected, correct, none_yet
+from .inputs import AXIAL, CROSSED, DRIVE, FELT, INPUT_WIDTH, ORDER, STATIC, WIDTH, columns
+from .limit import within
 from .modal_base import BaseState, cross
 from .model import largest_cell
+
+CLAMPED_SHARE = 0.05  # of a region's inputs outside of the envelope: the network is not trusted at all
+FASTER_SHARE = 0.25  # above the largest trained frequency: likewise
+ROUNDING = 1e-5  # radians, and of the radius: a pose that moves by no more stays as it is
 
 
 @dataclass
@@ -16,6 +24,11 @@ class State:
     base: BaseState
     l_before: torch.Tensor  # (R, n, B, 3) metres
     memory: list  # of the network
+    corrected: Corrected
+
+    def map(self, change):
+        memory = self.memory and [tuple(change(x) for x in layer) for layer in self.memory]
+        return State(self.base.map(change), change(self.l_before), memory, self.corrected.map(change))
 
 
 def bounded(values, name, scaling):
@@ -32,12 +45,14 @@ def static_columns(group, scaling, batch):
 
 
 def moving_columns(raw, scaling):
-    """What changes from tick to tick, side by side: scaled and held in the envelope as by bounded()."""
+    """What changes from tick to tick, side by side, scaled and held in the envelope as by bounded(); and how many numbers of
+    each region were held, (R, B)."""
     names = [k for k in ORDER if k in raw]
     row = lambda of: torch.tensor([of(k) for k in names for _ in range(WIDTH[k])], device=raw[names[0]].device)
     scale = row(lambda k: 0.0 if k in scaling.without else scaling.scale[k])
     most = row(lambda k: scaling.envelope[k])
-    return (torch.cat([raw[k] for k in names], -1) * scale).clamp(-most, most)
+    z = torch.cat([raw[k] for k in names], -1) * scale
+    return z.clamp(-most, most), (z.detach().abs() > most).sum((1, 3))
 
 
 def mirror_signs(device="cpu"):
@@ -66,33 +81,73 @@ def raw_inputs(group, scaling, base, l_before, drive, predicted_l, felt):
     return {**raw, **dict(zip(CROSSED, cross(left, right)))}
 
 
+def trust(group, scaling, held):
+    """(R, B): how far a network is trusted of whose inputs so many were held in the envelope."""
+    def outside(name):
+        beyond = (group.static[name] * scaling.scale[name]).abs() > scaling.envelope[name]
+        return beyond.sum((1, 2))[:, None]
+
+    numbers = (INPUT_WIDTH - 1) * group.mask.sum(1)[:, None]
+    held = held + sum(outside(k) for k in STATIC if k != "frequency")
+    fastest = group.static["frequency"].amax((1, 2))[:, None] * scaling.scale["frequency"]
+    faster = (fastest / scaling.envelope["frequency"] - 1).clamp(min=0)
+    return (1 - held / (CLAMPED_SHARE * numbers)).clamp(min=0) * (1 - faster / FASTER_SHARE).clamp(min=0)
+
+
+def pose_stays(group, drive, turn_now):
+    """(R, B): whether the nodes stand as in the last two ticks."""
+    moved = (drive[..., FELT] - drive[..., DRIVE["gravity_change"]]).abs().amax((1, 3))  # m/s^2
+    eye = torch.eye(3, device=drive.device, dtype=drive.dtype)
+    turned = torch.maximum(*((m - eye).abs().amax((1, 3, 4)) for m in turn_now))
+    least = ROUNDING * group.radius[:, 0, 0] / group.base.tick_s**2
+    return (moved <= least) & (turned <= ROUNDING)
+
+
+def told(group, scaling, static, state, felt, drive, turn_now):
+    """The modes' answer to a tick and its l, what the network is told of it, z (R, n, B, .), and how far it is trusted."""
+    answer, l, force = group.base.predict(state.base, felt, turn_now, state.corrected.d)
+    moving, held = moving_columns(raw_inputs(group, scaling, state.base, state.l_before, drive, l, force), scaling)
+    return answer, l, torch.cat([static, moving], -1), trust(group, scaling, held)
+
+
+def _alone(model, packed, group, scaling, static, state, felt, drive):
+    """A network without a modal base (an ablation)."""
+    base, unit = state.base, scaling.length_unit * group.radius
+    raw = raw_inputs(group, scaling, base, state.l_before, drive, base.l, felt)
+    z = torch.cat([static, moving_columns(raw, scaling)[0]], -1)
+    y, memory = model.step(packed, group.P, z, state.memory, base.l / unit, torch.zeros_like(base.l))
+    l = y * unit * group.mask[..., None, None]
+    return State(replace(base, l=l, u=l, u_before=base.u), base.l, memory, state.corrected)
+
+
 def tick(model, packed, group, scaling, static, state, felt, drive, turn_now, mirror=None):
     """The state one tick on. model None: the modal base alone. mirror: (B, INPUT_WIDTH) signs, the network
     sees those sequences mirrored. felt, drive, turn_now: as Group.window gives them, of this tick."""
     base = state.base
-    alone = model is not None and "base" in scaling.without
-    answer, l, force = (None, base.l, felt) if alone else group.base.predict(base, felt, turn_now)
     if model is None:
-        return State(group.base.arrive(base, l, answer), base.l, state.memory)
+        answer, l, _ = group.base.predict(base, felt, turn_now)
+        return State(group.base.arrive(base, l, answer), base.l, state.memory, state.corrected)
+    if "base" in scaling.without:
+        return _alone(model, packed, group, scaling, static, state, felt, drive)
     unit = scaling.length_unit * group.radius
-    raw = raw_inputs(group, scaling, base, state.l_before, drive, l, force)
-    z = torch.cat([static, moving_columns(raw, scaling)], -1)
-    y, carry = base.l / unit, (l - base.l) / unit
+    answer, l, z, trusted = told(group, scaling, static, state, felt, drive, turn_now)
+    y = within(group.base.limit, base.l) / unit
+    carry = l / unit - y
     if mirror is None:
         y, memory = model.step(packed, group.P, z, state.memory, y, carry)
     else:
         flip = mirror[:, columns("displacement")]
         y, memory = model.step(packed, group.P, z * mirror, state.memory, y * flip, carry * flip)
         y = y * flip
-    y = y * unit * group.mask[..., None, None]
-    if alone:
-        return State(replace(base, l=y, u=y, u_before=base.u), base.l, memory)
-    return State(group.base.arrive(base, l, answer, y - l), base.l, memory)
+    change = (y * unit - l) * trusted[:, None, :, None] * group.mask[..., None, None]
+    taken, corrected = correct(group.base, state.corrected, answer[0], change, pose_stays(group, drive, turn_now))
+    return State(group.base.arrive(base, l, answer, taken), base.l, memory, corrected)
 
 
 def start(model, group, batch):
     base = group.base.start(batch)
-    return State(base, base.l, None if model is None else model.zero_state(group.regions, group.nodes, batch))
+    memory = None if model is None else model.zero_state(group.regions, group.nodes, batch)
+    return State(base, base.l, memory, none_yet(group.base, batch))
 
 
 def _prepared(model, scaling, group, batch):
@@ -106,8 +161,9 @@ def _prepared(model, scaling, group, batch):
 def stand_at(group, scaling, u, u_before, state):
     """The state of tissue that is at u and was at u_before a tick ago; the network's memory stays."""
     if scaling is not None and "base" in scaling.without:  # nothing is warped: l is u
-        return State(replace(state.base, l=u, u=u, u_before=u_before), u_before, state.memory)
-    return State(*group.base.stand_at(u, u_before, state.base), state.memory)
+        return replace(state, base=replace(state.base, l=u, u=u, u_before=u_before), l_before=u_before)
+    base, l_before = group.base.stand_at(u, u_before, state.base)
+    return State(base, l_before, state.memory, none_yet(group.base, u.shape[2]))
 
 
 def single_steps(model, scaling, group):

@@ -13,7 +13,7 @@ from .episode import Episode
 from .files import write_json
 from .inputs import INPUT_WIDTH
 from .model import AltConvLSTM, ModelOptions
-from .rollout import State, error_ratio, roll_out, single_steps, stand_at, tick, truth
+from .rollout import State, error_ratio, roll_out, single_steps, stand_at, start, tick, truth
 from .safetensors import BadData
 from .scaling import measure_scaling
 from .train_options import TrainOptions
@@ -84,24 +84,25 @@ class Trainer:
         return state
 
     def _without_the_lost(self, episode):
-        g, state = episode.group, episode.state
-        base = state.base.map(torch.Tensor.detach)
-        memory = [tuple(x.detach() for x in layer) for layer in state.memory]
+        g, state = episode.group, episode.state.map(torch.Tensor.detach)
         reach = 4 * self.bound * episode.gain.clamp(min=1)
-        fine = ((base.u.norm(dim=-1) < reach) | ~g.mask[..., None]).all(1).all(0)  # false where not a number
-        if not bool(fine.all()):
-            base = base.where(fine, g.base.start(episode.size))
-            keep = fine[:, None]
-            memory = [tuple(torch.where(keep, x, torch.zeros_like(x)) for x in layer) for layer in memory]
-        l_before = torch.where(fine[:, None], state.l_before.detach(), torch.zeros_like(base.l))
-        return State(base, l_before, memory)
+        fine = ((state.base.l.norm(dim=-1) < reach) | ~g.mask[..., None]).all(1).all(0)  # false where not a number
+        if bool(fine.all()):
+            return state
+        rest, keep = start(self.model, g, episode.size), fine[:, None]
+        return State(
+            state.base.where(fine, rest.base),
+            torch.where(keep, state.l_before, rest.l_before),
+            [tuple(torch.where(keep, x, torch.zeros_like(x)) for x in layer) for layer in state.memory],
+            state.corrected.where(fine, rest.corrected),
+        )
 
     def _disturbed(self, g, base):
         """Modes kicked, the lower the harder; what was before stays."""
         unit = self.scaling.length_unit * g.radius * self.options.disturbance
         lower = 1 / (1 + torch.arange(g.base.modes, device=base.q.device))[:, None]
         kick = torch.randn_like(base.q) * lower * unit[..., 0]
-        moved = g.base.arrive(base, base.l, (base.q, base.rest), g.base._apply(g.base.shape, kick))
+        moved = g.base.arrive(base, base.l, (base.q, base.rest), kick)
         return replace(base, l=moved.l, u=moved.u, q=moved.q, theta=moved.theta)
 
     def _tick_loss(self, episode, u, true):

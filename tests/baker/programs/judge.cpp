@@ -112,6 +112,39 @@ TEST_CASE("the_closed_loop_follows_the_truth_and_the_error_is_counted_against_it
   CHECK(ratio_of(twice) == Approx(ratio_of(right)).epsilon(1e-12));
 }
 
+// The trace is what was judged: its errors are the report's, but that the report holds the truth within the
+// limit of what is shown, where this hop gets near it.
+TEST_CASE("a_trace_holds_the_displacement_that_is_judged") {
+  check_refused(
+      {"judge", hop().pack("modes"), "--truth", hop().truth, hop().truth, "--trace", "t.safetensors"},
+      {"--trace", "one --truth"});
+  constexpr double kHeld = 0.05;
+  const std::string path = hop().folder.file("trace.safetensors");
+  const nlohmann::json said = judged(
+      {hop().pack("modes"), hop().pack("network"), "--truth", hop().truth, "--ticks", "50", "--trace", path});
+  const Safetensors trace = read_safetensors(path), truth = read_safetensors(hop().truth);
+  const Tensor& true_tensor = truth.tensors.at("displacement");
+  const long nodes = static_cast<long>(true_tensor.shape[1]);
+  const std::vector<float> u = trace.need("displacement.1", {51, nodes, 3}).as_f32(),
+                           wanted = true_tensor.as_f32();
+  std::vector<double> errors;
+  double sum = 0;
+  for (size_t i = 3 * static_cast<size_t>(nodes); i < u.size(); i += 3) {
+    errors.push_back(1e3 * std::hypot(double{u[i]} - double{wanted[i]},
+                                      double{u[i + 1]} - double{wanted[i + 1]},
+                                      double{u[i + 2]} - double{wanted[i + 2]}));
+    sum += errors.back();
+  }
+  std::ranges::sort(errors);
+  const nlohmann::json& at = said["characters"][1]["ticks"]["50"];
+  CHECK(at["mean_mm"].get<double>() == Approx(sum / static_cast<double>(errors.size())).epsilon(kHeld));
+  CHECK(at["p95_mm"].get<double>() ==
+        Approx(errors[static_cast<size_t>(0.95 * static_cast<double>(errors.size() - 1))]).epsilon(kHeld));
+  // A body that swings errs by more of what changes in a tick than of where it is.
+  CHECK(at["velocity_ratio"].get<double>() > at["ratio"].get<double>());
+  CHECK(at["velocity_ratio"].get<double>() < 0.5);
+}
+
 TEST_CASE("a_character_adds_nothing_to_itself_and_a_worse_one_fails_the_check") {
   const nlohmann::json same =
       judged({hop().pack("network"), hop().pack("network"), "--truth", hop().truth, "--most-added", "0"});

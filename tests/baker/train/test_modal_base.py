@@ -228,7 +228,7 @@ class Base(unittest.TestCase):
         base = without_ridge(self.group.base)
         state = support.base_states(self.group, None, self.scaling, torch.tensor([0, 1]), 30)[-1]
         change = 0.01 * torch.randn(2, synthetic.MODES, 2)
-        found = base.arrive(state, state.l, (state.q, state.rest), base._apply(base.shape, change))
+        found = base.arrive(state, state.l, (state.q, state.rest), change)
         l = base._apply(base.shape, state.q + change) + state.rest
         want = base.arrive(state, l, (state.q + change, state.rest))
         for name in ("l", "u", "q", "theta"):
