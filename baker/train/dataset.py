@@ -82,13 +82,6 @@ class Group:
         turn = lambda before: torch.matmul(r[2:].transpose(-1, -2), before)
         return drive[..., FELT], drive, (turn(r[1:-1]), turn(r[:-2])), u
 
-    def amplitude_m(self):
-        """(R, S): root mean square of |u| in each region and sequence."""
-        u = self.displacement[:, ::2].square().sum(-1)  # (S, T/2, N)
-        nodes = lambda r: torch.as_tensor(np.array(self.body.region) == r, device=self.device)
-        of = lambda r: u[..., nodes(r)].mean((1, 2))
-        return torch.stack([of(r) for r in range(self.regions)]).sqrt().clamp(min=1e-5)
-
     def radius_m(self):
         """(N,) of each node's region."""
         return torch.as_tensor(np.array(self.body.radius_m)[self.body.region], device=self.device)
@@ -115,6 +108,8 @@ class Union:
         self.radius = torch.cat([g.radius for g in groups])
         self.static = {k: torch.cat([self._wide(g.static[k], 1) for g in groups]) for k in groups[0].static}
         self.base = ModalBase.union([g.base for g in groups])
+        nodes = self.mask.sum(1, keepdim=True)
+        self.share = (self.mask / nodes / self.regions)[..., None]  # (R, n, 1) of each node in a mean: regions alike
 
     def _wide(self, a, axis):
         """Zeros at the end of an axis, up to the largest region's nodes."""

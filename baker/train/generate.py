@@ -76,7 +76,7 @@ def is_done(path, job):
     numbers = {"seed": job.seed, "strength": job.strength, "seconds": job.seconds}
     if job.substeps:
         numbers["substeps"] = job.substeps
-    texts = {"motion": job.motion, "held_out": job.held_out}
+    texts = {"motion": job.motion, "held_out": ",".join(job.held_out)}
     return (
         all(have.metadata.get(k) == f"{v:g}" for k, v in numbers.items())
         and all(have.metadata.get(k, "") == v for k, v in texts.items())
@@ -94,9 +94,9 @@ def truth_command(bake, character, recipe, job, out):
         "seconds": f"{job.seconds:g}",
         **({"substeps": job.substeps} if job.substeps else {}),
         **({"recipe": recipe} if recipe else {}),
-        **({"hold-out": job.held_out} if job.held_out else {}),
     }
     command += [text for key, value in options.items() for text in (f"--{key}", str(value))]
+    command += [text for clip in job.held_out for text in ("--hold-out", clip)]
     return command + (["--surface"] if job.surface else [])
 
 

@@ -28,7 +28,7 @@ class Job:
     strength: float
     seconds: float
     substeps: int = 0  # 0: as many as sinew-bake truth takes for the body
-    held_out: str = ""  # a clip that random motions and leaps must not use
+    held_out: tuple = ()  # clips that random motions and leaps must not use
     surface: bool = False
 
     @property
@@ -126,7 +126,7 @@ def _line_jobs(plan, line, clips):
     """The simulations of one line. Drawn motions take seeds from first_seed on; of a clip, seed 0
     is the clip as it is."""
     held_out = plan["held_out_clip"] if plan["held_out_clip"] in clips else ""
-    unseen = held_out if line["split"] in ("train", "validation") else ""
+    unseen = (held_out,) if held_out and line["split"] in ("train", "validation") else ()
     first = line.get("first_seed", 1)
     free = [c for c in clips if c != held_out]
     motions = [(kind, kind, first + i, i) for kind in DRAWN for i in range(line.get(kind, 0))]

@@ -21,6 +21,8 @@ from .vanilla import FORMS, ConvLSTM
 from .weights import save_weights
 
 VALIDATED_TICKS = (50, 150)  # and the whole sequence
+LOST = 5  # times the largest displacement of the truth
+LEAST_ERROR = 0.25  # of its mean over sequences, in a region: where the base is exact an error counts for no more
 
 
 def _new_model(o):
@@ -28,6 +30,15 @@ def _new_model(o):
     options = ModelOptions(INPUT_WIDTH, tuple(o.channels), self_weights=True, **wiring)
     model = ConvLSTM(options, o.form) if o.form else AltConvLSTM(options)
     return model.start_for_training().to(o.device)
+
+
+def error_weights(group):
+    """(R, S), 1/m: one over what the modal base leaves in each region and sequence, so that flesh that hardly moves counts
+    as much as flesh that swings far."""
+    distance = (roll_out(None, None, group) - truth(group)).norm(dim=-1)  # (T+1, N, S)
+    of = lambda r: distance[:, torch.as_tensor(group.body.region == r)].mean((0, 1))
+    error = torch.stack([of(r) for r in range(group.regions)])
+    return 1 / (error + LEAST_ERROR * error.mean(1, keepdim=True) + 1e-7)
 
 
 class Trainer:
@@ -44,25 +55,14 @@ class Trainer:
             replace(measure_scaling(train_groups), without=tuple(options.without)),
         )
         self.optimizer = torch.optim.Adam(self.model.parameters(), options.learning_rate)
-        self.amplitudes = [g.amplitude_m() for g in train_groups]
-        self.weight, self.bound = (
-            torch.cat(values) for values in zip(*(self._region_figures(g) for g in train_groups))
-        )
+        self.weights, self.bound = ([f(g) for g in train_groups] for f in (error_weights, self._bound))
+        self.bound = torch.cat(self.bound)
         self.elapsed_s, self.updates, self.best, self.best_model, self.curve = 0.0, 0, float("inf"), None, []
 
-    def _region_figures(self, g):
-        """For each region (R, 1, 1): loss weight and bound of |u| in metres.
-
-        Errors count by the root of the region's amplitude: between millimetres alike and shares alike."""
+    def _bound(self, g):
+        """Of |l| in each region, (R, 1, 1) metres: what goes beyond is lost."""
         u = g.displacement[:, ::2].norm(dim=-1)
-        shape = lambda values: torch.stack(values)[:, None, None]
-        of = [u[..., torch.as_tensor(g.body.region == r)] for r in range(g.regions)]
-        rms = shape([x.square().mean().sqrt().clamp(min=1e-5) for x in of])
-        weight = rms.rsqrt()
-        share = (weight * rms * g.mask[:, :, None]).sum()  # skinning alone costs 1
-        nodes = self.bodies.mask[: g.regions, :, None].new_zeros(g.regions, self.bodies.nodes, 1).float()
-        nodes[:, : g.nodes, 0] = g.mask.float()
-        return weight / share * nodes * g.count**0.5, 1.2 * shape([x.max() for x in of])
+        return torch.stack([u[..., torch.as_tensor(g.body.region == r)].max() for r in range(g.regions)])[:, None, None]
 
     def fraction(self):
         if self.options.updates:
@@ -75,18 +75,9 @@ class Trainer:
         for group in self.optimizer.param_groups:
             group["lr"] = self.options.learning_rate * warm * (0.97 * cosine + 0.03)
 
-    def _start_of_window(self, episode):
-        """The last window's end without its gradients; what has left all bounds starts anew; here and there a
-        little disturbed."""
-        state = self._without_the_lost(episode)
-        if self.options.disturbance and float(torch.rand(())) < 0.3:
-            state = replace(state, base=self._disturbed(episode.group, state.base))
-        return state
-
     def _without_the_lost(self, episode):
         g, state = episode.group, episode.state.map(torch.Tensor.detach)
-        reach = 4 * self.bound * episode.gain.clamp(min=1)
-        fine = ((state.base.l.norm(dim=-1) < reach) | ~g.mask[..., None]).all(1).all(0)  # false where not a number
+        fine = ((state.base.l.norm(dim=-1) < LOST * self.bound) | ~g.mask[..., None]).all(1).all(0)  # false where not a number
         if bool(fine.all()):
             return state
         rest, keep = start(self.model, g, episode.size), fine[:, None]
@@ -97,38 +88,23 @@ class Trainer:
             state.corrected.where(fine, rest.corrected),
         )
 
-    def _disturbed(self, g, base):
-        """Modes kicked, the lower the harder; what was before stays."""
-        unit = self.scaling.length_unit * g.radius * self.options.disturbance
-        lower = 1 / (1 + torch.arange(g.base.modes, device=base.q.device))[:, None]
-        kick = torch.randn_like(base.q) * lower * unit[..., 0]
-        moved = g.base.arrive(base, base.l, (base.q, base.rest), kick)
-        return replace(base, l=moved.l, u=moved.u, q=moved.q, theta=moved.theta)
-
     def _tick_loss(self, episode, u, true):
-        """Weighted distance to truth; where there is none, what exceeds the bound. u, true (R, n, B, 3)."""
+        """Distance to the truth over what the modal base leaves of it: 1 is the base. u, true (R, n, B, 3)."""
         distance = ((u - true).square().sum(-1) + 1e-12).sqrt()
-        excess = (u.square().sum(-1) + 1e-12).sqrt() - self.bound * episode.gain.clamp(min=1)
-        loss = torch.where(episode.known(), distance, excess.clamp(min=0))
-        return (loss * self.weight * episode.weight).sum() / u.shape[2]
+        return (distance * episode.weight * episode.group.share).sum() / u.shape[2]
 
     def _run_window(self, episode):
         felt, drive, turn, true = episode.next_window()
-        state, packed, loss = self._start_of_window(episode), self.model.packed(), 0.0
+        state, packed, loss = self._without_the_lost(episode), self.model.packed(), 0.0
         for t in range(len(felt)):
             now = (turn[0][t], turn[1][t])
             fixed = (self.model, packed, episode.group, self.scaling, episode.static)
             state = tick(*fixed, state, felt[t], drive[t], now, episode.mirror)
             loss = loss + self._tick_loss(episode, state.base.u, true[t])
             if self.options.teacher_forced:
-                state = self._at_truth(episode, state, true[t])
+                state = stand_at(episode.group, self.scaling, true[t], state.base.u_before, state)
         episode.state = state
         return loss / len(felt)
-
-    def _at_truth(self, episode, state, true):
-        """Put where the truth is, if there is one."""
-        u = torch.where(episode.known()[:, None], true, state.base.u)
-        return stand_at(episode.group, self.scaling, u, state.base.u_before, state)
 
     def update(self, episode):
         self._set_rate()
@@ -142,7 +118,7 @@ class Trainer:
         return float(loss)
 
     def new_episode(self):
-        return Episode(self.bodies, self.scaling, self.options, self.model, self.amplitudes)
+        return Episode(self.bodies, self.scaling, self.options, self.model, self.weights)
 
     def validate(self):
         """Ratios to skinning, by ticks, of roll-outs from rest, or of single steps if they were trained;

@@ -20,10 +20,8 @@ class TrainOptions:
     hidden_leak: float = 0.2
     output_scale: float = 0.15  # length units a tick for a cell of 1
     state_clamp: float = 8.0
-    overdrive: float = 0.15  # share of a batch driven up to three times too hard, then left in stillness
-    stillness: float = 0.08  # share of a batch that is not driven at all: truth is zero
+    stillness: float = 0.08  # share of a batch that is not driven at all: without it small motions get worse
     mirror: bool = True  # half of the sequences seen mirrored left to right
-    disturbance: float = 0.05  # displacement noise at some windows' start, length units
     bodies: tuple = ()  # train on these only; empty: all that have training sequences
     without: tuple = ()  # ablations: names of inputs that are fed zero; "base": no modal base
     form: str = ""  # baseline: a vanilla ConvLSTM (vanilla.py, FORMS) in the network's place. Never shipped.
@@ -43,9 +41,7 @@ class TrainOptions:
             "hidden_leak": ("from 0 to 1", 0 <= self.hidden_leak <= 1),
             "output_scale": ("above 0", 0 < self.output_scale < math.inf),
             "state_clamp": ("above 0", self.state_clamp > 0),
-            "overdrive": ("from 0 to 1", 0 <= self.overdrive <= 1),
             "stillness": ("from 0 to 1", 0 <= self.stillness <= 1),
-            "disturbance": ("0 or more", 0 <= self.disturbance < math.inf),
             "without": (f"of {', '.join((*ORDER, 'base'))}", set(self.without) <= {*ORDER, "base"}),
         }
         for name, (wanted, fine) in usable.items():

@@ -14,8 +14,9 @@ from .start import hash_of, read_start
 from .time_budget import in_words
 
 
-def _groups(simulation, split):
-    return dataset.group([("", read_trajectory(p)) for p in simulation.of_split(split).values()])
+def _groups(run, simulation, split):
+    named = [("", read_trajectory(p)) for p in simulation.of_split(split).values()]
+    return dataset.group(named, limits=run.limits or None)
 
 
 def _begin(run, path):
@@ -41,7 +42,7 @@ def provenance(run, tuner, jobs, begun):
         "updates": tuner.updates,
         "data": f"{len(jobs)} motions of {SECONDS:g} s: "
         + ", ".join(f"{j.motion} seed {j.seed} strength {j.strength:g}" for j in jobs),
-        "validation_ratio": f"{tuner.best:.4f}",
+        "validation_of_base": f"{tuner.best:.4f}",
     }
 
 
@@ -65,15 +66,15 @@ def train(run, simulation, seed):
     begun = _begin(run, path)
     if not _can_train(run, simulation):
         return None if begun is run.start else path
-    groups, validation = _groups(simulation, "train"), _groups(simulation, "validation")
+    groups, validation = (_groups(run, simulation, split) for split in ("train", "validation"))
     options = tuning_options(begun.model, seed)
     tuner = FineTuner(groups, validation, (begun.model, begun.scaling), options, run.stop)
     jobs, line, end_s = list(simulation.of_split("train")), ProgressLine(), run.budget.training_end_s()
 
     def report(t):
         line.update(
-            lambda: f"training: {in_words(end_s - time.monotonic())} to go, error on the validation motions "
-            f"{t.best:.3f} of skinning's, {t.start_ratio:.3f} before; all ends in "
+            lambda: f"training: {in_words(end_s - time.monotonic())} to go, error on the validation motions over the "
+            f"modal base's: {run.start.name} {t.start_ratio:.3f}, fine-tuned {t.best:.3f}; all ends in "
             f"{in_words(run.budget.left_s())}"
         )
 
@@ -84,7 +85,9 @@ def train(run, simulation, seed):
     tuner.tune(end_s, report, keep)
     line.clear()
     say(
-        f"trained for {in_words(tuner.elapsed_s)}, {tuner.updates} updates: error on the validation motions "
-        f"{tuner.start_ratio:.3f} of skinning's before, {tuner.best:.3f} now"
+        f"trained for {in_words(tuner.elapsed_s)}, {tuner.updates} updates: error on the validation motions over the modal "
+        f"base's {tuner.start_ratio:.3f} before, {tuner.best:.3f} now"
     )
+    if tuner.hopeless:
+        say("stopped early: what the modal base leaves here is nothing that a node could learn")
     return path if tuner.best < tuner.start_ratio or begun is not run.start else None

@@ -4,6 +4,7 @@ import subprocess
 from dataclasses import dataclass
 
 from ..safetensors import BadData
+from .verdict import Error
 
 
 @dataclass
@@ -40,9 +41,7 @@ class Baker:
     def describe(self, pack):
         return json.loads(self.run("info", pack, "--json"))
 
-    def judge(self, packs, truth, ticks):
-        """(mean error in mm, its ratio to skinning's) of each pack, ticked along a true motion as the runtime
-        does, its guards included."""
-        said = json.loads(self.run("judge", *packs, "--truth", truth, "--ticks", str(ticks), "--json"))
-        of = [one["ticks"][str(ticks)] for one in said["characters"]]
-        return [(at["mean_mm"], at["ratio"]) for at in of]
+    def judge(self, packs, truths, ticks):
+        """Error of each pack, ticked along true motions as the runtime does, its guards included."""
+        said = json.loads(self.run("judge", *packs, "--truth", *truths, "--ticks", str(ticks), "--json"))
+        return [Error(**{k: one["ticks"][str(ticks)][k] for k in Error._fields}) for one in said["characters"]]

@@ -28,7 +28,7 @@ def _parser():
     )
     p.add_argument("character", metavar="C.glb", help="skinned glTF or VRM; clips are used where it has any")
     p.add_argument("--recipe", metavar="R.json", help="as of sinew-bake character")
-    p.add_argument("--minutes", type=float, default=10.0, help="of the clock, for everything; default 10")
+    p.add_argument("--minutes", type=float, default=20.0, help="of the clock, for everything; default 20")
     p.add_argument("--tissue", metavar="W.safetensors", default=SHIPPED, help="weights to begin with")
     p.add_argument("-o", "--output", metavar="C.sinew", required=True)
     p.add_argument("--keep", action="store_true", help="write the tuned weights even where they do not win")
@@ -67,7 +67,7 @@ def _keep_inputs(a):
 def _check(a):
     """Throws BadData where an argument cannot be used."""
     if not (0 < a.minutes < math.inf):
-        raise BadData(f"--minutes {a.minutes:g}: must be above 0; it is the whole time, 10 is a good one")
+        raise BadData(f"--minutes {a.minutes:g}: must be above 0; it is the whole time, 20 is a good one")
     if a.processes < 1:
         raise BadData(f"--processes {a.processes}: must be 1 or more")
     _need_file(a.character, "a skinned glTF or VRM")

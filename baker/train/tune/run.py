@@ -33,6 +33,7 @@ class Run:
     cache: str  # C.train
     folder: str = ""  # in it, of this character as it is now: packs, motions, weights
     clips: list = field(default_factory=list)
+    limits: list = field(default_factory=list)  # metres, of each region, as baked
 
     def place(self, name):
         return os.path.join(self.folder, name)
@@ -79,6 +80,7 @@ def prepare(run):
         put(shipped, run.place("start.sinew"))
     line.clear()
     run.clips = [clip["name"] for clip in described["clips"]]
+    run.limits = [region["displacement_limit_m"] for region in described["regions"]]
     for note in notes:
         say(note)
     _tell_of_others(run)

@@ -38,7 +38,7 @@ def truth(a):
     tensors = {k: v if v.dtype == np.float16 else v.astype(np.float32) for k, v in tensors.items()}
     tensors["node.region"] = np.zeros(NODES, np.int32)
     tensors["edges"] = np.array([[0, 1]], np.int32)
-    metadata = {"sinew.trajectory": VERSION, "rate_hz": RATE_HZ, "regions": "flesh", "held_out": a.hold_out}
+    metadata = {"sinew.trajectory": VERSION, "rate_hz": RATE_HZ, "regions": "flesh", "held_out": ",".join(a.hold_out)}
     for key in ("motion", "seed", "substeps"):
         metadata[key] = getattr(a, key)
     metadata.update(strength=f"{a.strength:.9g}", seconds=f"{a.seconds:.9g}")
@@ -52,7 +52,7 @@ def character(a):
 
 def info(a):
     regions = filter(None, os.environ.get("SINEW_PRETEND_REGIONS", "").split(","))
-    print(json.dumps({"regions": [{"name": n, "first_hz": 3.0} for n in regions], "clips": []}))
+    print(json.dumps({"regions": [{"name": n, "first_hz": 3.0, "displacement_limit_m": 1.0} for n in regions], "clips": []}))
 
 
 def creature(a):
@@ -68,7 +68,8 @@ def main():
     for option, kind in (("seed", int), ("strength", float), ("seconds", float)):
         parser.add_argument(f"--{option}", type=kind)
     parser.add_argument("--substeps", type=int, default=4)
-    for option in ("recipe", "motion", "hold-out", "tissue"):
+    parser.add_argument("--hold-out", action="append", default=[])
+    for option in ("recipe", "motion", "tissue"):
         parser.add_argument(f"--{option}", default="")
     for option in ("surface", "json", "quick", "keep-network"):
         parser.add_argument(f"--{option}", action="store_true")

@@ -198,7 +198,7 @@ class Plans(Folder):
     def test_random_motion_of_training_and_validation_leaves_the_held_out_clip_alone(self):
         lines = [{**LINE, "split": s, "first_seed": i * 10 + 1} for i, s in enumerate(SPLITS)]
         held_out = {j.split: j.held_out for j in self.jobs(lines)}
-        self.assertEqual(held_out, {"train": "hop", "validation": "hop", "test": "", "long": ""})
+        self.assertEqual(held_out, {"train": ("hop",), "validation": ("hop",), "test": (), "long": ()})
 
     def test_lines_that_are_not_right_are_refused_by_number(self):
         for change, word in (
@@ -256,7 +256,7 @@ class Plans(Folder):
                 continue
             self.assertNotEqual(job.motion, "clip:hop")
             if job.motion in ("random", "leap") and "hop" in clips[job.body]:
-                self.assertEqual(job.held_out, "hop")
+                self.assertEqual(job.held_out, ("hop",))
         order = [{"train": 0, "validation": 0, "test": 1, "long": 2}[j.split] for j in jobs]
         self.assertEqual(order, sorted(order))
         self.assertEqual((jobs[-1].seconds, jobs[-1].split), (600, "long"))

@@ -13,7 +13,7 @@ import torch  # noqa: E402
 import synthetic  # noqa: E402
 from train import blas, dataset  # noqa: E402
 from train.dataset import Union  # noqa: E402
-from train.episode import SETTLED_TICKS, SILENT_FROM, Episode  # noqa: E402
+from train.episode import Episode  # noqa: E402
 from train.export import check_vectors  # noqa: E402
 from train.inputs import FEEDBACK, INPUT_WIDTH, ORDER, columns  # noqa: E402
 from train.rollout import bounded, error_ratio, roll_out, truth  # noqa: E402
@@ -68,9 +68,7 @@ class Training(unittest.TestCase):
             "hidden_leak": [-0.1, 1.1],
             "output_scale": [0, float("inf")],
             "state_clamp": [0],
-            "overdrive": [-0.1, 1.5],
-            "stillness": [2],
-            "disturbance": [-1, float("inf")],
+            "stillness": [-0.1, 2],
             "without": [("colour",)],
             "form": ["LSTM"],
         }
@@ -156,13 +154,13 @@ class Training(unittest.TestCase):
         self.assertFalse(any("goes on from" in text for text in log))
 
     def test_a_sequence_that_is_lost_starts_anew(self):
-        trainer = self.trainer(disturbance=0.0)
+        trainer = self.trainer()
         episode = trainer.new_episode()
         trainer.update(episode)
         episode.state.base.l[:, :, 2] = float("nan")
         episode.state.base.q[:, :, 2] = float("nan")
         episode.state.base.l[:, :, 4] = 1e3
-        state = trainer._start_of_window(episode)
+        state = trainer._without_the_lost(episode)
         for b in (2, 4):
             self.assertEqual(float(state.base.l[:, :, b].abs().max() + state.base.q[:, :, b].abs().max()), 0)
         self.assertGreater(float(state.base.u[:, :, 1].abs().max()), 0)
@@ -233,56 +231,34 @@ class Episodes(unittest.TestCase):
         self.scaling = measure_scaling([self.group])
         self.bodies = Union([self.group])
 
-    def episode(self, **options):
-        trained = TrainOptions(batch=2, window=20, **options)
+    def episode(self, stillness=0.0):
+        trained = TrainOptions(batch=2, window=20, stillness=stillness)
         return Episode(self.bodies, self.scaling, trained, None, [torch.tensor([[1.0, 4], [2, 2]])])
 
-    def windows(self, episode):
-        """(silent, known, window) of every one to the end."""
-        while episode.ticks_left() > 0:
-            silent = episode.done >= SILENT_FROM * self.bodies.ticks
-            window = episode.next_window()
-            yield silent, episode.known(), window
-
-    def test_plain_sequences_are_the_data(self):
-        episode = self.episode(overdrive=0, stillness=0)
+    def test_sequences_are_the_data(self):
+        episode = self.episode()
         felt, drive, turn, u = episode.next_window()
         want = self.bodies.window(episode.sequences, torch.zeros(2, dtype=torch.long), 20)
         for found, k in ((felt, 0), (drive, 1), (u, 3)):
             self.assertTrue(torch.equal(found, want[k]))
         self.assertTrue(torch.equal(turn[0], want[2][0]) and torch.equal(turn[1], want[2][1]))
-        self.assertTrue(bool(episode.known().all()))
-
-    def test_gentle_sequences_count_for_more(self):
-        episode = self.episode(overdrive=0, stillness=0)
-        gentle, wild = (episode.weight[:, 0, episode.sequences[0] == s] for s in (0, 1))
-        self.assertGreater(float(gentle[0]), 1.5 * float(wild[0]))  # four times gentler
-        self.assertAlmostEqual(float(gentle[1]), float(wild[1]), places=5)
-
-    def test_windows_follow_each_other_to_the_end(self):
-        episode = self.episode(overdrive=0, stillness=0)
-        felt = torch.cat([w[0] for _, _, w in self.windows(episode)])
-        want = self.bodies.window(episode.sequences, torch.zeros(2, dtype=torch.long), self.bodies.ticks)[0]
-        self.assertTrue(torch.equal(felt, want))
 
     def test_still_sequences_feel_nothing_and_rest(self):
-        for _, known, (felt, drive, turn, u) in self.windows(self.episode(overdrive=0, stillness=1)):
-            self.assertEqual(float(felt.abs().max() + drive.abs().max() + u.abs().max()), 0)
-            self.assertTrue(torch.equal(turn[0], torch.eye(3).expand_as(turn[0])))
-            self.assertTrue(bool(known.all()))
+        felt, drive, turn, u = self.episode(stillness=1.0).next_window()
+        self.assertEqual(float(felt.abs().max() + drive.abs().max() + u.abs().max()), 0)
+        self.assertTrue(torch.equal(turn[0], torch.eye(3).expand_as(turn[0])))
 
-    def test_overdriven_sequences_have_no_truth_until_they_must_have_settled(self):
-        episode = self.episode(overdrive=1)
-        self.assertTrue(bool(((episode.gain >= 1) & (episode.gain <= 3)).all()))
-        plain = self.bodies.window(episode.sequences, torch.zeros(2, dtype=torch.long), 500)[0]
-        for silent, known, (felt, drive, _, u) in self.windows(episode):
-            at = slice(episode.done - len(felt), episode.done)
-            want = torch.zeros_like(felt) if silent else plain[at] * episode.gain[:, None]
-            self.assertTrue(torch.equal(felt, want))
-            self.assertEqual(silent, float(drive.abs().max()) == 0)
-            self.assertEqual(float(u.abs().max()), 0)
-            settled = episode.done - SILENT_FROM * self.bodies.ticks > SETTLED_TICKS
-            self.assertEqual(known.tolist(), [settled] * 2)
+    def test_errors_count_as_their_sequence_says(self):
+        episode = self.episode()
+        first, second = (episode.weight[:, 0, episode.sequences[0] == s][:, 0].tolist() for s in (0, 1))
+        self.assertEqual((first, second), ([1, 2], [4, 2]))
+
+    def test_windows_follow_each_other_to_the_end(self):
+        episode, felt = self.episode(), []
+        while episode.ticks_left() > 0:
+            felt.append(episode.next_window()[0])
+        want = self.bodies.window(episode.sequences, torch.zeros(2, dtype=torch.long), self.bodies.ticks)[0]
+        self.assertTrue(torch.equal(torch.cat(felt), want))
 
 
 class Kernels(unittest.TestCase):

@@ -22,9 +22,9 @@ from train.model import AltConvLSTM, ModelOptions  # noqa: E402
 from train.inputs import INPUT_WIDTH, ORDER  # noqa: E402
 from train.safetensors import BadData, load, save  # noqa: E402
 from train.scaling import measure_scaling  # noqa: E402
-from train.tune import SHIPPED, learn  # noqa: E402
+from train.tune import SHIPPED, finetune, learn  # noqa: E402
 from train.tune.finetune import FineTuner, tuning_options, widened  # noqa: E402
-from train.tune.motions import MOST_MOTIONS, held_out_clip, motions_of  # noqa: E402
+from train.tune.motions import MOST_MOTIONS, held_out_clips, motions_of  # noqa: E402
 from train.tune.packs import Baker  # noqa: E402
 from train.tune.program import main  # noqa: E402
 from train.tune.run import Run  # noqa: E402
@@ -32,7 +32,7 @@ from train.tune.simulate import MOST_FAILURES, Simulation  # noqa: E402
 from train.tune.start import read_start  # noqa: E402
 from train.tune.stop import Stop  # noqa: E402
 from train.tune.time_budget import TimeBudget, in_words  # noqa: E402
-from train.tune.verdict import BASE, TUNED, Row, best_of, pooled, table  # noqa: E402
+from train.tune.verdict import BASE, Error, Row, best_of, reason, table  # noqa: E402
 
 SPLITS = ("train", "validation", "test")
 UPDATES = 25
@@ -165,21 +165,23 @@ class Motions(unittest.TestCase):
             motions = [{(j.motion, j.seed) for j in by_split[s]} for s in SPLITS]
             self.assertEqual(len(set.union(*motions)), len(jobs))
 
-    def test_the_held_out_clip_is_in_no_other_motion(self):
-        clips = ["idle", "walk", "run"]
-        jobs, by_split = self.split(clips)
-        self.assertEqual(held_out_clip(clips), "walk")
-        self.assertTrue(any(j.motion == "clip:walk" for j in by_split["test"]))
-        for job in by_split["train"] + by_split["validation"]:
-            self.assertNotEqual(job.motion, "clip:walk")
-            self.assertEqual(job.held_out, "" if job.motion.startswith("clip:") else "walk")
-        used = {j.motion for j in jobs if j.motion.startswith("clip:")}
-        self.assertEqual(used, {f"clip:{c}" for c in clips})
+    def test_held_out_clips_are_in_no_other_motion(self):
+        for count, held_out in ((3, ["c1"]), (6, ["c1", "c4"]), (12, ["c2", "c6", "c10"])):
+            clips = [f"c{i}" for i in range(count)]
+            jobs, by_split = self.split(clips)
+            self.assertEqual(list(held_out_clips(clips)), held_out)
+            held = {f"clip:{name}" for name in held_out}
+            self.assertTrue(held <= {j.motion for j in by_split["test"]})
+            for job in by_split["train"] + by_split["validation"]:
+                self.assertNotIn(job.motion, held)
+                self.assertEqual(list(job.held_out), [] if job.motion.startswith("clip:") else held_out)
+            used = {j.motion for j in jobs if j.motion.startswith("clip:")}
+            self.assertEqual(used, {f"clip:{c}" for c in clips})
 
     def test_of_fewer_than_two_clips_none_is_held_out(self):
         for clips in ([], ["walk"]):
             self.assertFalse(any(j.held_out for j in self.split(clips)[0]))
-            self.assertEqual(held_out_clip(clips), "")
+            self.assertEqual(held_out_clips(clips), ())
         self.assertTrue(any(j.motion == "clip:walk" for j in self.split(["walk"])[1]["train"]))
 
     def test_the_first_three_are_one_of_each_split(self):
@@ -270,7 +272,21 @@ class Tuning(unittest.TestCase):
         self.assertEqual(tuner.updates, 2 * UPDATES)
         self.assertLess(tuner.best, 0.95 * tuner.start_ratio)
         self.assertEqual((kept[-1], kept), (tuner.best, sorted(kept, reverse=True)))
-        self.assertLess(abs(sum(tuner.validate().values()) / 2 - tuner.best), 1e-6)
+        self.assertLess(abs(tuner.validate()["of_base"] - tuner.best), 1e-6)
+
+    def test_where_there_is_nothing_to_learn_it_stops_early(self):
+        tuner = self.tuner(Countdown(1000))
+        tuner.validate = lambda: {"of_base": 0.99}
+        with mock.patch.multiple(finetune, LEAST_BETWEEN_S=0.01, HOPELESS_AFTER=0.02):
+            tuner.tune(time.monotonic() + 20)
+        self.assertTrue(tuner.hopeless)
+        self.assertLess(tuner.updates, 500)
+
+    def test_validation_errors_are_told_over_the_bases(self):
+        tuner = self.tuner()
+        for p in tuner.model.parameters():
+            p.data.zero_()
+        self.assertAlmostEqual(tuner.validate()["of_base"], 1, places=3)  # a silent network is the base
 
     def test_without_time_the_weights_are_as_they_were(self):
         tuner = self.tuner()
@@ -371,27 +387,38 @@ class Learning(Folder):
 
 
 class Verdicts(unittest.TestCase):
-    def errors(self, base, **networks):
-        return {BASE: (1.0, base), **{name: (1.0, ratio) for name, ratio in networks.items()}}
+    def row(self, base, motion="all", **networks):
+        error = lambda ratio: Error(10 * ratio, ratio, 30 * ratio, ratio)
+        return Row(motion, {BASE: error(base), **{name: error(ratio) for name, ratio in networks.items()}})
+
+    def best(self, *of_all, rows=(), **networks):
+        one = self.row(*of_all, **networks)
+        return best_of(list(rows) or [one], one)
 
     def test_a_network_has_to_beat_the_base_by_a_margin(self):
-        self.assertEqual(best_of(self.errors(0.2, shipped=0.196, tuned=0.191)), BASE)
-        self.assertEqual(best_of(self.errors(0.2, shipped=0.196, tuned=0.189)), "tuned")
-        self.assertEqual(best_of(self.errors(0.2, shipped=0.15, tuned=0.16)), "shipped")
+        self.assertEqual(self.best(0.2, shipped=0.196, tuned=0.191), BASE)
+        self.assertEqual(self.best(0.2, shipped=0.196, tuned=0.189), "tuned")
+        self.assertEqual(self.best(0.2, shipped=0.15, tuned=0.16), "shipped")
+
+    def test_a_network_that_does_harm_in_any_motion_is_not_baked(self):
+        harmed = [self.row(0.2, "hop", shipped=0.15, tuned=0.10), self.row(0.1, "idle", shipped=0.10, tuned=0.106)]
+        self.assertEqual(self.best(0.2, rows=harmed, shipped=0.15, tuned=0.10), "shipped")
+        told = reason(BASE, harmed, self.row(0.2, shipped=0.199, tuned=0.10))
+        self.assertIn("tuned 0.100, but 1.06 of the base's in idle", told)
 
     def test_what_is_not_a_number_never_wins(self):
         nan = float("nan")
-        self.assertEqual(best_of(self.errors(0.2, shipped=nan)), BASE)
-        self.assertEqual(best_of(self.errors(0.2, shipped=nan, tuned=0.1)), "tuned")
-        self.assertEqual(best_of(self.errors(0.2, tuned=0.1, shipped=nan)), "tuned")
+        self.assertEqual(self.best(0.2, shipped=nan), BASE)
+        self.assertEqual(self.best(0.2, shipped=nan, tuned=0.1), "tuned")
+        self.assertEqual(self.best(0.2, tuned=0.1, shipped=nan), "tuned")
+        self.assertEqual(self.best(0.2, rows=[self.row(0.2, tuned=0.1), self.row(0.2, tuned=nan)], tuned=0.1), BASE)
 
-    def test_motions_are_pooled_by_what_skinning_leaves_in_them(self):
-        hop, sway = {BASE: (2.0, 0.2), TUNED: (1.0, 0.1)}, {BASE: (1.0, 0.5), TUNED: (2.0, 1.0)}
-        rows = [Row("hop", hop), Row("sway", sway)]
-        self.assertEqual([row.skinning_mm() for row in rows], [10.0, 2.0])
-        self.assertEqual(pooled(rows), {BASE: (1.5, 0.25), TUNED: (1.5, 0.25)})
-        lines = table(rows)
-        self.assertEqual(len(lines), 4)
+    def test_the_table_has_a_line_for_each_motion_and_one_for_all(self):
+        rows = [self.row(0.2, "hop", tuned=0.1), self.row(0.5, "sway", tuned=1.0)]
+        self.assertEqual([round(row.skinning_mm(), 6) for row in rows], [10, 10])
+        lines = table(rows, self.row(0.3, tuned=0.15))
+        self.assertEqual([line.split()[0] for line in lines], ["held-out", "hop", "sway", "all"])
+        self.assertEqual([line.split()[-1] for line in lines], ["base", "0.500", "2.000", "0.500"])
         self.assertTrue(all(len(line) <= len(lines[1]) + 1 for line in lines))
 
     def test_times_are_told_in_words(self):
