@@ -139,6 +139,15 @@ def _export(a):
     export(a.run, a.data, metrics, a.out, a.name, a.model, a.body)
 
 
+def _characters(a):
+    from .characters import characters
+
+    place = lambda *names: os.path.join(a.assets, *names)
+    titles, truth = place("gallery", "characters.json"), place("evaluation", "truth", "some_clips.csv")
+    for one in characters(a.work, place("evaluation", "characters"), titles, truth, place("gallery"), a.bake):
+        print(f"{one.name}: {one.all.of_base('fine-tuned'):.2f} of the modal base's error, {'shipped' if one.pays() else 'not shipped'}")
+
+
 def _best(a):
     """The run whose validation roll-outs were best."""
 
@@ -228,6 +237,11 @@ def _parser():
     p.add_argument("--seed", type=int, default=0, help="of the examples")
     p.add_argument("--out", required=True)
     p.add_argument("--name", required=True)
+    text = "Writes the page of characters with networks of their own, and ships those that pay."
+    p = command("characters", _characters, text)
+    p.add_argument("work", help="folder of sinew-train --keep's outputs")
+    p.add_argument("--bake", required=True, help="path of sinew-bake")
+    p.add_argument("--assets", required=True, help="folder with gallery and evaluation")
     p = command("best", _best, "Prints the run that validated best.")
     p.add_argument("runs", nargs="+")
     return parser

@@ -4,7 +4,7 @@ sequences.
 Shapes: R regions of n nodes (shorter ones padded with isolated, unread nodes), B sequences, F channels. A
 batch is (R, n, B, F), so that P, one dense (n, n) block a region, and the weights each act by one matrix
 product."""
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 
 import torch
 
@@ -133,6 +133,26 @@ class AltConvLSTM(torch.nn.Module):
             h = torch.sigmoid(a[..., 3 * f :] + py @ w_yo) * fast_tanh(c)
             out.append((aggregate(h), c, py))
         return y, out
+
+
+def with_more_channels(model, channels):
+    """A model that answers as `model` does, with its hidden layers widened to so many channels, where they have fewer: what is
+    new listens, drawn anew, and is not listened to yet."""
+    old, widths = model.options, [max(a, b) for a, b in zip(model.options.channels[:-1], channels[:-1])]
+    if len(channels) != len(old.channels) or tuple(widths) == tuple(old.channels[:-1]):
+        return model
+    wide = AltConvLSTM(replace(old, channels=(*widths, old.channels[-1]))).start_for_training().to(model.layers[0].b)
+    with torch.no_grad():
+        for to, layer in zip(wide.layers, model.layers):
+            f, g = layer.channels, to.channels
+            own = torch.cat([torch.arange(f) + k * g for k in range(4)])  # columns: a block for each gate
+            to.b[own] = layer.b
+            for name, gates in (("W_x", 4), ("W_s", 4), ("W_h", 4), ("W_y", 3)):
+                a, b = getattr(to, name), getattr(layer, name)
+                if a is not None:
+                    a[:, own[: gates * f]] = 0
+                    a[: len(b), own[: gates * f]] = b
+    return wide
 
 
 def largest_cell(state):

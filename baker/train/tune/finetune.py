@@ -2,6 +2,9 @@
 import time
 from dataclasses import replace
 
+import torch
+
+from ..model import with_more_channels
 from ..rollout import roll_out, truth
 from ..scaling import measure_scaling
 from ..train import Trainer
@@ -9,6 +12,7 @@ from ..train_options import TrainOptions
 
 JUDGED_TIMES = 16  # in the whole time
 LEAST_BETWEEN_S = 3.0  # judgements
+CHANNELS = (16, 3)  # at least: a character's own network pays for its size
 HOPELESS = 0.98  # of the base's error, still left after
 HOPELESS_AFTER = 0.4  # of the time: there is nothing to learn
 
@@ -28,7 +32,8 @@ class FineTuner(Trainer):
     """start: (model, scaling) that is trained on. Errors on validation motions are told over the modal base's."""
 
     def __init__(self, groups, validation, start, options, stop, clock=time.monotonic):
-        model, scaling = start
+        torch.manual_seed(options.seed)
+        model, scaling = with_more_channels(start[0], CHANNELS), start[1]
         scaling = widened(scaling, measure_scaling(groups))
         super().__init__(groups, validation, options, lambda *a, **k: None, (model.train(), scaling))
         self.stop, self.clock, self.hopeless = stop, clock, False
@@ -76,7 +81,7 @@ class FineTuner(Trainer):
 
 
 def tuning_options(model, seed):
-    """The shipped weights' recipe on the network's own shape; of one character more sequences fit into a batch."""
+    """The shipped weights' recipe; of one character more sequences fit into a batch, and its mirror image is nobody."""
     o = model.options
     wiring = dict(hidden_leak=o.hidden_leak, output_scale=o.output_scale, state_clamp=o.state_clamp)
-    return TrainOptions(channels=tuple(o.channels), seed=seed, batch=12, **wiring)
+    return TrainOptions(channels=tuple(o.channels), seed=seed, batch=12, mirror=False, **wiring)

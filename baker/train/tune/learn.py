@@ -33,7 +33,7 @@ def provenance(run, tuner, jobs, begun):
     minutes = float(begun.metadata.get("tuned_minutes", 0)) + tuner.elapsed_s / 60
     return {
         "seed": tuner.options.seed,
-        "recipe": json.dumps(vars(tuner.options)),
+        "recipe": json.dumps({**vars(tuner.options), "channels": tuner.model.options.channels}),
         "parent": os.path.basename(run.start.path),
         "parent_sha256": hash_of(run.start.path),
         "tuned_for": os.path.basename(run.baker.character),

@@ -8,7 +8,7 @@ import support
 support.leave_without_torch()
 import torch  # noqa: E402
 
-from train.model import AltConvLSTM, ModelOptions, normalized_adjacency  # noqa: E402
+from train.model import AltConvLSTM, ModelOptions, normalized_adjacency, with_more_channels  # noqa: E402
 from train.safetensors import load  # noqa: E402
 from train.weights import read_weights  # noqa: E402
 
@@ -49,6 +49,41 @@ def _literal_step(model, P, z, states):
         s[:] = [h, c, y]
         x = c
     return states[-1][2]
+
+
+class Widening(unittest.TestCase):
+    def setUp(self):
+        torch.manual_seed(0)
+        self.narrow = AltConvLSTM(ModelOptions(9, (4, 3), True, 0.3, 0.0, 0.2, 8.0)).double()
+        self.wide = with_more_channels(self.narrow, (10, 3))
+
+    def run_of(self, model):
+        torch.manual_seed(1)
+        P, y = torch.rand(1, 6, 6, dtype=torch.float64) / 6, torch.zeros(1, 6, 2, 3, dtype=torch.float64)
+        state, out = model.zero_state(1, 6, 2), []
+        for _ in range(20):
+            z = torch.randn(1, 6, 2, 9, dtype=torch.float64)
+            y, state = model.step(model.packed(), P, z, state, y)
+            out.append(y)
+        return torch.stack(out)
+
+    def test_a_widened_network_answers_as_before(self):
+        self.assertEqual(self.wide.options.channels, (10, 3))
+        narrow, wide = self.run_of(self.narrow), self.run_of(self.wide)
+        self.assertLess(float((narrow - wide).abs().max()), EQUATION_TOLERANCE)
+        self.assertGreater(float(wide.abs().max()), 0.1)
+
+    def test_what_is_new_in_it_can_learn(self):
+        self.run_of(self.wide).square().sum().backward()
+        last = self.wide.layers[1]
+        for rows in (last.W_x, last.W_s):
+            self.assertFalse(rows[4:].any())
+            self.assertTrue(bool(rows.grad[4:].any()))
+
+    def test_a_network_as_wide_or_of_other_layers_stays_as_it_is(self):
+        self.assertIs(with_more_channels(self.wide, (10, 3)), self.wide)
+        self.assertIs(with_more_channels(self.wide, (8, 3)), self.wide)
+        self.assertIs(with_more_channels(self.wide, (16, 8, 3)), self.wide)
 
 
 class Model(unittest.TestCase):

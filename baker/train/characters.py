@@ -1,0 +1,167 @@
+"""The page of characters with networks of their own: what sinew-train stated in their weights, beside the truth's own error."""
+import csv
+import glob
+import json
+import os
+import shutil
+import statistics
+
+import numpy as np
+
+from .files import write_json, write_text
+from .page import table
+from .plot import COLOURS, _finish, _pyplot
+from .safetensors import BadData, load
+from .trajectory import read_trajectory
+from .tune.packs import Baker
+from .tune.verdict import BASE, HARM, TUNED, Error, Row, worst
+
+WORTH = 0.9  # of the base's error on held-out motions: at most so much, or the weights are not shipped
+TISSUE, GENERIC, ALL = ".tissue.safetensors", "shipped", "all"
+TRACED_TICKS = 150
+
+
+class Tuned:
+    """One character's weights as sinew-train left them."""
+
+    def __init__(self, path):
+        self.path, self.name = path, os.path.basename(path).removesuffix(TISSUE)
+        _, self.metadata = load(path)
+        try:
+            told = json.loads(self.metadata["held_out"])
+            rows = [Row(motion, {n: Error(**e) for n, e in errors.items()}) for motion, errors in told.items()]
+        except (KeyError, ValueError, TypeError):
+            raise BadData(f"{path}: states no errors on held-out motions; run sinew-train --keep again") from None
+        self.all = next(row for row in rows if row.motion == ALL)
+        self.rows = [row for row in rows if row.motion != ALL]
+
+    def pays(self, name=TUNED):
+        return self.all.of_base(name) <= WORTH and worst(self.rows, name)[1] <= 1 + HARM
+
+
+def _own_errors(path):
+    """character -> (median against finer steps, against finer cells), of the truth itself."""
+    with open(path) as file:
+        rows = list(csv.DictReader(file))
+    of = lambda name, key: [float(r[key]) for r in rows if r["character"] == name and r[key]]
+    median = lambda values: statistics.median(values) if values else float("nan")
+    return {r["character"]: tuple(median(of(r["character"], key)) for key in ("many", "finer")) for r in rows}
+
+
+def _draw_errors(tuned, titles, path):
+    figure, a = _pyplot().subplots(figsize=(8, 0.5 * len(tuned) + 1.2))
+    places = np.arange(len(tuned))
+    for i, (name, label) in enumerate(((BASE, "modal base"), (GENERIC, "generic network"), (TUNED, "its own network"))):
+        a.barh(places + 0.27 * i, [t.all.errors[name].ratio for t in tuned], 0.25, color=COLOURS[i], label=label)
+    a.set_yticks(places + 0.27, [titles.get(t.name, t.name) for t in tuned])
+    a.invert_yaxis()
+    a.set_xlabel("error on held-out motions / error of skinning alone")
+    a.legend(frameon=False, fontsize=8)
+    _finish(figure, [a], path)
+
+
+def _draw_trace(one, title, work, bake, path):
+    """The node that the base misses most, in the held-out motion where the network helps most."""
+    best = min(one.rows, key=lambda row: row.of_base(TUNED))
+    motion, seed = best.motion.split(" x")[0].rsplit(" #", 1)
+    folder = max(glob.glob(os.path.join(work, f"{one.name}.train", "*", "")), key=os.path.getmtime)
+    files = glob.glob(os.path.join(folder, f"test-*-{seed}.safetensors"))
+    true = next(t for t in map(read_trajectory, files) if t.metadata["motion"] == motion)
+    packs, trace = [os.path.join(folder, f"{k}.sinew") for k in ("base", "tuned")], os.path.join(work, "trace.safetensors")
+    if os.path.exists(trace):
+        os.remove(trace)
+    ticks = len(true.displacement) - 1
+    Baker(bake, "").run("judge", *packs, "--truth", true.path, "--ticks", str(ticks), "--trace", trace)
+    told = load(trace)[0]
+    lines = [np.array(true.displacement), np.array(told["displacement.0"]), np.array(told["displacement.1"])]
+    missed = np.linalg.norm(lines[1] - lines[0], axis=-1)
+    node = missed.mean(0).argmax()
+    axis = np.abs(lines[0][:, node]).mean(0).argmax()
+    middle = int(np.clip(missed[:, node].argmax(), TRACED_TICKS // 2, ticks - TRACED_TICKS // 2))
+    span = slice(middle - TRACED_TICKS // 2, middle + TRACED_TICKS // 2)
+    figure, a = _pyplot().subplots(figsize=(8, 3))
+    t_s = np.arange(ticks + 1)[span] / true.rate_hz
+    for line, label, colour in zip(lines, ("truth", "modal base", "its own network"), ("#111827", *COLOURS[0:3:2])):
+        a.plot(t_s, 1e3 * line[span, node, axis], label=label, color=colour, lw=1.4)
+    a.set_xlabel("time, s")
+    a.set_ylabel("displacement, mm")
+    a.set_title(f"{title}, {motion.removeprefix('clip:')}: the node that the base misses most", fontsize=9)
+    a.legend(frameon=False, fontsize=8)
+    _finish(figure, [a], path)
+
+
+def _cells(one, titles, truth):
+    e = one.all.errors
+    motion, most = worst(one.rows, TUNED)
+    many, finer = truth.get(one.name, (float("nan"),) * 2)
+    seen = len(one.metadata["data"].split(", "))
+    return [
+        titles.get(one.name, one.name),
+        f"{seen}, {len(one.rows)}",
+        f"{e[BASE].mean_mm:.2f} ({e[BASE].ratio:.3f})",
+        f"{e[GENERIC].mean_mm:.2f} ({one.all.of_base(GENERIC):.2f})",
+        f"{e[TUNED].mean_mm:.2f} (**{one.all.of_base(TUNED):.2f}**)",
+        f"{e[BASE].p95_mm:.1f}, {e[TUNED].p95_mm:.1f}",
+        f"{e[BASE].velocity_ratio:.2f}, {e[TUNED].velocity_ratio:.2f}",
+        f"{most:.2f} ({motion.replace('|', chr(92) + '|')})",
+        f"{many:.3f}, {finer:.2f}",
+        "yes" if one.pays() else "no",
+    ]
+
+
+HEAD = (
+    "character", "motions trained on, held out", "modal base, mm (of skinning's)", "generic, mm (of base)", "its own, mm (of base)",
+    "95th percentile, mm: base, own", "velocities, of skinning's: base, own", "its own, worst motion, of base",
+    "truth against finer steps, cells", "shipped",
+)
+
+
+def characters(work, out, titles_path, truth_path, weights_out, bake):
+    """Writes out/README.md, errors.json, errors.png and trace.png from work/*.tissue.safetensors, and copies what pays into
+    weights_out; what does not is removed there."""
+    paths = sorted(glob.glob(os.path.join(work, f"*{TISSUE}")))
+    if not paths:
+        raise BadData(f"{work}: holds no *{TISSUE}; run sinew-train --keep first")
+    tuned = [Tuned(path) for path in paths]
+    with open(titles_path) as file:
+        titles = {c["folder"]: c["title"] for c in json.load(file)}
+    truth = _own_errors(truth_path)
+    os.makedirs(out, exist_ok=True)
+    for one in tuned:
+        place = os.path.join(weights_out, one.name + TISSUE)
+        if one.pays():
+            shutil.copyfile(one.path, f"{place}.part")
+            os.replace(f"{place}.part", place)
+        elif os.path.exists(place):
+            os.remove(place)
+    figures = {t.name: {row.motion: {n: e._asdict() for n, e in row.errors.items()} for row in [*t.rows, t.all]} for t in tuned}
+    write_json(os.path.join(out, "errors.json"), figures)
+    _draw_errors(tuned, titles, os.path.join(out, "errors.png"))
+    most = min(tuned, key=lambda t: t.all.of_base(TUNED))
+    _draw_trace(most, titles.get(most.name, most.name), work, bake, os.path.join(out, "trace.png"))
+    write_text(os.path.join(out, "README.md"), _page(tuned, titles, truth))
+    return tuned
+
+
+def _page(tuned, titles, truth):
+    median = lambda name: statistics.median(t.all.of_base(name) for t in tuned)
+    generic = sum(t.all.of_base(GENERIC) <= 0.95 and worst(t.rows, GENERIC)[1] <= 1 + HARM for t in tuned)
+    pay = sum(t.pays() for t in tuned)
+    return f"""# Characters with networks of their own
+
+Made by `baker/train/tune_gallery.sh`: `sinew-train` on the gallery's characters by their hand-written recipes. Each network was trained on one character; errors are mean distances of its control nodes from its own
+finite-element truth, in closed loop as the runtime ticks, on motions that neither training nor choosing has seen: whole clips where a character has two or more, random motion and leaps.
+
+{table(HEAD, [_cells(t, titles, truth) for t in tuned])}
+
+Of {len(tuned)} characters {pay} have a network that leaves at most {WORTH} of the modal base's error and does no harm; they lie [in the gallery](../../gallery/README.md), 38 kB each. The median over characters is {median(TUNED):.2f} of the base's error. The generic network, trained on other bodies, leaves
+{median(GENERIC):.2f} in the median and would be kept on {generic}; a bake leaves it out where it is not 5 % better than the modes.
+*Harm*: in some motion more than {1 + HARM:.2f} of the base's error; such a network is not shipped. *Truth against finer steps, cells*: [how far the truth is from itself](../truth/README.md), as a share of the displacement: of two errors that
+both lie far below the latter neither is nearer to what real flesh does, but both are nearer to this flesh.
+
+![error on held-out motions](errors.png)
+
+![a node of truth, base and network](trace.png)
+
+Every motion's figures: [errors.json](errors.json). What there is to learn, and what limits it: [learnable.md](learnable.md).
+"""

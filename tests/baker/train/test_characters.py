@@ -1,0 +1,81 @@
+"""The page of characters with networks of their own: what is shipped, what is not, and what it says."""
+import json
+import os
+import tempfile
+import unittest
+from unittest import mock
+
+import support
+
+support.leave_without_torch()
+import numpy as np  # noqa: E402
+
+from train import characters as page  # noqa: E402
+from train.safetensors import BadData, save  # noqa: E402
+from train.tune.verdict import BASE, TUNED  # noqa: E402
+
+
+class Characters(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.work, self.out, self.gallery = (self.place(n) for n in ("work", "out", "gallery"))
+        os.makedirs(self.work), os.makedirs(self.gallery)
+        self.write("titles.json", json.dumps([{"folder": "fox", "title": "Fox"}]))
+        self.write("truth.csv", 'character,clip,mean_mm,slow,many,finer,fault\n"fox","run",2.0,,0.02,0.2,""\n')
+
+    def tearDown(self):
+        self.temporary.cleanup()
+
+    def place(self, name):
+        return os.path.join(self.temporary.name, name)
+
+    def write(self, name, text):
+        with open(self.place(name), "w") as file:
+            file.write(text)
+
+    def weights(self, name, **motions):
+        """motions: name -> (base, generic, own) of skinning's error."""
+        error = lambda r: {"mean_mm": 10 * r, "ratio": r, "p95_mm": 30 * r, "velocity_ratio": 2 * r}
+        told = {m: dict(zip((BASE, page.GENERIC, TUNED), map(error, ratios))) for m, ratios in motions.items()}
+        metadata = {"held_out": json.dumps(told), "data": "2 motions of 4 s: random, leap"}
+        save(os.path.join(self.work, name + page.TISSUE), {"w": np.zeros(3, np.float32)}, metadata)
+
+    def make(self):
+        places = (self.place("titles.json"), self.place("truth.csv"), self.gallery, "bake")
+        with mock.patch.object(page, "_draw_trace"):
+            page.characters(self.work, self.out, *places)
+        with open(os.path.join(self.out, "README.md")) as file:
+            return file.read()
+
+    def shipped(self):
+        return sorted(os.listdir(self.gallery))
+
+    def test_what_pays_is_shipped_and_what_does_not_is_taken_back(self):
+        self.weights("fox", hop=(0.2, 0.3, 0.1), all=(0.2, 0.3, 0.1))
+        self.weights("wolf", hop=(0.2, 0.3, 0.1), idle=(0.1, 0.1, 0.11), all=(0.2, 0.3, 0.12))
+        self.weights("mage", hop=(0.2, 0.3, 0.19), all=(0.2, 0.3, 0.19))
+        self.write("gallery/mage" + page.TISSUE, "of an earlier run")
+        told = self.make()
+        self.assertEqual(self.shipped(), ["fox" + page.TISSUE])
+        rows = {line.split(" | ")[0].strip("| "): line for line in told.splitlines() if line.startswith("| ")}
+        self.assertIn("2.00 (0.200) | 3.00 (1.50) | 1.00 (**0.50**)", rows["Fox"])
+        self.assertIn("0.020, 0.20 | yes |", rows["Fox"])
+        self.assertIn("1.10 (idle)", rows["wolf"])
+        self.assertTrue(all(rows[name].endswith("| no |") for name in ("wolf", "mage")))
+        self.assertIn("Of 3 characters 1 have", told)
+        self.assertTrue(os.path.getsize(os.path.join(self.out, "errors.png")) > 1000)
+
+    def test_weights_that_state_nothing_are_refused_by_name_and_nothing_is_shipped(self):
+        self.weights("fox", hop=(0.2, 0.3, 0.1), all=(0.2, 0.3, 0.1))
+        save(os.path.join(self.work, "wolf" + page.TISSUE), {"w": np.zeros(3, np.float32)}, {})
+        with self.assertRaisesRegex(BadData, "wolf.*states no errors.*sinew-train --keep"):
+            self.make()
+        self.assertEqual(self.shipped(), [])
+
+    def test_a_folder_without_weights_is_refused(self):
+        with self.assertRaisesRegex(BadData, "holds no .*tissue"):
+            self.make()
+
+
+if __name__ == "__main__":
+    unittest.main()
