@@ -62,6 +62,25 @@ def limits_lowered(printed):
     return len(re.findall(r"^note: .*its skin would tear", printed, re.MULTILINE))
 
 
+class OwnNetwork:
+    """Weights that sinew-train made for a character, as baker/train/tune_gallery.sh ships them; none for most proposals."""
+
+    def __init__(self, folder):
+        self.path = HERE / f"{folder}.tissue.safetensors"
+        with open(self.path, "rb") as file:
+            told = json.loads(file.read(int.from_bytes(file.read(8), "little")))["__metadata__"]
+        errors = json.loads(told["held_out"])
+        self.motions = len(errors) - 1
+        self.of_base = errors["all"]["fine-tuned"]["ratio"] / errors["all"]["modal base"]["ratio"]
+
+    def told(self):
+        return f"On {self.motions} motions that it never saw its own network leaves {self.of_base:.2f} of the modes' error"
+
+    @classmethod
+    def of(cls, folder):
+        return cls(folder) if (HERE / f"{folder}.tissue.safetensors").exists() else None
+
+
 class Proposal:
     """What `propose` writes, unedited, and its numbered picture."""
 
@@ -78,11 +97,11 @@ class Proposal:
 class Bake:
     """One character baked one way: the pack, its table, its audit and what a bake cost."""
 
-    def __init__(self, tools, source, recipe, work, proposal=None):
+    def __init__(self, tools, source, recipe, work, proposal=None, own=None):
         self.pack = work / "character.sinew"
         self.preview = proposal.preview if proposal else work / "preview.png"
-        self.proposal = proposal
-        command = [tools / "sinew-bake", "character", source, "--tissue", WEIGHTS, "-o", self.pack, "--recipe", recipe]
+        self.proposal, self.own = proposal, own
+        command = [tools / "sinew-bake", "character", source, "--tissue", own.path if own else WEIGHTS, "-o", self.pack, "--recipe", recipe]
         if not proposal:
             command += ["--preview", self.preview]
         start = time.monotonic()
@@ -159,7 +178,8 @@ def make(tools, characters, character, work):
         source.unlink(missing_ok=True)
         source.symlink_to(file.resolve())
         proposal = Proposal(tools, source, place) if way == "proposed" else None
-        bake = bakes[way] = Bake(tools, source, proposal.recipe if proposal else HERE / f"{folder}.json", place, proposal)
+        own = None if proposal else OwnNetwork.of(folder)
+        bake = bakes[way] = Bake(tools, source, proposal.recipe if proposal else HERE / f"{folder}.json", place, proposal, own)
         still = play(tools, bake, character, place) if bake.parts else None
         write_jpeg(compose(bake.preview, still), HERE / f"{folder}_{way}.jpg")
         print(f"{folder}, {way}: {len(bake.parts)} parts, {bake.lowered} limits lowered, {bake.seconds:.1f} s, "
@@ -176,10 +196,11 @@ def percent(share):
 
 
 def network_of(bake):
+    whose = "its own, " if bake.own else ""
     if bake.left_out is not None:
-        return f"left out ({bake.left_out:.2f})"
+        return f"{whose}left out ({bake.left_out:.2f})"
     error = bake.error_of("network")
-    return "–" if error is None else f"kept, {error:.2f}"
+    return "–" if error is None else f"{whose}kept, {error:.2f}"
 
 
 def summary(made):
@@ -246,16 +267,17 @@ far apart they are, the darkest at 5 % of the height. A character of which nothi
 All but the limits lowered, the bake's seconds (two cores, measured errors included) and errors come from `sinew-bake audit`: the largest over parts and motions, lengths as a share of the character's height. *visibly moving*: vertices that move by at least 0.5 %
 of the height somewhere in the bob or the character's clips. *bob*: while the root goes up and down by 5 % of the height, of which flesh may do 0.08; rods swing freely. *residual*: after a minute of rest, at most 1e-4. *edge stretch*: beyond skinning's, at most 1.5, of rods 2.
 *limits lowered*: parts whose limit the proposal or the bake made smaller, for their skin would tear. Errors are distances from the finite-element truth of this
-character as a share of skinning's, the median over a random motion and up to five clips; rods have no such truth. Truth and tiers are shown held at the part's limit: where they lie at it, what is compared is a direction. The network is trained on other bodies and left out where it is not 5 % better than the modes: in brackets what it would have had.
-`sinew-train` trains it on the character."""
+character as a share of skinning's, the median over a random motion and up to five clips; rods have no such truth. Truth and tiers are shown held at the part's limit: where they lie at it, what is compared is a direction. A network is left out where it is not 5 % better than the modes: in brackets what it would have had. The shipped one is trained on other bodies;
+*its own* was trained on the character by `sinew-train` and is here where [it pays](../evaluation/characters/README.md)."""
     for character, bakes in made:
         title, folder = character["title"], character["folder"]
         yield f"\n## {title}\n\n{character['note']}" + ("" if character["made_up"] else f" [Recipe]({folder}.json).") + "\n"
         if any(bake.parts for bake in bakes.values()):
             yield from part_table(bakes)
         yield from in_doubt(bakes["proposed"].proposal)
-        for way in bakes:
-            yield f"\n{CAPTIONS[way]}:\n\n![{title}, {CAPTIONS[way].lower()}]({folder}_{way}.jpg)"
+        for way, bake in bakes.items():
+            own = f". {bake.own.told()} ([weights]({folder}.tissue.safetensors))" if bake.own else ""
+            yield f"\n{CAPTIONS[way]}{own}:\n\n![{title}, {CAPTIONS[way].lower()}]({folder}_{way}.jpg)"
     yield "\n## Credits\n\nPictures and figures here are made from these works, which others made and licensed; all were baked by Sinew, which changes how they move.\n"
     yield "| character | by | licence |\n|---|---|---|"
     for character, _ in made:

@@ -14,9 +14,10 @@ class Episode:
         self.group, self.options, self.size = group, options, b
         self.sequences = g.draw(b)
         self.still = torch.rand(b, device=device) < options.stillness
-        mirrored = torch.rand(b, device=device) < 0.5 * options.mirror
-        ones = torch.ones(INPUT_WIDTH, device=device)
-        self.mirror = torch.where(mirrored[:, None], mirror_signs(device), ones)
+        self.mirror = None
+        if options.mirror:
+            ones = torch.ones(INPUT_WIDTH, device=device)
+            self.mirror = torch.where((torch.rand(b, device=device) < 0.5)[:, None], mirror_signs(device), ones)
         self.static = static_columns(g, scaling, b)
         self.weight = torch.cat([w[:, s] for w, s in zip(weights, self.sequences)])[:, None]  # (R, 1, B)
         self.state = start(model, g, b)

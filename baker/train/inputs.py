@@ -20,7 +20,6 @@ CROSSED = {  # name -> a rotation vector x what moves
 ORDER = tuple(STATIC) + tuple(DRIVE) + BASE + FEEDBACK + tuple(CROSSED)
 WIDTH = {**{name: 3 for name in ORDER}, **STATIC}
 INPUT_WIDTH = sum(WIDTH.values())
-STATIC_WIDTH = sum(STATIC.values())
 AXIAL = ("angular_velocity", "turn", "bend")  # rotation vectors: a mirror flips their other two components
 
 

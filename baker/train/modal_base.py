@@ -40,32 +40,29 @@ def cross(a, b):
     return torch.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx], -1)
 
 
-def _nested(s, divisors):
-    """1 - s/d0 (1 - s/d1 (1 - ...)) for each column of divisors; s (..., 1) -> (..., columns)."""
-    inverse = 1 / torch.tensor(divisors, dtype=s.dtype, device=s.device)
-    out = 1 - s * inverse[-1]
-    for row in inverse[:-1].flip(0):
-        out = 1 - s * row * out
-    return out
+def _length(theta):
+    """|theta|, never zero, and its square."""
+    squared = theta.square().sum(-1, keepdim=True).clamp(min=1e-12)
+    return squared.sqrt(), squared
 
 
-SINE = (6, 20, 42, 72, 110, 156)  # sin(x) / x by s = x^2
-COSINE = (12, 30, 56, 90, 132, math.inf)  # 2 (1 - cos(x)) / x^2
+def _less_cosine(x, squared):
+    """(1 - cos x) / x^2, by half the angle, which cancels nothing."""
+    return 2 * (0.5 * x).sin().square() / squared
 
 
 def turned(theta, v, transposed=False):
-    """exp([theta]x) v, or its transpose times v; series good to 1e-6 up to 2 rad."""
-    series = _nested(theta.square().sum(-1, keepdim=True), tuple(zip(SINE, COSINE)))
-    sine, cosine = series[..., :1], 0.5 * series[..., 1:]
-    first = cross(theta, v)
-    return v + (-sine if transposed else sine) * first + cosine * cross(theta, first)
+    """exp([theta]x) v, or its transpose times v."""
+    x, squared = _length(theta)
+    sine, first = x.sin() / x, cross(theta, v)
+    return v + (-sine if transposed else sine) * first + _less_cosine(x, squared) * cross(theta, first)
 
 
 def warped(theta, l):
     """The mean of exp(s [theta]x) l over s in 0..1: a linear displacement bent with the flesh's own turn."""
-    series = _nested(theta.square().sum(-1, keepdim=True), tuple(zip(COSINE, SINE[1:])))
+    x, squared = _length(theta)
     first = cross(theta, l)
-    return l + 0.5 * series[..., :1] * first + series[..., 1:] / 6 * cross(theta, first)
+    return l + _less_cosine(x, squared) * first + (x - x.sin()) / (squared * x) * cross(theta, first)
 
 
 def held(theta):

@@ -38,21 +38,37 @@ def bounded(values, name, scaling):
     return (values * scaling.scale[name]).clamp(-scaling.envelope[name], scaling.envelope[name])
 
 
+@dataclass
+class Static:
+    """What a network is told that does not change from tick to tick, and how it is told the rest."""
+
+    z: torch.Tensor  # (R, n, B, 8), scaled and held in the envelope
+    scale: torch.Tensor  # of each moving column
+    most: torch.Tensor
+    held: torch.Tensor  # (R, 1): how many numbers of z are held, but for the frequency's
+    trust: torch.Tensor  # (R, 1): as the region's frequency allows
+
+
 def static_columns(group, scaling, batch):
-    """(R, n, B, 8), scaled and held in the envelope."""
-    parts = [bounded(group.static[k], k, scaling) for k in STATIC]
-    return torch.cat(parts, -1)[:, :, None].expand(-1, -1, batch, -1)
+    outside = lambda k: ((group.static[k] * scaling.scale[k]).abs() > scaling.envelope[k]).sum((1, 2))[:, None]
+    fastest = group.static["frequency"].amax((1, 2))[:, None] * scaling.scale["frequency"]
+    faster = (fastest / scaling.envelope["frequency"] - 1).clamp(min=0)
+    z = torch.cat([bounded(group.static[k], k, scaling) for k in STATIC], -1)
+    row = lambda of: torch.tensor([of(k) for k in ORDER if k not in STATIC for _ in range(WIDTH[k])]).to(z)
+    return Static(
+        z[:, :, None].expand(-1, -1, batch, -1),
+        row(lambda k: 0.0 if k in scaling.without else scaling.scale[k]),
+        row(lambda k: scaling.envelope[k]),
+        sum(outside(k) for k in STATIC if k != "frequency"),
+        (1 - faster / FASTER_SHARE).clamp(min=0),
+    )
 
 
-def moving_columns(raw, scaling):
-    """What changes from tick to tick, side by side, scaled and held in the envelope as by bounded(); and how many numbers of
-    each region were held, (R, B)."""
-    names = [k for k in ORDER if k in raw]
-    row = lambda of: torch.tensor([of(k) for k in names for _ in range(WIDTH[k])], device=raw[names[0]].device)
-    scale = row(lambda k: 0.0 if k in scaling.without else scaling.scale[k])
-    most = row(lambda k: scaling.envelope[k])
-    z = torch.cat([raw[k] for k in names], -1) * scale
-    return z.clamp(-most, most), (z.detach().abs() > most).sum((1, 3))
+def all_columns(static, raw):
+    """What a network is told of a tick, z (R, n, B, .), and how many numbers of each region are held, (R, B)."""
+    z = torch.cat([raw[k] for k in ORDER if k in raw], -1) * static.scale
+    held = (z.detach().abs() > static.most).sum((1, 3)) + static.held
+    return torch.cat([static.z, z.clamp(-static.most, static.most)], -1), held
 
 
 def mirror_signs(device="cpu"):
@@ -81,17 +97,10 @@ def raw_inputs(group, scaling, base, l_before, drive, predicted_l, felt):
     return {**raw, **dict(zip(CROSSED, cross(left, right)))}
 
 
-def trust(group, scaling, held):
-    """(R, B): how far a network is trusted of whose inputs so many were held in the envelope."""
-    def outside(name):
-        beyond = (group.static[name] * scaling.scale[name]).abs() > scaling.envelope[name]
-        return beyond.sum((1, 2))[:, None]
-
+def trust(group, static, held):
+    """(R, B): how far a network is trusted of whose inputs so many are held in the envelope."""
     numbers = (INPUT_WIDTH - 1) * group.mask.sum(1)[:, None]
-    held = held + sum(outside(k) for k in STATIC if k != "frequency")
-    fastest = group.static["frequency"].amax((1, 2))[:, None] * scaling.scale["frequency"]
-    faster = (fastest / scaling.envelope["frequency"] - 1).clamp(min=0)
-    return (1 - held / (CLAMPED_SHARE * numbers)).clamp(min=0) * (1 - faster / FASTER_SHARE).clamp(min=0)
+    return (1 - held / (CLAMPED_SHARE * numbers)).clamp(min=0) * static.trust
 
 
 def pose_stays(group, drive, turn_now):
@@ -106,15 +115,14 @@ def pose_stays(group, drive, turn_now):
 def told(group, scaling, static, state, felt, drive, turn_now):
     """The modes' answer to a tick and its l, what the network is told of it, z (R, n, B, .), and how far it is trusted."""
     answer, l, force = group.base.predict(state.base, felt, turn_now, state.corrected.d)
-    moving, held = moving_columns(raw_inputs(group, scaling, state.base, state.l_before, drive, l, force), scaling)
-    return answer, l, torch.cat([static, moving], -1), trust(group, scaling, held)
+    z, held = all_columns(static, raw_inputs(group, scaling, state.base, state.l_before, drive, l, force))
+    return answer, l, z, trust(group, static, held)
 
 
 def _alone(model, packed, group, scaling, static, state, felt, drive):
     """A network without a modal base (an ablation)."""
     base, unit = state.base, scaling.length_unit * group.radius
-    raw = raw_inputs(group, scaling, base, state.l_before, drive, base.l, felt)
-    z = torch.cat([static, moving_columns(raw, scaling)[0]], -1)
+    z, _ = all_columns(static, raw_inputs(group, scaling, base, state.l_before, drive, base.l, felt))
     y, memory = model.step(packed, group.P, z, state.memory, base.l / unit, torch.zeros_like(base.l))
     l = y * unit * group.mask[..., None, None]
     return State(replace(base, l=l, u=l, u_before=base.u), base.l, memory, state.corrected)
