@@ -109,6 +109,20 @@ def _cells(one, titles, truth):
     ]
 
 
+def _family(path):
+    """What the generic network leaves on the bodies that it was made for, after 200 ticks of motions it never saw."""
+    with open(path) as file:
+        metrics = json.load(file)
+    network, rows = next(iter(metrics["models"])), []
+    for body, figures in metrics["bodies"].items():
+        at = figures["roll_out"]["200"]
+        seen = "trained on" if figures["seen_in_training"] else "never trained on"
+        cell = lambda m: f"{at[m]['mean_mm']:.2f} ({at[m]['ratio']:.3f})"
+        of_base = at[network]["ratio"] / at["modal_warped"]["ratio"]
+        rows.append([f"{body}, {seen}", cell("modal_warped"), cell(network), f"{of_base:.2f}"])
+    return table(["body of the creature's family", "modal base, mm (of skinning's)", "generic, mm (of skinning's)", "of base"], rows)
+
+
 HEAD = (
     "character", "motions trained on, held out", "modal base, mm (of skinning's)", "generic, mm (of base)", "its own, mm (of base)",
     "95th percentile, mm: base, own", "velocities, of skinning's: base, own", "its own, worst motion, of base",
@@ -116,19 +130,21 @@ HEAD = (
 )
 
 
-def characters(work, out, titles_path, truth_path, weights_out, bake):
+def characters(work, out, assets, bake):
     """Writes out/README.md, errors.json, errors.png and trace.png from work/*.tissue.safetensors, and copies what pays into
-    weights_out; what does not is removed there."""
+    assets/gallery; what does not is removed there."""
+    place_of = lambda *names: os.path.join(assets, *names)
     paths = sorted(glob.glob(os.path.join(work, f"*{TISSUE}")))
     if not paths:
         raise BadData(f"{work}: holds no *{TISSUE}; run sinew-train --keep first")
     tuned = [Tuned(path) for path in paths]
-    with open(titles_path) as file:
+    with open(place_of("gallery", "characters.json")) as file:
         titles = {c["folder"]: c["title"] for c in json.load(file)}
-    truth = _own_errors(truth_path)
+    truth = _own_errors(place_of("evaluation", "truth", "some_clips.csv"))
+    family = _family(place_of("evaluation", "metrics.json"))
     os.makedirs(out, exist_ok=True)
     for one in tuned:
-        place = os.path.join(weights_out, one.name + TISSUE)
+        place = place_of("gallery", one.name + TISSUE)
         if one.pays():
             shutil.copyfile(one.path, f"{place}.part")
             os.replace(f"{place}.part", place)
@@ -139,11 +155,11 @@ def characters(work, out, titles_path, truth_path, weights_out, bake):
     _draw_errors(tuned, titles, os.path.join(out, "errors.png"))
     most = min(tuned, key=lambda t: t.all.of_base(TUNED))
     _draw_trace(most, titles.get(most.name, most.name), work, bake, os.path.join(out, "trace.png"))
-    write_text(os.path.join(out, "README.md"), _page(tuned, titles, truth))
+    write_text(os.path.join(out, "README.md"), _page(tuned, titles, truth, family))
     return tuned
 
 
-def _page(tuned, titles, truth):
+def _page(tuned, titles, truth, family):
     median = lambda name: statistics.median(t.all.of_base(name) for t in tuned)
     generic = sum(t.all.of_base(GENERIC) <= 0.95 and worst(t.rows, GENERIC)[1] <= 1 + HARM for t in tuned)
     pay = sum(t.pays() for t in tuned)
@@ -162,6 +178,10 @@ both lie far below the latter neither is nearer to what real flesh does, but bot
 ![error on held-out motions](errors.png)
 
 ![a node of truth, base and network](trace.png)
+
+Where the generic network is at home, [in full](../README.md):
+
+{family}
 
 Every motion's figures: [errors.json](errors.json). What there is to learn, and what limits it: [learnable.md](learnable.md).
 """

@@ -142,9 +142,7 @@ def _export(a):
 def _characters(a):
     from .characters import characters
 
-    place = lambda *names: os.path.join(a.assets, *names)
-    titles, truth = place("gallery", "characters.json"), place("evaluation", "truth", "some_clips.csv")
-    for one in characters(a.work, place("evaluation", "characters"), titles, truth, place("gallery"), a.bake):
+    for one in characters(a.work, os.path.join(a.assets, "evaluation", "characters"), a.assets, a.bake):
         print(f"{one.name}: {one.all.of_base('fine-tuned'):.2f} of the modal base's error, {'shipped' if one.pays() else 'not shipped'}")
 
 

@@ -134,6 +134,8 @@ def _beside(folder):
             "The recipe was developed with these test motions in sight. On motions drawn after it was decided: "
             "[confirmation](confirmation/README.md).\n"
         )
+    if os.path.exists(os.path.join(folder, "characters", "README.md")):
+        parts.append("Characters of others, and what networks of their own are worth: [characters](characters/README.md).\n")
     for name, title in SECTIONS.items():
         if os.path.exists(os.path.join(folder, name)):
             with open(os.path.join(folder, name)) as file:

@@ -22,7 +22,7 @@ from .weights import save_weights
 
 VALIDATED_TICKS = (50, 150)  # and the whole sequence
 LOST = 5  # times the largest displacement of the truth
-LEAST_ERROR = 0.25  # of its mean over sequences, in a region: where the base is exact an error counts for no more
+LEAST_ERROR = 0.03  # of its mean over sequences, in a region: where the base is exact an error counts for no more
 
 
 def _new_model(o):

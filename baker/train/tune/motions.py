@@ -11,13 +11,14 @@ ORDER = "HTVTTTHTTVTTTTHTTVTT"  # held out, training, validation: any beginning 
 SPLITS = {"T": "train", "V": "validation", "H": "test"}
 FIRST_SEED = {"train": 1, "validation": 100_001, "test": 200_001}
 CLIP = "clip"
-KINDS = {  # of a split's motions, over and over
-    "train": ("random", "leap", CLIP, "random", CLIP, "leap"),
-    "validation": ("random", CLIP, "leap"),
-    "test": (CLIP, "random", "leap", "random"),
+_TRAIN = ("random", "leap", CLIP, "random", CLIP, "leap")
+KINDS = {  # of a split's motions, over and over; a shake is of the root alone: what bends no joint must not get worse
+    "train": (*_TRAIN, *_TRAIN[:4], "shake", "leap"),
+    "validation": ("random", CLIP, "leap", "random", "shake", "leap"),
+    "test": (CLIP, "random", "leap", "shake"),
 }
 FIRST_CLIP_SEED = {"train": 0, "validation": 1000, "test": 0}  # 0: the clip as it is
-STRENGTHS = {"random": (0.8, 0.5, 1.0, 1.25), "leap": (0.8, 0.6, 1.0), CLIP: (1.0, 0.7, 1.25)}
+STRENGTHS = {"random": (0.8, 0.5, 1.0, 1.25), "leap": (0.8, 0.6, 1.0), "shake": (0.6, 0.3, 1.0), CLIP: (1.0, 0.7, 1.25)}
 
 
 def held_out_clips(clips):

@@ -19,9 +19,13 @@ class Characters(unittest.TestCase):
     def setUp(self):
         self.temporary = tempfile.TemporaryDirectory()
         self.work, self.out, self.gallery = (self.place(n) for n in ("work", "out", "gallery"))
-        os.makedirs(self.work), os.makedirs(self.gallery)
-        self.write("titles.json", json.dumps([{"folder": "fox", "title": "Fox"}]))
-        self.write("truth.csv", 'character,clip,mean_mm,slow,many,finer,fault\n"fox","run",2.0,,0.02,0.2,""\n')
+        for folder in ("work", "gallery", "evaluation/truth"):
+            os.makedirs(self.place(folder))
+        self.write("gallery/characters.json", json.dumps([{"folder": "fox", "title": "Fox"}]))
+        at = {"modal_warped": {"mean_mm": 1.0, "ratio": 0.1}, "creature": {"mean_mm": 0.8, "ratio": 0.08}}
+        momo = {"seen_in_training": True, "roll_out": {"200": at}}
+        self.write("evaluation/metrics.json", json.dumps({"models": {"creature": {}}, "bodies": {"momo": momo}}))
+        self.write("evaluation/truth/some_clips.csv", 'character,clip,mean_mm,slow,many,finer,fault\n"fox","run",2.0,,0.02,0.2,""\n')
 
     def tearDown(self):
         self.temporary.cleanup()
@@ -41,14 +45,13 @@ class Characters(unittest.TestCase):
         save(os.path.join(self.work, name + page.TISSUE), {"w": np.zeros(3, np.float32)}, metadata)
 
     def make(self):
-        places = (self.place("titles.json"), self.place("truth.csv"), self.gallery, "bake")
         with mock.patch.object(page, "_draw_trace"):
-            page.characters(self.work, self.out, *places)
+            page.characters(self.work, self.out, self.temporary.name, "bake")
         with open(os.path.join(self.out, "README.md")) as file:
             return file.read()
 
     def shipped(self):
-        return sorted(os.listdir(self.gallery))
+        return sorted(name for name in os.listdir(self.gallery) if name.endswith(page.TISSUE))
 
     def test_what_pays_is_shipped_and_what_does_not_is_taken_back(self):
         self.weights("fox", hop=(0.2, 0.3, 0.1), all=(0.2, 0.3, 0.1))
@@ -63,6 +66,7 @@ class Characters(unittest.TestCase):
         self.assertIn("1.10 (idle)", rows["wolf"])
         self.assertTrue(all(rows[name].endswith("| no |") for name in ("wolf", "mage")))
         self.assertIn("Of 3 characters 1 have", told)
+        self.assertIn("| momo, trained on | 1.00 (0.100) | 0.80 (0.080) | 0.80 |", told)
         self.assertTrue(os.path.getsize(os.path.join(self.out, "errors.png")) > 1000)
 
     def test_weights_that_state_nothing_are_refused_by_name_and_nothing_is_shipped(self):
