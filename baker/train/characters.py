@@ -162,7 +162,7 @@ def characters(work, out, assets, bake):
 def _page(tuned, titles, truth, family):
     median = lambda name: statistics.median(t.all.of_base(name) for t in tuned)
     generic = sum(t.all.of_base(GENERIC) <= 0.95 and worst(t.rows, GENERIC)[1] <= 1 + HARM for t in tuned)
-    pay = sum(t.pays() for t in tuned)
+    pay, size_kb = sum(t.pays() for t in tuned), max(os.path.getsize(t.path) for t in tuned) / 1e3
     return f"""# Characters with networks of their own
 
 Made by `baker/train/tune_gallery.sh`: `sinew-train` on the gallery's characters by their hand-written recipes. Each network was trained on one character; errors are mean distances of its control nodes from its own
@@ -170,7 +170,7 @@ finite-element truth, in closed loop as the runtime ticks, on motions that neith
 
 {table(HEAD, [_cells(t, titles, truth) for t in tuned])}
 
-Of {len(tuned)} characters {pay} have a network that leaves at most {WORTH} of the modal base's error and does no harm; they lie [in the gallery](../../gallery/README.md), 38 kB each. The median over characters is {median(TUNED):.2f} of the base's error. The generic network, trained on other bodies, leaves
+Of {len(tuned)} characters {pay} have a network that leaves at most {WORTH} of the modal base's error and does no harm; they lie [in the gallery](../../gallery/README.md), {size_kb:.0f} kB each. The median over characters is {median(TUNED):.2f} of the base's error. The generic network, trained on other bodies, leaves
 {median(GENERIC):.2f} in the median and would be kept on {generic}; a bake leaves it out where it is not 5 % better than the modes.
 *Harm*: in some motion more than {1 + HARM:.2f} of the base's error; such a network is not shipped. *Truth against finer steps, cells*: [how far the truth is from itself](../truth/README.md), as a share of the displacement: of two errors that
 both lie far below the latter neither is nearer to what real flesh does, but both are nearer to this flesh.
