@@ -59,6 +59,11 @@ class Trainer:
         self.bound = torch.cat(self.bound)
         self.elapsed_s, self.updates, self.best, self.best_model, self.curve = 0.0, 0, float("inf"), None, []
 
+    def begin_anew(self, options, scaling):
+        """With weights drawn for these options."""
+        self.options, self.model, self.scaling = options, _new_model(options), scaling
+        self.optimizer = torch.optim.Adam(self.model.parameters(), options.learning_rate)
+
     def _bound(self, g):
         """Of |l| in each region, (R, 1, 1) metres: what goes beyond is lost."""
         u = g.displacement[:, ::2].norm(dim=-1)

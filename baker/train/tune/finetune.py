@@ -13,8 +13,9 @@ from ..train_options import TrainOptions
 JUDGED_TIMES = 16  # in the whole time
 LEAST_BETWEEN_S = 3.0  # judgements
 CHANNELS = (16, 3)  # at least: a character's own network pays for its size
+FOREIGN = 1.2  # of the base's error: weights that leave more know nothing of this character, so that it begins anew
 HOPELESS = 0.98  # of the base's error, still left after
-HOPELESS_AFTER = 0.4  # of the time: there is nothing to learn
+HOPELESS_AFTER = 0.4  # of the time: the rest would not do it
 
 
 def widened(scaling, seen):
@@ -38,6 +39,9 @@ class FineTuner(Trainer):
         super().__init__(groups, validation, options, lambda *a, **k: None, (model.train(), scaling))
         self.stop, self.clock, self.hopeless = stop, clock, False
         self.of_base = errors_of(None, None, validation)
+        self.given_ratio = self.validate()["of_base"]
+        if self.given_ratio > FOREIGN:
+            self.begin_anew(_options(options.seed, channels=CHANNELS), measure_scaling(groups))
 
     def validate(self):
         """Motions alike, so that what gets worse on a calm one counts."""
@@ -48,7 +52,7 @@ class FineTuner(Trainer):
         return self.stop.asked or self.hopeless or self.clock() >= end_s
 
     def tune(self, end_s, report=lambda tuner: None, keep=lambda tuner: None):
-        """Until end_s, or until it is clear that there is nothing to learn. The weights that it began with are judged first,
+        """Until end_s, or until it is clear that nothing is gained. The weights that it began with are judged first,
         and are the best until others are better on the validation motions. report(self): after every update; keep(self):
         when better ones are found."""
         began_s = self.clock()
@@ -56,7 +60,7 @@ class FineTuner(Trainer):
         judging_s = self.clock() - began_s
         begin_s, end_s = self.clock(), end_s - judging_s
         between_s = max(LEAST_BETWEEN_S, 4 * judging_s, (end_s - begin_s) / JUDGED_TIMES)
-        self.start_ratio, judged_s, losses, episode = self.best, begin_s, [], None
+        judged_s, losses, episode = begin_s, [], None
         self.options.minutes = max(1e-3, (end_s - begin_s) / 60)  # what the learning rate goes by
         while not self._ended(end_s):
             if episode is None or episode.ticks_left() < 2:
@@ -80,8 +84,12 @@ class FineTuner(Trainer):
             keep(self)
 
 
-def tuning_options(model, seed):
+def _options(seed, **wiring):
     """The shipped weights' recipe; of one character more sequences fit into a batch, and its mirror image is nobody."""
+    return TrainOptions(seed=seed, batch=12, mirror=False, **wiring)
+
+
+def tuning_options(model, seed):
     o = model.options
     wiring = dict(hidden_leak=o.hidden_leak, output_scale=o.output_scale, state_clamp=o.state_clamp)
-    return TrainOptions(channels=tuple(o.channels), seed=seed, batch=12, mirror=False, **wiring)
+    return _options(seed, channels=tuple(o.channels), **wiring)

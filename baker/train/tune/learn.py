@@ -74,7 +74,7 @@ def train(run, simulation, seed):
     def report(t):
         line.update(
             lambda: f"training: {in_words(end_s - time.monotonic())} to go, error on the validation motions over the "
-            f"modal base's: {run.start.name} {t.start_ratio:.3f}, fine-tuned {t.best:.3f}; all ends in "
+            f"modal base's: {run.start.name} {t.given_ratio:.3f}, fine-tuned {t.best:.3f}; all ends in "
             f"{in_words(run.budget.left_s())}"
         )
 
@@ -86,8 +86,8 @@ def train(run, simulation, seed):
     line.clear()
     say(
         f"trained for {in_words(tuner.elapsed_s)}, {tuner.updates} updates: error on the validation motions over the modal "
-        f"base's {tuner.start_ratio:.3f} before, {tuner.best:.3f} now"
+        f"base's {tuner.given_ratio:.3f} before, {tuner.best:.3f} now"
     )
     if tuner.hopeless:
-        say("stopped early: what the modal base leaves here is nothing that a node could learn")
-    return path if tuner.best < tuner.start_ratio or begun is not run.start else None
+        say("stopped early: after two fifths of the time it was hardly better than the modal base")
+    return path if tuner.best < tuner.given_ratio or begun is not run.start else None

@@ -1,7 +1,7 @@
 """How the whole wall time is divided into simulation, training and evaluation."""
 import time
 
-SIMULATION_SHARE = 0.5  # of the whole; training takes what evaluation leaves of the rest
+SIMULATION_SHARE = 0.6  # of the whole; training takes what evaluation leaves of the rest
 EVALUATION_S = 1.0  # besides bakes: judging, files
 
 

@@ -270,7 +270,7 @@ class Tuning(unittest.TestCase):
         tuner, kept = self.tuner(Countdown(2 * UPDATES)), []
         tuner.tune(time.monotonic() + 600, keep=lambda t: kept.append(t.best))
         self.assertEqual(tuner.updates, 2 * UPDATES)
-        self.assertLess(tuner.best, 0.95 * tuner.start_ratio)
+        self.assertLess(tuner.best, 0.95 * tuner.given_ratio)
         self.assertEqual((kept[-1], kept), (tuner.best, sorted(kept, reverse=True)))
         self.assertLess(abs(tuner.validate()["of_base"] - tuner.best), 1e-6)
 
@@ -282,6 +282,15 @@ class Tuning(unittest.TestCase):
         self.assertTrue(tuner.hopeless)
         self.assertLess(tuner.updates, 500)
 
+    def test_weights_that_know_nothing_of_the_character_are_not_begun_with(self):
+        torch.manual_seed(1)
+        model = AltConvLSTM(ModelOptions(INPUT_WIDTH, (8, 3), True, 3.0, 0.0, 0.2, 8.0))  # far too loud
+        options = tuning_options(model, 0)
+        tuner = FineTuner(*self.groups, (model, measure_scaling(self.groups[0])), options, Stop())
+        self.assertGreater(tuner.given_ratio, finetune.FOREIGN)
+        self.assertLess(tuner.validate()["of_base"], finetune.FOREIGN)
+        self.assertEqual(tuner.model.options.channels, finetune.CHANNELS)
+
     def test_validation_errors_are_told_over_the_bases(self):
         tuner = self.tuner()
         for p in tuner.model.parameters():
@@ -292,7 +301,7 @@ class Tuning(unittest.TestCase):
         tuner = self.tuner()
         before = {k: v.clone() for k, v in tuner.model.state_dict().items()}
         tuner.tune(time.monotonic())
-        self.assertEqual((tuner.updates, tuner.best), (0, tuner.start_ratio))
+        self.assertEqual((tuner.updates, tuner.best), (0, tuner.given_ratio))
         self.assertTrue(all(torch.equal(v, before[k]) for k, v in tuner.model.state_dict().items()))
 
     def test_a_wish_to_stop_ends_training_with_the_best(self):
@@ -305,7 +314,7 @@ class Tuning(unittest.TestCase):
         began_s = time.monotonic()
         tuner.tune(began_s + 600, report=ask)
         self.assertEqual(tuner.updates, 5)
-        self.assertLessEqual(tuner.best, tuner.start_ratio)
+        self.assertLessEqual(tuner.best, tuner.given_ratio)
         self.assertLess(time.monotonic() - began_s, 60)
 
     def test_the_envelope_grows_to_what_is_seen_and_nothing_else_changes(self):
