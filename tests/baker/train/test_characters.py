@@ -41,7 +41,7 @@ class Characters(unittest.TestCase):
         """motions: name -> (base, generic, own) of skinning's error."""
         error = lambda r: {"mean_mm": 10 * r, "ratio": r, "p95_mm": 30 * r, "velocity_ratio": 2 * r}
         told = {m: dict(zip((BASE, page.GENERIC, TUNED), map(error, ratios))) for m, ratios in motions.items()}
-        metadata = {"held_out": json.dumps(told), "data": "2 motions of 4 s: random, leap"}
+        metadata = {"held_out": json.dumps(told), "data": "2 motions of 4 s: random, leap", "tuned_minutes": "3.21"}
         save(os.path.join(self.work, name + page.TISSUE), {"w": np.zeros(3, np.float32)}, metadata)
 
     def make(self):
