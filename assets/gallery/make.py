@@ -63,7 +63,7 @@ def limits_lowered(printed):
 
 
 class OwnNetwork:
-    """Weights that sinew-train made for a character, as baker/train/tune_gallery.sh ships them; none for most proposals."""
+    """Weights that sinew-train made for a character, as baker/train/tune_gallery.sh ships them; sinew-train has judged them on more motions than a bake."""
 
     def __init__(self, folder):
         self.path = HERE / f"{folder}.tissue.safetensors"
@@ -104,6 +104,8 @@ class Bake:
         command = [tools / "sinew-bake", "character", source, "--tissue", own.path if own else WEIGHTS, "-o", self.pack, "--recipe", recipe]
         if not proposal:
             command += ["--preview", self.preview]
+        if own:
+            command += ["--keep-network"]
         start = time.monotonic()
         printed = run(command)
         self.seconds = time.monotonic() - start
@@ -268,7 +270,7 @@ All but the limits lowered, the bake's seconds (two cores, measured errors inclu
 of the height somewhere in the bob or the character's clips. *bob*: while the root goes up and down by 5 % of the height, of which flesh may do 0.08; rods swing freely. *residual*: after a minute of rest, at most 1e-4. *edge stretch*: beyond skinning's, at most 1.5, of rods 2.
 *limits lowered*: parts whose limit the proposal or the bake made smaller, for their skin would tear. Errors are distances from the finite-element truth of this
 character as a share of skinning's, the median over a random motion and up to five clips; rods have no such truth. Truth and tiers are shown held at the part's limit: where they lie at it, what is compared is a direction. A network is left out where it is not 5 % better than the modes: in brackets what it would have had. The shipped one is trained on other bodies;
-*its own* was trained on the character by `sinew-train` and is here where [it pays](../evaluation/characters/README.md)."""
+*its own* was trained on the character by `sinew-train`, is here where [it pays](../evaluation/characters/README.md) at the control nodes, and is kept."""
     for character, bakes in made:
         title, folder = character["title"], character["folder"]
         yield f"\n## {title}\n\n{character['note']}" + ("" if character["made_up"] else f" [Recipe]({folder}.json).") + "\n"

@@ -225,8 +225,8 @@ int run_judge(const JudgeOptions& options) {
   for (const std::string& path : options.characters)
     judged.push_back({.path = path, .sums = std::vector<Sums>(options.ticks.size()), .trace = {}});
   for (const std::string& truth : options.truth) follow(options, characters, truth, &judged);
-  write_trace(options, judged, characters.front().view().nodes.size());
   check_all_judged(options, judged.front());
+  write_trace(options, judged, characters.front().view().nodes.size());
   const bool ok = within(options, judged);
   if (options.json)
     std::printf("%s\n", described(options, judged, ok).dump().c_str());

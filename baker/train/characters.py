@@ -15,7 +15,7 @@ from .plot import COLOURS, _finish, _pyplot
 from .safetensors import BadData, load
 from .trajectory import read_trajectory
 from .tune.packs import Baker
-from .tune.verdict import BASE, HARM, TUNED, Error, Row, worst
+from .tune.verdict import BASE, HARM, TUNED, Error, Row, may_win, worst
 
 WORTH = 0.9  # of the base's error on held-out motions: at most so much, or the weights are not shipped
 TISSUE, GENERIC, ALL = ".tissue.safetensors", "shipped", "all"
@@ -30,11 +30,16 @@ class Tuned:
         _, self.metadata = load(path)
         try:
             told = json.loads(self.metadata["held_out"])
-            rows = [Row(motion, {n: Error(**e) for n, e in errors.items()}) for motion, errors in told.items()]
-        except (KeyError, ValueError, TypeError):
-            raise BadData(f"{path}: states no errors on held-out motions; run sinew-train --keep again") from None
-        self.all = next(row for row in rows if row.motion == ALL)
-        self.rows = [row for row in rows if row.motion != ALL]
+            rows = [Row(m, {n: Error(**errors[n]) for n in (BASE, GENERIC, TUNED)}) for m, errors in told.items()]
+            self.motions, self.minutes = len(self.metadata["data"].split(", ")), float(self.metadata["tuned_minutes"])
+            self.all = next(row for row in rows if row.motion == ALL)
+            self.rows = [row for row in rows if row.motion != ALL]
+            worst(self.rows, TUNED)
+        except (KeyError, ValueError, TypeError, StopIteration):
+            raise BadData(
+                f"{path}: states no errors of base, shipped and own network on held-out motions; run sinew-train --keep "
+                "from the shipped weights"
+            ) from None
 
     def pays(self, name=TUNED):
         return self.all.of_base(name) <= WORTH and worst(self.rows, name)[1] <= 1 + HARM
@@ -64,10 +69,12 @@ def _draw_errors(tuned, titles, path):
 def _draw_trace(one, title, work, bake, path):
     """The node that the base misses most, in the held-out motion where the network mends most."""
     best = max(one.rows, key=lambda row: row.errors[BASE].mean_mm - row.errors[TUNED].mean_mm)
-    motion, seed = best.motion.split(" x")[0].rsplit(" #", 1)
-    folder = max(glob.glob(os.path.join(work, f"{one.name}.train", "*", "")), key=os.path.getmtime)
+    motion, seed = best.motion.rsplit(" x", 1)[0].rsplit(" #", 1)
+    folder = max(glob.glob(os.path.join(work, f"{one.name}.train", "*", "")), key=os.path.getmtime, default="")
     files = glob.glob(os.path.join(folder, f"test-*-{seed}.safetensors"))
-    true = next(t for t in map(read_trajectory, files) if t.metadata["motion"] == motion)
+    true = next((t for t in map(read_trajectory, files) if t.metadata["motion"] == motion), None)
+    if true is None:
+        raise BadData(f"{work}: {one.name}.train holds no {best.motion}; it lies beside the weights that sinew-train wrote")
     packs, trace = [os.path.join(folder, f"{k}.sinew") for k in ("base", "tuned")], os.path.join(work, "trace.safetensors")
     if os.path.exists(trace):
         os.remove(trace)
@@ -97,11 +104,10 @@ def _cells(one, titles, truth):
     e = one.all.errors
     motion, most = worst(one.rows, TUNED)
     many, finer = truth.get(one.name, (float("nan"),) * 2)
-    seen = len(one.metadata["data"].split(", "))
     return [
         titles.get(one.name, one.name),
-        f"{seen}, {len(one.rows)}",
-        f"{float(one.metadata['tuned_minutes']):.1f}",
+        f"{one.motions}, {len(one.rows)}",
+        f"{one.minutes:.1f}",
         f"{e[BASE].mean_mm:.2f} ({e[BASE].ratio:.3f})",
         f"{e[GENERIC].mean_mm:.2f} ({one.all.of_base(GENERIC):.2f})",
         f"{e[TUNED].mean_mm:.2f} (**{one.all.of_base(TUNED):.2f}**)",
@@ -128,10 +134,18 @@ def _family(path):
 
 
 HEAD = (
-    "character", "motions trained on, held out", "trained, min", "modal base, mm (of skinning's)", "generic, mm (of base)", "its own, mm (of base)",
+    "character", "motions trained on, held out", "best after, min of training", "modal base, mm (of skinning's)", "generic, mm (of base)", "its own, mm (of base)",
     "95th percentile, mm: base, own", "velocities, of skinning's: base, own", "its own, worst motion, of base",
     "truth against finer steps, cells", "shipped",
 )
+
+
+def _ship(one, place):
+    if one.pays():
+        shutil.copyfile(one.path, f"{place}.part")
+        os.replace(f"{place}.part", place)
+    elif os.path.exists(place):
+        os.remove(place)
 
 
 def characters(work, out, assets, bake):
@@ -147,26 +161,21 @@ def characters(work, out, assets, bake):
     truth = _own_errors(place_of("evaluation", "truth", "some_clips.csv"))
     family = _family(place_of("evaluation", "metrics.json"))
     os.makedirs(out, exist_ok=True)
-    for one in tuned:
-        place = place_of("gallery", one.name + TISSUE)
-        if one.pays():
-            shutil.copyfile(one.path, f"{place}.part")
-            os.replace(f"{place}.part", place)
-        elif os.path.exists(place):
-            os.remove(place)
     figures = {t.name: {row.motion: {n: e._asdict() for n, e in row.errors.items()} for row in [*t.rows, t.all]} for t in tuned}
     write_json(os.path.join(out, "errors.json"), figures)
     _draw_errors(tuned, titles, os.path.join(out, "errors.png"))
     most = min(tuned, key=lambda t: t.all.of_base(TUNED))
     _draw_trace(most, titles.get(most.name, most.name), work, bake, os.path.join(out, "trace.png"))
     write_text(os.path.join(out, "README.md"), _page(tuned, titles, truth, family))
+    for one in tuned:
+        _ship(one, place_of("gallery", one.name + TISSUE))
     return tuned
 
 
 def _page(tuned, titles, truth, family):
     median = lambda name: statistics.median(t.all.of_base(name) for t in tuned)
-    generic = sum(t.all.of_base(GENERIC) <= 0.95 and worst(t.rows, GENERIC)[1] <= 1 + HARM for t in tuned)
-    pay, size_kb = sum(t.pays() for t in tuned), max(os.path.getsize(t.path) for t in tuned) / 1e3
+    generic, paying = sum(may_win(t.rows, t.all, GENERIC) for t in tuned), [t for t in tuned if t.pays()]
+    pay, size_kb = len(paying), max((os.path.getsize(t.path) for t in paying), default=0) / 1e3
     return f"""# Characters with networks of their own
 
 Made by `baker/train/tune_gallery.sh`: `sinew-train` on the gallery's characters by their hand-written recipes. Each network was trained on one character; errors are mean distances of its control nodes from its own
@@ -174,10 +183,11 @@ finite-element truth, in closed loop as the runtime ticks, on motions that neith
 
 {table(HEAD, [_cells(t, titles, truth) for t in tuned])}
 
-Of {len(tuned)} characters {pay} have a network that leaves at most {WORTH} of the modal base's error and does no harm; they lie [in the gallery](../../gallery/README.md), {size_kb:.0f} kB each. The median over characters is {median(TUNED):.2f} of the base's error. The generic network, trained on other bodies, leaves
+Of {len(tuned)} characters {pay} have a network that leaves at most {WORTH} of the modal base's error and does no harm; they lie [in the gallery](../../gallery/README.md), up to {size_kb:.0f} kB each. The median over characters is {median(TUNED):.2f} of the base's error. The generic network, trained on other bodies, leaves
 {median(GENERIC):.2f} in the median and would be kept on {generic}; a bake leaves it out where it is not 5 % better than the modes.
 *Harm*: in some motion more than {1 + HARM:.2f} of the base's error; such a network is not shipped. *Truth against finer steps, cells*: [how far the truth is from itself](../truth/README.md), as a share of the displacement: of two errors that
-both lie far below the latter neither is nearer to what real flesh does, but both are nearer to this flesh.
+both lie far below the latter neither is nearer to what real flesh does, but both are nearer to this flesh. Errors here are of control nodes; what they carry to the surface has [an error of its own](learnable.md#at-equal-cost), which no network
+on them mends, so that the gallery, which measures the surface, shows smaller gains.
 
 ![error on held-out motions](errors.png)
 

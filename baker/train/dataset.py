@@ -44,6 +44,8 @@ class Group:
         self.drive = self._stack([t.drive for t in trajectories])  # (S, T+1, N, 15)
         self.rotation = self._stack([t.rotation for t in trajectories])  # (S, T+1, N, 9)
         self.displacement = self._stack([t.displacement for t in trajectories])  # (S, T+1, N, 3) metres
+        of = lambda r: self.displacement[:, :, torch.as_tensor(np.array(body.region) == r, device=device)]
+        self.largest_m = torch.stack([of(r).norm(dim=-1).max() for r in range(self.regions)])  # (R,), before limits
         if limits is not None:
             self._hold_within(torch.as_tensor(limits, dtype=torch.float32, device=device))
         self.count, self.ticks = self.drive.shape[0], self.drive.shape[1] - 1

@@ -13,12 +13,14 @@ characters=${1:?"usage: tune_gallery.sh CHARACTERS [BUILD_DIR] [WORK_DIR]"}
 build=${2:-$root/build/release}
 work=${3:-$build/characters}
 mkdir -p "$work"
-for recipe in $(grep -l '"regions"' "$root"/assets/gallery/*_*.json); do
+for recipe in "$root"/assets/gallery/*_*.json; do
+  grep -q '"regions"' "$recipe" || continue
   name=$(basename "$recipe" .json)
   [ ! -e "$work/$name.tissue.safetensors" ] || continue
   for file in "$characters/$name"/file.glb "$characters/$name"/file.gltf "$characters/$name"/file.vrm; do
     [ ! -e "$file" ] || break
   done
   "$build/bin/sinew-train" "$file" --recipe "$recipe" --minutes "${MINUTES:-20}" ${PROCESSES:+--processes "$PROCESSES"} --keep -o "$work/$name.sinew"
+  [ -e "$work/$name.tissue.safetensors" ] || echo "tune_gallery.sh: $name: no weights are better than those it began with; it is not on the page" >&2
 done
 "${PYTHON:-/usr/bin/python3}" "$root/baker/train" characters "$work" --bake "$build/bin/sinew-bake" --assets "$root/assets"

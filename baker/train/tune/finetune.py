@@ -14,6 +14,7 @@ JUDGED_TIMES = 16  # in the whole time
 LEAST_BETWEEN_S = 3.0  # judgements
 CHANNELS = (16, 3)  # at least: a character's own network pays for its size
 FOREIGN = 1.2  # of the base's error: weights that leave more know nothing of this character, so that it begins anew
+EXACT_M = 1e-9  # an error that is none
 HOPELESS = 0.98  # of the base's error, still left after
 HOPELESS_AFTER = 0.4  # of the time: the rest would not do it
 
@@ -36,11 +37,13 @@ class FineTuner(Trainer):
         torch.manual_seed(options.seed)
         model, scaling = with_more_channels(start[0], CHANNELS), start[1]
         scaling = widened(scaling, measure_scaling(groups))
+        options = replace(options, channels=tuple(model.options.channels))
         super().__init__(groups, validation, options, lambda *a, **k: None, (model.train(), scaling))
-        self.stop, self.clock, self.hopeless = stop, clock, False
-        self.of_base = errors_of(None, None, validation)
+        self.stop, self.clock, self.hopeless, self.improved = stop, clock, False, False
+        self.of_base = [max(e, EXACT_M) for e in errors_of(None, None, validation)]
         self.given_ratio = self.validate()["of_base"]
-        if self.given_ratio > FOREIGN:
+        self.anew = self.given_ratio > FOREIGN
+        if self.anew:
             self.begin_anew(_options(options.seed, channels=CHANNELS), measure_scaling(groups))
 
     def validate(self):
@@ -81,6 +84,7 @@ class FineTuner(Trainer):
         before = self.best
         self.consider(losses)
         if self.best < before:
+            self.improved = True
             keep(self)
 
 
@@ -90,6 +94,7 @@ def _options(seed, **wiring):
 
 
 def tuning_options(model, seed):
+    """On the wiring of a given network."""
     o = model.options
     wiring = dict(hidden_leak=o.hidden_leak, output_scale=o.output_scale, state_clamp=o.state_clamp)
-    return _options(seed, channels=tuple(o.channels), **wiring)
+    return _options(seed, **wiring)

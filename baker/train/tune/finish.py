@@ -36,7 +36,7 @@ def _stated(run, weights, rows, all_of_them, name):
 
 
 def finish(run, simulation, tuned, output, keep):
-    """Bakes what has the smallest error; the base, which needs no trust, where nothing is held out. tuned:
+    """Bakes what has the smallest error and does no harm; the base, which needs no trust, where nothing is held out. tuned:
     path of weights, or None. keep: writes them beside the output whatever is baked."""
     weights = {run.start.name: run.start.path, **({TUNED: tuned} if tuned else {})}
     rows, all_of_them = _judge(run, simulation, weights)

@@ -30,10 +30,11 @@ def _begin(run, path):
 
 def provenance(run, tuner, jobs, begun):
     """Metadata: where tuned weights come from. begun: the Start that they were trained from."""
-    minutes = float(begun.metadata.get("tuned_minutes", 0)) + tuner.elapsed_s / 60
+    before = 0.0 if tuner.anew else float(begun.metadata.get("tuned_minutes", 0))
+    minutes = before + tuner.elapsed_s / 60
     return {
         "seed": tuner.options.seed,
-        "recipe": json.dumps({**vars(tuner.options), "channels": tuner.model.options.channels}),
+        "recipe": json.dumps(vars(tuner.options)),
         "parent": os.path.basename(run.start.path),
         "parent_sha256": hash_of(run.start.path),
         "tuned_for": os.path.basename(run.baker.character),
@@ -69,12 +70,13 @@ def train(run, simulation, seed):
     groups, validation = (_groups(run, simulation, split) for split in ("train", "validation"))
     options = tuning_options(begun.model, seed)
     tuner = FineTuner(groups, validation, (begun.model, begun.scaling), options, run.stop)
+    given = run.start.name if begun is run.start else "an earlier run's"
     jobs, line, end_s = list(simulation.of_split("train")), ProgressLine(), run.budget.training_end_s()
 
     def report(t):
         line.update(
             lambda: f"training: {in_words(end_s - time.monotonic())} to go, error on the validation motions over the "
-            f"modal base's: {run.start.name} {t.given_ratio:.3f}, fine-tuned {t.best:.3f}; all ends in "
+            f"modal base's: {given} {t.given_ratio:.3f}, fine-tuned {t.best:.3f}; all ends in "
             f"{in_words(run.budget.left_s())}"
         )
 
@@ -88,6 +90,8 @@ def train(run, simulation, seed):
         f"trained for {in_words(tuner.elapsed_s)}, {tuner.updates} updates: error on the validation motions over the modal "
         f"base's {tuner.given_ratio:.3f} before, {tuner.best:.3f} now"
     )
+    if tuner.anew:
+        say("begun anew: the given weights know too little of this character")
     if tuner.hopeless:
         say("stopped early: after two fifths of the time it was hardly better than the modal base")
-    return path if tuner.best < tuner.given_ratio or begun is not run.start else None
+    return path if tuner.improved or begun is not run.start else None

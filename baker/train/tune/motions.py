@@ -7,6 +7,7 @@ from ..plan import Job
 SECONDS = 4.0  # of every motion
 RATE_HZ = 60  # of sinew-bake truth
 MOST_MOTIONS = 240
+SPLIT = 2  # of these rules: what an earlier version trained on may be held out in this one
 ORDER = "HTVTTTHTTVTTTTHTTVTT"  # held out, training, validation: any beginning of three has one of each
 SPLITS = {"T": "train", "V": "validation", "H": "test"}
 FIRST_SEED = {"train": 1, "validation": 100_001, "test": 200_001}

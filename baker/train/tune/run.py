@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from ..safetensors import BadData
 from ..trajectory import VERSION
+from .motions import SPLIT
 from .packs import Baker
 from .progress_line import ProgressLine
 from .start import Start, hash_of
@@ -42,7 +43,7 @@ class Run:
 def _folder_name(run, base):
     """The base's pack holds mesh, clips, regions and modes: whatever the truth depends on changes it."""
     recipe = [run.baker.recipe] if run.baker.recipe else []
-    return f"{hash_of(base, *recipe)[:12]}-{VERSION}"
+    return f"{hash_of(base, *recipe)[:12]}-{VERSION}.{SPLIT}"
 
 
 def _check_soft(run, regions):

@@ -74,4 +74,4 @@ def reason(winner, rows, all_of_them):
         motion, most = worst(rows, name)
         good = all_of_them.of_base(name) <= 1 - MARGIN
         others.append(f"{name} {all_of_them.errors[name].ratio:.3f}" + (f", but {most:.2f} of the base's in {motion}" if good else ""))
-    return f"the modal base alone, {base:.3f}: no network is better by {MARGIN:.0%} ({'; '.join(others)})"
+    return f"the modal base alone, {base:.3f}: no network is better by {MARGIN:.0%} and nowhere worse ({'; '.join(others)})"

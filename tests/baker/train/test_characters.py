@@ -76,6 +76,18 @@ class Characters(unittest.TestCase):
             self.make()
         self.assertEqual(self.shipped(), [])
 
+    def test_weights_begun_with_others_than_the_shipped_are_refused(self):
+        with mock.patch.object(page, "GENERIC", "mine"):
+            self.weights("fox", hop=(0.2, 0.3, 0.1), all=(0.2, 0.3, 0.1))
+        with self.assertRaisesRegex(BadData, "fox.*from the shipped weights"):
+            self.make()
+
+    def test_where_the_motions_are_gone_nothing_is_shipped(self):
+        self.weights("fox", **{"hop #1 x1": (0.2, 0.3, 0.1), "all": (0.2, 0.3, 0.1)})
+        with self.assertRaisesRegex(BadData, "fox.train holds no hop #1 x1"):
+            page.characters(self.work, self.out, self.temporary.name, "bake")
+        self.assertEqual(self.shipped(), [])
+
     def test_a_folder_without_weights_is_refused(self):
         with self.assertRaisesRegex(BadData, "holds no .*tissue"):
             self.make()

@@ -388,6 +388,15 @@ class Learning(Folder):
         stop.asked = True
         self.assertEqual(self.learn(stop=stop), (None, ""))
 
+    def test_where_nothing_better_is_found_there_are_no_weights(self):
+        """Weights that know nothing of the character are not begun with, and neither are they given back."""
+        tensors, metadata = load(SHIPPED)
+        save(self.place("creature.safetensors"), {k: v.copy() for k, v in tensors.items()}, {**metadata, "output_scale": "9"})
+        path, said = self.learn(stop=Countdown(1))
+        self.assertIn("begun anew", said)
+        self.assertIsNone(path)
+        self.assertFalse(os.path.exists(self.place("tuned.safetensors")))
+
     def test_an_earlier_runs_weights_are_taken_where_this_one_cannot_train(self):
         self.learn()
         stop = Stop()
