@@ -3,6 +3,7 @@ import json
 import os
 import sys
 import tempfile
+import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -24,6 +25,25 @@ def leave_without_torch():
     if MISSING:
         print(MISSING)
         sys.exit(0)
+
+
+class Folder(unittest.TestCase):
+    """A folder of its own for each test."""
+
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+
+    def tearDown(self):
+        self.temporary.cleanup()
+
+    def place(self, name):
+        return os.path.join(self.temporary.name, name)
+
+    def write(self, name, value):
+        """A text, or else as JSON; its path."""
+        with open(self.place(name), "w") as file:
+            file.write(value if isinstance(value, str) else json.dumps(value))
+        return self.place(name)
 
 
 BODY = "made_up"

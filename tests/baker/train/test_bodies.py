@@ -4,7 +4,6 @@ import copy
 import json
 import os
 import sys
-import tempfile
 import unittest
 from unittest import mock
 
@@ -53,27 +52,16 @@ PLAN = {
 SHIPPED = os.path.join(bodies.ROOT, "assets", "bodies", "plan.json")
 
 
-class Folder(unittest.TestCase):
+class Folder(support.Folder):
     """A folder with a creature, two bodies of it and a plan."""
 
     def setUp(self):
-        self.temporary = tempfile.TemporaryDirectory()
+        super().setUp()
         self.write("creature.json", CREATURE)
         self.body = {"creature": self.place("creature.json"), "tissue": {"voxels_high": 20}}
         self.write("one.json", self.body)
         self.write("two.json", {**self.body, "proportions": [2, 1, 1]})
         self.write("plan.json", PLAN)
-
-    def tearDown(self):
-        self.temporary.cleanup()
-
-    def place(self, name):
-        return os.path.join(self.temporary.name, name)
-
-    def write(self, name, value):
-        with open(self.place(name), "w") as file:
-            file.write(value if isinstance(value, str) else json.dumps(value))
-        return self.place(name)
 
     def refused(self, call, *words):
         """The call is refused in one line that says these words."""

@@ -1,7 +1,6 @@
 """The page of characters with networks of their own: what is shipped, what is not, and what it says."""
 import json
 import os
-import tempfile
 import unittest
 from unittest import mock
 
@@ -15,9 +14,9 @@ from train.safetensors import BadData, save  # noqa: E402
 from train.tune.verdict import BASE, TUNED  # noqa: E402
 
 
-class Characters(unittest.TestCase):
+class Characters(support.Folder):
     def setUp(self):
-        self.temporary = tempfile.TemporaryDirectory()
+        super().setUp()
         self.work, self.out, self.gallery = (self.place(n) for n in ("work", "out", "gallery"))
         for folder in ("work", "gallery", "evaluation/truth"):
             os.makedirs(self.place(folder))
@@ -26,16 +25,6 @@ class Characters(unittest.TestCase):
         momo = {"seen_in_training": True, "roll_out": {"200": at}}
         self.write("evaluation/metrics.json", json.dumps({"models": {"creature": {}}, "bodies": {"momo": momo}}))
         self.write("evaluation/truth/some_clips.csv", 'character,clip,mean_mm,slow,many,finer,fault\n"fox","run",2.0,,0.02,0.2,""\n')
-
-    def tearDown(self):
-        self.temporary.cleanup()
-
-    def place(self, name):
-        return os.path.join(self.temporary.name, name)
-
-    def write(self, name, text):
-        with open(self.place(name), "w") as file:
-            file.write(text)
 
     def weights(self, name, **motions):
         """motions: name -> (base, generic, own) of skinning's error."""
@@ -87,6 +76,13 @@ class Characters(unittest.TestCase):
         with self.assertRaisesRegex(BadData, "fox.train holds no hop #1 x1"):
             page.characters(self.work, self.out, self.temporary.name, "bake")
         self.assertEqual(self.shipped(), [])
+
+    def test_a_folder_that_is_not_the_assets_is_refused(self):
+        self.weights("fox", hop=(0.2, 0.3, 0.1), all=(0.2, 0.3, 0.1))
+        os.remove(self.place("evaluation/metrics.json"))
+        with self.assertRaisesRegex(BadData, "metrics.json.*give the folder with gallery and evaluation"):
+            self.make()
+        self.assertFalse(os.path.exists(self.out))
 
     def test_a_folder_without_weights_is_refused(self):
         with self.assertRaisesRegex(BadData, "holds no .*tissue"):

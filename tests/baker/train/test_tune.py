@@ -38,11 +38,11 @@ SPLITS = ("train", "validation", "test")
 UPDATES = 25
 
 
-class Folder(unittest.TestCase):
+class Folder(support.Folder):
     """A folder with a pretended sinew-bake."""
 
     def setUp(self):
-        self.temporary = tempfile.TemporaryDirectory()
+        super().setUp()
         program = os.path.join(os.path.dirname(os.path.abspath(__file__)), "pretend_bake.py")
         self.bake = self.write("bake", f'#!/bin/sh\nexec "{sys.executable}" "{program}" "$@"\n')
         os.chmod(self.bake, 0o755)
@@ -52,15 +52,7 @@ class Folder(unittest.TestCase):
 
     def tearDown(self):
         self.environment.stop()
-        self.temporary.cleanup()
-
-    def place(self, name):
-        return os.path.join(self.temporary.name, name)
-
-    def write(self, name, text):
-        with open(self.place(name), "w") as file:
-            file.write(text)
-        return self.place(name)
+        super().tearDown()
 
     def calls(self, command):
         with open(self.log) as file:
