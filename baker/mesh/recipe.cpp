@@ -58,9 +58,11 @@ void read_graph(JsonSection& section, Recipe& recipe) {
     read_levels(section, recipe);
   else if (section.has("left_out"))
     section.complain("left_out", "needs levels: its control graph comes after them");
-  else
+  else if (section.has("nodes_per_region")) {
     recipe.nodes_per_region =
         whole_number(section, "nodes_per_region", recipe.nodes_per_region, kFewestNodes, kMostNodes);
+    recipe.coarser_nodes.clear();
+  }
   recipe.neighbours = whole_number(section, "neighbours", recipe.neighbours, 2, 16);
   if (section.has("layer_m")) recipe.layer_m = section.number("layer_m", 0, 0, 10);
   recipe.unit_m = section.number("unit_m", recipe.unit_m, 0, 1e6);

@@ -61,8 +61,11 @@ struct Recipe {
   std::vector<std::string> coreless_joints;  // names or prefix*: bones without a rigid core (ears, tails)
 
   // Control graph.
-  int nodes_per_region = 40;       // 4 .. 4096; more than a region has vertices: a node on each
-  std::vector<int> coarser_nodes;  // a region, of up to three coarser graphs beside it: each fewer, from 4 on
+  // Nodes a region: of the finest graph (4 .. 4096; more than a region has vertices: a node on each), and of
+  // up to three coarser ones beside it, each fewer, from 4 on. A recipe that states the first alone has no
+  // others.
+  int nodes_per_region = 80;
+  std::vector<int> coarser_nodes = {40, 20};
   // Regions by name or prefix*: one graph more, the last of the above without them. Beside two coarser ones
   // at most.
   std::vector<std::string> left_out;

@@ -41,8 +41,11 @@ std::vector<GraphLevel> coarser_levels(const Character& character, const Recipe&
   std::vector<int> held;
   for (size_t r = 0; r < finest.regions.size(); ++r) held.push_back(held_vertex(finest, modes, r));
   std::vector<GraphLevel> levels;
+  size_t fewest = finest.nodes.size();
   for (const int nodes : recipe.coarser_nodes) {
     GraphLevel level{coarser_layout(character, recipe, finest, held, nodes), {}};
+    if (level.layout.nodes.size() >= fewest) continue;
+    fewest = level.layout.nodes.size();
     level.modes = truth.modal_bases(level.layout, kMostModes, &finest);
     for (size_t r = 0; r < held.size(); ++r)
       level.modes[r].anchor_node = node_on(level.layout, level.layout.regions[r], held[r]);

@@ -13,8 +13,8 @@ struct GraphLevel {
   std::vector<ModalBasis> modes;  // the finest's, at this layout's nodes
 };
 
-// As many as recipe.coarser_nodes lists, finest of them first, and where it leaves regions out one more.
-// `modes` are those of `finest`.
+// As recipe.coarser_nodes lists them, finest first, but for those with no fewer nodes than the one before;
+// where the recipe leaves regions out one more. `modes` are those of `finest`.
 std::vector<GraphLevel> coarser_levels(const Character& character, const Recipe& recipe, TissueTruth& truth,
                                        const TissueLayout& finest, const std::vector<ModalBasis>& modes);
 

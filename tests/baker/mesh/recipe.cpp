@@ -193,6 +193,15 @@ TEST_CASE("what_is_not_enabled_is_as_if_it_were_not_there") {
   CHECK(recipe.rods->empty());
 }
 
+TEST_CASE("one_number_of_nodes_is_one_graph_and_without_any_there_are_three") {
+  const Recipe stated = read_recipe(write(R"({"nodes_per_region": 60})"));
+  CHECK(stated.nodes_per_region == 60);
+  CHECK(stated.coarser_nodes.empty());
+  const Recipe usual = read_recipe(write("{}"));
+  CHECK(usual.nodes_per_region == 80);
+  CHECK(usual.coarser_nodes == std::vector<int>{40, 20});
+}
+
 TEST_CASE("levels_take_the_place_of_one_number_of_nodes") {
   const Recipe recipe = read_recipe(write(R"({"levels": [40, 20, 10]})"));
   CHECK(recipe.nodes_per_region == 40);
