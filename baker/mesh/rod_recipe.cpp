@@ -22,6 +22,13 @@ constexpr const char* kKeysOfOwn[] = {"end",
                                       "gravity",
                                       "sag"};
 
+bool read_learned_start(JsonSection& section) {
+  const std::string start = section.text("start", "continued");
+  if (start != "continued" && start != "learned")
+    section.complain("start", "is \"" + start + "\"; it must be \"continued\" or \"learned\"");
+  return start == "learned";
+}
+
 RodRecipe read_rod(JsonSection& section) {
   RodRecipe rod;
   rod.root = section.text("root");
@@ -29,6 +36,7 @@ RodRecipe read_rod(JsonSection& section) {
   if (section.has("end")) rod.end = section.text("end");
   if (section.has("end_joint")) rod.end_joint = section.text("end_joint");
   rod.as_in_file = section.flag("as_in_file", false);
+  rod.learned_start = read_learned_start(section);
   if (rod.as_in_file) {
     if (section.has("max_displacement"))
       rod.max_displacement = section.number("max_displacement", 0, 0.01, 2);

@@ -18,8 +18,12 @@ struct RodRecipe {
   std::string end_joint = {};
 
   // The file's own spring bones that begin at `root`, with their numbers and colliders: only max_displacement
-  // counts beside it.
+  // and start count beside it.
   bool as_in_file = false;
+
+  // "start": what a tick's iteration starts from, "learned" or "continued" (sinew::RodWarmStart). The first
+  // needs weights of a COPINGNet: sinew-bake character --rods.
+  bool learned_start = false;
 
   double radius_m = 0;  // 0: as thick as the flesh on each bone; else above 0 .. 10
   // 1 .. 1e5. Heavier than 1000 it swings slower, by the square root, and air takes less of its velocity;

@@ -347,6 +347,7 @@ std::vector<Rod> stated_rods(Character& character, const std::vector<RodRecipe>&
       apply(recipe, rod);
       describe(character, Evidence::kRecipe, rod);
     }
+    rod.learned_start = recipe.learned_start;
     owners.take(rods, rod, place.where);
     rods.push_back(std::move(rod));
   }

@@ -29,6 +29,7 @@ struct Rod {
   std::vector<int> collider_groups;               // of a spring: BodyCollider::groups
   uint64_t passed_proxies = 0;  // a bit each of TissueLayout::proxies, which it does not collide with
   bool states_limit = true;     // it is a recipe's; else it may be lowered, where there is none too
+  bool learned_start = false;   // RodRecipe
   std::vector<RodBone> bones;
   Evidence evidence = Evidence::kRecipe;
   SoftKind kind = SoftKind::kOther;

@@ -8,6 +8,7 @@
 #include "baker/common/bad_input.hpp"
 #include "baker/import/smooth_groups.hpp"
 #include "baker/mesh/node_record.hpp"
+#include "baker/pack/dense_pack.hpp"
 #include "baker/pack/graph.hpp"
 #include "baker/pack/modes_pack.hpp"
 #include "baker/pack/network_pack.hpp"
@@ -320,20 +321,23 @@ float number_of(const Safetensors* weights, const std::string& key, float fallba
 }
 
 void add_tiers(const std::vector<pack::LevelRecord>& levels, const std::vector<pack::LayerRecord>& layers,
-               size_t rod_segments, PackWriter& pack) {
+               const RodWork& rods, PackWriter& pack) {
   std::vector<TierWork> work;
   for (const pack::LevelRecord& level : levels)
     work.push_back({.nodes = level.node_count,
                     .mode_floats = level.matrix_floats,
                     .network_multiply_adds = multiply_adds(layers, level.node_count, level.graph_entries),
-                    .rod_segments = rod_segments});
+                    .rods = rods});
   pack.section(SectionKind::kTiers, make_tiers(work));
 }
 
-size_t rod_segments(const TissueLayout& layout) {
-  size_t count = 0;
-  for (const Rod& rod : layout.rods) count += rod.bones.size();
-  return count;
+RodWork rod_work(const TissueLayout& layout, uint64_t network_multiply_adds) {
+  RodWork work;
+  for (const Rod& rod : layout.rods) {
+    work.segments += rod.bones.size();
+    if (rod.learned_start) work.network_multiply_adds += rod.bones.size() * network_multiply_adds;
+  }
+  return work;
 }
 
 // rate_hz alone.
@@ -349,7 +353,7 @@ std::vector<pack::LayerRecord> add_no_network(PackWriter& pack) {
 
 std::vector<std::byte> pack_character(const Character& character, const TissueLayout& layout,
                                       const std::vector<ModalBasis>& modes, const Safetensors* weights,
-                                      std::span<const GraphLevel> coarser) {
+                                      std::span<const GraphLevel> coarser, const Safetensors* rod_weights) {
   if (weights != nullptr) check_wiring(*weights);
   check_joint_count(character);
   PackWriter pack(pack::FileKind::kCharacter);
@@ -363,9 +367,11 @@ std::vector<std::byte> pack_character(const Character& character, const TissueLa
   const TissueOptions options{.rate_hz = number_of(weights, "rate_hz", kRate_hz, 1, 1000),
                               .where = character.name + ": control graph"};
   const std::vector<pack::LevelRecord> levels = add_levels(layout, modes, coarser, options, pack);
-  add_rods(character, layout.rods, pack);
+  const bool has_rod_network = rod_weights != nullptr && !layout.rods.empty();
+  add_rods(character, layout.rods, has_rod_network, pack);
+  const uint64_t network_ops = has_rod_network ? add_rod_network(*rod_weights, pack) : 0;
   add_proxies(layout.proxies, pack);
-  add_tiers(levels, layers, rod_segments(layout), pack);
+  add_tiers(levels, layers, rod_work(layout, network_ops), pack);
   return pack.finish();
 }
 

@@ -112,22 +112,45 @@ class ChainLayout {
   std::vector<float> floats_;
 };
 
-}  // namespace
+struct Chains {
+  pack::NetworkRecord record;
+  ChainLayout layout;
+};
 
-void add_chains(const Safetensors& weights, PackWriter& pack) {
-  const pack::NetworkRecord record = make_record(weights);
-  ChainLayout layout(weights);
+Chains lay_out_chains(const Safetensors& weights) {
+  Chains chains{make_record(weights), ChainLayout(weights)};
+  auto& [record, layout] = chains;
   for (uint32_t chain = 0; chain < pack::chain_count(record); ++chain)
     layout.append_chain(chain_name(record, chain), pack::chain_shape(record, chain));
   if (record.model == ModelKind::kCopingNet)
     for (const char* name : {"norm.node", "norm.edge"}) layout.append_norm(name);
   layout.check_no_stranger(pack::kModelNames[static_cast<uint32_t>(record.model)]);
+  return chains;
+}
 
+}  // namespace
+
+void add_chains(const Safetensors& weights, PackWriter& pack) {
+  const auto [record, layout] = lay_out_chains(weights);
   const std::string metadata = nlohmann::json(weights.metadata).dump();
   pack.section(pack::SectionKind::kMetadata, std::vector<char>(metadata.begin(), metadata.end()));
   pack.section(pack::SectionKind::kNetwork, std::vector{record});
   pack.section(pack::SectionKind::kDense, layout.layers());
   pack.section(pack::SectionKind::kWeights, layout.floats());
+}
+
+uint64_t add_rod_network(const Safetensors& weights, PackWriter& pack) {
+  if (model_of(weights) != ModelKind::kCopingNet)
+    throw BadInput(weights.path + ": metadata key 'sinew.model' is '" +
+                   metadata_text(weights, "sinew.model") + "'; rods start from a coping_net");
+  const auto [record, layout] = lay_out_chains(weights);
+  if (record.max_channels % 8 != 0 || record.max_channels > pack::kPanel)
+    throw BadInput(weights.path + ": metadata key 'latent' is " + std::to_string(record.max_channels) +
+                   "; rods start from a network of a multiple of 8, at most " + std::to_string(pack::kPanel));
+  pack.section(pack::SectionKind::kRodNetwork, std::vector{record});
+  pack.section(pack::SectionKind::kRodDense, layout.layers());
+  pack.section(pack::SectionKind::kRodWeights, layout.floats());
+  return layout.floats().size();
 }
 
 }  // namespace sinew::baker

@@ -40,7 +40,7 @@ std::vector<uint32_t> carried_joints(const Character& character,
 
 }  // namespace
 
-void add_rods(const Character& character, const std::vector<Rod>& rods, PackWriter& pack) {
+void add_rods(const Character& character, const std::vector<Rod>& rods, bool has_network, PackWriter& pack) {
   if (rods.empty()) return;
   std::vector<pack::RodRecord> records;
   std::vector<pack::RodSegmentRecord> segments;
@@ -58,6 +58,7 @@ void add_rods(const Character& character, const std::vector<Rod>& rods, PackWrit
     for (int axis = 0; axis < 3; ++axis)
       record.gravity_direction[axis] = static_cast<float>(rod.gravity_direction[axis]);
     record.passed_proxies = rod.passed_proxies;
+    record.start = rod.learned_start && has_network;
     records.push_back(record);
     for (const RodBone& bone : rod.bones) segments.push_back(segment_record(bone));
   }

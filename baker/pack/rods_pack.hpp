@@ -6,8 +6,9 @@
 
 namespace sinew::baker {
 
-// Sections kRods, kRodSegments and kJointRods; none of them without rods.
-void add_rods(const Character& character, const std::vector<Rod>& rods, PackWriter& pack);
+// Sections kRods, kRodSegments and kJointRods; none of them without rods. has_network: what learned starts
+// need is there too; without it they are continued.
+void add_rods(const Character& character, const std::vector<Rod>& rods, bool has_network, PackWriter& pack);
 
 // Section kProxies; none without proxies.
 void add_proxies(const std::vector<Proxy>& proxies, PackWriter& pack);

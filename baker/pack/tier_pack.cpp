@@ -41,7 +41,9 @@ TierOps ops_of(const TierWork& work) {
   // A node's share: its damped coordinates; its frame, drive, terms and warp, which are scalar code: so many
   // multiply-adds of the kernels take as long.
   constexpr uint64_t kExtrapolationOps = 3, kModalOps = 3000, kRodSegmentOps = 30000;
-  const uint64_t modal = work.nodes * kModalOps + work.rod_segments * kRodSegmentOps + work.mode_floats;
+  constexpr uint64_t kStrandLanes = 4;  // of the vectors that a strand by itself fills a lane of
+  const uint64_t rods = work.rods.segments * kRodSegmentOps + work.rods.network_multiply_adds * kStrandLanes;
+  const uint64_t modal = work.nodes * kModalOps + rods + work.mode_floats;
   return {work.nodes * kExtrapolationOps, modal, modal + work.network_multiply_adds};
 }
 

@@ -17,11 +17,17 @@ inline constexpr double kBakedCostFlops = 60e9;
 // counts.
 uint64_t multiply_adds(std::span<const pack::LayerRecord> layers, size_t nodes, size_t graph_entries);
 
+// In every simulated tier.
+struct RodWork {
+  size_t segments = 0;
+  uint64_t network_multiply_adds = 0;  // of learned starts, a strand by itself
+};
+
 struct TierWork {
   size_t nodes = 0;
   uint64_t mode_floats = 0;            // of the modal bases' matrices
   uint64_t network_multiply_adds = 0;  // 0: no network
-  size_t rod_segments = 0;             // in every simulated tier
+  RodWork rods;
 };
 
 // Every tier that the work allows at every level of control graphs, `work`'s finest first, simulated every

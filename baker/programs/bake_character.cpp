@@ -1,5 +1,6 @@
 // bake_character.cpp  sinew-bake character: a skinned character, its modes and trained weights to one .sinew
 // file.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -14,6 +15,7 @@
 #include "baker/mesh/import_character.hpp"
 #include "baker/mesh/tissue_layout.hpp"
 #include "baker/pack/character_pack.hpp"
+#include "baker/pack/dense_pack.hpp"
 #include "baker/pack/network_pack.hpp"
 #include "baker/pack/pack_writer.hpp"
 #include "baker/preview/write_preview.hpp"
@@ -28,7 +30,7 @@ namespace sinew::baker {
 namespace {
 
 struct CharacterOptions {
-  std::string character, recipe, tissue, output, preview;
+  std::string character, recipe, tissue, rods, output, preview;
   bool quick = false, keep_network = false;
 };
 
@@ -109,16 +111,48 @@ std::vector<std::byte> measured(const Recipe& recipe, const Safetensors* weights
   }
 }
 
+// Weights that rods may start from. Before all that takes time.
+std::optional<Safetensors> read_rod_weights(const CharacterOptions& options, const Recipe& recipe) {
+  if (!options.rods.empty()) {
+    Safetensors weights = read_safetensors(options.rods);
+    PackWriter unused(pack::FileKind::kCharacter);
+    add_rod_network(weights, unused);
+    return weights;
+  }
+  if (!recipe.rods) return {};
+  const auto learned = std::ranges::find_if(*recipe.rods, &RodRecipe::learned_start);
+  if (learned != recipe.rods->end())
+    throw BadInput(options.recipe + ": rod '" + learned->name +
+                   "': \"start\": \"learned\" needs the weights of a coping_net: give --rods W.safetensors");
+  return {};
+}
+
+// What becomes of them.
+void note_rod_weights(const CharacterOptions& options, const TissueLayout& layout,
+                      std::vector<std::string>& notes) {
+  const auto learned = std::ranges::count_if(layout.rods, &Rod::learned_start);
+  if (layout.rods.empty())
+    notes.push_back("nothing swings as a rod: " + options.rods + " is not used");
+  else if (learned == 0)
+    notes.push_back("no rod of the recipe says \"start\": \"learned\": " + options.rods +
+                    " is packed for instances that ask for it (RodWarmStart::kLearned)");
+}
+
 void run_character(const CharacterOptions& options) {
   refuse_directory(options.output);
   const Recipe recipe = options.recipe.empty() ? Recipe{} : read_recipe(options.recipe);
   std::optional<Safetensors> weights;
   if (!options.tissue.empty()) weights = read_safetensors(options.tissue);
+  const std::optional<Safetensors> rod_weights = read_rod_weights(options, recipe);
   std::optional<Progress> progress(std::in_place, "baking " + options.output, 10);
   Character character = import_character(options.character, recipe);
   progress->update(1);
   CharacterTissue tissue = make_tissue(character, recipe);
   progress->update(6);
+  if (rod_weights) {
+    tissue.rod_weights = &*rod_weights;
+    note_rod_weights(options, tissue.layout, character.notes);
+  }
   if (tissue.layout.regions.empty() && weights) {
     check_model(*weights);
     character.notes.push_back("nothing is soft tissue: " + options.tissue + " is not used");
@@ -149,6 +183,9 @@ void add_character_command(CLI::App& app, int*) {
   command->add_option("character", options->character, "skinned glTF or VRM")->required();
   command->add_option("--recipe", options->recipe, "JSON; see baker/mesh/recipe.hpp");
   command->add_option("--tissue", options->tissue, "trained weights, safetensors; without: modes only");
+  command->add_option(
+      "--rods", options->rods,
+      "weights of a coping_net, safetensors, for rods whose recipe says \"start\": \"learned\"");
   command->add_flag("--quick", options->quick,
                     "does not measure errors against ground truth, nor whether the network pays: for trying");
   command->add_flag("--keep-network", options->keep_network,

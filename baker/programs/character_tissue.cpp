@@ -65,7 +65,7 @@ CharacterTissue make_tissue(Character& character, const Recipe& recipe) {
 
 std::vector<std::byte> pack_tissue(const Character& character, const CharacterTissue& tissue,
                                    const Safetensors* weights) {
-  return pack_character(character, tissue.layout, tissue.finest, weights, tissue.coarser);
+  return pack_character(character, tissue.layout, tissue.finest, weights, tissue.coarser, tissue.rod_weights);
 }
 
 void lower_limits(Character& character, CharacterTissue& tissue) {

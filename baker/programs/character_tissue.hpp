@@ -17,6 +17,7 @@ struct CharacterTissue {
   std::unique_ptr<TissueTruth> truth;
   std::vector<ModalBasis> finest;
   std::vector<GraphLevel> coarser;
+  const Safetensors* rod_weights = nullptr;  // that its rods may start from; outlive it
 };
 
 // Notes go to the character's. Throws BadInput as layout_tissue and build_cage do.

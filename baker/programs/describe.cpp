@@ -136,9 +136,18 @@ Json describe_rods(const pack::PackView& view) {
          {"young_modulus_pa", Json::array({softest_pa, stiffest_pa})},
          {"gravity", rod.gravity},
          {"sag", rod.sag},
-         {"turn_limit_rad", rod.turn_limit_rad}});
+         {"turn_limit_rad", rod.turn_limit_rad},
+         {"start", rod.start == 0 ? "continued" : "learned"}});
   }
   return rods;
+}
+
+Json describe_rod_network(const pack::ChainsView& chains) {
+  return {{"model", pack::kModelNames[static_cast<size_t>(chains.record->model)]},
+          {"latent", chains.record->max_channels},
+          {"blocks", chains.record->blocks},
+          {"depth", chains.record->depth},
+          {"weights", chains.weights.size()}};
 }
 
 Json describe_clips(const pack::PackView& view) {
@@ -192,6 +201,7 @@ Json describe_pack(const LoadedPack& pack) {
     description["regions"] = describe_regions(view);
     if (view.level_count > 1) description["levels"] = describe_levels(view);
     if (!view.rods.empty()) description["rods"] = describe_rods(view);
+    if (view.rod_network.record) description["rod_network"] = describe_rod_network(view.rod_network);
     if (!view.proxies.empty()) description["proxies"] = view.proxies.size();
     description["clips"] = describe_clips(view);
     description["tiers"] = describe_tiers(view);

@@ -9,22 +9,17 @@ namespace {
 
 constexpr uint32_t kNorms = 2, kNormNumbers = 6, kNormPadded = 16;
 
-bool is_coping_net(const PackView& pack) noexcept { return pack.network->model == ModelKind::kCopingNet; }
+bool is_coping_net(const ChainsView& chains) noexcept {
+  return chains.record->model == ModelKind::kCopingNet;
+}
 
-Status check_home(const PackView& pack) noexcept {
-  const NetworkRecord& record = *pack.network;
-  if (pack.kind == FileKind::kCharacter)
-    return core::make_status(StatusCode::kUnsupported,
-                             "pack: a character's network of model %s, which this build runs in models only; "
-                             "bake it with weights of alt_conv_lstm",
-                             kModelNames[static_cast<uint32_t>(record.model)]);
-  if (record.precision != Precision::kFloat32)
-    return core::make_status(StatusCode::kUnsupported,
-                             "pack: network precision %u of a model %s, which this build runs in fp32 only; "
-                             "bake it with --precision fp32",
-                             static_cast<uint32_t>(record.precision),
-                             kModelNames[static_cast<uint32_t>(record.model)]);
-  return {};
+Status check_precision(const NetworkRecord& record) noexcept {
+  if (record.precision == Precision::kFloat32) return {};
+  return core::make_status(StatusCode::kUnsupported,
+                           "pack: network precision %u of a model %s, which this build runs in fp32 only; "
+                           "bake it with --precision fp32",
+                           static_cast<uint32_t>(record.precision),
+                           kModelNames[static_cast<uint32_t>(record.model)]);
 }
 
 Status check_coping_sizes(const NetworkRecord& record) noexcept {
@@ -45,18 +40,17 @@ Status check_deep_sizes(const NetworkRecord& record) noexcept {
   return is_positive(record.rate_hz) ? Status{} : corrupt("network: rate %g Hz", double{record.rate_hz});
 }
 
-Status check_record(const PackView& pack) noexcept {
-  const NetworkRecord& record = *pack.network;
+Status check_record(const ChainsView& chains) noexcept {
+  const NetworkRecord& record = *chains.record;
+  if (Status status = check_precision(record); !status.ok()) return status;
   const bool empty = record.input_width == 0 && record.output_scale == 0 && record.output_leak == 0 &&
                      record.hidden_leak == 0 && record.state_clamp == 0 && record.length_unit == 0;
   if (!empty) return corrupt("network: fields of an alt_conv_lstm in another model");
-  if (!pack.layers.empty() || !pack.inputs.empty() || has_int8(pack))
-    return corrupt("network: layers, inputs or int8 weights of an alt_conv_lstm in another model");
-  const Status status = is_coping_net(pack) ? check_coping_sizes(record) : check_deep_sizes(record);
+  const Status status = is_coping_net(chains) ? check_coping_sizes(record) : check_deep_sizes(record);
   if (!status.ok()) return status;
-  if (record.layer_count != pack.dense.size() || record.layer_count != dense_count(record))
+  if (record.layer_count != chains.layers.size() || record.layer_count != dense_count(record))
     return corrupt("network: %u dense layers stated, %zu there, %u wanted", record.layer_count,
-                   pack.dense.size(), dense_count(record));
+                   chains.layers.size(), dense_count(record));
   return check_zero(record.reserved, "network", 0);
 }
 
@@ -81,13 +75,14 @@ bool padding_is_zero(const DenseRecord& layer, std::span<const float> weights) n
 }
 
 // The layer's numbers start at *cursor, which moves behind them.
-Status check_place(const PackView& pack, const DenseRecord& layer, size_t index, uint64_t* cursor) noexcept {
+Status check_place(std::span<const float> weights, const DenseRecord& layer, size_t index,
+                   uint64_t* cursor) noexcept {
   const uint64_t w = uint64_t{layer.inputs} * layer.padded, floats = w + layer.padded;
-  if (layer.w != *cursor || layer.bias != *cursor + w || floats > pack.weights.size() - *cursor)
+  if (layer.w != *cursor || layer.bias != *cursor + w || floats > weights.size() - *cursor)
     return corrupt(
         "dense layer %zu: its weights are not where the ones before end, or reach beyond the section", index);
   *cursor += floats;
-  return padding_is_zero(layer, pack.weights)
+  return padding_is_zero(layer, weights)
              ? Status{}
              : corrupt("dense layer %zu: padding of the weights is not zero", index);
 }
@@ -104,28 +99,38 @@ Status check_norms(std::span<const float> norms) noexcept {
   return {};
 }
 
-Status check_layers(const PackView& pack) noexcept {
+Status check_layers(const ChainsView& chains) noexcept {
   uint64_t cursor = 0;
   size_t index = 0;
-  for (uint32_t c = 0; c < chain_count(*pack.network); ++c) {
-    const DenseShape chain = chain_shape(*pack.network, c);
+  for (uint32_t c = 0; c < chain_count(*chains.record); ++c) {
+    const DenseShape chain = chain_shape(*chains.record, c);
     for (uint32_t k = 0; k < chain.layers; ++k, ++index) {
-      const DenseRecord& layer = pack.dense[index];
+      const DenseRecord& layer = chains.layers[index];
       if (Status status = check_shape(layer, chain, k, index); !status.ok()) return status;
-      if (Status status = check_place(pack, layer, index, &cursor); !status.ok()) return status;
+      if (Status status = check_place(chains.weights, layer, index, &cursor); !status.ok()) return status;
     }
   }
-  if (is_coping_net(pack)) return check_norms(pack.weights.subspan(cursor));
-  return cursor == pack.weights.size() ? Status{} : corrupt("weights: numbers that no layer owns");
+  if (is_coping_net(chains)) return check_norms(chains.weights.subspan(cursor));
+  return cursor == chains.weights.size() ? Status{} : corrupt("weights: numbers that no layer owns");
 }
-
-Status check_weights(const PackView& pack) noexcept { return check_finite(pack.weights, "weights"); }
 
 }  // namespace
 
+Status check_chains(const ChainsView& chains) noexcept {
+  if (Status status = check_record(chains); !status.ok()) return status;
+  if (Status status = check_layers(chains); !status.ok()) return status;
+  return check_finite(chains.weights, "weights");
+}
+
 Status check_dense(const PackView& pack) noexcept {
-  constexpr Check kChecks[] = {check_home, check_record, check_layers, check_weights};
-  return run_checks(kChecks, pack);
+  if (pack.kind == FileKind::kCharacter)
+    return core::make_status(StatusCode::kUnsupported,
+                             "pack: a character's network of model %s, which this build runs in models only; "
+                             "bake it with weights of alt_conv_lstm",
+                             kModelNames[static_cast<uint32_t>(pack.network->model)]);
+  if (!pack.layers.empty() || !pack.inputs.empty() || has_int8(pack))
+    return corrupt("network: layers, inputs or int8 weights of an alt_conv_lstm in another model");
+  return check_chains({pack.network, pack.dense, pack.weights});
 }
 
 }  // namespace sinew::pack

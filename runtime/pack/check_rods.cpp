@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/status.hpp"
 #include "pack/checks.hpp"
 
 namespace sinew::pack {
@@ -10,6 +11,8 @@ namespace {
 constexpr float kMostGravity = 100;
 constexpr float kLeastRate_hz = 1;  // a longer tick is none that rods are stepped by: rods/rod_batch.hpp
 constexpr uint32_t kMostSegments = 65535;  // of a rod: rods/strand.hpp, less the one that is held
+
+constexpr uint32_t kLearnedStart = 1;
 
 bool is_not_negative(float value) noexcept { return std::isfinite(value) && value >= 0; }
 
@@ -23,6 +26,26 @@ Status check_counts(const PackView& pack) noexcept {
   if (!pack.rods.empty() && !(rate_hz >= kLeastRate_hz))
     return corrupt("rods: %g ticks a second, below 1", double{rate_hz});
   return {};
+}
+
+// A strand is a lane of its kernels, which take eight outputs at a time (rods/learned_start.hpp).
+Status check_rod_network(const PackView& pack) noexcept {
+  const ChainsView& chains = pack.rod_network;
+  if (!chains.record) {
+    const bool empty = chains.layers.empty() && chains.weights.empty();
+    return empty ? Status{} : corrupt("rod network: layers or weights of a network that is not there");
+  }
+  if (pack.rods.empty()) return corrupt("rod network: a network for rods that are not there");
+  if (chains.record->model != ModelKind::kCopingNet)
+    return core::make_status(
+        StatusCode::kUnsupported,
+        "pack: rods' network of model %u, which no rod starts from; bake it with weights "
+        "of coping_net",
+        static_cast<uint32_t>(chains.record->model));
+  const uint32_t latent = chains.record->max_channels;
+  if (latent % 8 != 0 || latent > kPanel)
+    return corrupt("rod network: latent width %u, no multiple of 8 up to %u", latent, kPanel);
+  return check_chains(chains);
 }
 
 Status check_record(const PackView& pack, const RodRecord& rod, size_t index, uint64_t first) noexcept {
@@ -48,7 +71,10 @@ Status check_record(const PackView& pack, const RodRecord& rod, size_t index, ui
   if (rod.end_holder > pack.joints.size())
     return corrupt("rod %zu: its end is held by joint %u of %zu", index, rod.end_holder - 1,
                    pack.joints.size());
-  return check_zero(rod.reserved, "rod", index);
+  if (rod.start > kLearnedStart) return corrupt("rod %zu: start %u is not known", index, rod.start);
+  if (rod.start == kLearnedStart && !pack.rod_network.record)
+    return corrupt("rod %zu: a learned start, and no network for it", index);
+  return check_zero(std::span(&rod.reserved, 1), "rod", index);
 }
 
 Status check_material(const RodSegmentRecord& segment, size_t index) noexcept {
@@ -152,7 +178,7 @@ Status check_carried(const PackView& pack) noexcept {
 }  // namespace
 
 Status check_rods(const PackView& pack) noexcept {
-  constexpr Check kChecks[] = {check_counts, check_rods_and_segments, check_carried};
+  constexpr Check kChecks[] = {check_counts, check_rod_network, check_rods_and_segments, check_carried};
   return run_checks(kChecks, pack);
 }
 

@@ -5,11 +5,12 @@
 
 namespace sinew::pack {
 
-Status check_network(const PackView& pack) noexcept;    // network, layers, inputs, weights
-Status check_dense(const PackView& pack) noexcept;      // the same of a network of chains
-Status check_character(const PackView& pack) noexcept;  // joints, mesh, skin, clips, tiers
-Status check_tissue(const PackView& pack) noexcept;     // regions, nodes, graph, carry; after check_character
-Status check_modes(const PackView& pack) noexcept;      // after check_tissue
+Status check_network(const PackView& pack) noexcept;     // network, layers, inputs, weights
+Status check_dense(const PackView& pack) noexcept;       // the same of a network of chains
+Status check_chains(const ChainsView& chains) noexcept;  // wherever it stands in a pack
+Status check_character(const PackView& pack) noexcept;   // joints, mesh, skin, clips, tiers
+Status check_tissue(const PackView& pack) noexcept;  // regions, nodes, graph, carry; after check_character
+Status check_modes(const PackView& pack) noexcept;   // after check_tissue
 // Gives each control graph its part of what levels share, and puts the finest in view. Before all that looks
 // at tissue; of what the parts hold nothing is checked.
 Status cut_levels(PackView* pack) noexcept;

@@ -37,7 +37,7 @@
 //   8  a tier tells its error along the motion in which it is largest, and which that is
 //   9  no update rates and no spring tier: the scheduler bought neither
 //      since then without a new version, for a reader that does not know it refuses the field:
-//      RodRecord::end_holder
+//      RodRecord::end_holder; RodRecord::start, with the sections kRodNetwork, kRodDense and kRodWeights
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -133,11 +133,16 @@ enum class SectionKind : uint32_t {
   kJointRods = 62,  // uint32 x joints, where there are rods: the segment in kRodSegments that moves a joint,
                     // its own or its parent's; kNoIndex: none
   kProxies = 63,    // ProxyRecord x proxies
+  // Of a character whose rods may start from a learned guess: a COPINGNet, as a model has it.
+  kRodNetwork = 64,  // NetworkRecord x 1
+  kRodDense = 65,    // DenseRecord x layers
+  kRodWeights = 66,  // float, as kWeights
 };
 
 // kNone: a character of modes alone; no layers, inputs or weights, and of the record only rate_hz
 // counts, all else is zero.
-// kDeepEmulator, kCopingNet: networks of chains of dense layers; models only.
+// kDeepEmulator, kCopingNet: networks of chains of dense layers; models only, but for a character's
+// kRodNetwork.
 enum class ModelKind : uint32_t { kNone = 0, kAltConvLstm = 1, kDeepEmulator = 2, kCopingNet = 3 };
 inline constexpr const char* kModelNames[] = {"none", "alt_conv_lstm", "deep_emulator", "coping_net"};
 
@@ -381,7 +386,8 @@ struct RodRecord {
   // moved by no rod, and each segment hangs on the one before.
   uint32_t end_holder;
   uint64_t passed_proxies;  // a bit each of kProxies, which it does not collide with
-  uint32_t reserved[2];
+  uint32_t start;  // what a step's iteration starts from: 0 continued, 1 learned (rods/rod_batch.hpp)
+  uint32_t reserved;
 };
 static_assert(sizeof(RodRecord) == 64);
 

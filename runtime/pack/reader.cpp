@@ -61,6 +61,8 @@ PackView view_sections(const SectionTable& table) noexcept {
   view.rod_segments = table.get<RodSegmentRecord>(kRodSegments);
   view.proxies = table.get<ProxyRecord>(kProxies);
   view.joint_rods = table.get<uint32_t>(kJointRods);
+  view.rod_network = {only(table.get<NetworkRecord>(kRodNetwork)), table.get<DenseRecord>(kRodDense),
+                      table.get<float>(kRodWeights)};
   view.level_records = table.get<LevelRecord>(kLevels);
   return view;
 }

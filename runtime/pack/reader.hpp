@@ -21,6 +21,13 @@ struct LevelView {
   std::span<const float> spread;
 };
 
+// A network of chains of dense layers.
+struct ChainsView {
+  const NetworkRecord* record = nullptr;  // null: none
+  std::span<const DenseRecord> layers;
+  std::span<const float> weights;
+};
+
 // Of the levels, the one in view has its parts here: the finest, as it is opened.
 struct PackView : LevelView {
   FileKind kind{};
@@ -51,7 +58,8 @@ struct PackView : LevelView {
   std::span<const RodRecord> rods;
   std::span<const RodSegmentRecord> rod_segments;
   std::span<const ProxyRecord> proxies;
-  std::span<const uint32_t> joint_rods;        // a joint; empty without rods
+  std::span<const uint32_t> joint_rods;  // a joint; empty without rods
+  ChainsView rod_network;
   std::span<const LevelRecord> level_records;  // empty where there is one level
   LevelView levels[kMostGraphLevels];          // finest first
   uint32_t level_count = 1;

@@ -58,6 +58,9 @@ inline constexpr SectionRule kSectionRules[] = {
     {SectionKind::kRodSegments, sizeof(RodSegmentRecord), "rod segments"},
     {SectionKind::kJointRods, sizeof(uint32_t), "joint rods"},
     {SectionKind::kProxies, sizeof(ProxyRecord), "proxies"},
+    {SectionKind::kRodNetwork, sizeof(NetworkRecord), "rod network"},
+    {SectionKind::kRodDense, sizeof(DenseRecord), "rod dense layers"},
+    {SectionKind::kRodWeights, sizeof(float), "rod weights"},
 };
 
 const SectionRule* find_rule(uint32_t kind) noexcept;  // null: not known

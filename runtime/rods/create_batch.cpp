@@ -66,6 +66,7 @@ Status RodBatchBuilder::fill_all(std::span<const StrandDef> strands) {
 size_t RodBatch::memory_bytes(uint32_t strands, uint32_t segments, const RodSettings& settings) noexcept {
   RodBatch measured;
   measured.settings_ = settings;
+  if (settings.start == RodStart::kLearned) measured.net_ = start_net(*settings.network);
   measured.strand_count_ = strands;
   measured.segment_count_ = segments;
   measured.width_ = strands > kNarrow ? kWide : kNarrow;

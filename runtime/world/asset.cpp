@@ -123,6 +123,7 @@ Status open_asset(std::span<const std::byte> bytes, Asset* out) noexcept {
   asset.pack = view;
   asset.touchable = std::move(touchable);
   asset.rods = std::move(rods);
+  asset.rod_network = {view.rod_network.record, view.rod_network.layers, view.rod_network.weights.data()};
   asset.network = {view.network, view.layers, view.inputs, view.weights.data()};
   asset.narrow = std::move(narrow);
   asset.network.narrow = reinterpret_cast<const float*>(asset.narrow.data());
@@ -153,6 +154,7 @@ AssetInfo describe(const Asset& asset) noexcept {
           .mesh_count = character.mesh_count,
           .proxy_count = character.proxy_count,
           .rod_count = character.rod_count,
+          .rod_network = asset.rod_network.record != nullptr,
           .graph_levels = asset.level_count,
           .tick_hz = asset.pack.network->rate_hz,
           .height_m = character.height_m,

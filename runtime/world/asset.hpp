@@ -9,6 +9,7 @@
 #include "frame/front.hpp"
 #include "pack/mapped_file.hpp"
 #include "pack/reader.hpp"
+#include "rods/coping_net.hpp"
 #include "sinew/types.hpp"
 #include "tissue/network.hpp"
 #include "world/graph_level.hpp"
@@ -30,6 +31,7 @@ struct Asset {
   GraphLevel levels[pack::kMostGraphLevels];
   uint32_t level_count = 1;
   RodRig rods;
+  rods::CopingNet rod_network;            // without a record where the pack has none
   std::unique_ptr<uint64_t[]> touchable;  // [regions]: world/own_body_touches.hpp; null: none for any
   double tick_s = 0;
   uint64_t fingerprint = 0;      // of all of the pack's bytes

@@ -181,6 +181,7 @@ Status make_instance(Asset& asset, const InstanceDef& def, Instance* out) noexce
   core::Arena measure;
   Instance made;
   made.contacts = def.contacts;
+  made.rod_start = def.rod_start;
   made.contacts.own_body &= !asset.pack.proxies.empty() && (asset.rods.rod_count > 0 || asset.touchable);
   if (asset.rods.rod_count == 0) made.contacts.surface = nullptr;
   for (uint32_t l = 0; soft_parts_touch(asset, made.contacts) && l < asset.level_count; ++l) {
@@ -194,7 +195,7 @@ Status make_instance(Asset& asset, const InstanceDef& def, Instance* out) noexce
   if (!made.memory.data()) {
     return core::make_status(StatusCode::kOutOfCapacity, "create_instance: no memory for %zu bytes", bytes);
   }
-  if (Status status = make_rod_batches(asset, &made.rod_batches); !status.ok()) return status;
+  if (Status status = make_rod_batches(asset, def, &made.rod_batches); !status.ok()) return status;
   core::Arena arena(made.memory.data());
   lay_out(asset, arena, made);
   made.asset = &asset;
@@ -294,6 +295,8 @@ InstanceReport describe(const Instance& instance, InstanceId id) noexcept {
           .regions_left_out = simulated ? instance.level->regions_left_out() : 0,
           .rod_recoveries = state.rod_recoveries,
           .rods_asleep = simulated ? rods_asleep(instance) : 0,
+          .rod_iterations = instance.told.rod_iterations,
+          .rod_residual = instance.told.rod_residual,
           .rod_contacts = instance.told.rod_contacts,
           .rods_touch_surface = simulated && touches_surface(instance),
           .vertices_touched = instance.told.vertices,

@@ -96,8 +96,10 @@ struct InstanceTimes {
   uint64_t drive_ns = 0, tissue_ns = 0, rods_ns = 0, publish_ns = 0, total_ns = 0;
 };
 
-// What was touched in the last tick; not state.
-struct Touches {
+// What the last tick tells of rods and of what was touched; not state.
+struct TickTold {
+  uint32_t rod_iterations = 0;  // of all solvers
+  float rod_residual = 0;       // of the rod that has most
   uint32_t rod_contacts = 0;
   uint32_t vertices = 0;  // touched, or pushed out
   uint32_t refused = 0;   // the source's answers that were none
@@ -172,6 +174,7 @@ struct Instance {
   // own_body and surface: only where there is something to touch. Without a source and soft parts that touch
   // the body, the arrays of contacts have no memory.
   ContactDef contacts;
+  RodWarmStart rod_start = RodWarmStart::kAsBaked;
   std::unique_ptr<rods::RodBatch[]> rod_batches;       // their state is saved beside the run of bytes below
   std::unique_ptr<rods::RodCollider[]> rod_colliders;  // [batches], theirs too; null: rods touch nothing
   std::unique_ptr<RodSource> rod_source;               // what they ask; null: contacts.source at most
@@ -231,7 +234,7 @@ struct Instance {
   uint32_t* deepest = nullptr;        // [nodes]: of touches
   uint8_t* touched = nullptr;         // [carried vertices]
   uint8_t* carries_pushes = nullptr;  // [regions]: `carried` has pushes in it
-  Touches told;
+  TickTold told;
   // proxy_ends a tick ago, whoever sleeps; null: soft parts do not touch them.
   double* proxy_before = nullptr;
 

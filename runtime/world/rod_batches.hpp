@@ -7,9 +7,10 @@
 
 namespace sinew::world {
 
-// In the bind pose. Refused: no memory, rods whose numbers leave float's range in their own units; *out
-// untouched.
-Status make_rod_batches(const Asset& asset, std::unique_ptr<rods::RodBatch[]>* out) noexcept;
-size_t rod_batch_bytes(const Asset& asset) noexcept;
+// In the bind pose. Refused: no memory, rods whose numbers leave float's range in their own units, a learned
+// start without a network; *out untouched.
+Status make_rod_batches(const Asset& asset, const InstanceDef& def,
+                        std::unique_ptr<rods::RodBatch[]>* out) noexcept;
+size_t rod_batch_bytes(const Asset& asset) noexcept;  // as baked
 
 }  // namespace sinew::world

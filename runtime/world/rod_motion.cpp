@@ -227,6 +227,8 @@ void simulate_rods(Instance& instance, float sleep_tolerance) noexcept {
     (void)instance.rod_batches[b].step(static_cast<float>(instance.asset->tick_s), rod_collider(instance, b),
                                        &report);
     instance.state->rod_recoveries += report.rejoined + report.recovered;
+    instance.told.rod_iterations += report.iterations_sum;
+    instance.told.rod_residual = std::max(instance.told.rod_residual, report.residual);
     instance.told.rod_contacts += report.contacts;
     instance.told.refused += report.bad_hits;
     instance.told.dropped += report.contacts_dropped;

@@ -50,9 +50,10 @@ rods::SegmentDef define_segment(const pack::RodSegmentRecord& record) noexcept {
   return s;
 }
 
-bool same_shape(const pack::PackView& pack, uint32_t a, uint32_t b) noexcept {
+bool fit_together(const pack::PackView& pack, uint32_t a, uint32_t b) noexcept {
   const auto one = segments_of(pack, a), other = segments_of(pack, b);
   if ((pack.rods[a].end_holder != 0) != (pack.rods[b].end_holder != 0)) return false;
+  if (pack.rods[a].start != pack.rods[b].start) return false;
   return std::ranges::equal(one, other, {}, &pack::RodSegmentRecord::parent, &pack::RodSegmentRecord::parent);
 }
 
@@ -126,11 +127,16 @@ void fill_seats(const pack::PackView& pack, RodRig& rig) noexcept {
   for (uint32_t rod = 0; rod < rig.rod_count; ++rod) {
     const bool end_held = pack.rods[rod].end_holder != 0;
     const uint32_t slots = pack.rods[rod].segment_count + 1 + end_held;
-    RodSeat seat{
-        rig.batch_count, 0, slot, slots, pack.rods[rod].turn_limit_rad, end_held ? ends++ : kNoIndex};
+    RodSeat seat{.batch = rig.batch_count,
+                 .strand = 0,
+                 .first_slot = slot,
+                 .slot_count = slots,
+                 .turn_limit_rad = pack.rods[rod].turn_limit_rad,
+                 .end_hold = end_held ? ends++ : kNoIndex,
+                 .learned = pack.rods[rod].start != 0};
     for (uint32_t other = rod; other-- > 0;) {
       const RodSeat& known = rig.seat_memory[other];
-      if (!same_shape(pack, rod, other)) continue;
+      if (!fit_together(pack, rod, other)) continue;
       seat.batch = known.batch;
       seat.strand = known.strand + 1;
       break;

@@ -23,12 +23,13 @@ struct RodSlot {
   float length_m, radius_m, mass_kg, damping_s;
 };
 
-// Rods of one shape are strands of one batch.
+// Rods of one shape and start are strands of one batch.
 struct RodSeat {
   uint32_t batch, strand;
   uint32_t first_slot, slot_count;
   float turn_limit_rad;  // pack::RodRecord
   uint32_t end_hold;     // in RodRig::ends; kNoIndex: its end is free
+  bool learned;          // pack::RodRecord::start; alike in a batch
   // Slots from first_slot + 1 on that are the pack's segments.
   uint32_t segment_count() const noexcept { return slot_count - 1 - (end_hold != pack::kNoIndex); }
 };

@@ -32,12 +32,13 @@ struct Header {
 };
 static_assert(sizeof(Header) == 40);
 
-// What of an instance may touch, and so which arrays it has.
+// What of an instance may touch, and what its rods start from: so which arrays it has.
 uint32_t contacts_of(const Instance& instance) noexcept {
   const ContactDef& def = instance.contacts;
   const bool source = def.source != nullptr, rods = instance.rod_colliders != nullptr;
   return uint32_t{source} | uint32_t{rods} << 1 | uint32_t{def.own_body} << 2 |
-         uint32_t{def.surface != nullptr} << 3 | uint32_t{source && def.rods} << 4;
+         uint32_t{def.surface != nullptr} << 3 | uint32_t{source && def.rods} << 4 |
+         static_cast<uint32_t>(instance.rod_start) << 5;
 }
 
 Header header_of(const Instance& instance, std::span<const std::byte> payload) noexcept {
@@ -105,7 +106,8 @@ Status restore(Instance& instance, std::span<const std::byte> bytes) noexcept {
     return corrupt("saved from an instance of another asset");
   if (given.contacts != contacts_of(instance))
     return corrupt(
-        "saved from an instance with another ContactDef: a source or none, rods, own_body, surface");
+        "saved from an instance with another ContactDef (a source or none, rods, own_body, surface) or "
+        "rod_start");
   if (bytes.size() < snapshot_bytes(instance)) return corrupt("fewer bytes than state_bytes; cut");
   const std::span<const std::byte> payload = bytes.subspan(sizeof given, payload_bytes(instance));
   if (given.payload_bytes != payload.size() || given.checksum != core::hash64(payload)) {

@@ -24,6 +24,11 @@ void add_options(CLI::App& app, Options* o) {
       ->check(within(1, 1000, "1 to 1000"));
   app.add_flag_callback(
       "--no-contacts", [o] { o->contacts = false; }, "leave out contacts with the character's own body");
+  app.add_option(
+         "--start", o->start,
+         "what rods' iterations start from: baked (as the recipe says), continued or learned; tells the "
+         "residual, too")
+      ->check(CLI::IsMember({"baked", "continued", "learned"}));
   app.add_option("--truth", o->truth, "trajectory to follow and to measure against");
 }
 

@@ -20,6 +20,7 @@ struct Options {
   std::string trace;          // JSON of Chrome's trace viewer and of Perfetto
   std::string frames;         // folder of pictures
   std::string view = "auto";  // side.hpp
+  std::string start;          // of rods: baked, continued, learned; empty: baked, and no residual is told
   bool contacts = true;       // with its own body, where it was baked with colliders
   int width = 220, height = 260, samples = 4;  // of each panel
   double picture_fps = 0;                      // of the film; 0: none

@@ -46,6 +46,16 @@ void print_parts(const std::string& name, const Run& run) {
   }
 }
 
+void print_rods(const RodWork& rods, const Run& run, const Options& options) {
+  if (run.asset.rod_count == 0) return;
+  const std::string start = options.start.empty() ? "baked" : options.start;
+  std::printf("\n  rods' solver, start %s: %.2f iterations a rod and tick, at most %.2f", start.c_str(),
+              rods.iterations.mean, rods.iterations.max);
+  if (!options.start.empty())
+    std::printf("; residual %.1e, at most %.1e", rods.residual.median, rods.residual.max);
+  std::printf("\n");
+}
+
 void print_stage(const StageTime& stage) {
   std::printf("  %-16s %10.1f %10.1f %10.1f\n", stage.name.c_str(), stage.us.median, stage.us.p99,
               stage.us.max);
@@ -120,6 +130,7 @@ void print_table(const Summary& summary, const Run& run, const Run* other, const
   print_head(run, character, options);
   print_parts(run.name, run);
   if (other != nullptr) print_parts(other->name, *other);
+  print_rods(summary.rods, run, options);
   std::printf("\n  %-16s %10s %10s %10s\n", "stage, us", "median", "p99", "worst");
   for (const StageTime& stage : summary.step) print_stage(stage);
   std::printf("  around it:\n");

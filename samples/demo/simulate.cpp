@@ -41,8 +41,10 @@ ReadDef read_into(Positions& positions, Space space) {
 // A world, its asset and its instances, moved together.
 class Stage {
  public:
-  Stage(const CharacterFile& character, const WorldDef& def, double budget_us, bool contacts)
-      : contacts_(contacts && !character.view.proxies.empty()), joints_(character.view.joints.size()) {
+  // instance: what all are made from.
+  Stage(const CharacterFile& character, const WorldDef& def, double budget_us, const InstanceDef& instance)
+      : def_(instance), joints_(character.view.joints.size()) {
+    def_.contacts.own_body &= !character.view.proxies.empty();
     require(World::create(def, &world_));
     require(world_.load_asset_file(character.path.c_str(), &asset_));
     require(world_.asset_info(asset_, &info_));
@@ -51,10 +53,12 @@ class Stage {
 
   // Nearer instances (those added first) matter more.
   void add(const RootTransform& place, float importance) {
+    InstanceDef def = def_;
+    def.asset = asset_;
+    def.importance = importance;
+    def.root = place;
     InstanceId id;
-    require(world_.create_instance(
-        {.asset = asset_, .importance = importance, .root = place, .contacts = {.own_body = contacts_}},
-        &id));
+    require(world_.create_instance(def, &id));
     instances_.push_back(id);
     places_.push_back(place);
   }
@@ -80,14 +84,14 @@ class Stage {
   void look(const View& view) { require(world_.set_views({&view, 1})); }
   FrameReport step(double dt_s) { return world_.step(static_cast<float>(dt_s)); }
   size_t size() const { return instances_.size(); }
-  bool contacts() const { return contacts_; }
+  bool contacts() const { return def_.contacts.own_body; }
   const AssetInfo& info() const { return info_; }
 
  private:
   World world_;
   AssetId asset_;
   AssetInfo info_;
-  bool contacts_;
+  InstanceDef def_;
   std::vector<InstanceId> instances_;
   std::vector<RootTransform> places_;
   std::vector<Matrix34> joints_;
@@ -107,6 +111,15 @@ double spacing_of(const CharacterFile& character) {
   return 1.25 * static_cast<double>(std::max({size.x(), size.z(), 0.3f * size.y()}));
 }
 
+InstanceDef instance_of(const Options& options) {
+  InstanceDef def;
+  def.contacts.own_body = options.contacts;
+  def.report_rod_residual = !options.start.empty();
+  if (options.start == "continued") def.rod_start = RodWarmStart::kContinued;
+  if (options.start == "learned") def.rod_start = RodWarmStart::kLearned;
+  return def;
+}
+
 void fill_stage(Stage& stage, int count, double spacing_m) {
   const int columns = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count))));
   for (int i = 0; i < count; ++i)
@@ -123,7 +136,7 @@ float mean_distance_mm(const Positions& a, const Positions& b, std::span<const u
 class Witness {
  public:
   Witness(const CharacterFile& character, const Motion& motion)
-      : stage_(character, {.max_assets = 1, .max_instances = 1}, 0, false),
+      : stage_(character, {.max_assets = 1, .max_instances = 1}, 0, {}),
         motion_(motion),
         parts_(baker::parts_of(character.view)),
         skinned_(stage_.info().vertex_count) {
@@ -249,7 +262,7 @@ Run simulate(const CharacterFile& character, const Motion& motion, const Traject
   Trace trace(!options.trace.empty());
   Stage stage(character,
               {.max_assets = 1, .max_instances = count, .tasks = pool.hook(), .profiler = trace.hook()},
-              options.budget_us, options.contacts);
+              options.budget_us, instance_of(options));
   const double spacing_m = spacing_of(character), height_m = static_cast<double>(stage.info().height_m);
   fill_stage(stage, options.instances, spacing_m);
   const Motion& first = truth != nullptr ? *truth : motion;

@@ -67,6 +67,16 @@ std::optional<Spread> expected_error(const Run& run, const CharacterFile& charac
   return spread_of(errors);
 }
 
+RodWork rod_work(const Run& run) {
+  std::vector<double> iterations, residuals;
+  for (const FrameRecord& frame : run.frames) {
+    if (frame.first.rod_iterations == 0) continue;
+    iterations.push_back(static_cast<double>(frame.first.rod_iterations) / run.asset.rod_count);
+    residuals.push_back(static_cast<double>(frame.first.rod_residual));
+  }
+  return {spread_of(std::move(iterations)), spread_of(std::move(residuals))};
+}
+
 }  // namespace
 
 Summary summarise(const Run& run, const CharacterFile& character) {
@@ -96,6 +106,7 @@ Summary summarise(const Run& run, const CharacterFile& character) {
     out.rejected_poses += frame.step.rejected_poses;
     out.dropped_s += static_cast<double>(frame.step.dropped_s);
   }
+  out.rods = rod_work(run);
   out.restarts = run.restarts;
   out.input_clamps = run.input_clamps;
   out.displacement_clamps = run.displacement_clamps;

@@ -26,6 +26,12 @@ struct ReasonShare {
   double share = 0;  // of instances x frames
 };
 
+// Of the first instance's rods, over the frames in which they were stepped.
+struct RodWork {
+  Spread iterations;  // a rod and tick
+  Spread residual;    // InstanceReport::rod_residual
+};
+
 struct Summary {
   std::vector<ReasonShare> reasons;
   // A share of skinning's, mean of the instances, over frames; null: not measured for all tiers that were
@@ -38,7 +44,8 @@ struct Summary {
   uint64_t over_budget = 0, cut = 0, restarts = 0, input_clamps = 0, displacement_clamps = 0,
            rejected_poses = 0;
   double dropped_s = 0;
-  double expected_error_mm = 0;              // mean of the tiers' baked errors by share; NaN: not measured
+  double expected_error_mm = 0;  // mean of the tiers' baked errors by share; NaN: not measured
+  RodWork rods;
   Spread skinning_error_mm, sinew_error_mm;  // over frames; of the first instance
 };
 

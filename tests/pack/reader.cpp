@@ -542,6 +542,36 @@ TEST_CASE("rods_that_disagree_with_the_skeleton_are_refused_by_name") {
   check_refused(good, damages);
 }
 
+TEST_CASE("a_learned_start_without_a_network_that_can_make_it_is_refused_by_name") {
+  using enum SectionKind;
+  const std::vector<std::byte> good = test::small_learned_pack();
+  const auto record = [](auto apply) {
+    return change<NetworkRecord>(kRodNetwork, 0, [=](NetworkRecord& n) { apply(n); });
+  };
+  const auto rod = [](auto apply) { return change<RodRecord>(kRods, 0, [=](RodRecord& r) { apply(r); }); };
+  PackEditor untouched(good);
+  REQUIRE(untouched.open().ok());
+  check_refused(good, {{"start 2 is not known", rod([](RodRecord& r) { r.start = 2; })},
+                       {"reserved", rod([](RodRecord& r) { r.reserved = 1; })},
+                       {"latent width 12", record([](NetworkRecord& n) { n.max_channels = 12; })},
+                       {"latent width 128", record([](NetworkRecord& n) { n.max_channels = 128; })},
+                       {"dense layers stated", record([](NetworkRecord& n) { n.layer_count = 3; })},
+                       {"17 blocks", record([](NetworkRecord& n) { n.blocks = 17; })},
+                       {"inputs and", change<DenseRecord>(kRodDense, 2, [](DenseRecord& d) { d.inputs = 9; })},
+                       {"weights are not where", change<DenseRecord>(kRodDense, 1, [](DenseRecord& d) { d.w += 16; })},
+                       {"not finite", set<float>(kRodWeights, 5, kNan)}});
+  check_refused(test::small_rod_pack(), {{"a learned start, and no network for it", rod([](RodRecord& r) { r.start = 1; })}});
+}
+
+TEST_CASE("rods_network_of_another_model_is_refused_as_not_supported") {
+  PackEditor editor(test::small_learned_pack());
+  editor.section<NetworkRecord>(SectionKind::kRodNetwork)[0].model = ModelKind::kDeepEmulator;
+  editor.seal();
+  const Status status = editor.open();
+  CHECK(status.code == StatusCode::kUnsupported);
+  CHECK(std::string(status.message).find("weights of coping_net") != std::string::npos);
+}
+
 TEST_CASE("capsules_about_bones_that_are_none_are_refused_by_name") {
   using enum SectionKind;
   const std::vector<std::byte> good = test::small_rod_pack();

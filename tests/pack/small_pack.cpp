@@ -7,6 +7,7 @@
 #include "baker/pack/character_pack.hpp"
 #include "baker/pack/dense_pack.hpp"
 #include "baker/pack/network_pack.hpp"
+#include "tests/pack/random_coping_net.hpp"
 
 namespace sinew::test {
 namespace {
@@ -289,6 +290,15 @@ std::vector<std::byte> small_rod_pack() {
   layout.rods = small_rods();
   layout.proxies = {{0, {0, 0.1, 0}, {0, 0.2, 0}, 0.05}};
   return baker::pack_character(character, layout, small_modes(layout));
+}
+
+std::vector<std::byte> small_learned_pack() {
+  const baker::Character character = small_character();
+  baker::TissueLayout layout = small_layout(character);
+  layout.rods = small_rods();
+  layout.rods[0].learned_start = true;
+  const baker::Safetensors weights = random_coping_net();
+  return baker::pack_character(character, layout, small_modes(layout), nullptr, {}, &weights);
 }
 
 std::vector<std::byte> small_character_pack() {

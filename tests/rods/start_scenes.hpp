@@ -7,6 +7,7 @@
 #include "simd/kernels.hpp"
 #include "simd/rod_job.hpp"
 #include "tests/pack/packed_model.hpp"
+#include "tests/pack/random_coping_net.hpp"
 #include "tests/rods/rod_scenes.hpp"
 #include "tests/simd/test_data.hpp"
 
@@ -16,46 +17,12 @@ namespace sinew::test {
 class RandomCopingNet {
  public:
   explicit RandomCopingNet(uint32_t latent = 8, uint32_t blocks = 2, uint32_t depth = 1, float norm = 1)
-      : packed_(make(latent, blocks, depth, norm)) {
+      : packed_(random_coping_net(latent, blocks, depth, norm)) {
     net_ = {packed_.view().network, packed_.view().dense, packed_.view().weights.data()};
   }
   const rods::CopingNet& net() const { return net_; }
 
  private:
-  static baker::Safetensors make(uint32_t latent, uint32_t blocks, uint32_t depth, float norm) {
-    baker::Safetensors file;
-    file.path = "random";
-    file.metadata = {{"sinew.model", "coping_net"},
-                     {"sinew.version", "1"},
-                     {"latent", std::to_string(latent)},
-                     {"blocks", std::to_string(blocks)},
-                     {"depth", std::to_string(depth)}};
-    std::mt19937 random(latent + blocks);
-    const auto numbers = [&](size_t count, float size) {
-      std::vector<float> out(count);
-      for (float& x : out) x = uniform(random, -size, size);
-      return out;
-    };
-    const auto chain = [&](const std::string& name, uint32_t inputs, uint32_t outputs) {
-      for (uint32_t k = 0; k <= depth; ++k) {
-        const uint32_t in = k == 0 ? inputs : latent, out = k == depth ? outputs : latent;
-        const std::string layer = name + "." + std::to_string(k);
-        file.tensors[layer + ".weight"] = baker::tensor_f32({out, in}, numbers(size_t{out} * in, 0.5f));
-        file.tensors[layer + ".bias"] = baker::tensor_f32({out}, numbers(out, 0.2f));
-      }
-    };
-    const auto both = [&](const std::string& name, uint32_t of_node, uint32_t of_edge, uint32_t outputs) {
-      chain(name + ".node", of_node, outputs);
-      chain(name + ".edge", of_edge, outputs);
-    };
-    both("encoder", rods::kRodNodeInputs, rods::kRodEdgeInputs, latent);
-    for (uint32_t m = 0; m < blocks; ++m) both("blocks." + std::to_string(m), 2 * latent, 3 * latent, latent);
-    both("decoder", latent, latent, rods::kRodOutputs);
-    for (const char* name : {"norm.node", "norm.edge"}) {
-      file.tensors[name] = baker::tensor_f32({6}, std::vector<float>(6, norm));
-    }
-    return file;
-  }
   PackedModel packed_;
   rods::CopingNet net_;
 };

@@ -66,6 +66,7 @@ baker::Rod make_rod(const Chain& chain, const RodMatter& matter) {
   rod.name = "rod_" + std::to_string(chain.first);
   rod.attach = 1;
   if (matter.sewn && chain.first != kHorns[1]) rod.end_joint = 0;
+  rod.learned_start = matter.learned && chain.first == kTail;
   rod.gravity = matter.gravity;
   rod.sag = matter.sag;
   rod.max_displacement = matter.max_displacement;

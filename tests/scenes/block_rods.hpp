@@ -16,8 +16,9 @@ struct RodMatter {
   double gravity = 1, sag = 0;
   double young_modulus_pa = 1e6;
   double max_displacement = 0;
-  bool sewn = false;  // the ends of the tail and of the first horn are held by joint 0
-  bool bar = false;   // a capsule across and below the tail, that moves with the waist
+  bool sewn = false;     // the ends of the tail and of the first horn are held by joint 0
+  bool learned = false;  // the tail starts from a network's guess: BlockOptions::rod_weights
+  bool bar = false;      // a capsule across and below the tail, that moves with the waist
 };
 
 inline constexpr double kBarRadius_m = 0.03, kTailRadius_m = 0.02;

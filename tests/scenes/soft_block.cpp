@@ -261,8 +261,8 @@ PackBytes soft_block(const BlockOptions& options) {
   const baker::Safetensors weights = options.weights ? *options.weights : block_network(options);
   std::vector<baker::ModalBasis> modes = block_modes(layout);
   for (baker::ModalBasis& basis : modes) slow_down(options.frequency_share, basis);
-  const std::vector<std::byte> bytes =
-      baker::pack_character(character, layout, modes, options.network ? &weights : nullptr, coarser);
+  const std::vector<std::byte> bytes = baker::pack_character(
+      character, layout, modes, options.network ? &weights : nullptr, coarser, options.rod_weights);
   return PackBytes(bytes.data(), bytes.size());
 }
 

@@ -29,14 +29,15 @@ struct BlockOptions {
   int nodes = 14;   // a region
   double rate_hz = 60;
   uint64_t seed = 1;
-  double displacement_limit = 0.75;              // share of a region's radius
-  bool network = true;                           // false: modes alone
-  const baker::Safetensors* weights = nullptr;   // in the place of the small network
-  double frequency_share = 1;                    // of block_modes.hpp's frequencies
-  std::optional<RodMatter> rods = std::nullopt;  // a tail and horns (block_rods.hpp)
-  std::vector<int> coarser_nodes = {};           // a region, of coarser control graphs
-  bool leaves_out = false;                       // one graph more: the last without the left region
-  std::optional<ArmMatter> arms = std::nullopt;  // block_arms.hpp
+  double displacement_limit = 0.75;                 // share of a region's radius
+  bool network = true;                              // false: modes alone
+  const baker::Safetensors* weights = nullptr;      // in the place of the small network
+  double frequency_share = 1;                       // of block_modes.hpp's frequencies
+  std::optional<RodMatter> rods = std::nullopt;     // a tail and horns (block_rods.hpp)
+  const baker::Safetensors* rod_weights = nullptr;  // of a network that rods may start from
+  std::vector<int> coarser_nodes = {};              // a region, of coarser control graphs
+  bool leaves_out = false;                          // one graph more: the last without the left region
+  std::optional<ArmMatter> arms = std::nullopt;     // block_arms.hpp
 };
 
 class PackBytes {  // 64-byte aligned, as load_asset wants them

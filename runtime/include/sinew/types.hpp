@@ -128,6 +128,14 @@ struct ContactDef {
   ContactSource* surface = nullptr;
 };
 
+// What the iteration of a rod's tick starts from. Where it ends is the same within the solver's tolerance
+// (0.01 rad a segment); how many iterations that takes, and what they cost, is not.
+enum class RodWarmStart : uint32_t {
+  kAsBaked = 0,    // as the recipe says of each rod ("start"); of most: continued
+  kContinued = 1,  // the last ticks' forces, continued
+  kLearned = 2,    // the same, corrected by a COPINGNet (Shao et al. 2021) in the pack
+};
+
 struct InstanceDef {
   AssetId asset = {};  // null or stale: refused
   // >= 0, relative weight for the scheduler: of a visible millimetre of error. 0: gets what the others leave;
@@ -136,6 +144,9 @@ struct InstanceDef {
   float importance = 1;
   RootTransform root = {};  // where it enters, in its bind pose, at rest; refused as in a pose
   ContactDef contacts = {};
+  // kLearned of an asset without a network for rods (AssetInfo::rod_network): refused. Of all its rods.
+  RodWarmStart rod_start = RodWarmStart::kAsBaked;
+  bool report_rod_residual = false;  // fills InstanceReport::rod_residual, for a fifth of an iteration's time
 };
 
 // What an instance got in a frame. In rising quality: skinning, extrapolate, modal, network; the last two are
@@ -183,6 +194,10 @@ struct InstanceReport {
   // Since creation: rods that had to be put together or put back where they are held.
   uint32_t rod_recoveries = 0;
   uint32_t rods_asleep = 0;  // rods at rest, not stepped until they are held or shaped otherwise: all or none
+  uint32_t rod_iterations = 0;  // of the last tick: of all rods' solvers together; 0: asleep or not simulated
+  // Of the last tick, of the rod that has most: what the tick's equations miss by, in mean segments' lengths,
+  // radians, and shares of the rod's largest force. 0 without InstanceDef::report_rod_residual.
+  float rod_residual = 0;
   // Of the last tick, where the instance has a contact source or own_body. A vertex counts once for each
   // thing it touches. The volume is at most what contacts took from the soft parts: of vertices that touched
   // something, area times way.
@@ -262,6 +277,7 @@ struct AssetInfo {
   uint32_t mesh_count = 0;    // World::mesh_info
   uint32_t proxy_count = 0;   // capsules about bones, for ContactDef::own_body
   uint32_t rod_count = 0;     // chains and trees of bones that swing
+  bool rod_network = false;   // the pack holds what RodWarmStart::kLearned takes
   uint32_t graph_levels = 1;  // control graphs, each coarser than the one before, that tiers are simulated on
   float tick_hz = 0;
   float height_m = 0;           // extent of the bind pose along Y

@@ -121,6 +121,8 @@ TEST_CASE("wrong_recipes_are_refused_by_key") {
        "says the same as damping_ratio"},
       {R"({"rods": [{"root": "tail", "drag_per_s": -1}]})", "drag_per_s"},
       {R"({"rods": [{"root": "tail", "gravity": -1}]})", "gravity"},
+      {R"({"rods": [{"root": "tail", "start": "zero"}]})", "must be \"continued\" or \"learned\""},
+      {R"({"rods": [{"root": "tail", "start": true}]})", "\"start\" must be a text"},
       {R"({"rods": [{"root": "tail", "as_in_file": 1}]})", "as_in_file"},
       {R"({"rods": [{"root": "tail", "as_in_file": true, "frequency_hz": 2}]})",
        "\"frequency_hz\" says otherwise than as_in_file"},
@@ -218,8 +220,8 @@ TEST_CASE("every_key_of_a_rod_is_read_and_absent_ones_keep_their_default") {
   const Recipe recipe = read_recipe(write(R"({"rods": [
     {"root": "tail_1"},
     {"name": "ear", "root": "ear_1", "end": "ear_3", "end_joint": "head", "radius_m": 0.02, "density_kg_m3": 300, "young_modulus_pa": 2e5,
-     "torsion_modulus_pa": 3e5, "damping_s": 0.1, "drag_per_s": 2, "gravity": 0.5, "sag": 0.25},
-    {"root": "mane", "frequency_hz": 2.5}]})"));
+     "torsion_modulus_pa": 3e5, "damping_s": 0.1, "drag_per_s": 2, "gravity": 0.5, "sag": 0.25, "start": "learned"},
+    {"root": "mane", "frequency_hz": 2.5, "start": "continued"}]})"));
   REQUIRE(recipe.rods.has_value());
   const std::vector<RodRecipe>& rods = *recipe.rods;
   REQUIRE(rods.size() == 3);
@@ -242,6 +244,9 @@ TEST_CASE("every_key_of_a_rod_is_read_and_absent_ones_keep_their_default") {
   CHECK(rods[1].drag_per_s == 2);
   CHECK(rods[1].gravity == 0.5);
   CHECK(rods[1].sag == 0.25);
+  CHECK_FALSE(rods[0].learned_start);
+  CHECK(rods[1].learned_start);
+  CHECK_FALSE(rods[2].learned_start);
   CHECK(rods[2].frequency_hz == 2.5);
   const Recipe none = read_recipe(write(R"({"rods": []})"));
   CHECK((none.rods.has_value() && none.rods->empty()));

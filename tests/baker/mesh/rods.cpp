@@ -309,6 +309,7 @@ TEST_CASE("a_rod_as_in_its_file_is_the_spring_that_begins_there_with_a_limit_of_
   CHECK_THAT(refusal(character, {as_in_file}), Contains("they begin at bone_1"));
   as_in_file.root = as_in_file.name = "bone_1";
   as_in_file.max_displacement = 0.3;
+  as_in_file.learned_start = true;
   Character other = character;
   const std::vector<Rod> stated = find_rods(character, with({as_in_file})), found = find_rods(other, {});
   REQUIRE(stated.size() == 1);
@@ -318,6 +319,8 @@ TEST_CASE("a_rod_as_in_its_file_is_the_spring_that_begins_there_with_a_limit_of_
   CHECK(stated[0].sag == found[0].sag);
   CHECK(stated[0].max_displacement == 0.3);
   CHECK(stated[0].states_limit);
+  CHECK(stated[0].learned_start);
+  CHECK_FALSE(found[0].learned_start);
 }
 
 TEST_CASE("a_lone_spring_has_a_tail_that_points_away_from_its_parent") {

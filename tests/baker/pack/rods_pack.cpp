@@ -2,10 +2,13 @@
 #include "baker/pack/rods_pack.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
+#include "baker/common/bad_input.hpp"
 #include "baker/pack/character_pack.hpp"
 #include "sinew/types.hpp"
 #include "tests/pack/pack_editor.hpp"
+#include "tests/pack/random_coping_net.hpp"
 #include "tests/pack/small_pack.hpp"
 
 using namespace sinew;
@@ -50,6 +53,58 @@ TEST_CASE("who_holds_a_rod_s_end_is_in_the_pack") {
   pack::PackView view;
   REQUIRE(editor.open(&view).ok());
   CHECK(view.rods[0].end_holder == 1);
+}
+
+namespace {
+
+std::vector<std::byte> learned_pack(const Safetensors* weights) {
+  const Character character = test::small_character();
+  TissueLayout layout = test::small_layout(character);
+  layout.rods = test::small_rods();
+  layout.rods[0].learned_start = true;
+  return pack_character(character, layout, test::small_modes(layout), nullptr, {}, weights);
+}
+
+std::string refusal(const Safetensors& weights) {
+  try {
+    learned_pack(&weights);
+  } catch (const BadInput& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("weights_that_no_rod_can_start_from_are_refused_by_name") {
+  CHECK(
+      refusal(test::small_weights()).find("'sinew.model' is 'alt_conv_lstm'; rods start from a coping_net") !=
+      std::string::npos);
+  CHECK(refusal(test::small_deep_emulator()).find("rods start from a coping_net") != std::string::npos);
+  CHECK(
+      refusal(test::small_coping_net()).find("'latent' is 5; rods start from a network of a multiple of 8") !=
+      std::string::npos);
+  CHECK(refusal(test::random_coping_net(72)).find("'latent' is 72") != std::string::npos);
+  Safetensors damaged = test::random_coping_net();
+  damaged.tensors["encoder.node.0.bias"] = tensor_f32({8}, std::vector<float>(8, NAN));
+  CHECK(refusal(damaged).find("'encoder.node.0.bias' holds NaN") != std::string::npos);
+}
+
+TEST_CASE("a_learned_start_is_in_the_pack_with_its_network_and_without_weights_it_is_continued") {
+  const Safetensors weights = test::random_coping_net(16, 2, 1);
+  test::PackEditor editor(learned_pack(&weights)), without(learned_pack(nullptr));
+  pack::PackView view;
+  REQUIRE(editor.open(&view).ok());
+  CHECK(view.rods[0].start == 1);
+  REQUIRE(view.rod_network.record);
+  CHECK(view.rod_network.record->model == pack::ModelKind::kCopingNet);
+  CHECK(view.rod_network.record->max_channels == 16);
+  CHECK(view.rod_network.layers.size() == 16);  // of two layers, eight chains
+  const float cost_us = view.tiers.back().cost_us;
+  REQUIRE(without.open(&view).ok());
+  CHECK(view.rods[0].start == 0);
+  CHECK_FALSE(view.rod_network.record);
+  CHECK(view.tiers.back().cost_us < cost_us);
 }
 
 TEST_CASE("rods_cost_every_simulated_tier_and_no_other") {
