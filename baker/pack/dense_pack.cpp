@@ -147,6 +147,12 @@ uint64_t add_rod_network(const Safetensors& weights, PackWriter& pack) {
   if (record.max_channels % 8 != 0 || record.max_channels > pack::kPanel)
     throw BadInput(weights.path + ": metadata key 'latent' is " + std::to_string(record.max_channels) +
                    "; rods start from a network of a multiple of 8, at most " + std::to_string(pack::kPanel));
+  constexpr float kMostNorm = 1000;  // as the reader's
+  for (const char* name : {"norm.node", "norm.edge"})
+    for (const float norm : finite_values(weights, name, {kNormNumbers}))
+      if (norm > kMostNorm)
+        throw BadInput(weights.path + ": tensor '" + name +
+                       "' holds a norm above 1000; train or export again");
   pack.section(pack::SectionKind::kRodNetwork, std::vector{record});
   pack.section(pack::SectionKind::kRodDense, layout.layers());
   pack.section(pack::SectionKind::kRodWeights, layout.floats());

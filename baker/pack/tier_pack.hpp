@@ -27,7 +27,7 @@ struct TierWork {
   size_t nodes = 0;
   uint64_t mode_floats = 0;            // of the modal bases' matrices
   uint64_t network_multiply_adds = 0;  // 0: no network
-  RodWork rods;
+  RodWork rods = {};
 };
 
 // Every tier that the work allows at every level of control graphs, `work`'s finest first, simulated every

@@ -134,7 +134,7 @@ void note_rod_weights(const CharacterOptions& options, const TissueLayout& layou
   if (layout.rods.empty())
     notes.push_back("nothing swings as a rod: " + options.rods + " is not used");
   else if (learned == 0)
-    notes.push_back("no rod of the recipe says \"start\": \"learned\": " + options.rods +
+    notes.push_back("no rod's recipe says \"start\": \"learned\": " + options.rods +
                     " is packed for instances that ask for it (RodWarmStart::kLearned)");
 }
 

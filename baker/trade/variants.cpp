@@ -2,6 +2,7 @@
 #include "baker/trade/variants.hpp"
 
 #include <filesystem>
+#include <optional>
 
 #include "baker/mesh/tissue_layout.hpp"
 #include "baker/pack/character_pack.hpp"
@@ -30,7 +31,10 @@ LoadedPack bake(const BakedFrom& source, int nodes_per_region, const std::string
   const std::vector<ModalBasis> modes =
       TissueTruth(character, layout, recipe).modal_bases(layout, kMostModes);
   const Safetensors weights = read_safetensors(weights_path);
-  return LoadedPack::from_bytes(pack_character(character, layout, modes, &weights), source.glb);
+  std::optional<Safetensors> rods;
+  if (!source.rods.empty()) rods = read_safetensors(source.rods);
+  return LoadedPack::from_bytes(
+      pack_character(character, layout, modes, &weights, {}, rods ? &*rods : nullptr), source.glb);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // check_rods.cpp  Rods agree with the skeleton that they move, and are made of something.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -13,6 +14,10 @@ constexpr float kLeastRate_hz = 1;  // a longer tick is none that rods are stepp
 constexpr uint32_t kMostSegments = 65535;  // of a rod: rods/strand.hpp, less the one that is held
 
 constexpr uint32_t kLearnedStart = 1;
+// The two norms behind a COPINGNet's layers, padded (format.hpp). Trained answers are at most 20 times the
+// last step's miss.
+constexpr size_t kNormFloats = 32;
+constexpr float kMostNorm = 1000;
 
 bool is_not_negative(float value) noexcept { return std::isfinite(value) && value >= 0; }
 
@@ -44,8 +49,14 @@ Status check_rod_network(const PackView& pack) noexcept {
         static_cast<uint32_t>(chains.record->model));
   const uint32_t latent = chains.record->max_channels;
   if (latent % 8 != 0 || latent > kPanel)
-    return corrupt("rod network: latent width %u, no multiple of 8 up to %u", latent, kPanel);
-  return check_chains(chains);
+    return core::make_status(
+        StatusCode::kUnsupported,
+        "pack: rods' network of latent width %u; rods start from a multiple of 8, at most "
+        "%u: bake it with other weights",
+        latent, kPanel);
+  if (Status status = check_chains(chains); !status.ok()) return status;
+  const auto norms = chains.weights.last(kNormFloats);
+  return *std::ranges::max_element(norms) <= kMostNorm ? Status{} : corrupt("rod network: a norm above 1000");
 }
 
 Status check_record(const PackView& pack, const RodRecord& rod, size_t index, uint64_t first) noexcept {

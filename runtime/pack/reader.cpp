@@ -67,6 +67,12 @@ PackView view_sections(const SectionTable& table) noexcept {
   return view;
 }
 
+// A kind of which there is one record at most.
+Status check_single(const SectionTable& table) noexcept {
+  const size_t count = table.get<NetworkRecord>(SectionKind::kRodNetwork).size();
+  return count <= 1 ? Status{} : corrupt("rod network: %zu records", count);
+}
+
 Status check_strings(const PackView& pack) noexcept {
   return pack.strings.empty() || pack.strings.back() == '\0' ? Status{}
                                                              : corrupt("strings: the last one does not end");
@@ -77,6 +83,7 @@ Status check_strings(const PackView& pack) noexcept {
 Status open_pack(std::span<const std::byte> bytes, PackView* out) noexcept {
   SectionTable table;
   if (Status status = read_section_table(bytes, &table); !status.ok()) return status;
+  if (Status status = check_single(table); !status.ok()) return status;
   PackView view = view_sections(table);
   constexpr Check kModelChecks[] = {check_strings, check_network};
   constexpr Check kCharacterChecks[] = {check_strings, check_network, check_character,

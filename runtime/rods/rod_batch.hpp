@@ -175,7 +175,7 @@ class RodBatch {
   size_t state_bytes() const noexcept;
   void save_state(std::byte* out) const noexcept;
   void restore_state(const std::byte* from) noexcept;
-  // What a batch of so many strands of so many segments takes.
+  // What a batch of so many strands of so many segments takes, with settings that create takes.
   static size_t memory_bytes(uint32_t strands, uint32_t segments, const RodSettings& settings) noexcept;
 
  private:

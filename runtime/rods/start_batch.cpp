@@ -39,8 +39,9 @@ void RodBatch::make_start(uint32_t group, const simd::RodJob& job) const noexcep
   if (correction.correct) correction.correct(correction.self, job, start, width_);
 }
 
-// What does not change from step to step: where a segment lies along the strand, in joints from the root over
-// the most that any has, and what the network makes of the joints.
+// What is told once: where a segment lies along the strand, in joints from the root over
+// the most that any has, and what the network makes of the joints, of the rest shape that they were made
+// with: what set_rest changes it is not told.
 void RodBatch::tell_fixed_inputs() noexcept {
   if (!inputs_) return;
   const size_t groups = (size_t{strand_count_} + width_ - 1) / width_;

@@ -212,7 +212,7 @@ void rod_continue(const RodJob& job, const RodStartJob& start) {
   });
 }
 
-// Adds a correction of the triple at `part`, in own axes and over its scale.
+// Adds a correction of the triple at `part`, in own axes and over its scale; one that is not finite is none.
 template <size_t kWidth, class G, class M>
 HWY_INLINE void correct(const G& g, const RodJob& job, const RodStartJob& start, size_t i, size_t part,
                         const Three<typename G::V>& correction, const SegmentAxes<typename G::V>& axes,
@@ -222,7 +222,9 @@ HWY_INLINE void correct(const G& g, const RodJob& job, const RodStartJob& start,
       meant, hn::Load(LanesOf<kWidth>(), start.scales + part / 3 * kWidth + (g.records - job.records)));
   const Three<V> world = in_world(part) ? to_world(axes, correction) : correction;
   const Three<V> was = g.get3(i, kRodStartPush + part);
-  g.set3(i, kRodStartPush + part, choose(meant, scaled_sum(scale, world, was), was));
+  const Three<V> sum = scaled_sum(scale, world, was);
+  const auto finite = hn::And(hn::And(hn::IsFinite(sum.x), hn::IsFinite(sum.y)), hn::IsFinite(sum.z));
+  g.set3(i, kRodStartPush + part, choose(hn::And(meant, finite), sum, was));
 }
 
 template <class G>

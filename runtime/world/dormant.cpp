@@ -67,6 +67,8 @@ void stay_dormant(Instance& instance) noexcept {
   instance.entered = instance.changed_level = instance.refined = false;
   instance.cut = instance.held = instance.restarted = instance.fell_back = instance.came_back = false;
   instance.times = {};
+  instance.told.rod_iterations = 0;
+  instance.told.rod_residual = 0;
   instance.cost_factor = 1;
   instance.plan.cost_us = 0;
   state.remainder_s = ticks.remainder_s;

@@ -178,6 +178,7 @@ size_t instance_bytes(const Asset& asset) noexcept {
 }
 
 Status make_instance(Asset& asset, const InstanceDef& def, Instance* out) noexcept {
+  if (Status status = check_rod_start(asset, def); !status.ok()) return status;
   core::Arena measure;
   Instance made;
   made.contacts = def.contacts;

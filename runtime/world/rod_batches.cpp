@@ -22,17 +22,6 @@ rods::RodSettings settings_of(const Asset& asset, bool baked_learned, const Inst
   return settings;
 }
 
-Status check_start(const Asset& asset, const InstanceDef& def) noexcept {
-  if (def.rod_start > RodWarmStart::kLearned)
-    return core::make_status(StatusCode::kInvalidArgument, "create_instance: rod_start %u is not known",
-                             static_cast<uint32_t>(def.rod_start));
-  if (def.rod_start == RodWarmStart::kLearned && !asset.rod_network.record)
-    return core::make_status(StatusCode::kInvalidArgument,
-                             "create_instance: rod_start is kLearned, and the asset has no network for rods; "
-                             "bake it with sinew-bake character --rods");
-  return {};
-}
-
 // What is needed while batches are made.
 struct Definitions {
   std::unique_ptr<rods::SegmentDef[]> segments;  // [slots]
@@ -45,10 +34,20 @@ Status no_memory() noexcept {
 
 }  // namespace
 
+Status check_rod_start(const Asset& asset, const InstanceDef& def) noexcept {
+  if (def.rod_start > RodWarmStart::kLearned)
+    return core::make_status(StatusCode::kInvalidArgument, "create_instance: rod_start %u is not known",
+                             static_cast<uint32_t>(def.rod_start));
+  if (def.rod_start == RodWarmStart::kLearned && !asset.rod_network.record)
+    return core::make_status(StatusCode::kInvalidArgument,
+                             "create_instance: rod_start is kLearned, and the asset has no network for rods; "
+                             "bake it with sinew-bake character --rods");
+  return {};
+}
+
 Status make_rod_batches(const Asset& asset, const InstanceDef& def,
                         std::unique_ptr<rods::RodBatch[]>* out) noexcept {
   const RodRig& rig = asset.rods;
-  if (Status status = check_start(asset, def); !status.ok()) return status;
   if (rig.rod_count == 0) return {};
   std::unique_ptr<rods::RodBatch[]> made(new (std::nothrow) rods::RodBatch[rig.batch_count]);
   Definitions defs{std::unique_ptr<rods::SegmentDef[]>(new (std::nothrow) rods::SegmentDef[rig.slot_count]),

@@ -7,8 +7,10 @@
 
 namespace sinew::world {
 
-// In the bind pose. Refused: no memory, rods whose numbers leave float's range in their own units, a learned
-// start without a network; *out untouched.
+// Refused: a start that there is not, a learned one without a network.
+Status check_rod_start(const Asset& asset, const InstanceDef& def) noexcept;
+// In the bind pose, after check_rod_start. Refused: no memory, rods whose numbers leave float's range in
+// their own units; *out untouched.
 Status make_rod_batches(const Asset& asset, const InstanceDef& def,
                         std::unique_ptr<rods::RodBatch[]>* out) noexcept;
 size_t rod_batch_bytes(const Asset& asset) noexcept;  // as baked

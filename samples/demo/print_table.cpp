@@ -47,12 +47,12 @@ void print_parts(const std::string& name, const Run& run) {
 }
 
 void print_rods(const RodWork& rods, const Run& run, const Options& options) {
-  if (run.asset.rod_count == 0) return;
+  if (run.asset.rod_count == 0 || rods.iterations.max == 0) return;
   const std::string start = options.start.empty() ? "baked" : options.start;
-  std::printf("\n  rods' solver, start %s: %.2f iterations a rod and tick, at most %.2f", start.c_str(),
-              rods.iterations.mean, rods.iterations.max);
+  std::printf("\n  %s: rods' solver, start %s: %.2f iterations a rod and tick, at most %.2f",
+              run.name.c_str(), start.c_str(), rods.iterations.mean, rods.iterations.max);
   if (!options.start.empty())
-    std::printf("; residual %.1e, at most %.1e", rods.residual.median, rods.residual.max);
+    std::printf("; residual in the median %.1e, at most %.1e", rods.residual.median, rods.residual.max);
   std::printf("\n");
 }
 
@@ -131,6 +131,7 @@ void print_table(const Summary& summary, const Run& run, const Run* other, const
   print_parts(run.name, run);
   if (other != nullptr) print_parts(other->name, *other);
   print_rods(summary.rods, run, options);
+  if (other != nullptr) print_rods(rod_work(*other), *other, options);
   std::printf("\n  %-16s %10s %10s %10s\n", "stage, us", "median", "p99", "worst");
   for (const StageTime& stage : summary.step) print_stage(stage);
   std::printf("  around it:\n");

@@ -48,6 +48,11 @@ class Stage {
     require(World::create(def, &world_));
     require(world_.load_asset_file(character.path.c_str(), &asset_));
     require(world_.asset_info(asset_, &info_));
+    if (def_.rod_start == RodWarmStart::kLearned && !info_.rod_network)
+      throw baker::BadInput(character.path + ": --start learned: " +
+                            (info_.rod_count == 0
+                                 ? "no rods in it"
+                                 : "no network for its rods in it; bake it with --rods W.safetensors"));
     require(world_.set_budget_us(static_cast<float>(budget_us)));
   }
 

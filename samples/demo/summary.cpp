@@ -67,6 +67,8 @@ std::optional<Spread> expected_error(const Run& run, const CharacterFile& charac
   return spread_of(errors);
 }
 
+}  // namespace
+
 RodWork rod_work(const Run& run) {
   std::vector<double> iterations, residuals;
   for (const FrameRecord& frame : run.frames) {
@@ -76,8 +78,6 @@ RodWork rod_work(const Run& run) {
   }
   return {spread_of(std::move(iterations)), spread_of(std::move(residuals))};
 }
-
-}  // namespace
 
 Summary summarise(const Run& run, const CharacterFile& character) {
   Summary out;

@@ -49,6 +49,7 @@ struct Summary {
   Spread skinning_error_mm, sinew_error_mm;  // over frames; of the first instance
 };
 
+RodWork rod_work(const Run& run);
 Summary summarise(const Run& run, const CharacterFile& character);
 
 // other: the run beside it, whose parts are told too; null: none.

@@ -44,6 +44,8 @@ Json summary_json(const Summary& s, bool truth) {
               {"engine_us", stages(s.engine)},
               {"tiers", tiers(s.tiers)},
               {"expected_error_mm", number(s.expected_error_mm)},
+              {"rod_iterations", spread(s.rods.iterations)},
+              {"rod_residual", spread(s.rods.residual)},
               {"why", reasons(s.reasons)},
               {"expected_error", s.expected_error ? spread(*s.expected_error) : Json(nullptr)},
               {"unspent", spread(s.unspent)},

@@ -551,16 +551,18 @@ TEST_CASE("a_learned_start_without_a_network_that_can_make_it_is_refused_by_name
   const auto rod = [](auto apply) { return change<RodRecord>(kRods, 0, [=](RodRecord& r) { apply(r); }); };
   PackEditor untouched(good);
   REQUIRE(untouched.open().ok());
-  check_refused(good, {{"start 2 is not known", rod([](RodRecord& r) { r.start = 2; })},
-                       {"reserved", rod([](RodRecord& r) { r.reserved = 1; })},
-                       {"latent width 12", record([](NetworkRecord& n) { n.max_channels = 12; })},
-                       {"latent width 128", record([](NetworkRecord& n) { n.max_channels = 128; })},
-                       {"dense layers stated", record([](NetworkRecord& n) { n.layer_count = 3; })},
-                       {"17 blocks", record([](NetworkRecord& n) { n.blocks = 17; })},
-                       {"inputs and", change<DenseRecord>(kRodDense, 2, [](DenseRecord& d) { d.inputs = 9; })},
-                       {"weights are not where", change<DenseRecord>(kRodDense, 1, [](DenseRecord& d) { d.w += 16; })},
-                       {"not finite", set<float>(kRodWeights, 5, kNan)}});
-  check_refused(test::small_rod_pack(), {{"a learned start, and no network for it", rod([](RodRecord& r) { r.start = 1; })}});
+  check_refused(
+      good, {{"start 2 is not known", rod([](RodRecord& r) { r.start = 2; })},
+             {"reserved", rod([](RodRecord& r) { r.reserved = 1; })},
+             {"latent width 12", record([](NetworkRecord& n) { n.max_channels = 12; })},
+             {"latent width 128", record([](NetworkRecord& n) { n.max_channels = 128; })},
+             {"dense layers stated", record([](NetworkRecord& n) { n.layer_count = 3; })},
+             {"17 blocks", record([](NetworkRecord& n) { n.blocks = 17; })},
+             {"inputs and", change<DenseRecord>(kRodDense, 2, [](DenseRecord& d) { d.inputs = 9; })},
+             {"weights are not where", change<DenseRecord>(kRodDense, 1, [](DenseRecord& d) { d.w += 16; })},
+             {"not finite", set<float>(kRodWeights, 5, kNan)}});
+  check_refused(test::small_rod_pack(),
+                {{"a learned start, and no network for it", rod([](RodRecord& r) { r.start = 1; })}});
 }
 
 TEST_CASE("rods_network_of_another_model_is_refused_as_not_supported") {

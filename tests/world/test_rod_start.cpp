@@ -103,6 +103,25 @@ TEST_CASE("the_start_of_rods_does_not_change_where_they_end") {
   CHECK_FALSE(same_bits(stage.joints(0), stage.joints(1)));  // they did start differently
 }
 
+TEST_CASE("weights_that_overflow_are_no_guess_and_throw_no_rod") {
+  baker::Safetensors net = test::random_coping_net();
+  for (auto& [name, tensor] : net.tensors) {
+    std::vector<float> values = tensor.as_f32();
+    for (float& v : values) v *= name.starts_with("norm") ? 20.0f : 1e20f;
+    tensor = baker::tensor_f32(tensor.shape, values);
+  }
+  const scenes::PackBytes pack = scenes::soft_block(
+      {.network = false, .rods = scenes::RodMatter{.young_modulus_pa = kYoung_pa}, .rod_weights = &net});
+  StartStage stage({kContinued, kLearned}, {}, pack);
+  double largest = 0;
+  for (int tick = 0; tick < 120; ++tick) {
+    stage.step();
+    largest = std::fmax(largest, largest_difference(stage.joints(0), stage.joints(1)));
+  }
+  CHECK(stage.report(1).rod_recoveries == 0);
+  CHECK(largest < kTolerance);
+}
+
 TEST_CASE("a_rod_starts_as_its_recipe_says_beside_others_that_do_not") {
   StartStage stage({{}, kContinued});
   for (int tick = 0; tick < 60; ++tick) stage.step();

@@ -9,11 +9,12 @@ from .verdict import Error
 
 @dataclass
 class Baker:
-    """program: path of sinew-bake. recipe: a path, or None."""
+    """program: path of sinew-bake. recipe, rods (weights that its rods start from): a path, or None."""
 
     program: str
     character: str
     recipe: str = None
+    rods: str = None
 
     def run(self, *arguments):
         """What it printed; its own line as BadData where it refuses. Ctrl-C does not reach it."""
@@ -35,7 +36,8 @@ class Baker:
         takes seconds. Returns the notes on it."""
         tissue = ["--tissue", weights] if weights else []
         how = ["--keep-network"] if measured else ["--quick"]
-        said = self.run("character", self.character, *self.of_recipe(), *tissue, *how, "-o", pack)
+        rods = ["--rods", self.rods] if self.rods else []
+        said = self.run("character", self.character, *self.of_recipe(), *tissue, *rods, *how, "-o", pack)
         return [line for line in said.splitlines() if line.startswith("note: ")]
 
     def describe(self, pack):

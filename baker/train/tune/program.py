@@ -30,6 +30,7 @@ def _parser():
     p.add_argument("--recipe", metavar="R.json", help="as of sinew-bake character")
     p.add_argument("--minutes", type=float, default=20.0, help="of the clock, for everything; default 20")
     p.add_argument("--tissue", metavar="W.safetensors", default=SHIPPED, help="weights to begin with")
+    p.add_argument("--rods", metavar="W.safetensors", help="as of sinew-bake character")
     p.add_argument("-o", "--output", metavar="C.sinew", required=True)
     p.add_argument("--keep", action="store_true", help="write the tuned weights even where they do not win")
     p.add_argument("--seed", type=int, default=0, help="of training; default 0")
@@ -60,7 +61,7 @@ def _files_of(character):
 
 def _keep_inputs(a):
     """Throws BadData where what will be written is what is read."""
-    inputs = [*_files_of(a.character), a.tissue, *([a.recipe] if a.recipe else [])]
+    inputs = [*_files_of(a.character), a.tissue, *(f for f in (a.recipe, a.rods) if f)]
     refuse_over([a.output, tissue_beside(a.output)], inputs)
 
 
@@ -74,6 +75,8 @@ def _check(a):
     _need_file(a.tissue, "trained weights, as assets/weights/creature.safetensors")
     if a.recipe:
         _need_file(a.recipe, "a recipe, JSON")
+    if a.rods:
+        _need_file(a.rods, "weights of a coping_net, as assets/weights/coping_8.safetensors")
     _keep_inputs(a)
     if os.path.isdir(a.output):
         file = os.path.join(a.output, "C.sinew")

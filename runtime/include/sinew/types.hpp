@@ -144,7 +144,8 @@ struct InstanceDef {
   float importance = 1;
   RootTransform root = {};  // where it enters, in its bind pose, at rest; refused as in a pose
   ContactDef contacts = {};
-  // kLearned of an asset without a network for rods (AssetInfo::rod_network): refused. Of all its rods.
+  // Of all its rods. kLearned of an asset without a network for rods (AssetInfo::rod_network): refused. What
+  // it takes more than as baked, of memory and time, is not in instance_bytes nor in the tiers' baked costs.
   RodWarmStart rod_start = RodWarmStart::kAsBaked;
   bool report_rod_residual = false;  // fills InstanceReport::rod_residual, for a fifth of an iteration's time
 };
@@ -196,7 +197,8 @@ struct InstanceReport {
   uint32_t rods_asleep = 0;  // rods at rest, not stepped until they are held or shaped otherwise: all or none
   uint32_t rod_iterations = 0;  // of the last tick: of all rods' solvers together; 0: asleep or not simulated
   // Of the last tick, of the rod that has most: what the tick's equations miss by, in mean segments' lengths,
-  // radians, and shares of the rod's largest force. 0 without InstanceDef::report_rod_residual.
+  // radians, and shares of the rod's largest force, contacts counted in; infinite where one had to be put
+  // back. 0 without InstanceDef::report_rod_residual.
   float rod_residual = 0;
   // Of the last tick, where the instance has a contact source or own_body. A vertex counts once for each
   // thing it touches. The volume is at most what contacts took from the soft parts: of vertices that touched

@@ -122,10 +122,10 @@ class World {
   Status report(InstanceId instance, InstanceReport* out) const noexcept;
 
   // Rollback. state_bytes is fixed for an instance's life, 0 for a stale id; a smaller span: save_state
-  // refuses. Bytes of another asset, version or kind of ContactDef (a source or none, rods, own_body,
-  // surface), or changed ones: kCorrupt, the instance untouched. After a restore the same poses, steps and
-  // tiers give the same bits; importance, waiting time and whose turn it is to be looked at are part of the
-  // state.
+  // refuses. Bytes of another asset, version, kind of ContactDef (a source or none, rods, own_body,
+  // surface) or InstanceDef::rod_start, or changed ones: kCorrupt, the instance untouched. After a restore
+  // the same poses, steps and tiers give the same bits; importance, waiting time and whose turn it is to be
+  // looked at are part of the state.
   size_t state_bytes(InstanceId instance) const noexcept;
   Status save_state(InstanceId instance, std::span<std::byte> out) const noexcept;
   Status restore_state(InstanceId instance, std::span<const std::byte> bytes) noexcept;

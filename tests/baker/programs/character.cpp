@@ -135,6 +135,33 @@ TEST_CASE("a_character_without_soft_tissue_takes_weights_and_leaves_them_out_wit
   CHECK(rigid["regions"].empty());
 }
 
+TEST_CASE("a_learned_start_of_rods_is_baked_with_its_weights_and_refused_without") {
+  const Creature creature;
+  const std::string recipe = creature.folder.file("learned.json"),
+                    coping = SINEW_SOURCE_DIR "/assets/weights/coping_8.safetensors";
+  write_file(
+      recipe,
+      std::string_view(
+          R"({"regions": [], "rods": [{"root": "tail_1", "start": "learned"}, {"root": "ear_l_1"}]})"));
+  std::vector<std::string> arguments = {"character", creature.glb, "--recipe", recipe, "-o", creature.pack};
+  check_refused(arguments, {"learned.json", "rod 'tail_1'", "give --rods W.safetensors"});
+  arguments.insert(arguments.end(), {"--rods", creature.weights});
+  check_refused(arguments,
+                {"w.safetensors", "'sinew.model' is 'alt_conv_lstm'; rods start from a coping_net"});
+  arguments.back() = creature.folder.file("none");
+  check_refused(arguments, {"none"});
+  CHECK_FALSE(std::filesystem::exists(creature.pack));
+  arguments.back() = coping;
+  must(bake(arguments));
+  auto description = nlohmann::json::parse(bake({"info", "--json", creature.pack}).out);
+  CHECK(description["rods"][0]["start"] != description["rods"][1]["start"]);
+  CHECK(description["rod_network"]["latent"] == 8);
+  write_file(recipe, std::string_view(R"({"regions": [], "rods": [{"root": "tail_1"}]})"));
+  CHECK_THAT(bake(arguments).out, Catch::Contains("no rod's recipe says \"start\": \"learned\""));
+  write_file(recipe, std::string_view(R"({"regions": [], "rods": []})"));
+  CHECK_THAT(bake(arguments).out, Catch::Contains("nothing swings as a rod"));
+}
+
 TEST_CASE("a_region_that_is_clear_of_no_capsule_is_named_as_it_is_baked") {
   const Creature creature;
   auto recipe = nlohmann::json::parse(read_text(kAssets + "tissue.json"));
