@@ -17,6 +17,7 @@ rods::RodSettings settings_of(const Asset& asset, bool baked_learned, const Inst
   rods::RodSettings settings{.start = learned ? rods::RodStart::kLearned : rods::RodStart::kContinued};
   for (float& g : settings.gravity_m_s2) g = 0;
   settings.teleport_lengths = 1e30f;
+  settings.max_iterations = def.max_rod_iterations;
   settings.report_residual = def.report_rod_residual;
   if (learned) settings.network = &asset.rod_network;
   return settings;
@@ -38,6 +39,10 @@ Status check_rod_start(const Asset& asset, const InstanceDef& def) noexcept {
   if (def.rod_start > RodWarmStart::kLearned)
     return core::make_status(StatusCode::kInvalidArgument, "create_instance: rod_start %u is not known",
                              static_cast<uint32_t>(def.rod_start));
+  if (def.max_rod_iterations < 1 || def.max_rod_iterations > 1000)
+    return core::make_status(StatusCode::kInvalidArgument,
+                             "create_instance: max_rod_iterations is %u; give 1 to 1000",
+                             def.max_rod_iterations);
   if (def.rod_start == RodWarmStart::kLearned && !asset.rod_network.record)
     return core::make_status(StatusCode::kInvalidArgument,
                              "create_instance: rod_start is kLearned, and the asset has no network for rods; "

@@ -7,7 +7,7 @@
 
 namespace sinew::world {
 
-// Refused: a start that there is not, a learned one without a network.
+// Refused: a start that there is not, a learned one without a network, no iterations.
 Status check_rod_start(const Asset& asset, const InstanceDef& def) noexcept;
 // In the bind pose, after check_rod_start. Refused: no memory, rods whose numbers leave float's range in
 // their own units; *out untouched.

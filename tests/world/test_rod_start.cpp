@@ -84,7 +84,21 @@ TEST_CASE("a_start_that_there_is_not_is_refused_and_nothing_is_made") {
   CHECK(std::string(status.message).find("sinew-bake character --rods") != std::string::npos);
   status = stage.world.create_instance({.asset = stage.asset, .rod_start = RodWarmStart{3}}, &out);
   CHECK(status.code == StatusCode::kInvalidArgument);
+  for (const uint32_t most : {0u, 1001u}) {
+    status = stage.world.create_instance({.asset = stage.asset, .max_rod_iterations = most}, &out);
+    CHECK(status.code == StatusCode::kInvalidArgument);
+    CHECK(std::string(status.message).find("max_rod_iterations") != std::string::npos);
+  }
   CHECK(is_null(out));
+}
+
+TEST_CASE("rods_stop_after_as_many_iterations_as_an_instance_allows") {
+  StartStage stage({{.max_rod_iterations = 1}, {}});
+  for (int tick = 0; tick < 60; ++tick) {
+    stage.step();
+    CHECK(stage.report(0).rod_iterations == stage.info.rod_count);
+  }
+  CHECK(stage.report(1).rod_iterations > stage.info.rod_count);
 }
 
 TEST_CASE("the_start_of_rods_does_not_change_where_they_end") {
