@@ -8,6 +8,16 @@ from .run import put, say
 from .verdict import BASE, TUNED, Row, best_of, reason, table
 
 TICKS = round(SECONDS * RATE_HZ)
+KEPT = 0.8  # of what a network corrects: the rest helps little where it has learned and harms where it has not (learnable.md)
+
+
+def _in_part(run, tuned):
+    """A copy of the weights that corrects by KEPT of what they do. A later run goes on with the whole."""
+    tensors, metadata = load(tuned)
+    scale = f"{KEPT * float(metadata['output_scale']):.9g}"
+    path = run.place("in_part.safetensors")
+    save(path, {k: v.copy() for k, v in tensors.items()}, {**metadata, "output_scale": scale})
+    return path
 
 
 def _judge(run, simulation, weights):
@@ -38,6 +48,7 @@ def _stated(run, weights, rows, all_of_them, name):
 def finish(run, simulation, tuned, output, keep):
     """Bakes what has the smallest error and does no harm; the base, which needs no trust, where nothing is held out. tuned:
     path of weights, or None. keep: writes them beside the output whatever is baked."""
+    tuned = _in_part(run, tuned) if tuned else None
     weights = {run.start.name: run.start.path, **({TUNED: tuned} if tuned else {})}
     rows, all_of_them = _judge(run, simulation, weights)
     winner = best_of(rows, all_of_them) if rows else BASE

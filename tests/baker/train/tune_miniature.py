@@ -1,5 +1,6 @@
 """sinew-train from end to end on a coarse creature: a run, a second one that goes on, one without clips, and
 one that is stopped. Slow: a minute."""
+import glob
 import json
 import os
 import signal
@@ -12,6 +13,7 @@ import support
 
 support.leave_without_torch()
 from train.safetensors import load  # noqa: E402
+from train.tune.finish import KEPT  # noqa: E402
 
 TISSUE = {"voxels_high": 16, "nodes_per_region": 10}
 
@@ -73,6 +75,9 @@ def check_the_weights(program, said):
     if os.path.exists(path):
         metadata = load(path)[1]
         expect(metadata["tuned_for"] == "mini.glb" and 0 < float(metadata["error_ratio"]) < 10, metadata)
+        (whole,) = glob.glob(program.place("mini.train/*/tuned.safetensors"))
+        share = float(metadata["output_scale"]) / float(load(whole)[1]["output_scale"])
+        expect(abs(share - KEPT) < 1e-6, "corrects by", share, "of what was learned")
 
 
 def check_without_clips(program):
