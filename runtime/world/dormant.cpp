@@ -57,7 +57,10 @@ void watch_pose(Instance& instance) noexcept {
 }
 
 void fall_dormant(Instance& instance) noexcept {
-  if (may_be_dormant(instance)) instance.state->dormant = 1;
+  if (!may_be_dormant(instance)) return;
+  instance.state->dormant = 1;
+  instance.told.rod_iterations = 0;
+  instance.told.rod_residual = 0;
 }
 
 void stay_dormant(Instance& instance) noexcept {
@@ -67,8 +70,6 @@ void stay_dormant(Instance& instance) noexcept {
   instance.entered = instance.changed_level = instance.refined = false;
   instance.cut = instance.held = instance.restarted = instance.fell_back = instance.came_back = false;
   instance.times = {};
-  instance.told.rod_iterations = 0;
-  instance.told.rod_residual = 0;
   instance.cost_factor = 1;
   instance.plan.cost_us = 0;
   state.remainder_s = ticks.remainder_s;

@@ -552,15 +552,16 @@ TEST_CASE("a_learned_start_without_a_network_that_can_make_it_is_refused_by_name
   PackEditor untouched(good);
   REQUIRE(untouched.open().ok());
   check_refused(
-      good, {{"start 2 is not known", rod([](RodRecord& r) { r.start = 2; })},
-             {"reserved", rod([](RodRecord& r) { r.reserved = 1; })},
-             {"latent width 12", record([](NetworkRecord& n) { n.max_channels = 12; })},
-             {"latent width 128", record([](NetworkRecord& n) { n.max_channels = 128; })},
-             {"dense layers stated", record([](NetworkRecord& n) { n.layer_count = 3; })},
-             {"17 blocks", record([](NetworkRecord& n) { n.blocks = 17; })},
-             {"inputs and", change<DenseRecord>(kRodDense, 2, [](DenseRecord& d) { d.inputs = 9; })},
-             {"weights are not where", change<DenseRecord>(kRodDense, 1, [](DenseRecord& d) { d.w += 16; })},
-             {"not finite", set<float>(kRodWeights, 5, kNan)}});
+      good,
+      {{"start 2 is not known", rod([](RodRecord& r) { r.start = 2; })},
+       {"reserved", rod([](RodRecord& r) { r.reserved = 1; })},
+       {"latent width 12", record([](NetworkRecord& n) { n.max_channels = 12; }), StatusCode::kUnsupported},
+       {"latent width 128", record([](NetworkRecord& n) { n.max_channels = 128; }), StatusCode::kUnsupported},
+       {"dense layers stated", record([](NetworkRecord& n) { n.layer_count = 3; })},
+       {"17 blocks", record([](NetworkRecord& n) { n.blocks = 17; })},
+       {"inputs and", change<DenseRecord>(kRodDense, 2, [](DenseRecord& d) { d.inputs = 9; })},
+       {"weights are not where", change<DenseRecord>(kRodDense, 1, [](DenseRecord& d) { d.w += 16; })},
+       {"not finite", set<float>(kRodWeights, 5, kNan)}});
   check_refused(test::small_rod_pack(),
                 {{"a learned start, and no network for it", rod([](RodRecord& r) { r.start = 1; })}});
 }

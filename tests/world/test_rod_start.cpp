@@ -1,4 +1,5 @@
 // test_rod_start.cpp  What rods' iterations start from: as baked, or as an instance says.
+#include <algorithm>
 #include <cstring>
 
 #include "tests/pack/random_coping_net.hpp"
@@ -11,11 +12,11 @@ using test::Stage;
 
 namespace {
 
-// Soft enough for several iterations a tick.
+// Soft enough for several iterations in some ticks.
 constexpr double kYoung_pa = 2e4;
-// Of joints of rods that are half a metre long: the solver's tolerance is 0.01 rad a segment, and what it
-// leaves is damped away within some ticks.
-constexpr double kTolerance = 0.01;
+// Of joints of rods that are 0.4 m long, in a motion that does not whirl them: the last iteration of a tick
+// turned no segment by more than 0.01 rad, and so left about the square of that.
+constexpr double kTolerance = 1e-3;
 
 // The tail starts learned, the horns do not. A network of random weights guesses badly; where the iteration
 // ends must not tell.
@@ -44,10 +45,11 @@ struct StartStage : Stage {
       REQUIRE(world.create_instance(instance, &blocks.back()).ok());
     }
   }
+  double strength = 0.3;  // beyond, the tail whirls, and any difference grows tenfold a second
   void step() {
     time_s += 1.0 / 60;
     for (const InstanceId block : blocks)
-      REQUIRE(world.set_pose(block, scenes::with_rods(scenes::hop(time_s)).pose()).ok());
+      REQUIRE(world.set_pose(block, scenes::with_rods(scenes::shake(time_s, strength)).pose()).ok());
     world.step(1.0f / 60);
   }
   std::vector<Matrix34> joints(size_t index) const {
@@ -94,11 +96,14 @@ TEST_CASE("a_start_that_there_is_not_is_refused_and_nothing_is_made") {
 
 TEST_CASE("rods_stop_after_as_many_iterations_as_an_instance_allows") {
   StartStage stage({{.max_rod_iterations = 1}, {}});
-  for (int tick = 0; tick < 60; ++tick) {
+  stage.strength = 1;
+  uint32_t most = 0;
+  for (int tick = 0; tick < 120; ++tick) {
     stage.step();
     CHECK(stage.report(0).rod_iterations == stage.info.rod_count);
+    most = std::max(most, stage.report(1).rod_iterations);
   }
-  CHECK(stage.report(1).rod_iterations > stage.info.rod_count);
+  CHECK(most > stage.info.rod_count);
 }
 
 TEST_CASE("the_start_of_rods_does_not_change_where_they_end") {
@@ -109,7 +114,7 @@ TEST_CASE("the_start_of_rods_does_not_change_where_they_end") {
     stage.step();
     for (const size_t other : {1u, 2u})
       largest = std::fmax(largest, largest_difference(stage.joints(0), stage.joints(other)));
-    const scenes::TailedPose pose = scenes::with_rods(scenes::hop(stage.time_s));
+    const scenes::TailedPose pose = scenes::with_rods(scenes::shake(stage.time_s, stage.strength));
     moved = std::fmax(moved, largest_difference(stage.joints(0), pose.joints));
   }
   CHECK(moved > 10 * kTolerance);
@@ -179,7 +184,7 @@ TEST_CASE("iterations_and_the_residual_of_rods_are_reported") {
   CHECK(stage.report(1).rod_residual > 0);
   CHECK(stage.report(1).rod_residual < 0.1f);
   CHECK(same_bits(stage.joints(0), stage.joints(1)));
-  for (int tick = 0; tick < 600; ++tick) stage.world.step(1.0f / 60);  // at rest
+  for (int tick = 0; tick < 3000; ++tick) stage.world.step(1.0f / 60);  // at rest
   CHECK(stage.report(0).rods_asleep == stage.info.rod_count);
   CHECK(stage.report(0).rod_iterations == 0);
   CHECK(stage.report(1).rod_residual == 0);
