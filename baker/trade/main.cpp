@@ -30,10 +30,10 @@ void add_options(CLI::App& app, Options* o) {
   app.add_option("-o,--output", o->folder, "folder of the tables, pictures, the character, and what is kept")
       ->required();
   app.add_option("--truth", o->truth, "trajectories of sinew-bake truth --positions");
-  app.add_option(
-      "--source", o->source.glb,
-      "the glTF it was baked from: without --truth its clips are simulated; and it is baked otherwise "
-      "to compare; by default C.glb beside C.sinew");
+  app.add_option("--source", o->source.glb,
+                 "the glTF it was baked from: without --truth its clips are simulated; and it is baked with "
+                 "other weights "
+                 "and, of one control graph alone, other nodes to compare; by default C.glb beside C.sinew");
   app.add_option("--recipe", o->source.recipe, "as it was baked");
   app.add_option("--tissue", o->source.weights, "weights to bake it with otherwise: its own, then others");
   app.add_option("--rods", o->source.rods, "weights that its rods start from, as it was baked");

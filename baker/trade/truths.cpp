@@ -60,6 +60,7 @@ std::string made_from(const BakedFrom& source, const Character& body, const Tiss
   of.add_all(body.positions).add_all(body.skin).add_all(body.stiffness);
   for (const Channel& channel : clip.channels) of.add_all(channel.times_s).add_all(channel.values);
   for (const Region& region : layout.regions) of.add(std::to_string(region.frequency_hz));
+  for (const ControlNode& node : layout.nodes) of.add(std::to_string(node.vertex));
   return of.add(std::to_string(rate_hz) + " " + kTrajectoryVersion).text();
 }
 

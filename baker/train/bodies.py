@@ -30,6 +30,7 @@ TISSUE_KEYS = (  # of a tissue recipe, see baker/mesh/recipe.hpp
     "up",
     "regions",
 )
+_USUAL_NODES = 80  # a region, of a recipe that states none
 _MOVES = {"move_x": 0, "move_y": 1, "move_z": 2}
 
 
@@ -44,7 +45,8 @@ class Body:
 
     def stamp(self):
         """Names the content that the trajectories depend on, without the program that makes them."""
-        h = hashlib.sha256(json.dumps([self.creature, self.tissue], sort_keys=True).encode())
+        tissue = {"nodes_per_region": _USUAL_NODES, **self.tissue}
+        h = hashlib.sha256(json.dumps([self.creature, tissue], sort_keys=True).encode())
         if self.character:
             with open(self.character, "rb") as file:
                 h.update(file.read())

@@ -8,7 +8,7 @@ from .run import put, say
 from .verdict import BASE, TUNED, Row, best_of, reason, table
 
 TICKS = round(SECONDS * RATE_HZ)
-KEPT = 0.8  # of what a network corrects: the rest helps little where it has learned and harms where it has not (learnable.md)
+KEPT = 0.8  # of what a network corrects: the rest gains 2 % where it has learned and harms where it has not (learnable.md)
 
 
 def _in_part(run, tuned):
@@ -16,7 +16,7 @@ def _in_part(run, tuned):
     tensors, metadata = load(tuned)
     scale = f"{KEPT * float(metadata['output_scale']):.9g}"
     path = run.place("in_part.safetensors")
-    save(path, {k: v.copy() for k, v in tensors.items()}, {**metadata, "output_scale": scale})
+    save(path, {k: v.copy() for k, v in tensors.items()}, {**metadata, "output_scale": scale, "kept": f"{KEPT:g}"})
     return path
 
 

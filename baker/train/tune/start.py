@@ -1,7 +1,7 @@
 """The weights that a run begins with, checked."""
 import hashlib
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ..safetensors import BadData
 from ..weights import BASE, read_number, read_weights
@@ -33,6 +33,11 @@ def read_start(path):
         )
     if read_number(path, metadata, "rate_hz", RATE_HZ) != RATE_HZ:
         raise BadData(f"{path}: is of {metadata['rate_hz']} ticks a second; give weights of {RATE_HZ}")
+    kept = read_number(path, metadata, "kept", 1)
+    if not 0 < kept <= 1:
+        raise BadData(f"{path}: metadata kept is {kept:g}, outside 0 to 1; train or export again")
+    whole = replace(model.options, output_scale=model.options.output_scale / kept)
+    model.options = whole  # what is trained on is all that was learned
     return Start(path, model, scaling, metadata)
 
 

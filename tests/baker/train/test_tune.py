@@ -122,6 +122,9 @@ class Refusals(Folder):
             ({**metadata, "base": "none"}, "modal base"),
             ({**metadata, "base": "modal"}, "modal base"),
             ({**metadata, "rate_hz": "30"}, "30 ticks a second"),
+            ({**metadata, "kept": "2"}, "metadata kept is 2"),
+            ({**metadata, "kept": "nan"}, "metadata kept is nan"),
+            ({**metadata, "kept": "all"}, "metadata kept is 'all', not a number"),
         ):
             save(path, tensors, changed)
             self.refused(self.glb, "--tissue", path, says=says)
@@ -130,6 +133,13 @@ class Refusals(Folder):
         self.refused(self.glb, "--tissue", path, says="not a network of this version's inputs")
         self.write("w.safetensors", "no weights")
         self.refused(self.glb, "--tissue", self.place("w.safetensors"), says="not a safetensors file")
+
+    def test_weights_that_keep_a_part_of_what_was_learned_are_gone_on_with_as_a_whole(self):
+        tensors, metadata = load(SHIPPED)
+        path = self.place("w.safetensors")
+        save(path, {k: v.copy() for k, v in tensors.items()}, {**metadata, "kept": "0.8"})
+        whole = read_start(path).model.options.output_scale
+        self.assertAlmostEqual(whole, float(metadata["output_scale"]) / 0.8)
 
     def test_a_character_without_soft_parts(self):
         self.refused(self.glb, says="no soft parts, so there is nothing to train")
