@@ -69,8 +69,10 @@ void print_known(double value, const char* format) {
   }
 }
 
-void print_tiers(const Summary& summary) {
-  std::printf("\n  %-16s %10s %18s %18s\n", "tier", "share", "baked cost, us", "baked error, mm");
+// Of several control graphs the finest stands for a tier.
+void print_tiers(const Summary& summary, const Run& run) {
+  std::printf("\n  %-16s %10s %18s %18s\n", run.asset.graph_levels > 1 ? "tier, finest" : "tier", "share",
+              "baked cost, us", "baked error, mm");
   for (const TierShare& tier : summary.tiers) {
     std::printf("  %-16s %8.1f %% ", tier.name.c_str(), 100 * tier.share);
     print_known(tier.baked_cost_us, "%18.1f");
@@ -136,7 +138,7 @@ void print_table(const Summary& summary, const Run& run, const Run* other, const
   for (const StageTime& stage : summary.step) print_stage(stage);
   std::printf("  around it:\n");
   for (const StageTime& stage : summary.engine) print_stage(stage);
-  print_tiers(summary);
+  print_tiers(summary, run);
   print_reasons(summary);
   print_budget(summary, run, options);
   if (!options.truth.empty()) print_errors(summary);
