@@ -11,7 +11,7 @@ namespace sinew::baker {
 struct BakedFrom {
   std::string glb, recipe;           // no glb: nothing is simulated or baked anew
   std::vector<std::string> weights;  // the character's own first
-  std::string rods;                  // weights that its rods start from; empty: none do
+  std::string rods = {};             // weights that its rods start from; empty: none do
 
   Recipe read() const { return recipe.empty() ? Recipe{} : read_recipe(recipe); }
   Character import(const Recipe& as) const;
