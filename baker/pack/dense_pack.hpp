@@ -14,7 +14,7 @@ void add_chains(const Safetensors& weights, PackWriter& pack);
 
 // A coping_net for a character's rods (RodRecipe::learned_start) to the sections kRodNetwork, kRodDense and
 // kRodWeights; returns its multiply-adds a segment. Throws BadInput as above, and naming the key: another
-// model, a latent width that is no multiple of 8 up to 64.
+// model, a latent width that is no multiple of 8 up to 64, a norm above 1000.
 uint64_t add_rod_network(const Safetensors& weights, PackWriter& pack);
 
 }  // namespace sinew::baker

@@ -561,7 +561,11 @@ TEST_CASE("a_learned_start_without_a_network_that_can_make_it_is_refused_by_name
        {"17 blocks", record([](NetworkRecord& n) { n.blocks = 17; })},
        {"inputs and", change<DenseRecord>(kRodDense, 2, [](DenseRecord& d) { d.inputs = 9; })},
        {"weights are not where", change<DenseRecord>(kRodDense, 1, [](DenseRecord& d) { d.w += 16; })},
-       {"not finite", set<float>(kRodWeights, 5, kNan)}});
+       {"not finite", set<float>(kRodWeights, 5, kNan)},
+       {"a norm above 1000", [](PackEditor& editor) {
+          const auto weights = editor.section<float>(kRodWeights);
+          weights[weights.size() - 32] = 1001;
+        }}});
   check_refused(test::small_rod_pack(),
                 {{"a learned start, and no network for it", rod([](RodRecord& r) { r.start = 1; })}});
 }

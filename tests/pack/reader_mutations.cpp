@@ -81,6 +81,10 @@ double read_network(const PackView& view) {
     sum += view.weights[layer.w + weight_at(layer, layer.inputs - 1, layer.padded - 1)];
     sum += view.weights[layer.bias + layer.padded - 1];
   }
+  for (const DenseRecord& layer : view.rod_network.layers) {
+    sum += view.rod_network.weights[layer.w + weight_at(layer, layer.inputs - 1, layer.padded - 1)];
+    sum += view.rod_network.weights[layer.bias + layer.padded - 1];
+  }
   return sum;
 }
 
@@ -199,6 +203,7 @@ TEST_CASE("hostile_words_with_right_checksums_are_refused_or_harmless") {
   check_hostile_words(character_pack());
   check_hostile_words(test::small_chain_model());
   check_hostile_words(test::small_rod_pack());
+  check_hostile_words(test::small_learned_pack());
   check_hostile_words(test::small_levels_pack());
 }
 
@@ -206,6 +211,7 @@ TEST_CASE("random_damage_with_right_checksums_is_refused_or_harmless") {
   check_random_damage(character_pack());
   check_random_damage(test::small_chain_model());
   check_random_damage(test::small_rod_pack());
+  check_random_damage(test::small_learned_pack());
   check_random_damage(test::small_levels_pack());
 }
 

@@ -85,6 +85,8 @@ TEST_CASE("weights_that_no_rod_can_start_from_are_refused_by_name") {
       refusal(test::small_coping_net()).find("'latent' is 5; rods start from a network of a multiple of 8") !=
       std::string::npos);
   CHECK(refusal(test::random_coping_net(72)).find("'latent' is 72") != std::string::npos);
+  CHECK(refusal(test::random_coping_net(8, 2, 1, 1001)).find("'norm.node' holds a norm above 1000") !=
+        std::string::npos);
   Safetensors damaged = test::random_coping_net();
   damaged.tensors["encoder.node.0.bias"] = tensor_f32({8}, std::vector<float>(8, NAN));
   CHECK(refusal(damaged).find("'encoder.node.0.bias' holds NaN") != std::string::npos);
