@@ -18,6 +18,7 @@
 #include "baker/pack/dense_pack.hpp"
 #include "baker/pack/network_pack.hpp"
 #include "baker/pack/pack_writer.hpp"
+#include "baker/pack/trained_rods.hpp"
 #include "baker/preview/write_preview.hpp"
 #include "baker/programs/character_tissue.hpp"
 #include "baker/programs/commands.hpp"
@@ -168,6 +169,9 @@ void run_character(const CharacterOptions& options) {
   if (!options.quick)
     for (std::string& warning : quick_audit({pack.view(), pack.bytes()}).failures)
       character.notes.push_back("audit: " + std::move(warning));
+  if (rod_weights)
+    for (std::string& note : notes_of_untrained_rods(*rod_weights, pack.view()))
+      character.notes.push_back(std::move(note));
   if (!options.preview.empty()) write_preview(options.preview, pack.view());
   write_file(options.output, bytes);
   progress.reset();

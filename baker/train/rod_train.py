@@ -7,7 +7,7 @@ import numpy as np
 import torch
 
 from .files import write_json
-from .rod_data import read_runs
+from .rod_data import LOG_SCALE, read_runs
 from .rod_model import CopingNet
 from .safetensors import BadData, save
 
@@ -142,6 +142,16 @@ class RodTrainer:
         self.seconds = time.process_time() - begin
 
 
+def trained_range(runs):
+    """Metadata for sinew-bake character (baker/pack/trained_rods.hpp): segments, and natural logarithms of compliances, least and most."""
+    segments = [run.told.shape[1] for run in runs]
+    logs = np.concatenate([run.joints[:, 3:] for run in runs]) * LOG_SCALE
+    return {
+        "trained.segments": f"{min(segments)},{max(segments)}",
+        "trained.log_compliances": f"{logs.min():.4f},{logs.max():.4f}",
+    }
+
+
 def weights_metadata(trainer, extra):
     return {
         "sinew.model": "coping_net",
@@ -151,6 +161,7 @@ def weights_metadata(trainer, extra):
         **{f"recipe.{k}": v for k, v in asdict(trainer.options).items()},
         "updates": trainer.updates,
         "train_seconds": round(trainer.seconds),
+        **trained_range(trainer.train),
         **extra,
     }
 

@@ -76,8 +76,11 @@ class Rig {
     const FrameReport frame = world_.step(1 / info_.tick_hz);
     InstanceReport report;
     must(world_.report(instance_, &report));
+    const bool touches_anew = report.rod_contacts > contacts_;
+    contacts_ = report.rod_contacts;
     if (age == 0) first_.push_back(static_cast<double>(report.rod_residual));
     if (age < kBlindTicks) return;
+    if (touches_anew) touching_.push_back(static_cast<double>(report.rod_iterations) / info_.rod_count);
     us_.push_back(static_cast<double>(frame.rods_us));
     iterations_.push_back(static_cast<double>(report.rod_iterations) / info_.rod_count);
     residuals_.push_back(static_cast<double>(report.rod_residual));
@@ -85,6 +88,8 @@ class Rig {
 
   double us() const { return quantile(us_, 0.5); }
   double iterations() const { return mean(iterations_); }
+  // Of ticks in which more comes near than was near before.
+  double iterations_touching() const { return mean(touching_); }
   double residual() const { return quantile(residuals_, 0.5); }
   double residual_p95() const { return quantile(residuals_, 0.95); }
   double first_residual() const { return quantile(first_, 0.5); }
@@ -93,7 +98,8 @@ class Rig {
   World world_;
   InstanceId instance_;
   AssetInfo info_;
-  std::vector<double> us_, iterations_, residuals_, first_;
+  uint32_t contacts_ = 0;
+  std::vector<double> us_, iterations_, touching_, residuals_, first_;
 };
 
 std::vector<baker::AuditMotion> motions_of(const pack::PackView& view) {
@@ -145,10 +151,11 @@ void measure(const std::string& path) {
     play(motion, 1 / static_cast<double>(view.network->rate_hz), aside_m += 10, joints, contenders);
   const std::string name = std::filesystem::path(path).stem().string();
   for (const Contender& who : contenders)
-    std::printf("| %s, %zu rods | %u | %s | %.2f | %.2f | %.1e, %.1e | %.1e |\n", name.c_str(),
+    std::printf("| %s, %zu rods | %u | %s | %.2f, %.2f | %.2f | %.1e, %.1e | %.1e |\n", name.c_str(),
                 view.rods.size(), who.most, who.start == RodWarmStart::kLearned ? "learned" : "continued",
-                who.timed->iterations(), who.timed->us() / static_cast<double>(view.rods.size()),
-                who.judged->residual(), who.judged->residual_p95(), who.judged->first_residual());
+                who.timed->iterations(), who.timed->iterations_touching(),
+                who.timed->us() / static_cast<double>(view.rods.size()), who.judged->residual(),
+                who.judged->residual_p95(), who.judged->first_residual());
 }
 
 int run(int count, char** arguments) {
@@ -158,7 +165,8 @@ int run(int count, char** arguments) {
   try {
     if (count < 2) throw baker::BadInput("give packs; see --help");
     std::puts(
-        "| character | iterations at most | start | iterations a rod and tick | us a rod and tick | "
+        "| character | iterations at most | start | iterations a rod and tick, where contacts begin | us a "
+        "rod and tick | "
         "residual, median, "
         "95th percentile | of the first tick |\n|---|---|---|---|---|---|---|");
     for (int i = 1; i < count; ++i) measure(arguments[i]);

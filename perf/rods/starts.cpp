@@ -10,7 +10,8 @@
 //
 // `oracle` starts from what a tight tolerance found, oracle5 and oracle20 from that with every number off by
 // 5 or 20 % at random: what a guess of that error is worth. They cost nothing, which no guess does. Horizons:
-// steps 5 to 50, and those after.
+// the first step, before which there is no past; steps 5 to 50; those after. `head`: a thousand strands at
+// once.
 //
 //   perf_rod_starts --length STEPS WEIGHTS   worst length over length at rest with kLearned, by stiffness
 #include <algorithm>
@@ -82,7 +83,7 @@ struct Contender {
   rods::RodSettings settings;
   double noise = -1;  // not negative: given what is true, disturbed
   rods::RodBatch batch;
-  std::array<Sums, 2> sums;
+  std::array<Sums, 3> sums;
 };
 
 std::vector<Contender> contenders(const Given& given, baker::SolverKind solver) {
@@ -128,7 +129,7 @@ void give(const rods::RodBatch& truth, double noise, baker::Random& random, rods
 }
 
 void step(uint32_t at, const Strands& strands, const rods::RodBatch& truth, baker::Random& random,
-          Contender* who, std::array<Sums, 2>* totals) {
+          Contender* who, std::array<Sums, 3>* totals) {
   strands.drive(at, &who->batch);
   if (who->noise >= 0) give(truth, who->noise, random, &who->batch);
   rods::RodReport report;
@@ -136,8 +137,8 @@ void step(uint32_t at, const Strands& strands, const rods::RodBatch& truth, bake
   const double begin = thread_us();
   who->batch.step(kDt_s, &report);
   const double us = thread_us() - begin;
-  if (at < kBlindSteps) return;
-  Sums& sums = (*totals)[at < kTrainedSteps ? 0 : 1];
+  if (at > 0 && at < kBlindSteps) return;
+  Sums& sums = (*totals)[at == 0 ? 0 : at < kTrainedSteps ? 1 : 2];
   sums.newton += report.iterations_sum;
   sums.most += report.iterations;
   sums.cg += who->solver->cg_iterations - cg_before;
@@ -147,13 +148,15 @@ void step(uint32_t at, const Strands& strands, const rods::RodBatch& truth, bake
   sums.strand_steps += who->batch.strand_count();
 }
 
+constexpr const char* kHorizons[] = {"first", "within", "beyond"};
+
 void print(const Case& c, size_t segments, baker::SolverKind solver, const Contender& who) {
-  for (size_t h = 0; h < 2; ++h) {
+  for (size_t h = 0; h < who.sums.size(); ++h) {
     const Sums& s = who.sums[h];
     if (s.steps == 0) continue;
     std::printf("%s,%zu,%.0e,%s,%s,%s,%.3f,%.3f,%.1f,%.3f,%u\n", c.name.c_str(), segments, c.range.softest_pa,
-                name_of(solver), who.name.c_str(), h == 0 ? "within" : "beyond", s.newton / s.strand_steps,
-                s.most / s.steps, s.cg / s.strand_steps, s.us / s.strand_steps, s.unconverged);
+                name_of(solver), who.name.c_str(), kHorizons[h], s.newton / s.strand_steps, s.most / s.steps,
+                s.cg / s.strand_steps, s.us / s.strand_steps, s.unconverged);
   }
   std::fflush(stdout);
 }
@@ -196,6 +199,9 @@ std::vector<Case> all_cases() {
         out.push_back({kind, {baker::rod_kind(kind, ""), n, n, e, e, 1}});
     }
   }
+  for (const double n : {16.0, 32.0, 64.0})
+    out.push_back({"soft", {baker::RodKind::kBendingRod, n, n, 1e4, 1e4, 1}});
+  out.push_back({"head", {baker::RodKind::kBendingRod, 16, 16, 1e7, 1e7, 1}, 1000, 6});
   for (const int rods : {10, 20, 40, 70}) {
     out.push_back({"tree" + std::to_string(rods), {baker::RodKind::kTree, 8, 8, 1e7, 1e7, rods}});
   }

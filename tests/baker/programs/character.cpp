@@ -162,6 +162,40 @@ TEST_CASE("a_learned_start_of_rods_is_baked_with_its_weights_and_refused_without
   CHECK_THAT(bake(arguments).out, Catch::Contains("nothing swings as a rod"));
 }
 
+TEST_CASE("rods_that_are_unlike_those_that_a_learned_start_was_trained_on_are_named") {
+  const Creature creature;
+  const std::string recipe = creature.folder.file("learned.json"),
+                    weights = creature.folder.file("c.safetensors");
+  write_file(
+      recipe,
+      std::string_view(
+          R"({"regions": [], "rods": [{"root": "tail_1", "start": "learned"}, {"root": "ear_l_1"}]})"));
+  Safetensors coping = read_safetensors(SINEW_SOURCE_DIR "/assets/weights/coping_8.safetensors");
+  const auto bake_it = [&](const char* segments, const char* compliances) {
+    coping.metadata["trained.segments"] = segments;
+    coping.metadata["trained.log_compliances"] = compliances;
+    write_safetensors(weights, coping);
+    return bake({"character", creature.glb, "--recipe", recipe, "--rods", weights, "-o", creature.pack});
+  };
+  CHECK(bake_it("2,100", "-30,5").out.find("trained on") == std::string::npos);
+  CHECK_THAT(bake_it("30,100", "-30,5").out, Catch::Contains("note: rod 'tail_1'") &&
+                                                 Catch::Contains("segments ") &&
+                                                 Catch::Contains("trained on 30 to 100"));
+  const ProgramResult stiff = bake_it("2,100", "4,5");
+  CHECK_THAT(stiff.out, Catch::Contains("rod 'tail_1'") && Catch::Contains("trained on 4 to 5"));
+  CHECK(stiff.out.find("rod 'ear_l_1': no rod") == std::string::npos);
+  std::filesystem::remove(creature.pack);
+  const ProgramResult broken = bake_it("2 to 100", "-30,5");
+  CHECK(broken.exit_code == 2);
+  CHECK_THAT(broken.error, Catch::Contains("'trained.segments' is '2 to 100'; expected least,most"));
+  CHECK_FALSE(std::filesystem::exists(creature.pack));
+  coping.metadata.erase("trained.segments");
+  write_safetensors(weights, coping);
+  CHECK_THAT(
+      bake({"character", creature.glb, "--recipe", recipe, "--rods", weights, "-o", creature.pack}).out,
+      Catch::Contains("does not say which rods it was trained on"));
+}
+
 TEST_CASE("a_region_that_is_clear_of_no_capsule_is_named_as_it_is_baked") {
   const Creature creature;
   auto recipe = nlohmann::json::parse(read_text(kAssets + "tissue.json"));
