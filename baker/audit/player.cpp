@@ -30,7 +30,8 @@ Eigen::Affine3f bind_of(const pack::JointRecord& joint) {
 Player::Player(const AuditedPack& pack, const AuditMotion& motion) : pack_(pack), motion_(motion) {
   const pack::PackView& view = pack.view;
   WorldDef def;
-  def.teleport_distance_m = std::numeric_limits<float>::infinity();  // an audit's motions have no cuts
+  constexpr float kNever = std::numeric_limits<float>::infinity();
+  def.teleport = {kNever, kNever, kNever, kNever};  // an audit's motions have no cuts
   must(World::create(def, &world_));
   AssetId asset;
   must(world_.load_asset(pack.bytes, &asset));

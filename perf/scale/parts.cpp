@@ -3,6 +3,7 @@
 // Each part is called as world/simulate.cpp and world/tick.cpp call it, on an instance in the middle of its
 // clips. A part that goes on from its own answer settles; what it costs does not depend on that.
 #include <cstring>
+#include <limits>
 
 #include "baker/common/lone_instance.hpp"
 #include "core/floating_point.hpp"
@@ -49,7 +50,7 @@ class Subject {
     const size_t bytes = sizeof(tissue::NodePose) * asset_.node_count();
     for (int back = 2; back > 0; --back) std::memcpy(instance_.poses[back], instance_.poses[back - 1], bytes);
   }
-  void drive() { world::drive_nodes(instance_); }
+  void drive() { world::drive_nodes(instance_, std::numeric_limits<float>::infinity()); }
   void simulate(Tier tier) {
     instance_.state->tier = tier;
     world::simulate_tick(instance_);

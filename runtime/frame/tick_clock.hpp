@@ -26,17 +26,19 @@ TickPlan plan_ticks(double remainder_s, double dt_s, double tick_s, uint32_t max
 class TickPlans {
  public:
   TickPlans(double dt_s, uint32_t most) noexcept : dt_s_(dt_s), most_(most) {}
-  const TickPlan& of(double remainder_s, double tick_s) noexcept {
-    if (remainder_s != remainder_s_ || tick_s != tick_s_) {
-      plan_ = plan_ticks(remainder_s, dt_s_, tick_s, most_);
+  // Of one whose time runs `scale` times as fast.
+  const TickPlan& of(double remainder_s, double tick_s, double scale = 1) noexcept {
+    if (remainder_s != remainder_s_ || tick_s != tick_s_ || scale != scale_) {
+      plan_ = plan_ticks(remainder_s, scale * dt_s_, tick_s, most_);
       remainder_s_ = remainder_s;
       tick_s_ = tick_s;
+      scale_ = scale;
     }
     return plan_;
   }
 
  private:
-  double dt_s_, remainder_s_ = -1, tick_s_ = 0;
+  double dt_s_, remainder_s_ = -1, tick_s_ = 0, scale_ = 1;
   uint32_t most_;
   TickPlan plan_;
 };

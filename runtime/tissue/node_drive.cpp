@@ -1,6 +1,8 @@
 // node_drive.cpp  Differences of the last three ticks, turned into each node's frame.
 #include "tissue/node_drive.hpp"
 
+#include <cmath>
+
 namespace sinew::tissue {
 namespace {
 
@@ -65,7 +67,21 @@ Vector turn_a_tick(const NodePose& before, const NodePose& now) {
   return 0.5f * sum;
 }
 
+// The acceleration by the sum of two changes a tick.
+Vector felt(float rate2, const Vector& node, const Vector& root, float most_m_s2) {
+  const Vector all{rate2 * (node.x + root.x), rate2 * (node.y + root.y), rate2 * (node.z + root.z)};
+  const float squared = all.x * all.x + all.y * all.y + all.z * all.z, free = most_m_s2 / 2;
+  if (squared <= free * free) return all;
+  return felt_share(std::sqrt(squared), most_m_s2) * all;
+}
+
 }  // namespace
+
+float felt_share(float acceleration_m_s2, float most_m_s2) noexcept {
+  const float free = most_m_s2 / 2;
+  if (!(acceleration_m_s2 > free)) return 1;
+  return free * (1 + std::tanh(acceleration_m_s2 / free - 1)) / acceleration_m_s2;
+}
 
 void compute_node_drive(const NodeMotion& motion, float tick_s, uint32_t count, float* out) noexcept {
   const Vector root = root_step_change(motion);
@@ -74,9 +90,8 @@ void compute_node_drive(const NodeMotion& motion, float tick_s, uint32_t count, 
     const NodePose &now = motion.pose[0][i], &before = motion.pose[1][i], &before2 = motion.pose[2][i];
     const Vector step = vector_at(now.place_m) - vector_at(before.place_m);
     const Vector step_before = vector_at(before.place_m) - vector_at(before2.place_m);
-    const Vector change = step - step_before;
-    const Vector push{-rate2 * (change.x + root.x), -rate2 * (change.y + root.y) - kGravity,
-                      -rate2 * (change.z + root.z)};
+    const Vector change = felt(rate2, step - step_before, root, motion.most_m_s2);
+    const Vector push{-change.x, -change.y - kGravity, -change.z};
     const Vector gravity{0, -kGravity, 0}, bound = turned(now.bend, gravity);
     const Vector omega = rate * turn_a_tick(before, now), omega_before = rate * turn_a_tick(before2, before);
     put(into_axes(now, push) - bound, out);

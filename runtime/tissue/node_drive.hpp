@@ -13,6 +13,7 @@
 // through this same code, so network and runtime cannot disagree on an input.
 #pragma once
 #include <cstdint>
+#include <limits>
 
 #include "tissue/node_pose.hpp"
 
@@ -26,7 +27,12 @@ inline constexpr int kNodeDriveWidth = 15;
 struct NodeMotion {
   double root_position_m[3][3];  // [tick]
   const NodePose* pose[3];       // [tick][node]
+  // What of (x_t - 2 x_{t-1} + x_{t-2}) / h^2 is felt: felt_share below; infinity: all of it.
+  float most_m_s2 = std::numeric_limits<float>::infinity();
 };
+
+// Of an acceleration: 1 up to half of the most, from there smoothly less, so that the most is approached.
+float felt_share(float acceleration_m_s2, float most_m_s2) noexcept;
 
 // out: [count][kNodeDriveWidth].
 void compute_node_drive(const NodeMotion& motion, float tick_s, uint32_t count, float* out) noexcept;

@@ -6,6 +6,7 @@
 #include "frame/scheduler.hpp"
 #include "world/blend.hpp"
 #include "world/dormant.hpp"
+#include "world/root_motion.hpp"
 
 namespace sinew::world {
 namespace {
@@ -18,6 +19,7 @@ void hold_pose(Instance& instance) noexcept {
   std::copy_n(instance.next_joints, joints, instance.joints);
   std::copy_n(instance.next_joints, joints, instance.joints_before);
   state.root = state.next_root;
+  keep_space(state);
   state.dt_before_s = 0;
   state.teleported = 0;
   std::fill_n(state.velocity_m_s, 3, 0.0);

@@ -27,7 +27,7 @@ namespace sinew::world {
 namespace {
 
 static_assert(std::is_trivially_copyable_v<InstanceState>, "saved as bytes");
-static_assert(sizeof(InstanceState) == 400, "no padding: equal states are equal bytes");
+static_assert(sizeof(InstanceState) == 504, "no padding: equal states are equal bytes");
 static_assert(offsetof(InstanceState, root) == kPlannedStateBytes, "what is planned by comes first");
 
 float smooth_step(float t) noexcept { return t * t * (3 - 2 * t); }
@@ -67,6 +67,9 @@ void lay_out_state(const Asset& asset, core::Arena& arena, Instance& to) noexcep
   for (float** turns : {&to.rod_turn, &to.rod_shown[0], &to.rod_shown[1], &to.rod_tail})
     *turns = arena.take<float>(4 * slots);
   to.rod_tail_velocity = arena.take<float>(3 * slots);
+  to.joint_teleports = arena.take<uint32_t>(joints);
+  to.carried_regions = arena.take<uint32_t>(asset.pack.regions.size());
+  to.carried_rods = arena.take<uint32_t>(asset.rods.rod_count);
   to.rod_asleep = arena.take<double>(4 * slots);
   to.rod_hold_asleep = arena.take<double>(size_t{3} * asset.rods.hold_count());
   for (double*& rest : to.rod_rest) rest = arena.take<double>(4 * slots);
@@ -121,6 +124,7 @@ void lay_out_scratch(const Asset& asset, core::Arena& arena, Instance& to) noexc
   to.surface = arena.take<float>(size_t{3} * asset.vertex_count());
   to.areas = arena.take<float>(size_t{3} * asset.vertex_count());
   const size_t slots = asset.rods.slot_count;
+  to.rod_velocity = arena.take<float>(6 * slots);
   for (size_t tick = 0; tick < 2; ++tick) {
     to.rod_end[tick] = arena.take<double>(3 * slots);
   }
@@ -294,6 +298,8 @@ InstanceReport describe(const Instance& instance, InstanceId id) noexcept {
           .restarts = state.restarts,
           .regions_asleep = asleep,
           .regions_left_out = simulated ? instance.level->regions_left_out() : 0,
+          .teleports = state.root_teleports,
+          .part_teleports = state.part_teleports,
           .rod_recoveries = state.rod_recoveries,
           .rods_asleep = simulated ? rods_asleep(instance) : 0,
           .rod_iterations = instance.told.rod_iterations,

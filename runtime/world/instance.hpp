@@ -59,6 +59,7 @@ struct InstanceState {
   float blend_ticks = 0;  // of the way since simulation came back, at most kBlendInTicks; one a tick or less
 
   RootTransform root, next_root;    // at the end of the last step; of the pose set since
+  RootTransform space, next_space;  // likewise, of Pose::space; world/root_motion.hpp
   double dt_before_s = 0;           // of the last step; 0: none, or none to compare with
   double velocity_m_s[3] = {};      // of the root over the last step, world
   double angular_velocity[3] = {};  // rad/s, character axes
@@ -78,7 +79,8 @@ struct InstanceState {
   uint32_t rod_recoveries = 0;
   double rod_anchor_m[3] = {};   // of the world, where rods' places count from: near, so that they stay exact
   uint32_t rod_quiet_ticks = 0;  // world/rod_sleep.hpp
-  uint32_t teleported = 0;       // in the last step
+  uint16_t teleported = 0;       // the root, in the last step
+  uint16_t teleport_told = 0;    // Pose::teleport, of the pose set since
   uint32_t hidden_ticks = 0;     // world/hidden.hpp
   uint32_t from_shown = 0;       // simulation came back from what was shown, and not from rest
   Tier left_tier = Tier::kSkinning;           // world/catch_up.hpp: what it had before it was left alone
@@ -87,6 +89,9 @@ struct InstanceState {
   uint32_t looked = 0;                        // world/look.hpp: the number of the last look at it
   uint32_t still_ticks = 0;                   // world/dormant.hpp
   uint32_t seam_ticks = kBlendInTicks;        // since the level changed, at most kBlendInTicks
+  uint32_t space_id = 0, next_space_id = 0;
+  float time_scale = 1, felt_root = 1;              // World::set_time_scale, set_felt_root_motion
+  uint32_t root_teleports = 0, part_teleports = 0;  // since creation
 };
 inline constexpr size_t kPlannedStateBytes = offsetof(InstanceState, root);
 static_assert(kPlannedStateBytes == 64);  // a cache line
@@ -195,6 +200,8 @@ struct Instance {
   uint32_t* quiet_ticks = nullptr;                  // [regions]
   uint32_t* regained =
       nullptr;  // [regions]: a change of level had it again, and it is blended in; kRegainedNow
+  // world/teleport.hpp: of joints, what teleported in the last step; what is carried over in the next tick.
+  uint32_t *joint_teleports = nullptr, *carried_regions = nullptr, *carried_rods = nullptr;
   // Of rods, [slots][4]: how a segment is turned against its rest, x y z w along its own axes; as u, shown
   // and tail are for tissue.
   float *rod_turn = nullptr, *rod_shown[2] = {}, *rod_tail = nullptr;
@@ -238,7 +245,8 @@ struct Instance {
   // proxy_ends a tick ago, whoever sleeps; null: soft parts do not touch them.
   double* proxy_before = nullptr;
 
-  double* rod_end[2] = {};  // [slots][3] where segments end, as they are taken along
+  float* rod_velocity = nullptr;  // [slots][6], of rods that are carried: beside the pose's, along own axes
+  double* rod_end[2] = {};        // [slots][3] where segments end, as they are taken along
 
   // Published by a step, read by read_*.
   float* skin = nullptr;      // [joints][12], where they are too many for a reader's stack; scratch of a tick

@@ -1,4 +1,4 @@
-// motion.cpp  Poses at ticks, teleports, the history that accelerations are taken from.
+// motion.cpp  Poses at ticks, the history that accelerations are taken from.
 #include "world/motion.hpp"
 
 #include <Eigen/Core>
@@ -11,15 +11,15 @@
 #include "tissue/node_bend.hpp"
 #include "world/own_body.hpp"
 #include "world/rod_motion.hpp"
+#include "world/root_motion.hpp"
 #include "world/rotation.hpp"
+#include "world/teleport.hpp"
 
 namespace sinew::world {
 namespace {
 
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
-using RowMatrix3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-using RowMatrix3f = Eigen::Matrix<float, 3, 3, Eigen::RowMajor>;
 
 // Below it, a difference of two poses over dt says more about rounding than about motion.
 constexpr double kShortestStep_s = 1e-4;
@@ -29,60 +29,6 @@ constexpr double kFarthestBack = 16;
 Vector3d place_of(const RootTransform& root) noexcept { return Eigen::Map<const Vector3d>(root.position_m); }
 
 Quaterniond rotation_of(const RootTransform& root) noexcept { return quaternion(root.rotation_xyzw); }
-
-bool teleported(const Instance& instance, float distance_m) noexcept {
-  const InstanceState& state = *instance.state;
-  const Vector3d expected =
-      place_of(state.root) + instance.plan.dt_s * Eigen::Map<const Vector3d>(state.velocity_m_s);
-  return (place_of(state.next_root) - expected).norm() > static_cast<double>(distance_m);
-}
-
-// The root from which the last step's velocity leads to next_root in dt.
-RootTransform root_leading_to_next(const Instance& instance) noexcept {
-  const InstanceState& state = *instance.state;
-  const double dt_s = instance.plan.dt_s;
-  const Quaterniond rotation =
-      rotation_of(state.next_root) * exponential(-dt_s * Eigen::Map<const Vector3d>(state.angular_velocity));
-  const Quaterniond turn = rotation * rotation_of(state.root).conjugate();
-  const Vector3d place =
-      place_of(state.next_root) - dt_s * (turn * Eigen::Map<const Vector3d>(state.velocity_m_s));
-  RootTransform root;
-  Eigen::Map<Vector3d>(root.position_m) = place;
-  Eigen::Map<Eigen::Vector4f>(root.rotation_xyzw) = rotation.coeffs().cast<float>();
-  return root;
-}
-
-void turn_poses(const RowMatrix3f& turn, uint32_t count, tissue::NodePose* poses) noexcept {
-  for (uint32_t i = 0; i < count; ++i) {
-    Eigen::Map<Eigen::Vector3f> place(poses[i].place_m);
-    Eigen::Map<RowMatrix3f> rotation(poses[i].rotation);
-    place = (turn * place).eval();
-    rotation = (turn * rotation).eval();
-  }
-}
-
-// Moves the past rigidly from state.root to `root`.
-void shift_past(Instance& instance, const RootTransform& root) noexcept {
-  InstanceState& state = *instance.state;
-  const Vector3d from = place_of(state.root), to = place_of(root);
-  const RowMatrix3d turn = (rotation_of(root) * rotation_of(state.root).conjugate()).toRotationMatrix();
-  Eigen::Map<Vector3d> velocity(state.velocity_m_s);
-  velocity = (turn * velocity).eval();
-  for (double* tick_root : state.tick_root_m) {
-    Eigen::Map<Vector3d> place(tick_root);
-    place = (turn * (place - from) + to).eval();
-  }
-  for (tissue::NodePose* poses : instance.poses)
-    turn_poses(turn.cast<float>(), instance.level->node_count(), poses);
-  for (float* tick_turn : instance.tick_turn) {
-    if (!tick_turn) continue;
-    const Quaterniond turned =
-        rotation_of(root) * rotation_of(state.root).conjugate() * quaternion(tick_turn);
-    Eigen::Map<Eigen::Vector4f>{tick_turn} = turned.coeffs().cast<float>();
-  }
-  move_rods(instance, rotation_of(root) * rotation_of(state.root).conjugate(), from, to);
-  state.root = root;
-}
 
 // The root's step before this one, along its present course.
 void remember_root_step(Instance& instance) noexcept {
@@ -100,11 +46,6 @@ void measure_velocity(Instance& instance) noexcept {
   const Vector3d turn = logarithm(rotation_of(state.root).conjugate() * rotation_of(state.next_root));
   Eigen::Map<Vector3d>(state.velocity_m_s) = (place_of(state.next_root) - place_of(state.root)) / dt_s;
   Eigen::Map<Vector3d>(state.angular_velocity) = turn / dt_s;
-}
-
-void forget_velocity(InstanceState& state) noexcept {
-  std::fill_n(state.velocity_m_s, 3, 0.0);
-  std::fill_n(state.angular_velocity, 3, 0.0);
 }
 
 void copy_joints(const Instance& instance, const Matrix34* from, Matrix34* to) noexcept {
@@ -145,13 +86,14 @@ RootTransform root_at(const Instance& instance, double share) noexcept {
                       path_weights(share, instance.plan.dt_s, state.dt_before_s));
 }
 
-void pose_nodes(Instance& instance, const Matrix34* joints, const RootTransform& root) noexcept {
+void pose_nodes(Instance& instance, const Matrix34* joints, const RootTransform& root,
+                tissue::NodePose* out) noexcept {
   const pack::PackView& pack = instance.level->pack;
   skin_matrices(pack.joints, joints, instance.skin);
-  tissue::pose_nodes(pack.nodes, instance.skin, root.rotation_xyzw, instance.poses[0]);
+  tissue::pose_nodes(pack.nodes, instance.skin, root.rotation_xyzw, out);
   for (const pack::RegionRecord& region : pack.regions)
     if (region.node_count > 0)
-      tissue::share_bend(region.anchor_node, region.node_count, instance.poses[0] + region.first_node);
+      tissue::share_bend(region.anchor_node, region.node_count, out + region.first_node);
 }
 
 void remember_skin(Instance& instance, const RootTransform& root) noexcept {
@@ -173,7 +115,7 @@ void push_pose(Instance& instance, double share) noexcept {
   }
   const RootTransform root = root_at(instance, share);
   const Matrix34* joints = joints_at(instance, share);
-  pose_nodes(instance, joints, root);
+  pose_nodes(instance, joints, root, instance.poses[0]);
   rest_rods(instance, joints, root);
   pose_proxies(instance, joints, root);
   std::copy_n(root.position_m, 3, roots[0]);
@@ -182,32 +124,54 @@ void push_pose(Instance& instance, double share) noexcept {
 
 // Of the last two ticks, of nodes that were not followed: as after ticks that were not followed.
 void pose_past_nodes(Instance& instance, double share, double back) noexcept {
-  pose_nodes(instance, joints_at(instance, share - 2 * back), root_at(instance, share - 2 * back));
-  std::memcpy(instance.poses[1], instance.poses[0], sizeof(tissue::NodePose) * instance.level->node_count());
-  pose_nodes(instance, joints_at(instance, share - back), root_at(instance, share - back));
+  for (int tick = 2; tick > 0; --tick)
+    pose_nodes(instance, joints_at(instance, share - tick * back), root_at(instance, share - tick * back),
+               instance.poses[tick - 1]);
+}
+
+// The same of the parts that are carried over a teleport (world/teleport.hpp), and of what may touch them.
+void pose_past_parts(Instance& instance, double share, double back) noexcept {
+  const pack::PackView& pack = instance.level->pack;
+  for (int tick = 2; tick > 0; --tick) {
+    const RootTransform root = root_at(instance, share - tick * back);
+    const Matrix34* joints = joints_at(instance, share - tick * back);
+    tissue::NodePose *all = instance.poses[2], *kept = instance.poses[tick - 1];  // the oldest goes next
+    pose_nodes(instance, joints, root, all);
+    for (size_t r = 0; r < pack.regions.size(); ++r) {
+      const pack::RegionRecord& region = pack.regions[r];
+      if (instance.carried_regions[r])
+        std::copy_n(all + region.first_node, region.node_count, kept + region.first_node);
+    }
+    rest_carried_rods(instance, joints, root, tick - 1);
+    if (tick == 1) {
+      pose_proxies(instance, joints, root);
+      if (instance.pushes)
+        std::copy_n(instance.skin, size_t{12} * pack.character->joint_count, instance.tick_skin[0]);
+    }
+  }
 }
 
 }  // namespace
 
-void take_pose(Instance& instance, float teleport_distance_m) noexcept {
+void take_pose(Instance& instance, const TeleportDef& teleport) noexcept {
   InstanceState& state = *instance.state;
   instance.parts_ready = false;
   if (!state.has_next) {
     copy_joints(instance, instance.joints, instance.next_joints);
     state.next_root = state.root;
   } else if (state.at_start) {
+    state.teleport_told = 0;
     copy_joints(instance, instance.next_joints, instance.joints);
     state.dt_before_s = 0;
     state.root = state.next_root;
     state.at_start = 0;
     state.untouched = 1;
     state.motion_stale = 1;
-  } else if (teleported(instance, teleport_distance_m)) {
-    if (std::exchange(state.teleported, 1u)) forget_velocity(state);
-    shift_past(instance, root_leading_to_next(instance));
   } else {
-    state.teleported = 0;
+    leave_out_unfelt(instance);
+    carry_teleports(instance, teleport);
   }
+  keep_space(state);
   remember_root_step(instance);
   measure_velocity(instance);
 }
@@ -225,19 +189,21 @@ void follow_motion(Instance& instance, double time_s) noexcept {
   const double share = share_at(instance, time_s);
   const double tick = instance.plan.dt_s > 0 ? instance.asset->tick_s / instance.plan.dt_s : 0;
   const double back = tick <= kFarthestBack ? tick : 0;
-  const bool raised = std::exchange(instance.level_raised, false);
+  const bool raised = std::exchange(instance.level_raised, false), carries = carries_parts(instance);
+  if (carries) remember_rod_velocities(instance);
   if (std::exchange(instance.state->motion_stale, 0u)) {
     begin_rods(instance);
     push_pose(instance, share - 2 * back);
     push_pose(instance, share - back);
-  } else if (raised) {
-    pose_past_nodes(instance, share, back);
+  } else {
+    if (raised) pose_past_nodes(instance, share, back);
+    if (carries) pose_past_parts(instance, share, back);
   }
   push_pose(instance, share);
 }
 
 void pose_at_start(Instance& instance) noexcept {
-  pose_nodes(instance, instance.joints, instance.state->root);
+  pose_nodes(instance, instance.joints, instance.state->root, instance.poses[0]);
 }
 
 }  // namespace sinew::world

@@ -1,5 +1,5 @@
-// motion.hpp  What an instance's tissue has lived through: poses at ticks, teleports, the history that
-// accelerations are taken from.
+// motion.hpp  What an instance's tissue has lived through: poses at ticks, the history that accelerations are
+// taken from.
 #pragma once
 #include "world/instance.hpp"
 
@@ -7,11 +7,8 @@ namespace sinew::world {
 
 // Start of a step, before its ticks. Takes over the pose that was set (or holds the present one).
 //   first pose after create or reset: counts as having been held for ever
-//   teleport: the root is further than teleport_distance_m from where its velocity of the last step would
-//   have brought it, at any frame rate. The past (previous root, motion history) is moved rigidly so that it
-//   leads to the new root at that same velocity: tissue keeps its shape and feels nothing of the jump.
-//   A second one in the next step is no jump but a velocity that was none: it is forgotten first.
-void take_pose(Instance& instance, float teleport_distance_m) noexcept;
+//   a teleport is carried over (world/teleport.hpp)
+void take_pose(Instance& instance, const TeleportDef& teleport) noexcept;
 
 // End of a step: the pose that was set is the present one.
 void keep_pose(Instance& instance) noexcept;

@@ -113,11 +113,15 @@ Candidate candidate_of(const Terms& terms, const PlanRow& row, uint32_t ticks, u
           .keeps_level = ticks == 0 && terms.has_budget && !row.hidden};
 }
 
+double time_scale_of(const PlanRow& row) noexcept {
+  return row.scaled ? static_cast<double>(row.state->time_scale) : 1;
+}
+
 void sleep_on(WorldState& world, uint32_t slot, frame::TickPlans& plans) noexcept {
   Instance& instance = *world.instances.at(slot);
   PlanRow& row = world.rows[slot];
-  instance.plan.ticks = plans.of(row.remainder_s, row.asset->tick_s);
-  instance.plan.dt_s = world.dt_s;
+  instance.plan.ticks = plans.of(row.remainder_s, row.asset->tick_s, time_scale_of(row));
+  instance.plan.dt_s = time_scale_of(row) * world.dt_s;
   instance.passed = true;
   stay_dormant(instance);
   row.remainder_s = row.state->remainder_s;
@@ -162,7 +166,7 @@ uint32_t gather_candidates(WorldState& world) noexcept {
   world.dropped_s = 0;
   for_each_row(world, [&](PlanRow& row, uint32_t slot) {
     bring_next_near(world, slot, count);
-    const frame::TickPlan& ticks = plans.of(row.remainder_s, row.asset->tick_s);
+    const frame::TickPlan& ticks = plans.of(row.remainder_s, row.asset->tick_s, time_scale_of(row));
     if (!row.seen) return pass_unseen(world, slot, ticks);
     count_ticks(ticks, world);
     world.answers[slot].idle = false;

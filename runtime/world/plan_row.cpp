@@ -29,6 +29,7 @@ void copy_to_row(const Instance& instance, PlanRow* row) noexcept {
   row->hidden = state.hidden != 0;
   row->hidden_by_caller = state.hidden_by_caller != 0;
   row->displaced = instance.displaced;
+  row->scaled = state.time_scale != 1;
   row->falls_back = state.fallback_ticks > 0;
   row->was_cut = instance.cut || instance.held;
   row->shows = instance.shown_share() != 0;

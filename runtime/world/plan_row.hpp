@@ -27,6 +27,7 @@ struct alignas(64) PlanRow {
   bool shows : 1 = false;        // some of a displacement, be it zero
   bool seen : 1 = true;          // in this step (world/look.hpp)
   bool has_surface : 1 = false;  // stays
+  bool scaled : 1 = false;       // its time runs slower or faster than the world's
   uint8_t blind_looks : 2 = 0;   // in a row, as many as hide (world/look.hpp) at most
   uint8_t missed : 2 = 0;        // ticks that it would make up for (world/catch_up.hpp)
   uint16_t regions_asleep = 0;

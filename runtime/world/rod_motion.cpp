@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "tissue/guard.hpp"
+#include "tissue/node_drive.hpp"
 #include "world/own_body.hpp"
 #include "world/pose.hpp"
 #include "world/rod_contacts.hpp"
@@ -69,25 +70,48 @@ Placed place_segment(Instance& instance, const RodSeat& seat, uint32_t rod, uint
   return {turn, begin + half};
 }
 
-// As they are shown at the tick before, moving as the pose does.
-void take_along(Instance& instance) noexcept {
-  const RodRig& rig = instance.asset->rods;
+// What the pose does with it in a tick, turned as it is.
+struct Step {
+  Placed before, now;
+  Vector3d velocity_m_s, spin_rad_s;
+};
+Step step_of_pose(Instance& instance, const RodSeat& seat, uint32_t rod, uint32_t s) noexcept {
   const double tick_s = instance.asset->tick_s;
-  for (uint32_t rod = 0; rod < rig.rod_count; ++rod) {
-    const RodSeat& seat = rig.seats()[rod];
-    for (uint32_t s = seat.first_slot; s < seat.first_slot + seat.slot_count; ++s) {
-      const Placed before = place_segment(instance, seat, rod, s, 1),
-                   now = place_segment(instance, seat, rod, s, 0);
-      rods::SegmentVelocity velocity;
-      Eigen::Map<Eigen::Vector3f>(velocity.linear_m_s) =
-          ((now.middle - before.middle) / tick_s).cast<float>();
-      Eigen::Map<Eigen::Vector3f>(velocity.angular_rad_s) =
-          (logarithm(now.turn * before.turn.conjugate()) / tick_s).cast<float>();
-      // A refusal leaves the segment where it was: its joints pull it back, or the batch recovers the strand.
-      (void)instance.rod_batches[seat.batch].set_pose(seat.strand, s - seat.first_slot,
-                                                      pose_of(before.turn, before.middle), velocity);
+  const Placed before = place_segment(instance, seat, rod, s, 1),
+               now = place_segment(instance, seat, rod, s, 0);
+  return {before, now, (now.middle - before.middle) / tick_s,
+          logarithm(now.turn * before.turn.conjugate()) / tick_s};
+}
+
+// As it is shown at the tick before, moving as the pose does and, where it is carried, as it did beside that.
+void take_along(Instance& instance, uint32_t rod) noexcept {
+  const RodSeat& seat = instance.asset->rods.seats()[rod];
+  for (uint32_t s = seat.first_slot; s < seat.first_slot + seat.slot_count; ++s) {
+    Step step = step_of_pose(instance, seat, rod, s);
+    if (instance.carried_rods[rod]) {
+      const float* own = instance.rod_velocity + size_t{6} * s;
+      step.velocity_m_s += step.before.turn * Eigen::Map<const Eigen::Vector3f>(own).cast<double>();
+      step.spin_rad_s += step.before.turn * Eigen::Map<const Eigen::Vector3f>(own + 3).cast<double>();
     }
+    rods::SegmentVelocity velocity;
+    Eigen::Map<Eigen::Vector3f>(velocity.linear_m_s) = step.velocity_m_s.cast<float>();
+    Eigen::Map<Eigen::Vector3f>(velocity.angular_rad_s) = step.spin_rad_s.cast<float>();
+    // A refusal leaves the segment where it was: its joints pull it back, or the batch recovers the strand.
+    (void)instance.rod_batches[seat.batch].set_pose(seat.strand, s - seat.first_slot,
+                                                    pose_of(step.before.turn, step.before.middle), velocity);
   }
+}
+
+// Those that begin anew or are carried; whether there is one.
+bool take_some_along(Instance& instance) noexcept {
+  const bool all = std::exchange(instance.rods_anew, false);
+  bool some = false;
+  for (uint32_t rod = 0; rod < instance.asset->rods.rod_count; ++rod) {
+    if (!all && !instance.carried_rods[rod]) continue;
+    take_along(instance, rod);
+    some = true;
+  }
+  return some;
 }
 
 Vector3d felt_gravity(const Instance& instance, uint32_t rod, const RodSeat& seat) noexcept {
@@ -141,6 +165,25 @@ void drive_rod(Instance& instance, uint32_t rod) noexcept {
   if (seat.end_hold != pack::kNoIndex) drive_end(instance, seat, batch);
 }
 
+// They go along with what of the root's acceleration is not felt.
+void spare_rods(Instance& instance, float most_m_s2) noexcept {
+  const auto& root_m = instance.state->tick_root_m;
+  const auto place = [&](int tick) -> Vector3d { return Eigen::Map<const Vector3d>(root_m[tick]); };
+  const double tick_s = instance.asset->tick_s;
+  const Vector3d change_m_s = (place(0) - 2 * place(1) + place(2)) / tick_s;
+  const float share = tissue::felt_share(static_cast<float>(change_m_s.norm() / tick_s), most_m_s2);
+  if (share == 1) return;
+  const Eigen::Vector3f along_m_s = (double{1 - share} * change_m_s).cast<float>();
+  for (const RodSeat& seat : instance.asset->rods.seats()) {
+    rods::RodBatch& batch = instance.rod_batches[seat.batch];
+    for (uint32_t k = 1; k <= seat.segment_count(); ++k) {
+      rods::SegmentVelocity velocity = batch.velocity(seat.strand, k);
+      Eigen::Map<Eigen::Vector3f>(velocity.linear_m_s) += along_m_s;
+      (void)batch.set_velocity(seat.strand, k, velocity);
+    }
+  }
+}
+
 // As a region's displacement is held (tissue/guard.hpp): what is shown, not what swings on.
 Quaterniond limited(const Quaterniond& turn, float limit_rad) noexcept {
   if (limit_rad == 0) return turn;
@@ -161,6 +204,32 @@ void read_turns(Instance& instance) noexcept {
   }
 }
 
+// Its rest and where it is held in a pose, of a tick.
+void rest_rod(Instance& instance, uint32_t rod, const Matrix34* joints, const RootTransform& root,
+              int tick) noexcept {
+  const RodRig& rig = instance.asset->rods;
+  const RodSeat& seat = rig.seats()[rod];
+  const Quaterniond world = quaternion(root.rotation_xyzw);
+  const Vector3d place =
+      Eigen::Map<const Vector3d>(root.position_m) - Eigen::Map<const Vector3d>(instance.state->rod_anchor_m);
+  for (uint32_t s = seat.first_slot; s < seat.first_slot + seat.slot_count; ++s) {
+    const RodSlot& slot = rig.slots()[s];
+    Quaterniond joint;
+    joint_rotation(joints[slot.joint], joint.coeffs().data());
+    MapTurn(instance.rod_rest[tick] + size_t{4} * s) =
+        (world * joint * Quaterniond(slot.offset_xyzw)).normalized();
+  }
+  const Matrix34& first = joints[rig.slots()[seat.first_slot + 1].bone];
+  MapPlace(instance.rod_hold[tick] + size_t{3} * rod) =
+      place + world * Vector3d(first.m[0][3], first.m[1][3], first.m[2][3]);
+  if (seat.end_hold == pack::kNoIndex) return;
+  const RodEnd& end = rig.ends()[seat.end_hold];
+  const auto joint = Eigen::Map<const Eigen::Matrix<float, 3, 4, Eigen::RowMajor>>(&joints[end.joint].m[0][0])
+                         .cast<double>();
+  MapPlace(instance.rod_hold[tick] + 3 * (size_t{rig.rod_count} + seat.end_hold)) =
+      place + world * (joint.leftCols<3>() * Eigen::Map<const Vector3d>(end.place_m) + joint.col(3));
+}
+
 }  // namespace
 
 void begin_rods(Instance& instance) noexcept {
@@ -174,29 +243,13 @@ void rest_rods(Instance& instance, const Matrix34* joints, const RootTransform& 
   if (rig.rod_count == 0) return;
   std::copy_n(instance.rod_rest[0], size_t{4} * rig.slot_count, instance.rod_rest[1]);
   std::copy_n(instance.rod_hold[0], size_t{3} * rig.hold_count(), instance.rod_hold[1]);
-  const Quaterniond world = quaternion(root.rotation_xyzw);
-  const Vector3d place =
-      Eigen::Map<const Vector3d>(root.position_m) - Eigen::Map<const Vector3d>(instance.state->rod_anchor_m);
-  for (uint32_t s = 0; s < rig.slot_count; ++s) {
-    const RodSlot& slot = rig.slots()[s];
-    Quaterniond joint;
-    joint_rotation(joints[slot.joint], joint.coeffs().data());
-    MapTurn(instance.rod_rest[0] + size_t{4} * s) =
-        (world * joint * Quaterniond(slot.offset_xyzw)).normalized();
-  }
-  for (uint32_t rod = 0; rod < rig.rod_count; ++rod) {
-    const Matrix34& first = joints[rig.slots()[rig.seats()[rod].first_slot + 1].bone];
-    MapPlace(instance.rod_hold[0] + size_t{3} * rod) =
-        place + world * Vector3d(first.m[0][3], first.m[1][3], first.m[2][3]);
-  }
-  for (uint32_t e = 0; e < rig.end_count; ++e) {
-    const RodEnd& end = rig.ends()[e];
-    const auto joint =
-        Eigen::Map<const Eigen::Matrix<float, 3, 4, Eigen::RowMajor>>(&joints[end.joint].m[0][0])
-            .cast<double>();
-    MapPlace(instance.rod_hold[0] + 3 * (size_t{rig.rod_count} + e)) =
-        place + world * (joint.leftCols<3>() * Eigen::Map<const Vector3d>(end.place_m) + joint.col(3));
-  }
+  for (uint32_t rod = 0; rod < rig.rod_count; ++rod) rest_rod(instance, rod, joints, root, 0);
+}
+
+void rest_carried_rods(Instance& instance, const Matrix34* joints, const RootTransform& root,
+                       int tick) noexcept {
+  for (uint32_t rod = 0; rod < instance.asset->rods.rod_count; ++rod)
+    if (instance.carried_rods[rod]) rest_rod(instance, rod, joints, root, tick);
 }
 
 void move_rods(Instance& instance, const Quaterniond& turn, const Vector3d& from_m,
@@ -212,16 +265,37 @@ void move_rods(Instance& instance, const Quaterniond& turn, const Vector3d& from
                                      {centre.x(), centre.y(), centre.z()});
 }
 
-void simulate_rods(Instance& instance, float sleep_tolerance) noexcept {
+void remember_rod_velocities(Instance& instance) noexcept {
+  const RodRig& rig = instance.asset->rods;
+  for (uint32_t rod = 0; rod < rig.rod_count; ++rod) {
+    if (!instance.carried_rods[rod]) continue;
+    const RodSeat& seat = rig.seats()[rod];
+    for (uint32_t s = seat.first_slot; s < seat.first_slot + seat.slot_count; ++s) {
+      const Step step = step_of_pose(instance, seat, rod, s);
+      const rods::SegmentVelocity whole =
+          instance.rod_batches[seat.batch].velocity(seat.strand, s - seat.first_slot);
+      const Quaterniond into = step.now.turn.conjugate();
+      float* own = instance.rod_velocity + size_t{6} * s;
+      Eigen::Vector3f::Map(own) =
+          (into * (Eigen::Map<const Eigen::Vector3f>(whole.linear_m_s).cast<double>() - step.velocity_m_s))
+              .cast<float>();
+      Eigen::Vector3f::Map(own + 3) =
+          (into * (Eigen::Map<const Eigen::Vector3f>(whole.angular_rad_s).cast<double>() - step.spin_rad_s))
+              .cast<float>();
+    }
+  }
+}
+
+void simulate_rods(Instance& instance, float sleep_tolerance, float most_m_s2) noexcept {
   const RodRig& rig = instance.asset->rods;
   if (rig.rod_count == 0) return;
-  if (std::exchange(instance.rods_anew, false)) {
-    take_along(instance);
+  if (take_some_along(instance)) {
     wake_rods(instance);
     forget_rod_contacts(instance);
   }
   if (rods_sleep_on(instance, sleep_tolerance)) return;
   for (uint32_t rod = 0; rod < rig.rod_count; ++rod) drive_rod(instance, rod);
+  spare_rods(instance, most_m_s2);
   for (uint32_t b = 0; b < rig.batch_count; ++b) {
     rods::RodReport report;
     (void)instance.rod_batches[b].step(static_cast<float>(instance.asset->tick_s), rod_collider(instance, b),

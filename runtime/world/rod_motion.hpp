@@ -10,7 +10,8 @@
 //
 // Rods live in the world's axes, from an anchor near the root. Where ticks were not followed (a start, a tier
 // without simulation, dropped time) they are taken along: set to how they are shown, with the pose's
-// velocity. A teleport moves anchor and rods rigidly with the root.
+// velocity. A teleport moves anchor and rods rigidly with the root; those whose joints teleport are taken
+// along, and keep what they swing with (world/teleport.hpp).
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -26,7 +27,13 @@ void rest_rods(Instance& instance, const Matrix34* joints, const RootTransform& 
 // A teleport from one root place to another, turned.
 void move_rods(Instance& instance, const Eigen::Quaterniond& turn, const Eigen::Vector3d& from_m,
                const Eigen::Vector3d& to_m) noexcept;
+// Of rods that are carried, in what the pose gives of the tick before (0) or of that before it (1).
+void rest_carried_rods(Instance& instance, const Matrix34* joints, const RootTransform& root,
+                       int tick) noexcept;
+// Of the same, before their history is rebuilt: what they swing with.
+void remember_rod_velocities(Instance& instance) noexcept;
 // One tick, after rest_rods; rod_turn is its result.
-void simulate_rods(Instance& instance, float sleep_tolerance) noexcept;
+// Of the root's acceleration they feel what tissue does (tissue::felt_share).
+void simulate_rods(Instance& instance, float sleep_tolerance, float most_m_s2) noexcept;
 
 }  // namespace sinew::world

@@ -381,8 +381,9 @@ bool network_step(Instance& instance) noexcept {
 
 }  // namespace
 
-void drive_nodes(Instance& instance) noexcept {
+void drive_nodes(Instance& instance, float most_m_s2) noexcept {
   tissue::NodeMotion motion;
+  motion.most_m_s2 = most_m_s2;
   for (int tick = 0; tick < 3; ++tick) {
     motion.pose[tick] = instance.poses[tick];
     std::copy_n(instance.state->tick_root_m[tick], 3, motion.root_position_m[tick]);

@@ -5,7 +5,7 @@
 namespace sinew::world {
 
 // drive of this tick, from the poses.
-void drive_nodes(Instance& instance) noexcept;
+void drive_nodes(Instance& instance, float most_m_s2) noexcept;
 
 // u, l, theta and q of this tick. A network whose state is given up
 // leaves the tick, and the tier, to the base (see kFallbackTicks). Sleeping regions stay as they are. False:

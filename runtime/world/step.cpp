@@ -24,8 +24,9 @@ Instance& take_answer(const WorldState& world, uint32_t slot, frame::TickPlans& 
   Instance& instance = *world.instances.at(slot);
   keep_hidden_ticks(world.rows[slot]);
   const PlanAnswer& answer = world.answers[slot];
-  instance.plan = {.ticks = ticks.of(instance.state->remainder_s, instance.asset->tick_s),
-                   .dt_s = world.dt_s,
+  const auto scale = static_cast<double>(instance.state->time_scale);
+  instance.plan = {.ticks = ticks.of(instance.state->remainder_s, instance.asset->tick_s, scale),
+                   .dt_s = scale * world.dt_s,
                    .tier = answer.tier,
                    .level = answer.level,
                    .cost_us = answer.cost_us,
@@ -82,7 +83,7 @@ bool is_limited(const WorldState& world) noexcept {
 TickContext context_of(const WorldState& world, uint64_t start_ns) noexcept {
   TickContext context{.clock = world.def.clock,
                       .profiler = world.def.profiler,
-                      .teleport_distance_m = world.def.teleport_distance_m,
+                      .teleport = world.def.teleport,
                       .sleep_tolerance = world.def.sleep_tolerance};
   if (!is_limited(world)) return context;
   const float tasks_us = std::max(0.0f, world.budget_us - world.reporting.p95_us());

@@ -21,6 +21,7 @@
 #include "world/rod_sleep.hpp"
 #include "world/simulate.hpp"
 #include "world/sleep.hpp"
+#include "world/teleport.hpp"
 #include "world/tissue_contacts.hpp"
 
 namespace sinew::world {
@@ -31,7 +32,8 @@ void simulated_tick(Instance& instance, double time_s, const TickContext& contex
   const uint64_t start_ns = core::now_ns(clock);
   Marker driving(context.profiler, "drive", slot);
   follow_motion(instance, time_s);
-  drive_nodes(instance);
+  const float most_m_s2 = context.teleport.acceleration * instance.level->pack.character->height_m;
+  drive_nodes(instance, most_m_s2);
   driving.end();
   const uint64_t driven_ns = core::now_ns(clock);
   Marker tissue(context.profiler, "tissue", slot);
@@ -44,8 +46,9 @@ void simulated_tick(Instance& instance, double time_s, const TickContext& contex
   tissue.end();
   const uint64_t soft_ns = core::now_ns(clock);
   Marker rods(context.profiler, "rods", slot);
-  if (frame::is_simulated(instance.state->tier)) simulate_rods(instance, context.sleep_tolerance);
+  if (frame::is_simulated(instance.state->tier)) simulate_rods(instance, context.sleep_tolerance, most_m_s2);
   rods.end();
+  forget_carried(instance);
   instance.times.drive_ns += driven_ns - start_ns;
   instance.times.tissue_ns += soft_ns - driven_ns;
   instance.times.rods_ns += core::now_ns(clock) - soft_ns;
@@ -198,7 +201,7 @@ void step_instance(Instance& instance, const TickContext& context, uint32_t slot
   if (instance.changed_level) change_level(instance, instance.plan.level);
   end_gap(instance, goes_on);
   enter_tier(instance, tier);
-  take_pose(instance, context.teleport_distance_m);
+  take_pose(instance, context.teleport);
   watch_pose(instance);
   run_ticks(instance, context, slot);
   keep_pose(instance);
@@ -231,7 +234,7 @@ void step_idle(Instance& instance, const TickContext& context) noexcept {
   state.ticks_since_network += ticks.ticks;
   state.remainder_s = ticks.remainder_s;
   state.render_fraction = static_cast<float>(ticks.remainder_s / instance.asset->tick_s);
-  take_pose(instance, context.teleport_distance_m);
+  take_pose(instance, context.teleport);
   keep_pose(instance);
   age(instance, false);
   if (ticks.ticks > 0) follow_excitation(instance);

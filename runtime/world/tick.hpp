@@ -14,7 +14,7 @@ struct TickContext {
   uint64_t deadline_ns = UINT64_MAX;
   float tasks_us = 0;      // from the step's start to there
   float behind_scale = 1;  // of InstancePlan::behind_us: workers share it
-  float teleport_distance_m = 2;
+  TeleportDef teleport = {};
   float sleep_tolerance = 0;  // WorldDef; 0: regions never sleep
 };
 

@@ -2,6 +2,7 @@
 #include "sinew/world.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 #include <utility>
 
@@ -42,7 +43,11 @@ Status check_def(const WorldDef& def) noexcept {
   if (def.max_ticks_per_step < 1 || def.max_ticks_per_step > kMostTicks) {
     return invalid("WorldDef: max_ticks_per_step must be 1..64");
   }
-  if (!(def.teleport_distance_m > 0)) return invalid("WorldDef: teleport_distance_m must be > 0");
+  for (const auto& [value, name] : {std::pair{def.teleport.distance, "distance"},
+                                    {def.teleport.angle_rad, "angle_rad"},
+                                    {def.teleport.acceleration, "acceleration"}})
+    if (!(value > 0)) return make_status(StatusCode::kInvalidArgument, "TeleportDef: %s must be > 0", name);
+  if (!(def.teleport.scale > 1)) return invalid("TeleportDef: scale must be > 1");
   if (!(def.sleep_tolerance >= 0 && def.sleep_tolerance <= 1))
     return invalid("WorldDef: sleep_tolerance must be 0..1, a share of a region's radius");
   if (def.report_history > kMostReports) return invalid("WorldDef: report_history must be 0..65535");
@@ -267,13 +272,57 @@ Status World::set_pose(InstanceId id, const Pose& pose) noexcept {
     ++impl_->rejected_poses;
     return status;
   }
-  if (instance->state->dormant && world::has_pose(*instance, pose.joints, root)) return {};
+  RootTransform space;
+  if (pose.space.id != 0) {
+    if (Status status = world::check_root(pose.space.root, &space); !status.ok()) {
+      ++impl_->rejected_poses;
+      return status;
+    }
+  }
+  if (instance->state->dormant && pose.space.id == 0 && world::has_pose(*instance, pose.joints, root))
+    return {};
   world::wake(*instance);
   std::copy(pose.joints.begin(), pose.joints.end(), instance->next_joints);
   instance->state->next_root = root;
   instance->state->has_next = 1;
+  instance->state->next_space = space;
+  instance->state->next_space_id = pose.space.id;
+  if (pose.teleport) instance->state->teleport_told = 1;
   world::bound_pose(*instance);
   world::keep_pose_row(*impl_, id.index1 - 1);
+  return {};
+}
+
+namespace {
+
+Status check_share(const char* what, float value, float most) noexcept {
+  if (std::isnan(value)) return make_status(StatusCode::kNotFinite, "%s is NaN; it stays as it was", what);
+  if (value >= 0 && value <= most) return {};
+  return make_status(StatusCode::kInvalidArgument, "%s is %g, not in 0..%g; it stays as it was", what,
+                     static_cast<double>(value), static_cast<double>(most));
+}
+
+}  // namespace
+
+Status World::set_time_scale(InstanceId id, float scale) noexcept {
+  const core::FloatingPointScope mode;
+  Instance* instance = nullptr;
+  if (Status status = find_state(impl_, id, &instance); !status.ok()) return status;
+  if (busy(*impl_)) return refuse_busy();
+  constexpr float kFastest = 16;
+  if (Status status = check_share("set_time_scale: scale", scale, kFastest); !status.ok()) return status;
+  instance->state->time_scale = scale;
+  keep_row(*impl_, id);
+  return {};
+}
+
+Status World::set_felt_root_motion(InstanceId id, float share) noexcept {
+  const core::FloatingPointScope mode;
+  Instance* instance = nullptr;
+  if (Status status = find_state(impl_, id, &instance); !status.ok()) return status;
+  if (busy(*impl_)) return refuse_busy();
+  if (Status status = check_share("set_felt_root_motion: share", share, 1); !status.ok()) return status;
+  instance->state->felt_root = share;
   return {};
 }
 

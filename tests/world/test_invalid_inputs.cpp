@@ -34,8 +34,10 @@ TEST_CASE("create_refuses_a_definition_out_of_range") {
   check_refused(create_with({.max_instances = 100001}), StatusCode::kInvalidArgument);
   check_refused(create_with({.max_ticks_per_step = 0}), StatusCode::kInvalidArgument);
   check_refused(create_with({.max_ticks_per_step = 65}), StatusCode::kInvalidArgument);
-  check_refused(create_with({.teleport_distance_m = 0}), StatusCode::kInvalidArgument);
-  check_refused(create_with({.teleport_distance_m = kNan}), StatusCode::kInvalidArgument);
+  for (const TeleportDef& bad :
+       {TeleportDef{.distance = 0}, TeleportDef{.distance = kNan}, TeleportDef{.angle_rad = -1},
+        TeleportDef{.scale = 1}, TeleportDef{.scale = kNan}, TeleportDef{.acceleration = 0}})
+    check_refused(create_with({.teleport = bad}), StatusCode::kInvalidArgument);
   check_refused(create_with({.budget_mode = static_cast<BudgetMode>(7)}), StatusCode::kInvalidArgument);
   const auto enqueue = [](TaskHook::Task, void*, uint32_t, void*) -> void* { return nullptr; };
   check_refused(create_with({.tasks = {.enqueue = enqueue}}), StatusCode::kInvalidArgument);

@@ -197,7 +197,8 @@ TEST_CASE("teleport_keeps_shape_and_is_not_felt") {
 }
 
 TEST_CASE("jump_below_the_teleport_distance_is_felt") {
-  Stage stage(1, {.teleport_distance_m = 2});
+  constexpr float kNever = std::numeric_limits<float>::infinity();
+  Stage stage(1, {.teleport = {.distance = 10, .acceleration = kNever}});
   stage.play([](double) { return scenes::bind_pose(); }, 0.5);
   stage.play([](double) { return scenes::bent_pose(0, 1.5); }, 0.1);
   CHECK(test::largest_length(deltas(stage)) > 0.005);

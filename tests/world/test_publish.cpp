@@ -27,7 +27,7 @@ struct BentBlock {
     REQUIRE(world::make_instance(asset, {}, &instance).ok());
     const scenes::BlockPose pose = scenes::bent_pose(2);
     std::copy_n(pose.joints.data(), 2, instance.joints);
-    world::take_pose(instance, 1);
+    world::take_pose(instance, {});
     world::follow_motion(instance, 0);
     instance.state->tier = Tier::kModal;
     instance.state->blend_ticks = world::kBlendInTicks;

@@ -24,6 +24,14 @@ struct RootTransform {
   float rotation_xyzw[4] = {0, 0, 0, 1};  // normalised on entry; zero length or NaN: refused
 };
 
+// A space that a character rides on, by a number of the caller's choice. Between two poses that name the same
+// one its motion is not felt; one that gets on, off or over feels what its root does, which a TeleportDef
+// bounds.
+struct RiddenSpace {
+  uint32_t id = 0;          // 0: none
+  RootTransform root = {};  // world from space; refused as a pose's root
+};
+
 // One pose of one character. What set_pose refuses leaves the last good pose in place.
 struct Pose {
   // Character-from-joint (before the inverse bind matrix), one for each of the asset's joints, in the asset's
@@ -31,6 +39,10 @@ struct Pose {
   // beyond +-1e6: refused.
   std::span<const Matrix34> joints = {};
   RootTransform root = {};  // world-from-character
+  // What the character rides on (a lift, a vehicle); what it moves by is not felt.
+  RiddenSpace space = {};
+  // A cut: root and joints are taken to be elsewhere, not to have moved there (TeleportDef).
+  bool teleport = false;
 };
 
 // Threads come from the caller. Contract: enqueue may run task(argument, index) for index 0..count-1 on any
@@ -84,14 +96,27 @@ struct ProfilerHook {
   void* context = nullptr;
 };
 
+// What a step takes for a teleport and not for a motion: the root, or a joint beside it (in the character's
+// space), ends further than this from where its motion of the last step would have brought it, or
+// Pose::teleport says so. What hangs on it is carried: soft parts and rods keep their shape and what they
+// swing with, and feel nothing of it, nor of a step after it that goes on at quite another speed.
+// In frames longer than 1/60 s as much is allowed for each 1/60 s of them; in a step of no time nothing is.
+// InstanceReport::teleports counts them.
+struct TeleportDef {
+  float distance = 0.15f;  // > 0, of the character's height in its bind pose; infinity: never
+  float angle_rad = 0.5f;  // > 0; infinity: never
+  float scale = 1.25f;     // > 1, by so much a joint grows or shrinks; infinity: never
+  // > 0, heights/s^2, infinity: none. What is felt of the root's and the nodes' acceleration in motions that
+  // are no teleports: as it is up to half of this, from there approaching it smoothly.
+  float acceleration = 100;
+};
+
 // A field outside its range: World::create refuses.
 struct WorldDef {
   uint32_t max_assets = 16;         // 1..65535; one more load is refused with kOutOfCapacity
   uint32_t max_instances = 64;      // 1..100000; one more create is refused with kOutOfCapacity
   uint32_t max_ticks_per_step = 4;  // 1..64; a longer frame drops the excess at its start and reports it
-  // > 0; infinity: never. A root set further than this from where its velocity of the last step would have
-  // brought it is a teleport, at any frame rate: tissue keeps its shape and feels nothing of the jump.
-  float teleport_distance_m = 2;
+  TeleportDef teleport = {};
   // 0..1, a share of a soft part's radius. A part that neither moves nor feels anything new by more than that
   // for half a swing falls asleep: it keeps its shape at next to no cost until it feels more
   // (runtime/world/sleep.hpp). 0: never.
@@ -195,6 +220,9 @@ struct InstanceReport {
   uint32_t restarts = 0;
   uint32_t regions_asleep = 0;    // soft parts at rest, left out until they feel more
   uint32_t regions_left_out = 0;  // soft parts that its control graph does not have: they are skinned
+  // Since creation, TeleportDef: steps in which the root teleported; soft parts and rods in steps in which
+  // only joints did that move them.
+  uint32_t teleports = 0, part_teleports = 0;
   // Since creation: rods that had to be put together or put back where they are held.
   uint32_t rod_recoveries = 0;
   uint32_t rods_asleep = 0;  // rods at rest, not stepped until they are held or shaped otherwise: all or none

@@ -87,6 +87,14 @@ class World {
   Status set_views(std::span<const View> views) noexcept;
   // The engine's own culling: hidden whatever the views show, until it says otherwise.
   Status set_hidden(InstanceId instance, bool hidden) noexcept;
+  // From the next step on its time runs so many times as fast as the world's: 0 holds it, as a step of no
+  // time does, 0.1 is slow motion. Poses are then those of its own time. 0..16, else kInvalidArgument, NaN:
+  // kNotFinite; it stays. Part of the state that is saved.
+  Status set_time_scale(InstanceId instance, float scale) noexcept;
+  // Of what its root moves from the next step on it feels so much: 1, the default, all, 0 nothing (a
+  // character whose clip moves it, under a root that an engine corrects). Contacts stay where the root is.
+  // 0..1, else kInvalidArgument, NaN: kNotFinite; it stays. Part of the state that is saved.
+  Status set_felt_root_motion(InstanceId instance, float share) noexcept;
   // Forgets motion: the tissue is at rest in the next pose that is set. What is read back changes with
   // the next step.
   Status reset(InstanceId instance) noexcept;

@@ -1,0 +1,85 @@
+// root_motion.cpp  see root_motion.hpp.
+#include "world/root_motion.hpp"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "world/rod_motion.hpp"
+#include "world/rotation.hpp"
+
+namespace sinew::world {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using RowMatrix3f = Eigen::Matrix<float, 3, 3, Eigen::RowMajor>;
+
+Vector3d place_of(const RootTransform& root) noexcept { return Eigen::Map<const Vector3d>(root.position_m); }
+Quaterniond rotation_of(const RootTransform& root) noexcept { return quaternion(root.rotation_xyzw); }
+
+RootTransform root_of(const Vector3d& place_m, const Quaterniond& rotation) noexcept {
+  RootTransform root;
+  Eigen::Map<Vector3d>(root.position_m) = place_m;
+  Eigen::Map<Eigen::Vector4f>(root.rotation_xyzw) = rotation.normalized().coeffs().cast<float>();
+  return root;
+}
+
+void turn_poses(const RowMatrix3f& turn, uint32_t count, tissue::NodePose* poses) noexcept {
+  for (uint32_t i = 0; i < count; ++i) {
+    Eigen::Map<Eigen::Vector3f> place(poses[i].place_m);
+    Eigen::Map<RowMatrix3f> rotation(poses[i].rotation);
+    place = (turn * place).eval();
+    rotation = (turn * rotation).eval();
+  }
+}
+
+// As a passenger that stood still.
+RootTransform carried_by(const RootTransform& from, const RootTransform& to,
+                         const RootTransform& root) noexcept {
+  const Quaterniond turn = rotation_of(to) * rotation_of(from).conjugate();
+  return root_of(place_of(to) + turn * (place_of(root) - place_of(from)), turn * rotation_of(root));
+}
+
+// So much of the way to the next root.
+RootTransform on_the_way(const RootTransform& from, const RootTransform& to, double share) noexcept {
+  const Quaterniond was = rotation_of(from);
+  return root_of(place_of(from) + share * (place_of(to) - place_of(from)),
+                 was * exponential(share * logarithm(was.conjugate() * rotation_of(to))));
+}
+
+}  // namespace
+
+void move_past(Instance& instance, const RootTransform& root) noexcept {
+  InstanceState& state = *instance.state;
+  const Vector3d from = place_of(state.root), to = place_of(root);
+  const Quaterniond turn = rotation_of(root) * rotation_of(state.root).conjugate();
+  Eigen::Map<Vector3d> velocity(state.velocity_m_s);
+  velocity = (turn * velocity).eval();
+  for (double* tick_root : state.tick_root_m) {
+    Eigen::Map<Vector3d> place(tick_root);
+    place = (turn * (place - from) + to).eval();
+  }
+  state.root = root;
+  if (state.motion_stale) return;  // there is no history
+  for (tissue::NodePose* poses : instance.poses)
+    turn_poses(turn.toRotationMatrix().cast<float>(), instance.level->node_count(), poses);
+  for (float* tick_turn : instance.tick_turn)
+    if (tick_turn)
+      Eigen::Map<Eigen::Vector4f>{tick_turn} = (turn * quaternion(tick_turn)).coeffs().cast<float>();
+  move_rods(instance, turn, from, to);
+}
+
+void leave_out_unfelt(Instance& instance) noexcept {
+  InstanceState& state = *instance.state;
+  if (state.space_id != 0 && state.space_id == state.next_space_id)
+    move_past(instance, carried_by(state.space, state.next_space, state.root));
+  if (state.felt_root < 1)
+    move_past(instance, on_the_way(state.root, state.next_root, 1 - static_cast<double>(state.felt_root)));
+}
+
+void keep_space(InstanceState& state) noexcept {
+  state.space = state.next_space;
+  state.space_id = state.next_space_id;
+}
+
+}  // namespace sinew::world
