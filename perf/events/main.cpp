@@ -135,7 +135,7 @@ class Shown {
  public:
   Shown(const baker::LoadedPack& pack, float budget_us) {
     must(
-        World::create({.max_assets = 1, .max_instances = 1, .max_ticks_per_step = 8, .budget_mode = BudgetMode::kWorkUnits}, &world_));
+        World::create({.max_assets = 1, .max_instances = 1, .budget_mode = BudgetMode::kWorkUnits}, &world_));
     must(world_.load_asset(pack.bytes(), &asset_));
     must(world_.asset_info(asset_, &info_));
     must(world_.create_instance({.asset = asset_}, &instance_));
@@ -143,6 +143,11 @@ class Shown {
     positions_.resize(size_t{3} * info_.vertex_count);
   }
   const AssetInfo& info() const { return info_; }
+  InstanceReport report() const {
+    InstanceReport out;
+    must(world_.report(instance_, &out));
+    return out;
+  }
   std::span<const float> step(const Pose& pose, float dt_s) {
     must(world_.set_pose(instance_, pose));
     world_.step(dt_s);
@@ -216,10 +221,11 @@ std::vector<float> sampled(const baker::LoadedPack& pack, const baker::AuditMoti
   std::vector<Matrix34> joints(pack.view().joints.size());
   std::vector<float> out;
   const auto every = static_cast<int>(std::lround(kShared_s * fps));
-  for (int frame = 0; frame <= std::lround(kPlayed_s * fps); ++frame) {
+  for (int frame = 0; frame <= std::floor(std::min(kPlayed_s, motion.moving_s) * fps); ++frame) {
     Pose pose{.joints = joints};
     motion.pose_at(static_cast<double>(frame) / fps, joints, &pose.root);
-    const std::span<const float> positions = shown.step(pose, 1.0f / static_cast<float>(fps));
+    const std::span<const float> positions =
+        shown.step(pose, frame == 0 ? 0 : 1.0f / static_cast<float>(fps));
     if (frame % every == 0) out.insert(out.end(), positions.begin(), positions.end());
   }
   return out;
@@ -237,6 +243,26 @@ double off_at(const baker::LoadedPack& pack, const baker::AuditMotion& motion, i
   const std::vector<float> reference = sampled(pack, motion, kReference, kAll_us);
   return apart(sampled(pack, motion, fps, kAll_us), reference) /
          std::max(1e-9, apart(sampled(pack, motion, kReference, 0), reference));
+}
+
+// Of all clips, played through once at 60 frames a second: those in which something teleports.
+std::string cuts_in_clips(const baker::LoadedPack& pack) {
+  std::string out;
+  std::vector<Matrix34> joints(pack.view().joints.size());
+  for (size_t clip = 0; clip < pack.view().clips.size(); ++clip) {
+    const baker::AuditMotion motion = baker::clip_motion(pack.view(), clip);
+    Shown shown(pack, std::numeric_limits<float>::infinity());
+    for (int frame = 0; frame < std::lround(60 * motion.moving_s); ++frame) {
+      Pose pose{.joints = joints};
+      motion.pose_at(frame / 60.0, joints, &pose.root);
+      (void)shown.step(pose, kDt_s);
+    }
+    const InstanceReport report = shown.report();
+    if (report.teleports + report.part_teleports > 0)
+      out += " " + motion.name + " (" + std::to_string(report.teleports) + ", " +
+             std::to_string(report.part_teleports) + ")";
+  }
+  return out.empty() ? " none" : out;
 }
 
 float median(std::vector<float> values) {
@@ -309,6 +335,10 @@ int run(int count, char** arguments) {
                     static_cast<double>(std::ranges::max(off)));
       }
     }
+    std::puts("\nClips in which the root or a part teleports (how often):");
+    for (int i = 1; i < count; ++i)
+      std::printf("- %s:%s\n", std::filesystem::path(arguments[i]).stem().c_str(),
+                  cuts_in_clips(packs[i - 1]).c_str());
     return 0;
   } catch (const std::exception& problem) {
     std::fprintf(stderr, "perf_events: %s\n", problem.what());

@@ -27,7 +27,7 @@ namespace sinew::world {
 namespace {
 
 static_assert(std::is_trivially_copyable_v<InstanceState>, "saved as bytes");
-static_assert(sizeof(InstanceState) == 504, "no padding: equal states are equal bytes");
+static_assert(sizeof(InstanceState) == 560, "no padding: equal states are equal bytes");
 static_assert(offsetof(InstanceState, root) == kPlannedStateBytes, "what is planned by comes first");
 
 float smooth_step(float t) noexcept { return t * t * (3 - 2 * t); }
@@ -104,6 +104,7 @@ void lay_out_contacts(const Asset& asset, core::Arena& arena, Instance& to) noex
 void lay_out_scratch(const Asset& asset, core::Arena& arena, Instance& to) noexcept {
   const uint32_t joints = asset.pack.character->joint_count;
   const uint32_t nodes = asset.node_count();
+  to.parts_older = arena.take<JointParts>(joints);
   to.parts_before = arena.take<JointParts>(joints);
   to.parts = arena.take<JointParts>(joints);
   to.next_parts = arena.take<JointParts>(joints);
@@ -210,6 +211,7 @@ Status make_instance(Asset& asset, const InstanceDef& def, Instance* out) noexce
   made.state->root = def.root;
   made.state->importance = frame::sane_importance(def.importance);
   bind_pose(asset.pack.joints, made.joints);
+  std::copy_n(made.joints, asset.pack.character->joint_count, made.joints_older);
   std::copy_n(made.joints, asset.pack.character->joint_count, made.joints_before);
   std::copy_n(made.joints, asset.pack.character->joint_count, made.next_joints);
   bound_pose(made);
@@ -222,10 +224,10 @@ Status make_instance(Asset& asset, const InstanceDef& def, Instance* out) noexce
 
 void point_to_state(Instance& instance) noexcept {
   instance.level = &instance.asset->levels[instance.state->level];
-  const uint32_t first = instance.state->first_joints % 3;
-  instance.joints_before = instance.pose_joints[first];
-  instance.joints = instance.pose_joints[(first + 1) % 3];
-  instance.next_joints = instance.pose_joints[(first + 2) % 3];
+  const uint32_t first = instance.state->first_joints;
+  Matrix34** const poses[] = {&instance.joints_older, &instance.joints_before, &instance.joints,
+                              &instance.next_joints};
+  for (uint32_t k = 0; k < 4; ++k) *poses[k] = instance.pose_joints[(first + k) % 4];
 }
 
 void forget_displacement(Instance& instance) noexcept {

@@ -60,15 +60,17 @@ struct InstanceState {
 
   RootTransform root, next_root;    // at the end of the last step; of the pose set since
   RootTransform space, next_space;  // likewise, of Pose::space; world/root_motion.hpp
+  double dt_older_s = 0;            // of the step before the last
   double dt_before_s = 0;           // of the last step; 0: none, or none to compare with
   double velocity_m_s[3] = {};      // of the root over the last step, world
   double angular_velocity[3] = {};  // rad/s, character axes
-  double tick_root_m[3][3] = {};    // of the last three ticks, newest first
-  float render_fraction = 0;        // remainder in ticks: how far the shown displacement is carried on
-  uint32_t has_next = 0;            // set_pose since the last step
-  uint32_t at_start = 1;            // no pose yet: the first one is taken as having been held for ever
-  uint32_t motion_stale = 1;        // ticks were not followed: the motion history is rebuilt before use
-  uint32_t forgotten = 1;           // the network's state is no memory of this motion: a start, a guard
+  double velocity_before_m_s[3] = {}, angular_velocity_before[3] = {};  // likewise, of the step before that
+  double tick_root_m[3][3] = {};  // of the last three ticks, newest first
+  float render_fraction = 0;      // remainder in ticks: how far the shown displacement is carried on
+  uint32_t has_next = 0;          // set_pose since the last step
+  uint32_t at_start = 1;          // no pose yet: the first one is taken as having been held for ever
+  uint32_t motion_stale = 1;      // ticks were not followed: the motion history is rebuilt before use
+  uint32_t forgotten = 1;         // the network's state is no memory of this motion: a start, a guard
   uint32_t tail_ticks = kCarryTicks + kFadeTicks;  // since the tail began
   uint16_t fade_ticks = kFadeTicks;                // of the tail
   uint16_t network_begins = 0;  // ticks left in which a network without a memory corrects by less
@@ -85,7 +87,7 @@ struct InstanceState {
   uint32_t from_shown = 0;       // simulation came back from what was shown, and not from rest
   Tier left_tier = Tier::kSkinning;           // world/catch_up.hpp: what it had before it was left alone
   uint16_t missed_ticks = 0, tail_rides = 0;  // likewise: since then; the tail counts from what is simulated
-  uint32_t first_joints = 0;                  // which of pose_joints is the pose before the present one
+  uint32_t first_joints = 0;                  // which of pose_joints is the oldest pose
   uint32_t looked = 0;                        // world/look.hpp: the number of the last look at it
   uint32_t still_ticks = 0;                   // world/dormant.hpp
   uint32_t seam_ticks = kBlendInTicks;        // since the level changed, at most kBlendInTicks
@@ -185,8 +187,9 @@ struct Instance {
   std::unique_ptr<RodSource> rod_source;               // what they ask; null: contacts.source at most
 
   // State: one run of bytes from `state` on.
-  Matrix34* pose_joints[3] = {};                                                 // [joints], in turn:
-  Matrix34 *joints_before = nullptr, *joints = nullptr, *next_joints = nullptr;  // point there
+  Matrix34* pose_joints[4] = {};  // [joints], in turn:
+  Matrix34 *joints_older = nullptr, *joints_before = nullptr, *joints = nullptr,
+           *next_joints = nullptr;  // point there
   tissue::NodePose* poses[3] = {};  // [nodes] of the last three ticks, newest first
   float* network_state = nullptr;
   float *u[2] = {}, *l[2] = {}, *theta = nullptr;  // newest first
@@ -221,8 +224,9 @@ struct Instance {
   size_t state_bytes = 0;
 
   // Scratch of a step.
-  JointParts *parts_before = nullptr, *parts = nullptr, *next_parts = nullptr;  // [joints]
-  RootStep root_step{};
+  JointParts *parts_older = nullptr, *parts_before = nullptr, *parts = nullptr,
+             *next_parts = nullptr;  // [joints]
+  RootStep root_step{}, root_step_before{};
   Matrix34* tick_joints = nullptr;  // [joints]
   float* drive = nullptr;           // [nodes][kNodeDriveWidth]
   float *felt = nullptr, *l_hat = nullptr, *r_hat = nullptr, *q_hat = nullptr, *carry = nullptr;

@@ -30,12 +30,14 @@ Vector3d place_of(const RootTransform& root) noexcept { return Eigen::Map<const 
 
 Quaterniond rotation_of(const RootTransform& root) noexcept { return quaternion(root.rotation_xyzw); }
 
-// The root's step before this one, along its present course.
-void remember_root_step(Instance& instance) noexcept {
+// The root's two steps before this one, along their courses.
+void remember_root_steps(Instance& instance) noexcept {
   const InstanceState& state = *instance.state;
   for (int k = 0; k < 3; ++k) {
     instance.root_step.place_m[k] = state.velocity_m_s[k] * state.dt_before_s;
     instance.root_step.turn[k] = state.angular_velocity[k] * state.dt_before_s;
+    instance.root_step_before.place_m[k] = state.velocity_before_m_s[k] * state.dt_older_s;
+    instance.root_step_before.turn[k] = state.angular_velocity_before[k] * state.dt_older_s;
   }
 }
 
@@ -44,6 +46,8 @@ void measure_velocity(Instance& instance) noexcept {
   const double dt_s = instance.plan.dt_s;
   if (dt_s < kShortestStep_s) return;
   const Vector3d turn = logarithm(rotation_of(state.root).conjugate() * rotation_of(state.next_root));
+  std::copy_n(state.velocity_m_s, 3, state.velocity_before_m_s);
+  std::copy_n(state.angular_velocity, 3, state.angular_velocity_before);
   Eigen::Map<Vector3d>(state.velocity_m_s) = (place_of(state.next_root) - place_of(state.root)) / dt_s;
   Eigen::Map<Vector3d>(state.angular_velocity) = turn / dt_s;
 }
@@ -55,6 +59,7 @@ void copy_joints(const Instance& instance, const Matrix34* from, Matrix34* to) n
 void split_poses(Instance& instance) noexcept {
   if (std::exchange(instance.parts_ready, true)) return;
   for (uint32_t j = 0; j < instance.level->pack.character->joint_count; ++j) {
+    instance.parts_older[j] = split_joint(instance.joints_older[j]);
     instance.parts_before[j] = split_joint(instance.joints_before[j]);
     instance.parts[j] = split_joint(instance.joints[j]);
     instance.next_parts[j] = split_joint(instance.next_joints[j]);
@@ -68,13 +73,18 @@ double share_at(const Instance& instance, double time_s) noexcept {
   return std::abs(share - 1) < kSame ? 1 : share;
 }
 
+PathWeights weights_at(const Instance& instance, double share) noexcept {
+  const InstanceState& state = *instance.state;
+  return path_weights(share, instance.plan.dt_s, state.dt_before_s, state.dt_older_s);
+}
+
 const Matrix34* joints_at(Instance& instance, double share) noexcept {
   if (share == 1) return instance.next_joints;
   split_poses(instance);
-  const PathWeights weights = path_weights(share, instance.plan.dt_s, instance.state->dt_before_s);
+  const PathWeights weights = weights_at(instance, share);
   for (uint32_t j = 0; j < instance.level->pack.character->joint_count; ++j) {
-    instance.tick_joints[j] =
-        joint_between(instance.parts_before[j], instance.parts[j], instance.next_parts[j], weights);
+    instance.tick_joints[j] = joint_between(instance.parts_older[j], instance.parts_before[j],
+                                            instance.parts[j], instance.next_parts[j], weights);
   }
   return instance.tick_joints;
 }
@@ -82,8 +92,8 @@ const Matrix34* joints_at(Instance& instance, double share) noexcept {
 RootTransform root_at(const Instance& instance, double share) noexcept {
   const InstanceState& state = *instance.state;
   if (share == 1) return state.next_root;
-  return root_between(instance.root_step, state.root, state.next_root,
-                      path_weights(share, instance.plan.dt_s, state.dt_before_s));
+  return root_between(instance.root_step_before, instance.root_step, state.root, state.next_root,
+                      weights_at(instance, share));
 }
 
 void pose_nodes(Instance& instance, const Matrix34* joints, const RootTransform& root,
@@ -172,14 +182,15 @@ void take_pose(Instance& instance, const TeleportDef& teleport) noexcept {
     carry_teleports(instance, teleport);
   }
   keep_space(state);
-  remember_root_step(instance);
+  remember_root_steps(instance);
   measure_velocity(instance);
 }
 
 void keep_pose(Instance& instance) noexcept {
-  instance.state->first_joints = (instance.state->first_joints + 1) % 3;
+  instance.state->first_joints = (instance.state->first_joints + 1) % 4;
   point_to_state(instance);
   // A pose that only counts as held says nothing of how the next is reached.
+  instance.state->dt_older_s = instance.state->dt_before_s;
   instance.state->dt_before_s = instance.came_back ? 0 : instance.plan.dt_s;
   instance.state->root = instance.state->next_root;
   instance.state->has_next = 0;

@@ -112,48 +112,62 @@ JointParts split_joint(const Matrix34& joint) noexcept {
   return parts;
 }
 
-PathWeights path_weights(double share, double dt_s, double dt_before_s) noexcept {
+PathWeights path_weights(double share, double dt_s, double dt_before_s, double dt_older_s) noexcept {
   constexpr double kAlike = 4;  // frame times further apart than this factor say little about each other
-  constexpr double kFarthestBack = -1;  // the parabola is not followed beyond c
-  const bool alike = dt_before_s * kAlike >= dt_s && dt_s * kAlike >= dt_before_s && dt_before_s > 0;
-  if (!alike || share < kFarthestBack) return {share, 0};
-  const double ratio = dt_before_s / dt_s;
-  const double curve = share * (share - 1) / (1 + ratio);  // Newton's divided differences through c, a, b
-  return {share + curve, -curve / ratio};
+  constexpr double kFarthestBack = -1;  // the curve is not followed beyond c
+  const auto alike = [&](double other_s) {
+    return other_s > 0 && other_s * kAlike >= dt_s && dt_s * kAlike >= other_s;
+  };
+  if (!alike(dt_before_s) || share < kFarthestBack) return {share, 0, 0};
+  // Newton's divided differences through b, a, c and d, in times of dt_s.
+  const double before = dt_before_s / dt_s, curve = share * (share - 1) / (1 + before);
+  PathWeights weights{share + curve, -curve / before, 0};
+  if (!alike(dt_older_s)) return weights;
+  const double older = dt_older_s / dt_s;
+  const double bend = share * (share - 1) * (share + before) / (1 + before + older);
+  weights.next += bend / (1 + before);
+  weights.past -= bend * (1 / (before * (1 + before)) + 1 / (before * (before + older)));
+  weights.older = bend / (older * (before + older));
+  return weights;
 }
 
-Matrix34 joint_between(const JointParts& c, const JointParts& a, const JointParts& b,
+Matrix34 joint_between(const JointParts& d, const JointParts& c, const JointParts& a, const JointParts& b,
                        const PathWeights& weights) noexcept {
-  const auto next = static_cast<float>(weights.next), past = static_cast<float>(weights.past);
-  const auto along = [&](const auto& from_c, const auto& from_a, const auto& from_b) {
-    return (from_a + next * (from_b - from_a) + past * (from_a - from_c)).eval();
+  const auto next = static_cast<float>(weights.next), past = static_cast<float>(weights.past),
+             older = static_cast<float>(weights.older);
+  const auto along = [&](const auto& from_d, const auto& from_c, const auto& from_a, const auto& from_b) {
+    return (from_a + next * (from_b - from_a) + past * (from_a - from_c) + older * (from_c - from_d)).eval();
   };
   using MapMatrix = Eigen::Map<const RowMatrix3>;
   using MapVector = Eigen::Map<const Vector3f>;
   const Quaterniond rotation_c = quaternion(c.rotation_xyzw), rotation_a = quaternion(a.rotation_xyzw);
-  const Quaterniond rotation =
-      rotation_a *
-      exponential(weights.next * logarithm(rotation_a.conjugate() * quaternion(b.rotation_xyzw)) +
-                  weights.past * logarithm(rotation_c.conjugate() * rotation_a));
+  Vector3d turn = weights.next * logarithm(rotation_a.conjugate() * quaternion(b.rotation_xyzw)) +
+                  weights.past * logarithm(rotation_c.conjugate() * rotation_a);
+  if (weights.older != 0)
+    turn += weights.older * logarithm(quaternion(d.rotation_xyzw).conjugate() * rotation_c);
+  const Quaterniond rotation = rotation_a * exponential(turn);
   Matrix34 joint;
   Eigen::Map<RowMatrix34> out(&joint.m[0][0]);
-  out.leftCols<3>() = rotation.normalized().toRotationMatrix().cast<float>() *
-                      along(MapMatrix(c.stretch), MapMatrix(a.stretch), MapMatrix(b.stretch));
-  out.col(3) = along(MapVector(c.translation_m), MapVector(a.translation_m), MapVector(b.translation_m));
+  out.leftCols<3>() =
+      rotation.normalized().toRotationMatrix().cast<float>() *
+      along(MapMatrix(d.stretch), MapMatrix(c.stretch), MapMatrix(a.stretch), MapMatrix(b.stretch));
+  out.col(3) = along(MapVector(d.translation_m), MapVector(c.translation_m), MapVector(a.translation_m),
+                     MapVector(b.translation_m));
   return joint;
 }
 
-RootTransform root_between(const RootStep& before, const RootTransform& a, const RootTransform& b,
-                           const PathWeights& weights) noexcept {
+RootTransform root_between(const RootStep& older, const RootStep& before, const RootTransform& a,
+                           const RootTransform& b, const PathWeights& weights) noexcept {
   const Quaterniond from = quaternion(a.rotation_xyzw);
   const Vector3d turn = weights.next * logarithm(from.conjugate() * quaternion(b.rotation_xyzw)) +
-                        weights.past * Eigen::Map<const Vector3d>(before.turn);
+                        weights.past * Eigen::Map<const Vector3d>(before.turn) +
+                        weights.older * Eigen::Map<const Vector3d>(older.turn);
   RootTransform root;
   Eigen::Map<Eigen::Vector4f>(root.rotation_xyzw) =
       (from * exponential(turn)).normalized().coeffs().cast<float>();
   for (int k = 0; k < 3; ++k) {
     root.position_m[k] = a.position_m[k] + weights.next * (b.position_m[k] - a.position_m[k]) +
-                         weights.past * before.place_m[k];
+                         weights.past * before.place_m[k] + weights.older * older.place_m[k];
   }
   return root;
 }

@@ -53,8 +53,10 @@ void move_past(Instance& instance, const RootTransform& root) noexcept {
   InstanceState& state = *instance.state;
   const Vector3d from = place_of(state.root), to = place_of(root);
   const Quaterniond turn = rotation_of(root) * rotation_of(state.root).conjugate();
-  Eigen::Map<Vector3d> velocity(state.velocity_m_s);
-  velocity = (turn * velocity).eval();
+  for (double* of_step : {state.velocity_m_s, state.velocity_before_m_s}) {
+    Eigen::Map<Vector3d> velocity(of_step);
+    velocity = (turn * velocity).eval();
+  }
   for (double* tick_root : state.tick_root_m) {
     Eigen::Map<Vector3d> place(tick_root);
     place = (turn * (place - from) + to).eval();

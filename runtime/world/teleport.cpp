@@ -80,7 +80,7 @@ void carry_root(Instance& instance, double departure) noexcept {
     // All of the history on this step's line; rods keep what they swing with.
     state.dt_before_s = 0;
     state.motion_stale = 1;
-    std::fill_n(instance.carried_rods, instance.asset->rods.rod_count, 1u);
+    carry_rods(instance);
   }
 }
 
@@ -251,8 +251,15 @@ TeleportBounds teleport_bounds(const TeleportDef& def, float height_m, double dt
 void carry_teleports(Instance& instance, const TeleportDef& def) noexcept {
   const TeleportBounds most = teleport_bounds(def, instance.level->pack.character->height_m, dt_of(instance));
   const bool all = std::exchange(instance.state->teleport_told, uint16_t{0}) != 0;
-  if (carry_joints(instance, most, all)) mark_parts(instance);
+  const bool joints = carry_joints(instance, most, all), was = instance.state->teleported != 0;
+  if (joints) mark_parts(instance);
   carry_root(instance, all ? 2 : root_departure(instance, most));
+  // The poses before the last two were not moved.
+  if (joints || was || instance.state->teleported) instance.state->dt_older_s = 0;
+}
+
+void carry_rods(Instance& instance) noexcept {
+  std::fill_n(instance.carried_rods, instance.asset->rods.rod_count, 1u);
 }
 
 bool carries_parts(const Instance& instance) noexcept {

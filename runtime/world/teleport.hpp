@@ -23,6 +23,9 @@ TeleportBounds teleport_bounds(const TeleportDef& def, float height_m, double dt
 // all of the history rebuilt. Cost: a difference a joint; more where something jumps.
 void carry_teleports(Instance& instance, const TeleportDef& def) noexcept;
 
+// All rods, over ticks that are not followed.
+void carry_rods(Instance& instance) noexcept;
+
 // For the next tick; forget_carried after it.
 bool carries_parts(const Instance& instance) noexcept;
 void forget_carried(Instance& instance) noexcept;

@@ -74,7 +74,10 @@ void push_out(Instance& instance, const TickContext& context, uint32_t slot) noe
 void run_ticks(Instance& instance, const TickContext& context, uint32_t slot) noexcept {
   InstanceState& state = *instance.state;
   const frame::TickPlan& ticks = instance.plan.ticks;
-  if (ticks.dropped_s > 0) state.motion_stale = 1;
+  if (ticks.dropped_s > 0) {
+    if (!state.motion_stale) carry_rods(instance);
+    state.motion_stale = 1;
+  }
   if (frame::is_simulated(state.tier) && state.missed_ticks > 0) simulate_missed(instance, context, slot);
   for (uint32_t k = 0; k < ticks.ticks; ++k) {
     state.fallback_ticks -= state.fallback_ticks > 0;

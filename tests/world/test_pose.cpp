@@ -28,7 +28,7 @@ const Matrix34 kFlat = {{{1, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 1, 0}}};
 Matrix34 turned_about_z(double angle) { return scenes::bent_pose(angle).joints[1]; }
 
 Matrix34 between(const Matrix34& c, const Matrix34& a, const Matrix34& b, double share) {
-  return joint_between(split_joint(c), split_joint(a), split_joint(b), path_weights(share, kDt_s, kDt_s));
+  return joint_between({}, split_joint(c), split_joint(a), split_joint(b), path_weights(share, kDt_s, kDt_s));
 }
 
 }  // namespace
@@ -79,12 +79,32 @@ TEST_CASE("path_weights_fit_unequal_frames_and_fall_back_to_the_line") {
   CHECK(path_weights(-3, 0.02, 0.02).past == 0);
 }
 
+// x = t^3, of which the parabola knows nothing.
+TEST_CASE("turn_and_travel_whose_acceleration_changes_evenly_are_followed_exactly") {
+  const auto at = [](double t) {
+    Matrix34 joint = turned_about_z(0.05 * t * t * t);
+    joint.m[0][3] = static_cast<float>(0.5 * t * t * t);
+    return joint;
+  };
+  for (const double share : {-1.0, -0.5, 0.25, 0.5, 0.75, 1.0}) {
+    check_close(joint_between(split_joint(at(0)), split_joint(at(1)), split_joint(at(2)), split_joint(at(3)),
+                              path_weights(share, kDt_s, kDt_s, kDt_s)),
+                at(2 + share));
+  }
+  const PathWeights unequal = path_weights(0.5, 0.02, 0.01, 0.03);
+  const auto cube = [](double t) { return t * t * t; };
+  CHECK(unequal.next * cube(0.02) + unequal.past * cube(0.01) + unequal.older * (cube(0.04) - cube(0.01)) ==
+        Approx(cube(0.01)));
+  CHECK(path_weights(0.5, 0.02, 0.01, 0.1).older == 0);  // too unlike
+  CHECK(path_weights(0.5, 0.02, 0, 0.02).older == 0);    // c is unknown
+}
+
 TEST_CASE("root_path_is_double_and_meets_its_end") {
   RootTransform a, b;
   a.position_m[0] = 1e9;
   b.position_m[0] = 1e9 + 1e-3;
   b.rotation_xyzw[1] = b.rotation_xyzw[3] = std::sqrt(0.5f);
-  const RootTransform half = root_between({}, a, b, {.next = 0.5});
+  const RootTransform half = root_between({}, {}, a, b, {.next = 0.5});
   CHECK(half.position_m[0] - 1e9 == Approx(5e-4).epsilon(1e-3));
   CHECK(half.rotation_xyzw[1] == Approx(std::sin(3.14159265 / 8)));
 }
