@@ -139,6 +139,8 @@ std::vector<Matrix4> joint_matrices(const Character& character, const Clip* clip
 
 // character-from-joint of every joint as the skins were bound, which is no frame of the file's.
 std::vector<Matrix4> bind_matrices(const Character& character);
+// Along Y, of the bind pose.
+double height_m(const Character& character);
 
 // Linear blend skinning in double: positions of all vertices under these joint matrices.
 std::vector<Vector3> skin_positions(const Character& character, const std::vector<Matrix4>& joints);

@@ -107,6 +107,13 @@ std::vector<Matrix4> joint_matrices(const Character& character, const Clip* clip
   return joints;
 }
 
+double height_m(const Character& character) {
+  if (character.positions.empty()) return 0;
+  const auto [low, high] =
+      std::ranges::minmax_element(character.positions, {}, [](const Vector3& p) { return p.y(); });
+  return high->y() - low->y();
+}
+
 std::vector<Matrix4> bind_matrices(const Character& character) {
   std::vector<Matrix4> joints;
   for (const Matrix4& inverse_bind : character.inverse_bind) joints.push_back(inverse_bind.inverse());

@@ -40,12 +40,6 @@ void append_affine(const Matrix4& m, std::vector<float>* out) {
 
 // ---- the character ----
 
-double height_of(const Character& character) {
-  const auto [low, high] =
-      std::ranges::minmax_element(character.positions, {}, [](const Vector3& p) { return p.y(); });
-  return high->y() - low->y();
-}
-
 void add_record(const Character& character, const TissueLayout& layout, size_t coarser, PackWriter& pack) {
   pack::CharacterRecord record{};
   record.name = pack.string(character.name);
@@ -55,7 +49,7 @@ void add_record(const Character& character, const TissueLayout& layout, size_t c
   record.region_count = to_u32(layout.regions.size());
   record.node_count = to_u32(layout.nodes.size());
   record.clip_count = to_u32(character.clips.size());
-  record.height_m = static_cast<float>(height_of(character));
+  record.height_m = static_cast<float>(height_m(character));
   record.rod_count = to_u32(layout.rods.size());
   record.proxy_count = to_u32(layout.proxies.size());
   record.coarser_count = to_u32(coarser);

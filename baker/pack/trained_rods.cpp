@@ -104,8 +104,8 @@ std::vector<std::string> notes_of_untrained_rods(const Safetensors& weights, con
                     log_compliances(pack.rod_segments.subspan(rod.first_segment, rod.segment_count)),
                     *compliances);
     if (!why.empty())
-      notes.push_back(std::string("rod '") + (pack.strings.data() + rod.name) + "': no rod that " + weights.path +
-                      " was trained on is like it (" + why +
+      notes.push_back(std::string("rod '") + (pack::string_at(pack, rod.name)) + "': no rod that " +
+                      weights.path + " was trained on is like it (" + why +
                       "); its start may cost iterations instead of saving them");
   }
   return notes;

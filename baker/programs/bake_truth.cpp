@@ -51,12 +51,6 @@ Motion make_motion(const Character& character, const TruthOptions& options) {
   throw BadInput("--motion " + options.motion + ": unknown; use clip:NAME, shake, random or leap");
 }
 
-double height_of(const Character& character) {
-  double low = character.positions.front().y(), high = low;
-  for (const Vector3& p : character.positions) low = std::min(low, p.y()), high = std::max(high, p.y());
-  return high - low;
-}
-
 std::string number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.9g", value);
@@ -81,7 +75,7 @@ std::map<std::string, std::string> describe(const TruthOptions& options, const C
           {"rate_hz", number(options.rate_hz)},
           {"substeps", std::to_string(*options.substeps)},
           {"seconds", number(options.seconds)},
-          {"height_m", number(height_of(character))},
+          {"height_m", number(height_m(character))},
           {"regions", joined(regions)}};
 }
 

@@ -10,13 +10,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double height_m(const Character& character) {
-  if (character.positions.empty()) return 0;
-  const auto [low, high] =
-      std::ranges::minmax_element(character.positions, {}, [](const Vector3& p) { return p.y(); });
-  return high->y() - low->y();
-}
-
 Json describe_bones(const Character& character) {
   std::vector<size_t> vertices(character.joint_node.size(), 0);
   for (const Influences& skin : character.skin) ++vertices[static_cast<size_t>(skin.joint[0])];

@@ -7,6 +7,7 @@
 
 #include "baker/common/bad_input.hpp"
 #include "baker/mesh/node_record.hpp"
+#include "sinew/types.hpp"
 #include "tissue/node_bend.hpp"
 
 namespace sinew::baker {
@@ -27,7 +28,11 @@ Tensor tensor_of(Dtype dtype, std::vector<size_t> shape, const std::vector<T>& v
 
 TrajectoryRecorder::TrajectoryRecorder(const Character& character, const TissueLayout& layout,
                                        const TrajectoryOptions& options, std::vector<ModalBasis> modes)
-    : character_(character), layout_(layout), options_(options), modes_(std::move(modes)) {
+    : character_(character),
+      layout_(layout),
+      options_(options),
+      modes_(std::move(modes)),
+      most_m_s2_(TeleportDef{}.acceleration * static_cast<float>(height_m(character))) {
   if (modes_.size() != layout.regions.size())
     throw BadInput("trajectory: " + std::to_string(modes_.size()) + " modal bases for " +
                    std::to_string(layout.regions.size()) + " regions");
@@ -86,6 +91,7 @@ void TrajectoryRecorder::add_nodes(const TruthFrame& frame) {
   poses_.resize(kTicks), roots_.resize(kTicks);
 
   tissue::NodeMotion motion;
+  motion.most_m_s2 = most_m_s2_;
   for (size_t tick = 0; tick < kTicks; ++tick) {
     motion.pose[tick] = poses_[tick].data();
     for (int k = 0; k < 3; ++k) motion.root_position_m[tick][k] = roots_[tick][k];

@@ -63,6 +63,7 @@ class TrajectoryRecorder {
   std::vector<float> drive_, rotation_, displacement_, joints_, positions_;
   std::vector<Eigen::half> surface_;
   std::vector<double> root_, energy_;
+  float most_m_s2_;  // NodeMotion, as the runtime has it
   size_t ticks_ = 0;
 };
 

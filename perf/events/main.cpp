@@ -109,7 +109,7 @@ std::vector<Event> all_events() {
        [](double t_s, const Stage&, const Act& act) {
          shift(act, {0, 0, static_cast<float>(1.5 * (t_s < 0 ? 1 + std::fmax(t_s, -1) : t_s))});
        }},
-      {"a pause in which the root moved 0.3 m", false,
+      {"the root was moved 0.3 m meanwhile", false,
        [](double t_s, const Stage&, const Act& act) { act.root->position_m[0] = t_s < 0 ? 0 : 0.3; }},
       {"one joint jumps by 0.3 heights", false,
        [](double t_s, const Stage& stage, const Act& act) {

@@ -121,7 +121,8 @@ struct Occluders::Impl {
 
   void place(const Occluder& occluder, const RootTransform& root) noexcept {
     Eigen::Matrix<float, 3, 4> to;  // column-major, as Embree has it
-    to.leftCols<3>() = Eigen::Map<const Eigen::Quaternionf>(root.rotation_xyzw).toRotationMatrix();
+    to.leftCols<3>() = static_cast<float>(root.scale) *
+                       Eigen::Map<const Eigen::Quaternionf>(root.rotation_xyzw).toRotationMatrix();
     to.col(3) = (Eigen::Map<const Vector3d>(root.position_m) - Eigen::Map<const Vector3d>(def.origin_m))
                     .cast<float>();
     rtcSetGeometryTransform(occluder.placed.get(), 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, to.data());

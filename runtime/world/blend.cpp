@@ -15,6 +15,7 @@
 #include "world/rod_blend.hpp"
 #include "world/simulate.hpp"
 #include "world/sleep.hpp"
+#include "world/teleport.hpp"
 
 namespace sinew::world {
 namespace {
@@ -62,6 +63,7 @@ void begin_simulation(Instance& instance) noexcept {
     copy(instance, instance.u[tick], instance.l[tick]);
   }
   take_rods_as_shown(instance);
+  forget_carried(instance);
   state.motion_stale = 1;
   state.blend_ticks = state.untouched ? kBlendInTicks : 0.0f;
   const bool rests = state.tail_ticks > kCaughtUpTicks && !state.untouched;

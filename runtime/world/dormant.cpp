@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "frame/scheduler.hpp"
+#include "world/pose.hpp"
 #include "world/rod_contacts.hpp"
 #include "world/rod_sleep.hpp"
 #include "world/sleep.hpp"
@@ -13,11 +14,6 @@ namespace sinew::world {
 namespace {
 
 constexpr uint32_t kStillTicks = 8;  // poses of the last three, and the two that led there, are then the same
-
-bool is_same(const RootTransform& a, const RootTransform& b) noexcept {
-  return std::equal(a.position_m, a.position_m + 3, b.position_m) &&
-         std::equal(a.rotation_xyzw, a.rotation_xyzw + 4, b.rotation_xyzw);
-}
 
 // What is shown does not depend on how far into a tick it is.
 bool is_shown_still(const Instance& instance) noexcept {
@@ -42,7 +38,7 @@ bool may_be_dormant(const Instance& instance) noexcept {
 
 bool has_pose(const Instance& instance, std::span<const Matrix34> joints,
               const RootTransform& root) noexcept {
-  return is_same(instance.state->root, root) &&
+  return same_root(instance.state->root, root) &&
          std::memcmp(instance.joints, joints.data(), joints.size_bytes()) == 0;
 }
 
@@ -63,10 +59,10 @@ void fall_dormant(Instance& instance) noexcept {
   instance.told.rod_residual = 0;
 }
 
-void stay_dormant(Instance& instance) noexcept {
+void stay_dormant(Instance& instance, double frame_s) noexcept {
   InstanceState& state = *instance.state;
   const frame::TickPlan& ticks = instance.plan.ticks;
-  const auto dt_s = static_cast<float>(instance.plan.dt_s);
+  const auto dt_s = static_cast<float>(frame_s);
   instance.entered = instance.changed_level = instance.refined = false;
   instance.cut = instance.held = instance.restarted = instance.fell_back = instance.came_back = false;
   instance.times = {};
@@ -74,6 +70,7 @@ void stay_dormant(Instance& instance) noexcept {
   instance.plan.cost_us = 0;
   state.remainder_s = ticks.remainder_s;
   state.render_fraction = static_cast<float>(ticks.remainder_s / instance.asset->tick_s);
+  state.dt_older_s = state.dt_before_s;
   state.dt_before_s = instance.plan.dt_s;
   state.held_s += dt_s;
   state.turn_left_s = std::max(0.0f, state.turn_left_s - dt_s);

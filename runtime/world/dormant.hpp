@@ -19,7 +19,7 @@ void watch_pose(Instance& instance) noexcept;
 // After its ticks: dormant from the next step on, where it may be.
 void fall_dormant(Instance& instance) noexcept;
 // In place of a step.
-void stay_dormant(Instance& instance) noexcept;  // by its plan's ticks
+void stay_dormant(Instance& instance, double frame_s) noexcept;  // by its plan's ticks
 void wake(Instance& instance) noexcept;
 
 }  // namespace sinew::world

@@ -7,6 +7,7 @@
 #include "world/blend.hpp"
 #include "world/dormant.hpp"
 #include "world/root_motion.hpp"
+#include "world/teleport.hpp"
 
 namespace sinew::world {
 namespace {
@@ -21,7 +22,7 @@ void hold_pose(Instance& instance) noexcept {
   state.root = state.next_root;
   keep_space(state);
   state.dt_before_s = 0;
-  state.teleported = 0;
+  forget_teleports(instance);
   std::fill_n(state.velocity_m_s, 3, 0.0);
   std::fill_n(state.angular_velocity, 3, 0.0);
 }

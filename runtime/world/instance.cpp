@@ -22,12 +22,13 @@
 #include "world/rod_contacts.hpp"
 #include "world/rod_sleep.hpp"
 #include "world/sleep.hpp"
+#include "world/teleport.hpp"
 
 namespace sinew::world {
 namespace {
 
 static_assert(std::is_trivially_copyable_v<InstanceState>, "saved as bytes");
-static_assert(sizeof(InstanceState) == 560, "no padding: equal states are equal bytes");
+static_assert(sizeof(InstanceState) == 648, "no padding: equal states are equal bytes");
 static_assert(offsetof(InstanceState, root) == kPlannedStateBytes, "what is planned by comes first");
 
 float smooth_step(float t) noexcept { return t * t * (3 - 2 * t); }
@@ -175,6 +176,22 @@ float Instance::regained_share(size_t region) const noexcept {
   return smooth_step(static_cast<float>(state->seam_ticks) / kBlendInTicks);
 }
 
+namespace {
+
+Status scale_sources(Instance& instance) noexcept {
+  ContactSource** const given[] = {&instance.contacts.source, &instance.contacts.surface};
+  for (int k = 0; k < 2; ++k) {
+    if (!*given[k]) continue;
+    instance.scaled[k].reset(new (std::nothrow) ScaledSource(*given[k]));
+    if (!instance.scaled[k])
+      return core::make_status(StatusCode::kOutOfCapacity, "create_instance: no memory for its contacts");
+    *given[k] = instance.scaled[k].get();
+  }
+  return {};
+}
+
+}  // namespace
+
 size_t instance_bytes(const Asset& asset) noexcept {
   core::Arena measure;
   Instance unused;
@@ -190,6 +207,7 @@ Status make_instance(Asset& asset, const InstanceDef& def, Instance* out) noexce
   made.rod_start = def.rod_start;
   made.contacts.own_body &= !asset.pack.proxies.empty() && (asset.rods.rod_count > 0 || asset.touchable);
   if (asset.rods.rod_count == 0) made.contacts.surface = nullptr;
+  if (Status status = scale_sources(made); !status.ok()) return status;
   for (uint32_t l = 0; soft_parts_touch(asset, made.contacts) && l < asset.level_count; ++l) {
     GraphLevel& level = asset.levels[l];
     if (level.patches.first) continue;
@@ -237,6 +255,7 @@ void forget_displacement(Instance& instance) noexcept {
   std::memset(instance.tail, 0, bytes);
   std::memset(instance.tail_velocity, 0, bytes);
   forget_rods(instance);
+  forget_carried(instance);
   forget_pushes(instance);
   instance.told = {};
   state.motion_stale = 1;
@@ -260,7 +279,7 @@ void forget_motion(Instance& instance) noexcept {
   state.still_ticks = 0;
   wake(instance);
   state.render_fraction = 0;
-  state.teleported = 0;
+  forget_teleports(instance);
   state.excitation = 1;
   std::fill_n(state.velocity_m_s, 3, 0.0);
   std::fill_n(state.angular_velocity, 3, 0.0);

@@ -16,6 +16,7 @@
 #include "world/asset.hpp"
 #include "world/pose.hpp"
 #include "world/rod_source.hpp"
+#include "world/scaled_source.hpp"
 
 namespace sinew::world {
 
@@ -65,6 +66,8 @@ struct InstanceState {
   double velocity_m_s[3] = {};      // of the root over the last step, world
   double angular_velocity[3] = {};  // rad/s, character axes
   double velocity_before_m_s[3] = {}, angular_velocity_before[3] = {};  // likewise, of the step before that
+  double teleport_step_m[3] = {},
+         teleport_turn[3] = {};   // world/teleport.hpp: of the step that teleported last
   double tick_root_m[3][3] = {};  // of the last three ticks, newest first
   float render_fraction = 0;      // remainder in ticks: how far the shown displacement is carried on
   uint32_t has_next = 0;          // set_pose since the last step
@@ -92,8 +95,9 @@ struct InstanceState {
   uint32_t still_ticks = 0;                   // world/dormant.hpp
   uint32_t seam_ticks = kBlendInTicks;        // since the level changed, at most kBlendInTicks
   uint32_t space_id = 0, next_space_id = 0;
-  float time_scale = 1, felt_root = 1;              // World::set_time_scale, set_felt_root_motion
-  uint32_t root_teleports = 0, part_teleports = 0;  // since creation
+  uint32_t space_changed = 0, carried_capsules = 0;  // in the last step; world/teleport.hpp
+  float time_scale = 1, felt_root = 1;               // World::set_time_scale, set_felt_root_motion
+  uint32_t root_teleports = 0, part_teleports = 0;   // since creation
 };
 inline constexpr size_t kPlannedStateBytes = offsetof(InstanceState, root);
 static_assert(kPlannedStateBytes == 64);  // a cache line
@@ -128,7 +132,7 @@ struct Touch {
 // are passed over set by the plan.
 struct InstancePlan {
   frame::TickPlan ticks;
-  double dt_s = 0;
+  double dt_s = 0;  // of its own time (World::set_time_scale)
   Tier tier = Tier::kSkinning;
   uint32_t level = 0;  // of control graphs
   float cost_us = 0;   // expected
@@ -184,6 +188,7 @@ struct Instance {
   RodWarmStart rod_start = RodWarmStart::kAsBaked;
   std::unique_ptr<rods::RodBatch[]> rod_batches;       // their state is saved beside the run of bytes below
   std::unique_ptr<rods::RodCollider[]> rod_colliders;  // [batches], theirs too; null: rods touch nothing
+  std::unique_ptr<ScaledSource> scaled[2];             // contacts.source and surface; null: there is none
   std::unique_ptr<RodSource> rod_source;               // what they ask; null: contacts.source at most
 
   // State: one run of bytes from `state` on.

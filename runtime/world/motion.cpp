@@ -11,6 +11,7 @@
 #include "tissue/node_bend.hpp"
 #include "world/own_body.hpp"
 #include "world/rod_motion.hpp"
+#include "world/rod_sleep.hpp"
 #include "world/root_motion.hpp"
 #include "world/rotation.hpp"
 #include "world/teleport.hpp"
@@ -154,6 +155,7 @@ void pose_past_parts(Instance& instance, double share, double back) noexcept {
     }
     rest_carried_rods(instance, joints, root, tick - 1);
     if (tick == 1) {
+      wake_rods(instance);  // so that capsules' last tick is kept
       pose_proxies(instance, joints, root);
       if (instance.pushes)
         std::copy_n(instance.skin, size_t{12} * pack.character->joint_count, instance.tick_skin[0]);
@@ -182,6 +184,8 @@ void take_pose(Instance& instance, const TeleportDef& teleport) noexcept {
     carry_teleports(instance, teleport);
   }
   keep_space(state);
+  for (const auto& source : instance.scaled)
+    if (source) source->set_scale(state.next_root.scale);
   remember_root_steps(instance);
   measure_velocity(instance);
 }

@@ -123,7 +123,7 @@ void sleep_on(WorldState& world, uint32_t slot, frame::TickPlans& plans) noexcep
   instance.plan.ticks = plans.of(row.remainder_s, row.asset->tick_s, time_scale_of(row));
   instance.plan.dt_s = time_scale_of(row) * world.dt_s;
   instance.passed = true;
-  stay_dormant(instance);
+  stay_dormant(instance, world.dt_s);
   row.remainder_s = row.state->remainder_s;
   row.held_s = row.state->held_s;
   row.turn_left_s = row.state->turn_left_s;

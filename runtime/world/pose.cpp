@@ -63,6 +63,7 @@ RowMatrix3 rotation_of(const RowMatrix3& m) noexcept {
 
 Status check_root(const RootTransform& given, RootTransform* root) noexcept {
   constexpr float kShortest = 1e-6f;
+  constexpr double kLeastScale = 1e-3;
   for (double place : given.position_m) {
     if (!std::isfinite(place))
       return make_status(StatusCode::kNotFinite, "root: position holds NaN or infinity");
@@ -70,6 +71,12 @@ Status check_root(const RootTransform& given, RootTransform* root) noexcept {
       return make_status(StatusCode::kInvalidArgument, "root: position %g m lies beyond +-%g m", place,
                          kFarthestRoot_m);
     }
+  }
+  if (!std::isfinite(given.scale))
+    return make_status(StatusCode::kNotFinite, "root: scale is NaN or infinity");
+  if (!(given.scale >= kLeastScale && given.scale <= 1 / kLeastScale)) {
+    return make_status(StatusCode::kInvalidArgument, "root: scale %g is not in %g..%g", given.scale,
+                       kLeastScale, 1 / kLeastScale);
   }
   const Eigen::Vector4d q = Eigen::Map<const Eigen::Vector4f>(given.rotation_xyzw).cast<double>();
   const double length = q.norm();
@@ -80,8 +87,19 @@ Status check_root(const RootTransform& given, RootTransform* root) noexcept {
                        "root: rotation has zero length; the identity is 0 0 0 1");
   }
   std::copy_n(given.position_m, 3, root->position_m);
+  root->scale = given.scale;
   Eigen::Map<Eigen::Vector4f>(root->rotation_xyzw) = (q / length).cast<float>();
   return {};
+}
+
+bool same_root(const RootTransform& a, const RootTransform& b) noexcept {
+  return a.scale == b.scale && std::equal(a.position_m, a.position_m + 3, b.position_m) &&
+         std::equal(a.rotation_xyzw, a.rotation_xyzw + 4, b.rotation_xyzw);
+}
+
+RootTransform in_own_metres(RootTransform root, double scale) noexcept {
+  for (double& place : root.position_m) place /= scale;
+  return root;
 }
 
 Status check_pose(const Pose& pose, uint32_t joint_count, RootTransform* root) noexcept {
@@ -169,6 +187,7 @@ RootTransform root_between(const RootStep& older, const RootStep& before, const 
     root.position_m[k] = a.position_m[k] + weights.next * (b.position_m[k] - a.position_m[k]) +
                          weights.past * before.place_m[k] + weights.older * older.place_m[k];
   }
+  root.scale = b.scale;
   return root;
 }
 

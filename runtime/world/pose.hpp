@@ -12,6 +12,11 @@ namespace sinew::world {
 // normalised.
 Status check_pose(const Pose& pose, uint32_t joint_count, RootTransform* root) noexcept;
 Status check_root(const RootTransform& given, RootTransform* root) noexcept;
+bool same_root(const RootTransform& a, const RootTransform& b) noexcept;  // bit for bit
+// A checked root, or space, as an instance keeps it: its place in metres of the character's, of which the
+// world has `scale` each. So all that is simulated is of the size that was baked; places and lengths that
+// leave or come from the world are multiplied or divided by root.scale where they do.
+RootTransform in_own_metres(RootTransform root, double scale) noexcept;
 
 // A joint matrix M = (R S, t): R a rotation by Gram-Schmidt, S = R^T M what is left (scale, shear,
 // mirroring), so that nothing is lost at the ends of an interpolation.

@@ -58,9 +58,10 @@ void bound_pose(Instance& instance) noexcept {
   const InstanceState& state = *instance.state;
   const RootTransform& root = state.has_next ? state.next_root : state.root;
   Eigen::Map<Vector3d>{instance.bound.middle_m} =
-      Eigen::Map<const Vector3d>(root.position_m) +
-      quaternion(root.rotation_xyzw) * Vector3d(box.center().cast<double>());
-  instance.bound.radius_m = box.diagonal().norm() / 2 + kStretch * instance.asset->reach_m;
+      root.scale * (Eigen::Map<const Vector3d>(root.position_m) +
+                    quaternion(root.rotation_xyzw) * Vector3d(box.center().cast<double>()));
+  instance.bound.radius_m =
+      static_cast<float>(root.scale) * (box.diagonal().norm() / 2 + kStretch * instance.asset->reach_m);
 }
 
 }  // namespace sinew::world

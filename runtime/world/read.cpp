@@ -108,9 +108,10 @@ Placement placement_of(const Instance& instance, const ReadDef& def) noexcept {
   Placement placement;
   if (def.space != Space::kWorld) return placement;
   const RootTransform& root = instance.state->root;
-  placement.rotation = Eigen::Map<const Eigen::Quaternionf>(root.rotation_xyzw).toRotationMatrix();
+  placement.rotation = static_cast<float>(root.scale) *
+                       Eigen::Map<const Eigen::Quaternionf>(root.rotation_xyzw).toRotationMatrix();
   for (int k = 0; k < 3; ++k) {
-    placement.offset[k] = static_cast<float>(root.position_m[k] - def.origin_m[k]);
+    placement.offset[k] = static_cast<float>(root.scale * root.position_m[k] - def.origin_m[k]);
   }
   return placement;
 }

@@ -260,6 +260,17 @@ void move_rods(Instance& instance, const Quaterniond& turn, const Vector3d& from
   anchor += to_m - from_m;
   if (turn.vec().isZero(0)) return;
   turn_proxies(instance, turn, centre);
+  const RodRig& rig = instance.asset->rods;
+  for (int tick = 0; tick < 2; ++tick) {
+    for (uint32_t s = 0; s < rig.slot_count; ++s) {
+      MapTurn rest(instance.rod_rest[tick] + size_t{4} * s);
+      rest = turn * Quaterniond(rest);
+    }
+    for (uint32_t h = 0; h < rig.hold_count(); ++h) {
+      MapPlace hold(instance.rod_hold[tick] + size_t{3} * h);
+      hold = (centre + turn * (hold - centre)).eval();
+    }
+  }
   for (uint32_t b = 0; b < instance.asset->rods.batch_count; ++b)
     instance.rod_batches[b].turn_all({turn.x(), turn.y(), turn.z(), turn.w()},
                                      {centre.x(), centre.y(), centre.z()});

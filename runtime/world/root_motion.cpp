@@ -4,8 +4,10 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "world/pose.hpp"
 #include "world/rod_motion.hpp"
 #include "world/rotation.hpp"
+#include "world/teleport.hpp"
 
 namespace sinew::world {
 namespace {
@@ -17,8 +19,9 @@ using RowMatrix3f = Eigen::Matrix<float, 3, 3, Eigen::RowMajor>;
 Vector3d place_of(const RootTransform& root) noexcept { return Eigen::Map<const Vector3d>(root.position_m); }
 Quaterniond rotation_of(const RootTransform& root) noexcept { return quaternion(root.rotation_xyzw); }
 
-RootTransform root_of(const Vector3d& place_m, const Quaterniond& rotation) noexcept {
+RootTransform root_of(const Vector3d& place_m, const Quaterniond& rotation, double scale) noexcept {
   RootTransform root;
+  root.scale = scale;
   Eigen::Map<Vector3d>(root.position_m) = place_m;
   Eigen::Map<Eigen::Vector4f>(root.rotation_xyzw) = rotation.normalized().coeffs().cast<float>();
   return root;
@@ -37,14 +40,15 @@ void turn_poses(const RowMatrix3f& turn, uint32_t count, tissue::NodePose* poses
 RootTransform carried_by(const RootTransform& from, const RootTransform& to,
                          const RootTransform& root) noexcept {
   const Quaterniond turn = rotation_of(to) * rotation_of(from).conjugate();
-  return root_of(place_of(to) + turn * (place_of(root) - place_of(from)), turn * rotation_of(root));
+  return root_of(place_of(to) + turn * (place_of(root) - place_of(from)), turn * rotation_of(root),
+                 root.scale);
 }
 
 // So much of the way to the next root.
 RootTransform on_the_way(const RootTransform& from, const RootTransform& to, double share) noexcept {
   const Quaterniond was = rotation_of(from);
   return root_of(place_of(from) + share * (place_of(to) - place_of(from)),
-                 was * exponential(share * logarithm(was.conjugate() * rotation_of(to))));
+                 was * exponential(share * logarithm(was.conjugate() * rotation_of(to))), from.scale);
 }
 
 }  // namespace
@@ -71,15 +75,48 @@ void move_past(Instance& instance, const RootTransform& root) noexcept {
   move_rods(instance, turn, from, to);
 }
 
+namespace {
+
+// To where it is in metres of another size.
+void resize(Instance& instance, double scale) noexcept {
+  InstanceState& state = *instance.state;
+  const double share = state.root.scale / scale;
+  RootTransform root = state.root;
+  for (double& place : root.position_m) place *= share;
+  for (double* own : {state.space.position_m, state.velocity_m_s, state.velocity_before_m_s})
+    for (int k = 0; k < 3; ++k) own[k] *= share;
+  root.scale = scale;
+  move_past(instance, root);
+}
+
+// That of the coming step.
+void take_own_velocity(Instance& instance) noexcept {
+  InstanceState& state = *instance.state;
+  const double dt_s = instance.plan.dt_s;
+  if (!(dt_s > 0)) return;
+  const Quaterniond was = rotation_of(state.root);
+  Eigen::Map<Vector3d>(state.velocity_m_s) = (place_of(state.next_root) - place_of(state.root)) / dt_s;
+  Eigen::Map<Vector3d>(state.angular_velocity) =
+      logarithm(was.conjugate() * rotation_of(state.next_root)) / dt_s;
+  begin_line(instance);
+}
+
+}  // namespace
+
 void leave_out_unfelt(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
-  if (state.space_id != 0 && state.space_id == state.next_space_id)
+  if (state.next_root.scale != state.root.scale) resize(instance, state.next_root.scale);
+  const bool rides = state.space_id != 0 && state.space_id == state.next_space_id;
+  if (rides && !same_root(state.space, state.next_space))
     move_past(instance, carried_by(state.space, state.next_space, state.root));
-  if (state.felt_root < 1)
+  // What it feels is counted from something else than before.
+  if (rides ? state.space_changed != 0 : state.space_id != 0) take_own_velocity(instance);
+  if (state.felt_root < 1 && !same_root(state.root, state.next_root))
     move_past(instance, on_the_way(state.root, state.next_root, 1 - static_cast<double>(state.felt_root)));
 }
 
 void keep_space(InstanceState& state) noexcept {
+  state.space_changed = state.next_space_id != state.space_id;
   state.space = state.next_space;
   state.space_id = state.next_space_id;
 }

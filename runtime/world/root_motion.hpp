@@ -1,8 +1,8 @@
 // root_motion.hpp  What of its root's motion an instance feels.
 //
-// The motion of the space that its poses name (a lift, a vehicle) is not felt, and of the rest only a share.
-// What is not felt moves the past along as a rigid body: the root before, the history of ticks, rods; so all
-// that follows sees the felt motion alone, wherever the character is.
+// The motion of the space that its poses name (a lift, a vehicle) is not felt, and of the rest only a share;
+// nor is a change of scale. What is not felt moves the past along as a rigid body: the root before, the
+// history of ticks, rods; so all that follows sees the felt motion alone, wherever the character is.
 #pragma once
 #include "world/instance.hpp"
 

@@ -83,6 +83,7 @@ bool is_limited(const WorldState& world) noexcept {
 TickContext context_of(const WorldState& world, uint64_t start_ns) noexcept {
   TickContext context{.clock = world.def.clock,
                       .profiler = world.def.profiler,
+                      .frame_s = world.dt_s,
                       .teleport = world.def.teleport,
                       .sleep_tolerance = world.def.sleep_tolerance};
   if (!is_limited(world)) return context;

@@ -60,27 +60,47 @@ RootTransform root_leading_to_next(const Instance& instance) noexcept {
       rotation_of(state.next_root) * exponential(-dt_s * Eigen::Map<const Vector3d>(state.angular_velocity));
   const Quaterniond turn = rotation * rotation_of(state.root).conjugate();
   RootTransform root;
+  root.scale = state.next_root.scale;
   Eigen::Map<Vector3d>(root.position_m) =
       place_of(state.next_root) - dt_s * (turn * Eigen::Map<const Vector3d>(state.velocity_m_s));
   Eigen::Map<Eigen::Vector4f>(root.rotation_xyzw) = rotation.coeffs().cast<float>();
   return root;
 }
 
-void carry_root(Instance& instance, double departure) noexcept {
+// Of the coming step as it was given.
+struct RawStep {
+  Vector3d place_m, turn;
+};
+RawStep raw_step(const InstanceState& state) noexcept {
+  return {place_of(state.next_root) - place_of(state.root),
+          logarithm(rotation_of(state.root).conjugate() * rotation_of(state.next_root))};
+}
+
+// A step that goes just as far as the one that teleported is no second teleport but a velocity that began at
+// once.
+bool goes_on_alike(const InstanceState& state, const RawStep& step, const TeleportBounds& most) noexcept {
+  const Vector3d place = step.place_m - Eigen::Map<const Vector3d>(state.teleport_step_m);
+  const Vector3d turn = step.turn - Eigen::Map<const Vector3d>(state.teleport_turn);
+  return departure(place, turn.norm(), 0, most) <= kAsBefore;
+}
+
+void carry_root(Instance& instance, double departure, const TeleportBounds& most) noexcept {
   InstanceState& state = *instance.state;
-  if (departure > 1) {
-    // A second one in the next step is no jump but a velocity that was none.
-    if (std::exchange(state.teleported, uint16_t{1})) {
+  const RawStep step = raw_step(state);
+  const bool before = std::exchange(state.teleported, static_cast<uint16_t>(departure > 1)) != 0;
+  if (departure > 1 && !(before && goes_on_alike(state, step, most))) {
+    ++state.root_teleports;
+    Eigen::Map<Vector3d>(state.teleport_step_m) = step.place_m;
+    Eigen::Map<Vector3d>(state.teleport_turn) = step.turn;
+    if (before) {  // two cuts: of how it moves nothing is known
       std::fill_n(state.velocity_m_s, 3, 0.0);
       std::fill_n(state.angular_velocity, 3, 0.0);
     }
-    ++state.root_teleports;
     move_past(instance, root_leading_to_next(instance));
-  } else if (std::exchange(state.teleported, uint16_t{0}) && departure > kAsBefore) {
-    // All of the history on this step's line; rods keep what they swing with.
-    state.dt_before_s = 0;
-    state.motion_stale = 1;
-    carry_rods(instance);
+    if (before) begin_line(instance);
+  } else if (before && departure > kAsBefore) {
+    state.teleported = 0;
+    begin_line(instance);
   }
 }
 
@@ -186,11 +206,13 @@ bool carry_joints(Instance& instance, const TeleportBounds& most, bool all) noex
   for (uint32_t j = 0; j < instance.level->pack.character->joint_count; ++j) {
     uint32_t& mark = instance.joint_teleports[j];
     if (mark == kNone && !all && !may_teleport(instance, j, static_cast<float>(ratio), most)) continue;
-    JointPath path = path_of(instance, j, ratio);
+    const JointPath path = path_of(instance, j, ratio);
     const double off = joint_departure(path, most);
     if (all || off > 1) {
-      if (mark != kNone) path.step_m = path.turn = Vector3d::Zero();
-      rebase_joint(instance, j, path);
+      if (mark == kNone)
+        rebase_joint(instance, j, path);
+      else  // two cuts: of how it moves nothing is known
+        instance.joints_before[j] = instance.joints[j] = instance.next_joints[j];
       mark = kTeleports;
     } else if (mark != kNone) {
       mark = off > kAsBefore ? kGoesOn : kNone;
@@ -219,6 +241,7 @@ void mark_parts(Instance& instance) noexcept {
   const pack::PackView& pack = instance.level->pack;
   const uint32_t* marks = instance.joint_teleports;
   uint32_t carried = 0;
+  instance.state->carried_capsules = 1;
   for (size_t r = 0; r < pack.regions.size(); ++r) {
     const auto nodes = pack.nodes.subspan(pack.regions[r].first_node, pack.regions[r].node_count);
     const bool one = std::ranges::any_of(nodes, [&](const auto& node) { return follows(node.skin, marks); });
@@ -241,8 +264,8 @@ void mark_parts(Instance& instance) noexcept {
 }  // namespace
 
 TeleportBounds teleport_bounds(const TeleportDef& def, float height_m, double dt_s) noexcept {
-  constexpr double kUsual_s = 1.0 / 60, kShortest_s = 1e-4, kRounding = 1e-4;
-  if (dt_s < kShortest_s) return {kRounding * static_cast<double>(height_m), kRounding, kRounding};
+  constexpr double kUsual_s = 1.0 / 60, kRounding = 1e-4;
+  if (!(dt_s > 0)) return {kRounding * static_cast<double>(height_m), kRounding, kRounding};
   const double frames = std::max(1.0, dt_s / kUsual_s);
   return {frames * static_cast<double>(def.distance * height_m), frames * static_cast<double>(def.angle_rad),
           frames * std::log(static_cast<double>(def.scale))};
@@ -253,26 +276,42 @@ void carry_teleports(Instance& instance, const TeleportDef& def) noexcept {
   const bool all = std::exchange(instance.state->teleport_told, uint16_t{0}) != 0;
   const bool joints = carry_joints(instance, most, all), was = instance.state->teleported != 0;
   if (joints) mark_parts(instance);
-  carry_root(instance, all ? 2 : root_departure(instance, most));
+  if (instance.state->motion_stale) forget_carried(instance);  // nothing is known that could be carried
+  carry_root(instance, all ? 2 : root_departure(instance, most), most);
   // The poses before the last two were not moved.
   if (joints || was || instance.state->teleported) instance.state->dt_older_s = 0;
 }
 
 void carry_rods(Instance& instance) noexcept {
+  if (instance.state->motion_stale) return;  // what they swing with is not known
   std::fill_n(instance.carried_rods, instance.asset->rods.rod_count, 1u);
+}
+
+void begin_line(Instance& instance) noexcept {
+  carry_rods(instance);
+  instance.state->dt_before_s = 0;
+  instance.state->motion_stale = 1;
 }
 
 bool carries_parts(const Instance& instance) noexcept {
   const auto any = [](const uint32_t* marks, size_t count) {
     return std::any_of(marks, marks + count, [](uint32_t mark) { return mark != 0; });
   };
-  return any(instance.carried_regions, instance.level->pack.regions.size()) ||
+  return instance.state->carried_capsules != 0 ||
+         any(instance.carried_regions, instance.level->pack.regions.size()) ||
          any(instance.carried_rods, instance.asset->rods.rod_count);
 }
 
 void forget_carried(Instance& instance) noexcept {
+  instance.state->carried_capsules = 0;
   std::fill_n(instance.carried_regions, instance.level->pack.regions.size(), 0u);
   std::fill_n(instance.carried_rods, instance.asset->rods.rod_count, 0u);
+}
+
+void forget_teleports(Instance& instance) noexcept {
+  forget_carried(instance);
+  std::fill_n(instance.joint_teleports, instance.level->pack.character->joint_count, 0u);
+  instance.state->teleported = instance.state->teleport_told = 0;
 }
 
 }  // namespace sinew::world

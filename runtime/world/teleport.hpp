@@ -25,6 +25,10 @@ void carry_teleports(Instance& instance, const TeleportDef& def) noexcept;
 
 // All rods, over ticks that are not followed.
 void carry_rods(Instance& instance) noexcept;
+// All of the history is put on the coming step's line: its velocity is taken to have been there before.
+void begin_line(Instance& instance) noexcept;
+// As if nothing had teleported yet.
+void forget_teleports(Instance& instance) noexcept;
 
 // For the next tick; forget_carried after it.
 bool carries_parts(const Instance& instance) noexcept;

@@ -150,9 +150,9 @@ void meet_deadline(Instance& instance, const TickContext& context, uint64_t now_
   instance.held = late && !frame::is_simulated(plan.tier) && instance.displaced;
 }
 
-void age(Instance& instance, bool rose) noexcept {
+void age(Instance& instance, bool rose, double frame_s) noexcept {
   InstanceState& state = *instance.state;
-  const auto dt_s = static_cast<float>(instance.plan.dt_s);
+  const auto dt_s = static_cast<float>(frame_s);
   state.waited_s = frame::is_simulated(state.tier) ? 0 : state.waited_s + dt_s;
   state.held_s = rose ? 0 : state.held_s + dt_s;
   state.turn_left_s = std::max(0.0f, state.turn_left_s - dt_s);
@@ -208,7 +208,7 @@ void step_instance(Instance& instance, const TickContext& context, uint32_t slot
   watch_pose(instance);
   run_ticks(instance, context, slot);
   keep_pose(instance);
-  age(instance, rose);
+  age(instance, rose, context.frame_s);
   if (instance.plan.ticks.ticks > 0) follow_excitation(instance);
   fall_dormant(instance);
   const uint64_t ticked_ns = core::now_ns(context.clock);
@@ -239,7 +239,7 @@ void step_idle(Instance& instance, const TickContext& context) noexcept {
   state.render_fraction = static_cast<float>(ticks.remainder_s / instance.asset->tick_s);
   take_pose(instance, context.teleport);
   keep_pose(instance);
-  age(instance, false);
+  age(instance, false, context.frame_s);
   if (ticks.ticks > 0) follow_excitation(instance);
   if (!skins_on_reading(instance)) publish(instance);
 }

@@ -14,6 +14,7 @@ struct TickContext {
   uint64_t deadline_ns = UINT64_MAX;
   float tasks_us = 0;      // from the step's start to there
   float behind_scale = 1;  // of InstancePlan::behind_us: workers share it
+  double frame_s = 0;      // what the world's step takes
   TeleportDef teleport = {};
   float sleep_tolerance = 0;  // WorldDef; 0: regions never sleep
 };

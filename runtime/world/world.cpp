@@ -230,6 +230,7 @@ Status World::create_instance(const InstanceDef& def, InstanceId* out) noexcept 
   if (busy(*impl_)) return refuse_busy();
   InstanceDef checked = def;
   if (Status status = world::check_root(def.root, &checked.root); !status.ok()) return status;
+  checked.root = world::in_own_metres(checked.root, checked.root.scale);
   if (def.contacts.surface && def.contacts.surface == def.contacts.source)
     return invalid("create_instance: the surface is the source: rods would touch it twice");
   if (impl_->instances.count() == impl_->instances.capacity()) {
@@ -279,15 +280,18 @@ Status World::set_pose(InstanceId id, const Pose& pose) noexcept {
       return status;
     }
   }
-  if (instance->state->dormant && pose.space.id == 0 && world::has_pose(*instance, pose.joints, root))
-    return {};
+  root = world::in_own_metres(root, root.scale);
+  space = world::in_own_metres(space, root.scale);
+  const bool rides_alike = pose.space.id == instance->state->space_id &&
+                           (pose.space.id == 0 || world::same_root(space, instance->state->space));
+  if (instance->state->dormant && rides_alike && world::has_pose(*instance, pose.joints, root)) return {};
   world::wake(*instance);
   std::copy(pose.joints.begin(), pose.joints.end(), instance->next_joints);
   instance->state->next_root = root;
   instance->state->has_next = 1;
   instance->state->next_space = space;
   instance->state->next_space_id = pose.space.id;
-  if (pose.teleport) instance->state->teleport_told = 1;
+  instance->state->teleport_told = pose.teleport;
   world::bound_pose(*instance);
   world::keep_pose_row(*impl_, id.index1 - 1);
   return {};
@@ -309,7 +313,7 @@ Status World::set_time_scale(InstanceId id, float scale) noexcept {
   Instance* instance = nullptr;
   if (Status status = find_state(impl_, id, &instance); !status.ok()) return status;
   if (busy(*impl_)) return refuse_busy();
-  constexpr float kFastest = 16;
+  constexpr float kFastest = 4;
   if (Status status = check_share("set_time_scale: scale", scale, kFastest); !status.ok()) return status;
   instance->state->time_scale = scale;
   keep_row(*impl_, id);

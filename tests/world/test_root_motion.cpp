@@ -169,3 +169,40 @@ TEST_CASE("who_gets_on_or_off_feels_its_own_way_alone") {
   for (int f = 0; f < 60; ++f) CHECK(step(within(lift(f * kFrame_s), {}), 3, f * kFrame_s) < 1e-5);
   CHECK(stage.report().teleports == 0);
 }
+
+TEST_CASE("who_boards_and_leaves_what_moves_evenly_feels_nothing") {
+  Stage stage;
+  double x_m = 0;
+  for (int f = -180; f < 180; ++f) {
+    const double share = std::clamp((f + 180) / 60.0, 0.0, 1.0);
+    x_m += 4 * kFrame_s * share * share * (3 - 2 * share);
+    BlockPose pose = scenes::bind_pose();
+    pose.root.position_m[0] = x_m;
+    Pose given = pose.pose();
+    given.space = {.id = f >= 60 && f < 120 ? 4u : 0u, .root = pose.root};
+    REQUIRE(stage.world.set_pose(stage.blocks[0], given).ok());
+    stage.world.step(static_cast<float>(kFrame_s));
+    if (f >= 50) CHECK(test::largest_length(stage.read(0, Space::kBind)) < 1e-4);
+  }
+}
+
+TEST_CASE("who_rides_at_rest_falls_dormant_and_is_taken_along") {
+  Stage stage;
+  const auto step = [&](uint32_t id, double up_m) {
+    const BlockPose block = scenes::bind_pose();
+    Pose pose = block.pose();
+    pose.root.position_m[1] = up_m;
+    pose.space.id = id;
+    pose.space.root.position_m[1] = up_m;
+    REQUIRE(stage.world.set_pose(stage.blocks[0], pose).ok());
+    stage.world.step(static_cast<float>(kFrame_s));
+  };
+  for (int f = 0; f < 200; ++f) step(5, 0);
+  CHECK(stage.report().dormant);
+  const std::vector<float> before = stage.read(0, Space::kWorld);
+  step(5, 0.01);
+  const std::vector<float> after = stage.read(0, Space::kWorld);
+  for (size_t i = 1; i < after.size(); i += 3) CHECK(after[i] == Approx(before[i] + 0.01).margin(1e-6));
+  step(0, 0.01);
+  CHECK(test::largest_length(stage.read(0, Space::kBind)) < 1e-5);
+}

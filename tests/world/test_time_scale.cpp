@@ -18,7 +18,7 @@ TEST_CASE("a_time_scale_that_is_none_is_refused") {
   stage.play(scenes::walk, 0.5);
   const std::vector<std::byte> before = stage.save();
   CHECK(stage.world.set_time_scale(stage.blocks[0], kNan).code == StatusCode::kNotFinite);
-  for (const float bad : {-1.0f, 17.0f, INFINITY})
+  for (const float bad : {-1.0f, 4.1f, INFINITY})
     CHECK(stage.world.set_time_scale(stage.blocks[0], bad).code == StatusCode::kInvalidArgument);
   CHECK(stage.world.set_time_scale({}, 1).code == StatusCode::kStaleId);
   CHECK(stage.save() == before);

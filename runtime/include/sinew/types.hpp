@@ -22,14 +22,18 @@ struct Matrix34 {
 struct RootTransform {
   double position_m[3] = {0, 0, 0};       // within +-1e12
   float rotation_xyzw[4] = {0, 0, 0, 1};  // normalised on entry; zero length or NaN: refused
+  // 1e-3..1e3, else refused: how many metres of the world one of the character's is. Flesh and rods move as
+  // those of the character as it was baked do on a root whose travel is as much shorter, under the same
+  // gravity.
+  double scale = 1;
 };
 
 // A space that a character rides on, by a number of the caller's choice. Between two poses that name the same
-// one its motion is not felt; one that gets on, off or over feels what its root does, which a TeleportDef
-// bounds.
+// one its motion is not felt; one that gets on or off feels its way there, and nothing of
+// the speed that is then counted from something else.
 struct RiddenSpace {
   uint32_t id = 0;          // 0: none
-  RootTransform root = {};  // world from space; refused as a pose's root
+  RootTransform root = {};  // world from space; refused as a pose's root; its scale is not looked at
 };
 
 // One pose of one character. What set_pose refuses leaves the last good pose in place.
@@ -100,7 +104,8 @@ struct ProfilerHook {
 // space), ends further than this from where its motion of the last step would have brought it, or
 // Pose::teleport says so. What hangs on it is carried: soft parts and rods keep their shape and what they
 // swing with, and feel nothing of it, nor of a step after it that goes on at quite another speed.
-// In frames longer than 1/60 s as much is allowed for each 1/60 s of them; in a step of no time nothing is.
+// In frames longer than 1/60 s as much is allowed for each 1/60 s of them; in a step of no time nothing is,
+// whatever stands here. A velocity that begins at once and lasts is taken to have been there after one step.
 // InstanceReport::teleports counts them.
 struct TeleportDef {
   float distance = 0.15f;  // > 0, of the character's height in its bind pose; infinity: never
@@ -108,13 +113,13 @@ struct TeleportDef {
   float scale = 1.25f;     // > 1, by so much a joint grows or shrinks; infinity: never
   // > 0, heights/s^2, infinity: none. What is felt of the root's and the nodes' acceleration in motions that
   // are no teleports: as it is up to half of this, from there approaching it smoothly.
-  float acceleration = 100;
+  float acceleration = 150;
 };
 
 // A field outside its range: World::create refuses.
 struct WorldDef {
-  uint32_t max_assets = 16;         // 1..65535; one more load is refused with kOutOfCapacity
-  uint32_t max_instances = 64;      // 1..100000; one more create is refused with kOutOfCapacity
+  uint32_t max_assets = 16;     // 1..65535; one more load is refused with kOutOfCapacity
+  uint32_t max_instances = 64;  // 1..100000; one more create is refused with kOutOfCapacity
   // 1..64; a longer frame drops the excess at its start and reports it. Of a tick rate of 60 Hz 8 are 0.13 s.
   uint32_t max_ticks_per_step = 8;
   TeleportDef teleport = {};
@@ -221,8 +226,8 @@ struct InstanceReport {
   uint32_t restarts = 0;
   uint32_t regions_asleep = 0;    // soft parts at rest, left out until they feel more
   uint32_t regions_left_out = 0;  // soft parts that its control graph does not have: they are skinned
-  // Since creation, TeleportDef: steps in which the root teleported; soft parts and rods in steps in which
-  // only joints did that move them.
+  // Since creation, TeleportDef: steps in which the root teleported; soft parts and rods, a step each, whose
+  // joints did.
   uint32_t teleports = 0, part_teleports = 0;
   // Since creation: rods that had to be put together or put back where they are held.
   uint32_t rod_recoveries = 0;

@@ -16,8 +16,8 @@
 // step calls (hooks, contact and occlusion sources), on whatever thread, calls none of them: there, those
 // that are not const are refused with kInvalidArgument, the assert hook hears of it, and a step inside the
 // step does nothing. Nothing here throws or prints. step, set_pose, set_importance, set_views, set_hidden,
-// set_budget_us, reset, read_*, report, history, save_state and restore_state never allocate or block; the
-// others may allocate.
+// set_time_scale, set_felt_root_motion, set_budget_us, reset, read_*, report, history, save_state and
+// restore_state never allocate or block; the others may allocate.
 //
 // Nothing here traps, and results do not depend on the calling thread's floating-point mode (rounding,
 // denormals, trap masks): every function computes in its own and gives the thread's back whole. Callbacks
@@ -88,7 +88,7 @@ class World {
   // The engine's own culling: hidden whatever the views show, until it says otherwise.
   Status set_hidden(InstanceId instance, bool hidden) noexcept;
   // From the next step on its time runs so many times as fast as the world's: 0 holds it, as a step of no
-  // time does, 0.1 is slow motion. Poses are then those of its own time. 0..16, else kInvalidArgument, NaN:
+  // time does, 0.1 is slow motion. Poses are then those of its own time. 0..4, else kInvalidArgument, NaN:
   // kNotFinite; it stays. Part of the state that is saved.
   Status set_time_scale(InstanceId instance, float scale) noexcept;
   // Of what its root moves from the next step on it feels so much: 1, the default, all, 0 nothing (a
