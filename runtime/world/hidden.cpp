@@ -20,7 +20,7 @@ void hold_pose(Instance& instance) noexcept {
   std::copy_n(instance.next_joints, joints, instance.joints);
   std::copy_n(instance.next_joints, joints, instance.joints_before);
   state.root = state.next_root;
-  keep_space(state);
+  keep_space(instance);
   state.dt_before_s = 0;
   forget_teleports(instance);
   std::fill_n(state.velocity_m_s, 3, 0.0);

@@ -28,7 +28,7 @@ namespace sinew::world {
 namespace {
 
 static_assert(std::is_trivially_copyable_v<InstanceState>, "saved as bytes");
-static_assert(sizeof(InstanceState) == 648, "no padding: equal states are equal bytes");
+static_assert(sizeof(InstanceState) == 672, "no padding: equal states are equal bytes");
 static_assert(offsetof(InstanceState, root) == kPlannedStateBytes, "what is planned by comes first");
 
 float smooth_step(float t) noexcept { return t * t * (3 - 2 * t); }
@@ -178,12 +178,13 @@ float Instance::regained_share(size_t region) const noexcept {
 
 namespace {
 
-Status scale_sources(Instance& instance) noexcept {
+Status scale_sources(const Asset& asset, Instance& instance) noexcept {
+  const size_t probes = std::max(kProbesAtOnce, asset.rods.slot_count);
   ContactSource** const given[] = {&instance.contacts.source, &instance.contacts.surface};
   for (int k = 0; k < 2; ++k) {
     if (!*given[k]) continue;
-    instance.scaled[k].reset(new (std::nothrow) ScaledSource(*given[k]));
-    if (!instance.scaled[k])
+    instance.scaled[k].reset(new (std::nothrow) ScaledSource(*given[k], probes));
+    if (!instance.scaled[k] || !instance.scaled[k]->is_complete())
       return core::make_status(StatusCode::kOutOfCapacity, "create_instance: no memory for its contacts");
     *given[k] = instance.scaled[k].get();
   }
@@ -207,7 +208,7 @@ Status make_instance(Asset& asset, const InstanceDef& def, Instance* out) noexce
   made.rod_start = def.rod_start;
   made.contacts.own_body &= !asset.pack.proxies.empty() && (asset.rods.rod_count > 0 || asset.touchable);
   if (asset.rods.rod_count == 0) made.contacts.surface = nullptr;
-  if (Status status = scale_sources(made); !status.ok()) return status;
+  if (Status status = scale_sources(asset, made); !status.ok()) return status;
   for (uint32_t l = 0; soft_parts_touch(asset, made.contacts) && l < asset.level_count; ++l) {
     GraphLevel& level = asset.levels[l];
     if (level.patches.first) continue;
@@ -306,6 +307,7 @@ InstanceReport describe(const Instance& instance, InstanceId id) noexcept {
   const float blend = instance.shown_share();
   const bool simulated = frame::is_simulated(state.tier);
   const uint32_t asleep = simulated ? regions_asleep(instance) : 0;
+  const auto scale = static_cast<float>(state.root.scale);
   return {.instance = id,
           .tier = simulated || blend > 0 ? state.tier : Tier::kSkinning,
           .why = reason_of(instance, asleep),
@@ -330,8 +332,8 @@ InstanceReport describe(const Instance& instance, InstanceId id) noexcept {
           .vertices_touched = instance.told.vertices,
           .contacts_refused = instance.told.refused,
           .contacts_dropped = instance.told.dropped,
-          .contact_volume_m3 = instance.told.volume_m3,
-          .deepest_penetration_m = instance.told.deepest_m,
+          .contact_volume_m3 = instance.told.volume_m3 * scale * scale * scale,
+          .deepest_penetration_m = instance.told.deepest_m * scale,
           .cost_us = core::microseconds(instance.times.total_ns),
           .planned_us = state.hidden ? 0 : instance.plan.cost_us,
           .hidden = state.hidden != 0,

@@ -66,8 +66,9 @@ struct InstanceState {
   double velocity_m_s[3] = {};      // of the root over the last step, world
   double angular_velocity[3] = {};  // rad/s, character axes
   double velocity_before_m_s[3] = {}, angular_velocity_before[3] = {};  // likewise, of the step before that
-  double teleport_step_m[3] = {},
-         teleport_turn[3] = {};   // world/teleport.hpp: of the step that teleported last
+  double ride_velocity_m_s[3] = {};                                     // of what it rides on, where it is
+  // world/teleport.hpp: of the step that teleported last.
+  double teleport_velocity_m_s[3] = {}, teleport_spin[3] = {};
   double tick_root_m[3][3] = {};  // of the last three ticks, newest first
   float render_fraction = 0;      // remainder in ticks: how far the shown displacement is carried on
   uint32_t has_next = 0;          // set_pose since the last step

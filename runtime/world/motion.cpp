@@ -177,13 +177,14 @@ void take_pose(Instance& instance, const TeleportDef& teleport) noexcept {
     state.dt_before_s = 0;
     state.root = state.next_root;
     state.at_start = 0;
+    state.space_id = state.next_space_id;  // it has always been there
     state.untouched = 1;
     state.motion_stale = 1;
   } else {
     leave_out_unfelt(instance);
     carry_teleports(instance, teleport);
   }
-  keep_space(state);
+  keep_space(instance);
   for (const auto& source : instance.scaled)
     if (source) source->set_scale(state.next_root.scale);
   remember_root_steps(instance);

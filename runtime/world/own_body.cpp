@@ -131,6 +131,11 @@ void turn_proxies(Instance& instance, const Quaterniond& turn, const Vector3d& c
   }
 }
 
+void move_last_proxies(Instance& instance, const Vector3d& by_m) noexcept {
+  for (uint32_t end = 0; end < 2 * proxy_count(instance); ++end)
+    MapPlace(instance.proxy_ends[1] + size_t{3} * end) += by_m;
+}
+
 void set_proxies(Instance& instance, rods::RodCollider& collider) noexcept {
   std::array<rods::Capsule, pack::kMostProxies> capsules;
   const uint32_t count = proxy_count(instance);

@@ -19,6 +19,8 @@ void pass_proxies(const Instance& instance, uint32_t batch, rods::RodCollider& c
 // Puts the pose's ends in front; behind it stay those of the tick before or, where rods sleep, of when they
 // fell asleep, so that what creeps wakes them too.
 void pose_proxies(Instance& instance, const Matrix34* joints, const RootTransform& root) noexcept;
+// Those of the tick before the last.
+void move_last_proxies(Instance& instance, const Eigen::Vector3d& by_m) noexcept;
 // As the rods are turned in a teleport.
 void turn_proxies(Instance& instance, const Eigen::Quaterniond& turn,
                   const Eigen::Vector3d& centre_m) noexcept;

@@ -102,14 +102,15 @@ void for_each_chunk(const Instance& instance, Work work) noexcept {
 struct Placement {
   Matrix3f rotation = Matrix3f::Identity();
   Vector3f offset = Vector3f::Zero();
+  float scale = 1;
 };
 
 Placement placement_of(const Instance& instance, const ReadDef& def) noexcept {
   Placement placement;
   if (def.space != Space::kWorld) return placement;
   const RootTransform& root = instance.state->root;
-  placement.rotation = static_cast<float>(root.scale) *
-                       Eigen::Map<const Eigen::Quaternionf>(root.rotation_xyzw).toRotationMatrix();
+  placement.rotation = Eigen::Map<const Eigen::Quaternionf>(root.rotation_xyzw).toRotationMatrix();
+  placement.scale = static_cast<float>(root.scale);
   for (int k = 0; k < 3; ++k) {
     placement.offset[k] = static_cast<float>(root.scale * root.position_m[k] - def.origin_m[k]);
   }
@@ -125,7 +126,8 @@ void write_places(const Instance& instance, const ReadDef& def) noexcept {
     skin_chunk(instance, matrices, chunk);
     for (uint32_t i = 0; i < chunk.count; ++i) {
       const Vector3f point(chunk.points[i]);
-      store(def, chunk.first + i, def.space == Space::kWorld ? to.rotation * point + to.offset : point);
+      store(def, chunk.first + i,
+            def.space == Space::kWorld ? to.scale * (to.rotation * point) + to.offset : point);
     }
   });
 }

@@ -165,15 +165,8 @@ void drive_rod(Instance& instance, uint32_t rod) noexcept {
   if (seat.end_hold != pack::kNoIndex) drive_end(instance, seat, batch);
 }
 
-// They go along with what of the root's acceleration is not felt.
-void spare_rods(Instance& instance, float most_m_s2) noexcept {
-  const auto& root_m = instance.state->tick_root_m;
-  const auto place = [&](int tick) -> Vector3d { return Eigen::Map<const Vector3d>(root_m[tick]); };
-  const double tick_s = instance.asset->tick_s;
-  const Vector3d change_m_s = (place(0) - 2 * place(1) + place(2)) / tick_s;
-  const float share = tissue::felt_share(static_cast<float>(change_m_s.norm() / tick_s), most_m_s2);
-  if (share == 1) return;
-  const Eigen::Vector3f along_m_s = (double{1 - share} * change_m_s).cast<float>();
+void add_to_velocities(Instance& instance, const Vector3d& added_m_s) noexcept {
+  const Eigen::Vector3f along_m_s = added_m_s.cast<float>();
   for (const RodSeat& seat : instance.asset->rods.seats()) {
     rods::RodBatch& batch = instance.rod_batches[seat.batch];
     for (uint32_t k = 1; k <= seat.segment_count(); ++k) {
@@ -182,6 +175,17 @@ void spare_rods(Instance& instance, float most_m_s2) noexcept {
       (void)batch.set_velocity(seat.strand, k, velocity);
     }
   }
+}
+
+// They go along with what of the root's acceleration is not felt.
+void spare_rods(Instance& instance, float most_m_s2) noexcept {
+  const auto& root_m = instance.state->tick_root_m;
+  const auto place = [&](int tick) -> Vector3d { return Eigen::Map<const Vector3d>(root_m[tick]); };
+  const double tick_s = instance.asset->tick_s;
+  const Vector3d change_m_s = (place(0) - 2 * place(1) + place(2)) / tick_s;
+  const float share = tissue::felt_share(static_cast<float>(change_m_s.norm() / tick_s), most_m_s2);
+  if (share == 1) return;
+  add_to_velocities(instance, double{1 - share} * change_m_s);
 }
 
 // As a region's displacement is held (tissue/guard.hpp): what is shown, not what swings on.
@@ -274,6 +278,17 @@ void move_rods(Instance& instance, const Quaterniond& turn, const Vector3d& from
   for (uint32_t b = 0; b < instance.asset->rods.batch_count; ++b)
     instance.rod_batches[b].turn_all({turn.x(), turn.y(), turn.z(), turn.w()},
                                      {centre.x(), centre.y(), centre.z()});
+}
+
+void speed_rods(Instance& instance, const Vector3d& added_m_s) noexcept {
+  InstanceState& state = *instance.state;
+  const Vector3d tick_m = instance.asset->tick_s * added_m_s;
+  MapPlace anchor(state.rod_anchor_m);
+  anchor -= state.remainder_s * added_m_s;
+  for (uint32_t h = 0; h < instance.asset->rods.hold_count(); ++h)
+    MapPlace(instance.rod_hold[1] + size_t{3} * h) -= tick_m;
+  move_last_proxies(instance, -tick_m);
+  add_to_velocities(instance, added_m_s);
 }
 
 void remember_rod_velocities(Instance& instance) noexcept {

@@ -27,6 +27,8 @@ void rest_rods(Instance& instance, const Matrix34* joints, const RootTransform& 
 // A teleport from one root place to another, turned.
 void move_rods(Instance& instance, const Eigen::Quaterniond& turn, const Eigen::Vector3d& from_m,
                const Eigen::Vector3d& to_m) noexcept;
+// As if root and rods had come here so much faster, all the while.
+void speed_rods(Instance& instance, const Eigen::Vector3d& added_m_s) noexcept;
 // Of rods that are carried, in what the pose gives of the tick before (0) or of that before it (1).
 void rest_carried_rods(Instance& instance, const Matrix34* joints, const RootTransform& root,
                        int tick) noexcept;

@@ -7,7 +7,6 @@
 #include "world/pose.hpp"
 #include "world/rod_motion.hpp"
 #include "world/rotation.hpp"
-#include "world/teleport.hpp"
 
 namespace sinew::world {
 namespace {
@@ -77,28 +76,51 @@ void move_past(Instance& instance, const RootTransform& root) noexcept {
 
 namespace {
 
+// As if the root had come here so much faster, all the while: counted from something that moves evenly
+// nothing else is felt.
+void add_velocity(Instance& instance, const Vector3d& added_m_s) noexcept {
+  InstanceState& state = *instance.state;
+  for (double* of_step : {state.velocity_m_s, state.velocity_before_m_s})
+    Eigen::Map<Vector3d>(of_step) += added_m_s;
+  if (state.motion_stale) return;  // there is no history
+  for (int tick = 0; tick < 3; ++tick)
+    Eigen::Map<Vector3d>(state.tick_root_m[tick]) -=
+        (state.remainder_s + tick * instance.asset->tick_s) * added_m_s;
+  speed_rods(instance, added_m_s);
+}
+
 // To where it is in metres of another size.
 void resize(Instance& instance, double scale) noexcept {
   InstanceState& state = *instance.state;
   const double share = state.root.scale / scale;
   RootTransform root = state.root;
   for (double& place : root.position_m) place *= share;
-  for (double* own : {state.space.position_m, state.velocity_m_s, state.velocity_before_m_s})
+  for (double* own : {state.space.position_m, state.ride_velocity_m_s})
     for (int k = 0; k < 3; ++k) own[k] *= share;
   root.scale = scale;
   move_past(instance, root);
+  add_velocity(instance, (share - 1) * Eigen::Map<const Vector3d>(state.velocity_m_s));
 }
 
-// That of the coming step.
-void take_own_velocity(Instance& instance) noexcept {
+// Its velocity counts from something else: plus or less that of what it rode on, as far as it is felt.
+void add_ride(Instance& instance, double sign) noexcept {
+  const InstanceState& state = *instance.state;
+  add_velocity(instance, sign * static_cast<double>(state.felt_root) *
+                             Eigen::Map<const Vector3d>(state.ride_velocity_m_s));
+}
+
+// Goes along with its space.
+void ride(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   const double dt_s = instance.plan.dt_s;
-  if (!(dt_s > 0)) return;
-  const Quaterniond was = rotation_of(state.root);
-  Eigen::Map<Vector3d>(state.velocity_m_s) = (place_of(state.next_root) - place_of(state.root)) / dt_s;
-  Eigen::Map<Vector3d>(state.angular_velocity) =
-      logarithm(was.conjugate() * rotation_of(state.next_root)) / dt_s;
-  begin_line(instance);
+  if (state.space_id != 0 && state.space_id != state.next_space_id) add_ride(instance, 1);
+  if (state.next_space_id == 0 || state.space_id != state.next_space_id) return;
+  const bool moves = !same_root(state.space, state.next_space);
+  const RootTransform carried = moves ? carried_by(state.space, state.next_space, state.root) : state.root;
+  if (dt_s > 0)
+    Eigen::Map<Vector3d>(state.ride_velocity_m_s) = (place_of(carried) - place_of(state.root)) / dt_s;
+  if (moves) move_past(instance, carried);
+  if (state.space_changed != 0 && dt_s > 0) add_ride(instance, -1);
 }
 
 }  // namespace
@@ -106,17 +128,16 @@ void take_own_velocity(Instance& instance) noexcept {
 void leave_out_unfelt(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   if (state.next_root.scale != state.root.scale) resize(instance, state.next_root.scale);
-  const bool rides = state.space_id != 0 && state.space_id == state.next_space_id;
-  if (rides && !same_root(state.space, state.next_space))
-    move_past(instance, carried_by(state.space, state.next_space, state.root));
-  // What it feels is counted from something else than before.
-  if (rides ? state.space_changed != 0 : state.space_id != 0) take_own_velocity(instance);
+  ride(instance);
   if (state.felt_root < 1 && !same_root(state.root, state.next_root))
     move_past(instance, on_the_way(state.root, state.next_root, 1 - static_cast<double>(state.felt_root)));
 }
 
-void keep_space(InstanceState& state) noexcept {
-  state.space_changed = state.next_space_id != state.space_id;
+void keep_space(Instance& instance) noexcept {
+  InstanceState& state = *instance.state;
+  const bool waits =
+      state.space_changed != 0 && !(instance.plan.dt_s > 0);  // for a step that tells how it moves
+  state.space_changed = waits || state.next_space_id != state.space_id;
   state.space = state.next_space;
   state.space_id = state.next_space_id;
 }

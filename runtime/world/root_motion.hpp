@@ -14,6 +14,6 @@ void move_past(Instance& instance, const RootTransform& root) noexcept;
 // In a step with a pose, before teleports are looked for: the past goes along with what is not felt.
 void leave_out_unfelt(Instance& instance) noexcept;
 // The space of the pose set last is the present one.
-void keep_space(InstanceState& state) noexcept;
+void keep_space(Instance& instance) noexcept;
 
 }  // namespace sinew::world

@@ -6,8 +6,6 @@
 namespace sinew::world {
 namespace {
 
-constexpr size_t kAtOnce = 64;
-
 ContactProbe scaled(ContactProbe probe, double scale) noexcept {
   for (auto& ends : {&probe.start_m, &probe.end_m})
     for (auto& end : *ends)
@@ -28,20 +26,10 @@ ContactHit scaled(ContactHit hit, double scale) noexcept {
 uint32_t ScaledSource::find(std::span<const ContactProbe> probes, float dt_s,
                             std::span<ContactHit> hits) noexcept {
   if (scale_ == 1) return source_->find(probes, dt_s, hits);
-  ContactProbe asked[kAtOnce];
-  uint32_t found = 0;
-  for (size_t first = 0; first < probes.size(); first += kAtOnce) {
-    const size_t count = std::min(kAtOnce, probes.size() - first);
-    for (size_t i = 0; i < count; ++i) asked[i] = scaled(probes[first + i], scale_);
-    const size_t taken = std::min<size_t>(found, hits.size());
-    const std::span<ContactHit> room = hits.subspan(taken);
-    const uint32_t here = source_->find({asked, count}, dt_s, room);
-    for (ContactHit& hit : room.first(std::min<size_t>(here, room.size()))) {
-      hit = scaled(hit, 1 / scale_);
-      hit.probe += static_cast<uint32_t>(first);
-    }
-    found += here;
-  }
+  const size_t count = std::min(most_, probes.size());
+  for (size_t i = 0; i < count; ++i) asked_[i] = scaled(probes[i], scale_);
+  const uint32_t found = source_->find({asked_.get(), count}, dt_s, hits);
+  for (ContactHit& hit : hits.first(std::min<size_t>(found, hits.size()))) hit = scaled(hit, 1 / scale_);
   return found;
 }
 

@@ -1,5 +1,9 @@
 // scaled_source.hpp  A contact source as an instance asks it: in its own metres, those of its bind pose.
 #pragma once
+#include <cstddef>
+#include <memory>
+#include <new>
+
 #include "sinew/contact_source.hpp"
 
 namespace sinew::world {
@@ -8,7 +12,10 @@ namespace sinew::world {
 // by it; times, directions, impulses and numbers without a unit stay. At a scale of 1 all passes as it is.
 class ScaledSource final : public ContactSource {
  public:
-  explicit ScaledSource(ContactSource* source) noexcept : source_(source) {}  // outlives it
+  // most: probes in one question; a longer one is cut off. The source outlives it.
+  ScaledSource(ContactSource* source, size_t most) noexcept
+      : source_(source), asked_(new (std::nothrow) ContactProbe[most]), most_(most) {}
+  bool is_complete() const noexcept { return asked_ != nullptr; }
   void set_scale(double scale) noexcept { scale_ = scale; }
 
   uint32_t find(std::span<const ContactProbe> probes, float dt_s,
@@ -18,6 +25,8 @@ class ScaledSource final : public ContactSource {
 
  private:
   ContactSource* source_;
+  std::unique_ptr<ContactProbe[]> asked_;
+  size_t most_;
   double scale_ = 1;
 };
 

@@ -76,29 +76,36 @@ RawStep raw_step(const InstanceState& state) noexcept {
           logarithm(rotation_of(state.root).conjugate() * rotation_of(state.next_root))};
 }
 
-// A step that goes just as far as the one that teleported is no second teleport but a velocity that began at
+// A step that goes just as fast as the one that teleported is no second teleport but a velocity that began at
 // once.
-bool goes_on_alike(const InstanceState& state, const RawStep& step, const TeleportBounds& most) noexcept {
-  const Vector3d place = step.place_m - Eigen::Map<const Vector3d>(state.teleport_step_m);
-  const Vector3d turn = step.turn - Eigen::Map<const Vector3d>(state.teleport_turn);
+bool goes_on_alike(const Instance& instance, const RawStep& step, const TeleportBounds& most) noexcept {
+  const InstanceState& state = *instance.state;
+  const double dt_s = dt_of(instance);
+  const Vector3d place = step.place_m - dt_s * Eigen::Map<const Vector3d>(state.teleport_velocity_m_s);
+  const Vector3d turn = step.turn - dt_s * Eigen::Map<const Vector3d>(state.teleport_spin);
   return departure(place, turn.norm(), 0, most) <= kAsBefore;
 }
 
-void carry_root(Instance& instance, double departure, const TeleportBounds& most) noexcept {
+// told: it is one, whatever it looks like.
+void carry_root(Instance& instance, bool told, const TeleportBounds& most) noexcept {
   InstanceState& state = *instance.state;
+  const double off = root_departure(instance, most), dt_s = dt_of(instance);
+  const bool jumps = told || off > 1;
+  if (!jumps && !(dt_s > 0)) return;  // tells nothing of how it goes on
   const RawStep step = raw_step(state);
-  const bool before = std::exchange(state.teleported, static_cast<uint16_t>(departure > 1)) != 0;
-  if (departure > 1 && !(before && goes_on_alike(state, step, most))) {
+  const bool before = std::exchange(state.teleported, static_cast<uint16_t>(jumps)) != 0;
+  if (jumps && (told || !(before && goes_on_alike(instance, step, most)))) {
     ++state.root_teleports;
-    Eigen::Map<Vector3d>(state.teleport_step_m) = step.place_m;
-    Eigen::Map<Vector3d>(state.teleport_turn) = step.turn;
+    const double rate = dt_s > 0 ? 1 / dt_s : 0;
+    Eigen::Map<Vector3d>(state.teleport_velocity_m_s) = rate * step.place_m;
+    Eigen::Map<Vector3d>(state.teleport_spin) = rate * step.turn;
     if (before) {  // two cuts: of how it moves nothing is known
       std::fill_n(state.velocity_m_s, 3, 0.0);
       std::fill_n(state.angular_velocity, 3, 0.0);
     }
     move_past(instance, root_leading_to_next(instance));
     if (before) begin_line(instance);
-  } else if (before && departure > kAsBefore) {
+  } else if (before && off > kAsBefore) {
     state.teleported = 0;
     begin_line(instance);
   }
@@ -214,11 +221,11 @@ bool carry_joints(Instance& instance, const TeleportBounds& most, bool all) noex
       else  // two cuts: of how it moves nothing is known
         instance.joints_before[j] = instance.joints[j] = instance.next_joints[j];
       mark = kTeleports;
-    } else if (mark != kNone) {
+    } else if (mark != kNone && dt_s > 0) {
       mark = off > kAsBefore ? kGoesOn : kNone;
       if (mark == kGoesOn) go_on(instance, j, path, ratio);
     }
-    found |= mark;
+    found |= mark == kTeleports || mark == kGoesOn;
   }
   return found != 0;
 }
@@ -241,17 +248,18 @@ void mark_parts(Instance& instance) noexcept {
   const pack::PackView& pack = instance.level->pack;
   const uint32_t* marks = instance.joint_teleports;
   uint32_t carried = 0;
-  instance.state->carried_capsules = 1;
+  const bool followed = !instance.state->motion_stale;  // else there is nothing that could be carried
+  instance.state->carried_capsules |= followed;
   for (size_t r = 0; r < pack.regions.size(); ++r) {
     const auto nodes = pack.nodes.subspan(pack.regions[r].first_node, pack.regions[r].node_count);
     const bool one = std::ranges::any_of(nodes, [&](const auto& node) { return follows(node.skin, marks); });
-    instance.carried_regions[r] |= one;
+    instance.carried_regions[r] |= one && followed;
     carried += one;
   }
   const RodRig& rig = instance.asset->rods;
   for (uint32_t rod = 0; rod < rig.rod_count; ++rod) {
     const bool one = rod_follows(rig, rig.seats()[rod], marks);
-    instance.carried_rods[rod] |= one;
+    instance.carried_rods[rod] |= one && followed;
     carried += one;
   }
   const bool teleported = std::ranges::any_of(std::span(marks, pack.character->joint_count),
@@ -276,8 +284,7 @@ void carry_teleports(Instance& instance, const TeleportDef& def) noexcept {
   const bool all = std::exchange(instance.state->teleport_told, uint16_t{0}) != 0;
   const bool joints = carry_joints(instance, most, all), was = instance.state->teleported != 0;
   if (joints) mark_parts(instance);
-  if (instance.state->motion_stale) forget_carried(instance);  // nothing is known that could be carried
-  carry_root(instance, all ? 2 : root_departure(instance, most), most);
+  carry_root(instance, all, most);
   // The poses before the last two were not moved.
   if (joints || was || instance.state->teleported) instance.state->dt_older_s = 0;
 }

@@ -275,7 +275,9 @@ Status World::set_pose(InstanceId id, const Pose& pose) noexcept {
   }
   RootTransform space;
   if (pose.space.id != 0) {
-    if (Status status = world::check_root(pose.space.root, &space); !status.ok()) {
+    RootTransform given = pose.space.root;
+    given.scale = 1;  // not looked at
+    if (Status status = world::check_root(given, &space); !status.ok()) {
       ++impl_->rejected_poses;
       return status;
     }

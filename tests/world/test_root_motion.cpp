@@ -186,6 +186,57 @@ TEST_CASE("who_boards_and_leaves_what_moves_evenly_feels_nothing") {
   }
 }
 
+// A pause in the midst of it, a share that is felt, a cut on leaving; rods swing on.
+TEST_CASE("who_boards_and_leaves_keeps_the_swing_of_its_rods") {
+  for (const bool pauses : {false, true}) {
+    Stage riding(1, {}, tailed_pack()), usual(1, {}, tailed_pack());
+    double apart = 0, swing = 0;
+    const std::vector<float> rest = joints_of(usual);
+    for (int f = 0; f < 120; ++f) {
+      const double t = f * kFrame_s, x_m = 4 * std::max(0.0, t - 0.25);
+      const TailedPose own = scenes::with_rods(scenes::shake(t, 2));
+      const auto step = [&](Stage& stage, uint32_t id, double dt_s) {
+        Pose pose = own.pose();
+        pose.root.position_m[0] = own.root.position_m[0] + (&stage == &riding ? x_m : 0);
+        pose.space.id = id;
+        pose.space.root.position_m[0] = x_m;
+        REQUIRE(stage.world.set_pose(stage.blocks[0], pose).ok());
+        stage.world.step(static_cast<float>(dt_s));
+      };
+      step(usual, 0, kFrame_s);
+      // It rides all the while, on one vehicle after the other.
+      step(riding, f < 60 ? 1 : f < 90 ? 2 : 3, kFrame_s);
+      if (pauses && f % 30 == 0) step(riding, f < 60 ? 1 : f < 90 ? 2 : 3, 0);
+      apart = std::max(apart, double{test::largest_distance(joints_of(usual), joints_of(riding))});
+      swing = std::max(swing, double{test::largest_distance(joints_of(usual), rest)});
+    }
+    CHECK(swing > 0.1);
+    // Air blows for the step between two vehicles.
+    CHECK(apart < 0.1 * swing);
+    CHECK(riding.report().teleports == 0);
+  }
+}
+
+TEST_CASE("a_cut_on_leaving_what_one_rides_on_is_a_cut") {
+  for (const bool told : {false, true}) {
+    Stage stage;
+    for (int f = 0; f < 120; ++f) {
+      scenes::BlockPose own = scenes::bind_pose();
+      Pose pose = own.pose();
+      const double x_m = 2 * f * kFrame_s;
+      pose.space = {.id = f < 60 ? 8u : 0u};
+      pose.space.root.position_m[0] = x_m;
+      pose.root.position_m[0] = f < 60 ? x_m : 1;
+      pose.root.position_m[1] = f < 60 ? 0 : 1.5;
+      pose.teleport = told && f == 60;
+      REQUIRE(stage.world.set_pose(stage.blocks[0], pose).ok());
+      stage.world.step(static_cast<float>(kFrame_s));
+      if (f >= 60) CHECK(test::largest_length(stage.read(0, Space::kBind)) < 5e-4);
+    }
+    CHECK(stage.report().teleports == 1);
+  }
+}
+
 TEST_CASE("who_rides_at_rest_falls_dormant_and_is_taken_along") {
   Stage stage;
   const auto step = [&](uint32_t id, double up_m) {
@@ -203,6 +254,7 @@ TEST_CASE("who_rides_at_rest_falls_dormant_and_is_taken_along") {
   step(5, 0.01);
   const std::vector<float> after = stage.read(0, Space::kWorld);
   for (size_t i = 1; i < after.size(); i += 3) CHECK(after[i] == Approx(before[i] + 0.01).margin(1e-6));
+  step(5, 0.01);  // the lift stands
   step(0, 0.01);
   CHECK(test::largest_length(stage.read(0, Space::kBind)) < 1e-5);
 }

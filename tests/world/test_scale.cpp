@@ -94,6 +94,11 @@ TEST_CASE("in_the_world_a_scaled_character_is_as_much_larger") {
   const std::vector<float> own = baked.read(0, Space::kWorld), scaled = large.read(0, Space::kWorld);
   for (size_t i = 0; i < own.size(); ++i) CHECK(scaled[i] == Approx(3 * own[i]).margin(1e-5));
   CHECK(baked.read() == large.read());  // of the character's own space
+  std::vector<float> normals(own.size());
+  const ReadDef def{.space = Space::kWorld, .out = normals.data(), .capacity = large.info.vertex_count};
+  REQUIRE(large.world.read_normals(large.blocks[0], def).ok());
+  for (size_t i = 0; i < normals.size(); i += 3)
+    CHECK(std::hypot(normals[i], normals[i + 1], normals[i + 2]) == Approx(1).margin(1e-4));
 }
 
 TEST_CASE("a_scaled_character_touches_what_is_as_far_away_as_it_is_large") {
@@ -145,6 +150,21 @@ TEST_CASE("a_change_of_scale_is_not_felt") {
     step(stage, pose);
     CHECK(test::largest_length(stage.read(0, Space::kBind)) < 1e-5);
     CHECK(test::largest_distance(joints_of(stage), rest) < 1e-3);
+  }
+}
+
+TEST_CASE("who_grows_while_it_runs_feels_nothing_of_it") {
+  Stage stage;
+  double x_m = 0;
+  for (int f = -180; f < 90; ++f) {
+    const double share = std::clamp((f + 180) / 60.0, 0.0, 1.0);
+    x_m += 4 * kFrame_s * share * share * (3 - 2 * share);  // up to 4 m/s
+    scenes::BlockPose pose = scenes::bind_pose();
+    pose.root.position_m[0] = x_m;
+    pose.root.scale = f < 0 ? 1 : f < 30 ? 1 + f / 30.0 : f < 60 ? 2 : 0.5;
+    stage.pose(stage.blocks[0], pose);
+    stage.world.step(static_cast<float>(kFrame_s));
+    if (f >= -10) CHECK(test::largest_length(stage.read(0, Space::kBind)) < 1e-3);
   }
 }
 

@@ -24,13 +24,14 @@ struct RootTransform {
   float rotation_xyzw[4] = {0, 0, 0, 1};  // normalised on entry; zero length or NaN: refused
   // 1e-3..1e3, else refused: how many metres of the world one of the character's is. Flesh and rods move as
   // those of the character as it was baked do on a root whose travel is as much shorter, under the same
-  // gravity.
+  // gravity; of a change of scale they feel nothing. What rods push against feels the mass and the speed of
+  // the character as it was baked.
   double scale = 1;
 };
 
 // A space that a character rides on, by a number of the caller's choice. Between two poses that name the same
-// one its motion is not felt; one that gets on or off feels its way there, and nothing of
-// the speed that is then counted from something else.
+// one its motion is not felt. Who gets on, off or over feels its own way there, and nothing of the even speed
+// that is then counted from something else.
 struct RiddenSpace {
   uint32_t id = 0;          // 0: none
   RootTransform root = {};  // world from space; refused as a pose's root; its scale is not looked at
@@ -105,8 +106,9 @@ struct ProfilerHook {
 // Pose::teleport says so. What hangs on it is carried: soft parts and rods keep their shape and what they
 // swing with, and feel nothing of it, nor of a step after it that goes on at quite another speed.
 // In frames longer than 1/60 s as much is allowed for each 1/60 s of them; in a step of no time nothing is,
-// whatever stands here. A velocity that begins at once and lasts is taken to have been there after one step.
-// InstanceReport::teleports counts them.
+// whatever stands here. A velocity of the
+// root that begins at once and lasts is taken to have been there after one step; a joint's is a teleport as
+// long as it lasts. InstanceReport::teleports counts them.
 struct TeleportDef {
   float distance = 0.15f;  // > 0, of the character's height in its bind pose; infinity: never
   float angle_rad = 0.5f;  // > 0; infinity: never
