@@ -90,7 +90,8 @@ void compute_node_drive(const NodeMotion& motion, float tick_s, uint32_t count, 
     const NodePose &now = motion.pose[0][i], &before = motion.pose[1][i], &before2 = motion.pose[2][i];
     const Vector step = vector_at(now.place_m) - vector_at(before.place_m);
     const Vector step_before = vector_at(before.place_m) - vector_at(before2.place_m);
-    const Vector change = felt(rate2, step - step_before, root, motion.most_m_s2);
+    const float rate2_own = motion.size ? rate2 / motion.size[i] : rate2;
+    const Vector change = felt(rate2_own, step - step_before, root, motion.most_m_s2);
     const Vector push{-change.x, -change.y - kGravity, -change.z};
     const Vector gravity{0, -kGravity, 0}, bound = turned(now.bend, gravity);
     const Vector omega = rate * turn_a_tick(before, now), omega_before = rate * turn_a_tick(before2, before);

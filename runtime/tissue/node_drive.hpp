@@ -29,6 +29,9 @@ struct NodeMotion {
   const NodePose* pose[3];       // [tick][node]
   // What of (x_t - 2 x_{t-1} + x_{t-2}) / h^2 is felt: felt_share below; infinity: all of it.
   float most_m_s2 = std::numeric_limits<float>::infinity();
+  // [node]: how many times as large as in the bind pose its flesh is; what it feels of acceleration is
+  // divided by that, so that in the bind pose's metres it swings alike at every size. Null: 1.
+  const float* size = nullptr;
 };
 
 // Of an acceleration: 1 up to half of the most, from there smoothly less, so that the most is approached.

@@ -113,6 +113,8 @@ void lay_out_scratch(const Asset& asset, core::Arena& arena, Instance& to) noexc
   to.drive = arena.take<float>(size_t{tissue::kNodeDriveWidth} * nodes);
   for (float** vectors : {&to.felt, &to.l_hat, &to.r_hat, &to.carry})
     *vectors = arena.take<float>(size_t{3} * nodes);
+  to.joint_size = arena.take<float>(joints);
+  to.node_size = arena.take<float>(nodes);
   to.q_hat = arena.take<float>(asset.mode_count());
   for (float*& region : to.region) region = arena.take<float>(asset.widest_region);
   to.awake = arena.take<tissue::NodeRun>(asset.pack.regions.size());

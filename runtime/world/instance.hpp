@@ -233,8 +233,9 @@ struct Instance {
   JointParts *parts_older = nullptr, *parts_before = nullptr, *parts = nullptr,
              *next_parts = nullptr;  // [joints]
   RootStep root_step{}, root_step_before{};
-  Matrix34* tick_joints = nullptr;  // [joints]
-  float* drive = nullptr;           // [nodes][kNodeDriveWidth]
+  Matrix34* tick_joints = nullptr;                    // [joints]
+  float* drive = nullptr;                             // [nodes][kNodeDriveWidth]
+  float *joint_size = nullptr, *node_size = nullptr;  // [joints], [nodes]
   float *felt = nullptr, *l_hat = nullptr, *r_hat = nullptr, *q_hat = nullptr, *carry = nullptr;
   float *inputs = nullptr, *network_scratch = nullptr;
   float* trust = nullptr;            // [regions]: tissue::trust_in of this tick

@@ -381,8 +381,41 @@ bool network_step(Instance& instance) noexcept {
 
 }  // namespace
 
+namespace {
+
+// Of each joint, by its volume; whether one is not as it was bound.
+bool size_joints(const Instance& instance) noexcept {
+  constexpr float kAsBound = 1e-3f, kLeast = 1e-3f, kMost = 1e3f;
+  bool other = false;
+  for (uint32_t j = 0; j < instance.level->pack.character->joint_count; ++j) {
+    const float* m = instance.skin + size_t{12} * j;
+    const float volume = std::abs(m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) +
+                                  m[2] * (m[4] * m[9] - m[5] * m[8]));
+    const bool as_bound = std::abs(volume - 1) < kAsBound;
+    instance.joint_size[j] = as_bound ? 1 : std::clamp(std::cbrt(volume), kLeast, kMost);
+    other |= !as_bound;
+  }
+  return other;
+}
+
+// Of each node, as skinning blends them; null where all are as they were bound.
+const float* size_nodes(const Instance& instance) noexcept {
+  if (!size_joints(instance)) return nullptr;
+  for (size_t n = 0; n < instance.level->node_count(); ++n) {
+    const pack::SkinRecord& skin = instance.level->pack.nodes[n].skin;
+    float size = 0;
+    for (uint32_t k = 0; k < pack::kInfluences; ++k)
+      size += skin.weight[k] * instance.joint_size[skin.joint[k]];
+    instance.node_size[n] = size;
+  }
+  return instance.node_size;
+}
+
+}  // namespace
+
 void drive_nodes(Instance& instance, float most_m_s2) noexcept {
   tissue::NodeMotion motion;
+  motion.size = size_nodes(instance);
   motion.most_m_s2 = most_m_s2;
   for (int tick = 0; tick < 3; ++tick) {
     motion.pose[tick] = instance.poses[tick];

@@ -82,6 +82,30 @@ TEST_CASE("at_every_scale_flesh_and_rods_swing_alike") {
   }
 }
 
+TEST_CASE("flesh_of_joints_that_scale_swings_alike") {
+  for (const double scale : kScales) {
+    Stage baked, other;
+    double swing_m = 0, apart_m = 0;
+    for (int f = 0; f < 180; ++f) {
+      const scenes::BlockPose pose = scenes::walk(f * kFrame_s);
+      scenes::BlockPose larger = pose;
+      for (Matrix34& joint : larger.joints)
+        for (auto& row : joint.m)
+          for (float& entry : row) entry *= static_cast<float>(scale);
+      for (double& place : larger.root.position_m) place *= scale;
+      baked.pose(baked.blocks[0], pose);
+      other.pose(other.blocks[0], larger);
+      baked.world.step(static_cast<float>(kFrame_s));
+      other.world.step(static_cast<float>(kFrame_s));
+      const std::vector<float> own = baked.read(0, Space::kBind);
+      swing_m = std::max(swing_m, double{test::largest_length(own)});
+      apart_m = std::max(apart_m, double{test::largest_distance(own, other.read(0, Space::kBind))});
+    }
+    CHECK(swing_m > 0.005);
+    CHECK(apart_m < 0.01 * swing_m);  // places in floats, of characters up to ten times as large
+  }
+}
+
 TEST_CASE("in_the_world_a_scaled_character_is_as_much_larger") {
   Stage baked, large;
   scenes::BlockPose pose = scenes::bent_pose(0.4, 2, 0.7);

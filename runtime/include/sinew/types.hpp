@@ -41,7 +41,8 @@ struct RiddenSpace {
 struct Pose {
   // Character-from-joint (before the inverse bind matrix), one for each of the asset's joints, in the asset's
   // order. Any affine matrix: scale, shear and mirroring are kept. Fewer or more, NaN or infinity, an entry
-  // beyond +-1e6: refused.
+  // beyond +-1e6: refused. Flesh of joints that scale swings in the bind pose's metres as if they did not;
+  // rods keep the length that was baked, and are shown as large as their joints.
   std::span<const Matrix34> joints = {};
   RootTransform root = {};  // world-from-character
   // What the character rides on (a lift, a vehicle); what it moves by is not felt.
