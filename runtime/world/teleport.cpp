@@ -139,32 +139,27 @@ double size_log(const JointParts& parts) noexcept {
   return std::log(std::max(volume, kFlat)) / 3;
 }
 
-// Cheaply: whether it may jump at all. Differences of matrices: the turn of a joint that spins counts as a
-// departure, and an angle as its chord; what is sorted out here certainly does not jump.
-bool may_teleport(const Instance& instance, uint32_t joint, float ratio,
-                  const TeleportBounds& most) noexcept {
-  const float* before = &instance.joints_before[joint].m[0][0];
-  const float* now = &instance.joints[joint].m[0][0];
-  const float* next = &instance.next_joints[joint].m[0][0];
-  float linear = 0, place = 0;
-  for (int row = 0; row < 3; ++row) {
-    for (int k = 0; k < 3; ++k) {
-      const float change =
-          next[4 * row + k] - now[4 * row + k] - ratio * (now[4 * row + k] - before[4 * row + k]);
-      linear += change * change;
-    }
-    const float change =
-        next[4 * row + 3] - now[4 * row + 3] - ratio * (now[4 * row + 3] - before[4 * row + 3]);
-    place += change * change;
-  }
-  float size = 0;
-  for (int k = 0; k < 12; ++k) size += k % 4 == 3 ? 0 : now[k] * now[k];
-  // Of a matrix of size s: turned by a it differs by 2 sqrt(2) s sin(a / 2), sqrt(3) s being its norm; grown
-  // by a share of itself, by sqrt(3) s times that.
+// Squares of what certainly does not teleport.
+struct Sieve {
+  float place, linear;  // m^2; of the matrix's own
+};
+Sieve sieve_of(const TeleportBounds& most) noexcept {
+  // A matrix of size s that is turned by a differs by 2 sqrt(2) s sin(a / 2), sqrt(3) s being its norm; one
+  // that has grown by a share of itself by sqrt(3) s times that.
   const double angle = std::min(most.angle_rad, 1.0), grown = std::min(most.scale_log, 0.5);
   const double least = std::min(2.8 / 1.7320508 * std::sin(angle / 2), 0.75 * grown);
-  return static_cast<double>(place) > most.distance_m * most.distance_m ||
-         static_cast<double>(linear) > least * least * static_cast<double>(size);
+  return {static_cast<float>(most.distance_m * most.distance_m), static_cast<float>(least * least)};
+}
+
+// Cheaply, by differences of matrices: the turn of a joint that spins counts as a departure, and an angle as
+// its chord.
+bool may_teleport(const Instance& instance, uint32_t joint, float ratio, const Sieve& sieve) noexcept {
+  using Columns = Eigen::Map<const Eigen::Array<float, 4, 3>>;  // a row of the matrix each
+  const Columns before(&instance.joints_before[joint].m[0][0]), now(&instance.joints[joint].m[0][0]),
+      next(&instance.next_joints[joint].m[0][0]);
+  const Eigen::Array<float, 4, 3> change = next - now - ratio * (now - before);
+  const Eigen::Array4f off = change.square().rowwise().sum(), own = now.square().rowwise().sum();
+  return off[3] > sieve.place || off[0] + off[1] + off[2] > sieve.linear * (own[0] + own[1] + own[2]);
 }
 
 double joint_departure(const JointPath& path, const TeleportBounds& most) noexcept {
@@ -209,10 +204,11 @@ void go_on(Instance& instance, uint32_t joint, const JointPath& path, double rat
 bool carry_joints(Instance& instance, const TeleportBounds& most, bool all) noexcept {
   const double dt_s = dt_of(instance), before_s = instance.state->dt_before_s;
   const double ratio = before_s > 0 ? dt_s / before_s : 0;
+  const Sieve sieve = sieve_of(most);
   uint32_t found = 0;
   for (uint32_t j = 0; j < instance.level->pack.character->joint_count; ++j) {
     uint32_t& mark = instance.joint_teleports[j];
-    if (mark == kNone && !all && !may_teleport(instance, j, static_cast<float>(ratio), most)) continue;
+    if (mark == kNone && !all && !may_teleport(instance, j, static_cast<float>(ratio), sieve)) continue;
     const JointPath path = path_of(instance, j, ratio);
     const double off = joint_departure(path, most);
     if (all || off > 1) {
