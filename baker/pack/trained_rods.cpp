@@ -50,13 +50,21 @@ rods::SegmentDef segment_of(const pack::RodSegmentRecord& record) {
 }
 
 // Natural logarithms of joints' compliances, in units of the mean segment's length and mass, and seconds.
-Range log_compliances(std::span<const pack::RodSegmentRecord> records) {
-  double length_m = 0, mass_kg = 0;
-  for (const pack::RodSegmentRecord& record : records) {
+// What holds its beginning, and its end, is as long as the segment there (world/rod_rig.hpp) and counts in
+// the mean.
+Range log_compliances(std::span<const pack::RodSegmentRecord> records, bool end_held) {
+  double length_m = 0, mass_kg = 0, count = 0;
+  const auto add = [&](const pack::RodSegmentRecord& record) {
     const rods::SegmentDef segment = segment_of(record);
-    length_m += double{segment.length_m} / static_cast<double>(records.size());
-    mass_kg += rods::segment_inertia(segment).mass_kg / static_cast<double>(records.size());
-  }
+    length_m += double{segment.length_m};
+    mass_kg += rods::segment_inertia(segment).mass_kg;
+    ++count;
+  };
+  for (const pack::RodSegmentRecord& record : records) add(record);
+  add(records.front());
+  if (end_held) add(records.back());
+  length_m /= count;
+  mass_kg /= count;
   Range range;
   for (const pack::RodSegmentRecord& record : records) {
     const rods::SegmentDef own = segment_of(record);
@@ -101,7 +109,8 @@ std::vector<std::string> notes_of_untrained_rods(const Safetensors& weights, con
     std::string why = outside("segments", count, *segments);
     if (why.empty())
       why = outside("logarithms of its joints' compliances",
-                    log_compliances(pack.rod_segments.subspan(rod.first_segment, rod.segment_count)),
+                    log_compliances(pack.rod_segments.subspan(rod.first_segment, rod.segment_count),
+                                    rod.end_holder != 0),
                     *compliances);
     if (!why.empty())
       notes.push_back(std::string("rod '") + (pack::string_at(pack, rod.name)) + "': no rod that " +

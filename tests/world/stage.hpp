@@ -28,6 +28,12 @@ inline const scenes::PackBytes& weightless_pack() {
   return pack;
 }
 
+// With a tail and horns that are rods, without a network.
+inline const scenes::PackBytes& tailed_pack() {
+  static const scenes::PackBytes pack = scenes::soft_block({.network = false, .rods = scenes::RodMatter{}});
+  return pack;
+}
+
 // With control graphs of 40, 20 and 10 nodes a region.
 inline const scenes::PackBytes& levels_pack() {
   static const scenes::PackBytes pack = scenes::soft_block({.nodes = 40, .coarser_nodes = {20, 10}});
@@ -119,6 +125,16 @@ struct Stage {
     return out;
   }
 };
+
+// Of its first block, as they are read: 12 numbers each.
+inline std::vector<float> joints_of(const Stage& stage) {
+  std::vector<Matrix34> joints(stage.info.joint_count);
+  REQUIRE(stage.world.read_joint_matrices(stage.blocks[0], joints).ok());
+  std::vector<float> out;
+  for (const Matrix34& joint : joints)
+    for (const auto& row : joint.m) out.insert(out.end(), row, row + 4);
+  return out;
+}
 
 inline uint64_t hash_of(const std::vector<float>& values) {
   return core::hash64(std::as_bytes(std::span(values)));

@@ -7,17 +7,14 @@
 using namespace sinew;
 using scenes::BlockPose;
 using scenes::TailedPose;
+using test::joints_of;
 using test::Stage;
+using test::tailed_pack;
 
 namespace {
 
 constexpr double kFrame_s = 1.0 / 60;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-
-const scenes::PackBytes& tailed_pack() {
-  static const scenes::PackBytes pack = scenes::soft_block({.network = false, .rods = scenes::RodMatter{}});
-  return pack;
-}
 
 // A lift that starts and stops, and a carousel of two metres' radius.
 RootTransform lift(double t) {
@@ -46,15 +43,6 @@ RootTransform within(const RootTransform& space, const RootTransform& root) {
   const float* r = root.rotation_xyzw;
   out.rotation_xyzw[1] = q[3] * r[1] + q[1] * r[3];
   out.rotation_xyzw[3] = q[3] * r[3] - q[1] * r[1];
-  return out;
-}
-
-std::vector<float> joints_of(const Stage& stage) {
-  std::vector<Matrix34> joints(stage.info.joint_count);
-  REQUIRE(stage.world.read_joint_matrices(stage.blocks[0], joints).ok());
-  std::vector<float> out;
-  for (const Matrix34& joint : joints)
-    for (const auto& row : joint.m) out.insert(out.end(), row, row + 4);
   return out;
 }
 

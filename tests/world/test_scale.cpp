@@ -7,17 +7,14 @@
 
 using namespace sinew;
 using scenes::TailedPose;
+using test::joints_of;
 using test::Stage;
+using test::tailed_pack;
 
 namespace {
 
 constexpr double kFrame_s = 1.0 / 60;
 constexpr double kScales[] = {0.1, 3, 10};
-
-const scenes::PackBytes& tailed_pack() {
-  static const scenes::PackBytes pack = scenes::soft_block({.network = false, .rods = scenes::RodMatter{}});
-  return pack;
-}
 
 // The same motion by a character of this size: its travel grows with it.
 TailedPose sized(const TailedPose& pose, double scale) {
@@ -30,15 +27,6 @@ TailedPose sized(const TailedPose& pose, double scale) {
 void step(Stage& stage, const TailedPose& pose) {
   REQUIRE(stage.world.set_pose(stage.blocks[0], pose.pose()).ok());
   stage.world.step(static_cast<float>(kFrame_s));
-}
-
-std::vector<float> joints_of(const Stage& stage) {
-  std::vector<Matrix34> joints(stage.info.joint_count);
-  REQUIRE(stage.world.read_joint_matrices(stage.blocks[0], joints).ok());
-  std::vector<float> out;
-  for (const Matrix34& joint : joints)
-    for (const auto& row : joint.m) out.insert(out.end(), row, row + 4);
-  return out;
 }
 
 }  // namespace

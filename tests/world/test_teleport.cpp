@@ -8,6 +8,7 @@ using namespace sinew;
 using scenes::BlockPose;
 using scenes::TailedPose;
 using test::Stage;
+using test::tailed_pack;
 
 namespace {
 
@@ -16,11 +17,6 @@ constexpr float kNever = std::numeric_limits<float>::infinity();
 constexpr TeleportDef kNothingIs{kNever, kNever, kNever, kNever};
 // Metres: of the block's 0.6 m what is no motion of its flesh; below what anybody sees.
 constexpr double kCarried_m = 0.0005, kFelt_m = 0.005;
-
-const scenes::PackBytes& tailed_pack() {
-  static const scenes::PackBytes pack = scenes::soft_block({.network = false, .rods = scenes::RodMatter{}});
-  return pack;
-}
 
 double shape_m(const Stage& stage) { return test::largest_length(stage.read(0, Space::kBind)); }
 

@@ -107,9 +107,8 @@ struct ProfilerHook {
 // Pose::teleport says so. What hangs on it is carried: soft parts and rods keep their shape and what they
 // swing with, and feel nothing of it, nor of a step after it that goes on at quite another speed.
 // In frames longer than 1/60 s as much is allowed for each 1/60 s of them; in a step of no time nothing is,
-// whatever stands here. A velocity of the
-// root that begins at once and lasts is taken to have been there after one step; a joint's is a teleport as
-// long as it lasts. InstanceReport::teleports counts them.
+// whatever stands here. A velocity of the root that begins at once and lasts is taken to have been there
+// after one step; a joint's is a teleport as long as it lasts. InstanceReport::teleports counts them.
 struct TeleportDef {
   float distance = 0.15f;  // > 0, of the character's height in its bind pose; infinity: never
   float angle_rad = 0.5f;  // > 0; infinity: never

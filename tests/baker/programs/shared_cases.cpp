@@ -459,6 +459,41 @@ TEST_CASE("shared_a_chain_that_tapers_swings_further_and_slower_at_its_tip") {
   CHECK(most_taper > 2.5 * most_even);
 }
 
+// Four metres in two seconds by the hips, and back in a frame, the root unmoved.
+TEST_CASE("shared_hips_that_walk_and_loop_back_move_neither_belly_nor_tail") {
+  const std::string file = case_file("root_motion_in_hips/root_motion_in_hips.gltf");
+  if (file.empty()) return;
+  const Baked baked(file, case_file("root_motion_in_hips/recipe.json"));
+  Played played(baked);
+  const std::vector<Matrix34> bind = played.joints;
+  std::vector<Vector3> rest = played.positions(), last;
+  double usual = 0, at_loop = 0, largest = 0, travelled_m = 0;
+  int frame = 0;
+  const auto walk = [&](double t_s) {
+    travelled_m = 2 * std::fmod(t_s, 2);
+    for (size_t j = 0; j < bind.size(); ++j) {
+      played.joints[j] = bind[j];
+      played.joints[j].m[2][3] += static_cast<float>(travelled_m);
+    }
+    return Vector3(0, 0, 0);
+  };
+  played.play(8.5, walk, [&] {
+    std::vector<Vector3> off = played.positions();
+    for (size_t v = 0; v < off.size(); ++v) off[v] -= rest[v] + Vector3(0, 0, travelled_m);
+    if (frame > 300) {  // the walk's beginning has died down
+      const double change = largest_difference(off, last);
+      const int since = frame % 120;
+      (since < 30 ? at_loop : usual) = std::max(since < 30 ? at_loop : usual, change);
+      for (const Vector3& v : off) largest = std::max(largest, v.norm());
+    }
+    last = off;
+    ++frame;
+  });
+  CHECK(largest < 0.02);  // of 1.6 m: what a steady walk leaves, drag on the tail
+  CHECK(at_loop <
+        usual + 0.001);  // a millimetre: places in floats metres away, what is left of the beginning
+}
+
 TEST_CASE("shared_a_spring_with_a_center_is_noted") {
   const std::string file = case_file("vrm1_center/vrm1_center.gltf");
   if (file.empty()) return;
