@@ -35,8 +35,8 @@ void LoneInstance::step(const Plan& plan, uint32_t ticks) {
                     .dt_s = asset_.tick_s,
                     .tier = plan.tier,
                     .level = frame::is_simulated(plan.tier) ? plan.level : instance_.state->level};
-  world::step_instance(
-      instance_, {.clock = {}, .profiler = {}, .frame_s = asset_.tick_s, .sleep_tolerance = sleep_tolerance});
+  instance_.sleep_tolerance = sleep_tolerance;
+  world::step_instance(instance_, {.clock = {}, .profiler = {}, .frame_s = asset_.tick_s});
 }
 
 void LoneInstance::step_hidden() {

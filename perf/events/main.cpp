@@ -25,7 +25,7 @@
 #include "baker/common/bad_input.hpp"
 #include "baker/programs/loaded_pack.hpp"
 #include "perf/help.hpp"
-#include "sinew/world.hpp"
+#include "perf/shown_pack.hpp"
 
 namespace sinew::perf {
 namespace {
@@ -35,10 +35,6 @@ using Eigen::Vector3f;
 
 constexpr double kBefore_s = 1, kAfter_s = 2;
 constexpr float kPlay = 1.5f;  // of ordinary motion
-
-void must(const Status& status) {
-  if (!status.ok()) throw baker::BadInput(status.message);
-}
 
 struct Stage {  // what an event moves
   std::span<const Matrix34> bind;
@@ -131,44 +127,12 @@ std::vector<Event> all_events() {
   };
 }
 
-class Shown {
- public:
-  Shown(const baker::LoadedPack& pack, float budget_us) {
-    must(
-        World::create({.max_assets = 1, .max_instances = 1, .budget_mode = BudgetMode::kWorkUnits}, &world_));
-    must(world_.load_asset(pack.bytes(), &asset_));
-    must(world_.asset_info(asset_, &info_));
-    must(world_.create_instance({.asset = asset_}, &instance_));
-    must(world_.set_budget_us(budget_us));
-    positions_.resize(size_t{3} * info_.vertex_count);
-  }
-  const AssetInfo& info() const { return info_; }
-  InstanceReport report() const {
-    InstanceReport out;
-    must(world_.report(instance_, &out));
-    return out;
-  }
-  std::span<const float> step(const Pose& pose, float dt_s) {
-    must(world_.set_pose(instance_, pose));
-    world_.step(dt_s);
-    must(world_.read_positions(instance_, {.out = positions_.data(), .capacity = info_.vertex_count}));
-    return positions_;
-  }
-
- private:
-  World world_;
-  AssetId asset_;
-  InstanceId instance_;
-  AssetInfo info_;
-  std::vector<float> positions_;
-};
-
 constexpr float kDt_s = 1.0f / 60;
 
 // Frame by frame, the largest distance from skinning over the height.
 std::vector<float> played(const baker::LoadedPack& pack, double from_s, double to_s,
                           const std::function<void(double, const Act&)>& pose_at) {
-  Shown moved(pack, std::numeric_limits<float>::infinity()), skinned(pack, 0);
+  ShownPack moved(pack), skinned(pack, 0);
   std::vector<Matrix34> joints(pack.view().joints.size());
   std::vector<float> out;
   const auto frames = static_cast<int>(std::lround((to_s - from_s) / static_cast<double>(kDt_s)));
@@ -217,7 +181,7 @@ constexpr int kReference = 240, kRates[] = {60, 30, 15, 10};
 // What is shown at the shared times: where budget_us is 0, skinning.
 std::vector<float> sampled(const baker::LoadedPack& pack, const baker::AuditMotion& motion, int fps,
                            float budget_us) {
-  Shown shown(pack, budget_us);
+  ShownPack shown(pack, budget_us);
   std::vector<Matrix34> joints(pack.view().joints.size());
   std::vector<float> out;
   const auto every = static_cast<int>(std::lround(kShared_s * fps));
@@ -251,7 +215,7 @@ std::string cuts_in_clips(const baker::LoadedPack& pack) {
   std::vector<Matrix34> joints(pack.view().joints.size());
   for (size_t clip = 0; clip < pack.view().clips.size(); ++clip) {
     const baker::AuditMotion motion = baker::clip_motion(pack.view(), clip);
-    Shown shown(pack, std::numeric_limits<float>::infinity());
+    ShownPack shown(pack);
     for (int frame = 0; frame < std::lround(60 * motion.moving_s); ++frame) {
       Pose pose{.joints = joints};
       motion.pose_at(frame / 60.0, joints, &pose.root);

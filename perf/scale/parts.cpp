@@ -50,7 +50,7 @@ class Subject {
     const size_t bytes = sizeof(tissue::NodePose) * asset_.node_count();
     for (int back = 2; back > 0; --back) std::memcpy(instance_.poses[back], instance_.poses[back - 1], bytes);
   }
-  void drive() { world::drive_nodes(instance_, std::numeric_limits<float>::infinity()); }
+  void drive() { world::drive_nodes(instance_); }
   void simulate(Tier tier) {
     instance_.state->tier = tier;
     world::simulate_tick(instance_);

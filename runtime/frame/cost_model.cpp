@@ -64,6 +64,7 @@ void CostModel::settle() noexcept {
   for (auto& levels : tick)
     for (CostEstimate& estimate : levels) estimate.settle();
   publish.settle();
+  between.settle();
   enter.settle();
   change.settle();
   come_back.settle();

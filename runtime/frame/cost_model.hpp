@@ -57,7 +57,9 @@ struct CostModel {  // of one asset
     return tick[static_cast<size_t>(tier)][level];
   }
   CostEstimate tick[kTierCount][pack::kMostGraphLevels];
-  CostEstimate publish;   // a step, of what is displaced: pose, extrapolation, publishing
+  CostEstimate publish;  // a step, of what is displaced: pose, publishing
+  // Of what is simulated, where a step ends between ticks: a provisional step, as a share of a tick.
+  CostEstimate between{0.5f};
   CostEstimate enter{0};  // what the first tick of a simulation takes beyond a tick: cold memory, a history
   // Likewise the first on a finer control graph: seldom, and only half forgotten in twelve seconds, but one
   // that was preempted is not to be the last.

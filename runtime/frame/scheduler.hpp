@@ -47,7 +47,7 @@ struct alignas(64) Candidate {
   float weight = 0;              // >= 0, finite: what a share of skinning's error matters
   float waited_s = 0;            // since it was last simulated
   float held_s = 0;              // since its level last rose
-  float ticks = 0;               // in this step
+  float ticks = 0;               // in this step, and what it takes besides as a share of one
   float cost_factor = 1;         // what its ticks take as a multiple of its asset's
   float base_us = 0;             // what it takes in this step if it is not simulated
   float enter_us = 0;        // what its first simulated tick takes beyond a tick, where it makes up for none

@@ -22,6 +22,12 @@ double exact_seconds(float dt_s) noexcept {
   return unit_fraction ? 1 / rate : dt;
 }
 
+float passed_share(const TickPlan& plan, double tick_s) noexcept {
+  constexpr double kNothing = 1e-4;
+  const double share = plan.remainder_s / tick_s;
+  return share < kNothing ? 0 : static_cast<float>(share);
+}
+
 TickPlan plan_ticks(double remainder_s, double dt_s, double tick_s, uint32_t max_ticks) noexcept {
   const double total_s = remainder_s + dt_s;
   const double due = std::floor(total_s / tick_s + kSlack);

@@ -20,6 +20,9 @@ inline constexpr double kLongestStep_s = 1e6;  // a longer dt counts as this
 // equal frames keep their phase to the ticks for days. NaN and negative: 0.
 double exact_seconds(float dt_s) noexcept;
 
+// How much of a tick has passed since the last one, 0 <= x < 1; 0 of next to nothing.
+float passed_share(const TickPlan& plan, double tick_s) noexcept;
+
 TickPlan plan_ticks(double remainder_s, double dt_s, double tick_s, uint32_t max_ticks) noexcept;
 
 // The same for one after another: instances of an age have the same ticks, which are worked out once.

@@ -97,6 +97,8 @@ class RodCollider {
   // points; contacts are known by their obstacles' indices. Refused: one made for other strands or segments,
   // one with more contact_capacity; its own forces then stay. Allocates nothing.
   Status take_state(const RodCollider& from) noexcept;
+  // In the last step.
+  bool has_forces() const noexcept { return kept_count_ > 0; }
   // What stepped on without it begins without forces again.
   void forget_forces() noexcept { keep_nothing(0); }
   // The same as bytes, always state_bytes() of them: for snapshots, next to RodBatch::save_state.

@@ -144,6 +144,18 @@ class RodBatch {
   // solver that knows no contacts.
   Status step(float dt_s, RodCollider* collider, RodReport* report) noexcept;
 
+  // Where segments will be by a fraction of the coming step of dt_s, in which fixed segments have come to
+  // their targets: nothing changes but targets, which the next set_target replaces. At 1 it is where the step
+  // takes them; at 0 they leave with the velocity at which the last step's fraction arrived. What touched
+  // rods in the last step, by this collider, is taken to push as it did; null: nothing. turns_xyzw:
+  // [strands][segments][4], orientations; of a strand that is not finite those that it has. Refused: dt_s as
+  // in step; a fraction not in (0, 1]. Allocates nothing, remembers nothing. Cost: of a step that finds no
+  // contacts.
+  Status step_between(float dt_s, float fraction, const RodCollider* touched,
+                      float* turns_xyzw) const noexcept;
+  // Whether this target would carry the strand along (RodSettings::teleport_lengths).
+  bool is_far(uint32_t strand, const SegmentPose& to, const SegmentPose& from) const noexcept;
+
   // What `from` has come to, its targets and forces too, with this batch's own settings. Refused: one not
   // made of the same strands, as far as counts and parents tell. What kContinued and those after it remember
   // comes along from a batch that remembers it too; otherwise they begin anew. Allocates nothing.
@@ -228,7 +240,9 @@ class RodBatch {
   simd::RodJob group_job(uint32_t group, float dt_s, float* scratch) const noexcept;
   // Of the group in one of the collider's places.
   simd::RodJob home_job(uint32_t place, float dt_s, const RodCollider& collider) const noexcept;
+  void activate(uint32_t group, const simd::RodJob& job) const noexcept;
   void begin_group(uint32_t group, const simd::RodJob& job) const noexcept;
+  void read_turns(uint32_t group, const simd::RodJob& job, float* turns_xyzw) const noexcept;
   uint32_t iterate(const simd::RodJob& job) const noexcept;
   void iterate_homes(float dt_s, const RodCollider& collider) const noexcept;
   uint32_t begin_range(uint32_t first_group, float dt_s, RodCollider* collider, uint32_t left) const noexcept;

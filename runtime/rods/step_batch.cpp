@@ -26,6 +26,7 @@ simd::RodJob RodBatch::group_job(uint32_t group, float dt_s, float* scratch) con
           .parents = slot_parents_,
           .segments = segment_count_,
           .dt_s = dt_s,
+          .force_s = dt_s,
           .tolerance_rad = settings_.tolerance_rad,
           .start_from_zero = settings_.start == RodStart::kZero};
 }
@@ -36,10 +37,15 @@ simd::RodJob RodBatch::home_job(uint32_t place, float dt_s, const RodCollider& c
   return job;
 }
 
-void RodBatch::begin_group(uint32_t group, const simd::RodJob& job) const noexcept {
+// Its strands are to be iterated.
+void RodBatch::activate(uint32_t group, const simd::RodJob& job) const noexcept {
   const uint32_t count = std::min(width_, strand_count_ - group * width_);
   for (uint32_t i = 0; i < width_; ++i) job.lanes[simd::kLaneActive * width_ + i] = i < count ? 1.0f : 0.0f;
   std::fill_n(job.lanes + simd::kLaneLargestShare * width_, width_, simd::kRodLargestShare);
+}
+
+void RodBatch::begin_group(uint32_t group, const simd::RodJob& job) const noexcept {
+  activate(group, job);
   make_start(group, job);
   calls(width_).predict(job);
   const RodSolver& solver = settings_.solver;

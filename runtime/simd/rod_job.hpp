@@ -108,6 +108,9 @@ struct RodJob {
   const uint32_t* parents;  // [segments], each less than its own index; parents[0] is 0
   uint32_t segments;
   float dt_s;
+  // How long forces change velocity before these move anything: as long as the step. In a fraction x of one
+  // of h it is h (1 + x) / 2 (rods/step_between.cpp).
+  float force_s;
   float tolerance_rad;   // converged: no segment turned more in an iteration
   bool start_from_zero;  // else from kRodStart*
   // Null where the group touches nothing; else aligned alike. What is in it is used up by an iteration.
@@ -120,6 +123,9 @@ struct RodCalls {
   RodStartCalls start;
   // Where segments go without joints, and the first iterate.
   void (*predict)(const RodJob& job);
+  // After predict: takes what moved segments in the last step and was no joint's, contacts' forces, into
+  // where they go without joints.
+  void (*hold_forces)(const RodJob& job);
   // One Newton iteration. Returns how many lanes are not converged.
   uint32_t (*direct)(const RodJob& job);
   // Fills kLaneResidual; the iterate stays.

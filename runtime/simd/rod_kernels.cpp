@@ -29,6 +29,7 @@ constexpr RodCalls rod_calls() {
                     .add_network = rod_add_network<kWidth>,
                     .encode_joints = rod_encode_joints<kWidth>},
           .predict = rod_predict<kWidth>,
+          .hold_forces = rod_hold_forces<kWidth>,
           .direct = rod_direct<kWidth>,
           .residual = rod_residual<kWidth>,
           .finish = rod_finish<kWidth>,

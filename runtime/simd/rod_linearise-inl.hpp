@@ -139,6 +139,23 @@ HWY_INLINE void linearise(const G& g, const RodJob& job) {
   for (size_t i = 1; i < job.segments; ++i) linearise_joint(g, i, job.parents[i]);
 }
 
+template <size_t kWidth>
+void rod_hold_forces(const RodJob& job) {
+  for_lanes<kWidth>(job, [&](const auto& g) HWY_ATTR {
+    using V = typename std::decay_t<decltype(g)>::V;
+    linearise(g, job);
+    for (size_t i = 0; i < job.segments; ++i) {
+      const V inverse_mass = g.get(i, kRodInverseMass), free = g.get(i, kRodFree);
+      const V across = hn::Div(free, g.get(i, kRodInertia)),
+              along = hn::Div(free, g.get(i, kRodAxialInertia));
+      const Three<V> moment = g.get3(i, kRodImpulse + 3);
+      const Three<V> turn = {hn::Mul(across, moment.x), hn::Mul(across, moment.y), hn::Mul(along, moment.z)};
+      g.set3(i, kRodFreeMove, scaled_sum(inverse_mass, g.get3(i, kRodImpulse), g.get3(i, kRodFreeMove)));
+      g.set4(i, kRodFreeTurn, turned(g.get4(i, kRodFreeTurn), turn));
+    }
+  });
+}
+
 // Moments turn along with both segments.
 template <class G>
 HWY_INLINE void turn_moments(const G& g, size_t i, size_t parent) {

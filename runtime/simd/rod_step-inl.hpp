@@ -5,6 +5,8 @@
 //     w turns by -h spin about z.
 //   damping         (1 + t/h) C - (t/h) C_0 + alpha lambda / h^2 = 0 with C_0 at the step's start, divided by
 //     1 + t/h: a smaller compliance and a moved rest, so that what stands still feels nothing of it.
+//     h^2 of forces, compliance and damping is h times RodJob::force_s, so that a fraction of a step leads to
+//     where the step does (rods/step_between.cpp).
 //   new state       v = d/h,  w = w* + 2 Im(conj(q*) q)/h
 HWY_BEFORE_NAMESPACE();
 namespace sinew::simd::HWY_NAMESPACE {
@@ -42,22 +44,22 @@ HWY_INLINE Four<V> rotation_by(const Three<V>& turn) {
 }
 
 template <class G>
-HWY_INLINE void predict_move(const G& g, size_t i, typename G::V h) {
+HWY_INLINE void predict_move(const G& g, size_t i, typename G::V h, typename G::V force) {
   using V = typename G::V;
   const V one = hn::Set(hn::DFromV<V>(), 1);
-  const V slowed = hn::Div(h, hn::MulAdd(h, g.get(i, kRodDrag), one));
+  const V slowed = hn::Div(h, hn::MulAdd(force, g.get(i, kRodDrag), one));
   const Three<V> gravity = {g.lane(kLaneGravity), g.lane(kLaneGravity + 1), g.lane(kLaneGravity + 2)};
   const Three<V> push = scaled_sum(g.get(i, kRodInverseMass), g.get3(i, kRodForce), gravity);
-  const Three<V> speed = scaled_sum(h, push, g.get3(i, kRodVelocity));
+  const Three<V> speed = scaled_sum(force, push, g.get3(i, kRodVelocity));
   g.set3(i, kRodFreeMove, choose(g.free(i), scaled(slowed, speed), g.get3(i, kRodTarget)));
 }
 
 template <class G>
-HWY_INLINE void predict_turn(const G& g, size_t i, typename G::V h) {
+HWY_INLINE void predict_turn(const G& g, size_t i, typename G::V h, typename G::V force) {
   using V = typename G::V;
   const hn::DFromV<V> d;
   const V zero = hn::Zero(d), one = hn::Set(d, 1);
-  const V slowed = hn::Div(one, hn::MulAdd(h, g.get(i, kRodDrag), one));
+  const V slowed = hn::Div(one, hn::MulAdd(force, g.get(i, kRodDrag), one));
   Three<V> w = scaled(slowed, g.get3(i, kRodSpin));
   // Faster than kRodLargestSpin_rad a step nothing can be followed.
   const V turn = hn::Mul(h, hn::Sqrt(dot(w, w))), most = hn::Set(d, kRodLargestSpin_rad);
@@ -76,14 +78,14 @@ HWY_INLINE void predict_turn(const G& g, size_t i, typename G::V h) {
 }
 
 template <class G>
-HWY_INLINE void predict_joint(const G& g, size_t i, size_t parent, typename G::V h) {
+HWY_INLINE void predict_joint(const G& g, size_t i, size_t parent, typename G::V h, typename G::V force) {
   using V = typename G::V;
   const hn::DFromV<V> d;
   const V two = hn::Set(d, 2);
   const Four<V> q_a = g.get4(parent, kRodTurn), q_b = g.get4(i, kRodTurn);
   const Three<V> z_a = axes_of(q_a).z, z_b = axes_of(q_b).z;
   const V t = g.get(i, kRodDamping), share = hn::Div(t, hn::Add(h, t));
-  const V per_step = hn::Div(hn::Set(d, 1), hn::Mul(h, hn::Add(h, t)));
+  const V per_step = hn::Div(hn::Set(d, 1), hn::Mul(force, hn::Add(h, t)));
   const V stretch = g.get(i, kRodStretchCompliance);
   // A joint that does not give is not damped either: its error is to vanish at once.
   const V stretch_share = hn::IfThenElseZero(hn::Gt(stretch, hn::Zero(d)), share);
@@ -95,7 +97,7 @@ HWY_INLINE void predict_joint(const G& g, size_t i, size_t parent, typename G::V
   const Three<V> rest = g.get3(i, kRodRest), bent = scaled(two, vector_part(relative(q_a, q_b)));
   g.set3(i, kRodStepRest, scaled_sum(share, bent - rest, rest));
   g.set(i, kRodStepCompliance,
-        hn::Div(stretch, hn::Mul(h, hn::IfThenElse(hn::Gt(stretch, hn::Zero(d)), hn::Add(h, t), h))));
+        hn::Div(stretch, hn::Mul(force, hn::IfThenElse(hn::Gt(stretch, hn::Zero(d)), hn::Add(h, t), h))));
   g.set(i, kRodStepCompliance + 1, hn::Mul(per_step, g.get(i, kRodBendCompliance)));
   g.set(i, kRodStepCompliance + 2, hn::Mul(per_step, g.get(i, kRodTwistCompliance)));
 }
@@ -119,19 +121,19 @@ HWY_INLINE void start_iterate(const G& g, size_t i, typename G::V square) {
 // What a start's accelerations are worth in a step.
 template <class D>
 HWY_INLINE hn::Vec<D> start_square(D d, const RodJob& job) {
-  return hn::Set(d, job.start_from_zero ? 0.0f : job.dt_s * job.dt_s);
+  return hn::Set(d, job.start_from_zero ? 0.0f : job.dt_s * job.force_s);
 }
 
 template <size_t kWidth>
 void rod_predict(const RodJob& job) {
   for_lanes<kWidth>(job, [&](const auto& g) HWY_ATTR {
     const LanesOf<kWidth> d;
-    const auto h = hn::Set(d, job.dt_s);
+    const auto h = hn::Set(d, job.dt_s), force = hn::Set(d, job.force_s);
     const auto square = start_square(d, job);
     for (size_t i = 0; i < job.segments; ++i) {
-      predict_move(g, i, h);
-      predict_turn(g, i, h);
-      if (i > 0) predict_joint(g, i, job.parents[i], h);
+      predict_move(g, i, h, force);
+      predict_turn(g, i, h, force);
+      if (i > 0) predict_joint(g, i, job.parents[i], h, force);
       start_iterate(g, i, square);
     }
     g.set_lane(kLaneIterations, hn::Zero(d));

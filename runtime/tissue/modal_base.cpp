@@ -52,12 +52,12 @@ ModalBase modal_base(const pack::PackView& pack, size_t region) noexcept {
 // R_t^T (2 (R_{t-1} - R_t) u_{t-1} - (R_{t-2} - R_t) u_{t-2}) / h^2: differences of frames first, so that
 // nothing is left of rounding where they are equal.
 void frame_term(const NodePose* const pose[3], const float* u, const float* u_before, float tick_s,
-                uint32_t count, float* phi) noexcept {
+                uint32_t count, float* phi, float x) noexcept {
   const float rate2 = 1 / (tick_s * tick_s);
   for (uint32_t i = 0; i < count; ++i) {
     const Matrix3f now = rotation_of(pose[0][i]);
-    const Vector3f swept = 2 * ((rotation_of(pose[1][i]) - now) * vector_at(u, i)) -
-                           (rotation_of(pose[2][i]) - now) * vector_at(u_before, i);
+    const Vector3f swept = (1 + x) * ((rotation_of(pose[1][i]) - now) * vector_at(u, i)) -
+                           x * ((rotation_of(pose[2][i]) - now) * vector_at(u_before, i));
     Eigen::Map<Vector3f>(phi + size_t{3} * i) = rate2 * (now.transpose() * swept);
   }
 }

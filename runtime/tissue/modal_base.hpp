@@ -39,9 +39,10 @@ struct ModalBase {
 ModalBase modal_base(const pack::PackView& pack, size_t region) noexcept;
 
 // phi of `count` nodes, m/s^2. pose, u, u_before: of these nodes; pose[0] is t, u is of t-1. Exactly zero
-// while the frames do not turn.
+// while the frames do not turn. By a fraction x of the tick: (1 + x) u_{t-1} - x u_{t-2} goes on in the
+// world, and pose[0] is of then.
 void frame_term(const NodePose* const pose[3], const float* u, const float* u_before, float tick_s,
-                uint32_t count, float* phi) noexcept;
+                uint32_t count, float* phi, float x = 1) noexcept;
 
 // Of `count` nodes, three numbers each, out may be what is turned. theta within kLargestTurn_rad; exact to
 // float.

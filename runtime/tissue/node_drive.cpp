@@ -43,14 +43,14 @@ Vector turned(const float* bend, const Vector& v) {
           v.z + sine * once.z + cosine * twice.z};
 }
 
-// Second difference of the root's place: in double first, since places may be millions of metres from the
-// origin.
-Vector root_step_change(const NodeMotion& motion) {
+// Second difference of the root's place, by a fraction of a tick: in double first, since places may be
+// millions of metres from the origin.
+Vector root_step_change(const NodeMotion& motion, double fraction = 1) {
   float change[3];
   for (int k = 0; k < 3; ++k) {
     const double step = motion.root_position_m[0][k] - motion.root_position_m[1][k];
     const double before = motion.root_position_m[1][k] - motion.root_position_m[2][k];
-    change[k] = static_cast<float>(step - before);
+    change[k] = static_cast<float>(step - fraction * before);
   }
   return vector_at(change);
 }
@@ -67,12 +67,18 @@ Vector turn_a_tick(const NodePose& before, const NodePose& now) {
   return 0.5f * sum;
 }
 
-// The acceleration by the sum of two changes a tick.
-Vector felt(float rate2, const Vector& node, const Vector& root, float most_m_s2) {
+// The acceleration by the sum of two changes a tick; `whole` times as much where they are those of a
+// fraction.
+Vector felt(float rate2, const Vector& node, const Vector& root, float most_m_s2, float whole = 1) {
   const Vector all{rate2 * (node.x + root.x), rate2 * (node.y + root.y), rate2 * (node.z + root.z)};
-  const float squared = all.x * all.x + all.y * all.y + all.z * all.z, free = most_m_s2 / 2;
+  const float squared = all.x * all.x + all.y * all.y + all.z * all.z, free = most_m_s2 / (2 * whole);
   if (squared <= free * free) return all;
-  return felt_share(std::sqrt(squared), most_m_s2) * all;
+  return felt_share(whole * std::sqrt(squared), most_m_s2) * all;
+}
+
+Vector gravity_change(const NodePose& pose) {
+  const Vector gravity{0, -kGravity, 0};
+  return into_axes(pose, gravity) - turned(pose.bend, gravity);
 }
 
 }  // namespace
@@ -100,6 +106,20 @@ void compute_node_drive(const NodeMotion& motion, float tick_s, uint32_t count, 
     put(omega, out);
     put(rate * (omega - omega_before), out);
     put(vector_at(now.bend), out);
+  }
+}
+
+void fraction_felt(const NodeMotion& motion, float tick_s, float x, uint32_t count, float* out) noexcept {
+  const Vector root = root_step_change(motion, static_cast<double>(x));
+  const float rate2 = 1 / (tick_s * tick_s), whole = 2 / (x * (1 + x));
+  const float of_before = (1 - x) * (1 - x), of_now = of_before + x * (1 + x) / 2;
+  for (uint32_t i = 0; i < count; ++i) {
+    const NodePose &now = motion.pose[0][i], &before = motion.pose[1][i], &before2 = motion.pose[2][i];
+    const Vector step = vector_at(now.place_m) - vector_at(before.place_m);
+    const Vector step_before = x * (vector_at(before.place_m) - vector_at(before2.place_m));
+    const float rate2_own = motion.size ? rate2 / motion.size[i] : rate2;
+    const Vector change = felt(rate2_own, step - step_before, root, motion.most_m_s2, whole);
+    put(of_now * gravity_change(now) - of_before * gravity_change(before) - into_axes(now, change), out);
   }
 }
 

@@ -40,4 +40,8 @@ float felt_share(float acceleration_m_s2, float most_m_s2) noexcept;
 // out: [count][kNodeDriveWidth].
 void compute_node_drive(const NodeMotion& motion, float tick_s, uint32_t count, float* out) noexcept;
 
+// Its f alone by a fraction x of a tick, 0 < x <= 1 (tissue/fraction_step.hpp): motion has the present pose,
+// then those of the last two ticks. out: [count][3].
+void fraction_felt(const NodeMotion& motion, float tick_s, float x, uint32_t count, float* out) noexcept;
+
 }  // namespace sinew::tissue

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <new>
 #include <utility>
 
 #include "core/status.hpp"
@@ -93,7 +94,21 @@ void measure_level(const pack::PackView& pack, Asset& asset) noexcept {
   }
 }
 
-void read_levels(const pack::PackView& pack, Asset& asset) noexcept {
+Status find_slopes(GraphLevel& level) noexcept {
+  const size_t count = level.pack.modes.size() + level.pack.region_modes.size();
+  level.swing_slopes.reset(new (std::nothrow) tissue::SwingSlopes[count]);
+  if (!level.swing_slopes) return make_status(StatusCode::kOutOfCapacity, "asset: no memory for its modes");
+  for (size_t r = 0; r < level.pack.region_modes.size(); ++r) {
+    const pack::RegionModesRecord& record = level.pack.region_modes[r];
+    tissue::SwingSlopes* out = level.swing_slopes.get() + record.first_mode + r;
+    for (const pack::ModeRecord& mode : level.pack.modes.subspan(record.first_mode, record.mode_count))
+      *out++ = tissue::swing_slopes(mode.a1, mode.a2);
+    *out = tissue::swing_slopes(record.rest_a1, record.rest_a2);
+  }
+  return {};
+}
+
+Status read_levels(const pack::PackView& pack, Asset& asset) noexcept {
   asset.level_count = pack.level_count;
   asset.widest_region = 0;
   for (uint32_t l = 0; l < pack.level_count; ++l) {
@@ -101,10 +116,12 @@ void read_levels(const pack::PackView& pack, Asset& asset) noexcept {
     level.pack = pack::at_level(pack, l);
     level.graph = {level.node_count(), level.pack.graph_rows.data(), level.pack.graph_columns.data(),
                    level.pack.graph_values.data()};
+    if (Status status = find_slopes(level); !status.ok()) return status;
     measure_level(level.pack, asset);
   }
   asset.padded_vertices = 0;  // the same at all levels
   for (const pack::RegionRecord& region : pack.regions) asset.padded_vertices += region.padded_vertices;
+  return {};
 }
 
 }  // namespace
@@ -129,7 +146,7 @@ Status open_asset(std::span<const std::byte> bytes, Asset* out) noexcept {
   asset.network.narrow = reinterpret_cast<const float*>(asset.narrow.data());
   asset.tick_s = 1 / static_cast<double>(view.network->rate_hz);
   asset.fingerprint = fingerprint_of(bytes);
-  read_levels(view, asset);
+  if (Status status = read_levels(view, asset); !status.ok()) return status;
   read_tiers(view, asset);
   asset.reach_m = reach_of(asset);
   return {};

@@ -56,7 +56,7 @@ void begin_tail(Instance& instance, float velocity_kept) noexcept {
 // acceleration.
 void begin_simulation(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
-  pose_at_start(instance);
+  pose_now(instance, instance.poses[0]);
   for (int tick = 0; tick < 2; ++tick) {
     tissue::along_frame(instance.poses[0], instance.shown[tick], instance.level->node_count(),
                         instance.u[tick]);
@@ -90,6 +90,12 @@ void hand_to_modes(Instance& instance) noexcept {
   instance.made_up > 0 ? take_back_corrections(instance) : slow_modes(instance);
 }
 
+// Of nodes, and how many ticks after it began it is to be brought to.
+struct Tail {
+  float *u, *velocity;
+  uint32_t ticks;
+};
+
 // A tail may not run where the network may not go.
 void hold_at_limit(float* u, float* velocity, float limit_m) noexcept {
   const float length = std::sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
@@ -101,11 +107,11 @@ void hold_at_limit(float* u, float* velocity, float limit_m) noexcept {
 }
 
 // So that a tail that has run out costs nothing to publish.
-void stop_what_creeps(Instance& instance) noexcept {
+void stop_what_creeps(const Instance& instance, const Tail& tail) noexcept {
   constexpr float kCreep = 1e-4f;  // of the region's radius, a tick
   for (const pack::RegionRecord& region : instance.level->pack.regions) {
     const float slow_m = kCreep * region.radius_m;
-    float* velocity = instance.tail_velocity + size_t{3} * region.first_node;
+    float* velocity = tail.velocity + size_t{3} * region.first_node;
     for (float* end = velocity + size_t{3} * region.node_count; velocity != end; ++velocity)
       if (std::abs(*velocity) < slow_m) *velocity = 0;
   }
@@ -113,9 +119,8 @@ void stop_what_creeps(Instance& instance) noexcept {
 
 // What is let go of where it was pressed hardest would fling faster than it ever moved. Before that tick it
 // is free, for the nearer it is to where it would have been, the less is seen of its coming back.
-void hold_speed(Instance& instance, size_t node, const float* before) noexcept {
+void hold_speed(const Instance& instance, const float* before, float* v) noexcept {
   constexpr float kMost = 0.0027f;  // of the height, a tick
-  float* v = instance.tail_velocity + 3 * node;
   const auto length = [](const float* x) { return std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]); };
   const float most_m = std::max(kMost * instance.level->pack.character->height_m, length(before));
   const float speed_m = length(v);
@@ -126,18 +131,18 @@ void hold_speed(Instance& instance, size_t node, const float* before) noexcept {
 // What is not driven swings as its first mode does, u_t = a1 u_{t-1} + a2 u_{t-2}. What it was driven
 // by is let go of over the ticks until the fade, and never wholly, for a force that ends at once is seen as a
 // jump; and it is damped from the first on.
-void swing_tail(Instance& instance, size_t r) noexcept {
+void swing_tail(const Instance& instance, size_t r, const Tail& tail) noexcept {
   constexpr float kFreest = 0.9f;
   const pack::RegionRecord& region = instance.level->pack.regions[r];
   const pack::RegionModesRecord& modes = instance.level->pack.region_modes[r];
-  const uint32_t tick = instance.state->tail_ticks;
+  const uint32_t tick = tail.ticks;
   const float free = tick <= kCarryTicks ? std::min(static_cast<float>(tick) / kCarryTicks, kFreest) : 0;
   const float pull = free * (modes.first_a1 + modes.first_a2 - 1), drag = free * (1 + modes.first_a2);
   for (size_t n = region.first_node; n < region.first_node + region.node_count; ++n) {
-    float *u = instance.tail + 3 * n, *velocity = instance.tail_velocity + 3 * n;
+    float *u = tail.u + 3 * n, *velocity = tail.velocity + 3 * n;
     const float before[3] = {velocity[0], velocity[1], velocity[2]};
     for (int k = 0; k < 3; ++k) velocity[k] += pull * u[k] - drag * velocity[k];
-    if (tick > kCaughtUpTicks) hold_speed(instance, n, before);
+    if (tick > kCaughtUpTicks) hold_speed(instance, before, velocity);
     for (int k = 0; k < 3; ++k) {
       u[k] += velocity[k];
       velocity[k] *= kCarryDamping;
@@ -145,20 +150,22 @@ void swing_tail(Instance& instance, size_t r) noexcept {
   }
 }
 
-void count_tail(const Instance& instance) noexcept {
-  InstanceState& state = *instance.state;
-  const uint32_t over = kCarryTicks + instance.state->fade_ticks;
-  state.tail_ticks = std::min(state.tail_ticks + 1, over);
-  if (state.tail_ticks == over) state.restarting = 0;
+uint32_t tail_ticks_after(const InstanceState& state, uint32_t ticks) noexcept {
+  return std::min(state.tail_ticks + ticks, kCarryTicks + state.fade_ticks);
 }
 
-void advance_tail(Instance& instance) noexcept {
-  for (size_t r = 0; r < instance.level->pack.regions.size(); ++r) swing_tail(instance, r);
-  if (instance.state->tail_ticks > kCarryTicks) stop_what_creeps(instance);
+void count_tail(const Instance& instance) noexcept {
+  InstanceState& state = *instance.state;
+  state.tail_ticks = tail_ticks_after(state, 1);
+  if (state.tail_ticks == kCarryTicks + state.fade_ticks) state.restarting = 0;
+}
+
+void advance_tail(const Instance& instance, const Tail& tail) noexcept {
+  for (size_t r = 0; r < instance.level->pack.regions.size(); ++r) swing_tail(instance, r, tail);
+  if (tail.ticks > kCarryTicks) stop_what_creeps(instance, tail);
   for (const pack::RegionRecord& region : instance.level->pack.regions) {
     for (uint32_t n = region.first_node; n < region.first_node + region.node_count; ++n) {
-      hold_at_limit(instance.tail + size_t{3} * n, instance.tail_velocity + size_t{3} * n,
-                    region.displacement_limit_m);
+      hold_at_limit(tail.u + size_t{3} * n, tail.velocity + size_t{3} * n, region.displacement_limit_m);
     }
   }
 }
@@ -195,15 +202,36 @@ void restart(Instance& instance) noexcept {
   instance.restarted = true;
 }
 
-void take_simulated(const Instance& instance, int tick, float* out) noexcept {
-  tissue::along_flesh(instance.poses[0], instance.u[tick], instance.level->node_count(), out);
+void keep_regained_share(const Instance& instance, float* shown) noexcept {
   if (instance.state->seam_ticks >= kBlendInTicks) return;
   for (size_t r = 0; r < instance.level->pack.regions.size(); ++r) {
     if (!instance.regained[r]) continue;
     const pack::RegionRecord& region = instance.level->pack.regions[r];
     const float share = instance.regained_share(r);
-    float* at = out + size_t{3} * region.first_node;
+    float* at = shown + size_t{3} * region.first_node;
     for (size_t i = 0; i < size_t{3} * region.node_count; ++i) at[i] *= share;
+  }
+}
+
+void take_simulated(const Instance& instance, int tick, float* out) noexcept {
+  tissue::along_flesh(instance.poses[0], instance.u[tick], instance.level->node_count(), out);
+  keep_regained_share(instance, out);
+}
+
+// A cubic of Hermite; the velocity at a tick is the mean of the steps before and after it.
+void tail_between(Instance& instance, float x, float* out) noexcept {
+  const InstanceState& state = *instance.state;
+  const float undamped = state.tail_ticks == 0 ? 1 : 1 / kCarryDamping, y = 1 - x;
+  float *next = instance.l_hat, *velocity = instance.carry;
+  copy(instance, instance.tail, next);
+  copy(instance, instance.tail_velocity, velocity);
+  advance_tail(instance, {next, velocity, tail_ticks_after(state, 1)});
+  copy(instance, next, out);
+  advance_tail(instance, {next, velocity, tail_ticks_after(state, 2)});
+  for (size_t i = 0; i < floats_of(instance); ++i) {
+    const float step = out[i] - instance.tail[i], step_after = next[i] - out[i];
+    const float begins = (undamped * instance.tail_velocity[i] + step) / 2, ends = (step + step_after) / 2;
+    out[i] = instance.tail[i] + x * (x * (3 - 2 * x) * step + y * (y * begins - x * ends));
   }
 }
 
@@ -216,7 +244,8 @@ void show_tick(Instance& instance) noexcept {
     if (instance.regained[r] == kRegainedNow) instance.regained[r] = kRegained;
   const bool simulates = frame::is_simulated(state.tier);
   const bool blends = simulates && state.blend_ticks < kBlendInTicks;
-  if ((blends || !simulates) && !state.tail_rides) advance_tail(instance);
+  if ((blends || !simulates) && !state.tail_rides)
+    advance_tail(instance, {instance.tail, instance.tail_velocity, state.tail_ticks});
   copy(instance, instance.shown[0], instance.shown[1]);
   if (simulates) take_simulated(instance, 0, instance.shown[0]);
   if (blends) advance_blend(instance);

@@ -17,6 +17,13 @@ void restart(Instance& instance) noexcept;
 // blends. [nodes][3]
 void take_simulated(const Instance& instance, int tick, float* out) noexcept;
 
+// What a change of level had again is shown less of, in nodes' vectors along the axes of the flesh.
+void keep_regained_share(const Instance& instance, float* shown) noexcept;
+
+// Where the tail will be by a fraction x of the next tick: it is met there, with the velocities of before and
+// after.
+void tail_between(Instance& instance, float x, float* out) noexcept;
+
 // End of a tick: carries the tail on and shows the blend.
 void show_tick(Instance& instance) noexcept;
 

@@ -29,11 +29,9 @@ void carry_delta(Instance& instance) noexcept {
   }
 }
 
-// As it would be published now.
+// As it would be published at the last tick.
 void carry_shown(Instance& instance) noexcept {
-  const float ahead = instance.state->render_fraction;
-  for (size_t i = 0; i < size_t{3} * instance.level->node_count(); ++i)
-    instance.delta[i] = instance.shown[0][i] + ahead * (instance.shown[0][i] - instance.shown[1][i]);
+  std::copy_n(instance.shown[0], size_t{3} * instance.level->node_count(), instance.delta);
   carry_delta(instance);
 }
 
@@ -230,7 +228,7 @@ void raise(Instance& instance) noexcept {
 void show_anew(Instance& instance) noexcept {
   const ShownShares shares = instance.shown_shares();
   const uint32_t nodes = instance.level->node_count();
-  if (instance.level_raised) pose_at_start(instance);
+  if (instance.level_raised) pose_now(instance, instance.poses[0]);
   for (int tick = 0; tick < 2; ++tick) {
     take_simulated(instance, tick, instance.shown[tick]);
     for (size_t i = 0; (shares.simulated < 1 || shares.tail > 0) && i < size_t{3} * nodes; ++i)

@@ -34,6 +34,11 @@ void learn_tick_cost(Instance& instance, const PlanRow& row, float tick_us) noex
   factor = std::clamp(factor, row.has_surface && !sleeps_on_skin ? 1 : kLeast, kMost);
 }
 
+void learn_between(const Instance& instance, const PlanRow& row, float took_us) noexcept {
+  const float tick_us = tick_cost(row).estimate_us() * instance.cost_factor;
+  if (tick_us > 0) costs_of(row).cost.between.observe(took_us / tick_us);
+}
+
 // What it took beyond its ticks.
 void learn_beyond(const Instance& instance, const PlanRow& row, float took_us,
                   frame::CostEstimate& to) noexcept {
@@ -66,7 +71,9 @@ void learn_costs(Instance& instance, const PlanRow& row) noexcept {
     return;
   }
   if (instance.displaced && !instance.held)
-    cost.publish.observe(core::microseconds(times.total_ns - ticked_ns));
+    cost.publish.observe(core::microseconds(times.total_ns - ticked_ns - instance.between_ns));
+  if (frame::is_simulated(row.tier) && instance.between_ns > 0)
+    learn_between(instance, row, core::microseconds(instance.between_ns));
   if (ran && instance.entered)
     learn_beyond(instance, row, ticked_us, cost.enter);
   else if (ran)
@@ -99,13 +106,12 @@ float add_active(const Instance& instance, const PlanRow& row, FrameReport& repo
   return error_of(*row.asset, row.tier, row.level);
 }
 
-// Likewise, of one that is dormant.
-float add_dormant(const Instance& instance, FrameReport& report) noexcept {
+// Likewise, of one that is dormant or waits for a pose.
+float add_passed(const Instance& instance, const PlanRow& row, FrameReport& report) noexcept {
   const Tier tier = instance.state->tier;
-  ++report.instances_dormant;
-  report.regions_asleep +=
-      static_cast<uint32_t>(instance.level->pack.regions.size()) - instance.level->regions_left_out();
-  count_tier(tier, report);
+  report.instances_dormant += row.dormant;
+  report.regions_asleep += row.regions_asleep;
+  count_tier(frame::is_simulated(tier) || row.shows ? tier : Tier::kSkinning, report);
   return error_of(*instance.asset, tier, instance.state->level);
 }
 
@@ -122,7 +128,7 @@ bool forgets_its_sleep(const Instance& instance, const PlanRow& row) noexcept {
 float add(WorldState& world, uint32_t slot, FrameReport& report) noexcept {
   if (world.answers[slot].idle) return add_idle(report);
   Instance& instance = *world.instances.at(slot);
-  if (instance.passed) return add_dormant(instance, report);
+  if (instance.passed) return add_passed(instance, world.rows[slot], report);
   world.busy_ns += instance.times.total_ns;
   if (costs_are_measured(world)) learn_costs(instance, world.rows[slot]);
   if (forgets_its_sleep(instance, world.rows[slot]))

@@ -1,6 +1,9 @@
 // graph_level.hpp  One control graph of a character: a whole tissue of its own, finest first in the asset.
 #pragma once
+#include <memory>
+
 #include "pack/reader.hpp"
+#include "tissue/fraction_step.hpp"
 #include "tissue/network.hpp"
 #include "world/surface_patches.hpp"
 
@@ -9,7 +12,8 @@ namespace sinew::world {
 struct GraphLevel {
   pack::PackView pack;  // with this level in view
   tissue::Graph graph;
-  SurfacePatches patches;  // made with the first instance that has contacts
+  std::unique_ptr<tissue::SwingSlopes[]> swing_slopes;  // of each region's modes, and of its rest behind them
+  SurfacePatches patches;                               // made with the first instance that has contacts
 
   uint32_t node_count() const noexcept { return static_cast<uint32_t>(pack.nodes.size()); }
   uint32_t mode_count() const noexcept { return static_cast<uint32_t>(pack.modes.size()); }

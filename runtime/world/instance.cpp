@@ -28,7 +28,7 @@ namespace sinew::world {
 namespace {
 
 static_assert(std::is_trivially_copyable_v<InstanceState>, "saved as bytes");
-static_assert(sizeof(InstanceState) == 672, "no padding: equal states are equal bytes");
+static_assert(sizeof(InstanceState) == 688, "no padding: equal states are equal bytes");
 static_assert(offsetof(InstanceState, root) == kPlannedStateBytes, "what is planned by comes first");
 
 float smooth_step(float t) noexcept { return t * t * (3 - 2 * t); }
@@ -58,6 +58,10 @@ void lay_out_state(const Asset& asset, core::Arena& arena, Instance& to) noexcep
   for (float*& r : to.r) r = arena.take<float>(vectors);
   for (float*& q : to.corrected) q = arena.take<float>(asset.mode_count());
   to.swing = arena.take<float>(asset.pack.regions.size());
+  for (float** modes : {&to.tick_force.q, &to.tick_force.added_q, &to.tick_force.off_q})
+    *modes = arena.take<float>(asset.mode_count());
+  for (float** each : {&to.tick_force.r, &to.tick_force.added_r, &to.tick_force.off_r})
+    *each = arena.take<float>(vectors);
   to.tail = arena.take<float>(vectors);
   to.tail_velocity = arena.take<float>(vectors);
   for (float*& shown : to.shown) shown = arena.take<float>(vectors);
@@ -110,6 +114,8 @@ void lay_out_scratch(const Asset& asset, core::Arena& arena, Instance& to) noexc
   to.parts = arena.take<JointParts>(joints);
   to.next_parts = arena.take<JointParts>(joints);
   to.tick_joints = arena.take<Matrix34>(joints);
+  to.poses_now = arena.take<tissue::NodePose>(nodes);
+  to.shown_between = arena.take<float>(size_t{3} * nodes);
   to.drive = arena.take<float>(size_t{tissue::kNodeDriveWidth} * nodes);
   for (float** vectors : {&to.felt, &to.l_hat, &to.r_hat, &to.carry})
     *vectors = arena.take<float>(size_t{3} * nodes);
@@ -128,6 +134,9 @@ void lay_out_scratch(const Asset& asset, core::Arena& arena, Instance& to) noexc
   to.surface = arena.take<float>(size_t{3} * asset.vertex_count());
   to.areas = arena.take<float>(size_t{3} * asset.vertex_count());
   const size_t slots = asset.rods.slot_count;
+  to.rod_rest_now = arena.take<double>(4 * slots);
+  to.rod_hold_now = arena.take<double>(size_t{3} * asset.rods.hold_count());
+  for (float** turns : {&to.rod_orientations, &to.rods_between}) *turns = arena.take<float>(4 * slots);
   to.rod_velocity = arena.take<float>(6 * slots);
   for (size_t tick = 0; tick < 2; ++tick) {
     to.rod_end[tick] = arena.take<double>(3 * slots);
@@ -227,6 +236,8 @@ Status make_instance(Asset& asset, const InstanceDef& def, Instance* out) noexce
   lay_out(asset, arena, made);
   made.asset = &asset;
   made.asset_id = def.asset;
+  made.sleep_tolerance = WorldDef{}.sleep_tolerance;
+  made.most_m_s2 = TeleportDef{}.acceleration * asset.pack.character->height_m;
   new (made.state) InstanceState();
   point_to_state(made);
   made.state->root = def.root;

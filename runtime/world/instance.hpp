@@ -12,6 +12,7 @@
 #include "rods/rod_batch.hpp"
 #include "sinew/contact_source.hpp"
 #include "sinew/types.hpp"
+#include "tissue/fraction_step.hpp"
 #include "tissue/node_pose.hpp"
 #include "world/asset.hpp"
 #include "world/pose.hpp"
@@ -70,7 +71,7 @@ struct InstanceState {
   // world/teleport.hpp: of the step that teleported last.
   double teleport_velocity_m_s[3] = {}, teleport_spin[3] = {};
   double tick_root_m[3][3] = {};  // of the last three ticks, newest first
-  float render_fraction = 0;      // remainder in ticks: how far the shown displacement is carried on
+  float render_fraction = 0;      // remainder in ticks: how far beyond the last tick is shown
   uint32_t has_next = 0;          // set_pose since the last step
   uint32_t at_start = 1;          // no pose yet: the first one is taken as having been held for ever
   uint32_t motion_stale = 1;      // ticks were not followed: the motion history is rebuilt before use
@@ -99,6 +100,9 @@ struct InstanceState {
   uint32_t space_changed = 0, carried_capsules = 0;  // in the last step; world/teleport.hpp
   float time_scale = 1, felt_root = 1;               // World::set_time_scale, set_felt_root_motion
   uint32_t root_teleports = 0, part_teleports = 0;   // since creation
+  uint32_t is_off = 0;                               // world/between_ticks.hpp
+  uint32_t skips_pose = 0;                           // none is due in the coming step (world/skip_pose.hpp)
+  double without_pose_s = 0;                         // of its own time, since the last one was due
 };
 inline constexpr size_t kPlannedStateBytes = offsetof(InstanceState, root);
 static_assert(kPlannedStateBytes == 64);  // a cache line
@@ -178,11 +182,14 @@ struct Instance {
   bool refined = false;        // to a finer one
   InstanceTimes times;
   core::AlignedBlock memory;
+  uint64_t between_ns = 0;  // of times.publish_ns: a provisional step (world/between_ticks.hpp)
   AssetId asset_id;
   const GraphLevel* level = nullptr;  // of the asset: state->level
   bool level_raised = false;          // in this step: its nodes' past poses are not known
-  bool rods_anew = false;   // in this tick: rods are taken to where they are shown before they go on
-  bool rods_shown = false;  // published joints are not the pose's
+  bool rods_anew = false;     // in this tick: rods are taken to where they are shown before they go on
+  bool rods_shown = false;    // published joints are not the pose's
+  float most_m_s2 = 0;        // TeleportDef::acceleration, in metres; as by default until set
+  float sleep_tolerance = 0;  // WorldDef::sleep_tolerance, likewise
   // own_body and surface: only where there is something to touch. Without a source and soft parts that touch
   // the body, the arrays of contacts have no memory.
   ContactDef contacts;
@@ -203,6 +210,7 @@ struct Instance {
   // [modes]: by how much a network's corrections have moved q since it began, as modes go on with them.
   float* corrected[2] = {};
   float* swing = nullptr;                           // [regions]: tissue/correction_budget.hpp
+  tissue::TickForce tick_force{};                   // of the last tick
   float *tail = nullptr, *tail_velocity = nullptr;  // velocity a tick
   float* shown[2] = {};                             // newest first
   float* felt_asleep = nullptr;                     // m/s^2, when the region's quiet began (world/sleep.hpp)
@@ -234,6 +242,8 @@ struct Instance {
              *next_parts = nullptr;  // [joints]
   RootStep root_step{}, root_step_before{};
   Matrix34* tick_joints = nullptr;                    // [joints]
+  tissue::NodePose* poses_now = nullptr;              // [nodes] at the end of the step
+  float* shown_between = nullptr;                     // world/between_ticks.hpp
   float* drive = nullptr;                             // [nodes][kNodeDriveWidth]
   float *joint_size = nullptr, *node_size = nullptr;  // [joints], [nodes]
   float *felt = nullptr, *l_hat = nullptr, *r_hat = nullptr, *q_hat = nullptr, *carry = nullptr;
@@ -256,6 +266,10 @@ struct Instance {
   // proxy_ends a tick ago, whoever sleeps; null: soft parts do not touch them.
   double* proxy_before = nullptr;
 
+  double *rod_rest_now = nullptr,
+         *rod_hold_now = nullptr;  // as rod_rest and rod_hold, at the end of the step
+  float *rod_orientations = nullptr,
+        *rods_between = nullptr;  // [slots][4], there: in the world, and as shown
   float* rod_velocity = nullptr;  // [slots][6], of rods that are carried: beside the pose's, along own axes
   double* rod_end[2] = {};        // [slots][3] where segments end, as they are taken along
 

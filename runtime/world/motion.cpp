@@ -199,6 +199,8 @@ void keep_pose(Instance& instance) noexcept {
   instance.state->dt_before_s = instance.came_back ? 0 : instance.plan.dt_s;
   instance.state->root = instance.state->next_root;
   instance.state->has_next = 0;
+  instance.state->skips_pose = 0;
+  instance.state->without_pose_s = 0;
 }
 
 void follow_motion(Instance& instance, double time_s) noexcept {
@@ -218,8 +220,8 @@ void follow_motion(Instance& instance, double time_s) noexcept {
   push_pose(instance, share);
 }
 
-void pose_at_start(Instance& instance) noexcept {
-  pose_nodes(instance, instance.joints, instance.state->root, instance.poses[0]);
+void pose_now(Instance& instance, tissue::NodePose* out) noexcept {
+  pose_nodes(instance, instance.joints, instance.state->root, out);
 }
 
 }  // namespace sinew::world

@@ -18,8 +18,8 @@ void keep_pose(Instance& instance) noexcept;
 // spike.
 void follow_motion(Instance& instance, double time_s) noexcept;
 
-// Frames of the nodes at the pose that the last step ended with, into the newest of `poses`: where ticks were
-// not followed, the frames that tissue comes back in.
-void pose_at_start(Instance& instance) noexcept;
+// Frames of the nodes, and skin, at the pose that the last step ended with. Into the newest of `poses`, where
+// ticks were not followed, they are the frames that tissue comes back in.
+void pose_now(Instance& instance, tissue::NodePose* out) noexcept;
 
 }  // namespace sinew::world

@@ -8,6 +8,7 @@
 
 #include "world/dormant.hpp"
 #include "world/hidden.hpp"
+#include "world/skip_pose.hpp"
 
 namespace sinew::world {
 namespace {
@@ -93,14 +94,24 @@ float change_us(const PlanRow& row, uint32_t ticks) noexcept {
   return costs_of(row).cost.change.estimate_us() + skin_us;
 }
 
-Candidate candidate_of(const Terms& terms, const PlanRow& row, uint32_t ticks, uint32_t slot) noexcept {
+// In ticks: of the step's, and of the provisional one that it ends on between two.
+float work_of(const Terms& terms, const PlanRow& row, const frame::TickPlan& plan) noexcept {
+  const frame::CostEstimate& between = costs_of(row).cost.between;
+  const bool ends_between = frame::passed_share(plan, row.asset->tick_s) > 0;
+  const float share = terms.measured ? between.estimate_us() : between.baked_us();
+  return static_cast<float>(plan.ticks) + (ends_between ? share : 0);
+}
+
+Candidate candidate_of(const Terms& terms, const PlanRow& row, const frame::TickPlan& plan,
+                       uint32_t slot) noexcept {
+  const uint32_t ticks = plan.ticks;
   const frame::Front& front = costs_of(row).front;
   return {.front = &front,
           .slot = slot,
           .weight = weight_of(row),
           .waited_s = row.waited_s,
           .held_s = row.held_s,
-          .ticks = static_cast<float>(ticks),
+          .ticks = work_of(terms, row, plan),
           .cost_factor = terms.measured ? row.cost_factor : 1,
           .base_us = base_us(terms, row),
           .enter_us = terms.measured ? costs_of(row).cost.enter.estimate_us() : 0,
@@ -113,15 +124,13 @@ Candidate candidate_of(const Terms& terms, const PlanRow& row, uint32_t ticks, u
           .keeps_level = ticks == 0 && terms.has_budget && !row.hidden};
 }
 
-double time_scale_of(const PlanRow& row) noexcept {
-  return row.scaled ? static_cast<double>(row.state->time_scale) : 1;
-}
-
-void sleep_on(WorldState& world, uint32_t slot, frame::TickPlans& plans) noexcept {
+void sleep_on(WorldState& world, uint32_t slot, const frame::TickPlan& ticks) noexcept {
   Instance& instance = *world.instances.at(slot);
   PlanRow& row = world.rows[slot];
-  instance.plan.ticks = plans.of(row.remainder_s, row.asset->tick_s, time_scale_of(row));
-  instance.plan.dt_s = time_scale_of(row) * world.dt_s;
+  instance.plan.ticks = ticks;
+  instance.plan.dt_s = own_step_s(world, *row.state);
+  forget_skipped(*row.state);
+  row.waited_for_pose = false;
   instance.passed = true;
   stay_dormant(instance, world.dt_s);
   row.remainder_s = row.state->remainder_s;
@@ -131,12 +140,22 @@ void sleep_on(WorldState& world, uint32_t slot, frame::TickPlans& plans) noexcep
   row.was_cut = false;
 }
 
+void wait(WorldState& world, uint32_t slot) noexcept {
+  Instance& instance = *world.instances.at(slot);
+  wait_for_pose(instance, world.dt_s);
+  copy_to_row(instance, &world.rows[slot]);
+}
+
 void pass_unseen(WorldState& world, uint32_t slot, const frame::TickPlan& ticks) noexcept {
   PlanRow& row = world.rows[slot];
   if (!row.hidden) {
     Instance& instance = *world.instances.at(slot);
     hide(instance);
     copy_to_row(instance, &row);
+  }
+  if (row.skips_pose || row.waited_for_pose) {  // it has no motion that would have to wait
+    forget_skipped(*row.state);
+    row.skips_pose = row.waited_for_pose = false;
   }
   pass_by(ticks, row);
 }
@@ -166,14 +185,15 @@ uint32_t gather_candidates(WorldState& world) noexcept {
   world.dropped_s = 0;
   for_each_row(world, [&](PlanRow& row, uint32_t slot) {
     bring_next_near(world, slot, count);
-    const frame::TickPlan& ticks = plans.of(row.remainder_s, row.asset->tick_s, time_scale_of(row));
+    world.answers[slot].idle = false;
+    if (row.seen && row.skips_pose && !row.hidden) return wait(world, slot);
+    const frame::TickPlan ticks = own_ticks(world, row, plans);
     if (!row.seen) return pass_unseen(world, slot, ticks);
     count_ticks(ticks, world);
-    world.answers[slot].idle = false;
     if (row.dormant && terms.has_budget)
-      sleep_on(world, slot, plans);
+      sleep_on(world, slot, ticks);
     else  // made where it stays: a copy would wait for what has just been written
-      new (&world.candidates[count++]) Candidate(candidate_of(terms, row, ticks.ticks, slot));
+      new (&world.candidates[count++]) Candidate(candidate_of(terms, row, ticks, slot));
   });
   return count;
 }

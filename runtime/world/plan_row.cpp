@@ -30,6 +30,8 @@ void copy_to_row(const Instance& instance, PlanRow* row) noexcept {
   row->hidden_by_caller = state.hidden_by_caller != 0;
   row->displaced = instance.displaced;
   row->scaled = state.time_scale != 1;
+  row->skips_pose = state.skips_pose != 0;
+  row->waited_for_pose = state.without_pose_s > 0;
   row->falls_back = state.fallback_ticks > 0;
   row->was_cut = instance.cut || instance.held;
   row->shows = instance.shown_share() != 0;

@@ -28,8 +28,9 @@ struct alignas(64) PlanRow {
   bool seen : 1 = true;          // in this step (world/look.hpp)
   bool has_surface : 1 = false;  // stays
   bool scaled : 1 = false;       // its time runs slower or faster than the world's
-  uint8_t blind_looks : 2 = 0;   // in a row, as many as hide (world/look.hpp) at most
-  uint8_t missed : 2 = 0;        // ticks that it would make up for (world/catch_up.hpp)
+  bool skips_pose : 1 = false, waited_for_pose : 1 = false;  // world/skip_pose.hpp
+  uint8_t blind_looks : 2 = 0;  // in a row, as many as hide (world/look.hpp) at most
+  uint8_t missed : 2 = 0;       // ticks that it would make up for (world/catch_up.hpp)
   uint16_t regions_asleep = 0;
   float size = 1;             // in this step: share of a view's height
   uint32_t hidden_ticks = 0;  // ahead of the state's, as is remainder_s, while hidden (world/hidden.hpp)

@@ -1,13 +1,16 @@
-// publish.cpp  The last tick's displacement brought to the render time and to the surface.
+// publish.cpp  What is shown at the end of a step, brought to the surface.
 #include "world/publish.hpp"
 
 #include <bit>
 #include <cstring>
 #include <utility>
 
+#include "core/clock.hpp"
 #include "frame/scheduler.hpp"
 #include "simd/kernels.hpp"
+#include "world/between_ticks.hpp"
 #include "world/pose.hpp"
+#include "world/rod_blend.hpp"
 #include "world/rod_publish.hpp"
 
 namespace sinew::world {
@@ -19,21 +22,12 @@ bool put(float value, float& to) noexcept {
   return changed;
 }
 
-// delta = u + (r/h)(u - u_before); of a tail, what is left once its fading is left out: carried_share has
-// that. True when any bit of it is new.
-bool carry_on(Instance& instance, const pack::RegionRecord& region) noexcept {
-  const float ahead = instance.state->render_fraction;
+// True when any bit of a region's delta is new. Of a tail it is what is left once its fading is left out:
+// carried_share has that.
+bool take_shown(Instance& instance, const pack::RegionRecord& region, const float* shown) noexcept {
   const size_t begin = size_t{3} * region.first_node, end = begin + size_t{3} * region.node_count;
   bool changed = false;
-  if (frame::is_simulated(instance.state->tier)) {
-    for (size_t i = begin; i < end; ++i) {
-      const float now = instance.shown[0][i];
-      changed |= put(now + ahead * (now - instance.shown[1][i]), instance.delta[i]);
-    }
-  } else {
-    for (size_t i = begin; i < end; ++i)
-      changed |= put(instance.tail[i] + ahead * instance.tail_velocity[i], instance.delta[i]);
-  }
+  for (size_t i = begin; i < end; ++i) changed |= put(shown[i], instance.delta[i]);
   return changed;
 }
 
@@ -66,13 +60,26 @@ void clear_shown(Instance& instance) noexcept {
   instance.state->seam_ticks = kBlendInTicks;
 }
 
+struct Shown {
+  const float *displacement, *turns;  // of nodes, and of rods' segments
+};
+
+Shown shown_at_end(Instance& instance, const ClockHook& clock) noexcept {
+  const bool steps = instance.state->render_fraction > 0 && frame::is_simulated(instance.state->tier);
+  const uint64_t start_ns = steps ? core::now_ns(clock) : 0;
+  const Shown shown{shown_now(instance), rods_shown_now(instance)};
+  instance.between_ns = steps ? core::now_ns(clock) - start_ns : 0;
+  return shown;
+}
+
 }  // namespace
 
-void publish(Instance& instance) noexcept {
+void publish(Instance& instance, const ClockHook& clock) noexcept {
   const pack::PackView& pack = instance.level->pack;
-  publish_rods(instance);
-  if (!skins_on_reading(instance)) skin_matrices(pack.joints, shown_joints(instance), instance.skin);
   const bool displaced = instance.shown_share() > 0;
+  const Shown now = shown_at_end(instance, clock);
+  publish_rods(instance, now.turns);
+  if (!skins_on_reading(instance)) skin_matrices(pack.joints, shown_joints(instance), instance.skin);
   if (std::exchange(instance.displaced, displaced) && !displaced) clear_shown(instance);
   if (!displaced) return;
   instance.carried_share =
@@ -82,7 +89,7 @@ void publish(Instance& instance) noexcept {
   const bool seamed = takes_seam(instance, seam);
   for (size_t r = 0; r < pack.regions.size(); ++r) {
     const pack::RegionRecord& region = pack.regions[r];
-    const bool moved = carry_on(instance, region), pushed = takes_pushes(instance, r);
+    const bool moved = take_shown(instance, region, now.displacement), pushed = takes_pushes(instance, r);
     const size_t first = static_cast<size_t>(carried - instance.carried);
     if (moved || pushed || seamed)
       simd::kernels().carry(pack.carry.data() + region.carry, region.node_count, region.padded_vertices,

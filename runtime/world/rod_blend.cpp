@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "frame/scheduler.hpp"
+#include "world/rod_motion.hpp"
 #include "world/rotation.hpp"
 
 namespace sinew::world {
@@ -30,6 +32,31 @@ void advance_tail(Instance& instance, size_t slot) noexcept {
   if (velocity.isZero(0)) return;
   put_turn(instance.rod_tail, slot, turn_at(instance.rod_tail, slot) * exponential(velocity.cast<double>()));
   velocity *= kCarryDamping;
+}
+
+// What is shown of what is simulated, so that `turns` holds it, and of a tail.
+void blend_rods(const Instance& instance, float simulated, const float* tails, float* turns) noexcept {
+  const double tail_share = static_cast<double>(instance.tail_share());
+  for (size_t s = 0; s < instance.asset->rods.slot_count; ++s) {
+    const Quaterniond turn = turn_at(turns, s);
+    if (instance.state->tail_rides) {
+      put_turn(turns, s, turn * share_of(1 - static_cast<double>(simulated), turn_at(tails, s)));
+      continue;
+    }
+    const Quaterniond tail = share_of(tail_share, turn_at(tails, s));
+    put_turn(turns, s, simulated > 0 ? between(tail, turn, static_cast<double>(simulated)) : tail);
+  }
+}
+
+// Of a tail, as world/blend.cpp has it for tissue: its steps are its velocity, damped from one to the next.
+void rod_tails_between(const Instance& instance, float x, float* tails) noexcept {
+  const InstanceState& state = *instance.state;
+  const float before = state.tail_ticks == 0 ? 1 : 1 / kCarryDamping, y = 1 - x;
+  const float share = x * (x * (3 - 2 * x) + y * (y * (before + 1) / 2 - x * (1 + kCarryDamping) / 2));
+  for (size_t s = 0; s < instance.asset->rods.slot_count; ++s) {
+    const Eigen::Map<const Eigen::Vector3f> velocity(instance.rod_tail_velocity + 3 * s);
+    put_turn(tails, s, turn_at(instance.rod_tail, s) * exponential((share * velocity).cast<double>()));
+  }
 }
 
 }  // namespace
@@ -63,21 +90,29 @@ void take_rods_as_shown(Instance& instance) noexcept {
 
 void show_rods(Instance& instance, float simulated) noexcept {
   const size_t slots = instance.asset->rods.slot_count;
-  const double tail_share = static_cast<double>(instance.tail_share());
   std::copy_n(instance.rod_shown[0], 4 * slots, instance.rod_shown[1]);
-  if (simulated == 1) return void(std::copy_n(instance.rod_turn, 4 * slots, instance.rod_shown[0]));
-  for (size_t s = 0; s < slots; ++s) {
-    if (instance.state->tail_rides) {
-      const Quaterniond off = share_of(1 - static_cast<double>(simulated), turn_at(instance.rod_tail, s));
-      put_turn(instance.rod_shown[0], s, turn_at(instance.rod_turn, s) * off);
-      continue;
-    }
-    advance_tail(instance, s);
-    const Quaterniond tail = share_of(tail_share, turn_at(instance.rod_tail, s));
-    put_turn(
-        instance.rod_shown[0], s,
-        simulated > 0 ? between(tail, turn_at(instance.rod_turn, s), static_cast<double>(simulated)) : tail);
-  }
+  std::copy_n(instance.rod_turn, 4 * slots, instance.rod_shown[0]);
+  if (simulated == 1) return;
+  if (!instance.state->tail_rides)
+    for (size_t s = 0; s < slots; ++s) advance_tail(instance, s);
+  blend_rods(instance, simulated, instance.rod_tail, instance.rod_shown[0]);
+}
+
+const float* rods_shown_now(Instance& instance) noexcept {
+  const InstanceState& state = *instance.state;
+  const float x = state.render_fraction, share = instance.simulated_share();
+  const bool simulated = frame::is_simulated(state.tier);
+  const bool shows = instance.asset->rods.rod_count > 0 && instance.shown_share() > 0;
+  if (!shows || x == 0 || (simulated && state.motion_stale)) return instance.rod_shown[0];
+  float *turns = instance.rods_between, *tails = instance.rod_orientations;
+  if (simulated) turn_rods_between(instance, x, turns);
+  if (share == 1) return turns;
+  if (simulated)
+    std::copy_n(instance.rod_tail, 4 * instance.asset->rods.slot_count, tails);
+  else
+    rod_tails_between(instance, x, tails);
+  blend_rods(instance, share, tails, turns);
+  return turns;
 }
 
 }  // namespace sinew::world

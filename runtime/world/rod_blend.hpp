@@ -15,5 +15,8 @@ void ride_rods(Instance& instance) noexcept;
 void take_rods_as_shown(Instance& instance) noexcept;
 // End of a tick; simulated: the share of what is simulated in what is shown.
 void show_rods(Instance& instance, float simulated) noexcept;
+// [slots][4] at the end of the last step; the last tick's own where it ended on that
+// (world/between_ticks.hpp).
+const float* rods_shown_now(Instance& instance) noexcept;
 
 }  // namespace sinew::world

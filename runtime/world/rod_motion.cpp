@@ -126,13 +126,13 @@ Vector3d felt_gravity(const Instance& instance, uint32_t rod, const RodSeat& sea
 // Damping resists all bending, the animation's too, which would trail by damping_s: (1 + t/h) C - (t/h) C_0
 // of the joint (simd/rod_step-inl.hpp) counts both from this tick's rest. A rest that leads by t/h of its own
 // step makes it resist only what the rod does beside it.
-Quaterniond led_rest(const Instance& instance, uint32_t s) noexcept {
+Quaterniond led_rest(const Instance& instance, uint32_t s, double ticks) noexcept {
   const RodSlot& slot = instance.asset->rods.slots()[s];
   const auto bent = [&](int tick) {
     return rest_of(instance, tick, slot.parent).conjugate() * rest_of(instance, tick, s);
   };
   const Quaterniond now = bent(0), step = bent(1).conjugate() * now;
-  const double lead = double{slot.damping_s} / instance.asset->tick_s;
+  const double lead = double{slot.damping_s} / (ticks * instance.asset->tick_s);
   return (now * exponential(lead * logarithm(step))).normalized();
 }
 
@@ -143,8 +143,9 @@ void drive_end(const Instance& instance, const RodSeat& seat, rods::RodBatch& ba
   (void)batch.set_target(seat.strand, k, pose_of(held, hold_of_end(instance, seat, 0) + half));
 }
 
-// Where it is held, its shape at rest, what pulls at it.
-void drive_rod(Instance& instance, uint32_t rod) noexcept {
+// Where it is held, its shape at rest, what pulls at it: so many ticks after the pose before, and beside
+// gravity.
+void drive_rod(Instance& instance, uint32_t rod, double ticks, const Vector3d& beside_m_s2) noexcept {
   const RodRig& rig = instance.asset->rods;
   const RodSeat& seat = rig.seats()[rod];
   rods::RodBatch& batch = instance.rod_batches[seat.batch];
@@ -152,14 +153,14 @@ void drive_rod(Instance& instance, uint32_t rod) noexcept {
   const Vector3d hold = Eigen::Map<const Vector3d>(instance.rod_hold[0] + size_t{3} * rod);
   // What is refused keeps its last value; poses have been checked.
   (void)batch.set_target(seat.strand, 0, pose_of(held, hold - half_axis(rig.slots()[seat.first_slot], held)));
-  const Vector3d gravity = felt_gravity(instance, rod, seat);
+  const Vector3d pull_m_s2 = felt_gravity(instance, rod, seat) + beside_m_s2;
   for (uint32_t k = 1; k < seat.slot_count; ++k) {
     const RodSlot& slot = rig.slots()[seat.first_slot + k];
     float rest[4], force_n[3];
-    Eigen::Vector4f::Map(rest) = led_rest(instance, seat.first_slot + k).coeffs().cast<float>();
+    Eigen::Vector4f::Map(rest) = led_rest(instance, seat.first_slot + k, ticks).coeffs().cast<float>();
     (void)batch.set_rest(seat.strand, k, rest);
     if (k > seat.segment_count()) continue;
-    Eigen::Vector3f::Map(force_n) = (double{slot.mass_kg} * gravity).cast<float>();
+    Eigen::Vector3f::Map(force_n) = (double{slot.mass_kg} * pull_m_s2).cast<float>();
     (void)batch.set_force(seat.strand, k, force_n);
   }
   if (seat.end_hold != pack::kNoIndex) drive_end(instance, seat, batch);
@@ -177,15 +178,23 @@ void add_to_velocities(Instance& instance, const Vector3d& added_m_s) noexcept {
   }
 }
 
-// They go along with what of the root's acceleration is not felt.
-void spare_rods(Instance& instance, float most_m_s2) noexcept {
-  const auto& root_m = instance.state->tick_root_m;
-  const auto place = [&](int tick) -> Vector3d { return Eigen::Map<const Vector3d>(root_m[tick]); };
+// What of the root's acceleration is not felt.
+Vector3d spared(const Instance& instance, const Vector3d& acceleration_m_s2) noexcept {
+  const double share = tissue::felt_share(static_cast<float>(acceleration_m_s2.norm()), instance.most_m_s2);
+  return (1 - share) * acceleration_m_s2;
+}
+
+Vector3d tick_root(const Instance& instance, int tick) noexcept {
+  return Eigen::Map<const Vector3d>(instance.state->tick_root_m[tick]);
+}
+
+// They go along with it.
+void spare_rods(Instance& instance) noexcept {
   const double tick_s = instance.asset->tick_s;
-  const Vector3d change_m_s = (place(0) - 2 * place(1) + place(2)) / tick_s;
-  const float share = tissue::felt_share(static_cast<float>(change_m_s.norm() / tick_s), most_m_s2);
-  if (share == 1) return;
-  add_to_velocities(instance, double{1 - share} * change_m_s);
+  const Vector3d change_m_s =
+      (tick_root(instance, 0) - 2 * tick_root(instance, 1) + tick_root(instance, 2)) / tick_s;
+  const Vector3d spared_m_s2 = spared(instance, change_m_s / tick_s);
+  if (!spared_m_s2.isZero(0)) add_to_velocities(instance, tick_s * spared_m_s2);
 }
 
 // As a region's displacement is held (tissue/guard.hpp): what is shown, not what swings on.
@@ -195,15 +204,19 @@ Quaterniond limited(const Quaterniond& turn, float limit_rad) noexcept {
   return exponential(double{tissue::limit_share(static_cast<float>(vector.norm()), limit_rad)} * vector);
 }
 
+// Of a segment that is turned so in the world.
+void put_turn(const Instance& instance, const RodSeat& seat, uint32_t s, const float* orientation,
+              float* turns) noexcept {
+  const Quaterniond turn = rest_of(instance, 0, s).conjugate() * quaternion(orientation);
+  Eigen::Map<Eigen::Vector4f>(turns + size_t{4} * s) =
+      limited(turn.normalized(), seat.turn_limit_rad).coeffs().cast<float>();
+}
+
 void read_turns(Instance& instance) noexcept {
-  const RodRig& rig = instance.asset->rods;
-  for (const RodSeat& seat : rig.seats()) {
+  for (const RodSeat& seat : instance.asset->rods.seats()) {
     for (uint32_t k = 1; k <= seat.segment_count(); ++k) {
-      const uint32_t s = seat.first_slot + k;
       const rods::SegmentPose pose = instance.rod_batches[seat.batch].pose(seat.strand, k);
-      const Quaterniond turn = rest_of(instance, 0, s).conjugate() * quaternion(pose.orientation);
-      Eigen::Map<Eigen::Vector4f>(instance.rod_turn + size_t{4} * s) =
-          limited(turn.normalized(), seat.turn_limit_rad).coeffs().cast<float>();
+      put_turn(instance, seat, seat.first_slot + k, pose.orientation, instance.rod_turn);
     }
   }
 }
@@ -312,16 +325,16 @@ void remember_rod_velocities(Instance& instance) noexcept {
   }
 }
 
-void simulate_rods(Instance& instance, float sleep_tolerance, float most_m_s2) noexcept {
+void simulate_rods(Instance& instance) noexcept {
   const RodRig& rig = instance.asset->rods;
   if (rig.rod_count == 0) return;
   if (take_some_along(instance)) {
     wake_rods(instance);
     forget_rod_contacts(instance);
   }
-  if (rods_sleep_on(instance, sleep_tolerance)) return;
-  for (uint32_t rod = 0; rod < rig.rod_count; ++rod) drive_rod(instance, rod);
-  spare_rods(instance, most_m_s2);
+  if (rods_sleep_on(instance)) return;
+  for (uint32_t rod = 0; rod < rig.rod_count; ++rod) drive_rod(instance, rod, 1, Vector3d::Zero());
+  spare_rods(instance);
   for (uint32_t b = 0; b < rig.batch_count; ++b) {
     rods::RodReport report;
     (void)instance.rod_batches[b].step(static_cast<float>(instance.asset->tick_s), rod_collider(instance, b),
@@ -334,7 +347,81 @@ void simulate_rods(Instance& instance, float sleep_tolerance, float most_m_s2) n
     instance.told.dropped += report.contacts_dropped;
   }
   read_turns(instance);
-  watch_rods(instance, sleep_tolerance);
+  watch_rods(instance);
+}
+
+namespace {
+
+// As long as it lives, the present pose is the newest of an instance's rods, and the last tick's the one
+// before.
+class PresentRest {
+ public:
+  explicit PresentRest(Instance& instance) noexcept : instance_(instance) {
+    turn(instance.rod_rest, instance.rod_rest_now);
+    turn(instance.rod_hold, instance.rod_hold_now);
+    for (uint32_t rod = 0; rod < instance.asset->rods.rod_count; ++rod)
+      rest_rod(instance, rod, instance.joints, instance.state->root, 0);
+  }
+  PresentRest(const PresentRest&) = delete;
+  PresentRest& operator=(const PresentRest&) = delete;
+  ~PresentRest() {
+    turn_back(instance_.rod_rest, &instance_.rod_rest_now);
+    turn_back(instance_.rod_hold, &instance_.rod_hold_now);
+  }
+
+ private:
+  void turn(double* (&newest)[2], double* now) noexcept {
+    oldest_[kept_++] = newest[1];
+    newest[1] = std::exchange(newest[0], now);
+  }
+  void turn_back(double* (&newest)[2], double** now) noexcept {
+    *now = std::exchange(newest[0], newest[1]);
+    newest[1] = oldest_[given_++];
+  }
+  Instance& instance_;
+  double* oldest_[2] = {};
+  size_t kept_ = 0, given_ = 0;
+};
+
+// Its next tick does not go on from where it is.
+bool is_carried(const Instance& instance, uint32_t rod) noexcept {
+  const RodSeat& seat = instance.asset->rods.seats()[rod];
+  const auto held = [&](int tick) {
+    rods::SegmentPose pose{};
+    std::copy_n(instance.rod_hold[tick] + size_t{3} * rod, 3, pose.position_m);
+    return pose;
+  };
+  return instance.carried_rods[rod] || instance.rod_batches[seat.batch].is_far(seat.strand, held(0), held(1));
+}
+
+}  // namespace
+
+void turn_rods_between(Instance& instance, float x, float* turns) noexcept {
+  const RodRig& rig = instance.asset->rods;
+  std::copy_n(instance.rod_turn, size_t{4} * rig.slot_count, turns);
+  const bool asleep = rods_asleep(instance) == rig.rod_count;
+  if (instance.rods_anew || (asleep && instance.state->still_ticks > 0)) return;
+  const PresentRest present(instance);
+  if (asleep && rods_are_held_as_asleep(instance)) return;
+  const double tick_s = instance.asset->tick_s, ticks = static_cast<double>(x);
+  const Vector3d step = Eigen::Map<const Vector3d>(instance.state->root.position_m) - tick_root(instance, 0),
+                 before = tick_root(instance, 0) - tick_root(instance, 1);
+  const Vector3d beside_m_s2 =
+      spared(instance, (step - ticks * before) / (tick_s * tick_s * ticks * (1 + ticks) / 2));
+  for (uint32_t rod = 0; rod < rig.rod_count; ++rod)
+    if (!is_carried(instance, rod)) drive_rod(instance, rod, ticks, beside_m_s2);
+  for (uint32_t b = 0; b < rig.batch_count; ++b) {
+    const rods::RodBatch& batch = instance.rod_batches[b];
+    (void)batch.step_between(static_cast<float>(tick_s), x, rod_collider(instance, b),
+                             instance.rod_orientations);
+    for (uint32_t rod = 0; rod < rig.rod_count; ++rod) {
+      const RodSeat& seat = rig.seats()[rod];
+      if (seat.batch != b || is_carried(instance, rod)) continue;
+      const float* first = instance.rod_orientations + size_t{4} * seat.strand * batch.segment_count();
+      for (uint32_t k = 1; k <= seat.segment_count(); ++k)
+        put_turn(instance, seat, seat.first_slot + k, first + size_t{4} * k, turns);
+    }
+  }
 }
 
 }  // namespace sinew::world

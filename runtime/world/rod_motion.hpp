@@ -36,6 +36,9 @@ void rest_carried_rods(Instance& instance, const Matrix34* joints, const RootTra
 void remember_rod_velocities(Instance& instance) noexcept;
 // One tick, after rest_rods; rod_turn is its result.
 // Of the root's acceleration they feel what tissue does (tissue::felt_share).
-void simulate_rods(Instance& instance, float sleep_tolerance, float most_m_s2) noexcept;
+void simulate_rods(Instance& instance) noexcept;
+// What rod_turn will be by a fraction x of the next tick, under the present pose (world/between_ticks.hpp);
+// of what sleeps or is carried in that tick, what it is. turns: [slots][4].
+void turn_rods_between(Instance& instance, float x, float* turns) noexcept;
 
 }  // namespace sinew::world

@@ -16,20 +16,11 @@ using MapConst = Eigen::Map<const Eigen::Matrix<float, 3, 4, Eigen::RowMajor>>;
 MapMatrix map(Matrix34& m) noexcept { return MapMatrix(&m.m[0][0]); }
 RowMatrix34d matrix(const Matrix34& m) noexcept { return MapConst(&m.m[0][0]).cast<double>(); }
 
-// At the render time, along the segment's own axes.
-Quaterniond carried_on(const Instance& instance, uint32_t slot) noexcept {
-  const Quaterniond now = quaternion(instance.rod_shown[0] + size_t{4} * slot);
-  const double ahead = static_cast<double>(instance.state->render_fraction);
-  if (ahead == 0) return now;
-  const Quaterniond before = quaternion(instance.rod_shown[1] + size_t{4} * slot);
-  return now * exponential(ahead * logarithm(before.conjugate() * now));
-}
-
 // The motion that takes a bone from where its parent's motion brings it to where its segment is.
-void move_bone(Instance& instance, uint32_t s) noexcept {
+void move_bone(Instance& instance, uint32_t s, const float* turns) noexcept {
   const RodSlot& slot = instance.asset->rods.slots()[s];
   const RowMatrix34d above = matrix(instance.rod_motion[slot.parent]);
-  const Quaterniond turn = carried_on(instance, s);
+  const Quaterniond turn = quaternion(turns + size_t{4} * s);
   if (slot.bone == pack::kNoIndex) {  // a link goes with its bone
     map(instance.rod_motion[s]) = above.cast<float>();
     return;
@@ -46,13 +37,13 @@ void move_bone(Instance& instance, uint32_t s) noexcept {
 
 }  // namespace
 
-void publish_rods(Instance& instance) noexcept {
+void publish_rods(Instance& instance, const float* turns) noexcept {
   const RodRig& rig = instance.asset->rods;
   instance.rods_shown = rig.rod_count > 0 && instance.shown_share() > 0;
   if (!instance.rods_shown) return;
   for (const RodSeat& seat : rig.seats()) {
     map(instance.rod_motion[seat.first_slot]).setIdentity();
-    for (uint32_t k = 1; k <= seat.segment_count(); ++k) move_bone(instance, seat.first_slot + k);
+    for (uint32_t k = 1; k <= seat.segment_count(); ++k) move_bone(instance, seat.first_slot + k, turns);
   }
   for (uint32_t j = 0; j < instance.level->pack.character->joint_count; ++j) {
     const uint32_t carrier = rig.joint_slots[j];

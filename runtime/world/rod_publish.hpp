@@ -5,9 +5,8 @@
 namespace sinew::world {
 
 // Each bone turns about where it begins, as its segment is turned against its rest, and moves all that hangs
-// on it; lengths and scales are the pose's. Between ticks turns are carried on at their last velocity, as
-// displacement is (world/publish.hpp).
-void publish_rods(Instance& instance) noexcept;
+// on it; lengths and scales are the pose's. turns: [slots][4], as rod_shown.
+void publish_rods(Instance& instance, const float* turns) noexcept;
 
 // Of the present pose, rods applied.
 inline const Matrix34* shown_joints(const Instance& instance) noexcept {

@@ -68,10 +68,14 @@ uint32_t rods_asleep(const Instance& instance) noexcept {
   return instance.state->rod_quiet_ticks >= kRodsQuietTicks ? instance.asset->rods.rod_count : 0;
 }
 
-bool rods_sleep_on(Instance& instance, float tolerance) noexcept {
+bool rods_are_held_as_asleep(const Instance& instance) noexcept {
+  const float tolerance = instance.sleep_tolerance;
+  return tolerance > 0 && is_held_alike(instance, static_cast<double>(tolerance));
+}
+
+bool rods_sleep_on(Instance& instance) noexcept {
   uint32_t& quiet_ticks = instance.state->rod_quiet_ticks;
-  const bool alike =
-      tolerance > 0 && quiet_ticks > 0 && is_held_alike(instance, static_cast<double>(tolerance));
+  const bool alike = quiet_ticks > 0 && rods_are_held_as_asleep(instance);
   const bool sleeps = alike && quiet_ticks >= kRodsQuietTicks;
   if (alike && !(sleeps && something_is_near_rods(instance))) return sleeps;
   const RodRig& rig = instance.asset->rods;
@@ -81,7 +85,8 @@ bool rods_sleep_on(Instance& instance, float tolerance) noexcept {
   return false;
 }
 
-void watch_rods(Instance& instance, float tolerance) noexcept {
+void watch_rods(Instance& instance) noexcept {
+  const float tolerance = instance.sleep_tolerance;
   uint32_t& quiet_ticks = instance.state->rod_quiet_ticks;
   const bool free = instance.told.rod_contacts == 0;
   const bool quiet = tolerance > 0 && free && stays(instance, static_cast<double>(tolerance));

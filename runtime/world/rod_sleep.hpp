@@ -15,9 +15,11 @@ inline constexpr uint32_t kRodsQuietTicks = 60;  // a second at 60 Hz: longer th
 
 void wake_rods(Instance& instance) noexcept;
 uint32_t rods_asleep(const Instance& instance) noexcept;
+// In the newest of rod_rest and rod_hold.
+bool rods_are_held_as_asleep(const Instance& instance) noexcept;
 // Before a tick's drive: true where it may be left out.
-bool rods_sleep_on(Instance& instance, float tolerance) noexcept;
+bool rods_sleep_on(Instance& instance) noexcept;
 // After it: counts quiet ticks.
-void watch_rods(Instance& instance, float tolerance) noexcept;
+void watch_rods(Instance& instance) noexcept;
 
 }  // namespace sinew::world

@@ -14,41 +14,11 @@
 #include "tissue/network.hpp"
 #include "tissue/node_drive.hpp"
 #include "world/change_level.hpp"
+#include "world/region_part.hpp"
 #include "world/sleep.hpp"
 
 namespace sinew::world {
 namespace {
-
-// A region and where its numbers begin.
-struct Part {
-  const pack::RegionRecord& record;
-  tissue::ModalBase base;
-  size_t index, node, vector, mode;
-  float first_rad_per_s;
-};
-
-template <class Work>
-void for_each_part(const Instance& instance, Work work) noexcept {
-  const pack::PackView& pack = instance.level->pack;
-  for (size_t r = 0; r < pack.regions.size(); ++r) {
-    const size_t node = pack.regions[r].first_node;
-    const Part part{pack.regions[r],
-                    tissue::modal_base(pack, r),
-                    r,
-                    node,
-                    3 * node,
-                    pack.region_modes[r].first_mode,
-                    pack.region_modes[r].first_rad_per_s};
-    work(part);
-  }
-}
-
-template <class Work>
-void for_each_awake_part(const Instance& instance, Work work) noexcept {
-  for_each_part(instance, [&](const Part& part) {
-    if (!instance.level->leaves_out(part.index) && !is_asleep(instance, part.index)) work(part);
-  });
-}
 
 size_t floats_of(const Instance& instance) noexcept { return size_t{3} * instance.level->node_count(); }
 
@@ -133,8 +103,8 @@ bool begin_part(Instance& instance, const Part& part, const float* heard) noexce
   return begins;
 }
 
-// theta that turns e: of the modal base alone, so that it hears nothing of what a network corrects while the
-// frames do not turn (tissue/correction_budget.hpp). Overwrites carry and region[0].
+}  // namespace
+
 const float* theta_of_base(Instance& instance, const Part& part) noexcept {
   if (instance.state->tier != Tier::kNetwork) return instance.theta + part.vector;
   alignas(64) float base[pack::kMaxModes];
@@ -145,6 +115,8 @@ const float* theta_of_base(Instance& instance, const Part& part) noexcept {
   return theta;
 }
 
+namespace {
+
 // q_hat, r_hat and l_hat; felt is then e. False where they are not finite.
 bool base_step(Instance& instance) noexcept {
   if (regions_asleep(instance) + instance.level->regions_left_out() > 0) answer_as_before(instance);
@@ -154,6 +126,7 @@ bool base_step(Instance& instance) noexcept {
     float *felt = instance.felt + part.vector, *heard = instance.region[0];
     tissue::modal_hear(part.base, felt, theta_of_base(instance, part), felt, heard);
     moved |= begin_part(instance, part, heard);
+    tissue::take_force(part.base, heard, force_of(instance, part));
     const tissue::ModalState state{.q = instance.q[0] + part.mode,
                                    .q_before = instance.q[1] + part.mode,
                                    .r = instance.r[0] + part.vector,
@@ -379,10 +352,6 @@ bool network_step(Instance& instance) noexcept {
   return false;
 }
 
-}  // namespace
-
-namespace {
-
 // Of each joint, by its volume; whether one is not as it was bound.
 bool size_joints(const Instance& instance) noexcept {
   constexpr float kAsBound = 1e-3f, kLeast = 1e-3f, kMost = 1e3f;
@@ -398,7 +367,9 @@ bool size_joints(const Instance& instance) noexcept {
   return other;
 }
 
-// Of each node, as skinning blends them; null where all are as they were bound.
+}  // namespace
+
+// As skinning blends the joints.
 const float* size_nodes(const Instance& instance) noexcept {
   if (!size_joints(instance)) return nullptr;
   for (size_t n = 0; n < instance.level->node_count(); ++n) {
@@ -411,12 +382,10 @@ const float* size_nodes(const Instance& instance) noexcept {
   return instance.node_size;
 }
 
-}  // namespace
-
-void drive_nodes(Instance& instance, float most_m_s2) noexcept {
+void drive_nodes(Instance& instance) noexcept {
   tissue::NodeMotion motion;
   motion.size = size_nodes(instance);
-  motion.most_m_s2 = most_m_s2;
+  motion.most_m_s2 = instance.most_m_s2;
   for (int tick = 0; tick < 3; ++tick) {
     motion.pose[tick] = instance.poses[tick];
     std::copy_n(instance.state->tick_root_m[tick], 3, motion.root_position_m[tick]);

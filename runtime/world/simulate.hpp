@@ -4,8 +4,17 @@
 
 namespace sinew::world {
 
+struct Part;
+
 // drive of this tick, from the poses.
-void drive_nodes(Instance& instance, float most_m_s2) noexcept;
+void drive_nodes(Instance& instance) noexcept;
+
+// How many times as large as bound the flesh of each node is, by instance.skin; null where all is as bound.
+const float* size_nodes(const Instance& instance) noexcept;
+
+// theta that turns e: of the modal base alone, so that it hears nothing of what a network corrects while the
+// frames do not turn (tissue/correction_budget.hpp). Overwrites carry and region[0].
+const float* theta_of_base(Instance& instance, const Part& part) noexcept;
 
 // u, l, theta and q of this tick. A network whose state is given up
 // leaves the tick, and the tier, to the base (see kFallbackTicks). Sleeping regions stay as they are. False:

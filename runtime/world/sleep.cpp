@@ -34,11 +34,13 @@ bool is_near(const float* a, const float* b, float distance) noexcept {
   return squared <= distance * distance;
 }
 
-bool feels_the_same(const Instance& instance, const Region& region) noexcept {
+bool feels_the_same(const Instance& instance, const Region& region, const FeltNodes& felt) noexcept {
   const float most = region.rest_m * region.w1 * region.w1;
-  for (size_t n = region.record.first_node; n < region.record.first_node + region.record.node_count; ++n) {
-    if (!is_near(instance.drive + tissue::kNodeDriveWidth * n, instance.felt_asleep + 3 * n, most))
-      return false;
+  const float* asleep = instance.felt_asleep + size_t{3} * region.record.first_node;
+  for (uint32_t n = 0; n < region.record.node_count; ++n) {
+    const float* at = felt.first + felt.stride * n;
+    const float now[3] = {felt.times * at[0], felt.times * at[1], felt.times * at[2]};
+    if (!is_near(now, asleep + size_t{3} * n, most)) return false;
   }
   return true;
 }
@@ -103,16 +105,24 @@ uint32_t regions_asleep(const Instance& instance) noexcept {
   return count;
 }
 
-void watch_drive(Instance& instance, float tolerance) noexcept {
-  for_each_region(instance, tolerance, [&](size_t, const Region& region, uint32_t& quiet_ticks) {
-    if (quiet_ticks > 0 && feels_the_same(instance, region)) return;
-    quiet_ticks = 0;
-    remember_drive(instance, region);
-  });
+bool feels_as_asleep(const Instance& instance, size_t region, const FeltNodes& felt) noexcept {
+  return feels_the_same(instance, region_at(instance, region, instance.sleep_tolerance), felt);
 }
 
-void watch_motion(Instance& instance, float tolerance) noexcept {
+void watch_drive(Instance& instance) noexcept {
+  for_each_region(
+      instance, instance.sleep_tolerance, [&](size_t, const Region& region, uint32_t& quiet_ticks) {
+        const FeltNodes felt{instance.drive + size_t{tissue::kNodeDriveWidth} * region.record.first_node,
+                             tissue::kNodeDriveWidth};
+        if (quiet_ticks > 0 && feels_the_same(instance, region, felt)) return;
+        quiet_ticks = 0;
+        remember_drive(instance, region);
+      });
+}
+
+void watch_motion(Instance& instance) noexcept {
   if (!frame::is_simulated(instance.state->tier)) return;
+  const float tolerance = instance.sleep_tolerance;
   for_each_region(instance, tolerance, [&](size_t r, const Region& region, uint32_t& quiet_ticks) {
     const uint32_t enough = ticks_to_sleep(region);
     if (quiet_ticks >= enough) return;

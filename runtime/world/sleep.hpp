@@ -20,8 +20,18 @@ bool is_asleep(const Instance& instance, size_t region) noexcept;
 uint32_t regions_asleep(const Instance& instance) noexcept;
 
 // After a tick's drive, before its tissue: wakes what feels more than it did.
-void watch_drive(Instance& instance, float tolerance) noexcept;
+void watch_drive(Instance& instance) noexcept;
 // After its tissue: counts quiet ticks; what falls asleep stops.
-void watch_motion(Instance& instance, float tolerance) noexcept;
+void watch_motion(Instance& instance) noexcept;
+
+// f of a region's nodes (tissue/node_drive.hpp), three numbers each, so many floats apart, and so many times
+// as large.
+struct FeltNodes {
+  const float* first;
+  size_t stride;
+  float times = 1;
+};
+// Whether that would let a sleeping region sleep on.
+bool feels_as_asleep(const Instance& instance, size_t region, const FeltNodes& felt) noexcept;
 
 }  // namespace sinew::world

@@ -16,6 +16,7 @@
 #include "world/look.hpp"
 #include "world/marker.hpp"
 #include "world/plan.hpp"
+#include "world/skip_pose.hpp"
 
 namespace sinew::world {
 namespace {
@@ -24,9 +25,8 @@ Instance& take_answer(const WorldState& world, uint32_t slot, frame::TickPlans& 
   Instance& instance = *world.instances.at(slot);
   keep_hidden_ticks(world.rows[slot]);
   const PlanAnswer& answer = world.answers[slot];
-  const auto scale = static_cast<double>(instance.state->time_scale);
-  instance.plan = {.ticks = ticks.of(instance.state->remainder_s, instance.asset->tick_s, scale),
-                   .dt_s = scale * world.dt_s,
+  instance.plan = {.ticks = own_ticks(world, world.rows[slot], ticks),
+                   .dt_s = own_step_s(world, *instance.state),
                    .tier = answer.tier,
                    .level = answer.level,
                    .cost_us = answer.cost_us,
@@ -84,8 +84,7 @@ TickContext context_of(const WorldState& world, uint64_t start_ns) noexcept {
   TickContext context{.clock = world.def.clock,
                       .profiler = world.def.profiler,
                       .frame_s = world.dt_s,
-                      .teleport = world.def.teleport,
-                      .sleep_tolerance = world.def.sleep_tolerance};
+                      .teleport = world.def.teleport};
   if (!is_limited(world)) return context;
   const float tasks_us = std::max(0.0f, world.budget_us - world.reporting.p95_us());
   context.deadline_ns = start_ns + static_cast<uint64_t>(tasks_us * 1e3);

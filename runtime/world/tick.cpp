@@ -7,6 +7,7 @@
 #include "core/floating_point.hpp"
 #include "frame/scheduler.hpp"
 #include "world/affords_surface.hpp"
+#include "world/between_ticks.hpp"
 #include "world/blend.hpp"
 #include "world/catch_up.hpp"
 #include "world/change_level.hpp"
@@ -29,24 +30,26 @@ namespace {
 
 void simulated_tick(Instance& instance, double time_s, const TickContext& context, uint32_t slot) noexcept {
   const ClockHook& clock = context.clock;
+  const bool goes_on = !instance.state->motion_stale && instance.plan.ticks.ticks == 1;
   const uint64_t start_ns = core::now_ns(clock);
   Marker driving(context.profiler, "drive", slot);
   follow_motion(instance, time_s);
-  const float most_m_s2 = context.teleport.acceleration * instance.level->pack.character->height_m;
-  drive_nodes(instance, most_m_s2);
+  drive_nodes(instance);
   driving.end();
   const uint64_t driven_ns = core::now_ns(clock);
   Marker tissue(context.profiler, "tissue", slot);
-  watch_drive(instance, context.sleep_tolerance);
-  if (simulate_tick(instance))
+  watch_drive(instance);
+  if (simulate_tick(instance)) {
     touch_tissue(instance);
-  else
+    hold_added(instance, goes_on);
+  } else {
     restart(instance);
-  watch_motion(instance, context.sleep_tolerance);
+  }
+  watch_motion(instance);
   tissue.end();
   const uint64_t soft_ns = core::now_ns(clock);
   Marker rods(context.profiler, "rods", slot);
-  if (frame::is_simulated(instance.state->tier)) simulate_rods(instance, context.sleep_tolerance, most_m_s2);
+  if (frame::is_simulated(instance.state->tier)) simulate_rods(instance);
   rods.end();
   forget_carried(instance);
   instance.times.drive_ns += driven_ns - start_ns;
@@ -92,7 +95,7 @@ void run_ticks(Instance& instance, const TickContext& context, uint32_t slot) no
     state.untouched = 0;
   }
   state.remainder_s = ticks.remainder_s;
-  state.render_fraction = static_cast<float>(ticks.remainder_s / instance.asset->tick_s);
+  state.render_fraction = frame::passed_share(ticks, instance.asset->tick_s);
 }
 
 // ---- the deadline ----
@@ -105,6 +108,10 @@ bool refines(const Instance& instance) noexcept {
   return changes_level(instance) && instance.plan.level < instance.state->level;
 }
 
+bool ends_between(const Instance& instance) noexcept {
+  return frame::passed_share(instance.plan.ticks, instance.asset->tick_s) > 0;
+}
+
 // By what one of twenty takes; where that is much of the step, and nobody behind it makes up for what it is
 // late by, by what one of a hundred does.
 float most_us(const Instance& instance, const TickContext& context) noexcept {
@@ -113,7 +120,9 @@ float most_us(const Instance& instance, const TickContext& context) noexcept {
   const frame::CostEstimate& tick = cost.of(instance.plan.tier, instance.plan.level);
   const bool goes_on = catches_up(instance);
   const uint32_t missed = goes_on ? instance.state->missed_ticks : 0u;
-  const float ticks = static_cast<float>(instance.plan.ticks.ticks + missed) * instance.cost_factor;
+  const float between = ends_between(instance) ? cost.between.p95_us() : 0;
+  const float ticks =
+      (static_cast<float>(instance.plan.ticks.ticks + missed) + between) * instance.cost_factor;
   const bool enters = !frame::is_simulated(instance.state->tier) && !goes_on;
   const bool much = ticks * tick.estimate_us() > kMuch * context.tasks_us;
   return cost.publish.p95_us() + ticks * (much ? tick.p99_us() : tick.p95_us()) +
@@ -146,8 +155,10 @@ void meet_deadline(Instance& instance, const TickContext& context, uint64_t now_
     plan.level = std::max(level, instance.state->level);  // no finer one now
   while (!is_in_time(instance, context, left_us)) plan.tier = below(plan.tier);
   instance.cut = plan.tier != planned || plan.level != level;
-  const bool late = static_cast<double>(costs_of(instance).cost.publish.p95_us()) > left_us;
-  instance.held = late && !frame::is_simulated(plan.tier) && instance.displaced;
+  const bool simulates = frame::is_simulated(plan.tier), stays = !simulates || plan.ticks.ticks == 0;
+  const float shown_us =
+      stays && simulates ? most_us(instance, context) : costs_of(instance).cost.publish.p95_us();
+  instance.held = stays && static_cast<double>(shown_us) > left_us && instance.displaced;
 }
 
 void age(Instance& instance, bool rose, double frame_s) noexcept {
@@ -214,7 +225,7 @@ void step_instance(Instance& instance, const TickContext& context, uint32_t slot
   const uint64_t ticked_ns = core::now_ns(context.clock);
   if (!instance.held) {
     const Marker publishing(context.profiler, "publish", slot);
-    publish(instance);
+    publish(instance, context.clock);
   }
   const uint64_t end_ns = core::now_ns(context.clock);
   instance.times.publish_ns = end_ns - ticked_ns;
@@ -236,7 +247,7 @@ void step_idle(Instance& instance, const TickContext& context) noexcept {
   state.fallback_ticks -= std::min(state.fallback_ticks, ticks.ticks);
   state.ticks_since_network += ticks.ticks;
   state.remainder_s = ticks.remainder_s;
-  state.render_fraction = static_cast<float>(ticks.remainder_s / instance.asset->tick_s);
+  state.render_fraction = frame::passed_share(ticks, instance.asset->tick_s);
   take_pose(instance, context.teleport);
   keep_pose(instance);
   age(instance, false, context.frame_s);

@@ -16,7 +16,6 @@ struct TickContext {
   float behind_scale = 1;  // of InstancePlan::behind_us: workers share it
   double frame_s = 0;      // what the world's step takes
   TeleportDef teleport = {};
-  float sleep_tolerance = 0;  // WorldDef; 0: regions never sleep
 };
 
 // instance.plan says what is to be done.

@@ -239,6 +239,8 @@ Status World::create_instance(const InstanceDef& def, InstanceId* out) noexcept 
   }
   Instance made;
   if (Status status = world::make_instance(*asset, checked, &made); !status.ok()) return status;
+  made.sleep_tolerance = impl_->def.sleep_tolerance;
+  made.most_m_s2 = impl_->def.teleport.acceleration * asset->pack.character->height_m;
   const bool has_surface = made.contacts.surface != nullptr;
   const InstanceId id = impl_->instances.create(std::move(made));
   if (is_null(id))
@@ -286,6 +288,8 @@ Status World::set_pose(InstanceId id, const Pose& pose) noexcept {
   space = world::in_own_metres(space, root.scale);
   const bool rides_alike = pose.space.id == instance->state->space_id &&
                            (pose.space.id == 0 || world::same_root(space, instance->state->space));
+  instance->state->skips_pose = 0;
+  impl_->rows[id.index1 - 1].skips_pose = false;
   if (instance->state->dormant && rides_alike && world::has_pose(*instance, pose.joints, root)) return {};
   world::wake(*instance);
   std::copy(pose.joints.begin(), pose.joints.end(), instance->next_joints);
@@ -296,6 +300,16 @@ Status World::set_pose(InstanceId id, const Pose& pose) noexcept {
   instance->state->teleport_told = pose.teleport;
   world::bound_pose(*instance);
   world::keep_pose_row(*impl_, id.index1 - 1);
+  return {};
+}
+
+Status World::skip_pose(InstanceId id) noexcept {
+  Instance* instance = nullptr;
+  if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
+  if (busy(*impl_)) return refuse_busy();
+  world::InstanceState& state = *instance->state;
+  state.skips_pose = !state.has_next && !state.at_start;
+  impl_->rows[id.index1 - 1].skips_pose = state.skips_pose != 0;
   return {};
 }
 

@@ -76,14 +76,14 @@ TEST_CASE("moving_character_wobbles") {
   CHECK(stage.report().input_clamps == 0);
 }
 
-// The number that is published: the same motion, looked at every 0.2 s, at 15 to 240 frames a second against
-// 480.
+// The number that is published: the same motion, looked at every 0.2 s, at 15 to 120 frames a second against
+// 240.
 TEST_CASE("motion_is_the_same_at_every_frame_rate") {
   struct Row {
     double fps,
         bound_share;  // of the mean displacement; 15 and 30: a pose between two frames is guessed from three
   };
-  constexpr Row kRows[] = {{15, 0.078}, {20, 0.034}, {30, 0.0095}, {60, 1e-3}, {120, 1e-3}, {240, 1e-3}};
+  constexpr Row kRows[] = {{15, 0.078}, {20, 0.034}, {30, 0.0095}, {60, 1e-3}, {120, 1e-3}};
   constexpr int kSamples = 25;
   const auto sample = [&](double fps) {
     Stage stage;
@@ -94,7 +94,7 @@ TEST_CASE("motion_is_the_same_at_every_frame_rate") {
     }
     return seen;
   };
-  const auto fine = sample(480);
+  const auto fine = sample(240);
   double size_m = 0;
   for (const auto& each : fine) size_m += test::largest_length(each) / kSamples;
   for (const Row& row : kRows) {
@@ -108,15 +108,14 @@ TEST_CASE("motion_is_the_same_at_every_frame_rate") {
       mean_m += off_m / kSamples;
       worst_m = std::max(worst_m, off_m);
     }
-    WARN(row.fps << " frames/s against 480: mean " << mean_m * 1e3 << " mm, worst " << worst_m * 1e3
+    WARN(row.fps << " frames/s against 240: mean " << mean_m * 1e3 << " mm, worst " << worst_m * 1e3
                  << " mm, of a displacement of " << size_m * 1e3 << " mm");
     CHECK(mean_m < row.bound_share * size_m);
   }
 }
 
-// Between ticks the displacement is carried on at its last velocity. Truth: the parabola through the ticks
-// around.
-TEST_CASE("displacement_between_ticks_is_carried_on_within_two_percent") {
+// Between ticks a provisional step leads there. Truth: the cubic through the ticks around.
+TEST_CASE("displacement_between_ticks_is_there_within_half_a_percent") {
   Stage stage;
   std::vector<std::vector<float>> at_ticks, half_way;
   for (int f = 0; f < 600; ++f) {
@@ -134,11 +133,10 @@ TEST_CASE("displacement_between_ticks_is_carried_on_within_two_percent") {
     late_m += test::largest_distance(late, truth);
     size_m += test::largest_length(truth);
   }
-  WARN("half a tick after a tick: carried on " << 100 * carried_m / size_m << " % off, one tick late "
-                                               << 100 * late_m / size_m << " % off");
-  constexpr double kBound = 0.02;  // second order in 2 pi 3.5 Hz / 60 / 2
+  WARN("half a tick after a tick: " << 100 * carried_m / size_m << " % off, one tick late "
+                                    << 100 * late_m / size_m << " % off");
+  constexpr double kBound = 0.005;  // fourth order in 2 pi 3.5 Hz / 60; the last velocity alone: 0.02
   CHECK(carried_m < kBound * size_m);
-  CHECK(carried_m < 0.5 * late_m);
 }
 
 TEST_CASE("a_million_metres_away_is_like_the_origin") {

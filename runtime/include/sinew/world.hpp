@@ -77,6 +77,13 @@ class World {
   // or range: kInvalidArgument; NaN or infinity: kNotFinite; in both cases the last good pose stays and
   // the refusal is counted in the report.
   Status set_pose(InstanceId instance, const Pose& pose) noexcept;
+  // No pose is due in the coming step (animation at a lower rate than the frames): the step does nothing with
+  // the instance, and what is read of it stays as it was. Its time goes to the step with the next pose, whose
+  // ticks follow the path between the two poses, so that a pose in every fourth frame is moved by as one in
+  // each is: late by as much as the poses themselves, and with the ticks of all these frames at once, at most
+  // WorldDef::max_ticks_per_step. Called beside set_pose before one step it does nothing; in every step, it
+  // holds what is shown. Part of the state that is saved. Fails for a stale id.
+  Status skip_pose(InstanceId instance) noexcept;
   // Mended as in InstanceDef.
   Status set_importance(InstanceId instance, float importance) noexcept;
   // Where the world is seen from, at most kMostViews, until the next call. An instance that none shows is
@@ -113,8 +120,8 @@ class World {
   size_t history(std::span<FrameReport> out) const noexcept;
 
   // Positions, at the time of the last step, of all of the asset's vertices. Cost O(vertices x
-  // influences). Between ticks the displacement is carried on at its last velocity. From any number of
-  // threads at a time while no function that is not const runs.
+  // influences). Between ticks a provisional step leads there: smooth, and not a tick late. From any
+  // number of threads at a time while no function that is not const runs.
   Status read_positions(InstanceId instance, const ReadDef& def) const noexcept;
   // Unit normals of the displaced surface (kCharacter or kWorld): in the bind pose the file's own, else these
   // turned as the surface has turned there, so that hard edges stay hard and both sides of a sheet keep

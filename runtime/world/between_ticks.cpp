@@ -1,0 +1,152 @@
+// between_ticks.cpp  see between_ticks.hpp.
+#include "world/between_ticks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "frame/scheduler.hpp"
+#include "tissue/fraction_step.hpp"
+#include "tissue/guard.hpp"
+#include "tissue/node_bend.hpp"
+#include "tissue/node_drive.hpp"
+#include "world/blend.hpp"
+#include "world/motion.hpp"
+#include "world/region_part.hpp"
+#include "world/simulate.hpp"
+
+namespace sinew::world {
+namespace {
+
+size_t floats_of(const Instance& instance) noexcept { return size_t{3} * instance.level->node_count(); }
+
+// The present pose and those of the last two ticks, of all nodes.
+tissue::NodeMotion motion_now(Instance& instance) noexcept {
+  pose_now(instance, instance.poses_now);
+  tissue::NodeMotion motion;
+  motion.size = size_nodes(instance);
+  motion.most_m_s2 = instance.most_m_s2;
+  motion.pose[0] = instance.poses_now;
+  std::copy_n(instance.state->root.position_m, 3, motion.root_position_m[0]);
+  for (int tick = 0; tick < 2; ++tick) {
+    motion.pose[tick + 1] = instance.poses[tick];
+    std::copy_n(instance.state->tick_root_m[tick], 3, motion.root_position_m[tick + 1]);
+  }
+  return motion;
+}
+
+// Of a region that sleeps: it feels nothing yet that would wake it in the coming tick.
+bool sleeps_on(const Instance& instance, const Part& part, float x) noexcept {
+  return is_asleep(instance, part.index) &&
+         feels_as_asleep(instance, part.index, {instance.felt + part.vector, 3, 2 / (x * (1 + x))});
+}
+
+// f of a part's nodes.
+void feel(Instance& instance, const tissue::NodeMotion& motion, const Part& part, float x) noexcept {
+  const auto tick_s = static_cast<float>(instance.asset->tick_s);
+  tissue::NodeMotion of_part = motion;
+  for (auto& pose : of_part.pose) pose += part.node;
+  if (of_part.size) of_part.size += part.node;
+  tissue::fraction_felt(of_part, tick_s, x, part.record.node_count, instance.felt + part.vector);
+}
+
+// phi on top of it.
+void feel_turning(Instance& instance, const tissue::NodeMotion& motion, const Part& part, float x) noexcept {
+  const tissue::NodePose* const poses[3] = {motion.pose[0] + part.node, motion.pose[1] + part.node,
+                                            motion.pose[2] + part.node};
+  float *felt = instance.felt + part.vector, *phi = instance.region[0];
+  tissue::frame_term(poses, instance.u[0] + part.vector, instance.u[1] + part.vector,
+                     static_cast<float>(instance.asset->tick_s), part.record.node_count, phi, x);
+  for (size_t i = 0; i < size_t{3} * part.record.node_count; ++i) felt[i] += phi[i];
+}
+
+// What a part hears at the fraction: nothing on the tick itself.
+void hear(Instance& instance, const Part& part, float x, float* heard) noexcept {
+  if (x == 0) return void(std::fill_n(heard, part.base.padded + part.base.padded_modes, 0.0f));
+  float* felt = instance.felt + part.vector;
+  tissue::modal_hear(part.base, felt, theta_of_base(instance, part), felt, heard);
+}
+
+// u of a part at the fraction, into `out`.
+void step_part(Instance& instance, const Part& part, float x, float* out) noexcept {
+  float *heard = instance.region[0], *l = instance.region[1];
+  hear(instance, part, x, heard);
+  const tissue::ModalState state{.q = instance.q[0] + part.mode,
+                                 .q_before = instance.q[1] + part.mode,
+                                 .r = instance.r[0] + part.vector,
+                                 .r_before = instance.r[1] + part.vector};
+  float *q = instance.q_hat + part.mode, *theta = instance.r_hat + part.vector;
+  tissue::fraction_answer(part.base, instance.level->swing_slopes.get() + part.mode + part.index, heard,
+                          state, force_of(instance, part), x,
+                          {.q = q, .r = instance.r_hat + part.vector, .l = l});
+  tissue::modal_turn(part.base, q, instance.region[0], theta);
+  tissue::warp(theta, l, part.record.node_count, out);
+  tissue::hold_within(part.record.displacement_limit_m, part.record.node_count, out);
+  if (!tissue::all_finite(out, size_t{3} * part.record.node_count))
+    std::copy_n(instance.u[0] + part.vector, size_t{3} * part.record.node_count, out);
+}
+
+bool stays(const Instance& instance, const Part& part) noexcept {
+  return instance.level->leaves_out(part.index) || instance.carried_regions[part.index];
+}
+
+void step_soft_parts(Instance& instance, float x, float* out) noexcept {
+  std::copy_n(instance.u[0], floats_of(instance), out);
+  const tissue::NodeMotion motion = motion_now(instance);
+  for_each_part(instance, [&](const Part& part) {
+    if (stays(instance, part)) return;
+    if (x > 0) {
+      feel(instance, motion, part, x);
+      if (sleeps_on(instance, part, x)) return;
+      feel_turning(instance, motion, part, x);
+    }
+    step_part(instance, part, x, out + part.vector);
+  });
+  tissue::along_flesh(instance.poses_now, out, instance.level->node_count(), out);
+  keep_regained_share(instance, out);
+}
+
+bool all_sleep_still(const Instance& instance) noexcept {
+  return instance.state->still_ticks > 0 &&
+         regions_asleep(instance) + instance.level->regions_left_out() == instance.level->pack.regions.size();
+}
+
+}  // namespace
+
+void hold_added(Instance& instance, bool goes_on) noexcept {
+  constexpr double kShort = 0.2;  // of a tick
+  const bool shows_fractions = goes_on && instance.plan.dt_s < kShort * instance.asset->tick_s;
+  const float share = shows_fractions ? 1 : 0;
+  float most = 0;
+  const auto hold = [&](const float* now, const float* base, float* added, float* off, size_t count) {
+    for (size_t i = 0; i < count; ++i) {
+      const float before = std::exchange(added[i], now[i] - base[i]);
+      off[i] = share * (before - added[i]);
+      most = std::max(most, std::abs(off[i]));
+    }
+  };
+  const tissue::TickForce& tick = instance.tick_force;
+  hold(instance.q[0], instance.q_hat, tick.added_q, tick.off_q, instance.level->mode_count());
+  hold(instance.r[0], instance.r_hat, tick.added_r, tick.off_r, floats_of(instance));
+  instance.state->is_off = most > 0;
+}
+
+const float* shown_now(Instance& instance) noexcept {
+  const InstanceState& state = *instance.state;
+  const float x = state.render_fraction;
+  if (instance.shown_share() == 0) return instance.shown[0];
+  float* out = instance.shown_between;
+  if (!frame::is_simulated(state.tier)) {
+    if (x == 0) return instance.tail;
+    tail_between(instance, x, out);
+    return out;
+  }
+  if ((x == 0 && !state.is_off) || state.motion_stale || all_sleep_still(instance)) return instance.shown[0];
+  step_soft_parts(instance, x, out);
+  const auto [share, tail] = instance.shown_shares();
+  if (share == 1 && tail == 0) return out;
+  for (size_t i = 0; i < floats_of(instance); ++i) out[i] = share * out[i] + tail * instance.tail[i];
+  return out;
+}
+
+}  // namespace sinew::world
