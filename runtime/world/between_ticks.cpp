@@ -86,15 +86,19 @@ void step_part(Instance& instance, const Part& part, float x, float* out) noexce
     std::copy_n(instance.u[0] + part.vector, size_t{3} * part.record.node_count, out);
 }
 
-bool stays(const Instance& instance, const Part& part) noexcept {
-  return instance.level->leaves_out(part.index) || instance.carried_regions[part.index];
+// Of a part that teleported: its past is another pose's until the next tick, and it goes on as it went.
+void go_on(const Instance& instance, const Part& part, float x, float* out) noexcept {
+  const float *now = instance.u[0] + part.vector, *before = instance.u[1] + part.vector;
+  for (size_t i = 0; i < size_t{3} * part.record.node_count; ++i) out[i] = now[i] + x * (now[i] - before[i]);
+  tissue::hold_within(part.record.displacement_limit_m, part.record.node_count, out);
 }
 
 void step_soft_parts(Instance& instance, float x, float* out) noexcept {
   std::copy_n(instance.u[0], floats_of(instance), out);
   const tissue::NodeMotion motion = motion_now(instance);
   for_each_part(instance, [&](const Part& part) {
-    if (stays(instance, part)) return;
+    if (instance.level->leaves_out(part.index)) return;
+    if (instance.carried_regions[part.index]) return go_on(instance, part, x, out + part.vector);
     if (x > 0) {
       feel(instance, motion, part, x);
       if (sleeps_on(instance, part, x)) return;
@@ -103,7 +107,7 @@ void step_soft_parts(Instance& instance, float x, float* out) noexcept {
     step_part(instance, part, x, out + part.vector);
   });
   tissue::along_flesh(instance.poses_now, out, instance.level->node_count(), out);
-  keep_regained_share(instance, out);
+  keep_regained_share(instance, out, x);
 }
 
 bool all_sleep_still(const Instance& instance) noexcept {
@@ -117,6 +121,7 @@ void hold_added(Instance& instance, bool goes_on) noexcept {
   constexpr double kShort = 0.2;  // of a tick
   const bool shows_fractions = goes_on && instance.plan.dt_s < kShort * instance.asset->tick_s;
   const float share = shows_fractions ? 1 : 0;
+  const tissue::TickForce& tick = instance.tick_force;
   float most = 0;
   const auto hold = [&](const float* now, const float* base, float* added, float* off, size_t count) {
     for (size_t i = 0; i < count; ++i) {
@@ -125,9 +130,14 @@ void hold_added(Instance& instance, bool goes_on) noexcept {
       most = std::max(most, std::abs(off[i]));
     }
   };
-  const tissue::TickForce& tick = instance.tick_force;
-  hold(instance.q[0], instance.q_hat, tick.added_q, tick.off_q, instance.level->mode_count());
-  hold(instance.r[0], instance.r_hat, tick.added_r, tick.off_r, floats_of(instance));
+  std::fill_n(tick.off_q, instance.level->mode_count(), 0.0f);
+  std::fill_n(tick.off_r, floats_of(instance), 0.0f);
+  for_each_awake_part(instance, [&](const Part& part) {
+    const tissue::TickForce of = force_of(instance, part);
+    const size_t m = part.mode, v = part.vector;
+    hold(instance.q[0] + m, instance.q_hat + m, of.added_q, of.off_q, part.base.modes.size());
+    hold(instance.r[0] + v, instance.r_hat + v, of.added_r, of.off_r, size_t{3} * part.record.node_count);
+  });
   instance.state->is_off = most > 0;
 }
 
@@ -143,9 +153,14 @@ const float* shown_now(Instance& instance) noexcept {
   }
   if ((x == 0 && !state.is_off) || state.motion_stale || all_sleep_still(instance)) return instance.shown[0];
   step_soft_parts(instance, x, out);
-  const auto [share, tail] = instance.shown_shares();
-  if (share == 1 && tail == 0) return out;
-  for (size_t i = 0; i < floats_of(instance); ++i) out[i] = share * out[i] + tail * instance.tail[i];
+  const auto [share, tail_share] = instance.shown_shares(x);
+  if (share == 1 && tail_share == 0) return out;
+  float* tail = instance.felt;
+  if (state.tail_rides)
+    std::copy_n(instance.tail, floats_of(instance), tail);
+  else
+    tail_between(instance, x, tail);
+  for (size_t i = 0; i < floats_of(instance); ++i) out[i] = share * out[i] + tail_share * tail[i];
   return out;
 }
 

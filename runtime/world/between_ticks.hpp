@@ -5,9 +5,10 @@
 // a slope, place and velocity go on through ticks, without a tick of latency. What the last tick added to the
 // base's answer, a network's correction or the push of what is touched, is taken to be added again; by how
 // much another one came fades within the tick, where there are frames in it.
-// What sleeps on, and what teleported since the last tick, stays as it is; what is not simulated goes on as
-// its tail will (world/blend.hpp). A frame that ends on a tick shows the tick's own state and costs nothing
-// more.
+// What sleeps on stays as it is, what teleported since the last tick goes on as it went, and what is not
+// simulated as its tail will (world/blend.hpp). A frame that ends on a tick shows the tick's own state and
+// costs nothing more; of frames shorter than a fifth of a tick, where `off` is shown, it costs as one between
+// ticks.
 #pragma once
 #include "world/instance.hpp"
 

@@ -202,12 +202,12 @@ void restart(Instance& instance) noexcept {
   instance.restarted = true;
 }
 
-void keep_regained_share(const Instance& instance, float* shown) noexcept {
+void keep_regained_share(const Instance& instance, float* shown, float x) noexcept {
   if (instance.state->seam_ticks >= kBlendInTicks) return;
   for (size_t r = 0; r < instance.level->pack.regions.size(); ++r) {
     if (!instance.regained[r]) continue;
     const pack::RegionRecord& region = instance.level->pack.regions[r];
-    const float share = instance.regained_share(r);
+    const float share = instance.regained_share(r, x);
     float* at = shown + size_t{3} * region.first_node;
     for (size_t i = 0; i < size_t{3} * region.node_count; ++i) at[i] *= share;
   }

@@ -18,7 +18,8 @@ void restart(Instance& instance) noexcept;
 void take_simulated(const Instance& instance, int tick, float* out) noexcept;
 
 // What a change of level had again is shown less of, in nodes' vectors along the axes of the flesh.
-void keep_regained_share(const Instance& instance, float* shown) noexcept;
+// x: so far beyond the last tick.
+void keep_regained_share(const Instance& instance, float* shown, float x = 0) noexcept;
 
 // Where the tail will be by a fraction x of the next tick: it is met there, with the velocities of before and
 // after.

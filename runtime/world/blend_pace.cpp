@@ -78,12 +78,12 @@ void advance_blend(Instance& instance) noexcept {
   const float began = state.blend_ticks, share = share_of(instance);
   const float height_m = instance.level->pack.character->height_m;
   const Limits most = limits_of(instance, share, height_m * (state.tail_rides ? kRideStep : kBlendStep));
-  const float usual = usual_pace(state, most.own_m, height_m * kBlendStep);
-  state.blend_ticks = std::min(began + usual, float{kBlendInTicks});
+  state.blend_pace = usual_pace(state, most.own_m, height_m * kBlendStep);
+  state.blend_ticks = std::min(began + state.blend_pace, float{kBlendInTicks});
   const float rise = share_of(instance) - share;
   if (rise <= most.rise) return;
-  const float pace = std::max(usual * most.rise / rise, kLeastPace);
-  state.blend_ticks = std::min(began + pace, float{kBlendInTicks});
+  state.blend_pace = std::max(state.blend_pace * most.rise / rise, kLeastPace);
+  state.blend_ticks = std::min(began + state.blend_pace, float{kBlendInTicks});
 }
 
 }  // namespace sinew::world

@@ -34,6 +34,12 @@ void learn_tick_cost(Instance& instance, const PlanRow& row, float tick_us) noex
   factor = std::clamp(factor, row.has_surface && !sleeps_on_skin ? 1 : kLeast, kMost);
 }
 
+// Of those who are awake, as a tick's own.
+bool ran_between(const Instance& instance, const PlanRow& row) noexcept {
+  return frame::is_simulated(row.tier) && !instance.held && row.regions_asleep == 0 &&
+         instance.between_ns > 0;
+}
+
 void learn_between(const Instance& instance, const PlanRow& row, float took_us) noexcept {
   const float tick_us = tick_cost(row).estimate_us() * instance.cost_factor;
   if (tick_us > 0) costs_of(row).cost.between.observe(took_us / tick_us);
@@ -72,8 +78,7 @@ void learn_costs(Instance& instance, const PlanRow& row) noexcept {
   }
   if (instance.displaced && !instance.held)
     cost.publish.observe(core::microseconds(times.total_ns - ticked_ns - instance.between_ns));
-  if (frame::is_simulated(row.tier) && instance.between_ns > 0)
-    learn_between(instance, row, core::microseconds(instance.between_ns));
+  if (ran_between(instance, row)) learn_between(instance, row, core::microseconds(instance.between_ns));
   if (ran && instance.entered)
     learn_beyond(instance, row, ticked_us, cost.enter);
   else if (ran)
@@ -111,8 +116,9 @@ float add_passed(const Instance& instance, const PlanRow& row, FrameReport& repo
   const Tier tier = instance.state->tier;
   report.instances_dormant += row.dormant;
   report.regions_asleep += row.regions_asleep;
-  count_tier(frame::is_simulated(tier) || row.shows ? tier : Tier::kSkinning, report);
-  return error_of(*instance.asset, tier, instance.state->level);
+  const bool shows = frame::is_simulated(tier) || row.shows;
+  count_tier(shows ? tier : Tier::kSkinning, report);
+  return shows ? error_of(*instance.asset, tier, instance.state->level) : 1;
 }
 
 float add_idle(FrameReport& report) noexcept {

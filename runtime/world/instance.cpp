@@ -151,11 +151,16 @@ void lay_out(const Asset& asset, core::Arena& arena, Instance& to) noexcept {
   if (soft_parts_touch(asset, to.contacts)) lay_out_contacts(asset, arena, to);
 }
 
+// Of the way into a blend.
+float blended(const InstanceState& state, float ahead) noexcept {
+  return std::min(1.0f, (state.blend_ticks + ahead * state.blend_pace) / kBlendInTicks);
+}
+
 }  // namespace
 
-float Instance::simulated_share() const noexcept {
+float Instance::simulated_share(float ahead) const noexcept {
   if (!frame::is_simulated(state->tier)) return 0;
-  return smooth_step(state->blend_ticks / kBlendInTicks);
+  return smooth_step(blended(*state, ahead));
 }
 
 float Instance::tail_share(float ahead) const noexcept {
@@ -164,10 +169,10 @@ float Instance::tail_share(float ahead) const noexcept {
   return smooth_step(1 - std::min(faded / static_cast<float>(state->fade_ticks), 1.0f));
 }
 
-ShownShares Instance::shown_shares() const noexcept {
-  if (state->tail_rides) return {1, 1 - gentle_step(state->blend_ticks / kBlendInTicks)};
-  const float b = simulated_share();
-  return {b, (1 - b) * tail_share()};
+ShownShares Instance::shown_shares(float ahead) const noexcept {
+  if (state->tail_rides) return {1, 1 - gentle_step(blended(*state, ahead))};
+  const float b = simulated_share(ahead);
+  return {b, (1 - b) * tail_share(ahead)};
 }
 
 float Instance::shown_share() const noexcept {
@@ -182,9 +187,9 @@ float Instance::seam_share() const noexcept {
   return smooth_step(1 - std::min(faded, 1.0f));
 }
 
-float Instance::regained_share(size_t region) const noexcept {
+float Instance::regained_share(size_t region, float ahead) const noexcept {
   if (!regained[region] || state->seam_ticks >= kBlendInTicks) return 1;
-  return smooth_step(static_cast<float>(state->seam_ticks) / kBlendInTicks);
+  return smooth_step(std::min(1.0f, (static_cast<float>(state->seam_ticks) + ahead) / kBlendInTicks));
 }
 
 namespace {
@@ -291,6 +296,8 @@ void forget_motion(Instance& instance) noexcept {
   state.at_start = 1;
   instance.displaced = false;
   state.still_ticks = 0;
+  state.skips_pose = 0;
+  state.without_pose_s = 0;
   wake(instance);
   state.render_fraction = 0;
   forget_teleports(instance);

@@ -100,8 +100,9 @@ struct InstanceState {
   uint32_t space_changed = 0, carried_capsules = 0;  // in the last step; world/teleport.hpp
   float time_scale = 1, felt_root = 1;               // World::set_time_scale, set_felt_root_motion
   uint32_t root_teleports = 0, part_teleports = 0;   // since creation
-  uint32_t is_off = 0;                               // world/between_ticks.hpp
-  uint32_t skips_pose = 0;                           // none is due in the coming step (world/skip_pose.hpp)
+  uint16_t is_off = 0;                               // world/between_ticks.hpp
+  uint16_t skips_pose = 0;                           // none is due in the coming step (world/skip_pose.hpp)
+  float blend_pace = 1;                              // of the last tick: what blend_ticks rose by
   double without_pose_s = 0;                         // of its own time, since the last one was due
 };
 inline constexpr size_t kPlannedStateBytes = offsetof(InstanceState, root);
@@ -285,12 +286,13 @@ struct Instance {
   Matrix34* rod_motion = nullptr;  // [slots]: how rods move the pose's bones, in the character's space
   Matrix34* rod_joints = nullptr;  // [joints], where there are rods: the pose's, moved by them
 
-  float simulated_share() const noexcept;            // b
+  // In ticks beyond the last, as far as the blend goes on at its last pace:
+  float simulated_share(float ahead = 0) const noexcept;  // b
   float tail_share(float ahead = 0) const noexcept;  // 1 while carried, then falling smoothly to 0; in ticks
   float seam_share() const noexcept;                 // 1 as a level changes, then falling smoothly to 0
   // Of what is simulated, 1 but for a region that a change of level had again: it rises as the seam falls.
-  float regained_share(size_t region) const noexcept;
-  ShownShares shown_shares() const noexcept;
+  float regained_share(size_t region, float ahead = 0) const noexcept;
+  ShownShares shown_shares(float ahead = 0) const noexcept;
   float shown_share() const noexcept;  // of displacement, 0: skinning
 };
 

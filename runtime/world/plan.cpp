@@ -41,6 +41,22 @@ Terms terms_of(const WorldState& world) noexcept {
   return {costs_are_measured(world), world.budget_us > 0, world.idle.estimate_us()};
 }
 
+// Of one that is simulated, the provisional step that this one ends on between two ticks, as a share of a
+// tick.
+float between_share(const Terms& terms, const PlanRow& row, const frame::TickPlan& plan) noexcept {
+  const frame::CostEstimate& between = costs_of(row).cost.between;
+  if (frame::passed_share(plan, row.asset->tick_s) == 0) return 0;
+  return terms.measured ? between.estimate_us() : between.baked_us();
+}
+
+// The same without a tick, in which it keeps what it has.
+float between_us(const Terms& terms, const PlanRow& row, const frame::TickPlan& plan) noexcept {
+  if (plan.ticks > 0 || !frame::is_simulated(row.tier)) return 0;
+  const frame::CostEstimate& tick = costs_of(row).cost.of(row.tier, row.level);
+  const float tick_us = terms.measured ? row.cost_factor * tick.estimate_us() : tick.baked_us();
+  return between_share(terms, row, plan) * tick_us;
+}
+
 // What it takes in this step if it is not simulated.
 float base_us(const Terms& terms, const PlanRow& row) noexcept {
   const Asset& asset = *row.asset;
@@ -94,26 +110,19 @@ float change_us(const PlanRow& row, uint32_t ticks) noexcept {
   return costs_of(row).cost.change.estimate_us() + skin_us;
 }
 
-// In ticks: of the step's, and of the provisional one that it ends on between two.
-float work_of(const Terms& terms, const PlanRow& row, const frame::TickPlan& plan) noexcept {
-  const frame::CostEstimate& between = costs_of(row).cost.between;
-  const bool ends_between = frame::passed_share(plan, row.asset->tick_s) > 0;
-  const float share = terms.measured ? between.estimate_us() : between.baked_us();
-  return static_cast<float>(plan.ticks) + (ends_between ? share : 0);
-}
-
 Candidate candidate_of(const Terms& terms, const PlanRow& row, const frame::TickPlan& plan,
                        uint32_t slot) noexcept {
   const uint32_t ticks = plan.ticks;
+  const bool keeps_level = ticks == 0 && terms.has_budget && !row.hidden;
   const frame::Front& front = costs_of(row).front;
   return {.front = &front,
           .slot = slot,
           .weight = weight_of(row),
           .waited_s = row.waited_s,
           .held_s = row.held_s,
-          .ticks = work_of(terms, row, plan),
+          .ticks = static_cast<float>(ticks) + between_share(terms, row, plan),
           .cost_factor = terms.measured ? row.cost_factor : 1,
-          .base_us = base_us(terms, row),
+          .base_us = base_us(terms, row) + (keeps_level ? between_us(terms, row, plan) : 0),
           .enter_us = terms.measured ? costs_of(row).cost.enter.estimate_us() : 0,
           .change_us = terms.measured ? change_us(row, ticks) : 0,
           .turn_left_s = row.turn_left_s,
@@ -121,7 +130,7 @@ Candidate candidate_of(const Terms& terms, const PlanRow& row, const frame::Tick
           .has = front.level_of(row.tier, row.level),
           .graph = row.level,
           .top = highest(terms, row),
-          .keeps_level = ticks == 0 && terms.has_budget && !row.hidden};
+          .keeps_level = keeps_level};
 }
 
 void sleep_on(WorldState& world, uint32_t slot, const frame::TickPlan& ticks) noexcept {
@@ -264,21 +273,23 @@ class Ranking {
   uint32_t count_ = 0, idle_ = 0, first_ = kRanks, last_ = 0;
 };
 
-float in_any_case_us(const PlanRow& row) noexcept {
+float in_any_case_us(const WorldState& world, const PlanRow& row, frame::TickPlans& plans) noexcept {
   const frame::CostModel& cost = costs_of(row).cost;
   if (row.hidden) return cost.come_back.estimate_us();
-  return row.displaced ? cost.publish.estimate_us() : 0;
+  if (!row.displaced) return 0;
+  return cost.publish.estimate_us() + between_us(terms_of(world), row, own_ticks(world, row, plans));
 }
 
 // Each is told what those behind it take in any case.
 void add_up_behind(WorldState& world, std::span<const uint32_t> order) noexcept {
   const float between_us = world.def.tasks.enqueue ? 0 : world.between.estimate_us();
+  frame::TickPlans plans = tick_plans(world);
   float behind_us = static_cast<float>(world.idle_count) * world.idle.p95_us();
   for (size_t i = order.size(); i-- > 0;) {
     const PlanRow& row = world.rows[order[i]];
     world.answers[order[i]].behind_us = behind_us;
     behind_us += between_us;
-    behind_us += in_any_case_us(row);
+    behind_us += in_any_case_us(world, row, plans);
   }
 }
 

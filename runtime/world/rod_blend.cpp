@@ -35,16 +35,17 @@ void advance_tail(Instance& instance, size_t slot) noexcept {
 }
 
 // What is shown of what is simulated, so that `turns` holds it, and of a tail.
-void blend_rods(const Instance& instance, float simulated, const float* tails, float* turns) noexcept {
-  const double tail_share = static_cast<double>(instance.tail_share());
+void blend_rods(const Instance& instance, float simulated, float tail, const float* tails,
+                float* turns) noexcept {
+  const auto tail_share = static_cast<double>(tail);
   for (size_t s = 0; s < instance.asset->rods.slot_count; ++s) {
     const Quaterniond turn = turn_at(turns, s);
     if (instance.state->tail_rides) {
       put_turn(turns, s, turn * share_of(1 - static_cast<double>(simulated), turn_at(tails, s)));
       continue;
     }
-    const Quaterniond tail = share_of(tail_share, turn_at(tails, s));
-    put_turn(turns, s, simulated > 0 ? between(tail, turn, static_cast<double>(simulated)) : tail);
+    const Quaterniond fades = share_of(tail_share, turn_at(tails, s));
+    put_turn(turns, s, simulated > 0 ? between(fades, turn, static_cast<double>(simulated)) : fades);
   }
 }
 
@@ -95,23 +96,23 @@ void show_rods(Instance& instance, float simulated) noexcept {
   if (simulated == 1) return;
   if (!instance.state->tail_rides)
     for (size_t s = 0; s < slots; ++s) advance_tail(instance, s);
-  blend_rods(instance, simulated, instance.rod_tail, instance.rod_shown[0]);
+  blend_rods(instance, simulated, instance.tail_share(), instance.rod_tail, instance.rod_shown[0]);
 }
 
 const float* rods_shown_now(Instance& instance) noexcept {
   const InstanceState& state = *instance.state;
-  const float x = state.render_fraction, share = instance.simulated_share();
+  const float x = state.render_fraction, share = instance.simulated_share(x);
   const bool simulated = frame::is_simulated(state.tier);
   const bool shows = instance.asset->rods.rod_count > 0 && instance.shown_share() > 0;
   if (!shows || x == 0 || (simulated && state.motion_stale)) return instance.rod_shown[0];
   float *turns = instance.rods_between, *tails = instance.rod_orientations;
   if (simulated) turn_rods_between(instance, x, turns);
   if (share == 1) return turns;
-  if (simulated)
+  if (state.tail_rides)
     std::copy_n(instance.rod_tail, 4 * instance.asset->rods.slot_count, tails);
   else
     rod_tails_between(instance, x, tails);
-  blend_rods(instance, share, tails, turns);
+  blend_rods(instance, share, instance.tail_share(x), tails, turns);
   return turns;
 }
 

@@ -394,6 +394,19 @@ bool is_carried(const Instance& instance, uint32_t rod) noexcept {
   return instance.carried_rods[rod] || instance.rod_batches[seat.batch].is_far(seat.strand, held(0), held(1));
 }
 
+// As it went.
+void go_on(const Instance& instance, const RodSeat& seat, double ticks, float* turns) noexcept {
+  for (uint32_t k = 1; k <= seat.segment_count(); ++k) {
+    const size_t at = size_t{4} * (seat.first_slot + k);
+    const Quaterniond now = quaternion(instance.rod_turn + at),
+                      before = quaternion(instance.rod_shown[1] + at);
+    Eigen::Map<Eigen::Vector4f>(turns + at) =
+        limited(now * exponential(ticks * logarithm(before.conjugate() * now)), seat.turn_limit_rad)
+            .coeffs()
+            .cast<float>();
+  }
+}
+
 }  // namespace
 
 void turn_rods_between(Instance& instance, float x, float* turns) noexcept {
@@ -416,7 +429,11 @@ void turn_rods_between(Instance& instance, float x, float* turns) noexcept {
                              instance.rod_orientations);
     for (uint32_t rod = 0; rod < rig.rod_count; ++rod) {
       const RodSeat& seat = rig.seats()[rod];
-      if (seat.batch != b || is_carried(instance, rod)) continue;
+      if (seat.batch != b) continue;
+      if (is_carried(instance, rod)) {
+        go_on(instance, seat, ticks, turns);
+        continue;
+      }
       const float* first = instance.rod_orientations + size_t{4} * seat.strand * batch.segment_count();
       for (uint32_t k = 1; k <= seat.segment_count(); ++k)
         put_turn(instance, seat, seat.first_slot + k, first + size_t{4} * k, turns);

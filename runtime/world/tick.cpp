@@ -19,6 +19,7 @@
 #include "world/publish.hpp"
 #include "world/push_surface.hpp"
 #include "world/rod_motion.hpp"
+#include "world/rod_publish.hpp"
 #include "world/rod_sleep.hpp"
 #include "world/simulate.hpp"
 #include "world/sleep.hpp"
@@ -30,7 +31,8 @@ namespace {
 
 void simulated_tick(Instance& instance, double time_s, const TickContext& context, uint32_t slot) noexcept {
   const ClockHook& clock = context.clock;
-  const bool goes_on = !instance.state->motion_stale && instance.plan.ticks.ticks == 1;
+  const bool goes_on =
+      !instance.state->motion_stale && !instance.changed_level && instance.plan.ticks.ticks == 1;
   const uint64_t start_ns = core::now_ns(clock);
   Marker driving(context.profiler, "drive", slot);
   follow_motion(instance, time_s);
@@ -226,6 +228,8 @@ void step_instance(Instance& instance, const TickContext& context, uint32_t slot
   if (!instance.held) {
     const Marker publishing(context.profiler, "publish", slot);
     publish(instance, context.clock);
+  } else {
+    publish_rods(instance, instance.rod_shown[0]);  // their joints follow the pose
   }
   const uint64_t end_ns = core::now_ns(context.clock);
   instance.times.publish_ns = end_ns - ticked_ns;

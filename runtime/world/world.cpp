@@ -290,14 +290,16 @@ Status World::set_pose(InstanceId id, const Pose& pose) noexcept {
                            (pose.space.id == 0 || world::same_root(space, instance->state->space));
   instance->state->skips_pose = 0;
   impl_->rows[id.index1 - 1].skips_pose = false;
-  if (instance->state->dormant && rides_alike && world::has_pose(*instance, pose.joints, root)) return {};
-  world::wake(*instance);
+  const bool sleeps_on =
+      instance->state->dormant && rides_alike && world::has_pose(*instance, pose.joints, root);
   std::copy(pose.joints.begin(), pose.joints.end(), instance->next_joints);
   instance->state->next_root = root;
   instance->state->has_next = 1;
   instance->state->next_space = space;
   instance->state->next_space_id = pose.space.id;
+  if (sleeps_on) return {};
   instance->state->teleport_told = pose.teleport;
+  world::wake(*instance);
   world::bound_pose(*instance);
   world::keep_pose_row(*impl_, id.index1 - 1);
   return {};

@@ -215,6 +215,43 @@ TEST_CASE("what_is_pressed_does_not_tremble_between_ticks") {
   CHECK(frames_m < 1.3 * ticks_m + 2e-4);
 }
 
+// A pause between two ticks under another pose: the pose moves, the tissue does not.
+TEST_CASE("a_pause_between_ticks_takes_nothing_back") {
+  Stage stage(1, {}, test::weightless_pack());
+  stage.play(scenes::walk, 1);
+  stage.step(scenes::walk, 0.9 * kTick_s);
+  const std::vector<float> shown = deltas(stage);
+  scenes::BlockPose pose = scenes::walk(stage.time_s);
+  pose.joints[1].m[0][3] += 1e-3f;
+  stage.pose(stage.blocks[0], pose);
+  stage.world.step(0);
+  stage.play(scenes::walk, kTick_s, 600);
+  double tick_m = test::largest_distance(deltas(stage), shown);
+  Stage again(1, {}, test::weightless_pack());
+  again.play(scenes::walk, 1);
+  again.step(scenes::walk, 0.9 * kTick_s);
+  again.pose(again.blocks[0], pose);
+  again.world.step(0);
+  CHECK(test::largest_distance(deltas(again), shown) < 0.1 * tick_m);
+}
+
+// Back in simulation: a blend goes on between ticks as in them.
+TEST_CASE("what_is_blended_in_goes_through_ticks_without_a_jump") {
+  for (const scenes::PackBytes* pack : {&test::weightless_pack(), &test::block_pack()}) {
+    Stage stage(1, {.budget_mode = BudgetMode::kWorkUnits}, *pack);
+    stage.play(scenes::walk, 1);
+    REQUIRE(stage.world.set_budget_us(0).ok());
+    stage.play(scenes::walk, 0.5);
+    REQUIRE(stage.world.set_budget_us(1e9f).ok());
+    Shown shown;
+    for (int f = 0; f < 4 * 18; ++f) {
+      stage.step(scenes::walk, kTick_s / 4);
+      shown.push_back(deltas(stage));
+    }
+    CHECK(judder({shown.begin() + 4, shown.end()}) < 1.3f);
+  }
+}
+
 // Left to itself, what moved goes on between ticks as it will have gone by the next one.
 TEST_CASE("what_is_no_longer_simulated_goes_through_ticks_without_a_jump") {
   for (const double frame_s : {kTick_s / 4, kTick_s / 50}) {

@@ -134,6 +134,36 @@ TEST_CASE("who_rests_sleeps_on_through_skipped_poses_and_wakes_over_their_time")
   CHECK(sparse.read() == whole.read());
 }
 
+TEST_CASE("a_pose_that_is_set_again_at_rest_is_no_skipped_one") {
+  const auto stands = [](double) { return scenes::bind_pose(); };
+  Stage sparse(1, {.budget_mode = BudgetMode::kWorkUnits}), usual(1, {.budget_mode = BudgetMode::kWorkUnits});
+  for (Stage* stage : {&sparse, &usual}) {
+    stage->play(stands, 8);
+    REQUIRE(stage->report().dormant);
+    stage->pose(stage->blocks[0], scenes::bind_pose());
+  }
+  REQUIRE(sparse.world.skip_pose(sparse.blocks[0]).ok());
+  for (Stage* stage : {&sparse, &usual}) {
+    stage->world.step(static_cast<float>(kFrame_s));
+    stage->pose(stage->blocks[0], scenes::bent_pose(0.05));
+    stage->world.step(static_cast<float>(kFrame_s));
+  }
+  CHECK(sparse.read() == usual.read());
+}
+
+TEST_CASE("a_reset_forgets_what_was_skipped") {
+  Stage skipped, usual;
+  for (Stage* stage : {&skipped, &usual}) stage->play(scenes::walk, 1);
+  for (int f = 0; f < 3; ++f) skip(skipped);
+  REQUIRE(skipped.world.skip_pose(skipped.blocks[0]).ok());
+  for (Stage* stage : {&skipped, &usual}) {
+    REQUIRE(stage->world.reset(stage->blocks[0]).ok());
+    stage->time_s = 3;
+    stage->play(scenes::walk, 0.5);
+  }
+  CHECK(skipped.read() == usual.read());
+}
+
 // Out of sight there is no motion that could wait.
 TEST_CASE("who_is_hidden_forgets_what_was_skipped") {
   Stage skipped, usual;

@@ -15,9 +15,9 @@
 // Thread rule: one thread at a time calls a world's functions, except where a function says otherwise. What
 // step calls (hooks, contact and occlusion sources), on whatever thread, calls none of them: there, those
 // that are not const are refused with kInvalidArgument, the assert hook hears of it, and a step inside the
-// step does nothing. Nothing here throws or prints. step, set_pose, set_importance, set_views, set_hidden,
-// set_time_scale, set_felt_root_motion, set_budget_us, reset, read_*, report, history, save_state and
-// restore_state never allocate or block; the others may allocate.
+// step does nothing. Nothing here throws or prints. step, set_pose, skip_pose, set_importance, set_views,
+// set_hidden, set_time_scale, set_felt_root_motion, set_budget_us, reset, read_*, report, history, save_state
+// and restore_state never allocate or block; the others may allocate.
 //
 // Nothing here traps, and results do not depend on the calling thread's floating-point mode (rounding,
 // denormals, trap masks): every function computes in its own and gives the thread's back whole. Callbacks
