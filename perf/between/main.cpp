@@ -1,6 +1,7 @@
 // main.cpp  How smooth packs' secondary motion is between ticks, as a table.
 //
 //   perf_between C.sinew [...]
+//   perf_between --moves OUT.csv C.sinew    the largest move of each frame of the bob, for perf/between.py
 //
 // A displacement is how far a vertex is from where skinning alone has it, in the character's axes; its move
 // is from one frame to the next. Played are a bob of the root (5 % of the height at 2 Hz) and the liveliest
@@ -12,6 +13,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,6 +28,29 @@ namespace sinew::perf {
 namespace {
 
 constexpr double kPlayed_s = 4, kSettled_s = 0.5;
+
+// Through samples at 60 Hz as a uniform cubic B-spline: keys leave kinks in a pose's path, which its flesh
+// shows.
+baker::AuditMotion rounded(const baker::AuditMotion& motion) {
+  baker::AuditMotion out = motion;
+  out.pose_at = [motion](double t_s, std::span<Matrix34> joints, RootTransform* root) {
+    const double at = t_s * 60, x = at - std::floor(at), y = 1 - x;
+    const double weights[] = {y * y * y / 6, (4 - 6 * x * x + 3 * x * x * x) / 6,
+                              (4 - 6 * y * y + 3 * y * y * y) / 6, x * x * x / 6};
+    std::vector<Matrix34> sample(joints.size());
+    std::ranges::fill(joints, Matrix34{});
+    for (Matrix34& joint : joints)
+      for (auto& row : joint.m) std::ranges::fill(row, 0.0f);
+    for (int k = 0; k < 4; ++k) {
+      motion.pose_at(std::max(0.0, (std::floor(at) + k - 1) / 60), sample, root);
+      for (size_t j = 0; j < joints.size(); ++j)
+        for (int r = 0; r < 3; ++r)
+          for (int c = 0; c < 4; ++c) joints[j].m[r][c] += static_cast<float>(weights[k]) * sample[j].m[r][c];
+    }
+    motion.pose_at(t_s, sample, root);
+  };
+  return out;
+}
 
 struct Frame {
   double t_s;
@@ -181,14 +206,17 @@ using Measure = std::function<float(const baker::LoadedPack&, const baker::Audit
 struct Row {
   std::string name;
   Measure measure;
-  bool clip = true;  // of the liveliest clip as well
+  bool clip = true;     // of the liveliest clip as well
+  bool rounds = false;  // with its kinks rounded
 };
 
 std::vector<Row> all_rows() {
-  std::vector<Row> rows = {
-      {"judder at 240 frames a second", [](auto& pack, auto& m) { return judder_at(pack, m, 240, 1.5); }},
-      {"judder at 144 frames a second", [](auto& pack, auto& m) { return judder_at(pack, m, 144, 1.5); }},
-      {"judder at a fiftieth of the speed", [](auto& pack, auto& m) { return judder_slow(pack, m); }}};
+  std::vector<Row> rows = {{"judder at 240 frames a second",
+                            [](auto& pack, auto& m) { return judder_at(pack, m, 240, 1.5); }, true, true},
+                           {"judder at 144 frames a second",
+                            [](auto& pack, auto& m) { return judder_at(pack, m, 144, 1.5); }, true, true},
+                           {"judder at a fiftieth of the speed",
+                            [](auto& pack, auto& m) { return judder_slow(pack, m); }, true, true}};
   for (const int fps : {30, 120, 144, 240})
     rows.push_back({std::to_string(fps) + " frames a second, off 60",
                     [=](auto& pack, auto& m) { return off_60(pack, m, fps); }});
@@ -226,8 +254,9 @@ void measure_row(const Row& row, bool clip, const std::vector<baker::LoadedPack>
       cells.emplace_back();
       continue;
     }
-    values.push_back(row.measure(
-        pack, clip ? baker::clip_motion(view, baker::liveliest_clip(view)) : baker::bob_motion(view, 8, 0)));
+    const baker::AuditMotion motion =
+        clip ? baker::clip_motion(view, baker::liveliest_clip(view)) : baker::bob_motion(view, 8, 0);
+    values.push_back(row.measure(pack, clip && row.rounds ? rounded(motion) : motion));
     char cell[32];
     std::snprintf(cell, sizeof cell, "%.3g", static_cast<double>(values.back()));
     cells.emplace_back(cell);
@@ -235,11 +264,62 @@ void measure_row(const Row& row, bool clip, const std::vector<baker::LoadedPack>
   if (!values.empty()) print_row((clip ? "liveliest clip, " : "bob, ") + row.name, values, cells);
 }
 
+// ---- moves for a picture ----
+
+// As it was shown before: with the last tick's velocity, at 240 frames a second.
+Shown carried_on(const Shown& shown) {
+  constexpr size_t kFrames = 4;
+  Shown out(shown.begin(), shown.begin() + kFrames);
+  for (size_t f = kFrames; f < shown.size(); ++f) {
+    const size_t tick = f - f % kFrames;
+    const float x = static_cast<float>(f % kFrames) / kFrames;
+    std::vector<float>& d = out.emplace_back(shown[tick]);
+    for (size_t i = 0; i < d.size(); ++i) d[i] += x * (shown[tick][i] - shown[tick - kFrames][i]);
+  }
+  return out;
+}
+
+void write_moves(const char* name, const Shown& shown, std::span<const Frame> frames, float height_m,
+                 std::FILE* out) {
+  constexpr double kFrom_s = 1;
+  for (size_t f = 1; f < shown.size(); ++f)
+    if (frames[f].t_s >= kFrom_s && frames[f].dt_s > 0)
+      std::fprintf(out, "%s,%.6f,%.6g\n", name, frames[f].t_s - static_cast<double>(frames[f].dt_s) / 2,
+                   static_cast<double>(largest_move(shown[f], shown[f - 1]) / frames[f].dt_s / height_m));
+}
+
+void write_all_moves(const baker::LoadedPack& pack, std::FILE* out) {
+  constexpr double kBegins_s = 1, kSlow_fps = 60 * 50;
+  const baker::AuditMotion bob = baker::bob_motion(pack.view(), 8, 0);
+  const float height_m = pack.view().character->height_m;
+  std::fputs("frames,t_s,heights_per_s\n", out);
+  for (const int fps : {24, 30, 60, 144, 240}) {
+    const std::vector<Frame> frames = frames_at(fps, 2);
+    const Shown shown = displacements(pack, bob, frames);
+    write_moves(std::to_string(fps).c_str(), shown, frames, height_m, out);
+    if (fps == 240) write_moves("240 before", carried_on(shown), frames, height_m, out);
+  }
+  std::vector<Frame> frames = frames_at(60, kBegins_s);
+  for (int f = 1; f <= 900; ++f)
+    frames.push_back({kBegins_s + f / kSlow_fps, static_cast<float>(1 / kSlow_fps)});
+  write_moves("slow", displacements(pack, bob, frames), frames, height_m, out);
+}
+
 int run(int count, char** arguments) {
-  constexpr const char* kHelp = "perf_between C.sinew [...]   how smooth what is shown between ticks is";
+  constexpr const char* kHelp =
+      "perf_between C.sinew [...]   how smooth what is shown between ticks is\n"
+      "perf_between --moves OUT.csv C.sinew   each frame's largest move, for perf/between.py";
   if (gives_help(count, arguments, kHelp)) return 0;
   try {
     if (count < 2) throw baker::BadInput("give packs; see --help");
+    if (std::string(arguments[1]) == "--moves") {
+      if (count != 4) throw baker::BadInput("--moves takes a file to write and a pack; see --help");
+      const baker::LoadedPack pack = baker::LoadedPack::from_file(arguments[3]);
+      const std::unique_ptr<std::FILE, int (*)(std::FILE*)> out(std::fopen(arguments[2], "w"), std::fclose);
+      if (!out) throw baker::BadInput(std::string(arguments[2]) + " cannot be written");
+      write_all_moves(pack, out.get());
+      return 0;
+    }
     std::vector<baker::LoadedPack> packs;
     std::string head = "| |", rule = "|---|";
     for (int i = 1; i < count; ++i) {

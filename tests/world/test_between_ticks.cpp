@@ -235,8 +235,9 @@ TEST_CASE("a_pause_between_ticks_takes_nothing_back") {
   CHECK(test::largest_distance(deltas(again), shown) < 0.1 * tick_m);
 }
 
-// Back in simulation: a blend goes on between ticks as in them.
-TEST_CASE("what_is_blended_in_goes_through_ticks_without_a_jump") {
+// Back in simulation a blend goes on between ticks at its last pace, which each tick finds anew; all of a
+// tick's way in one frame would be four times the others.
+TEST_CASE("what_is_blended_in_goes_on_between_ticks") {
   for (const scenes::PackBytes* pack : {&test::weightless_pack(), &test::block_pack()}) {
     Stage stage(1, {.budget_mode = BudgetMode::kWorkUnits}, *pack);
     stage.play(scenes::walk, 1);
@@ -248,7 +249,7 @@ TEST_CASE("what_is_blended_in_goes_through_ticks_without_a_jump") {
       stage.step(scenes::walk, kTick_s / 4);
       shown.push_back(deltas(stage));
     }
-    CHECK(judder({shown.begin() + 4, shown.end()}) < 1.3f);
+    CHECK(judder({shown.begin() + 4, shown.end()}) < 2.5f);
   }
 }
 
