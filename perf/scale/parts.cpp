@@ -3,7 +3,6 @@
 // Each part is called as world/simulate.cpp and world/tick.cpp call it, on an instance in the middle of its
 // clips. A part that goes on from its own answer settles; what it costs does not depend on that.
 #include <cstring>
-#include <limits>
 
 #include "baker/common/lone_instance.hpp"
 #include "core/floating_point.hpp"

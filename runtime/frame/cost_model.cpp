@@ -64,7 +64,8 @@ void CostModel::settle() noexcept {
   for (auto& levels : tick)
     for (CostEstimate& estimate : levels) estimate.settle();
   publish.settle();
-  between.settle();
+  between_network.settle();
+  between_modal.settle();
   enter.settle();
   change.settle();
   come_back.settle();

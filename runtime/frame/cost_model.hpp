@@ -58,8 +58,14 @@ struct CostModel {  // of one asset
   }
   CostEstimate tick[kTierCount][pack::kMostGraphLevels];
   CostEstimate publish;  // a step, of what is displaced: pose, publishing
-  // Of what is simulated, where a step ends between ticks: a provisional step, as a share of a tick.
-  CostEstimate between{0.5f};
+  // Of a simulated tier, where a step ends between ticks: a provisional step, as a share of a tick.
+  CostEstimate& between(Tier tier) noexcept {
+    return tier == Tier::kNetwork ? between_network : between_modal;
+  }
+  const CostEstimate& between(Tier tier) const noexcept {
+    return tier == Tier::kNetwork ? between_network : between_modal;
+  }
+  CostEstimate between_network{0.45f}, between_modal{1};  // as perf_between has them
   CostEstimate enter{0};  // what the first tick of a simulation takes beyond a tick: cold memory, a history
   // Likewise the first on a finer control graph: seldom, and only half forgotten in twelve seconds, but one
   // that was preempted is not to be the last.

@@ -78,19 +78,13 @@ Status RodBatch::set_target(uint32_t strand, uint32_t segment, const SegmentPose
                place = over(units.length_m, pose.position_m, units.origin_m);
   const double largest = std::max(largest_of(move), largest_of(place));
   if (largest > std::numeric_limits<float>::max()) return too_large(strand, segment, "the position");
-  if (is_far(strand, pose, now)) {
+  if (std::hypot(move[0], move[1], move[2]) >
+      static_cast<double>(settings_.teleport_lengths) * units.total_lengths) {
     carry(strand, segment, pose);
   } else {
     put_target(strand, segment, move, normalised(turn_of(pose.orientation)));
   }
   return {};
-}
-
-bool RodBatch::is_far(uint32_t strand, const SegmentPose& to, const SegmentPose& from) const noexcept {
-  const Units& units = units_[strand];
-  const Vector move = over(units.length_m, to.position_m, from.position_m);
-  return std::hypot(move[0], move[1], move[2]) >
-         static_cast<double>(settings_.teleport_lengths) * units.total_lengths;
 }
 
 void RodBatch::put_target(uint32_t strand, uint32_t segment, const Vector& move,

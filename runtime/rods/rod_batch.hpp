@@ -153,8 +153,6 @@ class RodBatch {
   // contacts.
   Status step_between(float dt_s, float fraction, const RodCollider* touched,
                       float* turns_xyzw) const noexcept;
-  // Whether this target would carry the strand along (RodSettings::teleport_lengths).
-  bool is_far(uint32_t strand, const SegmentPose& to, const SegmentPose& from) const noexcept;
 
   // What `from` has come to, its targets and forces too, with this batch's own settings. Refused: one not
   // made of the same strands, as far as counts and parents tell. What kContinued and those after it remember

@@ -1,23 +1,27 @@
 // fraction_step.hpp  A soft part between two ticks: where its next tick would have it by a fraction x of it.
 //
 // In 0 <= x <= 1 from tick t-1 (x = 0) to tick t (x = 1), the poses of the last two ticks and the present one
-// known. At x = 1 it is the tick's own step (tissue/modal_base.hpp), at x = 0 what that begins with; and
-// where the next tick's fraction begins, place and velocity are those at which this one's ends:
-//   D      = x_t(x) - (1 + x) x_{t-1} + x x_{t-2}      of places; of phi likewise, u going on in the world
-//   felt   = R^T (-D / h^2) + b gravity(x) - (b - s) gravity_{t-1},   b = 1 - 3/2 x (1 - x),  s = x (1 + x) /
-//   2 q(x)   = A q_{t-1} + B q_{t-2} + E (force_{t-1} + added_{t-1}) + w (gain force e - s force_{t-1}) + o
-//   off
-// and r likewise. A and B are the cubics of x from 1 to a1 and from 0 to a2 whose slopes at both ends are
-// those of the free swing, E = (1 - A - B) / (1 - a1 - a2), so that what a force holds stays; w = 1 + (3/2 -
-// E'(1)) x (1 - x). An impulse a tick, which is what a tick's force is, so becomes a force that lasts:
-// whatever A'(0) and B'(0) are, the slope of q at x = 1 is that at x = 0 of the next tick, if the path of the
-// poses has a slope there. force_{t-1} is what the last tick heard, added_{t-1} what it added to the base's
-// answer, a network's correction or the push of what is touched, and is taken to be added again. That it was
-// not what the tick before had added is seen at x = 0 where fractions of that one were shown: `off`, what was
-// added before less what was then, which o takes back, from 1 with the slope E'(1) to 0 without.
+// known. At x = 1 it is the tick's own step (tissue/modal_base.hpp), at x = 0 what that begins with:
+//
+//   D = p(x) - (1 + x) p_{t-1} + x p_{t-2}       of places p; phi likewise, u going on in the world
+//
+//   felt = R^T (-D / h^2) + b gravity(x) - (b - s) gravity_{t-1}
+//
+//   s = x (1 + x) / 2,   b = 1 - 3/2 x (1 - x),   w = 1 + (3/2 - E'(1)) x (1 - x)
+//
+//   q(x) = A q_{t-1} + B q_{t-2} + E (F + added) + w (gain force e - s F) + o off,   r(x) likewise
+//
+// A and B are the cubics of x from 1 to a1 and from 0 to a2 whose slopes at both ends are those of the free
+// swing, and E = (1 - A - B) / (1 - a1 - a2), so that what a force holds stays. F is what the last tick's
+// force answered with, and `added` what it added to the base's answer, a network's correction or the push of
+// what is touched; both are taken to go on. An impulse a tick, which is what a tick's force is, so becomes a
+// force that lasts: whatever A'(0) and B'(0) are, the slope of q at x = 1 is that at x = 0 of the next tick,
+// if the path of the poses has a slope there; exactly while frames and theta do not turn.
+//
+// That the last tick did not add what the one before had is seen at x = 0 where fractions of that one were
+// shown: `off` is what was added before less what was then. o takes it back, from 1 with the slope E'(1) to 0
+// without.
 #pragma once
-#include <cstdint>
-
 #include "tissue/modal_base.hpp"
 
 namespace sinew::tissue {

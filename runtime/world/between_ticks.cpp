@@ -110,6 +110,13 @@ void step_soft_parts(Instance& instance, float x, float* out) noexcept {
   keep_regained_share(instance, out, x);
 }
 
+// Where no tick has followed the motion yet.
+const float* go_on_as_shown(const Instance& instance, float x, float* out) noexcept {
+  for (size_t i = 0; i < floats_of(instance); ++i)
+    out[i] = instance.shown[0][i] + x * (instance.shown[0][i] - instance.shown[1][i]);
+  return out;
+}
+
 bool all_sleep_still(const Instance& instance) noexcept {
   return instance.state->still_ticks > 0 &&
          regions_asleep(instance) + instance.level->regions_left_out() == instance.level->pack.regions.size();
@@ -151,7 +158,8 @@ const float* shown_now(Instance& instance) noexcept {
     tail_between(instance, x, out);
     return out;
   }
-  if ((x == 0 && !state.is_off) || state.motion_stale || all_sleep_still(instance)) return instance.shown[0];
+  if ((x == 0 && !state.is_off) || all_sleep_still(instance)) return instance.shown[0];
+  if (state.motion_stale) return go_on_as_shown(instance, x, out);
   step_soft_parts(instance, x, out);
   const auto [share, tail_share] = instance.shown_shares(x);
   if (share == 1 && tail_share == 0) return out;

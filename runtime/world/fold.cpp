@@ -42,7 +42,7 @@ bool ran_between(const Instance& instance, const PlanRow& row) noexcept {
 
 void learn_between(const Instance& instance, const PlanRow& row, float took_us) noexcept {
   const float tick_us = tick_cost(row).estimate_us() * instance.cost_factor;
-  if (tick_us > 0) costs_of(row).cost.between.observe(took_us / tick_us);
+  if (tick_us > 0) costs_of(row).cost.between(row.tier).observe(took_us / tick_us);
 }
 
 // What it took beyond its ticks.

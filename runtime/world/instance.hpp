@@ -173,7 +173,7 @@ struct Instance {
   bool cut = false, restarted = false, fell_back = false;  // in the last step
   bool held = false;       // in the last step: shown as it was, for the deadline
   bool displaced = false;  // published displacement is not zero everywhere
-  bool passed = false;     // in the last step: dormant, not stepped
+  bool passed = false;     // in the last step: not stepped, dormant or waiting for a pose
   InstancePlan plan;
 
   bool entered = false;        // in the last step: simulation began anew, which costs more than to go on
@@ -279,12 +279,13 @@ struct Instance {
   float carried_share = 1;    // of `carried`, in what is read: a tail that fades is not carried anew
   float* delta = nullptr;     // [nodes][3], bind-pose axes
   bool carries_seam = false;  // `carried` has some of the seam in it
-  uint32_t carried_level = 0;      // by whose weights it was carried
-  float* carried = nullptr;        // of delta: a region after the other [3][padded_vertices], bind-pose axes
-  float* surface = nullptr;        // [vertices][3], scratch of read_normals
-  float* areas = nullptr;          // the same
-  Matrix34* rod_motion = nullptr;  // [slots]: how rods move the pose's bones, in the character's space
-  Matrix34* rod_joints = nullptr;  // [joints], where there are rods: the pose's, moved by them
+  uint32_t carried_level = 0;  // by whose weights it was carried
+  float* carried = nullptr;    // of delta: a region after the other [3][padded_vertices], bind-pose axes
+  float* surface = nullptr;    // [vertices][3], scratch of read_normals
+  float* areas = nullptr;      // the same
+  const float* rods_published = nullptr;  // rod_shown[0] or rods_between
+  Matrix34* rod_motion = nullptr;         // [slots]: how rods move the pose's bones, in the character's space
+  Matrix34* rod_joints = nullptr;         // [joints], where there are rods: the pose's, moved by them
 
   // In ticks beyond the last, as far as the blend goes on at its last pace:
   float simulated_share(float ahead = 0) const noexcept;  // b

@@ -44,7 +44,7 @@ Terms terms_of(const WorldState& world) noexcept {
 // Of one that is simulated, the provisional step that this one ends on between two ticks, as a share of a
 // tick.
 float between_share(const Terms& terms, const PlanRow& row, const frame::TickPlan& plan) noexcept {
-  const frame::CostEstimate& between = costs_of(row).cost.between;
+  const frame::CostEstimate& between = costs_of(row).cost.between(row.tier);
   if (frame::passed_share(plan, row.asset->tick_s) == 0) return 0;
   return terms.measured ? between.estimate_us() : between.baked_us();
 }
@@ -282,13 +282,13 @@ float in_any_case_us(const WorldState& world, const PlanRow& row, frame::TickPla
 
 // Each is told what those behind it take in any case.
 void add_up_behind(WorldState& world, std::span<const uint32_t> order) noexcept {
-  const float between_us = world.def.tasks.enqueue ? 0 : world.between.estimate_us();
+  const float handing_us = world.def.tasks.enqueue ? 0 : world.between.estimate_us();
   frame::TickPlans plans = tick_plans(world);
   float behind_us = static_cast<float>(world.idle_count) * world.idle.p95_us();
   for (size_t i = order.size(); i-- > 0;) {
     const PlanRow& row = world.rows[order[i]];
     world.answers[order[i]].behind_us = behind_us;
-    behind_us += between_us;
+    behind_us += handing_us;
     behind_us += in_any_case_us(world, row, plans);
   }
 }

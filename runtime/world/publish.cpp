@@ -65,7 +65,8 @@ struct Shown {
 };
 
 Shown shown_at_end(Instance& instance, const ClockHook& clock) noexcept {
-  const bool steps = instance.state->render_fraction > 0 && frame::is_simulated(instance.state->tier);
+  const InstanceState& state = *instance.state;
+  const bool steps = (state.render_fraction > 0 || state.is_off) && frame::is_simulated(state.tier);
   const uint64_t start_ns = steps ? core::now_ns(clock) : 0;
   const Shown shown{shown_now(instance), rods_shown_now(instance)};
   instance.between_ns = steps ? core::now_ns(clock) - start_ns : 0;
@@ -74,12 +75,18 @@ Shown shown_at_end(Instance& instance, const ClockHook& clock) noexcept {
 
 }  // namespace
 
+void publish_pose(Instance& instance) noexcept {
+  publish_rods(instance, instance.rods_published);
+  if (!skins_on_reading(instance))
+    skin_matrices(instance.level->pack.joints, shown_joints(instance), instance.skin);
+}
+
 void publish(Instance& instance, const ClockHook& clock) noexcept {
   const pack::PackView& pack = instance.level->pack;
   const bool displaced = instance.shown_share() > 0;
   const Shown now = shown_at_end(instance, clock);
-  publish_rods(instance, now.turns);
-  if (!skins_on_reading(instance)) skin_matrices(pack.joints, shown_joints(instance), instance.skin);
+  instance.rods_published = now.turns;
+  publish_pose(instance);
   if (std::exchange(instance.displaced, displaced) && !displaced) clear_shown(instance);
   if (!displaced) return;
   instance.carried_share =

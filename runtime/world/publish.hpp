@@ -9,6 +9,8 @@ namespace sinew::world {
 // Displacement is that of world/between_ticks.hpp, at the time of the frame: one that came a tick late would
 // at 4 Hz be 2 pi 4 / 60 = 0.42 rad behind, some 40 % of its amplitude, beside a skeleton that is not late.
 void publish(Instance& instance, const ClockHook& clock = {}) noexcept;
+// Of a frame that is held: the present pose, and what was shown last.
+void publish_pose(Instance& instance) noexcept;
 
 inline constexpr uint32_t kJointsOnStack = 256;  // 12 KB
 inline bool skins_on_reading(const Instance& instance) noexcept {

@@ -60,6 +60,15 @@ void rod_tails_between(const Instance& instance, float x, float* tails) noexcept
   }
 }
 
+// Where no tick has followed the motion yet.
+const float* go_on_as_shown(const Instance& instance, float x, float* turns) noexcept {
+  for (size_t s = 0; s < instance.asset->rods.slot_count; ++s) {
+    const Quaterniond now = turn_at(instance.rod_shown[0], s), before = turn_at(instance.rod_shown[1], s);
+    put_turn(turns, s, now * share_of(static_cast<double>(x), before.conjugate() * now));
+  }
+  return turns;
+}
+
 }  // namespace
 
 void forget_rods(Instance& instance) noexcept {
@@ -104,8 +113,9 @@ const float* rods_shown_now(Instance& instance) noexcept {
   const float x = state.render_fraction, share = instance.simulated_share(x);
   const bool simulated = frame::is_simulated(state.tier);
   const bool shows = instance.asset->rods.rod_count > 0 && instance.shown_share() > 0;
-  if (!shows || x == 0 || (simulated && state.motion_stale)) return instance.rod_shown[0];
+  if (!shows || x == 0) return instance.rod_shown[0];
   float *turns = instance.rods_between, *tails = instance.rod_orientations;
+  if (simulated && state.motion_stale) return go_on_as_shown(instance, x, turns);
   if (simulated) turn_rods_between(instance, x, turns);
   if (share == 1) return turns;
   if (state.tail_rides)

@@ -2,6 +2,7 @@
 #include "world/rod_motion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "tissue/guard.hpp"
@@ -356,54 +357,36 @@ namespace {
 // before.
 class PresentRest {
  public:
-  explicit PresentRest(Instance& instance) noexcept : instance_(instance) {
-    turn(instance.rod_rest, instance.rod_rest_now);
-    turn(instance.rod_hold, instance.rod_hold_now);
+  explicit PresentRest(Instance& instance) noexcept
+      : instance_(instance),
+        rest_{instance.rod_rest[0], instance.rod_rest[1]},
+        hold_{instance.rod_hold[0], instance.rod_hold[1]} {
+    put({instance.rod_rest_now, rest_[0]}, {instance.rod_hold_now, hold_[0]});
     for (uint32_t rod = 0; rod < instance.asset->rods.rod_count; ++rod)
       rest_rod(instance, rod, instance.joints, instance.state->root, 0);
   }
   PresentRest(const PresentRest&) = delete;
   PresentRest& operator=(const PresentRest&) = delete;
-  ~PresentRest() {
-    turn_back(instance_.rod_rest, &instance_.rod_rest_now);
-    turn_back(instance_.rod_hold, &instance_.rod_hold_now);
-  }
+  ~PresentRest() { put(rest_, hold_); }
 
  private:
-  void turn(double* (&newest)[2], double* now) noexcept {
-    oldest_[kept_++] = newest[1];
-    newest[1] = std::exchange(newest[0], now);
-  }
-  void turn_back(double* (&newest)[2], double** now) noexcept {
-    *now = std::exchange(newest[0], newest[1]);
-    newest[1] = oldest_[given_++];
+  using Ticks = std::array<double*, 2>;
+  void put(const Ticks& rest, const Ticks& hold) noexcept {
+    std::ranges::copy(rest, instance_.rod_rest);
+    std::ranges::copy(hold, instance_.rod_hold);
   }
   Instance& instance_;
-  double* oldest_[2] = {};
-  size_t kept_ = 0, given_ = 0;
+  Ticks rest_, hold_;
 };
-
-// Its next tick does not go on from where it is.
-bool is_carried(const Instance& instance, uint32_t rod) noexcept {
-  const RodSeat& seat = instance.asset->rods.seats()[rod];
-  const auto held = [&](int tick) {
-    rods::SegmentPose pose{};
-    std::copy_n(instance.rod_hold[tick] + size_t{3} * rod, 3, pose.position_m);
-    return pose;
-  };
-  return instance.carried_rods[rod] || instance.rod_batches[seat.batch].is_far(seat.strand, held(0), held(1));
-}
 
 // As it went.
 void go_on(const Instance& instance, const RodSeat& seat, double ticks, float* turns) noexcept {
   for (uint32_t k = 1; k <= seat.segment_count(); ++k) {
     const size_t at = size_t{4} * (seat.first_slot + k);
-    const Quaterniond now = quaternion(instance.rod_turn + at),
-                      before = quaternion(instance.rod_shown[1] + at);
-    Eigen::Map<Eigen::Vector4f>(turns + at) =
-        limited(now * exponential(ticks * logarithm(before.conjugate() * now)), seat.turn_limit_rad)
-            .coeffs()
-            .cast<float>();
+    const Quaterniond step =
+        quaternion(instance.rod_shown[1] + at).conjugate() * quaternion(instance.rod_shown[0] + at);
+    const Quaterniond turn = quaternion(instance.rod_turn + at) * exponential(ticks * logarithm(step));
+    Eigen::Map<Eigen::Vector4f>(turns + at) = limited(turn, seat.turn_limit_rad).coeffs().cast<float>();
   }
 }
 
@@ -422,7 +405,7 @@ void turn_rods_between(Instance& instance, float x, float* turns) noexcept {
   const Vector3d beside_m_s2 =
       spared(instance, (step - ticks * before) / (tick_s * tick_s * ticks * (1 + ticks) / 2));
   for (uint32_t rod = 0; rod < rig.rod_count; ++rod)
-    if (!is_carried(instance, rod)) drive_rod(instance, rod, ticks, beside_m_s2);
+    if (!instance.carried_rods[rod]) drive_rod(instance, rod, ticks, beside_m_s2);
   for (uint32_t b = 0; b < rig.batch_count; ++b) {
     const rods::RodBatch& batch = instance.rod_batches[b];
     (void)batch.step_between(static_cast<float>(tick_s), x, rod_collider(instance, b),
@@ -430,7 +413,7 @@ void turn_rods_between(Instance& instance, float x, float* turns) noexcept {
     for (uint32_t rod = 0; rod < rig.rod_count; ++rod) {
       const RodSeat& seat = rig.seats()[rod];
       if (seat.batch != b) continue;
-      if (is_carried(instance, rod)) {
+      if (instance.carried_rods[rod]) {
         go_on(instance, seat, ticks, turns);
         continue;
       }

@@ -38,7 +38,7 @@ void remember_rod_velocities(Instance& instance) noexcept;
 // Of the root's acceleration they feel what tissue does (tissue::felt_share).
 void simulate_rods(Instance& instance) noexcept;
 // What rod_turn will be by a fraction x of the next tick, under the present pose (world/between_ticks.hpp);
-// of what sleeps or is carried in that tick, what it is. turns: [slots][4].
+// what sleeps stays, what is carried in that tick goes on as it went. turns: [slots][4].
 void turn_rods_between(Instance& instance, float x, float* turns) noexcept;
 
 }  // namespace sinew::world

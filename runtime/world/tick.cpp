@@ -19,7 +19,6 @@
 #include "world/publish.hpp"
 #include "world/push_surface.hpp"
 #include "world/rod_motion.hpp"
-#include "world/rod_publish.hpp"
 #include "world/rod_sleep.hpp"
 #include "world/simulate.hpp"
 #include "world/sleep.hpp"
@@ -31,8 +30,8 @@ namespace {
 
 void simulated_tick(Instance& instance, double time_s, const TickContext& context, uint32_t slot) noexcept {
   const ClockHook& clock = context.clock;
-  const bool goes_on =
-      !instance.state->motion_stale && !instance.changed_level && instance.plan.ticks.ticks == 1;
+  const bool goes_on = !instance.state->motion_stale && !instance.changed_level &&
+                       instance.plan.ticks.ticks == 1 && instance.made_up == 0;
   const uint64_t start_ns = core::now_ns(clock);
   Marker driving(context.profiler, "drive", slot);
   follow_motion(instance, time_s);
@@ -122,7 +121,7 @@ float most_us(const Instance& instance, const TickContext& context) noexcept {
   const frame::CostEstimate& tick = cost.of(instance.plan.tier, instance.plan.level);
   const bool goes_on = catches_up(instance);
   const uint32_t missed = goes_on ? instance.state->missed_ticks : 0u;
-  const float between = ends_between(instance) ? cost.between.p95_us() : 0;
+  const float between = ends_between(instance) ? cost.between(instance.plan.tier).p95_us() : 0;
   const float ticks =
       (static_cast<float>(instance.plan.ticks.ticks + missed) + between) * instance.cost_factor;
   const bool enters = !frame::is_simulated(instance.state->tier) && !goes_on;
@@ -229,7 +228,7 @@ void step_instance(Instance& instance, const TickContext& context, uint32_t slot
     const Marker publishing(context.profiler, "publish", slot);
     publish(instance, context.clock);
   } else {
-    publish_rods(instance, instance.rod_shown[0]);  // their joints follow the pose
+    publish_pose(instance);
   }
   const uint64_t end_ns = core::now_ns(context.clock);
   instance.times.publish_ns = end_ns - ticked_ns;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <random>
+#include <utility>
 
 #include "baker/pack/modes_pack.hpp"
 #include "tests/simd/test_data.hpp"
@@ -126,7 +127,8 @@ TEST_CASE("a_whole_fraction_is_the_tick_and_none_is_the_last_one") {
   }
 }
 
-// Whatever moves it: the velocity at which a tick's fractions end is that at which the next one's begin.
+// Of what is moved without being turned: the velocity at which a tick's fractions end is that at which the
+// next one's begin.
 TEST_CASE("place_and_velocity_go_on_through_ticks") {
   constexpr double kStep = 2e-3;
   for (const double hz : {1.0, 5.5, 9.0}) {
@@ -173,5 +175,9 @@ TEST_CASE("what_is_added_anew_is_taken_in_within_the_tick") {
     const auto begins = point.at(0, 0, 0), after = point.at(kStep, 0, 0);
     CHECK(begins[0] == Approx(ends[0]).margin(1e-7));
     CHECK((after[0] - begins[0]) / kStep == Approx((ends[0] - before[0]) / kStep).margin(1e-4));
+    const double off = double{std::exchange(point.off_q, 0.0f)};
+    const auto without = point.at(1, 0, 0);
+    point.off_q = static_cast<float>(off);
+    CHECK(point.at(1, 0, 0)[0] == without[0]);
   }
 }

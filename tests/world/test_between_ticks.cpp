@@ -17,8 +17,8 @@ float largest_move(const std::vector<float>& a, const std::vector<float>& b) {
   return static_cast<float>(test::largest_distance(a, b));
 }
 
-// The largest move of a frame over the larger of those beside it, of frames that move half of the usual or
-// more.
+// The largest move of a frame over the larger of those beside it, or half of the usual move where these are
+// less.
 float judder(const Shown& shown) {
   std::vector<float> moves;
   for (size_t f = 1; f < shown.size(); ++f) moves.push_back(largest_move(shown[f], shown[f - 1]));
@@ -27,8 +27,8 @@ float judder(const Shown& shown) {
   const float least = sorted[sorted.size() / 2] / 2;
   float most = 0;
   for (size_t f = 1; f + 1 < moves.size(); ++f) {
-    const float beside = std::max(moves[f - 1], moves[f + 1]);
-    if (beside > least) most = std::max(most, moves[f] / beside);
+    const float beside = std::max({moves[f - 1], moves[f + 1], least});
+    most = std::max(most, moves[f] / beside);
   }
   return most;
 }
@@ -92,7 +92,7 @@ TEST_CASE("rods_go_through_ticks_without_a_jump") {
   }
 }
 
-// The last of a thousand frames a tick lies where the tick will: of the tick's own move 2 % are allowed.
+// The last of a hundred frames a tick lies where the tick will: of the tick's own move 2 % are allowed.
 TEST_CASE("the_end_of_a_tick_is_where_the_next_one_begins") {
   constexpr int kFrames = 100;
   for (const bool network : {false, true}) {
@@ -112,7 +112,7 @@ TEST_CASE("the_end_of_a_tick_is_where_the_next_one_begins") {
   }
 }
 
-// Frames of a sixth of a tick or longer: in shorter ones the difference of a network's correction from what
+// Frames of a fifth of a tick or longer: in shorter ones the difference of a network's correction from what
 // was expected is faded within the tick, and the frame on the tick has the whole of it.
 TEST_CASE("frames_on_ticks_show_the_same_whatever_lies_between") {
   for (const int frames : {2, 4}) {
@@ -132,11 +132,7 @@ TEST_CASE("between_ticks_nothing_is_shown_beyond_the_limit") {
   float limit_m = 0;
   for (const pack::RegionRecord& region : view.regions)
     limit_m = std::max(limit_m, region.displacement_limit_m);
-  const auto shaken = [](double time_s) {
-    scenes::BlockPose pose = scenes::bind_pose();
-    pose.root.position_m[0] = std::lround(std::floor(time_s * 60 + 1e-6)) % 2 == 0 ? 0 : 0.08;
-    return pose;
-  };
+  const auto shaken = [](double time_s) { return scenes::shake(time_s, 4); };
   Stage stage(1, {}, test::weightless_pack());
   double most_m = 0;
   for (int f = 0; f < 600; ++f) {
@@ -144,7 +140,7 @@ TEST_CASE("between_ticks_nothing_is_shown_beyond_the_limit") {
     most_m = std::max(most_m, static_cast<double>(test::largest_length(deltas(stage))));
   }
   // A vertex is carried by nodes of its region with weights that add up to one at most.
-  CHECK(most_m > 0.3 * static_cast<double>(limit_m));
+  CHECK(stage.report().displacement_clamps > 0);
   CHECK(most_m <= 1.0001 * static_cast<double>(limit_m));
 }
 
@@ -154,10 +150,11 @@ TEST_CASE("what_rests_is_at_rest_between_ticks") {
   const auto leans = [](double time_s) { return scenes::bent_pose(0.4 * std::min(1.0, time_s)); };
   stage.play(leans, 12);
   const std::vector<float> rests = deltas(stage);
-  REQUIRE(test::largest_length(rests) > 1e-4);
+  const double rests_m = test::largest_length(rests);
+  REQUIRE(rests_m > 1e-4);
   for (int f = 0; f < 40; ++f) {
     stage.step(leans, kTick_s / 7);
-    CHECK(test::largest_distance(deltas(stage), rests) < 1e-5);
+    CHECK(test::largest_distance(deltas(stage), rests) < 1e-3 * rests_m);
   }
 }
 
@@ -176,13 +173,13 @@ TEST_CASE("a_snapshot_between_ticks_shows_what_was_shown_and_goes_on_with_the_sa
       return test::hash_of(stage.read()) ^ test::hash_of(test::joints_of(stage));
     };
     for (int f = 0; f < 122; ++f) step();
-    const uint64_t shown = test::hash_of(stage.read());
+    const uint64_t shown = test::hash_of(stage.read()) ^ test::hash_of(test::joints_of(stage));
     const std::vector<std::byte> saved = stage.save();
     const double saved_s = time_s;
     std::vector<uint64_t> first, again;
     for (int f = 0; f < 30; ++f) first.push_back(step());
     REQUIRE(stage.world.restore_state(stage.blocks[0], saved).ok());
-    CHECK(test::hash_of(stage.read()) == shown);
+    CHECK((test::hash_of(stage.read()) ^ test::hash_of(test::joints_of(stage))) == shown);
     time_s = saved_s;
     for (int f = 0; f < 30; ++f) again.push_back(step());
     CHECK(first == again);
@@ -215,24 +212,19 @@ TEST_CASE("what_is_pressed_does_not_tremble_between_ticks") {
   CHECK(frames_m < 1.3 * ticks_m + 2e-4);
 }
 
-// A pause between two ticks under another pose: the pose moves, the tissue does not.
+// A pause between two ticks under another pose, which in no time is a teleport: the pose moves, the tissue
+// does not.
 TEST_CASE("a_pause_between_ticks_takes_nothing_back") {
   Stage stage(1, {}, test::weightless_pack());
   stage.play(scenes::walk, 1);
+  const std::vector<float> on_tick = deltas(stage);
   stage.step(scenes::walk, 0.9 * kTick_s);
   const std::vector<float> shown = deltas(stage);
   scenes::BlockPose pose = scenes::walk(stage.time_s);
   pose.joints[1].m[0][3] += 1e-3f;
   stage.pose(stage.blocks[0], pose);
   stage.world.step(0);
-  stage.play(scenes::walk, kTick_s, 600);
-  double tick_m = test::largest_distance(deltas(stage), shown);
-  Stage again(1, {}, test::weightless_pack());
-  again.play(scenes::walk, 1);
-  again.step(scenes::walk, 0.9 * kTick_s);
-  again.pose(again.blocks[0], pose);
-  again.world.step(0);
-  CHECK(test::largest_distance(deltas(again), shown) < 0.1 * tick_m);
+  CHECK(test::largest_distance(deltas(stage), shown) < 0.2 * test::largest_distance(shown, on_tick));
 }
 
 // Back in simulation a blend goes on between ticks at its last pace, which each tick finds anew; all of a

@@ -262,8 +262,8 @@ struct FrameReport {
   float budget_us = 0;  // as set; infinity: no limit
   float total_us = 0;   // the whole step
   // Stages: choosing tiers; poses, node frames and drive; modes, network and guards; bones that are
-  // rods; displacement brought to the render time and the surface. The last four are summed over the
-  // instances: on several threads they may exceed total_us.
+  // rods; displacement brought to the end of the step (of rods too) and to the surface. The last four are
+  // summed over the instances: on several threads they may exceed total_us.
   float schedule_us = 0, drive_us = 0, tissue_us = 0, rods_us = 0, publish_us = 0;
   // Each instance once; one whose extrapolation has faded away counts as skinned.
   uint32_t instances_network = 0, instances_modal = 0, instances_extrapolated = 0, instances_skinned = 0;

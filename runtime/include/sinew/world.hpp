@@ -73,16 +73,18 @@ class World {
   Status destroy_instance(InstanceId instance) noexcept;
 
   // The pose at the end of the coming step; ticks between two poses see them interpolated. Joints are
-  // copied. The last pose set before a step counts; without one the character stands still. Wrong count
+  // copied. The last pose set before a step counts; without one the character stands still
+  // (skip_pose: it goes on). Wrong count
   // or range: kInvalidArgument; NaN or infinity: kNotFinite; in both cases the last good pose stays and
   // the refusal is counted in the report.
   Status set_pose(InstanceId instance, const Pose& pose) noexcept;
-  // No pose is due in the coming step (animation at a lower rate than the frames): the step does nothing with
-  // the instance, and what is read of it stays as it was. Its time goes to the step with the next pose, whose
-  // ticks follow the path between the two poses, so that a pose in every fourth frame is moved by as one in
-  // each is: late by as much as the poses themselves, and with the ticks of all these frames at once, at most
-  // WorldDef::max_ticks_per_step. Called beside set_pose before one step it does nothing; in every step, it
-  // holds what is shown. Part of the state that is saved. Fails for a stale id.
+  // Instead of set_pose, where animation runs at a lower rate than the frames: no pose is due in the coming
+  // step. The step does nothing with the instance; what is read of it, root and joints too, stays as it was.
+  // Its time goes to the step with the next pose, whose ticks follow the path between the two poses: flesh
+  // moves as under a pose in each frame, and is shown as late as the poses are. That step has the ticks of
+  // all the frames before it, so skip those of a crowd in turn; beyond WorldDef::max_ticks_per_step time is
+  // dropped (8 ticks of 60 Hz: 0.13 s). Beside set_pose, before the first pose and while hidden it does
+  // nothing. Part of the state that is saved. Fails for a stale id.
   Status skip_pose(InstanceId instance) noexcept;
   // Mended as in InstanceDef.
   Status set_importance(InstanceId instance, float importance) noexcept;
@@ -120,7 +122,7 @@ class World {
   size_t history(std::span<FrameReport> out) const noexcept;
 
   // Positions, at the time of the last step, of all of the asset's vertices. Cost O(vertices x
-  // influences). Between ticks a provisional step leads there: smooth, and not a tick late. From any
+  // influences). A step that ends between ticks shows the state stepped on to its end. From any
   // number of threads at a time while no function that is not const runs.
   Status read_positions(InstanceId instance, const ReadDef& def) const noexcept;
   // Unit normals of the displaced surface (kCharacter or kWorld): in the bind pose the file's own, else these
