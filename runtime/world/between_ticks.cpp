@@ -114,6 +114,8 @@ void step_soft_parts(Instance& instance, float x, float* out) noexcept {
 const float* go_on_as_shown(const Instance& instance, float x, float* out) noexcept {
   for (size_t i = 0; i < floats_of(instance); ++i)
     out[i] = instance.shown[0][i] + x * (instance.shown[0][i] - instance.shown[1][i]);
+  for (const pack::RegionRecord& region : instance.level->pack.regions)
+    tissue::hold_within(region.displacement_limit_m, region.node_count, out + size_t{3} * region.first_node);
   return out;
 }
 
