@@ -124,6 +124,25 @@ float judder_at(const baker::LoadedPack& pack, const baker::AuditMotion& motion,
   return judder(shown, static_cast<size_t>(kSettled_s * fps) + 1);
 }
 
+// As it would be shown with the last tick's velocity carried on, at 240 frames a second.
+Shown carried_on(const Shown& shown) {
+  constexpr size_t kFrames = 4;
+  Shown out(shown.begin(), shown.begin() + kFrames);
+  for (size_t f = kFrames; f < shown.size(); ++f) {
+    const size_t tick = f - f % kFrames;
+    const float x = static_cast<float>(f % kFrames) / kFrames;
+    std::vector<float>& d = out.emplace_back(shown[tick]);
+    for (size_t i = 0; i < d.size(); ++i) d[i] += x * (shown[tick][i] - shown[tick - kFrames][i]);
+  }
+  return out;
+}
+
+float judder_carried_on(const baker::LoadedPack& pack, const baker::AuditMotion& motion) {
+  constexpr double kFps = 240, kLooked_s = 1.5;
+  const Shown shown = displacements(pack, motion, frames_at(kFps, kSettled_s + kLooked_s));
+  return judder(carried_on(shown), static_cast<size_t>(kSettled_s * kFps) + 1);
+}
+
 // At a fiftieth of the speed, once it moves.
 float judder_slow(const baker::LoadedPack& pack, const baker::AuditMotion& motion) {
   constexpr double kBegins_s = 1, kFps = 60 * 50;
@@ -213,6 +232,7 @@ struct Row {
 std::vector<Row> all_rows() {
   std::vector<Row> rows = {{"judder at 240 frames a second",
                             [](auto& pack, auto& m) { return judder_at(pack, m, 240, 1.5); }, true, true},
+                           {"judder at 240 with the last velocity carried on", judder_carried_on, true, true},
                            {"judder at 144 frames a second",
                             [](auto& pack, auto& m) { return judder_at(pack, m, 144, 1.5); }, true, true},
                            {"judder at a fiftieth of the speed",
@@ -265,19 +285,6 @@ void measure_row(const Row& row, bool clip, const std::vector<baker::LoadedPack>
 }
 
 // ---- moves for a picture ----
-
-// As it was shown before: with the last tick's velocity, at 240 frames a second.
-Shown carried_on(const Shown& shown) {
-  constexpr size_t kFrames = 4;
-  Shown out(shown.begin(), shown.begin() + kFrames);
-  for (size_t f = kFrames; f < shown.size(); ++f) {
-    const size_t tick = f - f % kFrames;
-    const float x = static_cast<float>(f % kFrames) / kFrames;
-    std::vector<float>& d = out.emplace_back(shown[tick]);
-    for (size_t i = 0; i < d.size(); ++i) d[i] += x * (shown[tick][i] - shown[tick - kFrames][i]);
-  }
-  return out;
-}
 
 void write_moves(const char* name, const Shown& shown, std::span<const Frame> frames, float height_m,
                  std::FILE* out) {
