@@ -16,6 +16,7 @@ void add_model_command(CLI::App& app, int* exit_code);
 void add_check_command(CLI::App& app, int* exit_code);
 void add_info_command(CLI::App& app, int* exit_code);
 void add_truth_command(CLI::App& app, int* exit_code);
+void add_patch_data_command(CLI::App& app, int* exit_code);
 void add_rod_data_command(CLI::App& app, int* exit_code);
 void add_judge_command(CLI::App& app, int* exit_code);
 void add_audit_command(CLI::App& app, int* exit_code);

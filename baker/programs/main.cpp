@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
   add_info_command(app, &exit_code);
   add_judge_command(app, &exit_code);
   add_audit_command(app, &exit_code);
+  add_patch_data_command(app, &exit_code);
   add_rod_data_command(app, &exit_code);
   add_truth_command(app, &exit_code);
   const auto is_named = [&](const CLI::App* command) { return command->get_name() == argv[1]; };

@@ -83,6 +83,20 @@ def _export_rods(a):
         export_rods(a.run, a.data, a.out, a.name)
 
 
+def _train_patches(a):
+    import torch
+    from .patch_train import PatchTrainOptions, train_patches
+
+    torch.set_num_threads(a.threads)
+    train_patches(a.data, a.out, _from_fields(PatchTrainOptions, a))
+
+
+def _export_patches(a):
+    from .patch_export import export_patches
+
+    export_patches(a.run, a.data, a.out, a.name, a.page)
+
+
 def _read_json(path, mend):
     try:
         with open(path) as file:
@@ -233,6 +247,19 @@ def _parser():
     p.add_argument("--run", help="folder of train-rods")
     p.add_argument("--examples", type=int, default=0, help="how many, instead of a run")
     p.add_argument("--seed", type=int, default=0, help="of the examples")
+    p.add_argument("--out", required=True)
+    p.add_argument("--name", required=True)
+    p = command("train-patches", _train_patches, "Trains an emulator of patches (DeepEmulator).")
+    p.add_argument("data", help="folder of runs, of sinew-bake patch-data")
+    p.add_argument("--out", required=True, help="folder of the run")
+    p.add_argument("--threads", type=int, default=1)
+    from .patch_train import PatchTrainOptions
+
+    _add_fields(p, PatchTrainOptions)
+    p = command("export-patches", _export_patches, "Judges an emulator on held-out bodies and writes its weights.")
+    p.add_argument("data")
+    p.add_argument("--run", required=True, help="folder of train-patches")
+    p.add_argument("--page", required=True, help="folder of tables and plots")
     p.add_argument("--out", required=True)
     p.add_argument("--name", required=True)
     text = "Writes the page of characters with networks of their own, and ships those that pay."

@@ -242,7 +242,7 @@ int Fem::step(double dt_s, const Eigen::VectorXd& target, const Eigen::VectorXd&
     refuse("target and force need 3 values for each of " + std::to_string(mass.size()) + " nodes");
   constexpr int kPatience = 6;
   Impl::StepStart start = impl_->start_of(positions, velocities, undisturbed), &last = impl_->last;
-  const Formula formula = formula_of(dt_s, last.dt_s);
+  const Formula formula = backward_euler ? Formula{dt_s, 0} : formula_of(dt_s, last.dt_s);
   last.dt_s = 0;  // until this step is over
   Eigen::VectorXd& relative = impl_->relative_velocity;
   Eigen::VectorXd along = start.displacement;

@@ -56,7 +56,8 @@ class Fem {
 
   // 3 a node; constrained entries are the caller's. Whoever writes others between steps calls reset() first.
   Eigen::VectorXd positions, velocities;
-  Eigen::VectorXd mass;  // lumped, 1 a node
+  Eigen::VectorXd mass;         // lumped, 1 a node
+  bool backward_euler = false;  // every step, as published emulators' data has it
 
   // At rest at these positions; forgets the past.
   void reset(const Eigen::VectorXd& at);

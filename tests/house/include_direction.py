@@ -30,11 +30,12 @@ BAKER = {
     "truth": {"import", "mesh"},
     "pack": {"import", "mesh", "truth"},
     "rods": {"truth"},
+    "patches": {"truth"},
     "research": {"pack"},
     "render": set(),
     "preview": {"render"},
     "audit": {"import", "mesh", "preview", "render"},
-    "programs": {"audit", "import", "mesh", "truth", "pack", "creature", "rods", "preview", "research"},
+    "programs": {"audit", "import", "mesh", "truth", "pack", "creature", "patches", "rods", "preview", "research"},
     "trade": {"import", "mesh", "truth", "pack", "programs", "render"},
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)

@@ -1,0 +1,195 @@
+"""Trains DeepEmulator's network on patches of simulated bodies."""
+import os
+import time
+from dataclasses import asdict, dataclass
+
+import numpy as np
+import torch
+
+from .files import write_json
+from .patch_data import Patches, patches_of, read_runs, take_step
+from .patch_model import Scaled
+from .safetensors import BadData, save
+
+
+@dataclass
+class PatchTrainOptions:
+    """Defaults are the recipe of the shipped weights."""
+
+    latent: int = 16
+    minutes: float = 30.0  # of one core's time
+    seed: int = 0
+    patches: int = 256  # in a gradient
+    ticks: int = 16  # that they are drawn from
+    learning_rate: float = 2e-3
+    noise: float = 0.3  # of what histories are disturbed by, the most, in how far the run departs from going on
+    floor: float = 0.003  # cells: runs that depart less from going on weigh alike
+    ahead: int = 6  # most ticks that a state was rolled out before it is learned from
+
+    def check(self):
+        if self.latent < 16 or self.latent % 16 != 0 or self.latent > 64:
+            raise BadData(f"--latent {self.latent}: the runtime takes 16, 32, 48 and 64")
+        for name in ("minutes", "patches", "ticks", "learning_rate", "floor"):
+            if not getattr(self, name) > 0:
+                raise BadData(f"--{name.replace('_', '-')} {getattr(self, name)}: must be above 0")
+        for name in ("noise", "ahead"):
+            if getattr(self, name) < 0:
+                raise BadData(f"--{name} {getattr(self, name)}: must not be below 0")
+
+
+def answers_of(model, patches):
+    return model(patches.centre, patches.material, patches.patch, patches.owner)
+
+
+def step_of(model, run, t, dynamic):
+    """u_{t+1}, from u_t, u_{t-1}, u_{t-2}."""
+    return take_step(run, t, answers_of(model, patches_of(run, t, run.free, dynamic)), dynamic)
+
+
+def roll(model, run, t, ticks):
+    """The last three of u after so many ticks from the truth's state at t, newest first."""
+    dynamic = [run.moved(t - k) for k in range(3)]
+    with torch.no_grad():
+        for k in range(ticks):
+            dynamic = [step_of(model, run, t + k, dynamic), *dynamic[:2]]
+    return dynamic
+
+
+def miss(run, t, u):
+    """Root mean square over free nodes of the distance to the truth, cells."""
+    return float((u - run.moved(t))[run.free].square().sum(1).mean().sqrt())
+
+
+class PatchTrainer:
+    def __init__(self, data, options, log=print):
+        options.check()
+        self.options, self.log = options, log
+        self.train, self.validation = read_runs(data, "train"), read_runs(data, "validation")[::2]
+        torch.manual_seed(options.seed)
+        self.random = np.random.default_rng(options.seed)
+        self.model = Scaled(options.latent)
+        sample = Patches.join([self.draw(None) for _ in range(200)])
+        self.model.fit(sample.centre, sample.material, sample.patch, sample.answer)
+        self.optimizer = torch.optim.Adam(self.model.parameters(), options.learning_rate)
+        self.updates, self.best, self.best_state, self.curve = 0, float("inf"), None, []
+
+    def disturbed(self, run, dynamic):
+        """A jolt and a drift that free nodes feel alike or each alone."""
+        size = self.options.noise * self.random.random() ** 2 * min(run.liveliness, 0.1)
+        noise = torch.as_tensor(self.random.normal(0, size, (3, *run.rest.shape)))
+        noise = noise * (1 - run.constrained[:, None].double())
+        steps = (noise[0], noise[0] + 0.3 * noise[1], noise[0] + 0.6 * noise[1] + 0.1 * noise[2])
+        return [u + n for u, n in zip(dynamic, steps)]
+
+    def draw(self, model):
+        """Patches of one tick of one run; with a model, of a state that it has rolled out."""
+        run = self.train[self.random.integers(len(self.train))]
+        count = max(1, self.options.patches // self.options.ticks)
+        nodes = run.free[torch.as_tensor(self.random.integers(0, len(run.free), count))]
+        t = int(self.random.integers(0, run.ticks))
+        dynamic = [run.moved(t - k) for k in range(3)]
+        if model is not None and self.options.noise > 0 and self.random.random() < 0.7:
+            dynamic = self.disturbed(run, dynamic)
+        return patches_of(run, t, nodes, dynamic)
+
+    def draw_rolled(self):
+        """All patches that count of a state some ticks after the truth's: it is to come back to the truth."""
+        run = self.train[self.random.integers(len(self.train))]
+        ticks = int(self.random.integers(1, self.options.ahead + 1))
+        t = int(self.random.integers(0, run.ticks - ticks))
+        dynamic = roll(self.model, run, t, ticks)
+        if not all(torch.isfinite(u).all() and miss(run, t + ticks, u) < 1 for u in dynamic[:1]):
+            return None
+        nodes = run.free[torch.as_tensor(self.random.permutation(len(run.free))[: self.options.patches])]
+        return patches_of(run, t + ticks, nodes, dynamic)
+
+    def batch(self, share_done):
+        if self.options.ahead > 0 and share_done > 0.3 and self.updates % 4 == 0:
+            rolled = self.draw_rolled()
+            if rolled is not None:
+                return rolled
+        return Patches.join([self.draw(self.model) for _ in range(self.options.ticks)])
+
+    def loss(self, batch):
+        error = (answers_of(self.model, batch) - batch.answer).square().sum(1)
+        size = batch.liveliness + self.options.floor
+        # An error that lasts displaces soft flesh by far more than stiff flesh: what counts is its share of what
+        # there is to say. Rolled-out states that are far off do not rule the gradient.
+        return torch.log1p(error / size.square()).mean()
+
+    def update(self, share_done):
+        rate = self.options.learning_rate * max(0.01, 0.5 * (1 + np.cos(np.pi * share_done)))
+        for group in self.optimizer.param_groups:
+            group["lr"] = rate
+        loss = self.loss(self.batch(share_done))
+        self.optimizer.zero_grad()
+        loss.backward()
+        torch.nn.utils.clip_grad_norm_(self.model.parameters(), 1.0)
+        self.optimizer.step()
+        self.updates += 1
+        return float(loss.detach())
+
+    def judge(self):
+        """Mean over validation runs, cells: of single ticks, and of roll-outs of 24."""
+        single, rolled = [], []
+        for run in self.validation:
+            with torch.no_grad():
+                for t in range(2, run.ticks, 40):
+                    single.append(miss(run, t + 1, step_of(self.model, run, t, [run.moved(t - k) for k in range(3)])))
+            ahead = min(24, run.ticks - 2)
+            rolled.append(min(10.0, miss(run, 2 + ahead, roll(self.model, run, 2, ahead)[0])))
+        return float(np.mean(single)), float(np.nan_to_num(np.mean(rolled), nan=10.0))
+
+    def validate(self, elapsed_s, training_loss):
+        single, rolled = self.judge()
+        if rolled + single < self.best:
+            self.best = rolled + single
+            self.best_state = {k: v.clone() for k, v in self.model.state_dict().items()}
+        self.curve.append(
+            {"seconds": elapsed_s, "updates": self.updates, "train": training_loss, "single": single, "rolled_24": rolled}
+        )
+        self.log(
+            f"{elapsed_s:7.0f} s {self.updates:7d} updates  train {training_loss:.5f}  single {single:.5f}  24 ticks {rolled:.4f}"
+        )
+
+    def run(self):
+        begin, losses, next_s = time.process_time(), [], 0.0
+        budget_s = 60 * self.options.minutes
+        while (elapsed_s := time.process_time() - begin) < budget_s:
+            losses.append(self.update(elapsed_s / budget_s))
+            if elapsed_s > next_s:
+                self.validate(elapsed_s, float(np.mean(losses)))
+                losses, next_s = [], elapsed_s + budget_s / 16
+        self.validate(time.process_time() - begin, float(np.mean(losses)) if losses else float("nan"))
+        self.model.load_state_dict(self.best_state)
+        self.seconds = time.process_time() - begin
+
+
+def weights_metadata(trainer, extra):
+    of = trainer.train[0].metadata
+    logs = torch.cat([run.material[:, 2] for run in trainer.train])
+    return {
+        "sinew.model": "deep_emulator",
+        "sinew.version": 1,
+        "latent": trainer.options.latent,
+        "rate_hz": float(of["rate_hz"]),
+        "frame": "moving",
+        **{k: of[k] for k in ("integrator", "substeps", "damping_ratio")},
+        "trained.log_stiffness": f"{logs.min():.4f},{logs.max():.4f}",
+        **{f"recipe.{k}": v for k, v in asdict(trainer.options).items()},
+        "updates": trainer.updates,
+        "train_seconds": round(trainer.seconds),
+        "train_runs": len(trainer.train),
+        **extra,
+    }
+
+
+def train_patches(data, out, options, log=print):
+    """Writes out/weights.safetensors and out/curve.json."""
+    trainer = PatchTrainer(data, options, log)
+    trainer.run()
+    os.makedirs(out, exist_ok=True)
+    tensors = {k: v.detach().numpy() for k, v in trainer.model.absorbed().state_dict().items()}
+    save(os.path.join(out, "weights.safetensors"), tensors, weights_metadata(trainer, {"validation": f"{trainer.best:.5f}"}))
+    write_json(os.path.join(out, "curve.json"), {"best": trainer.best, "curve": trainer.curve})
+    log(f"{out}: validation {trainer.best:.5f}")
