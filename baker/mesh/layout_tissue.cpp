@@ -103,6 +103,7 @@ void set_motion(const Recipe& recipe, const RegionRecipe* stated, Region& region
   const RegionRecipe fallback;
   const RegionRecipe& from = stated ? *stated : fallback;
   region.touches_body = from.touches_body;
+  region.emulated = from.emulated.value_or(recipe.emulated);
   region.kind = kind_of_region(region.name, stated);
   region.is_piece = selects_piece(from);
   region.damping_ratio = from.damping_ratio.value_or(

@@ -89,6 +89,13 @@ void read_side(JsonSection& section, RegionRecipe& region) {
 }
 constexpr double kFarthest_m = 1e7;  // as far as the import lets a vertex lie
 
+bool read_emulated(JsonSection& section) {
+  const std::string model = section.text("model", "alt_conv_lstm");
+  if (model != "alt_conv_lstm" && model != "deep_emulator")
+    section.complain("model", "is \"" + model + "\"; it must be \"alt_conv_lstm\" or \"deep_emulator\"");
+  return model == "deep_emulator";
+}
+
 RegionRecipe read_region(JsonSection& section) {
   RegionRecipe region;
   region.name = section.text("name");
@@ -103,6 +110,7 @@ RegionRecipe read_region(JsonSection& section) {
                      "island_at");
   region.stiffness = section.number("stiffness", region.stiffness, 0, 1);
   region.touches_body = section.flag("touches_body", region.touches_body);
+  if (section.has("model")) region.emulated = read_emulated(section);
   if (section.has("kind")) {
     const std::optional<SoftKind> kind = kind_called(section.text("kind"));
     if (!kind) section.complain("kind", "is none of " + kind_names());
@@ -135,6 +143,7 @@ Recipe read_recipe(const std::string& path) {
   section.text("note", "");
   read_material(section, recipe);
   read_graph(section, recipe);
+  recipe.emulated = read_emulated(section);
   recipe.states_regions = section.has("regions");
   for (JsonSection& region : section.sections("regions")) {
     region.text("note", "");

@@ -20,6 +20,8 @@ struct RegionRecipe {
   std::vector<std::string> joints = {};  // names or prefix*
   double stiffness = 0.1;                // 0 soft .. 1 rigid at its softest point
   bool touches_body = false;  // the capsules about the character's bones, but for those that carry it
+  // "model": "deep_emulator" (true) or "alt_conv_lstm"; absent: Recipe::emulated.
+  std::optional<bool> emulated = {};
   // What the default frequency goes by; absent: what its name says, then its bones'.
   std::optional<SoftKind> kind = {};
   std::optional<BodySide> side = {};  // of its bones, on which it is soft; absent: its kind's (body_side.hpp)
@@ -59,6 +61,9 @@ struct Recipe {
   double rigid_stiffness = 0.95;  // painted stiffness from here on is constrained to the skinning
   double core_share = 0.45;       // 0 .. 1, share of the way from bone to skin that follows the bone rigidly
   std::vector<std::string> coreless_joints;  // names or prefix*: bones without a rigid core (ears, tails)
+
+  bool emulated =
+      false;  // "model": "deep_emulator"; of an emulated region nodes_per_region counts free corners
 
   // Control graph.
   // Nodes a region: of the finest graph (4 .. 4096; more than a region has vertices: a node on each), and of

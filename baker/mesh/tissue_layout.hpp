@@ -20,6 +20,13 @@ struct ControlNode {
   Vector3 position, normal;  // bind pose
   double stiffness = 0;
   Influences skin;
+  // Of an emulated region, whose nodes are corners of voxels: `vertex` is then the nearest that it carries.
+  struct Corner {
+    bool is_corner = false;       // else it stands on its vertex
+    bool is_held = false;         // follows its pose
+    double stiffness_per_s2 = 0;  // of its share of its tetrahedra, a full cell's mass
+    double mass = 0;              // in full cells' masses
+  } corner = {};
 };
 
 struct Region {
@@ -32,6 +39,8 @@ struct Region {
   Vector3 center = Vector3::Zero();
   double radius_m = 0;
   bool touches_body = false;  // RegionRecipe::touches_body
+  bool emulated = false;      // RegionRecipe::emulated: a network of patches predicts it
+  double cell_m = 0;          // of its voxels, where it stands on them (truth/voxel_nodes.hpp)
   Evidence evidence = Evidence::kRecipe;
   SoftKind kind = SoftKind::kOther;
   int recipe_region = -1;         // of the recipe's, or of found_regions; -1: of paint

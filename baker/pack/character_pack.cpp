@@ -12,6 +12,7 @@
 #include "baker/pack/graph.hpp"
 #include "baker/pack/modes_pack.hpp"
 #include "baker/pack/network_pack.hpp"
+#include "baker/pack/patches_pack.hpp"
 #include "baker/pack/rods_pack.hpp"
 #include "baker/pack/tier_pack.hpp"
 
@@ -154,7 +155,7 @@ void append_carry(const Region& region, uint32_t padded_vertices, std::vector<fl
   }
 }
 
-pack::RegionRecord to_record(const Region& region, const ModalBasis& basis) {
+pack::RegionRecord to_record(const Region& region, const ModalBasis& basis, bool emulates) {
   pack::RegionRecord record{};
   record.anchor_node = to_u32(basis.anchor_node);
   record.first_node = to_u32(region.first_node);
@@ -165,18 +166,19 @@ pack::RegionRecord to_record(const Region& region, const ModalBasis& basis) {
   record.radius_m = static_cast<float>(region.radius_m);
   record.displacement_limit_m = static_cast<float>(region.max_displacement * region.radius_m);
   record.touches_body = region.touches_body;
+  record.cell_m = emulates ? static_cast<float>(region.cell_m) : 0;
   return record;
 }
 
 // Returns the floats of the carrying weights.
 uint64_t add_regions(const TissueLayout& layout, const std::vector<ModalBasis>& modes, bool first,
-                     PackWriter& pack) {
+                     bool emulates, PackWriter& pack) {
   std::vector<pack::RegionRecord> regions;
   std::vector<uint32_t> vertices;
   std::vector<float> carry;
   for (size_t r = 0; r < layout.regions.size(); ++r) {
     const Region& region = layout.regions[r];
-    pack::RegionRecord record = to_record(region, modes[r]);
+    pack::RegionRecord record = to_record(region, modes[r], emulates);
     record.name = pack.string(region.name);
     record.first_vertex = to_u32(vertices.size());
     record.carry = carry.size();
@@ -207,6 +209,7 @@ void add_graph(const GraphRows& graph, PackWriter& pack) {
 struct TissueOptions {
   double rate_hz;
   std::string where;  // of complaints
+  bool emulates = false;
 };
 
 pack::LevelRecord add_tissue(const TissueLayout& layout, const std::vector<ModalBasis>& modes,
@@ -214,7 +217,7 @@ pack::LevelRecord add_tissue(const TissueLayout& layout, const std::vector<Modal
   check_modes(layout, modes);
   pack::LevelRecord record{};
   record.node_count = to_u32(layout.nodes.size());
-  record.carry_floats = add_regions(layout, modes, first, pack);
+  record.carry_floats = add_regions(layout, modes, first, options.emulates, pack);
   add_nodes(layout, pack);
   const GraphRows graph = normalized_adjacency(layout.nodes.size(), layout.edges, options.where);
   record.graph_entries = to_u32(graph.columns.size());
@@ -315,12 +318,13 @@ float number_of(const Safetensors* weights, const std::string& key, float fallba
 }
 
 void add_tiers(const std::vector<pack::LevelRecord>& levels, const std::vector<pack::LayerRecord>& layers,
-               const RodWork& rods, PackWriter& pack) {
+               uint64_t patch_multiply_adds, const RodWork& rods, PackWriter& pack) {
   std::vector<TierWork> work;
   for (const pack::LevelRecord& level : levels)
     work.push_back({.nodes = level.node_count,
                     .mode_floats = level.matrix_floats,
-                    .network_multiply_adds = multiply_adds(layers, level.node_count, level.graph_entries),
+                    .network_multiply_adds =
+                        patch_multiply_adds + multiply_adds(layers, level.node_count, level.graph_entries),
                     .rods = rods});
   pack.section(SectionKind::kTiers, make_tiers(work));
 }
@@ -335,10 +339,10 @@ RodWork rod_work(const TissueLayout& layout, uint64_t network_multiply_adds) {
 }
 
 // rate_hz alone.
-std::vector<pack::LayerRecord> add_no_network(PackWriter& pack) {
+std::vector<pack::LayerRecord> add_no_network(float rate_hz, PackWriter& pack) {
   pack::NetworkRecord record{};
   record.model = pack::ModelKind::kNone;
-  record.rate_hz = kRate_hz;
+  record.rate_hz = rate_hz;
   pack.section(SectionKind::kNetwork, std::vector{record});
   return {};
 }
@@ -347,25 +351,33 @@ std::vector<pack::LayerRecord> add_no_network(PackWriter& pack) {
 
 std::vector<std::byte> pack_character(const Character& character, const TissueLayout& layout,
                                       const std::vector<ModalBasis>& modes, const Safetensors* weights,
-                                      std::span<const GraphLevel> coarser, const Safetensors* rod_weights) {
+                                      std::span<const GraphLevel> coarser, const Safetensors* rod_weights,
+                                      const Safetensors* emulator) {
   if (weights != nullptr) check_wiring(*weights);
   check_joint_count(character);
+  const float rate_hz = number_of(weights != nullptr ? weights : emulator, "rate_hz", kRate_hz, 1, 1000);
   PackWriter pack(pack::FileKind::kCharacter);
   const std::vector<pack::LayerRecord> layers =
-      weights != nullptr ? add_network(*weights, pack) : add_no_network(pack);
+      weights != nullptr ? add_network(*weights, pack) : add_no_network(rate_hz, pack);
   add_record(character, layout, coarser.size(), pack);
   add_joints(character, pack);
   add_mesh(character, pack);
   add_meshes(character, pack);
   add_clips(character, pack);
-  const TissueOptions options{.rate_hz = number_of(weights, "rate_hz", kRate_hz, 1, 1000),
-                              .where = character.name + ": control graph"};
+  const bool emulates = emulator != nullptr && std::ranges::any_of(layout.regions, [](const Region& region) {
+                          return region.cell_m > 0;
+                        });
+  const TissueOptions options{.rate_hz = static_cast<double>(rate_hz),
+                              .where = character.name + ": control graph",
+                              .emulates = emulates};
   const std::vector<pack::LevelRecord> levels = add_levels(layout, modes, coarser, options, pack);
   const bool has_rod_network = rod_weights != nullptr && !layout.rods.empty();
   add_rods(character, layout.rods, has_rod_network, pack);
   const uint64_t network_ops = has_rod_network ? add_rod_network(*rod_weights, pack) : 0;
   add_proxies(layout.proxies, pack);
-  add_tiers(levels, layers, rod_work(layout, network_ops), pack);
+  const uint64_t patch_ops =
+      emulates ? add_patches(layout, *emulator, static_cast<double>(rate_hz), pack) : 0;
+  add_tiers(levels, layers, patch_ops, rod_work(layout, network_ops), pack);
   return pack.finish();
 }
 

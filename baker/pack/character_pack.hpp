@@ -14,8 +14,9 @@ namespace sinew::baker {
 inline constexpr double kClipRateHz = 60;
 // The whole file; `modes`: one basis a region; `coarser`: control graphs beside it, each with fewer nodes,
 // where it has any, than the one before. Without weights (null) it has the tier modal, at 60 Hz.
-// rod_weights: of a COPINGNet that rods may start from (null: none does). Beyond
-// network_pack's keys, reads from the weights' metadata:
+// rod_weights: of a COPINGNet that rods may start from (null: none does). emulator: of a DeepEmulator that
+// predicts the regions that stand on voxels (null: they have modes alone), which then want no `coarser`.
+// Beyond network_pack's keys, reads from the weights' metadata:
 //   frame, base          must be "bent" and "modal_2" (bodies' whole modes; before: each region's own): what
 //                        the network was trained on
 // Throws BadInput: weights without `inputs`, or of another frame or base; more than 65,535 joints, a clip of
@@ -25,6 +26,7 @@ std::vector<std::byte> pack_character(const Character& character, const TissueLa
                                       const std::vector<ModalBasis>& modes,
                                       const Safetensors* weights = nullptr,
                                       std::span<const GraphLevel> coarser = {},
-                                      const Safetensors* rod_weights = nullptr);
+                                      const Safetensors* rod_weights = nullptr,
+                                      const Safetensors* emulator = nullptr);
 
 }  // namespace sinew::baker

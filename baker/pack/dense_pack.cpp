@@ -27,13 +27,34 @@ uint32_t whole_number(const Safetensors& weights, const std::string& key, uint32
   return static_cast<uint32_t>(value);
 }
 
+// Without the key: the paper's.
+uint32_t deep_latent(const Safetensors& weights) {
+  constexpr uint32_t kMost = pack::kDeepWidest / 3;
+  if (!weights.metadata.contains("latent")) return kMost;
+  const uint32_t latent = whole_number(weights, "latent", kMost);
+  if (latent % pack::kDeepLatentStep != 0)
+    throw BadInput(weights.path + ": metadata key 'latent' is " + std::to_string(latent) +
+                   "; a deep_emulator has 16, 32, 48 or 64");
+  return latent;
+}
+
+bool sees_from_moving_frame(const Safetensors& weights) {
+  const auto found = weights.metadata.find("frame");
+  if (found == weights.metadata.end()) return false;
+  if (found->second != "moving")
+    throw BadInput(weights.path + ": metadata key 'frame' is '" + found->second +
+                   "'; of a deep_emulator it is 'moving', or absent for the paper's; train again");
+  return true;
+}
+
 pack::NetworkRecord make_record(const Safetensors& weights) {
   pack::NetworkRecord record{};
   record.model = model_of(weights);
   if (record.model == ModelKind::kDeepEmulator) {
     metadata_text(weights, "rate_hz");
     record.rate_hz = metadata_number(weights, "rate_hz", 0, 1, 1000);
-    record.max_channels = pack::kDeepWidest;
+    record.max_channels = 3 * deep_latent(weights);
+    record.moving = sees_from_moving_frame(weights);
   } else {
     record.max_channels = whole_number(weights, "latent", pack::kMaxLatent);
     record.blocks = whole_number(weights, "blocks", pack::kMaxBlocks);
@@ -157,6 +178,14 @@ uint64_t add_rod_network(const Safetensors& weights, PackWriter& pack) {
   pack.section(pack::SectionKind::kRodDense, layout.layers());
   pack.section(pack::SectionKind::kRodWeights, layout.floats());
   return layout.floats().size();
+}
+
+uint32_t add_patch_network(const Safetensors& weights, PackWriter& pack) {
+  const auto [record, layout] = lay_out_chains(weights);
+  pack.section(pack::SectionKind::kPatchNetwork, std::vector{record});
+  pack.section(pack::SectionKind::kPatchDense, layout.layers());
+  pack.section(pack::SectionKind::kPatchWeights, layout.floats());
+  return record.max_channels / 3;
 }
 
 }  // namespace sinew::baker

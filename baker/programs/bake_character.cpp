@@ -18,6 +18,7 @@
 #include "baker/pack/dense_pack.hpp"
 #include "baker/pack/network_pack.hpp"
 #include "baker/pack/pack_writer.hpp"
+#include "baker/pack/patches_pack.hpp"
 #include "baker/pack/trained_rods.hpp"
 #include "baker/preview/write_preview.hpp"
 #include "baker/programs/character_tissue.hpp"
@@ -31,7 +32,7 @@ namespace sinew::baker {
 namespace {
 
 struct CharacterOptions {
-  std::string character, recipe, tissue, rods, output, preview;
+  std::string character, recipe, tissue, emulator, rods, output, preview;
   bool quick = false, keep_network = false;
 };
 
@@ -112,6 +113,35 @@ std::vector<std::byte> measured(const Recipe& recipe, const Safetensors* weights
   }
 }
 
+// Weights that predict patches, where a region's recipe wants them. Before all that takes time.
+std::optional<Safetensors> read_emulator(const CharacterOptions& options, const Recipe& recipe,
+                                         const std::optional<Safetensors>& tissue) {
+  if (!options.emulator.empty()) {
+    Safetensors weights = read_safetensors(options.emulator);
+    const float own = metadata_number(weights, "rate_hz", 0, 1, 1000);
+    check_emulator(weights, tissue ? metadata_number(*tissue, "rate_hz", own, 1, 1000) : own);
+    PackWriter unused(pack::FileKind::kCharacter);
+    add_patch_network(weights, unused);
+    return weights;
+  }
+  const auto emulated = std::ranges::find_if(
+      recipe.regions, [&](const RegionRecipe& region) { return region.emulated.value_or(recipe.emulated); });
+  if (recipe.emulated || emulated != recipe.regions.end())
+    throw BadInput(options.recipe +
+                   ": \"model\": \"deep_emulator\" needs the weights of a deep_emulator: give "
+                   "--emulator W.safetensors");
+  return {};
+}
+
+void note_emulator(const CharacterOptions& options, CharacterTissue& tissue, const Safetensors& weights,
+                   std::vector<std::string>& notes) {
+  if (std::ranges::any_of(tissue.layout.regions, &Region::emulated))
+    tissue.emulator = &weights;
+  else
+    notes.push_back("no region's recipe says \"model\": \"deep_emulator\": " + options.emulator +
+                    " is not used");
+}
+
 // Weights that rods may start from. Before all that takes time.
 std::optional<Safetensors> read_rod_weights(const CharacterOptions& options, const Recipe& recipe) {
   if (!options.rods.empty()) {
@@ -144,12 +174,14 @@ void run_character(const CharacterOptions& options) {
   const Recipe recipe = options.recipe.empty() ? Recipe{} : read_recipe(options.recipe);
   std::optional<Safetensors> weights;
   if (!options.tissue.empty()) weights = read_safetensors(options.tissue);
+  const std::optional<Safetensors> emulator = read_emulator(options, recipe, weights);
   const std::optional<Safetensors> rod_weights = read_rod_weights(options, recipe);
   std::optional<Progress> progress(std::in_place, "baking " + options.output, 10);
   Character character = import_character(options.character, recipe);
   progress->update(1);
   CharacterTissue tissue = make_tissue(character, recipe);
   progress->update(6);
+  if (emulator) note_emulator(options, tissue, *emulator, character.notes);
   if (rod_weights) {
     tissue.rod_weights = &*rod_weights;
     note_rod_weights(options, tissue.layout, character.notes);
@@ -187,6 +219,9 @@ void add_character_command(CLI::App& app, int*) {
   command->add_option("character", options->character, "skinned glTF or VRM")->required();
   command->add_option("--recipe", options->recipe, "JSON; see baker/mesh/recipe.hpp");
   command->add_option("--tissue", options->tissue, "trained weights, safetensors; without: modes only");
+  command->add_option(
+      "--emulator", options->emulator,
+      "weights of a deep_emulator, safetensors, for regions whose recipe says \"model\": \"deep_emulator\"");
   command->add_option(
       "--rods", options->rods,
       "weights of a coping_net, safetensors, for rods whose recipe says \"start\": \"learned\"");

@@ -49,7 +49,7 @@ RollOutError error_of(const LoadedPack& model, const std::string& path, const Sa
     case pack::ModelKind::kNone:
       throw BadInput(path + ": holds no network, so there is nothing to check; bake it with --tissue");
     case pack::ModelKind::kDeepEmulator:
-      return roll_out_deep_emulator(model.deep_emulator(), vectors);
+      return roll_out_deep_emulator(model.deep_emulator(), model.view().network->moving != 0, vectors);
     case pack::ModelKind::kCopingNet:
       return evaluate_coping_net(model.coping_net(), vectors);
     case pack::ModelKind::kAltConvLstm:

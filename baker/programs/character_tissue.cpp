@@ -1,6 +1,7 @@
 // character_tissue.cpp  Layout, truth, modes, and limits by audit.
 #include "baker/programs/character_tissue.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <optional>
 
@@ -8,6 +9,7 @@
 #include "baker/audit/limit_factor.hpp"
 #include "baker/pack/character_pack.hpp"
 #include "baker/programs/loaded_pack.hpp"
+#include "baker/truth/voxel_nodes.hpp"
 
 namespace sinew::baker {
 namespace {
@@ -58,18 +60,22 @@ CharacterTissue make_tissue(Character& character, const Recipe& recipe) {
   tissue.truth = std::make_unique<TissueTruth>(character, tissue.layout, recipe);
   const std::vector<std::string>& notes = tissue.truth->cage().notes;
   character.notes.insert(character.notes.end(), notes.begin(), notes.end());
+  const bool on_voxels = stand_on_voxels(character, recipe, tissue.layout, character.notes);
   tissue.finest = tissue.truth->modal_bases(tissue.layout, kMostModes);
-  tissue.coarser = coarser_levels(character, recipe, *tissue.truth, tissue.layout, tissue.finest);
+  if (!on_voxels)
+    tissue.coarser = coarser_levels(character, recipe, *tissue.truth, tissue.layout, tissue.finest);
   return tissue;
 }
 
 std::vector<std::byte> pack_tissue(const Character& character, const CharacterTissue& tissue,
                                    const Safetensors* weights) {
-  return pack_character(character, tissue.layout, tissue.finest, weights, tissue.coarser, tissue.rod_weights);
+  return pack_character(character, tissue.layout, tissue.finest, weights, tissue.coarser, tissue.rod_weights,
+                        tissue.emulator);
 }
 
 void lower_limits(Character& character, CharacterTissue& tissue) {
   constexpr int kMostRounds = 6;
+  const Safetensors* const emulator = std::exchange(tissue.emulator, nullptr);
   const std::vector<Region> before = tissue.layout.regions;
   const std::vector<Rod> rods_before = tissue.layout.rods;
   std::optional<AuditedParts> parts;  // the same in every round
@@ -86,6 +92,7 @@ void lower_limits(Character& character, CharacterTissue& tissue) {
                              part.displacement_m.value / part.part.size_m);
     }
   }
+  tissue.emulator = emulator;
   for (size_t r = 0; r < before.size(); ++r)
     if (tissue.layout.regions[r].max_displacement < before[r].max_displacement)
       character.notes.push_back(limit_note(before[r], tissue.layout.regions[r]));

@@ -18,12 +18,13 @@ struct CharacterTissue {
   std::vector<ModalBasis> finest;
   std::vector<GraphLevel> coarser;
   const Safetensors* rod_weights = nullptr;  // that its rods may start from; outlive it
+  const Safetensors* emulator = nullptr;     // that predicts regions on voxels; outlives it
 };
 
 // Notes go to the character's. Throws BadInput as layout_tissue and build_cage do.
 CharacterTissue make_tissue(Character& character, const Recipe& recipe);
 
-// With these weights, or without.
+// With these weights, or without; and with the emulator's, if it has them.
 std::vector<std::byte> pack_tissue(const Character& character, const CharacterTissue& tissue,
                                    const Safetensors* weights);
 

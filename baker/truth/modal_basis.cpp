@@ -5,6 +5,7 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "baker/common/bad_input.hpp"
@@ -108,13 +109,38 @@ MatrixXd warping_turn(const Turning& turning) {
   return turning.turn * share.asDiagonal();
 }
 
+// In the tetrahedron that has it, or at the nearest edge of one: shares are not below 0.
+Cage::Place nearest_place(const Vector3& at, const Cage& cage) {
+  Cage::Place best;
+  double deepest = -std::numeric_limits<double>::infinity();
+  for (size_t e = 0; e < cage.tetrahedra.size(); ++e) {
+    const auto& corners = cage.tetrahedra[e];
+    if ((cage.nodes[static_cast<size_t>(corners[0])] - at).squaredNorm() > 1e4 * cage.cell_m * cage.cell_m)
+      continue;
+    const Eigen::Matrix<double, 3, 4> slopes = tetrahedron_of(cage, corners).gradient;
+    Eigen::Vector4d shares = slopes.transpose() * (at - cage.nodes[static_cast<size_t>(corners[0])]);
+    shares[0] += 1;
+    if (shares.minCoeff() <= deepest) continue;
+    deepest = shares.minCoeff();
+    shares = shares.cwiseMax(0) / shares.cwiseMax(0).sum();
+    best.tetrahedron = static_cast<int>(e);
+    std::copy_n(shares.data(), 4, best.weight.begin());
+  }
+  return best;
+}
+
+Cage::Place place_of(const ControlNode& node, const Cage& cage) {
+  if (node.corner.is_corner) return nearest_place(node.position, cage);
+  return cage.surface[static_cast<size_t>(node.vertex)];
+}
+
 // (3 cage nodes, modes) -> (3 control nodes of the region, modes).
 MatrixXd at_control_nodes(const MatrixXd& in_cage, const TissueLayout& layout, const Region& region,
                           const Cage& cage) {
   MatrixXd out = MatrixXd::Zero(3 * region.node_count, in_cage.cols());
   for (int n = 0; n < region.node_count; ++n) {
     const ControlNode& node = layout.nodes[static_cast<size_t>(region.first_node + n)];
-    const Cage::Place& place = cage.surface[static_cast<size_t>(node.vertex)];
+    const Cage::Place place = place_of(node, cage);
     const auto& corners = cage.tetrahedra[static_cast<size_t>(place.tetrahedron)];
     for (size_t a = 0; a < 4; ++a)
       out.middleRows<3>(3 * n) += place.weight[a] * in_cage.middleRows<3>(3 * corners[a]);

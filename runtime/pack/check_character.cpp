@@ -167,7 +167,7 @@ uint64_t tier_order(const TierRecord& record) noexcept { return uint64_t{record.
 uint32_t needed_tiers(const PackView& pack) noexcept {
   const auto bit = [](Tier tier) { return 1u << static_cast<uint32_t>(tier); };
   return bit(Tier::kSkinning) | bit(Tier::kExtrapolate) | bit(Tier::kModal) |
-         (has_network(pack) ? bit(Tier::kNetwork) : 0);
+         (affords_network(pack) ? bit(Tier::kNetwork) : 0);
 }
 
 Status check_tiers(const PackView& pack) noexcept {
@@ -177,7 +177,7 @@ Status check_tiers(const PackView& pack) noexcept {
     if (Status status = check_tier(pack, record, index); !status.ok()) return status;
     if (index > 0 && tier_order(record) <= tier_order(pack.tiers[index - 1]))
       return corrupt("tier %zu: %u at level %u does not ascend", index, record.tier, record.level);
-    if (record.tier == static_cast<uint32_t>(Tier::kNetwork) && !has_network(pack))
+    if (record.tier == static_cast<uint32_t>(Tier::kNetwork) && !affords_network(pack))
       return corrupt("tier %zu: a network that the character does not have", index);
     if (record.level == 0) seen |= 1u << record.tier;
   }

@@ -29,14 +29,17 @@ Status check_coping_sizes(const NetworkRecord& record) noexcept {
     return corrupt("network: %u blocks, outside 1..%u", record.blocks, kMaxBlocks);
   if (record.depth < 1 || record.depth > kMaxDepth)
     return corrupt("network: depth %u is outside 1..%u", record.depth, kMaxDepth);
+  if (record.moving != 0) return corrupt("network: a moving frame, which a coping_net has not");
   return record.rate_hz == 0 ? Status{} : corrupt("network: a rate, which a coping_net has not");
 }
 
 Status check_deep_sizes(const NetworkRecord& record) noexcept {
   if (record.blocks != 0 || record.depth != 0)
     return corrupt("network: blocks or depth, which a deep_emulator has not");
-  if (record.max_channels != kDeepWidest)
-    return corrupt("network: widest layer %u stated, %u wanted", record.max_channels, kDeepWidest);
+  if (record.max_channels == 0 || record.max_channels % (3 * kDeepLatentStep) != 0 ||
+      record.max_channels > kDeepWidest)
+    return corrupt("network: widest layer %u, of a deep_emulator 48, 96, 144 or 192", record.max_channels);
+  if (record.moving > 1) return corrupt("network: moving is neither 0 nor 1");
   return is_positive(record.rate_hz) ? Status{} : corrupt("network: rate %g Hz", double{record.rate_hz});
 }
 

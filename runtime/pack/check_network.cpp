@@ -34,7 +34,8 @@ Status check_nothing(const PackView& pack) noexcept {
   const bool empty = record.layer_count == 0 && record.input_width == 0 && record.max_channels == 0 &&
                      record.output_scale == 0 && record.output_leak == 0 && record.hidden_leak == 0 &&
                      record.state_clamp == 0 && record.length_unit == 0 &&
-                     record.precision == Precision::kFloat32 && record.blocks == 0 && record.depth == 0;
+                     record.precision == Precision::kFloat32 && record.blocks == 0 && record.depth == 0 &&
+                     record.moving == 0;
   if (!empty) return corrupt("network: fields of a network that is not there");
   if (!pack.layers.empty() || !pack.inputs.empty() || !pack.weights.empty() || !pack.dense.empty() ||
       has_int8(pack))
@@ -78,8 +79,8 @@ Status check_record(const PackView& pack) noexcept {
     return corrupt("network: a leak is outside 0..1");
   if (!(record.state_clamp > 0)) return corrupt("network: state clamp %g", double{record.state_clamp});
   if (!is_positive(record.length_unit)) return corrupt("network: length unit %g", double{record.length_unit});
-  if (record.blocks != 0 || record.depth != 0 || !pack.dense.empty())
-    return corrupt("network: blocks, depth or dense layers, which an alt_conv_lstm has not");
+  if (record.blocks != 0 || record.depth != 0 || record.moving != 0 || !pack.dense.empty())
+    return corrupt("network: blocks, depth, a moving frame or dense layers, which an alt_conv_lstm has not");
   if (Status status = check_precision(pack); !status.ok()) return status;
   return check_zero(record.reserved, "network", 0);
 }

@@ -15,7 +15,8 @@ Status check_modes(const PackView& pack) noexcept;   // after check_tissue
 // at tissue; of what the parts hold nothing is checked.
 Status cut_levels(PackView* pack) noexcept;
 Status check_levels(const PackView& pack) noexcept;  // each by check_tissue and check_modes, and how they fit
-Status check_rods(const PackView& pack) noexcept;    // rods, segments, what they move; after check_character
+Status check_patches(const PackView& pack) noexcept;  // what a network predicts them by; after check_levels
+Status check_rods(const PackView& pack) noexcept;     // rods, segments, what they move; after check_character
 Status check_proxies(const PackView& pack) noexcept;  // capsules about bones; after check_character
 
 // ---- shared by all of them ----

@@ -11,7 +11,7 @@ inline constexpr uint32_t kMaxLatent = 256, kMaxBlocks = 16, kMaxDepth = 8;  // 
 
 // DeepEmulator: alpha, beta, gamma, of five layers each. COPINGNet: encoder, each block, decoder, of each the
 // chain of nodes and the chain of edges, of depth + 1 layers.
-inline constexpr uint32_t kDeepChainLayers = 5, kDeepWidest = 192;
+inline constexpr uint32_t kDeepChainLayers = 5, kDeepWidest = 192, kDeepLatentStep = 16;
 
 struct DenseShape {
   uint32_t inputs, hidden, outputs;  // of a chain
@@ -23,10 +23,11 @@ constexpr uint32_t chain_count(const NetworkRecord& record) noexcept {
 }
 
 constexpr DenseShape chain_shape(const NetworkRecord& record, uint32_t chain) noexcept {
-  constexpr DenseShape kDeepEmulator[] = {{18, 64, 64, kDeepChainLayers},
-                                          {37, 128, 128, kDeepChainLayers},
-                                          {kDeepWidest, kDeepWidest, 3, kDeepChainLayers}};
-  if (record.model == ModelKind::kDeepEmulator) return kDeepEmulator[chain];
+  if (record.model == ModelKind::kDeepEmulator) {
+    const uint32_t widest = record.max_channels, width = widest / 3 * (chain + 1);
+    constexpr uint32_t kInputs[] = {18, 37};
+    return {chain < 2 ? kInputs[chain] : widest, width, chain < 2 ? width : 3, kDeepChainLayers};
+  }
   const uint32_t latent = record.max_channels, layers = record.depth + 1;
   const bool of_edges = chain % 2 == 1;
   if (chain < 2) return {of_edges ? 5u : 14u, latent, latent, layers};

@@ -37,7 +37,8 @@
 //   8  a tier tells its error along the motion in which it is largest, and which that is
 //   9  no update rates and no spring tier: the scheduler bought neither
 //      since then without a new version, for a reader that does not know it refuses the field:
-//      RodRecord::end_holder; RodRecord::start, with the sections kRodNetwork, kRodDense and kRodWeights
+//      RodRecord::end_holder; RodRecord::start, with the sections kRodNetwork, kRodDense and kRodWeights;
+//      RegionRecord::cell_m, with the sections kPatch...; NetworkRecord::moving
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -137,12 +138,19 @@ enum class SectionKind : uint32_t {
   kRodNetwork = 64,  // NetworkRecord x 1
   kRodDense = 65,    // DenseRecord x layers
   kRodWeights = 66,  // float, as kWeights
+  // Of a character with regions whose patches a network predicts (RegionRecord::cell_m): a DeepEmulator with
+  // `moving`, of the character's rate, as a model has it. One level of control graphs.
+  kPatchNetwork = 70,   // NetworkRecord x 1
+  kPatchDense = 71,     // DenseRecord x layers
+  kPatchWeights = 72,   // float, as kWeights
+  kPatchMaterial = 73,  // float[3] x nodes: ln k, m, ln (k / m) in ticks, cells and full cells' masses
+  kPatchHeld = 74,      // uint8 x nodes: 1 where a node of such a region follows its pose; else 0
 };
 
 // kNone: a character of modes alone; no layers, inputs or weights, and of the record only rate_hz
 // counts, all else is zero.
 // kDeepEmulator, kCopingNet: networks of chains of dense layers; models only, but for a character's
-// kRodNetwork.
+// kPatchNetwork and kRodNetwork.
 enum class ModelKind : uint32_t { kNone = 0, kAltConvLstm = 1, kDeepEmulator = 2, kCopingNet = 3 };
 inline constexpr const char* kModelNames[] = {"none", "alt_conv_lstm", "deep_emulator", "coping_net"};
 
@@ -182,7 +190,8 @@ struct NetworkRecord {
   Precision precision;
   uint32_t blocks;  // of kCopingNet, whose latent width is max_channels; else 0
   uint32_t depth;   // of kCopingNet: hidden layers of each chain; else 0
-  uint32_t reserved[3];
+  uint32_t moving;  // of kDeepEmulator, 1: it sees patches from where their centre goes on; else 0
+  uint32_t reserved[2];
 };
 static_assert(sizeof(NetworkRecord) == 64);
 
@@ -210,8 +219,9 @@ static_assert(sizeof(LayerRecord) == 64);
 // DeepEmulator (CVPR 2021, Eq. 5), tanh between layers; its equations: tissue/deep_emulator.hpp. COPINGNet
 // (Shao et al. 2021, Sec. 3), max(0, x) between layers; its equations: rods/coping_net.hpp. Behind its layers
 // stand norm.node and norm.edge, >= 0, 6 numbers each in 16. In their NetworkRecord layer_count counts
-// kDense, max_channels is the widest layer (of kCopingNet the latent width), rate_hz is 0 for kCopingNet, the
-// precision is float32, and what is Alt-ConvLSTM's own is 0.
+// kDense, max_channels is the widest layer (of kCopingNet the latent width; of kDeepEmulator gamma's, three
+// times its latent width: 48, 96, 144 or the paper's 192), rate_hz is 0 for kCopingNet, the precision is
+// float32, and what is Alt-ConvLSTM's own is 0.
 struct DenseRecord {
   uint32_t inputs;
   uint32_t outputs;
@@ -307,7 +317,8 @@ struct RegionRecord {
   float radius_m;                       // largest distance of a node from the centre, > 0
   float displacement_limit_m;           // guard: |l| of every node stays below this, approached smoothly; > 0
   uint32_t touches_body;                // 1: the capsules of kProxies, where an instance asks for it; else 0
-  uint32_t reserved;
+  // Above 0: its nodes are corners of voxels of this size, and kPatchNetwork predicts them; else 0.
+  float cell_m;
 };
 static_assert(sizeof(RegionRecord) == 64);
 

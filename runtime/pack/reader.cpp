@@ -63,14 +63,22 @@ PackView view_sections(const SectionTable& table) noexcept {
   view.joint_rods = table.get<uint32_t>(kJointRods);
   view.rod_network = {only(table.get<NetworkRecord>(kRodNetwork)), table.get<DenseRecord>(kRodDense),
                       table.get<float>(kRodWeights)};
+  view.patch_network = {only(table.get<NetworkRecord>(kPatchNetwork)), table.get<DenseRecord>(kPatchDense),
+                        table.get<float>(kPatchWeights)};
+  view.patch_material = table.get<float>(kPatchMaterial);
+  view.patch_held = table.get<uint8_t>(kPatchHeld);
   view.level_records = table.get<LevelRecord>(kLevels);
   return view;
 }
 
 // A kind of which there is one record at most.
 Status check_single(const SectionTable& table) noexcept {
-  const size_t count = table.get<NetworkRecord>(SectionKind::kRodNetwork).size();
-  return count <= 1 ? Status{} : corrupt("rod network: %zu records", count);
+  for (const auto& [kind, name] : {std::pair{SectionKind::kRodNetwork, "rod network"},
+                                   std::pair{SectionKind::kPatchNetwork, "patch network"}}) {
+    const size_t count = table.get<NetworkRecord>(kind).size();
+    if (count > 1) return corrupt("%s: %zu records", name, count);
+  }
+  return {};
 }
 
 Status check_strings(const PackView& pack) noexcept {
@@ -86,8 +94,8 @@ Status open_pack(std::span<const std::byte> bytes, PackView* out) noexcept {
   if (Status status = check_single(table); !status.ok()) return status;
   PackView view = view_sections(table);
   constexpr Check kModelChecks[] = {check_strings, check_network};
-  constexpr Check kCharacterChecks[] = {check_strings, check_network, check_character,
-                                        check_levels,  check_rods,    check_proxies};
+  constexpr Check kCharacterChecks[] = {check_strings, check_network, check_character, check_levels,
+                                        check_patches, check_rods,    check_proxies};
   const bool is_model = view.kind == FileKind::kModel;
   if (!is_model)
     if (Status status = cut_levels(&view); !status.ok()) return status;

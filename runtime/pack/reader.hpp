@@ -60,6 +60,9 @@ struct PackView : LevelView {
   std::span<const ProxyRecord> proxies;
   std::span<const uint32_t> joint_rods;  // a joint; empty without rods
   ChainsView rod_network;
+  ChainsView patch_network;
+  std::span<const float> patch_material;  // 3 a node of the finest level; empty without a patch network
+  std::span<const uint8_t> patch_held;
   std::span<const LevelRecord> level_records;  // empty where there is one level
   LevelView levels[kMostGraphLevels];          // finest first
   uint32_t level_count = 1;
@@ -69,6 +72,11 @@ struct PackView : LevelView {
 PackView at_level(const PackView& pack, uint32_t level) noexcept;
 
 inline bool has_network(const PackView& pack) noexcept { return pack.network->model != ModelKind::kNone; }
+inline bool emulates_patches(const PackView& pack) noexcept { return pack.patch_network.record != nullptr; }
+// Either makes the tier.
+inline bool affords_network(const PackView& pack) noexcept {
+  return has_network(pack) || emulates_patches(pack);
+}
 
 // Checks everything that is later trusted: magic, version, sizes, checksums, counts against each other, every
 // index, offset and string, finite numbers. O(bytes), allocates nothing. bytes must be 64-byte aligned and

@@ -61,6 +61,11 @@ inline constexpr SectionRule kSectionRules[] = {
     {SectionKind::kRodNetwork, sizeof(NetworkRecord), "rod network"},
     {SectionKind::kRodDense, sizeof(DenseRecord), "rod dense layers"},
     {SectionKind::kRodWeights, sizeof(float), "rod weights"},
+    {SectionKind::kPatchNetwork, sizeof(NetworkRecord), "patch network"},
+    {SectionKind::kPatchDense, sizeof(DenseRecord), "patch dense layers"},
+    {SectionKind::kPatchWeights, sizeof(float), "patch weights"},
+    {SectionKind::kPatchMaterial, 3 * sizeof(float), "patch material"},
+    {SectionKind::kPatchHeld, 1, "patch held"},
 };
 
 const SectionRule* find_rule(uint32_t kind) noexcept;  // null: not known

@@ -5,10 +5,14 @@
 //   b(i)    = sum over neighbours j of beta(the first five of i; u_t - o, u_{t-1} - o, u_{t-2} - o,
 //             x_{t+1} - o, x_t - o, x_{t-1} - o of j; k, m, k/m of j; 1 if j is constrained)
 //   u_{t+1} = u_t + gamma(a, b); of a constrained node x_{t+1}
-// alpha, beta, gamma: four hidden layers with tanh and one without, 18 -> 64 -> 64, 37 -> 128 -> 128,
-// 192 -> 192 -> 3. What of them is linear is done once a node, not once a neighbour: the centre's part of
-// beta's first layer and beta's last layer, behind the sum. That leaves four fifths of the multiply-adds at
-// twelve neighbours.
+// alpha, beta, gamma: four hidden layers with tanh and one without, 18 -> w -> w, 37 -> 2 w -> 2 w,
+// 3 w -> 3 w -> 3; w is 64 in the paper, 16, 32 or 48 in smaller ones.
+// A network that was trained so sees a patch from a frame that goes on as node i did, falls as it falls, and
+// has axes and a unit of length of its own. With v = u_t - u_{t-1} and g of i, everything of tick t + s is
+// seen at p - o - s v - s (s + 1) g / 2, and u_{t+1} = u_t + v + g + gamma(a, b): what would go on as it went
+// is no part of what has to be learned, and by Galileo nothing else changes. What of them is linear is done
+// once a node, not once a neighbour: the centre's part of beta's first layer and beta's last layer, behind
+// the sum. That leaves four fifths of the multiply-adds at twelve neighbours.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -23,10 +27,18 @@ struct DeepEmulator {  // views into a pack; trivially copyable
   const float* weights = nullptr;
 };
 
-// Who is a node's neighbour, in CSR; both directions, no self-loops.
+// Who is a node's neighbour, in CSR; both directions. A node that is listed as its own is passed over.
 struct Neighbours {
   const uint32_t* rows = nullptr;  // [nodes + 1]
   const uint32_t* columns = nullptr;
+};
+
+// How a node's patch is seen. Rows of axes: what is seen of a vector is length^-1 axes v.
+struct PatchView {
+  float axes[9];   // orthonormal
+  float length_m;  // > 0
+  float
+      fall_m[3];  // a tick^2, along the arrays' axes: what the node is accelerated by, as everything near it
 };
 
 // What a step is fed, [nodes][3] each, metres. Material: stiffness k, mass m, k / m in the units of the
@@ -36,13 +48,14 @@ struct DeepFrame {
   const float *x_next = nullptr, *x_now = nullptr, *x_before = nullptr;         // x_{t+1}, x_t, x_{t-1}
   const float* material = nullptr;
   const uint8_t* constrained = nullptr;  // [nodes]
+  const PatchView* views = nullptr;      // [nodes]; null: from where it is, along the arrays' axes
 };
 
 // u_{t+1} of nodes first .. last to u_next [nodes][3], which is none of the frame's arrays. Any cut into
 // ranges gives the same bits, and so does every target with FMA; ranges may run on several threads at once,
 // each with a scratch of its own [64-byte aligned]. Nodes of no neighbours hear a sum of zero. A NaN that a
-// node is fed reaches its output. Allocates nothing. Cost: 0.37 MFLOP a node and 0.10 a neighbour, of nodes
-// that are not constrained.
+// node is fed reaches its output. Allocates nothing. Cost, with w = 64: 0.37 MFLOP a node and 0.10 a
+// neighbour, of nodes that are not constrained; by the square of w less with smaller ones.
 size_t deep_emulator_scratch_floats() noexcept;
 void deep_emulator_step(const DeepEmulator& network, const Neighbours& neighbours, const DeepFrame& frame,
                         uint32_t first, uint32_t last, float* u_next, float* scratch) noexcept;

@@ -72,6 +72,7 @@ void read_output(const Network& network, std::span<const pack::RegionRecord> reg
 
 void write_output(const Network& network, std::span<const pack::RegionRecord> regions, uint32_t node_count,
                   const float* l, float* state) noexcept {
+  if (network.layers.empty()) return;
   const OutputRows rows = output_rows(network, node_count, state);
   for (const pack::RegionRecord& region : regions) {
     const float share =

@@ -141,6 +141,7 @@ Status open_asset(std::span<const std::byte> bytes, Asset* out) noexcept {
   asset.touchable = std::move(touchable);
   asset.rods = std::move(rods);
   asset.rod_network = {view.rod_network.record, view.rod_network.layers, view.rod_network.weights.data()};
+  asset.emulator = {view.patch_network.layers, view.patch_network.weights.data()};
   asset.network = {view.network, view.layers, view.inputs, view.weights.data()};
   asset.narrow = std::move(narrow);
   asset.network.narrow = reinterpret_cast<const float*>(asset.narrow.data());

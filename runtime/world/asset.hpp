@@ -11,6 +11,7 @@
 #include "pack/reader.hpp"
 #include "rods/coping_net.hpp"
 #include "sinew/types.hpp"
+#include "tissue/deep_emulator.hpp"
 #include "tissue/network.hpp"
 #include "world/graph_level.hpp"
 #include "world/rod_rig.hpp"
@@ -32,6 +33,7 @@ struct Asset {
   uint32_t level_count = 1;
   RodRig rods;
   rods::CopingNet rod_network;            // without a record where the pack has none
+  tissue::DeepEmulator emulator;          // without layers where the pack has none
   std::unique_ptr<uint64_t[]> touchable;  // [regions]: world/own_body_touches.hpp; null: none for any
   double tick_s = 0;
   uint64_t fingerprint = 0;      // of all of the pack's bytes
@@ -48,7 +50,8 @@ struct Asset {
 
   uint32_t node_count() const noexcept { return pack.character->node_count; }  // of the finest level
   uint32_t mode_count() const noexcept { return static_cast<uint32_t>(pack.modes.size()); }
-  Tier best() const noexcept { return pack::has_network(pack) ? Tier::kNetwork : Tier::kModal; }
+  bool emulates() const noexcept { return pack::emulates_patches(pack); }
+  Tier best() const noexcept { return pack::affords_network(pack) ? Tier::kNetwork : Tier::kModal; }
   uint32_t vertex_count() const noexcept { return pack.character->vertex_count; }
 };
 

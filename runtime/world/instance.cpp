@@ -62,6 +62,7 @@ void lay_out_state(const Asset& asset, core::Arena& arena, Instance& to) noexcep
     *modes = arena.take<float>(asset.mode_count());
   for (float** each : {&to.tick_force.r, &to.tick_force.added_r, &to.tick_force.off_r})
     *each = arena.take<float>(vectors);
+  if (asset.emulates()) to.past = arena.take<float>(vectors);
   to.tail = arena.take<float>(vectors);
   to.tail_velocity = arena.take<float>(vectors);
   for (float*& shown : to.shown) shown = arena.take<float>(vectors);
@@ -106,6 +107,14 @@ void lay_out_contacts(const Asset& asset, core::Arena& arena, Instance& to) noex
     to.proxy_before = arena.take<double>(6 * asset.pack.proxies.size());
 }
 
+void lay_out_emulator(size_t nodes, core::Arena& arena, EmulatorScratch& to) noexcept {
+  for (float** places :
+       {&to.u_now, &to.u_before, &to.u_before_that, &to.u_next, &to.x_now, &to.x_before, &to.x_next, &to.l})
+    *places = arena.take<float>(3 * nodes);
+  to.views = arena.take<tissue::PatchView>(nodes);
+  to.step = arena.take<float>(tissue::deep_emulator_scratch_floats());
+}
+
 void lay_out_scratch(const Asset& asset, core::Arena& arena, Instance& to) noexcept {
   const uint32_t joints = asset.pack.character->joint_count;
   const uint32_t nodes = asset.node_count();
@@ -128,6 +137,7 @@ void lay_out_scratch(const Asset& asset, core::Arena& arena, Instance& to) noexc
   if (asset.level_count > 1) to.level_scratch = arena.take<float>(change_scratch_floats(asset));
   to.inputs = arena.take<float>(tissue::input_stride(asset.network) * nodes);
   to.network_scratch = arena.take<float>(tissue::scratch_floats(asset.network, nodes));
+  if (asset.emulates()) lay_out_emulator(nodes, arena, to.emulator);
   to.skin = arena.take<float>(size_t{12} * joints);
   to.delta = arena.take<float>(size_t{3} * nodes);
   to.carried = arena.take<float>(size_t{3} * asset.padded_vertices);

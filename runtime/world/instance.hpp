@@ -155,6 +155,16 @@ struct ShownShares {
   float simulated, tail;
 };
 
+// What a tick of emulated patches is told and says, [nodes][3] in metres from the root's last tick
+// (world/emulate.hpp); none without such regions.
+struct EmulatorScratch {
+  float *u_now = nullptr, *u_before = nullptr, *u_before_that = nullptr, *u_next = nullptr;
+  float *x_now = nullptr, *x_before = nullptr, *x_next = nullptr;
+  tissue::PatchView* views = nullptr;  // [nodes]
+  float* l = nullptr;                  // as the network has it, along nodes' frames
+  float* step = nullptr;               // of its kernels
+};
+
 // Arrays are [nodes][3] in metres along each node's frame (tissue/node_bend.hpp) unless said otherwise; l,
 // theta and q as in tissue/modal_base.hpp. u is what
 // may be shown of l, within the region's limit (tissue/guard.hpp). "Shown" is what is published, along the
@@ -210,8 +220,11 @@ struct Instance {
   float *q[2] = {}, *r[2] = {};                    // q: [modes of all regions]
   // [modes]: by how much a network's corrections have moved q since it began, as modes go on with them.
   float* corrected[2] = {};
-  float* swing = nullptr;                           // [regions]: tissue/correction_budget.hpp
-  tissue::TickForce tick_force{};                   // of the last tick
+  float* swing = nullptr;          // [regions]: tissue/correction_budget.hpp
+  tissue::TickForce tick_force{};  // of the last tick
+  // Where emulated nodes were a tick before the last but one, from where poses[1] of the next tick has them,
+  // along its frames: with u, the three ticks that patches are told. Null: there are none.
+  float* past = nullptr;
   float *tail = nullptr, *tail_velocity = nullptr;  // velocity a tick
   float* shown[2] = {};                             // newest first
   float* felt_asleep = nullptr;                     // m/s^2, when the region's quiet began (world/sleep.hpp)
@@ -242,10 +255,12 @@ struct Instance {
   JointParts *parts_older = nullptr, *parts_before = nullptr, *parts = nullptr,
              *next_parts = nullptr;  // [joints]
   RootStep root_step{}, root_step_before{};
-  Matrix34* tick_joints = nullptr;                    // [joints]
-  tissue::NodePose* poses_now = nullptr;              // [nodes] at the end of the step
-  float* shown_between = nullptr;                     // world/between_ticks.hpp
-  float* drive = nullptr;                             // [nodes][kNodeDriveWidth]
+  Matrix34* tick_joints = nullptr;        // [joints]
+  tissue::NodePose* poses_now = nullptr;  // [nodes] at the end of the step
+  float* shown_between = nullptr;         // world/between_ticks.hpp
+  float* drive = nullptr;                 // [nodes][kNodeDriveWidth]
+  bool scaled_nodes = false;              // in this tick: node_size is not 1 everywhere
+  EmulatorScratch emulator;
   float *joint_size = nullptr, *node_size = nullptr;  // [joints], [nodes]
   float *felt = nullptr, *l_hat = nullptr, *r_hat = nullptr, *q_hat = nullptr, *carry = nullptr;
   float *inputs = nullptr, *network_scratch = nullptr;

@@ -14,6 +14,7 @@
 #include "tissue/network.hpp"
 #include "tissue/node_drive.hpp"
 #include "world/change_level.hpp"
+#include "world/emulate.hpp"
 #include "world/region_part.hpp"
 #include "world/sleep.hpp"
 
@@ -184,6 +185,7 @@ void assemble(Instance& instance) noexcept {
   const Asset& asset = *instance.asset;
   const size_t stride = tissue::input_stride(asset.network);
   for_each_awake_part(instance, [&](const Part& part) {
+    if (is_emulated(part)) return;
     const tissue::NodeSources sources{.region = &part.record,
                                       .nodes = instance.level->pack.nodes.data() + part.node,
                                       .drive = instance.drive + tissue::kNodeDriveWidth * part.node,
@@ -298,11 +300,25 @@ void correct_modes(Instance& instance, const Part& part, float most) noexcept {
   count_corrections(instance, part, correction);
 }
 
+// What a network corrected before goes on with the modes; the budget follows.
+void settle_part_on_base(Instance& instance, const Part& part) noexcept {
+  const float none[pack::kMaxModes] = {};
+  std::copy_n(instance.l_hat + part.vector, size_t{3} * part.record.node_count, instance.l[0] + part.vector);
+  spend_budget(instance, part, none);
+  count_corrections(instance, part, none);
+}
+
 // l of this tick is the network's, as far as modes can have it and its budget lets it.
 void settle_on_network(Instance& instance) noexcept {
   const float begun = begun_share(instance);
   // What sleeps keeps its l, of which the network remembers only what is shown.
   for_each_awake_part(instance, [&](const Part& part) {
+    if (is_emulated(part)) {
+      std::copy_n(instance.emulator.l + part.vector, size_t{3} * part.record.node_count,
+                  instance.l[0] + part.vector);
+      return correct_modes(instance, part, begun);
+    }
+    if (instance.asset->network.layers.empty()) return settle_part_on_base(instance, part);
     tissue::read_output(instance.asset->network, instance.level->pack.regions.subspan(part.index, 1),
                         instance.level->node_count(), instance.network_state, instance.l[0] + part.vector);
     correct_modes(instance, part, begun * instance.trust[part.index]);
@@ -317,21 +333,17 @@ void take_back_to_network(Instance& instance) noexcept {
   });
 }
 
-// What a network corrected before goes on with the modes; the budget follows.
 void settle_on_base(Instance& instance) noexcept {
   std::copy_n(instance.l_hat, floats_of(instance), instance.l[0]);
-  if (instance.asset->network.layers.empty()) return;
-  for_each_awake_part(instance, [&](const Part& part) {
-    const float none[pack::kMaxModes] = {};
-    spend_budget(instance, part, none);
-    count_corrections(instance, part, none);
-  });
+  if (instance.asset->best() != Tier::kNetwork) return;
+  for_each_awake_part(instance, [&](const Part& part) { settle_part_on_base(instance, part); });
 }
 
-// Runs of awake regions.
+// Runs of awake regions that are its.
 std::span<const tissue::NodeRun> awake_nodes(Instance& instance) noexcept {
   size_t count = 0;
   for_each_awake_part(instance, [&](const Part& part) {
+    if (is_emulated(part)) return;
     const auto first = static_cast<uint32_t>(part.node), last = first + part.record.node_count;
     if (count > 0 && instance.awake[count - 1].last == first)
       instance.awake[count - 1].last = last;
@@ -344,12 +356,15 @@ std::span<const tissue::NodeRun> awake_nodes(Instance& instance) noexcept {
 // True when the network's state is sound after its step.
 bool network_step(Instance& instance) noexcept {
   const tissue::Network& network = instance.asset->network;
-  assemble(instance);
-  tissue::network_step(network, instance.level->graph, awake_nodes(instance), instance.inputs, instance.carry,
-                       instance.network_state, instance.network_scratch);
-  if (tissue::network_is_finite(network, instance.level->node_count(), instance.network_state)) return true;
-  give_up_network(instance);
-  return false;
+  bool sound = !instance.asset->emulates() || emulate(instance);
+  if (!network.layers.empty()) {
+    assemble(instance);
+    tissue::network_step(network, instance.level->graph, awake_nodes(instance), instance.inputs,
+                         instance.carry, instance.network_state, instance.network_scratch);
+    sound = sound && tissue::network_is_finite(network, instance.level->node_count(), instance.network_state);
+  }
+  if (!sound) give_up_network(instance);
+  return sound;
 }
 
 // Of each joint, by its volume; whether one is not as it was bound.
@@ -385,6 +400,7 @@ const float* size_nodes(const Instance& instance) noexcept {
 void drive_nodes(Instance& instance) noexcept {
   tissue::NodeMotion motion;
   motion.size = size_nodes(instance);
+  instance.scaled_nodes = motion.size != nullptr;
   motion.most_m_s2 = instance.most_m_s2;
   for (int tick = 0; tick < 3; ++tick) {
     motion.pose[tick] = instance.poses[tick];
@@ -397,6 +413,7 @@ void drive_nodes(Instance& instance) noexcept {
 bool simulate_tick(Instance& instance) noexcept {
   if (!base_step(instance)) return false;
   const bool corrected = instance.state->tier == Tier::kNetwork && network_step(instance);
+  if (instance.asset->emulates()) remember_past(instance);
   shift_back(instance);
   take_base_answer(instance);
   if (corrected)

@@ -24,8 +24,9 @@ constexpr uint64_t kMagic = 0x31544154534e5753;  // "SWNSTAT1", little-endian
 // whose tail rides. 15: regions that a change of level had again. 16: blends of any length.
 // 18: how long a tail fades. 19: what the corrections of a network may spend.
 // 20: flesh beyond its limit swings on in l. 21: no update rates, no springs. 22: teleports,
-// spaces, scales of time and size, a pose more. 23: what the last tick added, time without poses.
-constexpr uint32_t kVersion = 23;
+// spaces, scales of time and size, a pose more. 23: what the last tick added, time without poses. 24: where
+// emulated nodes were.
+constexpr uint32_t kVersion = 24;
 
 struct Header {
   uint64_t magic, fingerprint, payload_bytes, checksum;

@@ -224,6 +224,8 @@ TEST_CASE("faults_of_a_deep_emulator_are_refused_by_name") {
   REQUIRE(PackEditor(model).open().ok());
   const auto network = [](auto apply) { return change<NetworkRecord>(kNetwork, 0, apply); };
   check_refused(model, {{"widest layer", network([](auto& n) { n.max_channels = 191; })},
+                        {"widest layer", network([](auto& n) { n.max_channels = 96 + 16; })},
+                        {"moving", network([](auto& n) { n.moving = 2; })},
                         {"rate", network([](auto& n) { n.rate_hz = 0; })},
                         {"rate", network([](auto& n) { n.rate_hz = -1; })},
                         {"rate", network([](auto& n) { n.rate_hz = kNan; })},
@@ -254,7 +256,8 @@ TEST_CASE("network_faults_are_refused_by_name") {
        {"leak", network([](auto& n) { n.hidden_leak = kNan; })},
        {"state clamp", network([](auto& n) { n.state_clamp = 0; })},
        {"length unit", network([](auto& n) { n.length_unit = -1; })},
-       {"reserved", network([](auto& n) { n.reserved[2] = 1; })},
+       {"reserved", network([](auto& n) { n.reserved[1] = 1; })},
+       {"moving", network([](auto& n) { n.moving = 1; })},
        {"dense layers, which an alt_conv_lstm has not", network([](auto& n) { n.blocks = 1; })},
        {"dense layers, which an alt_conv_lstm has not", network([](auto& n) { n.depth = 1; })},
        {"model deep_emulator, which this build runs in models only",
@@ -358,7 +361,6 @@ TEST_CASE("tissue_faults_are_refused_by_name") {
        {"region 1: radius", region([](auto& r) { r.radius_m = 0; })},
        {"region 1: displacement limit", region([](auto& r) { r.displacement_limit_m = kInfinity; })},
        {"region 1: touches_body is 2", region([](auto& r) { r.touches_body = 2; })},
-       {"region 1: reserved", region([](auto& r) { r.reserved = 1; })},
        {"that no region owns", region([](auto& r) { r.node_count = 1; })},
        {"region 0: vertex 4 does not ascend", set<uint32_t>(kRegionVertices, 1, 4u)},
        {"region 1: vertex 12", set<uint32_t>(kRegionVertices, 7, 12u)},
@@ -434,6 +436,7 @@ TEST_CASE("a_character_without_a_network_is_taken_and_must_be_without_all_of_it"
   const auto network = [](auto apply) { return change<NetworkRecord>(kNetwork, 0, apply); };
   check_refused(bytes, {{"network that is not there", network([](auto& n) { n.layer_count = 1; })},
                         {"network that is not there", network([](auto& n) { n.length_unit = 1; })},
+                        {"network that is not there", network([](auto& n) { n.moving = 1; })},
                         {"rate", network([](auto& n) { n.rate_hz = 0; })},
                         {"reserved", network([](auto& n) { n.reserved[0] = 1; })},
                         {"tier 2: a network", change<TierRecord>(kTiers, 2, [](auto& t) { t.tier = 2; })}});
@@ -605,4 +608,34 @@ TEST_CASE("a_pack_without_rods_has_none") {
   CHECK(view.rods.empty());
   CHECK(view.rod_segments.empty());
   CHECK(view.joint_rods.empty());
+}
+
+TEST_CASE("patches_without_all_that_predicts_them_are_refused_by_name") {
+  using enum SectionKind;
+  const std::vector<std::byte> good = test::small_patch_pack();
+  const auto record = [](auto apply) {
+    return change<NetworkRecord>(kPatchNetwork, 0, [=](NetworkRecord& n) { apply(n); });
+  };
+  const auto region = [](size_t r, float cell_m) {
+    return change<RegionRecord>(kRegions, r, [=](RegionRecord& record) { record.cell_m = cell_m; });
+  };
+  PackEditor untouched(good);
+  REQUIRE(untouched.open().ok());
+  check_refused(
+      good, {{"for regions that are not there", region(0, 0)},
+             {"cells of -1 m", region(0, -1)},
+             {"cells of", region(0, kNan)},
+             {"none of its nodes is held", region(1, 0.1f)},
+             {"none of its nodes is held", set<uint8_t>(kPatchHeld, 0, 0)},
+             {"neither 0 nor 1", set<uint8_t>(kPatchHeld, 1, 2)},
+             {"none of its nodes is free",
+              [](PackEditor& editor) { std::ranges::fill(editor.section<uint8_t>(kPatchHeld), uint8_t{1}); }},
+             {"not finite", set<float>(kPatchMaterial, 4, kNan)},
+             {"24 ticks a second", record([](NetworkRecord& n) { n.rate_hz = 24; })},
+             {"moving 0", record([](NetworkRecord& n) { n.moving = 0; }), StatusCode::kUnsupported},
+             {"model 3", record([](NetworkRecord& n) { n.model = ModelKind::kCopingNet; }),
+              StatusCode::kUnsupported},
+             {"widest layer", record([](NetworkRecord& n) { n.max_channels = 40; })},
+             {"not finite", set<float>(kPatchWeights, 5, kNan)}});
+  check_refused(test::small_character_pack(), {{"no network for regions that want one", region(0, 0.1f)}});
 }

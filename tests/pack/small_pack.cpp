@@ -301,6 +301,35 @@ std::vector<std::byte> small_learned_pack() {
   return baker::pack_character(character, layout, small_modes(layout), nullptr, {}, &weights);
 }
 
+baker::Safetensors small_emulator() {
+  ChainWeights chains("emulator.safetensors");
+  chains.add("alpha.", {18, 16, 16, 16, 16, 16});
+  chains.add("beta.", {37, 32, 32, 32, 32, 32});
+  chains.add("gamma.", {48, 48, 48, 48, 48, 3});
+  chains.weights.metadata = {{"sinew.model", "deep_emulator"},
+                             {"sinew.version", "1"},
+                             {"rate_hz", "60"},
+                             {"latent", "16"},
+                             {"frame", "moving"}};
+  return chains.weights;
+}
+
+baker::TissueLayout small_patch_layout(const baker::Character& character) {
+  baker::TissueLayout layout = small_layout(character);
+  layout.regions[0].emulated = true;
+  layout.regions[0].cell_m = 0.1;
+  for (size_t n = 0; n < 3; ++n)
+    layout.nodes[n].corner = {.is_corner = true, .is_held = n == 0, .stiffness_per_s2 = 7200, .mass = 0.5};
+  return layout;
+}
+
+std::vector<std::byte> small_patch_pack() {
+  const baker::Character character = small_character();
+  const baker::TissueLayout layout = small_patch_layout(character);
+  const baker::Safetensors weights = small_emulator();
+  return baker::pack_character(character, layout, small_modes(layout), nullptr, {}, nullptr, &weights);
+}
+
 std::vector<std::byte> small_character_pack() {
   const baker::Character character = small_character();
   const baker::TissueLayout layout = small_layout(character);

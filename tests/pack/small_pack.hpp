@@ -33,6 +33,10 @@ std::vector<std::byte> small_levels_pack();
 std::vector<std::byte> small_left_out_pack();  // and one graph more, that one without its region 1
 std::vector<baker::Rod> small_rods();          // one, of the two upper joints and a link between them
 std::vector<std::byte> small_rod_pack();       // the weightless one with it
-std::vector<std::byte> small_learned_pack();   // the same, starting from a network of latent width 8
+std::vector<std::byte> small_learned_pack();
+// Its first region's nodes are corners of voxels, the first of them held; and what predicts them.
+baker::Safetensors small_emulator();
+baker::TissueLayout small_patch_layout(const baker::Character& character);
+std::vector<std::byte> small_patch_pack();  // the same, starting from a network of latent width 8
 
 }  // namespace sinew::test

@@ -237,6 +237,22 @@ std::vector<baker::GraphLevel> coarser_levels(const Character& character, const 
   return levels;
 }
 
+// Nodes in the lower third are held.
+void stand_on_corners(TissueLayout& layout) {
+  baker::Region& region = layout.regions[0];
+  region.emulated = true;
+  region.cell_m = 0.05;
+  const auto begin = layout.nodes.begin() + region.first_node, end = begin + region.node_count;
+  std::vector<double> heights;
+  for (auto node = begin; node != end; ++node) heights.push_back(node->position.y());
+  std::ranges::sort(heights);
+  for (auto node = begin; node != end; ++node)
+    node->corner = {.is_corner = true,
+                    .is_held = node->position.y() <= heights[heights.size() / 3],
+                    .stiffness_per_s2 = 7200,
+                    .mass = 1};
+}
+
 // What a load moves it by grows with the square.
 void slow_down(double share, baker::ModalBasis& basis) {
   basis.rad_per_s *= share;
@@ -258,11 +274,13 @@ PackBytes soft_block(const BlockOptions& options) {
   const std::vector<baker::GraphLevel> coarser = coarser_levels(character, options, layout);
   if (options.rods) add_rods(*options.rods, character, layout);
   if (options.arms) add_arms(*options.arms, character, layout);
+  if (options.emulator) stand_on_corners(layout);
   const baker::Safetensors weights = options.weights ? *options.weights : block_network(options);
   std::vector<baker::ModalBasis> modes = block_modes(layout);
   for (baker::ModalBasis& basis : modes) slow_down(options.frequency_share, basis);
-  const std::vector<std::byte> bytes = baker::pack_character(
-      character, layout, modes, options.network ? &weights : nullptr, coarser, options.rod_weights);
+  const std::vector<std::byte> bytes =
+      baker::pack_character(character, layout, modes, options.network ? &weights : nullptr, coarser,
+                            options.rod_weights, options.emulator);
   return PackBytes(bytes.data(), bytes.size());
 }
 

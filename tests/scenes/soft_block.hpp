@@ -35,9 +35,10 @@ struct BlockOptions {
   double frequency_share = 1;                       // of block_modes.hpp's frequencies
   std::optional<RodMatter> rods = std::nullopt;     // a tail and horns (block_rods.hpp)
   const baker::Safetensors* rod_weights = nullptr;  // of a network that rods may start from
-  std::vector<int> coarser_nodes = {};              // a region, of coarser control graphs
-  bool leaves_out = false;                          // one graph more: the last without the left region
-  std::optional<ArmMatter> arms = std::nullopt;     // block_arms.hpp
+  const baker::Safetensors* emulator = nullptr;  // predicts the first region's nodes as if they were corners
+  std::vector<int> coarser_nodes = {};           // a region, of coarser control graphs
+  bool leaves_out = false;                       // one graph more: the last without the left region
+  std::optional<ArmMatter> arms = std::nullopt;  // block_arms.hpp
 };
 
 class PackBytes {  // 64-byte aligned, as load_asset wants them

@@ -24,12 +24,12 @@ constexpr double kEquations = 1e-5;
 using Floats3 = std::vector<float>;  // [nodes][3]
 
 struct Scene {
-  explicit Scene(uint32_t nodes, uint32_t seed = 3)
+  explicit Scene(uint32_t nodes, uint32_t seed = 3, uint32_t w = 64)
       : nodes(nodes),
         random(seed),
-        alpha(test::random_chain(random, {18, 64, 64, 64, 64, 64})),
-        beta(test::random_chain(random, {37, 128, 128, 128, 128, 128})),
-        gamma(test::random_chain(random, {192, 192, 192, 192, 192, 3})),
+        alpha(test::random_chain(random, {18, w, w, w, w, w})),
+        beta(test::random_chain(random, {37, 2 * w, 2 * w, 2 * w, 2 * w, 2 * w})),
+        gamma(test::random_chain(random, {3 * w, 3 * w, 3 * w, 3 * w, 3 * w, 3})),
         packed({alpha, beta, gamma}),
         scratch(tissue::deep_emulator_scratch_floats(), kStale) {
     for (Floats3* positions : {&u[0], &u[1], &u[2], &x[0], &x[1], &x[2], &material})
@@ -48,7 +48,7 @@ struct Scene {
   void step(uint32_t first, uint32_t last, Floats3* out) {
     tissue::deep_emulator_step({packed.layers(), packed.weights()}, {rows.data(), columns.data()},
                                {u[0].data(), u[1].data(), u[2].data(), x[0].data(), x[1].data(), x[2].data(),
-                                material.data(), constrained.data()},
+                                material.data(), constrained.data(), views.empty() ? nullptr : views.data()},
                                first, last, out->data(), scratch.data());
   }
   Floats3 stepped() {
@@ -65,7 +65,7 @@ struct Scene {
     if (constrained[i]) return {x[0].begin() + 3 * i, x[0].begin() + 3 * i + 3};
     std::vector<double> centre;
     for (const Floats3* p : {&u[0], &u[1], &u[2], &x[0], &x[2]}) put(*p, i, i, &centre);
-    std::vector<double> sum(128);
+    std::vector<double> sum(beta.back().outputs);
     for (uint32_t e = rows[i]; e < rows[i + 1]; ++e) {
       const uint32_t j = columns[e];
       std::vector<double> z = centre;
@@ -89,6 +89,7 @@ struct Scene {
   test::PlainChain alpha, beta, gamma;
   test::PackedChains packed;
   Floats3 u[3], x[3], material;
+  std::vector<tissue::PatchView> views;
   std::vector<uint8_t> constrained;
   std::vector<uint32_t> rows, columns;
   test::Floats scratch;
@@ -159,6 +160,77 @@ TEST_CASE("deep_emulator_step_is_the_reference_for_any_number_of_nodes") {
       CHECK(worst <= kEquations);
     }
   });
+}
+
+TEST_CASE("smaller_deep_emulators_are_the_reference_too") {
+  test::for_every_isa([&](const char*, const simd::Kernels&) {
+    for (const uint32_t latent : {16u, 32u, 48u}) {
+      Scene scene(simd::kRangeNodes + 1, 3, latent);
+      const Floats3 out = scene.stepped();
+      double worst = 0;
+      for (uint32_t i = 0; i < scene.nodes; ++i) {
+        const std::vector<double> want = scene.plain(i);
+        for (size_t axis = 0; axis < 3; ++axis)
+          worst = test::larger(worst, std::fabs(double{out[3 * i + axis]} - want[axis]));
+      }
+      CHECK(worst <= kEquations);
+    }
+  });
+}
+
+TEST_CASE("a_patch_that_stands_still_looks_the_same_from_a_frame_that_goes_on") {
+  Scene scene(20);
+  scene.u[1] = scene.u[0];  // no velocity
+  const Floats3 plain = scene.stepped();
+  scene.views.assign(scene.nodes, {.axes = {1, 0, 0, 0, 1, 0, 0, 0, 1}, .length_m = 1, .fall_m = {}});
+  CHECK(scene.stepped() == plain);
+}
+
+// Galileo and Newton: seen from frames of their own, patches that move on, turned, larger and in free fall
+// are the same patches. Floats of order ten carry 1e-6; the chains pass on some tens of it.
+TEST_CASE("a_moving_frame_sees_no_velocity_turn_size_or_fall") {
+  constexpr float kSame = 2e-4f;
+  Scene scene(20);
+  scene.views.assign(scene.nodes, {.axes = {1, 0, 0, 0, 1, 0, 0, 0, 1}, .length_m = 1, .fall_m = {}});
+  const Floats3 before = scene.stepped();
+  const float turn[9] = {0, 0, 1, 1, 0, 0, 0, 1, 0}, speed[3] = {2, -1, 0.5f}, fall[3] = {0.3f, -0.6f, 0.1f};
+  constexpr float kSize = 1.5f;
+  const auto moved = [&](const Floats3& p, float ahead) {
+    Floats3 out(p.size());
+    for (size_t i = 0; i < p.size(); i += 3)
+      for (size_t axis = 0; axis < 3; ++axis) {
+        const float turned =
+            turn[3 * axis] * p[i] + turn[3 * axis + 1] * p[i + 1] + turn[3 * axis + 2] * p[i + 2];
+        out[i + axis] = kSize * turned + ahead * speed[axis] + ahead * ahead / 2 * fall[axis];
+      }
+    return out;
+  };
+  const Floats3 want = moved(before, 1);
+  scene.u[0] = moved(scene.u[0], 0), scene.u[1] = moved(scene.u[1], -1), scene.u[2] = moved(scene.u[2], -2);
+  scene.x[0] = moved(scene.x[0], 1), scene.x[1] = moved(scene.x[1], 0), scene.x[2] = moved(scene.x[2], -1);
+  for (tissue::PatchView& view : scene.views) {
+    view.length_m = kSize;
+    std::copy_n(fall, 3, view.fall_m);
+    for (size_t row = 0; row < 3; ++row)
+      for (size_t column = 0; column < 3; ++column) view.axes[3 * row + column] = turn[3 * column + row];
+  }
+  const Floats3 out = scene.stepped();
+  for (size_t k = 0; k < out.size(); ++k) CHECK(std::fabs(out[k] - want[k]) < kSame);
+}
+
+TEST_CASE("a_node_that_is_listed_as_its_own_neighbour_is_passed_over") {
+  Scene scene(12);
+  const Floats3 without = scene.stepped();
+  std::vector<uint32_t> rows, columns;
+  for (uint32_t i = 0; i < scene.nodes; ++i) {
+    rows.push_back(static_cast<uint32_t>(columns.size()));
+    columns.push_back(i);
+    columns.insert(columns.end(), scene.columns.begin() + scene.rows[i],
+                   scene.columns.begin() + scene.rows[i + 1]);
+  }
+  rows.push_back(static_cast<uint32_t>(columns.size()));
+  scene.rows = rows, scene.columns = columns;
+  CHECK(scene.stepped() == without);
 }
 
 TEST_CASE("deep_emulator_step_gives_the_same_bits_wherever_its_nodes_are_cut") {
