@@ -247,7 +247,9 @@ void check_model(const Safetensors& weights) {
   if (model_of(weights) != pack::ModelKind::kAltConvLstm)
     refuse_key(weights, "sinew.model",
                "is '" + metadata_text(weights, "sinew.model") +
-                   "', which `sinew-bake model` bakes; characters take alt_conv_lstm only");
+                   "', which `sinew-bake model` bakes; characters take alt_conv_lstm here, a deep_emulator "
+                   "by --emulator "
+                   "and a coping_net by --rods");
 }
 
 const char* input_name(InputKind kind) {

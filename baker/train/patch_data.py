@@ -40,8 +40,6 @@ class Run:
         axes = self.turn.transpose(1, 2)
         self._posed = self.place[:, None] + self.rest @ axes
         self._moved = self._posed + self.displacement @ axes
-        on = self._moved[2:] - 2 * self._moved[1:-1] + self._moved[:-2]
-        self.liveliness = float(on[:, self.free].square().sum(2).mean().sqrt())  # how far it is from going on, cells
 
     def posed(self, t):
         """(n, 3): skinned places at tick t; of a time before the start, where it starts."""
@@ -106,14 +104,13 @@ class Patches:
     patch: torch.Tensor  # (m, 37)
     owner: torch.Tensor  # (m,)
     answer: torch.Tensor  # (n, 3): of the truth, what is to be added to going on
-    liveliness: torch.Tensor  # (n,): of the run
 
     @staticmethod
     def join(parts):
         first = np.cumsum([0] + [len(p.centre) for p in parts])
         owner = torch.cat([p.owner + int(f) for p, f in zip(parts, first)])
         cat = lambda name: torch.cat([getattr(p, name) for p in parts])
-        return Patches(cat("centre"), cat("material"), cat("patch"), owner, cat("answer"), cat("liveliness"))
+        return Patches(cat("centre"), cat("material"), cat("patch"), owner, cat("answer"))
 
 
 def edges_of(run, nodes):
@@ -143,8 +140,7 @@ def patches_of(run, t, nodes, dynamic=None):
     neighbour = torch.cat([seen(p, other, owner, k) for p, k in of_neighbour], 1).float()
     patch = torch.cat([centre[owner], neighbour, run.material[other], run.constrained[other, None]], 1)
     answer = ((run.moved(t + 1) - u[0])[nodes] - on) @ axes
-    liveliness = torch.full((len(nodes),), run.liveliness)
-    return Patches(centre, run.material[nodes], patch, owner, answer.float(), liveliness)
+    return Patches(centre, run.material[nodes], patch, owner, answer.float())
 
 
 def take_step(run, t, answer, dynamic):

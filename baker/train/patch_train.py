@@ -22,9 +22,8 @@ class PatchTrainOptions:
     patches: int = 256  # in a gradient
     ticks: int = 16  # that they are drawn from
     learning_rate: float = 2e-3
-    noise: float = 0.3  # of what histories are disturbed by, the most, in how far the run departs from going on
-    floor: float = 0.003  # cells: runs that depart less from going on weigh alike
-    ahead: int = 6  # most ticks that a state was rolled out before it is learned from
+    noise: float = 0.02  # largest standard deviation, in cells, of what histories are disturbed by
+    floor: float = 0.01  # cells: errors of answers below weigh alike
 
     def check(self):
         if self.latent < 16 or self.latent % 16 != 0 or self.latent > 64:
@@ -32,9 +31,8 @@ class PatchTrainOptions:
         for name in ("minutes", "patches", "ticks", "learning_rate", "floor"):
             if not getattr(self, name) > 0:
                 raise BadData(f"--{name.replace('_', '-')} {getattr(self, name)}: must be above 0")
-        for name in ("noise", "ahead"):
-            if getattr(self, name) < 0:
-                raise BadData(f"--{name} {getattr(self, name)}: must not be below 0")
+        if self.noise < 0:
+            raise BadData(f"--noise {self.noise}: must not be below 0")
 
 
 def answers_of(model, patches):
@@ -68,60 +66,40 @@ class PatchTrainer:
         torch.manual_seed(options.seed)
         self.random = np.random.default_rng(options.seed)
         self.model = Scaled(options.latent)
-        sample = Patches.join([self.draw(None) for _ in range(200)])
+        sample = Patches.join([self.draw(disturb=False) for _ in range(200)])
         self.model.fit(sample.centre, sample.material, sample.patch, sample.answer)
         self.optimizer = torch.optim.Adam(self.model.parameters(), options.learning_rate)
         self.updates, self.best, self.best_state, self.curve = 0, float("inf"), None, []
 
     def disturbed(self, run, dynamic):
         """A jolt and a drift that free nodes feel alike or each alone."""
-        size = self.options.noise * self.random.random() ** 2 * min(run.liveliness, 0.1)
+        size = self.options.noise * self.random.random() ** 2
         noise = torch.as_tensor(self.random.normal(0, size, (3, *run.rest.shape)))
         noise = noise * (1 - run.constrained[:, None].double())
         steps = (noise[0], noise[0] + 0.3 * noise[1], noise[0] + 0.6 * noise[1] + 0.1 * noise[2])
         return [u + n for u, n in zip(dynamic, steps)]
 
-    def draw(self, model):
-        """Patches of one tick of one run; with a model, of a state that it has rolled out."""
+    def draw(self, disturb=True):
+        """Patches of one tick of one run."""
         run = self.train[self.random.integers(len(self.train))]
         count = max(1, self.options.patches // self.options.ticks)
         nodes = run.free[torch.as_tensor(self.random.integers(0, len(run.free), count))]
         t = int(self.random.integers(0, run.ticks))
         dynamic = [run.moved(t - k) for k in range(3)]
-        if model is not None and self.options.noise > 0 and self.random.random() < 0.7:
+        if disturb and self.options.noise > 0 and self.random.random() < 0.7:
             dynamic = self.disturbed(run, dynamic)
         return patches_of(run, t, nodes, dynamic)
 
-    def draw_rolled(self):
-        """All patches that count of a state some ticks after the truth's: it is to come back to the truth."""
-        run = self.train[self.random.integers(len(self.train))]
-        ticks = int(self.random.integers(1, self.options.ahead + 1))
-        t = int(self.random.integers(0, run.ticks - ticks))
-        dynamic = roll(self.model, run, t, ticks)
-        if not all(torch.isfinite(u).all() and miss(run, t + ticks, u) < 1 for u in dynamic[:1]):
-            return None
-        nodes = run.free[torch.as_tensor(self.random.permutation(len(run.free))[: self.options.patches])]
-        return patches_of(run, t + ticks, nodes, dynamic)
-
-    def batch(self, share_done):
-        if self.options.ahead > 0 and share_done > 0.3 and self.updates % 4 == 0:
-            rolled = self.draw_rolled()
-            if rolled is not None:
-                return rolled
-        return Patches.join([self.draw(self.model) for _ in range(self.options.ticks)])
-
     def loss(self, batch):
         error = (answers_of(self.model, batch) - batch.answer).square().sum(1)
-        size = batch.liveliness + self.options.floor
-        # An error that lasts displaces soft flesh by far more than stiff flesh: what counts is its share of what
-        # there is to say. Rolled-out states that are far off do not rule the gradient.
-        return torch.log1p(error / size.square()).mean()
+        size = batch.answer.square().sum(1).sqrt()
+        return (error / (size + self.options.floor)).mean()
 
     def update(self, share_done):
         rate = self.options.learning_rate * max(0.01, 0.5 * (1 + np.cos(np.pi * share_done)))
         for group in self.optimizer.param_groups:
             group["lr"] = rate
-        loss = self.loss(self.batch(share_done))
+        loss = self.loss(Patches.join([self.draw() for _ in range(self.options.ticks)]))
         self.optimizer.zero_grad()
         loss.backward()
         torch.nn.utils.clip_grad_norm_(self.model.parameters(), 1.0)

@@ -186,6 +186,11 @@ struct Stand {
 Stand make_stand(const Wanted& part) {
   Cage cage = TissueTruth(part.character, part.layout, with_voxels(part.recipe, voxels_for(part))).cage();
   Corners corners = corners_of(cage, regions_of(cage, part.layout), part.region);
+  constexpr size_t kMostCorners = 4096;  // as a pack's region has nodes
+  if (corners.nodes.size() > kMostCorners)
+    throw BadInput(part.character.name + ": region '" + part.name() + "': its voxels have " +
+                   std::to_string(corners.nodes.size()) + " corners, of which a pack holds " +
+                   std::to_string(kMostCorners) + "; state fewer nodes_per_region");
   if (corners.free == corners.nodes.size())
     throw BadInput(part.character.name + ": region '" + part.name() +
                    "': none of its voxels' corners is held; leave \"model\": \"deep_emulator\" out");

@@ -64,7 +64,7 @@ TEST_CASE("weights_with_bad_metadata_are_refused_by_key") {
   CHECK_THAT(refusal_without_key("rate_hz"), Contains("'rate_hz' is missing"));
   CHECK_THAT(refusal_without_key("input_scales"), Contains("'input_scales' is missing"));
   CHECK_THAT(refusal_with_key("sinew.model", "coping_net"),
-             Contains("'coping_net', which `sinew-bake model` bakes; characters take alt_conv_lstm only"));
+             Contains("'coping_net', which `sinew-bake model` bakes; characters take alt_conv_lstm here"));
   CHECK_THAT(refusal_with_key("sinew.model", "coping"),
              Contains("'coping'; this version bakes alt_conv_lstm, deep_emulator and coping_net"));
   CHECK_THAT(refusal_with_key("sinew.version", "2"), Contains("'2'; this version reads 1"));

@@ -88,7 +88,7 @@ class Patches(unittest.TestCase):
             for seed in range(3):
                 written(self.folder.name, body(seed=seed), f"made-{split}-{seed + 10 * (split == 'validation')}")
         out = os.path.join(self.folder.name, "run")
-        options = PatchTrainOptions(minutes=0.15, ticks=4, patches=16, noise=0.0, ahead=0)
+        options = PatchTrainOptions(minutes=0.15, ticks=4, patches=16, noise=0.0)
         train_patches(self.folder.name, out, options, log=lambda text: None)
         model, metadata = read_network(os.path.join(out, "weights.safetensors"))
         self.assertEqual((metadata["frame"], metadata["latent"]), ("moving", "16"))
