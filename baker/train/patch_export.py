@@ -12,7 +12,7 @@ from .safetensors import BadData, load, refuse_over, save
 
 ROLLED = (24, 48)
 EXPLODED = 1e3  # cells
-VECTOR_STEPS = 24
+VECTOR_STEPS = 6
 
 
 class Answering(torch.nn.Module):
