@@ -63,6 +63,17 @@ std::string network_note(const std::vector<pack::TierRecord>& tiers) {
   return text;
 }
 
+// What the recipe asked for stays in the pack, but a world goes by errors.
+std::string unused_emulator_note(const std::vector<pack::TierRecord>& tiers) {
+  char text[250];
+  std::snprintf(
+      text, sizeof text,
+      "emulated patches leave %.3f of skinning's error on this character, its modes %.3f: a world chooses "
+      "the modes; baked with --quick, without errors, it chooses the emulator, for looking at",
+      error_ratio_of(tiers, Tier::kNetwork), error_ratio_of(tiers, Tier::kModal));
+  return text;
+}
+
 std::string no_gain_note(double ratio) {
   char text[200];
   std::snprintf(text, sizeof text,
@@ -100,6 +111,8 @@ std::vector<std::byte> measured(const Recipe& recipe, const Safetensors* weights
       bytes = pack_tissue(character, tissue, nullptr);
       tiers = measured_tiers(LoadedPack::from_bytes(bytes, character.name), truths);
     }
+    if (tissue.emulator && error_ratio_of(tiers, Tier::kNetwork) >= error_ratio_of(tiers, Tier::kModal))
+      character.notes.push_back(unused_emulator_note(tiers));
     double least = std::numeric_limits<double>::infinity();
     for (const Tier tier : {Tier::kModal, Tier::kNetwork})
       least = std::fmin(least, error_ratio_of(tiers, tier));
