@@ -41,6 +41,7 @@ int free_corners(const Cage& cage, const TissueLayout& layout, int region) {
 Recipe with_voxels(const Recipe& recipe, int voxels_high) {
   Recipe own = recipe;
   own.voxels_high = voxels_high;
+  own.states_regions = false;  // of the others nothing need be free in it
   return own;
 }
 

@@ -50,6 +50,10 @@ Status check_patches(const PackView& pack) noexcept {
       return corrupt("region %zu: cells of %g m", r, double{cell_m});
     any |= cell_m > 0;
   }
+  for (uint32_t level = 1; level < pack.level_count; ++level)
+    for (size_t r = 0; r < pack.levels[level].regions.size(); ++r)
+      if (pack.levels[level].regions[r].cell_m != 0)
+        return corrupt("region %zu: cells in a coarser control graph", r);
   if (!any) return check_nothing(pack);
   if (pack.level_count != 1) return corrupt("patches: coarser control graphs beside their regions");
   if (Status status = check_emulator(pack); !status.ok()) return status;

@@ -59,7 +59,7 @@ void gather(Instance& instance, size_t first, size_t last, float cell_m) noexcep
     Eigen::Map<Rotation>(view.axes) = (frame_of(next) * turned_by(vector_at(next.bend))).transpose();
     view.length_m = size * cell_m;
     const float* gravity_change = instance.drive + tissue::kNodeDriveWidth * n + 3;
-    vector_at(view.fall_m) = tick_s * tick_s * (frame_of(next) * vector_at(gravity_change));
+    vector_at(view.fall_m) = size * tick_s * tick_s * (frame_of(next) * vector_at(gravity_change));
   }
 }
 

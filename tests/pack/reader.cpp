@@ -638,4 +638,5 @@ TEST_CASE("patches_without_all_that_predicts_them_are_refused_by_name") {
              {"widest layer", record([](NetworkRecord& n) { n.max_channels = 40; })},
              {"not finite", set<float>(kPatchWeights, 5, kNan)}});
   check_refused(test::small_character_pack(), {{"no network for regions that want one", region(0, 0.1f)}});
+  check_refused(test::small_levels_pack(), {{"cells in a coarser control graph", region(2, 0.1f)}});
 }
