@@ -59,6 +59,7 @@ struct TissueLayout {
   std::vector<LiesOn> lies_on;    // a vertex, as of Surface
   std::vector<Region> regions;
   std::vector<ControlNode> nodes;          // region after region
+  std::vector<ControlNode> skin_nodes;     // those before parts stood on voxels (truth/voxel_nodes.hpp)
   std::vector<std::pair<int, int>> edges;  // undirected, no self-loops, each region connected
   std::vector<Proxy> proxies;              // what rods and regions collide with
   std::vector<Rod> rods;                   // what hangs on their bones is not soft: the rods move it
@@ -67,6 +68,11 @@ struct TissueLayout {
   std::vector<Candidate> found_regions;
   std::vector<RodRecipe> found_rods;  // by names
 };
+
+// The nodes on the skin, by which flesh belongs to regions whatever the regions stand on.
+inline const std::vector<ControlNode>& nodes_on_skin(const TissueLayout& layout) {
+  return layout.skin_nodes.empty() ? layout.nodes : layout.skin_nodes;
+}
 
 // Parts by evidence: what the recipe states, what is painted, the file's spring bones, bone names, names of
 // meshes and materials, shape. A bone is used once, by the strongest. A character of which nothing swings has

@@ -12,9 +12,9 @@
 #include "baker/common/safetensors.hpp"
 #include "baker/common/write_file.hpp"
 #include "baker/mesh/import_character.hpp"
-#include "baker/mesh/tissue_layout.hpp"
 #include "baker/programs/commands.hpp"
 #include "baker/truth/trajectory.hpp"
+#include "baker/truth/voxel_nodes.hpp"
 
 namespace sinew::baker {
 namespace {
@@ -94,7 +94,7 @@ void run_truth(TruthOptions options) {
 
   const Recipe recipe = options.recipe.empty() ? Recipe{} : read_recipe(options.recipe);
   Character character = import_character(options.input, recipe);
-  const TissueLayout layout = layout_tissue(character, recipe);
+  const TissueLayout layout = layout_to_bake(character, recipe);
   if (layout.regions.empty())
     throw BadInput(options.input +
                    ": no part is soft tissue, which is what this simulates; name soft bones in a recipe's "

@@ -55,13 +55,17 @@ std::string limit_note(const Rod& rod) {
 
 CharacterTissue make_tissue(Character& character, const Recipe& recipe) {
   CharacterTissue tissue{
-      .layout = layout_tissue(character, recipe), .truth = {}, .finest = {}, .coarser = {}};
+      .layout = layout_to_bake(character, recipe), .truth = {}, .finest = {}, .coarser = {}};
   if (tissue.layout.regions.empty()) return tissue;
   tissue.truth = std::make_unique<TissueTruth>(character, tissue.layout, recipe);
   const std::vector<std::string>& notes = tissue.truth->cage().notes;
   character.notes.insert(character.notes.end(), notes.begin(), notes.end());
-  const bool on_voxels = stand_on_voxels(character, recipe, tissue.layout, character.notes);
   tissue.finest = tissue.truth->modal_bases(tissue.layout, kMostModes);
+  const bool on_voxels = !tissue.layout.skin_nodes.empty();
+  if (on_voxels && !recipe.coarser_nodes.empty() &&
+      (!recipe.left_out.empty() || recipe.coarser_nodes != Recipe{}.coarser_nodes))
+    character.notes.push_back(
+        "\"levels\" and \"left_out\" are not used: with emulated regions there is one control graph");
   if (!on_voxels)
     tissue.coarser = coarser_levels(character, recipe, *tissue.truth, tissue.layout, tissue.finest);
   return tissue;

@@ -24,7 +24,7 @@ std::string of_motions(std::span<const TrueSurface> surfaces) {
 
 std::string of_source(const BakedFrom& source) {
   Fingerprint of;
-  of.add_file(source.glb).add_file(source.recipe).add_file(source.rods);
+  of.add_file(source.glb).add_file(source.recipe).add_file(source.rods).add_file(source.emulator);
   for (const std::string& weights : source.weights) of.add_file(weights);
   return of.text();
 }

@@ -37,6 +37,7 @@ void add_options(CLI::App& app, Options* o) {
   app.add_option("--recipe", o->source.recipe, "as it was baked");
   app.add_option("--tissue", o->source.weights, "weights to bake it with otherwise: its own, then others");
   app.add_option("--rods", o->source.rods, "weights that its rods start from, as it was baked");
+  app.add_option("--emulator", o->source.emulator, "weights that predict its patches, as it was baked");
   app.add_option("--clip", o->clips,
                  "a clip to simulate, best one that its weights were not trained on; by default all");
   app.add_option("--seconds", o->seconds, "of each that is simulated, 0.1 to 60; by default 10");

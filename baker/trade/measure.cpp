@@ -94,7 +94,7 @@ void add_tiers(const LoadedPack& character, Ways* to) {
   to->add_tier(character, Tier::kSkinning, 0);
   to->add_tier(character, Tier::kExtrapolate, 0);
   for (const Tier tier : {Tier::kModal, Tier::kNetwork}) {
-    if (tier == Tier::kNetwork && !pack::has_network(character.view())) continue;
+    if (tier == Tier::kNetwork && !pack::affords_network(character.view())) continue;
     for (uint32_t level = 0; level < character.view().level_count; ++level)
       to->add_tier(character, tier, level);
   }

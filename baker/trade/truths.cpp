@@ -12,10 +12,10 @@
 #include "baker/common/on_all_cores.hpp"
 #include "baker/common/write_file.hpp"
 #include "baker/mesh/import_character.hpp"
-#include "baker/mesh/tissue_layout.hpp"
 #include "baker/programs/true_motion.hpp"
 #include "baker/trade/fingerprint.hpp"
 #include "baker/truth/trajectory.hpp"
+#include "baker/truth/voxel_nodes.hpp"
 
 namespace sinew::baker {
 namespace {
@@ -136,7 +136,7 @@ std::vector<std::string> simulate_clips(const BakedFrom& source, const std::vect
                                         const std::string& folder) {
   const Recipe recipe = source.read();
   Character body = source.import(recipe);
-  const TissueLayout layout = layout_tissue(body, recipe);
+  const TissueLayout layout = layout_to_bake(body, recipe);
   if (layout.nodes.size() != character.nodes.size() ||
       body.positions.size() != character.character->vertex_count)
     throw BadInput(source.glb +

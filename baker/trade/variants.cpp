@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <optional>
 
-#include "baker/mesh/tissue_layout.hpp"
 #include "baker/pack/character_pack.hpp"
 #include "baker/truth/tissue_truth.hpp"
+#include "baker/truth/voxel_nodes.hpp"
 
 namespace sinew::baker {
 namespace {
@@ -17,7 +17,7 @@ constexpr int kLevels[] = {10, 20, 60};  // nodes a region
 void take_frequencies(const BakedFrom& source, TissueLayout& layout) {
   const Recipe recipe = source.read();
   Character character = source.import(recipe);
-  const TissueLayout own = layout_tissue(character, recipe);
+  const TissueLayout own = layout_to_bake(character, recipe);
   for (size_t r = 0; r < layout.regions.size(); ++r)
     layout.regions[r].frequency_hz = own.regions[r].frequency_hz;
 }
@@ -26,15 +26,17 @@ LoadedPack bake(const BakedFrom& source, int nodes_per_region, const std::string
   Recipe recipe = source.read();
   if (nodes_per_region > 0) recipe.nodes_per_region = nodes_per_region;
   Character character = source.import(recipe);
-  TissueLayout layout = layout_tissue(character, recipe);
+  TissueLayout layout = layout_to_bake(character, recipe);
   if (nodes_per_region > 0) take_frequencies(source, layout);
   const std::vector<ModalBasis> modes =
       TissueTruth(character, layout, recipe).modal_bases(layout, kMostModes);
   const Safetensors weights = read_safetensors(weights_path);
-  std::optional<Safetensors> rods;
+  std::optional<Safetensors> rods, emulator;
   if (!source.rods.empty()) rods = read_safetensors(source.rods);
-  return LoadedPack::from_bytes(
-      pack_character(character, layout, modes, &weights, {}, rods ? &*rods : nullptr), source.glb);
+  if (!source.emulator.empty()) emulator = read_safetensors(source.emulator);
+  return LoadedPack::from_bytes(pack_character(character, layout, modes, &weights, {},
+                                               rods ? &*rods : nullptr, emulator ? &*emulator : nullptr),
+                                source.glb);
 }
 
 }  // namespace

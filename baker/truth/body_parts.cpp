@@ -17,8 +17,9 @@ std::vector<int> control_nodes_of(const FemLinear& body, const TissueLayout& lay
   std::vector<bool> in_body(cage.nodes.size(), false);
   for (const int node : body.nodes) in_body[static_cast<size_t>(cage_node[static_cast<size_t>(node)])] = true;
   std::vector<int> found;
-  for (size_t i = 0; i < layout.nodes.size(); ++i) {
-    const Cage::Place& place = cage.surface[static_cast<size_t>(layout.nodes[i].vertex)];
+  const std::vector<ControlNode>& on_skin = nodes_on_skin(layout);
+  for (size_t i = 0; i < on_skin.size(); ++i) {
+    const Cage::Place& place = cage.surface[static_cast<size_t>(on_skin[i].vertex)];
     const auto& corners = cage.tetrahedra[static_cast<size_t>(place.tetrahedron)];
     if (std::any_of(corners.begin(), corners.end(), [&](int n) { return in_body[static_cast<size_t>(n)]; }))
       found.push_back(static_cast<int>(i));
@@ -31,15 +32,16 @@ std::vector<int> control_nodes_of(const FemLinear& body, const TissueLayout& lay
 std::map<int, std::vector<size_t>> split_by_region(const FemLinear& body, const TissueLayout& layout,
                                                    const Cage& cage, const std::vector<int>& cage_node) {
   const std::vector<int> near = control_nodes_of(body, layout, cage, cage_node);
+  const std::vector<ControlNode>& on_skin = nodes_on_skin(layout);
   std::map<int, std::vector<size_t>> parts;
   for (size_t i = 0; i < body.nodes.size() && !near.empty(); ++i) {
     const Vector3& place = cage.nodes[static_cast<size_t>(cage_node[static_cast<size_t>(body.nodes[i])])];
     const auto distance = [&](int n) {
-      return (layout.nodes[static_cast<size_t>(n)].position - place).squaredNorm();
+      return (on_skin[static_cast<size_t>(n)].position - place).squaredNorm();
     };
     const int nearest =
         *std::min_element(near.begin(), near.end(), [&](int a, int b) { return distance(a) < distance(b); });
-    parts[layout.nodes[static_cast<size_t>(nearest)].region].push_back(i);
+    parts[on_skin[static_cast<size_t>(nearest)].region].push_back(i);
   }
   return parts;
 }

@@ -11,7 +11,7 @@ namespace sinew::baker {
 
 inline Eigen::Index row_of(size_t node) { return 3 * static_cast<Eigen::Index>(node); }
 
-// A body's free nodes (indices into body.nodes), each with the region of its nearest control node; empty
+// A body's free nodes (indices into body.nodes), each with the region of its nearest node on the skin; empty
 // where none touches the body. cage_node: a node of the body -> of the cage.
 std::map<int, std::vector<size_t>> split_by_region(const FemLinear& body, const TissueLayout& layout,
                                                    const Cage& cage, const std::vector<int>& cage_node);

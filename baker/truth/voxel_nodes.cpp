@@ -245,7 +245,8 @@ void append_as_it_was(const TissueLayout& before, int index, TissueLayout& to) {
 TissueLayout standing(const Character& character, const Recipe& recipe, const TissueLayout& layout,
                       const std::map<int, Stand>& stands) {
   TissueLayout out = layout;
-  out.regions.clear(), out.nodes.clear(), out.edges.clear();
+  out.skin_nodes = std::exchange(out.nodes, {});
+  out.regions.clear(), out.edges.clear();
   for (int r = 0; r < static_cast<int>(layout.regions.size()); ++r)
     if (const auto stand = stands.find(r); stand != stands.end())
       append_stand({character, layout, recipe, r}, stand->second, out);
@@ -264,18 +265,16 @@ std::string note_of(const Region& region, const Stand& stand) {
 
 }  // namespace
 
-bool stand_on_voxels(const Character& character, const Recipe& recipe, TissueLayout& layout,
-                     std::vector<std::string>& notes) {
+TissueLayout layout_to_bake(Character& character, const Recipe& recipe) {
+  TissueLayout layout = layout_tissue(character, recipe);
   std::map<int, Stand> stands;
   for (int r = 0; r < static_cast<int>(layout.regions.size()); ++r) {
     const Region& region = layout.regions[static_cast<size_t>(r)];
     if (!region.emulated) continue;
     const auto [stand, is_new] = stands.emplace(r, make_stand({character, layout, recipe, r}));
-    notes.push_back(note_of(region, stand->second));
+    character.notes.push_back(note_of(region, stand->second));
   }
-  if (stands.empty()) return false;
-  layout = standing(character, recipe, layout, stands);
-  return true;
+  return stands.empty() ? layout : standing(character, recipe, layout, stands);
 }
 
 }  // namespace sinew::baker

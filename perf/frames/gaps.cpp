@@ -146,7 +146,7 @@ std::vector<std::pair<std::string, Way>> ways_of(const world::Asset& asset) {
   const uint32_t coarsest = asset.level_count - 1;
   const auto nodes = [&](uint32_t level) { return perf::level_name(asset.levels[level]); };
   std::vector<std::pair<std::string, Way>> ways = {{"modal on " + nodes(coarsest), {Tier::kModal, coarsest}}};
-  if (pack::has_network(asset.pack)) ways.push_back({"network on " + nodes(0), {Tier::kNetwork, 0}});
+  if (pack::affords_network(asset.pack)) ways.push_back({"network on " + nodes(0), {Tier::kNetwork, 0}});
   return ways;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "baker/common/bad_input.hpp"
+#include "baker/truth/tissue_truth.hpp"
 #include "tests/baker/truth/bodies.hpp"
 
 using namespace sinew::baker;
@@ -27,7 +28,7 @@ struct Bar {
     recipe.states_regions = true;
     recipe.nodes_per_region = 60;
   }
-  TissueLayout layout() { return layout_tissue(character, recipe); }
+  TissueLayout layout() { return layout_to_bake(character, recipe); }
 };
 
 }  // namespace
@@ -35,11 +36,9 @@ struct Bar {
 TEST_CASE("a_part_stands_on_about_as_many_free_corners_as_the_recipe_says") {
   Bar bar;
   bar.recipe.regions[0].emulated = true;
-  TissueLayout layout = bar.layout();
-  std::vector<std::string> notes;
-  REQUIRE(stand_on_voxels(bar.character, bar.recipe, layout, notes));
-  REQUIRE(notes.size() == 1);
-  CHECK_THAT(notes[0], Contains("'top' stands on voxels of") && Contains("free corners"));
+  const TissueLayout layout = bar.layout();
+  REQUIRE(bar.character.notes.size() == 1);
+  CHECK_THAT(bar.character.notes[0], Contains("'top' stands on voxels of") && Contains("free corners"));
   const Region& region = layout.regions[0];
   const auto free =
       std::ranges::count_if(layout.nodes, [](const ControlNode& n) { return !n.corner.is_held; });
@@ -65,12 +64,10 @@ TEST_CASE("a_part_stands_on_about_as_many_free_corners_as_the_recipe_says") {
 
 TEST_CASE("what_no_recipe_wants_emulated_is_left_as_it_was") {
   Bar bar;
-  TissueLayout layout = bar.layout();
-  const size_t nodes = layout.nodes.size();
-  std::vector<std::string> notes;
-  CHECK_FALSE(stand_on_voxels(bar.character, bar.recipe, layout, notes));
-  CHECK(layout.nodes.size() == nodes);
-  CHECK(notes.empty());
+  const TissueLayout layout = bar.layout();
+  CHECK(layout.nodes.size() == layout_tissue(bar.character, bar.recipe).nodes.size());
+  CHECK(layout.skin_nodes.empty());
+  CHECK(bar.character.notes.empty());
 }
 
 TEST_CASE("beside_an_emulated_part_the_others_keep_their_nodes") {
@@ -78,14 +75,27 @@ TEST_CASE("beside_an_emulated_part_the_others_keep_their_nodes") {
   bar.recipe.coreless_joints.push_back("joint_0");
   bar.recipe.regions.push_back({"foot", {"joint_0"}, 0.1});
   bar.recipe.regions[1].emulated = true;
-  TissueLayout layout = bar.layout();
-  REQUIRE(layout.regions.size() == 2);
-  const size_t plain = layout.regions[0].emulated ? 1 : 0;
-  const Region before = layout.regions[plain];
-  std::vector<std::string> notes;
-  REQUIRE(stand_on_voxels(bar.character, bar.recipe, layout, notes));
+  const TissueLayout on_skin = layout_tissue(bar.character, bar.recipe);
+  REQUIRE(on_skin.regions.size() == 2);
+  const size_t plain = on_skin.regions[0].emulated ? 1 : 0;
+  const Region& before = on_skin.regions[plain];
+  const TissueLayout layout = bar.layout();
   CHECK(layout.regions[plain].node_count == before.node_count);
   CHECK(layout.regions[plain].carry == before.carry);
   CHECK(layout.regions[plain].cell_m == 0);
   CHECK(layout.regions[1 - plain].cell_m > 0);
+}
+
+TEST_CASE("flesh_beside_an_emulated_part_keeps_its_first_frequency") {
+  Bar bar;
+  bar.recipe.coreless_joints.push_back("joint_0");
+  bar.recipe.regions.push_back({"foot", {"joint_0"}, 0.1});
+  const auto first_rad_per_s = [&] {
+    const TissueLayout layout = bar.layout();
+    const size_t top = layout.regions[0].name == "top" ? 0 : 1;
+    return TissueTruth(bar.character, layout, bar.recipe).modal_bases(layout, 4)[top].first_rad_per_s;
+  };
+  const double on_skin = first_rad_per_s();
+  bar.recipe.regions[1].emulated = true;
+  CHECK(first_rad_per_s() == Approx(on_skin).epsilon(1e-6));
 }
