@@ -53,23 +53,23 @@ std::vector<std::byte> with_tiers(const std::vector<std::byte>& bytes,
   return writer.finish();
 }
 
-std::string network_note(const std::vector<pack::TierRecord>& tiers) {
+std::string network_note(double error, double without) {
   char text[200];
   std::snprintf(
       text, sizeof text,
       "the network is left out: on this character its error is %.3f of skinning's, its modal base's "
       "%.3f; sinew-train fine-tunes it",
-      error_ratio_of(tiers, Tier::kNetwork), error_ratio_of(tiers, Tier::kModal));
+      error, without);
   return text;
 }
 
-// What the recipe asked for stays in the pack, but a world goes by errors.
-std::string unused_emulator_note(const std::vector<pack::TierRecord>& tiers) {
-  char text[250];
+// What the recipe chose a world moves it by, nearer or not.
+std::string far_emulator_note(const std::vector<pack::TierRecord>& tiers) {
+  char text[200];
   std::snprintf(
       text, sizeof text,
-      "emulated patches leave %.3f of skinning's error on this character, its modes %.3f: a world chooses "
-      "the modes; baked with --quick, without errors, it chooses the emulator, for looking at",
+      "emulated patches leave %.3f of skinning's error on this character, its modes alone %.3f: leave "
+      "\"model\" out of the recipe for the nearer",
       error_ratio_of(tiers, Tier::kNetwork), error_ratio_of(tiers, Tier::kModal));
   return text;
 }
@@ -97,22 +97,52 @@ void note_too_soft(const TissueLayout& layout, const ShortTruths& truths, std::v
   }
 }
 
+struct Measured {
+  std::vector<std::byte> bytes;
+  std::vector<pack::TierRecord> tiers;
+};
+
+// A character's bake against its truth.
+struct Judge {
+  const Character& character;
+  const CharacterTissue& tissue;
+  const ShortTruths& truths;
+
+  Measured measure(const Safetensors* weights) const {
+    std::vector<std::byte> bytes = pack_tissue(character, tissue, weights);
+    std::vector<pack::TierRecord> tiers =
+        measured_tiers(LoadedPack::from_bytes(bytes, character.name), truths);
+    return {std::move(bytes), std::move(tiers)};
+  }
+};
+
+// With the weights, or without where they do not pay: beside an emulator, whose tier they share, what they
+// have to beat is the emulator without them.
+Measured where_it_pays(const Judge& judge, const Safetensors* weights, std::vector<std::string>& notes) {
+  Measured with = judge.measure(weights);
+  const double error = error_ratio_of(with.tiers, Tier::kNetwork);
+  std::optional<Measured> without;
+  if (judge.tissue.emulator) without = judge.measure(nullptr);
+  const double base =
+      without ? error_ratio_of(without->tiers, Tier::kNetwork) : error_ratio_of(with.tiers, Tier::kModal);
+  if (error < (1 - kNetworkMargin) * base) return with;
+  notes.push_back(network_note(error, base));
+  return without ? std::move(*without) : judge.measure(nullptr);
+}
+
 // The pack with the errors of this character, and without a network that does not pay on it.
 std::vector<std::byte> measured(const Recipe& recipe, const Safetensors* weights, bool keep_network,
                                 Character& character, const CharacterTissue& tissue) {
-  std::vector<std::byte> bytes = pack_tissue(character, tissue, weights);
+  const std::vector<std::byte> whole = pack_tissue(character, tissue, weights);
   try {
-    LoadedPack pack = LoadedPack::from_bytes(bytes, character.name);
+    const LoadedPack pack = LoadedPack::from_bytes(whole, character.name);
     const ShortTruths truths = short_truths(character, tissue.layout, recipe, tissue.finest, pack.view());
     note_too_soft(tissue.layout, truths, character.notes);
-    std::vector<pack::TierRecord> tiers = measured_tiers(pack, truths);
-    if (weights && !keep_network && !network_pays(tiers)) {
-      character.notes.push_back(network_note(tiers));
-      bytes = pack_tissue(character, tissue, nullptr);
-      tiers = measured_tiers(LoadedPack::from_bytes(bytes, character.name), truths);
-    }
-    if (tissue.emulator && error_ratio_of(tiers, Tier::kNetwork) >= error_ratio_of(tiers, Tier::kModal))
-      character.notes.push_back(unused_emulator_note(tiers));
+    const Judge judge{character, tissue, truths};
+    const auto [bytes, tiers] =
+        weights && !keep_network ? where_it_pays(judge, weights, character.notes) : judge.measure(weights);
+    if (tissue.emulator && !(error_ratio_of(tiers, Tier::kNetwork) < error_ratio_of(tiers, Tier::kModal)))
+      character.notes.push_back(far_emulator_note(tiers));
     double least = std::numeric_limits<double>::infinity();
     for (const Tier tier : {Tier::kModal, Tier::kNetwork})
       least = std::fmin(least, error_ratio_of(tiers, tier));
@@ -126,6 +156,12 @@ std::vector<std::byte> measured(const Recipe& recipe, const Safetensors* weights
   }
 }
 
+BadInput needs_emulator(const CharacterOptions& options) {
+  return BadInput(options.recipe +
+                  ": \"model\": \"deep_emulator\" needs the weights of a deep_emulator: give "
+                  "--emulator W.safetensors");
+}
+
 // Weights that predict patches, where a region's recipe wants them. Before all that takes time.
 std::optional<Safetensors> read_emulator(const CharacterOptions& options, const Recipe& recipe,
                                          const std::optional<Safetensors>& tissue) {
@@ -137,12 +173,9 @@ std::optional<Safetensors> read_emulator(const CharacterOptions& options, const 
     add_patch_network(weights, unused);
     return weights;
   }
-  const auto emulated = std::ranges::find_if(
+  const bool wanted = std::ranges::any_of(
       recipe.regions, [&](const RegionRecipe& region) { return region.emulated.value_or(recipe.emulated); });
-  if (recipe.emulated || emulated != recipe.regions.end())
-    throw BadInput(options.recipe +
-                   ": \"model\": \"deep_emulator\" needs the weights of a deep_emulator: give "
-                   "--emulator W.safetensors");
+  if (wanted || (recipe.emulated && !recipe.states_regions)) throw needs_emulator(options);
   return {};
 }
 
@@ -194,14 +227,20 @@ void run_character(const CharacterOptions& options) {
   progress->update(1);
   CharacterTissue tissue = make_tissue(character, recipe);
   progress->update(6);
-  if (emulator) note_emulator(options, tissue, *emulator, character.notes);
+  if (emulator)
+    note_emulator(options, tissue, *emulator, character.notes);
+  else if (std::ranges::any_of(tissue.layout.regions, &Region::emulated))
+    throw needs_emulator(options);
   if (rod_weights) {
     tissue.rod_weights = &*rod_weights;
     note_rod_weights(options, tissue.layout, character.notes);
   }
-  if (tissue.layout.regions.empty() && weights) {
+  if (weights && (tissue.layout.regions.empty() ||
+                  (tissue.emulator && std::ranges::all_of(tissue.layout.regions, &Region::emulated)))) {
     check_model(*weights);
-    character.notes.push_back("nothing is soft tissue: " + options.tissue + " is not used");
+    character.notes.push_back(
+        (tissue.emulator ? "all soft tissue is emulated: " : "nothing is soft tissue: ") + options.tissue +
+        " is not used");
     weights.reset();
   }
   lower_limits(character, tissue);

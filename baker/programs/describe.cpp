@@ -86,6 +86,7 @@ Json describe_regions(const pack::PackView& view) {
                        {"displacement_limit_m", region.displacement_limit_m},
                        {"touches_body", region.touches_body != 0},
                        {"capsules", std::popcount(world::touchable_by(view, region))}});
+    if (emulates_patches(view)) regions.back()["emulated_voxel_m"] = region.cell_m;  // 0: it is not
   }
   return regions;
 }
@@ -150,6 +151,12 @@ Json describe_rod_network(const pack::ChainsView& chains) {
           {"weights", chains.weights.size()}};
 }
 
+Json describe_patch_network(const pack::ChainsView& chains) {
+  return {{"model", pack::kModelNames[static_cast<size_t>(chains.record->model)]},
+          {"width", chains.layers.front().outputs},
+          {"weights", chains.weights.size()}};
+}
+
 Json describe_clips(const pack::PackView& view) {
   Json clips = Json::array();
   for (const pack::ClipRecord& clip : view.clips)
@@ -202,6 +209,7 @@ Json describe_pack(const LoadedPack& pack) {
     if (view.level_count > 1) description["levels"] = describe_levels(view);
     if (!view.rods.empty()) description["rods"] = describe_rods(view);
     if (view.rod_network.record) description["rod_network"] = describe_rod_network(view.rod_network);
+    if (emulates_patches(view)) description["patch_network"] = describe_patch_network(view.patch_network);
     if (!view.proxies.empty()) description["proxies"] = view.proxies.size();
     description["clips"] = describe_clips(view);
     description["tiers"] = describe_tiers(view);

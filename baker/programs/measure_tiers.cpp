@@ -122,8 +122,4 @@ double error_ratio_of(const std::vector<pack::TierRecord>& tiers, Tier tier) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-bool network_pays(const std::vector<pack::TierRecord>& tiers) {
-  return error_ratio_of(tiers, Tier::kNetwork) < (1 - kNetworkMargin) * error_ratio_of(tiers, Tier::kModal);
-}
-
 }  // namespace sinew::baker

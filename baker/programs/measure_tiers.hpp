@@ -31,9 +31,6 @@ std::vector<pack::TierRecord> measured_tiers(const LoadedPack& character, const 
 // A network is worth its time where its error is smaller than its modal base's by this share.
 inline constexpr double kNetworkMargin = 0.05;
 
-// Whether the network's median error lies below its modal base's by kNetworkMargin, at the finest level.
-bool network_pays(const std::vector<pack::TierRecord>& tiers);
-
 // A tier's at level 0; NaN: it has none.
 double error_ratio_of(const std::vector<pack::TierRecord>& tiers, Tier tier);
 

@@ -26,7 +26,7 @@ constexpr float kUsualSkinningError = 5e-3f;
 constexpr frame::CostEstimate::Correction kWithSurface{.drift = 1e-3f, .rise = 0.5f};
 
 // What was not measured on a coarser graph follows from what was on the finest.
-float told_error(const pack::PackView& pack, const pack::TierRecord& record) noexcept {
+float measured_error(const pack::PackView& pack, const pack::TierRecord& record) noexcept {
   if (!std::isnan(record.error_ratio)) return record.error_ratio;
   float finest = frame::usual_error(static_cast<Tier>(record.tier));
   for (const pack::TierRecord& other : pack.tiers) {
@@ -34,6 +34,18 @@ float told_error(const pack::PackView& pack, const pack::TierRecord& record) noe
     if (same && !std::isnan(other.error_ratio)) finest = other.error_ratio;
   }
   return frame::coarser_error(finest, record.level);
+}
+
+// A recipe that has parts emulated chose their network, wherever the budget affords it, over modes that may
+// be nearer to the truth: so much worse do modes then count.
+float told_error(const pack::PackView& pack, const pack::TierRecord& record) noexcept {
+  constexpr float kChosen = 1.05f;
+  const float error = measured_error(pack, record);
+  if (!emulates_patches(pack) || record.tier != static_cast<uint32_t>(Tier::kModal)) return error;
+  float chosen = frame::usual_error(Tier::kNetwork);
+  for (const pack::TierRecord& other : pack.tiers)
+    if (other.tier == static_cast<uint32_t>(Tier::kNetwork)) chosen = measured_error(pack, other);
+  return std::max(error, kChosen * chosen);
 }
 
 void read_point(const pack::PackView& pack, const pack::TierRecord& record, Asset& asset) noexcept {
