@@ -8,6 +8,7 @@
 #include "baker/common/progress.hpp"
 #include "baker/patches/patch_run.hpp"
 #include "baker/programs/commands.hpp"
+#include "baker/programs/data_folder.hpp"
 
 namespace sinew::baker {
 namespace {
@@ -39,9 +40,7 @@ bool write_run(const PatchLine& line, const PatchPlan& plan, uint64_t seed, bool
 
 void run_patch_data(const PatchDataOptions& options) {
   const PatchPlan plan = read_patch_plan(options.plan);
-  std::error_code error;
-  fs::create_directories(options.output, error);
-  if (error) throw BadInput(options.output + ": " + error.message());
+  begin_data_folder(options.output, options.plan);
   size_t total = 0, done = 0, left_out = 0;
   for (const PatchLine& line : plan.lines) total += line.runs;
   Progress progress("patch-data", total);

@@ -6,6 +6,7 @@
 #include "baker/common/bad_input.hpp"
 #include "baker/common/progress.hpp"
 #include "baker/programs/commands.hpp"
+#include "baker/programs/data_folder.hpp"
 #include "baker/rods/rod_run.hpp"
 
 namespace sinew::baker {
@@ -35,9 +36,7 @@ bool write_run(const RodLine& line, const RodPlan& plan, uint64_t seed, const fs
 
 void run_rod_data(const RodDataOptions& options) {
   const RodPlan plan = read_rod_plan(options.plan);
-  std::error_code error;
-  fs::create_directories(options.output, error);
-  if (error) throw BadInput(options.output + ": " + error.message());
+  begin_data_folder(options.output, options.plan);
   size_t total = 0, done = 0, left_out = 0;
   for (const RodLine& line : plan.lines) total += line.runs;
   Progress progress("rod-data", total);
