@@ -41,9 +41,9 @@ uint32_t deep_latent(const Safetensors& weights) {
 bool sees_from_moving_frame(const Safetensors& weights) {
   const auto found = weights.metadata.find("frame");
   if (found == weights.metadata.end()) return false;
-  if (found->second != "moving")
+  if (found->second != "going_on")
     throw BadInput(weights.path + ": metadata key 'frame' is '" + found->second +
-                   "'; of a deep_emulator it is 'moving', or absent for the paper's; train again");
+                   "'; of a deep_emulator it is 'going_on', or absent for the paper's; train again");
   return true;
 }
 

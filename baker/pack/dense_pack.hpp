@@ -6,7 +6,7 @@
 namespace sinew::baker {
 
 // deep_emulator: metadata rate_hz and, if it is not the paper's, latent (16, 32, 48; 64) and frame
-// ("moving"); tensors alpha.{0..4}, beta.{0..4}, gamma.{0..4}, .weight (out, in) and .bias (out) each.
+// ("going_on"); tensors alpha.{0..4}, beta.{0..4}, gamma.{0..4}, .weight (out, in) and .bias (out) each.
 // coping_net: metadata latent, blocks, depth; tensors {encoder,decoder}.{node,edge}.{k} and
 // blocks.{m}.{node,edge}.{k}, .weight and .bias each, norm.node (6), norm.edge (6), not negative. Throws
 // BadInput naming file, tensor or key: missing, misshaped, NaN, out of range, or a tensor that is none of

@@ -6,7 +6,7 @@
 
 namespace sinew::baker {
 
-// Throws BadInput naming the key: weights of another model, without frame "moving", or of another rate.
+// Throws BadInput naming the key: weights of another model, without frame "going_on", or of another rate.
 void check_emulator(const Safetensors& weights, double rate_hz);
 
 // Sections kPatch... of regions with Region::cell_m; returns the network's multiply-adds a tick. Throws as

@@ -44,7 +44,8 @@ RollOutError roll_out_deep_emulator(const tissue::DeepEmulator& network, bool mo
   const std::vector<uint8_t> constrained = read_constrained(vectors, nodes);
   const GraphRows graph = neighbour_rows(nodes, read_edges(vectors), vectors.path + ": tensor 'edges'");
   std::vector<float> now = positions(vectors, "u_1", nodes), before = positions(vectors, "u_0", nodes),
-                     before_that = positions(vectors, "u_m1", nodes), next(frame);
+                     before_that(frame), next(frame);
+  if (!moving) before_that = positions(vectors, "u_m1", nodes);
   AlignedFloats scratch(tissue::deep_emulator_scratch_floats());
   ErrorSum error;
   for (size_t t = 1; t <= steps; ++t) {

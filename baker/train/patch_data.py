@@ -1,7 +1,8 @@
 """Runs of `sinew-bake patch-data` as patches: what an emulator is fed of a node and its neighbours, and its answer.
 
 Positions are seen along the axes of the newest pose, from a frame that moves on as the centre node did in its last tick
-(Galileo), so that only what departs from going on is learned. Cells and ticks.
+(Galileo), so that only what departs from going on is learned. Where the paper's network is told a third tick, it is told
+where going on leads back to: two ticks are a place and a velocity, and say all. Cells and ticks.
 """
 import glob
 import os
@@ -48,6 +49,10 @@ class Run:
     def moved(self, t):
         """(n, 3): the truth's dynamic places."""
         return self._moved[max(t, 0)]
+
+    def moving(self, t):
+        """The truth's u_t, u_{t-1}."""
+        return [self.moved(t), self.moved(t - 1)]
 
 
 def _csr(edges, n):
@@ -122,8 +127,9 @@ def edges_of(run, nodes):
 
 
 def patches_of(run, t, nodes, dynamic=None):
-    """Of the step from tick t to t + 1. dynamic: u_t, u_{t-1}, u_{t-2} (n, 3) each, else the truth's."""
-    u = [run.moved(t - k) for k in range(3)] if dynamic is None else dynamic
+    """Of the step from tick t to t + 1. dynamic: u_t, u_{t-1} (n, 3) each, else the truth's."""
+    u = list(dynamic or run.moving(t))
+    u.append(2 * u[1] - u[0])
     x = [run.posed(t + 1 - k) for k in range(3)]
     axes = run.turn[t + 1]
     origin, on = x[1][nodes], (u[0] - u[1])[nodes]

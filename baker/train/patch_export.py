@@ -45,13 +45,12 @@ def _going_on(centre, material, patch, owner):
 
 def errors_of(model, run):
     """(single, rolled), cells, tick by tick after the first."""
-    truth = lambda t: [run.moved(t - k) for k in range(3)]
-    dynamic, single, rolled, exploded = truth(1), [], [], False
+    dynamic, single, rolled, exploded = run.moving(1), [], [], False
     with torch.no_grad():
         for t in range(1, run.ticks):
-            single.append(miss(run, t + 1, step_of(model, run, t, truth(t))))
+            single.append(miss(run, t + 1, step_of(model, run, t, run.moving(t))))
             if not exploded:
-                dynamic = [step_of(model, run, t, dynamic), *dynamic[:2]]
+                dynamic = [step_of(model, run, t, dynamic), dynamic[0]]
                 exploded = not miss(run, t + 1, dynamic[0]) < EXPLODED
             rolled.append(EXPLODED if exploded else miss(run, t + 1, dynamic[0]))
     return np.array(single), np.array(rolled)
@@ -95,14 +94,14 @@ def roll_out_vectors(model, run, steps):
     double.load_state_dict(model.net.state_dict())
     first = next(t for t in range(1, run.ticks - steps - 1) if miss(run, t, run.posed(t)) > 0.02)
     origin = run.place[first]
-    dynamic = [run.moved(first - k) for k in range(3)]
+    dynamic = run.moving(first)
     started, axes, y = dynamic, [], []
     with torch.no_grad():
         for t in range(first, first + steps):
             patches = patches_of(run, t, run.free, dynamic)
             wide = lambda v: v.double()
             answer = double(wide(patches.centre), wide(patches.material), wide(patches.patch), patches.owner)
-            dynamic = [take_step(run, t, answer, dynamic), *dynamic[:2]]
+            dynamic = [take_step(run, t, answer, dynamic), dynamic[0]]
             y.append(dynamic[0])
             axes.append(run.turn[t + 1].T.reshape(9))
     x = [run.posed(t) for t in range(first - 1, first + steps + 2)]
@@ -114,7 +113,7 @@ def roll_out_vectors(model, run, steps):
         "material": to(run.material),
         "constrained": np.array(run.constrained, np.int32),
         "axes": to(torch.stack(axes)),
-        **{name: to(u - origin) for name, u in zip(("u_1", "u_0", "u_m1"), started)},
+        **{name: to(u - origin) for name, u in zip(("u_1", "u_0"), started)},
         "y": to(torch.stack(y) - origin),
     }
 

@@ -106,10 +106,10 @@ class Scaled(torch.nn.Module):
                 weight = first.weight.double() / getattr(self, f"{name}_size").double()
                 first.bias.copy_(first.bias - weight @ getattr(self, f"{name}_mean").double())
                 first.weight.copy_(weight @ getattr(self, f"{name}_rows").double())
-                # Seen from where it goes on, the centre is where it was a tick ago: of two equal inputs one is enough,
-                # and their difference would be rounding alone.
-                first.weight[:, 0:3] += first.weight[:, 3:6]
-                first.weight[:, 3:6] = 0
+                # Seen from where it goes on, the centre is where it was in the ticks before: of equal inputs one is enough,
+                # and their differences would be rounding alone.
+                first.weight[:, 0:3] += first.weight[:, 3:6] + first.weight[:, 6:9]
+                first.weight[:, 3:9] = 0
             last = out.gamma[-1]
             last.weight.mul_(self.answer_size)
             last.bias.mul_(self.answer_size)

@@ -22,7 +22,7 @@ Status check_emulator(const PackView& pack) noexcept {
   if (chains.record->model != ModelKind::kDeepEmulator || chains.record->moving != 1)
     return core::make_status(StatusCode::kUnsupported,
                              "pack: patches' network of model %u, moving %u; bake it with weights of a "
-                             "deep_emulator of metadata frame 'moving'",
+                             "deep_emulator of metadata frame 'going_on'",
                              static_cast<uint32_t>(chains.record->model), chains.record->moving);
   if (Status status = check_chains(chains); !status.ok()) return status;
   if (chains.record->rate_hz != pack.network->rate_hz)

@@ -39,6 +39,7 @@
 //      since then without a new version, for a reader that does not know it refuses the field:
 //      RodRecord::end_holder; RodRecord::start, with the sections kRodNetwork, kRodDense and kRodWeights;
 //      RegionRecord::cell_m, with the sections kPatch...; NetworkRecord::moving
+//   10 an emulator that sees patches from a moving frame is told two ticks of them, not three
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -46,7 +47,7 @@
 namespace sinew::pack {
 
 inline constexpr char kMagic[8] = {'S', 'I', 'N', 'E', 'W', 'P', 'K', '\0'};
-inline constexpr uint32_t kVersion = 9;
+inline constexpr uint32_t kVersion = 10;
 inline constexpr size_t kSectionAlignment = 64;
 inline constexpr uint32_t kNoIndex = 0xffffffffu;
 
@@ -190,7 +191,7 @@ struct NetworkRecord {
   Precision precision;
   uint32_t blocks;  // of kCopingNet, whose latent width is max_channels; else 0
   uint32_t depth;   // of kCopingNet: hidden layers of each chain; else 0
-  uint32_t moving;  // of kDeepEmulator, 1: it sees patches from where their centre goes on; else 0
+  uint32_t moving;  // of kDeepEmulator, 1: it sees patches from where their centre goes on, of two ticks; else 0
   uint32_t reserved[2];
 };
 static_assert(sizeof(NetworkRecord) == 64);

@@ -82,18 +82,16 @@ class Sight {
     const size_t at = size_t{centre} * 3;
     for (size_t axis = 0; axis < 3; ++axis) {
       const float from = frame.x_now[at + axis];
-      for (float* origin : {ahead_, now_, behind_, far_behind_}) origin[axis] = from;
+      for (float* origin : {ahead_, now_, behind_}) origin[axis] = from;
       if (!view_) continue;
       const float goes_on = frame.u_now[at + axis] - frame.u_before[at + axis], falls = view_->fall_m[axis];
       ahead_[axis] += goes_on + falls;
       behind_[axis] -= goes_on;
-      far_behind_[axis] += falls - 2 * goes_on;
     }
   }
   const float* ahead() const { return ahead_; }
   const float* now() const { return now_; }
   const float* behind() const { return behind_; }
-  const float* far_behind() const { return far_behind_; }
 
   float* put(const float* positions, uint32_t node, const float* origin, float* out) const {
     float offset[3];
@@ -104,6 +102,14 @@ class Sight {
       const float* axes = view_->axes + 3 * row;
       *out++ = per_m * (axes[0] * offset[0] + axes[1] * offset[1] + axes[2] * offset[2]);
     }
+    return out;
+  }
+  // u_t, u_{t-1}, u_{t-2} of a node.
+  float* put_dynamic(const DeepFrame& frame, uint32_t node, float* out) const {
+    const float *at_t = out, *before = put(frame.u_now, node, now_, out);
+    out = put(frame.u_before, node, behind_, out + 3);
+    if (!view_) return put(frame.u_before_that, node, now_, out);
+    for (size_t axis = 0; axis < 3; ++axis) *out++ = 2 * before[axis] - at_t[axis];
     return out;
   }
   // u_{t+1} of what gamma says.
@@ -123,23 +129,19 @@ class Sight {
 
  private:
   const PatchView* view_;
-  float ahead_[3], now_[3], behind_[3], far_behind_[3];
+  float ahead_[3], now_[3], behind_[3];
 };
 
 void put_centre(const DeepFrame& frame, uint32_t node, float* out) {
   const Sight sight(frame, node);
-  out = sight.put(frame.u_now, node, sight.now(), out);
-  out = sight.put(frame.u_before, node, sight.behind(), out);
-  out = sight.put(frame.u_before_that, node, sight.far_behind(), out);
+  out = sight.put_dynamic(frame, node, out);
   out = sight.put(frame.x_next, node, sight.ahead(), out);
   out = sight.put(frame.x_before, node, sight.behind(), out);
   std::copy_n(&frame.material[size_t{node} * 3], 3, out);
 }
 
 void put_neighbour(const DeepFrame& frame, const Sight& sight, uint32_t node, float* out) {
-  out = sight.put(frame.u_now, node, sight.now(), out);
-  out = sight.put(frame.u_before, node, sight.behind(), out);
-  out = sight.put(frame.u_before_that, node, sight.far_behind(), out);
+  out = sight.put_dynamic(frame, node, out);
   out = sight.put(frame.x_next, node, sight.ahead(), out);
   out = sight.put(frame.x_now, node, sight.now(), out);
   out = sight.put(frame.x_before, node, sight.behind(), out);

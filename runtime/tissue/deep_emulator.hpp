@@ -10,9 +10,11 @@
 // A network that was trained so sees a patch from a frame that goes on as node i did, falls as it falls, and
 // has axes and a unit of length of its own. With v = u_t - u_{t-1} and g of i, everything of tick t + s is
 // seen at p - o - s v - s (s + 1) g / 2, and u_{t+1} = u_t + v + g + gamma(a, b): what would go on as it went
-// is no part of what has to be learned, and by Galileo nothing else changes. What of them is linear is done
-// once a node, not once a neighbour: the centre's part of beta's first layer and beta's last layer, behind
-// the sum. That leaves four fifths of the multiply-adds at twelve neighbours.
+// is no part of what has to be learned, and by Galileo nothing else changes. u_{t-2} is then where going on
+// leads back to, 2 u_{t-1} - u_t: places and velocities say all, and what is a third tick's own disturbs
+// roll-outs. What of them is linear is done once a node, not once a neighbour: the centre's part of beta's
+// first layer and beta's last layer, behind the sum. That leaves four fifths of the multiply-adds at twelve
+// neighbours.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -44,8 +46,9 @@ struct PatchView {
 // What a step is fed, [nodes][3] each, metres. Material: stiffness k, mass m, k / m in the units of the
 // weights' training. Constrained: not 0 where a node follows its skinned place.
 struct DeepFrame {
-  const float *u_now = nullptr, *u_before = nullptr, *u_before_that = nullptr;  // u_t, u_{t-1}, u_{t-2}
-  const float *x_next = nullptr, *x_now = nullptr, *x_before = nullptr;         // x_{t+1}, x_t, x_{t-1}
+  const float *u_now = nullptr, *u_before = nullptr;  // u_t, u_{t-1}
+  const float* u_before_that = nullptr;               // u_{t-2}; not read where there are views
+  const float *x_next = nullptr, *x_now = nullptr, *x_before = nullptr;  // x_{t+1}, x_t, x_{t-1}
   const float* material = nullptr;
   const uint8_t* constrained = nullptr;  // [nodes]
   const PatchView* views = nullptr;      // [nodes]; null: from where it is, along the arrays' axes

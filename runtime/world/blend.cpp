@@ -62,7 +62,6 @@ void begin_simulation(Instance& instance) noexcept {
                         instance.u[tick]);
     copy(instance, instance.u[tick], instance.l[tick]);
   }
-  if (instance.past) copy(instance, instance.u[1], instance.past);
   take_rods_as_shown(instance);
   forget_carried(instance);
   state.motion_stale = 1;

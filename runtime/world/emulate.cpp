@@ -40,6 +40,7 @@ Rotation turned_by(const Vector& bend) noexcept {
 void gather(Instance& instance, size_t first, size_t last, float cell_m) noexcept {
   const Vector ahead = root_step(instance, 0), behind = root_step(instance, 2);
   const EmulatorScratch& to = instance.emulator;
+  const uint8_t* held = instance.asset->pack.patch_held.data();
   const auto tick_s = static_cast<float>(instance.asset->tick_s);
   for (size_t n = first; n < last; ++n) {
     const tissue::NodePose &next = instance.poses[0][n], &now = instance.poses[1][n],
@@ -49,12 +50,11 @@ void gather(Instance& instance, size_t first, size_t last, float cell_m) noexcep
     vector_at(to.x_next + at) = vector_at(next.place_m) + ahead;
     vector_at(to.x_now + at) = vector_at(now.place_m);
     vector_at(to.x_before + at) = vector_at(before.place_m) + behind;
+    const float moves = held[n] ? 0 : size;  // what is held is where its pose has it
     vector_at(to.u_now + at) =
-        vector_at(to.x_now + at) + size * (frame_of(now) * vector_at(instance.u[0] + at));
+        vector_at(to.x_now + at) + moves * (frame_of(now) * vector_at(instance.u[0] + at));
     vector_at(to.u_before + at) =
-        vector_at(to.x_before + at) + size * (frame_of(before) * vector_at(instance.u[1] + at));
-    vector_at(to.u_before_that + at) =
-        vector_at(to.x_before + at) + size * (frame_of(before) * vector_at(instance.past + at));
+        vector_at(to.x_before + at) + moves * (frame_of(before) * vector_at(instance.u[1] + at));
     tissue::PatchView& view = to.views[n];
     Eigen::Map<Rotation>(view.axes) = (frame_of(next) * turned_by(vector_at(next.bend))).transpose();
     view.length_m = size * cell_m;
@@ -97,28 +97,13 @@ bool emulate(Instance& instance) noexcept {
     const auto first = static_cast<uint32_t>(part.node), last = first + part.record.node_count;
     gather(instance, first, last, part.record.cell_m);
     tissue::deep_emulator_step(asset.emulator, {graph.rows, graph.columns},
-                               {at.u_now, at.u_before, at.u_before_that, at.x_next, at.x_now, at.x_before,
+                               {at.u_now, at.u_before, nullptr, at.x_next, at.x_now, at.x_before,
                                 asset.pack.patch_material.data(), asset.pack.patch_held.data(), at.views},
                                first, last, at.u_next, at.step);
     take_answer(instance, part);
     good = good && tissue::all_finite(at.l + part.vector, size_t{3} * part.record.node_count);
   });
   return good;
-}
-
-// u_{t-1}, which is two ticks before the next, along the frames and from the places of t.
-void remember_past(Instance& instance) noexcept {
-  const Vector behind = root_step(instance, 2);
-  for_each_part(instance, [&](const Part& part) {
-    if (!is_emulated(part)) return;
-    for (size_t n = part.node; n < part.node + part.record.node_count; ++n) {
-      const tissue::NodePose &now = instance.poses[1][n], &before = instance.poses[2][n];
-      const float size = instance.scaled_nodes ? instance.node_size[n] : 1;
-      const Vector moved = vector_at(before.place_m) + behind - vector_at(now.place_m);
-      vector_at(instance.past + 3 * n) =
-          frame_of(now).transpose() * (moved / size + frame_of(before) * vector_at(instance.u[1] + 3 * n));
-    }
-  });
 }
 
 }  // namespace sinew::world

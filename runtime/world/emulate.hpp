@@ -1,7 +1,7 @@
 // emulate.hpp  A tick of the regions whose patches a network predicts (tissue/deep_emulator.hpp).
 //
 // A region's nodes are then corners of its cage's voxels, and the network's neighbours are the graph's. It
-// says where each free node goes from where the last three ticks had it; how far that is from where the modal
+// says where each free node goes from where the last two ticks had it; how far that is from where the modal
 // base would have it is taken to the modes as any network's correction is, within the same budget.
 #pragma once
 #include "world/instance.hpp"
@@ -14,8 +14,5 @@ inline bool is_emulated(const Part& part) noexcept { return part.record.cell_m >
 // `emulated` of the awake ones: l of the coming tick as the network has it. Poses are the coming tick's, u
 // the last two's, q_hat and l_hat the base's answer. False where it is not finite.
 bool emulate(Instance& instance) noexcept;
-
-// Of all of them, before u moves on: where nodes were two ticks before the next. In every simulated tick.
-void remember_past(Instance& instance) noexcept;
 
 }  // namespace sinew::world

@@ -62,7 +62,6 @@ void lay_out_state(const Asset& asset, core::Arena& arena, Instance& to) noexcep
     *modes = arena.take<float>(asset.mode_count());
   for (float** each : {&to.tick_force.r, &to.tick_force.added_r, &to.tick_force.off_r})
     *each = arena.take<float>(vectors);
-  if (asset.emulates()) to.past = arena.take<float>(vectors);
   to.tail = arena.take<float>(vectors);
   to.tail_velocity = arena.take<float>(vectors);
   for (float*& shown : to.shown) shown = arena.take<float>(vectors);
@@ -108,8 +107,7 @@ void lay_out_contacts(const Asset& asset, core::Arena& arena, Instance& to) noex
 }
 
 void lay_out_emulator(size_t nodes, core::Arena& arena, EmulatorScratch& to) noexcept {
-  for (float** places :
-       {&to.u_now, &to.u_before, &to.u_before_that, &to.u_next, &to.x_now, &to.x_before, &to.x_next, &to.l})
+  for (float** places : {&to.u_now, &to.u_before, &to.u_next, &to.x_now, &to.x_before, &to.x_next, &to.l})
     *places = arena.take<float>(3 * nodes);
   to.views = arena.take<tissue::PatchView>(nodes);
   to.step = arena.take<float>(tissue::deep_emulator_scratch_floats());

@@ -158,7 +158,7 @@ struct ShownShares {
 // What a tick of emulated patches is told and says, [nodes][3] in metres from the root's last tick
 // (world/emulate.hpp); none without such regions.
 struct EmulatorScratch {
-  float *u_now = nullptr, *u_before = nullptr, *u_before_that = nullptr, *u_next = nullptr;
+  float *u_now = nullptr, *u_before = nullptr, *u_next = nullptr;
   float *x_now = nullptr, *x_before = nullptr, *x_next = nullptr;
   tissue::PatchView* views = nullptr;  // [nodes]
   float* l = nullptr;                  // as the network has it, along nodes' frames
@@ -220,11 +220,8 @@ struct Instance {
   float *q[2] = {}, *r[2] = {};                    // q: [modes of all regions]
   // [modes]: by how much a network's corrections have moved q since it began, as modes go on with them.
   float* corrected[2] = {};
-  float* swing = nullptr;          // [regions]: tissue/correction_budget.hpp
-  tissue::TickForce tick_force{};  // of the last tick
-  // Where emulated nodes were a tick before the last but one, from where poses[1] of the next tick has them,
-  // along its frames: with u, the three ticks that patches are told. Null: there are none.
-  float* past = nullptr;
+  float* swing = nullptr;                           // [regions]: tissue/correction_budget.hpp
+  tissue::TickForce tick_force{};                   // of the last tick
   float *tail = nullptr, *tail_velocity = nullptr;  // velocity a tick
   float* shown[2] = {};                             // newest first
   float* felt_asleep = nullptr;                     // m/s^2, when the region's quiet began (world/sleep.hpp)

@@ -413,7 +413,6 @@ void drive_nodes(Instance& instance) noexcept {
 bool simulate_tick(Instance& instance) noexcept {
   if (!base_step(instance)) return false;
   const bool corrected = instance.state->tier == Tier::kNetwork && network_step(instance);
-  if (instance.asset->emulates()) remember_past(instance);
   shift_back(instance);
   take_base_answer(instance);
   if (corrected)

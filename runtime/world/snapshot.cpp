@@ -25,8 +25,8 @@ constexpr uint64_t kMagic = 0x31544154534e5753;  // "SWNSTAT1", little-endian
 // 18: how long a tail fades. 19: what the corrections of a network may spend.
 // 20: flesh beyond its limit swings on in l. 21: no update rates, no springs. 22: teleports,
 // spaces, scales of time and size, a pose more. 23: what the last tick added, time without poses. 24: where
-// emulated nodes were.
-constexpr uint32_t kVersion = 24;
+// emulated nodes were. 25: no longer.
+constexpr uint32_t kVersion = 25;
 
 struct Header {
   uint64_t magic, fingerprint, payload_bytes, checksum;

@@ -310,7 +310,7 @@ baker::Safetensors small_emulator() {
                              {"sinew.version", "1"},
                              {"rate_hz", "60"},
                              {"latent", "16"},
-                             {"frame", "moving"}};
+                             {"frame", "going_on"}};
   return chains.weights;
 }
 

@@ -58,7 +58,7 @@ class Patches(unittest.TestCase):
     def test_the_true_answer_takes_the_step_to_the_truth(self):
         run = read_run(written(self.folder.name, body()))
         patches = patches_of(run, 10, run.free)
-        stepped = take_step(run, 10, patches.answer, [run.moved(10 - k) for k in range(3)])
+        stepped = take_step(run, 10, patches.answer, run.moving(10))
         self.assertLess(float((stepped - run.moved(11)).abs().max()), 1e-6)
         self.assertLess(float((run.posed(11)[run.free] - read_run(written(self.folder.name, body())).posed(11)[run.free]).abs().max()), 1e-12)
 
@@ -91,7 +91,7 @@ class Patches(unittest.TestCase):
         options = PatchTrainOptions(minutes=0.15, ticks=4, patches=16, noise=0.0)
         train_patches(self.folder.name, out, options, log=lambda text: None)
         model, metadata = read_network(os.path.join(out, "weights.safetensors"))
-        self.assertEqual((metadata["frame"], metadata["latent"]), ("moving", "16"))
+        self.assertEqual((metadata["frame"], metadata["latent"]), ("going_on", "16"))
         run = read_run(written(self.folder.name, body(seed=5), "made-test-5"))
         ours, _ = errors_of(model, run)
         going_on, _ = errors_of(lambda c, *_: torch.zeros(len(c), 3), run)
