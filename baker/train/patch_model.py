@@ -110,6 +110,10 @@ class Scaled(torch.nn.Module):
                 # and their differences would be rounding alone.
                 first.weight[:, 0:3] += first.weight[:, 3:6] + first.weight[:, 6:9]
                 first.weight[:, 3:9] = 0
+                if name == "beta":  # a neighbour's third tick is made of its other two
+                    first.weight[:, 15:18] -= first.weight[:, 21:24]
+                    first.weight[:, 18:21] += 2 * first.weight[:, 21:24]
+                    first.weight[:, 21:24] = 0
             last = out.gamma[-1]
             last.weight.mul_(self.answer_size)
             last.bias.mul_(self.answer_size)

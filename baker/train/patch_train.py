@@ -17,7 +17,7 @@ from .safetensors import BadData, save
 
 @dataclass
 class PatchTrainOptions:
-    """Defaults are the recipe of the shipped weights."""
+    """Defaults are the recipe of the shipped weights, whose time and width retrain_patches.sh states."""
 
     latent: int = 16
     minutes: float = 30.0  # of one core's time
@@ -74,6 +74,9 @@ class PatchTrainer:
         options.check()
         self.options, self.log = options, log
         self.train, self.validation = read_runs(data, "train"), read_runs(data, "validation")[::2]
+        shortest = min(run.ticks for run in self.train)
+        if shortest < options.rolled_ticks:
+            raise BadData(f"--rolled-ticks {options.rolled_ticks}: the shortest run of {data} has {shortest} ticks")
         torch.manual_seed(options.seed)
         self.random = np.random.default_rng(options.seed)
         self.model = Scaled(options.latent)
@@ -126,9 +129,7 @@ class PatchTrainer:
     def start_of_roll_out(self, ticks):
         """(run, t, dynamic, age): the truth's, or where an earlier roll-out ended."""
         if self.ends and self.random.random() < 0.5:
-            run, t, dynamic, age = self.ends.pop(self.random.integers(len(self.ends)))
-            if t + ticks <= run.ticks:
-                return run, t, dynamic, age
+            return self.ends.pop(self.random.integers(len(self.ends)))
         run = self.bodies[self.random.integers(len(self.bodies))]
         t = int(self.random.integers(0, run.ticks - ticks + 1))
         return run, t, run.moving(t), 0
@@ -144,7 +145,8 @@ class PatchTrainer:
             size = (run.moved(t + k) - run.posed(t + k))[run.free].square().sum(1).mean().sqrt()
             loss = loss + (error + self.options.floor**2).sqrt().mean() / (size + 0.05) / ticks
         end = [u.detach() for u in states[-1]]
-        if miss(run, t + ticks, end[0]) < far and age + ticks < oldest and len(self.ends) < most_ends:
+        goes_on = t + ticks + most <= run.ticks and age + ticks < oldest and len(self.ends) < most_ends
+        if goes_on and miss(run, t + ticks, end[0]) < far:
             self.ends.append((run, t + ticks, end, age + ticks))
         return self.descend(loss, self.options.rolled_rate, share_done)
 

@@ -9,14 +9,12 @@ from .verdict import Error
 
 @dataclass
 class Baker:
-    """program: path of sinew-bake. recipe, rods (weights that its rods start from), emulator (that predict its
-    patches): a path, or None."""
+    """program: path of sinew-bake. recipe, rods (weights that its rods start from): a path, or None."""
 
     program: str
     character: str
     recipe: str = None
     rods: str = None
-    emulator: str = None
 
     def run(self, *arguments):
         """What it printed; its own line as BadData where it refuses. Ctrl-C does not reach it."""
@@ -39,9 +37,7 @@ class Baker:
         tissue = ["--tissue", weights] if weights else []
         how = ["--keep-network"] if measured else ["--quick"]
         rods = ["--rods", self.rods] if self.rods else []
-        emulator = ["--emulator", self.emulator] if self.emulator else []
-        weights = [*tissue, *rods, *emulator]
-        said = self.run("character", self.character, *self.of_recipe(), *weights, *how, "-o", pack)
+        said = self.run("character", self.character, *self.of_recipe(), *tissue, *rods, *how, "-o", pack)
         return [line for line in said.splitlines() if line.startswith("note: ")]
 
     def describe(self, pack):

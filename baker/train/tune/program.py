@@ -31,7 +31,6 @@ def _parser():
     p.add_argument("--minutes", type=float, default=20.0, help="of the clock, for everything; default 20")
     p.add_argument("--tissue", metavar="W.safetensors", default=SHIPPED, help="weights to begin with")
     p.add_argument("--rods", metavar="W.safetensors", help="as of sinew-bake character")
-    p.add_argument("--emulator", metavar="W.safetensors", help="as of sinew-bake character")
     p.add_argument("-o", "--output", metavar="C.sinew", required=True)
     p.add_argument("--keep", action="store_true", help="write the tuned weights even where they do not win")
     p.add_argument("--seed", type=int, default=0, help="of training; default 0")
@@ -62,8 +61,21 @@ def _files_of(character):
 
 def _keep_inputs(a):
     """Throws BadData where what will be written is what is read."""
-    inputs = [*_files_of(a.character), a.tissue, *(f for f in (a.recipe, a.rods, a.emulator) if f)]
+    inputs = [*_files_of(a.character), a.tissue, *(f for f in (a.recipe, a.rods) if f)]
     refuse_over([a.output, tissue_beside(a.output)], inputs)
+
+
+def _refuse_emulated(recipe):
+    """What sinew-bake refuses of a recipe it refuses in its own words."""
+    try:
+        with open(recipe, encoding="utf-8") as f:
+            parts = json.load(f)
+        parts = [parts, *parts.get("regions", [])]
+        emulated = any(part.get("model") == "deep_emulator" for part in parts)
+    except (ValueError, AttributeError, TypeError):
+        return
+    if emulated:
+        raise BadData(f'{recipe}: says "model": "deep_emulator", which this does not train; leave it out')
 
 
 def _check(a):
@@ -76,10 +88,9 @@ def _check(a):
     _need_file(a.tissue, "trained weights, as assets/weights/creature.safetensors")
     if a.recipe:
         _need_file(a.recipe, "a recipe, JSON")
+        _refuse_emulated(a.recipe)
     if a.rods:
         _need_file(a.rods, "weights of a coping_net, as assets/weights/coping_8.safetensors")
-    if a.emulator:
-        _need_file(a.emulator, "weights of a deep_emulator, as assets/weights/emulator.safetensors")
     _keep_inputs(a)
     if os.path.isdir(a.output):
         file = os.path.join(a.output, "C.sinew")

@@ -52,11 +52,6 @@ def _check_soft(run, regions):
             f"{run.baker.character}: has no soft parts, so there is nothing to train; name some under "
             '"regions" in a recipe (--recipe), or bake it with sinew-bake character'
         )
-    if all(region.get("emulated_voxel_m", 0) > 0 for region in regions):
-        raise BadData(
-            f"{run.baker.recipe}: has all soft parts emulated, which this does not train; leave "
-            '"model": "deep_emulator" out of one at least'
-        )
 
 
 def _tell_of_others(run):

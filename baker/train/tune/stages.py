@@ -49,7 +49,7 @@ def simulate(run, processes):
 def tune(a):
     """The whole of sinew-train, of its arguments. Throws BadData."""
     torch.set_num_threads(1)
-    baker = Baker(a.bake, a.character, a.recipe, a.rods, a.emulator)
+    baker = Baker(a.bake, a.character, a.recipe, a.rods)
     cache = os.path.splitext(a.output)[0] + ".train"
     run = Run(baker, read_start(a.tissue), TimeBudget(a.minutes), Stop().listen(), cache)
     prepare(run)

@@ -1,7 +1,6 @@
 """Stands in for `sinew-bake creature`, `truth`, `character` and `info` where a test is about who calls them and
 when: notes every call in the file of SINEW_PRETEND_LOG, fails for outputs and motions that SINEW_PRETEND_FAIL
-names, takes SINEW_PRETEND_SECONDS for a truth, and finds the regions that SINEW_PRETEND_REGIONS lists, on voxels
-of SINEW_PRETEND_VOXEL_M."""
+names, takes SINEW_PRETEND_SECONDS for a truth, and finds the regions that SINEW_PRETEND_REGIONS lists."""
 import argparse
 import json
 import os
@@ -53,8 +52,7 @@ def character(a):
 
 def info(a):
     regions = filter(None, os.environ.get("SINEW_PRETEND_REGIONS", "").split(","))
-    of_all = {"first_hz": 3.0, "displacement_limit_m": 1.0, "emulated_voxel_m": float(os.environ.get("SINEW_PRETEND_VOXEL_M", 0))}
-    print(json.dumps({"regions": [{"name": n} | of_all for n in regions], "clips": []}))
+    print(json.dumps({"regions": [{"name": n, "first_hz": 3.0, "displacement_limit_m": 1.0} for n in regions], "clips": []}))
 
 
 def creature(a):

@@ -144,9 +144,10 @@ class Refusals(Folder):
     def test_a_character_without_soft_parts(self):
         self.refused(self.glb, says="no soft parts, so there is nothing to train")
 
-    def test_a_character_of_which_all_is_emulated(self):
-        with mock.patch.dict(os.environ, SINEW_PRETEND_REGIONS="belly,ear", SINEW_PRETEND_VOXEL_M="0.02"):
-            self.refused(self.glb, says="all soft parts emulated, which this does not train")
+    def test_a_recipe_that_has_a_part_emulated(self):
+        for recipe in ('{"model": "deep_emulator"}', '{"regions": [{"name": "belly", "model": "deep_emulator"}]}'):
+            self.write("r.json", recipe)
+            self.refused(self.glb, "--recipe", self.place("r.json"), says="deep_emulator\", which this does not train")
 
     def test_a_character_that_cannot_be_baked_is_refused_in_the_bakers_words(self):
         with mock.patch.dict(os.environ, SINEW_PRETEND_FAIL="base.sinew"):
