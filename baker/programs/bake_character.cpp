@@ -53,13 +53,12 @@ std::vector<std::byte> with_tiers(const std::vector<std::byte>& bytes,
   return writer.finish();
 }
 
-std::string network_note(double error, double without) {
+std::string network_note(double error, double without, const char* of) {
   char text[200];
-  std::snprintf(
-      text, sizeof text,
-      "the network is left out: on this character its error is %.3f of skinning's, its modal base's "
-      "%.3f; sinew-train fine-tunes it",
-      error, without);
+  std::snprintf(text, sizeof text,
+                "the network is left out: on this character its error is %.3f of skinning's, %s "
+                "%.3f; sinew-train fine-tunes it",
+                error, of, without);
   return text;
 }
 
@@ -126,7 +125,8 @@ Measured where_it_pays(const Judge& judge, const Safetensors* weights, std::vect
   const double base =
       without ? error_ratio_of(without->tiers, Tier::kNetwork) : error_ratio_of(with.tiers, Tier::kModal);
   if (error < (1 - kNetworkMargin) * base) return with;
-  notes.push_back(network_note(error, base));
+  notes.push_back(
+      network_note(error, base, without ? "that of the emulator without it" : "its modal base's"));
   return without ? std::move(*without) : judge.measure(nullptr);
 }
 

@@ -6,6 +6,7 @@
 
 #include "baker/common/program.hpp"
 #include "baker/common/write_file.hpp"
+#include "baker/pack/patches_pack.hpp"
 #include "baker/trade/chart.hpp"
 #include "baker/trade/made_of.hpp"
 #include "baker/trade/measure.hpp"
@@ -72,6 +73,17 @@ std::vector<TrueSurface> find_truth(const Options& options, const LoadedPack& ch
                     character);
 }
 
+// It is baked otherwise with what it was baked with.
+void check_emulator_of(const LoadedPack& character, const BakedFrom& source) {
+  const bool emulates = emulates_patches(character.view());
+  if (emulates && !source.weights.empty() && source.emulator.empty())
+    throw BadInput(source.glb + ": its patches are emulated: give --emulator W.safetensors, as it was baked");
+  if (source.emulator.empty()) return;
+  if (!emulates) throw BadInput("--emulator " + source.emulator + ": the character has no emulated part");
+  const Safetensors weights = read_safetensors(source.emulator);
+  check_emulator(weights, static_cast<double>(character.view().network->rate_hz));
+}
+
 // What a run writes into its folder.
 void promise_files(const Options& options) {
   const std::string stem = std::filesystem::path(options.character).stem().string();
@@ -95,6 +107,7 @@ void run(Options options) {
   promise_files(options);
   const LoadedPack character = load(options.character);
   find_source(&options);
+  check_emulator_of(character, options.source);
   const std::vector<TrueSurface> surfaces = find_truth(options, character);
   make_folder(options.folder);  // not before truth and clips were found good
   const std::vector<Variant> variants = variants_of(options.source);

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "baker/mesh/tissue_layout.hpp"
 #include "baker/pack/character_pack.hpp"
 #include "baker/truth/tissue_truth.hpp"
 #include "baker/truth/voxel_nodes.hpp"
@@ -13,11 +14,17 @@ namespace {
 
 constexpr int kLevels[] = {10, 20, 60};  // nodes a region
 
-// Those of the truth: what clips allow is looked at at the nodes (mesh/clip_frequency.hpp).
+// Those of the truth: what clips allow is looked at at the nodes (mesh/clip_frequency.hpp). Corners'
+// stiffness goes with the square.
 void take_frequencies(const BakedFrom& source, TissueLayout& layout) {
   const Recipe recipe = source.read();
   Character character = source.import(recipe);
-  const TissueLayout own = layout_to_bake(character, recipe);
+  const TissueLayout own = layout_tissue(character, recipe);
+  for (ControlNode& node : layout.nodes) {
+    const auto r = static_cast<size_t>(node.region);
+    const double ratio = own.regions[r].frequency_hz / layout.regions[r].frequency_hz;
+    if (ratio > 0) node.corner.stiffness_per_s2 *= ratio * ratio;
+  }
   for (size_t r = 0; r < layout.regions.size(); ++r)
     layout.regions[r].frequency_hz = own.regions[r].frequency_hz;
 }

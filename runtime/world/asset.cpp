@@ -36,16 +36,18 @@ float measured_error(const pack::PackView& pack, const pack::TierRecord& record)
   return frame::coarser_error(finest, record.level);
 }
 
-// A recipe that has parts emulated chose their network, wherever the budget affords it, over modes that may
-// be nearer to the truth: so much worse do modes then count.
+// A recipe that has parts emulated chose their network, wherever the budget affords it: it counts as better
+// than skinning, and modes, which may be nearer to the truth, as worse than it.
 float told_error(const pack::PackView& pack, const pack::TierRecord& record) noexcept {
-  constexpr float kChosen = 1.05f;
+  constexpr float kMostOfNetwork = 0.94f, kMostOfModes = 0.99f, kChosen = 1.05f;
+  const auto network = static_cast<uint32_t>(Tier::kNetwork);
   const float error = measured_error(pack, record);
-  if (!emulates_patches(pack) || record.tier != static_cast<uint32_t>(Tier::kModal)) return error;
+  if (!emulates_patches(pack) || !frame::is_simulated(static_cast<Tier>(record.tier))) return error;
+  if (record.tier == network) return std::min(error, kMostOfNetwork);
   float chosen = frame::usual_error(Tier::kNetwork);
   for (const pack::TierRecord& other : pack.tiers)
-    if (other.tier == static_cast<uint32_t>(Tier::kNetwork)) chosen = measured_error(pack, other);
-  return std::max(error, kChosen * chosen);
+    if (other.tier == network) chosen = std::min(measured_error(pack, other), kMostOfNetwork);
+  return std::clamp(error, kChosen * chosen, std::max(kMostOfModes, error));
 }
 
 void read_point(const pack::PackView& pack, const pack::TierRecord& record, Asset& asset) noexcept {

@@ -187,6 +187,24 @@ TEST_CASE("a_patch_that_stands_still_looks_the_same_from_a_frame_that_goes_on") 
   CHECK(scene.stepped() == plain);
 }
 
+// What the paper's wiring says of the same patch where going on leads: u_{t-2} = 2 u_{t-1} - u_t.
+TEST_CASE("from_a_frame_that_goes_on_the_third_tick_is_where_going_on_leads_back_to") {
+  constexpr uint32_t kNode = 0;
+  constexpr float kSame = 1e-5f;  // rounding of sums of order one
+  Scene scene(20), shifted(20);  // alike
+  for (size_t k = 0; k < scene.u[0].size(); ++k) {
+    const float goes_on = scene.u[0][3 * kNode + k % 3] - scene.u[1][3 * kNode + k % 3];
+    shifted.u[1][k] += goes_on, shifted.x[2][k] += goes_on, shifted.x[0][k] -= goes_on;
+    shifted.u[2][k] = 2 * shifted.u[1][k] - shifted.u[0][k];
+  }
+  scene.views.assign(scene.nodes, {.axes = {1, 0, 0, 0, 1, 0, 0, 0, 1}, .length_m = 1, .fall_m = {}});
+  const Floats3 seen = scene.stepped(), plain = shifted.stepped();
+  for (size_t k = 3 * kNode; k < 3 * kNode + 3; ++k) {
+    const float goes_on = scene.u[0][k] - scene.u[1][k];
+    CHECK(std::fabs(seen[k] - goes_on - plain[k]) < kSame);
+  }
+}
+
 // Galileo and Newton: seen from frames of their own, patches that move on, turned, larger and in free fall
 // are the same patches. Floats of order ten carry 1e-6; the chains pass on some tens of it.
 TEST_CASE("a_moving_frame_sees_no_velocity_turn_size_or_fall") {

@@ -349,13 +349,15 @@ TEST_CASE("int8_is_baked_from_weights_alone") {
 
 // The trainer's own roll-out of the weights that are shipped, in double precision.
 TEST_CASE("the_shipped_weights_are_reproduced_on_every_instruction_set") {
-  const std::string stem = SINEW_SOURCE_DIR "/assets/weights/creature";
-  for (const char* isa : simd::available_isas()) {
-    const ProgramResult result =
-        bake({"check", stem + ".safetensors", stem + ".vectors.safetensors", "--isa", isa});
-    INFO(result.out << result.error);
-    CHECK(result.exit_code == 0);
-    CHECK(report_of(result)["isa"] == isa);
+  for (const char* name : {"creature", "emulator", "emulator_paper"}) {
+    const std::string stem = std::string(SINEW_SOURCE_DIR "/assets/weights/") + name;
+    for (const char* isa : simd::available_isas()) {
+      const ProgramResult result =
+          bake({"check", stem + ".safetensors", stem + ".vectors.safetensors", "--isa", isa});
+      INFO(result.out << result.error);
+      CHECK(result.exit_code == 0);
+      CHECK(report_of(result)["isa"] == isa);
+    }
   }
 }
 

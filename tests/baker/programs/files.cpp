@@ -140,3 +140,13 @@ TEST_CASE("a_buffer_beside_a_gltf_is_an_input_too") {
   check_refused({"character", gltf, "-o", buffer}, {buffer, "is the input; give another name"});
   CHECK(read_text(buffer) == "0123");
 }
+
+TEST_CASE("runs_that_are_not_known_to_be_of_a_plan_are_not_added_to") {
+  const TemporaryFolder folder;
+  const std::string plan = SINEW_SOURCE_DIR "/assets/patches/paper.json", data = folder.path();
+  write_file(folder.file("plan.json"), std::string_view("{}"));
+  check_refused({"patch-data", "--plan", plan, "-o", data}, {data, "not known to be of", "another folder"});
+  std::filesystem::rename(folder.file("plan.json"), folder.file("sphere-train-1.safetensors"));
+  check_refused({"patch-data", "--plan", plan, "-o", data}, {data, "not known to be of", "another folder"});
+  CHECK_FALSE(std::filesystem::exists(folder.file("plan.json")));
+}
