@@ -25,9 +25,10 @@ class PatchTrainOptions:
     patches: int = 256  # in a gradient
     ticks: int = 16  # that they are drawn from
     learning_rate: float = 2e-3
-    rolled_share: float = 0.8  # of the time, of roll-outs
+    rolled_share: float = 0.5  # of the time, of roll-outs
     rolled_ticks: int = 12  # that a gradient goes back through at the end; a third at first
     rolled_rate: float = 2e-4
+    singles_weight: float = 30.0  # of the loss of single ticks beside a roll-out's
     largest_body: int = 1100  # nodes, that is rolled out
     noise: float = 0.02  # largest standard deviation, in cells, of what histories are disturbed by
     floor: float = 0.01  # cells: errors of answers below weigh alike
@@ -148,7 +149,8 @@ class PatchTrainer:
         goes_on = t + ticks + most <= run.ticks and age + ticks < oldest and len(self.ends) < most_ends
         if goes_on and miss(run, t + ticks, end[0]) < far:
             self.ends.append((run, t + ticks, end, age + ticks))
-        return self.descend(loss, self.options.rolled_rate, share_done)
+        singles = Patches.join([self.draw() for _ in range(self.options.ticks)])
+        return self.descend(loss + self.options.singles_weight * self.loss(singles), self.options.rolled_rate, share_done)
 
     def judge(self):
         """Mean over validation runs, cells: of single ticks, and root mean squares of roll-outs of 48."""

@@ -13,7 +13,7 @@ work=${2:-$build/train_patches}
 python=${PYTHON:-/usr/bin/python3}
 out=${OUT:-$root/assets/weights}
 page=${PAGE:-$root/assets/patches}
-networks=${NETWORKS:-emulator=bodies,16:16 emulator_paper=paper,64:22}
+networks=${NETWORKS:-emulator=bodies,16:8 emulator_paper=paper,64:13}
 bake=$build/bin/sinew-bake
 
 [ -x "$bake" ] || { echo "retrain_patches.sh: no $bake; build the project first, or name its build folder" >&2; exit 2; }

@@ -1,4 +1,5 @@
 """Patches of simulated bodies: what is fed of them, the network that is fed, and what is refused."""
+import json
 import os
 import tempfile
 import unittest
@@ -83,12 +84,22 @@ class Patches(unittest.TestCase):
             b = model.absorbed()(patches.centre, patches.material, patches.patch, patches.owner)
         self.assertLess(float((a - b).abs().max()), 1e-4 * float(a.abs().max()) + 1e-6)
 
-    def test_seconds_of_training_leave_less_than_going_on_does(self):
+    def write_runs(self):
         for split in ("train", "validation"):
             for seed in range(3):
                 written(self.folder.name, body(seed=seed), f"made-{split}-{seed + 10 * (split == 'validation')}")
-        out = os.path.join(self.folder.name, "run")
-        options = PatchTrainOptions(minutes=0.15, ticks=4, patches=16, noise=0.0)
+        return os.path.join(self.folder.name, "run")
+
+    def test_seconds_of_roll_outs_bring_them_nearer_to_the_truth(self):
+        out = self.write_runs()
+        train_patches(self.folder.name, out, PatchTrainOptions(minutes=0.1, ticks=4, patches=16, rolled_share=1), log=lambda text: None)
+        with open(os.path.join(out, "curve.json"), encoding="utf-8") as f:
+            rolled = [point["rolled_48"] for point in json.load(f)["curve"]]
+        self.assertLess(min(rolled), 0.5 * rolled[0])
+
+    def test_seconds_of_training_leave_less_than_going_on_does(self):
+        out = self.write_runs()
+        options = PatchTrainOptions(minutes=0.15, ticks=4, patches=16, noise=0.0, rolled_share=0)
         train_patches(self.folder.name, out, options, log=lambda text: None)
         model, metadata = read_network(os.path.join(out, "weights.safetensors"))
         self.assertEqual((metadata["frame"], metadata["latent"]), ("going_on", "16"))
@@ -108,9 +119,12 @@ class Patches(unittest.TestCase):
             self.assertNotIn("\n", str(caught.exception))
         with self.assertRaisesRegex(BadData, "no run of split train"):
             PatchTrainer(tempfile.gettempdir(), PatchTrainOptions())
-        for wrong in ({"latent": 20}, {"minutes": 0}, {"noise": -1}):
+        for wrong in ({"latent": 20}, {"minutes": 0}, {"noise": -1}, {"rolled_share": 2}, {"rolled_ticks": 2}):
             with self.assertRaises(BadData):
                 PatchTrainOptions(**wrong).check()
+        self.write_runs()
+        with self.assertRaisesRegex(BadData, "--rolled-ticks 60: the shortest run .* has 40 ticks"):
+            PatchTrainer(self.folder.name, PatchTrainOptions(rolled_ticks=60))
         with self.assertRaisesRegex(BadData, "is not deep_emulator"):
             read_network(written(self.folder.name, body()))
 
