@@ -26,8 +26,8 @@ RollOutError roll_out(const ReducedNetwork& network, const Safetensors& vectors)
 
 // edges (m,2) undirected, x (T+3,n,3), material (n,3), constrained (n), u_1, u_0, u_m1 (n,3), y (T,n,3): step
 // t, from 1, reads x[t+1], x[t], x[t-1] and the last three dynamic frames, at first u_1, u_0, u_m1, and gives
-// y[t-1]. Of weights that see patches go on, no u_m1, but axes (T,9), by which they are seen in each step. Throws as
-// roll_out does.
+// y[t-1]. Of weights that see patches go on, no u_m1, but axes (T,9), by which they are seen in each step.
+// Throws as roll_out does.
 RollOutError roll_out_deep_emulator(const tissue::DeepEmulator& network, bool moving,
                                     const Safetensors& vectors);
 

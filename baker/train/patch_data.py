@@ -2,7 +2,7 @@
 
 Positions are seen along the axes of the newest pose, from a frame that moves on as the centre node did in its last tick
 (Galileo), so that only what departs from going on is learned. Where the paper's network is told a third tick, it is told
-where going on leads back to: two ticks are a place and a velocity, and say all. Cells and ticks.
+where going on leads back to, so that the runtime keeps two. Cells and ticks.
 """
 import glob
 import os

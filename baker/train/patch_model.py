@@ -32,6 +32,7 @@ def _blocks(rows):
     return out
 
 
+# Of patches that are told two ticks the rows of a third are zero, and second differences say nothing.
 # What a node's motion says at a glance: displacement, how u goes on, acceleration, the pose ahead and behind.
 _CENTRE_ROWS = [{0: 1}, {1: 1, 0: -1}, {2: 1, 1: -2, 0: 1}, {3: 1, 4: 1}, {3: 1, 4: -1}]
 # And a neighbour's: strain and its first two differences, where it stands in the pose, and how that turns.

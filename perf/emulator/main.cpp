@@ -1,8 +1,7 @@
 // main.cpp  What an emulator of patches costs, and whether flesh on it stays, as tables.
 //
-//   perf_emulator W.safetensors...   a step of these DeepEmulators beside the implicit solver's, on the
-//   paper's sphere perf_emulator C.sinew...         10,000 ticks of every clip and audit motion of these
-//   characters
+//   perf_emulator W.safetensors...   a step of each beside the implicit solver's, on the paper's sphere
+//   perf_emulator C.sinew...         10,000 ticks of each character's clips and audit motions
 //
 // Times are of the thread, medians, both in one process.
 #include <time.h>

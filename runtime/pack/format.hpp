@@ -191,7 +191,7 @@ struct NetworkRecord {
   Precision precision;
   uint32_t blocks;  // of kCopingNet, whose latent width is max_channels; else 0
   uint32_t depth;   // of kCopingNet: hidden layers of each chain; else 0
-  uint32_t moving;  // of kDeepEmulator, 1: it sees patches from where their centre goes on, of two ticks; else 0
+  uint32_t moving;  // of kDeepEmulator, 1: it sees two ticks of patches from where their centre goes on
   uint32_t reserved[2];
 };
 static_assert(sizeof(NetworkRecord) == 64);

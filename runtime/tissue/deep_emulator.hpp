@@ -11,10 +11,9 @@
 // has axes and a unit of length of its own. With v = u_t - u_{t-1} and g of i, everything of tick t + s is
 // seen at p - o - s v - s (s + 1) g / 2, and u_{t+1} = u_t + v + g + gamma(a, b): what would go on as it went
 // is no part of what has to be learned, and by Galileo nothing else changes. u_{t-2} is then where going on
-// leads back to, 2 u_{t-1} - u_t: places and velocities say all, and what is a third tick's own disturbs
-// roll-outs. What of them is linear is done once a node, not once a neighbour: the centre's part of beta's
-// first layer and beta's last layer, behind the sum. That leaves four fifths of the multiply-adds at twelve
-// neighbours.
+// leads back to, 2 u_{t-1} - u_t, so that a caller keeps two ticks. What of them is linear is done once a
+// node, not once a neighbour: the centre's part of beta's first layer and beta's last layer, behind the sum.
+// That leaves four fifths of the multiply-adds at twelve neighbours.
 #pragma once
 #include <cstddef>
 #include <cstdint>

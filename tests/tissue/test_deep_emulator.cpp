@@ -191,7 +191,7 @@ TEST_CASE("a_patch_that_stands_still_looks_the_same_from_a_frame_that_goes_on") 
 TEST_CASE("from_a_frame_that_goes_on_the_third_tick_is_where_going_on_leads_back_to") {
   constexpr uint32_t kNode = 0;
   constexpr float kSame = 1e-5f;  // rounding of sums of order one
-  Scene scene(20), shifted(20);  // alike
+  Scene scene(20), shifted(20);   // alike
   for (size_t k = 0; k < scene.u[0].size(); ++k) {
     const float goes_on = scene.u[0][3 * kNode + k % 3] - scene.u[1][3 * kNode + k % 3];
     shifted.u[1][k] += goes_on, shifted.x[2][k] += goes_on, shifted.x[0][k] -= goes_on;
