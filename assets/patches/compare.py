@@ -3,8 +3,8 @@
 
     compare.py BUILD_DIR CHARACTERS_DIR WORK_DIR [NAME...]
 
-CHARACTERS_DIR holds a folder a character, with file.glb, .gltf or .vrm. Recipes are the gallery's, with "model": "deep_emulator".
-Prints the table of perf_emulator, and beside it the error of the gallery's own recipe.
+CHARACTERS_DIR holds a folder a character, with file.glb, .gltf or .vrm; our creature comes last. Recipes are the gallery's and the
+creature's, with "model": "deep_emulator". Prints the table of perf_emulator, and before it the error of the usual recipe.
 """
 import json
 import subprocess
@@ -35,23 +35,37 @@ def error_of(info, tier):
     return found[0]["error_ratio"] if found else None
 
 
+def creature(build, work):
+    path = work / "creature.glb"
+    subprocess.run([build / "bin" / "sinew-bake", "creature", ROOT / "assets" / "creature" / "creature.json", "-o", path],
+                   capture_output=True, check=True)
+    return path
+
+
+def found(build, characters, work, names):
+    """Name, file and the usual recipe of each."""
+    for folder in sorted(Path(characters).iterdir()):
+        own = ROOT / "assets" / "gallery" / f"{folder.name}.json"
+        source = next(iter(sorted(folder.glob("file.*"))), None)
+        if source and own.exists() and (not names or folder.name in names):
+            yield folder.name, source, own
+    if not names or "creature" in names:
+        yield "creature", creature(build, work), ROOT / "assets" / "creature" / "tissue.json"
+
+
 def main(build, characters, work, *names):
     build, work = Path(build), Path(work)
     work.mkdir(parents=True, exist_ok=True)
     packs = []
-    for folder in sorted(Path(characters).iterdir()):
-        own = ROOT / "assets" / "gallery" / f"{folder.name}.json"
-        source = next(iter(sorted(folder.glob("file.*"))), None)
-        if source is None or not own.exists() or (names and folder.name not in names):
-            continue
-        recipe = work / f"{folder.name}.json"
+    for name, source, own in found(build, characters, work, names):
+        recipe = work / f"{name}.json"
         recipe.write_text(json.dumps(emulated(json.loads(own.read_text())), indent=1))
-        out = work / f"{folder.name}.sinew"
-        usual = bake(build, source, own, work / f"{folder.name}_own.sinew")
+        out = work / f"{name}.sinew"
+        usual = bake(build, source, own, work / f"{name}_own.sinew")
         if error_of(usual, "modal") is None:
             continue  # nothing of it is flesh
         bake(build, source, recipe, out, "--emulator", WEIGHTS)
-        print(f"{folder.name}: the gallery's recipe leaves {error_of(usual, 'modal'):.3f} by modes", flush=True)
+        print(f"{name}: the usual recipe leaves {error_of(usual, 'modal'):.3f} by modes", flush=True)
         packs.append(out)
     subprocess.run([build / "bin" / "perf_emulator", *packs], check=True)
 
