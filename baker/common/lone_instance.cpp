@@ -51,7 +51,8 @@ void LoneInstance::step_hidden() {
 
 std::vector<float> LoneInstance::positions(Space space) const {
   std::vector<float> out(size_t{3} * asset_.vertex_count());
-  world::read_positions(instance_, {.space = space, .out = out.data(), .capacity = asset_.vertex_count()});
+  world::read_surface(instance_,
+                      {.space = space, .capacity = asset_.vertex_count(), .positions = {out.data()}});
   return out;
 }
 

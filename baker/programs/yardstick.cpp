@@ -25,7 +25,7 @@ constexpr size_t kShortTicks = 50;
 std::vector<float> positions_of(const ClosedLoop& loop) {
   const uint32_t count = loop.instance().asset->vertex_count();
   std::vector<float> out(size_t{3} * count);
-  world::read_positions(loop.instance(), {.out = out.data(), .capacity = count});
+  world::read_surface(loop.instance(), {.capacity = count, .positions = {out.data()}});
   return out;
 }
 

@@ -162,6 +162,7 @@ Status open_asset(std::span<const std::byte> bytes, Asset* out) noexcept {
   asset.tick_s = 1 / static_cast<double>(view.network->rate_hz);
   asset.fingerprint = fingerprint_of(bytes);
   if (Status status = read_levels(view, asset); !status.ok()) return status;
+  if (Status status = find_soft_vertices(view, &asset.soft); !status.ok()) return status;
   read_tiers(view, asset);
   asset.reach_m = reach_of(asset);
   return {};
@@ -173,24 +174,6 @@ float error_of(const Asset& asset, Tier tier, uint32_t level) noexcept {
     if (point.tier == tier && point.graph == level) return point.error;
   }
   return 1;
-}
-
-AssetInfo describe(const Asset& asset) noexcept {
-  const pack::CharacterRecord& character = *asset.pack.character;
-  return {.vertex_count = character.vertex_count,
-          .triangle_count = character.triangle_count,
-          .joint_count = character.joint_count,
-          .region_count = character.region_count,
-          .node_count = character.node_count,
-          .clip_count = character.clip_count,
-          .mesh_count = character.mesh_count,
-          .proxy_count = character.proxy_count,
-          .rod_count = character.rod_count,
-          .rod_network = asset.rod_network.record != nullptr,
-          .graph_levels = asset.level_count,
-          .tick_hz = asset.pack.network->rate_hz,
-          .height_m = character.height_m,
-          .instance_bytes = instance_bytes(asset)};
 }
 
 }  // namespace sinew::world

@@ -15,6 +15,7 @@
 #include "tissue/network.hpp"
 #include "world/graph_level.hpp"
 #include "world/rod_rig.hpp"
+#include "world/soft_vertices.hpp"
 
 namespace sinew::world {
 
@@ -36,7 +37,8 @@ struct Asset {
   tissue::DeepEmulator emulator;          // without layers where the pack has none
   std::unique_ptr<uint64_t[]> touchable;  // [regions]: world/own_body_touches.hpp; null: none for any
   double tick_s = 0;
-  uint64_t fingerprint = 0;      // of all of the pack's bytes
+  uint64_t fingerprint = 0;                    // of all of the pack's bytes
+  SoftVertices soft;
   uint32_t padded_vertices = 0;  // carried vertices of all regions, each region padded
   // Of the level that takes the most:
   uint32_t widest_region = 0;  // floats of its nodes' x y z and of its modes, each padded
@@ -60,6 +62,5 @@ float error_of(const Asset& asset, Tier tier, uint32_t level) noexcept;
 
 // On refusal *out is untouched.
 Status open_asset(std::span<const std::byte> bytes, Asset* out) noexcept;
-AssetInfo describe(const Asset& asset) noexcept;
 
 }  // namespace sinew::world

@@ -70,6 +70,7 @@ void stay_dormant(Instance& instance, double frame_s) noexcept {
   instance.plan.cost_us = 0;
   state.remainder_s = ticks.remainder_s;
   state.render_fraction = frame::passed_share(ticks, instance.asset->tick_s);
+  state.teleported = 0;
   state.space_changed = 0;  // it stands there, and its space stands
   std::fill_n(state.ride_velocity_m_s, 3, 0.0);
   state.dt_older_s = state.dt_before_s;

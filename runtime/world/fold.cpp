@@ -131,11 +131,18 @@ bool forgets_its_sleep(const Instance& instance, const PlanRow& row) noexcept {
   return row.has_surface && !frame::is_simulated(row.tier) && missed_so_far(instance) == 0;
 }
 
+void log_events(WorldState& world, const Instance& instance, uint32_t slot, uint64_t frame) noexcept {
+  const InstanceId id = world.instances.id_at(slot);
+  for (uint32_t kind = 0; instance.events >> kind; ++kind)
+    if (instance.events >> kind & 1u) log_event(world.events, {static_cast<EventKind>(kind), id, frame});
+}
+
 float add(WorldState& world, uint32_t slot, FrameReport& report) noexcept {
   if (world.answers[slot].idle) return add_idle(report);
   Instance& instance = *world.instances.at(slot);
   if (instance.passed) return add_passed(instance, world.rows[slot], report);
   world.busy_ns += instance.times.total_ns;
+  if (instance.events) log_events(world, instance, slot, report.frame);
   if (costs_are_measured(world)) learn_costs(instance, world.rows[slot]);
   if (forgets_its_sleep(instance, world.rows[slot]))
     instance.cost_factor = std::max(1.0f, instance.cost_factor);

@@ -187,6 +187,7 @@ struct Instance {
   InstancePlan plan;
 
   bool entered = false;        // in the last step: simulation began anew, which costs more than to go on
+  uint8_t events = 0;          // in the last step, a bit for each EventKind (world/events.hpp)
   uint8_t made_up = 0;         // in the last step: missed ticks that were simulated after all
   bool parts_ready = false;    // in this step: the parts are filled in
   bool changed_level = false;  // in the last step

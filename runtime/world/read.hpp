@@ -5,12 +5,12 @@
 
 namespace sinew::world {
 
-// kInvalidArgument: space, out, stride or capacity; kNotFinite: origin. Nothing is written on refusal.
-Status check_read(const ReadDef& def, uint32_t vertex_count, bool normals) noexcept;
+// kInvalidArgument: space, streams or capacity; kNotFinite: origin. Nothing is written on refusal.
+Status check_read(const SurfaceDef& def, const Asset& asset) noexcept;
+Status check_origin(const double (&origin_m)[3]) noexcept;
 
-// The definition has been checked. Any number of threads at a time.
-void read_positions(const Instance& instance, const ReadDef& def) noexcept;
-// Uses the instance's scratch: one thread at a time an instance. Writes each normal once and reads none.
-void read_normals(const Instance& instance, const ReadDef& def) noexcept;
+// The definition has been checked. Positions alone: any number of threads at a time; normals and tangents use
+// the instance's scratch: one thread at a time an instance. Writes each number once and reads none.
+void read_surface(const Instance& instance, const SurfaceDef& def) noexcept;
 
 }  // namespace sinew::world

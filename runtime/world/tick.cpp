@@ -12,6 +12,7 @@
 #include "world/catch_up.hpp"
 #include "world/change_level.hpp"
 #include "world/dormant.hpp"
+#include "world/events.hpp"
 #include "world/excitation.hpp"
 #include "world/hidden.hpp"
 #include "world/marker.hpp"
@@ -197,6 +198,7 @@ void step_instance(Instance& instance, const TickContext& context, uint32_t slot
   const core::FloatingPointScope mode;
   const Marker marker(context.profiler, "instance", slot);
   const uint64_t start_ns = core::now_ns(context.clock);
+  const EventCounts counts = event_counts(instance);
   const bool waits = catch_up_first(instance);
   meet_deadline(instance, context, start_ns);
   const Tier tier = instance.plan.tier;
@@ -230,6 +232,7 @@ void step_instance(Instance& instance, const TickContext& context, uint32_t slot
   } else {
     publish_pose(instance);
   }
+  instance.events = events_since(counts, instance);
   const uint64_t end_ns = core::now_ns(context.clock);
   instance.times.publish_ns = end_ns - ticked_ns;
   instance.times.total_ns = end_ns - start_ns;

@@ -1,4 +1,5 @@
-// world.cpp  The public API: ids and arguments are checked here, work is done in the files beside.
+// world.cpp  The public API: ids and arguments are checked here, work is done in the files beside. What
+// assets tell: world_asset.cpp. What is read back: world_read.cpp.
 #include "sinew/world.hpp"
 
 #include <algorithm>
@@ -6,20 +7,16 @@
 #include <new>
 #include <utility>
 
-#include "core/assert_hook.hpp"
 #include "core/floating_point.hpp"
 #include "core/status.hpp"
 #include "simd/isa.hpp"
 #include "simd/kernels.hpp"
 #include "world/dormant.hpp"
-#include "world/hidden.hpp"
 #include "world/pose.hpp"
 #include "world/pose_bound.hpp"
-#include "world/read.hpp"
-#include "world/rod_publish.hpp"
 #include "world/snapshot.hpp"
 #include "world/step.hpp"
-#include "world/world_state.hpp"
+#include "world/world_impl.hpp"
 
 namespace sinew {
 namespace {
@@ -29,9 +26,13 @@ using world::Asset;
 using world::Instance;
 using world::WorldState;
 
-Status invalid(const char* line) noexcept { return make_status(StatusCode::kInvalidArgument, "%s", line); }
-
-Status null_world() noexcept { return invalid("this World is null; make one with World::create"); }
+using world::busy;
+using world::find_asset;
+using world::find_instance;
+using world::find_state;
+using world::invalid;
+using world::null_world;
+using world::refuse_busy;
 
 Status check_def(const WorldDef& def) noexcept {
   constexpr uint32_t kMostAssets = 65535, kMostInstances = 100000, kMostTicks = 64, kMostReports = 65535;
@@ -51,6 +52,7 @@ Status check_def(const WorldDef& def) noexcept {
   if (!(def.sleep_tolerance >= 0 && def.sleep_tolerance <= 1))
     return invalid("WorldDef: sleep_tolerance must be 0..1, a share of a region's radius");
   if (def.report_history > kMostReports) return invalid("WorldDef: report_history must be 0..65535");
+  if (def.event_capacity > kMostReports) return invalid("WorldDef: event_capacity must be 0..65535");
   if (!def.profiler.begin != !def.profiler.end)
     return invalid("WorldDef: of profiler.begin and profiler.end one is set, the other is null");
   if (def.budget_mode != BudgetMode::kTime && def.budget_mode != BudgetMode::kWorkUnits) {
@@ -61,48 +63,10 @@ Status check_def(const WorldDef& def) noexcept {
   return {};
 }
 
-// The object behind an id; else a programmer error at the hook, and a Status.
-template <class T, class Id>
-Status find(const core::SlotTable<T, Id>& table, Id id, const AssertHook& hook, const char* what,
-            T** out) noexcept {
-  *out = table.find(id);
-  if (*out) return {};
-  core::report_fault(hook, what);
-  return make_status(StatusCode::kStaleId, "%s (index %u, generation %u)", what, id.index1, id.generation);
-}
-
-Status find_asset(const WorldState* state, AssetId id, Asset** out) noexcept {
-  if (!state) return null_world();
-  return find(state->assets, id, state->def.assert_hook, "the asset's id is null or was unloaded", out);
-}
-
-Status find_instance(const WorldState* state, InstanceId id, Instance** out) noexcept {
-  if (!state) return null_world();
-  return find(state->instances, id, state->def.assert_hook, "the instance's id is null or was destroyed",
-              out);
-}
-
-// Whose state is written, or read whole.
-Status find_state(const WorldState* state, InstanceId id, Instance** out) noexcept {
-  Status status = find_instance(state, id, out);
-  if (status.ok()) world::keep_hidden_ticks(state->rows[id.index1 - 1]);
-  return status;
-}
-
 // After its instance was made, changed or unmade.
 void keep_row(WorldState& state, InstanceId id) noexcept { world::keep_row(state, id.index1 - 1); }
 
-// A world's objects may not be made or unmade, nor a step begun, while its tasks run.
-bool busy(const WorldState& state) noexcept {
-  if (state.stepping) core::report_fault(state.def.assert_hook, "the world is inside a step");
-  return state.stepping;
-}
-
-Status refuse_busy() noexcept { return invalid("the world is inside a step"); }
-
 }  // namespace
-
-struct World::Impl : WorldState {};
 
 World::~World() { delete impl_; }
 World::World(World&& other) noexcept : impl_(std::exchange(other.impl_, nullptr)) {}
@@ -170,55 +134,6 @@ Status World::unload_asset(AssetId id) noexcept {
                        asset->live_instances);
   }
   impl_->assets.destroy(id);
-  return {};
-}
-
-Status World::asset_info(AssetId id, AssetInfo* out) const noexcept {
-  Asset* asset = nullptr;
-  if (Status status = find_asset(impl_, id, &asset); !status.ok()) return status;
-  if (!out) return invalid("asset_info: out is a null pointer");
-  *out = world::describe(*asset);
-  return {};
-}
-
-Status World::mesh_info(AssetId id, uint32_t mesh, MeshInfo* out) const noexcept {
-  Asset* asset = nullptr;
-  if (Status status = find_asset(impl_, id, &asset); !status.ok()) return status;
-  if (!out) return invalid("mesh_info: out is a null pointer");
-  if (mesh >= asset->pack.meshes.size())
-    return make_status(StatusCode::kInvalidArgument, "mesh_info: mesh %u, the asset has %zu", mesh,
-                       asset->pack.meshes.size());
-  const pack::MeshRecord& record = asset->pack.meshes[mesh];
-  *out = {.name = pack::string_at(asset->pack, record.name),
-          .first_vertex = record.first_vertex,
-          .vertex_count = record.vertex_count,
-          .mesh_from_bind = {}};
-  std::copy_n(record.mesh_from_bind, 12, &out->mesh_from_bind.m[0][0]);
-  return {};
-}
-
-const char* World::joint_name(AssetId id, uint32_t joint) const noexcept {
-  Asset* asset = nullptr;
-  if (!find_asset(impl_, id, &asset).ok() || joint >= asset->pack.joints.size()) return nullptr;
-  return pack::string_at(asset->pack, asset->pack.joints[joint].name);
-}
-
-bool World::joint_is_on_rod(AssetId id, uint32_t joint) const noexcept {
-  Asset* asset = nullptr;
-  return find_asset(impl_, id, &asset).ok() && joint < asset->pack.joint_rods.size() &&
-         asset->pack.joint_rods[joint] != pack::kNoIndex;
-}
-
-Status World::bind_pose(AssetId id, std::span<Matrix34> out) const noexcept {
-  const core::FloatingPointScope mode;
-  Asset* asset = nullptr;
-  if (Status status = find_asset(impl_, id, &asset); !status.ok()) return status;
-  if (out.size() != asset->pack.joints.size()) {
-    return make_status(StatusCode::kInvalidArgument,
-                       "bind_pose: out has room for %zu joints, the asset has %zu", out.size(),
-                       asset->pack.joints.size());
-  }
-  world::bind_pose(asset->pack.joints, out.data());
   return {};
 }
 
@@ -408,58 +323,6 @@ FrameReport World::step(float dt_s) noexcept {
   const FrameReport report = world::step(*impl_, dt_s);
   impl_->stepping = false;
   return report;
-}
-
-size_t World::history(std::span<FrameReport> out) const noexcept {
-  if (!impl_) return 0;
-  const uint64_t kept = std::min<uint64_t>(impl_->frames, impl_->def.report_history);
-  const auto count = std::min<size_t>(kept, out.size());
-  for (size_t back = 0; back < count; ++back)
-    out[back] = impl_->history[(impl_->frames - 1 - back) % impl_->def.report_history];
-  return count;
-}
-
-Status World::read_positions(InstanceId id, const ReadDef& def) const noexcept {
-  const core::FloatingPointScope mode;
-  Instance* instance = nullptr;
-  if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
-  if (Status status = world::check_read(def, instance->asset->vertex_count(), false); !status.ok())
-    return status;
-  world::read_positions(*instance, def);
-  return {};
-}
-
-Status World::read_normals(InstanceId id, const ReadDef& def) const noexcept {
-  const core::FloatingPointScope mode;
-  Instance* instance = nullptr;
-  if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
-  if (Status status = world::check_read(def, instance->asset->vertex_count(), true); !status.ok())
-    return status;
-  world::read_normals(*instance, def);
-  return {};
-}
-
-Status World::read_joint_matrices(InstanceId id, std::span<Matrix34> out) const noexcept {
-  const core::FloatingPointScope mode;
-  Instance* instance = nullptr;
-  if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
-  const uint32_t joints = instance->asset->pack.character->joint_count;
-  if (out.size() != joints) {
-    return make_status(StatusCode::kInvalidArgument,
-                       "read_joint_matrices: out has room for %zu joints, the asset has %u", out.size(),
-                       joints);
-  }
-  std::copy_n(world::shown_joints(*instance), joints, out.data());
-  return {};
-}
-
-Status World::report(InstanceId id, InstanceReport* out) const noexcept {
-  const core::FloatingPointScope mode;
-  Instance* instance = nullptr;
-  if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
-  if (!out) return invalid("report: out is a null pointer");
-  *out = world::describe(*instance, id);
-  return {};
 }
 
 size_t World::state_bytes(InstanceId id) const noexcept {

@@ -24,7 +24,9 @@ bool reserve(WorldState& world, const WorldDef& def) noexcept {
       take(world.candidates, most) && take(world.order, most) && take(world.idle_slots, most) &&
       take(world.idle_ns, (most + kIdleChunk - 1) / kIdleChunk) && take(world.ranked, most) &&
       take(world.rank_begins, kRanks + 1) && take(world.overdue, most) && take(world.purchases, most) &&
-      take(world.open, most) && take(world.standings, most) && take(world.history, def.report_history);
+      take(world.open, most) && take(world.standings, most) && take(world.history, def.report_history) &&
+      take(world.events.ring, def.event_capacity);
+  world.events.capacity = def.event_capacity;
   if (!complete) return false;
   world.scratch->overdue = {world.overdue.get(), most};
   world.scratch->purchases = {world.purchases.get(), most};

@@ -11,6 +11,7 @@
 #include "frame/sight.hpp"
 #include "sinew/types.hpp"
 #include "world/asset.hpp"
+#include "world/events.hpp"
 #include "world/instance.hpp"
 #include "world/plan_row.hpp"
 #include "world/tick.hpp"
@@ -55,10 +56,11 @@ struct WorldState {
   float dropped_s = 0;  // likewise
   TickContext context;  // of the step that runs
   frame::Capacity capacity;
-  frame::CostEstimate idle{0.2f};          // of one idle instance
-  frame::CostEstimate overhead{10};        // of a step: scheduling and reports
-  frame::CostEstimate reporting{5};        // the latter's part
-  frame::CostEstimate between{0.2f};       // from one instance's end to the next one's begin, on one thread
+  frame::CostEstimate idle{0.2f};     // of one idle instance
+  frame::CostEstimate overhead{10};   // of a step: scheduling and reports
+  frame::CostEstimate reporting{5};   // the latter's part
+  frame::CostEstimate between{0.2f};  // from one instance's end to the next one's begin, on one thread
+  EventLog events;
   std::unique_ptr<FrameReport[]> history;  // [def.report_history], the last at frames - 1 modulo that
   float budget_us = std::numeric_limits<float>::infinity();
   frame::Sight sights[kMostViews];

@@ -98,6 +98,15 @@ void add_joints(Character& character) {
   }
 }
 
+void add_clip(Character& character) {
+  const double half_rad = 0.5;
+  const baker::Channel turn{.node = 1,
+                            .path = baker::Path::kRotation,
+                            .times_s = {0, 1},
+                            .values = {0, 0, 0, 1, 0, 0, std::sin(half_rad), std::cos(half_rad)}};
+  character.clips.push_back({.name = "nod", .duration_s = 1, .channels = {turn}});
+}
+
 Character block_character(const BlockOptions& options) {
   Character character;
   character.name = options.name;
@@ -109,6 +118,7 @@ Character block_character(const BlockOptions& options) {
     character.colors.push_back({220, 160, 140, 255});
     character.stiffness.push_back(1 - softness(p));
   }
+  if (options.clip) add_clip(character);
   return character;
 }
 

@@ -332,3 +332,18 @@ TEST_CASE("a_teleport_that_no_tick_has_seen_yet_is_saved_and_restored") {
   REQUIRE(stage.world.restore_state(stage.blocks[0], saved).ok());
   CHECK(played(stage) == first);
 }
+
+// Asleep in between: nothing of the first is left to take the second for.
+TEST_CASE("the_same_jump_a_second_time_is_a_teleport_too") {
+  Stage stage;
+  stage.play([](double) { return raised(0); }, 1);
+  for (int jump = 1; jump <= 3; ++jump) {
+    double most_m = 0;
+    for (int frame = 0; frame < 6; ++frame) {
+      stage.step([&](double) { return raised(20.0 * jump); }, kFrame_s);
+      most_m = std::max(most_m, shape_m(stage));
+    }
+    CHECK(stage.report().teleports == static_cast<uint32_t>(jump));
+    CHECK(most_m < kCarried_m);
+  }
+}

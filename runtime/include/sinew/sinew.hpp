@@ -1,8 +1,12 @@
 // sinew.hpp  Everything public in one include.
 #pragma once
+#include "sinew/asset.hpp"
 #include "sinew/contact_source.hpp"
+#include "sinew/event.hpp"
 #include "sinew/id.hpp"
 #include "sinew/isa.hpp"
+#include "sinew/matrix.hpp"
+#include "sinew/read.hpp"
 #include "sinew/status.hpp"
 #include "sinew/types.hpp"
 #include "sinew/world.hpp"

@@ -4,18 +4,17 @@
 #include <cstdint>
 #include <span>
 
+#include "sinew/asset.hpp"
+#include "sinew/event.hpp"
 #include "sinew/id.hpp"
+#include "sinew/matrix.hpp"
+#include "sinew/read.hpp"
 #include "sinew/status.hpp"
 
 namespace sinew {
 
 class ContactSource;    // contact_source.hpp
 class OcclusionSource;  // view.hpp
-
-// Row-major 3x4 affine matrix: p' = m[r][0..2] p + m[r][3].
-struct Matrix34 {
-  float m[3][4];
-};
 
 // A double-precision place and a unit quaternion (x y z w), so that a character far from the origin loses
 // nothing.
@@ -130,6 +129,7 @@ struct WorldDef {
   // (runtime/world/sleep.hpp). 0: never.
   float sleep_tolerance = 2e-5f;
   uint32_t report_history = 120;  // 0..65535 FrameReports kept for World::history
+  uint32_t event_capacity = 256;  // 0..65535 events kept for World::take_events; of more the oldest are lost
   BudgetMode budget_mode = BudgetMode::kTime;
   // Asked whether something hides what views show (World::set_views); null: nothing does. Outlives the world.
   OcclusionSource* occlusion = nullptr;
@@ -279,50 +279,6 @@ struct FrameReport {
   // or none is seen. As baked; where nothing was measured, usual ones (runtime/frame/front.hpp).
   float expected_error = 1;
   bool over_budget = false;  // kTime: total_us > budget_us; kWorkUnits: the baked cost of what ran is
-};
-
-// Where positions are written and in which space.
-enum class Space : uint32_t {
-  kCharacter = 0,  // the pose's character space
-  kWorld = 1,      // root applied, relative to origin_m below
-  // Displacement (a delta, not a place) before skinning: metres along the axes of character space, in which
-  // World::bind_pose has the joints (Y up; of a file in centimetres or with Z up it is not the file's). Added
-  // to the bind position before GPU skinning it gives kCharacter's. Zero where nothing is carried. For
-  // vertices as the file has them, MeshInfo::mesh_from_bind takes it to the file's mesh space.
-  kBind = 2,
-};
-
-struct ReadDef {
-  Space space = Space::kCharacter;
-  double origin_m[3] = {0, 0, 0};  // kWorld: subtracted in double before rounding to float; NaN: refused
-  float* out = nullptr;            // first vertex's x; y and z follow it; aligned to 4 bytes; null: refused
-  size_t stride_bytes = 12;  // >= 12, a multiple of 4, else refused; bytes between vertices are left alone
-  size_t capacity = 0;  // vertices that fit; fewer than the asset's vertex_count: refused, nothing written
-};
-
-// Vertices of one mesh, as one node of the baked file shows it.
-struct MeshInfo {
-  const char* name = nullptr;  // of the node; lives as long as the asset
-  uint32_t first_vertex = 0,
-           vertex_count = 0;  // among the asset's; primitive after primitive, as in the file
-  // From the bind pose (Space::kBind, metres) to the mesh space of the file, in the file's unit: of a bind
-  // position the whole matrix, of a displacement its first three columns. It holds the unit, the up axis and
-  // whatever space the exporter wrote the mesh in. To the file's scene instead where a skin has no bind
-  // matrices (its rest pose was baked), and where the mesh's node flattens it.
-  Matrix34 mesh_from_bind = {};
-};
-
-struct AssetInfo {
-  uint32_t vertex_count = 0, triangle_count = 0, joint_count = 0, region_count = 0, node_count = 0,
-           clip_count = 0;
-  uint32_t mesh_count = 0;    // World::mesh_info
-  uint32_t proxy_count = 0;   // capsules about bones, for ContactDef::own_body
-  uint32_t rod_count = 0;     // chains and trees of bones that swing
-  bool rod_network = false;   // the pack holds what RodWarmStart::kLearned takes
-  uint32_t graph_levels = 1;  // control graphs, each coarser than the one before, that tiers are simulated on
-  float tick_hz = 0;
-  float height_m = 0;           // extent of the bind pose along Y
-  uint64_t instance_bytes = 0;  // memory one instance takes; contacts take more
 };
 
 }  // namespace sinew

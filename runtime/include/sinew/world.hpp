@@ -16,8 +16,9 @@
 // step calls (hooks, contact and occlusion sources), on whatever thread, calls none of them: there, those
 // that are not const are refused with kInvalidArgument, the assert hook hears of it, and a step inside the
 // step does nothing. Nothing here throws or prints. step, set_pose, skip_pose, set_importance, set_views,
-// set_hidden, set_time_scale, set_felt_root_motion, set_budget_us, reset, read_*, report, history, save_state
-// and restore_state never allocate or block; the others may allocate.
+// set_hidden, set_time_scale, set_felt_root_motion, set_budget_us, reset, sample_clip, read_*, bounds,
+// debug_lines, report, history, take_events, save_state and restore_state never allocate or block; the others
+// may allocate.
 //
 // Nothing here traps, and results do not depend on the calling thread's floating-point mode (rounding,
 // denormals, trap masks): every function computes in its own and gives the thread's back whole. Callbacks
@@ -54,17 +55,33 @@ class World {
   // kInvalidArgument while instances of it live.
   Status unload_asset(AssetId asset) noexcept;
   Status asset_info(AssetId asset, AssetInfo* out) const noexcept;
-  // mesh < AssetInfo::mesh_count, else kInvalidArgument and *out is untouched.
+  Status asset_arrays(AssetId asset, AssetArrays* out) const noexcept;
+  // Below, an index that is not there: kInvalidArgument, and *out is untouched.
   Status mesh_info(AssetId asset, uint32_t mesh, MeshInfo* out) const noexcept;
+  Status primitive_info(AssetId asset, uint32_t primitive, PrimitiveInfo* out) const noexcept;
+  Status joint_info(AssetId asset, uint32_t joint, JointInfo* out) const noexcept;
+  Status region_info(AssetId asset, uint32_t region, RegionInfo* out) const noexcept;
+  Status rod_info(AssetId asset, uint32_t rod, RodInfo* out) const noexcept;
+  Status proxy_info(AssetId asset, uint32_t proxy, ProxyInfo* out) const noexcept;
+  Status clip_info(AssetId asset, uint32_t clip, ClipInfo* out) const noexcept;
   // The joint's name in the file it was baked from, so that an engine can map its skeleton; lives as long as
   // the asset. Null for a stale id or joint >= joint_count.
   const char* joint_name(AssetId asset, uint32_t joint) const noexcept;
+  // Names from the root down, "hips/spine/ear#2", no two alike unless names hold / or # themselves: the k-th
+  // of several children of one parent with one name has #k, from the second on. Writes as much as fits,
+  // zero-terminated, and returns the whole length, without the zero; 0 for a stale id or joint >=
+  // joint_count. O(joints x depth).
+  size_t joint_path(AssetId asset, uint32_t joint, std::span<char> out) const noexcept;
   // Whether a rod moves the joint, as its bone or as what hangs on one; what read_joint_matrices gives
   // differs from the pose for such joints alone. False for a stale id or joint >= joint_count.
   bool joint_is_on_rod(AssetId asset, uint32_t joint) const noexcept;
   // character-from-joint of the bind pose; out.size() must be joint_count, else kInvalidArgument and nothing
   // is written.
   Status bind_pose(AssetId asset, std::span<Matrix34> out) const noexcept;
+  // character-from-joint of a clip's pose at a time, between its frames too; out as in bind_pose. A time that
+  // is not finite: kNotFinite.
+  Status sample_clip(AssetId asset, uint32_t clip, double time_s, ClipEnd end,
+                     std::span<Matrix34> out) const noexcept;
 
   // One allocation for all of the instance's state, and with rods two or more, by their shapes. It starts at
   // rest in its bind pose; the first pose that is set counts as having been held for ever. max_instances
@@ -121,15 +138,38 @@ class World {
   // were. Returns how many; 0 for a null world. From any number of threads at a time, as read_positions.
   size_t history(std::span<FrameReport> out) const noexcept;
 
+  // What happened since the last call, oldest first: as many as fit, which are then forgotten. Returns how
+  // many. The same in every run; a restored state brings no events back.
+  size_t take_events(std::span<Event> out) noexcept;
+  // Since creation, for want of room (WorldDef::event_capacity).
+  uint64_t events_lost() const noexcept;
+
   // Positions, at the time of the last step, of all of the asset's vertices. Cost O(vertices x
   // influences). A step that ends between ticks shows the state stepped on to its end. From any
   // number of threads at a time while no function that is not const runs.
   Status read_positions(InstanceId instance, const ReadDef& def) const noexcept;
-  // Unit normals of the displaced surface (kCharacter or kWorld): in the bind pose the file's own, else these
+  // Unit normals of the displaced surface: in the bind pose the file's own, else these
   // turned as the surface has turned there, so that hard edges stay hard and both sides of a sheet keep
   // theirs. out is written once and never read. Cost as read_positions and O(vertices + triangles). From
   // several threads at a time for different instances; for one instance, one thread at a time.
   Status read_normals(InstanceId instance, const ReadDef& def) const noexcept;
+  // Positions, normals and tangents in one call, each in its own form, of all vertices or of those that
+  // tissue can move: as read_positions and read_normals, whose thread rule it has. Cost: without normals and
+  // tangents O(vertices written x influences), else as read_normals.
+  Status read_surface(InstanceId instance, const SurfaceDef& def) const noexcept;
+  // Points of the surface that is shown, as frames: the place, and x along the triangle's first edge, z along
+  // its normal; of a triangle without area as rotated in the bind pose. For props, sockets and roots of hair.
+  // A triangle that is not there, weights out of range, places.size() != out.size(): kInvalidArgument and
+  // nothing is written. Some tenths of a microsecond each, whatever the asset's size. Threads as
+  // read_positions.
+  Status read_points(InstanceId instance, const PointsDef& def, std::span<const SurfacePlace> places,
+                     std::span<Matrix34> out) const noexcept;
+  // For culling, of the pose that was set last. Threads as read_positions.
+  Status bounds(InstanceId instance, Bounds* out) const noexcept;
+  // Lines that show what is simulated, in world axes from origin_m (finite). Writes as many as fit and
+  // returns how many there are; 0 for a stale id. parts: of DebugParts. Threads as read_positions.
+  size_t debug_lines(InstanceId instance, uint32_t parts, const double (&origin_m)[3],
+                     std::span<DebugLine> out) const noexcept;
   // Character-from-joint of every joint at the time of the last step, for the engine's own skinning: the
   // pose's, but for bones that are rods and what hangs on them. The surface that read_positions gives is
   // skinned by these. out.size() must be joint_count, else kInvalidArgument and nothing is written. From any

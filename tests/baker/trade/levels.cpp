@@ -40,8 +40,8 @@ std::vector<Surface> surfaces(const LoadedPack& pack, const TrueMotion& motion, 
     loop.tick(way.tier, way.level);
     const uint32_t vertices = pack.view().character->vertex_count;
     Surface surface(size_t{3} * vertices);
-    world::read_positions(loop.instance(),
-                          {.space = Space::kBind, .out = surface.data(), .capacity = vertices});
+    world::read_surface(loop.instance(),
+                        {.space = Space::kBind, .capacity = vertices, .positions = {surface.data()}});
     out.push_back(surface);
   }
   return out;
