@@ -1,8 +1,10 @@
 // sinew.hpp  Everything public in one include.
 #pragma once
 #include "sinew/contact_source.hpp"
+#include "sinew/export.h"
 #include "sinew/id.hpp"
 #include "sinew/isa.hpp"
 #include "sinew/status.hpp"
 #include "sinew/types.hpp"
+#include "sinew/version.h"
 #include "sinew/world.hpp"

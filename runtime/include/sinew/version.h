@@ -1,0 +1,6 @@
+/* version.h  The version of these headers. For C and C++. Stand-alone. CMake compares it with the project. */
+#pragma once
+
+#define SINEW_VERSION_MAJOR 0
+#define SINEW_VERSION_MINOR 1
+#define SINEW_VERSION_PATCH 0
