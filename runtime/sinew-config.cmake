@@ -1,6 +1,14 @@
 include(CMakeFindDependencyMacro)
-find_dependency(hwy)
-include("${CMAKE_CURRENT_LIST_DIR}/sinew-targets.cmake")
+include("${CMAKE_CURRENT_LIST_DIR}/sinew-shared-targets.cmake")
+# sinew::runtime is the static library or, where BUILD_SHARED_LIBS is on, the shared one. Highway is asked for by the static one alone.
+if(NOT TARGET sinew::runtime)
+  if(BUILD_SHARED_LIBS)
+    add_library(sinew::runtime ALIAS sinew::shared)
+  else()
+    find_dependency(hwy)
+    include("${CMAKE_CURRENT_LIST_DIR}/sinew-targets.cmake")
+  endif()
+endif()
 # find_package(sinew COMPONENTS bullet embree): what of the adapters was built.
 foreach(component IN LISTS sinew_FIND_COMPONENTS)
   if(component STREQUAL embree)

@@ -10,7 +10,7 @@ packages=(
   libtinygltf-dev nlohmann-json3-dev libcli11-dev libmeshoptimizer-dev libstb-dev libsuitesparse-dev # baker
   libbullet-dev                                           # runtime/bullet
   libembree-dev ffmpeg                                    # samples
-  catch2                                                  # tests
+  catch2 pkg-config                                       # tests
   python3-numpy python3-matplotlib libopenblas0-pthread   # plots
 )
 [ "${1:-}" = samples ] || packages+=(python3-torch)       # training

@@ -1,6 +1,7 @@
 // sweep.hpp  Two capsules on their way through a step: where and when they first touch.
 #pragma once
 #include "rods/vector.hpp"
+#include "sinew/export.h"
 
 namespace sinew::rods {
 
@@ -16,13 +17,14 @@ struct Sweep {
 
 // Points of two axes, as shares of their lengths, that are nearest to each other (Ericson 2005, 5.1.9). Of
 // parallel ones the middle of where they lie side by side; axes of no length are points.
+// SINEW_API: the adapters ask, too.
 struct Nearest {
   double a, b;
 };
-Nearest nearest(const Axis& a, const Axis& b) noexcept;
+SINEW_API Nearest nearest(const Axis& a, const Axis& b) noexcept;
 
 // The share of `axis` nearest to a point.
-double nearest(const Axis& axis, const Vector& point) noexcept;
+SINEW_API double nearest(const Axis& axis, const Vector& point) noexcept;
 
 // A direction out of b for an axis a that lies deep in it: across a, and across b where they cross.
 Vector way_out(const Axis& a, const Axis& b, const Vector& normal) noexcept;

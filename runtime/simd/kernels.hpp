@@ -12,6 +12,7 @@
 #include "simd/rod_force_job.hpp"
 #include "simd/rod_job.hpp"
 #include "simd/rod_touch_job.hpp"
+#include "sinew/export.h"
 
 namespace sinew::simd {
 
@@ -191,7 +192,7 @@ struct Kernels {
   const SurfaceWalks* surface_walks;
 };
 
-// The table of the active instruction set. Thread-safe.
-const Kernels& kernels() noexcept;
+// The table of the active instruction set. Thread-safe. SINEW_API: sinew::embree asks, too.
+SINEW_API const Kernels& kernels() noexcept;
 
 }  // namespace sinew::simd

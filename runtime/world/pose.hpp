@@ -4,6 +4,7 @@
 #include <span>
 
 #include "pack/format.hpp"
+#include "sinew/export.h"
 #include "sinew/types.hpp"
 
 namespace sinew::world {
@@ -11,7 +12,8 @@ namespace sinew::world {
 // kInvalidArgument: count or range; kNotFinite: names the joint. *root: the pose's, its quaternion
 // normalised.
 Status check_pose(const Pose& pose, uint32_t joint_count, RootTransform* root) noexcept;
-Status check_root(const RootTransform& given, RootTransform* root) noexcept;
+// SINEW_API: sinew::embree asks, too.
+SINEW_API Status check_root(const RootTransform& given, RootTransform* root) noexcept;
 bool same_root(const RootTransform& a, const RootTransform& b) noexcept;  // bit for bit
 // A checked root, or space, as an instance keeps it: its place in metres of the character's, of which the
 // world has `scale` each. So all that is simulated is of the size that was baked; places and lengths that

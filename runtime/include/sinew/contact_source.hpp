@@ -15,6 +15,8 @@
 #include <cstdint>
 #include <span>
 
+#include "sinew/export.h"
+
 namespace sinew {
 
 // A capsule on its way through a tick, its axis' ends going straight. In the world, metres.
@@ -42,7 +44,7 @@ struct ContactHit {
 // A hit with a NaN, an infinity, a normal that is not a unit vector or a number out of its range is left out
 // and counted by the asker.
 
-class ContactSource {
+class SINEW_API ContactSource {
  public:
   virtual ~ContactSource() = default;
   // Contacts of the probes, at least all whose gap may close within dt_s. Returns how many there are; only

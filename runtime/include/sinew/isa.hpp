@@ -7,17 +7,18 @@
 #pragma once
 #include <span>
 
+#include "sinew/export.h"
 #include "sinew/status.hpp"
 
 namespace sinew {
 
 // Names of the targets this build has and this processor runs, best first ("avx3", "avx2", "sse4",
 // "ssse3", "neon", "emu128", "scalar"). Never empty; they live as long as the process.
-std::span<const char* const> available_isas() noexcept;
-const char* active_isa() noexcept;
+SINEW_API std::span<const char* const> available_isas() noexcept;
+SINEW_API const char* active_isa() noexcept;
 
 // For all worlds of the process, whatever SINEW_ISA says. Call it while none of them steps. An unknown or
 // missing name, or null: kUnsupported, listing the available; nothing changes. Costs nothing afterwards.
-Status force_isa(const char* name) noexcept;
+SINEW_API Status force_isa(const char* name) noexcept;
 
 }  // namespace sinew

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "sinew/export.h"
+
 namespace sinew {
 
 // A camera, or a light whose shadows show the characters.
@@ -19,7 +21,7 @@ inline constexpr uint32_t kMostViews = 8;
 
 // The door for an engine's own geometry: sinew::Occluders (occluders.hpp) is one such implementation. Called
 // on the stepping thread; may not throw, allocate or block.
-class OcclusionSource {
+class SINEW_API OcclusionSource {
  public:
   virtual ~OcclusionSource() = default;
   // Whether something that hides characters lies between two points of the world.

@@ -28,12 +28,13 @@
 // null or whose object is gone (a programmer error: the assert hook hears of it). After a refusal nothing has
 // changed.
 #pragma once
+#include "sinew/export.h"
 #include "sinew/types.hpp"
 #include "sinew/view.hpp"
 
 namespace sinew {
 
-class World {
+class SINEW_API World {
  public:
   World() noexcept = default;  // null until create
   ~World();

@@ -24,6 +24,7 @@
 #include <cstdint>
 
 #include "sinew/contact_source.hpp"
+#include "sinew/export.h"
 #include "sinew/status.hpp"
 
 class btCollisionWorld;
@@ -76,7 +77,7 @@ struct BulletReport {
       0;  // no room, no number, larger than 1e6 N s, or a body that is not there any more
 };
 
-class BulletContacts final : public ContactSource {
+class SINEW_API BulletContacts final : public ContactSource {
  public:
   BulletContacts() noexcept = default;  // finds nothing until create
   ~BulletContacts() override;

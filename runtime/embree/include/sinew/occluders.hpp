@@ -15,6 +15,7 @@
 #pragma once
 #include <span>
 
+#include "sinew/export.h"
 #include "sinew/types.hpp"
 #include "sinew/view.hpp"
 
@@ -39,7 +40,7 @@ struct OccluderDef {
   RootTransform root = {};               // world from these places; refused as in a pose
 };
 
-class Occluders final : public OcclusionSource {
+class SINEW_API Occluders final : public OcclusionSource {
  public:
   Occluders() noexcept = default;  // empty: hides nothing, refuses the rest
   ~Occluders() override;

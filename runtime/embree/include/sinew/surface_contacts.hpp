@@ -24,6 +24,7 @@
 #include <array>
 
 #include "sinew/contact_source.hpp"
+#include "sinew/export.h"
 #include "sinew/status.hpp"
 
 namespace sinew {
@@ -91,7 +92,7 @@ struct SurfaceReport {
   uint64_t bytes = 0;
 };
 
-class SurfaceContacts final : public ContactSource {
+class SINEW_API SurfaceContacts final : public ContactSource {
  public:
   SurfaceContacts() noexcept = default;  // empty: finds nothing, refuses the rest
   ~SurfaceContacts() override;
