@@ -10,7 +10,7 @@ packages=(
   libtinygltf-dev nlohmann-json3-dev libcli11-dev libmeshoptimizer-dev libstb-dev libsuitesparse-dev # baker
   libbullet-dev                                           # runtime/bullet
   libembree-dev ffmpeg                                    # samples
-  catch2 pkg-config                                       # tests
+  catch2 pkg-config tcc python3-cffi                      # tests
   python3-numpy python3-matplotlib libopenblas0-pthread   # plots
 )
 [ "${1:-}" = samples ] || packages+=(python3-torch)       # training
@@ -19,6 +19,9 @@ if [ "${1:-}" = aarch64 ]; then
   packages+=(g++-aarch64-linux-gnu qemu-user libhwy-dev:arm64)
   foreign=arm64
 fi
+
+# Of whatever origin: some machines have newer ones than Debian's.
+command -v npm >/dev/null || packages+=(nodejs npm)
 
 missing=()
 for package in "${packages[@]}"; do

@@ -1,7 +1,9 @@
-// caller.mjs  node caller.mjs LIBRARY INCLUDE PACK: what the callers of this folder play, through koffi. Structs and
-// functions are read out of sinew.h, so that nothing is written twice.
+// caller.mjs  node caller.mjs LIBRARY INCLUDE PACK: what the callers of this folder play, through koffi, which npm has
+// put into the folder that this runs in. Structs and functions are read out of sinew.h: nothing is written twice.
 import fs from 'node:fs';
-import koffi from 'koffi';
+import { createRequire } from 'node:module';
+
+const koffi = createRequire(`${process.cwd()}/`)('koffi');
 
 const [library, include, pack] = process.argv.slice(2);
 const version = fs.readFileSync(`${include}/sinew/version.h`, 'utf8');

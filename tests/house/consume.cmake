@@ -1,7 +1,7 @@
 # Configures, builds and runs tests/house/consumer. Arguments: HOW (find_package, pkg_config, either with _shared behind it,
 # add_subdirectory, or sub_project, which only configures), SOURCE, BINARY, CONFIG, COMPILER, FLAGS, WRITE_BLOCK: the program
 # that writes a character for it.
-set(programs consumer)  # each is run with the character
+set(programs consumer caller)  # each is run with the character
 
 # run(command...): what it printed is in `output`.
 function(run)
@@ -78,6 +78,7 @@ elseif(HOW MATCHES "^pkg_config")
   separate_arguments(pkg_config_answer UNIX_COMMAND "${output}")
   file(MAKE_DIRECTORY ${work}/build)
   compile(consumer main.cpp ${COMPILER} -std=c++20)
+  compile(caller ../../c/caller.c cc -std=c11)
   if(shared)
     run_programs(LD_LIBRARY_PATH=${library_folder})
   else()
