@@ -5,6 +5,7 @@
 #include <span>
 
 #include "sinew/id.hpp"
+#include "sinew/parameters.hpp"
 #include "sinew/status.hpp"
 
 namespace sinew {

@@ -16,8 +16,8 @@
 // step calls (hooks, contact and occlusion sources), on whatever thread, calls none of them: there, those
 // that are not const are refused with kInvalidArgument, the assert hook hears of it, and a step inside the
 // step does nothing. Nothing here throws or prints. step, set_pose, skip_pose, set_importance, set_views,
-// set_hidden, set_time_scale, set_felt_root_motion, set_budget_us, reset, read_*, report, history, save_state
-// and restore_state never allocate or block; the others may allocate.
+// set_hidden, set_time_scale, set_felt_root_motion, set_*parameters, set_*environment, set_budget_us, reset,
+// read_*, report, history, save_state and restore_state never allocate or block; the others may allocate.
 //
 // Nothing here traps, and results do not depend on the calling thread's floating-point mode (rounding,
 // denormals, trap masks): every function computes in its own and gives the thread's back whole. Callbacks
@@ -59,6 +59,10 @@ class World {
   // The joint's name in the file it was baked from, so that an engine can map its skeleton; lives as long as
   // the asset. Null for a stale id or joint >= joint_count.
   const char* joint_name(AssetId asset, uint32_t joint) const noexcept;
+  // The soft part's or the rod's name in the recipe, likewise: what set_region_parameters and
+  // set_rod_parameters count. Null for a stale id or an index that there is not.
+  const char* region_name(AssetId asset, uint32_t region) const noexcept;
+  const char* rod_name(AssetId asset, uint32_t rod) const noexcept;
   // Whether a rod moves the joint, as its bone or as what hangs on one; what read_joint_matrices gives
   // differs from the pose for such joints alone. False for a stale id or joint >= joint_count.
   bool joint_is_on_rod(AssetId asset, uint32_t joint) const noexcept;
@@ -104,6 +108,28 @@ class World {
   // character whose clip moves it, under a root that an engine corrects). Contacts stay where the root is.
   // 0..1, else kInvalidArgument, NaN: kNotFinite; it stays. Part of the state that is saved.
   Status set_felt_root_motion(InstanceId instance, float share) noexcept;
+
+  // How it swings, from the next tick on (parameters.hpp). Of a part its own numbers times the instance's,
+  // held in the same ranges; it is on where both are. A number out of its range: kInvalidArgument, NaN:
+  // kNotFinite, and so is a region or rod that there is not (kInvalidArgument); all stay as they were. Wakes
+  // what is dormant. Part of the state that is saved; reset keeps it. Cost: while stiffness or damping of a
+  // soft part glide, some 0.1 us a mode and tick.
+  Status set_parameters(InstanceId instance, const PartParameters& of_all) noexcept;
+  Status set_region_parameters(InstanceId instance, uint32_t region, const PartParameters& own) noexcept;
+  Status set_rod_parameters(InstanceId instance, uint32_t rod, const PartParameters& own) noexcept;
+  // As set last, whether it has come there or not; errors as above, *out untouched.
+  Status parameters(InstanceId instance, PartParameters* out) const noexcept;
+  Status region_parameters(InstanceId instance, uint32_t region, PartParameters* out) const noexcept;
+  Status rod_parameters(InstanceId instance, uint32_t rod, PartParameters* out) const noexcept;
+  // Gravity, acceleration and wind that all instances feel, from the next tick on; those made later begin in
+  // it. Errors as above. In no snapshot: after a restore the instance glides from what it felt then to what
+  // is set now. Cost: some tens of nanoseconds an instance.
+  Status set_environment(const Environment& environment) noexcept;
+  Status environment(Environment* out) const noexcept;
+  // What this instance feels more than that; by default nothing. Part of the state that is saved.
+  Status set_added_environment(InstanceId instance, const AddedEnvironment& added) noexcept;
+  Status added_environment(InstanceId instance, AddedEnvironment* out) const noexcept;
+
   // Forgets motion: the tissue is at rest in the next pose that is set. What is read back changes with
   // the next step.
   Status reset(InstanceId instance) noexcept;
