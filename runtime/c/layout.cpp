@@ -177,6 +177,10 @@ SAME_PLACE(sinew_debug_line, DebugLine, from_m);
 SAME_PLACE(sinew_debug_line, DebugLine, to_m);
 SAME_PLACE(sinew_debug_line, DebugLine, rgba);
 
+SAME_SIZE(sinew_added_environment, AddedEnvironment);
+SAME_PLACE(sinew_added_environment, AddedEnvironment, acceleration_m_s2);
+SAME_PLACE(sinew_added_environment, AddedEnvironment, wind_m_s);
+
 #define SAME_VALUE(c, cpp) static_assert(static_cast<uint32_t>(cpp) == c)
 
 SAME_VALUE(SINEW_OK, StatusCode::kOk);

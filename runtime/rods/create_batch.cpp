@@ -23,6 +23,8 @@ void RodBatchBuilder::lay_out(std::byte* base, size_t* bytes) {
   batch.rest_ =
       arena.take<float>(size_t{batch.strand_count_} * batch.segment_count_ * RodBatch::kRestNumbers);
   batch.radii_m_ = arena.take<float>(groups() * batch.segment_count_ * batch.width_);
+  batch.made_joints_ =
+      arena.take<float>(groups() * batch.segment_count_ * RodBatch::kMadeJoint * batch.width_);
   batch.units_ = arena.take<RodBatch::Units>(batch.strand_count_);
   for (uint32_t** list : {&batch.parents_, &batch.slots_, &batch.joint_segments_, &batch.slot_parents_}) {
     *list = arena.take<uint32_t>(batch.segment_count_);

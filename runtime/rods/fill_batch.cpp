@@ -4,6 +4,7 @@
 
 #include "rods/batch_builder.hpp"
 #include "rods/constraints.hpp"
+#include "rods/joint_fields.hpp"
 #include "rods/section.hpp"
 
 namespace sinew::rods {
@@ -55,6 +56,8 @@ void RodBatchBuilder::set_joint(const SegmentDef& parent, const SegmentDef& s, u
   put(slot, at, simd::kRodBendCompliance, c.bend_rad_nm * m * l * l);
   put(slot, at, simd::kRodTwistCompliance, c.twist_rad_nm * m * l * l);
   put(slot, at, simd::kRodDamping, s.damping_s);
+  for (uint32_t k = 0; k < RodBatch::kMadeJoint; ++k)
+    batch.made_joint(slot, at, k) = batch.at(slot, at, kJointFields[k]);
   put(slot, at, simd::kRodTied, parent.fixed && s.fixed ? 1 : 0);
   put(slot, at, simd::kRodParentArm, 0.5 * side * (side > 0 ? upper : own) / l);
   put(slot, at, simd::kRodArm, 0.5 * side * (side > 0 ? own : upper) / l);

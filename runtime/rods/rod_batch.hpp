@@ -177,6 +177,15 @@ class RodBatch {
   // The segment's orientation in its parent's axes at which their joint is at rest, until changed. Refused:
   // no such segment, the root, no unit quaternion.
   Status set_rest(uint32_t strand, uint32_t segment, const float (&to_parent)[4]) noexcept;
+  // So many times as stiff against bending and twisting, and so many times its damping_s, as the segment's
+  // joint to its parent was created with, until changed; no state, so that a snapshot leaves it as it is.
+  // What a network for starts was told of joints stays. Refused: no such segment, the root; a stiffness that
+  // is not finite and above 0, a damping that is not finite and 0 or more, either that leaves float's range
+  // in the strand's own units.
+  struct JointShares {
+    float stiffness = 1, damping = 1;
+  };
+  Status set_joint(uint32_t strand, uint32_t segment, const JointShares& shares) noexcept;
   // Turns everything rigidly about a point: poses, velocities, forces. Targets not yet stepped to are
   // dropped.
   void turn_all(const std::array<double, 4>& by_xyzw, const std::array<double, 3>& centre_m) noexcept;
@@ -277,6 +286,11 @@ class RodBatch {
   void forget_motion(uint32_t strand, uint32_t segment) noexcept;
 
   static constexpr uint32_t kRestNumbers = 10;
+  static constexpr uint32_t kMadeJoint = 3;  // compliances against bending and twisting, damping
+  float& made_joint(uint32_t strand, uint32_t record, uint32_t number) const noexcept {
+    const size_t slot = size_t{group_of(strand)} * segment_count_ + slots_[record];
+    return made_joints_[(slot * kMadeJoint + number) * width_ + lane_of(strand)];
+  }
 
   core::AlignedBlock memory_;
   float* records_ = nullptr;    // [groups][segments][kRodKeptFields][width]
@@ -291,6 +305,7 @@ class RodBatch {
   float* planes_ = nullptr;     // of one group
   float* rest_ = nullptr;  // [strands][segments][kRestNumbers] place, high and low, and orientation at rest
   float* radii_m_ = nullptr;            // [groups][slots][width]
+  float* made_joints_ = nullptr;        // [groups][slots][kMadeJoint][width] what set_joint takes shares of
   Units* units_ = nullptr;              // [strands]
   uint32_t* parents_ = nullptr;         // [segments] as listed
   uint32_t* slots_ = nullptr;           // [segments] where a segment's record is; slot 0 is held if one is

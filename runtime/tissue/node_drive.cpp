@@ -76,6 +76,21 @@ Vector felt(float rate2, const Vector& node, const Vector& root, float most_m_s2
   return felt_share(whole * std::sqrt(squared), most_m_s2) * all;
 }
 
+// Of what pulls at a fraction, b and b - s of tissue/fraction_step.hpp.
+struct LoadShares {
+  float now, before;
+};
+LoadShares load_shares(float x) {
+  const float before = (1 - x) * (1 - x);
+  return {before + x * (1 + x) / 2, before};
+}
+
+void add(const Vector& v, float* to) {
+  to[0] += v.x;
+  to[1] += v.y;
+  to[2] += v.z;
+}
+
 Vector gravity_change(const NodePose& pose) {
   const Vector gravity{0, -kGravity, 0};
   return into_axes(pose, gravity) - turned(pose.bend, gravity);
@@ -112,7 +127,7 @@ void compute_node_drive(const NodeMotion& motion, float tick_s, uint32_t count, 
 void fraction_felt(const NodeMotion& motion, float tick_s, float x, uint32_t count, float* out) noexcept {
   const Vector root = root_step_change(motion, static_cast<double>(x));
   const float rate2 = 1 / (tick_s * tick_s), whole = 2 / (x * (1 + x));
-  const float of_before = (1 - x) * (1 - x), of_now = of_before + x * (1 + x) / 2;
+  const auto [of_now, of_before] = load_shares(x);
   for (uint32_t i = 0; i < count; ++i) {
     const NodePose &now = motion.pose[0][i], &before = motion.pose[1][i], &before2 = motion.pose[2][i];
     const Vector step = vector_at(now.place_m) - vector_at(before.place_m);
@@ -121,6 +136,23 @@ void fraction_felt(const NodeMotion& motion, float tick_s, float x, uint32_t cou
     const Vector change = felt(rate2_own, step - step_before, root, motion.most_m_s2, whole);
     put(of_now * gravity_change(now) - of_before * gravity_change(before) - into_axes(now, change), out);
   }
+}
+
+void add_pull(const NodePose* now, const float* pull_m_s2, uint32_t count, float* drive) noexcept {
+  const Vector pull = vector_at(pull_m_s2);
+  for (uint32_t i = 0; i < count; ++i, drive += kNodeDriveWidth) {
+    const Vector own = into_axes(now[i], pull);
+    add(own, drive);
+    add(own, drive + 3);
+  }
+}
+
+void add_fraction_pull(const PulledNodes& nodes, const float* pull_m_s2, const float* pull_before_m_s2,
+                       float x, float* felt) noexcept {
+  const auto [of_now, of_before] = load_shares(x);
+  const Vector pull = vector_at(pull_m_s2), before = vector_at(pull_before_m_s2);
+  for (uint32_t i = 0; i < nodes.count; ++i, felt += 3)
+    add(of_now * into_axes(nodes.now[i], pull) - of_before * into_axes(nodes.before[i], before), felt);
 }
 
 }  // namespace sinew::tissue

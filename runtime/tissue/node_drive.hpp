@@ -44,4 +44,15 @@ void compute_node_drive(const NodeMotion& motion, float tick_s, uint32_t count, 
 // then those of the last two ticks. out: [count][3].
 void fraction_felt(const NodeMotion& motion, float tick_s, float x, uint32_t count, float* out) noexcept;
 
+// What pulls at all of a part's nodes alike beside the gravity that its flesh was baked under, m/s^2 in the
+// world: R_t^T pull more in f and in the gravity change, as another gravity would have it. drive: [count].
+void add_pull(const NodePose* now, const float* pull_m_s2, uint32_t count, float* drive) noexcept;
+// The same of fraction_felt: `pull` by then, and that of the last tick, whose poses are `before`.
+struct PulledNodes {
+  const NodePose *now, *before;
+  uint32_t count;
+};
+void add_fraction_pull(const PulledNodes& nodes, const float* pull_m_s2, const float* pull_before_m_s2,
+                       float x, float* felt) noexcept;
+
 }  // namespace sinew::tissue

@@ -10,6 +10,7 @@
 #include "tissue/guard.hpp"
 #include "tissue/node_bend.hpp"
 #include "tissue/node_drive.hpp"
+#include "world/air.hpp"
 #include "world/blend.hpp"
 #include "world/motion.hpp"
 #include "world/region_part.hpp"
@@ -48,6 +49,8 @@ void feel(Instance& instance, const tissue::NodeMotion& motion, const Part& part
   for (auto& pose : of_part.pose) pose += part.node;
   if (of_part.size) of_part.size += part.node;
   tissue::fraction_felt(of_part, tick_s, x, part.record.node_count, instance.felt + part.vector);
+  if (tunes_air(instance))
+    add_air_between(instance, part.index, {of_part.pose[0], of_part.pose[1]}, x, instance.felt + part.vector);
 }
 
 // phi on top of it.
@@ -76,12 +79,11 @@ void step_part(Instance& instance, const Part& part, float x, float* out) noexce
                                  .r = instance.r[0] + part.vector,
                                  .r_before = instance.r[1] + part.vector};
   float *q = instance.q_hat + part.mode, *theta = instance.r_hat + part.vector;
-  tissue::fraction_answer(part.base, instance.level->swing_slopes.get() + part.mode + part.index, heard,
-                          state, force_of(instance, part), x,
-                          {.q = q, .r = instance.r_hat + part.vector, .l = l});
+  tissue::fraction_answer(part.base, slopes_of(instance, part.index), heard, state, force_of(instance, part),
+                          x, {.q = q, .r = instance.r_hat + part.vector, .l = l});
   tissue::modal_turn(part.base, q, instance.region[0], theta);
   tissue::warp(theta, l, part.record.node_count, out);
-  tissue::hold_within(part.record.displacement_limit_m, part.record.node_count, out);
+  tissue::hold_within(limit_m(instance, part.index, x), part.record.node_count, out);
   if (!tissue::all_finite(out, size_t{3} * part.record.node_count))
     std::copy_n(instance.u[0] + part.vector, size_t{3} * part.record.node_count, out);
 }
@@ -90,14 +92,14 @@ void step_part(Instance& instance, const Part& part, float x, float* out) noexce
 void go_on(const Instance& instance, const Part& part, float x, float* out) noexcept {
   const float *now = instance.u[0] + part.vector, *before = instance.u[1] + part.vector;
   for (size_t i = 0; i < size_t{3} * part.record.node_count; ++i) out[i] = now[i] + x * (now[i] - before[i]);
-  tissue::hold_within(part.record.displacement_limit_m, part.record.node_count, out);
+  tissue::hold_within(limit_m(instance, part.index, x), part.record.node_count, out);
 }
 
 void step_soft_parts(Instance& instance, float x, float* out) noexcept {
   std::copy_n(instance.u[0], floats_of(instance), out);
   const tissue::NodeMotion motion = motion_now(instance);
   for_each_part(instance, [&](const Part& part) {
-    if (instance.level->leaves_out(part.index)) return;
+    if (instance.level->leaves_out(part.index) || region_is_off(instance, part.index)) return;
     if (instance.carried_regions[part.index]) return go_on(instance, part, x, out + part.vector);
     if (x > 0) {
       feel(instance, motion, part, x);
@@ -108,14 +110,17 @@ void step_soft_parts(Instance& instance, float x, float* out) noexcept {
   });
   tissue::along_flesh(instance.poses_now, out, instance.level->node_count(), out);
   keep_regained_share(instance, out, x);
+  keep_intensity(instance, out, x);
 }
 
 // Where no tick has followed the motion yet.
 const float* go_on_as_shown(const Instance& instance, float x, float* out) noexcept {
   for (size_t i = 0; i < floats_of(instance); ++i)
     out[i] = instance.shown[0][i] + x * (instance.shown[0][i] - instance.shown[1][i]);
-  for (const pack::RegionRecord& region : instance.level->pack.regions)
-    tissue::hold_within(region.displacement_limit_m, region.node_count, out + size_t{3} * region.first_node);
+  for (size_t r = 0; r < instance.level->pack.regions.size(); ++r) {
+    const pack::RegionRecord& region = instance.level->pack.regions[r];
+    tissue::hold_within(shown_limit_m(instance, r), region.node_count, out + size_t{3} * region.first_node);
+  }
   return out;
 }
 

@@ -16,6 +16,7 @@
 #include "world/simulate.hpp"
 #include "world/sleep.hpp"
 #include "world/teleport.hpp"
+#include "world/tuning.hpp"
 
 namespace sinew::world {
 namespace {
@@ -56,10 +57,12 @@ void begin_tail(Instance& instance, float velocity_kept) noexcept {
 // acceleration.
 void begin_simulation(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
+  settle_tuning(instance);
   pose_now(instance, instance.poses[0]);
   for (int tick = 0; tick < 2; ++tick) {
     tissue::along_frame(instance.poses[0], instance.shown[tick], instance.level->node_count(),
                         instance.u[tick]);
+    take_out_intensity(instance, instance.u[tick]);
     copy(instance, instance.u[tick], instance.l[tick]);
   }
   take_rods_as_shown(instance);
@@ -134,10 +137,10 @@ void hold_speed(const Instance& instance, const float* before, float* v) noexcep
 void swing_tail(const Instance& instance, size_t r, const Tail& tail) noexcept {
   constexpr float kFreest = 0.9f;
   const pack::RegionRecord& region = instance.level->pack.regions[r];
-  const pack::RegionModesRecord& modes = instance.level->pack.region_modes[r];
+  const tissue::Recurrence first = first_recurrence(instance, r);
   const uint32_t tick = tail.ticks;
   const float free = tick <= kCarryTicks ? std::min(static_cast<float>(tick) / kCarryTicks, kFreest) : 0;
-  const float pull = free * (modes.first_a1 + modes.first_a2 - 1), drag = free * (1 + modes.first_a2);
+  const float pull = free * (first.a1 + first.a2 - 1), drag = free * (1 + first.a2);
   for (size_t n = region.first_node; n < region.first_node + region.node_count; ++n) {
     float *u = tail.u + 3 * n, *velocity = tail.velocity + 3 * n;
     const float before[3] = {velocity[0], velocity[1], velocity[2]};
@@ -163,9 +166,11 @@ void count_tail(const Instance& instance) noexcept {
 void advance_tail(const Instance& instance, const Tail& tail) noexcept {
   for (size_t r = 0; r < instance.level->pack.regions.size(); ++r) swing_tail(instance, r, tail);
   if (tail.ticks > kCarryTicks) stop_what_creeps(instance, tail);
-  for (const pack::RegionRecord& region : instance.level->pack.regions) {
+  for (size_t r = 0; r < instance.level->pack.regions.size(); ++r) {
+    const pack::RegionRecord& region = instance.level->pack.regions[r];
+    const float most_m = shown_limit_m(instance, r);
     for (uint32_t n = region.first_node; n < region.first_node + region.node_count; ++n) {
-      hold_at_limit(tail.u + size_t{3} * n, tail.velocity + size_t{3} * n, region.displacement_limit_m);
+      hold_at_limit(tail.u + size_t{3} * n, tail.velocity + size_t{3} * n, most_m);
     }
   }
 }
@@ -216,6 +221,7 @@ void keep_regained_share(const Instance& instance, float* shown, float x) noexce
 void take_simulated(const Instance& instance, int tick, float* out) noexcept {
   tissue::along_flesh(instance.poses[0], instance.u[tick], instance.level->node_count(), out);
   keep_regained_share(instance, out);
+  keep_intensity(instance, out);
 }
 
 // A cubic of Hermite; the velocity at a tick is the mean of the steps before and after it.

@@ -13,6 +13,7 @@
 #include "world/blend.hpp"
 #include "world/motion.hpp"
 #include "world/sleep.hpp"
+#include "world/tuning.hpp"
 
 namespace sinew::world {
 namespace {
@@ -168,8 +169,7 @@ void turn_and_warp(const Instance& instance, const GraphLevel& level, int tick) 
                        instance.theta + vector);
     tissue::warp(instance.theta + vector, instance.l[tick] + vector, level.pack.regions[r].node_count,
                  instance.u[tick] + vector);
-    tissue::hold_within(level.pack.regions[r].displacement_limit_m, level.pack.regions[r].node_count,
-                        instance.u[tick] + vector);
+    tissue::hold_within(limit_m(instance, r), level.pack.regions[r].node_count, instance.u[tick] + vector);
   }
 }
 
@@ -252,7 +252,7 @@ void show_settled(Instance& instance, const float* moved) noexcept {
                       instance.delta);  // those of u: a tick ago
   for (size_t r = 0; r < instance.level->pack.regions.size(); ++r) {
     const pack::RegionRecord& region = instance.level->pack.regions[r];
-    const float share = simulated * instance.regained_share(r);
+    const float share = simulated * instance.regained_share(r) * intensity_of(instance, r);
     float* delta = instance.delta + size_t{3} * region.first_node;
     for (size_t i = 0; i < size_t{3} * region.node_count; ++i) delta[i] *= share;
   }

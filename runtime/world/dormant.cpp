@@ -9,6 +9,7 @@
 #include "world/rod_contacts.hpp"
 #include "world/rod_sleep.hpp"
 #include "world/sleep.hpp"
+#include "world/tuning.hpp"
 
 namespace sinew::world {
 namespace {
@@ -29,7 +30,7 @@ bool may_be_dormant(const Instance& instance) noexcept {
   return frame::is_simulated(state.tier) && state.still_ticks >= kStillTicks && !state.motion_stale &&
          !state.at_start && !instance.cut && state.blend_ticks == kBlendInTicks &&
          state.seam_ticks == kBlendInTicks && state.fallback_ticks == 0 && !instance.contacts.source &&
-         !touches_surface(instance) &&
+         !touches_surface(instance) && tuning_stands(instance) &&
          regions_asleep(instance) + instance.level->regions_left_out() == asset.pack.regions.size() &&
          rods_asleep(instance) == asset.rods.rod_count && is_shown_still(instance);
 }

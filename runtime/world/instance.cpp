@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <memory>
 #include <new>
 #include <type_traits>
 
@@ -23,12 +24,13 @@
 #include "world/rod_sleep.hpp"
 #include "world/sleep.hpp"
 #include "world/teleport.hpp"
+#include "world/tuning.hpp"
 
 namespace sinew::world {
 namespace {
 
 static_assert(std::is_trivially_copyable_v<InstanceState>, "saved as bytes");
-static_assert(sizeof(InstanceState) == 688, "no padding: equal states are equal bytes");
+static_assert(sizeof(InstanceState) == 872, "no padding: equal states are equal bytes");
 static_assert(offsetof(InstanceState, root) == kPlannedStateBytes, "what is planned by comes first");
 
 float smooth_step(float t) noexcept { return t * t * (3 - 2 * t); }
@@ -89,6 +91,8 @@ void lay_out_state(const Asset& asset, core::Arena& arena, Instance& to) noexcep
     for (float*& turn : to.tick_turn) turn = arena.take<float>(4);
   }
   if (asset.level_count > 1) to.seam = arena.take<float>(size_t{3} * asset.padded_vertices);
+  to.region_tunings = arena.take<PartTuning>(asset.pack.regions.size());
+  to.rod_tunings = arena.take<PartTuning>(asset.rods.rod_count);
   to.state_bytes = arena.used_bytes();
 }
 
@@ -121,6 +125,9 @@ void lay_out_scratch(const Asset& asset, core::Arena& arena, Instance& to) noexc
   to.parts = arena.take<JointParts>(joints);
   to.next_parts = arena.take<JointParts>(joints);
   to.tick_joints = arena.take<Matrix34>(joints);
+  to.tuned_modes = arena.take<pack::ModeRecord>(asset.mode_count());
+  to.tuned_slopes = arena.take<tissue::SwingSlopes>(asset.mode_count() + asset.pack.regions.size());
+  to.tuned_regions = arena.take<TunedRegion>(asset.pack.regions.size());
   to.poses_now = arena.take<tissue::NodePose>(nodes);
   to.shown_between = arena.take<float>(size_t{3} * nodes);
   to.drive = arena.take<float>(size_t{tissue::kNodeDriveWidth} * nodes);
@@ -252,6 +259,9 @@ Status make_instance(Asset& asset, const InstanceDef& def, Instance* out) noexce
   made.sleep_tolerance = WorldDef{}.sleep_tolerance;
   made.most_m_s2 = TeleportDef{}.acceleration * asset.pack.character->height_m;
   new (made.state) InstanceState();
+  std::uninitialized_fill_n(made.region_tunings, asset.pack.regions.size(), PartTuning());
+  std::uninitialized_fill_n(made.rod_tunings, asset.rods.rod_count, PartTuning());
+  std::uninitialized_fill_n(made.tuned_regions, asset.pack.regions.size(), TunedRegion());
   point_to_state(made);
   made.state->root = def.root;
   made.state->importance = frame::sane_importance(def.importance);

@@ -18,6 +18,7 @@
 #include "world/pose.hpp"
 #include "world/rod_source.hpp"
 #include "world/scaled_source.hpp"
+#include "world/tuning_state.hpp"
 
 namespace sinew::world {
 
@@ -104,6 +105,9 @@ struct InstanceState {
   uint16_t skips_pose = 0;                           // none is due in the coming step (world/skip_pose.hpp)
   float blend_pace = 1;                              // of the last tick: what blend_ticks rose by
   double without_pose_s = 0;                         // of its own time, since the last one was due
+  AirState air;                                      // world/air.hpp
+  SetParameters all_parameters;                      // World::set_parameters
+  uint16_t tuned = 0, tuning_moves = 0;              // world/tuning.hpp: of what; something glides or blows
 };
 inline constexpr size_t kPlannedStateBytes = offsetof(InstanceState, root);
 static_assert(kPlannedStateBytes == 64);  // a cache line
@@ -165,6 +169,8 @@ struct EmulatorScratch {
   float* step = nullptr;               // of its kernels
 };
 
+struct TunedRegion;  // world/tuning.hpp
+
 // Arrays are [nodes][3] in metres along each node's frame (tissue/node_bend.hpp) unless said otherwise; l,
 // theta and q as in tissue/modal_base.hpp. u is what
 // may be shown of l, within the region's limit (tissue/guard.hpp). "Shown" is what is published, along the
@@ -202,6 +208,7 @@ struct Instance {
   bool rods_shown = false;    // published joints are not the pose's
   float most_m_s2 = 0;        // TeleportDef::acceleration, in metres; as by default until set
   float sleep_tolerance = 0;  // WorldDef::sleep_tolerance, likewise
+  const Environment* environment = nullptr;  // the world's; null: as by default
   // own_body and surface: only where there is something to touch. Without a source and soft parts that touch
   // the body, the arrays of contacts have no memory.
   ContactDef contacts;
@@ -247,7 +254,13 @@ struct Instance {
   float* seam = nullptr;       // laid out as `carried`: what a change of level left, null: one level
   // Of the last two ticks, newest first, where something may be touched: [joints][12], and the root's turn.
   float *tick_skin[2] = {}, *tick_turn[2] = {};
+  PartTuning *region_tunings = nullptr, *rod_tunings = nullptr;  // [regions], [rods]: world/tuning.hpp
   size_t state_bytes = 0;
+
+  // What follows from these, of the level that it has; looked at where InstanceState::tuned has kTunedParts.
+  pack::ModeRecord* tuned_modes = nullptr;      // [modes]
+  tissue::SwingSlopes* tuned_slopes = nullptr;  // as GraphLevel::swing_slopes
+  TunedRegion* tuned_regions = nullptr;         // [regions]
 
   // Scratch of a step.
   JointParts *parts_older = nullptr, *parts_before = nullptr, *parts = nullptr,

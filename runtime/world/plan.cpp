@@ -84,11 +84,11 @@ uint8_t below_skin(const Terms& terms, const PlanRow& row) noexcept {
   return front.best();
 }
 
-// The network is not to be had for a while after a guard; nothing is while a restart fades, or in the step in
-// which one comes into view: how it moves is known a step later.
+// The network is not to be had for a while after a guard; nothing is while a restart fades, in the step in
+// which one comes into view: how it moves is known a step later, or where all of it is off.
 uint8_t highest(const Terms& terms, const PlanRow& row) noexcept {
   const frame::Front& front = costs_of(row).front;
-  if (row.restarting || row.hidden) return 0;
+  if (row.restarting || row.hidden || row.all_off) return 0;
   for (uint8_t level = 1; row.falls_back && level < front.count; ++level)
     if (front.levels[level].tier == Tier::kNetwork) return static_cast<uint8_t>(level - 1);
   return below_skin(terms, row);

@@ -7,6 +7,7 @@
 #include "world/catch_up.hpp"
 #include "world/look.hpp"
 #include "world/sleep.hpp"
+#include "world/tuning.hpp"
 
 namespace sinew::world {
 
@@ -37,6 +38,7 @@ void copy_to_row(const Instance& instance, PlanRow* row) noexcept {
   row->shows = instance.shown_share() != 0;
   row->blind_looks = std::min(state.blind_looks, kBlindLooks) & 3;
   row->missed = missed_so_far(instance) & 3;
+  row->all_off = all_is_off(instance);
   row->regions_asleep =
       frame::is_simulated(state.tier) ? static_cast<uint16_t>(regions_asleep(instance)) : uint16_t{0};
 }

@@ -8,6 +8,7 @@
 
 #include "world/pose.hpp"
 #include "world/rotation.hpp"
+#include "world/tuning.hpp"
 
 namespace sinew::world {
 namespace {
@@ -61,7 +62,8 @@ void bound_pose(Instance& instance) noexcept {
       root.scale * (Eigen::Map<const Vector3d>(root.position_m) +
                     quaternion(root.rotation_xyzw) * Vector3d(box.center().cast<double>()));
   instance.bound.radius_m =
-      static_cast<float>(root.scale) * (box.diagonal().norm() / 2 + kStretch * instance.asset->reach_m);
+      static_cast<float>(root.scale) *
+      (box.diagonal().norm() / 2 + kStretch * (instance.asset->reach_m + tuned_reach_m(instance)));
 }
 
 }  // namespace sinew::world

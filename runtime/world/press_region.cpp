@@ -7,6 +7,7 @@
 #include "tissue/contact_response.hpp"
 #include "tissue/guard.hpp"
 #include "tissue/modal_base.hpp"
+#include "world/tuning.hpp"
 
 namespace sinew::world {
 namespace {
@@ -28,7 +29,7 @@ tissue::NodeContact contact_of(const Instance& instance, const pack::RegionRecor
   tissue::NodeContact contact{.node = touch.node - region.first_node};
   tissue::turn_back(half_turn, in_frame.data(), 1, contact.normal);
   const float along = in_frame.dot(ConstVector(instance.u[0] + size_t{3} * touch.node));
-  const float most = std::max(0.0f, kMostAsked * region.displacement_limit_m - along);
+  const float most = std::max(0.0f, kMostAsked * limit_m(instance, touch.region) - along);
   contact.gap_m = std::max(touch.gap_m, -most);
   return contact;
 }
@@ -78,10 +79,10 @@ void press_modes(Instance& instance, uint32_t r, std::span<tissue::NodeContact> 
                                .l = instance.l[0] + vector,
                                .theta = instance.theta + vector,
                                .u = instance.u[0] + vector};
-  if (!tissue::press(tissue::modal_base(level.pack, r), contacts, instance.felt + vector, instance.region[0],
+  if (!tissue::press(base_of(instance, r), contacts, instance.felt + vector, instance.region[0],
                      instance.region[1], tick))
     return;
-  tissue::hold_within(region.displacement_limit_m, region.node_count, instance.u[0] + vector);
+  tissue::hold_within(limit_m(instance, r), region.node_count, instance.u[0] + vector);
   if (instance.state->tier == Tier::kNetwork)
     tissue::write_output(instance.asset->network, level.pack.regions.subspan(r, 1), level.node_count(),
                          instance.l[0] + vector, instance.network_state);

@@ -3,6 +3,7 @@
 #include "tissue/modal_base.hpp"
 #include "world/instance.hpp"
 #include "world/sleep.hpp"
+#include "world/tuning.hpp"
 
 namespace sinew::world {
 
@@ -10,7 +11,8 @@ struct Part {
   const pack::RegionRecord& record;
   tissue::ModalBase base;
   size_t index, node, vector, mode;
-  float first_rad_per_s;
+  float first_rad_per_s;  // as baked
+  float limit_m;          // of what is shown, before its intensity
 };
 
 inline tissue::TickForce force_of(const Instance& instance, const Part& part) noexcept {
@@ -25,12 +27,13 @@ void for_each_part(const Instance& instance, Work work) noexcept {
   for (size_t r = 0; r < pack.regions.size(); ++r) {
     const size_t node = pack.regions[r].first_node;
     const Part part{pack.regions[r],
-                    tissue::modal_base(pack, r),
+                    base_of(instance, r),
                     r,
                     node,
                     3 * node,
                     pack.region_modes[r].first_mode,
-                    pack.region_modes[r].first_rad_per_s};
+                    pack.region_modes[r].first_rad_per_s,
+                    limit_m(instance, r)};
     work(part);
   }
 }

@@ -7,11 +7,13 @@
 
 #include "tissue/guard.hpp"
 #include "tissue/node_drive.hpp"
+#include "world/air.hpp"
 #include "world/own_body.hpp"
 #include "world/pose.hpp"
 #include "world/rod_contacts.hpp"
 #include "world/rod_sleep.hpp"
 #include "world/rotation.hpp"
+#include "world/tuning.hpp"
 
 namespace sinew::world {
 namespace {
@@ -103,12 +105,19 @@ void take_along(Instance& instance, uint32_t rod) noexcept {
   }
 }
 
-// Those that begin anew or are carried; whether there is one.
+// It was off, and goes on from its pose.
+bool returns_to_pose(const Instance& instance, uint32_t rod) noexcept {
+  return tunes_parts(instance) && instance.rod_tunings[rod].off == kReturns;
+}
+
+// Those that begin anew, are carried or return; whether there is one.
 bool take_some_along(Instance& instance) noexcept {
   const bool all = std::exchange(instance.rods_anew, false);
   bool some = false;
   for (uint32_t rod = 0; rod < instance.asset->rods.rod_count; ++rod) {
-    if (!all && !instance.carried_rods[rod]) continue;
+    const bool returns = returns_to_pose(instance, rod);
+    if (returns) instance.rod_tunings[rod].off = 0;
+    if (!all && !instance.carried_rods[rod] && !returns) continue;
     take_along(instance, rod);
     some = true;
   }
@@ -124,17 +133,25 @@ Vector3d felt_gravity(const Instance& instance, uint32_t rod, const RodSeat& sea
   return double{record.gravity} * (g - (1 - double{record.sag}) * (turned * g));
 }
 
+// Far damping leads beyond half a turn, which would be another way round: there the animation trails.
+Vector3d held_lead(const Vector3d& turn) noexcept {
+  constexpr double kMost_rad = 2;
+  const double angle = turn.norm();
+  return angle > kMost_rad ? Vector3d(kMost_rad / angle * turn) : turn;
+}
+
 // Damping resists all bending, the animation's too, which would trail by damping_s: (1 + t/h) C - (t/h) C_0
 // of the joint (simd/rod_step-inl.hpp) counts both from this tick's rest. A rest that leads by t/h of its own
 // step makes it resist only what the rod does beside it.
-Quaterniond led_rest(const Instance& instance, uint32_t s, double ticks) noexcept {
+Quaterniond led_rest(const Instance& instance, uint32_t s, double ticks, double damping_share) noexcept {
   const RodSlot& slot = instance.asset->rods.slots()[s];
   const auto bent = [&](int tick) {
     return rest_of(instance, tick, slot.parent).conjugate() * rest_of(instance, tick, s);
   };
   const Quaterniond now = bent(0), step = bent(1).conjugate() * now;
-  const double lead = double{slot.damping_s} / (ticks * instance.asset->tick_s);
-  return (now * exponential(lead * logarithm(step))).normalized();
+  const double lead = damping_share * double{slot.damping_s} / (ticks * instance.asset->tick_s);
+  const Vector3d led = lead * logarithm(step);
+  return (now * exponential(damping_share == 1 ? led : held_lead(led))).normalized();
 }
 
 void drive_end(const Instance& instance, const RodSeat& seat, rods::RodBatch& batch) noexcept {
@@ -142,6 +159,21 @@ void drive_end(const Instance& instance, const RodSeat& seat, rods::RodBatch& ba
   const Quaterniond held = rest_of(instance, 0, s);
   const Vector3d half = half_axis(instance.asset->rods.slots()[s], held);
   (void)batch.set_target(seat.strand, k, pose_of(held, hold_of_end(instance, seat, 0) + half));
+}
+
+// What acts on all of a rod's bones alike.
+struct RodDrive {
+  Vector3d pull_m_s2, air_m_s;
+  double damping_share;
+};
+RodDrive rod_drive(const Instance& instance, uint32_t rod, const RodSeat& seat,
+                   const Vector3d& beside_m_s2) noexcept {
+  RodDrive drive{felt_gravity(instance, rod, seat) + beside_m_s2, Vector3d::Zero(),
+                 static_cast<double>(rod_damping_share(instance, rod))};
+  if (!tunes_air(instance)) return drive;
+  drive.pull_m_s2 += rod_pull(instance, rod);
+  drive.air_m_s = air_at_rod(instance, rod);
+  return drive;
 }
 
 // Where it is held, its shape at rest, what pulls at it: so many ticks after the pose before, and beside
@@ -154,14 +186,22 @@ void drive_rod(Instance& instance, uint32_t rod, double ticks, const Vector3d& b
   const Vector3d hold = Eigen::Map<const Vector3d>(instance.rod_hold[0] + size_t{3} * rod);
   // What is refused keeps its last value; poses have been checked.
   (void)batch.set_target(seat.strand, 0, pose_of(held, hold - half_axis(rig.slots()[seat.first_slot], held)));
-  const Vector3d pull_m_s2 = felt_gravity(instance, rod, seat) + beside_m_s2;
+  const RodDrive drive = rod_drive(instance, rod, seat, beside_m_s2);
   for (uint32_t k = 1; k < seat.slot_count; ++k) {
     const RodSlot& slot = rig.slots()[seat.first_slot + k];
+    const bool is_bone = k <= seat.segment_count();
     float rest[4], force_n[3];
-    Eigen::Vector4f::Map(rest) = led_rest(instance, seat.first_slot + k, ticks).coeffs().cast<float>();
+    Eigen::Vector4f::Map(rest) =
+        led_rest(instance, seat.first_slot + k, ticks, is_bone ? drive.damping_share : 1)
+            .coeffs()
+            .cast<float>();
     (void)batch.set_rest(seat.strand, k, rest);
-    if (k > seat.segment_count()) continue;
-    Eigen::Vector3f::Map(force_n) = (double{slot.mass_kg} * pull_m_s2).cast<float>();
+    if (!is_bone) continue;
+    Vector3d force = double{slot.mass_kg} * drive.pull_m_s2;
+    if (!drive.air_m_s.isZero(0))
+      force += drag_n(slot, batch.pose(seat.strand, k), batch.velocity(seat.strand, k), drive.air_m_s,
+                      instance.asset->tick_s);
+    Eigen::Vector3f::Map(force_n) = force.cast<float>();
     (void)batch.set_force(seat.strand, k, force_n);
   }
   if (seat.end_hold != pack::kNoIndex) drive_end(instance, seat, batch);
@@ -205,19 +245,26 @@ Quaterniond limited(const Quaterniond& turn, float limit_rad) noexcept {
   return exponential(double{tissue::limit_share(static_cast<float>(vector.norm()), limit_rad)} * vector);
 }
 
+// As much of it as is shown.
+Quaterniond shown(const Quaterniond& turn, const RodShown& as) noexcept {
+  const Quaterniond within = limited(turn, as.limit_rad);
+  return as.intensity == 1 ? within : exponential(double{as.intensity} * logarithm(within));
+}
+
 // Of a segment that is turned so in the world.
-void put_turn(const Instance& instance, const RodSeat& seat, uint32_t s, const float* orientation,
+void put_turn(const Instance& instance, const RodShown& as, uint32_t s, const float* orientation,
               float* turns) noexcept {
   const Quaterniond turn = rest_of(instance, 0, s).conjugate() * quaternion(orientation);
-  Eigen::Map<Eigen::Vector4f>(turns + size_t{4} * s) =
-      limited(turn.normalized(), seat.turn_limit_rad).coeffs().cast<float>();
+  Eigen::Map<Eigen::Vector4f>(turns + size_t{4} * s) = shown(turn.normalized(), as).coeffs().cast<float>();
 }
 
 void read_turns(Instance& instance) noexcept {
-  for (const RodSeat& seat : instance.asset->rods.seats()) {
+  for (uint32_t rod = 0; rod < instance.asset->rods.rod_count; ++rod) {
+    const RodSeat& seat = instance.asset->rods.seats()[rod];
+    const RodShown as = rod_shown(instance, rod);
     for (uint32_t k = 1; k <= seat.segment_count(); ++k) {
       const rods::SegmentPose pose = instance.rod_batches[seat.batch].pose(seat.strand, k);
-      put_turn(instance, seat, seat.first_slot + k, pose.orientation, instance.rod_turn);
+      put_turn(instance, as, seat.first_slot + k, pose.orientation, instance.rod_turn);
     }
   }
 }
@@ -328,7 +375,7 @@ void remember_rod_velocities(Instance& instance) noexcept {
 
 void simulate_rods(Instance& instance) noexcept {
   const RodRig& rig = instance.asset->rods;
-  if (rig.rod_count == 0) return;
+  if (rig.rod_count == 0 || rods_are_off(instance)) return;
   if (take_some_along(instance)) {
     wake_rods(instance);
     forget_rod_contacts(instance);
@@ -380,13 +427,14 @@ class PresentRest {
 };
 
 // As it went.
-void go_on(const Instance& instance, const RodSeat& seat, double ticks, float* turns) noexcept {
+void go_on(const Instance& instance, const RodSeat& seat, const RodShown& as, double ticks,
+           float* turns) noexcept {
   for (uint32_t k = 1; k <= seat.segment_count(); ++k) {
     const size_t at = size_t{4} * (seat.first_slot + k);
     const Quaterniond step =
         quaternion(instance.rod_shown[1] + at).conjugate() * quaternion(instance.rod_shown[0] + at);
     const Quaterniond turn = quaternion(instance.rod_turn + at) * exponential(ticks * logarithm(step));
-    Eigen::Map<Eigen::Vector4f>(turns + at) = limited(turn, seat.turn_limit_rad).coeffs().cast<float>();
+    Eigen::Map<Eigen::Vector4f>(turns + at) = limited(turn, as.limit_rad).coeffs().cast<float>();
   }
 }
 
@@ -396,7 +444,7 @@ void turn_rods_between(Instance& instance, float x, float* turns) noexcept {
   const RodRig& rig = instance.asset->rods;
   std::copy_n(instance.rod_turn, size_t{4} * rig.slot_count, turns);
   const bool asleep = rods_asleep(instance) == rig.rod_count;
-  if (instance.rods_anew || (asleep && instance.state->still_ticks > 0)) return;
+  if (instance.rods_anew || rods_are_off(instance) || (asleep && instance.state->still_ticks > 0)) return;
   const PresentRest present(instance);
   if (asleep && rods_are_held_as_asleep(instance)) return;
   const double tick_s = instance.asset->tick_s, ticks = static_cast<double>(x);
@@ -413,13 +461,14 @@ void turn_rods_between(Instance& instance, float x, float* turns) noexcept {
     for (uint32_t rod = 0; rod < rig.rod_count; ++rod) {
       const RodSeat& seat = rig.seats()[rod];
       if (seat.batch != b) continue;
+      const RodShown as = rod_shown(instance, rod, x);
       if (instance.carried_rods[rod]) {
-        go_on(instance, seat, ticks, turns);
+        go_on(instance, seat, as, ticks, turns);
         continue;
       }
       const float* first = instance.rod_orientations + size_t{4} * seat.strand * batch.segment_count();
       for (uint32_t k = 1; k <= seat.segment_count(); ++k)
-        put_turn(instance, seat, seat.first_slot + k, first + size_t{4} * k, turns);
+        put_turn(instance, as, seat.first_slot + k, first + size_t{4} * k, turns);
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "world/rod_contacts.hpp"
+#include "world/tuning.hpp"
 
 namespace sinew::world {
 namespace {
@@ -65,7 +66,8 @@ bool stays(const Instance& instance, double tolerance) noexcept {
 void wake_rods(Instance& instance) noexcept { instance.state->rod_quiet_ticks = 0; }
 
 uint32_t rods_asleep(const Instance& instance) noexcept {
-  return instance.state->rod_quiet_ticks >= kRodsQuietTicks ? instance.asset->rods.rod_count : 0;
+  const bool asleep = instance.state->rod_quiet_ticks >= kRodsQuietTicks || rods_are_off(instance);
+  return asleep ? instance.asset->rods.rod_count : 0;
 }
 
 bool rods_are_held_as_asleep(const Instance& instance) noexcept {

@@ -13,6 +13,7 @@
 #include "tissue/modal_base.hpp"
 #include "tissue/network.hpp"
 #include "tissue/node_drive.hpp"
+#include "world/air.hpp"
 #include "world/change_level.hpp"
 #include "world/emulate.hpp"
 #include "world/region_part.hpp"
@@ -25,9 +26,9 @@ size_t floats_of(const Instance& instance) noexcept { return size_t{3} * instanc
 
 // u of this tick is what may be shown of it; counts it where it would have gone beyond the limit.
 void hold_shown(Instance& instance, const Part& part) noexcept {
-  const float limit_m = part.record.displacement_limit_m;
-  const float largest_m = tissue::hold_within(limit_m, part.record.node_count, instance.u[0] + part.vector);
-  instance.state->displacement_clamps += largest_m > limit_m;
+  const float largest_m =
+      tissue::hold_within(part.limit_m, part.record.node_count, instance.u[0] + part.vector);
+  instance.state->displacement_clamps += largest_m > part.limit_m;
 }
 
 // In this tick, and next to nothing of it is seen yet: a change of level had the region again, or all of the
@@ -69,6 +70,7 @@ void answer_as_before(Instance& instance) noexcept {
   std::copy_n(instance.q[0], instance.level->mode_count(), instance.q_hat);
   std::copy_n(instance.r[0], floats_of(instance), instance.r_hat);
   std::copy_n(instance.l[0], floats_of(instance), instance.l_hat);
+  std::fill_n(instance.carry, floats_of(instance), 0.0f);  // nothing of it moves where others begin at rest
 }
 
 // As so much of what it hears would hold it for ever, in q, r and l; carry is what is then shown, less u.
@@ -88,7 +90,7 @@ void begin_modes_at_rest(Instance& instance, const Part& part, const float* hear
   float *theta = instance.theta + part.vector, *moved = instance.carry + part.vector;
   tissue::modal_turn(base, q[0], l, theta);
   tissue::warp(theta, instance.l[0] + part.vector, part.record.node_count, moved);
-  tissue::hold_within(part.record.displacement_limit_m, part.record.node_count, moved);
+  tissue::hold_within(part.limit_m, part.record.node_count, moved);
   for (size_t i = 0; i < floats; ++i) moved[i] -= instance.u[0][part.vector + i];
   for (float* corrected : instance.corrected) std::fill_n(corrected + part.mode, modes, 0.0f);
   instance.swing[part.index] = 0;
@@ -310,9 +312,10 @@ void settle_part_on_base(Instance& instance, const Part& part) noexcept {
 
 // l of this tick is the network's, as far as modes can have it and its budget lets it.
 void settle_on_network(Instance& instance) noexcept {
-  const float begun = begun_share(instance);
+  const float all_begun = begun_share(instance);
   // What sleeps keeps its l, of which the network remembers only what is shown.
   for_each_awake_part(instance, [&](const Part& part) {
+    const float begun = all_begun * network_share(instance, part.index);
     if (is_emulated(part)) {
       std::copy_n(instance.emulator.l + part.vector, size_t{3} * part.record.node_count,
                   instance.l[0] + part.vector);
@@ -408,6 +411,7 @@ void drive_nodes(Instance& instance) noexcept {
   }
   tissue::compute_node_drive(motion, static_cast<float>(instance.asset->tick_s), instance.level->node_count(),
                              instance.drive);
+  if (tunes_air(instance)) add_air(instance);
 }
 
 bool simulate_tick(Instance& instance) noexcept {
@@ -447,8 +451,7 @@ void answer_of_modes(Instance& instance, const Part& part, int tick) noexcept {
     l[i] = held[i] + instance.r[tick][part.vector + i];
   tissue::modal_turn(part.base, q, held, instance.theta + part.vector);
   tissue::warp(instance.theta + part.vector, l, part.record.node_count, instance.u[tick] + part.vector);
-  tissue::hold_within(part.record.displacement_limit_m, part.record.node_count,
-                      instance.u[tick] + part.vector);
+  tissue::hold_within(part.limit_m, part.record.node_count, instance.u[tick] + part.vector);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "tissue/correction_budget.hpp"
 #include "tissue/node_drive.hpp"
+#include "world/tuning.hpp"
 
 namespace sinew::world {
 namespace {
@@ -18,7 +19,7 @@ struct Region {
 
 Region region_at(const Instance& instance, size_t index, float tolerance) noexcept {
   const pack::PackView& pack = instance.level->pack;
-  const float w1 = pack.region_modes[index].first_rad_per_s;
+  const float w1 = first_rad_per_s(instance, index);
   return {pack.regions[index], w1, w1 * static_cast<float>(instance.asset->tick_s),
           tolerance * pack.regions[index].radius_m};
 }
@@ -96,7 +97,8 @@ void wake_regions(Instance& instance) noexcept {
 
 bool is_asleep(const Instance& instance, size_t region) noexcept {
   return !instance.level->leaves_out(region) &&
-         instance.quiet_ticks[region] >= ticks_to_sleep(region_at(instance, region, 0));
+         (instance.quiet_ticks[region] >= ticks_to_sleep(region_at(instance, region, 0)) ||
+          region_is_off(instance, region));
 }
 
 uint32_t regions_asleep(const Instance& instance) noexcept {

@@ -8,6 +8,7 @@
 #include "core/hash.hpp"
 #include "core/status.hpp"
 #include "world/publish.hpp"
+#include "world/tuning.hpp"
 
 namespace sinew::world {
 namespace {
@@ -25,8 +26,9 @@ constexpr uint64_t kMagic = 0x31544154534e5753;  // "SWNSTAT1", little-endian
 // 18: how long a tail fades. 19: what the corrections of a network may spend.
 // 20: flesh beyond its limit swings on in l. 21: no update rates, no springs. 22: teleports,
 // spaces, scales of time and size, a pose more. 23: what the last tick added, time without poses. 24: where
-// emulated nodes were. 25: no longer.
-constexpr uint32_t kVersion = 25;
+// emulated nodes were. 25: no longer. 26: what an engine changed of its parts, and what it feels of the
+// world.
+constexpr uint32_t kVersion = 26;
 
 struct Header {
   uint64_t magic, fingerprint, payload_bytes, checksum;
@@ -120,9 +122,11 @@ Status restore(Instance& instance, std::span<const std::byte> bytes) noexcept {
   if (state.level >= instance.asset->level_count || !pack::is_tier(static_cast<uint32_t>(state.tier)) ||
       !pack::is_tier(static_cast<uint32_t>(state.left_tier)))
     return corrupt("names a control graph or a tier that there is not");
+  const bool was_tuned = tunes_parts(instance);
   std::memcpy(instance.state, payload.data(), instance.state_bytes);
   restore_rods(instance, payload.data() + instance.state_bytes);
   point_to_state(instance);
+  if (was_tuned || tunes_parts(instance)) retune_all(instance);
   instance.rods_anew = false;
   instance.told = {};
   bound_pose(instance);

@@ -25,6 +25,7 @@
 #include "world/sleep.hpp"
 #include "world/teleport.hpp"
 #include "world/tissue_contacts.hpp"
+#include "world/tuning.hpp"
 
 namespace sinew::world {
 namespace {
@@ -87,6 +88,8 @@ void run_ticks(Instance& instance, const TickContext& context, uint32_t slot) no
   for (uint32_t k = 0; k < ticks.ticks; ++k) {
     state.fallback_ticks -= state.fallback_ticks > 0;
     instance.told = {};
+    const bool tuned = state.tuned && frame::is_simulated(state.tier);
+    if (tuned) begin_tuned_tick(instance);
     if (frame::is_simulated(state.tier))
       simulated_tick(instance, ticks.first_tick_s + k * instance.asset->tick_s, context, slot);
     else
@@ -94,6 +97,7 @@ void run_ticks(Instance& instance, const TickContext& context, uint32_t slot) no
     state.ticks_since_network = state.tier == Tier::kNetwork ? 0 : state.ticks_since_network + 1;
     show_tick(instance);
     push_out(instance, context, slot);
+    if (tuned) end_tuned_tick(instance);
     state.untouched = 0;
   }
   state.remainder_s = ticks.remainder_s;
@@ -215,7 +219,10 @@ void step_instance(Instance& instance, const TickContext& context, uint32_t slot
   if (changes_what_rods_touch(instance, had)) wake_rods(instance);
   instance.changed_level = changes_level(instance);
   instance.refined = refines(instance);
-  if (instance.changed_level) change_level(instance, instance.plan.level);
+  if (instance.changed_level) {
+    change_level(instance, instance.plan.level);
+    if (tunes_parts(instance)) retune_all(instance);
+  }
   end_gap(instance, goes_on);
   enter_tier(instance, tier);
   take_pose(instance, context.teleport);

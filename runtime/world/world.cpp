@@ -11,11 +11,14 @@
 #include "core/status.hpp"
 #include "simd/isa.hpp"
 #include "simd/kernels.hpp"
+#include "world/air.hpp"
+#include "world/check_parameters.hpp"
 #include "world/dormant.hpp"
 #include "world/pose.hpp"
 #include "world/pose_bound.hpp"
 #include "world/snapshot.hpp"
 #include "world/step.hpp"
+#include "world/tuning.hpp"
 #include "world/world_impl.hpp"
 
 namespace sinew {
@@ -156,6 +159,8 @@ Status World::create_instance(const InstanceDef& def, InstanceId* out) noexcept 
   if (Status status = world::make_instance(*asset, checked, &made); !status.ok()) return status;
   made.sleep_tolerance = impl_->def.sleep_tolerance;
   made.most_m_s2 = impl_->def.teleport.acceleration * asset->pack.character->height_m;
+  made.environment = &impl_->environment;
+  world::notice_environment(made);
   const bool has_surface = made.contacts.surface != nullptr;
   const InstanceId id = impl_->instances.create(std::move(made));
   if (is_null(id))
@@ -263,6 +268,124 @@ Status World::set_felt_root_motion(InstanceId id, float share) noexcept {
   return {};
 }
 
+namespace {
+
+// Which of an instance's SetParameters: all's, a region's or a rod's.
+enum class Whose { kAll, kRegion, kRod };
+struct Owner {
+  const char* function;
+  Whose whose;
+  uint32_t index = 0;
+};
+
+Status find_parameters(const Instance& instance, const Owner& owner, world::SetParameters** out) noexcept {
+  if (owner.whose == Whose::kAll) {
+    *out = &instance.state->all_parameters;
+    return {};
+  }
+  const bool rod = owner.whose == Whose::kRod;
+  const size_t count = rod ? instance.asset->pack.rods.size() : instance.asset->pack.regions.size();
+  if (owner.index >= count)
+    return make_status(StatusCode::kInvalidArgument, "%s: %s %u, the asset has %zu", owner.function,
+                       rod ? "rod" : "region", owner.index, count);
+  *out = &(rod ? instance.rod_tunings : instance.region_tunings)[owner.index].set;
+  return {};
+}
+
+Status set_parameters_of(WorldState* state, InstanceId id, const Owner& owner,
+                         const PartParameters& given) noexcept {
+  const core::FloatingPointScope mode;
+  Instance* instance = nullptr;
+  world::SetParameters* parameters = nullptr;
+  if (Status status = find_state(state, id, &instance); !status.ok()) return status;
+  if (busy(*state)) return refuse_busy();
+  if (Status status = find_parameters(*instance, owner, &parameters); !status.ok()) return status;
+  if (Status status = world::check_parameters(owner.function, given); !status.ok()) return status;
+  *parameters = {given.intensity, given.stiffness, given.damping, given.displacement, given.enabled};
+  world::notice_parameters(*instance);
+  keep_row(*state, id);
+  return {};
+}
+
+Status parameters_of(const WorldState* state, InstanceId id, const Owner& owner,
+                     PartParameters* out) noexcept {
+  Instance* instance = nullptr;
+  world::SetParameters* set = nullptr;
+  if (Status status = find_instance(state, id, &instance); !status.ok()) return status;
+  if (!out) return make_status(StatusCode::kInvalidArgument, "%s: out is a null pointer", owner.function);
+  if (Status status = find_parameters(*instance, owner, &set); !status.ok()) return status;
+  *out = {set->intensity, set->stiffness, set->damping, set->displacement, set->enabled != 0};
+  return {};
+}
+
+}  // namespace
+
+Status World::set_parameters(InstanceId id, const PartParameters& of_all) noexcept {
+  return set_parameters_of(impl_, id, {"set_parameters", Whose::kAll}, of_all);
+}
+
+Status World::set_region_parameters(InstanceId id, uint32_t region, const PartParameters& own) noexcept {
+  return set_parameters_of(impl_, id, {"set_region_parameters", Whose::kRegion, region}, own);
+}
+
+Status World::set_rod_parameters(InstanceId id, uint32_t rod, const PartParameters& own) noexcept {
+  return set_parameters_of(impl_, id, {"set_rod_parameters", Whose::kRod, rod}, own);
+}
+
+Status World::parameters(InstanceId id, PartParameters* out) const noexcept {
+  return parameters_of(impl_, id, {"parameters", Whose::kAll}, out);
+}
+
+Status World::region_parameters(InstanceId id, uint32_t region, PartParameters* out) const noexcept {
+  return parameters_of(impl_, id, {"region_parameters", Whose::kRegion, region}, out);
+}
+
+Status World::rod_parameters(InstanceId id, uint32_t rod, PartParameters* out) const noexcept {
+  return parameters_of(impl_, id, {"rod_parameters", Whose::kRod, rod}, out);
+}
+
+Status World::set_environment(const Environment& environment) noexcept {
+  const core::FloatingPointScope mode;
+  if (!impl_) return null_world();
+  if (busy(*impl_)) return refuse_busy();
+  if (Status status = world::check_environment(environment); !status.ok()) return status;
+  impl_->environment = environment;
+  for (uint32_t slot = 0; slot < impl_->instances.end(); ++slot) {
+    Instance* instance = impl_->instances.at(slot);
+    if (!instance) continue;
+    world::notice_environment(*instance);
+    world::keep_pose_row(*impl_, slot);
+  }
+  return {};
+}
+
+Status World::environment(Environment* out) const noexcept {
+  if (!impl_) return null_world();
+  if (!out) return invalid("environment: out is a null pointer");
+  *out = impl_->environment;
+  return {};
+}
+
+Status World::set_added_environment(InstanceId id, const AddedEnvironment& added) noexcept {
+  const core::FloatingPointScope mode;
+  Instance* instance = nullptr;
+  if (Status status = find_state(impl_, id, &instance); !status.ok()) return status;
+  if (busy(*impl_)) return refuse_busy();
+  if (Status status = world::check_added(added); !status.ok()) return status;
+  instance->state->air.added = added;
+  world::notice_environment(*instance);
+  keep_row(*impl_, id);
+  return {};
+}
+
+Status World::added_environment(InstanceId id, AddedEnvironment* out) const noexcept {
+  Instance* instance = nullptr;
+  if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
+  if (!out) return invalid("added_environment: out is a null pointer");
+  *out = instance->state->air.added;
+  return {};
+}
+
 Status World::set_importance(InstanceId id, float importance) noexcept {
   const core::FloatingPointScope mode;
   Instance* instance = nullptr;
@@ -344,6 +467,7 @@ Status World::restore_state(InstanceId id, std::span<const std::byte> bytes) noe
   if (busy(*impl_)) return refuse_busy();
   Status status = world::restore(*instance, bytes);
   impl_->restored |= status.ok();
+  world::notice_environment(*instance);
   keep_row(*impl_, id);
   return status;
 }

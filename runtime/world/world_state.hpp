@@ -63,6 +63,7 @@ struct WorldState {
   EventLog events;
   std::unique_ptr<FrameReport[]> history;  // [def.report_history], the last at frames - 1 modulo that
   float budget_us = std::numeric_limits<float>::infinity();
+  Environment environment;
   frame::Sight sights[kMostViews];
   uint32_t sight_count = 0;
   uint32_t last_look = 0;  // slot of the instance that was looked at last

@@ -8,7 +8,8 @@ import sys
 
 # Where C says it otherwise.
 NAMES = {"create": "create_world", "available_isas": "isa_count", "report": "get_report", "bounds": "get_bounds",
-         "asset_arrays": "get_asset_arrays"}
+         "asset_arrays": "get_asset_arrays", "parameters": "get_parameters", "region_parameters": "get_region_parameters",
+         "rod_parameters": "get_rod_parameters", "environment": "get_environment", "added_environment": "get_added_environment"}
 
 
 def name_in_c(name):

@@ -175,6 +175,51 @@ TEST_CASE("defaults_are_those_of_cpp") {
   CHECK(sinew_default_view().far_m == View().far_m);
 }
 
+TEST_CASE("parameters_and_environment_cross_as_cpp_has_them") {
+  const Show show;
+  Stage stage;
+  const sinew_part_parameters unmade{};
+  refuses(sinew_set_parameters(show.world, show.instance, nullptr), SINEW_INVALID_ARGUMENT, "null");
+  refuses(sinew_set_parameters(show.world, show.instance, &unmade), SINEW_INVALID_ARGUMENT,
+          "sinew_default_part_parameters");
+  const sinew_environment no_air{};
+  refuses(sinew_set_environment(show.world, &no_air), SINEW_INVALID_ARGUMENT, "sinew_default_environment");
+  refuses(sinew_set_added_environment(show.world, show.instance, nullptr), SINEW_INVALID_ARGUMENT, "null");
+  refuses(sinew_get_environment(show.world, nullptr), SINEW_INVALID_ARGUMENT, "null");
+  refuses(sinew_get_parameters(show.world, show.instance, nullptr), SINEW_INVALID_ARGUMENT, "null");
+  sinew_part_parameters softer = sinew_default_part_parameters();
+  CHECK(softer.stiffness == PartParameters().stiffness);
+  softer.stiffness = 0;
+  CHECK(sinew_set_region_parameters(show.world, show.instance, 0, &softer) == SINEW_INVALID_ARGUMENT);
+  softer.stiffness = 0.5f;
+  softer.intensity = 0.7f;
+  REQUIRE(sinew_set_region_parameters(show.world, show.instance, 0, &softer) == SINEW_OK);
+  REQUIRE(stage.world.set_region_parameters(stage.blocks[0], 0, {.intensity = 0.7f, .stiffness = 0.5f}).ok());
+  sinew_environment air = sinew_default_environment();
+  CHECK(air.gravity_m_s2[1] == Environment().gravity_m_s2[1]);
+  air.gravity_m_s2[1] = 4;
+  REQUIRE(sinew_set_environment(show.world, &air) == SINEW_OK);
+  REQUIRE(stage.world.set_environment({.gravity_m_s2 = {0, 4, 0}}).ok());
+  const sinew_added_environment push{{1, 2, 3}, {4, 5, 6}};
+  REQUIRE(sinew_set_added_environment(show.world, show.instance, &push) == SINEW_OK);
+  REQUIRE(stage.world.set_added_environment(stage.blocks[0], {{1, 2, 3}, {4, 5, 6}}).ok());
+  show.play(scenes::walk, 40);
+  for (int f = 1; f <= 40; ++f) {
+    stage.pose(stage.blocks[0], scenes::walk(f / 60.0));
+    stage.world.step(kTick_s);
+  }
+  CHECK(show.places() == stage.read());
+  sinew_part_parameters found;
+  REQUIRE(sinew_get_region_parameters(show.world, show.instance, 0, &found) == SINEW_OK);
+  CHECK(found.intensity == 0.7f);
+  sinew_environment felt;
+  REQUIRE(sinew_get_environment(show.world, &felt) == SINEW_OK);
+  CHECK(felt.gravity_m_s2[1] == 4);
+  sinew_added_environment added;
+  REQUIRE(sinew_get_added_environment(show.world, show.instance, &added) == SINEW_OK);
+  CHECK(added.wind_m_s[2] == 6);
+}
+
 TEST_CASE("what_c_plays_has_the_bits_that_cpp_gives") {
   Stage stage;
   const Show show;

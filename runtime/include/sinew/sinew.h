@@ -311,6 +311,47 @@ SINEW_API sinew_status sinew_set_importance(sinew_world world, sinew_instance in
 SINEW_API sinew_status sinew_set_hidden(sinew_world world, sinew_instance instance, bool hidden);
 SINEW_API sinew_status sinew_set_time_scale(sinew_world world, sinew_instance instance, float scale);
 SINEW_API sinew_status sinew_set_felt_root_motion(sinew_world world, sinew_instance instance, float share);
+
+/* How it swings, from the next tick on; changes glide (parameters.hpp). Of a part its own numbers times the
+ * instance's. */
+typedef struct sinew_part_parameters {
+  uint32_t made_by;
+  float intensity, stiffness, damping, displacement;
+  bool enabled;
+} sinew_part_parameters;
+SINEW_API sinew_part_parameters sinew_default_part_parameters(void);
+SINEW_API sinew_status sinew_set_parameters(sinew_world world, sinew_instance instance,
+                                            const sinew_part_parameters* of_all);
+SINEW_API sinew_status sinew_set_region_parameters(sinew_world world, sinew_instance instance,
+                                                   uint32_t region, const sinew_part_parameters* own);
+SINEW_API sinew_status sinew_set_rod_parameters(sinew_world world, sinew_instance instance, uint32_t rod,
+                                                const sinew_part_parameters* own);
+SINEW_API sinew_status sinew_get_parameters(sinew_world world, sinew_instance instance,
+                                            sinew_part_parameters* out);
+SINEW_API sinew_status sinew_get_region_parameters(sinew_world world, sinew_instance instance,
+                                                   uint32_t region, sinew_part_parameters* out);
+SINEW_API sinew_status sinew_get_rod_parameters(sinew_world world, sinew_instance instance, uint32_t rod,
+                                                sinew_part_parameters* out);
+
+/* What all characters of a world feel beside their motion. */
+typedef struct sinew_environment {
+  uint32_t made_by;
+  float gravity_m_s2[3], acceleration_m_s2[3];
+  float wind_m_s[3], gust, gust_hz;
+} sinew_environment;
+SINEW_API sinew_environment sinew_default_environment(void);
+SINEW_API sinew_status sinew_set_environment(sinew_world world, const sinew_environment* environment);
+SINEW_API sinew_status sinew_get_environment(sinew_world world, sinew_environment* out);
+
+/* What one instance feels more than that. */
+typedef struct sinew_added_environment {
+  float acceleration_m_s2[3], wind_m_s[3];
+} sinew_added_environment;
+SINEW_API sinew_status sinew_set_added_environment(sinew_world world, sinew_instance instance,
+                                                   const sinew_added_environment* added);
+SINEW_API sinew_status sinew_get_added_environment(sinew_world world, sinew_instance instance,
+                                                   sinew_added_environment* out);
+
 SINEW_API sinew_status sinew_reset(sinew_world world, sinew_instance instance);
 
 typedef struct sinew_view {
@@ -486,7 +527,8 @@ SINEW_API sinew_status sinew_force_isa(const char* name);
               53u * sizeof(sinew_frame_report) + 59u * sizeof(sinew_instance_report) +                 \
               61u * sizeof(sinew_event) + 67u * sizeof(sinew_surface_def) +                            \
               71u * sizeof(sinew_surface_place) + 73u * sizeof(sinew_bounds) +                         \
-              79u * sizeof(sinew_debug_line)))
+              79u * sizeof(sinew_debug_line) + 83u * sizeof(sinew_part_parameters) +                   \
+              89u * sizeof(sinew_environment) + 97u * sizeof(sinew_added_environment)))
 
 #ifdef __cplusplus
 }

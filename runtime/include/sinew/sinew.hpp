@@ -8,6 +8,7 @@
 #include "sinew/isa.hpp"
 #include "sinew/matrix.hpp"
 #include "sinew/read.hpp"
+#include "sinew/parameters.hpp"
 #include "sinew/status.hpp"
 #include "sinew/types.hpp"
 #include "sinew/version.h"

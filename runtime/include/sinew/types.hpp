@@ -9,6 +9,7 @@
 #include "sinew/id.hpp"
 #include "sinew/matrix.hpp"
 #include "sinew/read.hpp"
+#include "sinew/parameters.hpp"
 #include "sinew/status.hpp"
 
 namespace sinew {

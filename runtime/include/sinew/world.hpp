@@ -16,9 +16,9 @@
 // step calls (hooks, contact and occlusion sources), on whatever thread, calls none of them: there, those
 // that are not const are refused with kInvalidArgument, the assert hook hears of it, and a step inside the
 // step does nothing. Nothing here throws or prints. step, set_pose, skip_pose, set_importance, set_views,
-// set_hidden, set_time_scale, set_felt_root_motion, set_budget_us, reset, sample_clip, read_*, bounds,
-// debug_lines, report, history, take_events, save_state and restore_state never allocate or block; the others
-// may allocate.
+// set_hidden, set_time_scale, set_felt_root_motion, set_*parameters, set_*environment, set_budget_us, reset,
+// sample_clip, read_*, bounds, debug_lines, report, history, take_events, save_state and restore_state never
+// allocate or block; the others may allocate.
 //
 // Nothing here traps, and results do not depend on the calling thread's floating-point mode (rounding,
 // denormals, trap masks): every function computes in its own and gives the thread's back whole. Callbacks
@@ -122,6 +122,28 @@ class SINEW_API World {
   // character whose clip moves it, under a root that an engine corrects). Contacts stay where the root is.
   // 0..1, else kInvalidArgument, NaN: kNotFinite; it stays. Part of the state that is saved.
   Status set_felt_root_motion(InstanceId instance, float share) noexcept;
+
+  // How it swings, from the next tick on (parameters.hpp). Of a part its own numbers times the instance's,
+  // held in the same ranges; it is on where both are. A number out of its range: kInvalidArgument, NaN:
+  // kNotFinite, and so is a region or rod that there is not (kInvalidArgument); all stay as they were. Wakes
+  // what is dormant. Part of the state that is saved; reset keeps it. Cost: while stiffness or damping of a
+  // soft part glide, some 0.1 us a mode and tick.
+  Status set_parameters(InstanceId instance, const PartParameters& of_all) noexcept;
+  Status set_region_parameters(InstanceId instance, uint32_t region, const PartParameters& own) noexcept;
+  Status set_rod_parameters(InstanceId instance, uint32_t rod, const PartParameters& own) noexcept;
+  // As set last, whether it has come there or not; errors as above, *out untouched.
+  Status parameters(InstanceId instance, PartParameters* out) const noexcept;
+  Status region_parameters(InstanceId instance, uint32_t region, PartParameters* out) const noexcept;
+  Status rod_parameters(InstanceId instance, uint32_t rod, PartParameters* out) const noexcept;
+  // Gravity, acceleration and wind that all instances feel, from the next tick on; those made later begin in
+  // it. Errors as above. In no snapshot: after a restore the instance glides from what it felt then to what
+  // is set now. Cost: some tens of nanoseconds an instance.
+  Status set_environment(const Environment& environment) noexcept;
+  Status environment(Environment* out) const noexcept;
+  // What this instance feels more than that; by default nothing. Part of the state that is saved.
+  Status set_added_environment(InstanceId instance, const AddedEnvironment& added) noexcept;
+  Status added_environment(InstanceId instance, AddedEnvironment* out) const noexcept;
+
   // Forgets motion: the tissue is at rest in the next pose that is set. What is read back changes with
   // the next step.
   Status reset(InstanceId instance) noexcept;

@@ -1,0 +1,353 @@
+// tuning.cpp  see tuning.hpp.
+#include "world/tuning.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "frame/scheduler.hpp"
+#include "world/air.hpp"
+#include "world/dormant.hpp"
+#include "world/glide.hpp"
+#include "world/rod_sleep.hpp"
+#include "world/sleep.hpp"
+
+namespace sinew::world {
+namespace {
+
+// Of numbers about 1, and of the logarithm of one.
+constexpr float kRounding = 1e-4f;
+
+// What the gliding numbers of a part go to.
+struct Targets {
+  float intensity, log_stiffness, damping, displacement;
+  bool enabled;
+};
+
+Targets targets_of(const InstanceState& state, const PartTuning& part) noexcept {
+  const SetParameters &all = state.all_parameters, &own = part.set;
+  const bool enabled = all.enabled && own.enabled;
+  const float stiffness = std::clamp(all.stiffness * own.stiffness, kLeastStiffness, kMostStiffness);
+  return {.intensity = enabled ? std::min(all.intensity * own.intensity, kMostIntensity) : 0,
+          .log_stiffness = static_cast<float>(std::log(double{stiffness})),
+          .damping = std::min(all.damping * own.damping, kMostDamping),
+          .displacement = std::min(all.displacement * own.displacement, kMostDisplacement),
+          .enabled = enabled};
+}
+
+template <class Part, class Work>
+void for_each_number(Part& part, const Targets& targets, Work work) noexcept {
+  work(part.intensity, targets.intensity);
+  work(part.log_stiffness, targets.log_stiffness);
+  work(part.damping, targets.damping);
+  work(part.displacement, targets.displacement);
+}
+
+bool is_default(const SetParameters& set) noexcept {
+  return set.intensity == 1 && set.stiffness == 1 && set.damping == 1 && set.displacement == 1 && set.enabled;
+}
+
+bool is_as_baked(const PartTuning& part) noexcept {
+  bool as_baked = is_default(part.set) && part.off == 0;
+  for_each_number(part, {1, 0, 1, 1, true},
+                  [&](const Gliding& number, float baked) { as_baked &= stands_at(number, baked); });
+  return as_baked;
+}
+
+template <class Work>
+void for_each_tuning(const Instance& instance, Work work) noexcept {
+  for (size_t r = 0; r < instance.level->pack.regions.size(); ++r) work(instance.region_tunings[r]);
+  for (uint32_t rod = 0; rod < instance.asset->rods.rod_count; ++rod) work(instance.rod_tunings[rod]);
+}
+
+bool all_are_as_baked(const Instance& instance) noexcept {
+  bool as_baked = is_default(instance.state->all_parameters);
+  for_each_tuning(instance, [&](const PartTuning& part) { as_baked = as_baked && is_as_baked(part); });
+  return as_baked;
+}
+
+// ---- what follows from the numbers ----
+
+float stiffness_of(const PartTuning& part) noexcept {
+  return static_cast<float>(std::exp(double{part.log_stiffness.next}));
+}
+
+void retune_modes(Instance& instance, size_t r, const tissue::Retuning& by) noexcept {
+  const pack::RegionModesRecord& region = instance.level->pack.region_modes[r];
+  const auto tick_s = static_cast<float>(instance.asset->tick_s);
+  tissue::SwingSlopes* slopes = instance.tuned_slopes + region.first_mode + r;
+  for (uint32_t m = region.first_mode; m < region.first_mode + region.mode_count; ++m) {
+    const pack::ModeRecord mode = tissue::retuned(instance.level->pack.modes[m], by, tick_s);
+    instance.tuned_modes[m] = mode;
+    *slopes++ = tissue::swing_slopes(mode.a1, mode.a2);
+  }
+  TunedRegion& tuned = instance.tuned_regions[r];
+  tuned.rest = tissue::retuned({region.rest_a1, region.rest_a2}, by);
+  tuned.rest_gain = (1 - tuned.rest.a1 - tuned.rest.a2) / by.stiffness;
+  tuned.first = tissue::retuned({region.first_a1, region.first_a2}, by);
+  *slopes = tissue::swing_slopes(tuned.rest.a1, tuned.rest.a2);
+}
+
+void retune_region(Instance& instance, size_t r) noexcept {
+  const PartTuning& part = instance.region_tunings[r];
+  const tissue::Retuning by{stiffness_of(part), part.damping.next};
+  instance.tuned_regions[r].on = by.stiffness != 1 || by.damping != 1;
+  if (instance.tuned_regions[r].on) retune_modes(instance, r, by);
+}
+
+void retune_rod(Instance& instance, uint32_t rod) noexcept {
+  const RodSeat& seat = instance.asset->rods.seats()[rod];
+  const rods::RodBatch::JointShares shares{stiffness_of(instance.rod_tunings[rod]),
+                                           rod_damping_share(instance, rod)};
+  // What leaves float's range keeps its last value.
+  for (uint32_t k = 1; k <= seat.segment_count(); ++k)
+    (void)instance.rod_batches[seat.batch].set_joint(seat.strand, k, shares);
+}
+
+// ---- the way there ----
+
+bool swings_otherwise(const PartTuning& part) noexcept {
+  return moves(part.log_stiffness) || moves(part.damping);
+}
+
+// Whether anything of it will change.
+bool glide_part(const InstanceState& state, PartTuning& part) noexcept {
+  const Targets targets = targets_of(state, part);
+  bool any = false;
+  for_each_number(part, targets, [&](Gliding& number, float target) {
+    glide(target, kRounding, number);
+    any |= moves(number);
+  });
+  if (!targets.enabled && stands_at(part.intensity, 0)) part.off = kOff;
+  return any;
+}
+
+void glide_regions(Instance& instance) noexcept {
+  for (size_t r = 0; r < instance.level->pack.regions.size(); ++r) {
+    PartTuning& part = instance.region_tunings[r];
+    if (!glide_part(*instance.state, part)) continue;
+    instance.state->tuning_moves = 1;
+    instance.quiet_ticks[r] = 0;
+    if (swings_otherwise(part)) retune_region(instance, r);
+  }
+}
+
+void glide_rods(Instance& instance) noexcept {
+  for (uint32_t rod = 0; rod < instance.asset->rods.rod_count; ++rod) {
+    PartTuning& part = instance.rod_tunings[rod];
+    if (!glide_part(*instance.state, part)) continue;
+    instance.state->tuning_moves = 1;
+    wake_rods(instance);
+    if (swings_otherwise(part)) retune_rod(instance, rod);
+  }
+}
+
+// A tail may still be further out than the baked limit.
+bool blends(const InstanceState& state) noexcept {
+  return !frame::is_simulated(state.tier) || state.blend_ticks < kBlendInTicks;
+}
+
+// ---- off and on ----
+
+bool returns(const InstanceState& state, const PartTuning& part) noexcept {
+  return part.off == kOff && targets_of(state, part).enabled;
+}
+
+void return_regions(Instance& instance) noexcept {
+  for (size_t r = 0; r < instance.level->pack.regions.size(); ++r) {
+    PartTuning& part = instance.region_tunings[r];
+    if (!returns(*instance.state, part)) continue;
+    part.off = 0;
+    if (instance.level->leaves_out(r)) continue;
+    const pack::RegionRecord& region = instance.level->pack.regions[r];
+    std::copy_n(instance.u[0] + size_t{3} * region.first_node, size_t{3} * region.node_count,
+                instance.u[1] + size_t{3} * region.first_node);
+    instance.regained[r] = kRegainedNow;
+    wake_regions(instance);
+  }
+}
+
+void return_rods(Instance& instance) noexcept {
+  const bool stood = rods_are_off(instance);  // none was followed meanwhile
+  for (uint32_t rod = 0; rod < instance.asset->rods.rod_count; ++rod) {
+    PartTuning& part = instance.rod_tunings[rod];
+    if (!returns(*instance.state, part)) continue;
+    part.off = kReturns;
+    instance.rods_anew |= stood;
+    wake_rods(instance);
+  }
+}
+
+}  // namespace
+
+void notice_parameters(Instance& instance) noexcept {
+  InstanceState& state = *instance.state;
+  if (!tunes_parts(instance) && all_are_as_baked(instance)) return;
+  if (!tunes_parts(instance)) {
+    state.tuned |= kTunedParts;
+    retune_all(instance);
+  }
+  state.tuning_moves = 1;
+  wake(instance);
+}
+
+void begin_tuned_tick(Instance& instance) noexcept {
+  if (instance.state->tuned & kTunedAir) begin_air_tick(instance);
+  if (!tunes_parts(instance)) return;
+  for_each_tuning(instance, [](PartTuning& part) {
+    for_each_number(part, {}, [](Gliding& number, float) { number.now = number.next; });
+  });
+  return_regions(instance);
+  return_rods(instance);
+}
+
+void end_tuned_tick(Instance& instance) noexcept {
+  InstanceState& state = *instance.state;
+  state.tuning_moves = 0;
+  if (state.tuned & kTunedAir) end_air_tick(instance);
+  if (!tunes_parts(instance)) return;
+  glide_regions(instance);
+  glide_rods(instance);
+  if (state.tuning_moves == 0 && !blends(state) && all_are_as_baked(instance))
+    state.tuned &= static_cast<uint16_t>(~kTunedParts);
+}
+
+void settle_tuning(Instance& instance) noexcept {
+  const InstanceState& state = *instance.state;
+  if (state.tuned & kTunedAir) settle_air(instance);
+  if (!tunes_parts(instance)) return;
+  for_each_tuning(instance, [&](PartTuning& part) {
+    const Targets targets = targets_of(state, part);
+    for_each_number(part, targets, [](Gliding& number, float target) { number = {target, target, 0}; });
+    part.off = targets.enabled ? 0 : kOff;
+  });
+  retune_all(instance);
+}
+
+void retune_all(Instance& instance) noexcept {
+  for (size_t r = 0; r < instance.level->pack.regions.size(); ++r) retune_region(instance, r);
+  for (uint32_t rod = 0; rod < instance.asset->rods.rod_count; ++rod) retune_rod(instance, rod);
+}
+
+void tune_base(const Instance& instance, size_t region, tissue::ModalBase* base) noexcept {
+  const TunedRegion& tuned = instance.tuned_regions[region];
+  if (!tuned.on) return;
+  const uint32_t first = instance.level->pack.region_modes[region].first_mode;
+  base->modes = {instance.tuned_modes + first, base->modes.size()};
+  base->rest_a1 = tuned.rest.a1;
+  base->rest_a2 = tuned.rest.a2;
+  base->rest_gain = tuned.rest_gain;
+}
+
+const tissue::SwingSlopes* slopes_of(const Instance& instance, size_t region) noexcept {
+  const size_t first = instance.level->pack.region_modes[region].first_mode + region;
+  const bool tuned = tunes_parts(instance) && instance.tuned_regions[region].on;
+  return (tuned ? instance.tuned_slopes : instance.level->swing_slopes.get()) + first;
+}
+
+tissue::Recurrence first_recurrence(const Instance& instance, size_t region) noexcept {
+  const pack::RegionModesRecord& baked = instance.level->pack.region_modes[region];
+  if (tunes_parts(instance) && instance.tuned_regions[region].on) return instance.tuned_regions[region].first;
+  return {baked.first_a1, baked.first_a2};
+}
+
+float first_rad_per_s(const Instance& instance, size_t region) noexcept {
+  const float baked = instance.level->pack.region_modes[region].first_rad_per_s;
+  if (!tunes_parts(instance) || !instance.tuned_regions[region].on) return baked;
+  return std::sqrt(stiffness_of(instance.region_tunings[region])) * baked;
+}
+
+float limit_m(const Instance& instance, size_t region, float x) noexcept {
+  const float baked_m = instance.level->pack.regions[region].displacement_limit_m;
+  return tunes_parts(instance) ? between(instance.region_tunings[region].displacement, x) * baked_m : baked_m;
+}
+
+float shown_limit_m(const Instance& instance, size_t region) noexcept {
+  constexpr float kMost = kMostIntensity * kMostDisplacement;  // what fades may be of other numbers
+  const float baked_m = instance.level->pack.regions[region].displacement_limit_m;
+  return tunes_parts(instance) ? kMost * baked_m : baked_m;
+}
+
+float network_share(const Instance& instance, size_t region) noexcept {
+  constexpr float kFarthest = 0.2231436f;  // log 1.25
+  if (!tunes_parts(instance) || !instance.tuned_regions[region].on) return 1;
+  const PartTuning& part = instance.region_tunings[region];
+  const float damping = std::abs(std::log(std::max(part.damping.next, 1e-6f)));
+  const float off = std::max(std::abs(part.log_stiffness.next), damping) / kFarthest;
+  const float near = 1 - std::min(off, 1.0f);
+  return near * near * (3 - 2 * near);
+}
+
+bool region_is_off(const Instance& instance, size_t region) noexcept {
+  return tunes_parts(instance) && instance.region_tunings[region].off == kOff;
+}
+
+bool rods_are_off(const Instance& instance) noexcept {
+  const PartTuning* rods = instance.rod_tunings;
+  return tunes_parts(instance) && std::all_of(rods, rods + instance.asset->rods.rod_count,
+                                              [](const PartTuning& part) { return part.off == kOff; });
+}
+
+bool all_is_off(const Instance& instance) noexcept {
+  if (!tunes_parts(instance)) return false;
+  bool off = true;
+  for_each_tuning(instance, [&](const PartTuning& part) {
+    off = off && part.off == kOff && !returns(*instance.state, part);
+  });
+  return off;
+}
+
+float intensity_of(const Instance& instance, size_t region, float x) noexcept {
+  return tunes_parts(instance) ? between(instance.region_tunings[region].intensity, x) : 1;
+}
+
+void keep_intensity(const Instance& instance, float* shown, float x) noexcept {
+  if (!tunes_parts(instance)) return;
+  for (size_t r = 0; r < instance.level->pack.regions.size(); ++r) {
+    const pack::RegionRecord& region = instance.level->pack.regions[r];
+    const float share = intensity_of(instance, r, x);
+    float* at = shown + size_t{3} * region.first_node;
+    for (size_t i = 0; share != 1 && i < size_t{3} * region.node_count; ++i) at[i] *= share;
+  }
+}
+
+void take_out_intensity(const Instance& instance, float* shown) noexcept {
+  constexpr float kLeast = 0.25f;
+  if (!tunes_parts(instance)) return;
+  for (size_t r = 0; r < instance.level->pack.regions.size(); ++r) {
+    const pack::RegionRecord& region = instance.level->pack.regions[r];
+    const float intensity = intensity_of(instance, r),
+                by = intensity > 0 ? 1 / std::max(intensity, kLeast) : 0;
+    float* at = shown + size_t{3} * region.first_node;
+    for (size_t i = 0; by != 1 && i < size_t{3} * region.node_count; ++i) at[i] *= by;
+  }
+}
+
+RodShown rod_shown(const Instance& instance, uint32_t rod, float x) noexcept {
+  constexpr float kLeast_rad = 1e-6f;  // 0 would be none
+  const float limit_rad = instance.asset->rods.seats()[rod].turn_limit_rad;
+  if (!tunes_parts(instance)) return {limit_rad, 1};
+  const PartTuning& part = instance.rod_tunings[rod];
+  const float tuned_rad = limit_rad > 0 ? std::max(kLeast_rad, between(part.displacement, x) * limit_rad) : 0;
+  return {tuned_rad, between(part.intensity, x)};
+}
+
+// A joint's damping ratio is w damping_s / 2.
+float rod_damping_share(const Instance& instance, uint32_t rod) noexcept {
+  if (!tunes_parts(instance)) return 1;
+  const PartTuning& part = instance.rod_tunings[rod];
+  return part.damping.next / std::sqrt(stiffness_of(part));
+}
+
+float tuned_reach_m(const Instance& instance) noexcept {
+  float most_m = 0;
+  for (size_t r = 0; tunes_parts(instance) && r < instance.level->pack.regions.size(); ++r) {
+    const PartTuning& part = instance.region_tunings[r];
+    const Targets targets = targets_of(*instance.state, part);
+    const float shows = std::max({1.0f, part.intensity.now, targets.intensity}) *
+                        std::max({1.0f, part.displacement.now, targets.displacement});
+    most_m = std::max(most_m, (shows - 1) * instance.level->pack.regions[r].displacement_limit_m);
+  }
+  return most_m;
+}
+
+}  // namespace sinew::world
