@@ -44,6 +44,10 @@ sinew_status sinew_unload_asset(sinew_world world, sinew_asset asset) {
   return on(world, [&](World& w) { return w.unload_asset(to_id(asset)); });
 }
 
+sinew_status sinew_replace_asset(sinew_world world, sinew_asset asset, sinew_asset by) {
+  return on(world, [&](World& w) { return w.replace_asset(to_id(asset), to_id(by)); });
+}
+
 sinew_status sinew_get_asset_info(sinew_world world, sinew_asset asset, sinew_asset_info* out) {
   return ask<AssetInfo>(world, out,
                         [&](World& w, AssetInfo* info) { return w.asset_info(to_id(asset), info); });

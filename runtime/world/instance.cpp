@@ -256,6 +256,7 @@ Status make_instance(Asset& asset, const InstanceDef& def, Instance* out) noexce
   lay_out(asset, arena, made);
   made.asset = &asset;
   made.asset_id = def.asset;
+  made.def = def;
   made.sleep_tolerance = WorldDef{}.sleep_tolerance;
   made.most_m_s2 = TeleportDef{}.acceleration * asset.pack.character->height_m;
   new (made.state) InstanceState();

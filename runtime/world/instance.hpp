@@ -202,6 +202,7 @@ struct Instance {
   core::AlignedBlock memory;
   uint64_t between_ns = 0;  // of times.publish_ns: a provisional step (world/between_ticks.hpp)
   AssetId asset_id;
+  InstanceDef def;  // what it was made by, as the caller gave it; not of what set_* has changed since
   const GraphLevel* level = nullptr;  // of the asset: state->level
   bool level_raised = false;          // in this step: its nodes' past poses are not known
   bool rods_anew = false;     // in this tick: rods are taken to where they are shown before they go on

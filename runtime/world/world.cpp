@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <new>
 #include <utility>
 
@@ -16,6 +17,7 @@
 #include "world/dormant.hpp"
 #include "world/pose.hpp"
 #include "world/pose_bound.hpp"
+#include "world/replace_asset.hpp"
 #include "world/snapshot.hpp"
 #include "world/step.hpp"
 #include "world/tuning.hpp"
@@ -137,6 +139,50 @@ Status World::unload_asset(AssetId id) noexcept {
                        asset->live_instances);
   }
   impl_->assets.destroy(id);
+  return {};
+}
+
+// `made`: one for each of the asset's instances, in the slots' order.
+static Status make_successors(const WorldState& state, const Asset& asset, Asset& by, AssetId by_id,
+                              Instance* made) noexcept {
+  for (uint32_t slot = 0; slot < state.instances.end(); ++slot) {
+    const Instance* instance = state.instances.at(slot);
+    if (!instance || instance->asset != &asset) continue;
+    InstanceDef def = instance->def;
+    def.asset = by_id;
+    if (by.rod_network.record == nullptr && def.rod_start == RodWarmStart::kLearned)
+      def.rod_start = RodWarmStart::kAsBaked;
+    if (Status status = world::make_instance(by, def, made); !status.ok()) return status;
+    made->sleep_tolerance = instance->sleep_tolerance;
+    made->most_m_s2 = state.def.teleport.acceleration * by.pack.character->height_m;
+    world::go_on_as(*instance, *made);
+    ++made;
+  }
+  return {};
+}
+
+Status World::replace_asset(AssetId id, AssetId by_id) noexcept {
+  const core::FloatingPointScope mode;
+  Asset *asset = nullptr, *by = nullptr;
+  if (Status status = find_asset(impl_, id, &asset); !status.ok()) return status;
+  if (Status status = find_asset(impl_, by_id, &by); !status.ok()) return status;
+  if (busy(*impl_)) return refuse_busy();
+  if (asset == by) return {};
+  if (Status status = world::check_same_skeleton(*asset, *by); !status.ok()) return status;
+  const std::unique_ptr<Instance[]> made(new (std::nothrow) Instance[asset->live_instances]);
+  if (!made) return make_status(StatusCode::kOutOfCapacity, "replace_asset: no memory");
+  if (Status status = make_successors(*impl_, *asset, *by, by_id, made.get()); !status.ok()) return status;
+  Instance* next = made.get();
+  for (uint32_t slot = 0; slot < impl_->instances.end(); ++slot) {
+    Instance* instance = impl_->instances.at(slot);
+    if (!instance || instance->asset != asset) continue;
+    --asset->live_instances;
+    asset->surface_instances -= instance->contacts.surface != nullptr;
+    *instance = std::move(*next++);
+    ++by->live_instances;
+    by->surface_instances += instance->contacts.surface != nullptr;
+    world::keep_row(*impl_, slot);
+  }
   return {};
 }
 

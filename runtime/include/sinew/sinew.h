@@ -145,6 +145,8 @@ SINEW_API sinew_status sinew_load_asset(sinew_world world, const void* bytes, si
                                         sinew_asset* out);
 SINEW_API sinew_status sinew_load_asset_file(sinew_world world, const char* path, sinew_asset* out);
 SINEW_API sinew_status sinew_unload_asset(sinew_world world, sinew_asset asset);
+/* Its instances go on as those of the same character baked anew. */
+SINEW_API sinew_status sinew_replace_asset(sinew_world world, sinew_asset asset, sinew_asset by);
 
 typedef struct sinew_asset_info {
   uint32_t vertex_count, triangle_count, joint_count, region_count, node_count, clip_count;

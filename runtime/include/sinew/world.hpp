@@ -55,6 +55,11 @@ class SINEW_API World {
   Status load_asset_file(const char* path, AssetId* out) noexcept;
   // kInvalidArgument while instances of it live.
   Status unload_asset(AssetId asset) noexcept;
+  // All instances of `asset` go on as instances of `by`, the same character baked anew: ids, poses, time and
+  // what was set stay, what is shown goes on from where it is. Of parts with other names nothing is taken
+  // over; a state that was saved before can no longer be restored. Other joints: kInvalidArgument; no memory:
+  // kOutOfCapacity; then all is as it was. `asset` has no instances afterwards and may be unloaded.
+  Status replace_asset(AssetId asset, AssetId by) noexcept;
   Status asset_info(AssetId asset, AssetInfo* out) const noexcept;
   Status asset_arrays(AssetId asset, AssetArrays* out) const noexcept;
   // Below, an index that is not there: kInvalidArgument, and *out is untouched.
