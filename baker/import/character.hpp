@@ -101,6 +101,22 @@ struct MeshSpan {
   std::string name = {};  // the mesh's own, beside its node's
 };
 
+// A primitive of a mesh, of triangles; see pack::PrimitiveRecord.
+struct PrimitiveSpan {
+  size_t mesh = 0;            // of Character::meshes
+  std::string material = {};  // its name; empty: it has none
+  size_t first_vertex = 0, vertex_count = 0;
+  size_t first_triangle = 0, triangle_count = 0;
+  size_t index = 0;  // among the primitives of its mesh in the file
+  int sharer = -1;  // of Character::primitives: the one before it that has its vertices; -1: they are its own
+};
+
+// As in glTF: the bitangent is sign (normal x along).
+struct Tangent {
+  Vector3 along = Vector3::Zero();  // unit
+  double sign = 1;                  // 1 or -1
+};
+
 // Vertices of the triangles that one material of the file paints. Where primitives share vertices, one may be
 // on several.
 struct MaterialVertices {
@@ -110,6 +126,7 @@ struct MaterialVertices {
 
 struct Character {
   std::string name;
+  double unit_m = 1;  // metres that a unit of the file is
   std::vector<Node> nodes;
   std::vector<int> joint_node;        // joint -> node; parents before children
   std::vector<int> joint_parent;      // nearest ancestor that is a joint, -1 for none
@@ -120,11 +137,13 @@ struct Character {
   // Vertices in file order, primitive after primitive, as the engine has them.
   std::vector<Vector3> positions;  // bind pose
   std::vector<Vector3> normals;    // unit; computed where the file has none
+  std::vector<Tangent> tangents;   // computed where the file has none; empty: nothing to compute them from
   std::vector<Influences> skin;
   std::vector<std::array<uint8_t, 4>> colors;  // material x vertex colour; for pictures
   std::vector<double> stiffness;               // painted _STIFFNESS, 0 soft .. 1 rigid; empty: not painted
   std::vector<std::array<int, 3>> triangles;
   std::vector<MeshSpan> meshes;             // in the order of their vertices
+  std::vector<PrimitiveSpan> primitives;    // mesh after mesh; of a character that was made: none
   std::vector<MaterialVertices> materials;  // those in use that have names, in the file's order
 
   std::vector<int> welded;  // vertex -> first vertex at much the same place with much the same influences

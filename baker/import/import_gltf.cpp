@@ -14,6 +14,7 @@
 #include "baker/import/primitives.hpp"
 #include "baker/import/shown_meshes.hpp"
 #include "baker/import/spring_bones.hpp"
+#include "baker/import/tangents.hpp"
 #include "baker/import/weld.hpp"
 
 namespace sinew::baker {
@@ -68,7 +69,9 @@ void convert_axes(const ImportOptions& options, Source& source, Character& chara
   if (options.up != 'y') source.note("", "turned from Z up to Y up");
   for (Vector3& place : character.positions) place = turn.topLeftCorner<3, 3>() * place;
   for (Vector3& normal : character.normals) normal = turn.topLeftCorner<3, 3>() * normal;
+  for (Tangent& tangent : character.tangents) tangent.along = turn.topLeftCorner<3, 3>() * tangent.along;
   const double unit = unit_metres(height(character.positions), options, source);
+  character.unit_m = unit;
   for (size_t v = 0; v < character.positions.size(); ++v) {
     character.positions[v] *= unit;
     if (!(character.positions[v].cwiseAbs().maxCoeff() < kLargestCoordinate))
@@ -112,7 +115,8 @@ Character import_file(Source& source, const ImportOptions& options) {
 
   Character character;
   character.name = std::filesystem::path(source.path()).stem().string();
-  append_meshes(model, accessors, joints, instances, options.max_vertices, source, character);
+  const std::vector<Vector2> uv =
+      append_meshes(model, accessors, joints, instances, options.max_vertices, source, character);
   if (character.positions.empty() || character.triangles.empty())
     source.refuse("", "no mesh of this file has triangles", "export the character's mesh as triangles");
   character.clips = read_clips(model, graph, accessors, source);
@@ -126,6 +130,7 @@ Character import_file(Source& source, const ImportOptions& options) {
   weld_vertices(character);
   drop_degenerate_triangles(character, source);
   compute_missing_normals(character);
+  compute_missing_tangents(uv, character);
   return character;
 }
 

@@ -4,9 +4,11 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
+#include "baker/common/bad_input.hpp"
 #include "baker/import/base_color_texture.hpp"
 #include "baker/import/bind_pose.hpp"
 #include "baker/import/paint.hpp"
@@ -82,32 +84,42 @@ class MeshReader {
 
   void append(const MeshInstance& instance) {
     const tinygltf::Mesh& mesh = model_.meshes[static_cast<size_t>(instance.mesh)];
-    std::map<VertexKey, size_t> shared;  // first vertex of each
-    const size_t first = character_.positions.size();
+    std::map<VertexKey, int> owners;  // the primitive that has the vertices
+    const size_t first = character_.positions.size(), first_primitive = character_.primitives.size();
     for (size_t p = 0; p < mesh.primitives.size(); ++p) {
       const tinygltf::Primitive& primitive = mesh.primitives[p];
       const std::string where = place(instance, p);
       if (!usable(primitive, instance, where)) continue;
-      const auto [found, fresh] = shared.try_emplace(key_of(primitive), character_.positions.size());
-      if (fresh) append_vertices(primitive, instance, where);
-      append_faces(primitive, instance, found->second, where);
+      PrimitiveSpan span{
+          .mesh = character_.meshes.size(), .material = material_name(primitive.material), .index = p};
+      const auto [owner, is_own] =
+          owners.try_emplace(key_of(primitive), static_cast<int>(character_.primitives.size()));
+      if (is_own)
+        append_vertices(primitive, instance, where, span);
+      else
+        share_vertices(owner->second, span);
+      append_faces(primitive, instance, where, span);
+      character_.primitives.push_back(std::move(span));
     }
     const size_t count = character_.positions.size() - first;
     if (count > 0)
       character_.meshes.push_back({instance.node, first, count, instance.skin >= 0,
                                    inverse_or_identity(instance.bind_from_mesh), mesh.name});
+    else
+      character_.primitives.resize(first_primitive);
   }
 
-  void finish() {
+  // Returns TEXCOORD_0 of all vertices.
+  std::vector<Vector2> finish() {
     for (auto& [material, vertices] : painted_by_) {
       std::ranges::sort(vertices);
       vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-      character_.materials.push_back(
-          {model_.materials[static_cast<size_t>(material)].name, std::move(vertices)});
+      character_.materials.push_back({material_name(material), std::move(vertices)});
     }
     if (!painted_) character_.stiffness.clear();
     if (!has_normals_)
       source_.note("", "no normals in at least one primitive: computed, smooth below 60 degrees");
+    return std::move(uv_);
   }
 
  private:
@@ -115,6 +127,12 @@ class MeshReader {
     const std::string& name = model_.meshes[static_cast<size_t>(instance.mesh)].name;
     return "mesh " + std::to_string(instance.mesh) + (name.empty() ? "" : " '" + name + "'") + " primitive " +
            std::to_string(primitive);
+  }
+
+  // Empty: it has none, or is none.
+  std::string material_name(int material) const {
+    const auto index = static_cast<size_t>(material);
+    return material < 0 || index >= model_.materials.size() ? "" : model_.materials[index].name;
   }
 
   bool usable(const tinygltf::Primitive& primitive, const MeshInstance& instance, const std::string& where) {
@@ -144,10 +162,11 @@ class MeshReader {
     return accessors_.numbers(found->second, width, place);
   }
 
-  // Of an attribute, with what the mesh's default morph weights add to it.
+  // Of an attribute, with what the mesh's default morph weights add to its first three numbers.
   std::vector<double> morphed(const tinygltf::Primitive& primitive, const MeshInstance& instance,
-                              const std::string& name, size_t count, const std::string& where) const {
-    std::vector<double> values = attribute(primitive, name, 3, count, where);
+                              const std::string& name, size_t count, const std::string& where,
+                              size_t width = 3) const {
+    std::vector<double> values = attribute(primitive, name, static_cast<int>(width), count, where);
     if (values.empty()) return values;
     for (size_t t = 0; t < std::min(primitive.targets.size(), instance.morph_weights.size()); ++t) {
       const auto found = primitive.targets[t].find(name);
@@ -160,19 +179,40 @@ class MeshReader {
                            std::to_string(count) + " vertices",
                        kMend);
       const std::vector<double> moved = accessors_.numbers(found->second, 3, place);
-      for (size_t i = 0; i < values.size(); ++i) values[i] += weight * moved[i];
+      for (size_t v = 0; v < count; ++v)
+        for (size_t k = 0; k < 3; ++k) values[width * v + k] += weight * moved[3 * v + k];
     }
     return values;
   }
 
+  // What no character is refused for.
+  template <class Read>
+  std::vector<double> ornament(const std::string& name, const std::string& where, const Read& read) {
+    try {
+      return read();
+    } catch (const BadInput&) {
+      source_.note(where, "its " + name + " cannot be read: left out");
+      return {};
+    }
+  }
+
+  void share_vertices(int owner, PrimitiveSpan& span) const {
+    const PrimitiveSpan& other = character_.primitives[static_cast<size_t>(owner)];
+    span.first_vertex = other.first_vertex, span.vertex_count = other.vertex_count;
+    span.sharer = owner;
+  }
+
   void append_vertices(const tinygltf::Primitive& primitive, const MeshInstance& instance,
-                       const std::string& where) {
+                       const std::string& where, PrimitiveSpan& span) {
     const size_t count = accessors_.count(primitive.attributes.at("POSITION"), where + " POSITION");
+    span.first_vertex = character_.positions.size(), span.vertex_count = count;
     const std::vector<double> places = morphed(primitive, instance, "POSITION", count, where);
     const auto influences = read_influences(primitive, count, instance, joints_, accessors_, where, source_);
     const VertexSpaces spaces(instance, bind_from_joint_, influences);
     append_positions(places, spaces, where);
     append_normals(morphed(primitive, instance, "NORMAL", count, where), spaces, count, where);
+    append_tangents(primitive, instance, spaces, count, where);
+    append_uv(primitive, count, where);
     character_.skin.insert(character_.skin.end(), influences.begin(), influences.end());
     const std::vector<double> paint = read_paint(primitive, count, accessors_, where, source_);
     painted_ = painted_ || !paint.empty();
@@ -212,9 +252,37 @@ class MeshReader {
     if (unusable > 0) source_.note(where, std::to_string(unusable) + " normals are zero or NaN: computed");
   }
 
-  void append_faces(const tinygltf::Primitive& primitive, const MeshInstance& instance, size_t first,
-                    const std::string& where) {
-    const size_t count = accessors_.count(primitive.attributes.at("POSITION"), where + " POSITION");
+  // Those that are no directions stay zero, as do all where there are no normals (glTF 2.0, 3.7.2.1).
+  void append_tangents(const tinygltf::Primitive& primitive, const MeshInstance& instance,
+                       const VertexSpaces& spaces, size_t count, const std::string& where) {
+    std::vector<double> values;
+    if (primitive.attributes.contains("NORMAL"))
+      values = ornament("TANGENT", where,
+                        [&] { return morphed(primitive, instance, "TANGENT", count, where, 4); });
+    for (size_t v = 0; v < count; ++v) {
+      Tangent tangent;
+      if (!values.empty()) {
+        const double* file = &values[4 * v];
+        const Eigen::Matrix3d space = spaces.of(v).topLeftCorner<3, 3>();
+        const Vector3 along = space * Vector3(file[0], file[1], file[2]);
+        if (along.allFinite() && along.norm() > 0) tangent.along = along.normalized();
+        if ((file[3] < 0) != (space.determinant() < 0)) tangent.sign = -1;
+      }
+      character_.tangents.push_back(tangent);
+    }
+  }
+
+  void append_uv(const tinygltf::Primitive& primitive, size_t count, const std::string& where) {
+    const std::vector<double> values =
+        ornament("TEXCOORD_0", where, [&] { return attribute(primitive, "TEXCOORD_0", 2, count, where); });
+    for (size_t v = 0; v < count; ++v)
+      uv_.push_back(values.empty() ? Vector2::Constant(std::numeric_limits<double>::quiet_NaN())
+                                   : Vector2(values[2 * v], values[2 * v + 1]));
+  }
+
+  void append_faces(const tinygltf::Primitive& primitive, const MeshInstance& instance,
+                    const std::string& where, PrimitiveSpan& span) {
+    const size_t count = span.vertex_count;
     std::vector<std::array<int, 3>> faces = read_triangles(primitive, count, accessors_, where, source_);
     const bool mirrored =
         !instance.in_joint_spaces && instance.bind_from_mesh.topLeftCorner<3, 3>().determinant() < 0;
@@ -225,20 +293,20 @@ class MeshReader {
       if (mirrored) std::swap(face[1], face[2]);
       for (int& corner : face) {
         const auto here = static_cast<size_t>(corner);
-        corner += static_cast<int>(first);
+        corner += static_cast<int>(span.first_vertex);
         const auto vertex = static_cast<size_t>(corner);
         const LinearColor color =
             texture.empty() ? vertex_colors_[vertex] : product(texture[here], vertex_colors_[vertex]);
         character_.colors[vertex] = surface_color(material, color);
       }
     }
+    span.first_triangle = character_.triangles.size(), span.triangle_count = faces.size();
     character_.triangles.insert(character_.triangles.end(), faces.begin(), faces.end());
     note_material(primitive.material, faces);
   }
 
   void note_material(int material, const std::vector<std::array<int, 3>>& faces) {
-    const auto index = static_cast<size_t>(material);
-    if (material < 0 || index >= model_.materials.size() || model_.materials[index].name.empty()) return;
+    if (material_name(material).empty()) return;
     std::vector<int>& vertices = painted_by_[material];
     for (const auto& face : faces) vertices.insert(vertices.end(), face.begin(), face.end());
   }
@@ -251,6 +319,7 @@ class MeshReader {
   BaseColorTextures textures_;
   std::vector<Matrix4> bind_from_joint_;
   std::vector<LinearColor> vertex_colors_;      // of all vertices so far
+  std::vector<Vector2> uv_;                     // the same
   std::map<int, std::vector<int>> painted_by_;  // the file's material -> vertices, often doubled
   bool painted_ = false, has_normals_ = true;
 };
@@ -293,13 +362,13 @@ void check_size(const tinygltf::Model& model, const AccessorReader& accessors,
 
 }  // namespace
 
-void append_meshes(const tinygltf::Model& model, const AccessorReader& accessors, const Joints& joints,
-                   const std::vector<MeshInstance>& instances, size_t max_vertices, Source& source,
-                   Character& character) {
+std::vector<Vector2> append_meshes(const tinygltf::Model& model, const AccessorReader& accessors,
+                                   const Joints& joints, const std::vector<MeshInstance>& instances,
+                                   size_t max_vertices, Source& source, Character& character) {
   check_size(model, accessors, instances, max_vertices, source);
   MeshReader reader(model, accessors, joints, source, character);
   for (const MeshInstance& instance : instances) reader.append(instance);
-  reader.finish();
+  return reader.finish();
 }
 
 }  // namespace sinew::baker

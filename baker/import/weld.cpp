@@ -2,11 +2,15 @@
 #include "baker/import/weld.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <iterator>
+#include <span>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "baker/import/smooth_groups.hpp"
@@ -116,8 +120,17 @@ void weld_vertices(Character& character) {
 }
 
 void drop_degenerate_triangles(Character& character, Source& source) {
-  const size_t dropped =
-      std::erase_if(character.triangles, [&](const auto& face) { return degenerate(character, face); });
+  std::vector<std::array<int, 3>> kept;
+  for (PrimitiveSpan& primitive : character.primitives) {
+    const std::span faces =
+        std::span(character.triangles).subspan(primitive.first_triangle, primitive.triangle_count);
+    primitive.first_triangle = kept.size();
+    std::ranges::copy_if(faces, std::back_inserter(kept),
+                         [&](const auto& face) { return !degenerate(character, face); });
+    primitive.triangle_count = kept.size() - primitive.first_triangle;
+  }
+  const size_t dropped = character.triangles.size() - kept.size();
+  character.triangles = std::move(kept);
   if (dropped > 0) source.note("", std::to_string(dropped) + " triangles without area: left out");
 }
 

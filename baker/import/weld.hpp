@@ -8,7 +8,7 @@ namespace sinew::baker {
 // Fills character.welded: the first vertex at the same place, to a millionth of the character's longest side,
 // that the same joints move, to a fiftieth of the weight. Rims of meshes that meet so are one surface.
 void weld_vertices(Character& character);
-// Triangles whose corners coincide or lie on a line.
+// Triangles whose corners coincide or lie on a line, of the character's primitives.
 void drop_degenerate_triangles(Character& character, Source& source);
 // Smooth normals, weighted by area, where the character has zero ones.
 void compute_missing_normals(Character& character);

@@ -13,6 +13,7 @@
 #include "baker/pack/modes_pack.hpp"
 #include "baker/pack/network_pack.hpp"
 #include "baker/pack/patches_pack.hpp"
+#include "baker/pack/primitives_pack.hpp"
 #include "baker/pack/rods_pack.hpp"
 #include "baker/pack/tier_pack.hpp"
 
@@ -54,6 +55,7 @@ void add_record(const Character& character, const TissueLayout& layout, size_t c
   record.rod_count = to_u32(layout.rods.size());
   record.proxy_count = to_u32(layout.proxies.size());
   record.coarser_count = to_u32(coarser);
+  record.unit_m = static_cast<float>(character.unit_m);
   record.mesh_count = character.meshes.empty() ? 1 : to_u32(character.meshes.size());
   pack.section(SectionKind::kCharacter, std::vector{record});
 }
@@ -363,6 +365,8 @@ std::vector<std::byte> pack_character(const Character& character, const TissueLa
   add_joints(character, pack);
   add_mesh(character, pack);
   add_meshes(character, pack);
+  add_primitives(character, pack);
+  add_tangents(character, pack);
   add_clips(character, pack);
   const bool emulates = emulator != nullptr && std::ranges::any_of(layout.regions, [](const Region& region) {
                           return region.cell_m > 0;

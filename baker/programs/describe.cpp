@@ -64,12 +64,38 @@ Json describe_character(const pack::PackView& view) {
   const pack::CharacterRecord& record = *view.character;
   return {{"name", string_at(view, record.name)},
           {"height_m", record.height_m},
+          {"unit_m", record.unit_m},
           {"vertices", record.vertex_count},
           {"triangles", record.triangle_count},
+          {"tangents", !view.tangents.empty()},
           {"joints", record.joint_count},
           {"nodes", record.node_count},
           {"graph_entries", view.graph_columns.size()},
           {"multiply_adds_a_tick", multiply_adds(view.layers, view.nodes.size(), view.graph_columns.size())}};
+}
+
+Json describe_meshes(const pack::PackView& view) {
+  Json meshes = Json::array();
+  for (const pack::MeshRecord& mesh : view.meshes)
+    meshes.push_back({{"name", string_at(view, mesh.name)},
+                      {"first_vertex", mesh.first_vertex},
+                      {"vertices", mesh.vertex_count}});
+  return meshes;
+}
+
+Json describe_primitives(const pack::PackView& view) {
+  Json primitives = Json::array();
+  for (const pack::PrimitiveRecord& primitive : view.primitives)
+    primitives.push_back(
+        {{"mesh", string_at(view, view.meshes[primitive.mesh].name)},
+         {"index", primitive.index},
+         {"material",
+          primitive.material == pack::kNoIndex ? Json() : Json(string_at(view, primitive.material))},
+         {"first_vertex", primitive.first_vertex},
+         {"vertices", primitive.vertex_count},
+         {"first_triangle", primitive.first_triangle},
+         {"triangles", primitive.triangle_count}});
+  return primitives;
 }
 
 Json describe_regions(const pack::PackView& view) {
@@ -205,6 +231,8 @@ Json describe_pack(const LoadedPack& pack) {
   if (is_character) description["character"] = describe_character(view);
   description["network"] = describe_network(view);
   if (is_character) {
+    description["meshes"] = describe_meshes(view);
+    description["primitives"] = describe_primitives(view);
     description["regions"] = describe_regions(view);
     if (view.level_count > 1) description["levels"] = describe_levels(view);
     if (!view.rods.empty()) description["rods"] = describe_rods(view);

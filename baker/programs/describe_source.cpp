@@ -33,6 +33,19 @@ Json describe_meshes(const Character& character) {
   return meshes;
 }
 
+Json describe_primitives(const Character& character) {
+  Json primitives = Json::array();
+  for (const PrimitiveSpan& primitive : character.primitives) {
+    const auto node = static_cast<size_t>(character.meshes[primitive.mesh].node);
+    primitives.push_back({{"mesh", character.nodes[node].name},
+                          {"index", primitive.index},
+                          {"material", primitive.material.empty() ? Json() : Json(primitive.material)},
+                          {"vertices", primitive.vertex_count},
+                          {"triangles", primitive.triangle_count}});
+  }
+  return primitives;
+}
+
 }  // namespace
 
 Json describe_source(const Character& character) {
@@ -40,9 +53,11 @@ Json describe_source(const Character& character) {
   for (const Clip& clip : character.clips)
     clips.push_back({{"name", clip.name}, {"seconds", clip.duration_s}});
   return {{"kind", "source"},
-          {"character", {{"name", character.name}, {"height_m", height_m(character)}}},
+          {"character",
+           {{"name", character.name}, {"height_m", height_m(character)}, {"unit_m", character.unit_m}}},
           {"bones", describe_bones(character)},
           {"meshes", describe_meshes(character)},
+          {"primitives", describe_primitives(character)},
           {"clips", std::move(clips)}};
 }
 

@@ -20,6 +20,8 @@ Status check_record(const PackView& pack) noexcept {
     return corrupt("the character has %u joints, outside 1..65535", record.joint_count);
   if (!std::isfinite(record.height_m) || record.height_m < 0)
     return corrupt("the character's height is %g m", double{record.height_m});
+  if (!is_positive(record.unit_m))
+    return corrupt("a unit of the character's file is %g m", double{record.unit_m});
   if (Status status = check_name(pack, record.name, "character", 0); !status.ok()) return status;
   return check_zero(record.reserved, "character", 0);
 }

@@ -9,6 +9,7 @@ Status check_network(const PackView& pack) noexcept;     // network, layers, inp
 Status check_dense(const PackView& pack) noexcept;       // the same of a network of chains
 Status check_chains(const ChainsView& chains) noexcept;  // wherever it stands in a pack
 Status check_character(const PackView& pack) noexcept;   // joints, mesh, skin, clips, tiers
+Status check_primitives(const PackView& pack) noexcept;  // and tangents; after check_character
 Status check_tissue(const PackView& pack) noexcept;  // regions, nodes, graph, carry; after check_character
 Status check_modes(const PackView& pack) noexcept;   // after check_tissue
 // Gives each control graph its part of what levels share, and puts the finest in view. Before all that looks

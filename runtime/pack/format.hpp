@@ -40,6 +40,8 @@
 //      RodRecord::end_holder; RodRecord::start, with the sections kRodNetwork, kRodDense and kRodWeights;
 //      RegionRecord::cell_m, with the sections kPatch...; NetworkRecord::moving
 //   10 an emulator that sees patches from a moving frame is told two ticks of them, not three
+//   11 what an engine needs to know of the file: which vertices and triangles are which primitive's, and its
+//      material (kPrimitives); tangents (kTangents); what a unit of the file is (CharacterRecord::unit_m)
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -47,7 +49,7 @@
 namespace sinew::pack {
 
 inline constexpr char kMagic[8] = {'S', 'I', 'N', 'E', 'W', 'P', 'K', '\0'};
-inline constexpr uint32_t kVersion = 10;
+inline constexpr uint32_t kVersion = 11;
 inline constexpr size_t kSectionAlignment = 64;
 inline constexpr uint32_t kNoIndex = 0xffffffffu;
 
@@ -129,6 +131,14 @@ enum class SectionKind : uint32_t {
   kSpread = 49,  // float: see LevelRecord
 
   kTiers = 50,  // TierRecord x tiers
+
+  kPrimitives = 51,  // PrimitiveRecord x primitives
+  // float[4] x vertices, bind pose: a unit vector, then w, +-1, as glTF has it: the bitangent is w (normal x
+  // tangent). The file's own, in the space of its normals, where a primitive has TANGENT and NORMAL; else
+  // from TEXCOORD_0, square to the normal; where a primitive has neither any unit vector square to the
+  // normal, w 1. Left out where none of the character's primitives has either. Those that are no directions
+  // count as not there.
+  kTangents = 52,
 
   kRods = 60,         // RodRecord x rods
   kRodSegments = 61,  // RodSegmentRecord: of all rods, rod after rod
@@ -276,7 +286,8 @@ struct CharacterRecord {
   uint32_t proxy_count;    // 0..64
   uint32_t coarser_count;  // 0..3: control graphs of fewer nodes, beside the one that node_count counts
   uint32_t mesh_count;
-  uint32_t reserved[4];
+  float unit_m;  // metres that a unit of the file is, > 0: what the recipe states, or the importer found
+  uint32_t reserved[3];
 };
 static_assert(sizeof(CharacterRecord) == 64);
 
@@ -290,6 +301,27 @@ struct MeshRecord {
   uint32_t reserved;
 };
 static_assert(sizeof(MeshRecord) == 64);
+
+// A primitive of a mesh: what one material paints, and mostly what an engine has in buffers of its own.
+// Primitives lie mesh after mesh, in a mesh as in the file; points, lines and what has no POSITION are not
+// among them. Together they have all vertices and all triangles.
+//   vertices    first_vertex + i is element i of its POSITION accessor, for each i below that one's count: an
+//               engine that loads the same file finds all of them so. None is left out, welded, doubled or
+//               put elsewhere. Primitives of a mesh all of whose attributes and morph targets are the same
+//               accessors share their vertices: the first of them has them, the others name it.
+//   triangles   the file's in their order, strips and fans as triangles, but for those without area, which
+//               are left out; a mesh that its place in the scene mirrors has the last two corners swapped.
+//               All corners lie among its vertices.
+struct PrimitiveRecord {
+  uint32_t mesh;                        // of kMeshes
+  uint32_t material;                    // offset in kStrings of its material's name; kNoIndex: it has none
+  uint32_t first_vertex, vertex_count;  // where the primitives before it end, if they are its own
+  uint32_t first_triangle, triangle_count;
+  uint32_t index;  // among all primitives of its glTF mesh; ascends in a mesh
+  // 0: its vertices are its own. Else 1 + the primitive of its mesh, before it, that has them.
+  uint32_t sharer;
+};
+static_assert(sizeof(PrimitiveRecord) == 32);
 
 struct JointRecord {
   uint32_t name;

@@ -52,6 +52,8 @@ PackView view_sections(const SectionTable& table) noexcept {
   view.welded = table.get<uint32_t>(kWelded);
   view.face_normals = table.get<float>(kFaceNormals);
   view.meshes = table.get<MeshRecord>(kMeshes);
+  view.primitives = table.get<PrimitiveRecord>(kPrimitives);
+  view.tangents = table.get<float>(kTangents);
   view.region_vertices = table.get<uint32_t>(kRegionVertices);
   view.modes = table.get<ModeRecord>(kModes);
   view.clips = table.get<ClipRecord>(kClips);
@@ -94,8 +96,8 @@ Status open_pack(std::span<const std::byte> bytes, PackView* out) noexcept {
   if (Status status = check_single(table); !status.ok()) return status;
   PackView view = view_sections(table);
   constexpr Check kModelChecks[] = {check_strings, check_network};
-  constexpr Check kCharacterChecks[] = {check_strings, check_network, check_character, check_levels,
-                                        check_patches, check_rods,    check_proxies};
+  constexpr Check kCharacterChecks[] = {check_strings, check_network, check_character, check_primitives,
+                                        check_levels,  check_patches, check_rods,      check_proxies};
   const bool is_model = view.kind == FileKind::kModel;
   if (!is_model)
     if (Status status = cut_levels(&view); !status.ok()) return status;

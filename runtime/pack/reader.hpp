@@ -50,8 +50,8 @@ struct PackView : LevelView {
   std::span<const uint32_t> welded;
   std::span<const float> face_normals;  // 3 a vertex
   std::span<const MeshRecord> meshes;
-  std::span<const MeshRecord> primitives;
-  std::span<const float> tangents;
+  std::span<const PrimitiveRecord> primitives;
+  std::span<const float> tangents;  // 4 a vertex; empty where the file tells none
   std::span<const uint32_t> region_vertices;
   std::span<const ModeRecord> modes;
   std::span<const ClipRecord> clips;

@@ -54,6 +54,8 @@ inline constexpr SectionRule kSectionRules[] = {
     {SectionKind::kPicks, sizeof(uint32_t), "picks"},
     {SectionKind::kSpread, sizeof(float), "spread"},
     {SectionKind::kTiers, sizeof(TierRecord), "tiers"},
+    {SectionKind::kPrimitives, sizeof(PrimitiveRecord), "primitives"},
+    {SectionKind::kTangents, 4 * sizeof(float), "tangents"},
     {SectionKind::kRods, sizeof(RodRecord), "rods"},
     {SectionKind::kRodSegments, sizeof(RodSegmentRecord), "rod segments"},
     {SectionKind::kJointRods, sizeof(uint32_t), "joint rods"},

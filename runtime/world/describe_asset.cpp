@@ -73,6 +73,7 @@ AssetInfo describe(const Asset& asset) noexcept {
           .node_count = character.node_count,
           .clip_count = character.clip_count,
           .mesh_count = character.mesh_count,
+          .primitive_count = static_cast<uint32_t>(asset.pack.primitives.size()),
           .moved_vertex_count = asset.soft.count,
           .proxy_count = character.proxy_count,
           .rod_count = character.rod_count,
@@ -80,6 +81,7 @@ AssetInfo describe(const Asset& asset) noexcept {
           .graph_levels = asset.level_count,
           .tick_hz = asset.pack.network->rate_hz,
           .height_m = character.height_m,
+          .unit_m = character.unit_m,
           .instance_bytes = instance_bytes(asset)};
 }
 
@@ -87,6 +89,7 @@ AssetArrays arrays_of(const Asset& asset) noexcept {
   const pack::PackView& pack = asset.pack;
   return {.positions_m = pack.positions,
           .normals = pack.normals,
+          .tangents = pack.tangents,
           .triangles = pack.triangles,
           .moved_vertices = asset.soft.all(),
           .skin_joints = pack.skin.data()->joint,
@@ -99,11 +102,23 @@ MeshInfo describe_mesh(const pack::PackView& pack, uint32_t mesh) noexcept {
   MeshInfo info{.name = pack::string_at(pack, record.name),
                 .first_vertex = record.first_vertex,
                 .vertex_count = record.vertex_count};
+  const auto of_mesh = std::ranges::equal_range(pack.primitives, mesh, {}, &pack::PrimitiveRecord::mesh);
+  info.first_primitive = static_cast<uint32_t>(of_mesh.begin() - pack.primitives.begin());
+  info.primitive_count = static_cast<uint32_t>(of_mesh.size());
   std::copy_n(record.mesh_from_bind, 12, &info.mesh_from_bind.m[0][0]);
   return info;
 }
 
-PrimitiveInfo describe_primitive(const pack::PackView&, uint32_t) noexcept { return {}; }
+PrimitiveInfo describe_primitive(const pack::PackView& pack, uint32_t primitive) noexcept {
+  const pack::PrimitiveRecord& record = pack.primitives[primitive];
+  return {.mesh = record.mesh,
+          .index = record.index,
+          .material = record.material == pack::kNoIndex ? nullptr : pack::string_at(pack, record.material),
+          .first_vertex = record.first_vertex,
+          .vertex_count = record.vertex_count,
+          .first_triangle = record.first_triangle,
+          .triangle_count = record.triangle_count};
+}
 
 JointInfo describe_joint(const Asset& asset, uint32_t joint) noexcept {
   const pack::PackView& pack = asset.pack;

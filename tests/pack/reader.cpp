@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 
+#include "baker/pack/character_pack.hpp"
 #include "baker/pack/dense_pack.hpp"
 #include "baker/pack/network_pack.hpp"
 #include "pack/dense_layout.hpp"
@@ -299,6 +300,9 @@ TEST_CASE("character_faults_are_refused_by_name") {
                  {"nodes", record([](auto& c) { c.node_count = 4; })},
                  {"clips", record([](auto& c) { c.clip_count = 0; })},
                  {"height", record([](auto& c) { c.height_m = kNan; })},
+                 {"unit of the character's file is 0 m", record([](auto& c) { c.unit_m = 0; })},
+                 {"unit of the character's file is nan", record([](auto& c) { c.unit_m = kNan; })},
+                 {"unit of the character's file is inf", record([](auto& c) { c.unit_m = kInfinity; })},
                  {"name lies outside", record([](auto& c) { c.name = 100000; })},
                  {"character 0: reserved", record([](auto& c) { c.reserved[0] = 1; })},
                  {"joint 1: its name", joint([](auto& j) { j.name = kNoIndex; })},
@@ -320,6 +324,97 @@ TEST_CASE("character_faults_are_refused_by_name") {
                  {"clip 0: rate", clip([](auto& c) { c.rate_hz = -60; })},
                  {"clip frames: number 30", set<float>(kClipFrames, 30, kNan)},
                  {"strings", [](PackEditor& e) { e.section<char>(kStrings).back() = 'x'; }}});
+}
+
+// Two primitives of one mesh share its 12 vertices and have 8 triangles each; their indices are 0 and 2.
+TEST_CASE("primitive_faults_are_refused_by_name") {
+  using enum SectionKind;
+  const auto primitive = [](size_t index, auto apply) {
+    return change<PrimitiveRecord>(kPrimitives, index, [=](PrimitiveRecord& p) { apply(p); });
+  };
+  const auto both = [=](auto apply) -> std::function<void(PackEditor&)> {
+    return [=](PackEditor& editor) {
+      for (size_t index : {0, 1}) primitive(index, apply)(editor);
+    };
+  };
+  check_refused(
+      character_pack(),
+      {{"primitive 1: mesh 1 of 1", primitive(1, [](auto& p) { p.mesh = 1; })},
+       {"primitive 0: mesh 4294967295 of 1", primitive(0, [](auto& p) { p.mesh = kNoIndex; })},
+       {"primitive 1: index 0 does not ascend", primitive(1, [](auto& p) { p.index = 0; })},
+       {"primitive 0: its material's name", primitive(0, [](auto& p) { p.material = 100000; })},
+       {"primitive 1: its material's name", primitive(1, [](auto& p) { p.material = kNoIndex - 1; })},
+       {"primitive 0: its vertices do not follow", primitive(0, [](auto& p) { p.first_vertex = 1; })},
+       {"primitive 1: its vertices do not follow", primitive(1, [](auto& p) { p.sharer = 0; })},
+       {"primitive 0: its vertices lie outside of mesh 0",
+        primitive(0, [](auto& p) { p.vertex_count = 13; })},
+       {"primitive 0: its vertices lie outside of mesh 0",
+        primitive(0, [](auto& p) { p.vertex_count = 0xffffffff; })},
+       {"primitive 0: shares with 0", primitive(0, [](auto& p) { p.sharer = 1; })},
+       {"primitive 1: shares with 1", primitive(1, [](auto& p) { p.sharer = 2; })},
+       {"primitive 1: its vertices are not those of primitive 0",
+        primitive(1, [](auto& p) { p.first_vertex = 4; })},
+       {"primitive 1: its vertices are not those of primitive 0",
+        primitive(1, [](auto& p) { p.vertex_count = 11; })},
+       {"primitive 0: its triangles do not follow", primitive(0, [](auto& p) { p.first_triangle = 1; })},
+       {"primitive 1: its triangles do not follow", primitive(1, [](auto& p) { p.first_triangle = 7; })},
+       {"primitive 1: its triangles are more", primitive(1, [](auto& p) { p.triangle_count = 9; })},
+       {"primitive 0: its triangles are more", primitive(0, [](auto& p) { p.triangle_count = 0xffffffff; })},
+       {"primitives: have 12 vertices and 15 triangles, the character 12 and 16",
+        primitive(1, [](auto& p) { p.triangle_count = 7; })},
+       {"primitive 1: a triangle has a vertex that is not its own",
+        both([](auto& p) { p.vertex_count = 8, p.triangle_count = p.index == 0 ? 8 : 1; })}});
+}
+
+TEST_CASE("primitives_that_share_across_meshes_or_lie_in_another_s_are_refused_by_name") {
+  using enum SectionKind;
+  baker::Character character = test::small_character();
+  character.meshes = {{.vertex_count = 4}, {.first_vertex = 4, .vertex_count = 8}};
+  character.triangles = {{0, 1, 2}, {4, 5, 6}, {8, 9, 10}};
+  character.primitives = {
+      {.vertex_count = 4, .triangle_count = 1},
+      {.mesh = 1, .first_vertex = 4, .vertex_count = 8, .first_triangle = 1, .triangle_count = 1},
+      {.mesh = 1,
+       .first_vertex = 4,
+       .vertex_count = 8,
+       .first_triangle = 2,
+       .triangle_count = 1,
+       .index = 1,
+       .sharer = 1}};
+  const baker::TissueLayout layout = test::small_layout(character);
+  const std::vector<std::byte> good = baker::pack_character(character, layout, test::small_modes(layout));
+  REQUIRE(PackEditor(good).open().ok());
+  const auto primitive = [](size_t index, auto apply) {
+    return change<PrimitiveRecord>(kPrimitives, index, [=](PrimitiveRecord& p) { apply(p); });
+  };
+  check_refused(
+      good, {{"primitive 1: its vertices lie outside of mesh 0",
+              primitive(1, [](auto& p) { p.mesh = 0, p.index = 1; })},
+             {"primitive 2: its mesh comes before", primitive(2, [](auto& p) { p.mesh = 0; })},
+             {"primitive 0: its vertices lie outside of mesh 1", primitive(0, [](auto& p) { p.mesh = 1; })},
+             {"primitive 2: its vertices are not those of primitive 0",
+              primitive(2, [](auto& p) { p.sharer = 1; })}});
+}
+
+TEST_CASE("tangent_faults_are_refused_by_name") {
+  using enum SectionKind;
+  check_refused(character_pack(), {{"vertex 2: tangent is not a unit vector", set<float>(kTangents, 8, 0.1f)},
+                                   {"vertex 2: tangent is not a unit vector", set<float>(kTangents, 9, kNan)},
+                                   {"vertex 11: its tangent's w is 0", set<float>(kTangents, 47, 0.0f)},
+                                   {"vertex 0: its tangent's w is nan", set<float>(kTangents, 3, kNan)},
+                                   {"vertex 1: its tangent's w is 1.5", set<float>(kTangents, 7, 1.5f)}});
+  baker::Character character = test::small_character();
+  const baker::TissueLayout layout = test::small_layout(character);
+  character.tangents.pop_back();
+  check_refused(baker::pack_character(character, layout, test::small_modes(layout)),
+                {{"tangents: 44 numbers for 12 vertices", [](PackEditor&) {}}});
+}
+
+TEST_CASE("a_pack_without_primitives_is_refused") {
+  baker::PackWriter writer = baker::PackWriter::from_pack(character_pack());
+  writer.section(SectionKind::kPrimitives, std::vector<PrimitiveRecord>());
+  check_refused(writer.finish(),
+                {{"primitives: have 0 vertices and 0 triangles, the character 12", [](PackEditor&) {}}});
 }
 
 // skinning, extrapolate, network, modal.

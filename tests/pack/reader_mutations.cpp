@@ -28,6 +28,8 @@ double read_strings(const PackView& view) {
   for (const JointRecord& joint : view.joints) name(joint.name);
   for (const RegionRecord& region : view.regions) name(region.name);
   for (const ClipRecord& clip : view.clips) name(clip.name);
+  for (const PrimitiveRecord& primitive : view.primitives)
+    if (primitive.material != kNoIndex) name(primitive.material);
   return sum;
 }
 
@@ -39,6 +41,19 @@ double read_mesh(const PackView& view) {
     for (uint16_t joint : skin.joint) sum += view.joints[joint].inverse_bind[11];
   for (const ClipRecord& clip : view.clips)
     sum += view.clip_frames[(clip.first_frame + clip.frame_count) * 12 * view.joints.size() - 1];
+  return sum;
+}
+
+double read_primitives(const PackView& view) {
+  double sum = 0;
+  for (const PrimitiveRecord& p : view.primitives) {
+    if (p.vertex_count > 0) sum += view.positions[3 * (size_t{p.first_vertex} + p.vertex_count) - 1];
+    if (p.triangle_count > 0) sum += view.triangles[3 * (size_t{p.first_triangle} + p.triangle_count) - 1];
+    sum += view.meshes[p.mesh].mesh_from_bind[0];
+    if (p.sharer > 0) sum += view.primitives[p.sharer - 1].index;
+  }
+  for (size_t v = 0; 4 * v < view.tangents.size(); ++v)
+    sum += view.tangents[4 * v + 3] * view.positions[3 * v];
   return sum;
 }
 
@@ -120,8 +135,8 @@ double read_levels(const PackView& view) {
 
 // Reads everything that indexes something, as the runtime would. Spans are not checked: the sanitizers are.
 double read_all(const PackView& view) {
-  return read_strings(view) + read_mesh(view) + read_regions(view) + read_modes(view) + read_network(view) +
-         read_rods(view) + read_levels(view);
+  return read_strings(view) + read_mesh(view) + read_primitives(view) + read_regions(view) +
+         read_modes(view) + read_network(view) + read_rods(view) + read_levels(view);
 }
 
 // Whether the damaged pack is taken; one that is must be safe to read.

@@ -89,6 +89,7 @@ void add_vertex(int v, baker::Character* character) {
   character->colors.push_back({200, 150, 100, 255});
   character->stiffness.push_back(0.1 * (v % 4));
   character->welded.push_back(v);
+  character->tangents.push_back({Vector3::UnitY(), v % 2 == 0 ? 1.0 : -1.0});
 }
 
 baker::Clip swing() {
@@ -179,6 +180,7 @@ baker::Safetensors small_coping_net() {
 baker::Character small_character() {
   baker::Character character;
   character.name = "bar";
+  character.unit_m = 0.01;
   add_joint("root", -1, {0, 0, 0}, &character);
   add_joint("middle", 0, {0, 0.25, 0}, &character);
   add_joint("tip", 1, {0, 0.25, 0}, &character);
@@ -188,6 +190,9 @@ baker::Character small_character() {
     character.triangles.push_back({v, v + 4, next});
     character.triangles.push_back({next, v + 4, next + 4});
   }
+  character.primitives = {
+      {.material = "skin", .vertex_count = 12, .triangle_count = 8},
+      {.vertex_count = 12, .first_triangle = 8, .triangle_count = 8, .index = 2, .sharer = 0}};
   character.clips.push_back(swing());
   return character;
 }

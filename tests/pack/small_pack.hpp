@@ -18,7 +18,8 @@ baker::Safetensors small_paper_weights();              // 9 -> 5 3, the paper's 
 std::vector<baker::HeardRanges> small_paper_ranges();  // of it, all 1
 baker::Safetensors small_deep_emulator();              // the paper's sizes
 baker::Safetensors small_coping_net();                 // latent 5, 2 blocks, depth 1
-baker::Character small_character();                    // a bar of 12 vertices on three joints, one clip
+// A bar of 12 vertices on three joints, with one clip; two primitives share its vertices.
+baker::Character small_character();
 baker::TissueLayout small_layout(const baker::Character& character);  // two regions of 3 and 2 nodes
 
 std::vector<baker::ModalBasis> small_modes(const baker::TissueLayout& layout);  // three and two

@@ -107,6 +107,12 @@ void add_clip(Character& character) {
   character.clips.push_back({.name = "nod", .duration_s = 1, .channels = {turn}});
 }
 
+void add_tangents(Character& character) {
+  for (size_t v = 0; v < character.positions.size(); ++v)
+    character.tangents.push_back(
+        {character.normals[v].unitOrthogonal(), character.positions[v].x() < 0 ? -1.0 : 1.0});
+}
+
 Character block_character(const BlockOptions& options) {
   Character character;
   character.name = options.name;
@@ -119,6 +125,7 @@ Character block_character(const BlockOptions& options) {
     character.stiffness.push_back(1 - softness(p));
   }
   if (options.clip) add_clip(character);
+  if (options.tangents) add_tangents(character);
   return character;
 }
 

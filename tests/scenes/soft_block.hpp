@@ -39,6 +39,7 @@ struct BlockOptions {
   std::vector<int> coarser_nodes = {};           // a region, of coarser control graphs
   bool leaves_out = false;                       // one graph more: the last without the left region
   std::optional<ArmMatter> arms = std::nullopt;  // block_arms.hpp
+  bool tangents = false;                         // along the faces, w -1 where x is below zero
   bool clip = false;  // "nod": a second in which the upper joint turns by 1 rad about z, evenly
 };
 

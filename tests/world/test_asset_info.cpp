@@ -103,6 +103,29 @@ TEST_CASE("arrays_are_those_of_the_pack") {
   CHECK(joints == pack.skin.back().joint);
 }
 
+TEST_CASE("meshes_are_made_of_primitives_that_cover_them") {
+  const Stage stage;
+  CHECK(stage.info.unit_m == 1);
+  uint32_t vertices = 0, triangles = 0, primitives = 0;
+  for (uint32_t m = 0; m < stage.info.mesh_count; ++m) {
+    MeshInfo mesh;
+    REQUIRE(stage.world.mesh_info(stage.asset, m, &mesh).ok());
+    CHECK(mesh.first_primitive == primitives);
+    for (uint32_t p = 0; p < mesh.primitive_count; ++p, ++primitives) {
+      PrimitiveInfo primitive;
+      REQUIRE(stage.world.primitive_info(stage.asset, primitives, &primitive).ok());
+      CHECK(primitive.mesh == m);
+      CHECK(primitive.first_vertex == vertices);
+      CHECK(primitive.first_triangle == triangles);
+      vertices += primitive.vertex_count;
+      triangles += primitive.triangle_count;
+    }
+  }
+  CHECK(primitives == stage.info.primitive_count);
+  CHECK(vertices == stage.info.vertex_count);
+  CHECK(triangles == stage.info.triangle_count);
+}
+
 TEST_CASE("moved_vertices_are_those_that_some_region_carries") {
   const scenes::PackBytes bytes = scenes::soft_block({.regions = 2, .network = false});
   const Stage stage(1, {}, bytes);

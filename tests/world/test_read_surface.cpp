@@ -173,6 +173,42 @@ TEST_CASE("bind_normals_skinned_are_the_characters") {
   CHECK(worst_rad < 0.5 * moved_rad);
 }
 
+TEST_CASE("tangents_are_unit_square_to_the_normals_and_keep_their_hand") {
+  const scenes::PackBytes bytes = scenes::soft_block({.network = false, .tangents = true});
+  for (const Space space : {Space::kCharacter, Space::kWorld, Space::kBind}) {
+    Stage stage(1, {}, bytes);
+    stage.play(scenes::walk, 1.3);
+    const AssetArrays arrays = arrays_of(stage);
+    const std::vector<float> turned = normals(stage, space);
+    std::vector<float> tangents(size_t{4} * stage.info.vertex_count);
+    REQUIRE(stage.world
+                .read_surface(stage.blocks[0], {.space = space,
+                                                .capacity = stage.info.vertex_count,
+                                                .tangents = {tangents.data(), 0, VertexFormat::kFloat4}})
+                .ok());
+    double worst = 0, moved = 0;
+    bool same_hand = true;
+    for (size_t v = 0; v < stage.info.vertex_count; ++v) {
+      const Eigen::Vector3f tangent(&tangents[4 * v]), bound(&arrays.tangents[4 * v]);
+      worst = std::max<double>({worst, std::abs(tangent.norm() - 1), std::abs(tangent.dot(at(turned, v)))});
+      moved = std::max<double>(moved, (tangent - bound).norm());
+      same_hand = same_hand && tangents[4 * v + 3] == arrays.tangents[4 * v + 3];
+    }
+    CHECK(worst < 1e-5);
+    CHECK(moved > 0.02);
+    CHECK(same_hand);
+  }
+}
+
+TEST_CASE("tangents_of_an_asset_without_are_refused") {
+  Stage stage;
+  std::vector<float> out(size_t{3} * stage.info.vertex_count);
+  const Status status = stage.world.read_surface(
+      stage.blocks[0], {.capacity = stage.info.vertex_count, .tangents = {out.data()}});
+  CHECK(status.code == StatusCode::kInvalidArgument);
+  CHECK_THAT(status.message, Catch::Contains("texture coordinates"));
+}
+
 // ---- single points ----
 
 TEST_CASE("read_points_refuses_places_that_are_none") {

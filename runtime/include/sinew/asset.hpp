@@ -59,10 +59,13 @@ struct MeshInfo {
   Matrix34 mesh_from_bind = {};
 };
 
-// Its vertex i is element i of the file's POSITION accessor.
+// What one material paints. Its vertex i is element i of the file's POSITION accessor, and none is left out.
+// Primitives of a mesh with the same accessors share their vertices. Its triangles are the file's in their
+// order, strips and fans as triangles; those without area are left out, and of a mesh that its place in the
+// scene mirrors the last two corners are swapped.
 struct PrimitiveInfo {
   uint32_t mesh = 0;
-  uint32_t index = 0;              // which one of the file's mesh
+  uint32_t index = 0;              // which one of the file's mesh, points and lines counted
   const char* material = nullptr;  // null: it has no name
   uint32_t first_vertex = 0, vertex_count = 0;
   uint32_t first_triangle = 0, triangle_count = 0;

@@ -60,6 +60,9 @@ TEST_CASE("info_lists_the_bones_and_meshes_of_a_file_that_is_to_be_baked") {
   for (const auto& mesh : description["meshes"]) shown += mesh["vertices"].get<size_t>();
   CHECK(moved == shown);
   CHECK(moved > 500);
+  CHECK(description["character"]["unit_m"] == 1);
+  CHECK(description["primitives"][0]["vertices"].get<size_t>() <= shown);
+  CHECK(description["primitives"][0]["mesh"] == description["meshes"][0]["name"]);
   CHECK(description["clips"].size() >= 4);
 }
 

@@ -49,11 +49,19 @@ TEST_CASE("info_shows_a_character_to_people_and_to_machines") {
   const ProgramResult table = bake({"info", files.pack}), json = bake({"info", "--json", files.pack});
   CHECK(table.exit_code == 0);
   for (const char* word : {"character", "belly", "swing", "felt_step", "modal", "first_hz", "made_by",
-                           "a key that nobody knows"})
+                           "a key that nobody knows", "unit_m", "primitives", "first_triangle"})
     CHECK_THAT(table.out, Catch::Contains(word));
   const auto description = nlohmann::json::parse(json.out);
   CHECK(description["kind"] == "character");
   CHECK(description["character"]["vertices"] == 12);
+  CHECK(description["character"]["unit_m"].get<double>() == Approx(0.01));
+  CHECK(description["character"]["tangents"] == true);
+  CHECK(description["meshes"][0]["vertices"] == 12);
+  CHECK(description["primitives"][0]["material"] == "skin");
+  CHECK(description["primitives"][1]["material"].is_null());
+  CHECK(description["primitives"][1]["index"] == 2);
+  CHECK(description["primitives"][1]["vertices"] == 12);
+  CHECK(description["primitives"][1]["first_triangle"] == 8);
   CHECK(description["network"]["channels"] == std::vector<int>{5, 3});
   CHECK(description["regions"][1]["name"] == "tip");
   CHECK(description["regions"][1]["modes"] == 2);
