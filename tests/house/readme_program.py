@@ -1,4 +1,4 @@
-"""Checks that each page's first C++ program is the file that the build compiles and a test runs, line by line.
+"""Checks that each page's first program is the file that the build compiles and a test runs, line by line.
 
 usage: readme_program.py PROJECT_ROOT
 """
@@ -6,13 +6,14 @@ import pathlib
 import re
 import sys
 
-PROGRAMS = {"README.md": "samples/hello/hello.cpp", "runtime/README.md": "tests/house/tracy_hook.hpp"}
+PROGRAMS = {"README.md": "samples/hello/hello.cpp", "runtime/README.md": "tests/house/tracy_hook.hpp",
+            "docs/in-your-engine.md": "samples/engine/engine.c"}
 
 
 def shows(root, page, file):
-    shown = re.search(r"```cpp\n(.*?)```", (root / page).read_text(), re.DOTALL)
+    shown = re.search(r"```c(?:pp)?\n(.*?)```", (root / page).read_text(), re.DOTALL)
     if not shown:
-        print(f"{page} shows no C++ program")
+        print(f"{page} shows no program")
         return False
     program = (root / file).read_text()
     program = program[program.index("#include"):]
