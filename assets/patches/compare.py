@@ -7,11 +7,17 @@ CHARACTERS_DIR holds a folder a character, with file.glb, .gltf or .vrm; our cre
 creature's, with "model": "deep_emulator". Prints the table of perf_emulator, and before it the error of the usual recipe.
 """
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "python"))
+
+import sinew  # noqa: E402
+from sinew import baking  # noqa: E402
+
 WEIGHTS = ROOT / "assets" / "weights" / "emulator.safetensors"
 
 
@@ -21,13 +27,12 @@ def emulated(recipe):
     return {**recipe, "model": "deep_emulator", "rods": []}
 
 
-def bake(build, source, recipe, out, *more):
-    command = [build / "bin" / "sinew-bake", "character", source, "--recipe", recipe, "-o", out, *more]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        sys.exit(f"compare.py: {source}: {done.stderr.strip() or done.stdout.strip()}")
-    info = subprocess.run([build / "bin" / "sinew-bake", "info", out, "--json"], capture_output=True, text=True, check=True)
-    return json.loads(info.stdout)
+def bake(source, recipe, out, **weights):
+    try:
+        sinew.bake(source, out, recipe=recipe, **weights)
+    except sinew.Refused as refused:
+        sys.exit(f"compare.py: {source}: {refused}")
+    return sinew.info(out)
 
 
 def error_of(info, tier):
@@ -35,14 +40,13 @@ def error_of(info, tier):
     return found[0]["error_ratio"] if found else None
 
 
-def creature(build, work):
+def creature(work):
     path = work / "creature.glb"
-    subprocess.run([build / "bin" / "sinew-bake", "creature", ROOT / "assets" / "creature" / "creature.json", "-o", path],
-                   capture_output=True, check=True)
+    baking.run("creature", ROOT / "assets" / "creature" / "creature.json", "-o", path)
     return path
 
 
-def found(build, characters, work, names):
+def found(characters, work, names):
     """Name, file and the usual recipe of each."""
     for folder in sorted(Path(characters).iterdir()):
         own = ROOT / "assets" / "gallery" / f"{folder.name}.json"
@@ -50,21 +54,22 @@ def found(build, characters, work, names):
         if source and own.exists() and (not names or folder.name in names):
             yield folder.name, source, own
     if not names or "creature" in names:
-        yield "creature", creature(build, work), ROOT / "assets" / "creature" / "tissue.json"
+        yield "creature", creature(work), ROOT / "assets" / "creature" / "tissue.json"
 
 
 def main(build, characters, work, *names):
     build, work = Path(build), Path(work)
+    os.environ["SINEW_BAKE"] = str(build / "bin" / "sinew-bake")
     work.mkdir(parents=True, exist_ok=True)
     packs = []
-    for name, source, own in found(build, characters, work, names):
+    for name, source, own in found(characters, work, names):
         recipe = work / f"{name}.json"
         recipe.write_text(json.dumps(emulated(json.loads(own.read_text())), indent=1))
         out = work / f"{name}.sinew"
-        usual = bake(build, source, own, work / f"{name}_own.sinew")
+        usual = bake(source, own, work / f"{name}_own.sinew")
         if error_of(usual, "modal") is None:
             continue  # nothing of it is flesh
-        bake(build, source, recipe, out, "--emulator", WEIGHTS)
+        bake(source, recipe, out, emulator=WEIGHTS)
         print(f"{name}: the usual recipe leaves {error_of(usual, 'modal'):.3f} by modes", flush=True)
         packs.append(out)
     subprocess.run([build / "bin" / "perf_emulator", *packs], check=True)

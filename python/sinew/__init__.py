@@ -16,8 +16,17 @@ SINEW_INCLUDE say, else where pkg-config has them; sinew-bake on the path, or wh
 What is refused raises sinew.Refused with the library's line, and nothing has changed. All of sinew.h is there as sinew.lib,
 for what this module has no shorthand for. Threads: as sinew::World has it.
 """
-from sinew.bake import bake
-from sinew.library import Refused, ffi, lib
-from sinew.world import Asset, Instance, World, root
+import importlib
 
-__all__ = ["Asset", "Instance", "Refused", "World", "bake", "ffi", "lib", "root"]
+from sinew.baking import bake, info
+from sinew.refused import Refused
+
+_OF = {"Asset": "world", "Instance": "world", "World": "world", "root": "world", "ffi": "library", "lib": "library"}
+__all__ = ["Refused", "bake", "info", *_OF]
+
+
+def __getattr__(name):
+    """What needs the shared library looks for it when it is first asked for: baking does without."""
+    if name not in _OF:
+        raise AttributeError(f"module 'sinew' has no attribute '{name}'")
+    return getattr(importlib.import_module(f"sinew.{_OF[name]}"), name)

@@ -6,13 +6,7 @@ import subprocess
 
 import cffi
 
-
-class Refused(ValueError):
-    """What the library refuses; its own line says what, where and how to mend it. `status` is sinew_status."""
-
-    def __init__(self, status, message):
-        super().__init__(message)
-        self.status = status
+from sinew.refused import Refused
 
 
 def _asked(*arguments):
