@@ -45,7 +45,7 @@ double sag_m(RodBatch& batch, int steps) {
 
 TEST_CASE("a_change_of_a_joint_that_is_none_is_refused_and_changes_nothing") {
   RodBatch batch = make_chain(), untouched = make_chain();
-  for (const float bad : {0.0f, -1.0f, 1e-38f, 1e38f})
+  for (const float bad : {0.0f, -1.0f, 1e-45f})
     CHECK(batch.set_joint(0, 1, {.stiffness = bad}).code == StatusCode::kInvalidArgument);
   for (const float bad : {kNan, INFINITY}) {
     CHECK(batch.set_joint(0, 1, {.stiffness = bad}).code == StatusCode::kNotFinite);
