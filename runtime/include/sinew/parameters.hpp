@@ -13,7 +13,9 @@ namespace sinew {
 // How a soft part or a rod swings, as shares of what was baked. NaN: kNotFinite; out of range:
 // kInvalidArgument.
 struct PartParameters {
-  // 0..2, share of its swing that is shown. It swings on beneath: 0 shows the pose, at the cost of 1.
+  // 0..2, share of its swing that is shown. It swings on beneath: 0 shows the pose, at the cost of 1. Of a
+  // bone that goes beyond half a turn against its pose (a limp rod) a share other than 0, 1 or 2 changes
+  // sides there, at once.
   float intensity = 1;
   // 0.01..100, of the baked stiffness: its frequencies go with the root of it, and what a load that lasts
   // moves it by is divided by it. Of a soft part away from 1 (by a quarter or more) a network corrects
