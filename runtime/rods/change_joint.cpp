@@ -26,24 +26,24 @@ bool is_normal(float value) {
 
 }  // namespace
 
-Status RodBatch::set_joint(uint32_t strand, uint32_t segment, const JointShares& shares) noexcept {
+Status RodBatch::set_joint(uint32_t strand, uint32_t segment, const JointChange& change) noexcept {
   const Place place{strand, segment};
   if (const Status status = check_place(strand, segment); !status.ok()) return status;
   if (segment == 0)
     return core::make_status(StatusCode::kInvalidArgument,
                              "strand %u, segment 0: the root has no joint; give a segment after it", strand);
-  if (!(shares.stiffness > 0) || !std::isfinite(shares.stiffness))
-    return refuse(place, "the stiffness's share", shares.stiffness, "give a finite number above 0");
-  if (!(shares.damping >= 0) || !std::isfinite(shares.damping))
-    return refuse(place, "the damping's share", shares.damping, "give a finite number, 0 or more");
+  if (!(change.stiffness > 0) || !std::isfinite(change.stiffness))
+    return refuse(place, "stiffness", change.stiffness, "give a finite number above 0");
+  if (!(change.damping >= 0) || !std::isfinite(change.damping))
+    return refuse(place, "damping", change.damping, "give a finite number, 0 or more");
   const uint32_t record = joint_segments_[segment];
-  const float numbers[kMadeJoint] = {made_joint(strand, record, 0) / shares.stiffness,
-                                     made_joint(strand, record, 1) / shares.stiffness,
-                                     made_joint(strand, record, 2) * shares.damping};
+  const float numbers[kMadeJoint] = {made_joint(strand, record, 0) / change.stiffness,
+                                     made_joint(strand, record, 1) / change.stiffness,
+                                     made_joint(strand, record, 2) * change.damping};
   if (!is_normal(numbers[0]) || !is_normal(numbers[1]))
-    return refuse(place, "the stiffness's share", shares.stiffness, "its compliance leaves float's range");
+    return refuse(place, "stiffness", change.stiffness, "its compliance leaves float's range");
   if (!std::isfinite(numbers[2]))
-    return refuse(place, "the damping's share", shares.damping, "its damping leaves float's range");
+    return refuse(place, "damping", change.damping, "its damping_s leaves float's range");
   for (uint32_t k = 0; k < kMadeJoint; ++k) at(strand, record, kJointFields[k]) = numbers[k];
   return {};
 }

@@ -177,15 +177,15 @@ class RodBatch {
   // The segment's orientation in its parent's axes at which their joint is at rest, until changed. Refused:
   // no such segment, the root, no unit quaternion.
   Status set_rest(uint32_t strand, uint32_t segment, const float (&to_parent)[4]) noexcept;
-  // So many times as stiff against bending and twisting, and so many times its damping_s, as the segment's
-  // joint to its parent was created with, until changed; no state, so that a snapshot leaves it as it is.
+  // The segment's joint to its parent as it was created, but so many times as stiff against bending and
+  // twisting, and with so many times its damping_s, until changed. No state: a snapshot leaves it as it is.
   // What a network for starts was told of joints stays. Refused: no such segment, the root; a stiffness that
   // is not finite and above 0, a damping that is not finite and 0 or more, either that leaves float's range
-  // in the strand's own units.
-  struct JointShares {
+  // in the strand's own units; the joint stays as it was.
+  struct JointChange {
     float stiffness = 1, damping = 1;
   };
-  Status set_joint(uint32_t strand, uint32_t segment, const JointShares& shares) noexcept;
+  Status set_joint(uint32_t strand, uint32_t segment, const JointChange& change) noexcept;
   // Turns everything rigidly about a point: poses, velocities, forces. Targets not yet stepped to are
   // dropped.
   void turn_all(const std::array<double, 4>& by_xyzw, const std::array<double, 3>& centre_m) noexcept;

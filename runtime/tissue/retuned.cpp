@@ -44,8 +44,9 @@ Recurrence recurrence_of(const Swing& baked, const Swing& now) noexcept {
 }
 
 Swing changed(const Swing& baked, const Retuning& by) noexcept {
-  return {std::sqrt(double{by.stiffness}) * baked.turn,
-          std::max(kLeastDampingRatio, double{by.damping} * baked.damping_ratio)};
+  const double turn = std::sqrt(double{by.stiffness}) * baked.turn;
+  return {turn, std::max(kLeastDampingRatio, double{by.damping} * baked.damping_ratio) +
+                    double{by.stiffens} / (2 * turn)};
 }
 
 // z = r exp(+-i phi), or r exp(+-phi) where it creeps, is exp of h times the mode's own roots.

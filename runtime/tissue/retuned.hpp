@@ -3,9 +3,11 @@
 // Of a mode w, zeta, with s the stiffness's and d the damping ratio's share of the baked ones and h a tick:
 //   w' = sqrt(s) w,   zeta' = max(d zeta, kLeastDampingRatio),   roots r exp(+-i phi) of w', zeta' in a tick
 //   a1 = 2 r cos phi,   a2 = -r^2,   gain = (1 - a1 - a2) / w'^2
-// so that a load that lasts moves it by 1 / s of what it did. What swings faster than half the tick's rate
-// answers at once (a1 = a2 = 0), as a baker has it; what is made so fast gets there smoothly, for near that
-// rate a mode would turn over in every tick: from kFast radians a tick on r is faded out.
+// so that a load that lasts moves it by 1 / s of what it did. In a tick in which s rises by a factor exp(g)
+// zeta' is g / (2 w' h) more: springs that become stiffer while they are bent hand energy to what swings,
+// which would be flung; twice as much damping as takes that energy holds it. What swings faster than half the
+// tick's rate answers at once (a1 = a2 = 0), as a baker has it; what is made so fast gets there smoothly, for
+// near that rate a mode would turn over in every tick: from kFast radians a tick on r is faded out.
 #pragma once
 #include "pack/format.hpp"
 
@@ -13,9 +15,10 @@ namespace sinew::tissue {
 
 inline constexpr double kLeastDampingRatio = 0.002, kFast = 1.5;
 
-// Shares of what was baked, s and d; above 0, and 0 or more.
+// Shares of what was baked, s and d; above 0, and 0 or more. stiffens: g, 0 or more.
 struct Retuning {
   float stiffness = 1, damping = 1;
+  float stiffens = 0;
 };
 
 // The mode's last two values' shares in the next.

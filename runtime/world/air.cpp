@@ -105,7 +105,9 @@ Vector3d root_of_tick(const Instance& instance, int tick) noexcept {
 }
 
 void begin_gusts(Instance& instance) noexcept {
-  const double cycles = -cycles_along(instance, Eigen::Map<const Vector3d>(instance.state->root.position_m));
+  const InstanceState& state = *instance.state;
+  const RootTransform& root = state.has_next ? state.next_root : state.root;
+  const double cycles = -cycles_along(instance, Eigen::Map<const Vector3d>(root.position_m));
   instance.state->air.gust_cycles = instance.state->air.next_gust_cycles = within_period(cycles);
 }
 
@@ -156,7 +158,7 @@ void end_air_tick(Instance& instance) noexcept {
   const bool blew = has_wind(air, When::kNow);
   bool glides = false;
   for (uint32_t k = 0; k < kAirNumbers; ++k) {
-    glide(targets.numbers[k], kRounding, air.numbers[k]);
+    glide(targets.numbers[k], kRounding, kAnySpeed, air.numbers[k]);
     glides |= moves(air.numbers[k]);
   }
   const bool blows = has_wind(air, When::kNext);

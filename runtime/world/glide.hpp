@@ -1,17 +1,21 @@
 // glide.hpp  A number on its way to what was set, tick by tick.
 #pragma once
+#include <algorithm>
 #include <cmath>
 
 #include "world/tuning_state.hpp"
 
 namespace sinew::world {
 
-// next, and its speed, a tick later: as a critically damped spring has it, whose half-way mark is 3.4 ticks
-// away and of whose way 2 % are left after 12. Within `rounding` of the target it is there, exactly.
-inline void glide(float target, float rounding, Gliding& number) noexcept {
-  constexpr float kPace = 0.5f, kKept = 0.60653066f;  // exp(-kPace)
-  const float off = number.next - target, way = number.speed + kPace * off;
-  const float left = kKept * (off + way), speed = kKept * (number.speed - kPace * way);
+// next, and its speed, a tick later: as a critically damped spring has it, whose half-way mark is 4.2 ticks
+// away and of whose way 5 % are left after 12. Within `rounding` of the target it is there, exactly.
+// From far away it goes by `fastest` a tick.
+inline constexpr float kPace = 0.4f, kAnySpeed = 1e9f;
+inline void glide(float target, float rounding, float fastest, Gliding& number) noexcept {
+  constexpr float kKept = 0.67032005f;  // exp(-kPace)
+  const float off = number.next - target, felt = std::clamp(off, -2 * fastest / kPace, 2 * fastest / kPace);
+  const float way = number.speed + kPace * felt;
+  const float left = off - felt + kKept * (felt + way), speed = kKept * (number.speed - kPace * way);
   const bool there = std::abs(left) < rounding && std::abs(speed) < rounding;
   number.next = there ? target : target + left;
   number.speed = there ? 0 : speed;

@@ -19,8 +19,9 @@ constexpr float kRounding = 1e-4f;
 
 // What the gliding numbers of a part go to.
 struct Targets {
-  float intensity, log_stiffness, damping, displacement;
+  float intensity, log_stiffness, damping, root_displacement;
   bool enabled;
+  float fastest_log = kAnySpeed;  // of log_stiffness, a tick
 };
 
 Targets targets_of(const InstanceState& state, const PartTuning& part) noexcept {
@@ -30,16 +31,21 @@ Targets targets_of(const InstanceState& state, const PartTuning& part) noexcept 
   return {.intensity = enabled ? std::min(all.intensity * own.intensity, kMostIntensity) : 0,
           .log_stiffness = static_cast<float>(std::log(double{stiffness})),
           .damping = std::min(all.damping * own.damping, kMostDamping),
-          .displacement = std::min(all.displacement * own.displacement, kMostDisplacement),
+          .root_displacement = std::sqrt(std::min(all.displacement * own.displacement, kMostDisplacement)),
           .enabled = enabled};
 }
 
+// A tick, at most. Far softer flesh is bent further than is shown, and what swings beneath a limit further
+// than it: what comes back into sight is to be seen coming. A region's stiffness becomes ten times another in
+// 19 ticks, a rod's in 38, and what the glide takes at its ends.
+constexpr float kFastestOfRegion = 0.12f, kFastestOfRod = 0.06f, kFastestRootDisplacement = 0.06f;
+
 template <class Part, class Work>
 void for_each_number(Part& part, const Targets& targets, Work work) noexcept {
-  work(part.intensity, targets.intensity);
-  work(part.log_stiffness, targets.log_stiffness);
-  work(part.damping, targets.damping);
-  work(part.displacement, targets.displacement);
+  work(part.intensity, targets.intensity, kAnySpeed);
+  work(part.log_stiffness, targets.log_stiffness, targets.fastest_log);
+  work(part.damping, targets.damping, kAnySpeed);
+  work(part.root_displacement, targets.root_displacement, kFastestRootDisplacement);
 }
 
 bool is_default(const SetParameters& set) noexcept {
@@ -49,7 +55,7 @@ bool is_default(const SetParameters& set) noexcept {
 bool is_as_baked(const PartTuning& part) noexcept {
   bool as_baked = is_default(part.set) && part.off == 0;
   for_each_number(part, {1, 0, 1, 1, true},
-                  [&](const Gliding& number, float baked) { as_baked &= stands_at(number, baked); });
+                  [&](const Gliding& number, float baked, float) { as_baked &= stands_at(number, baked); });
   return as_baked;
 }
 
@@ -67,8 +73,17 @@ bool all_are_as_baked(const Instance& instance) noexcept {
 
 // ---- what follows from the numbers ----
 
+float displacement_of(const PartTuning& part, float x) noexcept {
+  const float root = between(part.root_displacement, x);
+  return root * root;
+}
+
 float stiffness_of(const PartTuning& part) noexcept {
   return static_cast<float>(std::exp(double{part.log_stiffness.next}));
+}
+
+float stiffens(const PartTuning& part) noexcept {
+  return std::max(0.0f, part.log_stiffness.next - part.log_stiffness.now);
 }
 
 void retune_modes(Instance& instance, size_t r, const tissue::Retuning& by) noexcept {
@@ -89,18 +104,18 @@ void retune_modes(Instance& instance, size_t r, const tissue::Retuning& by) noex
 
 void retune_region(Instance& instance, size_t r) noexcept {
   const PartTuning& part = instance.region_tunings[r];
-  const tissue::Retuning by{stiffness_of(part), part.damping.next};
+  const tissue::Retuning by{stiffness_of(part), part.damping.next, stiffens(part)};
   instance.tuned_regions[r].on = by.stiffness != 1 || by.damping != 1;
   if (instance.tuned_regions[r].on) retune_modes(instance, r, by);
 }
 
 void retune_rod(Instance& instance, uint32_t rod) noexcept {
   const RodSeat& seat = instance.asset->rods.seats()[rod];
-  const rods::RodBatch::JointShares shares{stiffness_of(instance.rod_tunings[rod]),
+  const rods::RodBatch::JointChange change{stiffness_of(instance.rod_tunings[rod]),
                                            rod_damping_share(instance, rod)};
   // What leaves float's range keeps its last value.
   for (uint32_t k = 1; k <= seat.segment_count(); ++k)
-    (void)instance.rod_batches[seat.batch].set_joint(seat.strand, k, shares);
+    (void)instance.rod_batches[seat.batch].set_joint(seat.strand, k, change);
 }
 
 // ---- the way there ----
@@ -110,11 +125,12 @@ bool swings_otherwise(const PartTuning& part) noexcept {
 }
 
 // Whether anything of it will change.
-bool glide_part(const InstanceState& state, PartTuning& part) noexcept {
-  const Targets targets = targets_of(state, part);
+bool glide_part(const InstanceState& state, float fastest_log, PartTuning& part) noexcept {
+  Targets targets = targets_of(state, part);
+  targets.fastest_log = fastest_log;
   bool any = false;
-  for_each_number(part, targets, [&](Gliding& number, float target) {
-    glide(target, kRounding, number);
+  for_each_number(part, targets, [&](Gliding& number, float target, float fastest) {
+    glide(target, kRounding, fastest, number);
     any |= moves(number);
   });
   if (!targets.enabled && stands_at(part.intensity, 0)) part.off = kOff;
@@ -124,7 +140,7 @@ bool glide_part(const InstanceState& state, PartTuning& part) noexcept {
 void glide_regions(Instance& instance) noexcept {
   for (size_t r = 0; r < instance.level->pack.regions.size(); ++r) {
     PartTuning& part = instance.region_tunings[r];
-    if (!glide_part(*instance.state, part)) continue;
+    if (!glide_part(*instance.state, kFastestOfRegion, part)) continue;
     instance.state->tuning_moves = 1;
     instance.quiet_ticks[r] = 0;
     if (swings_otherwise(part)) retune_region(instance, r);
@@ -134,7 +150,7 @@ void glide_regions(Instance& instance) noexcept {
 void glide_rods(Instance& instance) noexcept {
   for (uint32_t rod = 0; rod < instance.asset->rods.rod_count; ++rod) {
     PartTuning& part = instance.rod_tunings[rod];
-    if (!glide_part(*instance.state, part)) continue;
+    if (!glide_part(*instance.state, kFastestOfRod, part)) continue;
     instance.state->tuning_moves = 1;
     wake_rods(instance);
     if (swings_otherwise(part)) retune_rod(instance, rod);
@@ -194,7 +210,7 @@ void begin_tuned_tick(Instance& instance) noexcept {
   if (instance.state->tuned & kTunedAir) begin_air_tick(instance);
   if (!tunes_parts(instance)) return;
   for_each_tuning(instance, [](PartTuning& part) {
-    for_each_number(part, {}, [](Gliding& number, float) { number.now = number.next; });
+    for_each_number(part, {}, [](Gliding& number, float, float) { number.now = number.next; });
   });
   return_regions(instance);
   return_rods(instance);
@@ -217,7 +233,9 @@ void settle_tuning(Instance& instance) noexcept {
   if (!tunes_parts(instance)) return;
   for_each_tuning(instance, [&](PartTuning& part) {
     const Targets targets = targets_of(state, part);
-    for_each_number(part, targets, [](Gliding& number, float target) { number = {target, target, 0}; });
+    for_each_number(part, targets, [](Gliding& number, float target, float) {
+      number = {target, target, 0};
+    });
     part.off = targets.enabled ? 0 : kOff;
   });
   retune_all(instance);
@@ -258,7 +276,7 @@ float first_rad_per_s(const Instance& instance, size_t region) noexcept {
 
 float limit_m(const Instance& instance, size_t region, float x) noexcept {
   const float baked_m = instance.level->pack.regions[region].displacement_limit_m;
-  return tunes_parts(instance) ? between(instance.region_tunings[region].displacement, x) * baked_m : baked_m;
+  return tunes_parts(instance) ? displacement_of(instance.region_tunings[region], x) * baked_m : baked_m;
 }
 
 float shown_limit_m(const Instance& instance, size_t region) noexcept {
@@ -327,15 +345,22 @@ RodShown rod_shown(const Instance& instance, uint32_t rod, float x) noexcept {
   const float limit_rad = instance.asset->rods.seats()[rod].turn_limit_rad;
   if (!tunes_parts(instance)) return {limit_rad, 1};
   const PartTuning& part = instance.rod_tunings[rod];
-  const float tuned_rad = limit_rad > 0 ? std::max(kLeast_rad, between(part.displacement, x) * limit_rad) : 0;
+  const float tuned_rad = limit_rad > 0 ? std::max(kLeast_rad, displacement_of(part, x) * limit_rad) : 0;
   return {tuned_rad, between(part.intensity, x)};
 }
 
-// A joint's damping ratio is w damping_s / 2.
+// A joint's damping ratio is w damping_s / 2. Damping leads the rest shape by as many ticks' motion as it
+// lasts (world/rod_motion.cpp), which is exact for turns that are small: a change makes it last no longer
+// than half a second at 60 Hz, where most rods creep.
 float rod_damping_share(const Instance& instance, uint32_t rod) noexcept {
+  constexpr double kLongestTicks = 30;
   if (!tunes_parts(instance)) return 1;
   const PartTuning& part = instance.rod_tunings[rod];
-  return part.damping.next / std::sqrt(stiffness_of(part));
+  const RodRig& rig = instance.asset->rods;
+  const float baked_s = rig.slots()[rig.seats()[rod].first_slot + 1].damping_s;
+  const auto longest_s = static_cast<float>(kLongestTicks * instance.asset->tick_s);
+  return std::min(part.damping.next / std::sqrt(stiffness_of(part)),
+                  baked_s > 0 ? std::max(1.0f, longest_s / baked_s) : 1);
 }
 
 float tuned_reach_m(const Instance& instance) noexcept {
@@ -343,8 +368,9 @@ float tuned_reach_m(const Instance& instance) noexcept {
   for (size_t r = 0; tunes_parts(instance) && r < instance.level->pack.regions.size(); ++r) {
     const PartTuning& part = instance.region_tunings[r];
     const Targets targets = targets_of(*instance.state, part);
-    const float shows = std::max({1.0f, part.intensity.now, targets.intensity}) *
-                        std::max({1.0f, part.displacement.now, targets.displacement});
+    const float shows =
+        std::max({1.0f, part.intensity.now, targets.intensity}) *
+        std::max({1.0f, displacement_of(part, 0), targets.root_displacement * targets.root_displacement});
     most_m = std::max(most_m, (shows - 1) * instance.level->pack.regions[r].displacement_limit_m);
   }
   return most_m;

@@ -1,7 +1,8 @@
 // tuning.hpp  How parts swing, as an engine changes it between steps (sinew/parameters.hpp).
 //
-// Every number of a part goes to what was set as a critically damped spring does, kPace a tick: 2 % of the
-// way are left after 12 ticks. A tick runs with the numbers that the end of the last one foretold, so frames
+// Every number of a part goes to what was set as a critically damped spring does (world/glide.hpp): 5 % of
+// the way are left after 12 ticks. Stiffness, in its logarithm, and displacement, in its root, go no faster
+// than world/tuning.cpp says. A tick runs with the numbers that the end of the last one foretold, so frames
 // between ticks know what the coming tick will have, and a call between steps moves nothing by itself.
 //   stiffness, damping   change the recurrences of a part's modes (tissue/retuned.hpp), and a rod's joints
 //                        (RodBatch::set_joint); q, r and l go on from where they are
@@ -86,7 +87,7 @@ struct RodShown {
   float intensity;
 };
 RodShown rod_shown(const Instance& instance, uint32_t rod, float x = 0) noexcept;
-// What its joints' damping_s is multiplied with.
+// What its joints' damping_s is multiplied with in the coming tick.
 float rod_damping_share(const Instance& instance, uint32_t rod) noexcept;
 
 // By how much further than Asset::reach_m what is shown may get.

@@ -29,7 +29,8 @@ inline constexpr uint32_t kOff = 1, kReturns = 2;  // PartTuning::off
 struct PartTuning {
   SetParameters set;
   uint32_t off = 0;  // it has faded and is left alone; kReturns: from the tick that runs on it is not
-  Gliding intensity{1, 1, 0}, log_stiffness, damping{1, 1, 0}, displacement{1, 1, 0};
+  // A limit that opens from 0 frees what swings beneath at its beginning: as a root it opens slowly.
+  Gliding intensity{1, 1, 0}, log_stiffness, damping{1, 1, 0}, root_displacement{1, 1, 0};
 };
 
 // Of AirState::numbers.

@@ -244,6 +244,33 @@ TEST_CASE("a_frame_that_changes_levels_allocates_nothing") {
   CHECK(changes_without_allocation(frame, &InstanceReport::graph_level) >= 2);  // there and back
 }
 
+TEST_CASE("a_frame_that_changes_parameters_and_environment_allocates_nothing") {
+  const scenes::PackBytes pack = scenes::soft_block({.rods = scenes::RodMatter{}});
+  Stage stage(3, {}, pack);
+  Frame frame{stage};
+  frame.run(0, 1e9f, 1.0 / 60);
+  const auto change = [&](int f) {
+    const float x = static_cast<float>(f % 20) / 20;
+    const PartParameters part{2 * x, 0.1f + 3 * x, 4 * x, 4 * x, f % 40 < 30};
+    for (const InstanceId block : stage.blocks) {
+      frame.expect(stage.world.set_parameters(block, part));
+      frame.expect(stage.world.set_region_parameters(block, 0, part));
+      frame.expect(stage.world.set_rod_parameters(block, 1, part));
+      frame.expect(stage.world.set_added_environment(block, {.acceleration_m_s2 = {x, 0, 0}}));
+    }
+    frame.expect(stage.world.set_environment(
+        {.gravity_m_s2 = {0, -9 * x, 0}, .wind = {.velocity_m_s = {9 * x, 0, 0}, .gust = x}}));
+  };
+  const size_t count = allocations_of([&] {
+    for (int f = 1; f < 90; ++f) {
+      change(f);
+      frame.run(f / 60.0, f % 7 == 0 ? 0 : 1e9f, f % 5 == 0 ? 0.07 : 0.011);
+    }
+  });
+  CHECK(frame.ok);
+  CHECK(count == 0);
+}
+
 TEST_CASE("a_frame_on_worker_threads_allocates_nothing") {
   scenes::ThreadPool pool(3);
   Stage stage(5, {.tasks = pool.hook()});
