@@ -393,7 +393,9 @@ TEST_CASE("primitives_that_share_across_meshes_or_lie_in_another_s_are_refused_b
              {"primitive 2: its mesh comes before", primitive(2, [](auto& p) { p.mesh = 0; })},
              {"primitive 0: its vertices lie outside of mesh 1", primitive(0, [](auto& p) { p.mesh = 1; })},
              {"primitive 2: its vertices are not those of primitive 0",
-              primitive(2, [](auto& p) { p.sharer = 1; })}});
+              primitive(2, [](auto& p) { p.sharer = 1; })},
+             {"primitive 2: its vertices are not those of primitive 0",
+              primitive(2, [](auto& p) { p.sharer = 1, p.first_vertex = 0, p.vertex_count = 4; })}});
 }
 
 TEST_CASE("tangent_faults_are_refused_by_name") {

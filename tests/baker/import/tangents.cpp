@@ -89,6 +89,25 @@ TEST_CASE("tangents_of_an_upright_picture_lie_along_u_and_their_bitangents_point
             -Vector3::UnitY(), 1);  // a quarter turned
 }
 
+TEST_CASE("computed_tangents_are_square_to_the_normals_that_the_file_states") {
+  TinyFile file = textured_bar(upright);
+  file.attribute("NORMAL") = file.add_floats(repeated({0.6f, 0, 0.8f}, 6), "VEC3");
+  check_all(import_file(file, "tilted_normals"), Vector3(0.8, 0, -0.6), 1);
+}
+
+// The picture is sheared on the lowest triangle alone, where u grows along (1, 1). At vertex 2 that triangle
+// has an angle of 45 degrees, and the two others, where u grows along X, of 45 and 90.
+TEST_CASE("a_vertex_s_triangles_count_by_their_angles") {
+  const auto sheared = [](const Vector2& at) {
+    return upright({at.x(), at.x() > 0 && at.y() < 1 ? -1 : at.y()});
+  };
+  const Character character = import_file(textured_bar(sheared), "sheared");
+  const Vector3 wanted = Vector3(1, 1, 0).normalized() + 3 * Vector3::UnitX();
+  REQUIRE(character.tangents.size() == 6);
+  CHECK((character.tangents[0].along - Vector3(1, 1, 0).normalized()).norm() < kRounding);
+  CHECK((character.tangents[2].along - wanted.normalized()).norm() < kRounding);
+}
+
 TEST_CASE("tangents_of_a_mirrored_picture_have_the_other_sign") {
   check_all(import_file(textured_bar([](const Vector2& at) {
                           return upright({1 - at.x(), at.y()});
