@@ -137,7 +137,7 @@ void compare_reads(Sides& sides) {
   for (uint32_t i = 0; i < kPoints; ++i)
     points.push_back({i * 7919u % sides.info.triangle_count, {0.2f, 0.3f, 0.5f}});
   std::vector<Matrix34> frames(points.size());
-  const auto read = [&](const SurfaceDef& def) { must(world.read_surface(sides.instance, def)); };
+  const auto read = [&](const SurfaceReadDef& def) { must(world.read_surface(sides.instance, def)); };
   std::vector<Way> ways;
   ways.push_back({"positions", [&] { read({.capacity = vertices, .positions = {places.data()}}); }});
   ways.push_back({"displacements", [&] {

@@ -28,13 +28,13 @@ sinew_surface_def sinew_default_surface_def(void) {
 sinew_status sinew_read_surface(sinew_world world, sinew_instance instance, const sinew_surface_def* def) {
   if (!def) return invalid("sinew_read_surface: def is a null pointer");
   if (def->made_by != kMadeByDefault) return not_made("sinew_default_surface_def");
-  const SurfaceDef surface{.space = static_cast<Space>(def->space),
-                           .origin_m = {def->origin_m[0], def->origin_m[1], def->origin_m[2]},
-                           .moved_only = def->moved_only,
-                           .capacity = def->capacity,
-                           .positions = to_stream(def->positions),
-                           .normals = to_stream(def->normals),
-                           .tangents = to_stream(def->tangents)};
+  const SurfaceReadDef surface{.space = static_cast<Space>(def->space),
+                               .origin_m = {def->origin_m[0], def->origin_m[1], def->origin_m[2]},
+                               .moved_only = def->moved_only,
+                               .capacity = def->capacity,
+                               .positions = to_stream(def->positions),
+                               .normals = to_stream(def->normals),
+                               .tangents = to_stream(def->tangents)};
   return on(world, [&](World& w) { return w.read_surface(to_id(instance), surface); });
 }
 

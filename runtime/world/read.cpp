@@ -157,14 +157,14 @@ void for_each_soft_chunk(const Instance& instance, Work work) noexcept {
 }
 
 template <class Work>
-void for_each_wanted(const Instance& instance, const SurfaceDef& def, Work work) noexcept {
+void for_each_wanted(const Instance& instance, const SurfaceReadDef& def, Work work) noexcept {
   if (def.moved_only)
     for_each_soft_chunk(instance, work);
   else
     for_each_chunk(instance, work);
 }
 
-void write_places(const Instance& instance, const SurfaceDef& def) noexcept {
+void write_places(const Instance& instance, const SurfaceReadDef& def) noexcept {
   const Placement to = placement_of(instance, def.space, def.origin_m);
   const ShownSkin skin(instance);
   const Writer positions(def.positions);
@@ -177,7 +177,7 @@ void write_places(const Instance& instance, const SurfaceDef& def) noexcept {
   });
 }
 
-void write_bind_deltas(const Instance& instance, const SurfaceDef& def) noexcept {
+void write_bind_deltas(const Instance& instance, const SurfaceReadDef& def) noexcept {
   const Writer positions(def.positions);
   for_each_wanted(instance, def, [&](Chunk& chunk) {
     std::memset(chunk.points, 0, sizeof(float) * 3 * chunk.count);
@@ -198,13 +198,14 @@ struct SurfaceSkin {
 constexpr pack::SkinRecord kUnskinned{.joint = {}, .weight = {1}};
 constexpr float kIdentity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 
-SurfaceSkin surface_skin(const Instance& instance, const SurfaceDef& def, const ShownSkin& skin) noexcept {
+SurfaceSkin surface_skin(const Instance& instance, const SurfaceReadDef& def,
+                         const ShownSkin& skin) noexcept {
   if (def.space == Space::kBind) return {kIdentity, &kUnskinned, 0};
   return {skin.matrices(), instance.level->pack.skin.data(), sizeof(pack::SkinRecord)};
 }
 
 // All of it, in the character's space, or in the bind pose; and its triangles' areas.
-void make_surface(const Instance& instance, const SurfaceDef& def, const ShownSkin& skin) noexcept {
+void make_surface(const Instance& instance, const SurfaceReadDef& def, const ShownSkin& skin) noexcept {
   for_each_chunk(instance, [&](Chunk& chunk) {
     bind_chunk(instance, chunk);
     add_carried(instance, chunk);
@@ -238,7 +239,7 @@ void find_normals(const Instance& instance, const SurfaceSkin& skin, Chunk& chun
   }
 }
 
-void put_surface(const Instance& instance, const SurfaceDef& def, const Placement& to, const Chunk& chunk,
+void put_surface(const Instance& instance, const SurfaceReadDef& def, const Placement& to, const Chunk& chunk,
                  const Writer& positions) noexcept {
   for (uint32_t i = 0; i < chunk.count; ++i) {
     const size_t vertex = chunk.vertex(i);
@@ -270,7 +271,7 @@ void put_tangents(const Instance& instance, const SurfaceSkin& skin, const Place
   }
 }
 
-void write_surface(const Instance& instance, const SurfaceDef& def) noexcept {
+void write_surface(const Instance& instance, const SurfaceReadDef& def) noexcept {
   const ShownSkin shown(instance);
   make_surface(instance, def, shown);
   const Placement to = placement_of(instance, def.space, def.origin_m);
@@ -311,7 +312,7 @@ Status check_origin(const double (&origin_m)[3]) noexcept {
   return {};
 }
 
-Status check_read(const SurfaceDef& def, const Asset& asset) noexcept {
+Status check_read(const SurfaceReadDef& def, const Asset& asset) noexcept {
   constexpr StatusCode kInvalid = StatusCode::kInvalidArgument;
   if (static_cast<uint32_t>(def.space) > static_cast<uint32_t>(Space::kBind)) {
     return make_status(kInvalid, "read: space %u does not exist", static_cast<uint32_t>(def.space));
@@ -331,7 +332,7 @@ Status check_read(const SurfaceDef& def, const Asset& asset) noexcept {
   return check_origin(def.origin_m);
 }
 
-void read_surface(const Instance& instance, const SurfaceDef& def) noexcept {
+void read_surface(const Instance& instance, const SurfaceReadDef& def) noexcept {
   if (def.normals.out || def.tangents.out)
     write_surface(instance, def);
   else if (def.space == Space::kBind)

@@ -17,8 +17,8 @@ using world::find_instance;
 using world::Instance;
 using world::invalid;
 
-SurfaceDef as_surface(const ReadDef& def, VertexStream SurfaceDef::*stream) noexcept {
-  SurfaceDef surface{.space = def.space, .capacity = def.capacity};
+SurfaceReadDef as_surface(const ReadDef& def, VertexStream SurfaceReadDef::*stream) noexcept {
+  SurfaceReadDef surface{.space = def.space, .capacity = def.capacity};
   std::copy_n(def.origin_m, 3, surface.origin_m);
   surface.*stream = {.out = def.out, .stride_bytes = def.stride_bytes};
   return surface;
@@ -42,7 +42,7 @@ size_t World::history(std::span<FrameReport> out) const noexcept {
   return count;
 }
 
-Status World::read_surface(InstanceId id, const SurfaceDef& def) const noexcept {
+Status World::read_surface(InstanceId id, const SurfaceReadDef& def) const noexcept {
   const core::FloatingPointScope mode;
   Instance* instance = nullptr;
   if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
@@ -55,14 +55,14 @@ Status World::read_positions(InstanceId id, const ReadDef& def) const noexcept {
   Instance* instance = nullptr;
   Status status = find_instance(impl_, id, &instance);
   if (status.ok()) status = check_alone(def);
-  return status.ok() ? read_surface(id, as_surface(def, &SurfaceDef::positions)) : status;
+  return status.ok() ? read_surface(id, as_surface(def, &SurfaceReadDef::positions)) : status;
 }
 
 Status World::read_normals(InstanceId id, const ReadDef& def) const noexcept {
   Instance* instance = nullptr;
   Status status = find_instance(impl_, id, &instance);
   if (status.ok()) status = check_alone(def);
-  return status.ok() ? read_surface(id, as_surface(def, &SurfaceDef::normals)) : status;
+  return status.ok() ? read_surface(id, as_surface(def, &SurfaceReadDef::normals)) : status;
 }
 
 Status World::read_points(InstanceId id, const PointsDef& def, std::span<const SurfacePlace> places,

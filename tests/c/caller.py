@@ -9,7 +9,7 @@ import sinew
 def misuse(world, asset, one):
     for wrong, why in ((lambda: world.load("no such file"), "no such file"),
                        (lambda: one.pose(asset.bind_pose()[:1]), "joint"),
-                       (lambda: one.pose(np.full_like(asset.bind_pose(), np.nan)), "finite"),
+                       (lambda: one.pose(np.full_like(asset.bind_pose(), np.nan)), "NaN"),
                        (lambda: sinew.World(max_assets=0), "max_assets"),
                        (lambda: sinew.bake("no such file", "out.sinew"), "no such file")):
         try:

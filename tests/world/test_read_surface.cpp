@@ -43,7 +43,7 @@ TEST_CASE("read_surface_refuses_what_it_cannot_fill") {
   Stage stage;
   const size_t count = stage.info.vertex_count;
   std::vector<float> out(4 * count, -7);
-  const auto code = [&](const SurfaceDef& def) {
+  const auto code = [&](const SurfaceReadDef& def) {
     return stage.world.read_surface(stage.blocks[0], def).code;
   };
   constexpr StatusCode kInvalid = StatusCode::kInvalidArgument;

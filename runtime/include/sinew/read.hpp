@@ -40,7 +40,7 @@ struct VertexStream {
   VertexFormat format = VertexFormat::kFloat3;
 };
 
-struct SurfaceDef {
+struct SurfaceReadDef {
   Space space = Space::kCharacter;
   double origin_m[3] = {0, 0, 0};  // as in ReadDef
   // Only AssetArrays::moved_vertices, one right after the other in that order.

@@ -184,7 +184,7 @@ class SINEW_API World {
   // Positions, normals and tangents in one call, each in its own form, of all vertices or of those that
   // tissue can move: as read_positions and read_normals, whose thread rule it has. Cost: without normals and
   // tangents O(vertices written x influences), else as read_normals.
-  Status read_surface(InstanceId instance, const SurfaceDef& def) const noexcept;
+  Status read_surface(InstanceId instance, const SurfaceReadDef& def) const noexcept;
   // Points of the surface that is shown, as frames: the place, and x along the triangle's first edge, z along
   // its normal; of a triangle without area as rotated in the bind pose. For props, sockets and roots of hair.
   // A triangle that is not there, weights out of range, places.size() != out.size(): kInvalidArgument and
