@@ -3,7 +3,14 @@
 import fs from 'node:fs';
 import { createRequire } from 'node:module';
 
-const koffi = createRequire(`${process.cwd()}/`)('koffi');
+const skipped = 77;
+let koffi;
+try {
+  koffi = createRequire(`${process.cwd()}/`)('koffi');
+} catch {
+  console.error('skipped: npm could not install koffi');
+  process.exit(skipped);
+}
 
 const [library, include, pack] = process.argv.slice(2);
 const version = fs.readFileSync(`${include}/sinew/version.h`, 'utf8');
