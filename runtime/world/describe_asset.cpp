@@ -54,10 +54,11 @@ struct FramePlace {
 };
 
 FramePlace frame_at(const pack::ClipRecord& clip, double time_s, ClipEnd end) noexcept {
-  const double last = clip.frame_count - 1;
-  double place = time_s * static_cast<double>(clip.rate_hz);
-  if (end == ClipEnd::kLoop && last > 0) place -= last * std::floor(place / last);
-  place = std::clamp(place, 0.0, last);
+  const double last = clip.frame_count - 1, rate_hz = static_cast<double>(clip.rate_hz),
+               end_s = last / rate_hz;
+  if (end == ClipEnd::kLoop && last > 0) time_s = std::fmod(time_s, end_s);
+  if (end == ClipEnd::kLoop && time_s < 0) time_s += end_s;
+  const double place = std::clamp(std::clamp(time_s, 0.0, end_s) * rate_hz, 0.0, last);
   const auto frame = static_cast<uint32_t>(place);
   return {frame, place - frame};
 }

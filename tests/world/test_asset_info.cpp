@@ -84,7 +84,9 @@ TEST_CASE("a_clip_refuses_what_is_no_time_and_no_room") {
   CHECK(sample(0, kNan, ClipEnd::kHold, joints) == StatusCode::kNotFinite);
   CHECK(sample(0, 0, static_cast<ClipEnd>(2), joints) == StatusCode::kInvalidArgument);
   CHECK(sample(0, 0, ClipEnd::kHold, fewer) == StatusCode::kInvalidArgument);
-  CHECK(sample(0, 1e300, ClipEnd::kLoop, joints) == StatusCode::kOk);
+  for (const double far_s : {1e300, -1e300, std::numeric_limits<double>::max()})
+    for (const ClipEnd end : {ClipEnd::kHold, ClipEnd::kLoop})
+      CHECK(sample(0, far_s, end, joints) == StatusCode::kOk);
 }
 
 TEST_CASE("arrays_are_those_of_the_pack") {
