@@ -1,4 +1,6 @@
 """Worlds, assets and instances as objects, arrays as numpy's."""
+import os
+
 import numpy as np
 
 from sinew.library import LAYOUT, check, ffi, lib
@@ -35,7 +37,7 @@ def _fields(struct):
         elif field.type.kind == "array":
             value = list(value)
         elif field.type.kind == "struct":
-            value = _matrix(value) if field.type.cname == "sinew_matrix34" else value
+            value = _matrix(value) if field.type.cname == "sinew_matrix34" else _fields(value)
         out[name] = value
     return out
 
@@ -44,14 +46,11 @@ def _matrix(struct):
     return np.array([list(row) for row in struct.m], np.float32)
 
 
-def _view(pointer, shape, dtype):
-    """Memory of the asset's, not to be written."""
+def _copy(pointer, shape, dtype):
     count = int(np.prod(shape))
     if pointer == ffi.NULL or count == 0:
         return np.zeros(shape, dtype)
-    array = np.frombuffer(ffi.buffer(pointer, count * np.dtype(dtype).itemsize), dtype).reshape(shape)
-    array.flags.writeable = False
-    return array
+    return np.frombuffer(ffi.buffer(pointer, count * np.dtype(dtype).itemsize), dtype).reshape(shape).copy()
 
 
 def _out(shape, ctype, dtype=np.float32):
@@ -70,7 +69,7 @@ class World:
         self._id = made[0]
 
     def close(self):
-        """With all that is in it; its assets' arrays are not to be used afterwards."""
+        """With all that is in it."""
         if self._id.index1:
             check(lib.sinew_destroy_world(self._id))
             self._id = ffi.new("sinew_world*")[0]
@@ -82,16 +81,18 @@ class World:
         self.close()
 
     def __del__(self):
-        if getattr(self, "_id", None) is not None and self._id.index1:
+        if lib is not None and getattr(self, "_id", None) is not None and self._id.index1:
             lib.sinew_destroy_world(self._id)
 
     def load(self, path):
         made = ffi.new("sinew_asset*")
-        check(lib.sinew_load_asset_file(self._id, str(path).encode(), made))
+        check(lib.sinew_load_asset_file(self._id, os.fsencode(path), made))
         return Asset(self, made[0])
 
     def add(self, asset, **fields):
         """An instance; keywords are fields of sinew_instance_def (importance, touches_own_body ...)."""
+        if asset._world is not self:
+            raise ValueError("the asset was loaded into another world")
         definition = _set(lib.sinew_default_instance_def(), fields, "sinew_instance_def")
         definition.asset = asset._id
         made = ffi.new("sinew_instance*")
@@ -109,16 +110,16 @@ class World:
 
 
 class Asset:
-    """A loaded character. `info` has sinew_asset_info's fields; arrays lie in the file and live as long as the world."""
+    """A loaded character. `info` has sinew_asset_info's fields; arrays are copies."""
 
     def __init__(self, world, asset):
         self._world, self._id = world, asset
         self.info = _fields(self._ask("asset_info"))
         arrays, vertices = self._ask("asset_arrays"), self.info["vertex_count"]
-        self.positions = _view(arrays.positions_m, (vertices, 3), np.float32)
-        self.normals = _view(arrays.normals, (vertices, 3), np.float32)
-        self.triangles = _view(arrays.triangles, (self.info["triangle_count"], 3), np.uint32)
-        self.moved_vertices = _view(arrays.moved_vertices, (self.info["moved_vertex_count"],), np.uint32)
+        self.positions = _copy(arrays.positions_m, (vertices, 3), np.float32)
+        self.normals = _copy(arrays.normals, (vertices, 3), np.float32)
+        self.triangles = _copy(arrays.triangles, (self.info["triangle_count"], 3), np.uint32)
+        self.moved_vertices = _copy(arrays.moved_vertices, (self.info["moved_vertex_count"],), np.uint32)
         self.joints = [_fields(self._ask("joint_info", j)) for j in range(self.info["joint_count"])]
         self.meshes = [_fields(self._ask("mesh_info", m)) for m in range(self.info["mesh_count"])]
         self.rods = [_fields(self._ask("rod_info", r)) for r in range(self.info["rod_count"])]
@@ -126,7 +127,7 @@ class Asset:
         self.regions = []
         for index in range(self.info["region_count"]):
             region = self._ask("region_info", index)
-            vertices = _view(region.vertices, (region.vertex_count,), np.uint32)
+            vertices = _copy(region.vertices, (region.vertex_count,), np.uint32)
             self.regions.append({**_fields(region), "vertices": vertices})
 
     def _ask(self, what, *index):
@@ -160,7 +161,7 @@ class Asset:
 
 class Instance:
     def __init__(self, world, asset, instance):
-        self._world, self.asset, self._id = world, asset, instance
+        self._world, self.asset, self._id, self._root = world, asset, instance, None
 
     def pose(self, joints, root=None, teleport=False):
         """joints: character from joint, [joints, 3, 4]; root: of sinew.root, or where it was."""
@@ -170,10 +171,11 @@ class Instance:
         pose = lib.sinew_default_pose()
         pose.joints = ffi.cast("sinew_matrix34*", ffi.from_buffer(joints))
         pose.joint_count, pose.teleport = len(joints), teleport
-        self._root = root or getattr(self, "_root", None)
-        if self._root:
-            pose.root = self._root
+        root = root or self._root
+        if root:
+            pose.root = root
         check(lib.sinew_set_pose(self._world._id, self._id, ffi.new("sinew_pose*", pose)))
+        self._root = root
 
     def _read(self, what, space):
         array, out = _out((self.asset.info["vertex_count"], 3), "float*")

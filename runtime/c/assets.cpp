@@ -25,8 +25,6 @@ sinew_status load(sinew_world world, sinew_asset* out, Load load_it) noexcept {
   return status;
 }
 
-sinew_status no_room() noexcept { return invalid("out is a null pointer"); }
-
 }  // namespace
 
 sinew_status sinew_load_asset(sinew_world world, const void* bytes, size_t byte_count, sinew_asset* out) {
@@ -138,13 +136,13 @@ bool sinew_joint_is_on_rod(sinew_world world, sinew_asset asset, uint32_t joint)
 
 sinew_status sinew_bind_pose(sinew_world world, sinew_asset asset, sinew_matrix34* out,
                              uint32_t joint_count) {
-  if (!out) return no_room();
+  if (!out) return invalid("sinew_bind_pose: out is a null pointer");
   return on(world, [&](World& w) { return w.bind_pose(to_id(asset), {as<Matrix34>(out), joint_count}); });
 }
 
 sinew_status sinew_sample_clip(sinew_world world, sinew_asset asset, uint32_t clip, double time_s,
                                sinew_clip_end end, sinew_matrix34* out, uint32_t joint_count) {
-  if (!out) return no_room();
+  if (!out) return invalid("sinew_sample_clip: out is a null pointer");
   return on(world, [&](World& w) {
     return w.sample_clip(to_id(asset), clip, time_s, static_cast<ClipEnd>(end),
                          {as<Matrix34>(out), joint_count});

@@ -10,7 +10,7 @@ using namespace sinew::c;
 namespace {
 
 bool are_same(const sinew_contact_source& a, const sinew_contact_source& b) noexcept {
-  return a.find == b.find && a.context == b.context;
+  return a.find == b.find && a.push == b.push && a.context == b.context;
 }
 
 InstanceDef to_def(const sinew_instance_def& def, HeldContacts* held) noexcept {

@@ -34,7 +34,7 @@ Environment to_environment(const sinew_environment& from) noexcept {
 
 template <class Set>
 sinew_status set(sinew_world world, const sinew_part_parameters* from, Set set_them) noexcept {
-  if (!from) return invalid("parameters is a null pointer");
+  if (!from) return invalid("sinew_set_parameters: the parameters are a null pointer");
   if (from->made_by != kMadeByDefault) return not_made("sinew_default_part_parameters");
   const PartParameters given{from->intensity, from->stiffness, from->damping, from->displacement,
                              from->enabled};

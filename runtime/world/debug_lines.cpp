@@ -92,7 +92,7 @@ void draw_touches(const Instance& instance, const double (&origin_m)[3], Pen& pe
   Vector3f root;
   for (int k = 0; k < 3; ++k)
     root[k] = static_cast<float>(state.root.scale * state.tick_root_m[0][k] - origin_m[k]);
-  for (uint32_t t = 0; t < instance.touch_count; ++t) {
+  for (uint32_t t = 0; t < instance.told.touches; ++t) {
     const Vector3f place = root + scale * Vector3f(instance.touches[t].place_m);
     const float length = kShare * scale * instance.level->pack.character->height_m;
     pen.line(place, place + length * Vector3f(instance.touches[t].normal), kRed);

@@ -127,6 +127,7 @@ struct TickTold {
   uint32_t dropped = 0;   // contacts there was no room for
   float volume_m3 = 0;    // that contacts took from the soft parts
   float deepest_m = 0;    // that a vertex is left inside
+  uint32_t touches = 0;   // in Instance::touches
 };
 
 // One vertex against one half-space in a tick.

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "world/find_touches.hpp"
 #include "world/surface_point.hpp"
@@ -95,7 +96,7 @@ void push_surface(Instance& instance) noexcept {
   if (more) find_pushed_touches(instance);
   push_vertices(instance, first);
   for (uint32_t t = 0; t < instance.touch_count; ++t) look_at_vertex(instance, instance.touches[t]);
-  instance.touch_count = 0;
+  instance.told.touches = std::exchange(instance.touch_count, 0u);
 }
 
 }  // namespace sinew::world

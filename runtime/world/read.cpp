@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -63,7 +64,9 @@ class Writer {
     const uint16_t halves[4] = {half(value.x()), half(value.y()), half(value.z()), half(fourth)};
     std::memcpy(to, halves, sizeof halves);
   }
-  static uint16_t half(float value) noexcept { return Eigen::half_impl::float_to_half_rtne(value).x; }
+  static uint16_t half(float value) noexcept {
+    return std::bit_cast<uint16_t>(Eigen::half_impl::float_to_half_rtne(value).x);
+  }
 
   std::byte* out_;
   size_t stride_;

@@ -105,6 +105,7 @@ void retune_modes(Instance& instance, size_t r, const tissue::Retuning& by) noex
 void retune_region(Instance& instance, size_t r) noexcept {
   const PartTuning& part = instance.region_tunings[r];
   const tissue::Retuning by{stiffness_of(part), part.damping.next, stiffens(part)};
+  instance.tuned_regions[r].stiffens = by.stiffens;
   instance.tuned_regions[r].on = by.stiffness != 1 || by.damping != 1;
   if (instance.tuned_regions[r].on) retune_modes(instance, r, by);
 }
@@ -140,10 +141,13 @@ bool glide_part(const InstanceState& state, float fastest_log, PartTuning& part)
 void glide_regions(Instance& instance) noexcept {
   for (size_t r = 0; r < instance.level->pack.regions.size(); ++r) {
     PartTuning& part = instance.region_tunings[r];
-    if (!glide_part(*instance.state, kFastestOfRegion, part)) continue;
+    const bool glides = glide_part(*instance.state, kFastestOfRegion, part);
+    // In the tick after it has arrived, too.
+    if (swings_otherwise(part) || instance.tuned_regions[r].stiffens != stiffens(part))
+      retune_region(instance, r);
+    if (!glides) continue;
     instance.state->tuning_moves = 1;
     instance.quiet_ticks[r] = 0;
-    if (swings_otherwise(part)) retune_region(instance, r);
   }
 }
 

@@ -24,6 +24,7 @@ namespace sinew::world {
 // A region's recurrences beside its modes', where they are not the baked ones. Made from the state.
 struct TunedRegion {
   bool on = false;
+  float stiffens = 0;  // what its modes were made with
   tissue::Recurrence rest, first;
   float rest_gain = 0;
 };

@@ -142,20 +142,30 @@ Status World::unload_asset(AssetId id) noexcept {
   return {};
 }
 
+// What an instance has of its world.
+static void join_world(const WorldState& state, Instance& instance) noexcept {
+  instance.sleep_tolerance = state.def.sleep_tolerance;
+  instance.most_m_s2 = state.def.teleport.acceleration * instance.asset->pack.character->height_m;
+  instance.environment = &state.environment;
+  world::notice_environment(instance);
+}
+
 // `made`: one for each of the asset's instances, in the slots' order.
 static Status make_successors(const WorldState& state, const Asset& asset, Asset& by, AssetId by_id,
                               Instance* made) noexcept {
   for (uint32_t slot = 0; slot < state.instances.end(); ++slot) {
     const Instance* instance = state.instances.at(slot);
     if (!instance || instance->asset != &asset) continue;
+    world::keep_hidden_ticks(state.rows[slot]);
     InstanceDef def = instance->def;
     def.asset = by_id;
     if (by.rod_network.record == nullptr && def.rod_start == RodWarmStart::kLearned)
       def.rod_start = RodWarmStart::kAsBaked;
-    if (Status status = world::make_instance(by, def, made); !status.ok()) return status;
-    made->sleep_tolerance = instance->sleep_tolerance;
-    made->most_m_s2 = state.def.teleport.acceleration * by.pack.character->height_m;
+    if (Status status = world::make_instance(by, def, made); !status.ok())
+      return make_status(status.code, "replace_asset: %.200s", status.message);
+    made->def.rod_start = instance->def.rod_start;
     world::go_on_as(*instance, *made);
+    join_world(state, *made);
     ++made;
   }
   return {};
@@ -203,10 +213,7 @@ Status World::create_instance(const InstanceDef& def, InstanceId* out) noexcept 
   }
   Instance made;
   if (Status status = world::make_instance(*asset, checked, &made); !status.ok()) return status;
-  made.sleep_tolerance = impl_->def.sleep_tolerance;
-  made.most_m_s2 = impl_->def.teleport.acceleration * asset->pack.character->height_m;
-  made.environment = &impl_->environment;
-  world::notice_environment(made);
+  join_world(*impl_, made);
   const bool has_surface = made.contacts.surface != nullptr;
   const InstanceId id = impl_->instances.create(std::move(made));
   if (is_null(id))
@@ -349,6 +356,7 @@ Status set_parameters_of(WorldState* state, InstanceId id, const Owner& owner,
   if (Status status = world::check_parameters(owner.function, given); !status.ok()) return status;
   *parameters = {given.intensity, given.stiffness, given.damping, given.displacement, given.enabled};
   world::notice_parameters(*instance);
+  world::bound_pose(*instance);
   keep_row(*state, id);
   return {};
 }
@@ -511,11 +519,11 @@ Status World::restore_state(InstanceId id, std::span<const std::byte> bytes) noe
   Instance* instance = nullptr;
   if (Status status = find_state(impl_, id, &instance); !status.ok()) return status;
   if (busy(*impl_)) return refuse_busy();
-  Status status = world::restore(*instance, bytes);
-  impl_->restored |= status.ok();
+  if (Status status = world::restore(*instance, bytes); !status.ok()) return status;
+  impl_->restored = true;
   world::notice_environment(*instance);
   keep_row(*impl_, id);
-  return status;
+  return {};
 }
 
 }  // namespace sinew

@@ -1,3 +1,4 @@
+/* engine.c  An engine's loop with one character, as docs/in-your-engine.md shows it. */
 #include <math.h>
 #include <sinew/sinew.h>
 #include <stdio.h>
@@ -32,7 +33,7 @@ int main(int count, char** arguments) {
     if (sinew_joint_path(world, asset, j, path, sizeof path)) printf("joint %u is %s\n", j, path);
   sinew_matrix34* joints = malloc(info.joint_count * sizeof *joints); /* as animation has them */
   sinew_matrix34* shown = malloc(info.joint_count * sizeof *shown);   /* and with bones that are rods */
-  soft_vertex* buffer = malloc(info.moved_vertex_count * sizeof *buffer);
+  soft_vertex* buffer = malloc((info.moved_vertex_count + 1) * sizeof *buffer);
   TRY(sinew_bind_pose(world, asset, joints, info.joint_count));
 
   sinew_pose pose = sinew_default_pose();

@@ -509,3 +509,28 @@ TEST_CASE("a_snapshot_in_the_midst_of_a_change_gives_the_same_bits_again") {
   REQUIRE(other.world.rod_parameters(other.blocks[0], 1, &out).ok());
   CHECK(out.stiffness == 0.1f);
 }
+
+// The tick in which a stiffness arrives is retuned once more: nothing of the way there stays.
+TEST_CASE("a_snapshot_long_after_a_change_gives_the_same_bits_again") {
+  Stage stage(1, {}, test::weightless_pack());
+  REQUIRE(stage.world.set_region_parameters(stage.blocks[0], 0, {.stiffness = 20}).ok());
+  stage.play(scenes::walk, 2);
+  const std::vector<std::byte> state = stage.save();
+  const double then_s = stage.time_s;
+  stage.play(scenes::walk, 0.5);
+  const std::vector<float> went_on = stage.read();
+  REQUIRE(stage.world.restore_state(stage.blocks[0], state).ok());
+  stage.time_s = then_s;
+  stage.play(scenes::walk, 0.5);
+  CHECK(stage.read() == went_on);
+}
+
+TEST_CASE("bounds_follow_what_may_be_shown") {
+  Stage stage(1, {}, test::weightless_pack());
+  stage.play(scenes::walk, 0.5);
+  Bounds before, after;
+  REQUIRE(stage.world.bounds(stage.blocks[0], &before).ok());
+  REQUIRE(stage.world.set_parameters(stage.blocks[0], {.displacement = 4}).ok());
+  REQUIRE(stage.world.bounds(stage.blocks[0], &after).ok());
+  CHECK(after.radius_m > before.radius_m);
+}

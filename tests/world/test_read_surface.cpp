@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 
+#include "tests/scenes/half_spaces.hpp"
 #include "tests/world/stage.hpp"
 
 using namespace sinew;
@@ -104,6 +105,14 @@ TEST_CASE("halves_are_the_floats_rounded_to_nearest") {
     same = same && halves[4 * v + 3] == Eigen::half(1.0f).x;
   }
   CHECK(same);
+}
+
+TEST_CASE("halves_are_ieee_s") {
+  CHECK(Eigen::half(1.0f).x == 0x3c00);
+  CHECK(Eigen::half(-2.0f).x == 0xc000);
+  CHECK(Eigen::half(1 + 0x1p-11f).x == 0x3c00);  // a tie goes to even
+  CHECK(Eigen::half(1 + 3 * 0x1p-11f).x == 0x3c02);
+  CHECK(Eigen::half(1e6f).x == 0x7c00);
 }
 
 TEST_CASE("what_moves_alone_is_read_as_all_of_it_is") {
@@ -271,6 +280,24 @@ TEST_CASE("bounds_hold_all_that_is_shown") {
     CHECK(farthest_m <= static_cast<double>(bounds.radius_m));
   }
   CHECK(stage.world.bounds(stage.blocks[0], nullptr).code == StatusCode::kInvalidArgument);
+}
+
+TEST_CASE("debug_lines_show_what_flesh_touched_in_the_last_tick") {
+  scenes::HalfSpaces ceiling;
+  ceiling.walls.push_back({.point_m = {0, 0.55, 0}, .normal = {0, -1, 0}});
+  Stage stage(0);
+  InstanceId touching;
+  REQUIRE(
+      stage.world.create_instance({.asset = stage.asset, .contacts = {.source = &ceiling}}, &touching).ok());
+  const double origin[3] = {0, 0, 0};
+  for (int frame = 0; frame < 10; ++frame) {
+    stage.pose(touching, scenes::bind_pose());
+    stage.world.step(1.0f / 60);
+  }
+  std::vector<DebugLine> lines(stage.world.debug_lines(touching, kDebugTouches, origin, {}));
+  REQUIRE(!lines.empty());
+  stage.world.debug_lines(touching, kDebugTouches, origin, lines);
+  for (const DebugLine& line : lines) CHECK(line.to_m[1] < line.from_m[1]);  // out of the ceiling
 }
 
 TEST_CASE("debug_lines_are_counted_and_cut_to_the_room_that_there_is") {

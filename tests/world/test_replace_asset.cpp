@@ -116,3 +116,37 @@ TEST_CASE("rods_go_on_where_they_hang") {
     worst = std::max(worst, static_cast<double>(std::abs(before[i] - after[i])));
   CHECK(worst < 1e-5);
 }
+
+// Gravity upside down: what is replaced hangs as what was always so.
+TEST_CASE("the_world_s_environment_is_felt_on") {
+  Stage replaced(1, {}, test::weightless_pack()), always(1, {}, test::weightless_pack());
+  for (Stage* stage : {&replaced, &always}) {
+    REQUIRE(stage->world.set_environment({.gravity_m_s2 = {0, 9.8f, 0}}).ok());
+    stage->play([](double) { return scenes::bind_pose(); }, 2);
+  }
+  REQUIRE(replaced.world.replace_asset(replaced.asset, load(replaced, softer_pack())).ok());
+  REQUIRE(replaced.world.replace_asset(replaced.asset, replaced.asset).ok());
+  replaced.play([](double) { return scenes::bind_pose(); }, 4);
+  const double hangs_m = test::largest_length(always.read(0, Space::kBind));
+  REQUIRE(hangs_m > 0.005);
+  CHECK(test::largest_length(replaced.read(0, Space::kBind)) > hangs_m);  // softer
+}
+
+TEST_CASE("who_is_hidden_meanwhile_comes_back_as_after_all_of_that_time") {
+  Stage stage(1, {}, test::weightless_pack());
+  stage.play(scenes::walk, 1);
+  REQUIRE(stage.world.set_hidden(stage.blocks[0], true).ok());
+  stage.play(scenes::walk, 2);
+  REQUIRE(stage.world.replace_asset(stage.asset, load(stage, softer_pack())).ok());
+  REQUIRE(stage.world.set_hidden(stage.blocks[0], false).ok());
+  stage.step(scenes::walk, kFrame_s);
+  CHECK(test::largest_length(stage.read(0, Space::kBind)) < 0.002);  // its tail has faded long ago
+}
+
+TEST_CASE("a_state_that_was_saved_before_is_refused_after") {
+  Stage stage(1, {}, test::weightless_pack());
+  stage.play(scenes::walk, 0.5);
+  const std::vector<std::byte> state = stage.save();
+  REQUIRE(stage.world.replace_asset(stage.asset, load(stage, softer_pack())).ok());
+  CHECK(stage.world.restore_state(stage.blocks[0], state).code == StatusCode::kCorrupt);
+}

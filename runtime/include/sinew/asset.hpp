@@ -36,7 +36,8 @@ struct AssetArrays {
   std::span<const float> tangents = {};  // [vertices][4], w = +-1 as in glTF; empty: the file has none, nor
                                          // texture coordinates
   std::span<const uint32_t> triangles = {};  // [triangles][3], vertices
-  // Ascending. Of all others Space::kBind is zero for ever.
+  // Ascending. Of all others Space::kBind is zero for ever; the normals of those that share a triangle with
+  // these turn a little all the same.
   std::span<const uint32_t> moved_vertices = {};
   // Influence k of vertex v: skin_joints[k], skin_weights[k] as they are v * skin_stride_bytes further on.
   // kSkinInfluences of each, descending, sum 1; unused ones are 0.

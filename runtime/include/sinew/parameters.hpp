@@ -42,8 +42,9 @@ struct PartParameters {
 // smaller density in its recipe.
 struct Wind {
   float velocity_m_s[3] = {0, 0, 0};  // world, each within +-200; 0: none
-  // 0..1, share of the velocity by which gusts change it, up and down. They travel with the wind, are the
-  // same whenever it is played, and count from when the instance first felt wind.
+  // 0..1, share of the velocity by which gusts change it, up and down. They travel
+  // with the wind and are the same whenever it is played: they count from when the instance begins to feel
+  // wind, later the further downwind of the world's origin it stands then.
   float gust = 0;
   float gust_hz = 0.5f;  // above 0, up to 10: of the largest gusts; smaller ones come faster
 };

@@ -11,8 +11,9 @@
  * none.
  *
  * A function that can be refused returns a status; after a refusal nothing has changed, and sinew_message()
- * says why in one line. Nothing is thrown or aborted across this interface. Threads: as World has it; worlds
- * may be made and destroyed on any thread, a world while none of its functions runs.
+ * says why in one line. What returns a count, a pointer or a truth answers 0 to an id of nothing, and leaves
+ * no message. Nothing is thrown or aborted across this interface. Threads: as World has it; worlds may be
+ * made and destroyed on any thread, a world while none of its functions runs.
  *
  * Lengths are in metres, times in seconds, right-handed, Y up; matrices are row-major 3x4. */
 #ifndef SINEW_SINEW_H
@@ -140,7 +141,7 @@ SINEW_API sinew_status sinew_destroy_world(sinew_world world);
 
 /* ---- assets ---- */
 
-/* 64-byte aligned; outlives the asset. */
+/* bytes: 64-byte aligned; they outlive the asset. */
 SINEW_API sinew_status sinew_load_asset(sinew_world world, const void* bytes, size_t byte_count,
                                         sinew_asset* out);
 SINEW_API sinew_status sinew_load_asset_file(sinew_world world, const char* path, sinew_asset* out);
@@ -363,6 +364,7 @@ typedef struct sinew_view {
   float height_rad, aspect, far_m;
 } sinew_view;
 SINEW_API sinew_view sinew_default_view(void);
+/* At most 8. */
 SINEW_API sinew_status sinew_set_views(sinew_world world, const sinew_view* views, uint32_t count);
 
 /* ---- the step ---- */
