@@ -1,5 +1,6 @@
 /* sinew.h  The whole of Sinew for C11 and for whatever can call C. Every function of sinew::World is here,
- * under its own name; what it means, ranges and cost stand there, in world.hpp and types.hpp.
+ * under its own name; what it means, ranges and cost stand there: world.hpp, types.hpp, asset.hpp, read.hpp,
+ * parameters.hpp.
  *
  *   sinew_world_def def = sinew_default_world_def();
  *   sinew_world world;
