@@ -512,17 +512,20 @@ TEST_CASE("a_snapshot_in_the_midst_of_a_change_gives_the_same_bits_again") {
 
 // The tick in which a stiffness arrives is retuned once more: nothing of the way there stays.
 TEST_CASE("a_snapshot_long_after_a_change_gives_the_same_bits_again") {
-  Stage stage(1, {}, test::weightless_pack());
-  REQUIRE(stage.world.set_region_parameters(stage.blocks[0], 0, {.stiffness = 20}).ok());
-  stage.play(scenes::walk, 2);
-  const std::vector<std::byte> state = stage.save();
-  const double then_s = stage.time_s;
-  stage.play(scenes::walk, 0.5);
-  const std::vector<float> went_on = stage.read();
-  REQUIRE(stage.world.restore_state(stage.blocks[0], state).ok());
-  stage.time_s = then_s;
-  stage.play(scenes::walk, 0.5);
-  CHECK(stage.read() == went_on);
+  for (const float stiffness : {1.1f, 1.3f, 2.0f, 7.0f, 20.0f, 100.0f}) {
+    CAPTURE(stiffness);
+    Stage stage(1, {}, test::weightless_pack());
+    REQUIRE(stage.world.set_region_parameters(stage.blocks[0], 0, {.stiffness = stiffness}).ok());
+    stage.play(scenes::walk, 2);
+    const std::vector<std::byte> state = stage.save();
+    const double then_s = stage.time_s;
+    stage.play(scenes::walk, 0.5);
+    const std::vector<float> went_on = stage.read();
+    REQUIRE(stage.world.restore_state(stage.blocks[0], state).ok());
+    stage.time_s = then_s;
+    stage.play(scenes::walk, 0.5);
+    CHECK(stage.read() == went_on);
+  }
 }
 
 TEST_CASE("bounds_follow_what_may_be_shown") {
