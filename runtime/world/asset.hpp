@@ -37,7 +37,7 @@ struct Asset {
   tissue::DeepEmulator emulator;          // without layers where the pack has none
   std::unique_ptr<uint64_t[]> touchable;  // [regions]: world/own_body_touches.hpp; null: none for any
   double tick_s = 0;
-  uint64_t fingerprint = 0;                    // of all of the pack's bytes
+  uint64_t fingerprint = 0;  // of all of the pack's bytes
   SoftVertices soft;
   uint32_t padded_vertices = 0;  // carried vertices of all regions, each region padded
   // Of the level that takes the most:

@@ -7,8 +7,8 @@
 #define TRY(call) \
   if ((call) != SINEW_OK) return fprintf(stderr, "%s\n", sinew_message()), 2
 
-/* What the GPU is given: a vertex shader adds `delta` to the bind position, takes `normal` for the file's, and skins
- * both by the joints of the engine. */
+/* What the GPU is given: a vertex shader adds `delta` to the bind position, takes `normal` for the file's,
+ * and skins both by the joints of the engine. */
 typedef struct {
   float delta[3];
   uint16_t normal[4]; /* halves */
@@ -27,7 +27,8 @@ int main(int count, char** arguments) {
   instance_def.asset = asset;
   TRY(sinew_create_instance(world, &instance_def, &creature));
 
-  /* Map: joint j of Sinew is the engine's joint of this path. Here the engine plays the baked clip, in its order. */
+  /* Map: joint j of Sinew is the engine's joint of this path. Here the engine plays the baked clip, in its
+   * order. */
   char path[256];
   for (uint32_t j = 0; j < info.joint_count && j < 4; ++j)
     if (sinew_joint_path(world, asset, j, path, sizeof path)) printf("joint %u is %s\n", j, path);
@@ -58,8 +59,8 @@ int main(int count, char** arguments) {
   }
   float most_m = 0;
   for (uint32_t i = 0; i < info.moved_vertex_count; ++i) most_m = fmaxf(most_m, fabsf(buffer[i].delta[1]));
-  printf("%u of %u vertices are soft; at the end one is %.4f m off its pose\n", info.moved_vertex_count, info.vertex_count,
-         (double)most_m);
+  printf("%u of %u vertices are soft; at the end one is %.4f m off its pose\n", info.moved_vertex_count,
+         info.vertex_count, (double)most_m);
   free(joints);
   free(shown);
   free(buffer);

@@ -1,14 +1,14 @@
-/* caller.c  caller PACK: a program in C11 that loads a character, tries to misuse the interface, plays a second and
- * prints what it reads. Ends with the line of the first check that failed, else 0. Every caller of this folder
- * plays the same and prints the same numbers. */
+/* caller.c  caller PACK: a program in C11 that loads a character, tries to misuse the interface, plays a
+ * second and prints what it reads. Ends with the line of the first check that failed, else 0. Every caller of
+ * this folder plays the same and prints the same numbers. */
 #include <math.h>
 #include <sinew/sinew.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define CHECK(condition) \
-  do {                   \
+#define CHECK(condition)               \
+  do {                                 \
     if (!(condition)) return __LINE__; \
   } while (0)
 

@@ -8,8 +8,8 @@
 #include "sinew/event.hpp"
 #include "sinew/id.hpp"
 #include "sinew/matrix.hpp"
-#include "sinew/read.hpp"
 #include "sinew/parameters.hpp"
+#include "sinew/read.hpp"
 #include "sinew/status.hpp"
 
 namespace sinew {
