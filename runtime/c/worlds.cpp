@@ -2,7 +2,6 @@
 #include "c/worlds.hpp"
 
 #include <atomic>
-#include <mutex>
 #include <new>
 #include <utility>
 
@@ -14,24 +13,27 @@ namespace {
 
 constexpr uint32_t kMostWorlds = 64;
 
-// A slot's generation is that of its world while it lives, and 0 while there is none: who looks one up needs
-// no lock.
+// Who takes a slot sets `held` first, who leaves it clears `held` last; its generation is that of its world
+// in between, and else 0. So nobody needs a lock.
 struct Slot {
   std::atomic<uint32_t> generation = 0;
-  HeldWorld* held = nullptr;
+  std::atomic<HeldWorld*> held = nullptr;
 };
 Slot slots[kMostWorlds];
-std::mutex making;
-uint32_t last_generation = 0;
+std::atomic<uint32_t> last_generation = 0;
+
+uint32_t next_generation() noexcept {
+  const uint32_t next = last_generation.fetch_add(1, std::memory_order_relaxed) + 1;
+  return next ? next : next_generation();  // never 0
+}
 
 sinew_status put(std::unique_ptr<HeldWorld> made, sinew_world* out) noexcept {
-  const std::lock_guard lock(making);
   for (uint32_t i = 0; i < kMostWorlds; ++i) {
-    if (slots[i].held) continue;
-    last_generation += last_generation == UINT32_MAX ? 2 : 1;  // never 0
-    slots[i].held = made.release();
-    slots[i].generation.store(last_generation, std::memory_order_release);
-    *out = {i + 1, last_generation};
+    HeldWorld* none = nullptr;
+    if (!slots[i].held.compare_exchange_strong(none, made.get())) continue;
+    made.release();
+    *out = {i + 1, next_generation()};
+    slots[i].generation.store(out->generation, std::memory_order_release);
     return SINEW_OK;
   }
   return refused(StatusCode::kOutOfCapacity, "sinew_create_world: 64 worlds live");
@@ -65,7 +67,7 @@ WorldDef to_def(const sinew_world_def& def, HeldOcclusion* occlusion) noexcept {
 HeldWorld* find(sinew_world id) noexcept {
   if (id.index1 == 0 || id.index1 > kMostWorlds || id.generation == 0) return nullptr;
   const Slot& slot = slots[id.index1 - 1];
-  return slot.generation.load(std::memory_order_acquire) == id.generation ? slot.held : nullptr;
+  return slot.generation.load(std::memory_order_acquire) == id.generation ? slot.held.load() : nullptr;
 }
 
 sinew_status stale_world() noexcept {
@@ -115,15 +117,13 @@ sinew_status sinew_create_world(uint32_t layout, const sinew_world_def* def, sin
 }
 
 sinew_status sinew_destroy_world(sinew_world world) {
-  std::unique_ptr<HeldWorld> held;
-  {
-    const std::lock_guard lock(making);
-    HeldWorld* found = c::find(world);
-    if (!found) return stale_world();
-    if (found->stepping) return invalid("sinew_destroy_world: the world is inside a step");
-    slots[world.index1 - 1].generation.store(0, std::memory_order_release);
-    held.reset(std::exchange(slots[world.index1 - 1].held, nullptr));
-  }
+  HeldWorld* found = c::find(world);
+  if (!found) return stale_world();
+  if (found->stepping) return invalid("sinew_destroy_world: the world is inside a step");
+  Slot& slot = slots[world.index1 - 1];
+  uint32_t expected = world.generation;
+  if (!slot.generation.compare_exchange_strong(expected, 0)) return stale_world();
+  delete slot.held.exchange(nullptr);
   return SINEW_OK;
 }
 

@@ -11,6 +11,7 @@
 
 // In this order: each needs the ones before it.
 // clang-format off
+#include "simd/wasm_doubles-inl.hpp"
 #include "simd/three-inl.hpp"
 #include "simd/rod_lanes-inl.hpp"
 #include "simd/rod_reach-inl.hpp"

@@ -219,8 +219,8 @@ bool is_idle(const PlanRow& row, Tier tier) noexcept {
 void give_answer(bool has_budget, const PlanRow& row, const Candidate& c, PlanAnswer& plan) noexcept {
   const frame::Level& level = c.front->levels[c.level];
   const bool carried = has_budget & !row.restarting & !row.hidden, none = c.level == 0;
-  const Tier given = none & !carried ? Tier::kSkinning : level.tier;  // of level 0: extrapolated
-  const uint32_t graph = c.keeps_level | none ? row.level : level.graph;
+  const Tier given = (none & !carried) ? Tier::kSkinning : level.tier;  // of level 0: extrapolated
+  const uint32_t graph = (c.keeps_level | none) ? row.level : level.graph;
   const Tier tier = c.keeps_level ? Tier{row.tier} : given;
   const bool idle = is_idle(row, tier);
   plan.cost_us = c.planned_us;
