@@ -22,12 +22,8 @@ newer() {
   return 0
 }
 
-creature=assets/creature/creature.json
 tissue=assets/creature/tissue.json
-weights=assets/weights/creature.safetensors
-newer "$out/creature.glb" "$bin/sinew-bake" "$creature" || "$bin/sinew-bake" creature "$creature" -o "$out/creature.glb"
-newer "$out/creature.sinew" "$out/creature.glb" "$tissue" "$weights" ||
-  "$bin/sinew-bake" character "$out/creature.glb" --recipe "$tissue" --tissue "$weights" -o "$out/creature.sinew"
+samples/bake_creature.sh "$bin/sinew-bake" "$out" tissue
 newer "$out/first/contact_sheet.png" "$out/creature.sinew" "$bin/sinew-demo" || {
   "$bin/sinew-demo" "$out/creature.sinew" --clip hop --seconds 1 --view front --frames "$out/first" >/dev/null
   echo "The first pictures: $out/first/contact_sheet.png"
@@ -35,16 +31,11 @@ newer "$out/first/contact_sheet.png" "$out/creature.sinew" "$bin/sinew-demo" || 
 
 # What is built and baked without using all cores is so beside the films, which are then rendered; the times that are printed are
 # measured later, when nothing else runs.
-rods=assets/creature/tissue_rods.json
-touch=assets/creature/tissue_touch.json
 the_rest() {
   set -e
   build sinew-hello sinew-rods sinew-contacts sinew-hair
   # The same creature with its tail and ears as rods, and with a belly that its own hands press.
-  newer "$out/creature_rods.sinew" "$out/creature.glb" "$rods" "$weights" ||
-    "$bin/sinew-bake" character "$out/creature.glb" --recipe "$rods" --tissue "$weights" -o "$out/creature_rods.sinew"
-  newer "$out/creature_touch.sinew" "$out/creature.glb" "$touch" "$weights" ||
-    "$bin/sinew-bake" character "$out/creature.glb" --recipe "$touch" --tissue "$weights" -o "$out/creature_touch.sinew"
+  samples/bake_creature.sh "$bin/sinew-bake" "$out" tissue_rods tissue_touch
 }
 set -m  # a process group of its own, so that nothing of it goes on when this script is stopped
 the_rest >"$out/the_rest.txt" 2>&1 &

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs the Debian packages Sinew is built, tested and shown with. Does nothing, in well under a second, when all are there.
-# usage: install_packages.sh [samples|PRESET]; samples: all but PyTorch, which only training and tests need; with aarch64 also the cross
-# compiler, an emulator and libraries of that architecture
+# usage: install_packages.sh [samples|web|PRESET]; samples: without what only training and tests need; web: those of samples and a
+# compiler for WebAssembly; aarch64: all, the cross compiler, an emulator and libraries of that architecture
 set -euo pipefail
 
 packages=(
@@ -13,7 +13,12 @@ packages=(
   catch2 pkg-config tcc python3-cffi                      # tests
   python3-numpy python3-matplotlib libopenblas0-pthread   # plots
 )
-[ "${1:-}" = samples ] || packages+=(python3-torch)       # training
+wasm=(clang-19 lld-19 wasi-libc libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32)
+case "${1:-}" in
+  samples) ;;
+  web) packages+=("${wasm[@]}") ;;
+  *) packages+=(python3-torch "${wasm[@]}" chromium) ;;  # training, and tests of the page
+esac
 foreign=
 if [ "${1:-}" = aarch64 ]; then
   packages+=(g++-aarch64-linux-gnu qemu-user libhwy-dev:arm64)

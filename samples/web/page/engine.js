@@ -1,0 +1,79 @@
+// engine.js  The WebAssembly module: engine/scene.h with strings and arrays in the place of addresses.
+
+const kReport = ['stepUs', 'expectedError', 'network', 'modal', 'extrapolated', 'skinned', 'hidden', 'dormant', 'cut', 'ballX', 'ballY', 'ballZ'];
+const kBadDescriptor = 8;  // WASI's
+
+// Of what the C library asks its host for, a page has a clock, and no files.
+function makeHost(memory) {
+  const put = (address, values) => values.forEach((value, i) => new DataView(memory().buffer).setUint32(address + 4 * i, value, true));
+  const known = {
+    clock_time_get(_clock, _precision, out) {
+      new DataView(memory().buffer).setBigUint64(out, BigInt(Math.round(performance.now() * 1e6)), true);
+      return 0;
+    },
+    environ_sizes_get: (count, bytes) => (put(count, [0]), put(bytes, [0]), 0),
+    environ_get: () => 0,
+    proc_exit(code) { throw new Error(`the engine stopped (${code})`); },
+  };
+  return {wasi_snapshot_preview1: new Proxy(known, {get: (functions, name) => functions[name] ?? (() => kBadDescriptor)})};
+}
+
+export async function loadEngine(asked) {
+  let instance;
+  const response = await asked;
+  if (!response.ok) throw new Error(`sinew.wasm is not there (${response.status}): build the page again, samples/web/run.sh`);
+  const host = makeHost(() => instance.exports.memory);
+  try {
+    ({instance} = await WebAssembly.instantiateStreaming(response.clone(), host));
+  } catch (error) {
+    if (!(error instanceof TypeError)) throw error;  // a server that does not know what a .wasm is
+    ({instance} = await WebAssembly.instantiate(await response.arrayBuffer(), host));
+  }
+  instance.exports._initialize();
+  return new Engine(instance.exports);
+}
+
+export class Engine {
+  constructor(exports) {
+    this.calls = exports;
+    this.description = null;
+  }
+
+  // Memory grows, and arrays of it end then: they are made where they are used.
+  bytes(address, count) { return new Uint8Array(this.calls.memory.buffer, address, count); }
+  floats(address, count) { return new Float32Array(this.calls.memory.buffer, address, count); }
+  halves(address, count) { return new Uint16Array(this.calls.memory.buffer, address, count); }
+  words(address, count) { return new Uint32Array(this.calls.memory.buffer, address, count); }
+  text(address) {
+    const all = new Uint8Array(this.calls.memory.buffer);
+    return new TextDecoder().decode(all.slice(address, all.indexOf(0, address)));
+  }
+
+  // Throws what the engine says of a refusal.
+  must(status) {
+    if (status !== 0) throw new Error(this.text(this.calls.scene_message()));
+  }
+
+  open(pack, figures, touches) {
+    const address = this.calls.scene_pack_bytes(pack.byteLength);
+    if (address) this.bytes(address, pack.byteLength).set(new Uint8Array(pack));
+    this.must(this.calls.scene_open(figures, touches));
+    this.description = JSON.parse(this.text(this.calls.scene_description()));
+    this.figures = figures;
+  }
+
+  change(figures, touches) {
+    this.must(this.calls.scene_change(figures, touches));
+    this.description = JSON.parse(this.text(this.calls.scene_description()));
+    this.figures = figures;
+  }
+
+  step(seconds) { this.must(this.calls.scene_step(seconds)); }
+
+  report() {
+    const numbers = this.floats(this.calls.scene_report(), kReport.length);
+    return Object.fromEntries(kReport.map((name, i) => [name, numbers[i]]));
+  }
+
+  positions(figure) { return this.floats(this.calls.scene_positions(figure), 3 * this.description.vertexCount); }
+}

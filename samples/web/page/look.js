@@ -1,0 +1,54 @@
+// look.js  Materials, texture coordinates and colours of the glTF that a pack was baked from.
+import {BufferAttribute} from 'three';
+import {GLTFLoader} from 'three/addons/loaders/GLTFLoader.js';
+
+function parse(bytes) {
+  return new Promise((resolve, reject) => new GLTFLoader().parse(bytes, '', resolve, reject));
+}
+
+// The file's mesh that a pack's one was: of its name, with as many vertices in each primitive.
+function findMesh(json, pack, mesh, taken) {
+  const primitives = pack.primitives.filter((primitive) => primitive.mesh === mesh);
+  const fits = (node) => node.mesh !== undefined && primitives.every(({index, vertexCount}) => {
+    const primitive = json.meshes[node.mesh].primitives[index];
+    return primitive && json.accessors[primitive.attributes.POSITION].count === vertexCount;
+  });
+  const name = pack.meshes[mesh].name;
+  const isNamed = (node) => node.name === name || json.meshes[node.mesh].name === name;
+  const candidates = json.nodes.filter((node) => !taken.has(node) && fits(node));
+  const found = candidates.find(isNamed) ?? candidates[0];
+  if (found) taken.add(found);
+  return found?.mesh;
+}
+
+const kAttributes = {TEXCOORD_0: 'uv', TEXCOORD_1: 'uv1', COLOR_0: 'color'};
+
+async function addAttribute(look, parser, accessor, name, primitive, vertexCount) {
+  const from = await parser.getDependency('accessor', accessor);
+  const size = from.itemSize;
+  look.attributes[name] ??= new BufferAttribute(new Float32Array(size * vertexCount).fill(1), size);
+  const to = look.attributes[name];
+  for (let i = 0; i < primitive.vertexCount; ++i)
+    for (let k = 0; k < Math.min(size, to.itemSize); ++k) to.setComponent(primitive.firstVertex + i, k, from.getComponent(i, k));
+}
+
+async function addPrimitive(look, parser, pack, i, mesh) {
+  const primitive = pack.primitives[i], {attributes, material} = parser.json.meshes[mesh].primitives[primitive.index];
+  if (material !== undefined) {
+    look.materials[i] = (await parser.getDependency('material', material)).clone();
+    look.materials[i].vertexColors = attributes.COLOR_0 !== undefined;
+  }
+  for (const [of, name] of Object.entries(kAttributes))
+    if (attributes[of] !== undefined) await addAttribute(look, parser, attributes[of], name, primitive, pack.vertexCount);
+}
+
+// pack: Engine.description. Throws where the file cannot be read, or is another than the pack's.
+export async function loadLook(bytes, pack) {
+  const {parser} = await parse(bytes);
+  const taken = new Set(), meshes = pack.meshes.map((_, mesh) => findMesh(parser.json, pack, mesh, taken));
+  const missing = meshes.findIndex((mesh) => mesh === undefined);
+  if (missing >= 0) throw new Error(`it has no mesh "${pack.meshes[missing].name}" with the pack's vertices: bake the .sinew from this file again`);
+  const look = {materials: [], attributes: {}};
+  for (let i = 0; i < pack.primitives.length; ++i) await addPrimitive(look, parser, pack, i, meshes[pack.primitives[i].mesh]);
+  return look;
+}

@@ -1,0 +1,336 @@
+// main.js  Puts the page together: loads, plays, draws.
+import {Controls} from './controls.js';
+import {loadEngine} from './engine.js';
+import {Figure} from './figure.js';
+import {listenForFiles, sortFiles} from './files.js';
+import {Hand} from './hand.js';
+import {loadLook} from './look.js';
+import {Plot} from './plot.js';
+import {kDefaults, kNoBudget_ms, kWhole, Settings} from './settings.js';
+import {Split} from './split.js';
+import {NoDrawing, Stage} from './stage.js';
+
+const kLongestFrame_s = 0.1, kFrameStep_s = 1 / 60;
+const kMotions = {'(still)': -1, '(shaken)': -2, '(turning)': -3};
+const kTouchBody = 1, kTouchBall = 2;
+const kAll = 0, kRegion = 1, kRod = 2;
+const kDebugParts = {showNodes: 1, showRods: 2, showProxies: 4, showTouches: 8, showBounds: 16};
+const kBest = {all: 2, modal: 4, skinning: 0};
+const kOwn = 'own';
+
+const element = (id) => document.getElementById(id);
+
+function say(sentence) {
+  element('message').hidden = !sentence;
+  element('message').firstElementChild.textContent = sentence ?? '';
+}
+
+// Once what first.js has asked for already.
+function ask(address) {
+  const asked = window.sinewAsked[address];
+  delete window.sinewAsked[address];
+  return asked ?? fetch(address);
+}
+
+async function fetchBytes(address) {
+  const response = await ask(address);
+  if (!response.ok) throw new Error(`${address} is not there (${response.status}): build the page again, samples/web/run.sh`);
+  return response.arrayBuffer();
+}
+
+class Page {
+  constructor(engine) {
+    this.engine = engine;
+    this.settings = new Settings(location.hash);
+    this.stage = new Stage(element('picture'));
+    this.controls = new Controls(this.settings);
+    this.split = new Split(this.settings);
+    this.plot = new Plot(element('plot'));
+    this.hand = new Hand(this.stage, engine, () => element('hint').classList.add('done'));
+    this.character = {pack: null, look: null};  // what is shown
+    this.isDirty = true;                        // something has changed while it does not play
+    this.frames = [];                           // when the last second's were drawn, ms
+    this.frame_ms = null;
+  }
+
+  touches() { return (this.settings.get('body') ? kTouchBody : 0) | (this.settings.get('ball') ? kTouchBall : 0); }
+  budget_us() { return this.settings.get('budget') >= kNoBudget_ms ? Infinity : 1000 * this.settings.get('budget'); }
+
+  // Shows a character; throws, and shows the one before, where it cannot.
+  async show(pack, lookBytes) {
+    this.engine.open(pack, this.settings.get('figures'), this.touches());
+    this.character = {pack, look: null};
+    this.rebuild();
+    this.controls.fill(this.engine.description);
+    if (!lookBytes) return;
+    this.character.look = await loadLook(lookBytes, this.engine.description);
+    this.rebuild();
+  }
+
+  async showNamed(name) {
+    const [pack, look] = await Promise.all([fetchBytes(`characters/${name}.sinew`), fetchBytes('characters/creature.glb')]);
+    await this.show(pack, look);
+  }
+
+  // The engine's scene has become another.
+  rebuild() {
+    const {height} = this.engine.description, figures = this.engine.figures;
+    this.stage.show(new Figure(this.engine, this.character.look), height, figures);
+    this.applyAll();
+    this.stepBy(0);
+  }
+
+  change() {
+    try {
+      this.engine.change(this.settings.get('figures'), this.touches());
+      this.rebuild();
+    } catch (error) {
+      say(error.message);
+    }
+  }
+
+  applyAll() {
+    this.hand.setBall(this.settings.get('ball'));
+    for (const name of ['clip', 'budget', 'tier', 'gravity', 'showRegions']) this.apply(name);
+    this.applyParts();
+  }
+
+  applyParts() {
+    const {regions, rods} = this.engine.description;
+    const set = (kind, index, name) => {
+      const {intensity, stiffness, damping, displacement, enabled} = this.settings.part(name);
+      this.engine.must(this.engine.calls.scene_set_part(kind, index, intensity, stiffness, damping, displacement, enabled ? 1 : 0));
+    };
+    set(kAll, 0, kWhole);
+    regions.forEach(({name}, i) => set(kRegion, i, name));
+    rods.forEach(({name}, i) => set(kRod, i, name));
+  }
+
+  clip() {
+    const wanted = this.settings.get('clip'), {clips} = this.engine.description;
+    const index = clips.findIndex(({name}, i) => (name || `clip ${i + 1}`) === wanted);
+    if (index >= 0) return index;
+    if (wanted in kMotions) return kMotions[wanted];
+    this.settings.values.clip = kDefaults.clip;  // another character's
+    return clips.length ? this.liveliest(clips) : kMotions['(shaken)'];
+  }
+  // At first something that swings, where there is a clip of such a name.
+  liveliest(clips) {
+    for (const word of [/hop/i, /jump|dance/i, /run|gallop/i, /walk/i]) {
+      const index = clips.findIndex(({name}) => word.test(name));
+      if (index >= 0) return index;
+    }
+    return 0;
+  }
+
+  // A setting has changed.
+  apply(name) {
+    const {calls} = this.engine, {settings} = this;
+    this.isDirty = true;
+    if (name.startsWith('part.')) this.applyParts();
+    if (name === 'clip') {
+      const clip = this.clip();
+      this.engine.must(calls.scene_set_clip(clip));
+      const names = Object.fromEntries(Object.entries(kMotions).map(([text, index]) => [index, text]));
+      element('transport').querySelector('[data-key=clip]').value = names[clip] ?? (this.engine.description.clips[clip].name || `clip ${clip + 1}`);
+    }
+    if (name === 'budget') this.engine.must(calls.scene_set_budget_us(this.budget_us()));
+    if (name === 'tier') this.engine.must(calls.scene_set_best_tier?.(kBest[settings.get("tier")] ?? kBest.all) ?? 0);
+    if (['wind', 'from', 'gust', 'gustHz', 'gravity'].includes(name)) this.applyAir();
+    if (name === 'showRegions') this.stage.figure.showRegions(settings.get('showRegions'));
+    if (name === 'figures' || name === 'ball' || name === 'body') this.change();
+    if (name === 'figures') this.stage.frame(this.engine.figures);
+    if (name === 'playing') this.showPlaying();
+    if (name === 'character' && settings.get('character') !== kOwn) this.try(this.showNamed(settings.get('character')));
+  }
+
+  applyAir() {
+    const get = (name) => this.settings.get(name), from = (get('from') * Math.PI) / 180, wind = get('wind');
+    this.engine.must(this.engine.calls.scene_set_air(get('gravity'), -wind * Math.sin(from), 0, -wind * Math.cos(from), get('gust'), get('gustHz')));
+  }
+
+  async try(promise) {
+    try {
+      await promise;
+    } catch (error) {
+      say(error.message);
+    }
+  }
+
+  async takeFiles(files) {
+    const {pack, look} = sortFiles(files, this.settings.get('character') === kOwn);
+    const read = async (file) => {
+      try {
+        return await file.arrayBuffer();
+      } catch {
+        throw new Error(`${file.name} cannot be read.`);
+      }
+    };
+    say(null);
+    if (!pack) {
+      this.character.look = await loadLook(await read(look), this.engine.description).catch((error) => { throw new Error(`${look.name}: ${error.message}.`); });
+      return this.rebuild();
+    }
+    const bytes = await read(pack), lookBytes = look && (await read(look));
+    const before = this.character.pack;
+    try {
+      await this.show(bytes, lookBytes);
+    } catch (error) {
+      const isShown = this.character.pack !== before;
+      throw new Error(isShown ? `${look.name}: ${error.message}. The character is shown without its colours.` : `${pack.name}: ${error.message}.`);
+    } finally {
+      if (this.character.pack !== before) this.isNowOwn(pack.name);
+    }
+  }
+
+  isNowOwn(name) {
+    const select = document.querySelector('[data-key=character]');
+    [...select.options].find(({value}) => value === kOwn)?.remove();
+    select.append(new Option(name, kOwn));
+    this.settings.set('character', kOwn);
+    this.stage.frame(this.engine.figures);
+  }
+
+  stepBy(seconds) {
+    this.engine.must(this.engine.calls.scene_set_view(...this.stage.view()));
+    this.engine.step(seconds);
+    const report = this.engine.report();
+    this.stage.figure.read(this.engine, this.settings.get('showTiers'));
+    this.stage.ball.position.set(report.ballX, report.ballY, report.ballZ);
+    if (seconds > 0) this.plot.add(report);
+    const parts = Object.entries(kDebugParts).reduce((sum, [name, part]) => sum + (this.settings.get(name) ? part : 0), 0);
+    this.stage.setLines(this.engine, parts);
+    this.isDirty = false;
+  }
+
+  showPlaying() {
+    element('play').textContent = this.settings.get('playing') ? 'Pause' : 'Play';
+    element('play').setAttribute('aria-pressed', this.settings.get('playing'));
+  }
+
+  showNumbers() {
+    const {frames} = this.plot, recent = frames.slice(-60);
+    if (!recent.length) return;
+    const mean = (of) => recent.reduce((sum, report) => sum + of(report), 0) / recent.length;
+    element('numbers').firstElementChild.textContent =
+      `${(mean((r) => r.stepUs) / 1000).toFixed(2)} ms a step, ${this.frames.length} pictures a second\n` +
+      `expected error ${mean((r) => r.expectedError).toFixed(2)} of skinning's\n` +
+      `${recent.at(-1).dormant} asleep, ${recent.at(-1).cut} cut for the deadline`;
+    this.plot.draw(this.budget_us());
+  }
+
+  frame(now_ms) {
+    requestAnimationFrame((ms) => this.frame(ms));
+    const passed_s = this.frame_ms === null ? kFrameStep_s : (now_ms - this.frame_ms) / 1000;
+    this.frame_ms = now_ms;
+    this.frames = [...this.frames.filter((ms) => ms > now_ms - 1000), now_ms];
+    try {
+      if (this.settings.get('playing')) this.stepBy(Math.min(kLongestFrame_s, passed_s) * this.settings.get('speed'));
+      else if (this.isDirty) this.stepBy(0);
+      this.stage.draw(this.settings.get('split'));
+    } catch (error) {
+      this.settings.set('playing', false);
+      say(error.message);
+    }
+    if (this.frames.length % 6 === 0 || this.frames.length < 6) this.showNumbers();
+  }
+
+  toggle() { this.settings.set('playing', !this.settings.get('playing')); }
+  stepOnce() {
+    this.settings.set('playing', false);
+    this.stepBy(kFrameStep_s);
+  }
+  restart() {
+    this.engine.must(this.engine.calls.scene_restart());
+    this.stepBy(0);
+  }
+
+  writeAddress() {
+    clearTimeout(this.writing);
+    this.writing = setTimeout(() => history.replaceState(null, '', location.pathname + location.search + this.settings.hash()), 300);
+  }
+
+  listen() {
+    const {settings, stage} = this;
+    settings.listen((name) => {
+      try {
+        this.apply(name);
+      } catch (error) {
+        say(error.message);
+      }
+      this.writeAddress();
+    });
+    stage.controls.addEventListener('end', () => settings.set('camera', stage.place().join(',')));
+    stage.controls.addEventListener('change', () => { this.isDirty = true; });
+    element('play').addEventListener('click', () => this.toggle());
+    element('step').addEventListener('click', () => this.stepOnce());
+    element('restart').addEventListener('click', () => this.restart());
+    element('message').querySelector('button').addEventListener('click', () => say(null));
+    element('link').addEventListener('click', () => this.copyLink());
+    addEventListener('keydown', (event) => this.key(event));
+    addEventListener('hashchange', () => location.reload());
+    document.addEventListener('visibilitychange', () => { this.frame_ms = null; });
+    listenForFiles((files) => this.try(this.takeFiles(files)));
+    const canvas = stage.renderer.domElement;
+    canvas.addEventListener('webglcontextlost', () => say('The graphics driver has taken the picture away; it comes back as soon as the driver does.'));
+    canvas.addEventListener('webglcontextrestored', () => { say(null), this.rebuild(); });
+  }
+
+  key(event) {
+    if (event.ctrlKey || event.metaKey || event.altKey || /^(INPUT|SELECT|BUTTON|SUMMARY)$/.test(event.target.tagName)) return;
+    const does = {' ': () => this.toggle(), '.': () => this.stepOnce(), r: () => this.restart(), R: () => this.restart()}[event.key];
+    if (!does) return;
+    event.preventDefault();
+    does();
+  }
+
+  async copyLink() {
+    history.replaceState(null, '', location.pathname + location.search + this.settings.hash());
+    const button = element('link');
+    try {
+      await navigator.clipboard.writeText(location.href);
+      button.textContent = 'Copied';
+    } catch {
+      button.textContent = 'In the address bar';
+    }
+    setTimeout(() => { button.textContent = 'Copy link'; }, 1500);
+  }
+
+  async start(pack, look) {
+    await this.show(pack, null);
+    const place = this.settings.get('camera').split(',').map(Number);
+    this.stage.frame(this.engine.figures);
+    if (place.length === 6 && place.every(Number.isFinite)) this.stage.goTo(place);
+    this.controls.show();
+    this.apply('clip');
+    this.showPlaying();
+    this.listen();
+    this.stepBy(0);
+    requestAnimationFrame((ms) => this.frame(ms));
+    await this.try(look.then(async (bytes) => {
+      const pack_now = this.character.pack, loaded = await loadLook(bytes, this.engine.description);
+      if (this.character.pack !== pack_now) return;
+      this.character.look = loaded;
+      this.rebuild();
+    }));
+  }
+}
+
+async function start() {
+  if (window.sinewLacks) return;
+  const wanted = new Settings(location.hash).get('character');
+  const options = [...document.querySelectorAll('[data-key=character] option')].map(({value}) => value);
+  const name = options.includes(wanted) ? wanted : kDefaults.character;
+  const look = fetchBytes('characters/creature.glb');
+  look.catch(() => {});  // told of in start
+  try {
+    const [engine, pack] = await Promise.all([loadEngine(ask('sinew.wasm')), fetchBytes(`characters/${name}.sinew`)]);
+    const page = new Page(engine);
+    page.settings.values.character = name;
+    await page.start(pack, look);
+    window.sinewPage = page;  // for the console, and for tests
+  } catch (error) {
+    error instanceof NoDrawing ? window.sinewSayLack(error.message) : say(error.message);
+  }
+}
+start();

@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# Builds the engine and puts the page's folder together.
+# usage: put_together.sh BUILD FOLDER PACKS   PACKS: a folder with creature.glb and creature*.sinew
+set -euo pipefail
+build=$1 folder=$2 packs=$3
+source=$(cd "$(dirname "$0")/../.." && pwd)
+
+cmake --preset web -S "$source" -B "$build" >/dev/null
+cmake --build "$build" --target sinew-web | { grep -v '^ninja: no work' || true; }
+mkdir -p "$build/npm" "$folder/characters" "$folder/three/addons/"{controls,loaders,utils}
+cp "$source/samples/web/package.json" "$build/npm/"
+(cd "$build/npm" && npm install --no-package-lock --no-audit --no-fund --prefer-offline --silent)
+cp "$source"/samples/web/page/* "$build/bin/sinew.wasm" "$folder/"
+three=$build/npm/node_modules/three
+cp "$three"/build/three.{module,core}.min.js "$three/LICENSE" "$folder/three/"
+for file in controls/OrbitControls loaders/GLTFLoader utils/BufferGeometryUtils; do
+  cp "$three/examples/jsm/$file.js" "$folder/three/addons/$file.js"
+done
+cp "$packs"/creature.glb "$packs"/creature*.sinew "$folder/characters/"
