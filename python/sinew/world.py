@@ -6,6 +6,7 @@ import numpy as np
 from sinew.library import LAYOUT, check, ffi, lib
 
 SPACES = {"character": 0, "world": 1, "bind": 2}
+TIERS = {"skinning": 0, "network": 2, "modal": 4}
 
 
 def root(position=(0, 0, 0), rotation=(0, 0, 0, 1), scale=1):
@@ -17,6 +18,12 @@ def _space(name):
     if name not in SPACES:
         raise ValueError(f"space is '{name}'; it is one of {', '.join(SPACES)}")
     return SPACES[name]
+
+
+def _tier(name):
+    if name not in TIERS:
+        raise ValueError(f"tier is '{name}'; it is one of {', '.join(TIERS)}")
+    return TIERS[name]
 
 
 def _set(struct, values, what):
@@ -200,6 +207,10 @@ class Instance:
         out = ffi.new("sinew_instance_report*")
         check(lib.sinew_get_report(self._world._id, self._id, out))
         return _fields(out[0])
+
+    def tier_limit(self, best):
+        """The best tier it may get: "network", all there is, "modal" or "skinning"."""
+        check(lib.sinew_set_tier_limit(self._world._id, self._id, _tier(best)))
 
     def reset(self):
         check(lib.sinew_reset(self._world._id, self._id))

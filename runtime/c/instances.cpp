@@ -117,6 +117,10 @@ sinew_status sinew_set_hidden(sinew_world world, sinew_instance instance, bool h
   return on(world, [&](World& w) { return w.set_hidden(to_id(instance), hidden); });
 }
 
+sinew_status sinew_set_tier_limit(sinew_world world, sinew_instance instance, sinew_tier best) {
+  return on(world, [&](World& w) { return w.set_tier_limit(to_id(instance), static_cast<Tier>(best)); });
+}
+
 sinew_status sinew_set_time_scale(sinew_world world, sinew_instance instance, float scale) {
   return on(world, [&](World& w) { return w.set_time_scale(to_id(instance), scale); });
 }

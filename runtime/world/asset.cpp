@@ -72,7 +72,9 @@ void read_tiers(const pack::PackView& pack, Asset& asset) noexcept {
     if (record.error_mm > 0) asset.skinning_mm = record.error_mm;
   }
   frame::make_front({asset.points, asset.point_count}, asset.idle_us, &asset.costs.front);
+  make_modal_front({asset.points, asset.point_count}, asset.idle_us, &asset.costs);
   asset.surface_costs.front = asset.costs.front;
+  asset.surface_costs.modal_front = asset.costs.modal_front;
   // The first tick on a finer graph is the first on skin, too: what it takes more is not to be kept for ever.
   asset.surface_costs.cost.change = frame::CostEstimate(0);
 }
@@ -139,6 +141,14 @@ Status read_levels(const pack::PackView& pack, Asset& asset) noexcept {
 }
 
 }  // namespace
+
+void make_modal_front(std::span<const frame::Level> points, float publish_us, TierCosts* out) noexcept {
+  frame::Level modal[frame::kMostLevels];
+  uint32_t count = 0;
+  for (const frame::Level& point : points)
+    if (point.tier == Tier::kModal) modal[count++] = point;
+  frame::make_front({modal, count}, publish_us, &out->modal_front);
+}
 
 Status open_asset(std::span<const std::byte> bytes, Asset* out) noexcept {
   pack::PackView view;

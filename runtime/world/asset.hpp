@@ -23,7 +23,12 @@ namespace sinew::world {
 struct TierCosts {
   frame::CostModel cost;
   frame::Front front;  // of the asset's points, at what they cost now (world/plan.hpp)
+  // Of those without the network's; kept up once an instance was limited to them (world/tier_limit.hpp).
+  frame::Front modal_front;
+  bool limited = false;
 };
+
+void make_modal_front(std::span<const frame::Level> points, float publish_us, TierCosts* out) noexcept;
 
 struct Asset {
   pack::MappedFile file;      // empty when the caller keeps the bytes

@@ -3,8 +3,8 @@
 //   dormant  every region and rod sleeps, it asks no source (its own body stands still with its pose),
 //   nothing fades, and for kStillTicks ticks the
 //            pose set was bit for bit the present one, or none was set.
-//   up again with another pose, a budget of 0, a reset, or out of sight; it goes on as if it had been stepped
-//            meanwhile.
+//   up again with another pose, a budget of 0, another limit of its tier, a reset, or out of sight; it goes
+//            on as if it had been stepped meanwhile.
 // It keeps its tier, the best or not, and is told as asleep; a step takes only its clock on.
 #pragma once
 #include "world/instance.hpp"

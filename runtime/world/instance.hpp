@@ -91,7 +91,8 @@ struct InstanceState {
   uint16_t teleport_told = 0;    // Pose::teleport, of the pose set since
   uint32_t hidden_ticks = 0;     // world/hidden.hpp
   uint32_t from_shown = 0;       // simulation came back from what was shown, and not from rest
-  Tier left_tier = Tier::kSkinning;           // world/catch_up.hpp: what it had before it was left alone
+  Tier tier_limit : 16 = Tier::kNetwork;      // world/tier_limit.hpp
+  Tier left_tier : 16 = Tier::kSkinning;      // world/catch_up.hpp: what it had before it was left alone
   uint16_t missed_ticks = 0, tail_rides = 0;  // likewise: since then; the tail counts from what is simulated
   uint32_t first_joints = 0;                  // which of pose_joints is the oldest pose
   uint32_t looked = 0;                        // world/look.hpp: the number of the last look at it

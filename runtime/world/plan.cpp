@@ -22,13 +22,21 @@ void refresh_front(const Asset& asset, TierCosts& costs) noexcept {
     const frame::CostEstimate& tick = costs.cost.of(now[i].tier, now[i].graph);
     now[i].tick_us = tick.estimate_us();
   }
-  frame::make_front({now, asset.point_count}, costs.cost.publish.estimate_us(), &costs.front);
+  const float publish_us = costs.cost.publish.estimate_us();
+  frame::make_front({now, asset.point_count}, publish_us, &costs.front);
+  if (costs.limited) make_modal_front({now, asset.point_count}, publish_us, &costs);
 }
 
 void refresh_fronts(const WorldState& world, Asset& asset) noexcept {
   if (!costs_are_measured(world)) return;
   refresh_front(asset, asset.costs);
   if (asset.surface_instances > 0) refresh_front(asset, asset.surface_costs);
+}
+
+// What may be bought of it.
+const frame::Front& front_of(const PlanRow& row) noexcept {
+  const TierCosts& costs = costs_of(row);
+  return row.modal_at_best ? costs.modal_front : costs.front;
 }
 
 // What is asked of all candidates of a step alike.
@@ -75,7 +83,7 @@ float weight_of(const PlanRow& row) noexcept {
 // be taken and left several times a second.
 uint8_t below_skin(const Terms& terms, const PlanRow& row) noexcept {
   constexpr float kAgain_s = 2;
-  const frame::Front& front = costs_of(row).front;
+  const frame::Front& front = front_of(row);
   const bool waits =
       terms.measured && row.has_surface && row.held_s < kAgain_s && !affords_surface(row.tier, row.level);
   for (uint8_t level = 2; waits && level < front.count; ++level)
@@ -85,10 +93,11 @@ uint8_t below_skin(const Terms& terms, const PlanRow& row) noexcept {
 }
 
 // The network is not to be had for a while after a guard; nothing is while a restart fades, in the step in
-// which one comes into view: how it moves is known a step later, or where all of it is off.
+// which one comes into view: how it moves is known a step later, or where all of it is off or may only be
+// skinned.
 uint8_t highest(const Terms& terms, const PlanRow& row) noexcept {
-  const frame::Front& front = costs_of(row).front;
-  if (row.restarting || row.hidden || row.all_off) return 0;
+  const frame::Front& front = front_of(row);
+  if (row.restarting || row.hidden || row.all_off || row.skinned_at_best) return 0;
   for (uint8_t level = 1; row.falls_back && level < front.count; ++level)
     if (front.levels[level].tier == Tier::kNetwork) return static_cast<uint8_t>(level - 1);
   return below_skin(terms, row);
@@ -114,7 +123,7 @@ Candidate candidate_of(const Terms& terms, const PlanRow& row, const frame::Tick
                        uint32_t slot) noexcept {
   const uint32_t ticks = plan.ticks;
   const bool keeps_level = ticks == 0 && terms.has_budget && !row.hidden;
-  const frame::Front& front = costs_of(row).front;
+  const frame::Front& front = front_of(row);
   return {.front = &front,
           .slot = slot,
           .weight = weight_of(row),
@@ -218,7 +227,7 @@ bool is_idle(const PlanRow& row, Tier tier) noexcept {
 // Who has what is hard to foretell: no branch depends on it.
 void give_answer(bool has_budget, const PlanRow& row, const Candidate& c, PlanAnswer& plan) noexcept {
   const frame::Level& level = c.front->levels[c.level];
-  const bool carried = has_budget & !row.restarting & !row.hidden, none = c.level == 0;
+  const bool carried = has_budget & !row.restarting & !row.hidden & !row.skinned_at_best, none = c.level == 0;
   const Tier given = (none & !carried) ? Tier::kSkinning : level.tier;  // of level 0: extrapolated
   const uint32_t graph = (c.keeps_level | none) ? row.level : level.graph;
   const Tier tier = c.keeps_level ? Tier{row.tier} : given;

@@ -39,6 +39,8 @@ void copy_to_row(const Instance& instance, PlanRow* row) noexcept {
   row->blind_looks = std::min(state.blind_looks, kBlindLooks) & 3;
   row->missed = missed_so_far(instance) & 3;
   row->all_off = all_is_off(instance);
+  row->modal_at_best = state.tier_limit == Tier::kModal;
+  row->skinned_at_best = state.tier_limit == Tier::kSkinning;
   row->regions_asleep =
       frame::is_simulated(state.tier) ? static_cast<uint16_t>(regions_asleep(instance)) : uint16_t{0};
 }

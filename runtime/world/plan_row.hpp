@@ -31,7 +31,8 @@ struct alignas(64) PlanRow {
   bool skips_pose : 1 = false, waited_for_pose : 1 = false;  // world/skip_pose.hpp
   uint8_t blind_looks : 2 = 0;  // in a row, as many as hide (world/look.hpp) at most
   uint8_t missed : 2 = 0;       // ticks that it would make up for (world/catch_up.hpp)
-  bool all_off = false;         // nothing of it is to be simulated (world/tuning.hpp)
+  bool all_off : 1 = false;     // nothing of it is to be simulated (world/tuning.hpp)
+  bool modal_at_best : 1 = false, skinned_at_best : 1 = false;  // world/tier_limit.hpp
   uint16_t regions_asleep = 0;
   float size = 1;             // in this step: share of a view's height
   uint32_t hidden_ticks = 0;  // ahead of the state's, as is remainder_s, while hidden (world/hidden.hpp)

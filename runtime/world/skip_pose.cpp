@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "frame/scheduler.hpp"
+#include "world/tier_limit.hpp"
 
 namespace sinew::world {
 
@@ -29,7 +30,7 @@ void wait_for_pose(Instance& instance, double frame_s) noexcept {
   instance.passed = true;
   state.without_pose_s += static_cast<double>(state.time_scale) * frame_s;
   state.skips_pose = 0;
-  state.waited_s = frame::is_simulated(state.tier) ? 0 : state.waited_s + dt_s;
+  state.waited_s = waited_after(state, dt_s);
   state.held_s += dt_s;
   state.turn_left_s = std::max(0.0f, state.turn_left_s - dt_s);
 }

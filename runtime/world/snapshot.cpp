@@ -8,6 +8,7 @@
 #include "core/hash.hpp"
 #include "core/status.hpp"
 #include "world/publish.hpp"
+#include "world/tier_limit.hpp"
 #include "world/tuning.hpp"
 
 namespace sinew::world {
@@ -27,8 +28,8 @@ constexpr uint64_t kMagic = 0x31544154534e5753;  // "SWNSTAT1", little-endian
 // 20: flesh beyond its limit swings on in l. 21: no update rates, no springs. 22: teleports,
 // spaces, scales of time and size, a pose more. 23: what the last tick added, time without poses. 24: where
 // emulated nodes were. 25: no longer. 26: what an engine changed of its parts, and what it feels of the
-// world.
-constexpr uint32_t kVersion = 26;
+// world. 27: the best tier it may get.
+constexpr uint32_t kVersion = 27;
 
 struct Header {
   uint64_t magic, fingerprint, payload_bytes, checksum;
@@ -120,7 +121,7 @@ Status restore(Instance& instance, std::span<const std::byte> bytes) noexcept {
   InstanceState state;
   std::memcpy(&state, payload.data(), sizeof state);
   if (state.level >= instance.asset->level_count || !pack::is_tier(static_cast<uint32_t>(state.tier)) ||
-      !pack::is_tier(static_cast<uint32_t>(state.left_tier)))
+      !pack::is_tier(static_cast<uint32_t>(state.left_tier)) || !may_limit(state.tier_limit))
     return corrupt("names a control graph or a tier that there is not");
   const bool was_tuned = tunes_parts(instance);
   std::memcpy(instance.state, payload.data(), instance.state_bytes);

@@ -24,6 +24,7 @@
 #include "world/simulate.hpp"
 #include "world/sleep.hpp"
 #include "world/teleport.hpp"
+#include "world/tier_limit.hpp"
 #include "world/tissue_contacts.hpp"
 #include "world/tuning.hpp"
 
@@ -170,7 +171,7 @@ void meet_deadline(Instance& instance, const TickContext& context, uint64_t now_
 void age(Instance& instance, bool rose, double frame_s) noexcept {
   InstanceState& state = *instance.state;
   const auto dt_s = static_cast<float>(frame_s);
-  state.waited_s = frame::is_simulated(state.tier) ? 0 : state.waited_s + dt_s;
+  state.waited_s = waited_after(state, dt_s);
   state.held_s = rose ? 0 : state.held_s + dt_s;
   state.turn_left_s = std::max(0.0f, state.turn_left_s - dt_s);
 }

@@ -20,6 +20,7 @@
 #include "world/replace_asset.hpp"
 #include "world/snapshot.hpp"
 #include "world/step.hpp"
+#include "world/tier_limit.hpp"
 #include "world/tuning.hpp"
 #include "world/world_impl.hpp"
 
@@ -471,6 +472,21 @@ Status World::set_hidden(InstanceId id, bool hidden) noexcept {
   if (Status status = find_state(impl_, id, &instance); !status.ok()) return status;
   if (busy(*impl_)) return refuse_busy();
   instance->state->hidden_by_caller = hidden;
+  keep_row(*impl_, id);
+  return {};
+}
+
+Status World::set_tier_limit(InstanceId id, Tier best) noexcept {
+  const core::FloatingPointScope mode;
+  Instance* instance = nullptr;
+  if (Status status = find_state(impl_, id, &instance); !status.ok()) return status;
+  if (busy(*impl_)) return refuse_busy();
+  if (!world::may_limit(best))
+    return make_status(
+        StatusCode::kInvalidArgument,
+        "set_tier_limit: best is %u, not kSkinning (0), kNetwork (2) or kModal (4); it stays as it was",
+        static_cast<uint32_t>(best));
+  world::limit_tier(*instance, best);
   keep_row(*impl_, id);
   return {};
 }

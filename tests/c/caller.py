@@ -35,6 +35,9 @@ def main(path):
         still = np.delete(one.positions("bind"), asset.moved_vertices, axis=0)
         assert not still.any()
         print("\n".join(f"{value:.9g}" for value in one.positions().ravel()))
+        one.tier_limit("skinning")
+        world.step(np.float32(1 / 60))
+        assert one.report()["tier"] == sinew.lib.SINEW_TIER_SKINNING
 
 
 if __name__ == "__main__":

@@ -152,6 +152,8 @@ TEST_CASE("numbers_out_of_range_change_nothing") {
   CHECK(show.set(bad) == SINEW_NOT_FINITE);
   CHECK(sinew_set_budget_us(show.world, -1) == SINEW_INVALID_ARGUMENT);
   CHECK(sinew_set_time_scale(show.world, show.instance, nan) == SINEW_NOT_FINITE);
+  for (const sinew_tier none : {sinew_tier{SINEW_TIER_EXTRAPOLATE}, sinew_tier{3}, SINEW_NONE})
+    CHECK(sinew_set_tier_limit(show.world, show.instance, none) == SINEW_INVALID_ARGUMENT);
   sinew_view view = sinew_default_view();
   view.aspect = 0;
   CHECK(sinew_set_views(show.world, &view, 1) == SINEW_INVALID_ARGUMENT);
@@ -255,6 +257,17 @@ TEST_CASE("what_c_plays_has_the_bits_that_cpp_gives") {
                   {.space = Space::kWorld, .out = cpp_normals.data(), .capacity = stage.info.vertex_count})
               .ok());
   CHECK(normals == cpp_normals);
+}
+
+TEST_CASE("a_tier_s_limit_crosses_as_cpp_has_it") {
+  const Show show;
+  for (const sinew_tier best : {SINEW_TIER_MODAL, SINEW_TIER_NETWORK}) {
+    REQUIRE(sinew_set_tier_limit(show.world, show.instance, best) == SINEW_OK);
+    show.play(scenes::walk, 2);
+    sinew_instance_report report;
+    REQUIRE(sinew_get_report(show.world, show.instance, &report) == SINEW_OK);
+    CHECK(report.tier == best);
+  }
 }
 
 TEST_CASE("a_contact_source_in_c_is_asked_and_answers_as_one_in_cpp") {

@@ -91,6 +91,7 @@ TEST_CASE("restore_refuses_a_tier_and_a_control_graph_that_there_is_not") {
   };
   check_refused(stage, changed([](world::InstanceState& s) { s.tier = static_cast<Tier>(kTierCount); }));
   check_refused(stage, changed([](world::InstanceState& s) { s.left_tier = static_cast<Tier>(kTierCount); }));
+  check_refused(stage, changed([](world::InstanceState& s) { s.tier_limit = Tier::kExtrapolate; }));
   check_refused(stage, changed([](world::InstanceState& s) { s.tier = static_cast<Tier>(3); }));  // springs
   check_refused(stage, changed([](world::InstanceState& s) { s.level = 1; }));
   const std::vector<std::byte> right = changed([](world::InstanceState& s) { s.held_s = 2; });

@@ -313,6 +313,10 @@ SINEW_API sinew_status sinew_set_pose(sinew_world world, sinew_instance instance
 SINEW_API sinew_status sinew_skip_pose(sinew_world world, sinew_instance instance);
 SINEW_API sinew_status sinew_set_importance(sinew_world world, sinew_instance instance, float importance);
 SINEW_API sinew_status sinew_set_hidden(sinew_world world, sinew_instance instance, bool hidden);
+/* In rising quality: skinning, extrapolate, modal, network. */
+typedef uint32_t sinew_tier;
+enum { SINEW_TIER_SKINNING = 0, SINEW_TIER_EXTRAPOLATE = 1, SINEW_TIER_NETWORK = 2, SINEW_TIER_MODAL = 4 };
+SINEW_API sinew_status sinew_set_tier_limit(sinew_world world, sinew_instance instance, sinew_tier best);
 SINEW_API sinew_status sinew_set_time_scale(sinew_world world, sinew_instance instance, float scale);
 SINEW_API sinew_status sinew_set_felt_root_motion(sinew_world world, sinew_instance instance, float share);
 
@@ -369,9 +373,6 @@ SINEW_API sinew_view sinew_default_view(void);
 SINEW_API sinew_status sinew_set_views(sinew_world world, const sinew_view* views, uint32_t count);
 
 /* ---- the step ---- */
-
-typedef uint32_t sinew_tier;
-enum { SINEW_TIER_SKINNING = 0, SINEW_TIER_EXTRAPOLATE = 1, SINEW_TIER_NETWORK = 2, SINEW_TIER_MODAL = 4 };
 
 typedef uint32_t sinew_tier_reason;
 enum {

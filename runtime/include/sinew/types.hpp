@@ -199,7 +199,7 @@ inline constexpr uint32_t kTierCount = 5;  // of values, with the one that is no
 
 // Why an instance got what it got.
 enum class TierReason : uint32_t {
-  kBest = 0,     // there is nothing better
+  kBest = 0,     // there is nothing better, or it may have nothing better (World::set_tier_limit)
   kBudget = 1,   // more is not affordable, or better spent on others
   kHeld = 2,     // as kBudget, and what it has is held for a while
   kTurn = 3,     // as kBudget; simulated because it had waited too long

@@ -16,9 +16,9 @@
 // step calls (hooks, contact and occlusion sources), on whatever thread, calls none of them: there, those
 // that are not const are refused with kInvalidArgument, the assert hook hears of it, and a step inside the
 // step does nothing. Nothing here throws or prints. step, set_pose, skip_pose, set_importance, set_views,
-// set_hidden, set_time_scale, set_felt_root_motion, set_*parameters, set_*environment, set_budget_us, reset,
-// sample_clip, read_*, bounds, debug_lines, report, history, take_events, save_state and restore_state never
-// allocate or block; the others may allocate.
+// set_hidden, set_tier_limit, set_time_scale, set_felt_root_motion, set_*parameters, set_*environment,
+// set_budget_us, reset, sample_clip, read_*, bounds, debug_lines, report, history, take_events, save_state
+// and restore_state never allocate or block; the others may allocate.
 //
 // Nothing here traps, and results do not depend on the calling thread's floating-point mode (rounding,
 // denormals, trap masks): every function computes in its own and gives the thread's back whole. Callbacks
@@ -119,6 +119,12 @@ class SINEW_API World {
   Status set_views(std::span<const View> views) noexcept;
   // The engine's own culling: hidden whatever the views show, until it says otherwise.
   Status set_hidden(InstanceId instance, bool hidden) noexcept;
+  // The best it may get from the next tick on: kNetwork, the default, all; kModal no network; kSkinning
+  // nothing is simulated, it fades to its pose as under a budget of 0. For quality settings, and to look at
+  // one tier. What it may get it gets as any other; at its limit its report says TierReason::kBest. A change
+  // wakes what is dormant. Others, kExtrapolate too: kInvalidArgument, it stays. Part of the state that is
+  // saved; reset and replace_asset keep it.
+  Status set_tier_limit(InstanceId instance, Tier best) noexcept;
   // From the next step on its time runs so many times as fast as the world's: 0 holds it, as a step of no
   // time does, 0.1 is slow motion. Poses are then those of its own time. 0..4, else kInvalidArgument, NaN:
   // kNotFinite; it stays. Part of the state that is saved.
