@@ -30,6 +30,8 @@ SCENE_API const char* scene_description(void);
 SCENE_API uint32_t scene_set_clip(int32_t clip);
 /* Infinity: no limit. */
 SCENE_API uint32_t scene_set_budget_us(float budget_us);
+/* Of all figures: a sinew_tier. */
+SCENE_API uint32_t scene_set_best_tier(uint32_t tier);
 /* Of all figures; the numbers are those of sinew_part_parameters. */
 SCENE_API uint32_t scene_set_part(uint32_t kind, uint32_t index, float intensity, float stiffness,
                                   float damping, float displacement, uint32_t enabled);

@@ -19,6 +19,14 @@ uint32_t scene_set_budget_us(float budget_us) {
   return status;
 }
 
+uint32_t scene_set_best_tier(uint32_t tier) {
+  forget_refusal();
+  sinew_status status = SINEW_OK;
+  for (uint32_t i = 0; now && i < now->figure_count && !status; ++i)
+    status = sinew_set_tier_limit(now->world, now->figures[i].instance, tier);
+  return status;
+}
+
 uint32_t scene_set_part(uint32_t kind, uint32_t index, float intensity, float stiffness, float damping,
                         float displacement, uint32_t enabled) {
   forget_refusal();

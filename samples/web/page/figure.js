@@ -73,6 +73,9 @@ export class Figure {
     const clay = () => new THREE.MeshStandardMaterial({color: kClay, roughness: 0.75, side: THREE.DoubleSide});
     const materials = primitives.map((_, i) => soften(look?.materials[i]?.clone() ?? clay(), this.uniforms));
     for (const [name, attribute] of Object.entries(look?.attributes ?? {})) geometry.setAttribute(name, attribute);
+    geometry.computeBoundingBox();
+    this.box = geometry.boundingBox;  // of the bind pose
+    this.facesBack = look?.facesBack ?? false;
     this.mesh = new THREE.Mesh(geometry, materials);
     this.mesh.frustumCulled = false;  // its bounds are those of the bind pose
     this.mesh.castShadow = this.mesh.receiveShadow = true;

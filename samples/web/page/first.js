@@ -1,5 +1,4 @@
-// first.js  Whether this browser can run the page; and what takes longest to come is asked for, before the modules are there. A plain script,
-// so that old browsers run it, too.
+// first.js  Whether this browser can run the page. A plain script, so that old browsers run it, too.
 (function () {
   function hasSimd() {
     // A function that splats a number over a vector.
@@ -11,14 +10,6 @@
     if (!hasSimd()) return 'This browser has no WebAssembly SIMD, which Sinew computes with. Chrome 91, Firefox 89 and Safari 16.4 have it.';
     return '';
   }
-  function ask() {
-    var wanted = /[#&]character=(\w+)/.exec(location.hash);
-    ['sinew.wasm', 'characters/' + (wanted ? wanted[1] : 'creature') + '.sinew', 'characters/creature.glb'].forEach(function (address) {
-      window.sinewAsked[address] = fetch(address);
-      window.sinewAsked[address].catch(function () {});  // told of where it is waited for
-    });
-  }
-  window.sinewAsked = {};
   window.sinewLacks = lacks();
   window.sinewSayLack = function (text) {
     var sentence = document.createElement('p');
@@ -26,6 +17,5 @@
     sentence.textContent = text;
     document.body.appendChild(sentence);
   };
-  if (!window.sinewLacks) return ask();
-  document.addEventListener('DOMContentLoaded', function () { window.sinewSayLack(window.sinewLacks); });
+  if (window.sinewLacks) document.addEventListener('DOMContentLoaded', function () { window.sinewSayLack(window.sinewLacks); });
 })();

@@ -48,7 +48,7 @@ export async function loadLook(bytes, pack) {
   const taken = new Set(), meshes = pack.meshes.map((_, mesh) => findMesh(parser.json, pack, mesh, taken));
   const missing = meshes.findIndex((mesh) => mesh === undefined);
   if (missing >= 0) throw new Error(`it has no mesh "${pack.meshes[missing].name}" with the pack's vertices: bake the .sinew from this file again`);
-  const look = {materials: [], attributes: {}};
+  const look = {materials: [], attributes: {}, facesBack: parser.json.extensions?.VRM !== undefined};  // VRM 0 faces -z
   for (let i = 0; i < pack.primitives.length; ++i) await addPrimitive(look, parser, pack, i, meshes[pack.primitives[i].mesh]);
   return look;
 }

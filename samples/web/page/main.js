@@ -6,7 +6,7 @@ import {listenForFiles, sortFiles} from './files.js';
 import {Hand} from './hand.js';
 import {loadLook} from './look.js';
 import {Plot} from './plot.js';
-import {kDefaults, kNoBudget_ms, kWhole, Settings} from './settings.js';
+import {kDefaults, kNoBudget_ms, kOwn, kWhole, Settings} from './settings.js';
 import {Split} from './split.js';
 import {NoDrawing, Stage} from './stage.js';
 
@@ -16,7 +16,6 @@ const kTouchBody = 1, kTouchBall = 2;
 const kAll = 0, kRegion = 1, kRod = 2;
 const kDebugParts = {showNodes: 1, showRods: 2, showProxies: 4, showTouches: 8, showBounds: 16};
 const kBest = {all: 2, modal: 4, skinning: 0};
-const kOwn = 'own';
 
 const element = (id) => document.getElementById(id);
 
@@ -48,7 +47,7 @@ class Page {
     this.plot = new Plot(element('plot'));
     this.hand = new Hand(this.stage, engine, () => element('hint').classList.add('done'));
     this.character = {pack: null, look: null};  // what is shown
-    this.isDirty = true;                        // something has changed while it does not play
+    this.isChanged = true;                      // by a setting, since the last step
     this.frames = [];                           // when the last second's were drawn, ms
     this.frame_ms = null;
   }
@@ -70,12 +69,14 @@ class Page {
   async showNamed(name) {
     const [pack, look] = await Promise.all([fetchBytes(`characters/${name}.sinew`), fetchBytes('characters/creature.glb')]);
     await this.show(pack, look);
+    this.stage.frame(this.engine.figures);
   }
 
   // The engine's scene has become another.
   rebuild() {
-    const {height} = this.engine.description, figures = this.engine.figures;
-    this.stage.show(new Figure(this.engine, this.character.look), height, figures);
+    const figure = new Figure(this.engine, this.character.look);
+    this.stage.show(figure, this.engine.description.height, this.engine.figures);
+    this.plot.clear();
     this.applyAll();
     this.stepBy(0);
   }
@@ -116,7 +117,7 @@ class Page {
   }
   // At first something that swings, where there is a clip of such a name.
   liveliest(clips) {
-    for (const word of [/hop/i, /jump|dance/i, /run|gallop/i, /walk/i]) {
+    for (const word of [/(^|[^a-z])hop/i, /jump|dance/i, /run|gallop/i, /walk/i]) {
       const index = clips.findIndex(({name}) => word.test(name));
       if (index >= 0) return index;
     }
@@ -126,7 +127,7 @@ class Page {
   // A setting has changed.
   apply(name) {
     const {calls} = this.engine, {settings} = this;
-    this.isDirty = true;
+    this.isChanged = true;
     if (name.startsWith('part.')) this.applyParts();
     if (name === 'clip') {
       const clip = this.clip();
@@ -135,7 +136,7 @@ class Page {
       element('transport').querySelector('[data-key=clip]').value = names[clip] ?? (this.engine.description.clips[clip].name || `clip ${clip + 1}`);
     }
     if (name === 'budget') this.engine.must(calls.scene_set_budget_us(this.budget_us()));
-    if (name === 'tier') this.engine.must(calls.scene_set_best_tier?.(kBest[settings.get("tier")] ?? kBest.all) ?? 0);
+    if (name === 'tier') this.engine.must(calls.scene_set_best_tier(kBest[settings.get('tier')] ?? kBest.all));
     if (['wind', 'from', 'gust', 'gustHz', 'gravity'].includes(name)) this.applyAir();
     if (name === 'showRegions') this.stage.figure.showRegions(settings.get('showRegions'));
     if (name === 'figures' || name === 'ball' || name === 'body') this.change();
@@ -187,6 +188,7 @@ class Page {
     const select = document.querySelector('[data-key=character]');
     [...select.options].find(({value}) => value === kOwn)?.remove();
     select.append(new Option(name, kOwn));
+    select.value = kOwn;
     this.settings.set('character', kOwn);
     this.stage.frame(this.engine.figures);
   }
@@ -200,7 +202,8 @@ class Page {
     if (seconds > 0) this.plot.add(report);
     const parts = Object.entries(kDebugParts).reduce((sum, [name, part]) => sum + (this.settings.get(name) ? part : 0), 0);
     this.stage.setLines(this.engine, parts);
-    this.isDirty = false;
+    this.stage.isStale = true;
+    this.isChanged = false;
   }
 
   showPlaying() {
@@ -226,13 +229,19 @@ class Page {
     this.frames = [...this.frames.filter((ms) => ms > now_ms - 1000), now_ms];
     try {
       if (this.settings.get('playing')) this.stepBy(Math.min(kLongestFrame_s, passed_s) * this.settings.get('speed'));
-      else if (this.isDirty) this.stepBy(0);
-      this.stage.draw(this.settings.get('split'));
+      else if (this.isChanged) this.stepBy(0);
+      this.stage.drawIfStale(this.settings.get('split'));
+      this.markFirstMotion();
     } catch (error) {
       this.settings.set('playing', false);
       say(error.message);
     }
     if (this.frames.length % 6 === 0 || this.frames.length < 6) this.showNumbers();
+  }
+
+  // For who measures how long it takes: the second picture is the first that moves.
+  markFirstMotion() {
+    if (this.plot.frames.length === 2 && !performance.getEntriesByName('first motion').length) performance.mark('first motion');
   }
 
   toggle() { this.settings.set('playing', !this.settings.get('playing')); }
@@ -261,7 +270,7 @@ class Page {
       this.writeAddress();
     });
     stage.controls.addEventListener('end', () => settings.set('camera', stage.place().join(',')));
-    stage.controls.addEventListener('change', () => { this.isDirty = true; });
+    stage.controls.addEventListener('change', () => { this.isChanged = true; });
     element('play').addEventListener('click', () => this.toggle());
     element('step').addEventListener('click', () => this.stepOnce());
     element('restart').addEventListener('click', () => this.restart());

@@ -16,6 +16,8 @@ export class Plot {
     if (this.frames.length > kFrames) this.frames.shift();
   }
 
+  clear() { this.frames = []; }
+
   // budget_us: infinite: none.
   draw(budget_us) {
     const {canvas, frames} = this, scale = Math.min(2, devicePixelRatio), width = canvas.clientWidth, height = canvas.clientHeight;

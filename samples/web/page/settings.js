@@ -9,7 +9,8 @@ export const kDefaults = {
 };
 export const kPart = {intensity: 1, stiffness: 1, damping: 1, displacement: 1, enabled: true};
 export const kNoBudget_ms = 16.25;  // beyond the slider's last budget
-const kWhole = '*';                 // the name of all parts together
+export const kOwn = 'own';           // a character that the page was given, which no address has
+export const kWhole = '*';                 // the name of all parts together
 const kPartPrefix = 'part.';
 
 const kRanges = {
@@ -52,7 +53,7 @@ export class Settings {
 
   hash() {
     const out = new URLSearchParams();
-    for (const [name, value] of Object.entries(this.values)) if (value !== kDefaults[name]) out.set(name, written(value));
+    for (const [name, value] of Object.entries(this.values)) if (value !== kDefaults[name] && value !== kOwn) out.set(name, written(value));
     for (const [part, values] of this.parts)
       if (Object.keys(kPart).some((name) => values[name] !== kPart[name])) out.set(kPartPrefix + part, Object.values(values).map(written).join(','));
     return out.size ? `#${out}` : '';
@@ -77,4 +78,3 @@ export class Settings {
 
   listen(listener) { this.listeners.push(listener); }
 }
-export {kWhole};

@@ -36,7 +36,7 @@ export class Stage {
   constructor(canvas) {
     this.renderer = new THREE.WebGLRenderer({canvas, context: makeContext(canvas)});
     this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = THREE.PCFSoftShadowMap;
+    this.renderer.shadowMap.type = THREE.PCFShadowMap;
     this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(kFieldOfView_deg, 1, 0.01, 100);
@@ -45,7 +45,7 @@ export class Stage {
     this.controls.maxPolarAngle = 1.62;
     this.sun = new THREE.DirectionalLight(0xfff3e2, 2.4);
     this.sun.castShadow = true;
-    this.sun.shadow.mapSize.set(2048, 2048);
+    this.sun.shadow.mapSize.set(1024, 1024);
     this.sun.shadow.bias = -0.0005;
     this.sun.shadow.normalBias = 0.01;
     this.floor = makeFloor();
@@ -57,6 +57,7 @@ export class Stage {
     this.scene.add(new THREE.HemisphereLight(0xdfe8f2, 0x8d7d68, 1.3), this.sun, this.sun.target, this.floor, this.ball, this.lines);
     this.figure = null;
     this.height_m = 1;
+    this.isStale = true;  // the picture is not that of what is there
     this.paint();
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.paint());
     new ResizeObserver(() => this.fit()).observe(canvas.parentElement);
@@ -66,6 +67,7 @@ export class Stage {
   paint() {
     this.scene.background = colorOf('--paper');
     if (this.grid) this.grid.material.color = colorOf('--line');
+    this.isStale = true;
   }
 
   fit() {
@@ -74,6 +76,7 @@ export class Stage {
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.camera.aspect = clientWidth / clientHeight;
     // The middle of the view is the middle of what the bar below leaves free.
+    this.isStale = true;
     const covered = clientHeight - document.getElementById('transport').offsetTop;
     this.camera.setViewOffset(clientWidth, clientHeight, 0, covered / 2, clientWidth, clientHeight);
   }
@@ -105,10 +108,13 @@ export class Stage {
 
   // The view of a character from its front, a little to the side; of a crowd over its heads.
   frame(figures) {
-    const h = this.height_m, across_m = 1.1 * h * Math.ceil(Math.sqrt(figures)), narrow = Math.max(1, 0.75 / this.camera.aspect);
-    const far_m = figures > 1 ? across_m * 1.05 + 2.2 * h : 2.6 * h;
-    this.controls.target.set(0, 0.48 * h, figures > 1 ? -0.32 * across_m : 0);
-    this.camera.position.copy(this.controls.target).add(new THREE.Vector3(0.35, figures > 1 ? 0.6 : 0.16, 1).normalize().multiplyScalar(far_m * narrow));
+    const h = this.height_m, {box, facesBack} = this.figure, size = box.getSize(new THREE.Vector3()), middle = box.getCenter(new THREE.Vector3());
+    const across_m = 1.1 * h * Math.ceil(Math.sqrt(figures)), narrow = Math.max(1, 0.85 / this.camera.aspect);
+    const large_m = Math.max(h, 0.8 * size.x, 0.9 * size.z);
+    const far_m = figures > 1 ? 1.05 * across_m + 2.2 * large_m : 2.6 * large_m;
+    this.controls.target.set(figures > 1 ? 0 : middle.x, middle.y - 0.02 * h, figures > 1 ? -0.32 * across_m : middle.z);
+    const from = new THREE.Vector3(0.35, figures > 1 ? 0.6 : 0.16, facesBack && figures === 1 ? -1 : 1).normalize();
+    this.camera.position.copy(this.controls.target).addScaledVector(from, far_m * narrow);
     this.controls.update();
   }
 
@@ -149,9 +155,13 @@ export class Stage {
   }
 
   // split: 0..1 of the width; left of it skinning.
-  draw(split) {
-    if (!this.figure) return;
+  drawIfStale(split) {
     this.controls.update();
+    if (this.isStale && this.figure) this.draw(split);
+    this.isStale = false;
+  }
+
+  draw(split) {
     const {clientWidth: width, clientHeight: height} = this.renderer.domElement;
     const x = Math.round(split * width), has_lines = this.lines.visible;
     this.renderer.setScissorTest(true);

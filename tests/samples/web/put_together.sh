@@ -9,5 +9,5 @@ samples=$here/../../../samples
 mkdir -p "$folder/npm"
 cp "$here/package.json" "$folder/npm/"
 (cd "$folder/npm" && npm install --no-package-lock --no-audit --no-fund --prefer-offline --silent) || exit 77
-"$samples/bake_creature.sh" "$bake" "$folder/packs" tissue tissue_rods tissue_touch
+"$samples/bake_creature.sh" "$bake" "$folder/packs" tissue_crowd tissue_rods tissue_touch
 "$samples/web/put_together.sh" "$build" "$folder/page" "$folder/packs"

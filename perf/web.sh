@@ -1,0 +1,11 @@
+#!/usr/bin/env bash
+# What the page costs: size, first motion, WebAssembly beside native code, a crowd under a budget. About three minutes; prints the figures.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+scripts/install_packages.sh release
+cmake --preset release >/dev/null
+cmake --build --preset release --target sinew-bake native_steps >/dev/null
+folder=$PWD/build/web_perf
+tests/samples/web/put_together.sh build/release/bin/sinew-bake build/web "$folder" >/dev/null
+node perf/web/measure.mjs "$folder" build/release/bin/native_steps
