@@ -4,7 +4,7 @@ import fs from 'node:fs';
 
 const [folder, figures, steps] = process.argv.slice(2);
 const {loadEngine} = await import(`${folder}/engine.js`);
-const engine = await loadEngine(new Response(fs.readFileSync(`${folder}/sinew.wasm`), {headers: {'Content-Type': 'application/wasm'}}));
+const engine = await loadEngine(fs.readFileSync(`${folder}/sinew.wasm`));
 engine.open(new Uint8Array(fs.readFileSync(`${folder}/characters/creature.sinew`)).buffer, Number(figures), 0);
 engine.must(engine.calls.scene_set_clip(2));
 const times = [[], []];

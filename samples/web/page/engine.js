@@ -30,19 +30,13 @@ function makeHost(memory) {
   return {wasi_snapshot_preview1: new Proxy(known, {get: (functions, name) => functions[name] ?? (() => kBadDescriptor)})};
 }
 
-export async function loadEngine(asked) {
-  let instance;
-  const response = await asked;
-  if (!response.ok) throw new Error(`sinew.wasm is not there (${response.status}): build the page again, samples/web/run.sh`);
-  const host = makeHost(() => instance.exports.memory);
-  try {
-    ({instance} = await WebAssembly.instantiateStreaming(response.clone(), host));
-  } catch (error) {
-    if (!(error instanceof TypeError)) throw error;  // a server that does not know what a .wasm is
-    ({instance} = await WebAssembly.instantiate(await response.arrayBuffer(), host));
-  }
-  instance.exports._initialize();
-  return new Engine(instance.exports);
+// bytes: of the module, or a promise of them.
+export async function loadEngine(bytes) {
+  let exports = null;
+  const {instance} = await WebAssembly.instantiate(await bytes, makeHost(() => exports.memory));
+  exports = instance.exports;
+  exports._initialize();
+  return new Engine(exports);
 }
 
 export class Engine {

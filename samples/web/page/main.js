@@ -24,28 +24,21 @@ function say(sentence) {
   element('message').firstElementChild.textContent = sentence ?? '';
 }
 
-// Once what first.js has asked for already.
-function ask(address) {
+// Once what the page has asked for before it had this module.
+function fetchBytes(address) {
   const asked = window.sinewAsked[address];
   delete window.sinewAsked[address];
-  return asked ?? fetch(address);
-}
-
-async function fetchBytes(address) {
-  const response = await ask(address);
-  if (!response.ok) throw new Error(`${address} is not there (${response.status}): build the page again, samples/web/run.sh`);
-  return response.arrayBuffer();
+  return asked ?? window.sinewAsk(address);
 }
 
 class Page {
-  constructor(engine) {
-    this.engine = engine;
+  // Made while the engine and the character are on their way.
+  constructor() {
     this.settings = new Settings(location.hash);
     this.stage = new Stage(element('picture'));
     this.controls = new Controls(this.settings);
     this.split = new Split(this.settings);
     this.plot = new Plot(element('plot'));
-    this.hand = new Hand(this.stage, engine, () => element('hint').classList.add('done'));
     this.character = {pack: null, look: null};  // what is shown
     this.isChanged = true;                      // by a setting, since the last step
     this.frames = [];                           // when the last second's were drawn, ms
@@ -55,15 +48,18 @@ class Page {
   touches() { return (this.settings.get('body') ? kTouchBody : 0) | (this.settings.get('ball') ? kTouchBall : 0); }
   budget_us() { return this.settings.get('budget') >= kNoBudget_ms ? Infinity : 1000 * this.settings.get('budget'); }
 
-  // Shows a character; throws, and shows the one before, where it cannot.
+  // Shows a character; throws, and shows the one before, where it cannot. Without its colours, and throws, where these cannot be read.
   async show(pack, lookBytes) {
     this.engine.open(pack, this.settings.get('figures'), this.touches());
     this.character = {pack, look: null};
-    this.rebuild();
     this.controls.fill(this.engine.description);
-    if (!lookBytes) return;
-    this.character.look = await loadLook(lookBytes, this.engine.description);
-    this.rebuild();
+    this.isLoading = true;  // the figure is still that of another scene
+    try {
+      if (lookBytes) this.character.look = await loadLook(lookBytes, this.engine.description);
+    } finally {
+      this.isLoading = false;
+      this.rebuild();
+    }
   }
 
   async showNamed(name) {
@@ -227,6 +223,7 @@ class Page {
     const passed_s = this.frame_ms === null ? kFrameStep_s : (now_ms - this.frame_ms) / 1000;
     this.frame_ms = now_ms;
     this.frames = [...this.frames.filter((ms) => ms > now_ms - 1000), now_ms];
+    if (this.isLoading) return;
     try {
       if (this.settings.get('playing')) this.stepBy(Math.min(kLongestFrame_s, passed_s) * this.settings.get('speed'));
       else if (this.isChanged) this.stepBy(0);
@@ -305,8 +302,10 @@ class Page {
     setTimeout(() => { button.textContent = 'Copy link'; }, 1500);
   }
 
-  async start(pack, look) {
-    await this.show(pack, null);
+  async start(engine, pack, look) {
+    this.engine = engine;
+    this.hand = new Hand(this.stage, engine, () => element('hint').classList.add('done'));
+    await this.try(this.show(pack, look));
     const place = this.settings.get('camera').split(',').map(Number);
     this.stage.frame(this.engine.figures);
     if (place.length === 6 && place.every(Number.isFinite)) this.stage.goTo(place);
@@ -316,12 +315,6 @@ class Page {
     this.listen();
     this.stepBy(0);
     requestAnimationFrame((ms) => this.frame(ms));
-    await this.try(look.then(async (bytes) => {
-      const pack_now = this.character.pack, loaded = await loadLook(bytes, this.engine.description);
-      if (this.character.pack !== pack_now) return;
-      this.character.look = loaded;
-      this.rebuild();
-    }));
   }
 }
 
@@ -330,13 +323,13 @@ async function start() {
   const wanted = new Settings(location.hash).get('character');
   const options = [...document.querySelectorAll('[data-key=character] option')].map(({value}) => value);
   const name = options.includes(wanted) ? wanted : kDefaults.character;
-  const look = fetchBytes('characters/creature.glb');
-  look.catch(() => {});  // told of in start
   try {
-    const [engine, pack] = await Promise.all([loadEngine(ask('sinew.wasm')), fetchBytes(`characters/${name}.sinew`)]);
-    const page = new Page(engine);
+    const asked = Promise.all([fetchBytes('sinew.wasm').then(loadEngine), fetchBytes(`characters/${name}.sinew`), fetchBytes('characters/creature.glb')]);
+    asked.catch(() => {});  // told of below
+    const page = new Page();
     page.settings.values.character = name;
-    await page.start(pack, look);
+    const [engine, pack, look] = await asked;
+    await page.start(engine, pack, look);
     window.sinewPage = page;  // for the console, and for tests
   } catch (error) {
     error instanceof NoDrawing ? window.sinewSayLack(error.message) : say(error.message);

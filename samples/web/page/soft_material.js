@@ -21,17 +21,18 @@ void softAdd(float joint, float weight, inout mat3x4 rows) {
 mat3x4 softRows() {
   mat3x4 rows = mat3x4(0.0);
   for (int k = 0; k < 4; ++k) softAdd(jointsA[k], weightsA[k], rows);
-  for (int k = 0; k < 4; ++k) softAdd(jointsB[k], weightsB[k], rows);
+  if (weightsB.x != 0.0)
+    for (int k = 0; k < 4; ++k) softAdd(jointsB[k], weightsB[k], rows);
   return rows;
 }
 bool softMoves() { return softIsShown && movedIndex >= 0.0; }
-vec3 softNormal(vec3 bind) {
+vec3 softNormal(vec3 bind, mat3x4 rows) {
   if (softMoves() && gl_InstanceID == 0) bind = softTexel(softNormals, int(movedIndex + 0.5)).xyz;
-  return normalize(bind * mat3(softRows()));
+  return normalize(bind * mat3(rows));
 }
-vec3 softPosition(vec3 bind) {
+vec3 softPosition(vec3 bind, mat3x4 rows) {
   if (softMoves()) bind += softTexel(softDisplacements, gl_InstanceID * softMovedCount + int(movedIndex + 0.5)).xyz;
-  return vec4(bind, 1.0) * softRows();
+  return vec4(bind, 1.0) * rows;
 }
 vec4 softTintOf() {
   if (softHasRegions && regionIndex >= 0.0) return vec4(0.5 + 0.5 * cos(6.2832 * (0.381966 * regionIndex + vec3(0.0, 0.33, 0.67))), 0.7);
@@ -51,8 +52,9 @@ export function soften(material, uniforms) {
   material.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, uniforms);
     shader.vertexShader = kDeclarations + shader.vertexShader
-      .replace('#include <beginnormal_vertex>', 'vec3 objectNormal = softNormal(normal);')
-      .replace('#include <begin_vertex>', 'vec3 transformed = softPosition(position); softTint = softTintOf();');
+      .replace('void main() {', 'void main() {\nmat3x4 rows = softRows();')
+      .replace('#include <beginnormal_vertex>', 'vec3 objectNormal = softNormal(normal, rows);')
+      .replace('#include <begin_vertex>', 'vec3 transformed = softPosition(position, rows); softTint = softTintOf();');
     shader.fragmentShader = 'varying vec4 softTint;\n' + shader.fragmentShader
       .replace('#include <color_fragment>', '#include <color_fragment>\ndiffuseColor.rgb = mix(diffuseColor.rgb, softTint.rgb, softTint.a);');
   };

@@ -1,7 +1,7 @@
 // browser.mjs  Opens the page in headless Chromium. Exits with 77, skipped, where the page was not put together, or there is no browser.
+import {spawn} from 'node:child_process';
 import fs from 'node:fs';
 import {createRequire} from 'node:module';
-import {serve} from '../../../samples/web/serve.mjs';
 
 const kSkipped = 77;
 const kQuiet = ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'];
@@ -15,6 +15,13 @@ export function skip(why) {
 
 function findChromium() {
   return [process.env.SINEW_CHROMIUM, '/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find((path) => path && fs.existsSync(path));
+}
+
+// In a process of its own, as for a user.
+async function serve(folder) {
+  const server = spawn(process.execPath, [new URL('../../../samples/web/serve.mjs', import.meta.url).pathname, folder], {stdio: ['ignore', 'pipe', 'inherit']});
+  for await (const line of server.stdout) return {server, address: /http:\S+/.exec(line)[0]};
+  throw new Error('serve.mjs ended');
 }
 
 // folder: of the page; npm: where playwright-core is. use({browser, address}).
@@ -34,7 +41,7 @@ export async function withBrowser({folder, npm, drawing = kSoftwareDrawing}, use
     await use({browser, address});
   } finally {
     await browser.close();
-    server.close();
+    server.kill();
   }
 }
 

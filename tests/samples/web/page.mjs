@@ -60,7 +60,7 @@ const tests = {
     await moves(page);
     const {base64, vertexCount, height} = await page.evaluate(async () => {
       const {loadEngine} = await import('./engine.js');
-      const engine = await loadEngine(fetch('sinew.wasm'));
+      const engine = await loadEngine(await (await fetch('sinew.wasm')).arrayBuffer());
       const kTouchBall = 2;
       engine.open(await (await fetch('characters/creature.sinew')).arrayBuffer(), 2, kTouchBall);
       const {calls} = engine;
