@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# What the page costs: size, first motion, WebAssembly beside native code, a crowd under a budget. About three minutes; prints the figures.
+# What the page costs: size, first motion, WebAssembly beside native code, a crowd under a budget. Prints the figures, and takes the
+# pictures of samples/web/README.md anew. About four minutes.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -9,3 +10,4 @@ cmake --build --preset release --target sinew-bake native_steps >/dev/null
 folder=$PWD/build/web_perf
 tests/samples/web/put_together.sh build/release/bin/sinew-bake build/web "$folder" >/dev/null
 node perf/web/measure.mjs "$folder" build/release/bin/native_steps
+node perf/web/pictures.mjs "$folder" assets/pictures

@@ -2,7 +2,8 @@
 import * as THREE from 'three';
 import {depthMaterial, kTexels, makeUniforms, soften} from './soft_material.js';
 
-const kTierColors = {0: [0.6, 0.58, 0.55, 0.8], 1: [0.93, 0.6, 0.2, 0.7], 2: [0, 0, 0, 0], 4: [0.25, 0.5, 0.85, 0.6]};
+const kTierColors = {0: [0.6, 0.58, 0.55, 0.8], 1: [0.93, 0.6, 0.2, 0.7], 2: [0.25, 0.55, 0.3, 0.6], 4: [0.25, 0.5, 0.85, 0.6]};
+const kNoColor = [0, 0, 0, 0];
 const kClay = 0xc9a58a;
 
 function makeTexture(texels, format, type, makeArray) {
@@ -90,7 +91,7 @@ export class Figure {
     upload(this.displacements, engine.halves(calls.scene_displacements(), 4 * movedCount * figures));
     upload(this.normals, engine.halves(calls.scene_normals(), 4 * movedCount));
     const tiers = engine.bytes(calls.scene_tiers(), 2 * figures), tints = this.tints.image.data;
-    for (let i = 0; i < figures; ++i) tints.set((showsTiers ? kTierColors[tiers[2 * i]] : kTierColors[2]).map((c) => 255 * c), 4 * i);
+    for (let i = 0; i < figures; ++i) tints.set((showsTiers ? kTierColors[tiers[2 * i]] : kNoColor).map((c) => 255 * c), 4 * i);
     this.tints.needsUpdate = true;
   }
 

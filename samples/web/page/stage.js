@@ -111,7 +111,7 @@ export class Stage {
     const h = this.height_m, {box, facesBack} = this.figure, size = box.getSize(new THREE.Vector3()), middle = box.getCenter(new THREE.Vector3());
     const across_m = 1.1 * h * Math.ceil(Math.sqrt(figures)), narrow = Math.max(1, 0.85 / this.camera.aspect);
     const large_m = Math.max(h, 0.8 * size.x, 0.9 * size.z);
-    const far_m = figures > 1 ? 1.05 * across_m + 2.2 * large_m : 2.6 * large_m;
+    const far_m = figures > 1 ? 1.45 * across_m + 2.2 * large_m : 2.6 * large_m;
     this.controls.target.set(figures > 1 ? 0 : middle.x, middle.y - 0.02 * h, figures > 1 ? -0.32 * across_m : middle.z);
     const from = new THREE.Vector3(0.35, figures > 1 ? 0.6 : 0.16, facesBack && figures === 1 ? -1 : 1).normalize();
     this.camera.position.copy(this.controls.target).addScaledVector(from, far_m * narrow);
