@@ -43,7 +43,7 @@ async function firstMotion(browser, address) {
 
 async function crowd(browser, address) {
   const page = await openPage(browser, address, {hash: `#figures=${kCrowd}&budget=${kBudget_ms}&split=0&playing=0`});
-  await page.waitForFunction(() => window.sinewPage?.character.look, null, {timeout: 60000});
+  await page.waitForFunction(() => window.sinewPage?.characters.look, null, {timeout: 60000});
   const reports = await page.evaluate(async () => {
     const reports = [];
     // What has been asked to be drawn is drawn: the software that draws takes the cores.

@@ -1,5 +1,6 @@
-/* native_steps.c  native_steps PACK FIGURES STEPS ISA: the page's scene without a page; prints the median time of a step of the
- * world and of everything that the page has the engine do in a frame, in microseconds. */
+/* native_steps.c  native_steps PACK FIGURES STEPS ISA: the page's scene without a page; prints the median
+ * time of a step of the world and of everything that the page has the engine do in a frame, in microseconds.
+ */
 #include <scene.h>
 #include <sinew/sinew.h>
 #include <stdio.h>

@@ -12,7 +12,7 @@ const kPictures = {
 await withBrowser({folder: `${build}/page`, npm: `${build}/npm`}, async ({browser, address}) => {
   for (const [name, [settings, steps, before]] of Object.entries(kPictures)) {
     const page = await openPage(browser, address, {hash: `#playing=0&${settings}`, viewport: {width: 1120, height: 640}});
-    await page.waitForFunction(() => window.sinewPage?.character.look, null, {timeout: 60000});
+    await page.waitForFunction(() => window.sinewPage?.characters.look, null, {timeout: 60000});
     await page.evaluate(before);
     // What has been asked to be drawn is drawn first: the software that draws takes the cores.
     await page.evaluate(() => sinewPage.stage.renderer.getContext().readPixels(0, 0, 1, 1, 6408, 5121, new Uint8Array(4)));

@@ -9,7 +9,7 @@ const kTypes = {'.html': 'text/html; charset=utf-8', '.js': 'text/javascript', '
 
 export function serve(folder, port = 0) {
   const root = path.resolve(folder);
-  const server = http.createServer((request, response) => {
+  const answer = (request, response) => {
     const name = path.normalize(decodeURIComponent(new URL(request.url, 'http://localhost').pathname));
     const file = path.join(root, name.endsWith('/') ? `${name}index.html` : name);
     fs.readFile(file, (error, bytes) => {
@@ -19,6 +19,13 @@ export function serve(folder, port = 0) {
         'Cross-Origin-Opener-Policy': 'same-origin', 'Cross-Origin-Embedder-Policy': 'require-corp',
       }).end(bytes);
     });
+  };
+  const server = http.createServer((request, response) => {
+    try {
+      answer(request, response);
+    } catch {
+      response.writeHead(400).end();
+    }
   });
   return new Promise((resolve, reject) => {
     server.once('error', reject);
@@ -32,7 +39,8 @@ if (process.argv[1] === fileURLToPath(import.meta.url)) {
     console.error('usage: node serve.mjs FOLDER [PORT]; the folder holds an index.html');
     process.exit(2);
   }
-  serve(folder, Number(port ?? 0)).then(({address}) => console.log(`Open ${address}`), (error) => {
+  // Another port where that one is taken.
+  serve(folder, Number(port ?? 0)).catch(() => serve(folder)).then(({address}) => console.log(`Open ${address}`), (error) => {
     console.error(`serve.mjs: ${error.message}`);
     process.exit(2);
   });

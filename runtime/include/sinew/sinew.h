@@ -137,7 +137,7 @@ SINEW_API sinew_world_def sinew_default_world_def(void);
 /* layout: SINEW_LAYOUT, the sizes of this header's structs as the caller's compiler sees them. Another
  * header's, or another packing: SINEW_UNSUPPORTED. 64 worlds at most live at a time. */
 SINEW_API sinew_status sinew_create_world(uint32_t layout, const sinew_world_def* def, sinew_world* out);
-/* With all that is in it. */
+/* With all that is in it. Once: two threads that destroy the same world are an error. */
 SINEW_API sinew_status sinew_destroy_world(sinew_world world);
 
 /* ---- assets ---- */

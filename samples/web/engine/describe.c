@@ -12,7 +12,7 @@ typedef struct text {
 } text;
 
 static int make_room(text* text, size_t more) {
-  if (text->length + more < text->capacity) return 1;
+  if (text->characters && text->length + more < text->capacity) return 1;
   const size_t capacity = 2 * (text->length + more) + 1024;
   char* grown = text->characters || !text->capacity ? realloc(text->characters, capacity) : NULL;
   if (!grown) free(text->characters);

@@ -21,7 +21,7 @@ const char* scene_message(void) { return own_message ? own_message : sinew_messa
 
 static void free_scene(scene* s) {
   if (!s) return;
-  sinew_destroy_world(s->world);
+  if (s->world.index1) sinew_destroy_world(s->world);
   free(s->description);
   free(s->inverse_bind), free(s->joints), free(s->posed), free(s->shown);
   free(s->displacements), free(s->normals), free(s->positions), free(s->lines);

@@ -131,6 +131,7 @@ uint32_t scene_step(float dt_s) {
 }
 
 uint32_t scene_restart(void) {
+  forget_refusal();
   if (now) now->time_s = 0;
   for (uint32_t i = 0; now && i < now->figure_count; ++i) {
     memset(&now->figures[i].pulled, 0, sizeof now->figures[i].pulled);

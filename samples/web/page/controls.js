@@ -49,6 +49,13 @@ export class Controls {
     fillSelect(document.querySelector('[data-key=clip]'), [...clips, ['(shaken)', 'bind pose, shaken'], ['(turning)', 'bind pose, turning'], ['(still)', 'bind pose, still']]);
     const parts = [...description.regions.map(({name}) => [name, name]), ...description.rods.map(({name}) => [name, `${name} (rod)`])];
     fillSelect(this.part, [[kWhole, 'all of it'], ...parts]);
+    const has = {showRegions: description.regions.length, showNodes: description.regions.length, showRods: description.rods.length, showProxies: description.proxyCount, body: description.proxyCount};
+    for (const [key, count] of Object.entries(has)) {
+      const control = document.querySelector(`[data-key=${key}]`);
+      control.disabled = count === 0;
+      control.parentElement.title = count ? '' : 'This character has none';
+    }
+    this.show();
   }
 
   show() {

@@ -10,8 +10,8 @@ function makeHost(memory) {
   // Asked many times a step: it makes nothing that would have to be collected.
   const put = (address, low, high) => {
     if (words.buffer !== memory().buffer) words = new Uint32Array(memory().buffer);
-    words[address >> 2] = low;
-    words[(address >> 2) + 1] = high;
+    words[address >>> 2] = low;
+    words[(address >>> 2) + 1] = high;
     return 0;
   };
   const known = {
@@ -46,13 +46,14 @@ export class Engine {
   }
 
   // Memory grows, and arrays of it end then: they are made where they are used.
-  bytes(address, count) { return new Uint8Array(this.calls.memory.buffer, address, count); }
-  floats(address, count) { return new Float32Array(this.calls.memory.buffer, address, count); }
-  halves(address, count) { return new Uint16Array(this.calls.memory.buffer, address, count); }
-  words(address, count) { return new Uint32Array(this.calls.memory.buffer, address, count); }
+  // Beyond 2 GB addresses come as negative numbers.
+  bytes(address, count) { return new Uint8Array(this.calls.memory.buffer, address >>> 0, count); }
+  floats(address, count) { return new Float32Array(this.calls.memory.buffer, address >>> 0, count); }
+  halves(address, count) { return new Uint16Array(this.calls.memory.buffer, address >>> 0, count); }
+  words(address, count) { return new Uint32Array(this.calls.memory.buffer, address >>> 0, count); }
   text(address) {
     const all = new Uint8Array(this.calls.memory.buffer);
-    return new TextDecoder().decode(all.slice(address, all.indexOf(0, address)));
+    return new TextDecoder().decode(all.slice(address >>> 0, all.indexOf(0, address >>> 0)));
   }
 
   // Throws what the engine says of a refusal.

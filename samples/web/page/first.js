@@ -6,8 +6,9 @@
     return typeof WebAssembly === 'object' && WebAssembly.validate(new Uint8Array(module));
   }
   function lacks() {
-    if (!('noModule' in HTMLScriptElement.prototype)) return 'This browser is too old to run Sinew. Any of the last three years can.';
-    if (!hasSimd()) return 'This browser has no WebAssembly SIMD, which Sinew computes with. Chrome 91, Firefox 89 and Safari 16.4 have it.';
+    if (location.protocol === 'file:') return 'A browser reads this page from a file server alone: samples/web/run.sh starts one, and any other does as well.';
+    if (!(HTMLScriptElement.supports && HTMLScriptElement.supports('importmap'))) return 'This browser is too old to run Sinew: Chrome 96, Firefox 108 and Safari 16.4 can.';
+    if (!hasSimd()) return 'This browser has no WebAssembly SIMD, which Sinew computes with. Chrome, Firefox and Safari have it since 2023.';
     return '';
   }
   window.sinewLacks = lacks();

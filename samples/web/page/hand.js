@@ -6,9 +6,9 @@ const kKeys = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDow
 const kMostPickedOnHover = 16;
 
 export class Hand {
-  // grabbed(): what is told when something is grabbed the first time.
-  constructor(stage, engine, grabbed) {
-    Object.assign(this, {stage, engine, grabbed, held: null, keys: new Set(), ball: null});
+  // isPlaying(): nothing is pulled while it does not. grabbed(): is told when something is.
+  constructor(stage, engine, isPlaying, grabbed) {
+    Object.assign(this, {stage, engine, isPlaying, grabbed, held: null, keys: new Set(), ball: null});
     const canvas = stage.renderer.domElement;
     this.canvas = canvas;
     // Before the view's own controls hear of it.
@@ -32,12 +32,14 @@ export class Hand {
   }
 
   grab(event) {
-    if (event.target !== this.canvas || event.button !== 0 || this.held) return;
+    if (event.target !== this.canvas || event.button !== 0 || event.isHandedOn) return;
+    if (this.held) return this.handOn();
+    if (!this.isPlaying()) return;
     const found = this.find(event);
     if (!found) return;
     event.stopPropagation();
     const away = this.stage.camera.getWorldDirection(new Vector3());
-    this.held = {...found, pointer: event.pointerId, plane: new Plane().setFromNormalAndCoplanarPoint(away, found.at), ballAt: this.ball?.clone()};
+    this.held = {...found, pointer: event.pointerId, last: event, plane: new Plane().setFromNormalAndCoplanarPoint(away, found.at), ballAt: this.ball?.clone()};
     this.canvas.setPointerCapture(event.pointerId);
     this.canvas.focus({preventScroll: true});
     this.canvas.classList.add('grabs');
@@ -46,6 +48,7 @@ export class Hand {
 
   pull(event) {
     if (event.pointerId !== this.held.pointer) return;
+    this.held.last = event;
     const to = this.stage.ray(event.clientX, event.clientY).intersectPlane(this.held.plane, new Vector3());
     if (!to) return;
     const by = to.sub(this.held.at).clampLength(0, 3 * this.stage.height_m);
@@ -60,13 +63,24 @@ export class Hand {
     this.canvas.classList.remove('grabs');
   }
 
+  // A second finger has come: both turn and near the view.
+  handOn() {
+    const {last} = this.held;
+    this.letGo(last);
+    const {pointerId, pointerType, clientX, clientY, pageX, pageY} = last;
+    const first = new PointerEvent('pointerdown', {pointerId, pointerType, clientX, clientY, pageX, pageY, button: 0, buttons: 1, bubbles: true});
+    first.isHandedOn = true;
+    this.canvas.dispatchEvent(first);
+  }
+
   hover(event) {
+    if (!this.isPlaying()) return this.canvas.classList.remove('can-grab');
     if (event.buttons || this.engine.figures > kMostPickedOnHover) return;
     this.canvas.classList.toggle('can-grab', this.find(event) !== null);
   }
 
   press(event, isDown) {
-    if (!(event.key in kKeys)) return;
+    if (!Object.hasOwn(kKeys, event.key) || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();
     if (isDown === this.keys.has(event.key)) return;
     isDown ? this.keys.add(event.key) : this.keys.delete(event.key);
@@ -83,7 +97,7 @@ export class Hand {
 
   setBall(on) {
     const h = this.stage.height_m;
-    this.ball = on ? new Vector3(0.1 * h, 0.34 * h, 0.75 * h) : null;
+    this.ball = on ? (this.ball ?? new Vector3(0.1 * h, 0.34 * h, 0.75 * h)) : null;
     this.stage.ball.visible = on;
     this.stage.ball.scale.setScalar(0.12 * h);
     this.moveBall();

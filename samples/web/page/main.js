@@ -1,17 +1,19 @@
 // main.js  Puts the page together: loads, plays, draws.
+import {Characters} from './characters.js';
 import {Controls} from './controls.js';
 import {loadEngine} from './engine.js';
 import {Figure} from './figure.js';
-import {listenForFiles, sortFiles} from './files.js';
+import {listenForFiles} from './files.js';
 import {Hand} from './hand.js';
-import {loadLook} from './look.js';
 import {Plot} from './plot.js';
 import {kDefaults, kNoBudget_ms, kOwn, kWhole, Settings} from './settings.js';
 import {Split} from './split.js';
 import {NoDrawing, Stage} from './stage.js';
 
+const kBakedGravity_m_s2 = 9.80665;  // which the slider's first value stands for
 const kLongestFrame_s = 0.1, kFrameStep_s = 1 / 60;
 const kMotions = {'(still)': -1, '(shaken)': -2, '(turning)': -3};
+const kOfScene = ['figures', 'ball', 'body'];  // what the engine has another scene for
 const kTouchBody = 1, kTouchBall = 2;
 const kAll = 0, kRegion = 1, kRod = 2;
 const kDebugParts = {showNodes: 1, showRods: 2, showProxies: 4, showTouches: 8, showBounds: 16};
@@ -39,49 +41,49 @@ class Page {
     this.controls = new Controls(this.settings);
     this.split = new Split(this.settings);
     this.plot = new Plot(element('plot'));
-    this.character = {pack: null, look: null};  // what is shown
-    this.isChanged = true;                      // by a setting, since the last step
-    this.frames = [];                           // when the last second's were drawn, ms
+    this.controls.show();
+    this.isChanged = true;  // by a setting, since the last step
+    this.needsScene = false;  // another number of figures, or other contacts
+    this.frames = [];       // when the last second's were drawn, ms
+    this.pictures = 0;
     this.frame_ms = null;
   }
 
   touches() { return (this.settings.get('body') ? kTouchBody : 0) | (this.settings.get('ball') ? kTouchBall : 0); }
   budget_us() { return this.settings.get('budget') >= kNoBudget_ms ? Infinity : 1000 * this.settings.get('budget'); }
 
-  // Shows a character; throws, and shows the one before, where it cannot. Without its colours, and throws, where these cannot be read.
-  async show(pack, lookBytes) {
-    this.engine.open(pack, this.settings.get('figures'), this.touches());
-    this.character = {pack, look: null};
-    this.controls.fill(this.engine.description);
-    this.isLoading = true;  // the figure is still that of another scene
-    try {
-      if (lookBytes) this.character.look = await loadLook(lookBytes, this.engine.description);
-    } finally {
-      this.isLoading = false;
-      this.rebuild();
-    }
-  }
-
-  async showNamed(name) {
-    const [pack, look] = await Promise.all([fetchBytes(`characters/${name}.sinew`), fetchBytes('characters/creature.glb')]);
-    await this.show(pack, look);
-    this.stage.frame(this.engine.figures);
-  }
-
   // The engine's scene has become another.
   rebuild() {
-    const figure = new Figure(this.engine, this.character.look);
-    this.stage.show(figure, this.engine.description.height, this.engine.figures);
+    this.stage.show(new Figure(this.engine, this.characters.look), this.engine.description.height, this.engine.figures);
     this.plot.clear();
+    this.made = Object.fromEntries(kOfScene.map((name) => [name, this.settings.get(name)]));
     this.applyAll();
     this.stepBy(0);
   }
 
+  showCharacter() {
+    this.controls.fill(this.engine.description);
+    this.rebuild();
+    this.frameView();
+  }
+
+  frameView() {
+    this.stage.frame(this.engine.figures);
+    this.isViewOwn = false;  // by hand
+    this.writeAddress();
+  }
+
+  // What is refused is as it was, in the panel too.
   change() {
+    this.needsScene = false;
+    const figures = this.engine.figures;
     try {
       this.engine.change(this.settings.get('figures'), this.touches());
       this.rebuild();
+      if (this.engine.figures !== figures) this.frameView();
     } catch (error) {
+      Object.assign(this.settings.values, this.made);
+      this.controls.show();
       say(error.message);
     }
   }
@@ -107,7 +109,7 @@ class Page {
     const wanted = this.settings.get('clip'), {clips} = this.engine.description;
     const index = clips.findIndex(({name}, i) => (name || `clip ${i + 1}`) === wanted);
     if (index >= 0) return index;
-    if (wanted in kMotions) return kMotions[wanted];
+    if (Object.hasOwn(kMotions, wanted)) return kMotions[wanted];
     this.settings.values.clip = kDefaults.clip;  // another character's
     return clips.length ? this.liveliest(clips) : kMotions['(shaken)'];
   }
@@ -135,61 +137,50 @@ class Page {
     if (name === 'tier') this.engine.must(calls.scene_set_best_tier(kBest[settings.get('tier')] ?? kBest.all));
     if (['wind', 'from', 'gust', 'gustHz', 'gravity'].includes(name)) this.applyAir();
     if (name === 'showRegions') this.stage.figure.showRegions(settings.get('showRegions'));
-    if (name === 'figures' || name === 'ball' || name === 'body') this.change();
-    if (name === 'figures') this.stage.frame(this.engine.figures);
+    if (kOfScene.includes(name)) this.needsScene = true;
     if (name === 'playing') this.showPlaying();
-    if (name === 'character' && settings.get('character') !== kOwn) this.try(this.showNamed(settings.get('character')));
+    if (name === 'character') this.wish(settings.get('character'));
   }
 
   applyAir() {
     const get = (name) => this.settings.get(name), from = (get('from') * Math.PI) / 180, wind = get('wind');
-    this.engine.must(this.engine.calls.scene_set_air(get('gravity'), -wind * Math.sin(from), 0, -wind * Math.cos(from), get('gust'), get('gustHz')));
+    const gravity = get('gravity') === kDefaults.gravity ? kBakedGravity_m_s2 : get('gravity');
+    this.engine.must(this.engine.calls.scene_set_air(gravity, -wind * Math.sin(from), 0, -wind * Math.cos(from), get('gust'), get('gustHz')));
   }
 
-  async try(promise) {
+  wish(character) { character === this.characters.name ? this.characters.stay() : this.takeNamed(character); }
+
+  async takeNamed(name) {
+    say(null);
     try {
-      await promise;
+      await this.characters.takeNamed(name);
     } catch (error) {
+      say(error.message);
+    }
+    if (this.settings.get('character') === name) this.settings.set('character', this.characters.name);
+  }
+
+  async takeFiles(files) {
+    say(null);
+    const select = document.querySelector('[data-key=character]');
+    try {
+      const name = await this.characters.takeFiles(files);
+      if (name) this.nameOwn(select, name);
+    } catch (error) {
+      if (error.cause) this.nameOwn(select, files.find(({name}) => /sinew$/i.test(name)).name);
       say(error.message);
     }
   }
 
-  async takeFiles(files) {
-    const {pack, look} = sortFiles(files, this.settings.get('character') === kOwn);
-    const read = async (file) => {
-      try {
-        return await file.arrayBuffer();
-      } catch {
-        throw new Error(`${file.name} cannot be read.`);
-      }
-    };
-    say(null);
-    if (!pack) {
-      this.character.look = await loadLook(await read(look), this.engine.description).catch((error) => { throw new Error(`${look.name}: ${error.message}.`); });
-      return this.rebuild();
-    }
-    const bytes = await read(pack), lookBytes = look && (await read(look));
-    const before = this.character.pack;
-    try {
-      await this.show(bytes, lookBytes);
-    } catch (error) {
-      const isShown = this.character.pack !== before;
-      throw new Error(isShown ? `${look.name}: ${error.message}. The character is shown without its colours.` : `${pack.name}: ${error.message}.`);
-    } finally {
-      if (this.character.pack !== before) this.isNowOwn(pack.name);
-    }
-  }
-
-  isNowOwn(name) {
-    const select = document.querySelector('[data-key=character]');
+  nameOwn(select, name) {
     [...select.options].find(({value}) => value === kOwn)?.remove();
     select.append(new Option(name, kOwn));
     select.value = kOwn;
     this.settings.set('character', kOwn);
-    this.stage.frame(this.engine.figures);
   }
 
   stepBy(seconds) {
+    this.isChanged = false;
     this.engine.must(this.engine.calls.scene_set_view(...this.stage.view()));
     this.engine.step(seconds);
     const report = this.engine.report();
@@ -199,12 +190,10 @@ class Page {
     const parts = Object.entries(kDebugParts).reduce((sum, [name, part]) => sum + (this.settings.get(name) ? part : 0), 0);
     this.stage.setLines(this.engine, parts);
     this.stage.isStale = true;
-    this.isChanged = false;
   }
 
   showPlaying() {
     element('play').textContent = this.settings.get('playing') ? 'Pause' : 'Play';
-    element('play').setAttribute('aria-pressed', this.settings.get('playing'));
   }
 
   showNumbers() {
@@ -223,7 +212,8 @@ class Page {
     const passed_s = this.frame_ms === null ? kFrameStep_s : (now_ms - this.frame_ms) / 1000;
     this.frame_ms = now_ms;
     this.frames = [...this.frames.filter((ms) => ms > now_ms - 1000), now_ms];
-    if (this.isLoading) return;
+    if (this.characters.isLoading || this.isLost) return;
+    if (this.needsScene) this.change();
     try {
       if (this.settings.get('playing')) this.stepBy(Math.min(kLongestFrame_s, passed_s) * this.settings.get('speed'));
       else if (this.isChanged) this.stepBy(0);
@@ -233,7 +223,7 @@ class Page {
       this.settings.set('playing', false);
       say(error.message);
     }
-    if (this.frames.length % 6 === 0 || this.frames.length < 6) this.showNumbers();
+    if (++this.pictures % 6 === 0) this.showNumbers();
   }
 
   // For who measures how long it takes: the second picture is the first that moves.
@@ -251,9 +241,14 @@ class Page {
     this.stepBy(0);
   }
 
+  address() {
+    this.settings.values.camera = this.isViewOwn ? this.stage.place().join(',') : '';
+    return location.pathname + location.search + this.settings.hash();
+  }
+
   writeAddress() {
     clearTimeout(this.writing);
-    this.writing = setTimeout(() => history.replaceState(null, '', location.pathname + location.search + this.settings.hash()), 300);
+    this.writing = setTimeout(() => history.replaceState(null, '', this.address()), 300);
   }
 
   listen() {
@@ -266,8 +261,8 @@ class Page {
       }
       this.writeAddress();
     });
-    stage.controls.addEventListener('end', () => settings.set('camera', stage.place().join(',')));
-    stage.controls.addEventListener('change', () => { this.isChanged = true; });
+    stage.controls.addEventListener('start', () => { this.isViewOwn = true; });
+    stage.controls.addEventListener('change', () => { this.isChanged = true, this.writeAddress(); });
     element('play').addEventListener('click', () => this.toggle());
     element('step').addEventListener('click', () => this.stepOnce());
     element('restart').addEventListener('click', () => this.restart());
@@ -276,14 +271,24 @@ class Page {
     addEventListener('keydown', (event) => this.key(event));
     addEventListener('hashchange', () => location.reload());
     document.addEventListener('visibilitychange', () => { this.frame_ms = null; });
-    listenForFiles((files) => this.try(this.takeFiles(files)));
+    listenForFiles((files) => this.takeFiles(files));
     const canvas = stage.renderer.domElement;
-    canvas.addEventListener('webglcontextlost', () => say('The graphics driver has taken the picture away; it comes back as soon as the driver does.'));
-    canvas.addEventListener('webglcontextrestored', () => { say(null), this.rebuild(); });
+    canvas.addEventListener('webglcontextlost', () => {
+      this.isLost = true;
+      stage.forget();
+      say('The graphics driver has taken the picture away; it comes back as soon as the driver does.');
+    });
+    canvas.addEventListener('webglcontextrestored', () => {
+      this.isLost = false;
+      say(null);
+      this.rebuild();
+    });
   }
 
   key(event) {
-    if (event.ctrlKey || event.metaKey || event.altKey || /^(INPUT|SELECT|BUTTON|SUMMARY)$/.test(event.target.tagName)) return;
+    // Space presses buttons, and letters choose in lists.
+    const taken = {' ': /^(INPUT|SELECT|BUTTON|SUMMARY)$/, r: /^SELECT$/, R: /^SELECT$/}[event.key];
+    if (event.ctrlKey || event.metaKey || event.altKey || taken?.test(event.target.tagName)) return;
     const does = {' ': () => this.toggle(), '.': () => this.stepOnce(), r: () => this.restart(), R: () => this.restart()}[event.key];
     if (!does) return;
     event.preventDefault();
@@ -291,7 +296,7 @@ class Page {
   }
 
   async copyLink() {
-    history.replaceState(null, '', location.pathname + location.search + this.settings.hash());
+    history.replaceState(null, '', this.address());
     const button = element('link');
     try {
       await navigator.clipboard.writeText(location.href);
@@ -302,13 +307,17 @@ class Page {
     setTimeout(() => { button.textContent = 'Copy link'; }, 1500);
   }
 
-  async start(engine, pack, look) {
+  // Throws where there is no character.
+  async start(engine, name) {
     this.engine = engine;
-    this.hand = new Hand(this.stage, engine, () => element('hint').classList.add('done'));
-    await this.try(this.show(pack, look));
+    this.hand = new Hand(this.stage, engine, () => this.settings.get('playing'), () => element('hint').classList.add('done'));
     const place = this.settings.get('camera').split(',').map(Number);
-    this.stage.frame(this.engine.figures);
-    if (place.length === 6 && place.every(Number.isFinite)) this.stage.goTo(place);
+    this.characters = new Characters(engine, () => [this.settings.get('figures'), this.touches()], fetchBytes, () => this.showCharacter());
+    await this.characters.takeNamed(name).catch((error) => {
+      if (!engine.description) throw error;
+      say(error.message);
+    });
+    if (place.length === 6 && place.every(Number.isFinite)) this.stage.goTo(place), this.isViewOwn = true;
     this.controls.show();
     this.apply('clip');
     this.showPlaying();
@@ -320,16 +329,16 @@ class Page {
 
 async function start() {
   if (window.sinewLacks) return;
-  const wanted = new Settings(location.hash).get('character');
-  const options = [...document.querySelectorAll('[data-key=character] option')].map(({value}) => value);
-  const name = options.includes(wanted) ? wanted : kDefaults.character;
+  say('Loading…');
   try {
-    const asked = Promise.all([fetchBytes('sinew.wasm').then(loadEngine), fetchBytes(`characters/${name}.sinew`), fetchBytes('characters/creature.glb')]);
+    const asked = fetchBytes('sinew.wasm').then(loadEngine);
     asked.catch(() => {});  // told of below
     const page = new Page();
+    const options = [...document.querySelectorAll('[data-key=character] option')].map(({value}) => value);
+    const wanted = page.settings.get('character'), name = options.includes(wanted) ? wanted : kDefaults.character;
     page.settings.values.character = name;
-    const [engine, pack, look] = await asked;
-    await page.start(engine, pack, look);
+    await page.start(await asked, name);
+    if (element('message').firstElementChild.textContent === 'Loading…') say(null);
     window.sinewPage = page;  // for the console, and for tests
   } catch (error) {
     error instanceof NoDrawing ? window.sinewSayLack(error.message) : say(error.message);

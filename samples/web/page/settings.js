@@ -41,7 +41,7 @@ export class Settings {
     Object.assign(this.values, kDefaults);
     this.parts.clear();
     for (const [name, text] of new URLSearchParams(hash.replace(/^#/, ''))) {
-      if (name in kDefaults) this.values[name] = mended(name, text, kDefaults[name]);
+      if (Object.hasOwn(kDefaults, name)) this.values[name] = mended(name, text, kDefaults[name]);
       if (name.startsWith(kPartPrefix)) this.readPart(name.slice(kPartPrefix.length), text.split(','));
     }
   }
@@ -56,7 +56,8 @@ export class Settings {
     for (const [name, value] of Object.entries(this.values)) if (value !== kDefaults[name] && value !== kOwn) out.set(name, written(value));
     for (const [part, values] of this.parts)
       if (Object.keys(kPart).some((name) => values[name] !== kPart[name])) out.set(kPartPrefix + part, Object.values(values).map(written).join(','));
-    return out.size ? `#${out}` : '';
+    const text = String(out);
+    return text ? `#${text}` : '';
   }
 
   get(name) { return this.values[name]; }

@@ -37,7 +37,6 @@ export class Stage {
     this.renderer = new THREE.WebGLRenderer({canvas, context: makeContext(canvas)});
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
-    this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(kFieldOfView_deg, 1, 0.01, 100);
     this.controls = new OrbitControls(this.camera, canvas);
@@ -57,6 +56,7 @@ export class Stage {
     this.scene.add(new THREE.HemisphereLight(0xdfe8f2, 0x8d7d68, 1.3), this.sun, this.sun.target, this.floor, this.ball, this.lines);
     this.figure = null;
     this.height_m = 1;
+    this.gone = [];       // figures whose programs the next picture may still use
     this.isStale = true;  // the picture is not that of what is there
     this.paint();
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.paint());
@@ -66,6 +66,8 @@ export class Stage {
 
   paint() {
     this.scene.background = colorOf('--paper');
+    this.renderer.setClearColor(this.scene.background);
+    if (!this.figure) this.renderer.clear();
     if (this.grid) this.grid.material.color = colorOf('--line');
     this.isStale = true;
   }
@@ -73,17 +75,19 @@ export class Stage {
   fit() {
     const {clientWidth, clientHeight} = this.renderer.domElement.parentElement;
     if (!clientWidth || !clientHeight) return;
+    this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));  // which a zoom of the page changes
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.camera.aspect = clientWidth / clientHeight;
     // The middle of the view is the middle of what the bar below leaves free.
     this.isStale = true;
     const covered = clientHeight - document.getElementById('transport').offsetTop;
+    this.free = 1 - covered / clientHeight;
     this.camera.setViewOffset(clientWidth, clientHeight, 0, covered / 2, clientWidth, clientHeight);
   }
 
   // Another character, or another number of them.
   show(figure, height_m, figures) {
-    if (this.figure) this.scene.remove(this.figure.mesh), this.figure.dispose();
+    if (this.figure) this.scene.remove(this.figure.mesh), this.gone.push(this.figure);
     this.figure = figure;
     this.height_m = height_m;
     this.scene.add(figure.mesh);
@@ -114,7 +118,7 @@ export class Stage {
     const far_m = figures > 1 ? 1.45 * across_m + 2.2 * large_m : 2.6 * large_m;
     this.controls.target.set(figures > 1 ? 0 : middle.x, middle.y - 0.02 * h, figures > 1 ? -0.32 * across_m : middle.z);
     const from = new THREE.Vector3(0.35, figures > 1 ? 0.6 : 0.16, facesBack && figures === 1 ? -1 : 1).normalize();
-    this.camera.position.copy(this.controls.target).addScaledVector(from, far_m * narrow);
+    this.camera.position.copy(this.controls.target).addScaledVector(from, (far_m * narrow) / this.free);
     this.controls.update();
   }
 
@@ -159,6 +163,14 @@ export class Stage {
     this.controls.update();
     if (this.isStale && this.figure) this.draw(split);
     this.isStale = false;
+    for (const figure of this.gone.splice(0)) figure.dispose();
+  }
+
+  // What is drawn is to be made anew.
+  forget() {
+    if (this.figure) this.scene.remove(this.figure.mesh), this.figure.dispose();
+    for (const figure of this.gone.splice(0)) figure.dispose();
+    this.figure = null;
   }
 
   draw(split) {

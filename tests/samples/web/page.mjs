@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import fs from 'node:fs';
+import http from 'node:http';
 import {kDesk, kPhone, message, moves, openPage, withBrowser} from './browser.mjs';
 
 const [name, build, native] = process.argv.slice(2);
@@ -45,7 +46,7 @@ const tests = {
       for (const colorScheme of ['light', 'dark']) {
         const page = await openPage(browser, address, {viewport, colorScheme});
         await moves(page);
-        await page.waitForFunction(() => sinewPage.character.look !== null);
+        await page.waitForFunction(() => sinewPage.characters.look !== null);
         const before = await root(page);
         await play(page, 10);
         assert.notDeepEqual(await root(page), before);
@@ -89,7 +90,7 @@ const tests = {
   async files_that_cannot_be_shown_get_a_sentence_and_change_nothing({browser, address}) {
     const page = await openPage(browser, address);
     await moves(page);
-    await page.waitForFunction(() => sinewPage.character.look !== null);
+    await page.waitForFunction(() => sinewPage.characters.look !== null);
     const text = (name) => ({name, mimeType: 'text/plain', buffer: Buffer.from('nothing')});
     const kVersionAt = 8;
     const cases = [
@@ -119,21 +120,21 @@ const tests = {
   async a_character_of_ones_own_is_shown_with_its_colours({browser, address}) {
     const page = await openPage(browser, address);
     await moves(page);
-    await page.waitForFunction(() => sinewPage.character.look !== null);
+    await page.waitForFunction(() => sinewPage.characters.look !== null);
     await drop(page, [{...packOf('creature_rods.sinew'), name: 'mine.sinew'}, packOf('creature.glb')]);
-    await page.waitForFunction(() => sinewPage.settings.get('character') === 'own' && sinewPage.character.look !== null);
+    await page.waitForFunction(() => sinewPage.settings.get('character') === 'own' && sinewPage.characters.look !== null);
     assert.equal(await page.evaluate(() => document.querySelector('[data-key=character]').selectedOptions[0].text), 'mine.sinew');
     assert.ok((await page.evaluate(() => sinewPage.engine.description.rods.length)) > 0);
     assert.ok(await page.evaluate(() => document.getElementById('over').hidden));
     assert.equal(await message(page), '');
     // Its colours later, or none at all, or those of another file.
     await choose(page, [packOf('creature_rods.sinew')]);
-    await page.waitForFunction(() => sinewPage.character.look === null);
+    await page.waitForFunction(() => sinewPage.characters.look === null);
     await picture(page, 'own_without_colours');
     await choose(page, [{name: 'broken.glb', mimeType: '', buffer: Buffer.from('glTF nothing')}]);
     assert.match(await told(page), /^broken\.glb: /);
     await choose(page, [packOf('creature.glb')]);
-    await page.waitForFunction(() => sinewPage.character.look !== null);
+    await page.waitForFunction(() => sinewPage.characters.look !== null);
     await picture(page, 'own_with_colours');
     page.check();
   },
@@ -165,8 +166,8 @@ const tests = {
   },
 
   async a_touch_drags_and_a_key_pulls({browser, address}) {
-    const page = await openPage(browser, address, {viewport: kPhone, hasTouch: true, isMobile: true, hash: '#clip=(still)&split=0&playing=0'});
-    await page.waitForFunction(() => window.sinewPage);
+    const page = await openPage(browser, address, {viewport: kPhone, hasTouch: true, isMobile: true, hash: '#clip=(still)&split=0'});
+    await moves(page);
     const before = await root(page), client = await page.context().newCDPSession(page);
     const box = await page.locator('#picture').boundingBox(), x = box.x + box.width / 2, y = box.y + 0.5 * box.height;
     const touch = (type, points) => client.send('Input.dispatchTouchEvent', {type, touchPoints: points});
@@ -189,9 +190,77 @@ const tests = {
     page.check();
   },
 
+  async two_fingers_near_the_view_on_the_character_too({browser, address}) {
+    const page = await openPage(browser, address, {viewport: kPhone, hasTouch: true, isMobile: true, hash: '#clip=(still)&split=0'});
+    await moves(page);
+    const client = await page.context().newCDPSession(page), box = await page.locator('#picture').boundingBox();
+    const x = box.x + box.width / 2, y = box.y + 0.5 * box.height;
+    const touch = (type, ...points) => client.send('Input.dispatchTouchEvent', {type, touchPoints: points.map(([px, id]) => ({x: px, y, id}))});
+    const far = () => page.evaluate(() => (sinewPage.stage.controls.update(), sinewPage.stage.controls.getDistance()));
+    const before = await far();
+    await touch('touchStart', [x - 20, 1]);
+    await touch('touchStart', [x - 20, 1], [x + 20, 2]);
+    for (let apart = 20; apart < 120; apart += 20) await touch('touchMove', [x - apart, 1], [x + apart, 2]);
+    await touch('touchEnd');
+    assert.ok((await far()) < 0.8 * before, `${await far()} of ${before} m`);
+    assert.equal(await page.evaluate(() => sinewPage.hand.held), null);
+    page.check();
+  },
+
+  async what_was_asked_for_last_is_shown_and_what_is_refused_is_not({browser, address}) {
+    const page = await openPage(browser, address);
+    await moves(page);
+    await page.route('**/creature_rods.sinew', async (route) => (await new Promise((resolve) => setTimeout(resolve, 1500)), route.continue()));
+    await page.route('**/creature_touch.sinew', (route) => route.fulfill({status: 404}));
+    const wish = (name) => page.evaluate((value) => sinewPage.settings.set('character', value), name);
+    await wish('creature_rods'), await wish('creature');
+    await page.waitForTimeout(2500);
+    assert.equal(await page.evaluate(() => sinewPage.engine.description.rods.length), 0);
+    await wish('creature_touch');
+    assert.match(await told(page), /creature_touch\.sinew is not there/);
+    assert.equal(await page.locator('[data-key=character]').inputValue(), 'creature');
+    page.isIgnored(/404/);
+    page.check();
+  },
+
+  async looks_of_hostile_files_get_a_sentence_and_send_for_nothing({browser, address}) {
+    const page = await openPage(browser, address);
+    await moves(page);
+    await choose(page, [packOf('creature_rods.sinew')]);
+    await page.waitForFunction(() => sinewPage.settings.get('character') === 'own');
+    const binary = (json) => {
+      const text = Buffer.from(json.padEnd(Math.ceil(json.length / 4) * 4)), header = Buffer.alloc(20);
+      header.write('glTF'), header.writeUInt32LE(2, 4), header.writeUInt32LE(20 + text.length, 8), header.writeUInt32LE(text.length, 12), header.write('JSON', 16);
+      return {name: 'hostile.glb', mimeType: '', buffer: Buffer.concat([header, text])};
+    };
+    const asset = '"asset":{"version":"2.0"}', requests = [];
+    page.on('request', (request) => requests.push(request.url()));
+    const files = [`{${asset}}`, 'null', '[]', `{${asset},"nodes":[{"mesh":7}],"meshes":[]}`, `{${asset},"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]}`,
+      `{${asset},"buffers":[{"uri":"http://127.0.0.1:9/x","byteLength":4}],"bufferViews":[{"buffer":0,"byteLength":4}]}`,
+      `{${asset},"extensionsUsed":["KHR_draco_mesh_compression"],"extensionsRequired":["KHR_draco_mesh_compression"]}`];
+    for (const file of files) {
+      await choose(page, [binary(file)]);
+      const sentence = await told(page);
+      console.log(sentence);
+      assert.match(sentence, /^hostile\.glb: it (is no binary glTF|has no mesh|is compressed)/);
+      assert.doesNotMatch(sentence, /undefined|null|\.\./);
+    }
+    assert.deepEqual(requests.filter((url) => url.includes(':9/')), []);
+    page.isIgnored(/./);
+  },
+
+  async the_server_answers_nonsense_and_lives({address}) {
+    const {port} = new URL(address);
+    for (const path of ['/%', '//', '/%00', '/../../etc/passwd', '/%2e%2e/%2e%2e/etc/passwd', '/nothing']) {
+      const answer = await new Promise((resolve, reject) => http.get({port, host: '127.0.0.1', path}, (response) => resolve(response.statusCode)).on('error', reject));
+      assert.ok([400, 404].includes(answer) || path === '//', `${path}: ${answer}`);
+    }
+    assert.equal((await fetch(address)).status, 200);
+  },
+
   async every_control_goes_from_end_to_end({browser, address}) {
     const page = await openPage(browser, address, {hash: '#playing=0&character=creature_rods'});
-    await page.waitForFunction(() => window.sinewPage?.character.look);
+    await page.waitForFunction(() => window.sinewPage?.characters.look);
     const broken = await page.evaluate(async () => {
       const broken = [];
       const isFinite = () => [...sinewPage.engine.positions(0)].every(Number.isFinite);
@@ -236,7 +305,7 @@ const tests = {
     assert.equal(await other.evaluate(() => sinewPage.settings.hash()), hash);
     assert.equal(await other.evaluate(() => sinewPage.engine.figures), 4);
     assert.equal(await other.locator('[data-key=clip]').inputValue(), 'shake');
-    const nonsense = await openPage(browser, `${address}#figures=-5&wind=NaN&clip=nothing&camera=1,2&part.belly=x&speed=&character=../../x&unknown=1`);
+    const nonsense = await openPage(browser, `${address}#figures=-5&wind=NaN&clip=toString&camera=1,2&part.belly=x&speed=&character=../../x&unknown=1&toString=1`);
     await isThere(nonsense);
     assert.equal(await nonsense.evaluate(() => sinewPage.engine.figures), 1);
     for (const one of [page, other, nonsense]) one.check();
