@@ -8,14 +8,7 @@ creature=$assets/creature/creature.json
 weights=$assets/weights/creature.safetensors
 mkdir -p "$folder"
 
-# newer TARGET SOURCE...: true when the target is there and no source is newer.
-newer() {
-  local target=$1 source
-  shift
-  [ -e "$target" ] || return 1
-  for source in "$@"; do [ "$source" -nt "$target" ] && return 1; done
-  return 0
-}
+. "$(dirname "$0")/newer.sh"
 
 newer "$folder/creature.glb" "$bake" "$creature" || "$bake" creature "$creature" -o "$folder/creature.glb"
 for name in "${@:3}"; do

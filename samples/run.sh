@@ -13,14 +13,7 @@ bin=build/release/bin
 out=out
 mkdir -p "$out"
 
-# newer TARGET SOURCE...: true when the target is there and no source is newer.
-newer() {
-  local target=$1 source
-  shift
-  [ -e "$target" ] || return 1
-  for source in "$@"; do [ "$source" -nt "$target" ] && return 1; done
-  return 0
-}
+. samples/newer.sh
 
 tissue=assets/creature/tissue.json
 samples/bake_creature.sh "$bin/sinew-bake" "$out" tissue

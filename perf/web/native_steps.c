@@ -1,6 +1,7 @@
 /* native_steps.c  native_steps PACK FIGURES STEPS ISA: the page's scene without a page; prints the median
  * time of a step of the world and of everything that the page has the engine do in a frame, in microseconds.
  */
+#include <pack_file.h>
 #include <scene.h>
 #include <sinew/sinew.h>
 #include <stdio.h>
@@ -8,18 +9,6 @@
 #include <time.h>
 
 static int fail(const char* what) { return fprintf(stderr, "native_steps: %s\n", what), 2; }
-
-static int read_pack(const char* path) {
-  FILE* file = fopen(path, "rb");
-  if (!file) return 0;
-  fseek(file, 0, SEEK_END);
-  const long size = ftell(file);
-  rewind(file);
-  void* bytes = size > 0 ? scene_pack_bytes((uint32_t)size) : NULL;
-  const int is_read = bytes && fread(bytes, 1, (size_t)size, file) == (size_t)size;
-  fclose(file);
-  return is_read;
-}
 
 static double now_us(void) {
   struct timespec now;
@@ -38,7 +27,7 @@ int main(int count, char** arguments) {
   double* times[2] = {calloc(steps + 1, sizeof(double)), calloc(steps + 1, sizeof(double))};
   if (!times[0] || !times[1]) return fail("no memory");
   if (sinew_force_isa(arguments[4])) return fail(sinew_message());
-  if (!read_pack(arguments[1])) return fail("the pack cannot be read");
+  if (!read_pack_file(arguments[1])) return fail("the pack cannot be read");
   if (scene_open(figures, 0) || scene_set_clip(2)) return fail(scene_message());
   for (uint32_t i = 0; i < steps; ++i) {
     const double begin_us = now_us();

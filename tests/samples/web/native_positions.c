@@ -1,26 +1,15 @@
 /* native_positions.c  native_positions PACK VERTICES OUT: plays what page.mjs plays in the browser, and
  * writes where all vertices of both figures are. */
+#include <pack_file.h>
 #include <scene.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 static int fail(const char* what) { return fprintf(stderr, "native_positions: %s\n", what), 2; }
 
-static int read_pack(const char* path) {
-  FILE* file = fopen(path, "rb");
-  if (!file) return 0;
-  fseek(file, 0, SEEK_END);
-  const long size = ftell(file);
-  rewind(file);
-  void* bytes = size > 0 ? scene_pack_bytes((uint32_t)size) : NULL;
-  const int is_read = bytes && fread(bytes, 1, (size_t)size, file) == (size_t)size;
-  fclose(file);
-  return is_read;
-}
-
 int main(int count, char** arguments) {
   if (count != 4) return fail("usage: native_positions PACK VERTICES OUT");
-  if (!read_pack(arguments[1])) return fail("the pack cannot be read");
+  if (!read_pack_file(arguments[1])) return fail("the pack cannot be read");
   if (scene_open(2, SCENE_TOUCH_BALL) || scene_set_clip(2)) return fail(scene_message());
   if (scene_set_air(9.80665f, 6, 0, 3, 0.3f, 0.5f)) return fail(scene_message());
   scene_set_ball(0.1f, 0.3f, 0.6f, 0.12f);
