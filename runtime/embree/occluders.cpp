@@ -13,6 +13,7 @@
 
 #include "core/slot_table.hpp"
 #include "core/status.hpp"
+#include "embree/with_memory.hpp"
 #include "world/pose.hpp"
 
 namespace sinew {
@@ -85,14 +86,22 @@ using Scene = Held<RTCScene, rtcReleaseScene>;
 using Geometry = Held<RTCGeometry, rtcReleaseGeometry>;
 
 template <class T>
-bool fill(const Geometry& geometry, RTCBufferType type, RTCFormat format,
-          std::span<const T> values) noexcept {
+bool fill(const Geometry& geometry, RTCBufferType type, RTCFormat format, std::span<const T> values) {
   void* room = rtcSetNewGeometryBuffer(geometry.get(), type, 0, format, 3 * sizeof(T), values.size() / 3);
   if (room) std::copy(values.begin(), values.end(), static_cast<T*>(room));
   return room != nullptr;
 }
 
-Scene build(const Device& device, const OccluderDef& def) noexcept {
+// Embree keeps the first error until it is asked for.
+bool has_failed(RTCDevice device) noexcept { return rtcGetDeviceError(device) != RTC_ERROR_NONE; }
+// Without a device: of the thread that could not make one.
+Status cannot_start(RTCDevice device) noexcept {
+  if (rtcGetDeviceError(device) == RTC_ERROR_OUT_OF_MEMORY)
+    return make_status(StatusCode::kOutOfCapacity, "no memory for Embree to start with");
+  return make_status(StatusCode::kUnsupported, "Embree cannot start on this machine");
+}
+
+Scene build(const Device& device, const OccluderDef& def) {
   Scene scene(rtcNewScene(device.get()));
   const Geometry mesh(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
   if (!scene || !mesh || !fill(mesh, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, def.places_m) ||
@@ -101,13 +110,13 @@ Scene build(const Device& device, const OccluderDef& def) noexcept {
   rtcCommitGeometry(mesh.get());
   rtcAttachGeometry(scene.get(), mesh.get());
   rtcCommitScene(scene.get());
-  return scene;
+  return has_failed(device.get()) ? Scene() : std::move(scene);
 }
 
 struct Occluder {
   Scene mesh;
   Geometry placed;  // the mesh where it stands
-  unsigned name = 0;
+  unsigned name = RTC_INVALID_GEOMETRY_ID;
 };
 
 }  // namespace
@@ -118,6 +127,37 @@ struct Occluders::Impl {
   Scene scene;
   bool updated = false;  // since the last change
   core::SlotTable<Occluder, OccluderId> occluders;
+
+  Status start() {
+    device = Device(rtcNewDevice("threads=1"));
+    if (device) scene = Scene(rtcNewScene(device.get()));
+    if (!scene) return cannot_start(device.get());
+    update();
+    if (!updated) return make_status(StatusCode::kOutOfCapacity, "no memory for an empty scene");
+    return {};
+  }
+
+  Status add(const OccluderDef& occluder, const RootTransform& root, OccluderId* out) {
+    Occluder made{build(device, occluder),
+                  Geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE))};
+    const bool built = made.mesh && made.placed;
+    if (built) {
+      rtcSetGeometryInstancedScene(made.placed.get(), made.mesh.get());
+      place(made, root);
+    }
+    if (!has_failed(device.get()) && built) made.name = rtcAttachGeometry(scene.get(), made.placed.get());
+    if (has_failed(device.get()) || made.name == RTC_INVALID_GEOMETRY_ID)
+      return make_status(StatusCode::kOutOfCapacity, "no memory for an occluder's tree");
+    updated = false;
+    *out = occluders.create(std::move(made));
+    return {};
+  }
+
+  void update() {
+    updated = false;
+    rtcCommitScene(scene.get());
+    updated = !has_failed(device.get());
+  }
 
   void place(const Occluder& occluder, const RootTransform& root) noexcept {
     Eigen::Matrix<float, 3, 4> to;  // column-major, as Embree has it
@@ -145,12 +185,9 @@ Status Occluders::create(const OccludersDef& def, Occluders* out) noexcept {
   if (!made.impl_ || !made.impl_->occluders.reserve(def.max_occluders))
     return make_status(StatusCode::kOutOfCapacity, "no memory for %u occluders", def.max_occluders);
   made.impl_->def = def;
-  made.impl_->device = Device(rtcNewDevice("threads=1"));
-  if (made.impl_->device) made.impl_->scene = Scene(rtcNewScene(made.impl_->device.get()));
-  if (!made.impl_->scene) return make_status(StatusCode::kUnsupported, "Embree cannot start on this machine");
-  made.update();
-  *out = std::move(made);
-  return {};
+  const Status status = embree::with_memory("Embree to start with", [&] { return made.impl_->start(); });
+  if (status.ok()) *out = std::move(made);
+  return status;
 }
 
 Status Occluders::add(const OccluderDef& def, OccluderId* out) noexcept {
@@ -162,16 +199,7 @@ Status Occluders::add(const OccluderDef& def, OccluderId* out) noexcept {
   if (impl_->occluders.count() == impl_->occluders.capacity())
     return make_status(StatusCode::kOutOfCapacity, "%u occluders are there; raise max_occluders",
                        impl_->occluders.count());
-  Occluder made{build(impl_->device, def),
-                Geometry(rtcNewGeometry(impl_->device.get(), RTC_GEOMETRY_TYPE_INSTANCE))};
-  if (!made.mesh || !made.placed)
-    return make_status(StatusCode::kOutOfCapacity, "no memory for an occluder's tree");
-  rtcSetGeometryInstancedScene(made.placed.get(), made.mesh.get());
-  impl_->place(made, root);
-  made.name = rtcAttachGeometry(impl_->scene.get(), made.placed.get());
-  impl_->updated = false;
-  *out = impl_->occluders.create(std::move(made));
-  return {};
+  return embree::with_memory("an occluder's tree", [&] { return impl_->add(def, root, out); });
 }
 
 Status Occluders::move(OccluderId id, const RootTransform& given) noexcept {
@@ -197,8 +225,10 @@ Status Occluders::remove(OccluderId id) noexcept {
 
 void Occluders::update() noexcept {
   if (!impl_) return;
-  rtcCommitScene(impl_->scene.get());
-  impl_->updated = true;
+  (void)embree::with_memory("the tree over all occluders", [&]() -> Status {
+    impl_->update();
+    return {};
+  });
 }
 
 bool Occluders::is_blocked(const double (&from_m)[3], const double (&to_m)[3]) noexcept {

@@ -13,7 +13,7 @@ namespace sinew::embree {
 
 class Surface {
  public:
-  // Checked; rest places are where it begins.
+  // Checked; rest places are where it begins. Throws std::bad_alloc; *out is then untouched.
   static Status create(const SurfaceDef& def, std::unique_ptr<Surface>* out);
   Surface(const Surface&) = delete;
   Surface& operator=(const Surface&) = delete;

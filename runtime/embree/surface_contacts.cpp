@@ -4,17 +4,20 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <new>
 #include <utility>
 
 #include "core/slot_table.hpp"
 #include "core/status.hpp"
 #include "embree/probe_on_surface.hpp"
+#include "embree/with_memory.hpp"
 
 namespace sinew {
 
 using core::make_status;
 using embree::ProbeOnSurface;
 using embree::Surface;
+using embree::with_memory;
 
 struct SurfaceContacts::Impl {
   SurfaceContactsDef def;
@@ -145,9 +148,12 @@ Status SurfaceContacts::create(const SurfaceContactsDef& def, SurfaceContacts* o
     return make_status(StatusCode::kOutOfCapacity, "no memory for %u surfaces", def.max_surfaces);
   }
   made.impl_->def = def;
-  made.impl_->filters.resize(def.max_owners);
-  *out = std::move(made);
-  return {};
+  status = with_memory("the owners' filters; give a smaller max_owners", [&]() -> Status {
+    made.impl_->filters.resize(def.max_owners);
+    return {};
+  });
+  if (status.ok()) *out = std::move(made);
+  return status;
 }
 
 Status SurfaceContacts::add_surface(const SurfaceDef& def, SurfaceId* out) noexcept {
@@ -158,7 +164,7 @@ Status SurfaceContacts::add_surface(const SurfaceDef& def, SurfaceId* out) noexc
                        impl_->surfaces.count());
   }
   std::unique_ptr<Surface> made;
-  const Status status = Surface::create(def, &made);
+  const Status status = with_memory("a surface and its tree", [&] { return Surface::create(def, &made); });
   if (status.ok()) *out = impl_->surfaces.create(std::move(made));
   return status;
 }

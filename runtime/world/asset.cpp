@@ -160,7 +160,7 @@ Status open_asset(std::span<const std::byte> bytes, Asset* out) noexcept {
   if (Status status = find_touchable(view, &touchable); !status.ok()) return status;
   core::AlignedBlock narrow;
   if (Status status = pack_narrow_layers(view, &narrow); !status.ok()) return status;
-  Asset& asset = *out;
+  Asset asset;
   asset.pack = view;
   asset.touchable = std::move(touchable);
   asset.rods = std::move(rods);
@@ -174,7 +174,8 @@ Status open_asset(std::span<const std::byte> bytes, Asset* out) noexcept {
   if (Status status = read_levels(view, asset); !status.ok()) return status;
   if (Status status = find_soft_vertices(view, &asset.soft); !status.ok()) return status;
   read_tiers(view, asset);
-  asset.reach_m = reach_of(asset);
+  if (Status status = measure_reach(asset, &asset.reach_m); !status.ok()) return status;
+  *out = std::move(asset);
   return {};
 }
 

@@ -4,8 +4,10 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <vector>
+#include <memory>
+#include <new>
 
+#include "core/status.hpp"
 #include "world/pose.hpp"
 #include "world/rotation.hpp"
 #include "world/tuning.hpp"
@@ -31,9 +33,7 @@ float longest_rod_m(const RodRig& rig) noexcept {
 }
 
 // Skin weights descend: the first joint moves a vertex most.
-float farthest_vertex_m(const pack::PackView& pack) {
-  std::vector<Matrix34> bind(pack.joints.size());
-  bind_pose(pack.joints, bind.data());
+float farthest_vertex_m(const pack::PackView& pack, const Matrix34* bind) noexcept {
   float farthest = 0;
   for (size_t v = 0; v < pack.skin.size(); ++v) {
     const Vector3f place = Eigen::Map<const Vector3f>(&pack.positions[3 * v]);
@@ -44,11 +44,16 @@ float farthest_vertex_m(const pack::PackView& pack) {
 
 }  // namespace
 
-float reach_of(const Asset& asset) noexcept {
+Status measure_reach(const Asset& asset, float* out_m) noexcept {
+  const pack::PackView& pack = asset.pack;
+  const std::unique_ptr<Matrix34[]> bind(new (std::nothrow) Matrix34[pack.joints.size()]);
+  if (!bind) return core::make_status(StatusCode::kOutOfCapacity, "asset: no memory for its bind pose");
+  bind_pose(pack.joints, bind.get());
   float displaced = 0;
-  for (const pack::RegionRecord& region : asset.pack.regions)
+  for (const pack::RegionRecord& region : pack.regions)
     displaced = std::max(displaced, region.displacement_limit_m);
-  return farthest_vertex_m(asset.pack) + displaced + 2 * longest_rod_m(asset.rods);
+  *out_m = farthest_vertex_m(pack, bind.get()) + displaced + 2 * longest_rod_m(asset.rods);
+  return {};
 }
 
 void bound_pose(Instance& instance) noexcept {

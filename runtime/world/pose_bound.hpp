@@ -7,7 +7,8 @@ namespace sinew::world {
 
 // How far a vertex may be from the joint that moves it most: its distance in the bind pose, what soft parts
 // may be displaced by, and both ways of the longest rod.
-float reach_of(const Asset& asset) noexcept;
+// Refused: no memory.
+Status measure_reach(const Asset& asset, float* out_m) noexcept;
 
 // Of the pose that was set last, in the world: about the middle of the joints' box, its half diagonal with
 // the asset's reach and a fifth of it for joints that stretch. Into `bound`.

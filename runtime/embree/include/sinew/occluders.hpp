@@ -47,15 +47,16 @@ class SINEW_API Occluders final : public OcclusionSource {
   Occluders(Occluders&& other) noexcept;
   Occluders& operator=(Occluders&& other) noexcept;
 
-  // Refused: fields outside their range, no memory, no Embree; `out` is then untouched.
+  // Refused: fields outside their range; no memory: kOutOfCapacity; no Embree: kUnsupported; `out` is then
+  // untouched.
   static Status create(const OccludersDef& def, Occluders* out) noexcept;
 
-  // Builds the mesh's tree. Refused as the fields say, and when max_occluders are there.
+  // Builds the mesh's tree. Refused as the fields say; max_occluders are there, or no memory: kOutOfCapacity.
   Status add(const OccluderDef& def, OccluderId* out) noexcept;
   Status move(OccluderId occluder, const RootTransform& root) noexcept;
   Status remove(OccluderId occluder) noexcept;
-  // To be called after add, move and remove, before the next step: until then nothing is hidden.
-  // O(occluders).
+  // To be called after add, move and remove, before the next step: until then nothing is hidden,
+  // and where there was no memory, until it is called again. O(occluders).
   void update() noexcept;
 
   // False for places that are not finite.

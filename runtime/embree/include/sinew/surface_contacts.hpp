@@ -99,10 +99,11 @@ class SINEW_API SurfaceContacts final : public ContactSource {
   SurfaceContacts(SurfaceContacts&& other) noexcept;
   SurfaceContacts& operator=(SurfaceContacts&& other) noexcept;
 
-  // Refused: fields outside their range, no memory; `out` is then untouched.
+  // Refused: fields outside their range; no memory: kOutOfCapacity; `out` is then untouched.
   static Status create(const SurfaceContactsDef& def, SurfaceContacts* out) noexcept;
 
-  // Allocates, and builds the tree. Refused as the fields say, and when max_surfaces are there.
+  // Allocates, and builds the tree. Refused as the fields say; max_surfaces are there, or no memory:
+  // kOutOfCapacity.
   Status add_surface(const SurfaceDef& def, SurfaceId* out) noexcept;
   Status remove_surface(SurfaceId surface) noexcept;
   // O(vertices + triangles); where nothing moves, before and now, O(vertices).
