@@ -1,5 +1,6 @@
 // write_file.hpp  Files are written beside their place and renamed: a reader sees the old file or the whole
-// new one.
+// new one. What a killed process left of the same file is removed; two that write it at once are in each
+// other's way no more than that one of them is last.
 #pragma once
 #include <cstddef>
 #include <span>

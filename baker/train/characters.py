@@ -3,13 +3,12 @@ import csv
 import glob
 import json
 import os
-import shutil
 import statistics
 
 import numpy as np
 
 from . import dataset
-from .files import write_json, write_text
+from .files import put_copy, write_json, write_text
 from .page import table
 from .plot import COLOURS, _finish, _pyplot
 from .safetensors import BadData, load
@@ -142,8 +141,7 @@ HEAD = (
 
 def _ship(one, place):
     if one.pays():
-        shutil.copyfile(one.path, f"{place}.part")
-        os.replace(f"{place}.part", place)
+        put_copy(one.path, place)
     elif os.path.exists(place):
         os.remove(place)
 

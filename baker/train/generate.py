@@ -6,13 +6,12 @@ files appear whole or not at all.
 """
 import concurrent.futures
 import os
-import shutil
 import subprocess
 import sys
 
 from .data_sheet import statistics
 from .dataset import SHEET, SPLITS
-from .files import write_json
+from .files import put_copy, write_json, write_text
 from .plan import clip_names, jobs_of, read_bodies, read_plan
 from .safetensors import BadData
 from .trajectory import read_trajectory
@@ -59,10 +58,8 @@ def _prepare(bake, folder, body):
         if why:
             raise BadData(f"body '{body.name}' cannot be made: {why}")
     else:
-        shutil.copyfile(body.character, f"{glb}.part")
-        os.replace(f"{glb}.part", glb)
-    with open(os.path.join(folder, STAMP), "w") as file:
-        file.write(body.stamp())
+        put_copy(body.character, glb)
+    write_text(os.path.join(folder, STAMP), body.stamp())
 
 
 def is_done(path, job):

@@ -5,6 +5,8 @@ import struct
 
 import numpy as np
 
+from .files import written
+
 _TYPES = {
     "F64": np.float64,
     "F32": np.float32,
@@ -92,8 +94,7 @@ def save(path, tensors, metadata):
         offset += a.nbytes
     text = json.dumps(header).encode()
     text += b" " * (-(8 + len(text)) % 64)
-    with open(f"{path}.part", "wb") as file:
+    with written(path, "wb") as file:
         file.write(struct.pack("<Q", len(text)) + text)
         for a in arrays.values():
             file.write(a.tobytes())
-    os.replace(f"{path}.part", path)

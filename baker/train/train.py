@@ -10,7 +10,7 @@ import torch
 from . import dataset
 from .dataset import Union
 from .episode import Episode
-from .files import write_json
+from .files import write_json, written
 from .inputs import INPUT_WIDTH
 from .model import AltConvLSTM, ModelOptions
 from .rollout import State, error_ratio, roll_out, single_steps, stand_at, start, tick, truth
@@ -198,8 +198,8 @@ class Trainer:
 
 
 def _save_checkpoint(path, trainer):
-    torch.save(trainer.checkpoint(), f"{path}.part")
-    os.replace(f"{path}.part", path)
+    with written(path, "wb") as file:
+        torch.save(trainer.checkpoint(), file)
 
 
 def _same_run(saved, options):

@@ -1,10 +1,11 @@
 """The last stage: the candidates on the held-out motions, and the one that is baked."""
 import json
 
+from ..files import put_copy
 from ..safetensors import load, save
 from . import tissue_beside
 from .motions import RATE_HZ, SECONDS
-from .run import put, say
+from .run import say
 from .verdict import BASE, TUNED, Row, best_of, reason, table
 
 TICKS = round(SECONDS * RATE_HZ)
@@ -60,5 +61,5 @@ def finish(run, simulation, tuned, output, keep):
     say(f"{output}: {why}")
     if tuned and (keep or winner == TUNED):
         beside = tissue_beside(output)
-        put(_stated(run, tuned, rows, all_of_them, TUNED) if rows else tuned, beside)
+        put_copy(_stated(run, tuned, rows, all_of_them, TUNED) if rows else tuned, beside)
         say(f"{beside}: the fine-tuned weights")

@@ -1,10 +1,10 @@
 """What all stages of a run share, and its first stage: the character with its modal base."""
 import os
-import shutil
 import tempfile
 import time
 from dataclasses import dataclass, field
 
+from ..files import put_copy
 from ..safetensors import BadData
 from ..trajectory import VERSION
 from .motions import SPLIT
@@ -17,12 +17,6 @@ from .time_budget import TimeBudget
 
 def say(text):
     print(text, flush=True)
-
-
-def put(source, to):
-    """A copy, beside its place first and then renamed."""
-    shutil.copyfile(source, f"{to}.part")
-    os.replace(f"{to}.part", to)
 
 
 @dataclass
@@ -77,8 +71,8 @@ def prepare(run):
         run.baker.bake(shipped, run.start.path)
         run.folder = os.path.join(run.cache, _folder_name(run, base))
         os.makedirs(run.folder, exist_ok=True)
-        put(base, run.place("base.sinew"))
-        put(shipped, run.place("start.sinew"))
+        put_copy(base, run.place("base.sinew"))
+        put_copy(shipped, run.place("start.sinew"))
     line.clear()
     run.clips = [clip["name"] for clip in described["clips"]]
     run.limits = [region["displacement_limit_m"] for region in described["regions"]]

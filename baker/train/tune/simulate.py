@@ -5,6 +5,7 @@ import time
 from dataclasses import dataclass
 
 from ..dataset import SPLITS
+from ..files import remove_left_parts
 from ..generate import is_done, truth_command, what_is_wrong
 from ..safetensors import BadData
 
@@ -22,9 +23,7 @@ class Running:
     def end(self):
         self.process.kill()
         self.process.communicate()
-        beside = f"{self.path}.part-{self.process.pid}"  # of baker/common/write_file.cpp
-        if os.path.exists(beside):
-            os.remove(beside)
+        remove_left_parts(self.path)
 
 
 class Simulation:

@@ -1,10 +1,15 @@
 // write_file.cpp  Whole files or none.
 #include "baker/common/write_file.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <catch2/catch.hpp>
 #include <csignal>
+#include <vector>
 
 #include "baker/common/bad_input.hpp"
 #include "baker/common/read_file.hpp"
@@ -77,6 +82,91 @@ TEST_CASE("write_file_replaces_a_file_whole_and_keeps_a_link_a_link") {
   CHECK(read_text(folder.file("target")) == "second");
   CHECK(std::filesystem::is_symlink(folder.file("link")));
   CHECK(folder.entries() == 2);
+}
+
+namespace {
+
+// Of the process id too, which is the same again in every container.
+std::string left_part(const TemporaryFolder& folder, const std::string& end) {
+  const std::string path = folder.file("pack.part-" + end);
+  write_file(path, std::string_view("half"));
+  return path;
+}
+
+}  // namespace
+
+TEST_CASE("what_a_killed_process_left_of_a_file_is_removed_and_keeps_nobody_from_writing_it") {
+  const TemporaryFolder folder;
+  const std::string old = left_part(folder, std::to_string(::getpid())),
+                    left = left_part(folder, "0123456789abcdef01234567"),
+                    foreign = left_part(folder, "0123456789abcdef0123456x"),
+                    link = folder.file("pack.part-aaaaaaaaaaaaaaaaaaaaaaaa"),
+                    precious = folder.file("precious");
+  write_file(precious, std::string_view("precious"));
+  std::filesystem::create_symlink(precious, link);
+  write_file(folder.file("pack"), std::string_view("new"));
+  CHECK(read_text(folder.file("pack")) == "new");
+  CHECK_FALSE(std::filesystem::exists(left));
+  CHECK(read_text(foreign) == "half");
+  CHECK(read_text(old) == "half");  // of an older version, or anybody's
+  CHECK(read_text(precious) == "precious");
+  CHECK(std::filesystem::is_symlink(link));
+}
+
+TEST_CASE("what_another_process_still_writes_is_left_to_it") {
+  const TemporaryFolder folder;
+  const std::string part = left_part(folder, "0123456789abcdef01234567");
+  const int held = ::open(part.c_str(), O_WRONLY | O_CLOEXEC);
+  REQUIRE(::flock(held, LOCK_EX | LOCK_NB) == 0);
+  write_file(folder.file("pack"), std::string_view("new"));
+  CHECK(std::filesystem::exists(part));
+  ::close(held);
+  write_file(folder.file("pack"), std::string_view("newer"));
+  CHECK_FALSE(std::filesystem::exists(part));
+}
+
+TEST_CASE("of_several_who_write_one_file_at_once_one_is_last_and_whole") {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("pack");
+  std::vector<pid_t> writers;
+  for (char c : {'a', 'b', 'c', 'd'}) {
+    const pid_t writer = ::fork();
+    if (writer == 0) {
+      bool written = true;
+      for (int time = 0; time < 40; ++time)
+        written = written && refusal(path, std::string(200000, c)).empty();
+      ::_exit(written ? 0 : 1);
+    }
+    writers.push_back(writer);
+  }
+  for (int time = 0; time < 400; ++time) {
+    if (!std::filesystem::exists(path)) continue;
+    const std::string text = read_text(path);
+    REQUIRE(text.size() == 200000);
+    REQUIRE(text.find_first_not_of(text[0]) == std::string::npos);
+  }
+  for (const pid_t writer : writers) {
+    int status = -1;
+    REQUIRE(::waitpid(writer, &status, 0) == writer);
+    CHECK(status == 0);
+  }
+  CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("a_writer_that_is_killed_is_no_hindrance_to_the_next") {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("pack");
+  for (int time = 0; time < 20; ++time) {
+    const pid_t writer = ::fork();
+    if (writer == 0)
+      for (;;) write_file(path, std::string(400000, 'x'));
+    ::usleep(2000 + 700 * static_cast<useconds_t>(time));
+    ::kill(writer, SIGKILL);
+    ::waitpid(writer, nullptr, 0);
+    CHECK(refusal(path, "whole").empty());
+    CHECK(read_text(path) == "whole");
+    CHECK(folder.entries() == 1);
+  }
 }
 
 TEST_CASE("a_device_is_written_to_and_not_replaced") {
