@@ -36,6 +36,7 @@ set(slow
   samples_demo/pool_runs_every_index_once_in_every_job
   world/a_change_of_level_makes_no_jump
   world/an_hour_at_the_limit_winds_nothing_up
+  world/whatever_thousands_of_calls_made_of_it_what_is_restored_goes_on_as_the_original
   world/no_weights_move_flesh_much_further_than_its_base_nor_keep_it_from_rest)
 set(longest
   baker_trade/a_trade_finds_the_front_bakes_it_and_goes_on_where_it_was_stopped

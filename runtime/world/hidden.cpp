@@ -33,7 +33,6 @@ void hide(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   state.hidden = 1;
   wake(instance);
-  state.still_ticks = 0;
   state.waited_s = state.held_s = 0;
   instance.times = {};
   instance.cost_factor = 1;
@@ -64,6 +63,7 @@ void come_back(Instance& instance) noexcept {
     for (uint32_t tick = 0; tick < state.hidden_ticks; ++tick) show_tick(instance);
   }
   state.motion_stale = 1;
+  state.still_ticks = 0;
   state.ticks_since_network += state.hidden_ticks;
   state.fallback_ticks -= std::min(state.fallback_ticks, state.hidden_ticks);
   state.hidden = state.hidden_ticks = 0;

@@ -130,9 +130,11 @@ Status restore(Instance& instance, std::span<const std::byte> bytes) noexcept {
   if (was_tuned || tunes_parts(instance)) retune_all(instance);
   instance.rods_anew = false;
   instance.told = {};
+  instance.displaced = false;  // else what was shown here before would be taken out of the state as it ends
   bound_pose(instance);
   const core::FloatingPointScope mode;  // as in a step: the same bits are shown
   publish(instance);
+  restore_rods(instance, payload.data() + instance.state_bytes);  // what is shown between ticks drives them
   return {};
 }
 

@@ -70,6 +70,7 @@ void run_one(void* argument, uint32_t index) {
   Instance& instance = take_answer(world, slot, ticks);
   step_instance(instance, world.context, slot);
   copy_to_row(instance, &world.rows[slot]);
+  world.bounds[slot] = instance.bound;
 }
 
 uint32_t idle_chunks(const WorldState& world) noexcept {

@@ -17,6 +17,7 @@
 #include "world/hidden.hpp"
 #include "world/marker.hpp"
 #include "world/motion.hpp"
+#include "world/pose_bound.hpp"
 #include "world/publish.hpp"
 #include "world/push_surface.hpp"
 #include "world/rod_motion.hpp"
@@ -210,6 +211,7 @@ void step_instance(Instance& instance, const TickContext& context, uint32_t slot
   const bool rose = !waits && rises(instance);
   instance.times = {};
   wake(instance);
+  const bool was_tuned = tunes_parts(instance);
   instance.came_back = instance.state->hidden != 0;
   if (instance.came_back) come_back(instance);
   instance.restarted = instance.fell_back = false;
@@ -233,6 +235,7 @@ void step_instance(Instance& instance, const TickContext& context, uint32_t slot
   age(instance, rose, context.frame_s);
   if (instance.plan.ticks.ticks > 0) follow_excitation(instance);
   fall_dormant(instance);
+  if (was_tuned || tunes_parts(instance)) bound_pose(instance);  // how far parts may reach glides
   const uint64_t ticked_ns = core::now_ns(context.clock);
   if (!instance.held) {
     const Marker publishing(context.profiler, "publish", slot);

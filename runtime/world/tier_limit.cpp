@@ -3,6 +3,7 @@
 
 #include "frame/front.hpp"
 #include "world/dormant.hpp"
+#include "world/publish.hpp"
 
 namespace sinew::world {
 
@@ -12,6 +13,7 @@ void limit_tier(Instance& instance, Tier best) noexcept {
   state.tier_limit = best;
   wake(instance);
   state.still_ticks = 0;  // dormant again only after ticks, in the first of which it gets its tier
+  publish(instance);      // between ticks, what stands still is shown otherwise
 }
 
 float waited_after(const InstanceState& state, float dt_s) noexcept {

@@ -8,6 +8,7 @@
 #include "world/air.hpp"
 #include "world/dormant.hpp"
 #include "world/glide.hpp"
+#include "world/publish.hpp"
 #include "world/rod_sleep.hpp"
 #include "world/sleep.hpp"
 
@@ -205,6 +206,7 @@ void notice_parameters(Instance& instance) noexcept {
   if (!tunes_parts(instance)) {
     state.tuned |= kTunedParts;
     retune_all(instance);
+    publish(instance);  // between ticks, what may be tuned is bounded otherwise
   }
   state.tuning_moves = 1;
   wake(instance);

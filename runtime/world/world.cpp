@@ -17,6 +17,7 @@
 #include "world/dormant.hpp"
 #include "world/pose.hpp"
 #include "world/pose_bound.hpp"
+#include "world/publish.hpp"
 #include "world/replace_asset.hpp"
 #include "world/snapshot.hpp"
 #include "world/step.hpp"
@@ -497,6 +498,7 @@ Status World::reset(InstanceId id) noexcept {
   if (Status status = find_state(impl_, id, &instance); !status.ok()) return status;
   if (busy(*impl_)) return refuse_busy();
   world::forget_motion(*instance);
+  world::publish(*instance);
   keep_row(*impl_, id);
   return {};
 }

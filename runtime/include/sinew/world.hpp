@@ -155,8 +155,8 @@ class SINEW_API World {
   Status set_added_environment(InstanceId instance, const AddedEnvironment& added) noexcept;
   Status added_environment(InstanceId instance, AddedEnvironment* out) const noexcept;
 
-  // Forgets motion: the tissue is at rest in the next pose that is set. What is read back changes with
-  // the next step.
+  // Forgets motion: the tissue is at rest in the next pose that is set. What is read back has no displacement
+  // from now on, as it has after a restore of what is saved now; its pose changes with the next step.
   Status reset(InstanceId instance) noexcept;
 
   // Microseconds a step may take (BudgetMode). Infinity, the default: the best tier for all; 0: skinning
