@@ -11,6 +11,9 @@ namespace sinew::pack {
 namespace {
 
 constexpr uint32_t kMaxJoints = 65535;  // a skin's joints are 16 bits
+constexpr float kLeastUnit_m = 1e-12f, kMostUnit_m = 1e12f;
+constexpr float kSlowestClip_hz = 1e-4f;
+constexpr float kMostCost_us = 1e9f, kMostError = 1e9f;
 
 Status check_record(const PackView& pack) noexcept {
   if (pack.character == nullptr) return corrupt("it has no character record, or more than one");
@@ -18,9 +21,9 @@ Status check_record(const PackView& pack) noexcept {
   if (record.vertex_count == 0) return corrupt("the character has no vertices");
   if (record.joint_count == 0 || record.joint_count > kMaxJoints)
     return corrupt("the character has %u joints, outside 1..65535", record.joint_count);
-  if (!std::isfinite(record.height_m) || record.height_m < 0)
-    return corrupt("the character's height is %g m", double{record.height_m});
-  if (!is_positive(record.unit_m))
+  if (!is_within(record.height_m, 0, kFarthest_m))
+    return corrupt("the character's height is %g m, outside 0..1e5", double{record.height_m});
+  if (!is_within(record.unit_m, kLeastUnit_m, kMostUnit_m))
     return corrupt("a unit of the character's file is %g m", double{record.unit_m});
   if (Status status = check_name(pack, record.name, "character", 0); !status.ok()) return status;
   return check_zero(record.reserved, "character", 0);
@@ -64,21 +67,50 @@ Status check_counts(const PackView& pack) noexcept {
   return {};
 }
 
+double determinant(const float (&m)[12]) noexcept {
+  const auto minor = [&](size_t i, size_t j) {
+    const size_t a = (j + 1) % 3, b = (j + 2) % 3, r = (i + 1) % 3, s = (i + 2) % 3;
+    return double{m[4 * r + a]} * double{m[4 * s + b]} - double{m[4 * r + b]} * double{m[4 * s + a]};
+  };
+  return double{m[0]} * minor(0, 0) + double{m[1]} * minor(0, 1) + double{m[2]} * minor(0, 2);
+}
+
+// The inverse, which is where the joint is in the bind pose, has to leave room for it to move in what a pose
+// may be. What has none counts as the identity (world/pose.hpp).
+bool has_bind(const JointRecord& joint) noexcept {
+  const float(&m)[12] = joint.inverse_bind;
+  const double d = std::fabs(determinant(m));
+  if (!(d > 1e-20)) return true;
+  double inverse[3][3], most = 0;
+  for (size_t i = 0; i < 3; ++i)
+    for (size_t j = 0; j < 3; ++j) {
+      const size_t a = (i + 1) % 3, b = (i + 2) % 3, r = (j + 1) % 3, s = (j + 2) % 3;
+      inverse[i][j] =
+          (double{m[4 * r + a]} * double{m[4 * s + b]} - double{m[4 * r + b]} * double{m[4 * s + a]}) / d;
+    }
+  for (const auto& row : inverse) {
+    const double place = row[0] * double{m[3]} + row[1] * double{m[7]} + row[2] * double{m[11]};
+    most = std::max({most, std::fabs(row[0]), std::fabs(row[1]), std::fabs(row[2]), std::fabs(place)});
+  }
+  return most <= double{kFarthest_m};
+}
+
 Status check_joints(const PackView& pack) noexcept {
   for (size_t index = 0; index < pack.joints.size(); ++index) {
     const JointRecord& joint = pack.joints[index];
     if (Status status = check_name(pack, joint.name, "joint", index); !status.ok()) return status;
     if (joint.parent != kNoIndex && joint.parent >= index)
       return corrupt("joint %zu: parent %u does not come before it", index, joint.parent);
-    if (first_not_finite(joint.inverse_bind) != std::size(joint.inverse_bind))
-      return corrupt("joint %zu: inverse bind matrix is not finite", index);
+    if (!are_within(joint.inverse_bind, kMostOfMatrix))
+      return corrupt("joint %zu: inverse bind matrix has numbers that are not within +-1e6", index);
+    if (!has_bind(joint)) return corrupt("joint %zu: its bind matrix goes beyond 1e5", index);
     if (Status status = check_zero(joint.reserved, "joint", index); !status.ok()) return status;
   }
   return {};
 }
 
 Status check_vertices(const PackView& pack) noexcept {
-  if (Status status = check_finite(pack.positions, "positions"); !status.ok()) return status;
+  if (Status status = check_within(pack.positions, kFarthest_m, "positions"); !status.ok()) return status;
   for (size_t vertex = 0; vertex < pack.character->vertex_count; ++vertex) {
     if (!is_unit(&pack.normals[3 * vertex]))
       return corrupt("vertex %zu: normal is not a unit vector", vertex);
@@ -133,18 +165,19 @@ Status check_clips(const PackView& pack) noexcept {
     if (Status status = check_name(pack, clip.name, "clip", index); !status.ok()) return status;
     if (clip.first_frame != frames || clip.frame_count == 0)
       return corrupt("clip %zu: frames do not follow the clip before it, or are none", index);
-    if (!is_positive(clip.rate_hz)) return corrupt("clip %zu: rate %g Hz", index, double{clip.rate_hz});
+    if (!is_within(clip.rate_hz, kSlowestClip_hz, kFastest_hz))
+      return corrupt("clip %zu: rate %g Hz, outside 1e-4..1e4", index, double{clip.rate_hz});
     if (Status status = check_zero(clip.reserved, "clip", index); !status.ok()) return status;
     frames += clip.frame_count;
   }
   const uint64_t floats_a_frame = 12 * pack.joints.size();
   if (pack.clip_frames.size() % floats_a_frame != 0 || pack.clip_frames.size() / floats_a_frame != frames)
     return corrupt("clip frames: not as many as the clips state");
-  return check_finite(pack.clip_frames, "clip frames");
+  return check_within(pack.clip_frames, kMostOfMatrix, "clip frames");
 }
 
-bool is_known_or_nan(float value) noexcept {
-  return std::isnan(value) || (std::isfinite(value) && value >= 0);
+bool is_known_or_nan(float value, float most) noexcept {
+  return std::isnan(value) || is_within(value, 0, most);
 }
 
 Status check_tier(const PackView& pack, const TierRecord& record, size_t index) noexcept {
@@ -152,12 +185,13 @@ Status check_tier(const PackView& pack, const TierRecord& record, size_t index) 
   if (!is_tier(record.tier)) return corrupt("tier %zu: %u is not known", index, record.tier);
   if (record.level >= pack.level_count || (record.level > 0 && record.tier < kFirstSimulated))
     return corrupt("tier %zu: level %u", index, record.level);
-  if (!std::isfinite(record.cost_us) || record.cost_us < 0 || !is_known_or_nan(record.cost_p99_us))
+  if (!is_within(record.cost_us, 0, kMostCost_us) || !is_known_or_nan(record.cost_p99_us, kMostCost_us))
     return corrupt("tier %zu: cost %g us, p99 %g us", index, double{record.cost_us},
                    double{record.cost_p99_us});
   for (const float error :
        {record.error_mm, record.error_ratio, record.error_p95_mm, record.worst_error_ratio})
-    if (!is_known_or_nan(error)) return corrupt("tier %zu: an error is negative or infinite", index);
+    if (!is_known_or_nan(error, kMostError))
+      return corrupt("tier %zu: an error is negative or beyond 1e9", index);
   if (record.worst_clip != kNoIndex && record.worst_clip >= pack.clips.size())
     return corrupt("tier %zu: clip %u of %zu", index, record.worst_clip, pack.clips.size());
   return {};

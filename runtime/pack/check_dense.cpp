@@ -40,7 +40,9 @@ Status check_deep_sizes(const NetworkRecord& record) noexcept {
       record.max_channels > kDeepWidest)
     return corrupt("network: widest layer %u, of a deep_emulator 48, 96, 144 or 192", record.max_channels);
   if (record.moving > 1) return corrupt("network: moving is neither 0 nor 1");
-  return is_positive(record.rate_hz) ? Status{} : corrupt("network: rate %g Hz", double{record.rate_hz});
+  return is_within(record.rate_hz, kSlowest_hz, kFastest_hz)
+             ? Status{}
+             : corrupt("network: rate %g Hz, outside 0.1..1e4", double{record.rate_hz});
 }
 
 Status check_record(const ChainsView& chains) noexcept {

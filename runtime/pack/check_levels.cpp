@@ -7,6 +7,8 @@
 namespace sinew::pack {
 namespace {
 
+constexpr float kMostSpread = 100;  // baked ones are between 0 and 1, or little beyond
+
 // Takes the next `count` from what is left of a section. False: there are not so many.
 template <class T>
 bool take(std::span<const T>& rest, uint64_t count, std::span<const T>* out) noexcept {
@@ -86,8 +88,8 @@ Status check_spread(const LevelView& fine, const LevelView& coarse, uint32_t lev
     for (uint32_t n = 0; n < coarse.regions[r].node_count; ++n) {
       std::span<const float> row;
       if (!take(rest, padded, &row)) return corrupt("level %u: spread ends early", level);
-      if (first_not_finite(row) != row.size())
-        return corrupt("level %u: a weight of spread is not finite", level);
+      if (!are_within(row, kMostSpread))
+        return corrupt("level %u: a weight of spread is not within +-100", level);
       if (std::ranges::any_of(row.subspan(used), [](float v) { return v != 0; }))
         return corrupt("level %u: padding of spread is not zero", level);
     }

@@ -10,6 +10,7 @@ namespace sinew::pack {
 namespace {
 
 constexpr uint32_t kMaxLayers = 16, kMaxChannels = 1024, kMaxInputWidth = 1024;
+constexpr float kMostScale = 1e6f, kMostInputScale = 1e12f, kLeastUnit = 1e-6f, kMostUnit = 1e6f;
 constexpr uint32_t kPaperInputWidth = 9, kOutputChannels = 3;
 
 // Floats of one node's value; 0 for a kind that this version does not know.
@@ -40,7 +41,8 @@ Status check_nothing(const PackView& pack) noexcept {
   if (!pack.layers.empty() || !pack.inputs.empty() || !pack.weights.empty() || !pack.dense.empty() ||
       has_int8(pack))
     return corrupt("network: layers, inputs or weights of a network that is not there");
-  if (!is_positive(record.rate_hz)) return corrupt("network: rate %g Hz", double{record.rate_hz});
+  if (!is_within(record.rate_hz, kSlowest_hz, kFastest_hz))
+    return corrupt("network: rate %g Hz, outside 0.1..1e4", double{record.rate_hz});
   return check_zero(record.reserved, "network", 0);
 }
 
@@ -73,12 +75,15 @@ Status check_record(const PackView& pack) noexcept {
     return corrupt("the last layer has %u channels, not 3", pack.layers.back().channels);
   if (record.input_width < 1 || record.input_width > kMaxInputWidth)
     return corrupt("network: input width %u is outside 1..1024", record.input_width);
-  if (!is_positive(record.rate_hz)) return corrupt("network: rate %g Hz", double{record.rate_hz});
-  if (!std::isfinite(record.output_scale)) return corrupt("network: output scale is not finite");
+  if (!is_within(record.rate_hz, kSlowest_hz, kFastest_hz))
+    return corrupt("network: rate %g Hz, outside 0.1..1e4", double{record.rate_hz});
+  if (!(std::fabs(record.output_scale) <= kMostScale))
+    return corrupt("network: output scale %g", double{record.output_scale});
   if (!in_unit_range(record.output_leak) || !in_unit_range(record.hidden_leak))
     return corrupt("network: a leak is outside 0..1");
   if (!(record.state_clamp > 0)) return corrupt("network: state clamp %g", double{record.state_clamp});
-  if (!is_positive(record.length_unit)) return corrupt("network: length unit %g", double{record.length_unit});
+  if (!is_within(record.length_unit, kLeastUnit, kMostUnit))
+    return corrupt("network: length unit %g, outside 1e-6..1e6", double{record.length_unit});
   if (record.blocks != 0 || record.depth != 0 || record.moving != 0 || !pack.dense.empty())
     return corrupt("network: blocks, depth, a moving frame or dense layers, which an alt_conv_lstm has not");
   if (Status status = check_precision(pack); !status.ok()) return status;
@@ -95,7 +100,8 @@ Status check_inputs(const PackView& pack) noexcept {
     if ((seen & bit) != 0) return corrupt("input %zu: its kind appears twice", index);
     seen |= bit;
     width += input_width(input.kind);
-    if (!std::isfinite(input.scale)) return corrupt("input %zu: scale is not finite", index);
+    if (!(std::fabs(input.scale) <= kMostInputScale))
+      return corrupt("input %zu: scale %g", index, double{input.scale});
     if (!(input.envelope > 0)) return corrupt("input %zu: envelope %g", index, double{input.envelope});
     if (input.reserved != 0) return corrupt("input %zu: reserved field is not zero", index);
   }

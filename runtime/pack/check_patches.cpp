@@ -9,6 +9,8 @@
 namespace sinew::pack {
 namespace {
 
+constexpr float kMostMaterial = 50;  // logarithms, and masses in full cells
+
 Status check_nothing(const PackView& pack) noexcept {
   const ChainsView& chains = pack.patch_network;
   const bool empty = !chains.record && chains.layers.empty() && chains.weights.empty() &&
@@ -46,7 +48,7 @@ Status check_patches(const PackView& pack) noexcept {
   bool any = false;
   for (size_t r = 0; r < pack.regions.size(); ++r) {
     const float cell_m = pack.regions[r].cell_m;
-    if (!(std::isfinite(cell_m) && cell_m >= 0))
+    if (cell_m != 0 && !is_within(cell_m, kLeastSize_m, kFarthest_m))
       return corrupt("region %zu: cells of %g m", r, double{cell_m});
     any |= cell_m > 0;
   }
@@ -61,7 +63,8 @@ Status check_patches(const PackView& pack) noexcept {
   if (pack.patch_material.size() != 3 * nodes || pack.patch_held.size() != nodes)
     return corrupt("patches: material of %zu numbers and %zu marks for %zu nodes", pack.patch_material.size(),
                    pack.patch_held.size(), nodes);
-  if (Status status = check_finite(pack.patch_material, "patch material"); !status.ok()) return status;
+  if (Status status = check_within(pack.patch_material, kMostMaterial, "patch material"); !status.ok())
+    return status;
   if (std::ranges::any_of(pack.patch_held, [](uint8_t held) { return held > 1; }))
     return corrupt("patches: a mark of a held node is neither 0 nor 1");
   for (size_t r = 0; r < pack.regions.size(); ++r)

@@ -14,9 +14,10 @@ Status check_proxies(const PackView& pack) noexcept {
     const ProxyRecord& proxy = pack.proxies[i];
     if (proxy.joint >= pack.joints.size())
       return corrupt("proxy %zu: moves with joint %u of %zu", i, proxy.joint, pack.joints.size());
-    if (first_not_finite(proxy.from_m) != 3 || first_not_finite(proxy.to_m) != 3)
-      return corrupt("proxy %zu: its ends are not finite", i);
-    if (!is_positive(proxy.radius_m)) return corrupt("proxy %zu: radius %g m", i, double{proxy.radius_m});
+    if (!are_within(proxy.from_m, kFarthest_m) || !are_within(proxy.to_m, kFarthest_m))
+      return corrupt("proxy %zu: its ends are not within +-1e5 m", i);
+    if (!is_within(proxy.radius_m, kLeastSize_m, kFarthest_m))
+      return corrupt("proxy %zu: radius %g m", i, double{proxy.radius_m});
   }
   return {};
 }

@@ -9,7 +9,7 @@
 namespace sinew::pack {
 namespace {
 
-constexpr float kMostGravity = 100;
+constexpr float kMostGravity = 100, kMostFrequency_hz = 1e6f;
 constexpr float kLeastRate_hz = 1;  // a longer tick is none that rods are stepped by: rods/rod_batch.hpp
 constexpr uint32_t kMostSegments = 65535;  // of a rod: rods/strand.hpp, less the one that is held
 
@@ -75,8 +75,8 @@ Status check_record(const PackView& pack, const RodRecord& rod, size_t index, ui
     return corrupt("rod %zu: sag %g, outside 0..1", index, double{rod.sag});
   if (!(rod.turn_limit_rad >= 0 && rod.turn_limit_rad <= std::numbers::pi_v<float>))
     return corrupt("rod %zu: turn limit %g, outside 0..pi", index, double{rod.turn_limit_rad});
-  if (!is_not_negative(rod.frequency_hz))
-    return corrupt("rod %zu: frequency %g Hz, below 0", index, double{rod.frequency_hz});
+  if (!is_within(rod.frequency_hz, 0, kMostFrequency_hz))
+    return corrupt("rod %zu: frequency %g Hz, outside 0..1e6", index, double{rod.frequency_hz});
   if (!is_unit(rod.gravity_direction))
     return corrupt("rod %zu: the direction of its gravity is not a unit vector", index);
   if (rod.end_holder > pack.joints.size())
@@ -105,8 +105,8 @@ Status check_material(const RodSegmentRecord& segment, size_t index) noexcept {
 }
 
 Status check_place(const RodSegmentRecord& segment, size_t index) noexcept {
-  if (first_not_finite(segment.begin_m) != 3 || first_not_finite(segment.end_m) != 3)
-    return corrupt("rod segment %zu: its ends are not finite", index);
+  if (!are_within(segment.begin_m, kFarthest_m) || !are_within(segment.end_m, kFarthest_m))
+    return corrupt("rod segment %zu: its ends are not within +-1e5 m", index);
   const float length =
       std::hypot(segment.end_m[0] - segment.begin_m[0], segment.end_m[1] - segment.begin_m[1],
                  segment.end_m[2] - segment.begin_m[2]);

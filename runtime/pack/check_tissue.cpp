@@ -1,5 +1,6 @@
 // check_tissue.cpp  Regions, control nodes, the graph between them and their carrying weights.
 #include <algorithm>
+#include <cmath>
 
 #include "pack/checks.hpp"
 
@@ -7,6 +8,12 @@ namespace sinew::pack {
 namespace {
 
 constexpr uint32_t kMaxNodes = 4096;  // a region's; the runtime's scratch is sized by it
+constexpr uint64_t kMostCarried = uint64_t{1}
+                                  << 28;  // vertices of all regions, each padded: three floats each
+// Baked ones are between 0 and 1, or little beyond.
+constexpr float kMostWeight = 100;
+// P of a graph with self-loops has none above 1.
+constexpr float kMostOfGraph = 1 + 1e-3f;
 
 Status check_record(const PackView& pack, const RegionRecord& region, size_t index) noexcept {
   if (Status status = check_name(pack, region.name, "region", index); !status.ok()) return status;
@@ -16,11 +23,13 @@ Status check_record(const PackView& pack, const RegionRecord& region, size_t ind
     return corrupt("region %zu: held at node %u of %u", index, region.anchor_node, region.node_count);
   if (region.padded_vertices != round_up_16(region.vertex_count))
     return corrupt("region %zu: vertices padded to %u", index, region.padded_vertices);
-  if (first_not_finite(region.center_m) != 3) return corrupt("region %zu: centre is not finite", index);
-  if (!is_positive(region.radius_m))
-    return corrupt("region %zu: radius %g m", index, double{region.radius_m});
-  if (!is_positive(region.displacement_limit_m))
-    return corrupt("region %zu: displacement limit %g m", index, double{region.displacement_limit_m});
+  if (!are_within(region.center_m, kFarthest_m))
+    return corrupt("region %zu: centre is not within +-1e5 m", index);
+  if (!is_within(region.radius_m, kLeastSize_m, kFarthest_m))
+    return corrupt("region %zu: radius %g m, outside 1e-7..1e5", index, double{region.radius_m});
+  if (!is_within(region.displacement_limit_m, kLeastSize_m, kFarthest_m))
+    return corrupt("region %zu: displacement limit %g m, outside 1e-7..1e5", index,
+                   double{region.displacement_limit_m});
   if (region.touches_body > 1)
     return corrupt("region %zu: touches_body is %u, neither 0 nor 1", index, region.touches_body);
   return {};
@@ -40,8 +49,8 @@ Status check_vertices(const PackView& pack, const RegionRecord& region, size_t i
 Status check_carry(const PackView& pack, const RegionRecord& region, size_t index) noexcept {
   for (uint64_t node = 0; node < region.node_count; ++node) {
     const auto row = pack.carry.subspan(region.carry + node * region.padded_vertices, region.padded_vertices);
-    if (first_not_finite(row) != row.size())
-      return corrupt("region %zu: a carrying weight is not finite", index);
+    if (!are_within(row, kMostWeight))
+      return corrupt("region %zu: a carrying weight is not within +-100", index);
     if (std::ranges::any_of(row.subspan(region.vertex_count), [](float v) { return v != 0; }))
       return corrupt("region %zu: padding of the carrying weights is not zero", index);
   }
@@ -50,7 +59,7 @@ Status check_carry(const PackView& pack, const RegionRecord& region, size_t inde
 
 // Where the next region's parts must start.
 struct Cursor {
-  uint64_t node = 0, vertex = 0, carry = 0;
+  uint64_t node = 0, vertex = 0, carry = 0, padded = 0;
 };
 
 // Ranges first: after this the region's parts can be read.
@@ -63,7 +72,10 @@ Status check_ranges(const PackView& pack, const RegionRecord& region, size_t ind
     return corrupt("region %zu: vertices do not follow the region before it", index);
   if (region.carry != cursor->carry || carry > pack.carry.size() - cursor->carry)
     return corrupt("region %zu: carrying weights do not follow the region before it", index);
-  *cursor = {cursor->node + region.node_count, cursor->vertex + region.vertex_count, cursor->carry + carry};
+  if (cursor->padded + region.padded_vertices > kMostCarried)
+    return corrupt("region %zu: more than 2^28 carried vertices with those before it", index);
+  *cursor = {cursor->node + region.node_count, cursor->vertex + region.vertex_count, cursor->carry + carry,
+             cursor->padded + region.padded_vertices};
   return {};
 }
 
@@ -81,10 +93,20 @@ Status check_regions(const PackView& pack) noexcept {
   return whole ? Status{} : corrupt("regions: nodes, vertices or carrying weights that no region owns");
 }
 
+// Within twice the radius, for whatever rounds.
+bool is_inside(const RegionRecord& region, const NodeRecord& node) noexcept {
+  const float away_m =
+      std::hypot(node.position_m[0] - region.center_m[0], node.position_m[1] - region.center_m[1],
+                 node.position_m[2] - region.center_m[2]);
+  return away_m <=
+         2 * region.radius_m + 1e-6f * std::hypot(node.position_m[0], node.position_m[1], node.position_m[2]);
+}
+
 Status check_nodes(const PackView& pack) noexcept {
   for (size_t index = 0; index < pack.nodes.size(); ++index) {
     const NodeRecord& node = pack.nodes[index];
-    if (first_not_finite(node.position_m) != 3) return corrupt("node %zu: position is not finite", index);
+    if (!are_within(node.position_m, kFarthest_m))
+      return corrupt("node %zu: position is not within +-1e5 m", index);
     if (!is_unit(node.normal)) return corrupt("node %zu: normal is not a unit vector", index);
     if (!(node.stiffness >= 0 && node.stiffness <= 1))
       return corrupt("node %zu: stiffness %g, outside 0..1", index, double{node.stiffness});
@@ -93,6 +115,8 @@ Status check_nodes(const PackView& pack) noexcept {
     const RegionRecord& region = pack.regions[node.region];
     if (index < region.first_node || index - region.first_node >= region.node_count)
       return corrupt("node %zu: not among the nodes of its region %u", index, node.region);
+    if (!is_inside(region, node))
+      return corrupt("node %zu: beyond the radius of its region %u", index, node.region);
     if (Status status = check_skin(node.skin, pack.joints.size(), "node", index); !status.ok()) return status;
   }
   return {};
@@ -117,7 +141,7 @@ Status check_graph(const PackView& pack) noexcept {
   if (!std::ranges::is_sorted(pack.graph_rows)) return corrupt("graph rows: not ascending");
   for (size_t node = 0; node < nodes; ++node)
     if (Status status = check_graph_row(pack, node); !status.ok()) return status;
-  return check_finite(pack.graph_values, "graph values");
+  return check_within(pack.graph_values, kMostOfGraph, "graph values");
 }
 
 }  // namespace

@@ -34,6 +34,13 @@ Status check_finite(std::span<const float> values, const char* section) noexcept
   return index == values.size() ? Status{} : corrupt("%s: number %zu is not finite", section, index);
 }
 
+Status check_within(std::span<const float> values, float most, const char* section) noexcept {
+  const auto found = std::ranges::find_if(values, [most](float v) { return !(std::fabs(v) <= most); });
+  if (found == values.end()) return {};
+  return corrupt("%s: number %zu is %g, not within +-%g", section,
+                 static_cast<size_t>(found - values.begin()), double{*found}, double{most});
+}
+
 Status check_zero(std::span<const uint32_t> reserved, const char* section, size_t index) noexcept {
   const bool zero = std::ranges::all_of(reserved, [](uint32_t v) { return v == 0; });
   return zero ? Status{} : corrupt("%s %zu: reserved fields are not zero", section, index);
@@ -46,6 +53,12 @@ bool is_unit(const float normal[3]) noexcept {
 }
 
 bool is_positive(float value) noexcept { return std::isfinite(value) && value > 0; }
+
+bool is_within(float value, float least, float most) noexcept { return value >= least && value <= most; }
+
+bool are_within(std::span<const float> values, float most) noexcept {
+  return std::ranges::all_of(values, [most](float v) { return std::fabs(v) <= most; });
+}
 
 Status check_name(const PackView& pack, uint32_t offset, const char* section, size_t index) noexcept {
   return offset < pack.strings.size() ? Status{}

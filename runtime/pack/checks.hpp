@@ -22,6 +22,12 @@ Status check_proxies(const PackView& pack) noexcept;  // capsules about bones; a
 
 // ---- shared by all of them ----
 
+// Numbers that are finite each and absurd together overflow in what they are multiplied by. No character is
+// so large, no part of one so small, nothing in one so fast or slow; products of what these allow are floats.
+inline constexpr float kFarthest_m = 1e5f, kLeastSize_m = 1e-7f;
+inline constexpr float kMostOfMatrix = 1e6f;  // as of a pose's (world/pose.hpp)
+inline constexpr float kSlowest_hz = 0.1f, kFastest_hz = 1e4f;
+
 // "pack: <what>; the file is damaged, bake it again"
 [[gnu::format(printf, 1, 2)]] Status corrupt(const char* format, ...) noexcept;
 
@@ -30,9 +36,12 @@ bool has_int8(const PackView& pack) noexcept;  // any of the int8 sections
 // Index of the first NaN or infinity; values.size() if there is none.
 size_t first_not_finite(std::span<const float> values) noexcept;
 Status check_finite(std::span<const float> values, const char* section) noexcept;
+Status check_within(std::span<const float> values, float most, const char* section) noexcept;
 Status check_zero(std::span<const uint32_t> reserved, const char* section, size_t index) noexcept;
-bool is_unit(const float normal[3]) noexcept;  // within 1e-3
-bool is_positive(float value) noexcept;        // finite and above 0
+bool is_unit(const float normal[3]) noexcept;                         // within 1e-3
+bool is_positive(float value) noexcept;                               // finite and above 0
+bool is_within(float value, float least, float most) noexcept;        // false for NaN
+bool are_within(std::span<const float> values, float most) noexcept;  // of either sign
 Status check_name(const PackView& pack, uint32_t offset, const char* section, size_t index) noexcept;
 Status check_skin(const SkinRecord& skin, size_t joint_count, const char* section, size_t index) noexcept;
 

@@ -13,6 +13,7 @@
 #include "world/instance.hpp"
 #include "world/own_body_touches.hpp"
 #include "world/pose_bound.hpp"
+#include "world/rod_batches.hpp"
 
 namespace sinew::world {
 namespace {
@@ -103,6 +104,15 @@ Status pack_narrow_layers(const pack::PackView& pack, core::AlignedBlock* out) n
   return {};
 }
 
+// What no instance could be made of is refused with the asset.
+Status check_rods(const Asset& asset) noexcept {
+  std::unique_ptr<rods::RodBatch[]> unused;
+  const Status status = make_rod_batches(asset, {}, &unused);
+  if (status.ok() || status.code == StatusCode::kOutOfCapacity) return status;
+  return make_status(StatusCode::kCorrupt, "asset: its rods cannot be stepped, bake it again: %.300s",
+                     status.message);
+}
+
 void measure_level(const pack::PackView& pack, Asset& asset) noexcept {
   for (const pack::RegionModesRecord& modes : pack.region_modes) {
     const uint32_t floats = modes.padded + static_cast<uint32_t>(pack::round_up_16(modes.mode_count));
@@ -173,6 +183,7 @@ Status open_asset(std::span<const std::byte> bytes, Asset* out) noexcept {
   asset.fingerprint = fingerprint_of(bytes);
   if (Status status = read_levels(view, asset); !status.ok()) return status;
   if (Status status = find_soft_vertices(view, &asset.soft); !status.ok()) return status;
+  if (Status status = check_rods(asset); !status.ok()) return status;
   read_tiers(view, asset);
   if (Status status = measure_reach(asset, &asset.reach_m); !status.ok()) return status;
   *out = std::move(asset);

@@ -83,7 +83,7 @@ TEST_CASE("levels_that_do_not_fit_are_refused_by_name") {
                  {"level 1: node 1 is node 0 of the finer level", set<uint32_t>(kPicks, 1, 0u)},
                  {"level 1: node 2 is node 5 of the finer level", set<uint32_t>(kPicks, 2, 5u)},
                  {"level 1: node 1 is not where node 2", set<uint32_t>(kPicks, 1, 2u)},
-                 {"level 1: a weight of spread is not finite", set<float>(kSpread, 1, kNan)},
+                 {"level 1: a weight of spread is not within", set<float>(kSpread, 1, kNan)},
                  {"level 1: padding of spread", set<float>(kSpread, 3, 1.0f)},
                  {"tier 3: level 2", change<TierRecord>(kTiers, 3, [](auto& t) { t.level = 2; })},
                  {"tier 3: 4 at level 0 does not ascend",

@@ -518,6 +518,58 @@ TEST_CASE("mode_faults_are_refused_by_name") {
        {"mode 4: reserved", mode([](auto& m) { m.reserved[2] = 1; })}});
 }
 
+// Each number here is a number that another pack may have.
+TEST_CASE("numbers_that_do_not_go_together_are_refused_by_name") {
+  using enum SectionKind;
+  const auto region = [](auto apply) { return change<RegionRecord>(kRegions, 1, apply); };
+  const auto modes = [](auto apply) { return change<RegionModesRecord>(kRegionModes, 1, apply); };
+  const auto mode = [](auto apply) { return change<ModeRecord>(kModes, 4, apply); };
+  const auto joint = [](auto apply) { return change<JointRecord>(kJoints, 1, apply); };
+  check_refused(
+      character_pack(),
+      {{"node 4: beyond the radius of its region 1",
+        change<NodeRecord>(kNodes, 4, [](auto& n) { n.position_m[0] += 50; })},
+       {"beyond the radius of its region 1", region([](auto& r) { r.center_m[2] = 1000; })},
+       {"mode 4: gain", mode([](auto& m) { m.gain *= 3; })},
+       {"mode 4: gain", mode([](auto& m) { m.rad_per_s *= 3; })},
+       {"region modes 1: rest_gain", modes([](auto& r) { r.rest_gain *= -1; })},
+       {"region modes 0: its matrices answer by more than 1e6",
+        [](PackEditor& editor) {
+          editor.section<float>(kModeMatrices)[0] = 1e6f;  // a shape, and what a displacement holds of it
+          editor.section<float>(kModeMatrices)[(2 * 3 + 9 * 2) * 16] = 1e3f;
+        }},
+       {"region modes 0: its matrices answer by more than 1e6", set<float>(kModeMatrices, 2 * 3 * 16, 1e8f)},
+       {"joint 1: its bind matrix goes beyond 1e5", joint([](auto& j) {
+          for (const size_t at : {size_t{0}, size_t{5}, size_t{10}}) j.inverse_bind[at] *= 1e-4f;
+          j.inverse_bind[3] = 100;
+        })}});
+}
+
+TEST_CASE("numbers_of_no_character_are_refused_by_name") {
+  using enum SectionKind;
+  const auto region = [](auto apply) { return change<RegionRecord>(kRegions, 1, apply); };
+  check_refused(
+      character_pack(),
+      {{"height is 200000 m", change<CharacterRecord>(kCharacter, 0, [](auto& c) { c.height_m = 2e5f; })},
+       {"unit of the character's file is 1e-30 m",
+        change<CharacterRecord>(kCharacter, 0, [](auto& c) { c.unit_m = 1e-30f; })},
+       {"positions: number 4 is -200000, not within +-100000", set<float>(kPositions, 4, -2e5f)},
+       {"clip frames: number 30 is 2e+06", set<float>(kClipFrames, 30, 2e6f)},
+       {"clip 0: rate 1e-20 Hz", change<ClipRecord>(kClips, 0, [](auto& c) { c.rate_hz = 1e-20f; })},
+       {"network: rate 1e+20 Hz", change<NetworkRecord>(kNetwork, 0, [](auto& n) { n.rate_hz = 1e20f; })},
+       {"network: output scale",
+        change<NetworkRecord>(kNetwork, 0, [](auto& n) { n.output_scale = -1e30f; })},
+       {"network: length unit", change<NetworkRecord>(kNetwork, 0, [](auto& n) { n.length_unit = 1e-30f; })},
+       {"input 0: scale", change<InputRecord>(kInputs, 0, [](auto& i) { i.scale = 1e30f; })},
+       {"region 1: radius 1e-20 m", region([](auto& r) { r.radius_m = 1e-20f; })},
+       {"region 1: displacement limit 1e+20 m", region([](auto& r) { r.displacement_limit_m = 1e20f; })},
+       {"a carrying weight is not within +-100", set<float>(kCarry, 0, 1e20f)},
+       {"graph values: number 3 is 4", set<float>(kGraphValues, 3, 4.0f)},
+       {"mode 4: 1e-30 rad/s", change<ModeRecord>(kModes, 4, [](auto& m) { m.rad_per_s = 1e-30f; })},
+       {"tier 0: cost", change<TierRecord>(kTiers, 0, [](auto& t) { t.cost_us = 1e20f; })},
+       {"tier 0: an error", change<TierRecord>(kTiers, 0, [](auto& t) { t.error_ratio = 1e20f; })}});
+}
+
 TEST_CASE("a_character_without_a_network_is_taken_and_must_be_without_all_of_it") {
   const std::vector<std::byte> bytes = test::small_weightless_pack();
   PackView view;
@@ -616,7 +668,7 @@ TEST_CASE("rods_that_disagree_with_the_skeleton_are_refused_by_name") {
       {"parent", segment(0, [](RodSegmentRecord& s) { s.parent = 0; })},
       {"parent", segment(1, [](RodSegmentRecord& s) { s.parent = 1; })},  // a cycle
       {"parent", segment(1, [](RodSegmentRecord& s) { s.parent = kNoIndex; })},
-      {"not finite", segment(0, [](RodSegmentRecord& s) { s.end_m[1] = kInfinity; })},
+      {"ends are not within", segment(0, [](RodSegmentRecord& s) { s.end_m[1] = kInfinity; })},
       {"length 0", segment(2, [](RodSegmentRecord& s) { s.end_m[1] = s.begin_m[1]; })},
       {"begin where its parent ends", segment(1, [](RodSegmentRecord& s) { s.begin_m[1] += 0.001f; })},
       {"radius 0", segment(0, [](RodSegmentRecord& s) { s.radius_m = 0; })},
@@ -693,7 +745,7 @@ TEST_CASE("capsules_about_bones_that_are_none_are_refused_by_name") {
                  {"more than 64",
                   change<CharacterRecord>(kCharacter, 0, [](CharacterRecord& c) { c.proxy_count = 65; })},
                  {"moves with joint 3 of 3", proxy([](ProxyRecord& r) { r.joint = 3; })},
-                 {"ends are not finite", proxy([](ProxyRecord& r) { r.to_m[1] = kNan; })},
+                 {"ends are not within", proxy([](ProxyRecord& r) { r.to_m[1] = kNan; })},
                  {"radius 0", proxy([](ProxyRecord& r) { r.radius_m = 0; })},
                  {"radius", proxy([](ProxyRecord& r) { r.radius_m = kNan; })}});
 }
@@ -727,7 +779,7 @@ TEST_CASE("patches_without_all_that_predicts_them_are_refused_by_name") {
              {"neither 0 nor 1", set<uint8_t>(kPatchHeld, 1, 2)},
              {"none of its nodes is free",
               [](PackEditor& editor) { std::ranges::fill(editor.section<uint8_t>(kPatchHeld), uint8_t{1}); }},
-             {"not finite", set<float>(kPatchMaterial, 4, kNan)},
+             {"number 4 is nan", set<float>(kPatchMaterial, 4, kNan)},
              {"24 ticks a second", record([](NetworkRecord& n) { n.rate_hz = 24; })},
              {"moving 0", record([](NetworkRecord& n) { n.moving = 0; }), StatusCode::kUnsupported},
              {"model 3", record([](NetworkRecord& n) { n.model = ModelKind::kCopingNet; }),

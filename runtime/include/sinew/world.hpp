@@ -46,9 +46,9 @@ class SINEW_API World {
   static Status create(const WorldDef& def, World* out) noexcept;
 
   // Checks the whole pack (O(bytes)), then uses it in place: bytes must outlive the asset and be 64-byte
-  // aligned. Never reads outside bytes; refuses with a cause. A pack without a character, or with a
-  // network in the paper's wiring: kUnsupported; max_assets loaded: kOutOfCapacity; *out untouched on
-  // refusal.
+  // aligned. Never reads outside bytes; refuses with a cause. Numbers that no character has, or that do not
+  // go together: kCorrupt; a pack without a character, or with a network in the paper's wiring: kUnsupported;
+  // max_assets loaded, or no memory: kOutOfCapacity; *out untouched on refusal.
   Status load_asset(std::span<const std::byte> bytes, AssetId* out) noexcept;
   // The same with the file memory-mapped for the asset's life; it must not be changed in place
   // meanwhile.
