@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "simd/kernels.hpp"
+#include "tissue/guard.hpp"
 
 namespace sinew::tissue {
 namespace {
@@ -54,8 +55,10 @@ void fill(const ModalBase& base, std::span<const NodeContact> contacts, float* s
 }
 
 // Returns the largest change of a gap. A node that hardly answers, less than `least`, is not held: to move it
-// would fling its neighbours.
-float sweep(const Matrix& matrix, float least, std::span<NodeContact> contacts) {
+// would fling its neighbours. None is pressed by more than would move it alone by `most_m`: where frames hear
+// of what others feel the matrix is not symmetric, and walls that leave no room have no answer; either would
+// let presses grow with each sweep.
+float sweep(const Matrix& matrix, float least, float most_m, std::span<NodeContact> contacts) {
   float largest = 0;
   for (size_t i = 0; i < contacts.size(); ++i) {
     if (!(matrix.at[i][i] > least)) continue;
@@ -63,13 +66,13 @@ float sweep(const Matrix& matrix, float least, std::span<NodeContact> contacts) 
     float gap = contact.gap_m;
     for (size_t j = 0; j < contacts.size(); ++j) gap += matrix.at[i][j] * contacts[j].press;
     const float before = contact.press;
-    contact.press = std::max(0.0f, before - gap / matrix.at[i][i]);
+    contact.press = std::clamp(before - gap / matrix.at[i][i], 0.0f, most_m / matrix.at[i][i]);
     largest = std::max(largest, std::fabs(contact.press - before) * matrix.at[i][i]);
   }
   return largest;
 }
 
-bool solve(const Matrix& matrix, std::span<NodeContact> contacts) {
+bool solve(const Matrix& matrix, float most_m, std::span<NodeContact> contacts) {
   float deepest = 0, most = 0;
   for (size_t i = 0; i < contacts.size(); ++i) {
     contacts[i].press = 0;
@@ -77,18 +80,19 @@ bool solve(const Matrix& matrix, std::span<NodeContact> contacts) {
     most = std::max(most, matrix.at[i][i]);
   }
   if (!(deepest > 0 && most > 0)) return false;
-  for (int k = 0; k < kMostSweeps && sweep(matrix, kHardly * most, contacts) > kSettled * deepest; ++k) {
+  for (int k = 0; k < kMostSweeps && sweep(matrix, kHardly * most, most_m, contacts) > kSettled * deepest;
+       ++k) {
   }
   return true;
 }
 
 }  // namespace
 
-bool press(const ModalBase& base, std::span<NodeContact> contacts, float* felt, float* scratch, float* answer,
-           const ModalTick& tick) noexcept {
+bool press(const ModalBase& base, float most_m, std::span<NodeContact> contacts, float* felt, float* scratch,
+           float* answer, const ModalTick& tick) noexcept {
   Matrix matrix;
   fill(base, contacts, scratch, answer, &matrix);
-  if (!solve(matrix, contacts)) return false;
+  if (!solve(matrix, most_m, contacts)) return false;
   const uint32_t floats = 3 * base.node_count;
   std::fill_n(felt, floats, 0.0f);
   for (const NodeContact& contact : contacts) {
@@ -96,10 +100,12 @@ bool press(const ModalBase& base, std::span<NodeContact> contacts, float* felt, 
   }
   Response response;
   respond(base, 0, floats, felt, scratch, answer, &response);
-  for (size_t k = 0; k < base.modes.size(); ++k) tick.q[k] += response.modes[k];
+  const float moved_m = largest_displacement_m(response.l, base.node_count);
+  const float share = moved_m > most_m ? most_m / moved_m : 1;
+  for (size_t k = 0; k < base.modes.size(); ++k) tick.q[k] += share * response.modes[k];
   for (uint32_t i = 0; i < floats; ++i) {
-    tick.r[i] += response.rest[i];
-    tick.l[i] += response.l[i];
+    tick.r[i] += share * response.rest[i];
+    tick.l[i] += share * response.l[i];
   }
   modal_turn(base, tick.q, scratch, tick.theta);
   warp(tick.theta, tick.l, base.node_count, tick.u);

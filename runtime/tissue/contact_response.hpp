@@ -30,10 +30,10 @@ struct ModalTick {
 };
 
 // Finds the forces of at most kMostNodeContacts contacts of different nodes, and takes q, r, l, theta and u
-// on by them. felt: [node_count][3], written over; scratch: [padded + padded_modes], answer: [padded]; all
-// 64-byte aligned. False: without gaps below zero nothing changes. Cost: a response row each contact and a
-// small matrix.
-bool press(const ModalBase& base, std::span<NodeContact> contacts, float* felt, float* scratch, float* answer,
-           const ModalTick& tick) noexcept;
+// on by them; no node by more than most_m (0 or more): what does not yield by that is left inside. felt:
+// [node_count][3], written over; scratch: [padded + padded_modes], answer: [padded]; all 64-byte aligned.
+// False: without gaps below zero nothing changes. Cost: a response row each contact and a small matrix.
+bool press(const ModalBase& base, float most_m, std::span<NodeContact> contacts, float* felt, float* scratch,
+           float* answer, const ModalTick& tick) noexcept;
 
 }  // namespace sinew::tissue

@@ -7,6 +7,7 @@
 #include "tissue/contact_response.hpp"
 #include "tissue/guard.hpp"
 #include "tissue/modal_base.hpp"
+#include "world/displacement_bound.hpp"
 #include "world/tuning.hpp"
 
 namespace sinew::world {
@@ -79,7 +80,9 @@ void press_modes(Instance& instance, uint32_t r, std::span<tissue::NodeContact> 
                                .l = instance.l[0] + vector,
                                .theta = instance.theta + vector,
                                .u = instance.u[0] + vector};
-  if (!tissue::press(base_of(instance, r), contacts, instance.felt + vector, instance.region[0],
+  // From one side of its limit to the other.
+  const float most_m = 2 * std::min(limit_m(instance, r), displacement_bound_m(*instance.asset, r));
+  if (!tissue::press(base_of(instance, r), most_m, contacts, instance.felt + vector, instance.region[0],
                      instance.region[1], tick))
     return;
   tissue::hold_within(limit_m(instance, r), region.node_count, instance.u[0] + vector);

@@ -9,6 +9,7 @@
 #include "frame/scheduler.hpp"
 #include "simd/kernels.hpp"
 #include "world/between_ticks.hpp"
+#include "world/displacement_bound.hpp"
 #include "world/pose.hpp"
 #include "world/rod_blend.hpp"
 #include "world/rod_publish.hpp"
@@ -103,6 +104,8 @@ void publish(Instance& instance, const ClockHook& clock) noexcept {
                             instance.delta + size_t{3} * region.first_node, carried);
     if (seam > 0) add_seam(instance, seam, first, size_t{3} * region.padded_vertices, carried);
     if (pushed) add_pushes(instance, r, first, carried);
+    if (moved || pushed || seamed)
+      hold_within_bound(displacement_bound_m(*instance.asset, r), region.padded_vertices, carried);
     carried += size_t{3} * region.padded_vertices;
   }
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "world/displacement_bound.hpp"
 #include "world/find_touches.hpp"
 #include "world/surface_point.hpp"
 
@@ -23,9 +24,10 @@ Vector3f in_bind(const Matrix3f& world_from_bind, const Vector3f& v) {
   return world_from_bind.inverse() * v;
 }
 
-// No further than the limit, all pushes of a vertex together.
+// No further than the limit, all pushes of a vertex together, in the bind pose too: where skinning flattens
+// the flesh, a short way out is a long one there.
 Vector3f held(const SurfacePoint& at, const Vector3f& push, float limit_m) {
-  const float length_m = (at.world_from_bind * push).norm();
+  const float length_m = std::max((at.world_from_bind * push).norm(), push.norm());
   return length_m > limit_m ? Vector3f(limit_m / length_m * push) : push;
 }
 
@@ -51,8 +53,9 @@ void push_vertex(Instance& instance, const Touch& touch, uint32_t told) {
   const float carried = normal.dot(now.place_m - ConstVector(touch.place_m));
   const float pushed = normal.dot(now.world_from_bind * before);
   const float out = std::max(0.0f, -touch.gap_m - carried - pushed);
-  const Vector3f after =
-      held(now, before + in_bind(now.world_from_bind, out * normal), region.displacement_limit_m);
+  const float most_m =
+      std::min(region.displacement_limit_m, displacement_bound_m(*instance.asset, touch.region));
+  const Vector3f after = held(now, before + in_bind(now.world_from_bind, out * normal), most_m);
   for (size_t k = 0; k < 3; ++k) push[k * pitch] = after[static_cast<Eigen::Index>(k)];
   instance.pushed[touch.region] |= out > 0;
   if (!(touch.gap_m < 0) || is_told(instance, told, touch)) return;

@@ -20,7 +20,8 @@ Status find_soft_vertices(const pack::PackView& pack, SoftVertices* out) noexcep
   soft.vertices.reset(new (std::nothrow) uint32_t[carried + 1]);
   soft.first_place.reset(new (std::nothrow) uint32_t[carried + 2]());
   soft.places.reset(new (std::nothrow) SoftVertices::Place[carried + 1]);
-  if (!soft.vertices || !soft.first_place || !soft.places)
+  soft.most_shared.reset(new (std::nothrow) uint32_t[pack.regions.size() + 1]());
+  if (!soft.vertices || !soft.first_place || !soft.places || !soft.most_shared)
     return core::make_status(StatusCode::kOutOfCapacity, "asset: no memory for its soft vertices");
   uint32_t* end = std::copy_n(pack.region_vertices.data(), carried, soft.vertices.get());
   std::sort(soft.vertices.get(), end);
@@ -35,6 +36,12 @@ Status find_soft_vertices(const pack::PackView& pack, SoftVertices* out) noexcep
       soft.places[soft.first_place[slot + 1]++] = {first + column, region.padded_vertices};
     }
     first += 3 * region.padded_vertices;
+  }
+  for (size_t r = 0; r < pack.regions.size(); ++r) {
+    uint32_t& most = soft.most_shared[r] = 1;
+    for (const uint32_t vertex :
+         pack.region_vertices.subspan(pack.regions[r].first_vertex, pack.regions[r].vertex_count))
+      most = std::max(most, static_cast<uint32_t>(soft.places_of(soft.slot_of(vertex)).size()));
   }
   *out = std::move(soft);
   return {};

@@ -17,6 +17,7 @@ struct SoftVertices {
   std::unique_ptr<uint32_t[]> vertices;     // [count], ascending
   std::unique_ptr<uint32_t[]> first_place;  // [count + 1]
   std::unique_ptr<Place[]> places;          // vertex after vertex, regions in their order
+  std::unique_ptr<uint32_t[]> most_shared;  // [regions]: by how many its vertices are carried, at most
   uint32_t count = 0;
 
   std::span<const uint32_t> all() const noexcept { return {vertices.get(), count}; }

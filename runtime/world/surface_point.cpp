@@ -3,6 +3,8 @@
 
 #include <Eigen/Geometry>
 
+#include "world/displacement_bound.hpp"
+
 namespace sinew::world {
 namespace {
 
@@ -57,16 +59,23 @@ Vector3f push_at(const Instance& instance, uint32_t region, const SurfacePatches
   return Vector3f(push[0], push[pitch], push[2 * pitch]);
 }
 
+// As it is shown: within its bound.
+Vector3f displaced_by(const Instance& instance, uint32_t region, uint32_t column, const float* displacement,
+                      const Vector3f& push) noexcept {
+  const Vector3f all =
+      carried(instance.level->pack, region, column, displacement) + seam(instance, region, column) + push;
+  return within_bound(all, displacement_bound_m(*instance.asset, region));
+}
+
 Vector3f bind_place(const Instance& instance, uint32_t region, const SurfacePatches::Vertex& vertex,
-                    const float* displacement) noexcept {
-  const pack::PackView& pack = instance.level->pack;
+                    const float* displacement, const Vector3f& push) noexcept {
   const SurfacePatches& patches = instance.level->patches;
-  Vector3f place = Eigen::Map<const Vector3f>(pack.positions.data() + size_t{3} * vertex.index) +
-                   carried(pack, region, vertex.carried, displacement) +
-                   seam(instance, region, vertex.carried);
+  Vector3f place =
+      Eigen::Map<const Vector3f>(instance.level->pack.positions.data() + size_t{3} * vertex.index) +
+      displaced_by(instance, region, vertex.carried, displacement, push);
   for (uint32_t o = vertex.also; o < patches.other_count && patches.others[o].index == vertex.index; ++o)
-    place += carried(pack, patches.others[o].region, patches.others[o].carried, displacement) +
-             seam(instance, patches.others[o].region, patches.others[o].carried);
+    place += displaced_by(instance, patches.others[o].region, patches.others[o].carried, displacement,
+                          Vector3f::Zero());
   return place;
 }
 
@@ -74,13 +83,13 @@ Vector3f bind_place(const Instance& instance, uint32_t region, const SurfacePatc
 
 SurfacePoint surface_point(const Instance& instance, uint32_t region, const SurfacePatches::Vertex& vertex,
                            const float* displacement, uint32_t age) noexcept {
-  return placed(instance, vertex, bind_place(instance, region, vertex, displacement), age);
+  return placed(instance, vertex, bind_place(instance, region, vertex, displacement, Vector3f::Zero()), age);
 }
 
 Vector3f pushed_place(const Instance& instance, uint32_t region, const SurfacePatches::Vertex& vertex,
                       const float* displacement, uint32_t age) noexcept {
-  const Vector3f place = bind_place(instance, region, vertex, displacement);
-  return placed(instance, vertex, place + push_at(instance, region, vertex), age).place_m;
+  const Vector3f push = push_at(instance, region, vertex);
+  return placed(instance, vertex, bind_place(instance, region, vertex, displacement, push), age).place_m;
 }
 
 float* push_of(const Instance& instance, uint32_t region, const SurfacePatches::Vertex& vertex,

@@ -25,7 +25,7 @@ struct Row {
       project{9 * kPaddedModes}, scratch{kPadded + kPaddedModes}, answer{kPadded};
   std::vector<float> q = std::vector<float>(kModes), r = std::vector<float>(9), l = r, theta = r, u = r,
                      felt = r;
-  float rest_gain = 0.5f;
+  float rest_gain = 0.5f, most_m = 100;
 
   Row() {
     const float along[kModes][kNodes] = {{1, 1, 1}, {-1, 2, -1}};
@@ -43,7 +43,7 @@ struct Row {
             project.data(), 0,      0,       rest_gain};
   }
   void press(std::span<tissue::NodeContact> contacts) {
-    tissue::press(base(), contacts, felt.data(), scratch.data(), answer.data(),
+    tissue::press(base(), most_m, contacts, felt.data(), scratch.data(), answer.data(),
                   {q.data(), r.data(), l.data(), theta.data(), u.data()});
   }
   float gap(const tissue::NodeContact& c) const {
@@ -113,4 +113,26 @@ TEST_CASE("gaps_that_are_not_numbers_change_nothing") {
   tissue::NodeContact contacts[] = {along_x(0, NAN), along_x(1, NAN)};
   row.press(contacts);
   CHECK(row.l == std::vector<float>(9));
+}
+
+TEST_CASE("where_each_press_asks_for_more_of_the_others_none_moves_further_than_it_may") {
+  Row row;
+  row.most_m = 0.5f;
+  // Node 1's answer to node 0 is thrice its own and the other way, and the reverse: presses that grow.
+  const size_t pitch = Row::kPadded + Row::kPaddedModes;
+  for (size_t i = 0; i < 9 * pitch; ++i) row.response[i] = 0;
+  row.response[0] = row.response[3 * pitch + 3] = 1;
+  row.response[3] = row.response[3 * pitch] = -3;
+  tissue::NodeContact contacts[] = {along_x(0, -0.4f), along_x(1, -0.4f)};
+  row.press(contacts);
+  for (const float l : row.l) CHECK(std::fabs(l) <= 0.5f * (1 + kFloat));
+  CHECK(*std::ranges::max_element(row.l, {}, [](float l) { return std::fabs(l); }) != 0);
+}
+
+TEST_CASE("between_walls_that_leave_no_room_a_node_moves_no_further_than_it_may") {
+  Row row;
+  row.most_m = 0.3f;
+  tissue::NodeContact contacts[] = {along_x(0, -50), along_x(1, -50, -1), along_x(2, -50)};
+  row.press(contacts);
+  for (const float l : row.l) CHECK(std::fabs(l) <= 0.3f * (1 + kFloat));
 }

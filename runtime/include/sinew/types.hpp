@@ -247,7 +247,9 @@ struct InstanceReport {
   bool rods_touch_surface = false;  // ContactDef::surface; false: what stands in its place
   uint32_t vertices_touched = 0, contacts_refused = 0, contacts_dropped = 0;
   float contact_volume_m3 = 0;
-  float deepest_penetration_m = 0;  // what soft parts are left inside, bounded as they are
+  // What soft parts are left inside: no contact moves one further than its displacement limit, nor shows a
+  // vertex further out than half of the height.
+  float deepest_penetration_m = 0;
   float cost_us =
       0;  // what this instance took in the last step, on its thread; 0: next to nothing, not measured
   float planned_us = 0;  // what it was expected to take; kWorkUnits: of the baked costs
