@@ -58,6 +58,36 @@ void RodBatch::count_joints_to_held(uint32_t strand, float* joints) const noexce
   for (uint32_t i = 1; i < segment_count_; ++i) joints[i] = std::min(joints[i], joints[parents_[i]] + 1);
 }
 
+// Of each segment, which is held nearest to it, as rejoin goes out from them, and how far it is along the
+// strand, from middle to middle. joints: count_joints_to_held's.
+void RodBatch::find_ways(uint32_t strand, const float* joints, float* nearest, float* way) const noexcept {
+  for (uint32_t i = 0; i < segment_count_; ++i) nearest[i] = static_cast<float>(i), way[i] = 0;
+  const auto half = [&](uint32_t i) { return at(strand, i, simd::kRodHalfLength); };
+  const auto go = [&](uint32_t from, uint32_t to) {
+    if (joints[to] != joints[from] + 1) return;
+    nearest[to] = nearest[from];
+    way[to] = way[from] + half(from) + half(to);
+  };
+  for (uint32_t i = segment_count_ - 1; i > 0; --i) go(i, parents_[i]);
+  for (uint32_t i = 1; i < segment_count_; ++i) go(parents_[i], i);
+}
+
+// Further than its length allows from what holds it; what may stretch may be. joints: scratch for three
+// numbers a segment, the first of which are count_joints_to_held's.
+bool RodBatch::is_beyond_reach(uint32_t strand, float* joints) const noexcept {
+  float *nearest = joints + segment_count_, *way = nearest + segment_count_;
+  find_ways(strand, joints, nearest, way);
+  const double spare = (kMostReach - 1) * static_cast<double>(*std::max_element(way, way + segment_count_));
+  for (uint32_t i = 0; i < segment_count_; ++i) {
+    const auto held = static_cast<uint32_t>(nearest[i]);
+    if (at(strand, i, simd::kRodStretchCompliance) > 0 || at(strand, held, simd::kRodFree) != 0) return false;
+    const Vector from = place(strand, held), to = place(strand, i);
+    const double most = static_cast<double>(way[i]) + spare;
+    if (way[i] > 0 && !(std::hypot(to[0] - from[0], to[1] - from[1], to[2] - from[2]) <= most)) return true;
+  }
+  return false;
+}
+
 // Puts a segment somewhere else within a step; its velocity is what took it there.
 void RodBatch::shift(uint32_t strand, uint32_t segment, const Vector& to, float dt_s) noexcept {
   const Vector before = place(strand, segment);
@@ -68,18 +98,22 @@ void RodBatch::shift(uint32_t strand, uint32_t segment, const Vector& to, float 
   }
 }
 
-// What its joints carried is no start for the next step: where what is held cannot be reached it grows by
-// each iteration, and what is then let go is thrown. Torn apart, its segments keep their orientations and are
-// set end to end outwards from what is held, from the nearest of several, velocities accordingly: so it stays
-// within its length of where it is held whatever is done to it. Between two that are held a gap may remain.
-// Returns whether it was torn.
-bool RodBatch::rejoin(uint32_t strand, float dt_s) noexcept {
+// What the joints of a strand that did not converge carried is no start for the next step: where what is held
+// cannot be reached it grows by each iteration, and what is then let go is thrown.
+void RodBatch::forget_start(uint32_t strand) noexcept {
   for (uint32_t i = 0; i < segment_count_; ++i) {
     for (uint32_t k = simd::kRodStartPush; k < simd::kRodKeptFields; ++k) at(strand, i, k) = 0;
   }
-  if (largest_gap(strand) <= kTorn) return false;
+}
+
+// Torn apart or drawn out, its segments keep their orientations and are set end to end outwards from what is
+// held, from the nearest of several, velocities accordingly: so it stays within its length of where it is
+// held whatever is done to it. Between two that are held a gap may remain. Returns whether it was torn.
+bool RodBatch::rejoin(uint32_t strand, bool converged, float dt_s) noexcept {
   float* joints = scratch_;  // free between finish and predict
   count_joints_to_held(strand, joints);
+  const bool is_torn = !converged && largest_gap(strand) > kTorn;
+  if (!is_torn && !is_beyond_reach(strand, joints)) return false;
   // Children come after their parents: inwards first, so that what turns outwards again stands already.
   for (uint32_t i = segment_count_ - 1; i > 0; --i) {
     const uint32_t parent = parents_[i];

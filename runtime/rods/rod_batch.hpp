@@ -67,6 +67,11 @@ struct RodSettings {
   bool keeps_start_inputs = false;     // for training: kContinued then has start_inputs as well
 };
 
+// A strand that does not stretch ends no step with a segment further from the nearest one that is held than
+// the way along it, and this less one of the longest such way, more; also where two are held further apart
+// than it is long.
+inline constexpr double kMostReach = 1.02;
+
 struct SegmentPose {
   double position_m[3];
   float orientation[4];  // x y z w
@@ -97,8 +102,9 @@ struct RodReport {
   uint32_t iterations = 0;      // most of any strand
   uint32_t iterations_sum = 0;  // of all strands
   uint32_t unconverged = 0;     // strands whose last iteration turned a segment by more than the tolerance
-  uint32_t rejoined = 0;   // of these, strands torn by more than half a segment: put together at their joints
-  uint32_t recovered = 0;  // strands that were not finite: put back at rest shape where they are held
+  uint32_t rejoined = 0;    // strands put together at their joints: torn by more than half a segment without
+                            // having converged, or beyond kMostReach
+  uint32_t recovered = 0;   // strands that were not finite: put back at rest shape where they are held
   uint32_t teleported = 0;  // strands carried along since the last step
   // With RodSettings::report_residual, of any strand: what the step's equations miss by, in the strand's mean
   // segments' lengths, radians, and shares of its largest force (simd/rod_residual-inl.hpp), with a collider
@@ -275,7 +281,10 @@ class RodBatch {
   void carry_place(uint32_t strand, uint32_t segment, const Turn& by, const SegmentPose& from,
                    const SegmentPose& to) noexcept;
   void turn_row(uint32_t strand, uint32_t segment, uint32_t field, const Turn& by) noexcept;
-  bool rejoin(uint32_t strand, float dt_s) noexcept;
+  void forget_start(uint32_t strand) noexcept;
+  bool rejoin(uint32_t strand, bool converged, float dt_s) noexcept;
+  void find_ways(uint32_t strand, const float* joints, float* nearest, float* way) const noexcept;
+  bool is_beyond_reach(uint32_t strand, float* joints) const noexcept;
   Vector place(uint32_t strand, uint32_t segment) const noexcept;
   Vector half_axis(uint32_t strand, uint32_t segment) const noexcept;
   Vector joint_offset(uint32_t strand, uint32_t segment) const noexcept;

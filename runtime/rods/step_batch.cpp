@@ -112,9 +112,13 @@ void RodBatch::end_group(uint32_t group, const simd::RodJob& job, RodReport* rep
     known = ended ? std::min(known + 1, simd::kRodStartKnown + 1.0f) : 0;
     if (lane(simd::kLaneBroken) != 0) {
       recover(first + i);
-    } else if (lane(simd::kLaneActive) != 0) {
-      report->rejoined += rejoin(first + i, job.dt_s);
+      continue;
     }
+    if (!ended) forget_start(first + i);
+    // Joints that are closed so far keep within reach all that hangs on them.
+    constexpr float kClosed = static_cast<float>(kMostReach - 1);
+    if (!ended || lane(simd::kLaneGapSquare) > kClosed * kClosed)
+      report->rejoined += rejoin(first + i, ended, job.dt_s);
   }
 }
 

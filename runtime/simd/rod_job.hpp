@@ -93,6 +93,7 @@ enum RodLaneField : uint32_t {
   kLaneKnownSteps,  // how many of the last steps' results a start may use, at most kRodStartKnown + 1
   kLaneResidual,    // what residual() found
   kLaneBroken,      // 1 where a step left something that is not finite
+  kLaneGapSquare,   // that it left at a joint that does not stretch, the largest
   kLaneFields
 };
 

@@ -181,6 +181,18 @@ HWY_INLINE void finish_turn(const G& g, size_t i, typename G::V per_step, typena
   g.set4(i, kRodTargetTurn, now);
 }
 
+// Of a joint whose segments have come to the step's end, squared; of one that may stretch none.
+template <class G>
+HWY_INLINE typename G::V finished_gap_square(const G& g, size_t i, size_t parent) {
+  using V = typename G::V;
+  const Three<V> z_a = axes_of(g.get4(parent, kRodTurn)).z, z_b = axes_of(g.get4(i, kRodTurn)).z;
+  const Three<V> apart = (g.get3(parent, kRodPlace) - g.get3(i, kRodPlace)) +
+                         (g.get3(parent, kRodPlaceLow) - g.get3(i, kRodPlaceLow));
+  const Three<V> gap = scaled_sum(g.get(i, kRodParentArm), z_a, scaled_sum(g.get(i, kRodArm), z_b, apart));
+  const auto stretches = hn::Gt(g.get(i, kRodStretchCompliance), hn::Zero(hn::DFromV<V>()));
+  return hn::IfThenZeroElse(stretches, dot(gap, gap));
+}
+
 // Zero, or NaN where anything that a next step reads is not finite.
 template <class G>
 HWY_INLINE typename G::V finish_segment(const G& g, size_t i, typename G::V h) {
@@ -204,9 +216,13 @@ void rod_finish(const RodJob& job) {
   for_lanes<kWidth>(job, [&](const auto& g) HWY_ATTR {
     const LanesOf<kWidth> d;
     const auto h = hn::Set(d, job.dt_s);
-    auto sum = hn::Zero(d);
-    for (size_t i = 0; i < job.segments; ++i) sum = hn::Add(sum, finish_segment(g, i, h));
+    auto sum = hn::Zero(d), gap_square = hn::Zero(d);
+    for (size_t i = 0; i < job.segments; ++i) {
+      sum = hn::Add(sum, finish_segment(g, i, h));
+      if (i > 0) gap_square = hn::Max(gap_square, finished_gap_square(g, i, job.parents[i]));
+    }
     g.set_lane(kLaneBroken, hn::IfThenElse(hn::Eq(sum, sum), hn::Zero(d), hn::Set(d, 1)));
+    g.set_lane(kLaneGapSquare, gap_square);
   });
 }
 
