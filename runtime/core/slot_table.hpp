@@ -54,7 +54,11 @@ class SlotTable {
   T* at(uint32_t index) const noexcept { return slots_[index].live ? &slots_[index].item : nullptr; }
   // The first `bytes` of an item, and its slot's own, come into the cache meanwhile.
   void bring_near(uint32_t index, size_t bytes) const noexcept {
-    if (index < end_) core::bring_near(&slots_[index], offsetof(Slot, item) + bytes);
+    if (index >= end_) return;
+    const Slot& slot = slots_[index];
+    const auto before =
+        reinterpret_cast<const std::byte*>(&slot.item) - reinterpret_cast<const std::byte*>(&slot);
+    core::bring_near(&slot, static_cast<size_t>(before) + bytes);
   }
   Id id_at(uint32_t index) const noexcept { return {index + 1, slots_[index].generation}; }
   uint32_t count() const noexcept { return count_; }

@@ -103,9 +103,10 @@ MeshInfo describe_mesh(const pack::PackView& pack, uint32_t mesh) noexcept {
   MeshInfo info{.name = pack::string_at(pack, record.name),
                 .first_vertex = record.first_vertex,
                 .vertex_count = record.vertex_count};
-  const auto of_mesh = std::ranges::equal_range(pack.primitives, mesh, {}, &pack::PrimitiveRecord::mesh);
-  info.first_primitive = static_cast<uint32_t>(of_mesh.begin() - pack.primitives.begin());
-  info.primitive_count = static_cast<uint32_t>(of_mesh.size());
+  const auto first = std::ranges::lower_bound(pack.primitives, mesh, {}, &pack::PrimitiveRecord::mesh);
+  const auto end = std::ranges::upper_bound(pack.primitives, mesh, {}, &pack::PrimitiveRecord::mesh);
+  info.first_primitive = static_cast<uint32_t>(first - pack.primitives.begin());
+  info.primitive_count = static_cast<uint32_t>(end - first);
   std::copy_n(record.mesh_from_bind, 12, &info.mesh_from_bind.m[0][0]);
   return info;
 }
