@@ -56,7 +56,7 @@ std::vector<std::vector<Shake>> shakes_of(const Character& character, const Tiss
       for (size_t r = 0; r < layout.regions.size(); ++r) {
         const Region& region = layout.regions[r];
         std::array<Eigen::Matrix3Xd, 3>& past = places[r];
-        std::ranges::rotate(past, past.begin() + 2);
+        std::rotate(past.begin(), past.begin() + 2, past.end());
         past[0] = skinned_nodes(layout, region, skin);
         if (t < 2) continue;
         const Eigen::Matrix3Xd acceleration = (past[0] - 2 * past[1] + past[2]) / (kTick_s * kTick_s);

@@ -49,7 +49,7 @@ ClosestPlace::ClosestPlace(const Character& character, std::vector<int> triangle
   std::vector<Boxed> all;
   for (const int triangle : triangles_) {
     const Corners t = corners_of(character_, triangle);
-    Boxed& one = all.emplace_back(triangle, Eigen::AlignedBox3d(t.a));
+    Boxed& one = all.emplace_back(Boxed{triangle, Eigen::AlignedBox3d(t.a)});
     one.box.extend(t.b).extend(t.c);
   }
   build(all, 0, static_cast<int>(all.size()));

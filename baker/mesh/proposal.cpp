@@ -193,7 +193,8 @@ Proposal propose(const Character& character, const TissueLayout& layout) {
     for (int number = 2; !taken.insert(part.region.name).second; ++number)
       part.region.name = name + "_" + std::to_string(number);
   }
-  std::ranges::stable_partition(proposal.regions, [](const Candidate& c) { return c.doubt.empty(); });
+  std::stable_partition(proposal.regions.begin(), proposal.regions.end(),
+                        [](const Candidate& c) { return c.doubt.empty(); });
   for (const Rod& rod : layout.rods) proposal.rods.push_back(proposed(character, layout, rod));
   return proposal;
 }

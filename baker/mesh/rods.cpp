@@ -103,14 +103,14 @@ void set_damping(const RodRecipe& recipe, std::vector<RodBone>& bones) {
 // Joints in a row give more than one: by Dunkerley the whole swings no slower than this when each swings
 // sqrt(joints in a row) times as fast.
 void apply(const RodRecipe& recipe, std::vector<RodBone>& bones) {
-  constexpr double kDensity = RodRecipe{}.density_kg_m3;
+  const double usual_density = RodRecipe().density_kg_m3;
   for (RodBone& bone : bones) {
     if (recipe.radius_m > 0) bone.radius_m = recipe.radius_m;
-    bone.density_kg_m3 = recipe.frequency_hz > 0 ? kDensity : recipe.density_kg_m3;
+    bone.density_kg_m3 = recipe.frequency_hz > 0 ? usual_density : recipe.density_kg_m3;
     bone.young_modulus_pa = recipe.young_modulus_pa;
     bone.torsion_modulus_pa =
         recipe.torsion_modulus_pa > 0 ? recipe.torsion_modulus_pa : recipe.young_modulus_pa;
-    bone.drag_per_s = recipe.drag_per_s * kDensity / recipe.density_kg_m3;
+    bone.drag_per_s = recipe.drag_per_s * usual_density / recipe.density_kg_m3;
   }
   if (recipe.frequency_hz > 0) {
     const double w = 2 * std::numbers::pi * recipe.frequency_hz;
