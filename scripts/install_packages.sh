@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs the Debian packages Sinew is built, tested and shown with. Does nothing, in well under a second, when all are there.
 # usage: install_packages.sh [samples|web|PRESET]; samples: without what only training and tests need; web: those of samples and a
-# compiler for WebAssembly; aarch64: all, the cross compiler, an emulator and libraries of that architecture
+# compiler for WebAssembly; aarch64: all, the cross compiler, an emulator and libraries of that architecture; clang, fuzz: all and that compiler
 set -euo pipefail
 
 packages=(
@@ -18,6 +18,10 @@ case "${1:-}" in
   samples) ;;
   web) packages+=("${wasm[@]}") ;;
   *) packages+=(python3-torch "${wasm[@]}" chromium) ;;  # training, and tests of the page
+esac
+case "${1:-}" in
+  clang) packages+=(clang-14) ;;
+  fuzz) packages+=(clang-14 libclang-rt-14-dev) ;;  # libFuzzer and its sanitizers
 esac
 foreign=
 if [ "${1:-}" = aarch64 ]; then

@@ -87,7 +87,7 @@ Status check_entry(std::span<const std::byte> bytes, FileKind kind, const Sectio
   if (!all_zero(bytes.subspan(*end, entry.offset - *end)))
     return section_damaged(entry, "has bytes that are not zero in the gap before it");
   const size_t size = entry.count * entry.element_bytes;
-  if (core::hash64(bytes.subspan(entry.offset, size)) != entry.checksum)
+  if (!core::has_checksum(bytes.subspan(entry.offset, size), entry.checksum))
     return section_damaged(entry, "fails its checksum");
   *end = entry.offset + size;
   return {};
@@ -96,7 +96,7 @@ Status check_entry(std::span<const std::byte> bytes, FileKind kind, const Sectio
 Status check_table(std::span<const std::byte> bytes, const FileHeader& header, SectionTable* out) noexcept {
   const std::span<const std::byte> table =
       bytes.subspan(sizeof(FileHeader), header.section_count * sizeof(SectionEntry));
-  if (core::hash64(table) != header.table_checksum) return damaged("section table fails its checksum");
+  if (!core::has_checksum(table, header.table_checksum)) return damaged("section table fails its checksum");
   uint32_t last_kind = 0;
   uint64_t end = sizeof(FileHeader) + table.size();
   for (uint32_t index = 0; index < header.section_count; ++index) {

@@ -7,6 +7,7 @@
 
 // In this order: each needs the ones before it.
 // clang-format off
+#include "simd/begin_calls.hpp"
 #include "simd/three-inl.hpp"
 #include "simd/rod_lanes-inl.hpp"
 #include "simd/rod_step-inl.hpp"
@@ -40,3 +41,5 @@ extern const RodKernels kRodKernels;
 const RodKernels kRodKernels = {.wide = rod_calls<16>(), .narrow = rod_calls<4>()};
 
 }  // namespace sinew::simd::HWY_NAMESPACE
+
+#include "simd/end_calls.hpp"

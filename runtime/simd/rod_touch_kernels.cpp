@@ -11,6 +11,7 @@
 
 // In this order: each needs the ones before it.
 // clang-format off
+#include "simd/begin_calls.hpp"
 #include "simd/wasm_doubles-inl.hpp"
 #include "simd/three-inl.hpp"
 #include "simd/rod_lanes-inl.hpp"
@@ -38,3 +39,5 @@ extern const RodForceKernels kRodForceKernels;
 const RodForceKernels kRodForceKernels = {.look = rod_look, .take = rod_take, .push = rod_push};
 
 }  // namespace sinew::simd::HWY_NAMESPACE
+
+#include "simd/end_calls.hpp"

@@ -115,7 +115,7 @@ Status restore(Instance& instance, std::span<const std::byte> bytes) noexcept {
         "rod_start");
   if (bytes.size() < snapshot_bytes(instance)) return corrupt("fewer bytes than state_bytes; cut");
   const std::span<const std::byte> payload = bytes.subspan(sizeof given, payload_bytes(instance));
-  if (given.payload_bytes != payload.size() || given.checksum != core::hash64(payload)) {
+  if (given.payload_bytes != payload.size() || !core::has_checksum(payload, given.checksum)) {
     return corrupt("the bytes changed since they were saved");
   }
   InstanceState state;

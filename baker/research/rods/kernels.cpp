@@ -11,6 +11,7 @@
 
 // In this order: each needs the ones before it.
 // clang-format off
+#include "simd/begin_calls.hpp"
 #include "simd/three-inl.hpp"
 #include "simd/rod_lanes-inl.hpp"
 #include "simd/rod_step-inl.hpp"
@@ -38,6 +39,8 @@ constexpr baker::RodResearchTable kRodResearch = {HWY_TARGET, rod_research_calls
                                                   rod_research_calls_of<4>()};
 
 }  // namespace sinew::simd::HWY_NAMESPACE
+
+#include "simd/end_calls.hpp"
 
 #if HWY_ONCE
 namespace sinew::simd {
