@@ -46,11 +46,12 @@ void append_row(const auto& row, std::vector<float>* out) {
 }
 
 void append_rows(const MatrixXd& rows, std::vector<float>* out) {
+  if (rows.size() == 0) return;  // rows of a matrix without numbers lie nowhere
   for (const auto& row : rows.rowwise()) append_row(row, out);
 }
 
 MatrixXd projection(const ModalBasis& basis) {
-  if (basis.rad_per_s.size() == 0) return basis.shape.transpose();
+  if (basis.shape.size() == 0) return basis.shape.transpose();
   const double nodes = static_cast<double>(basis.shape.rows()) / 3;
   MatrixXd square = basis.shape.transpose() * basis.shape;
   square.diagonal() += kRidge * nodes * (basis.rad_per_s / basis.rad_per_s[0]).cwiseAbs2();

@@ -51,10 +51,7 @@ void add_packs(Folder to) {
 
 void add_snapshots(Folder to) {
   const std::vector<scenes::PackBytes> packs = fuzz::snapshot_packs();
-  for (const scenes::PackBytes& pack : packs) {
-    World world = fuzz::make_world(1, 1);
-    to.add(fuzz::add_actor(world, pack).clean);
-  }
+  for (const scenes::PackBytes& pack : packs) to.add(fuzz::make_actor(pack).clean);
 }
 
 void add_tensors(Folder to) {
@@ -117,8 +114,10 @@ TinyFile rich_bar() {
 void add_characters(Folder to, const fs::path& assets) {
   to.add(bar().glb());
   to.add(rich_bar().glb());
-  const std::string recipe = (assets / "creature/creature.json").string();
-  to.add(baker::make_creature(baker::read_creature_recipe(recipe), baker::kFewestCreatureVertices));
+  baker::CreatureRecipe creature = baker::read_creature_recipe((assets / "creature/creature.json").string());
+  creature.clips.resize(1);
+  creature.key_rate_hz = 2;
+  to.add(baker::make_creature(creature, baker::kFewestCreatureVertices));
 }
 
 }  // namespace

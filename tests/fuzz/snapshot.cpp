@@ -14,11 +14,10 @@ namespace {
 
 struct Stage {
   std::vector<scenes::PackBytes> packs = fuzz::snapshot_packs();
-  World world = fuzz::make_world(static_cast<uint32_t>(packs.size()), static_cast<uint32_t>(packs.size()));
   std::vector<fuzz::Actor> actors;
 
   Stage() {
-    for (const scenes::PackBytes& pack : packs) actors.push_back(fuzz::add_actor(world, pack));
+    for (const scenes::PackBytes& pack : packs) actors.push_back(fuzz::make_actor(pack));
   }
 };
 
@@ -28,11 +27,11 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   constexpr int kSteps = 2;
   static Stage stage;
   const std::span<const std::byte> bytes = std::as_bytes(std::span(data, size));
-  for (const fuzz::Actor& actor : stage.actors) {
-    if (!stage.world.restore_state(actor.instance, bytes).ok()) continue;
-    fuzz::move_and_read(stage.world, actor.asset, actor.instance, kSteps);
-    if (!stage.world.restore_state(actor.instance, actor.clean).ok()) std::abort();
-    if (fuzz::save(stage.world, actor.instance) == actor.clean) continue;
+  for (fuzz::Actor& actor : stage.actors) {
+    if (!actor.world.restore_state(actor.instance, bytes).ok()) continue;
+    fuzz::move_and_read(actor.world, actor.asset, actor.instance, kSteps);
+    if (!actor.world.restore_state(actor.instance, actor.clean).ok()) std::abort();
+    if (fuzz::save(actor.world, actor.instance) == actor.clean) continue;
     std::fputs("restored, it is saved with other bytes\n", stderr);
     std::abort();
   }

@@ -28,19 +28,21 @@ inline std::vector<std::byte> save(const World& world, InstanceId instance) {
   return bytes;
 }
 
+// Alone in its world: a step steps all that are in one.
 struct Actor {
+  World world = make_world(1, 1);
   AssetId asset;
   InstanceId instance;
   std::vector<std::byte> clean;  // a snapshot of it in motion
 };
 
-inline Actor add_actor(World& world, const scenes::PackBytes& pack) {
+inline Actor make_actor(const scenes::PackBytes& pack) {
   constexpr int kSteps = 8;
   Actor actor;
-  if (!world.load_asset(pack.bytes(), &actor.asset).ok()) std::abort();
-  if (!add_instance(world, actor.asset, &actor.instance)) std::abort();
-  if (!move_and_read(world, actor.asset, actor.instance, kSteps)) std::abort();
-  actor.clean = save(world, actor.instance);
+  if (!actor.world.load_asset(pack.bytes(), &actor.asset).ok()) std::abort();
+  if (!add_instance(actor.world, actor.asset, &actor.instance)) std::abort();
+  if (!move_and_read(actor.world, actor.asset, actor.instance, kSteps)) std::abort();
+  actor.clean = save(actor.world, actor.instance);
   return actor;
 }
 
