@@ -19,8 +19,12 @@ cmake --preset fuzz >/dev/null
 cmake --build build/fuzz --target fuzz_seeds "${@/#/fuzz_}"
 out=build/fuzz
 export UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1 ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=1
-rm -rf "$out/seeds"
-"$out/bin/fuzz_seeds" "$out/seeds"
+if [ ! "$out/seeds" -nt "$out/bin/fuzz_seeds" ]; then
+  rm -rf "$out/seeds" "$out/seeds.part"
+  "$out/bin/fuzz_seeds" "$out/seeds.part"
+  mv "$out/seeds.part" "$out/seeds"
+  touch "$out/seeds"
+fi
 mkdir -p "$out/findings" "$out/rows"
 status=0
 for target in "$@"; do
