@@ -25,7 +25,9 @@ Region region_at(const Instance& instance, size_t index, float tolerance) noexce
 }
 
 uint32_t ticks_to_sleep(const Region& region) noexcept {
-  return static_cast<uint32_t>(std::ceil(std::numbers::pi_v<float> / std::min(region.w1_tick, 1.0f)));
+  constexpr float kNever = 1e9f;  // half a year; what hardly swings has more than an integer holds
+  return static_cast<uint32_t>(
+      std::min(kNever, std::ceil(std::numbers::pi_v<float> / std::min(region.w1_tick, 1.0f))));
 }
 
 // By compare, so that NaN is never near.

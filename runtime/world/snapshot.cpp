@@ -123,6 +123,8 @@ Status restore(Instance& instance, std::span<const std::byte> bytes) noexcept {
   if (state.level >= instance.asset->level_count || !pack::is_tier(static_cast<uint32_t>(state.tier)) ||
       !pack::is_tier(static_cast<uint32_t>(state.left_tier)) || !may_limit(state.tier_limit))
     return corrupt("names a control graph or a tier that there is not");
+  if (instance.seam == nullptr && state.seam_ticks < kBlendInTicks)
+    return corrupt("is amid a change of control graphs, of which there is one");
   const bool was_tuned = tunes_parts(instance);
   std::memcpy(instance.state, payload.data(), instance.state_bytes);
   restore_rods(instance, payload.data() + instance.state_bytes);

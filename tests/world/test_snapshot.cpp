@@ -94,6 +94,8 @@ TEST_CASE("restore_refuses_a_tier_and_a_control_graph_that_there_is_not") {
   check_refused(stage, changed([](world::InstanceState& s) { s.tier_limit = Tier::kExtrapolate; }));
   check_refused(stage, changed([](world::InstanceState& s) { s.tier = static_cast<Tier>(3); }));  // springs
   check_refused(stage, changed([](world::InstanceState& s) { s.level = 1; }));
+  check_refused(stage,
+                changed([](world::InstanceState& s) { s.seam_ticks = 0; }));  // amid a change of graphs
   const std::vector<std::byte> right = changed([](world::InstanceState& s) { s.held_s = 2; });
   CHECK(stage.world.restore_state(stage.blocks[0], right).ok());
 }
