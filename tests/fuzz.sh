@@ -8,6 +8,8 @@ cd "$(dirname "$0")/.."
 amount=${1:-2000000}
 [ $# -eq 0 ] || shift
 all=(pack snapshot safetensors recipe gltf)
+# Bytes of a file at most: those of the largest seed that counts.
+declare -A most=([pack]=81920 [snapshot]=32768 [safetensors]=16384 [recipe]=16384 [gltf]=40960)
 [ $# -gt 0 ] || set -- "${all[@]}"
 case $amount in
   *s) limit="-max_total_time=${amount%s}" ;;
@@ -32,7 +34,7 @@ for target in "$@"; do
   mkdir -p "$corpus"
   rm -f "$out/findings/$target"-*
   begin=$SECONDS
-  "$out/bin/fuzz_$target" "$limit" -max_len=81920 -entropic=0 -timeout=20 -rss_limit_mb=2048 -print_final_stats=1 -verbosity=1 \
+  "$out/bin/fuzz_$target" "$limit" -max_len="${most[$target]}" -entropic=0 -timeout=20 -rss_limit_mb=2048 -print_final_stats=1 -verbosity=1 \
     -artifact_prefix="$out/findings/$target-" "$corpus" "$out/seeds/$target" >"$log" 2>&1 || status=1
   findings=$(find "$out/findings" -name "$target-*" | wc -l)
   [ "$findings" -eq 0 ] || grep -m 3 -E 'ERROR|runtime error|SUMMARY|not finite' "$log" || true

@@ -89,6 +89,13 @@ std::string fault(const nlohmann::json::parse_error& error) {
   return column == std::string::npos || begin == std::string::npos ? text : text.substr(begin + 2);
 }
 
+// "[json.exception.out_of_range.406] number overflow parsing '1e999'": the one that parsing can come to.
+std::string number_of(const nlohmann::json::out_of_range& error) {
+  const std::string text = error.what();
+  const size_t begin = text.find('\'') + 1;
+  return text.substr(begin, text.rfind('\'') - begin);
+}
+
 std::string position(const std::string& text, size_t byte) {
   const size_t end = std::min(byte == 0 ? 0 : byte - 1, text.size());
   const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n');
@@ -105,6 +112,10 @@ JsonFile read_json_file(const std::string& path) {
     file.json = nlohmann::json::parse(text, nullptr, true, true);
   } catch (const nlohmann::json::parse_error& error) {
     throw BadInput(path + ":" + position(text, error.byte) + ": not JSON: " + fault(error));
+  } catch (const nlohmann::json::out_of_range& error) {
+    const std::string number = number_of(error);
+    throw BadInput(path + ":" + position(text, text.find(number) + 1) + ": " + number +
+                   " is larger than any number can be");
   }
   LineFinder finder;
   nlohmann::json::sax_parse(CountingLines{text.data(), &finder.line},

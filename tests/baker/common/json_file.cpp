@@ -45,6 +45,7 @@ TEST_CASE("faults_of_a_json_file_are_named_by_line_and_column") {
              Catch::StartsWith(":3:8: not JSON: ") && Catch::Contains("expected '}'"));
   CHECK_THAT(refusal("{\n  \"size\": 0.5,\n}"), Catch::StartsWith(":3:1: not JSON: "));
   CHECK_THAT(refusal("{\"size\": 0.5"), Catch::StartsWith(":1:13: not JSON: "));
+  CHECK(refusal("{\n  \"size\": 2e308}") == ":2:11: 2e308 is larger than any number can be");
 }
 
 TEST_CASE("wrong_keys_and_values_are_named_by_their_line") {
