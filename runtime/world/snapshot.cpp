@@ -2,6 +2,7 @@
 #include "world/snapshot.hpp"
 #include "world/pose_bound.hpp"
 
+#include <cmath>
 #include <cstring>
 
 #include "core/floating_point.hpp"
@@ -125,6 +126,9 @@ Status restore(Instance& instance, std::span<const std::byte> bytes) noexcept {
     return corrupt("names a control graph or a tier that there is not");
   if (instance.seam == nullptr && state.seam_ticks < kBlendInTicks)
     return corrupt("is amid a change of control graphs, of which there is one");
+  if (!std::isfinite(state.remainder_s) || !std::isfinite(state.without_pose_s) ||
+      !std::isfinite(state.time_scale))
+    return corrupt("counts time that is not finite");
   const bool was_tuned = tunes_parts(instance);
   std::memcpy(instance.state, payload.data(), instance.state_bytes);
   restore_rods(instance, payload.data() + instance.state_bytes);

@@ -1,5 +1,6 @@
 // test_snapshot.cpp  Rollback: what follows a restore has the bits of what followed the save.
 #include <cstring>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -75,7 +76,7 @@ TEST_CASE("restore_refuses_foreign_bytes_and_changes_nothing") {
   check_refused(stage, other.save());
 }
 
-TEST_CASE("restore_refuses_a_tier_and_a_control_graph_that_there_is_not") {
+TEST_CASE("restore_refuses_a_tier_a_control_graph_and_a_time_that_there_is_not") {
   constexpr size_t kHeader_bytes = 40, kChecksum_at = 24;
   Stage stage;
   stage.play(scenes::walk, 0.5);
@@ -96,6 +97,11 @@ TEST_CASE("restore_refuses_a_tier_and_a_control_graph_that_there_is_not") {
   check_refused(stage, changed([](world::InstanceState& s) { s.level = 1; }));
   check_refused(stage,
                 changed([](world::InstanceState& s) { s.seam_ticks = 0; }));  // amid a change of graphs
+  constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
+  check_refused(stage, changed([](world::InstanceState& s) { s.remainder_s = kNotANumber; }));
+  check_refused(stage, changed([](world::InstanceState& s) { s.without_pose_s = kNotANumber; }));
+  check_refused(stage,
+                changed([](world::InstanceState& s) { s.time_scale = static_cast<float>(kNotANumber); }));
   const std::vector<std::byte> right = changed([](world::InstanceState& s) { s.held_s = 2; });
   CHECK(stage.world.restore_state(stage.blocks[0], right).ok());
 }
