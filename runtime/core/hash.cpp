@@ -41,4 +41,12 @@ uint64_t hash64(std::span<const std::byte> bytes) noexcept {
   return avalanche(h);
 }
 
+bool has_checksum(std::span<const std::byte> bytes, uint64_t checksum) noexcept {
+#ifdef SINEW_TRUST_CHECKSUMS
+  return static_cast<void>(bytes), static_cast<void>(checksum), true;
+#else
+  return hash64(bytes) == checksum;
+#endif
+}
+
 }  // namespace sinew::core

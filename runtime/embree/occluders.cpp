@@ -138,6 +138,7 @@ struct Occluders::Impl {
   }
 
   Status add(const OccluderDef& occluder, const RootTransform& root, OccluderId* out) {
+    (void)has_failed(device.get());  // of an earlier call that answers nothing
     Occluder made{build(device, occluder),
                   Geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE))};
     const bool built = made.mesh && made.placed;
@@ -146,8 +147,10 @@ struct Occluders::Impl {
       place(made, root);
     }
     if (!has_failed(device.get()) && built) made.name = rtcAttachGeometry(scene.get(), made.placed.get());
-    if (has_failed(device.get()) || made.name == RTC_INVALID_GEOMETRY_ID)
+    if (has_failed(device.get()) || made.name == RTC_INVALID_GEOMETRY_ID) {
+      if (made.name != RTC_INVALID_GEOMETRY_ID) rtcDetachGeometry(scene.get(), made.name);
       return make_status(StatusCode::kOutOfCapacity, "no memory for an occluder's tree");
+    }
     updated = false;
     *out = occluders.create(std::move(made));
     return {};
@@ -155,6 +158,7 @@ struct Occluders::Impl {
 
   void update() {
     updated = false;
+    (void)has_failed(device.get());  // of an earlier call that answers nothing
     rtcCommitScene(scene.get());
     updated = !has_failed(device.get());
   }

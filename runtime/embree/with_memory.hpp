@@ -2,6 +2,7 @@
 // functions.
 #pragma once
 #include <new>
+#include <stdexcept>
 
 #include "core/status.hpp"
 
@@ -13,8 +14,9 @@ Status with_memory(const char* for_what, const Work& work) noexcept {
   try {
     return work();
   } catch (const std::bad_alloc&) {
-    return core::make_status(StatusCode::kOutOfCapacity, "no memory for %s", for_what);
+  } catch (const std::length_error&) {
   }
+  return core::make_status(StatusCode::kOutOfCapacity, "no memory for %s", for_what);
 }
 
 }  // namespace sinew::embree

@@ -1,4 +1,4 @@
-// rejoin_strand.cpp  A strand whose iteration did not end in time is kept together.
+// rejoin_strand.cpp  A strand that was torn or drawn out is put together.
 #include <algorithm>
 #include <cmath>
 
@@ -108,7 +108,7 @@ void RodBatch::forget_start(uint32_t strand) noexcept {
 
 // Torn apart or drawn out, its segments keep their orientations and are set end to end outwards from what is
 // held, from the nearest of several, velocities accordingly: so it stays within its length of where it is
-// held whatever is done to it. Between two that are held a gap may remain. Returns whether it was torn.
+// held whatever is done to it. Between two that are held a gap may remain. Returns whether it was.
 bool RodBatch::rejoin(uint32_t strand, bool converged, float dt_s) noexcept {
   float* joints = scratch_;  // free between finish and predict
   count_joints_to_held(strand, joints);

@@ -115,9 +115,9 @@ void RodBatch::end_group(uint32_t group, const simd::RodJob& job, RodReport* rep
       continue;
     }
     if (!ended) forget_start(first + i);
-    // Joints that are closed so far keep within reach all that hangs on them.
-    constexpr float kClosed = static_cast<float>(kMostReach - 1);
-    if (!ended || lane(simd::kLaneGapSquare) > kClosed * kClosed)
+    // All joints open so far, one after the other, are what is spared of half a segment.
+    const float closed = static_cast<float>(kMostReach - 1) / 2 / static_cast<float>(segment_count_);
+    if (!ended || lane(simd::kLaneGapSquare) > closed * closed)
       report->rejoined += rejoin(first + i, ended, job.dt_s);
   }
 }

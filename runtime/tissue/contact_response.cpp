@@ -66,7 +66,8 @@ float sweep(const Matrix& matrix, float least, float most_m, std::span<NodeConta
     float gap = contact.gap_m;
     for (size_t j = 0; j < contacts.size(); ++j) gap += matrix.at[i][j] * contacts[j].press;
     const float before = contact.press;
-    contact.press = std::clamp(before - gap / matrix.at[i][i], 0.0f, most_m / matrix.at[i][i]);
+    const float wanted = std::max(0.0f, before - gap / matrix.at[i][i]);  // 0 where that is not a number
+    contact.press = std::min(wanted, most_m / matrix.at[i][i]);
     largest = std::max(largest, std::fabs(contact.press - before) * matrix.at[i][i]);
   }
   return largest;
@@ -101,6 +102,7 @@ bool press(const ModalBase& base, float most_m, std::span<NodeContact> contacts,
   Response response;
   respond(base, 0, floats, felt, scratch, answer, &response);
   const float moved_m = largest_displacement_m(response.l, base.node_count);
+  if (!std::isfinite(moved_m)) return false;
   const float share = moved_m > most_m ? most_m / moved_m : 1;
   for (size_t k = 0; k < base.modes.size(); ++k) tick.q[k] += share * response.modes[k];
   for (uint32_t i = 0; i < floats; ++i) {

@@ -1,6 +1,7 @@
 // asset.cpp  A loaded character: checked views of its pack.
 #include "world/asset.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -105,6 +106,13 @@ Status pack_narrow_layers(const pack::PackView& pack, core::AlignedBlock* out) n
 }
 
 // What no instance could be made of is refused with the asset.
+float largest_extent_m(const pack::PackView& pack) noexcept {
+  Eigen::AlignedBox3f box;
+  for (size_t at = 0; at < pack.positions.size(); at += 3)
+    box.extend(Eigen::Map<const Eigen::Vector3f>(&pack.positions[at]));
+  return box.isEmpty() ? 0 : box.sizes().maxCoeff();
+}
+
 Status check_rods(const Asset& asset) noexcept {
   std::unique_ptr<rods::RodBatch[]> unused;
   const Status status = make_rod_batches(asset, {}, &unused);
@@ -186,6 +194,7 @@ Status open_asset(std::span<const std::byte> bytes, Asset* out) noexcept {
   if (Status status = check_rods(asset); !status.ok()) return status;
   read_tiers(view, asset);
   if (Status status = measure_reach(asset, &asset.reach_m); !status.ok()) return status;
+  asset.extent_m = largest_extent_m(view);
   *out = std::move(asset);
   return {};
 }

@@ -48,6 +48,7 @@ struct Asset {
   // Of the level that takes the most:
   uint32_t widest_region = 0;  // floats of its nodes' x y z and of its modes, each padded
   float reach_m = 0;           // world/pose_bound.hpp
+  float extent_m = 0;          // of the bind pose along x, y or z, the largest
   uint32_t live_instances = 0, surface_instances = 0;  // the latter with ContactDef::surface
   TierCosts costs, surface_costs;                      // the latter of instances with ContactDef::surface
   frame::Level points[frame::kMostLevels];             // as baked

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "world/displacement_bound.hpp"
 #include "world/placement.hpp"
 #include "world/shown_skin.hpp"
 
@@ -48,7 +49,8 @@ void draw_nodes(const Instance& instance, const ShownSkin& skin, const Placement
   const std::span<const pack::NodeRecord> nodes = instance.level->pack.nodes;
   for (size_t n = 0; n < nodes.size(); ++n) {
     const SkinMatrix m = blended(nodes[n].skin, skin.matrices());
-    const Vector3f bind(nodes[n].position_m), delta(instance.delta + 3 * n);
+    const float bound_m = displacement_bound_m(*instance.asset, nodes[n].region);
+    const Vector3f bind(nodes[n].position_m), delta = within_bound(Vector3f(instance.delta + 3 * n), bound_m);
     const auto moved = [&](const Vector3f& p) { return to.place(m.leftCols<3>() * p + m.col(3)); };
     pen.line(moved(bind), moved(bind + instance.carried_share * delta), kOrange);
   }

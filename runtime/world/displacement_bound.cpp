@@ -8,7 +8,7 @@
 namespace sinew::world {
 
 float displacement_bound_m(const Asset& asset, size_t region) noexcept {
-  return kMostShown * asset.pack.character->height_m / static_cast<float>(asset.soft.most_shared[region]);
+  return kMostShown * asset.extent_m / static_cast<float>(asset.soft.most_shared[region]);
 }
 
 Eigen::Vector3f within_bound(const Eigen::Vector3f& displacement_m, float bound_m) noexcept {

@@ -1,10 +1,10 @@
 // displacement_bound.hpp  How far from its skinned place a vertex may be shown at most, whatever poses,
 // contacts, parameters, levels and frame rates do: the last thing that is done to what is read.
 //
-// A vertex stays within kMostShown of the character's height, in the bind pose; a pose that scales its
-// joints scales that too. Each of the regions that carry a vertex has an equal part of it. Up to
+// A vertex stays within kMostShown of the bind pose's largest extent, in the bind pose; a pose that scales
+// its joints scales that too. Each of the regions that carry a vertex has an equal part of it. Up to
 // tissue::kFreeShare of that nothing is changed, from there a displacement approaches it smoothly, so that
-// nothing is seen to stop. Baked limits (tissue/guard.hpp) are far below: only what presses, what adds up,
+// nothing is seen to stop. Baked limits (tissue/guard.hpp) are mostly far below: what presses, what adds up,
 // and parameters beyond what was baked come near it.
 #pragma once
 #include <Eigen/Core>
@@ -13,7 +13,7 @@
 
 namespace sinew::world {
 
-inline constexpr float kMostShown = 0.5f;  // of the height
+inline constexpr float kMostShown = 0.5f;  // of the largest extent
 
 // Of what one region carries.
 float displacement_bound_m(const Asset& asset, size_t region) noexcept;

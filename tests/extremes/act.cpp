@@ -98,6 +98,14 @@ void Subject::make_worlds() {
 void Subject::look() {
   World& world = worlds[0];
   require(world.asset_info(assets[0], &info), name);
+  AssetArrays arrays;
+  require(world.asset_arrays(assets[0], &arrays), name);
+  for (size_t k = 0; k < 3; ++k) {
+    float least = HUGE_VALF, most = -HUGE_VALF;
+    for (size_t at = k; at < arrays.positions_m.size(); at += 3)
+      least = std::min(least, arrays.positions_m[at]), most = std::max(most, arrays.positions_m[at]);
+    extent_m = std::max(extent_m, most - least);
+  }
   bind.resize(info.joint_count);
   require(world.bind_pose(assets[0], bind), name);
   regions.resize(info.region_count);
@@ -180,7 +188,7 @@ Reading read(const Act& act, bool normals) {
   const std::vector<Matrix34> joints = shown_joints(act);
   for (size_t i = 0; i + 2 < moved.size(); i += 3)
     out.displacement = std::max(out.displacement, std::hypot(moved[i], moved[i + 1], moved[i + 2]));
-  out.displacement /= act.subject.info.height_m;
+  out.displacement /= act.subject.extent_m;
   out.finite = all_finite(moved) && all_finite({&joints[0].m[0][0], 12 * joints.size()});
   if (!normals) return out;
   const uint32_t vertices = act.subject.info.vertex_count;

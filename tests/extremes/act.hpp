@@ -49,6 +49,7 @@ class Subject {
   std::vector<RegionInfo> regions;
   std::vector<RodInfo> rods;
   std::vector<uint32_t> parents;
+  float extent_m = 0;  // of the bind pose, the largest
 
  private:
   void make_worlds();
@@ -87,7 +88,7 @@ struct Act {
 
 // What is read after a frame, held against the bounds.
 struct Reading {
-  float displacement = 0;  // of any vertex from its skinned place, bind pose, share of the height
+  float displacement = 0;  // of any vertex from its skinned place, bind pose, share of the largest extent
   bool finite = true;
 };
 Reading read(const Act& act, bool normals);

@@ -74,8 +74,10 @@ class Run {
       std::printf("%-20s %8llu %4llu %12.4f %9llu\n", strand_scene_name(s), number(strands_[s].cases),
                   number(strands_[s].bad), strands_[s].value, number(strands_[s].of_case));
     std::printf(
-        "\ndisplacement: largest, share of the height (bound %g); reach: of a strand, share of its length "
-        "(bound %g); bad: not finite or beyond.\nleft: largest difference from an undisturbed twin when its "
+        "\ndisplacement: largest, share of the bind pose's largest extent (bound %g); reach: of a strand, "
+        "share of its length "
+        "(bound %g); bad: not played, not finite or beyond.\nleft: largest difference from an undisturbed "
+        "twin when its "
         "slowest part has had time to swing down to a tenth, share of the height.\n",
         kMostDisplacement, kMostReach);
   }
@@ -94,9 +96,10 @@ class Run {
     const size_t s = c % all_scenes().size();
     const Scene& scene = all_scenes()[s];
     Subject& subject = *subjects_[c / all_scenes().size() % subjects_.size()];
-    const Reading worst = play(subject, scene, c, options_.frames).worst;
-    const auto displacement = static_cast<double>(worst.displacement);
-    rows_[s].reading.note(displacement, worst.finite && displacement <= kMostDisplacement + kRounding, c);
+    const Outcome outcome = play(subject, scene, c, options_.frames);
+    const auto displacement = static_cast<double>(outcome.worst.displacement);
+    const bool played = outcome.frames == options_.frames && outcome.worst.finite;
+    rows_[s].reading.note(displacement, played && displacement <= kMostDisplacement + kRounding, c);
     if (c % options_.recovery_every != 0) return;
     const Recovery recovery = recover(subject, scene, c, options_.frames);
     rows_[s].recovery.note(static_cast<double>(recovery.left), recovery.is_back(), c);

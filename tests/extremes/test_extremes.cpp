@@ -15,7 +15,7 @@ constexpr float kRounding = 1e-5f;
 
 }  // namespace
 
-TEST_CASE("whatever_is_done_to_a_character_no_vertex_is_read_further_out_than_half_of_its_height") {
+TEST_CASE("whatever_is_done_to_a_character_no_vertex_is_read_further_out_than_half_of_its_extent") {
   const auto& subjects = built_subjects();
   for (size_t s = 0; s < all_scenes().size(); ++s) {
     for (uint64_t seed = 1; seed <= 10 * subjects.size(); ++seed) {

@@ -113,6 +113,9 @@ TEST_CASE("gaps_that_are_not_numbers_change_nothing") {
   tissue::NodeContact contacts[] = {along_x(0, NAN), along_x(1, NAN)};
   row.press(contacts);
   CHECK(row.l == std::vector<float>(9));
+  tissue::NodeContact beside[] = {along_x(0, NAN), along_x(1, -0.2f)};
+  row.press(beside);
+  CHECK(std::ranges::all_of(row.l, [](float l) { return std::isfinite(l); }));
 }
 
 TEST_CASE("where_each_press_asks_for_more_of_the_others_none_moves_further_than_it_may") {

@@ -26,7 +26,7 @@ struct PartParameters {
   float damping = 1;
   // 0..4, of the largest displacement that is shown: of flesh in metres, of rods, where they have a limit, in
   // radians. Beyond 1 flesh may show more than it was baked for, but
-  // no vertex more than half of the character's height. Intensity counts after it.
+  // no vertex more than half of the bind pose's largest extent. Intensity counts after it.
   float displacement = 1;
   // False: it fades to its pose. Then a soft part costs no tick, and rods cost none once all rods of the
   // instance are off; an instance of which nothing is on is skinned. Back on, it comes from rest.

@@ -247,8 +247,8 @@ struct InstanceReport {
   bool rods_touch_surface = false;  // ContactDef::surface; false: what stands in its place
   uint32_t vertices_touched = 0, contacts_refused = 0, contacts_dropped = 0;
   float contact_volume_m3 = 0;
-  // What soft parts are left inside: no contact moves one further than its displacement limit, nor shows a
-  // vertex further out than half of the height.
+  // What soft parts are left inside: no contact shows one further out than its displacement limit, nor a
+  // vertex further than half of the bind pose's largest extent.
   float deepest_penetration_m = 0;
   float cost_us =
       0;  // what this instance took in the last step, on its thread; 0: next to nothing, not measured
