@@ -82,7 +82,9 @@ Subject::Subject(std::string of, std::span<const std::byte> pack) : name(std::mo
 
 Subject::Subject(const std::string& path) : name(path.substr(path.find_last_of('/') + 1)) {
   make_worlds();
-  for (int w = 0; w < 3; ++w) require(worlds[w].load_asset_file(path.c_str(), &assets[w]), path);
+  for (int w = 0; w < 3; ++w)
+    if (const Status status = worlds[w].load_asset_file(path.c_str(), &assets[w]); !status.ok())
+      throw std::runtime_error(status.message);  // which names the path
   look();
 }
 

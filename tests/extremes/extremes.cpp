@@ -132,11 +132,11 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--frames", options.frames, "Of a case")->capture_default_str();
   app.add_option("--strand-every", options.strand_every, "Of so many cases one is of a strand as well")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   app.add_option("--recovery-every", options.recovery_every,
                  "Of so many cases one is played beside an undisturbed twin")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   app.add_flag("--list", options.lists, "Name every case that is not back");
   app.add_option("packs", options.packs, "Baked characters, beside those that the tests make");

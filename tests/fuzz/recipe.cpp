@@ -2,34 +2,18 @@
 // creature.
 #include "baker/mesh/recipe.hpp"
 
-#include <cstdlib>
-#include <cstring>
-
-#include "baker/common/bad_input.hpp"
 #include "baker/creature/creature.hpp"
 #include "tests/fuzz/file_in_memory.hpp"
 #include "tests/fuzz/mutate.hpp"
+#include "tests/fuzz/refuses.hpp"
 
 using namespace sinew;
-
-namespace {
-
-template <class Call>
-void refuses_or_does(const Call& call) {
-  try {
-    call();
-  } catch (const baker::BadInput& refusal) {
-    if (std::strlen(refusal.what()) == 0 || std::strchr(refusal.what(), '\n') != nullptr) std::abort();
-  }
-}
-
-}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   static const fuzz::FileInMemory file;
   const std::string& path = file.write(data, size);
-  refuses_or_does([&] { (void)baker::read_recipe(path); });
-  refuses_or_does([&] { (void)baker::read_creature_recipe(path); });
+  fuzz::refuses_or_does([&] { (void)baker::read_recipe(path); });
+  fuzz::refuses_or_does([&] { (void)baker::read_creature_recipe(path); });
   return 0;
 }
 

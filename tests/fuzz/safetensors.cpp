@@ -6,26 +6,17 @@
 #include <cstring>
 #include <string>
 
-#include "baker/common/bad_input.hpp"
 #include "baker/pack/dense_pack.hpp"
 #include "baker/pack/network_pack.hpp"
 #include "core/aligned_block.hpp"
 #include "pack/reader.hpp"
 #include "tests/fuzz/file_in_memory.hpp"
 #include "tests/fuzz/mutate.hpp"
+#include "tests/fuzz/refuses.hpp"
 
 using namespace sinew;
 
 namespace {
-
-template <class Call>
-void refuses_or_does(const Call& call) {
-  try {
-    call();
-  } catch (const baker::BadInput& refusal) {
-    if (std::strlen(refusal.what()) == 0) std::abort();
-  }
-}
 
 void open(const baker::PackWriter& writer) {
   const std::vector<std::byte> bytes = writer.finish();
@@ -37,16 +28,16 @@ void open(const baker::PackWriter& writer) {
 
 void use(const baker::Safetensors& file) {
   for (const auto& tensor : file.tensors) {
-    refuses_or_does([&] { (void)tensor.second.as_f32(); });
-    refuses_or_does([&] { (void)tensor.second.as_i32(); });
-    refuses_or_does([&] { (void)file.need(tensor.first, {-1, -1}); });
+    fuzz::refuses_or_does([&] { (void)tensor.second.as_f32(); });
+    fuzz::refuses_or_does([&] { (void)tensor.second.as_i32(); });
+    fuzz::refuses_or_does([&] { (void)file.need(tensor.first, {-1, -1}); });
   }
-  refuses_or_does([&] {
+  fuzz::refuses_or_does([&] {
     baker::PackWriter writer(pack::FileKind::kModel);
     baker::add_network(file, writer);
     open(writer);
   });
-  refuses_or_does([&] {
+  fuzz::refuses_or_does([&] {
     baker::PackWriter writer(pack::FileKind::kModel);
     baker::add_chains(file, writer);
     open(writer);
@@ -57,7 +48,7 @@ void use(const baker::Safetensors& file) {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   static const fuzz::FileInMemory file;
-  refuses_or_does([&] { use(baker::read_safetensors(file.write(data, size))); });
+  fuzz::refuses_or_does([&] { use(baker::read_safetensors(file.write(data, size))); });
   return 0;
 }
 
