@@ -81,8 +81,9 @@ void stiffen_links(std::vector<RodBone>& bones) {
     if (bone.joint < 0) bone.young_modulus_pa = bone.torsion_modulus_pa = kLinkStiffness * stiffest;
 }
 
-// Dunkerley: the squares of periods add up along a chain, and the whole swings no slower. rad/s.
-double slowest_swing(const std::vector<RodBone>& bones) {
+}  // namespace
+
+double slowest_swing_rad_per_s(const std::vector<RodBone>& bones) {
   const std::vector<double> inertia = outboard_inertia(bones);
   std::vector<double> square_period(bones.size(), 0);
   for (size_t b = 0; b < bones.size(); ++b) {
@@ -94,9 +95,11 @@ double slowest_swing(const std::vector<RodBone>& bones) {
   return 1 / std::sqrt(*std::ranges::max_element(square_period));
 }
 
+namespace {
+
 void set_damping(const RodRecipe& recipe, std::vector<RodBone>& bones) {
   const double damping_s =
-      recipe.damping_ratio ? 2 * *recipe.damping_ratio / slowest_swing(bones) : recipe.damping_s;
+      recipe.damping_ratio ? 2 * *recipe.damping_ratio / slowest_swing_rad_per_s(bones) : recipe.damping_s;
   for (RodBone& bone : bones) bone.damping_s = damping_s;
 }
 
@@ -239,7 +242,7 @@ SoftKind kind_of(const Character& character, const Rod& rod) {
 void describe(const Character& character, Evidence evidence, Rod& rod) {
   rod.evidence = evidence;
   rod.kind = kind_of(character, rod);
-  rod.frequency_hz = slowest_swing(rod.bones) / (2 * std::numbers::pi);
+  rod.frequency_hz = slowest_swing_rad_per_s(rod.bones) / (2 * std::numbers::pi);
 }
 
 // What the recipe's rods move, whether they can be made or not.

@@ -54,6 +54,10 @@ std::vector<Rod> find_rods(Character& character, const Recipe& recipe, const std
 void add_named_rods(const Character& character, const std::vector<RodRecipe>& named, std::vector<Rod>& rods,
                     std::vector<SkippedPart>& skipped);
 
+// Of bones whose parents come before them, by Dunkerley: the squares of periods add up along a chain, and the
+// whole swings no slower.
+double slowest_swing_rad_per_s(const std::vector<RodBone>& bones);
+
 // For each joint, whether a rod moves it: its bones and all that hangs on them.
 std::vector<bool> joints_on_rods(const Character& character, const std::vector<Rod>& rods);
 

@@ -24,7 +24,10 @@ def _is_file_with_a_name(descriptor):
 def remove_left_parts(place):
     """Those that a process left that was killed: nobody has a lock on them. A link is nobody's part."""
     folder, name = os.path.split(place)
-    for entry in os.listdir(folder or "."):
+    entries = []
+    with contextlib.suppress(OSError):  # who cannot read a folder may still write into it
+        entries = os.listdir(folder or ".")
+    for entry in entries:
         if not (entry.startswith(name) and _PART.fullmatch(entry, len(name))):
             continue
         path = os.path.join(folder, entry)
@@ -62,17 +65,24 @@ def _new_part(place):
 
 @contextlib.contextmanager
 def written(path, mode="w"):
-    """A file that is at `path` once all has been written to it, and never half of it: after an error what was there is."""
+    """A file that is at `path` once all has been written to it, and never half of it: after an error what was there is. Pipes and devices, which
+    renaming would replace, are written to."""
     place = os.path.realpath(path) if os.path.islink(path) else os.fspath(path)
+    if os.path.exists(place) and not os.path.isfile(place):
+        with open(place, mode) as file:
+            yield file
+        return
     remove_left_parts(place)
     part, descriptor = _new_part(place)
     with os.fdopen(descriptor, mode) as file:
         try:
             yield file
             file.flush()
+            os.fsync(file.fileno())  # a full disk may show itself only here
             os.replace(part, place)
         except BaseException:
-            os.unlink(part)
+            with contextlib.suppress(OSError):
+                os.unlink(part)
             raise
 
 

@@ -149,6 +149,7 @@ SAME_PLACE(sinew_rod_info, RodInfo, end_joint);
 SAME_PLACE(sinew_rod_info, RodInfo, segment_count);
 SAME_PLACE(sinew_rod_info, RodInfo, length_m);
 SAME_PLACE(sinew_rod_info, RodInfo, frequency_hz);
+SAME_PLACE(sinew_rod_info, RodInfo, damping_ratio);
 SAME_PLACE(sinew_rod_info, RodInfo, gravity);
 SAME_PLACE(sinew_rod_info, RodInfo, turn_limit_rad);
 

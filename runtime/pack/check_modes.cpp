@@ -18,10 +18,12 @@ constexpr float kMostNumber = 1e9f;
 // s^2.
 constexpr double kMostAnswer = 1e6;
 
-// A gain is what brings a lasting force's displacement, 1 / w^2; both sides have been rounded.
+// A gain is what brings a lasting force's displacement, 1 / w^2; both sides have been rounded, a1 near 2 by
+// up to 1.2e-7.
 bool is_gain(double gain, double of, float a1, float a2) noexcept {
+  constexpr double kRounding = 5e-7;
   const double wanted = 1 - double{a1} - double{a2};
-  return std::fabs(gain * of - wanted) <= 1e-5 + 1e-2 * wanted;
+  return std::fabs(gain * of - wanted) <= kRounding + 1e-2 * wanted;
 }
 
 Status check_mode(const ModeRecord& mode, size_t index) noexcept {

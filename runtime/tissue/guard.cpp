@@ -53,10 +53,9 @@ float largest_displacement_m(const float* l, uint32_t nodes) noexcept {
   return largest_m;
 }
 
-float hold_within(float limit_m, uint32_t nodes, float* u) noexcept {
-  const float largest_m = largest_displacement_m(u, nodes), share = limit_share(largest_m, limit_m);
+void hold_within(float limit_m, uint32_t nodes, float* u) noexcept {
+  const float share = limit_share(largest_displacement_m(u, nodes), limit_m);
   for (size_t i = 0; share != 1 && i < size_t{3} * nodes; ++i) u[i] *= share;
-  return largest_m;
 }
 
 void read_output(const Network& network, std::span<const pack::RegionRecord> regions, uint32_t node_count,

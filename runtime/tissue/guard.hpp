@@ -25,9 +25,9 @@ float limit_share(float largest_m, float limit_m) noexcept;
 // Of [nodes][3]; lengths by hypot, for the square of a wild displacement may overflow.
 float largest_displacement_m(const float* l, uint32_t nodes) noexcept;
 
-// Scales a region's displacement to what may be shown of it, and returns how large it was. What swings is not
-// scaled: it would lose energy that the tissue has.
-float hold_within(float limit_m, uint32_t nodes, float* u) noexcept;
+// Scales a region's displacement to what may be shown of it. What swings is left alone up to the limit: scaled
+// with it, it would lose energy that the tissue has.
+void hold_within(float limit_m, uint32_t nodes, float* u) noexcept;
 
 // l ([node_count][3], metres) of y and back; what is beyond a region's limit is remembered as it is shown.
 void read_output(const Network& network, std::span<const pack::RegionRecord> regions, uint32_t node_count,

@@ -63,6 +63,15 @@ FramePlace frame_at(const pack::ClipRecord& clip, double time_s, ClipEnd end) no
   return {frame, place - frame};
 }
 
+// ---- rods ----
+
+// A swing of w: damping_s resists its bending, drag its speed. All segments have a rod's own.
+float damping_ratio_of(const pack::PackView& pack, const pack::RodRecord& rod) noexcept {
+  const pack::RodSegmentRecord& segment = pack.rod_segments[rod.first_segment];
+  const float w = 2 * std::numbers::pi_v<float> * rod.frequency_hz;
+  return w * segment.damping_s / 2 + segment.drag_per_s / (2 * w);
+}
+
 }  // namespace
 
 AssetInfo describe(const Asset& asset) noexcept {
@@ -158,6 +167,7 @@ RodInfo describe_rod(const Asset& asset, uint32_t rod) noexcept {
                .gravity = record.gravity,
                .turn_limit_rad = record.turn_limit_rad};
   if (record.end_holder > 0) info.end_joint = record.end_holder - 1;
+  if (record.frequency_hz > 0) info.damping_ratio = damping_ratio_of(pack, record);
   const RodSeat& seat = asset.rods.seats()[rod];
   for (const RodSlot& slot : asset.rods.slots().subspan(seat.first_slot + 1, seat.segment_count()))
     info.length_m += slot.length_m;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "tissue/guard.hpp"
@@ -86,22 +87,40 @@ Step step_of_pose(Instance& instance, const RodSeat& seat, uint32_t rod, uint32_
           logarithm(now.turn * before.turn.conjugate()) / tick_s};
 }
 
+// What a segment does beside the pose, of what it does.
+struct Beside {
+  Vector3d velocity_m_s, spin_rad_s;
+};
+
+void put_segment(Instance& instance, const RodSeat& seat, uint32_t s, const Placed& place, const Step& step,
+                 const Beside& beside) noexcept {
+  rods::SegmentVelocity velocity;
+  Eigen::Map<Eigen::Vector3f>(velocity.linear_m_s) = (step.velocity_m_s + beside.velocity_m_s).cast<float>();
+  Eigen::Map<Eigen::Vector3f>(velocity.angular_rad_s) = (step.spin_rad_s + beside.spin_rad_s).cast<float>();
+  // A refusal leaves the segment where it was: its joints pull it back, or the batch recovers the strand.
+  (void)instance.rod_batches[seat.batch].set_pose(seat.strand, s - seat.first_slot,
+                                                  pose_of(place.turn, place.middle), velocity);
+}
+
+Beside beside_pose(const Instance& instance, const RodSeat& seat, uint32_t s, const Step& step) noexcept {
+  const rods::SegmentVelocity whole =
+      instance.rod_batches[seat.batch].velocity(seat.strand, s - seat.first_slot);
+  return {Eigen::Map<const Eigen::Vector3f>(whole.linear_m_s).cast<double>() - step.velocity_m_s,
+          Eigen::Map<const Eigen::Vector3f>(whole.angular_rad_s).cast<double>() - step.spin_rad_s};
+}
+
 // As it is shown at the tick before, moving as the pose does and, where it is carried, as it did beside that.
 void take_along(Instance& instance, uint32_t rod) noexcept {
   const RodSeat& seat = instance.asset->rods.seats()[rod];
   for (uint32_t s = seat.first_slot; s < seat.first_slot + seat.slot_count; ++s) {
-    Step step = step_of_pose(instance, seat, rod, s);
+    const Step step = step_of_pose(instance, seat, rod, s);
+    Beside beside{Vector3d::Zero(), Vector3d::Zero()};
     if (instance.carried_rods[rod]) {
       const float* own = instance.rod_velocity + size_t{6} * s;
-      step.velocity_m_s += step.before.turn * Eigen::Map<const Eigen::Vector3f>(own).cast<double>();
-      step.spin_rad_s += step.before.turn * Eigen::Map<const Eigen::Vector3f>(own + 3).cast<double>();
+      beside = {step.before.turn * Eigen::Map<const Eigen::Vector3f>(own).cast<double>(),
+                step.before.turn * Eigen::Map<const Eigen::Vector3f>(own + 3).cast<double>()};
     }
-    rods::SegmentVelocity velocity;
-    Eigen::Map<Eigen::Vector3f>(velocity.linear_m_s) = step.velocity_m_s.cast<float>();
-    Eigen::Map<Eigen::Vector3f>(velocity.angular_rad_s) = step.spin_rad_s.cast<float>();
-    // A refusal leaves the segment where it was: its joints pull it back, or the batch recovers the strand.
-    (void)instance.rod_batches[seat.batch].set_pose(seat.strand, s - seat.first_slot,
-                                                    pose_of(step.before.turn, step.before.middle), velocity);
+    put_segment(instance, seat, s, step.before, step, beside);
   }
 }
 
@@ -238,7 +257,7 @@ void spare_rods(Instance& instance) noexcept {
   if (!spared_m_s2.isZero(0)) add_to_velocities(instance, tick_s * spared_m_s2);
 }
 
-// As a region's displacement is held (tissue/guard.hpp): what is shown, not what swings on.
+// As a region's displacement is held (tissue/guard.hpp).
 Quaterniond limited(const Quaterniond& turn, float limit_rad) noexcept {
   if (limit_rad == 0) return turn;
   const Vector3d vector = logarithm(turn);
@@ -256,6 +275,34 @@ void put_turn(const Instance& instance, const RodShown& as, uint32_t s, const fl
               float* turns) noexcept {
   const Quaterniond turn = rest_of(instance, 0, s).conjugate() * quaternion(orientation);
   Eigen::Map<Eigen::Vector4f>(turns + size_t{4} * s) = shown(turn.normalized(), as).coeffs().cast<float>();
+}
+
+Quaterniond swung_turn(const Instance& instance, const RodSeat& seat, uint32_t k) noexcept {
+  const rods::SegmentPose pose = instance.rod_batches[seat.batch].pose(seat.strand, k);
+  const uint32_t s = seat.first_slot + k;
+  return (rest_of(instance, 0, s).conjugate() * quaternion(pose.orientation)).normalized();
+}
+
+// As a region's swing is held (world/simulate.cpp), turns and what it does beside the pose: further out it
+// would come to rest on the other side of what it touches.
+void hold_swing(Instance& instance, uint32_t rod) noexcept {
+  const RodSeat& seat = instance.asset->rods.seats()[rod];
+  const float limit_rad = rod_shown(instance, rod).limit_rad;
+  if (limit_rad == 0) return;
+  double least_cosine = 1;
+  for (uint32_t k = 1; k <= seat.segment_count(); ++k)
+    least_cosine = std::min(least_cosine, std::abs(swung_turn(instance, seat, k).w()));
+  const double share = double{
+      tissue::limit_share(2 * static_cast<float>(std::acos(least_cosine)), limit_rad / tissue::kFreeShare)};
+  if (share == 1) return;
+  for (uint32_t k = 1; k <= seat.segment_count(); ++k)
+    Eigen::Map<Eigen::Vector4f>(instance.rod_turn + size_t{4} * (seat.first_slot + k)) =
+        exponential(share * logarithm(swung_turn(instance, seat, k))).coeffs().cast<float>();
+  for (uint32_t s = seat.first_slot; s < seat.first_slot + seat.slot_count; ++s) {
+    const Step step = step_of_pose(instance, seat, rod, s);
+    const Beside beside = beside_pose(instance, seat, s, step);
+    put_segment(instance, seat, s, step.now, step, {share * beside.velocity_m_s, share * beside.spin_rad_s});
+  }
 }
 
 void read_turns(Instance& instance) noexcept {
@@ -359,16 +406,11 @@ void remember_rod_velocities(Instance& instance) noexcept {
     const RodSeat& seat = rig.seats()[rod];
     for (uint32_t s = seat.first_slot; s < seat.first_slot + seat.slot_count; ++s) {
       const Step step = step_of_pose(instance, seat, rod, s);
-      const rods::SegmentVelocity whole =
-          instance.rod_batches[seat.batch].velocity(seat.strand, s - seat.first_slot);
+      const Beside beside = beside_pose(instance, seat, s, step);
       const Quaterniond into = step.now.turn.conjugate();
       float* own = instance.rod_velocity + size_t{6} * s;
-      Eigen::Vector3f::Map(own) =
-          (into * (Eigen::Map<const Eigen::Vector3f>(whole.linear_m_s).cast<double>() - step.velocity_m_s))
-              .cast<float>();
-      Eigen::Vector3f::Map(own + 3) =
-          (into * (Eigen::Map<const Eigen::Vector3f>(whole.angular_rad_s).cast<double>() - step.spin_rad_s))
-              .cast<float>();
+      Eigen::Vector3f::Map(own) = (into * beside.velocity_m_s).cast<float>();
+      Eigen::Vector3f::Map(own + 3) = (into * beside.spin_rad_s).cast<float>();
     }
   }
 }
@@ -394,6 +436,7 @@ void simulate_rods(Instance& instance) noexcept {
     instance.told.refused += report.bad_hits;
     instance.told.dropped += report.contacts_dropped;
   }
+  for (uint32_t rod = 0; rod < rig.rod_count; ++rod) hold_swing(instance, rod);
   read_turns(instance);
   watch_rods(instance);
 }

@@ -24,11 +24,33 @@ namespace {
 
 size_t floats_of(const Instance& instance) noexcept { return size_t{3} * instance.level->node_count(); }
 
-// u of this tick is what may be shown of it; counts it where it would have gone beyond the limit.
+void scale(float* values, size_t count, float by) noexcept {
+  for (size_t i = 0; i < count; ++i) values[i] *= by;
+}
+
+// What swings further than it may be shown would swing on unseen, long after what threw it has ended: all
+// that goes on from the tick is scaled, as if it had swung that much less before, so that no energy is added.
+void hold_swing(Instance& instance, const Part& part, float share) noexcept {
+  const size_t modes = part.base.modes.size(), floats = size_t{3} * part.record.node_count;
+  for (const int tick : {0, 1}) {
+    scale(instance.q[tick] + part.mode, modes, share);
+    scale(instance.corrected[tick] + part.mode, modes, share);
+    scale(instance.r[tick] + part.vector, floats, share);
+    scale(instance.l[tick] + part.vector, floats, share);
+  }
+  scale(instance.u[0] + part.vector, floats, share);
+  instance.swing[part.index] *= share * share;
+}
+
+// u of this tick is what may be shown of it, and what goes beyond the limit is counted and held.
 void hold_shown(Instance& instance, const Part& part) noexcept {
-  const float largest_m =
-      tissue::hold_within(part.limit_m, part.record.node_count, instance.u[0] + part.vector);
-  instance.state->displacement_clamps += largest_m > part.limit_m;
+  float* u = instance.u[0] + part.vector;
+  const float largest_m = tissue::largest_displacement_m(u, part.record.node_count);
+  const float held = tissue::limit_share(largest_m, part.limit_m / tissue::kFreeShare);
+  if (held != 1) hold_swing(instance, part, held);
+  instance.state->displacement_clamps += held != 1;
+  const float shown = tissue::limit_share(held * largest_m, part.limit_m);
+  if (shown != 1) scale(u, size_t{3} * part.record.node_count, shown);
 }
 
 // In this tick, and next to nothing of it is seen yet: a change of level had the region again, or all of the

@@ -12,7 +12,7 @@ namespace sinew::demo {
 struct PartMotion {
   std::string name;
   bool is_rod = false;
-  double frequency_hz = 0;  // of a soft part's first mode; NaN of a rod
+  double frequency_hz = 0;  // of its first mode, or of a rod's slowest swing; 0: not known
   double largest_mm = 0;    // of any of its vertices in any frame
   double still_mm = 0;      // of any of its vertices after kStill_s in the last frame's pose
 };

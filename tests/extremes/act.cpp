@@ -159,11 +159,12 @@ void Act::begin_frame() {
   poses = true;
 }
 
-void Act::step() {
+FrameReport Act::step() {
   if (poses) (void)world.set_pose(instance, {.joints = joints, .root = root, .teleport = teleport});
-  (void)world.step(static_cast<float>(dt_s));
+  const FrameReport report = world.step(static_cast<float>(dt_s));
   time_s += dt_s > 0 ? std::min(dt_s, 0.1) : 0;
   ++frame;
+  return report;
 }
 
 void Act::move_joint(uint32_t joint, const double (&matrix)[3][3], const double (&by_m)[3]) {

@@ -49,7 +49,8 @@ class Subject {
   std::vector<RegionInfo> regions;
   std::vector<RodInfo> rods;
   std::vector<uint32_t> parents;
-  float extent_m = 0;  // of the bind pose, the largest
+  float extent_m = 0;    // of the bind pose, the largest
+  bool one_rest = true;  // false: a limp horn that stands up may come to rest on either side
 
  private:
   void make_worlds();
@@ -80,7 +81,7 @@ struct Act {
   Act& operator=(const Act&) = delete;
 
   void begin_frame();  // the clip's pose at time_s, a root at its origin
-  void step();         // and time_s goes on
+  FrameReport step();  // and time_s goes on
   void undo();         // what a scene has set in the world or of the instance
   // The joint and all below it turned, scaled, moved about the joint's place.
   void move_joint(uint32_t joint, const double (&matrix)[3][3], const double (&by_m)[3]);

@@ -100,7 +100,7 @@ class Run {
     const auto displacement = static_cast<double>(outcome.worst.displacement);
     const bool played = outcome.frames == options_.frames && outcome.worst.finite;
     rows_[s].reading.note(displacement, played && displacement <= kMostDisplacement + kRounding, c);
-    if (c % options_.recovery_every != 0) return;
+    if (c % options_.recovery_every != 0 || !subject.one_rest) return;
     const Recovery recovery = recover(subject, scene, c, options_.frames);
     rows_[s].recovery.note(static_cast<double>(recovery.left), recovery.is_back(), c);
     if (options_.lists && !recovery.is_back())

@@ -13,7 +13,8 @@ using Frame = std::function<void(Act&)>;  // changes what the coming frame sets,
 
 struct Scene {
   const char* name;
-  Frame (*begin)(Act&);  // draws how strong it is
+  Frame (*begin)(Act&);      // draws how strong it is
+  bool calls_world = false;  // parameters and tiers glide back to what they were, after it has ended
 };
 std::span<const Scene> all_scenes();
 
@@ -25,9 +26,9 @@ struct Outcome {
 Outcome play(Subject& subject, const Scene& scene, uint64_t seed, uint32_t frames);
 
 // The same beside a twin to whom nothing is done; then both play on for as long as the slowest part of the
-// character needs to swing down to a tenth, and ten ticks more.
+// character needs to swing down to a tenth, and ten ticks more, with their ticks at the same times.
 struct Recovery {
-  float largest = 0;  // difference of any vertex or rod's joint while it lasted, share of the height
+  float largest = 0;  // difference of any vertex or rod's joint, share of the height
   float left = 0;     // at the end
   float wait_s = 0;
   bool is_back() const { return left <= std::max(0.1f * largest, 1e-3f); }

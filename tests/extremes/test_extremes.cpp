@@ -1,4 +1,5 @@
 // test_extremes.cpp  A thousand or so of the cases that `extremes` plays by the hundred thousand.
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "tests/extremes/scenes.hpp"
@@ -26,6 +27,39 @@ TEST_CASE("whatever_is_done_to_a_character_no_vertex_is_read_further_out_than_ha
       CHECK(outcome.worst.finite);
       CHECK(outcome.worst.displacement <= 0.5f + kRounding);
     }
+  }
+}
+
+TEST_CASE(
+    "left_alone_again_a_character_is_like_one_to_whom_nothing_was_done_once_its_slowest_swing_has_died_"
+    "down") {
+  // To a tenth, and a quarter of that more, for a network's memory may last longer than its modes swing.
+  constexpr float kLeft = 0.125f, kLeast = 1e-3f;
+  const auto& subjects = built_subjects();
+  for (size_t s = 0; s < all_scenes().size(); ++s) {
+    for (uint64_t seed = 1; seed <= subjects.size(); ++seed) {
+      Subject& subject = *subjects[seed % subjects.size()];
+      if (!subject.one_rest) continue;
+      const Recovery recovery = recover(subject, all_scenes()[s], seed, kFrames);
+      INFO(all_scenes()[s].name << ", " << subject.name << ", seed " << seed << ", " << recovery.largest
+                                << " of the height away, left after " << recovery.wait_s << " s");
+      CHECK(recovery.left <= std::max(kLeft * recovery.largest, kLeast));
+    }
+  }
+}
+
+TEST_CASE("a_rod_with_a_limit_that_was_folded_over_what_it_touches_comes_back") {
+  // Of 15,000 cases those that stayed on the other side of it, where nothing held what swings beyond the
+  // limit.
+  const auto& subjects = built_subjects();
+  const auto limited =
+      std::ranges::find(subjects, "block, rods within limits", [](const auto& s) { return s->name; });
+  REQUIRE(limited != subjects.end());
+  for (const uint64_t seed : {554, 1478, 3314, 7292}) {
+    const Scene& scene = all_scenes()[seed % all_scenes().size()];
+    const Recovery recovery = recover(**limited, scene, seed, kFrames);
+    INFO(scene.name << ", seed " << seed << ", left " << recovery.left << " of " << recovery.largest);
+    CHECK(recovery.is_back());
   }
 }
 

@@ -268,7 +268,7 @@ TEST_CASE("demo_tells_how_far_each_part_goes") {
   REQUIRE(report["parts"].size() == 5);
   for (const auto& part : report["parts"]) {
     CHECK_THAT(result.out, Catch::Contains(part["name"].get<std::string>()));
-    CHECK((part["kind"] == "rod") == part["frequency_hz"].is_null());
+    CHECK(part["frequency_hz"] > 0);
     const double largest_mm = part["largest_mm"];
     CHECK(largest_mm > 1);
     CHECK(part["largest_of_height"].get<double>() * 600 ==

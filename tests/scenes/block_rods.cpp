@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 namespace sinew::scenes {
@@ -84,6 +85,7 @@ baker::Rod make_rod(const Chain& chain, const RodMatter& matter) {
     bone.drag_per_s = 0.5;
     rod.bones.push_back(bone);
   }
+  rod.frequency_hz = baker::slowest_swing_rad_per_s(rod.bones) / (2 * std::numbers::pi);
   return rod;
 }
 

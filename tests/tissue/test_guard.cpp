@@ -141,7 +141,7 @@ TEST_CASE("what_is_beyond_a_limit_is_shown_and_remembered_by_the_same_share_and_
   REQUIRE(share < 0.5f);
 
   std::vector<float> shown = fixture.l;
-  CHECK(tissue::hold_within(kLimit, 3, shown.data()) == Approx(wild_m));
+  tissue::hold_within(kLimit, 3, shown.data());
   CHECK(shown[3] == Approx(share * wild_m));
   CHECK(shown[0] == Approx(share * whole[0]));  // the region as one
   CHECK(shown[9] == whole[9]);                  // the other region is its own

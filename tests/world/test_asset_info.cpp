@@ -2,6 +2,7 @@
 // it.
 #include <array>
 #include <limits>
+#include <numbers>
 #include <string>
 
 #include "pack/reader.hpp"
@@ -196,6 +197,9 @@ TEST_CASE("rods_and_capsules_tell_what_they_hang_on") {
     REQUIRE(tailed.world.rod_info(tailed.asset, r, &rod).ok());
     CHECK(rod.segment_count > 0);
     CHECK(rod.length_m > 0.1f);
+    const float w = 2 * std::numbers::pi_v<float> * rod.frequency_hz;
+    CHECK(w > 1);
+    CHECK(rod.damping_ratio == Approx(w * 0.01f / 2 + 0.5f / (2 * w)));  // block_rods.cpp
     CHECK(!tailed.world.joint_is_on_rod(tailed.asset, rod.attach_joint));
     CHECK(rod.end_joint == kNone);
   }

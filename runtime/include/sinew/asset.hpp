@@ -97,7 +97,8 @@ struct RodInfo {
   uint32_t end_joint = kNone;  // that holds its end; kNone: it is free
   uint32_t segment_count = 0;
   float length_m = 0;        // of all segments together
-  float frequency_hz = 0;    // about that of its slowest swing; 0: not known
+  // About those of its slowest swing, of its joints and its drag; 0: not known.
+  float frequency_hz = 0, damping_ratio = 0;
   float gravity = 0;         // times the earth's
   float turn_limit_rad = 0;  // of a segment against its rest; 0: none
 };

@@ -221,7 +221,7 @@ struct InstanceReport {
   uint32_t ticks_since_network = 0;  // 0: its last tick was the network's; counts on where the asset has none
   // Counters since creation.
   uint32_t input_clamps = 0;         // network inputs outside the baked envelope
-  uint32_t displacement_clamps = 0;  // regions and ticks that would have gone beyond the baked bound
+  uint32_t displacement_clamps = 0;  // regions and ticks that would have swung beyond the baked limit
   // The network's state was given up: NaN or infinity in it. The modal base takes over for 60 ticks, then the
   // network starts anew.
   uint32_t fallbacks = 0;
