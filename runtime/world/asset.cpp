@@ -105,7 +105,6 @@ Status pack_narrow_layers(const pack::PackView& pack, core::AlignedBlock* out) n
   return {};
 }
 
-// What no instance could be made of is refused with the asset.
 float largest_extent_m(const pack::PackView& pack) noexcept {
   Eigen::AlignedBox3f box;
   for (size_t at = 0; at < pack.positions.size(); at += 3)
@@ -113,6 +112,7 @@ float largest_extent_m(const pack::PackView& pack) noexcept {
   return box.isEmpty() ? 0 : box.sizes().maxCoeff();
 }
 
+// What no instance could be made of is refused with the asset.
 Status check_rods(const Asset& asset) noexcept {
   std::unique_ptr<rods::RodBatch[]> unused;
   const Status status = make_rod_batches(asset, {}, &unused);
@@ -193,8 +193,8 @@ Status open_asset(std::span<const std::byte> bytes, Asset* out) noexcept {
   if (Status status = find_soft_vertices(view, &asset.soft); !status.ok()) return status;
   if (Status status = check_rods(asset); !status.ok()) return status;
   read_tiers(view, asset);
-  if (Status status = measure_reach(asset, &asset.reach_m); !status.ok()) return status;
   asset.extent_m = largest_extent_m(view);
+  if (Status status = measure_reach(asset, &asset.reach_m); !status.ok()) return status;
   *out = std::move(asset);
   return {};
 }

@@ -8,6 +8,7 @@
 #include <new>
 
 #include "core/status.hpp"
+#include "world/displacement_bound.hpp"
 #include "world/pose.hpp"
 #include "world/rotation.hpp"
 #include "world/tuning.hpp"
@@ -42,6 +43,16 @@ float farthest_vertex_m(const pack::PackView& pack, const Matrix34* bind) noexce
   return farthest;
 }
 
+// A node by its limit, and a vertex that is pushed once more by that; of each region that carries it.
+float farthest_displaced_m(const Asset& asset) noexcept {
+  float farthest = 0;
+  for (size_t r = 0; r < asset.pack.regions.size(); ++r)
+    farthest = std::max(farthest, static_cast<float>(asset.soft.most_shared[r]) *
+                                      std::min(2 * asset.pack.regions[r].displacement_limit_m,
+                                               displacement_bound_m(asset, r)));
+  return farthest;
+}
+
 }  // namespace
 
 Status measure_reach(const Asset& asset, float* out_m) noexcept {
@@ -49,10 +60,7 @@ Status measure_reach(const Asset& asset, float* out_m) noexcept {
   const std::unique_ptr<Matrix34[]> bind(new (std::nothrow) Matrix34[pack.joints.size()]);
   if (!bind) return core::make_status(StatusCode::kOutOfCapacity, "asset: no memory for its bind pose");
   bind_pose(pack.joints, bind.get());
-  float displaced = 0;
-  for (const pack::RegionRecord& region : pack.regions)
-    displaced = std::max(displaced, region.displacement_limit_m);
-  *out_m = farthest_vertex_m(pack, bind.get()) + displaced + 2 * longest_rod_m(asset.rods);
+  *out_m = farthest_vertex_m(pack, bind.get()) + farthest_displaced_m(asset) + 2 * longest_rod_m(asset.rods);
   return {};
 }
 

@@ -196,10 +196,17 @@ Reading read(const Act& act, bool normals) {
   if (!normals) return out;
   const uint32_t vertices = act.subject.info.vertex_count;
   std::vector<float> places(size_t{3} * vertices), directions(size_t{3} * vertices);
-  require(act.world.read_surface(act.instance, {.capacity = vertices,
-                                                .positions = {.out = places.data()},
-                                                .normals = {.out = directions.data()}}),
-          "read_surface");
+  Bounds ball;
+  require(act.world.bounds(act.instance, &ball), "bounds");
+  SurfaceReadDef def{.space = Space::kWorld,
+                     .capacity = vertices,
+                     .positions = {.out = places.data()},
+                     .normals = {.out = directions.data()}};
+  std::ranges::copy(ball.center_m, def.origin_m);
+  require(act.world.read_surface(act.instance, def), "read_surface");
+  for (size_t i = 0; i + 2 < places.size(); i += 3)
+    out.outside =
+        std::max(out.outside, std::hypot(places[i], places[i + 1], places[i + 2]) / ball.radius_m - 1);
   out.finite = out.finite && all_finite(places) && all_finite(directions);
   return out;
 }

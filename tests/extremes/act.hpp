@@ -90,6 +90,7 @@ struct Act {
 // What is read after a frame, held against the bounds.
 struct Reading {
   float displacement = 0;  // of any vertex from its skinned place, bind pose, share of the largest extent
+  float outside = 0;       // of World::bounds, of any vertex, share of the ball's radius; with normals alone
   bool finite = true;
 };
 Reading read(const Act& act, bool normals);

@@ -76,7 +76,8 @@ class Run {
     std::printf(
         "\ndisplacement: largest, share of the bind pose's largest extent (bound %g); reach: of a strand, "
         "share of its length "
-        "(bound %g); bad: not played, not finite or beyond.\nleft: largest difference from an undisturbed "
+        "(bound %g); bad: not played, not finite, beyond, or outside of World::bounds.\nleft: largest "
+        "difference from an undisturbed "
         "twin when its "
         "slowest part has had time to swing down to a tenth, share of the height.\n",
         kMostDisplacement, kMostReach);
@@ -99,7 +100,11 @@ class Run {
     const Outcome outcome = play(subject, scene, c, options_.frames);
     const auto displacement = static_cast<double>(outcome.worst.displacement);
     const bool played = outcome.frames == options_.frames && outcome.worst.finite;
-    rows_[s].reading.note(displacement, played && displacement <= kMostDisplacement + kRounding, c);
+    const bool held = scene.deforms || static_cast<double>(outcome.worst.outside) <= kRounding;
+    rows_[s].reading.note(displacement, played && held && displacement <= kMostDisplacement + kRounding, c);
+    if (options_.lists && !held)
+      std::printf("outside of its bounds: case %llu, %s, %s: by %.3f of the radius\n", number(c), scene.name,
+                  subject.name.c_str(), static_cast<double>(outcome.worst.outside));
     if (c % options_.recovery_every != 0 || !subject.one_rest) return;
     const Recovery recovery = recover(subject, scene, c, options_.frames);
     rows_[s].recovery.note(static_cast<double>(recovery.left), recovery.is_back(), c);

@@ -14,6 +14,7 @@ using Frame = std::function<void(Act&)>;  // changes what the coming frame sets,
 struct Scene {
   const char* name;
   Frame (*begin)(Act&);      // draws how strong it is
+  bool deforms = false;      // joints are scaled, sheared or drawn apart, beyond what World::bounds counts on
   bool calls_world = false;  // parameters and tiers glide back to what they were, after it has ended
 };
 std::span<const Scene> all_scenes();

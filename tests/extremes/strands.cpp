@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <vector>
 
@@ -23,19 +24,35 @@ struct Strand {
   double length_m = 0;
 };
 
+// Each segment as long as it comes, up to thirty times its neighbour; the whole as long as before.
+void make_uneven(Draws& draws, double length_m, test::Segments& segments) {
+  std::vector<double> lengths(segments.size());
+  for (double& length : lengths) length = draws.of_any_size(1, 30);
+  const double all = std::accumulate(lengths.begin(), lengths.end(), 0.0);
+  double begin_m = 0;
+  for (size_t i = 0; i < segments.size(); ++i) {
+    const double own_m = lengths[i] * length_m / all;
+    segments[i].position_m[0] = begin_m + own_m / 2;
+    segments[i].length_m = static_cast<float>(own_m);
+    begin_m += own_m;
+  }
+}
+
 Strand make(Draws& draws, uint32_t does) {
   Strand out;
   const uint32_t count = 2 + draws.below(30);
   out.length_m = draws.of_any_size(0.02, 5);
   const auto young_pa = static_cast<float>(draws.of_any_size(1e3, 1e10));
-  if (draws.chance(0.2) && count >= 6)
+  if (draws.chance(0.2) && count >= 6) {
     out.segments = test::branched_rod(count / 3, 2, young_pa);
-  else
+  } else {
     out.segments = test::straight_rod({.segments = count,
                                        .young_pa = young_pa,
                                        .length_m = out.length_m,
                                        .radius_m = static_cast<float>(out.length_m / count / 6),
                                        .torsion_pa = young_pa / 3});
+    if (draws.chance(0.3)) make_uneven(draws, out.length_m, out.segments);
+  }
   if (does & kBoth) out.segments.back().fixed = true;
   const float teleport = draws.chance(0.5) ? 2.0f : 1e6f;
   out.batch = test::batch_of({out.segments}, {.max_iterations = draws.chance(0.5) ? 12 : 1 + draws.below(12),

@@ -34,7 +34,7 @@ void line_up(Stage& stage) {
 // A camera that goes along the row and swings to and fro, and another that stands behind it.
 void look(Stage& stage, int frame) {
   const double half_rad = 0.2 + 0.1 * std::sin(0.05 * frame);
-  View views[] = {{.position_m = {3, 0.5, 4 - 0.05 * frame}}, {.position_m = {0, 1, 3}, .far_m = 12}};
+  View views[] = {{.position_m = {3, 0.5, 4 - 0.05 * frame}}, {.position_m = {0, 1, 3}, .far_m = 10}};
   views[0].rotation_xyzw[1] = static_cast<float>(std::sin(half_rad));
   views[0].rotation_xyzw[3] = static_cast<float>(std::cos(half_rad));
   REQUIRE(stage.world.set_views(views).ok());
