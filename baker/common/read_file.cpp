@@ -27,8 +27,8 @@ Container read_whole(const std::string& path) {
   const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
   if (!file) refuse(path, std::strerror(errno));
 
-  Container
-      bytes;  // grown by what arrives: a pipe has no size to ask for. What is not filled is cleared in vain
+  // Grown by what arrives: a pipe has no size to ask for. What is not filled is cleared in vain.
+  Container bytes;
   constexpr size_t kChunk = size_t{1} << 16;
   for (size_t size = 0;;) {
     bytes.resize(size + kChunk);

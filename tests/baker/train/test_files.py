@@ -57,6 +57,15 @@ class Files(unittest.TestCase):
         self.assertEqual(read(self.path), "old")
         self.assertEqual(self.entries(), ["pack"])
 
+    def test_a_pipe_is_written_to_and_stays_one(self):
+        os.mkfifo(self.path)
+        reader = os.open(self.path, os.O_RDONLY | os.O_NONBLOCK)
+        write_text(self.path, "whole")
+        self.assertEqual(os.read(reader, 100), b"whole")
+        os.close(reader)
+        self.assertFalse(os.path.isfile(self.path))
+        self.assertEqual(self.entries(), ["pack"])
+
     def test_a_link_stays_a_link_and_a_copy_is_whole(self):
         link = os.path.join(self.folder.name, "link")
         write_text(self.path, "old")
