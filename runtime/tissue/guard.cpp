@@ -47,6 +47,10 @@ float limit_share(float largest_m, float limit_m) noexcept {
   return (free_m + rest_m * std::tanh((largest_m - free_m) / rest_m)) / largest_m;
 }
 
+float swing_share(float largest_m, float limit_m) noexcept {
+  return limit_share(largest_m, limit_m / kFreeShare);
+}
+
 float largest_displacement_m(const float* l, uint32_t nodes) noexcept {
   float largest_m = 0;
   for (uint32_t i = 0; i < nodes; ++i, l += 3) largest_m = std::max(largest_m, std::hypot(l[0], l[1], l[2]));

@@ -81,9 +81,19 @@ void step_part(Instance& instance, const Part& part, float x, float* out) noexce
   float *q = instance.q_hat + part.mode, *theta = instance.r_hat + part.vector;
   tissue::fraction_answer(part.base, slopes_of(instance, part.index), heard, state, force_of(instance, part),
                           x, {.q = q, .r = instance.r_hat + part.vector, .l = l});
+  const float most_m = limit_m(instance, part.index, x);
   tissue::modal_turn(part.base, q, instance.region[0], theta);
   tissue::warp(theta, l, part.record.node_count, out);
-  tissue::hold_within(limit_m(instance, part.index, x), part.record.node_count, out);
+  // As the tick will hold it, by so much of it.
+  const float held = tissue::swing_share(tissue::largest_displacement_m(out, part.record.node_count), most_m);
+  if (held != 1) {
+    const float share = std::pow(held, x);
+    for (size_t m = 0; m < part.base.modes.size(); ++m) q[m] *= share;
+    for (size_t i = 0; i < size_t{3} * part.record.node_count; ++i) l[i] *= share;
+    tissue::modal_turn(part.base, q, instance.region[0], theta);
+    tissue::warp(theta, l, part.record.node_count, out);
+  }
+  tissue::hold_within(most_m, part.record.node_count, out);
   if (!tissue::all_finite(out, size_t{3} * part.record.node_count))
     std::copy_n(instance.u[0] + part.vector, size_t{3} * part.record.node_count, out);
 }

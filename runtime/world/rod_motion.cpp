@@ -270,34 +270,36 @@ Quaterniond shown(const Quaterniond& turn, const RodShown& as) noexcept {
   return as.intensity == 1 ? within : exponential(double{as.intensity} * logarithm(within));
 }
 
-// Of a segment that is turned so in the world.
-void put_turn(const Instance& instance, const RodShown& as, uint32_t s, const float* orientation,
-              float* turns) noexcept {
-  const Quaterniond turn = rest_of(instance, 0, s).conjugate() * quaternion(orientation);
-  Eigen::Map<Eigen::Vector4f>(turns + size_t{4} * s) = shown(turn.normalized(), as).coeffs().cast<float>();
+// Against the rest, of a segment that is turned so in the world.
+Quaterniond swung_turn(const Instance& instance, uint32_t s, const float* orientation) noexcept {
+  return (rest_of(instance, 0, s).conjugate() * quaternion(orientation)).normalized();
 }
 
-Quaterniond swung_turn(const Instance& instance, const RodSeat& seat, uint32_t k) noexcept {
-  const rods::SegmentPose pose = instance.rod_batches[seat.batch].pose(seat.strand, k);
-  const uint32_t s = seat.first_slot + k;
-  return (rest_of(instance, 0, s).conjugate() * quaternion(pose.orientation)).normalized();
+void put_turn(float* turns, uint32_t s, const Quaterniond& turn) noexcept {
+  Eigen::Map<Eigen::Vector4f>(turns + size_t{4} * s) = turn.coeffs().cast<float>();
 }
 
-// As a region's swing is held (world/simulate.cpp), turns and what it does beside the pose: further out it
-// would come to rest on the other side of what it touches.
-void hold_swing(Instance& instance, uint32_t rod) noexcept {
-  const RodSeat& seat = instance.asset->rods.seats()[rod];
-  const float limit_rad = rod_shown(instance, rod).limit_rad;
-  if (limit_rad == 0) return;
+// What holds a rod's swing, of segments that are turned so: as a region's is held (tissue/guard.hpp), turns
+// and what it does beside the pose. Further out it would come to rest on the other side of what it touches.
+template <class TurnOf>
+double swing_share(const RodSeat& seat, float limit_rad, TurnOf turn_of_segment) noexcept {
+  if (limit_rad == 0) return 1;
   double least_cosine = 1;
   for (uint32_t k = 1; k <= seat.segment_count(); ++k)
-    least_cosine = std::min(least_cosine, std::abs(swung_turn(instance, seat, k).w()));
-  const double share = double{
-      tissue::limit_share(2 * static_cast<float>(std::acos(least_cosine)), limit_rad / tissue::kFreeShare)};
+    least_cosine = std::min(least_cosine, std::abs(turn_of_segment(k).w()));
+  return double{tissue::swing_share(2 * static_cast<float>(std::acos(least_cosine)), limit_rad)};
+}
+
+void hold_swing(Instance& instance, uint32_t rod) noexcept {
+  const RodSeat& seat = instance.asset->rods.seats()[rod];
+  const auto swung = [&](uint32_t k) {
+    const rods::SegmentPose pose = instance.rod_batches[seat.batch].pose(seat.strand, k);
+    return swung_turn(instance, seat.first_slot + k, pose.orientation);
+  };
+  const double share = swing_share(seat, rod_shown(instance, rod).limit_rad, swung);
   if (share == 1) return;
   for (uint32_t k = 1; k <= seat.segment_count(); ++k)
-    Eigen::Map<Eigen::Vector4f>(instance.rod_turn + size_t{4} * (seat.first_slot + k)) =
-        exponential(share * logarithm(swung_turn(instance, seat, k))).coeffs().cast<float>();
+    put_turn(instance.rod_turn, seat.first_slot + k, exponential(share * logarithm(swung(k))));
   for (uint32_t s = seat.first_slot; s < seat.first_slot + seat.slot_count; ++s) {
     const Step step = step_of_pose(instance, seat, rod, s);
     const Beside beside = beside_pose(instance, seat, s, step);
@@ -311,7 +313,8 @@ void read_turns(Instance& instance) noexcept {
     const RodShown as = rod_shown(instance, rod);
     for (uint32_t k = 1; k <= seat.segment_count(); ++k) {
       const rods::SegmentPose pose = instance.rod_batches[seat.batch].pose(seat.strand, k);
-      put_turn(instance, as, seat.first_slot + k, pose.orientation, instance.rod_turn);
+      const uint32_t s = seat.first_slot + k;
+      put_turn(instance.rod_turn, s, shown(swung_turn(instance, s, pose.orientation), as));
     }
   }
 }
@@ -510,8 +513,15 @@ void turn_rods_between(Instance& instance, float x, float* turns) noexcept {
         continue;
       }
       const float* first = instance.rod_orientations + size_t{4} * seat.strand * batch.segment_count();
-      for (uint32_t k = 1; k <= seat.segment_count(); ++k)
-        put_turn(instance, as, seat.first_slot + k, first + size_t{4} * k, turns);
+      const auto swung = [&](uint32_t k) {
+        return swung_turn(instance, seat.first_slot + k, first + size_t{4} * k);
+      };
+      // As the tick will hold it, by so much of it.
+      const double share = std::pow(swing_share(seat, as.limit_rad, swung), ticks);
+      for (uint32_t k = 1; k <= seat.segment_count(); ++k) {
+        const Quaterniond held = share == 1 ? swung(k) : exponential(share * logarithm(swung(k)));
+        put_turn(turns, seat.first_slot + k, shown(held, as));
+      }
     }
   }
 }

@@ -28,29 +28,32 @@ void scale(float* values, size_t count, float by) noexcept {
   for (size_t i = 0; i < count; ++i) values[i] *= by;
 }
 
-// What swings further than it may be shown would swing on unseen, long after what threw it has ended: all
-// that goes on from the tick is scaled, as if it had swung that much less before, so that no energy is added.
+void turn_and_warp(Instance& instance, const Part& part) noexcept {
+  tissue::modal_turn(part.base, instance.q[0] + part.mode, instance.region[0], instance.theta + part.vector);
+  tissue::warp(instance.theta + part.vector, instance.l[0] + part.vector, part.record.node_count,
+               instance.u[0] + part.vector);
+}
+
+// All that goes on from the tick is scaled, and what that came from, which frames between ticks go on with.
 void hold_swing(Instance& instance, const Part& part, float share) noexcept {
   const size_t modes = part.base.modes.size(), floats = size_t{3} * part.record.node_count;
-  for (const int tick : {0, 1}) {
-    scale(instance.q[tick] + part.mode, modes, share);
-    scale(instance.corrected[tick] + part.mode, modes, share);
-    scale(instance.r[tick] + part.vector, floats, share);
-    scale(instance.l[tick] + part.vector, floats, share);
-  }
-  scale(instance.u[0] + part.vector, floats, share);
+  for (float* values :
+       {instance.q[0], instance.q[1], instance.corrected[0], instance.corrected[1], instance.q_hat})
+    scale(values + part.mode, modes, share);
+  for (float* values : {instance.r[0], instance.r[1], instance.l[0], instance.l[1], instance.r_hat})
+    scale(values + part.vector, floats, share);
   instance.swing[part.index] *= share * share;
+  turn_and_warp(instance, part);
 }
 
 // u of this tick is what may be shown of it, and what goes beyond the limit is counted and held.
 void hold_shown(Instance& instance, const Part& part) noexcept {
   float* u = instance.u[0] + part.vector;
-  const float largest_m = tissue::largest_displacement_m(u, part.record.node_count);
-  const float held = tissue::limit_share(largest_m, part.limit_m / tissue::kFreeShare);
+  const float held =
+      tissue::swing_share(tissue::largest_displacement_m(u, part.record.node_count), part.limit_m);
   if (held != 1) hold_swing(instance, part, held);
   instance.state->displacement_clamps += held != 1;
-  const float shown = tissue::limit_share(held * largest_m, part.limit_m);
-  if (shown != 1) scale(u, size_t{3} * part.record.node_count, shown);
+  tissue::hold_within(part.limit_m, part.record.node_count, u);
 }
 
 // In this tick, and next to nothing of it is seen yet: a change of level had the region again, or all of the
@@ -173,12 +176,6 @@ void project_change(Instance& instance, const Part& part, const float* l, const 
   const size_t floats = size_t{3} * part.record.node_count;
   for (size_t i = 0; i < floats; ++i) change[i] = l[part.vector + i] - from[part.vector + i];
   tissue::modal_project(part.base, change, q + part.mode);
-}
-
-void turn_and_warp(Instance& instance, const Part& part) noexcept {
-  tissue::modal_turn(part.base, instance.q[0] + part.mode, instance.region[0], instance.theta + part.vector);
-  tissue::warp(instance.theta + part.vector, instance.l[0] + part.vector, part.record.node_count,
-               instance.u[0] + part.vector);
 }
 
 void shift_back(Instance& instance) noexcept {

@@ -47,11 +47,11 @@ Shown played(Stage& stage, const test::Motion& motion, double frame_s, int frame
 }
 
 // Of the tail and the horns, how rods have turned what the pose has; entries of matrices.
-Shown played_rods(Stage& stage, double frame_s, int frames) {
+Shown played_rods(Stage& stage, const test::Motion& motion, double frame_s, int frames) {
   double time_s = 0;
   const auto step = [&](double dt_s) {
     time_s += dt_s;
-    const scenes::TailedPose pose = scenes::with_rods(scenes::walk(time_s));
+    const scenes::TailedPose pose = scenes::with_rods(motion(time_s));
     REQUIRE(stage.world.set_pose(stage.blocks[0], pose.pose()).ok());
     stage.world.step(static_cast<float>(dt_s));
     std::vector<float> off = test::joints_of(stage);
@@ -64,6 +64,11 @@ Shown played_rods(Stage& stage, double frame_s, int frames) {
   Shown out;
   for (int f = 0; f < frames; ++f) out.push_back(step(frame_s));
   return out;
+}
+
+// To and fro at 70 m/s^2.
+scenes::BlockPose wild(double time_s) {
+  return scenes::bent_pose(0.1, 0.2 * std::sin(2 * 3.14159265 * 3 * time_s));
 }
 
 double swing(double time_s) { return 0.04 * std::sin(2 * 3.14159265 * 2 * time_s); }
@@ -83,10 +88,33 @@ TEST_CASE("what_is_shown_goes_through_ticks_without_a_jump") {
       }
 }
 
+// Of a network's corrections what is taken is scaled with what swings.
+TEST_CASE("flesh_that_is_held_at_its_limit_goes_through_ticks_without_a_jump") {
+  for (const bool network : {false, true})
+    for (const double frame_s : {kTick_s / 4, kTick_s / 2.4, kTick_s / 50}) {
+      Stage stage(1, {}, network ? test::block_pack() : test::weightless_pack());
+      const float most = judder(played(stage, wild, frame_s, 400));
+      CAPTURE(network, frame_s, most);
+      CHECK(stage.report().displacement_clamps > 10);
+      CHECK(most < (network ? 1.8f : 1.3f));
+    }
+}
+
+TEST_CASE("rods_that_are_held_at_their_limit_go_through_ticks_without_a_jump") {
+  const scenes::PackBytes pack =
+      scenes::soft_block({.network = false, .rods = scenes::RodMatter{.max_displacement = 0.2}});
+  for (const double frame_s : {kTick_s / 4, kTick_s / 2.4, kTick_s / 50}) {
+    Stage stage(1, {}, pack);
+    const float most = judder(played_rods(stage, wild, frame_s, 400));
+    CAPTURE(frame_s, most);
+    CHECK(most < 1.3f);
+  }
+}
+
 TEST_CASE("rods_go_through_ticks_without_a_jump") {
   for (const double frame_s : {kTick_s / 4, kTick_s / 2.4, kTick_s / 50}) {
     Stage stage(1, {}, test::tailed_pack());
-    const float most = judder(played_rods(stage, frame_s, 400));
+    const float most = judder(played_rods(stage, scenes::walk, frame_s, 400));
     CAPTURE(frame_s, most);
     CHECK(most < 1.3f);
   }
