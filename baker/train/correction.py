@@ -20,6 +20,10 @@ class Corrected:
     def map(self, change):
         return Corrected(change(self.d), change(self.d_before), change(self.swing))
 
+    def scaled(self, share):
+        """As if all had swung by so much, (R, B), less."""
+        return Corrected(self.d * share[:, None], self.d_before * share[:, None], self.swing * share * share)
+
     def where(self, kept, otherwise):
         """Sequences (B,) of these where kept, else of the other."""
         return Corrected(*(torch.where(kept, a, b) for a, b in zip(self._all(), otherwise._all())))

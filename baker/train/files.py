@@ -63,6 +63,15 @@ def _new_part(place):
         os.close(descriptor)
 
 
+def _flush_to_disk(descriptor):
+    """A full disk may show itself only here; some file systems cannot."""
+    try:
+        os.fsync(descriptor)
+    except OSError as error:
+        if error.errno not in (errno.EINVAL, errno.ENOTSUP):
+            raise
+
+
 @contextlib.contextmanager
 def written(path, mode="w"):
     """A file that is at `path` once all has been written to it, and never half of it: after an error what was there is. Pipes and devices, which
@@ -78,7 +87,7 @@ def written(path, mode="w"):
         try:
             yield file
             file.flush()
-            os.fsync(file.fileno())  # a full disk may show itself only here
+            _flush_to_disk(file.fileno())
             os.replace(part, place)
         except BaseException:
             with contextlib.suppress(OSError):

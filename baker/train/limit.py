@@ -1,4 +1,4 @@
-"""What may be shown of a displacement (runtime/tissue/guard.hpp)."""
+"""What may be shown of a displacement, and how far it may swing (runtime/tissue/guard.hpp)."""
 import torch
 
 FREE_SHARE = 0.6  # of the limit: up to it a displacement is left alone
@@ -14,9 +14,18 @@ def limit_share(largest, limit):
     return torch.where(limited, shown / largest.clamp(min=1e-12), torch.ones_like(largest))
 
 
-def within(limit, u):
-    """u (R, n, ..., 3) as it is shown; limit (R,), metres."""
+def _share(limit, u):
     squared = u.square().sum(-1).amax(1)
     largest = squared.clamp(min=1e-24).sqrt()
     wide = limit.view(-1, *[1] * (largest.dim() - 1)).expand_as(largest)
-    return u * limit_share(largest, wide)[:, None, ..., None]
+    return limit_share(largest, wide)
+
+
+def within(limit, u):
+    """u (R, n, ..., 3) as it is shown; limit (R,), metres."""
+    return u * _share(limit, u)[:, None, ..., None]
+
+
+def swing_share(limit, u):
+    """(R, ...): what all that goes on from u (R, n, ..., 3) is held with: 1 up to the limit."""
+    return _share(limit / FREE_SHARE, u)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import torch
 
-from .limit import within
+from .limit import swing_share, within
 
 LARGEST_TURN = 2.0  # rad: beyond it a linear turn means nothing
 PROJECTION_RIDGE = 1e-3  # shapes of one region are far from independent at few nodes
@@ -204,10 +204,20 @@ class ModalBase:
         return held(self._apply(self.turn, q))
 
     def arrive(self, state, l, answer, taken=None):
-        """The state after a tick: the l and (q, rest) of predict(), and what a network moves the modes by, (R, K, B)."""
+        """The state after a tick: the l and (q, rest) of predict(), and what a network moves the modes by, (R, K, B); and
+        what its swing is held with, (R, B), which all else that goes on from the tick is to be scaled with."""
         q, rest = answer
         if taken is not None:
             l, q = l + self._apply(self.shape, taken), q + taken
+        theta, whole = self._warped(q, l)
+        share = swing_share(self.limit, whole)
+        of_modes, of_nodes = share[:, None], share[:, None, :, None]
+        if bool((share < 1).any()):
+            l, q, rest = l * of_nodes, q * of_modes, rest * of_nodes
+            theta, whole = self._warped(q, l)
+        u = within(self.limit, whole)
+        return BaseState(l, u, state.u, q, state.q * of_modes, theta, rest, state.rest * of_nodes), share
+
+    def _warped(self, q, l):
         theta = self._theta(q) if self.warping else torch.zeros_like(l)
-        u = within(self.limit, warped(theta, l) if self.warping else l)
-        return BaseState(l, u, state.u, q, state.q, theta, rest, state.rest)
+        return theta, warped(theta, l) if self.warping else l

@@ -2,8 +2,8 @@
 (runtime/world/simulate.cpp).
 
 The network's answer is Alt-ConvLSTM's own Y_t = Y_{t-1} + C_t + (its carry), with what the modes make of l_{t-1} in
-the place of the skinning's motion. What it adds to the modes is bounded by a budget (correction.py), what is shown by
-the region's limit (limit.py), and a network far outside of what it was trained on is not trusted."""
+the place of the skinning's motion. What it adds to the modes is bounded by a budget (correction.py), what is shown and how
+far it swings by the region's limit (limit.py), and a network far outside of what it was trained on is not trusted."""
 from dataclasses import dataclass, replace
 
 import torch
@@ -134,7 +134,8 @@ def tick(model, packed, group, scaling, static, state, felt, drive, turn_now, mi
     base = state.base
     if model is None:
         answer, l, _ = group.base.predict(base, felt, turn_now)
-        return State(group.base.arrive(base, l, answer), base.l, state.memory, state.corrected)
+        after, share = group.base.arrive(base, l, answer)
+        return State(after, base.l * share[:, None, :, None], state.memory, state.corrected)
     if "base" in scaling.without:
         return _alone(model, packed, group, scaling, static, state, felt, drive)
     unit = scaling.length_unit * group.radius
@@ -149,7 +150,8 @@ def tick(model, packed, group, scaling, static, state, felt, drive, turn_now, mi
         y = y * flip
     change = (y * unit - l) * trusted[:, None, :, None] * group.mask[..., None, None]
     taken, corrected = correct(group.base, state.corrected, answer[0], change, pose_stays(group, drive, turn_now))
-    return State(group.base.arrive(base, l, answer, taken), base.l, memory, corrected)
+    after, share = group.base.arrive(base, l, answer, taken)
+    return State(after, base.l * share[:, None, :, None], memory, corrected.scaled(share))
 
 
 def start(model, group, batch):

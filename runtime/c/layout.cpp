@@ -149,9 +149,9 @@ SAME_PLACE(sinew_rod_info, RodInfo, end_joint);
 SAME_PLACE(sinew_rod_info, RodInfo, segment_count);
 SAME_PLACE(sinew_rod_info, RodInfo, length_m);
 SAME_PLACE(sinew_rod_info, RodInfo, frequency_hz);
-SAME_PLACE(sinew_rod_info, RodInfo, damping_ratio);
 SAME_PLACE(sinew_rod_info, RodInfo, gravity);
 SAME_PLACE(sinew_rod_info, RodInfo, turn_limit_rad);
+SAME_PLACE(sinew_rod_info, RodInfo, damping_ratio);
 
 SAME_SIZE(sinew_proxy_info, ProxyInfo);
 SAME_PLACE(sinew_proxy_info, ProxyInfo, joint);

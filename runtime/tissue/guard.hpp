@@ -22,9 +22,10 @@ inline constexpr float kFreeShare = 0.6f;
 // it. largest_m not finite: 1 for NaN.
 float limit_share(float largest_m, float limit_m) noexcept;
 
-// What a region's swing is held with: 1 up to its limit, and so that it stays below 1.67 of it. Further out
-// it would swing on unseen, long after what threw it has ended. Scaled in all that goes on from a tick, it is
-// as if it had swung that much less before: no energy is added.
+// What a region's swing is held with: 1 up to its limit, and so that it stays about within 1.67 of it. Further
+// out it would swing on unseen, long after what threw it has ended. Scaled in all that goes on from a tick,
+// it is as if it had swung that much less before: the swing gains no energy, and under a load that lasts
+// beyond the limit it is damped.
 float swing_share(float largest_m, float limit_m) noexcept;
 
 // Of [nodes][3]; lengths by hypot, for the square of a wild displacement may overflow.

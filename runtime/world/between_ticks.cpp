@@ -85,7 +85,8 @@ void step_part(Instance& instance, const Part& part, float x, float* out) noexce
   tissue::modal_turn(part.base, q, instance.region[0], theta);
   tissue::warp(theta, l, part.record.node_count, out);
   // As the tick will hold it, by so much of it.
-  const float held = tissue::swing_share(tissue::largest_displacement_m(out, part.record.node_count), most_m);
+  const float held = tissue::swing_share(tissue::largest_displacement_m(out, part.record.node_count),
+                                         swing_limit_m(part, most_m));
   if (held != 1) {
     const float share = std::pow(held, x);
     for (size_t m = 0; m < part.base.modes.size(); ++m) q[m] *= share;

@@ -65,7 +65,7 @@ FramePlace frame_at(const pack::ClipRecord& clip, double time_s, ClipEnd end) no
 
 // ---- rods ----
 
-// A swing of w: damping_s resists its bending, drag its speed. All segments have a rod's own.
+// A swing of w: damping_s resists its bending, drag its speed; both of its first segment.
 float damping_ratio_of(const pack::PackView& pack, const pack::RodRecord& rod) noexcept {
   const pack::RodSegmentRecord& segment = pack.rod_segments[rod.first_segment];
   const float w = 2 * std::numbers::pi_v<float> * rod.frequency_hz;

@@ -1,5 +1,7 @@
 // region_part.hpp  A soft part of an instance at its level: its records, and where its numbers begin.
 #pragma once
+#include <algorithm>
+
 #include "tissue/modal_base.hpp"
 #include "world/instance.hpp"
 #include "world/sleep.hpp"
@@ -14,6 +16,11 @@ struct Part {
   float first_rad_per_s;  // as baked
   float limit_m;          // of what is shown, before its intensity
 };
+
+// Of what swings: an engine that lets less be shown lets it swing on beneath.
+inline float swing_limit_m(const Part& part, float limit_m) noexcept {
+  return std::max(limit_m, part.record.displacement_limit_m);
+}
 
 inline tissue::TickForce force_of(const Instance& instance, const Part& part) noexcept {
   const tissue::TickForce& all = instance.tick_force;

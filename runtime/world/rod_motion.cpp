@@ -275,32 +275,41 @@ Quaterniond swung_turn(const Instance& instance, uint32_t s, const float* orient
   return (rest_of(instance, 0, s).conjugate() * quaternion(orientation)).normalized();
 }
 
+Quaterniond swung_turn(const Instance& instance, const RodSeat& seat, uint32_t k) noexcept {
+  const rods::SegmentPose pose = instance.rod_batches[seat.batch].pose(seat.strand, k);
+  return swung_turn(instance, seat.first_slot + k, pose.orientation);
+}
+
 void put_turn(float* turns, uint32_t s, const Quaterniond& turn) noexcept {
   Eigen::Map<Eigen::Vector4f>(turns + size_t{4} * s) = turn.coeffs().cast<float>();
 }
 
-// What holds a rod's swing, of segments that are turned so: as a region's is held (tissue/guard.hpp), turns
-// and what it does beside the pose. Further out it would come to rest on the other side of what it touches.
-template <class TurnOf>
-double swing_share(const RodSeat& seat, float limit_rad, TurnOf turn_of_segment) noexcept {
-  if (limit_rad == 0) return 1;
-  double least_cosine = 1;
-  for (uint32_t k = 1; k <= seat.segment_count(); ++k)
-    least_cosine = std::min(least_cosine, std::abs(turn_of_segment(k).w()));
-  return double{tissue::swing_share(2 * static_cast<float>(std::acos(least_cosine)), limit_rad)};
+// What holds a segment's swing, as a region's is held (tissue/guard.hpp): further out it would come to rest
+// on the other side of what it touches. Neither where an engine lets less be shown, nor where both ends are
+// held.
+double swing_share(const RodSeat& seat, float limit_rad, const Quaterniond& turn) noexcept {
+  if (limit_rad == 0 || seat.end_hold != pack::kNoIndex) return 1;
+  const float angle_rad = 2 * static_cast<float>(std::acos(std::min(1.0, std::abs(turn.w()))));
+  return double{tissue::swing_share(angle_rad, std::max(limit_rad, seat.turn_limit_rad))};
 }
 
+// Turns, and what it does beside the pose.
 void hold_swing(Instance& instance, uint32_t rod) noexcept {
   const RodSeat& seat = instance.asset->rods.seats()[rod];
-  const auto swung = [&](uint32_t k) {
-    const rods::SegmentPose pose = instance.rod_batches[seat.batch].pose(seat.strand, k);
-    return swung_turn(instance, seat.first_slot + k, pose.orientation);
-  };
-  const double share = swing_share(seat, rod_shown(instance, rod).limit_rad, swung);
-  if (share == 1) return;
-  for (uint32_t k = 1; k <= seat.segment_count(); ++k)
-    put_turn(instance.rod_turn, seat.first_slot + k, exponential(share * logarithm(swung(k))));
-  for (uint32_t s = seat.first_slot; s < seat.first_slot + seat.slot_count; ++s) {
+  const float limit_rad = rod_shown(instance, rod).limit_rad;
+  bool held = false;
+  for (uint32_t k = 1; limit_rad > 0 && k <= seat.segment_count(); ++k) {
+    const Quaterniond turn = swung_turn(instance, seat, k);
+    const double share = swing_share(seat, limit_rad, turn);
+    held |= share != 1;
+    put_turn(instance.rod_turn, seat.first_slot + k,
+             share == 1 ? turn : exponential(share * logarithm(turn)));
+  }
+  if (!held) return;
+  for (uint32_t k = 0; k < seat.slot_count; ++k) {
+    const uint32_t s = seat.first_slot + k;
+    const bool is_bone = k > 0 && !is_end(seat, s);
+    const double share = is_bone ? swing_share(seat, limit_rad, swung_turn(instance, seat, k)) : 1;
     const Step step = step_of_pose(instance, seat, rod, s);
     const Beside beside = beside_pose(instance, seat, s, step);
     put_segment(instance, seat, s, step.now, step, {share * beside.velocity_m_s, share * beside.spin_rad_s});
@@ -311,11 +320,8 @@ void read_turns(Instance& instance) noexcept {
   for (uint32_t rod = 0; rod < instance.asset->rods.rod_count; ++rod) {
     const RodSeat& seat = instance.asset->rods.seats()[rod];
     const RodShown as = rod_shown(instance, rod);
-    for (uint32_t k = 1; k <= seat.segment_count(); ++k) {
-      const rods::SegmentPose pose = instance.rod_batches[seat.batch].pose(seat.strand, k);
-      const uint32_t s = seat.first_slot + k;
-      put_turn(instance.rod_turn, s, shown(swung_turn(instance, s, pose.orientation), as));
-    }
+    for (uint32_t k = 1; k <= seat.segment_count(); ++k)
+      put_turn(instance.rod_turn, seat.first_slot + k, shown(swung_turn(instance, seat, k), as));
   }
 }
 
@@ -513,13 +519,11 @@ void turn_rods_between(Instance& instance, float x, float* turns) noexcept {
         continue;
       }
       const float* first = instance.rod_orientations + size_t{4} * seat.strand * batch.segment_count();
-      const auto swung = [&](uint32_t k) {
-        return swung_turn(instance, seat.first_slot + k, first + size_t{4} * k);
-      };
-      // As the tick will hold it, by so much of it.
-      const double share = std::pow(swing_share(seat, as.limit_rad, swung), ticks);
       for (uint32_t k = 1; k <= seat.segment_count(); ++k) {
-        const Quaterniond held = share == 1 ? swung(k) : exponential(share * logarithm(swung(k)));
+        const Quaterniond turn = swung_turn(instance, seat.first_slot + k, first + size_t{4} * k);
+        // As the tick will hold it, by so much of it.
+        const double share = std::pow(swing_share(seat, as.limit_rad, turn), ticks);
+        const Quaterniond held = share == 1 ? turn : exponential(share * logarithm(turn));
         put_turn(turns, seat.first_slot + k, shown(held, as));
       }
     }

@@ -49,8 +49,8 @@ void hold_swing(Instance& instance, const Part& part, float share) noexcept {
 // u of this tick is what may be shown of it, and what goes beyond the limit is counted and held.
 void hold_shown(Instance& instance, const Part& part) noexcept {
   float* u = instance.u[0] + part.vector;
-  const float held =
-      tissue::swing_share(tissue::largest_displacement_m(u, part.record.node_count), part.limit_m);
+  const float held = tissue::swing_share(tissue::largest_displacement_m(u, part.record.node_count),
+                                         swing_limit_m(part, part.limit_m));
   if (held != 1) hold_swing(instance, part, held);
   instance.state->displacement_clamps += held != 1;
   tissue::hold_within(part.limit_m, part.record.node_count, u);

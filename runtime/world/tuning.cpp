@@ -6,6 +6,7 @@
 
 #include "frame/scheduler.hpp"
 #include "world/air.hpp"
+#include "world/displacement_bound.hpp"
 #include "world/dormant.hpp"
 #include "world/glide.hpp"
 #include "world/publish.hpp"
@@ -377,7 +378,11 @@ float tuned_reach_m(const Instance& instance) noexcept {
     const float shows =
         std::max({1.0f, part.intensity.now, targets.intensity}) *
         std::max({1.0f, displacement_of(part, 0), targets.root_displacement * targets.root_displacement});
-    most_m = std::max(most_m, (shows - 1) * instance.level->pack.regions[r].displacement_limit_m);
+    const float limit_m = instance.level->pack.regions[r].displacement_limit_m,
+                bound_m = displacement_bound_m(*instance.asset, r);
+    // Beyond what Asset::reach_m counts: the limit, and what contacts push.
+    const float more_m = std::min((shows + 1) * limit_m, bound_m) - std::min(2 * limit_m, bound_m);
+    most_m = std::max(most_m, static_cast<float>(instance.asset->soft.most_shared[r]) * more_m);
   }
   return most_m;
 }

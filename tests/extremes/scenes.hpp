@@ -27,9 +27,10 @@ struct Outcome {
 Outcome play(Subject& subject, const Scene& scene, uint64_t seed, uint32_t frames);
 
 // The same beside a twin to whom nothing is done; then both play on for as long as the slowest part of the
-// character needs to swing down to a tenth, and ten ticks more, with their ticks at the same times.
+// character needs to swing down to a tenth, and ten ticks more, forty where the scene calls the world; with
+// their ticks at the same times.
 struct Recovery {
-  float largest = 0;  // difference of any vertex or rod's joint, share of the height
+  float largest = 0;  // difference of any vertex or rod's joint that came of it, share of the height
   float left = 0;     // at the end
   float wait_s = 0;
   bool is_back() const { return left <= std::max(0.1f * largest, 1e-3f); }

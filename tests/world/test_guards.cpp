@@ -64,9 +64,9 @@ TEST_CASE("displacement_stays_below_the_limit_and_is_counted_where_it_would_not"
   CHECK(largest_m > 0.02);
 }
 
-// What is held is what is shown: the state swings on, driven and damped, so that it stands after an hour
-// where it stood after seconds. What a frame that turns does to flesh is heard of what is shown, or a spin
-// faster than the first mode would fling it without end.
+// Up to the limit only what is shown is held and the state swings on, driven and damped; beyond it all is
+// scaled. So it stands after an hour where it stood after seconds. What a frame that turns does to flesh is
+// heard of what is shown, or a spin faster than the first mode would fling it without end.
 TEST_CASE("an_hour_at_the_limit_winds_nothing_up") {
   const scenes::PackBytes tight = scenes::soft_block({.displacement_limit = 0.2});
   const auto shaken = [](double t) { return scenes::shake(t, 3 * 4); };

@@ -529,7 +529,8 @@ TEST_CASE("a_snapshot_long_after_a_change_gives_the_same_bits_again") {
 }
 
 TEST_CASE("bounds_follow_what_may_be_shown") {
-  Stage stage(1, {}, test::weightless_pack());
+  const scenes::PackBytes tight = scenes::soft_block({.displacement_limit = 0.2, .network = false});
+  Stage stage(1, {}, tight);
   stage.play(scenes::walk, 0.5);
   Bounds before, after;
   REQUIRE(stage.world.bounds(stage.blocks[0], &before).ok());

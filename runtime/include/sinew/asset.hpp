@@ -97,10 +97,10 @@ struct RodInfo {
   uint32_t end_joint = kNone;  // that holds its end; kNone: it is free
   uint32_t segment_count = 0;
   float length_m = 0;        // of all segments together
-  // About those of its slowest swing, of its joints and its drag; 0: not known.
-  float frequency_hz = 0, damping_ratio = 0;
+  float frequency_hz = 0;    // roughly, of its slowest swing; 0: not known
   float gravity = 0;         // times the earth's
   float turn_limit_rad = 0;  // of a segment against its rest; 0: none
+  float damping_ratio = 0;   // roughly, of that swing; 0 also where the frequency is not known
 };
 
 // A capsule about a bone, that moves as its joint does.

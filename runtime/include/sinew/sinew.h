@@ -199,7 +199,7 @@ typedef struct sinew_region_info {
 typedef struct sinew_rod_info {
   const char* name;
   uint32_t attach_joint, end_joint, segment_count;
-  float length_m, frequency_hz, damping_ratio, gravity, turn_limit_rad;
+  float length_m, frequency_hz, gravity, turn_limit_rad, damping_ratio;
 } sinew_rod_info;
 
 typedef struct sinew_proxy_info {

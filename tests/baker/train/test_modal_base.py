@@ -109,7 +109,7 @@ class Warping(unittest.TestCase):
         base = without_ridge(ModalBase(bases, synthetic.SIZES, TICK_S, **DOUBLE))
         q = 0.01 * torch.randn(2, synthetic.MODES, 5, **DOUBLE)
         rest = 1e-3 * torch.randn(2, synthetic.SIZES[0], 5, 3, **DOUBLE)
-        state = base.arrive(base.start(5), base._apply(base.shape, q) + rest, (q, rest))
+        state, _ = base.arrive(base.start(5), base._apply(base.shape, q) + rest, (q, rest))
         self.assertGreater(float(state.theta.norm(dim=-1).max()), 0.1)
         l, found = base.unwarped(state.u, rest)
         self.assertLess(float((l - state.l).abs().max()), 1e-6)
@@ -147,7 +147,7 @@ class Base(unittest.TestCase):
         state, felt = base.start(1), base.start(1).u + pull
         for _ in range(2000):
             answer, l, _ = base.predict(state, felt, None)
-            state = base.arrive(state, l, answer)
+            state, _ = base.arrive(state, l, answer)
         for r, (b, n) in enumerate(zip(bases, synthetic.SIZES)):
             whole = b["rest"] + (b["shape"] / b["rad_per_s"] ** 2) @ b["force"]
             want = (whole.astype(float) @ np.tile(pull.numpy(), n)).reshape(n, 3)
@@ -170,11 +170,11 @@ class Base(unittest.TestCase):
         state = base.start(1)
         for t in (0, 1):
             q = base._gather(base.force, local[t])
-            state = base.arrive(state, local[t], (q, state.rest))
+            state, _ = base.arrive(state, local[t], (q, state.rest))
         for t in range(2, ticks):
             now = [(frame[t].transpose(-1, -2) @ frame[t - k])[None, :, None] for k in (1, 2)]
             answer, l, _ = base.predict(state, torch.zeros(1, n, 1, 3, **DOUBLE), now)
-            state = base.arrive(state, l, answer)
+            state, _ = base.arrive(state, l, answer)
             self.assertLess(float((state.u - local[t]).abs().max()), 1e-6)  # what is left of the spring
 
     def test_a_union_moves_as_each_of_its_bodies_alone(self):
@@ -228,9 +228,9 @@ class Base(unittest.TestCase):
         base = without_ridge(self.group.base)
         state = support.base_states(self.group, None, self.scaling, torch.tensor([0, 1]), 30)[-1]
         change = 0.01 * torch.randn(2, synthetic.MODES, 2)
-        found = base.arrive(state, state.l, (state.q, state.rest), change)
+        found, _ = base.arrive(state, state.l, (state.q, state.rest), change)
         l = base._apply(base.shape, state.q + change) + state.rest
-        want = base.arrive(state, l, (state.q + change, state.rest))
+        want, _ = base.arrive(state, l, (state.q + change, state.rest))
         for name in ("l", "u", "q", "theta"):
             a, b = getattr(found, name), getattr(want, name)
             self.assertLess(float((a - b).abs().max()), 1e-5 * float(b.abs().max()), name)
@@ -251,7 +251,7 @@ class Base(unittest.TestCase):
         there = support.base_states(self.exact, None, self.scaling, s, t)[-1]
         state, _ = base.stand_at(u[t - 1], u[t - 2], there)
         answer, l, _ = base.predict(state, felt[t], (turn[0][t], turn[1][t]))
-        found = base.arrive(state, l, answer).u
+        found = base.arrive(state, l, answer)[0].u
         self.assertLess(float((found - u[t]).abs().max()), 1e-3 * float(u[t].abs().max()))
 
 
