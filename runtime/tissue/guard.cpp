@@ -57,9 +57,12 @@ float largest_displacement_m(const float* l, uint32_t nodes) noexcept {
   return largest_m;
 }
 
-void hold_within(float limit_m, uint32_t nodes, float* u) noexcept {
-  const float share = limit_share(largest_displacement_m(u, nodes), limit_m);
+void show(float share, uint32_t nodes, float* u) noexcept {
   for (size_t i = 0; share != 1 && i < size_t{3} * nodes; ++i) u[i] *= share;
+}
+
+void hold_within(float limit_m, uint32_t nodes, float* u) noexcept {
+  show(limit_share(largest_displacement_m(u, nodes), limit_m), nodes, u);
 }
 
 void read_output(const Network& network, std::span<const pack::RegionRecord> regions, uint32_t node_count,

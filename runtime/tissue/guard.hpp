@@ -22,17 +22,20 @@ inline constexpr float kFreeShare = 0.6f;
 // it. largest_m not finite: 1 for NaN.
 float limit_share(float largest_m, float limit_m) noexcept;
 
-// What a region's swing is held with: 1 up to its limit, and so that it stays about within 1.67 of it. Further
-// out it would swing on unseen, long after what threw it has ended. Scaled in all that goes on from a tick,
-// it is as if it had swung that much less before: the swing gains no energy, and under a load that lasts
-// beyond the limit it is damped.
+// What a region's swing is held with: 1 up to its limit, and so that it stays about within 1.67 of it.
+// Further out it would swing on unseen, long after what threw it has ended. Scaled in all that goes on from a
+// tick, it is as if it had swung that much less before: the swing gains no energy, and under a load that
+// lasts beyond the limit it is damped.
 float swing_share(float largest_m, float limit_m) noexcept;
 
 // Of [nodes][3]; lengths by hypot, for the square of a wild displacement may overflow.
 float largest_displacement_m(const float* l, uint32_t nodes) noexcept;
 
-// Scales a region's displacement to what may be shown of it. What swings is left alone up to the limit:
-// scaled with it, it would lose energy that the tissue has.
+// Scales a region's displacement to what is shown of it.
+void show(float share, uint32_t nodes, float* u) noexcept;
+
+// To what may be shown of it. What swings is left alone up to the limit: scaled with it, it would lose energy
+// that the tissue has.
 void hold_within(float limit_m, uint32_t nodes, float* u) noexcept;
 
 // l ([node_count][3], metres) of y and back; what is beyond a region's limit is remembered as it is shown.

@@ -85,16 +85,17 @@ void step_part(Instance& instance, const Part& part, float x, float* out) noexce
   tissue::modal_turn(part.base, q, instance.region[0], theta);
   tissue::warp(theta, l, part.record.node_count, out);
   // As the tick will hold it, by so much of it.
-  const float held = tissue::swing_share(tissue::largest_displacement_m(out, part.record.node_count),
-                                         swing_limit_m(part, most_m));
+  float largest_m = tissue::largest_displacement_m(out, part.record.node_count);
+  const float held = tissue::swing_share(largest_m, swing_limit_m(part, most_m));
   if (held != 1) {
     const float share = std::pow(held, x);
     for (size_t m = 0; m < part.base.modes.size(); ++m) q[m] *= share;
     for (size_t i = 0; i < size_t{3} * part.record.node_count; ++i) l[i] *= share;
     tissue::modal_turn(part.base, q, instance.region[0], theta);
     tissue::warp(theta, l, part.record.node_count, out);
+    largest_m = tissue::largest_displacement_m(out, part.record.node_count);
   }
-  tissue::hold_within(most_m, part.record.node_count, out);
+  tissue::show(tissue::limit_share(largest_m, most_m), part.record.node_count, out);
   if (!tissue::all_finite(out, size_t{3} * part.record.node_count))
     std::copy_n(instance.u[0] + part.vector, size_t{3} * part.record.node_count, out);
 }

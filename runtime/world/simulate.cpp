@@ -48,12 +48,16 @@ void hold_swing(Instance& instance, const Part& part, float share) noexcept {
 
 // u of this tick is what may be shown of it, and what goes beyond the limit is counted and held.
 void hold_shown(Instance& instance, const Part& part) noexcept {
+  const uint32_t nodes = part.record.node_count;
   float* u = instance.u[0] + part.vector;
-  const float held = tissue::swing_share(tissue::largest_displacement_m(u, part.record.node_count),
-                                         swing_limit_m(part, part.limit_m));
-  if (held != 1) hold_swing(instance, part, held);
-  instance.state->displacement_clamps += held != 1;
-  tissue::hold_within(part.limit_m, part.record.node_count, u);
+  float largest_m = tissue::largest_displacement_m(u, nodes);
+  const float held = tissue::swing_share(largest_m, swing_limit_m(part, part.limit_m));
+  if (held != 1) {
+    hold_swing(instance, part, held);
+    largest_m = tissue::largest_displacement_m(u, nodes);
+    ++instance.state->displacement_clamps;
+  }
+  tissue::show(tissue::limit_share(largest_m, part.limit_m), nodes, u);
 }
 
 // In this tick, and next to nothing of it is seen yet: a change of level had the region again, or all of the
