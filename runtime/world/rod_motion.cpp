@@ -293,35 +293,41 @@ double swing_share(const RodSeat& seat, float limit_rad, const Quaterniond& turn
   return double{tissue::swing_share(angle_rad, std::max(limit_rad, seat.turn_limit_rad))};
 }
 
-// Turns, and what it does beside the pose.
-void hold_swing(Instance& instance, uint32_t rod) noexcept {
+// Of all segments, turns and what they do beside the pose.
+void hold_swing(Instance& instance, uint32_t rod, const RodShown& as) noexcept {
   const RodSeat& seat = instance.asset->rods.seats()[rod];
-  const float limit_rad = rod_shown(instance, rod).limit_rad;
-  bool held = false;
-  for (uint32_t k = 1; limit_rad > 0 && k <= seat.segment_count(); ++k) {
+  for (uint32_t k = 1; k <= seat.segment_count(); ++k) {
     const Quaterniond turn = swung_turn(instance, seat, k);
-    const double share = swing_share(seat, limit_rad, turn);
-    held |= share != 1;
     put_turn(instance.rod_turn, seat.first_slot + k,
-             share == 1 ? turn : exponential(share * logarithm(turn)));
+             exponential(swing_share(seat, as.limit_rad, turn) * logarithm(turn)));
   }
-  if (!held) return;
   for (uint32_t k = 0; k < seat.slot_count; ++k) {
     const uint32_t s = seat.first_slot + k;
-    const bool is_bone = k > 0 && !is_end(seat, s);
-    const double share = is_bone ? swing_share(seat, limit_rad, swung_turn(instance, seat, k)) : 1;
+    const double share = k == 0 ? 1 : swing_share(seat, as.limit_rad, swung_turn(instance, seat, k));
     const Step step = step_of_pose(instance, seat, rod, s);
     const Beside beside = beside_pose(instance, seat, s, step);
     put_segment(instance, seat, s, step.now, step, {share * beside.velocity_m_s, share * beside.spin_rad_s});
   }
 }
 
+// Puts what is shown; whether something swings too far.
+bool read_turns_of(Instance& instance, const RodSeat& seat, const RodShown& as) noexcept {
+  bool too_far = false;
+  for (uint32_t k = 1; k <= seat.segment_count(); ++k) {
+    const Quaterniond turn = swung_turn(instance, seat, k);
+    too_far |= swing_share(seat, as.limit_rad, turn) != 1;
+    put_turn(instance.rod_turn, seat.first_slot + k, shown(turn, as));
+  }
+  return too_far;
+}
+
 void read_turns(Instance& instance) noexcept {
   for (uint32_t rod = 0; rod < instance.asset->rods.rod_count; ++rod) {
     const RodSeat& seat = instance.asset->rods.seats()[rod];
     const RodShown as = rod_shown(instance, rod);
-    for (uint32_t k = 1; k <= seat.segment_count(); ++k)
-      put_turn(instance.rod_turn, seat.first_slot + k, shown(swung_turn(instance, seat, k), as));
+    if (!read_turns_of(instance, seat, as)) continue;
+    hold_swing(instance, rod, as);
+    read_turns_of(instance, seat, as);
   }
 }
 
@@ -445,7 +451,6 @@ void simulate_rods(Instance& instance) noexcept {
     instance.told.refused += report.bad_hits;
     instance.told.dropped += report.contacts_dropped;
   }
-  for (uint32_t rod = 0; rod < rig.rod_count; ++rod) hold_swing(instance, rod);
   read_turns(instance);
   watch_rods(instance);
 }
