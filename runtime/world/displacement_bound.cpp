@@ -12,7 +12,8 @@ float displacement_bound_m(const Asset& asset, size_t region) noexcept {
 }
 
 Eigen::Vector3f within_bound(const Eigen::Vector3f& displacement_m, float bound_m) noexcept {
-  const float length_m = displacement_m.stableNorm();
+  // Eigen's stableNorm divides by the largest, and its inverse may be flushed to zero.
+  const float length_m = std::hypot(displacement_m.x(), displacement_m.y(), displacement_m.z());
   if (!(length_m < HUGE_VALF)) return Eigen::Vector3f::Zero();
   return tissue::limit_share(length_m, bound_m) * displacement_m;
 }

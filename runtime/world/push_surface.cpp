@@ -27,8 +27,11 @@ Vector3f in_bind(const Matrix3f& world_from_bind, const Vector3f& v) {
 // No further than the limit, all pushes of a vertex together, in the bind pose too: where skinning flattens
 // the flesh, a short way out is a long one there.
 Vector3f held(const SurfacePoint& at, const Vector3f& push, float limit_m) {
-  const float length_m = std::max((at.world_from_bind * push).norm(), push.norm());
-  return length_m > limit_m ? Vector3f(limit_m / length_m * push) : push;
+  const Vector3f moved = at.world_from_bind * push;
+  const float length_m =
+      std::max(std::hypot(moved.x(), moved.y(), moved.z()), std::hypot(push.x(), push.y(), push.z()));
+  if (length_m <= limit_m) return push;
+  return length_m < HUGE_VALF ? Vector3f(limit_m / length_m * push) : Vector3f(Vector3f::Zero());
 }
 
 // Of the first so many touches: by what presses from the same side.

@@ -1,11 +1,14 @@
 // test_publish.cpp  From the frames that tissue moves in to the axes of the flesh, which carry and skin it.
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
+#include "core/floating_point.hpp"
 #include "tests/world/stage.hpp"
 #include "tissue/node_pose.hpp"
 #include "world/asset.hpp"
 #include "world/blend.hpp"
+#include "world/displacement_bound.hpp"
 #include "world/instance.hpp"
 #include "world/motion.hpp"
 #include "world/publish.hpp"
@@ -57,5 +60,19 @@ TEST_CASE("published_displacement_lies_along_the_flesh") {
   for (size_t n = 0; n < flesh.size(); ++n) {
     const Vector3f delta(instance.delta + 3 * n);
     CHECK((Eigen::Map<const Rows33>(flesh[n].rotation) * delta - offset_m).norm() < kRounding_m);
+  }
+}
+
+// As in a step, where denormals are flushed: the inverse of the largest floats is one.
+TEST_CASE("the_last_bound_holds_whatever_floats_are_displaced_by") {
+  const core::FloatingPointScope mode;
+  constexpr float kBound_m = 0.5f;
+  for (const float size : {0.1f, 1.0f, 1e10f, 1e19f, 1e30f, 1e37f, 1e38f, 3e38f, HUGE_VALF, NAN}) {
+    const Eigen::Vector3f held = world::within_bound({size, -0.5f * size, 0.2f * size}, kBound_m);
+    float carried[3 * 16] = {size, 0, size};
+    world::hold_within_bound(kBound_m, 16, carried);
+    CAPTURE(size);
+    CHECK(std::hypot(held.x(), held.y(), held.z()) <= 1.0001f * kBound_m);
+    CHECK(std::hypot(carried[0], carried[16], carried[32]) <= 1.0001f * kBound_m);
   }
 }
