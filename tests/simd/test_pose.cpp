@@ -25,7 +25,7 @@ struct Frames {
       : count(frames),
         points(3 * count),
         matrices(12 * kJoints),
-        skins(count),
+        skins(count + 1),  // one to point at where there is none
 
         out(kStride * count, kUntouched) {
     std::mt19937 random(count + 1);
