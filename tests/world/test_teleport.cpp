@@ -111,7 +111,8 @@ TEST_CASE("a_pose_that_says_so_teleports_however_near_it_is") {
   const auto jolted_m = [](bool teleport) {
     Stage stage;
     stage.play([](double) { return scenes::bind_pose(); }, 0.5);
-    Pose pose = scenes::bind_pose().pose();
+    const scenes::BlockPose bound = scenes::bind_pose();
+    Pose pose = bound.pose();
     pose.root.position_m[1] = 0.06;
     pose.teleport = teleport;
     double most_m = 0;
