@@ -41,10 +41,10 @@ inline Status find_instance(const WorldState* state, InstanceId id, Instance** o
               out);
 }
 
-// Whose state is written, or read whole.
+// Whose state is written, or read whole; within a step, which its callers refuse, nothing of it is touched.
 inline Status find_state(const WorldState* state, InstanceId id, Instance** out) noexcept {
   Status status = find_instance(state, id, out);
-  if (status.ok()) keep_hidden_ticks(state->rows[id.index1 - 1]);
+  if (status.ok() && !state->stepping) keep_hidden_ticks(state->rows[id.index1 - 1]);
   return status;
 }
 
