@@ -6,6 +6,7 @@ cd "$(dirname "$0")/.."
 cases="${1:-100000}"
 characters="${SINEW_SHARED_DIR:-}/characters"
 out=out/extremes
+[[ "$cases" =~ ^[1-9][0-9]*$ ]] || { echo "extremes.sh: '$cases' is no number of cases; tests/extremes.sh 100000" >&2; exit 2; }
 
 scripts/install_packages.sh release
 cmake --preset release >/dev/null
@@ -14,7 +15,8 @@ mkdir -p "$out"
 samples/bake_creature.sh build/release/bin/sinew-bake "$out" tissue tissue_rods tissue_touch
 packs=("$out"/creature{,_rods,_touch}.sinew)
 for name in godette_vrm0 kaykit_mage khronos_cesium_man khronos_fox mh_heavy_male quaternius_wolf raylib_greenman; do
-  file=$(find "$characters/$name" -name "*.glb" -o -name "*.vrm" 2>/dev/null | head -n 1)
+  [ -d "$characters/$name" ] || continue
+  file=$(find "$characters/$name" -name "*.glb" -o -name "*.vrm" | head -n 1)
   [ -n "$file" ] || continue
   recipe=()
   [ ! -e "assets/gallery/$name.json" ] || recipe=(--recipe "assets/gallery/$name.json")
@@ -22,6 +24,7 @@ for name in godette_vrm0 kaykit_mage khronos_cesium_man khronos_fox mh_heavy_mal
   packs+=("$out/$name.sinew")
 done
 build/release/bin/extremes --cases "$cases" "${packs[@]}" >"$out/report.txt" && status=0 || status=$?
+[ -s "$out/report.txt" ] || exit "$status"
 mv "$out/report.txt" tests/extremes/report.txt
 cat tests/extremes/report.txt
 exit "$status"

@@ -285,8 +285,8 @@ void put_turn(float* turns, uint32_t s, const Quaterniond& turn) noexcept {
 }
 
 // What holds a segment's swing, as a region's is held (tissue/guard.hpp): further out it would come to rest
-// on the other side of what it touches. Neither where an engine lets less be shown, nor where both ends are
-// held.
+// on the other side of what it touches. Where an engine lets less be shown, it swings on beneath; a rod whose
+// ends are both held is left alone.
 double swing_share(const RodSeat& seat, float limit_rad, const Quaterniond& turn) noexcept {
   if (limit_rad == 0 || seat.end_hold != pack::kNoIndex) return 1;
   const float angle_rad = 2 * static_cast<float>(std::acos(std::min(1.0, std::abs(turn.w()))));
