@@ -5,8 +5,8 @@ import json
 import os
 import sys
 
-from .dataset import SPLITS
-from .safetensors import BadData
+from .data.dataset import SPLITS
+from .files.safetensors import BadData
 
 
 def _add_fields(parser, options, skip=()):
@@ -43,7 +43,7 @@ def _character(text):
 
 
 def _generate(a):
-    from .generate import generate
+    from .data.generate import generate
 
     sheet = generate(a.bake, a.plan, a.out, dict(a.character), a.processes, splits=a.splits)
     print(
@@ -54,8 +54,8 @@ def _generate(a):
 
 def _train(a):
     import torch
-    from .train import train
-    from .train_options import TrainOptions
+    from .learn.options import TrainOptions
+    from .learn.train import train
 
     torch.set_num_threads(a.threads)
     options = _from_fields(TrainOptions, a)
@@ -66,14 +66,14 @@ def _train(a):
 
 def _train_rods(a):
     import torch
-    from .rod_train import RodTrainOptions, train_rods
+    from .rods.train import RodTrainOptions, train_rods
 
     torch.set_num_threads(a.threads)
     train_rods(a.data, a.out, _from_fields(RodTrainOptions, a))
 
 
 def _export_rods(a):
-    from .rod_export import export_examples, export_rods
+    from .rods.export import export_examples, export_rods
 
     if (a.run is None) == (a.examples == 0):
         raise BadData("export-rods: give either --run or --examples")
@@ -85,14 +85,14 @@ def _export_rods(a):
 
 def _train_patches(a):
     import torch
-    from .patch_train import PatchTrainOptions, train_patches
+    from .patches.train import PatchTrainOptions, train_patches
 
     torch.set_num_threads(a.threads)
     train_patches(a.data, a.out, _from_fields(PatchTrainOptions, a))
 
 
 def _export_patches(a):
-    from .patch_export import export_patches
+    from .patches.export import export_patches
 
     export_patches(a.run, a.data, a.out, a.name, a.page)
 
@@ -115,8 +115,8 @@ def _named(pairs):
 
 def _evaluate(a):
     import torch
-    from .evaluate import evaluate, table
-    from .page import write_page
+    from .judge.evaluate import evaluate, table
+    from .judge.page import write_page
 
     torch.set_num_threads(a.threads)
     runs = _named(a.run)
@@ -128,13 +128,13 @@ def _evaluate(a):
 
 
 def _ablate(a):
-    from .ablate import ablate
+    from .judge.ablate import ablate
 
     _compare(ablate, a)
 
 
 def _vanilla(a):
-    from .paper_forms import compare_forms
+    from .judge.paper_forms import compare_forms
 
     _compare(compare_forms, a)
 
@@ -147,14 +147,14 @@ def _compare(how, a):
 
 
 def _export(a):
-    from .export import export
+    from .judge.export import export
 
     metrics = _read_json(os.path.join(a.page, "metrics.json"), "run `baker/train evaluate` again")
     export(a.run, a.data, metrics, a.out, a.name, a.model, a.body)
 
 
 def _characters(a):
-    from .characters import characters
+    from .judge.characters import characters
 
     for one in characters(a.work, os.path.join(a.assets, "evaluation", "characters"), a.assets, a.bake):
         print(f"{one.name}: {one.all.of_base('fine-tuned'):.2f} of the modal base's error, {'shipped' if one.pays() else 'not shipped'}")
@@ -210,7 +210,7 @@ def _parser():
     p.add_argument("data", help="folder of the data set")
     p.add_argument("--out", required=True, help="folder of the run; a run that was cut goes on")
     p.add_argument("--threads", type=int, default=1)
-    from .train_options import TrainOptions
+    from .learn.options import TrainOptions
 
     _add_fields(p, TrainOptions)
     p = command("evaluate", _evaluate, "Judges runs on held-out motions and bodies: the evaluation page.")
@@ -238,7 +238,7 @@ def _parser():
     p.add_argument("data", help="folder of runs, of sinew-bake rod-data")
     p.add_argument("--out", required=True, help="folder of the run")
     p.add_argument("--threads", type=int, default=1)
-    from .rod_train import RodTrainOptions
+    from .rods.train import RodTrainOptions
 
     _add_fields(p, RodTrainOptions)
     text = "Writes weights of a start with their errors and check vectors, or examples for k-NN."
@@ -253,7 +253,7 @@ def _parser():
     p.add_argument("data", help="folder of runs, of sinew-bake patch-data")
     p.add_argument("--out", required=True, help="folder of the run")
     p.add_argument("--threads", type=int, default=1)
-    from .patch_train import PatchTrainOptions
+    from .patches.train import PatchTrainOptions
 
     _add_fields(p, PatchTrainOptions)
     p = command("export-patches", _export_patches, "Judges an emulator on held-out bodies and writes its weights.")

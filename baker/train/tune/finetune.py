@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import torch
 
-from ..model import with_more_channels
-from ..rollout import roll_out, truth
-from ..scaling import measure_scaling
-from ..train import Trainer
-from ..train_options import TrainOptions
+from ..learn.options import TrainOptions
+from ..learn.scaling import measure_scaling
+from ..learn.train import Trainer
+from ..model.alt_conv_lstm import with_more_channels
+from ..model.rollout import roll_out, truth
 
 JUDGED_TIMES = 16  # in the whole time
 LEAST_BETWEEN_S = 3.0  # judgements

@@ -1,8 +1,8 @@
 """The last stage: the candidates on the held-out motions, and the one that is baked."""
 import json
 
-from ..files import put_copy
-from ..safetensors import load, save
+from ..files.safetensors import load, save
+from ..files.write_file import put_copy
 from . import tissue_beside
 from .motions import RATE_HZ, SECONDS
 from .run import say

@@ -3,9 +3,9 @@ import json
 import os
 import time
 
-from .. import dataset
-from ..trajectory import read_trajectory
-from ..weights import save_weights
+from ..data import dataset
+from ..data.trajectory import read_trajectory
+from ..model.weights import save_weights
 from .finetune import FineTuner, tuning_options
 from .motions import SECONDS
 from .progress_line import ProgressLine

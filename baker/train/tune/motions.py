@@ -2,7 +2,7 @@
 longer run, or one that goes on, never trains on what an earlier one held out."""
 import itertools
 
-from ..plan import Job
+from ..data.plan import Job
 
 SECONDS = 4.0  # of every motion
 RATE_HZ = 60  # of sinew-bake truth

@@ -3,7 +3,7 @@ import json
 import subprocess
 from dataclasses import dataclass
 
-from ..safetensors import BadData
+from ..files.safetensors import BadData
 from .verdict import Error
 
 

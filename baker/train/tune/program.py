@@ -6,7 +6,7 @@ import os
 import sys
 from urllib.parse import unquote
 
-from ..safetensors import BadData, refuse_over
+from ..files.safetensors import BadData, refuse_over
 from . import SHIPPED, tissue_beside
 
 NAME = "sinew-train"

@@ -4,9 +4,9 @@ import tempfile
 import time
 from dataclasses import dataclass, field
 
-from ..files import put_copy
-from ..safetensors import BadData
-from ..trajectory import VERSION
+from ..data.trajectory import VERSION
+from ..files.safetensors import BadData
+from ..files.write_file import put_copy
 from .motions import SPLIT
 from .packs import Baker
 from .progress_line import ProgressLine

@@ -4,10 +4,10 @@ import subprocess
 import time
 from dataclasses import dataclass
 
-from ..dataset import SPLITS
-from ..files import remove_left_parts
-from ..generate import is_done, truth_command, what_is_wrong
-from ..safetensors import BadData
+from ..data.dataset import SPLITS
+from ..data.generate import is_done, truth_command, what_is_wrong
+from ..files.safetensors import BadData
+from ..files.write_file import remove_left_parts
 
 POLL_S = 0.02
 MOST_FAILURES = 6  # in a row from the start: this character cannot be simulated

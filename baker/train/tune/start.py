@@ -3,8 +3,8 @@ import hashlib
 import os
 from dataclasses import dataclass, replace
 
-from ..safetensors import BadData
-from ..weights import BASE, read_number, read_weights
+from ..files.safetensors import BadData
+from ..model.weights import BASE, read_number, read_weights
 from . import SHIPPED
 from .motions import RATE_HZ
 

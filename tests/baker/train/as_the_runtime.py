@@ -12,14 +12,15 @@ support.leave_without_torch()
 import numpy as np  # noqa: E402
 import torch  # noqa: E402
 
-from train import correction, dataset, modal_base, rollout  # noqa: E402
-from train.inputs import INPUT_WIDTH  # noqa: E402
-from train.limit import FREE_SHARE  # noqa: E402
-from train.model import AltConvLSTM, ModelOptions  # noqa: E402
-from train.safetensors import load  # noqa: E402
-from train.scaling import measure_scaling  # noqa: E402
-from train.trajectory import read_trajectory  # noqa: E402
-from train.weights import save_weights  # noqa: E402
+from train.data import dataset  # noqa: E402
+from train.data.trajectory import read_trajectory  # noqa: E402
+from train.files.safetensors import load  # noqa: E402
+from train.learn.scaling import measure_scaling  # noqa: E402
+from train.model import correction, modal_base, rollout  # noqa: E402
+from train.model.alt_conv_lstm import AltConvLSTM, ModelOptions  # noqa: E402
+from train.model.inputs import INPUT_WIDTH  # noqa: E402
+from train.model.limit import FREE_SHARE  # noqa: E402
+from train.model.weights import save_weights  # noqa: E402
 
 TICKS = 200
 NEAR = 1e-4  # of the region's radius; one float's rounding, fed back by a network

@@ -9,8 +9,8 @@ import tempfile
 import support
 
 support.leave_without_torch()
-from train import baselines, evaluate  # noqa: E402
 from train.cli import main as trainer  # noqa: E402
+from train.judge import baselines, evaluate  # noqa: E402
 
 CHECK_TOLERANCE = "1e-4"  # length units of a tenth of a radius: float32 against float64 over 120 ticks
 

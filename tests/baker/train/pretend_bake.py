@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "baker"))
-from train.safetensors import save  # noqa: E402
-from train.trajectory import BASIS, DRIVE_WIDTH, VERSION  # noqa: E402
+from train.data.trajectory import BASIS, DRIVE_WIDTH, VERSION  # noqa: E402
+from train.files.safetensors import save  # noqa: E402
 
 NODES, RATE_HZ = 4, 60
 TENSORS_BEYOND = {"surface": np.zeros((1, 1, 3), np.float16)}

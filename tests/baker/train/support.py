@@ -52,7 +52,7 @@ BODY = "made_up"
 def write_trajectory(path, seed=0, **how):
     """One trajectory of the synthetic body; its path."""
     import synthetic
-    from train.safetensors import save
+    from train.files.safetensors import save
 
     save(path, *synthetic.trajectory(seed, **how))
     return path
@@ -73,9 +73,9 @@ def write_data_set(folder, train_count=6, validation=2, test=2, ticks=90, **how)
 def synthetic_group(seeds=(0, 1), change=None, **how):
     """A Group of the synthetic body's trajectories. change: tensors -> tensors, before they are written."""
     import synthetic
-    from train import dataset
-    from train.safetensors import save
-    from train.trajectory import read_trajectory
+    from train.data import dataset
+    from train.data.trajectory import read_trajectory
+    from train.files.safetensors import save
 
     with tempfile.TemporaryDirectory() as folder:
         named = []
@@ -90,7 +90,7 @@ def synthetic_group(seeds=(0, 1), change=None, **how):
 
 def base_states(group, model, scaling, sequences, ticks, mirror=None):
     """The modal base's state after every tick of a roll-out from rest."""
-    from train.rollout import start, static_columns, tick
+    from train.model.rollout import start, static_columns, tick
 
     batch = sequences.shape[-1]
     felt, drive, turn, _ = group.window(sequences, torch.zeros(batch, dtype=torch.long), ticks)

@@ -3,7 +3,7 @@ double precision tick by tick as the equations stand, with a spring on top that 
 like flesh to tell whether training works."""
 import numpy as np
 
-from train.modal_base import LARGEST_TURN
+from train.model.modal_base import LARGEST_TURN
 
 H = 1 / 60
 SIZES = (10, 6)  # nodes of each region

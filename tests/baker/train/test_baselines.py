@@ -7,9 +7,9 @@ import support
 support.leave_without_torch()
 import torch  # noqa: E402
 
-from train.baselines import Modal, Springs, plain_models, single_step  # noqa: E402
-from train.modal_base import recurrence  # noqa: E402
-from train.rollout import error_ratio, truth  # noqa: E402
+from train.judge.baselines import Modal, Springs, plain_models, single_step  # noqa: E402
+from train.model.modal_base import recurrence  # noqa: E402
+from train.model.rollout import error_ratio, truth  # noqa: E402
 
 LINEAR = dict(ticks=60, hardening=0, linear=True)
 

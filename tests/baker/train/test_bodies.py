@@ -12,11 +12,11 @@ import support
 support.leave_without_torch()
 import numpy as np  # noqa: E402
 
-from train import bodies, plan as plans  # noqa: E402
-from train.dataset import SPLITS  # noqa: E402
-from train.generate import generate  # noqa: E402
-from train.safetensors import BadData, load, save  # noqa: E402
-from train.trajectory import read_trajectory  # noqa: E402
+from train.data import bodies, plan as plans  # noqa: E402
+from train.data.dataset import SPLITS  # noqa: E402
+from train.data.generate import generate  # noqa: E402
+from train.data.trajectory import read_trajectory  # noqa: E402
+from train.files.safetensors import BadData, load, save  # noqa: E402
 
 CREATURE = {
     "name": "small",

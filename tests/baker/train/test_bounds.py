@@ -8,9 +8,9 @@ import support
 support.leave_without_torch()
 import torch  # noqa: E402
 
-from train.correction import MOST_CORRECTION, Corrected, bounded_share, correct, none_yet  # noqa: E402
-from train.limit import FREE_SHARE, limit_share, within  # noqa: E402
-from train.modal_base import recurrence  # noqa: E402
+from train.model.correction import MOST_CORRECTION, Corrected, bounded_share, correct, none_yet  # noqa: E402
+from train.model.limit import FREE_SHARE, limit_share, within  # noqa: E402
+from train.model.modal_base import recurrence  # noqa: E402
 
 REGIONS, MODES, BATCH, NODES = 2, 5, 3, 4
 DOUBLE = dict(dtype=torch.float64)

@@ -9,8 +9,8 @@ import support
 support.leave_without_torch()
 import numpy as np  # noqa: E402
 
-from train import characters as page  # noqa: E402
-from train.safetensors import BadData, save  # noqa: E402
+from train.files.safetensors import BadData, save  # noqa: E402
+from train.judge import characters as page  # noqa: E402
 from train.tune.verdict import BASE, TUNED  # noqa: E402
 
 

@@ -12,14 +12,14 @@ import numpy as np  # noqa: E402
 import torch  # noqa: E402
 
 import synthetic  # noqa: E402
-from train import dataset  # noqa: E402
-from train.dataset import Union  # noqa: E402
-from train.inputs import FELT  # noqa: E402
-from train.model import normalized_adjacency  # noqa: E402
-from train.safetensors import BadData, load, save  # noqa: E402
-from train.train import train  # noqa: E402
-from train.train_options import TrainOptions  # noqa: E402
-from train.trajectory import read_trajectory  # noqa: E402
+from train.data import dataset  # noqa: E402
+from train.data.dataset import Union  # noqa: E402
+from train.data.trajectory import read_trajectory  # noqa: E402
+from train.files.safetensors import BadData, load, save  # noqa: E402
+from train.learn.options import TrainOptions  # noqa: E402
+from train.learn.train import train  # noqa: E402
+from train.model.alt_conv_lstm import normalized_adjacency  # noqa: E402
+from train.model.inputs import FELT  # noqa: E402
 
 TICKS = 40
 

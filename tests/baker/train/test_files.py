@@ -8,7 +8,7 @@ import time
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "baker"))
-from train.files import put_copy, remove_left_parts, write_json, write_text, written  # noqa: E402
+from train.files.write_file import put_copy, remove_left_parts, write_json, write_text, written  # noqa: E402
 
 LEFT = ".part-0123456789abcdef01234567"
 

@@ -9,13 +9,13 @@ import numpy as np  # noqa: E402
 import torch  # noqa: E402
 
 import synthetic  # noqa: E402
-from train import modal_base  # noqa: E402
-from train.dataset import Union  # noqa: E402
-from train.inputs import AXIAL, INPUT_WIDTH, ORDER, WIDTH, columns  # noqa: E402
-from train.modal_base import ModalBase, recurrence, turned, warped  # noqa: E402
-from train.model import AltConvLSTM, ModelOptions  # noqa: E402
-from train.rollout import error_ratio, mirror_signs, roll_out, truth  # noqa: E402
-from train.scaling import measure_scaling  # noqa: E402
+from train.data.dataset import Union  # noqa: E402
+from train.learn.scaling import measure_scaling  # noqa: E402
+from train.model import modal_base  # noqa: E402
+from train.model.alt_conv_lstm import AltConvLSTM, ModelOptions  # noqa: E402
+from train.model.inputs import AXIAL, INPUT_WIDTH, ORDER, WIDTH, columns  # noqa: E402
+from train.model.modal_base import ModalBase, recurrence, turned, warped  # noqa: E402
+from train.model.rollout import error_ratio, mirror_signs, roll_out, truth  # noqa: E402
 
 TICK_S = 1 / 60
 DOUBLE = dict(dtype=torch.float64)

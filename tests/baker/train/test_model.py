@@ -8,9 +8,9 @@ import support
 support.leave_without_torch()
 import torch  # noqa: E402
 
-from train.model import AltConvLSTM, ModelOptions, normalized_adjacency, with_more_channels  # noqa: E402
-from train.safetensors import load  # noqa: E402
-from train.weights import read_weights  # noqa: E402
+from train.files.safetensors import load  # noqa: E402
+from train.model.alt_conv_lstm import AltConvLSTM, ModelOptions, normalized_adjacency, with_more_channels  # noqa: E402
+from train.model.weights import read_weights  # noqa: E402
 
 PAPER_TOLERANCE = 1e-5  # float32 against float64 over the golden's steps
 EQUATION_TOLERANCE = 1e-10  # double against double, two orders of summation

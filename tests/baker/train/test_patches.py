@@ -10,11 +10,11 @@ support.leave_without_torch()
 import torch  # noqa: E402
 
 import numpy as np  # noqa: E402
-from train.patch_data import patches_of, read_run, take_step  # noqa: E402
-from train.patch_export import errors_of, read_network  # noqa: E402
-from train.patch_model import Scaled, glance  # noqa: E402
-from train.patch_train import PatchTrainOptions, PatchTrainer, train_patches  # noqa: E402
-from train.safetensors import BadData, save  # noqa: E402
+from train.files.safetensors import BadData, save  # noqa: E402
+from train.patches.data import patches_of, read_run, take_step  # noqa: E402
+from train.patches.export import errors_of, read_network  # noqa: E402
+from train.patches.model import Scaled, glance  # noqa: E402
+from train.patches.train import PatchTrainOptions, PatchTrainer, train_patches  # noqa: E402
 
 
 def body(ticks=40, speed=(0.3, 0, 0), turn=0.02, seed=0):

@@ -11,17 +11,18 @@ import numpy as np  # noqa: E402
 import torch  # noqa: E402
 
 import synthetic  # noqa: E402
-from train import blas, dataset  # noqa: E402
-from train.dataset import Union  # noqa: E402
-from train.episode import Episode  # noqa: E402
-from train.export import check_vectors  # noqa: E402
-from train.inputs import FEEDBACK, INPUT_WIDTH, ORDER, columns  # noqa: E402
-from train.rollout import bounded, error_ratio, roll_out, truth  # noqa: E402
-from train.safetensors import BadData  # noqa: E402
-from train.scaling import ENVELOPE_MARGIN, SCALED_SIZE, measure_scaling  # noqa: E402
-from train.train import Trainer, train  # noqa: E402
-from train.train_options import TrainOptions  # noqa: E402
-from train.weights import BASE, read_weights  # noqa: E402
+from train import blas  # noqa: E402
+from train.data import dataset  # noqa: E402
+from train.data.dataset import Union  # noqa: E402
+from train.files.safetensors import BadData  # noqa: E402
+from train.judge.export import check_vectors  # noqa: E402
+from train.learn.episode import Episode  # noqa: E402
+from train.learn.options import TrainOptions  # noqa: E402
+from train.learn.scaling import ENVELOPE_MARGIN, SCALED_SIZE, measure_scaling  # noqa: E402
+from train.learn.train import Trainer, train  # noqa: E402
+from train.model.inputs import FEEDBACK, INPUT_WIDTH, ORDER, columns  # noqa: E402
+from train.model.rollout import bounded, error_ratio, roll_out, truth  # noqa: E402
+from train.model.weights import BASE, read_weights  # noqa: E402
 
 QUIET = lambda *a, **k: None
 SMALL = dict(channels=(8, 3), batch=6, window=15, learning_rate=1e-2)

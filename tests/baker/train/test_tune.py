@@ -17,11 +17,11 @@ support.leave_without_torch()
 import torch  # noqa: E402
 
 import synthetic  # noqa: E402
-from train import dataset  # noqa: E402
-from train.model import AltConvLSTM, ModelOptions  # noqa: E402
-from train.inputs import INPUT_WIDTH, ORDER  # noqa: E402
-from train.safetensors import BadData, load, save  # noqa: E402
-from train.scaling import measure_scaling  # noqa: E402
+from train.data import dataset  # noqa: E402
+from train.files.safetensors import BadData, load, save  # noqa: E402
+from train.learn.scaling import measure_scaling  # noqa: E402
+from train.model.alt_conv_lstm import AltConvLSTM, ModelOptions  # noqa: E402
+from train.model.inputs import INPUT_WIDTH, ORDER  # noqa: E402
 from train.tune import SHIPPED, finetune, learn  # noqa: E402
 from train.tune.finetune import FineTuner, tuning_options, widened  # noqa: E402
 from train.tune.motions import MOST_MOTIONS, held_out_clips, motions_of  # noqa: E402

@@ -10,18 +10,19 @@ import support
 support.leave_without_torch()
 import torch  # noqa: E402
 
-from train import dataset, paper_forms  # noqa: E402
 from train.cli import main as trainer  # noqa: E402
-from train.export import export  # noqa: E402
-from train.inputs import FEEDBACK, INPUT_WIDTH, ORDER, STATIC, columns, crossed_with  # noqa: E402
-from train.model import ModelOptions, normalized_adjacency  # noqa: E402
-from train.rollout import roll_out, single_steps, truth  # noqa: E402
-from train.safetensors import BadData, load, save  # noqa: E402
-from train.scaling import measure_scaling  # noqa: E402
-from train.train import Trainer  # noqa: E402
-from train.train_options import TrainOptions  # noqa: E402
-from train.vanilla import FORMS, ConvLSTM  # noqa: E402
-from train.weights import read_weights  # noqa: E402
+from train.data import dataset  # noqa: E402
+from train.files.safetensors import BadData, load, save  # noqa: E402
+from train.judge import paper_forms  # noqa: E402
+from train.judge.export import export  # noqa: E402
+from train.learn.options import TrainOptions  # noqa: E402
+from train.learn.scaling import measure_scaling  # noqa: E402
+from train.learn.train import Trainer  # noqa: E402
+from train.model.alt_conv_lstm import ModelOptions, normalized_adjacency  # noqa: E402
+from train.model.inputs import FEEDBACK, INPUT_WIDTH, ORDER, STATIC, columns, crossed_with  # noqa: E402
+from train.model.rollout import roll_out, single_steps, truth  # noqa: E402
+from train.model.vanilla import FORMS, ConvLSTM  # noqa: E402
+from train.model.weights import read_weights  # noqa: E402
 
 EQUATION_TOLERANCE = 1e-6  # double against double, but for fast_tanh's 1e-7
 NODES = 5

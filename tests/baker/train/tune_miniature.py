@@ -12,7 +12,7 @@ import time
 import support
 
 support.leave_without_torch()
-from train.safetensors import load  # noqa: E402
+from train.files.safetensors import load  # noqa: E402
 from train.tune.finish import KEPT  # noqa: E402
 
 TISSUE = {"voxels_high": 16, "nodes_per_region": 10}

@@ -1,0 +1,1 @@
+"""What every part of the trainer reads and writes files with."""

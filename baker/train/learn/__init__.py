@@ -1,0 +1,1 @@
+"""Trains one network on a data set."""

@@ -1,0 +1,1 @@
+"""Emulators of patches (DeepEmulator): data, network, training, judgement."""
