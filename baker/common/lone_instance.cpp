@@ -3,7 +3,9 @@
 
 #include "baker/common/bad_input.hpp"
 #include "frame/front.hpp"
+#include "world/create_instance.hpp"
 #include "world/hidden.hpp"
+#include "world/open_asset.hpp"
 #include "world/plan_row.hpp"
 #include "world/read.hpp"
 #include "world/snapshot.hpp"

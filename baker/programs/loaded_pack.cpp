@@ -10,6 +10,7 @@
 #include "baker/pack/network_pack.hpp"
 #include "baker/programs/calibrate.hpp"
 #include "baker/research/precision/check_int8.hpp"
+#include "tissue/deep_emulator.hpp"
 #include "tissue/narrow_layer.hpp"
 
 namespace sinew::baker {

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "baker/programs/yardstick.hpp"
+#include "world/create_instance.hpp"
 
 namespace sinew::baker {
 namespace {

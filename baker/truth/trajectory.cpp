@@ -9,6 +9,7 @@
 #include "baker/mesh/node_record.hpp"
 #include "sinew/types.hpp"
 #include "tissue/node_bend.hpp"
+#include "tissue/node_drive.hpp"
 
 namespace sinew::baker {
 namespace {

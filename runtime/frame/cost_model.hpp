@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "frame/front.hpp"
 #include "pack/format.hpp"
 #include "sinew/types.hpp"
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <bit>
 
-#include "frame/scheduler.hpp"
+#include "frame/candidate.hpp"
 
 namespace sinew::frame {
 

@@ -1,7 +1,8 @@
 // checks.hpp  What the runtime later trusts about a pack's content. Every check reads inside the views only,
 // in O(their size).
 #pragma once
-#include "pack/reader.hpp"
+#include "pack/pack_view.hpp"
+#include "sinew/status.hpp"
 
 namespace sinew::pack {
 

@@ -9,7 +9,7 @@
 
 #include "core/status.hpp"
 #include "hwy/targets.h"
-#include "simd/kernel_tables.hpp"
+#include "simd/kernels.hpp"
 
 namespace sinew::simd {
 namespace {

@@ -10,8 +10,6 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
-#include "simd/kernel_tables.hpp"
-
 // In this order: each needs the ones before it.
 // clang-format off
 #include "simd/vectors-inl.hpp"

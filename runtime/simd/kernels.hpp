@@ -7,6 +7,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "pack/format.hpp"
 #include "simd/rod_force_job.hpp"
@@ -194,5 +195,9 @@ struct Kernels {
 
 // The table of the active instruction set. Thread-safe. SINEW_API: sinew::embree asks, too.
 SINEW_API const Kernels& kernels() noexcept;
+
+// Every table that this build has. Best first; null where a target was not compiled. A table may stand twice
+// at the end (Highway's fallback).
+std::span<const Kernels* const> compiled_kernels() noexcept;
 
 }  // namespace sinew::simd

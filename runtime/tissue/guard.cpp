@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tissue/inputs.hpp"
+#include "tissue/network.hpp"
 
 namespace sinew::tissue {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "pack/format.hpp"
-#include "tissue/network.hpp"
+#include "tissue/network_weights.hpp"
 
 namespace sinew::tissue {
 

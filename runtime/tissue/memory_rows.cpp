@@ -1,6 +1,8 @@
 // memory_rows.cpp  see memory_rows.hpp.
 #include "tissue/memory_rows.hpp"
 
+#include "tissue/network.hpp"
+
 #include <cstring>
 
 #include "pack/format.hpp"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "tissue/network.hpp"
+#include "tissue/network_weights.hpp"
 
 namespace sinew::tissue {
 

@@ -19,7 +19,7 @@
 #include <cstdint>
 #include <span>
 
-#include "pack/reader.hpp"
+#include "pack/pack_view.hpp"
 #include "tissue/node_pose.hpp"
 
 namespace sinew::tissue {

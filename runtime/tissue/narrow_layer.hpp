@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "simd/kernels.hpp"
-#include "tissue/network.hpp"
+#include "tissue/network_weights.hpp"
 
 namespace sinew::tissue {
 

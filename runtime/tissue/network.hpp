@@ -6,24 +6,9 @@
 #include <cstdint>
 #include <span>
 
-#include "pack/format.hpp"
+#include "tissue/network_weights.hpp"
 
 namespace sinew::tissue {
-
-struct Graph {  // P in CSR, nodes x nodes
-  uint32_t node_count = 0;
-  const uint32_t* rows = nullptr;  // [node_count + 1]
-  const uint32_t* columns = nullptr;
-  const float* values = nullptr;
-};
-
-struct Network {  // views into a pack, of float32, and of what is packed once; trivially copyable
-  const pack::NetworkRecord* record = nullptr;
-  std::span<const pack::LayerRecord> layers;
-  std::span<const pack::InputRecord> inputs;
-  const float* weights = nullptr;
-  const float* narrow = nullptr;  // tissue/narrow_layer.hpp
-};
 
 // Floats of state for node_count nodes: for each layer h, c, y as [node_count][padded], where y of a hidden
 // layer is P y, for it is heard through P only. 64-byte aligned, zero is the start (the paper's wiring: y of
@@ -45,11 +30,8 @@ LayerState layer_state(const Network& network, uint32_t node_count, uint32_t lay
 void network_step(const Network& network, const Graph& graph, const float* z, const float* carry,
                   float* state, float* scratch) noexcept;
 
-// The same for some of the nodes: runs that no edge of the graph leaves. What of z, carry and state belongs
+// The same for some of the nodes. What of z, carry and state belongs
 // to the others is neither read nor written.
-struct NodeRun {
-  uint32_t first, last;
-};
 void network_step(const Network& network, const Graph& graph, std::span<const NodeRun> runs, const float* z,
                   const float* carry, float* state, float* scratch) noexcept;
 

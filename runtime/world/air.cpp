@@ -7,11 +7,9 @@
 #include <numbers>
 
 #include "core/turn_between.hpp"
-#include "tissue/guard.hpp"
 #include "tissue/node_drive.hpp"
-#include "world/dormant.hpp"
+#include "world/asleep.hpp"
 #include "world/glide.hpp"
-#include "world/rod_sleep.hpp"
 #include "world/rotation.hpp"
 
 namespace sinew::world {

@@ -8,11 +8,9 @@
 #include "frame/cost_model.hpp"
 #include "frame/front.hpp"
 #include "pack/mapped_file.hpp"
-#include "pack/reader.hpp"
 #include "rods/coping_net.hpp"
 #include "sinew/types.hpp"
 #include "tissue/deep_emulator.hpp"
-#include "tissue/network.hpp"
 #include "world/graph_level.hpp"
 #include "world/rod_rig.hpp"
 #include "world/soft_vertices.hpp"
@@ -65,8 +63,5 @@ struct Asset {
 
 // A tier's baked error, a share of skinning's; 1 of what is not simulated.
 float error_of(const Asset& asset, Tier tier, uint32_t level) noexcept;
-
-// On refusal *out is untouched.
-Status open_asset(std::span<const std::byte> bytes, Asset* out) noexcept;
 
 }  // namespace sinew::world

@@ -5,16 +5,20 @@
 #include <cmath>
 #include <utility>
 
-#include "frame/scheduler.hpp"
 #include "tissue/fraction_step.hpp"
 #include "tissue/guard.hpp"
 #include "tissue/node_bend.hpp"
 #include "tissue/node_drive.hpp"
 #include "world/air.hpp"
+#include "world/asleep.hpp"
 #include "world/blend.hpp"
 #include "world/motion.hpp"
 #include "world/region_part.hpp"
+#include "world/shares.hpp"
 #include "world/simulate.hpp"
+#include "world/simulated_shown.hpp"
+#include "world/sleep.hpp"
+#include "world/tuned_parts.hpp"
 
 namespace sinew::world {
 namespace {
@@ -170,7 +174,7 @@ void hold_added(Instance& instance, bool goes_on) noexcept {
 const float* shown_now(Instance& instance) noexcept {
   const InstanceState& state = *instance.state;
   const float x = state.render_fraction;
-  if (instance.shown_share() == 0) return instance.shown[0];
+  if (shown_share(instance) == 0) return instance.shown[0];
   float* out = instance.shown_between;
   if (!frame::is_simulated(state.tier)) {
     if (x == 0) return instance.tail;
@@ -180,7 +184,7 @@ const float* shown_now(Instance& instance) noexcept {
   if ((x == 0 && !state.is_off) || all_sleep_still(instance)) return instance.shown[0];
   if (state.motion_stale) return go_on_as_shown(instance, x, out);
   step_soft_parts(instance, x, out);
-  const auto [share, tail_share] = instance.shown_shares(x);
+  const auto [share, tail_share] = shown_shares(instance, x);
   if (share == 1 && tail_share == 0) return out;
   float* tail = instance.felt;
   if (state.tail_rides)

@@ -5,17 +5,18 @@
 #include <cmath>
 #include <cstring>
 
-#include "frame/scheduler.hpp"
 #include "tissue/guard.hpp"
-#include "tissue/network.hpp"
 #include "tissue/node_bend.hpp"
+#include "world/asleep.hpp"
 #include "world/blend_pace.hpp"
 #include "world/catch_up.hpp"
 #include "world/motion.hpp"
 #include "world/rod_blend.hpp"
+#include "world/shares.hpp"
 #include "world/simulate.hpp"
-#include "world/sleep.hpp"
+#include "world/simulated_shown.hpp"
 #include "world/teleport.hpp"
+#include "world/tuned_parts.hpp"
 #include "world/tuning.hpp"
 
 namespace sinew::world {
@@ -207,23 +208,6 @@ void restart(Instance& instance) noexcept {
   instance.restarted = true;
 }
 
-void keep_regained_share(const Instance& instance, float* shown, float x) noexcept {
-  if (instance.state->seam_ticks >= kBlendInTicks) return;
-  for (size_t r = 0; r < instance.level->pack.regions.size(); ++r) {
-    if (!instance.regained[r]) continue;
-    const pack::RegionRecord& region = instance.level->pack.regions[r];
-    const float share = instance.regained_share(r, x);
-    float* at = shown + size_t{3} * region.first_node;
-    for (size_t i = 0; i < size_t{3} * region.node_count; ++i) at[i] *= share;
-  }
-}
-
-void take_simulated(const Instance& instance, int tick, float* out) noexcept {
-  tissue::along_flesh(instance.poses[0], instance.u[tick], instance.level->node_count(), out);
-  keep_regained_share(instance, out);
-  keep_intensity(instance, out);
-}
-
 // A cubic of Hermite; the velocity at a tick is the mean of the steps before and after it.
 void tail_between(Instance& instance, float x, float* out) noexcept {
   const InstanceState& state = *instance.state;
@@ -256,8 +240,8 @@ void show_tick(Instance& instance) noexcept {
   if (simulates) take_simulated(instance, 0, instance.shown[0]);
   if (blends) advance_blend(instance);
   if (state.blend_ticks == kBlendInTicks) state.tail_rides = 0;
-  show_rods(instance, instance.simulated_share());
-  const auto [simulated, tail] = instance.shown_shares();
+  show_rods(instance, simulated_share(instance));
+  const auto [simulated, tail] = shown_shares(instance);
   if (simulated == 1 && tail == 0) return;
   for (size_t i = 0; i < floats_of(instance); ++i) {
     instance.shown[0][i] = simulated * instance.shown[0][i] + tail * instance.tail[i];

@@ -1,11 +1,11 @@
 // blend_pace.cpp  see blend_pace.hpp.
 #include "world/blend_pace.hpp"
+#include "world/shares.hpp"
+#include "world/simulated_shown.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-
-#include "world/blend.hpp"
 
 namespace sinew::world {
 namespace {
@@ -46,10 +46,10 @@ struct Limits {
 
 Limits limits_of(Instance& instance, float share, float step_m) noexcept {
   take_simulated(instance, 1, instance.carry);
-  const float tail_share = instance.tail_share();
+  const float tail = tail_share(instance);
   Limits limits;
   for (uint32_t n = 0; n < instance.level->node_count(); ++n) {
-    const Way way = way_of(instance, n, tail_share);
+    const Way way = way_of(instance, n, tail);
     const size_t at = size_t{3} * n;
     const float own_m = (MapConst(instance.shown[0] + at) - MapConst(instance.carry + at)).norm();
     const Eigen::Vector3f stays = way.stays + share * way.moves - MapConst(instance.shown[1] + at);
@@ -60,7 +60,7 @@ Limits limits_of(Instance& instance, float share, float step_m) noexcept {
 }
 
 float share_of(const Instance& instance) noexcept {
-  return instance.state->tail_rides ? 1 - instance.shown_shares().tail : instance.simulated_share();
+  return instance.state->tail_rides ? 1 - shown_shares(instance).tail : simulated_share(instance);
 }
 
 // What began elsewhere than it would have been swings on, and a landing swings it further: what began at

@@ -1,9 +1,8 @@
 // catch_up.cpp  see catch_up.hpp.
 #include "world/catch_up.hpp"
 
-#include "frame/scheduler.hpp"
-#include "world/blend.hpp"
 #include "world/rod_blend.hpp"
+#include "world/simulated_shown.hpp"
 
 namespace sinew::world {
 

@@ -10,10 +10,11 @@
 #include "tissue/memory_rows.hpp"
 #include "tissue/modal_base.hpp"
 #include "tissue/node_bend.hpp"
-#include "world/blend.hpp"
+#include "world/asleep.hpp"
 #include "world/motion.hpp"
-#include "world/sleep.hpp"
-#include "world/tuning.hpp"
+#include "world/shares.hpp"
+#include "world/simulated_shown.hpp"
+#include "world/tuned_parts.hpp"
 
 namespace sinew::world {
 namespace {
@@ -42,7 +43,7 @@ void take_from_seam(Instance& instance) noexcept {
 }
 
 void begin_seam(Instance& instance) noexcept {
-  const float left = instance.seam_share();
+  const float left = seam_share(instance);
   carry_shown(instance);
   for (size_t i = 0; i < size_t{3} * instance.asset->padded_vertices; ++i)
     instance.seam[i] = (left > 0 ? left * instance.seam[i] : 0) + instance.carried[i];
@@ -226,7 +227,7 @@ void raise(Instance& instance) noexcept {
 
 // What is shown at the level it has now, of what is simulated.
 void show_anew(Instance& instance) noexcept {
-  const ShownShares shares = instance.shown_shares();
+  const ShownShares shares = shown_shares(instance);
   const uint32_t nodes = instance.level->node_count();
   if (instance.level_raised) pose_now(instance, instance.poses[0]);
   for (int tick = 0; tick < 2; ++tick) {
@@ -247,12 +248,12 @@ void go_one_level(Instance& instance, bool finer) noexcept {
 
 // Nothing is seen of it: the seam takes it.
 void show_settled(Instance& instance, const float* moved) noexcept {
-  const float simulated = instance.shown_shares().simulated;
+  const float simulated = shown_shares(instance).simulated;
   tissue::along_flesh(instance.poses[1], moved, instance.level->node_count(),
                       instance.delta);  // those of u: a tick ago
   for (size_t r = 0; r < instance.level->pack.regions.size(); ++r) {
     const pack::RegionRecord& region = instance.level->pack.regions[r];
-    const float share = simulated * instance.regained_share(r) * intensity_of(instance, r);
+    const float share = simulated * regained_share(instance, r) * intensity_of(instance, r);
     float* delta = instance.delta + size_t{3} * region.first_node;
     for (size_t i = 0; i < size_t{3} * region.node_count; ++i) delta[i] *= share;
   }
@@ -287,7 +288,7 @@ void settle_rest(Instance& instance, const float* moved) noexcept {
   const uint32_t nodes = instance.level->node_count();
   for (float* u : instance.u)
     for (size_t i = 0; i < size_t{3} * nodes; ++i) u[i] += moved[i];
-  if (instance.shown_shares().simulated > 0) show_settled(instance, moved);
+  if (shown_shares(instance).simulated > 0) show_settled(instance, moved);
   if (instance.state->tier == Tier::kNetwork)
     tissue::write_output(instance.asset->network, instance.level->pack.regions, nodes, instance.l[0],
                          instance.network_state);

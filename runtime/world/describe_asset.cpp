@@ -7,7 +7,7 @@
 #include <cstring>
 #include <numbers>
 
-#include "world/instance.hpp"
+#include "world/create_instance.hpp"
 #include "world/pose.hpp"
 
 namespace sinew::world {

@@ -9,7 +9,7 @@
 #pragma once
 #include <Eigen/Core>
 
-#include "world/instance.hpp"
+#include "world/asset.hpp"
 
 namespace sinew::world {
 

@@ -4,11 +4,9 @@
 #include <algorithm>
 #include <cstring>
 
-#include "frame/scheduler.hpp"
+#include "world/asleep.hpp"
 #include "world/pose.hpp"
 #include "world/rod_contacts.hpp"
-#include "world/rod_sleep.hpp"
-#include "world/sleep.hpp"
 #include "world/tuning.hpp"
 
 namespace sinew::world {
@@ -81,7 +79,5 @@ void stay_dormant(Instance& instance, double frame_s) noexcept {
   if (state.tier != Tier::kNetwork) state.ticks_since_network += ticks.ticks;
   state.has_next = 0;
 }
-
-void wake(Instance& instance) noexcept { instance.state->dormant = 0; }
 
 }  // namespace sinew::world

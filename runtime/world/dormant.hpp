@@ -20,6 +20,5 @@ void watch_pose(Instance& instance) noexcept;
 void fall_dormant(Instance& instance) noexcept;
 // In place of a step.
 void stay_dormant(Instance& instance, double frame_s) noexcept;  // by its plan's ticks
-void wake(Instance& instance) noexcept;
 
 }  // namespace sinew::world

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "core/check_hit.hpp"
-#include "frame/scheduler.hpp"
 #include "world/own_body_touches.hpp"
+#include "world/shares.hpp"
 #include "world/surface_point.hpp"
 
 namespace sinew::world {
@@ -309,7 +309,7 @@ void find_pushed_touches(Instance& instance) noexcept {
 }
 
 bool touches_stand_still(const Instance& instance) noexcept {
-  if (frame::is_simulated(instance.state->tier) && instance.simulated_share() < 1) return false;
+  if (frame::is_simulated(instance.state->tier) && simulated_share(instance) < 1) return false;
   if (instance.touch_count == 0) return true;
   for (uint32_t r = 0; r < instance.level->pack.regions.size(); ++r) {
     const pack::RegionRecord& region = instance.level->pack.regions[r];

@@ -5,9 +5,9 @@
 
 #include "core/clock.hpp"
 #include "world/affords_surface.hpp"
+#include "world/asleep.hpp"
 #include "world/catch_up.hpp"
 #include "world/plan.hpp"
-#include "world/rod_sleep.hpp"
 
 namespace sinew::world {
 namespace {

@@ -2,9 +2,8 @@
 #pragma once
 #include <memory>
 
-#include "pack/reader.hpp"
 #include "tissue/fraction_step.hpp"
-#include "tissue/network.hpp"
+#include "tissue/network_weights.hpp"
 #include "world/surface_patches.hpp"
 
 namespace sinew::world {

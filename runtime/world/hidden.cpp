@@ -3,9 +3,8 @@
 
 #include <algorithm>
 
-#include "frame/scheduler.hpp"
+#include "world/asleep.hpp"
 #include "world/blend.hpp"
-#include "world/dormant.hpp"
 #include "world/root_motion.hpp"
 #include "world/teleport.hpp"
 
@@ -38,19 +37,6 @@ void hide(Instance& instance) noexcept {
   instance.cost_factor = 1;
   instance.told = {};
   instance.cut = instance.held = instance.restarted = instance.fell_back = false;
-}
-
-void pass_by(const frame::TickPlan& ticks, PlanRow& row) noexcept {
-  constexpr uint32_t kLongest = UINT32_MAX / 2;
-  row.remainder_s = ticks.remainder_s;
-  row.hidden_ticks = std::min(kLongest, row.hidden_ticks + ticks.ticks);
-  if (ticks.dropped_s > 0) row.hidden_ticks = std::max(row.hidden_ticks, kCarryTicks + kLongestFadeTicks);
-}
-
-void keep_hidden_ticks(const PlanRow& row) noexcept {
-  if (!row.hidden) return;
-  row.state->remainder_s = row.remainder_s;
-  row.state->hidden_ticks = row.hidden_ticks;
 }
 
 void come_back(Instance& instance) noexcept {

@@ -8,16 +8,12 @@
 // (world/blend.hpp) over kBlendInTicks or more (world/blend_pace.hpp), with a network's memory only if it
 // missed no more than kRememberedTicks.
 #pragma once
-#include "world/plan_row.hpp"
+#include "world/instance.hpp"
 
 namespace sinew::world {
 
 // Of one that was seen until now.
 void hide(Instance& instance) noexcept;
-// A step in which it is hidden.
-void pass_by(const frame::TickPlan& ticks, PlanRow& row) noexcept;
-// To its state, before anything else reads or writes that.
-void keep_hidden_ticks(const PlanRow& row) noexcept;
 // Before its step, of an instance that was passed by.
 void come_back(Instance& instance) noexcept;
 

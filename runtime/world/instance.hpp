@@ -156,11 +156,6 @@ struct InstancePlan {
 // Instance::regained: not simulated since.
 inline constexpr uint32_t kRegained = 1, kRegainedNow = 2;
 
-// Of what is shown.
-struct ShownShares {
-  float simulated, tail;
-};
-
 // What a tick of emulated patches is told and says, [nodes][3] in metres from the root's last tick
 // (world/emulate.hpp); none without such regions.
 struct EmulatorScratch {
@@ -315,15 +310,6 @@ struct Instance {
   const float* rods_published = nullptr;  // rod_shown[0] or rods_between
   Matrix34* rod_motion = nullptr;         // [slots]: how rods move the pose's bones, in the character's space
   Matrix34* rod_joints = nullptr;         // [joints], where there are rods: the pose's, moved by them
-
-  // In ticks beyond the last, as far as the blend goes on at its last pace:
-  float simulated_share(float ahead = 0) const noexcept;  // b
-  float tail_share(float ahead = 0) const noexcept;  // 1 while carried, then falling smoothly to 0; in ticks
-  float seam_share() const noexcept;                 // 1 as a level changes, then falling smoothly to 0
-  // Of what is simulated, 1 but for a region that a change of level had again: it rises as the seam falls.
-  float regained_share(size_t region, float ahead = 0) const noexcept;
-  ShownShares shown_shares(float ahead = 0) const noexcept;
-  float shown_share() const noexcept;  // of displacement, 0: skinning
 };
 
 inline constexpr size_t kPlannedBytes = offsetof(Instance, memory);
@@ -333,19 +319,7 @@ inline TierCosts& costs_of(const Instance& instance) noexcept {
   return instance.contacts.surface ? instance.asset->surface_costs : instance.asset->costs;
 }
 
-size_t instance_bytes(const Asset& asset) noexcept;  // without contacts
-// In its bind pose, at rest. kOutOfCapacity when memory is short.
-Status make_instance(Asset& asset, const InstanceDef& def, Instance* out) noexcept;
-
 // Points joints_before, joints and next_joints, and the level, to what the state says.
 void point_to_state(Instance& instance) noexcept;
-
-// Displacement, shown and carried on, is zero from now on; simulation would start anew.
-void forget_displacement(Instance& instance) noexcept;
-
-// Forgets motion and displacement; the next pose is taken as having been held for ever. Counters stay.
-void forget_motion(Instance& instance) noexcept;
-
-InstanceReport describe(const Instance& instance, InstanceId id) noexcept;
 
 }  // namespace sinew::world

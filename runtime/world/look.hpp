@@ -9,7 +9,7 @@
 
 namespace sinew::world {
 
-inline constexpr uint32_t kRaysALook = 8, kBlindLooks = 3;
+inline constexpr uint32_t kRaysALook = 8;
 
 // Sets `seen` and `size` of every row. Costs some ten nanoseconds an instance and view, and the rays.
 void look(WorldState& world) noexcept;

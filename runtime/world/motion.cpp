@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "tissue/node_bend.hpp"
+#include "world/asleep.hpp"
 #include "world/own_body.hpp"
 #include "world/rod_motion.hpp"
-#include "world/rod_sleep.hpp"
 #include "world/root_motion.hpp"
 #include "world/rotation.hpp"
 #include "world/teleport.hpp"

@@ -7,7 +7,7 @@
 #include "core/turn_between.hpp"
 #include "rods/sweep.hpp"
 #include "rods/vector.hpp"
-#include "world/rod_sleep.hpp"
+#include "world/asleep.hpp"
 #include "world/rotation.hpp"
 
 namespace sinew::world {

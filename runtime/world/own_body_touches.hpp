@@ -6,7 +6,6 @@
 #include <memory>
 #include <span>
 
-#include "pack/reader.hpp"
 #include "sinew/contact_source.hpp"
 #include "world/instance.hpp"
 

@@ -2,6 +2,7 @@
 #pragma once
 #include <span>
 
+#include "frame/scheduler.hpp"
 #include "world/world_state.hpp"
 
 namespace sinew::world {

@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "frame/front.hpp"
+#include "world/asleep.hpp"
 #include "world/catch_up.hpp"
-#include "world/look.hpp"
-#include "world/sleep.hpp"
+#include "world/shares.hpp"
 #include "world/tuning.hpp"
 
 namespace sinew::world {
@@ -35,7 +35,7 @@ void copy_to_row(const Instance& instance, PlanRow* row) noexcept {
   row->waited_for_pose = state.without_pose_s > 0;
   row->falls_back = state.fallback_ticks > 0;
   row->was_cut = instance.cut || instance.held;
-  row->shows = instance.shown_share() != 0;
+  row->shows = shown_share(instance) != 0;
   row->blind_looks = std::min(state.blind_looks, kBlindLooks) & 3;
   row->missed = missed_so_far(instance) & 3;
   row->all_off = all_is_off(instance);
@@ -43,6 +43,19 @@ void copy_to_row(const Instance& instance, PlanRow* row) noexcept {
   row->skinned_at_best = state.tier_limit == Tier::kSkinning;
   row->regions_asleep =
       frame::is_simulated(state.tier) ? static_cast<uint16_t>(regions_asleep(instance)) : uint16_t{0};
+}
+
+void pass_by(const frame::TickPlan& ticks, PlanRow& row) noexcept {
+  constexpr uint32_t kLongest = UINT32_MAX / 2;
+  row.remainder_s = ticks.remainder_s;
+  row.hidden_ticks = std::min(kLongest, row.hidden_ticks + ticks.ticks);
+  if (ticks.dropped_s > 0) row.hidden_ticks = std::max(row.hidden_ticks, kCarryTicks + kLongestFadeTicks);
+}
+
+void keep_hidden_ticks(const PlanRow& row) noexcept {
+  if (!row.hidden) return;
+  row.state->remainder_s = row.remainder_s;
+  row.state->hidden_ticks = row.hidden_ticks;
 }
 
 }  // namespace sinew::world

@@ -53,7 +53,15 @@ struct PlanAnswer {
   bool idle = false;  // neither simulated nor displaced
 };
 
+inline constexpr uint32_t kBlindLooks = 3;  // in a row hide (world/look.hpp)
+
 // All but what stays and what a look finds.
 void copy_to_row(const Instance& instance, PlanRow* row) noexcept;
 
+// ---- of one that is hidden (world/hidden.hpp) ----
+
+// A step in which it is hidden.
+void pass_by(const frame::TickPlan& ticks, PlanRow& row) noexcept;
+// To its state, before anything else reads or writes that.
+void keep_hidden_ticks(const PlanRow& row) noexcept;
 }  // namespace sinew::world

@@ -1,6 +1,5 @@
 // pose_bound.hpp  A ball about a character in the pose that was set last.
 #pragma once
-#include "frame/sight.hpp"
 #include "world/instance.hpp"
 
 namespace sinew::world {

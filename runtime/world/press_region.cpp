@@ -8,7 +8,7 @@
 #include "tissue/guard.hpp"
 #include "tissue/modal_base.hpp"
 #include "world/displacement_bound.hpp"
-#include "world/tuning.hpp"
+#include "world/tuned_parts.hpp"
 
 namespace sinew::world {
 namespace {

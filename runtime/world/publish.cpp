@@ -6,13 +6,13 @@
 #include <utility>
 
 #include "core/clock.hpp"
-#include "frame/scheduler.hpp"
 #include "simd/kernels.hpp"
 #include "world/between_ticks.hpp"
 #include "world/displacement_bound.hpp"
 #include "world/pose.hpp"
 #include "world/rod_blend.hpp"
 #include "world/rod_publish.hpp"
+#include "world/shares.hpp"
 
 namespace sinew::world {
 namespace {
@@ -84,16 +84,16 @@ void publish_pose(Instance& instance) noexcept {
 
 void publish(Instance& instance, const ClockHook& clock) noexcept {
   const pack::PackView& pack = instance.level->pack;
-  const bool displaced = instance.shown_share() > 0;
+  const bool displaced = shown_share(instance) > 0;
   const Shown now = shown_at_end(instance, clock);
   instance.rods_published = now.turns;
   publish_pose(instance);
   if (std::exchange(instance.displaced, displaced) && !displaced) clear_shown(instance);
   if (!displaced) return;
   instance.carried_share =
-      frame::is_simulated(instance.state->tier) ? 1 : instance.tail_share(instance.state->render_fraction);
+      frame::is_simulated(instance.state->tier) ? 1 : tail_share(instance, instance.state->render_fraction);
   float* carried = instance.carried;
-  const float seam = instance.seam_share();
+  const float seam = seam_share(instance);
   const bool seamed = takes_seam(instance, seam);
   for (size_t r = 0; r < pack.regions.size(); ++r) {
     const pack::RegionRecord& region = pack.regions[r];

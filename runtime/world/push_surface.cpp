@@ -10,6 +10,7 @@
 #include "world/displacement_bound.hpp"
 #include "world/find_touches.hpp"
 #include "world/surface_point.hpp"
+#include "world/tuned_parts.hpp"
 
 namespace sinew::world {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "tissue/modal_base.hpp"
+#include "world/asleep.hpp"
 #include "world/instance.hpp"
-#include "world/sleep.hpp"
-#include "world/tuning.hpp"
+#include "world/tuned_parts.hpp"
 
 namespace sinew::world {
 

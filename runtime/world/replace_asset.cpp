@@ -9,6 +9,7 @@
 #include "world/pose_bound.hpp"
 #include "world/publish.hpp"
 #include "world/rod_blend.hpp"
+#include "world/shares.hpp"
 #include "world/teleport.hpp"
 
 namespace sinew::world {
@@ -78,7 +79,7 @@ void take_flesh(const Instance& from, Instance& to) noexcept {
     const uint32_t namesake = find_namesake(was, was.regions, now, now.regions[r].name);
     if (namesake == pack::kNoIndex) continue;
     to.region_tunings[r] = from.region_tunings[namesake];
-    if (from.shown_share() > 0) take_region(from, namesake, to, now.regions[r]);
+    if (shown_share(from) > 0) take_region(from, namesake, to, now.regions[r]);
   }
   const size_t floats = size_t{3} * to.level->node_count();
   for (size_t i = 0; i < floats; ++i) {

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "frame/scheduler.hpp"
 #include "world/rod_motion.hpp"
 #include "world/rotation.hpp"
+#include "world/shares.hpp"
 
 namespace sinew::world {
 namespace {
@@ -105,14 +105,14 @@ void show_rods(Instance& instance, float simulated) noexcept {
   if (simulated == 1) return;
   if (!instance.state->tail_rides)
     for (size_t s = 0; s < slots; ++s) advance_tail(instance, s);
-  blend_rods(instance, simulated, instance.tail_share(), instance.rod_tail, instance.rod_shown[0]);
+  blend_rods(instance, simulated, tail_share(instance), instance.rod_tail, instance.rod_shown[0]);
 }
 
 const float* rods_shown_now(Instance& instance) noexcept {
   const InstanceState& state = *instance.state;
-  const float x = state.render_fraction, share = instance.simulated_share(x);
+  const float x = state.render_fraction, share = simulated_share(instance, x);
   const bool simulated = frame::is_simulated(state.tier);
-  const bool shows = instance.asset->rods.rod_count > 0 && instance.shown_share() > 0;
+  const bool shows = instance.asset->rods.rod_count > 0 && shown_share(instance) > 0;
   if (!shows || x == 0) return instance.rod_shown[0];
   float *turns = instance.rods_between, *tails = instance.rod_orientations;
   if (simulated && state.motion_stale) return go_on_as_shown(instance, x, turns);
@@ -122,7 +122,7 @@ const float* rods_shown_now(Instance& instance) noexcept {
     std::copy_n(instance.rod_tail, 4 * instance.asset->rods.slot_count, tails);
   else
     rod_tails_between(instance, x, tails);
-  blend_rods(instance, share, instance.tail_share(x), tails, turns);
+  blend_rods(instance, share, tail_share(instance, x), tails, turns);
   return turns;
 }
 

@@ -9,12 +9,13 @@
 #include "tissue/guard.hpp"
 #include "tissue/node_drive.hpp"
 #include "world/air.hpp"
+#include "world/asleep.hpp"
 #include "world/own_body.hpp"
 #include "world/pose.hpp"
 #include "world/rod_contacts.hpp"
 #include "world/rod_sleep.hpp"
 #include "world/rotation.hpp"
-#include "world/tuning.hpp"
+#include "world/tuned_parts.hpp"
 
 namespace sinew::world {
 namespace {

@@ -3,6 +3,7 @@
 
 #include "world/pose.hpp"
 #include "world/rotation.hpp"
+#include "world/shares.hpp"
 
 namespace sinew::world {
 namespace {
@@ -39,7 +40,7 @@ void move_bone(Instance& instance, uint32_t s, const float* turns) noexcept {
 
 void publish_rods(Instance& instance, const float* turns) noexcept {
   const RodRig& rig = instance.asset->rods;
-  instance.rods_shown = rig.rod_count > 0 && instance.shown_share() > 0;
+  instance.rods_shown = rig.rod_count > 0 && shown_share(instance) > 0;
   if (!instance.rods_shown) return;
   for (const RodSeat& seat : rig.seats()) {
     map(instance.rod_motion[seat.first_slot]).setIdentity();

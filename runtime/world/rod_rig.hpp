@@ -4,7 +4,8 @@
 #include <memory>
 #include <span>
 
-#include "pack/reader.hpp"
+#include "pack/format.hpp"
+#include "pack/pack_view.hpp"
 #include "rods/strand.hpp"
 #include "sinew/status.hpp"
 

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "world/asleep.hpp"
 #include "world/rod_contacts.hpp"
-#include "world/tuning.hpp"
+#include "world/tuned_parts.hpp"
 
 namespace sinew::world {
 namespace {
@@ -62,13 +63,6 @@ bool stays(const Instance& instance, double tolerance) noexcept {
 }
 
 }  // namespace
-
-void wake_rods(Instance& instance) noexcept { instance.state->rod_quiet_ticks = 0; }
-
-uint32_t rods_asleep(const Instance& instance) noexcept {
-  const bool asleep = instance.state->rod_quiet_ticks >= kRodsQuietTicks || rods_are_off(instance);
-  return asleep ? instance.asset->rods.rod_count : 0;
-}
 
 bool rods_are_held_as_asleep(const Instance& instance) noexcept {
   const float tolerance = instance.sleep_tolerance;

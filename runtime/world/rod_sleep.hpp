@@ -11,10 +11,6 @@
 
 namespace sinew::world {
 
-inline constexpr uint32_t kRodsQuietTicks = 60;  // a second at 60 Hz: longer than half a swing of most rods
-
-void wake_rods(Instance& instance) noexcept;
-uint32_t rods_asleep(const Instance& instance) noexcept;
 // In the newest of rod_rest and rod_hold.
 bool rods_are_held_as_asleep(const Instance& instance) noexcept;
 // Before a tick's drive: true where it may be left out.

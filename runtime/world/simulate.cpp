@@ -14,10 +14,11 @@
 #include "tissue/network.hpp"
 #include "tissue/node_drive.hpp"
 #include "world/air.hpp"
+#include "world/asleep.hpp"
 #include "world/change_level.hpp"
 #include "world/emulate.hpp"
 #include "world/region_part.hpp"
-#include "world/sleep.hpp"
+#include "world/tuned_parts.hpp"
 
 namespace sinew::world {
 namespace {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "frame/scheduler.hpp"
 #include "world/tier_limit.hpp"
 
 namespace sinew::world {

@@ -7,7 +7,8 @@
 
 #include "tissue/correction_budget.hpp"
 #include "tissue/node_drive.hpp"
-#include "world/tuning.hpp"
+#include "world/asleep.hpp"
+#include "world/tuned_parts.hpp"
 
 namespace sinew::world {
 namespace {
@@ -22,12 +23,6 @@ Region region_at(const Instance& instance, size_t index, float tolerance) noexce
   const float w1 = first_rad_per_s(instance, index);
   return {pack.regions[index], w1, w1 * static_cast<float>(instance.asset->tick_s),
           tolerance * pack.regions[index].radius_m};
-}
-
-uint32_t ticks_to_sleep(const Region& region) noexcept {
-  constexpr float kNever = 1e9f;  // half a year; what hardly swings has more than an integer holds
-  return static_cast<uint32_t>(
-      std::min(kNever, std::ceil(std::numbers::pi_v<float> / std::min(region.w1_tick, 1.0f))));
 }
 
 // By compare, so that NaN is never near.
@@ -92,23 +87,6 @@ void fall_asleep(Instance& instance, size_t index, const Region& region) noexcep
 
 }  // namespace
 
-void wake_regions(Instance& instance) noexcept {
-  std::fill_n(instance.quiet_ticks, instance.level->pack.regions.size(), 0u);
-  instance.state->still_ticks = 0;
-}
-
-bool is_asleep(const Instance& instance, size_t region) noexcept {
-  return !instance.level->leaves_out(region) &&
-         (instance.quiet_ticks[region] >= ticks_to_sleep(region_at(instance, region, 0)) ||
-          region_is_off(instance, region));
-}
-
-uint32_t regions_asleep(const Instance& instance) noexcept {
-  uint32_t count = 0;
-  for (size_t r = 0; r < instance.level->pack.regions.size(); ++r) count += is_asleep(instance, r);
-  return count;
-}
-
 bool feels_as_asleep(const Instance& instance, size_t region, const FeltNodes& felt) noexcept {
   return feels_the_same(instance, region_at(instance, region, instance.sleep_tolerance), felt);
 }
@@ -128,7 +106,7 @@ void watch_motion(Instance& instance) noexcept {
   if (!frame::is_simulated(instance.state->tier)) return;
   const float tolerance = instance.sleep_tolerance;
   for_each_region(instance, tolerance, [&](size_t r, const Region& region, uint32_t& quiet_ticks) {
-    const uint32_t enough = ticks_to_sleep(region);
+    const uint32_t enough = ticks_to_sleep(instance, r);
     if (quiet_ticks >= enough) return;
     const bool quiet = tolerance > 0 && stays(instance, region);
     quiet_ticks = quiet ? quiet_ticks + 1 : 0;

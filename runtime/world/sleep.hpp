@@ -14,11 +14,6 @@
 
 namespace sinew::world {
 
-// All regions are awake: another tier, a guard, a start.
-void wake_regions(Instance& instance) noexcept;
-bool is_asleep(const Instance& instance, size_t region) noexcept;
-uint32_t regions_asleep(const Instance& instance) noexcept;
-
 // After a tick's drive, before its tissue: wakes what feels more than it did.
 void watch_drive(Instance& instance) noexcept;
 // After its tissue: counts quiet ticks; what falls asleep stops.

@@ -10,6 +10,7 @@
 #include "core/status.hpp"
 #include "world/publish.hpp"
 #include "world/tier_limit.hpp"
+#include "world/tuned_parts.hpp"
 #include "world/tuning.hpp"
 
 namespace sinew::world {

@@ -12,7 +12,6 @@
 #include "core/floating_point.hpp"
 #include "core/run_tasks.hpp"
 #include "world/fold.hpp"
-#include "world/hidden.hpp"
 #include "world/look.hpp"
 #include "world/marker.hpp"
 #include "world/plan.hpp"

@@ -8,7 +8,7 @@
 #include <memory>
 #include <span>
 
-#include "pack/reader.hpp"
+#include "pack/pack_view.hpp"
 #include "sinew/status.hpp"
 
 namespace sinew::world {

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "world/displacement_bound.hpp"
+#include "world/shares.hpp"
 
 namespace sinew::world {
 namespace {
@@ -38,7 +39,7 @@ size_t columns_before(const pack::PackView& pack, uint32_t region) noexcept {
 
 // What is left of a change of level.
 Vector3f seam(const Instance& instance, uint32_t region, uint32_t column) noexcept {
-  const float share = instance.seam_share();
+  const float share = seam_share(instance);
   if (share == 0) return Vector3f::Zero();
   const pack::PackView& pack = instance.level->pack;
   const float* at = instance.seam + columns_before(pack, region) + column;

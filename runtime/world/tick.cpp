@@ -5,8 +5,8 @@
 
 #include "core/clock.hpp"
 #include "core/floating_point.hpp"
-#include "frame/scheduler.hpp"
 #include "world/affords_surface.hpp"
+#include "world/asleep.hpp"
 #include "world/between_ticks.hpp"
 #include "world/blend.hpp"
 #include "world/catch_up.hpp"
@@ -21,12 +21,12 @@
 #include "world/publish.hpp"
 #include "world/push_surface.hpp"
 #include "world/rod_motion.hpp"
-#include "world/rod_sleep.hpp"
 #include "world/simulate.hpp"
 #include "world/sleep.hpp"
 #include "world/teleport.hpp"
 #include "world/tier_limit.hpp"
 #include "world/tissue_contacts.hpp"
+#include "world/tuned_parts.hpp"
 #include "world/tuning.hpp"
 
 namespace sinew::world {

@@ -2,7 +2,7 @@
 #include "world/tier_limit.hpp"
 
 #include "frame/front.hpp"
-#include "world/dormant.hpp"
+#include "world/asleep.hpp"
 #include "world/publish.hpp"
 
 namespace sinew::world {

@@ -10,11 +10,16 @@
 
 #include "core/floating_point.hpp"
 #include "core/status.hpp"
+#include "frame/scheduler.hpp"
 #include "simd/isa.hpp"
 #include "simd/kernels.hpp"
 #include "world/air.hpp"
+#include "world/asleep.hpp"
 #include "world/check_parameters.hpp"
+#include "world/create_instance.hpp"
 #include "world/dormant.hpp"
+#include "world/forget.hpp"
+#include "world/open_asset.hpp"
 #include "world/pose.hpp"
 #include "world/pose_bound.hpp"
 #include "world/publish.hpp"
@@ -357,7 +362,7 @@ Status set_parameters_of(WorldState* state, InstanceId id, const Owner& owner,
   if (Status status = find_parameters(*instance, owner, &parameters); !status.ok()) return status;
   if (Status status = world::check_parameters(owner.function, given); !status.ok()) return status;
   *parameters = {given.intensity, given.stiffness, given.damping, given.displacement, given.enabled};
-  world::notice_parameters(*instance);
+  if (world::notice_parameters(*instance)) world::publish(*instance);
   world::bound_pose(*instance);
   keep_row(*state, id);
   return {};

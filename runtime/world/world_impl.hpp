@@ -4,7 +4,6 @@
 #include "core/assert_hook.hpp"
 #include "core/status.hpp"
 #include "sinew/world.hpp"
-#include "world/hidden.hpp"
 #include "world/world_state.hpp"
 
 namespace sinew {

@@ -4,6 +4,7 @@
 
 #include "core/floating_point.hpp"
 #include "world/debug_lines.hpp"
+#include "world/describe_instance.hpp"
 #include "world/read.hpp"
 #include "world/read_points.hpp"
 #include "world/rod_publish.hpp"

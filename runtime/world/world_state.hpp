@@ -6,8 +6,8 @@
 
 #include "core/bring_near.hpp"
 #include "core/slot_table.hpp"
+#include "frame/candidate.hpp"
 #include "frame/cost_model.hpp"
-#include "frame/scheduler.hpp"
 #include "frame/sight.hpp"
 #include "sinew/types.hpp"
 #include "world/asset.hpp"

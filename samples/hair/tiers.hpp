@@ -10,6 +10,7 @@
 #include "core/aligned_block.hpp"
 #include "samples/hair/character.hpp"
 #include "samples/hair/hair.hpp"
+#include "world/describe_instance.hpp"
 
 namespace sinew::sample {
 

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "pack/dense_layout.hpp"
+#include "pack/pack_view.hpp"
 #include "tests/pack/pack_editor.hpp"
 #include "tests/pack/small_pack.hpp"
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "baker/pack/modes_pack.hpp"
+#include "tissue/retuned.hpp"
 
 using namespace sinew;
 

@@ -10,6 +10,7 @@
 
 #include "baker/pack/modes_pack.hpp"
 #include "tests/simd/test_data.hpp"
+#include "tissue/retuned.hpp"
 
 using namespace sinew;
 

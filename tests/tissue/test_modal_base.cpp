@@ -9,6 +9,7 @@
 #include "tests/simd/every_isa.hpp"
 #include "tests/simd/test_data.hpp"
 #include "tests/tissue/node_poses.hpp"
+#include "tissue/retuned.hpp"
 
 using namespace sinew;
 using Eigen::Matrix3d;

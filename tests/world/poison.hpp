@@ -4,7 +4,10 @@
 #include <limits>
 
 #include "tests/world/stage.hpp"
+#include "tissue/network.hpp"
+#include "world/create_instance.hpp"
 #include "world/instance.hpp"
+#include "world/open_asset.hpp"
 
 namespace sinew::test {
 

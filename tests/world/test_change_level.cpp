@@ -5,7 +5,9 @@
 #include "tests/scenes/half_spaces.hpp"
 #include "tests/scenes/thread_pool.hpp"
 #include "tests/world/told_block.hpp"
+#include "world/create_instance.hpp"
 #include "world/fold.hpp"
+#include "world/open_asset.hpp"
 #include "world/snapshot.hpp"
 
 using namespace sinew;

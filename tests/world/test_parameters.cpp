@@ -4,6 +4,7 @@
 #include <string>
 
 #include "tests/world/stage.hpp"
+#include "world/tuned_parts.hpp"
 #include "world/tuning_state.hpp"
 
 using namespace sinew;

@@ -2,6 +2,8 @@
 #include "world/plan.hpp"
 
 #include "tests/world/stage.hpp"
+#include "world/create_instance.hpp"
+#include "world/open_asset.hpp"
 
 using namespace sinew;
 

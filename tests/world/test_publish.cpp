@@ -8,9 +8,11 @@
 #include "tissue/node_pose.hpp"
 #include "world/asset.hpp"
 #include "world/blend.hpp"
+#include "world/create_instance.hpp"
 #include "world/displacement_bound.hpp"
 #include "world/instance.hpp"
 #include "world/motion.hpp"
+#include "world/open_asset.hpp"
 #include "world/publish.hpp"
 
 using namespace sinew;

@@ -8,8 +8,11 @@
 #include "tests/scenes/thread_pool.hpp"
 #include "tests/world/stage.hpp"
 #include "world/affords_surface.hpp"
+#include "world/asleep.hpp"
 #include "world/change_level.hpp"
+#include "world/create_instance.hpp"
 #include "world/fold.hpp"
+#include "world/open_asset.hpp"
 #include "world/rod_sleep.hpp"
 
 using namespace sinew;

@@ -8,6 +8,7 @@
 
 #include "baker/common/bad_input.hpp"
 #include "pack/dense_layout.hpp"
+#include "pack/pack_view.hpp"
 #include "tests/pack/packed_model.hpp"
 #include "tests/pack/small_pack.hpp"
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "baker/common/bad_input.hpp"
+#include "pack/pack_view.hpp"
 #include "pack/weight_layout.hpp"
 #include "tests/pack/pack_editor.hpp"
 #include "tests/pack/small_pack.hpp"
