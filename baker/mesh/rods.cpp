@@ -27,7 +27,8 @@ namespace sinew::baker {
 namespace {
 
 constexpr double kFrames_hz = 60, kGravity = 9.80665, kOfLoneBone = 40;
-constexpr double kMostGravity = 100;  // of the earth's: what a pack may hold, runtime/pack/check_rods.cpp
+constexpr double kMostGravity =
+    100;  // of the earth's: what a pack may hold, runtime/pack/checks/check_rods.cpp
 constexpr double kLeastStiffness = 0.01,
                  kMostDrag = 0.95;       // of springs: beyond them bones fall, or stand still
 constexpr double kLinkStiffness = 1000;  // times the stiffest joint of its rod

@@ -1,7 +1,7 @@
 // reader.cpp  Bytes to checked views.
 #include "pack/reader.hpp"
 
-#include "pack/checks.hpp"
+#include "pack/checks/checks.hpp"
 #include "pack/section_table.hpp"
 
 namespace sinew::pack {

@@ -4,7 +4,7 @@
 
 #include "baker/pack/int8_layout.hpp"
 #include "baker/research/precision/check_int8.hpp"
-#include "pack/checks.hpp"
+#include "pack/checks/checks.hpp"
 
 namespace sinew::baker {
 namespace {

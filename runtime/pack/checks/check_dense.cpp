@@ -1,7 +1,7 @@
 // check_dense.cpp  A network of chains: its record, its dense layers and their weights agree with each other.
 
 #include "core/status.hpp"
-#include "pack/checks.hpp"
+#include "pack/checks/checks.hpp"
 #include "pack/dense_layout.hpp"
 
 namespace sinew::pack {

@@ -1,5 +1,5 @@
 // checks.cpp  What the checks of networks, characters and tissue share.
-#include "pack/checks.hpp"
+#include "pack/checks/checks.hpp"
 
 #include <algorithm>
 #include <cmath>

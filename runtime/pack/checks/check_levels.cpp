@@ -2,7 +2,7 @@
 // finer.
 #include <algorithm>
 
-#include "pack/checks.hpp"
+#include "pack/checks/checks.hpp"
 
 namespace sinew::pack {
 namespace {

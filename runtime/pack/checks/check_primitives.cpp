@@ -2,7 +2,7 @@
 // tangents are unit vectors with a side.
 #include <algorithm>
 
-#include "pack/checks.hpp"
+#include "pack/checks/checks.hpp"
 
 namespace sinew::pack {
 namespace {

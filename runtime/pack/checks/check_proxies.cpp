@@ -1,5 +1,5 @@
 // check_proxies.cpp  Capsules about bones are about bones that are there, and have a size.
-#include "pack/checks.hpp"
+#include "pack/checks/checks.hpp"
 
 namespace sinew::pack {
 

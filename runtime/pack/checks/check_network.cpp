@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/status.hpp"
-#include "pack/checks.hpp"
+#include "pack/checks/checks.hpp"
 #include "pack/weight_layout.hpp"
 
 namespace sinew::pack {

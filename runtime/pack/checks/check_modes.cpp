@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pack/checks.hpp"
+#include "pack/checks/checks.hpp"
 
 namespace sinew::pack {
 namespace {

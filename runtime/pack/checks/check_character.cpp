@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/status.hpp"
-#include "pack/checks.hpp"
+#include "pack/checks/checks.hpp"
 #include "sinew/types.hpp"
 
 namespace sinew::pack {
