@@ -9,7 +9,7 @@
 #include "baker/programs/commands.hpp"
 #include "baker/programs/loaded_pack.hpp"
 #include "baker/programs/roll_out.hpp"
-#include "simd/isa.hpp"
+#include "kernels/isa.hpp"
 
 namespace sinew::baker {
 namespace {

@@ -16,7 +16,7 @@ struct NoTruth : BadInput {
 //                              (world) and angular acceleration (own axes) by the joints, the joint's force
 //                              (world) and moment
 //   turns      [S][N][4]       orientation x y z w at each step's start
-//   inputs     [S][N][14]      what a learned start is told of the step (simd/rod_start_job.hpp)
+//   inputs     [S][N][14]      what a learned start is told of the step (kernels/rods/rod_start_job.hpp)
 //   continued  [S][N][12]      and what it corrects, as forces
 //   scales     [S][4]          by which it measures the correction, triple by triple
 //   joints     [N][5]          what it is told of the joints, the root's zero

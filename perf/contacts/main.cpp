@@ -8,10 +8,10 @@
 #include <cstdio>
 #include <cstring>
 
+#include "kernels/isa.hpp"
 #include "perf/help.hpp"
 #include "perf/scale/stopwatch.hpp"
 #include "rods/rod_batch.hpp"
-#include "simd/isa.hpp"
 #include "tests/scenes/hair_on_head.hpp"
 
 namespace sinew::perf {

@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "simd/isa.hpp"
-#include "simd/kernels.hpp"
+#include "kernels/isa.hpp"
+#include "kernels/kernels.hpp"
 #include "tissue/narrow_layer.hpp"
 #include "tissue/network.hpp"
 

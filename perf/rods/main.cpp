@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "baker/research/rods/compared_solver.hpp"
+#include "kernels/isa.hpp"
 #include "perf/help.hpp"
 #include "perf/rods/peak.hpp"
 #include "rods/rod_batch.hpp"
-#include "simd/isa.hpp"
 #include "tests/rods/rod_scenes.hpp"
 #include "tests/scenes/hair.hpp"
 

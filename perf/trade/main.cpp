@@ -14,11 +14,11 @@
 #include <stdexcept>
 
 #include "baker/common/kept_files.hpp"
+#include "kernels/isa.hpp"
 #include "perf/help.hpp"
 #include "perf/rods/peak.hpp"
 #include "perf/rods/start_files.hpp"
 #include "perf/trade/measure.hpp"
-#include "simd/isa.hpp"
 
 namespace {
 

@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "core/status.hpp"
+#include "kernels/kernels.hpp"
 #include "rods/vector.hpp"
-#include "simd/kernels.hpp"
 
 namespace sinew::embree {
 namespace {

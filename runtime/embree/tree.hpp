@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "embree/topology.hpp"
-#include "simd/surface_walk.hpp"
+#include "kernels/surface/surface_walk.hpp"
 
 namespace sinew::embree {
 

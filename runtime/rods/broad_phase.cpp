@@ -1,8 +1,8 @@
 // broad_phase.cpp  Which segments may touch something at all, a group at a time: what the kernels are told.
 #include <algorithm>
 
+#include "kernels/kernels.hpp"
 #include "rods/find_contacts.hpp"
-#include "simd/kernels.hpp"
 
 namespace sinew::rods {
 namespace {

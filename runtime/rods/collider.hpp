@@ -14,22 +14,22 @@
 // segment of the first 128 strands; where rods collide with one another, 600 a segment of all, for all groups
 // then iterate in turn.
 // Cost: a bound of each segment's way and of its distance from each obstacle near its group, a strand a lane
-// in float (simd/rod_reach-inl.hpp); sweeps of what may touch, a strand a lane in double
-// (simd/rod_touch-inl.hpp), and one at a time of all segments where rods collide or a source is asked; then
-// gaps and forces in each iteration, a contact a lane (simd/rod_forces-inl.hpp), between two rods one at a
-// time.
+// in float (kernels/rod_contacts/rod_reach-inl.hpp); sweeps of what may touch, a strand a lane in double
+// (kernels/rod_contacts/rod_touch-inl.hpp), and one at a time of all segments where rods collide or a source
+// is asked; then gaps and forces in each iteration, a contact a lane
+// (kernels/rod_contacts/rod_forces-inl.hpp), between two rods one at a time.
 #pragma once
 #include <algorithm>
 #include <cstdint>
 #include <span>
 
 #include "core/aligned_block.hpp"
+#include "kernels/rod_contacts/rod_touch_job.hpp"
+#include "kernels/rods/rod_job.hpp"
 #include "rods/contact.hpp"
 #include "rods/obstacle.hpp"
 #include "rods/spatial_hash.hpp"
 #include "rods/sweep.hpp"
-#include "simd/rod_job.hpp"
-#include "simd/rod_touch_job.hpp"
 #include "sinew/contact_source.hpp"
 
 namespace sinew::rods {

@@ -1,7 +1,7 @@
 // contact_lanes.cpp  Brings contacts into lanes and back.
 #include "rods/contact_lanes.hpp"
 
-#include "simd/kernels.hpp"
+#include "kernels/kernels.hpp"
 
 namespace sinew::rods {
 namespace {

@@ -2,8 +2,8 @@
 //
 // In the order in which they come, with the bits of ContactForces' own look, take_over and add.
 #pragma once
+#include "kernels/rod_contacts/rod_force_job.hpp"
 #include "rods/contact_forces.hpp"
-#include "simd/rod_force_job.hpp"
 
 namespace sinew::rods {
 

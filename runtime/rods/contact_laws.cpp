@@ -1,8 +1,8 @@
 // contact_laws.cpp  What a contact's force becomes after an iteration: pressing, sticking, sliding, exact.
 #include <algorithm>
 
+#include "kernels/rod_contacts/rod_force_job.hpp"
 #include "rods/contact_forces.hpp"
-#include "simd/rod_force_job.hpp"
 
 namespace sinew::rods {
 namespace {

@@ -1,11 +1,11 @@
-// coping_net.cpp  Walks the blocks of a COPINGNet; the arithmetic is simd/mlp-inl.hpp.
+// coping_net.cpp  Walks the blocks of a COPINGNet; the arithmetic is kernels/network/mlp-inl.hpp.
 #include "rods/coping_net.hpp"
 
 #include <algorithm>
 
 #include "core/status.hpp"
+#include "kernels/kernels.hpp"
 #include "pack/dense_layout.hpp"
-#include "simd/kernels.hpp"
 
 namespace sinew::rods {
 namespace {

@@ -9,8 +9,8 @@
 // Each chain has `depth` hidden layers of `latent` numbers with max(0, x) and one without. A row of nodes is
 // x (3), q (4, order x y z w), radius, density, segment length, place along the rod 0..1, three flags of what
 // is free; of edges the rest Darboux vector (3), Young's and torsion modulus (normalised as in training). dp
-// is dx (3), dphi (3). Rows of a chain are matrix products (simd/mlp-inl.hpp) whose hidden rows stay in
-// cache.
+// is dx (3), dphi (3). Rows of a chain are matrix products (kernels/network/mlp-inl.hpp) whose hidden rows
+// stay in cache.
 #pragma once
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,6 @@
 // joint_fields.hpp  What of a joint may be changed after its batch was made.
 #pragma once
-#include "simd/rod_job.hpp"
+#include "kernels/rods/rod_job.hpp"
 
 namespace sinew::rods {
 

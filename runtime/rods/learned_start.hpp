@@ -3,11 +3,11 @@
 // The network corrects what kContinued starts from: told by how much that missed in the last step, over its
 // root mean square on the strand, it answers by how much it will miss now, in the same measure. So one set of
 // weights serves rods of all sizes, stiffnesses and speeds, and a strand that moves as it did costs nothing
-// in accuracy. See simd/rod_start_job.hpp for the inputs; a node's outputs are accelerations, a joint's its
-// force and moment.
+// in accuracy. See kernels/rods/rod_start_job.hpp for the inputs; a node's outputs are accelerations, a
+// joint's its force and moment.
 #pragma once
+#include "kernels/rods/rod_start_job.hpp"
 #include "rods/coping_net.hpp"
-#include "simd/rod_start_job.hpp"
 
 namespace sinew::rods {
 

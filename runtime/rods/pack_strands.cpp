@@ -1,8 +1,8 @@
 // pack_strands.cpp  Which lanes strands that go on are moved to, and back.
 #include <algorithm>
 
+#include "kernels/kernels.hpp"
 #include "rods/strand_packer.hpp"
-#include "simd/kernels.hpp"
 
 namespace sinew::rods {
 namespace {

@@ -1,10 +1,10 @@
 // rod_batch.hpp  Strands of one shape, simulated together.
 //
-// An implicit Euler step in its mixed form, iterated by Newton's method (simd/rod_linearise-inl.hpp): rods do
-// not stretch, soft ones converge as stiff ones do, and where the iteration ends does not depend on where it
-// starts. A strand is a lane of the vectors; its numbers do not depend on its neighbours. Results have the
-// same bits on all instruction sets with fused multiply-adds. One thread at a time for a batch; several
-// batches at once are several threads' work.
+// An implicit Euler step in its mixed form, iterated by Newton's method (kernels/rods/rod_linearise-inl.hpp):
+// rods do not stretch, soft ones converge as stiff ones do, and where the iteration ends does not depend on
+// where it starts. A strand is a lane of the vectors; its numbers do not depend on its neighbours. Results
+// have the same bits on all instruction sets with fused multiply-adds. One thread at a time for a batch;
+// several batches at once are several threads' work.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -12,11 +12,11 @@
 #include <span>
 
 #include "core/aligned_block.hpp"
+#include "kernels/rods/rod_job.hpp"
 #include "rods/collider.hpp"
 #include "rods/learned_start.hpp"
 #include "rods/strand.hpp"
 #include "rods/turn.hpp"
-#include "simd/rod_job.hpp"
 
 namespace sinew::rods {
 
@@ -27,7 +27,7 @@ enum class RodStart : uint32_t {
   kPrevious = 1,
   kGiven = 2,  // what set_start gave since the last step; segments given nothing as with kPrevious
   // The last steps' forces continued: by how much they change, and how that changed, in the shares that would
-  // have served the last step best (simd/rod_start-inl.hpp). As kPrevious until four steps converged;
+  // have served the last step best (kernels/rods/rod_start-inl.hpp). As kPrevious until four steps converged;
   // contacts' forces from two on, as the last step changed them.
   kContinued = 3,
   kLearned = 4,  // kContinued, corrected by RodSettings::network
@@ -89,7 +89,7 @@ struct SegmentStart {
                         0};  // minus the derivative of the bending energy by the Darboux vector times length
 };
 
-// What kLearned was told of a segment and its joint, and what it corrects: simd/rod_start_job.hpp.
+// What kLearned was told of a segment and its joint, and what it corrects: kernels/rods/rod_start_job.hpp.
 // Numbers in the strand's own units: its mean segment's length and mass, and seconds.
 struct StartInputs {
   float told[simd::kRodStartInputs];
@@ -107,9 +107,9 @@ struct RodReport {
   uint32_t recovered = 0;   // strands that were not finite: put back at rest shape where they are held
   uint32_t teleported = 0;  // strands carried along since the last step
   // With RodSettings::report_residual, of any strand: what the step's equations miss by, in the strand's mean
-  // segments' lengths, radians, and shares of its largest force (simd/rod_residual-inl.hpp), with a collider
-  // of contacts' forces, gaps and slips (lengths) too; infinite where a strand had to be recovered. Otherwise
-  // 0.
+  // segments' lengths, radians, and shares of its largest force (kernels/rods/rod_residual-inl.hpp), with a
+  // collider of contacts' forces, gaps and slips (lengths) too; infinite where a strand had to be recovered.
+  // Otherwise 0.
   float residual = 0;
   // With a collider: contacts near enough to be looked at, and those that had no room; a source's hits that
   // were left out because a number was out of its range.

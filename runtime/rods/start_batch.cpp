@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/kernels.hpp"
 #include "rods/rod_batch.hpp"
-#include "simd/kernels.hpp"
 
 namespace sinew::rods {
 namespace {

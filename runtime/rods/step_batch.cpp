@@ -4,9 +4,9 @@
 
 #include "core/floating_point.hpp"
 #include "core/status.hpp"
+#include "kernels/kernels.hpp"
 #include "rods/rod_batch.hpp"
 #include "rods/strand_packer.hpp"
-#include "simd/kernels.hpp"
 
 namespace sinew::rods {
 namespace {

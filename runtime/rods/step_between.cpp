@@ -10,9 +10,9 @@
 
 #include "core/floating_point.hpp"
 #include "core/status.hpp"
+#include "kernels/kernels.hpp"
 #include "rods/collider.hpp"
 #include "rods/rod_batch.hpp"
-#include "simd/kernels.hpp"
 
 namespace sinew::rods {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "simd/rod_touch_job.hpp"
+#include "kernels/rod_contacts/rod_touch_job.hpp"
 
 namespace sinew::rods {
 namespace {

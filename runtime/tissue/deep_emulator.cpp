@@ -1,11 +1,12 @@
-// deep_emulator.cpp  Puts patches together, a range of nodes at a time; the arithmetic is simd/mlp-inl.hpp.
+// deep_emulator.cpp  Puts patches together, a range of nodes at a time; the arithmetic is
+// kernels/network/mlp-inl.hpp.
 #include "tissue/deep_emulator.hpp"
 
 #include <algorithm>
 #include <utility>
 
+#include "kernels/kernels.hpp"
 #include "pack/dense_layout.hpp"
-#include "simd/kernels.hpp"
 
 namespace sinew::tissue {
 namespace {

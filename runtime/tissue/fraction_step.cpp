@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simd/kernels.hpp"
+#include "kernels/kernels.hpp"
 
 namespace sinew::tissue {
 namespace {

@@ -1,10 +1,10 @@
-// inputs.cpp  Each input's numbers in columns, a block of nodes at a time; simd/hold-inl.hpp brings them to
-// scale, holds them inside what training saw and makes rows of them.
+// inputs.cpp  Each input's numbers in columns, a block of nodes at a time; kernels/surface/hold-inl.hpp
+// brings them to scale, holds them inside what training saw and makes rows of them.
 #include "tissue/inputs.hpp"
 
 #include <algorithm>
 
-#include "simd/kernels.hpp"
+#include "kernels/kernels.hpp"
 #include "tissue/node_drive.hpp"
 
 namespace sinew::tissue {

@@ -1,5 +1,5 @@
-// modal_base.cpp  Frame terms and modal recurrences; sums over modes are simd/rows-inl.hpp, turns
-// simd/turn-inl.hpp.
+// modal_base.cpp  Frame terms and modal recurrences; sums over modes are kernels/surface/rows-inl.hpp, turns
+// kernels/surface/turn-inl.hpp.
 #include "tissue/modal_base.hpp"
 
 #include <Eigen/Core>
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simd/kernels.hpp"
+#include "kernels/kernels.hpp"
 
 namespace sinew::tissue {
 namespace {

@@ -1,12 +1,12 @@
 // narrow_layer.hpp  Layers of at most eight channels: their weights packed once, and what they hear gathered
-// at a step's start (simd/narrow-inl.hpp).
+// at a step's start (kernels/network/narrow-inl.hpp).
 //
 // A pack's weights are in one layout, 16 floats a gate (pack/format.hpp).
 #pragma once
 #include <cstddef>
 #include <cstdint>
 
-#include "simd/kernels.hpp"
+#include "kernels/kernels.hpp"
 #include "tissue/network_weights.hpp"
 
 namespace sinew::tissue {

@@ -1,10 +1,10 @@
-// network.cpp  Walks the layers of an Alt-ConvLSTM; the arithmetic is simd/layer-inl.hpp.
+// network.cpp  Walks the layers of an Alt-ConvLSTM; the arithmetic is kernels/network/layer-inl.hpp.
 #include "tissue/network.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "simd/kernels.hpp"
+#include "kernels/kernels.hpp"
 #include "tissue/narrow_layer.hpp"
 
 namespace sinew::tissue {

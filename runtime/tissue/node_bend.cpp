@@ -1,9 +1,9 @@
-// node_bend.cpp  Shares a region's bend out among its frames; the arithmetic is simd/bend-inl.hpp.
+// node_bend.cpp  Shares a region's bend out among its frames; the arithmetic is kernels/surface/bend-inl.hpp.
 #include "tissue/node_bend.hpp"
 
 #include <algorithm>
 
-#include "simd/kernels.hpp"
+#include "kernels/kernels.hpp"
 
 namespace sinew::tissue {
 namespace {

@@ -1,11 +1,11 @@
-// node_pose.cpp  Node frames of a pose; the arithmetic is simd/pose-inl.hpp.
+// node_pose.cpp  Node frames of a pose; the arithmetic is kernels/surface/pose-inl.hpp.
 #include "tissue/node_pose.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstddef>
 
-#include "simd/kernels.hpp"
+#include "kernels/kernels.hpp"
 
 namespace sinew::tissue {
 

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <utility>
 
-#include "simd/kernels.hpp"
+#include "kernels/kernels.hpp"
 #include "tissue/guard.hpp"
 #include "tissue/memory_rows.hpp"
 #include "tissue/modal_base.hpp"

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "simd/kernels.hpp"
+#include "kernels/kernels.hpp"
 #include "tissue/deep_emulator.hpp"
 #include "tissue/guard.hpp"
 #include "tissue/modal_base.hpp"

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/clock.hpp"
-#include "simd/kernels.hpp"
+#include "kernels/kernels.hpp"
 #include "world/between_ticks.hpp"
 #include "world/displacement_bound.hpp"
 #include "world/pose.hpp"

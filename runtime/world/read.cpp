@@ -9,8 +9,8 @@
 #include <cstring>
 
 #include "core/status.hpp"
-#include "simd/kernels.hpp"
-#include "simd/vertex_normals.hpp"
+#include "kernels/kernels.hpp"
+#include "kernels/surface/vertex_normals.hpp"
 #include "world/placement.hpp"
 #include "world/shown_skin.hpp"
 

@@ -161,8 +161,8 @@ Vector3d held_lead(const Vector3d& turn) noexcept {
 }
 
 // Damping resists all bending, the animation's too, which would trail by damping_s: (1 + t/h) C - (t/h) C_0
-// of the joint (simd/rod_step-inl.hpp) counts both from this tick's rest. A rest that leads by t/h of its own
-// step makes it resist only what the rod does beside it.
+// of the joint (kernels/rods/rod_step-inl.hpp) counts both from this tick's rest. A rest that leads by t/h of
+// its own step makes it resist only what the rod does beside it.
 Quaterniond led_rest(const Instance& instance, uint32_t s, double ticks, double damping_share) noexcept {
   const RodSlot& slot = instance.asset->rods.slots()[s];
   const auto bent = [&](int tick) {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "simd/kernels.hpp"
+#include "kernels/kernels.hpp"
 #include "tissue/correction_budget.hpp"
 #include "tissue/guard.hpp"
 #include "tissue/inputs.hpp"

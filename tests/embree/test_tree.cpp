@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "simd/kernels.hpp"
+#include "kernels/kernels.hpp"
 #include "tests/embree/surface_scenes.hpp"
 #include "tests/simd/every_isa.hpp"
 

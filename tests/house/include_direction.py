@@ -1,4 +1,4 @@
-"""Checks that includes point one way: core <- pack, simd <- tissue, rods <- frame <- world <- c; nothing in runtime/ includes the baker.
+"""Checks that includes point one way: core <- pack, kernels <- tissue, rods <- frame <- world <- c; nothing in runtime/ includes the baker.
 
 usage: include_direction.py PROJECT_ROOT
 Exit 1 with a line an offender. It first checks itself on an include that must be refused.
@@ -11,16 +11,16 @@ import sys
 ALLOWED = {
     "core": set(),
     "pack": {"core"},
-    "simd": {"core", "pack"},
-    "tissue": {"core", "pack", "simd"},
-    "rods": {"core", "pack", "simd"},
-    "frame": {"core", "pack", "simd", "tissue", "rods"},
-    "world": {"core", "pack", "simd", "tissue", "rods", "frame"},
+    "kernels": {"core", "pack"},
+    "tissue": {"core", "pack", "kernels"},
+    "rods": {"core", "pack", "kernels"},
+    "frame": {"core", "pack", "kernels", "tissue", "rods"},
+    "world": {"core", "pack", "kernels", "tissue", "rods", "frame"},
     "include": set(),
-    "c": {"core", "pack", "simd", "tissue", "rods", "frame", "world"},
+    "c": {"core", "pack", "kernels", "tissue", "rods", "frame", "world"},
     # Adapters to other libraries; the core knows none of them.
-    "embree": {"core", "pack", "simd", "tissue", "rods", "frame", "world"},
-    "bullet": {"core", "pack", "simd", "tissue", "rods", "frame", "world"},
+    "embree": {"core", "pack", "kernels", "tissue", "rods", "frame", "world"},
+    "bullet": {"core", "pack", "kernels", "tissue", "rods", "frame", "world"},
 }
 # The offline rooms, in the same way; every one may include baker/common and the runtime.
 BAKER = {

@@ -1,7 +1,8 @@
 // dense_step.hpp  One implicit Euler step of a tree of segments in double, its whole system solved at once.
 //
-// Shares only the constraints with the runtime: momentum and constraints of simd/rod_linearise-inl.hpp
-// written as one Karush-Kuhn-Tucker matrix, iterated until nothing changes.
+// Shares only the constraints with the runtime: momentum and constraints of
+// kernels/rods/rod_linearise-inl.hpp written as one Karush-Kuhn-Tucker matrix, iterated until nothing
+// changes.
 #pragma once
 #include <Eigen/Dense>
 

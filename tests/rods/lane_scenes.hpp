@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "core/aligned_block.hpp"
+#include "kernels/kernels.hpp"
+#include "kernels/rods/rod_job.hpp"
 #include "rods/sweep.hpp"
-#include "simd/kernels.hpp"
-#include "simd/rod_job.hpp"
 #include "tests/simd/test_data.hpp"
 
 namespace sinew::test {

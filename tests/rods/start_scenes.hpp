@@ -3,9 +3,9 @@
 #include <array>
 #include <vector>
 
+#include "kernels/kernels.hpp"
+#include "kernels/rods/rod_job.hpp"
 #include "rods/coping_net.hpp"
-#include "simd/kernels.hpp"
-#include "simd/rod_job.hpp"
 #include "tests/pack/packed_model.hpp"
 #include "tests/pack/random_coping_net.hpp"
 #include "tests/rods/rod_scenes.hpp"

@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/aligned_block.hpp"
-#include "simd/rod_job.hpp"
+#include "kernels/rods/rod_job.hpp"
 #include "tests/simd/every_isa.hpp"
 #include "tests/simd/test_data.hpp"
 

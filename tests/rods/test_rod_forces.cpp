@@ -4,8 +4,8 @@
 #include <bit>
 #include <catch2/catch.hpp>
 
+#include "kernels/rod_contacts/rod_force_job.hpp"
 #include "rods/contact.hpp"
-#include "simd/rod_force_job.hpp"
 #include "tests/rods/plain_look.hpp"
 #include "tests/simd/every_isa.hpp"
 

@@ -11,7 +11,8 @@ using rods::Vector;
 
 namespace {
 
-// A contact is kept within this share of ways and radii (simd/rod_touch_job.hpp), on top of them.
+// A contact is kept within this share of ways and radii (kernels/rod_contacts/rod_touch_job.hpp), on top of
+// them.
 constexpr double kKept = 1.25;
 // What a bound may be above the truth, of radii and ways: rounding in float, 2e-6 of coordinates, and what
 // ways are bounded by: the sum of move and turn, by a chord, for at most the way of an end and that of the

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/hash.hpp"
-#include "simd/isa.hpp"
-#include "simd/kernels.hpp"
+#include "kernels/isa.hpp"
+#include "kernels/kernels.hpp"
 
 namespace sinew::test {
 

@@ -9,7 +9,7 @@ using namespace sinew;
 
 namespace {
 
-// The largest errors stated in simd/tanh-inl.hpp: three units in the last place, for P, Q, product and
+// The largest errors stated in kernels/tanh-inl.hpp: three units in the last place, for P, Q, product and
 // quotient each round once. Here every kStep-th float is tried.
 constexpr double kTanhRelative = 4e-7;
 constexpr double kSigmoidAbsolute = 2.5e-7;

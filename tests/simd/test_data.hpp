@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-#include "simd/kernels.hpp"
+#include "kernels/kernels.hpp"
 
 namespace sinew::test {
 

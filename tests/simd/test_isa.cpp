@@ -6,8 +6,8 @@
 #include <cstring>
 #include <string>
 
-#include "simd/isa.hpp"
-#include "simd/kernels.hpp"
+#include "kernels/isa.hpp"
+#include "kernels/kernels.hpp"
 
 using namespace sinew;
 

@@ -1,5 +1,5 @@
 // test_vertex_normals.cpp  Area vectors by place and side; normals that turn with skin and surface.
-#include "simd/vertex_normals.hpp"
+#include "kernels/surface/vertex_normals.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

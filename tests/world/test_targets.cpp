@@ -1,6 +1,6 @@
 // test_targets.cpp  What a crowd gets does not depend on the instruction set; with fused multiply-adds
 // neither do its bits.
-#include "simd/kernels.hpp"
+#include "kernels/kernels.hpp"
 #include "tests/simd/every_isa.hpp"
 #include "tests/world/stage.hpp"
 

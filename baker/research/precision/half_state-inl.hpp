@@ -1,5 +1,5 @@
-// half_state-inl.hpp  Rows of a layer's state kept as IEEE halves: what simd/layer-inl.hpp needs of them,
-// before it.
+// half_state-inl.hpp  Rows of a layer's state kept as IEEE halves: what kernels/network/layer-inl.hpp needs
+// of them, before it.
 //
 // Halves are rounded to nearest, ties to even, subnormal ones and NaN kept, on every target: by instruction
 // where there is one, else by the integer arithmetic below, whatever Highway's own fallback does (it

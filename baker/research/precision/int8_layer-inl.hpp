@@ -1,4 +1,5 @@
-// int8_layer-inl.hpp  The two passes of simd/layer-inl.hpp with products of bytes; states are halves.
+// int8_layer-inl.hpp  The two passes of kernels/network/layer-inl.hpp with products of bytes; states are
+// halves.
 //
 //   gate = start + scale (sum_k q_k w_k),  q = round(per_unit heard) within +-127, ties to even
 //   start = b, in the input layer b + (P x) W_x + x W_s in floats
@@ -12,7 +13,7 @@ namespace sinew::simd::HWY_NAMESPACE {
 
 using baker::Int8Job;
 
-// For int8 layers: degree 2 and |x| <= 5.02, from the iteration of FineTanh (simd/tanh-inl.hpp) on the
+// For int8 layers: degree 2 and |x| <= 5.02, from the iteration of FineTanh (kernels/tanh-inl.hpp) on the
 // absolute error, which is 4.4e-5 for tanh and 2.2e-5 for sigmoid: a fifth of what a cell above 1/2 may lose
 // as it is rounded to a half. Never beyond 1 - 4.3e-5; exact at 0; NaN stays NaN. Cost: 4 FMA fewer.
 struct CoarseTanh {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "simd/targets.hpp"
+#include "kernels/targets.hpp"
 #define HWY_TARGET_INCLUDE "baker/research/precision/layer_kernels.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
@@ -16,14 +16,14 @@
 
 // In this order: each needs the ones before it.
 // clang-format off
-#include "simd/vectors-inl.hpp"
-#include "simd/state-inl.hpp"
+#include "kernels/vectors-inl.hpp"
+#include "kernels/network/state-inl.hpp"
 #include "baker/research/precision/half_state-inl.hpp"
-#include "simd/tanh-inl.hpp"
-#include "simd/activation-inl.hpp"
-#include "simd/aggregate-inl.hpp"
-#include "simd/product-inl.hpp"
-#include "simd/layer-inl.hpp"
+#include "kernels/tanh-inl.hpp"
+#include "kernels/network/activation-inl.hpp"
+#include "kernels/network/aggregate-inl.hpp"
+#include "kernels/network/product-inl.hpp"
+#include "kernels/network/layer-inl.hpp"
 #include "baker/research/precision/dot-inl.hpp"
 #include "baker/research/precision/int8_layer-inl.hpp"
 // clang-format on

@@ -1,13 +1,13 @@
 // layer_kernels.hpp  Layers of an Alt-ConvLSTM in halves and bytes: a table of functions an instruction set.
 //
-// They are the runtime's layers (simd/layer-inl.hpp) compiled for other states, and layers whose products are
-// of bytes (int8_layer-inl.hpp). Targets with fused multiply-adds give the same bits.
+// They are the runtime's layers (kernels/network/layer-inl.hpp) compiled for other states, and layers whose
+// products are of bytes (int8_layer-inl.hpp). Targets with fused multiply-adds give the same bits.
 #pragma once
 #include <cstdint>
 #include <vector>
 
 #include "baker/research/precision/half.hpp"
-#include "simd/kernels.hpp"
+#include "kernels/kernels.hpp"
 
 namespace sinew::baker {
 

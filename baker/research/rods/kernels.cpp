@@ -3,23 +3,23 @@
 
 #include <iterator>
 
-#include "simd/kernels.hpp"
-#include "simd/targets.hpp"
+#include "kernels/kernels.hpp"
+#include "kernels/targets.hpp"
 #define HWY_TARGET_INCLUDE "baker/research/rods/kernels.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
 // In this order: each needs the ones before it.
 // clang-format off
-#include "simd/begin_calls.hpp"
-#include "simd/three-inl.hpp"
-#include "simd/rod_lanes-inl.hpp"
-#include "simd/rod_step-inl.hpp"
-#include "simd/rod_relax-inl.hpp"
-#include "simd/rod_linearise-inl.hpp"
-#include "simd/rod_contacts-inl.hpp"
-#include "simd/rod_direct-inl.hpp"
-#include "simd/rod_start-inl.hpp"
+#include "kernels/begin_calls.hpp"
+#include "kernels/three-inl.hpp"
+#include "kernels/rods/rod_lanes-inl.hpp"
+#include "kernels/rods/rod_step-inl.hpp"
+#include "kernels/rods/rod_relax-inl.hpp"
+#include "kernels/rods/rod_linearise-inl.hpp"
+#include "kernels/rod_contacts/rod_contacts-inl.hpp"
+#include "kernels/rods/rod_direct-inl.hpp"
+#include "kernels/rods/rod_start-inl.hpp"
 #include "baker/research/rods/cg-inl.hpp"
 #include "baker/research/rods/local-inl.hpp"
 #include "baker/research/rods/nearest-inl.hpp"
@@ -40,7 +40,7 @@ constexpr baker::RodResearchTable kRodResearch = {HWY_TARGET, rod_research_calls
 
 }  // namespace sinew::simd::HWY_NAMESPACE
 
-#include "simd/end_calls.hpp"
+#include "kernels/end_calls.hpp"
 
 #if HWY_ONCE
 namespace sinew::simd {

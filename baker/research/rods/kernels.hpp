@@ -1,6 +1,7 @@
-// kernels.hpp  Kernels of the methods that rods are compared with, beside the runtime's (simd/rod_job.hpp).
+// kernels.hpp  Kernels of the methods that rods are compared with, beside the runtime's
+// (kernels/rods/rod_job.hpp).
 #pragma once
-#include "simd/rod_job.hpp"
+#include "kernels/rods/rod_job.hpp"
 
 namespace sinew::baker {
 

@@ -12,8 +12,8 @@ namespace sinew::baker {
 class NearestStart {
  public:
   // Views, whose memory outlives it. Rows of a segment each: inputs [count][kRodStartInputs] as
-  // simd/rod_start_job.hpp has them, answers [count][kRodStartNumbers] in the same measure. Throws BadInput
-  // for rows that are cut, less than kNeighbours, more than a million, numbers that are not finite.
+  // kernels/rods/rod_start_job.hpp has them, answers [count][kRodStartNumbers] in the same measure. Throws
+  // BadInput for rows that are cut, less than kNeighbours, more than a million, numbers that are not finite.
   NearestStart(std::span<const float> inputs, std::span<const float> answers);
   const ExampleRows& rows() const noexcept { return rows_; }
   // For RodSettings::correction, with the start kContinued.

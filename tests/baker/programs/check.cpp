@@ -5,7 +5,7 @@
 #include "baker/common/read_file.hpp"
 #include "baker/common/safetensors.hpp"
 #include "baker/common/write_file.hpp"
-#include "simd/isa.hpp"
+#include "kernels/isa.hpp"
 #include "tests/baker/common/temporary_folder.hpp"
 #include "tests/baker/programs/bake.hpp"
 #include "tests/pack/small_pack.hpp"

@@ -1,25 +1,25 @@
 // rod_touch_kernels.cpp  Compiles what finds and follows rods' contacts once an instruction set; kernels.cpp
 // puts it into its tables.
-#include "simd/rod_touch_job.hpp"
+#include "kernels/rod_contacts/rod_touch_job.hpp"
 
-#include "simd/rod_force_job.hpp"
-#include "simd/rod_job.hpp"
-#include "simd/targets.hpp"
-#define HWY_TARGET_INCLUDE "simd/rod_touch_kernels.cpp"
+#include "kernels/rod_contacts/rod_force_job.hpp"
+#include "kernels/rods/rod_job.hpp"
+#include "kernels/targets.hpp"
+#define HWY_TARGET_INCLUDE "kernels/rod_contacts/rod_touch_kernels.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
 // In this order: each needs the ones before it.
 // clang-format off
-#include "simd/begin_calls.hpp"
-#include "simd/wasm_doubles-inl.hpp"
-#include "simd/three-inl.hpp"
-#include "simd/rod_lanes-inl.hpp"
-#include "simd/rod_reach-inl.hpp"
-#include "simd/plain-inl.hpp"
-#include "simd/rod_look-inl.hpp"
-#include "simd/rod_touch-inl.hpp"
-#include "simd/rod_forces-inl.hpp"
+#include "kernels/begin_calls.hpp"
+#include "kernels/wasm_doubles-inl.hpp"
+#include "kernels/three-inl.hpp"
+#include "kernels/rods/rod_lanes-inl.hpp"
+#include "kernels/rod_contacts/rod_reach-inl.hpp"
+#include "kernels/plain-inl.hpp"
+#include "kernels/rod_contacts/rod_look-inl.hpp"
+#include "kernels/rod_contacts/rod_touch-inl.hpp"
+#include "kernels/rod_contacts/rod_forces-inl.hpp"
 // clang-format on
 
 namespace sinew::simd::HWY_NAMESPACE {
@@ -40,4 +40,4 @@ const RodForceKernels kRodForceKernels = {.look = rod_look, .take = rod_take, .p
 
 }  // namespace sinew::simd::HWY_NAMESPACE
 
-#include "simd/end_calls.hpp"
+#include "kernels/end_calls.hpp"

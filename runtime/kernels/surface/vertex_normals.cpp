@@ -1,5 +1,5 @@
 // vertex_normals.cpp  Area vectors gathered at the first vertex of each place and side.
-#include "simd/vertex_normals.hpp"
+#include "kernels/surface/vertex_normals.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>

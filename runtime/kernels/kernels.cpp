@@ -1,35 +1,35 @@
 // kernels.cpp  Compiles the kernels once an instruction set, and lists their tables, best first.
-#include "simd/kernels.hpp"
+#include "kernels/kernels.hpp"
 
 #include <cstring>
 #include <limits>
 #include <utility>
 
-#include "simd/targets.hpp"
-#define HWY_TARGET_INCLUDE "simd/kernels.cpp"
+#include "kernels/targets.hpp"
+#define HWY_TARGET_INCLUDE "kernels/kernels.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
 // In this order: each needs the ones before it.
 // clang-format off
-#include "simd/vectors-inl.hpp"
-#include "simd/state-inl.hpp"
-#include "simd/tanh-inl.hpp"
-#include "simd/activation-inl.hpp"
-#include "simd/aggregate-inl.hpp"
-#include "simd/product-inl.hpp"
-#include "simd/layer-inl.hpp"
-#include "simd/narrow-inl.hpp"
-#include "simd/mlp-inl.hpp"
-#include "simd/carry-inl.hpp"
-#include "simd/rows-inl.hpp"
-#include "simd/skin-inl.hpp"
-#include "simd/hold-inl.hpp"
-#include "simd/three-inl.hpp"
-#include "simd/vector3-inl.hpp"
-#include "simd/bend-inl.hpp"
-#include "simd/turn-inl.hpp"
-#include "simd/pose-inl.hpp"
+#include "kernels/vectors-inl.hpp"
+#include "kernels/network/state-inl.hpp"
+#include "kernels/tanh-inl.hpp"
+#include "kernels/network/activation-inl.hpp"
+#include "kernels/network/aggregate-inl.hpp"
+#include "kernels/network/product-inl.hpp"
+#include "kernels/network/layer-inl.hpp"
+#include "kernels/network/narrow-inl.hpp"
+#include "kernels/network/mlp-inl.hpp"
+#include "kernels/surface/carry-inl.hpp"
+#include "kernels/surface/rows-inl.hpp"
+#include "kernels/surface/skin-inl.hpp"
+#include "kernels/surface/hold-inl.hpp"
+#include "kernels/three-inl.hpp"
+#include "kernels/vector3-inl.hpp"
+#include "kernels/surface/bend-inl.hpp"
+#include "kernels/surface/turn-inl.hpp"
+#include "kernels/surface/pose-inl.hpp"
 // clang-format on
 
 namespace sinew::simd::HWY_NAMESPACE {

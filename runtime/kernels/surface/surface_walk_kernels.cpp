@@ -1,18 +1,18 @@
 // surface_walk_kernels.cpp  Compiles the walks through a surface's tree once an instruction set; kernels.cpp
 // puts them into its tables.
-#include "simd/surface_walk.hpp"
+#include "kernels/surface/surface_walk.hpp"
 
 #include <algorithm>
 
-#include "simd/targets.hpp"
-#define HWY_TARGET_INCLUDE "simd/surface_walk_kernels.cpp"
+#include "kernels/targets.hpp"
+#define HWY_TARGET_INCLUDE "kernels/surface/surface_walk_kernels.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
 // In this order: each needs the ones before it.
 // clang-format off
-#include "simd/three-inl.hpp"
-#include "simd/surface_walk-inl.hpp"
+#include "kernels/three-inl.hpp"
+#include "kernels/surface/surface_walk-inl.hpp"
 // clang-format on
 
 namespace sinew::simd::HWY_NAMESPACE {

@@ -1,25 +1,25 @@
 // rod_kernels.cpp  Compiles the rod kernels once an instruction set; kernels.cpp puts them into its tables.
-#include "simd/rod_job.hpp"
-#include "simd/targets.hpp"
-#define HWY_TARGET_INCLUDE "simd/rod_kernels.cpp"
+#include "kernels/rods/rod_job.hpp"
+#include "kernels/targets.hpp"
+#define HWY_TARGET_INCLUDE "kernels/rods/rod_kernels.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
 // In this order: each needs the ones before it.
 // clang-format off
-#include "simd/begin_calls.hpp"
-#include "simd/three-inl.hpp"
-#include "simd/rod_lanes-inl.hpp"
-#include "simd/rod_step-inl.hpp"
-#include "simd/rod_relax-inl.hpp"
-#include "simd/rod_linearise-inl.hpp"
-#include "simd/rod_contacts-inl.hpp"
-#include "simd/rod_residual-inl.hpp"
-#include "simd/rod_direct-inl.hpp"
-#include "simd/tanh-inl.hpp"
-#include "simd/rod_start-inl.hpp"
-#include "simd/rod_learned-inl.hpp"
-#include "simd/rod_pack-inl.hpp"
+#include "kernels/begin_calls.hpp"
+#include "kernels/three-inl.hpp"
+#include "kernels/rods/rod_lanes-inl.hpp"
+#include "kernels/rods/rod_step-inl.hpp"
+#include "kernels/rods/rod_relax-inl.hpp"
+#include "kernels/rods/rod_linearise-inl.hpp"
+#include "kernels/rod_contacts/rod_contacts-inl.hpp"
+#include "kernels/rods/rod_residual-inl.hpp"
+#include "kernels/rods/rod_direct-inl.hpp"
+#include "kernels/tanh-inl.hpp"
+#include "kernels/rods/rod_start-inl.hpp"
+#include "kernels/rods/rod_learned-inl.hpp"
+#include "kernels/rods/rod_pack-inl.hpp"
 // clang-format on
 
 namespace sinew::simd::HWY_NAMESPACE {
@@ -42,4 +42,4 @@ const RodKernels kRodKernels = {.wide = rod_calls<16>(), .narrow = rod_calls<4>(
 
 }  // namespace sinew::simd::HWY_NAMESPACE
 
-#include "simd/end_calls.hpp"
+#include "kernels/end_calls.hpp"

@@ -1,4 +1,4 @@
-// kernels.hpp  The vector kernels: one table of functions an instruction set, chosen once (simd/isa.hpp).
+// kernels.hpp  The vector kernels: one table of functions an instruction set, chosen once (kernels/isa.hpp).
 //
 // Each kernel is written once over Highway's vectors. Every sum runs in one fixed order, lane by lane, with
 // fused multiply-adds, so that targets with FMA (avx3, avx2, neon) give the same bits whatever their vector
@@ -9,10 +9,10 @@
 #include <cstdint>
 #include <span>
 
+#include "kernels/rod_contacts/rod_force_job.hpp"
+#include "kernels/rod_contacts/rod_touch_job.hpp"
+#include "kernels/rods/rod_job.hpp"
 #include "pack/format.hpp"
-#include "simd/rod_force_job.hpp"
-#include "simd/rod_job.hpp"
-#include "simd/rod_touch_job.hpp"
 #include "sinew/export.h"
 
 namespace sinew::simd {
@@ -147,7 +147,7 @@ struct TurnJob {
   uint32_t count;
 };
 
-struct SurfaceWalks;  // simd/surface_walk.hpp
+struct SurfaceWalks;  // kernels/surface/surface_walk.hpp
 
 struct Kernels {
   int64_t target;  // Highway's bit
@@ -184,7 +184,7 @@ struct Kernels {
   void (*warp)(const TurnJob& job);       // by the mean of exp([x turn]x), x from 0 to 1
   // Places, then row-major turns, of frames: 3 and 9 floats at each out_stride. root: row-major rotation.
   void (*pose_frames)(const SkinJob& job, const float* root);
-  // Of `count` floats, any count and alignment; NaN stays NaN. Maximum errors: simd/tanh-inl.hpp.
+  // Of `count` floats, any count and alignment; NaN stays NaN. Maximum errors: kernels/tanh-inl.hpp.
   void (*sigmoid)(const float* x, size_t count, float* out);
   void (*tanh)(const float* x, size_t count, float* out);
   const RodKernels* rods;

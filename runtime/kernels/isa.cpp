@@ -1,5 +1,5 @@
 // isa.cpp  Chooses one kernel table.
-#include "simd/isa.hpp"
+#include "kernels/isa.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 
 #include "core/status.hpp"
 #include "hwy/targets.h"
-#include "simd/kernels.hpp"
+#include "kernels/kernels.hpp"
 
 namespace sinew::simd {
 namespace {

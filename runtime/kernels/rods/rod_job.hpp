@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "simd/rod_start_job.hpp"
+#include "kernels/rods/rod_start_job.hpp"
 
 namespace sinew::simd {
 
