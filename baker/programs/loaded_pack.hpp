@@ -10,7 +10,7 @@
 #include "core/aligned_block.hpp"
 #include "pack/mapped_file.hpp"
 #include "pack/reader.hpp"
-#include "rods/coping_net.hpp"
+#include "rods/start/coping_net.hpp"
 #include "tissue/deep_emulator.hpp"
 #include "tissue/network.hpp"
 

@@ -7,7 +7,7 @@
 #include "baker/pack/graph.hpp"
 #include "baker/programs/reference_vectors.hpp"
 #include "baker/research/precision/reduced_network.hpp"
-#include "rods/coping_net.hpp"
+#include "rods/start/coping_net.hpp"
 #include "tissue/deep_emulator.hpp"
 #include "tissue/network.hpp"
 

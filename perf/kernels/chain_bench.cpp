@@ -1,7 +1,7 @@
 // chain_bench.cpp  Networks of chains of dense layers: DeepEmulator's on a body of 1,468 vertices, and
 // COPINGNet's on a head of 1,000 strands.
 #include "perf/kernels/chain_data.hpp"
-#include "rods/coping_net.hpp"
+#include "rods/start/coping_net.hpp"
 #include "tissue/deep_emulator.hpp"
 
 namespace sinew::perf {

@@ -11,7 +11,7 @@
 #include "baker/research/rods/nearest_start.hpp"
 #include "core/aligned_block.hpp"
 #include "pack/reader.hpp"
-#include "rods/coping_net.hpp"
+#include "rods/start/coping_net.hpp"
 
 namespace sinew::perf {
 

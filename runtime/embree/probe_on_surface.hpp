@@ -11,7 +11,7 @@
 #include "embree/fold.hpp"
 #include "embree/side.hpp"
 #include "embree/surface.hpp"
-#include "rods/sweep.hpp"
+#include "rods/contacts/find/sweep.hpp"
 
 namespace sinew::embree {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "rods/sweep.hpp"
+#include "rods/contacts/find/sweep.hpp"
 
 namespace sinew::embree {
 

@@ -228,8 +228,8 @@ static_assert(sizeof(LayerRecord) == 64);
 // Padding is zero. Offsets count floats. Which layers there are, of what size: pack/dense_layout.hpp.
 //
 // DeepEmulator (CVPR 2021, Eq. 5), tanh between layers; its equations: tissue/deep_emulator.hpp. COPINGNet
-// (Shao et al. 2021, Sec. 3), max(0, x) between layers; its equations: rods/coping_net.hpp. Behind its layers
-// stand norm.node and norm.edge, >= 0, 6 numbers each in 16. In their NetworkRecord layer_count counts
+// (Shao et al. 2021, Sec. 3), max(0, x) between layers; its equations: rods/start/coping_net.hpp. Behind its
+// layers stand norm.node and norm.edge, >= 0, 6 numbers each in 16. In their NetworkRecord layer_count counts
 // kDense, max_channels is the widest layer (of kCopingNet the latent width; of kDeepEmulator gamma's, three
 // times its latent width: 48, 96, 144 or the paper's 192), rate_hz is 0 for kCopingNet, the precision is
 // float32, and what is Alt-ConvLSTM's own is 0.

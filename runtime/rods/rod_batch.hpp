@@ -13,8 +13,8 @@
 
 #include "core/aligned_block.hpp"
 #include "kernels/rods/rod_job.hpp"
-#include "rods/collider.hpp"
-#include "rods/learned_start.hpp"
+#include "rods/contacts/collider.hpp"
+#include "rods/start/learned_start.hpp"
 #include "rods/strand.hpp"
 #include "rods/turn.hpp"
 

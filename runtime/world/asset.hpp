@@ -8,7 +8,7 @@
 #include "frame/cost_model.hpp"
 #include "frame/front.hpp"
 #include "pack/mapped_file.hpp"
-#include "rods/coping_net.hpp"
+#include "rods/start/coping_net.hpp"
 #include "sinew/types.hpp"
 #include "tissue/deep_emulator.hpp"
 #include "world/graph_level.hpp"

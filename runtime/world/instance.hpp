@@ -8,7 +8,7 @@
 #include "core/aligned_block.hpp"
 #include "frame/sight.hpp"
 #include "frame/tick_clock.hpp"
-#include "rods/collider.hpp"
+#include "rods/contacts/collider.hpp"
 #include "rods/rod_batch.hpp"
 #include "sinew/contact_source.hpp"
 #include "sinew/types.hpp"

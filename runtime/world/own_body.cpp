@@ -5,7 +5,7 @@
 #include <array>
 
 #include "core/turn_between.hpp"
-#include "rods/sweep.hpp"
+#include "rods/contacts/find/sweep.hpp"
 #include "rods/vector.hpp"
 #include "world/asleep.hpp"
 #include "world/rotation.hpp"

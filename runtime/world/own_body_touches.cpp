@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/status.hpp"
-#include "rods/sweep.hpp"
+#include "rods/contacts/find/sweep.hpp"
 #include "rods/vector.hpp"
 
 namespace sinew::world {

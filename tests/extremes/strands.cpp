@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "rods/collider.hpp"
+#include "rods/contacts/collider.hpp"
 #include "tests/extremes/act.hpp"
 #include "tests/rods/rod_scenes.hpp"
 

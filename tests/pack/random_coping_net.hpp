@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "baker/common/safetensors.hpp"
-#include "rods/coping_net.hpp"
+#include "rods/start/coping_net.hpp"
 #include "tests/simd/test_data.hpp"
 
 namespace sinew::test {

@@ -1,6 +1,6 @@
 // capsule_source.hpp  Contact sources of a few capsules and of a floor: what an engine's would be.
 #pragma once
-#include "rods/sweep.hpp"
+#include "rods/contacts/find/sweep.hpp"
 #include "sinew/contact_source.hpp"
 #include "tests/rods/contact_scenes.hpp"
 

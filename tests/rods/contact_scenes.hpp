@@ -2,7 +2,7 @@
 #pragma once
 #include <catch2/catch.hpp>
 
-#include "rods/collider.hpp"
+#include "rods/contacts/collider.hpp"
 #include "tests/rods/rod_scenes.hpp"
 
 namespace sinew::test {

@@ -6,7 +6,7 @@
 #include "core/aligned_block.hpp"
 #include "kernels/kernels.hpp"
 #include "kernels/rods/rod_job.hpp"
-#include "rods/sweep.hpp"
+#include "rods/contacts/find/sweep.hpp"
 #include "tests/simd/test_data.hpp"
 
 namespace sinew::test {

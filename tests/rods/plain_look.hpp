@@ -1,7 +1,7 @@
 // plain_look.hpp  Where a contact with an obstacle is at an iterate, one at a time, as contact_forces.cpp has
 // it.
 #pragma once
-#include "rods/contact.hpp"
+#include "rods/contacts/contact.hpp"
 #include "rods/turn.hpp"
 
 namespace sinew::test {

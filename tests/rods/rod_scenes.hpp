@@ -4,9 +4,9 @@
 #include <cmath>
 #include <vector>
 
-#include "rods/constraints.hpp"
 #include "rods/rod_batch.hpp"
 #include "rods/section.hpp"
+#include "rods/solver/constraints.hpp"
 #include "rods/turn.hpp"
 
 namespace sinew::test {

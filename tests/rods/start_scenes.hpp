@@ -5,7 +5,7 @@
 
 #include "kernels/kernels.hpp"
 #include "kernels/rods/rod_job.hpp"
-#include "rods/coping_net.hpp"
+#include "rods/start/coping_net.hpp"
 #include "tests/pack/packed_model.hpp"
 #include "tests/pack/random_coping_net.hpp"
 #include "tests/rods/rod_scenes.hpp"

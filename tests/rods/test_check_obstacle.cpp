@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "rods/obstacle.hpp"
+#include "rods/contacts/obstacle.hpp"
 
 using namespace sinew;
 

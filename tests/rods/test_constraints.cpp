@@ -1,5 +1,5 @@
 // test_constraints.cpp  Values by hand, derivatives against differences.
-#include "rods/constraints.hpp"
+#include "rods/solver/constraints.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

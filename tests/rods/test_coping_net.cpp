@@ -1,5 +1,5 @@
 // test_coping_net.cpp  COPINGNet against the equations in double and against float64 PyTorch.
-#include "rods/coping_net.hpp"
+#include "rods/start/coping_net.hpp"
 
 #include <filesystem>
 

@@ -1,5 +1,5 @@
-// test_learned_start.cpp  The network across lanes does what rods/coping_net.hpp does row by row.
-#include "rods/learned_start.hpp"
+// test_learned_start.cpp  The network across lanes does what rods/start/coping_net.hpp does row by row.
+#include "rods/start/learned_start.hpp"
 
 #include "tests/rods/start_scenes.hpp"
 #include "tests/simd/every_isa.hpp"

@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "kernels/rod_contacts/rod_force_job.hpp"
-#include "rods/contact.hpp"
+#include "rods/contacts/contact.hpp"
 #include "tests/rods/plain_look.hpp"
 #include "tests/simd/every_isa.hpp"
 

@@ -1,7 +1,7 @@
 // test_root_batch.cpp  How a rod is listed does not matter.
 #include <catch2/catch.hpp>
 
-#include "rods/batch_builder.hpp"
+#include "rods/create/batch_builder.hpp"
 #include "tests/rods/rod_scenes.hpp"
 
 using namespace sinew;

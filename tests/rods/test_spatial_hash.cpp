@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/aligned_block.hpp"
-#include "rods/spatial_hash.hpp"
+#include "rods/contacts/find/spatial_hash.hpp"
 #include "tests/simd/test_data.hpp"
 
 using namespace sinew;

@@ -1,7 +1,7 @@
 // test_step_between.cpp  Rods between two steps: at the end the step's own, and one velocity through it.
 #include <catch2/catch.hpp>
 
-#include "rods/collider.hpp"
+#include "rods/contacts/collider.hpp"
 #include "tests/rods/rod_scenes.hpp"
 
 using namespace sinew;

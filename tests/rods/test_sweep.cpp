@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "rods/sweep.hpp"
+#include "rods/contacts/find/sweep.hpp"
 #include "tests/simd/test_data.hpp"
 
 using namespace sinew;

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "core/turn_between.hpp"
-#include "rods/collider.hpp"
+#include "rods/contacts/collider.hpp"
 #include "rods/rod_batch.hpp"
 #include "tests/rods/rod_scenes.hpp"
 #include "tests/scenes/hair.hpp"

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "bullet/touch.hpp"
-#include "rods/collider.hpp"
+#include "rods/contacts/collider.hpp"
 #include "rods/rod_batch.hpp"
 #include "sinew/bullet.hpp"
 #include "tests/scenes/bullet_world.hpp"

@@ -1,5 +1,5 @@
 // test_rod_proxies.cpp  Rods of a character against the capsules about its own bones.
-#include "rods/sweep.hpp"
+#include "rods/contacts/find/sweep.hpp"
 #include "rods/vector.hpp"
 #include "tests/world/stage.hpp"
 

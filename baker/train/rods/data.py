@@ -10,7 +10,7 @@ from ..files.safetensors import BadData, load
 SPLITS = ("train", "validation", "test", "long")
 TOLD, ANSWERS, TRIPLES, JOINT = 14, 12, 4, 5
 KNOWN_STEPS = 5  # results before the inputs mean something: kRodStartKnown + 1 of kernels/rods/rod_start_job.hpp
-LOG_SCALE = 10.0  # a joint's logarithms of compliances are told over it (rods/learned_start.cpp)
+LOG_SCALE = 10.0  # a joint's logarithms of compliances are told over it (rods/start/learned_start.cpp)
 LARGEST_ANSWER = 20.0  # in the scales' measure; beyond it the motion had not yet begun
 SHAPES = {
     "forces": lambda s, n: (s + 1, n, ANSWERS),

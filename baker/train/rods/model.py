@@ -1,4 +1,4 @@
-"""COPINGNet (Shao et al. 2021, Sec. 3.1-3.2) as the runtime evaluates it: rods/coping_net.hpp."""
+"""COPINGNet (Shao et al. 2021, Sec. 3.1-3.2) as the runtime evaluates it: rods/start/coping_net.hpp."""
 import torch
 
 from .data import JOINT, TOLD

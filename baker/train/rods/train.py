@@ -157,7 +157,7 @@ def weights_metadata(trainer, extra):
         "sinew.model": "coping_net",
         "sinew.version": 1,
         **trainer.model.sizes,
-        "purpose": "corrects a rod's continued start (rods/learned_start.hpp)",
+        "purpose": "corrects a rod's continued start (rods/start/learned_start.hpp)",
         **{f"recipe.{k}": v for k, v in asdict(trainer.options).items()},
         "updates": trainer.updates,
         "train_seconds": round(trainer.seconds),

@@ -3,10 +3,11 @@
 // Rods and tissue ask several times a tick, with capsules on their way through it; an implementation answers
 // with contacts as half-spaces, and is told afterwards what rods pushed against it; soft parts may ask again
 // after that. They push nothing, and feel neither friction nor restitution. sinew::bullet and sinew::embree
-// are such implementations; a scene of a few planes, spheres and capsules needs none (rods/collider.hpp).
+// are such implementations; a scene of a few planes, spheres and capsules needs none
+// (rods/contacts/collider.hpp).
 //
 // An obstacle's pose is that at the tick's end, and its velocity is what brought it there (as in
-// rods/obstacle.hpp): a tick earlier it was where its velocity came from.
+// rods/contacts/obstacle.hpp): a tick earlier it was where its velocity came from.
 // All ticks of a step see the pose that the engine has then: where obstacles are fast, step at the tick rate.
 //
 // Thread rule: a world steps instances on its workers, so find and push come from several threads at a time,

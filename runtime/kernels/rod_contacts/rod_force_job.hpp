@@ -1,9 +1,9 @@
 // rod_force_job.hpp  What the kernels work on that follow contacts of rods with obstacles, a contact a lane.
 //
 // In double, in metres, kilograms and kg m (forces times the step's square), operation by operation as
-// rods/contact_forces.cpp, contact_laws.cpp and contact_rows.cpp do it for one contact, nothing fused: what a
-// contact comes to has the same bits wherever it is looked at. Lanes that are not asked for may hold
-// anything.
+// rods/contacts/solve/contact_forces.cpp, contact_laws.cpp and contact_rows.cpp do it for one contact,
+// nothing fused: what a contact comes to has the same bits wherever it is looked at. Lanes that are not asked
+// for may hold anything.
 #pragma once
 #include <cstddef>
 #include <cstdint>

@@ -55,7 +55,7 @@ HWY_INLINE void look_at(RodLooks* looks, size_t i) {
   put_rows3(looks->rows + kLookSlip, i, three_where(pressed, look.slip));
 }
 
-// rods/contact.hpp's ContactForce of what presses.
+// rods/contacts/contact.hpp's ContactForce of what presses.
 struct ForceOf {
   Three<ForceV> drag, direction;
   ForceV along, across;

@@ -12,7 +12,7 @@ namespace sinew::simd::HWY_NAMESPACE {
 inline constexpr float kReachWays = 1.25001f, kReachRadii = 1.25001f;
 // Over the coordinates that a distance was computed from: some ten roundings, several times.
 inline constexpr float kReachRounding = 2e-6f;
-// Of the sum of radii, a little more than what counts as a core (rods/find_contacts.cpp).
+// Of the sum of radii, a little more than what counts as a core (rods/contacts/find/find_contacts.cpp).
 inline constexpr float kReachCore = 0.55f;
 
 template <class D, size_t kWidth>

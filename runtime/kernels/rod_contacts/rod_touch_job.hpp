@@ -2,8 +2,8 @@
 //
 // First which segments may touch at all: a strand a lane, in float, in the strand's own units, by distances
 // that are never above the true ones. Then when and where these do: in double, in metres, by conservative
-// advancement, without fused operations, so that they give the bits of first_touch (rods/sweep.hpp) on every
-// target.
+// advancement, without fused operations, so that they give the bits of first_touch
+// (rods/contacts/find/sweep.hpp) on every target.
 #pragma once
 #include <cstddef>
 #include <cstdint>

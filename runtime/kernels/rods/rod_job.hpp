@@ -110,7 +110,7 @@ struct RodJob {
   uint32_t segments;
   float dt_s;
   // How long forces change velocity before these move anything: as long as the step. In a fraction x of one
-  // of h it is h (1 + x) / 2 (rods/step_between.cpp).
+  // of h it is h (1 + x) / 2 (rods/solver/step_between.cpp).
   float force_s;
   float tolerance_rad;   // converged: no segment turned more in an iteration
   bool start_from_zero;  // else from kRodStart*

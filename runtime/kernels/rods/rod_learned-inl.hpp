@@ -1,9 +1,9 @@
 // rod_learned-inl.hpp  A small COPINGNet on a group of strands, a strand a lane.
 //
-// The equations are rods/coping_net.hpp's. A layer multiplies its matrix by as many columns as a vector has
-// lanes, kLaneColumns outputs at a time: a weight is read once for all strands, inputs come from the records
-// as they lie there, a neighbour is the next row. Sums run over the inputs in their order. Cost a segment and
-// vector of strands: a multiply-add a weight.
+// The equations are rods/start/coping_net.hpp's. A layer multiplies its matrix by as many columns as a vector
+// has lanes, kLaneColumns outputs at a time: a weight is read once for all strands, inputs come from the
+// records as they lie there, a neighbour is the next row. Sums run over the inputs in their order. Cost a
+// segment and vector of strands: a multiply-add a weight.
 HWY_BEFORE_NAMESPACE();
 namespace sinew::simd::HWY_NAMESPACE {
 

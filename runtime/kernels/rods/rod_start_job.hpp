@@ -20,7 +20,7 @@ inline constexpr uint32_t kRodStartAges = 3, kRodStartKnown = kRodStartAges + 1;
 // itself, 0..1.
 inline constexpr uint32_t kRodStartInputs = 14, kRodJointInputs = 5;
 
-// A small COPINGNet with strands as lanes: a row of rods/coping_net.hpp is a column here.
+// A small COPINGNet with strands as lanes: a row of rods/start/coping_net.hpp is a column here.
 struct RodStartNet {
   const pack::DenseRecord* layers;  // of chains of depth + 1, as pack/dense_layout.hpp orders them
   const float* weights;

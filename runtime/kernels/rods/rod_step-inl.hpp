@@ -6,7 +6,7 @@
 //   damping         (1 + t/h) C - (t/h) C_0 + alpha lambda / h^2 = 0 with C_0 at the step's start, divided by
 //     1 + t/h: a smaller compliance and a moved rest, so that what stands still feels nothing of it.
 //     h^2 of forces, compliance and damping is h times RodJob::force_s, so that a fraction of a step leads to
-//     where the step does (rods/step_between.cpp).
+//     where the step does (rods/solver/step_between.cpp).
 //   new state       v = d/h,  w = w* + 2 Im(conj(q*) q)/h
 HWY_BEFORE_NAMESPACE();
 namespace sinew::simd::HWY_NAMESPACE {

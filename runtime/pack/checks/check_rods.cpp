@@ -33,7 +33,7 @@ Status check_counts(const PackView& pack) noexcept {
   return {};
 }
 
-// A strand is a lane of its kernels, which take eight outputs at a time (rods/learned_start.hpp).
+// A strand is a lane of its kernels, which take eight outputs at a time (rods/start/learned_start.hpp).
 Status check_rod_network(const PackView& pack) noexcept {
   const ChainsView& chains = pack.rod_network;
   if (!chains.record) {
