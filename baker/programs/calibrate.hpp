@@ -5,7 +5,7 @@
 
 #include "baker/common/safetensors.hpp"
 #include "baker/pack/int8_pack.hpp"
-#include "tissue/network.hpp"
+#include "tissue/network/network.hpp"
 
 namespace sinew::baker {
 

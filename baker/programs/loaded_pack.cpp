@@ -10,8 +10,8 @@
 #include "baker/pack/network_pack.hpp"
 #include "baker/programs/calibrate.hpp"
 #include "baker/research/precision/check_int8.hpp"
-#include "tissue/deep_emulator.hpp"
-#include "tissue/narrow_layer.hpp"
+#include "tissue/network/deep_emulator.hpp"
+#include "tissue/network/narrow_layer.hpp"
 
 namespace sinew::baker {
 

@@ -11,8 +11,8 @@
 #include "pack/mapped_file.hpp"
 #include "pack/reader.hpp"
 #include "rods/start/coping_net.hpp"
-#include "tissue/deep_emulator.hpp"
-#include "tissue/network.hpp"
+#include "tissue/network/deep_emulator.hpp"
+#include "tissue/network/network.hpp"
 
 namespace sinew::baker {
 
@@ -40,7 +40,7 @@ class LoadedPack {
   void open(std::span<const std::byte> bytes, const std::string& path);
 
   pack::MappedFile file_;
-  core::AlignedBlock copy_, narrow_;  // narrow_: tissue/narrow_layer.hpp
+  core::AlignedBlock copy_, narrow_;  // narrow_: tissue/network/narrow_layer.hpp
   pack::PackView view_;
   std::span<const std::byte> bytes_;
 };

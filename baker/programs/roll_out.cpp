@@ -10,7 +10,7 @@
 #include "baker/pack/graph.hpp"
 #include "baker/pack/network_pack.hpp"
 #include "baker/programs/reference_vectors.hpp"
-#include "tissue/inputs.hpp"
+#include "tissue/network/inputs.hpp"
 
 namespace sinew::baker {
 namespace {

@@ -8,8 +8,8 @@
 #include "baker/programs/reference_vectors.hpp"
 #include "baker/research/precision/reduced_network.hpp"
 #include "rods/start/coping_net.hpp"
-#include "tissue/deep_emulator.hpp"
-#include "tissue/network.hpp"
+#include "tissue/network/deep_emulator.hpp"
+#include "tissue/network/network.hpp"
 
 namespace sinew::baker {
 

@@ -9,7 +9,7 @@
 
 #include "baker/common/bad_input.hpp"
 #include "baker/truth/trajectory.hpp"
-#include "tissue/guard.hpp"
+#include "tissue/modes/guard.hpp"
 
 namespace sinew::baker {
 namespace {

@@ -15,8 +15,8 @@ namespace sinew::baker {
 void check_trajectory_of(const Safetensors& file, const pack::PackView& character);
 
 // T ticks after the start; immutable. What a character may not move beyond its regions' limits, its truth may
-// not either: each region's displacement is scaled as the runtime scales what it shows (tissue/guard.hpp), so
-// that an error tells of the simulation and not of an artist's choice.
+// not either: each region's displacement is scaled as the runtime scales what it shows
+// (tissue/modes/guard.hpp), so that an error tells of the simulation and not of an artist's choice.
 class TrueMotion {
  public:
   // Throws BadInput as check_trajectory_of does; and: shorter than one tick, not finite.

@@ -29,7 +29,7 @@ struct ModalBasis {
   Eigen::MatrixXd rest;   // (3 nodes, 3 nodes), s^2: what the modes left out answer to a steady felt
                           // acceleration
   double rest_rad_per_s = 0, rest_damping_ratio = 0;
-  int anchor_node = 0;  // goes least far in its modes: where the region is held (tissue/node_bend.hpp)
+  int anchor_node = 0;  // goes least far in its modes: where the region is held (tissue/frames/node_bend.hpp)
   double first_rad_per_s = 0, first_damping_ratio = 0;  // of the region with all else held still; 0: no modes
 };
 

@@ -8,8 +8,8 @@
 #include "baker/common/bad_input.hpp"
 #include "baker/mesh/node_record.hpp"
 #include "sinew/types.hpp"
-#include "tissue/node_bend.hpp"
-#include "tissue/node_drive.hpp"
+#include "tissue/frames/node_bend.hpp"
+#include "tissue/frames/node_drive.hpp"
 
 namespace sinew::baker {
 namespace {

@@ -1,12 +1,11 @@
 // trajectory.hpp  A simulated motion as the file the trainer and the demo read.
 //
 // T ticks after the start, N nodes, R regions, V vertices, J joints; metres:
-//   drive (T+1,N,15) f32 of tissue/node_drive.hpp   rotation (T+1,N,9) f32 node frames, world from bind axes
-//   displacement (T+1,N,3) f32 along the node's own frame (tissue/node_bend.hpp)
-//   joints (T+1,J,12) f32 character-from-joint   root (T+1,7) f64 place and quaternion xyzw
-//   energy (T+1,2) f64 elastic and kinetic, joules
-//   node.rest_position (N,3) less the region's centre, in radii   node.rest_normal (N,3)   node.stiffness
-//   (N,1)   node.region (N) i32   edges (m,2) i32   region.radius_m (R)
+//   drive (T+1,N,15) f32 of tissue/frames/node_drive.hpp   rotation (T+1,N,9) f32 node frames, world from
+//   bind axes displacement (T+1,N,3) f32 along the node's own frame (tissue/frames/node_bend.hpp) joints
+//   (T+1,J,12) f32 character-from-joint   root (T+1,7) f64 place and quaternion xyzw energy (T+1,2) f64
+//   elastic and kinetic, joules node.rest_position (N,3) less the region's centre, in radii node.rest_normal
+//   (N,3)   node.stiffness (N,1)   node.region (N) i32   edges (m,2) i32   region.radius_m (R)
 //   modes.{r}.rad_per_s, .damping_ratio (1,K)   .shape, .turn (3n,K)   .force (K,3n)   .rest (3n,3n)
 //   .rest_oscillator, .first (1,2) rad/s and damping ratio, of modal_basis.hpp
 // with `surface`: surface (T+1,Vr,3) f16 true displacement of the carried vertices, each along the axes of
@@ -22,7 +21,7 @@
 
 #include "baker/common/safetensors.hpp"
 #include "baker/truth/tissue_truth.hpp"
-#include "tissue/node_drive.hpp"
+#include "tissue/frames/node_drive.hpp"
 
 namespace sinew::baker {
 

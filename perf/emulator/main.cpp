@@ -22,7 +22,7 @@
 #include "baker/programs/reference_vectors.hpp"
 #include "baker/truth/fem.hpp"
 #include "perf/help.hpp"
-#include "tissue/deep_emulator.hpp"
+#include "tissue/network/deep_emulator.hpp"
 
 namespace sinew::perf {
 namespace {

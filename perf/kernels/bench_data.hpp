@@ -9,8 +9,8 @@
 
 #include "kernels/isa.hpp"
 #include "kernels/kernels.hpp"
-#include "tissue/narrow_layer.hpp"
-#include "tissue/network.hpp"
+#include "tissue/network/narrow_layer.hpp"
+#include "tissue/network/network.hpp"
 
 namespace sinew::perf {
 

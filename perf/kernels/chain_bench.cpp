@@ -2,7 +2,7 @@
 // COPINGNet's on a head of 1,000 strands.
 #include "perf/kernels/chain_data.hpp"
 #include "rods/start/coping_net.hpp"
-#include "tissue/deep_emulator.hpp"
+#include "tissue/network/deep_emulator.hpp"
 
 namespace sinew::perf {
 namespace {

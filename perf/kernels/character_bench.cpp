@@ -48,7 +48,7 @@ void skin(benchmark::State& state) {
 }
 BENCHMARK(skin)->Name("skin_7000_vertices")->Unit(benchmark::kMicrosecond);
 
-// A tick's four products of the modal base, tissue/modal_base.cpp: response, shape, project, turn.
+// A tick's four products of the modal base, tissue/modes/modal_base.cpp: response, shape, project, turn.
 void modal_products(benchmark::State& state) {
   constexpr uint32_t kFloats = kNodes * 3;
   constexpr size_t kPadded = simd::pad_to_block(kFloats), kPaddedModes = simd::pad_to_block(kModes);

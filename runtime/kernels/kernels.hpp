@@ -119,7 +119,7 @@ struct SkinJob {
 };
 
 // Frames that follow three quarters of their turn against `held`; cosines of half a turn below which the rest
-// fades out, and is nothing (tissue/node_bend.hpp).
+// fades out, and is nothing (tissue/frames/node_bend.hpp).
 inline constexpr float kBendFading = 0.4f, kBendGone = 0.1f;
 struct BendJob {
   float held[9];     // row-major rotation

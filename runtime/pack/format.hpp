@@ -185,7 +185,7 @@ inline constexpr const char* kPrecisionNames[] = {"fp32", "fp16", "int8"};  // a
 //   h   = o tanh(c)                               the next layer's x is c
 // All but the last layer work in the stated precision; the last is float32.
 // carry = X_t - X_{t-1} in the paper's wiring. In a character the network is closed on the modal base:
-// y = l, carry = l^ - l_{t-1}, both in length units (tissue/modal_base.hpp).
+// y = l, carry = l^ - l_{t-1}, both in length units (tissue/modes/modal_base.hpp).
 struct NetworkRecord {
   ModelKind model;
   uint32_t layer_count;   // 1..16; the last layer has 3 channels
@@ -227,12 +227,12 @@ static_assert(sizeof(LayerRecord) == 64);
 // kPanel outputs, [padded / kPanel][inputs][kPanel], the last panel as wide as what is left; then b [padded].
 // Padding is zero. Offsets count floats. Which layers there are, of what size: pack/dense_layout.hpp.
 //
-// DeepEmulator (CVPR 2021, Eq. 5), tanh between layers; its equations: tissue/deep_emulator.hpp. COPINGNet
-// (Shao et al. 2021, Sec. 3), max(0, x) between layers; its equations: rods/start/coping_net.hpp. Behind its
-// layers stand norm.node and norm.edge, >= 0, 6 numbers each in 16. In their NetworkRecord layer_count counts
-// kDense, max_channels is the widest layer (of kCopingNet the latent width; of kDeepEmulator gamma's, three
-// times its latent width: 48, 96, 144 or the paper's 192), rate_hz is 0 for kCopingNet, the precision is
-// float32, and what is Alt-ConvLSTM's own is 0.
+// DeepEmulator (CVPR 2021, Eq. 5), tanh between layers; its equations: tissue/network/deep_emulator.hpp.
+// COPINGNet (Shao et al. 2021, Sec. 3), max(0, x) between layers; its equations: rods/start/coping_net.hpp.
+// Behind its layers stand norm.node and norm.edge, >= 0, 6 numbers each in 16. In their NetworkRecord
+// layer_count counts kDense, max_channels is the widest layer (of kCopingNet the latent width; of
+// kDeepEmulator gamma's, three times its latent width: 48, 96, 144 or the paper's 192), rate_hz is 0 for
+// kCopingNet, the precision is float32, and what is Alt-ConvLSTM's own is 0.
 struct DenseRecord {
   uint32_t inputs;
   uint32_t outputs;
@@ -244,8 +244,8 @@ struct DenseRecord {
 static_assert(sizeof(DenseRecord) == 32);
 
 // What a node may be fed, in the order of the kInputs section. Vectors lie along the axes of the node's own
-// frame (tissue/node_bend.hpp, node_drive.hpp); l, l^, theta and e as in tissue/modal_base.hpp; w1 is
-// first_rad_per_s of the region, a length unit length_unit x radius_m. Numbers 4 to 7 were version 1's.
+// frame (tissue/frames/node_bend.hpp, node_drive.hpp); l, l^, theta and e as in tissue/modes/modal_base.hpp;
+// w1 is first_rad_per_s of the region, a length unit length_unit x radius_m. Numbers 4 to 7 were version 1's.
 enum class InputKind : uint32_t {
   kRestPosition = 1,         // 3: bind position less the region's centre, in region radii
   kRestNormal = 2,           // 3: bind normal
@@ -259,7 +259,7 @@ enum class InputKind : uint32_t {
   kBaseStep = 14,            // 3: l^ - l of the last tick, length units
   kTurn = 15,                // 3: theta of the last tick, rad
   kFrequency = 16,           // 1: w1 x tick, rad
-  kBend = 17,                // 3: a quarter of the region's bend, rad (tissue/node_bend.hpp)
+  kBend = 17,                // 3: a quarter of the region's bend, rad (tissue/frames/node_bend.hpp)
   kBentForce = 18,           // 3: bend x the value of kFeltStep
   kBentStep = 19,            // 3: bend x the value of kBaseStep
   kBentDisplacement = 20,    // 3: bend x the value of kDisplacement
@@ -384,9 +384,9 @@ static_assert(sizeof(LevelRecord) == 32);
 
 inline constexpr uint32_t kMaxModes = 64;  // of a region
 
-// A region's modal base (tissue/modal_base.hpp): q_t = a1 q_{t-1} + a2 q_{t-2} + gain force e, and the modes
-// left out as one oscillator, r_t = rest_a1 r_{t-1} + rest_a2 r_{t-2} + rest_gain rest e; l = shape q + r. At
-// `matrices`, one after the other without gaps, rows padded with zeros to whole 16, N = 3 node_count:
+// A region's modal base (tissue/modes/modal_base.hpp): q_t = a1 q_{t-1} + a2 q_{t-2} + gain force e, and the
+// modes left out as one oscillator, r_t = rest_a1 r_{t-1} + rest_a2 r_{t-2} + rest_gain rest e; l = shape q +
+// r. At `matrices`, one after the other without gaps, rows padded with zeros to whole 16, N = 3 node_count:
 //   shape, turn   [mode_count][padded]: x y z of the region's nodes a unit of q; turn in rotation vectors
 //   response      [N][padded + padded_modes]: what a unit of one number of e brings: rest (s^2), then force
 //   project       [N][padded_modes]: q of a unit of one number of l

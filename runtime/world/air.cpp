@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "core/turn_between.hpp"
-#include "tissue/node_drive.hpp"
+#include "tissue/frames/node_drive.hpp"
 #include "world/asleep.hpp"
 #include "world/glide.hpp"
 #include "world/rotation.hpp"

@@ -10,7 +10,7 @@
 #include "pack/mapped_file.hpp"
 #include "rods/start/coping_net.hpp"
 #include "sinew/types.hpp"
-#include "tissue/deep_emulator.hpp"
+#include "tissue/network/deep_emulator.hpp"
 #include "world/graph_level.hpp"
 #include "world/rod_rig.hpp"
 #include "world/soft_vertices.hpp"

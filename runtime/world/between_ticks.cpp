@@ -5,10 +5,10 @@
 #include <cmath>
 #include <utility>
 
-#include "tissue/fraction_step.hpp"
-#include "tissue/guard.hpp"
-#include "tissue/node_bend.hpp"
-#include "tissue/node_drive.hpp"
+#include "tissue/frames/fraction_step.hpp"
+#include "tissue/frames/node_bend.hpp"
+#include "tissue/frames/node_drive.hpp"
+#include "tissue/modes/guard.hpp"
 #include "world/air.hpp"
 #include "world/asleep.hpp"
 #include "world/blend.hpp"

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "tissue/guard.hpp"
-#include "tissue/node_bend.hpp"
+#include "tissue/frames/node_bend.hpp"
+#include "tissue/modes/guard.hpp"
 #include "world/asleep.hpp"
 #include "world/blend_pace.hpp"
 #include "world/catch_up.hpp"

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "kernels/kernels.hpp"
-#include "tissue/guard.hpp"
-#include "tissue/memory_rows.hpp"
-#include "tissue/modal_base.hpp"
-#include "tissue/node_bend.hpp"
+#include "tissue/frames/node_bend.hpp"
+#include "tissue/modes/guard.hpp"
+#include "tissue/modes/modal_base.hpp"
+#include "tissue/network/memory_rows.hpp"
 #include "world/asleep.hpp"
 #include "world/motion.hpp"
 #include "world/shares.hpp"

@@ -4,7 +4,7 @@
 // (pack::LevelRecord). One level at a time:
 //   coarser  each node keeps what it had: u, l, r, theta, poses, network's memory
 //   finer    q stays. With S how a coarser level spreads over a finer one (kSpread), of both ticks:
-//            r = S r,  l = shape q + S (l - shape q before),  theta and u as in tissue/modal_base.hpp.
+//            r = S r,  l = shape q + S (l - shape q before),  theta and u as in tissue/modes/modal_base.hpp.
 //            Past poses are the new nodes' own, along the path of the pose. A node remembers
 //            of the network what the coarser node did that carries most of it
 //   left out a region that a level has no nodes for is forgotten there. Where it is had again it begins at

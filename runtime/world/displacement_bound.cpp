@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "tissue/guard.hpp"
+#include "tissue/modes/guard.hpp"
 
 namespace sinew::world {
 

@@ -4,8 +4,8 @@
 // A vertex stays within kMostShown of the bind pose's largest extent, in the bind pose; a pose that scales
 // its joints scales that too. Each of the regions that carry a vertex has an equal part of it. Up to
 // tissue::kFreeShare of that nothing is changed, from there a displacement approaches it smoothly, so that
-// nothing is seen to stop. Baked limits (tissue/guard.hpp) are mostly far below: what presses, what adds up,
-// and parameters beyond what was baked come near it.
+// nothing is seen to stop. Baked limits (tissue/modes/guard.hpp) are mostly far below: what presses, what
+// adds up, and parameters beyond what was baked come near it.
 #pragma once
 #include <Eigen/Core>
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 
 #include "kernels/kernels.hpp"
-#include "tissue/deep_emulator.hpp"
-#include "tissue/guard.hpp"
-#include "tissue/modal_base.hpp"
-#include "tissue/node_drive.hpp"
+#include "tissue/frames/node_drive.hpp"
+#include "tissue/modes/guard.hpp"
+#include "tissue/modes/modal_base.hpp"
+#include "tissue/network/deep_emulator.hpp"
 
 namespace sinew::world {
 namespace {

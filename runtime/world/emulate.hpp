@@ -1,4 +1,4 @@
-// emulate.hpp  A tick of the regions whose patches a network predicts (tissue/deep_emulator.hpp).
+// emulate.hpp  A tick of the regions whose patches a network predicts (tissue/network/deep_emulator.hpp).
 //
 // A region's nodes are then corners of its cage's voxels, and the network's neighbours are the graph's. It
 // says where each free node goes from where the last two ticks had it; how far that is from where the modal

@@ -2,8 +2,8 @@
 #pragma once
 #include <memory>
 
-#include "tissue/fraction_step.hpp"
-#include "tissue/network_weights.hpp"
+#include "tissue/frames/fraction_step.hpp"
+#include "tissue/network/network_weights.hpp"
 #include "world/surface_patches.hpp"
 
 namespace sinew::world {

@@ -12,8 +12,8 @@
 #include "rods/rod_batch.hpp"
 #include "sinew/contact_source.hpp"
 #include "sinew/types.hpp"
-#include "tissue/fraction_step.hpp"
-#include "tissue/node_pose.hpp"
+#include "tissue/frames/fraction_step.hpp"
+#include "tissue/frames/node_pose.hpp"
 #include "world/asset.hpp"
 #include "world/pose.hpp"
 #include "world/rod_source.hpp"
@@ -168,14 +168,13 @@ struct EmulatorScratch {
 
 struct TunedRegion;  // world/tuning.hpp
 
-// Arrays are [nodes][3] in metres along each node's frame (tissue/node_bend.hpp) unless said otherwise; l,
-// theta and q as in tissue/modal_base.hpp. u is what
-// may be shown of l, within the region's limit (tissue/guard.hpp). "Shown" is what is published, along the
-// axes of the flesh, as is the tail: poses need not be followed to carry them on. shown = b u + (1 - b) tail,
-// b rising smoothly from 0 to 1 in kBlendInTicks or more (world/blend_pace.hpp). The tail is the displacement
-// shown when simulation was last left, carried on with damped velocity and then faded to zero; or, where it
-// rides, what that was off, and shown = u + (1 - b) tail, b rising
-// more gently.
+// Arrays are [nodes][3] in metres along each node's frame (tissue/frames/node_bend.hpp) unless said
+// otherwise; l, theta and q as in tissue/modes/modal_base.hpp. u is what may be shown of l, within the
+// region's limit (tissue/modes/guard.hpp). "Shown" is what is published, along the axes of the flesh, as is
+// the tail: poses need not be followed to carry them on. shown = b u + (1 - b) tail, b rising smoothly from 0
+// to 1 in kBlendInTicks or more (world/blend_pace.hpp). The tail is the displacement shown when simulation
+// was last left, carried on with damped velocity and then faded to zero; or, where it rides, what that was
+// off, and shown = u + (1 - b) tail, b rising more gently.
 struct Instance {
   // What a plan does to those that it passes over, and what a report asks, comes first: kPlannedBytes of it.
   InstanceState* state = nullptr;
@@ -226,7 +225,7 @@ struct Instance {
   float *q[2] = {}, *r[2] = {};                    // q: [modes of all regions]
   // [modes]: by how much a network's corrections have moved q since it began, as modes go on with them.
   float* corrected[2] = {};
-  float* swing = nullptr;                           // [regions]: tissue/correction_budget.hpp
+  float* swing = nullptr;                           // [regions]: tissue/modes/correction_budget.hpp
   tissue::TickForce tick_force{};                   // of the last tick
   float *tail = nullptr, *tail_velocity = nullptr;  // velocity a tick
   float* shown[2] = {};                             // newest first

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "tissue/inputs.hpp"
-#include "tissue/network.hpp"
-#include "tissue/node_drive.hpp"
+#include "tissue/frames/node_drive.hpp"
+#include "tissue/network/inputs.hpp"
+#include "tissue/network/network.hpp"
 #include "world/change_level.hpp"
 #include "world/tuned_parts.hpp"
 

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <utility>
 
-#include "tissue/node_bend.hpp"
+#include "tissue/frames/node_bend.hpp"
 #include "world/asleep.hpp"
 #include "world/own_body.hpp"
 #include "world/rod_motion.hpp"

@@ -10,7 +10,7 @@
 
 #include "core/status.hpp"
 #include "pack/reader.hpp"
-#include "tissue/narrow_layer.hpp"
+#include "tissue/network/narrow_layer.hpp"
 #include "world/affords_surface.hpp"
 #include "world/own_body_touches.hpp"
 #include "world/pose_bound.hpp"

@@ -4,9 +4,9 @@
 #include <Eigen/Core>
 #include <algorithm>
 
-#include "tissue/contact_response.hpp"
-#include "tissue/guard.hpp"
-#include "tissue/modal_base.hpp"
+#include "tissue/modes/contact_response.hpp"
+#include "tissue/modes/guard.hpp"
+#include "tissue/modes/modal_base.hpp"
 #include "world/displacement_bound.hpp"
 #include "world/tuned_parts.hpp"
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <algorithm>
 
-#include "tissue/modal_base.hpp"
+#include "tissue/modes/modal_base.hpp"
 #include "world/asleep.hpp"
 #include "world/instance.hpp"
 #include "world/tuned_parts.hpp"

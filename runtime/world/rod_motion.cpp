@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "tissue/guard.hpp"
-#include "tissue/node_drive.hpp"
+#include "tissue/frames/node_drive.hpp"
+#include "tissue/modes/guard.hpp"
 #include "world/air.hpp"
 #include "world/asleep.hpp"
 #include "world/own_body.hpp"
@@ -258,7 +258,7 @@ void spare_rods(Instance& instance) noexcept {
   if (!spared_m_s2.isZero(0)) add_to_velocities(instance, tick_s * spared_m_s2);
 }
 
-// As a region's displacement is held (tissue/guard.hpp).
+// As a region's displacement is held (tissue/modes/guard.hpp).
 Quaterniond limited(const Quaterniond& turn, float limit_rad) noexcept {
   if (limit_rad == 0) return turn;
   const Vector3d vector = logarithm(turn);
@@ -285,9 +285,9 @@ void put_turn(float* turns, uint32_t s, const Quaterniond& turn) noexcept {
   Eigen::Map<Eigen::Vector4f>(turns + size_t{4} * s) = turn.coeffs().cast<float>();
 }
 
-// What holds a segment's swing, as a region's is held (tissue/guard.hpp): further out it would come to rest
-// on the other side of what it touches. Where an engine lets less be shown, it swings on beneath; a rod whose
-// ends are both held is left alone.
+// What holds a segment's swing, as a region's is held (tissue/modes/guard.hpp): further out it would come to
+// rest on the other side of what it touches. Where an engine lets less be shown, it swings on beneath; a rod
+// whose ends are both held is left alone.
 double swing_share(const RodSeat& seat, float limit_rad, const Quaterniond& turn) noexcept {
   if (limit_rad == 0 || seat.end_hold != pack::kNoIndex) return 1;
   const float angle_rad = 2 * static_cast<float>(std::acos(std::min(1.0, std::abs(turn.w()))));

@@ -7,12 +7,12 @@
 #include <utility>
 
 #include "kernels/kernels.hpp"
-#include "tissue/correction_budget.hpp"
-#include "tissue/guard.hpp"
-#include "tissue/inputs.hpp"
-#include "tissue/modal_base.hpp"
-#include "tissue/network.hpp"
-#include "tissue/node_drive.hpp"
+#include "tissue/frames/node_drive.hpp"
+#include "tissue/modes/correction_budget.hpp"
+#include "tissue/modes/guard.hpp"
+#include "tissue/modes/modal_base.hpp"
+#include "tissue/network/inputs.hpp"
+#include "tissue/network/network.hpp"
 #include "world/air.hpp"
 #include "world/asleep.hpp"
 #include "world/change_level.hpp"

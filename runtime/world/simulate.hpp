@@ -13,7 +13,7 @@ void drive_nodes(Instance& instance) noexcept;
 const float* size_nodes(const Instance& instance) noexcept;
 
 // theta that turns e: of the modal base alone, so that it hears nothing of what a network corrects while the
-// frames do not turn (tissue/correction_budget.hpp). Overwrites carry and region[0].
+// frames do not turn (tissue/modes/correction_budget.hpp). Overwrites carry and region[0].
 const float* theta_of_base(Instance& instance, const Part& part) noexcept;
 
 // u, l, theta and q of this tick. A network whose state is given up

@@ -1,7 +1,7 @@
 // simulated_shown.cpp  see simulated_shown.hpp.
 #include "world/simulated_shown.hpp"
 
-#include "tissue/node_bend.hpp"
+#include "tissue/frames/node_bend.hpp"
 #include "world/shares.hpp"
 #include "world/tuned_parts.hpp"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "tissue/correction_budget.hpp"
-#include "tissue/node_drive.hpp"
+#include "tissue/frames/node_drive.hpp"
+#include "tissue/modes/correction_budget.hpp"
 #include "world/asleep.hpp"
 #include "world/tuned_parts.hpp"
 

@@ -19,8 +19,8 @@ void watch_drive(Instance& instance) noexcept;
 // After its tissue: counts quiet ticks; what falls asleep stops.
 void watch_motion(Instance& instance) noexcept;
 
-// f of a region's nodes (tissue/node_drive.hpp), three numbers each, so many floats apart, and so many times
-// as large.
+// f of a region's nodes (tissue/frames/node_drive.hpp), three numbers each, so many floats apart, and so many
+// times as large.
 struct FeltNodes {
   const float* first;
   size_t stride;

@@ -1,7 +1,7 @@
 // tissue_contacts.cpp  see tissue_contacts.hpp.
 #include "world/tissue_contacts.hpp"
 
-#include "tissue/node_bend.hpp"
+#include "tissue/frames/node_bend.hpp"
 #include "world/find_touches.hpp"
 #include "world/press_region.hpp"
 

@@ -3,8 +3,8 @@
 #pragma once
 #include <cmath>
 
-#include "tissue/modal_base.hpp"
-#include "tissue/retuned.hpp"
+#include "tissue/modes/modal_base.hpp"
+#include "tissue/modes/retuned.hpp"
 #include "world/glide.hpp"
 #include "world/instance.hpp"
 

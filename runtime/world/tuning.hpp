@@ -4,16 +4,17 @@
 // the way are left after 12 ticks. Stiffness, in its logarithm, and displacement, in its root, go no faster
 // than world/tuning.cpp says. A tick runs with the numbers that the end of the last one foretold, so frames
 // between ticks know what the coming tick will have, and a call between steps moves nothing by itself.
-//   stiffness, damping   change the recurrences of a part's modes (tissue/retuned.hpp), and a rod's joints
+//   stiffness, damping   change the recurrences of a part's modes (tissue/modes/retuned.hpp), and a rod's
+//   joints
 //                        (RodBatch::set_joint); q, r and l go on from where they are
 //   intensity            scales what is shown, and a rod's turns; what swings is not scaled
 //   displacement         scales the guard's limit
 //   off                  a part that is disabled and has faded sleeps until it is enabled, and then begins at
 //                        rest under its load, unseen at first
 // A network corrects a part by less the further its stiffness and damping are from the baked ones, and by
-// nothing from a quarter on. The bound of tissue/correction_budget.hpp is of recurrences that stay: while
-// they glide S may rise above it by what the change itself does; no correction is taken while it is above,
-// and S falls at the modes' pace.
+// nothing from a quarter on. The bound of tissue/modes/correction_budget.hpp is of recurrences that stay:
+// while they glide S may rise above it by what the change itself does; no correction is taken while it is
+// above, and S falls at the modes' pace.
 #pragma once
 #include "world/instance.hpp"
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <Eigen/Geometry>
 
-#include "tissue/node_pose.hpp"
+#include "tissue/frames/node_pose.hpp"
 
 namespace sinew::test {
 

@@ -8,8 +8,8 @@
 
 #include "pack/weight_layout.hpp"
 #include "tests/simd/test_data.hpp"
-#include "tissue/narrow_layer.hpp"
-#include "tissue/network.hpp"
+#include "tissue/network/narrow_layer.hpp"
+#include "tissue/network/network.hpp"
 
 namespace sinew::test {
 

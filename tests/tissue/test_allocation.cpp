@@ -6,13 +6,13 @@
 #include "tests/simd/chain.hpp"
 #include "tests/simd/every_isa.hpp"
 #include "tests/tissue/reference_network.hpp"
-#include "tissue/correction_budget.hpp"
-#include "tissue/deep_emulator.hpp"
-#include "tissue/guard.hpp"
-#include "tissue/inputs.hpp"
-#include "tissue/modal_base.hpp"
-#include "tissue/node_bend.hpp"
-#include "tissue/node_drive.hpp"
+#include "tissue/frames/node_bend.hpp"
+#include "tissue/frames/node_drive.hpp"
+#include "tissue/modes/correction_budget.hpp"
+#include "tissue/modes/guard.hpp"
+#include "tissue/modes/modal_base.hpp"
+#include "tissue/network/deep_emulator.hpp"
+#include "tissue/network/inputs.hpp"
 
 using namespace sinew;
 

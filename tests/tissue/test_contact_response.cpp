@@ -1,5 +1,5 @@
 // test_contact_response.cpp  Nodes held off half-spaces: complementarity, and what a tick's state becomes.
-#include "tissue/contact_response.hpp"
+#include "tissue/modes/contact_response.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

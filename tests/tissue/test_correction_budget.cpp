@@ -1,5 +1,5 @@
 // test_correction_budget.cpp  Whatever a network says, a region swings on little more than its modal base.
-#include "tissue/correction_budget.hpp"
+#include "tissue/modes/correction_budget.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "baker/pack/modes_pack.hpp"
-#include "tissue/retuned.hpp"
+#include "tissue/modes/retuned.hpp"
 
 using namespace sinew;
 

@@ -1,5 +1,5 @@
 // test_deep_emulator.cpp  DeepEmulator's step against the equations in double and against float64 PyTorch.
-#include "tissue/deep_emulator.hpp"
+#include "tissue/network/deep_emulator.hpp"
 
 #include <algorithm>
 #include <filesystem>

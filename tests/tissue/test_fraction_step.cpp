@@ -1,6 +1,6 @@
 // test_fraction_step.cpp  Fractions of a tick: at both ends the ticks' own values, and one slope through
 // them.
-#include "tissue/fraction_step.hpp"
+#include "tissue/frames/fraction_step.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -10,7 +10,7 @@
 
 #include "baker/pack/modes_pack.hpp"
 #include "tests/simd/test_data.hpp"
-#include "tissue/retuned.hpp"
+#include "tissue/modes/retuned.hpp"
 
 using namespace sinew;
 
@@ -84,7 +84,8 @@ struct Point {
   }
 };
 
-// What is felt of a path of places, by a fraction of the tick that ends at tick + 1 (tissue/node_drive.hpp).
+// What is felt of a path of places, by a fraction of the tick that ends at tick + 1
+// (tissue/frames/node_drive.hpp).
 double felt(const std::function<double(double)>& place, double tick, double x) {
   return -(place(tick + x) - (1 + x) * place(tick) + x * place(tick - 1)) / (kTick_s * kTick_s);
 }
@@ -158,7 +159,7 @@ TEST_CASE("what_a_constant_force_holds_does_not_move") {
   Point point(5.5, 0.1);
   for (int t = 0; t < 2000; ++t) point.tick(3, 3);
   for (const double x : {0.1, 0.3, 0.5, 0.8}) {
-    // Of a constant force a fraction hears so much (tissue/node_drive.hpp).
+    // Of a constant force a fraction hears so much (tissue/frames/node_drive.hpp).
     const double heard = 3 * x * (1 + x) / 2;
     const auto at = point.at(x, heard, heard);
     CHECK(at[0] == Approx(double{point.q[0]}).epsilon(1e-4));

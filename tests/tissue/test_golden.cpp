@@ -9,8 +9,8 @@
 #include "pack/reader.hpp"
 #include "tests/simd/every_isa.hpp"
 #include "tests/simd/test_data.hpp"
-#include "tissue/narrow_layer.hpp"
-#include "tissue/network.hpp"
+#include "tissue/network/narrow_layer.hpp"
+#include "tissue/network/network.hpp"
 
 using namespace sinew;
 

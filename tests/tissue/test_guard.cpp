@@ -1,5 +1,5 @@
 // test_guard.cpp  Every guard fires once, and does not fire without cause.
-#include "tissue/guard.hpp"
+#include "tissue/modes/guard.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

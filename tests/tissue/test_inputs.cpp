@@ -1,5 +1,5 @@
 // test_inputs.cpp  Order, scales, units, the envelope and its count.
-#include "tissue/inputs.hpp"
+#include "tissue/network/inputs.hpp"
 
 #include <Eigen/Geometry>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include "tests/simd/test_data.hpp"
 #include "tests/tissue/reference_network.hpp"
-#include "tissue/node_drive.hpp"
+#include "tissue/frames/node_drive.hpp"
 
 using namespace sinew;
 using pack::InputKind;

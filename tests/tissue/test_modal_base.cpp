@@ -1,5 +1,5 @@
 // test_modal_base.cpp  Frame terms, recurrences and warping on bodies whose answers are known.
-#include "tissue/modal_base.hpp"
+#include "tissue/modes/modal_base.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "tests/simd/every_isa.hpp"
 #include "tests/simd/test_data.hpp"
 #include "tests/tissue/node_poses.hpp"
-#include "tissue/retuned.hpp"
+#include "tissue/modes/retuned.hpp"
 
 using namespace sinew;
 using Eigen::Matrix3d;

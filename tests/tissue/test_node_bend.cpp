@@ -1,5 +1,5 @@
 // test_node_bend.cpp  Frames between the anchor's and the flesh's own.
-#include "tissue/node_bend.hpp"
+#include "tissue/frames/node_bend.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

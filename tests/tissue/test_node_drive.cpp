@@ -1,5 +1,5 @@
 // test_node_drive.cpp  Motions whose drive is known in closed form.
-#include "tissue/node_drive.hpp"
+#include "tissue/frames/node_drive.hpp"
 
 #include <catch2/catch.hpp>
 #include <functional>

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tissue/retuned.hpp"
+#include "tissue/modes/retuned.hpp"
 
 using namespace sinew;
 using tissue::Recurrence;

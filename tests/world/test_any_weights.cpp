@@ -111,7 +111,7 @@ constexpr double kSmall = 0.02;
 
 // Of 0.05 to 20 Hz, without limits, beside the same flesh on its modal base alone, while frames do not turn:
 // the proof bounds the norm over modes by 1.5 of the base's; a vertex adds a little
-// (tissue/correction_budget.hpp).
+// (tissue/modes/correction_budget.hpp).
 TEST_CASE("no_weights_move_flesh_much_further_than_its_base_nor_keep_it_from_rest") {
   const std::vector<baker::Safetensors> all = all_weights();
   double most = 0, left = 0;

@@ -5,7 +5,7 @@
 
 #include "core/floating_point.hpp"
 #include "tests/world/stage.hpp"
-#include "tissue/node_pose.hpp"
+#include "tissue/frames/node_pose.hpp"
 #include "world/asset.hpp"
 #include "world/blend.hpp"
 #include "world/create_instance.hpp"

@@ -6,7 +6,7 @@
 #include "tests/scenes/thread_pool.hpp"
 #include "tests/world/stage.hpp"
 #include "tests/world/told_block.hpp"
-#include "tissue/guard.hpp"
+#include "tissue/modes/guard.hpp"
 
 using namespace sinew;
 using scenes::HalfSpaces;

@@ -1,7 +1,7 @@
 // reduced_network.hpp  Alt-ConvLSTM in fp16 and int8 (pack/format.hpp, Precision): state and one step.
 //
-// As tissue/network.hpp has them in float32, by the same names. The planes of a hidden layer hold halves,
-// each to the next multiple of 64 bytes; those of the last layer hold floats.
+// As tissue/network/network.hpp has them in float32, by the same names. The planes of a hidden layer hold
+// halves, each to the next multiple of 64 bytes; those of the last layer hold floats.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 #include "baker/research/precision/half.hpp"
 #include "baker/research/precision/layer_kernels.hpp"
-#include "tissue/network.hpp"
+#include "tissue/network/network.hpp"
 
 namespace sinew::baker {
 

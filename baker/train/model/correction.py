@@ -1,4 +1,4 @@
-"""How much of a network's correction a region takes (runtime/tissue/correction_budget.hpp), for batches of sequences.
+"""How much of a network's correction a region takes (runtime/tissue/modes/correction_budget.hpp), for batches of sequences.
 
 Shapes: R regions, K modes, B sequences; a1, a2 of the modes are (R, K, 1)."""
 from dataclasses import dataclass

@@ -1,7 +1,7 @@
 """What a node is fed: names, widths and where each comes from (runtime/pack/format.hpp, InputKind)."""
 from dataclasses import dataclass
 
-# name -> columns of a trajectory's drive (runtime/tissue/node_drive.hpp)
+# name -> columns of a trajectory's drive (runtime/tissue/frames/node_drive.hpp)
 FELT = slice(0, 3)
 DRIVE = {"gravity_change": slice(3, 6), "angular_velocity": slice(6, 9), "bend": slice(12, 15)}
 STATIC = {"rest_position": 3, "rest_normal": 3, "stiffness": 1, "frequency": 1}

@@ -1,4 +1,4 @@
-"""What may be shown of a displacement, and how far it may swing (runtime/tissue/guard.hpp)."""
+"""What may be shown of a displacement, and how far it may swing (runtime/tissue/modes/guard.hpp)."""
 import torch
 
 FREE_SHARE = 0.6  # of the limit: up to it a displacement is left alone

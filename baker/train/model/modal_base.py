@@ -1,4 +1,4 @@
-"""The modal base that a network corrects (runtime/tissue/modal_base.hpp), for batches of sequences.
+"""The modal base that a network corrects (runtime/tissue/modes/modal_base.hpp), for batches of sequences.
 
 Shapes: R regions of n nodes, K modes, B sequences. Displacements are (R, n, B, 3) in metres along the nodes'
 own frames; l is what the modes add up to, u the same after warping (Choi and Ko 2005) and as far as it may be shown."""

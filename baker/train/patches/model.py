@@ -1,4 +1,4 @@
-"""DeepEmulator (Zheng et al. 2021, Eq. 5) as the runtime evaluates it: tissue/deep_emulator.hpp."""
+"""DeepEmulator (Zheng et al. 2021, Eq. 5) as the runtime evaluates it: tissue/network/deep_emulator.hpp."""
 import torch
 
 LATENT = 64  # the paper's: widths of alpha; beta's are twice, gamma's three times as wide

@@ -1,7 +1,7 @@
 // bend-inl.hpp  Three quarters of a turn, by quaternions and without an angle, of many frames at a time.
 //
-// Formula, and what becomes of large turns: tissue/node_bend.hpp. Of the turn A = held^T R, a quaternion (v,
-// w):
+// Formula, and what becomes of large turns: tissue/frames/node_bend.hpp. Of the turn A = held^T R, a
+// quaternion (v, w):
 //   w = sqrt(1 + tr A) / 2,  v = vee(A - A^T) / (4 w)
 //   the root of a unit quaternion is (v, w + 1) / sqrt(2 + 2 w); twice, it is the fourth part of the turn
 // Frames are taken apart into lanes and put together again: the cost is that of moving 21 numbers a frame.

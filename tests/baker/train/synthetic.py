@@ -107,7 +107,7 @@ def _motion(rng, rest, ticks, strength, bend_share):
 
 
 def drive_of(place, frame, bend):
-    """(T+1, N, 15) as runtime/tissue/node_drive.hpp: what lies before the start is the start."""
+    """(T+1, N, 15) as runtime/tissue/frames/node_drive.hpp: what lies before the start is the start."""
     before = lambda a: np.concatenate([a[:1], a[:-1]])
     back = np.swapaxes(frame, -1, -2)
     apply = lambda m, v: (m @ v[..., None])[..., 0]

@@ -1,5 +1,5 @@
 // correction_budget.cpp  The largest share of a correction that stays within its budget: a quadratic in s.
-#include "tissue/correction_budget.hpp"
+#include "tissue/modes/correction_budget.hpp"
 
 #include <algorithm>
 #include <cmath>

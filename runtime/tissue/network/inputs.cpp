@@ -1,11 +1,11 @@
 // inputs.cpp  Each input's numbers in columns, a block of nodes at a time; kernels/surface/hold-inl.hpp
 // brings them to scale, holds them inside what training saw and makes rows of them.
-#include "tissue/inputs.hpp"
+#include "tissue/network/inputs.hpp"
 
 #include <algorithm>
 
 #include "kernels/kernels.hpp"
-#include "tissue/node_drive.hpp"
+#include "tissue/frames/node_drive.hpp"
 
 namespace sinew::tissue {
 namespace {

@@ -1,5 +1,5 @@
 // retuned.cpp  see retuned.hpp.
-#include "tissue/retuned.hpp"
+#include "tissue/modes/retuned.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // deep_emulator.cpp  Puts patches together, a range of nodes at a time; the arithmetic is
 // kernels/network/mlp-inl.hpp.
-#include "tissue/deep_emulator.hpp"
+#include "tissue/network/deep_emulator.hpp"
 
 #include <algorithm>
 #include <utility>

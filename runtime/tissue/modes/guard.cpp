@@ -1,11 +1,11 @@
 // guard.cpp  Looks for what is not finite, and scales what would go beyond its limit.
-#include "tissue/guard.hpp"
+#include "tissue/modes/guard.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "tissue/inputs.hpp"
-#include "tissue/network.hpp"
+#include "tissue/network/inputs.hpp"
+#include "tissue/network/network.hpp"
 
 namespace sinew::tissue {
 namespace {

@@ -9,7 +9,7 @@
 #pragma once
 #include <cstdint>
 
-#include "tissue/node_pose.hpp"
+#include "tissue/frames/node_pose.hpp"
 
 namespace sinew::tissue {
 

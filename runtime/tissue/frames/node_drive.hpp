@@ -1,5 +1,5 @@
 // node_drive.hpp  What moves a control node, as it feels it: along the axes of its own frame
-// (tissue/node_bend.hpp).
+// (tissue/frames/node_bend.hpp).
 //
 // With x its skinned place in the world, R its frame, g gravity, and ticks h apart, backward differences (the
 // future is not known at run time); bend is what its flesh is turned beyond R, and so exp([bend]x) g gravity
@@ -8,14 +8,14 @@
 //   gravity change           = R_t^T g - exp([bend_t]x) g
 //   angular velocity   omega = vee((A - A^T) / 2) / h,  A = R_{t-1}^T R_t     the sine of a tick's turn
 //   angular acceleration     = (omega_t - omega_{t-1}) / h
-//   bend                     of t: a quarter of the region's bend (tissue/node_bend.hpp)
+//   bend                     of t: a quarter of the region's bend (tissue/frames/node_bend.hpp)
 // All are zero for a character that stands still in its bind pose. The trainer's data sets are written
 // through this same code, so network and runtime cannot disagree on an input.
 #pragma once
 #include <cstdint>
 #include <limits>
 
-#include "tissue/node_pose.hpp"
+#include "tissue/frames/node_pose.hpp"
 
 namespace sinew::tissue {
 
@@ -40,8 +40,8 @@ float felt_share(float acceleration_m_s2, float most_m_s2) noexcept;
 // out: [count][kNodeDriveWidth].
 void compute_node_drive(const NodeMotion& motion, float tick_s, uint32_t count, float* out) noexcept;
 
-// Its f alone by a fraction x of a tick, 0 < x <= 1 (tissue/fraction_step.hpp): motion has the present pose,
-// then those of the last two ticks. out: [count][3].
+// Its f alone by a fraction x of a tick, 0 < x <= 1 (tissue/frames/fraction_step.hpp): motion has the present
+// pose, then those of the last two ticks. out: [count][3].
 void fraction_felt(const NodeMotion& motion, float tick_s, float x, uint32_t count, float* out) noexcept;
 
 // What pulls at all of a part's nodes alike beside the gravity that its flesh was baked under, m/s^2 in the

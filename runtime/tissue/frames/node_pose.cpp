@@ -1,5 +1,5 @@
 // node_pose.cpp  Node frames of a pose; the arithmetic is kernels/surface/pose-inl.hpp.
-#include "tissue/node_pose.hpp"
+#include "tissue/frames/node_pose.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

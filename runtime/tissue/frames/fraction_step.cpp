@@ -1,5 +1,5 @@
 // fraction_step.cpp  see fraction_step.hpp.
-#include "tissue/fraction_step.hpp"
+#include "tissue/frames/fraction_step.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "pack/format.hpp"
-#include "tissue/network_weights.hpp"
+#include "tissue/network/network_weights.hpp"
 
 namespace sinew::tissue {
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "kernels/kernels.hpp"
-#include "tissue/network_weights.hpp"
+#include "tissue/network/network_weights.hpp"
 
 namespace sinew::tissue {
 

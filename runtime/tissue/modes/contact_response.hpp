@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <span>
 
-#include "tissue/modal_base.hpp"
+#include "tissue/modes/modal_base.hpp"
 
 namespace sinew::tissue {
 

@@ -3,7 +3,7 @@
 // How a node's flesh is turned, R_i, is the rotation of its own blended skin matrix: the columns orthonormal,
 // the first kept in direction (Gram-Schmidt; where two bones meet at a hinge that is the polar rotation
 // exactly). World from bind-pose axes. The frame that its tissue moves in turns a little less
-// (tissue/node_bend.hpp).
+// (tissue/frames/node_bend.hpp).
 #pragma once
 #include <cstdint>
 #include <span>

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "tissue/network_weights.hpp"
+#include "tissue/network/network_weights.hpp"
 
 namespace sinew::tissue {
 

@@ -1,11 +1,11 @@
 // contact_response.cpp  see contact_response.hpp.
-#include "tissue/contact_response.hpp"
+#include "tissue/modes/contact_response.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "kernels/kernels.hpp"
-#include "tissue/guard.hpp"
+#include "tissue/modes/guard.hpp"
 
 namespace sinew::tissue {
 namespace {

@@ -19,7 +19,7 @@ struct Network {  // views into a pack, of float32, and of what is packed once; 
   std::span<const pack::LayerRecord> layers;
   std::span<const pack::InputRecord> inputs;
   const float* weights = nullptr;
-  const float* narrow = nullptr;  // tissue/narrow_layer.hpp
+  const float* narrow = nullptr;  // tissue/network/narrow_layer.hpp
 };
 
 // Nodes that no edge of the graph leaves.

@@ -1,7 +1,7 @@
 // fraction_step.hpp  A soft part between two ticks: where its next tick would have it by a fraction x of it.
 //
 // In 0 <= x <= 1 from tick t-1 (x = 0) to tick t (x = 1), the poses of the last two ticks and the present one
-// known. At x = 1 it is the tick's own step (tissue/modal_base.hpp), at x = 0 what that begins with:
+// known. At x = 1 it is the tick's own step (tissue/modes/modal_base.hpp), at x = 0 what that begins with:
 //
 //   D = p(x) - (1 + x) p_{t-1} + x p_{t-2}       of places p; phi likewise, u going on in the world
 //
@@ -22,7 +22,7 @@
 // shown: `off` is what was added before less what was then. o takes it back, from 1 with the slope E'(1) to 0
 // without.
 #pragma once
-#include "tissue/modal_base.hpp"
+#include "tissue/modes/modal_base.hpp"
 
 namespace sinew::tissue {
 
@@ -41,8 +41,8 @@ struct TickForce {
 };
 void take_force(const ModalBase& base, const float* heard, const TickForce& tick) noexcept;
 
-// What heard leads to by the fraction, as modal_answer; heard by modal_hear, from f (tissue/node_drive.hpp)
-// and phi of the fraction. slopes: [modes], then of rest. 0 <= x <= 1.
+// What heard leads to by the fraction, as modal_answer; heard by modal_hear, from f
+// (tissue/frames/node_drive.hpp) and phi of the fraction. slopes: [modes], then of rest. 0 <= x <= 1.
 void fraction_answer(const ModalBase& base, const SwingSlopes* slopes, const float* heard,
                      const ModalState& state, const TickForce& tick, float x,
                      const ModalAnswer& answer) noexcept;

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "pack/format.hpp"
-#include "tissue/network_weights.hpp"
+#include "tissue/network/network_weights.hpp"
 
 namespace sinew::tissue {
 
@@ -14,8 +14,8 @@ size_t input_stride(const Network& network) noexcept;
 struct NodeSources {  // of one region; every array starts at the region's first node
   const pack::RegionRecord* region;
   const pack::NodeRecord* nodes;
-  const float* drive;     // [nodes][kNodeDriveWidth], tissue/node_drive.hpp
-  const float* felt;      // [nodes][3], m/s^2: e, tissue/modal_base.hpp
+  const float* drive;     // [nodes][kNodeDriveWidth], tissue/frames/node_drive.hpp
+  const float* felt;      // [nodes][3], m/s^2: e, tissue/modes/modal_base.hpp
   const float* l;         // [nodes][3], metres, of the last tick
   const float* l_before;  // [nodes][3], metres, of the tick before
   const float* l_hat;     // [nodes][3], metres: what the modal base says of this tick

@@ -1,6 +1,6 @@
 // modal_base.cpp  Frame terms and modal recurrences; sums over modes are kernels/surface/rows-inl.hpp, turns
 // kernels/surface/turn-inl.hpp.
-#include "tissue/modal_base.hpp"
+#include "tissue/modes/modal_base.hpp"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

@@ -1,5 +1,5 @@
 // node_drive.cpp  Differences of the last three ticks, turned into each node's frame.
-#include "tissue/node_drive.hpp"
+#include "tissue/frames/node_drive.hpp"
 
 #include <cmath>
 
@@ -32,7 +32,7 @@ Vector into_axes(const NodePose& pose, const Vector& v) {
           r[2] * v.x + r[5] * v.y + r[8] * v.z};
 }
 
-// exp([bend]x) v by series, exact to float for the bends there are (tissue/node_bend.hpp).
+// exp([bend]x) v by series, exact to float for the bends there are (tissue/frames/node_bend.hpp).
 Vector turned(const float* bend, const Vector& v) {
   const Vector b = vector_at(bend);
   const float squared = b.x * b.x + b.y * b.y + b.z * b.z;
@@ -76,7 +76,7 @@ Vector felt(float rate2, const Vector& node, const Vector& root, float most_m_s2
   return felt_share(whole * std::sqrt(squared), most_m_s2) * all;
 }
 
-// Of what pulls at a fraction, b and b - s of tissue/fraction_step.hpp.
+// Of what pulls at a fraction, b and b - s of tissue/frames/fraction_step.hpp.
 struct LoadShares {
   float now, before;
 };

@@ -1,26 +1,27 @@
 // modal_base.hpp  A soft part as a few damped modes, in frames that turn with its flesh.
 //
-// For control node i: u displacement along its own frame R (tissue/node_bend.hpp), l the same before warping,
-// theta how its flesh has turned against its frame, f the felt acceleration (tissue/node_drive.hpp); q modal
-// coordinates. One tick, h long, from t-1 to t:
+// For control node i: u displacement along its own frame R (tissue/frames/node_bend.hpp), l the same before
+// warping, theta how its flesh has turned against its frame, f the felt acceleration
+// (tissue/frames/node_drive.hpp); q modal coordinates. One tick, h long, from t-1 to t:
 //   phi   = [R_t^T (2 R_{t-1} u_{t-1} - R_{t-2} u_{t-2}) - (2 u_{t-1} - u_{t-2})] / h^2
 //   e     = exp([theta_{t-1}]x)^T (f + phi)
 //   q^    = a1 q_{t-1} + a2 q_{t-2} + gain force e
 //   r     = rest_a1 r_{t-1} + rest_a2 r_{t-2} + rest_gain rest e,   l^ = shape q^ + r
 //   theta = turn q_t, |theta| held at 2 rad,          u_t = W(theta) l_t, held within the region's limit
-//                                                     (tissue/guard.hpp) where it is to be shown
+//                                                     (tissue/modes/guard.hpp) where it is to be shown
 // phi is what a frame that turns does to what moves in it (Coriolis, centrifugal and Euler, exact for the
 // differences taken here). W(theta), the mean of the rotations from 0 to theta, is modal warping (Choi & Ko
 // 2005): a bent tail stays as long as it was. r is the answer of the modes left out, exact at rest (residual
 // flexibility; MacNeal 1971). On the modal base alone l = l^ and q = q^; a network corrects them by s p,
 // q_t = q^ + s p and l_t = l^ + shape s p, and e is then turned by the theta of the base alone
-// (tissue/correction_budget.hpp). No simulated sequence enters: modes, shapes and forces are the flesh's own.
+// (tissue/modes/correction_budget.hpp). No simulated sequence enters: modes, shapes and forces are the
+// flesh's own.
 #pragma once
 #include <cstdint>
 #include <span>
 
 #include "pack/pack_view.hpp"
-#include "tissue/node_pose.hpp"
+#include "tissue/frames/node_pose.hpp"
 
 namespace sinew::tissue {
 

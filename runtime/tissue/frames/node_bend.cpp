@@ -1,5 +1,5 @@
 // node_bend.cpp  Shares a region's bend out among its frames; the arithmetic is kernels/surface/bend-inl.hpp.
-#include "tissue/node_bend.hpp"
+#include "tissue/frames/node_bend.hpp"
 
 #include <algorithm>
 

@@ -1,11 +1,11 @@
 // network.cpp  Walks the layers of an Alt-ConvLSTM; the arithmetic is kernels/network/layer-inl.hpp.
-#include "tissue/network.hpp"
+#include "tissue/network/network.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "kernels/kernels.hpp"
-#include "tissue/narrow_layer.hpp"
+#include "tissue/network/narrow_layer.hpp"
 
 namespace sinew::tissue {
 namespace {
