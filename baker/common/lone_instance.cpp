@@ -2,7 +2,7 @@
 #include "baker/common/lone_instance.hpp"
 
 #include "baker/common/bad_input.hpp"
-#include "frame/front.hpp"
+#include "schedule/front.hpp"
 #include "world/create_instance.hpp"
 #include "world/hidden.hpp"
 #include "world/open_asset.hpp"

@@ -6,7 +6,7 @@
 #pragma once
 #include <cstdint>
 
-#include "frame/front.hpp"
+#include "schedule/front.hpp"
 #include "sinew/types.hpp"
 
 namespace sinew::world {

@@ -5,10 +5,10 @@
 #include <span>
 
 #include "core/aligned_block.hpp"
-#include "frame/cost_model.hpp"
-#include "frame/front.hpp"
 #include "pack/mapped_file.hpp"
 #include "rods/start/coping_net.hpp"
+#include "schedule/cost_model.hpp"
+#include "schedule/front.hpp"
 #include "sinew/types.hpp"
 #include "tissue/network/deep_emulator.hpp"
 #include "world/graph_level.hpp"

@@ -9,7 +9,7 @@
 
 #include "core/clock.hpp"
 #include "core/status.hpp"
-#include "frame/scheduler.hpp"
+#include "schedule/scheduler.hpp"
 #include "world/lay_out.hpp"
 #include "world/pose_bound.hpp"
 #include "world/publish.hpp"

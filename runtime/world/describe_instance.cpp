@@ -2,7 +2,7 @@
 #include "world/describe_instance.hpp"
 
 #include "core/clock.hpp"
-#include "frame/candidate.hpp"
+#include "schedule/candidate.hpp"
 #include "world/asleep.hpp"
 #include "world/rod_contacts.hpp"
 #include "world/shares.hpp"

@@ -6,10 +6,10 @@
 #include <span>
 
 #include "core/aligned_block.hpp"
-#include "frame/sight.hpp"
-#include "frame/tick_clock.hpp"
 #include "rods/contacts/collider.hpp"
 #include "rods/rod_batch.hpp"
+#include "schedule/tick_clock.hpp"
+#include "schedule/visibility/sight.hpp"
 #include "sinew/contact_source.hpp"
 #include "sinew/types.hpp"
 #include "tissue/frames/fraction_step.hpp"
@@ -48,10 +48,10 @@ inline constexpr uint32_t kFallbackTicks = 60;  // on the modal base, after a ne
 // The part of the state that is not an array. Plain bytes: saved and restored as they are.
 struct InstanceState {
   // What a plan does to those that it passes over comes first: kPlannedStateBytes of it.
-  double remainder_s = 0;  // frame/tick_clock.hpp
+  double remainder_s = 0;  // schedule/tick_clock.hpp
   float importance = 1;
   float excitation = 1;                             // world/excitation.hpp
-  float waited_s = 0, held_s = 0, turn_left_s = 0;  // frame/scheduler.hpp
+  float waited_s = 0, held_s = 0, turn_left_s = 0;  // schedule/scheduler.hpp
   Tier tier = Tier::kSkinning;                      // in the last step
   uint32_t level = 0;                               // of control graphs (world/change_level.hpp)
   uint32_t restarting = 0;                          // fading out after a guard: not simulated until faded

@@ -2,7 +2,7 @@
 #pragma once
 #include <span>
 
-#include "frame/scheduler.hpp"
+#include "schedule/scheduler.hpp"
 #include "world/world_state.hpp"
 
 namespace sinew::world {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "frame/front.hpp"
+#include "schedule/front.hpp"
 #include "world/asleep.hpp"
 #include "world/catch_up.hpp"
 #include "world/shares.hpp"

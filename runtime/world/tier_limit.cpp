@@ -1,7 +1,7 @@
 // tier_limit.cpp  see tier_limit.hpp.
 #include "world/tier_limit.hpp"
 
-#include "frame/front.hpp"
+#include "schedule/front.hpp"
 #include "world/asleep.hpp"
 #include "world/publish.hpp"
 

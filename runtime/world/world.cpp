@@ -10,9 +10,9 @@
 
 #include "core/floating_point.hpp"
 #include "core/status.hpp"
-#include "frame/scheduler.hpp"
 #include "kernels/isa.hpp"
 #include "kernels/kernels.hpp"
+#include "schedule/scheduler.hpp"
 #include "world/air.hpp"
 #include "world/asleep.hpp"
 #include "world/check_parameters.hpp"

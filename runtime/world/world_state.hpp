@@ -6,9 +6,9 @@
 
 #include "core/bring_near.hpp"
 #include "core/slot_table.hpp"
-#include "frame/candidate.hpp"
-#include "frame/cost_model.hpp"
-#include "frame/sight.hpp"
+#include "schedule/candidate.hpp"
+#include "schedule/cost_model.hpp"
+#include "schedule/visibility/sight.hpp"
 #include "sinew/types.hpp"
 #include "world/asset.hpp"
 #include "world/events.hpp"

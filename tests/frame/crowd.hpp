@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "frame/scheduler.hpp"
+#include "schedule/scheduler.hpp"
 
 namespace sinew::test {
 

@@ -3,7 +3,7 @@
 #include <limits>
 #include <random>
 
-#include "frame/cost_model.hpp"
+#include "schedule/cost_model.hpp"
 
 using sinew::frame::Capacity;
 using sinew::frame::CostEstimate;

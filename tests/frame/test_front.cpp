@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "frame/front.hpp"
+#include "schedule/front.hpp"
 #include "tests/frame/crowd.hpp"
 
 using namespace sinew;

@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "frame/sight.hpp"
+#include "schedule/visibility/sight.hpp"
 
 using namespace sinew;
 using namespace sinew::frame;

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "frame/tick_clock.hpp"
+#include "schedule/tick_clock.hpp"
 
 using sinew::frame::exact_seconds;
 using sinew::frame::plan_ticks;

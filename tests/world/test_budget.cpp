@@ -239,8 +239,8 @@ TEST_CASE("in_work_units_the_clock_does_not_matter") {
   CHECK(simulated < 7 * 300);
 }
 
-// The rule of frame/scheduler.hpp, through the world: every instance comes to its turn. The budget pays for
-// two of nine, a tenth of it for none: turns are one at a time.
+// The rule of schedule/scheduler.hpp, through the world: every instance comes to its turn. The budget pays
+// for two of nine, a tenth of it for none: turns are one at a time.
 TEST_CASE("nobody_goes_unsimulated_longer_than_the_stated_bound") {
   constexpr size_t kCount = 9;
   Stage stage(0, {.budget_mode = BudgetMode::kWorkUnits});

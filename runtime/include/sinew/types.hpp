@@ -174,7 +174,7 @@ struct InstanceDef {
   AssetId asset = {};  // null or stale: refused
   // >= 0, relative weight for the scheduler: of a visible millimetre of error. 0: gets what the others leave;
   // NaN or negative counts as 0. The rule, and how long an instance with importance above 0 may go
-  // unsimulated at most: runtime/frame/scheduler.hpp.
+  // unsimulated at most: runtime/schedule/scheduler.hpp.
   float importance = 1;
   RootTransform root = {};  // where it enters, in its bind pose, at rest; refused as in a pose
   ContactDef contacts = {};
@@ -279,7 +279,7 @@ struct FrameReport {
   uint32_t rejected_poses = 0;           // set_pose calls refused since the last step
   float unspent_us = 0;  // of the budget while a budget kept an instance below its best; else 0
   // Mean over the instances that are seen of their tiers' errors, a share of skinning's; 1: all are skinned,
-  // or none is seen. As baked; where nothing was measured, usual ones (runtime/frame/front.hpp).
+  // or none is seen. As baked; where nothing was measured, usual ones (runtime/schedule/front.hpp).
   float expected_error = 1;
   bool over_budget = false;  // kTime: total_us > budget_us; kWorkUnits: the baked cost of what ran is
 };

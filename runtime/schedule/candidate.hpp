@@ -4,8 +4,8 @@
 #include <limits>
 #include <span>
 
-#include "frame/front.hpp"
-#include "frame/weight_buckets.hpp"
+#include "schedule/front.hpp"
+#include "schedule/weight_buckets.hpp"
 
 namespace sinew::frame {
 

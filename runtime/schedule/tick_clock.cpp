@@ -1,5 +1,5 @@
 // tick_clock.cpp  Frame times to fixed ticks.
-#include "frame/tick_clock.hpp"
+#include "schedule/tick_clock.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // sight.cpp  see sight.hpp.
-#include "frame/sight.hpp"
+#include "schedule/visibility/sight.hpp"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

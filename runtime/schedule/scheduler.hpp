@@ -2,7 +2,7 @@
 //
 // Everything is decided before any work starts, from the numbers below alone: same candidates, same answer.
 // Bought is the most of weight x error saved that the budget pays for, on the assets' fronts
-// (frame/front.hpp):
+// (schedule/front.hpp):
 //   1. Every instance's unavoidable cost comes off the budget.
 //   2. Turns: one that is not simulated for longer than kLongestWait_s is overdue and gets the cheapest
 //   simulated
@@ -17,7 +17,7 @@
 // Longest wait: with n instances of weight > 0, and turns that pay for k of the costliest, none goes
 // unsimulated longer than kLongestWait_s + ceil(n / k) (kHold_s + dt). Weight 0 has no turn and gets what is
 // left over. Cost: some twenty nanoseconds a candidate in the cache, and the levels of those that may go up
-// or down (frame/buying.hpp); less than sorting all levels
+// or down (schedule/buying.hpp); less than sorting all levels
 // (half_a_thousand_are_scheduled_sooner_than_their_levels_could_be_sorted); no memory is taken. Where nobody
 // has a level yet, what is bought and the best level passed over are together worth the optimum at least
 // (what_a_budget_misses_is_less_than_the_best_level_that_was_passed_over).
@@ -25,7 +25,7 @@
 #include <cstdint>
 #include <span>
 
-#include "frame/candidate.hpp"
+#include "schedule/candidate.hpp"
 
 namespace sinew::frame {
 

@@ -1,5 +1,5 @@
 // front.cpp  see front.hpp.
-#include "frame/front.hpp"
+#include "schedule/front.hpp"
 
 #include <algorithm>
 #include <cmath>

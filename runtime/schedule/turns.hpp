@@ -2,7 +2,7 @@
 #pragma once
 #include <bit>
 
-#include "frame/candidate.hpp"
+#include "schedule/candidate.hpp"
 
 namespace sinew::frame {
 

@@ -1,5 +1,5 @@
 // cost_model.cpp  What a tick of an asset costs.
-#include "frame/cost_model.hpp"
+#include "schedule/cost_model.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
 // scheduler.cpp  Which tier each instance gets in this step.
-#include "frame/scheduler.hpp"
+#include "schedule/scheduler.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <limits>
 
-#include "frame/buying.hpp"
+#include "schedule/buying.hpp"
 
 namespace sinew::frame {
 namespace {

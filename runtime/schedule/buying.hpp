@@ -8,7 +8,7 @@
 // Costs count in whole 2^-20 us, so that sums do not depend on what was added first: what is bought depends
 // on the candidates alone, not on where the search began.
 #pragma once
-#include "frame/candidate.hpp"
+#include "schedule/candidate.hpp"
 
 namespace sinew::frame {
 

@@ -1,10 +1,10 @@
 // buying.cpp  see buying.hpp.
-#include "frame/buying.hpp"
+#include "schedule/buying.hpp"
 
 #include <algorithm>
 #include <limits>
 
-#include "frame/turns.hpp"
+#include "schedule/turns.hpp"
 
 namespace sinew::frame {
 namespace {
