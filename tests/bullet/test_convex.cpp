@@ -1,5 +1,5 @@
 // test_convex.cpp  Signed distances of points against the shapes themselves.
-#include "bullet/convex.hpp"
+#include "adapters/bullet/convex.hpp"
 
 #include <random>
 

@@ -1,5 +1,5 @@
 // test_touch.cpp  Nearest points of an axis, and when a way first touches.
-#include "bullet/touch.hpp"
+#include "adapters/bullet/touch.hpp"
 
 #include <random>
 

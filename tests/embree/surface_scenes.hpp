@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "embree/triangle.hpp"
+#include "adapters/embree/triangle.hpp"
 #include "rods/vector.hpp"
 #include "sinew/surface_contacts.hpp"
 

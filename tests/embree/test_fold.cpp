@@ -1,5 +1,5 @@
 // test_fold.cpp  Valleys, ridges and steps, each of a floor at y = 0 and one more triangle.
-#include "embree/fold.hpp"
+#include "adapters/embree/fold.hpp"
 
 #include <limits>
 

@@ -1,5 +1,5 @@
 // test_topology.cpp  Seams are welded, edges find their neighbours, what has no area is left out.
-#include "embree/topology.hpp"
+#include "adapters/embree/topology.hpp"
 #include "tests/embree/surface_scenes.hpp"
 
 using namespace sinew;

@@ -1,5 +1,5 @@
 // test_tree.cpp  Walks through the tree, on every instruction set, against a look at every triangle.
-#include "embree/tree.hpp"
+#include "adapters/embree/tree.hpp"
 
 #include <algorithm>
 

@@ -19,8 +19,7 @@ ALLOWED = {
     "include": set(),
     "c": {"core", "pack", "kernels", "tissue", "rods", "schedule", "world"},
     # Adapters to other libraries; the core knows none of them.
-    "embree": {"core", "pack", "kernels", "tissue", "rods", "schedule", "world"},
-    "bullet": {"core", "pack", "kernels", "tissue", "rods", "schedule", "world"},
+    "adapters": {"core", "pack", "kernels", "tissue", "rods", "schedule", "world"},
 }
 # The offline rooms, in the same way; every one may include baker/common and the runtime.
 BAKER = {

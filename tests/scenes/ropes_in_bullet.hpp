@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "bullet/touch.hpp"
+#include "adapters/bullet/touch.hpp"
 #include "rods/contacts/collider.hpp"
 #include "rods/rod_batch.hpp"
 #include "sinew/bullet.hpp"

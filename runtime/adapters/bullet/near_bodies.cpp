@@ -1,5 +1,5 @@
 // near_bodies.cpp  see near_bodies.hpp.
-#include "bullet/near_bodies.hpp"
+#include "adapters/bullet/near_bodies.hpp"
 
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
 #include <BulletCollision/CollisionShapes/btCollisionShape.h>
@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-#include "bullet/impulses.hpp"
+#include "adapters/bullet/impulses.hpp"
 
 namespace sinew::bullet {
 namespace {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <memory>
 
-#include "embree/topology.hpp"
-#include "embree/tree.hpp"
-#include "embree/triangle.hpp"
+#include "adapters/embree/topology.hpp"
+#include "adapters/embree/tree.hpp"
+#include "adapters/embree/triangle.hpp"
 #include "rods/vector.hpp"
 #include "sinew/surface_contacts.hpp"
 

@@ -1,5 +1,5 @@
 // problems.cpp  see problems.hpp.
-#include "bullet/problems.hpp"
+#include "adapters/bullet/problems.hpp"
 
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 

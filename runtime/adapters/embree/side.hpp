@@ -1,6 +1,6 @@
 // side.hpp  On which side of a surface a point is, told at the point of the surface that is nearest to it.
 #pragma once
-#include "embree/surface.hpp"
+#include "adapters/embree/surface.hpp"
 
 namespace sinew::embree {
 

@@ -1,5 +1,5 @@
 // impulses.cpp  see impulses.hpp.
-#include "bullet/impulses.hpp"
+#include "adapters/bullet/impulses.hpp"
 
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>

@@ -4,8 +4,8 @@
 #include <new>
 #include <utility>
 
-#include "bullet/impulses.hpp"
-#include "bullet/probe_contacts.hpp"
+#include "adapters/bullet/impulses.hpp"
+#include "adapters/bullet/probe_contacts.hpp"
 #include "core/status.hpp"
 
 namespace sinew {

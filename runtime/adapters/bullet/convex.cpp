@@ -1,5 +1,5 @@
 // convex.cpp  Closed forms, and Bullet's GJK and EPA for the rest.
-#include "bullet/convex.hpp"
+#include "adapters/bullet/convex.hpp"
 
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
 #include <BulletCollision/CollisionShapes/btCapsuleShape.h>

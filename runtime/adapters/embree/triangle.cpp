@@ -1,5 +1,5 @@
 // triangle.cpp  Closest points by regions, and conservative advancement.
-#include "embree/triangle.hpp"
+#include "adapters/embree/triangle.hpp"
 
 #include <algorithm>
 #include <limits>

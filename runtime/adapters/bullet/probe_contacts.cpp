@@ -1,5 +1,5 @@
 // probe_contacts.cpp  see probe_contacts.hpp.
-#include "bullet/probe_contacts.hpp"
+#include "adapters/bullet/probe_contacts.hpp"
 
 #include <BulletCollision/BroadphaseCollision/btDbvt.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>

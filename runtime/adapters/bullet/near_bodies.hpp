@@ -2,9 +2,9 @@
 #pragma once
 #include <span>
 
-#include "bullet/moving_place.hpp"
-#include "bullet/problems.hpp"
-#include "bullet/touch.hpp"
+#include "adapters/bullet/moving_place.hpp"
+#include "adapters/bullet/problems.hpp"
+#include "adapters/bullet/touch.hpp"
 
 namespace sinew::bullet {
 

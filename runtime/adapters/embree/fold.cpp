@@ -1,5 +1,5 @@
 // fold.cpp  see fold.hpp.
-#include "embree/fold.hpp"
+#include "adapters/embree/fold.hpp"
 
 #include <algorithm>
 

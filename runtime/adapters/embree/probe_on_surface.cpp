@@ -1,5 +1,5 @@
 // probe_on_surface.cpp  see probe_on_surface.hpp.
-#include "embree/probe_on_surface.hpp"
+#include "adapters/embree/probe_on_surface.hpp"
 
 #include <algorithm>
 #include <bit>

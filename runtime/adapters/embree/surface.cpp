@@ -1,5 +1,5 @@
 // surface.cpp  Checks, places and moves; Embree's tree holds each triangle's box over the tick.
-#include "embree/surface.hpp"
+#include "adapters/embree/surface.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // tree.cpp  see tree.hpp.
-#include "embree/tree.hpp"
+#include "adapters/embree/tree.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // probe_contacts.hpp  All contacts of one probe, gathered body by body.
 #pragma once
-#include "bullet/near_bodies.hpp"
+#include "adapters/bullet/near_bodies.hpp"
 
 class btCollisionShape;
 class btCompoundShape;

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "embree/topology.hpp"
+#include "adapters/embree/topology.hpp"
 #include "kernels/surface/surface_walk.hpp"
 
 namespace sinew::embree {

@@ -1,5 +1,5 @@
 // moving_place.cpp  see moving_place.hpp.
-#include "bullet/moving_place.hpp"
+#include "adapters/bullet/moving_place.hpp"
 
 #include <LinearMath/btTransform.h>
 

@@ -1,5 +1,5 @@
 // topology.cpp  Vertices at one place become one; edges find their two triangles.
-#include "embree/topology.hpp"
+#include "adapters/embree/topology.hpp"
 
 #include <algorithm>
 #include <cmath>

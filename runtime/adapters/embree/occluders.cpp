@@ -11,9 +11,9 @@
 #include <new>
 #include <utility>
 
+#include "adapters/embree/with_memory.hpp"
 #include "core/slot_table.hpp"
 #include "core/status.hpp"
-#include "embree/with_memory.hpp"
 #include "world/pose.hpp"
 
 namespace sinew {

@@ -3,8 +3,8 @@
 #include <limits>
 #include <span>
 
-#include "bullet/convex.hpp"
-#include "bullet/moving_place.hpp"
+#include "adapters/bullet/convex.hpp"
+#include "adapters/bullet/moving_place.hpp"
 
 namespace sinew::bullet {
 

@@ -1,5 +1,5 @@
 // touch.cpp  see touch.hpp.
-#include "bullet/touch.hpp"
+#include "adapters/bullet/touch.hpp"
 
 #include <algorithm>
 

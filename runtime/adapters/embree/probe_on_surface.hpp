@@ -5,12 +5,12 @@
 // tick begins, and the ends' and the whole axis' first touch on the way. If none of the three is inside, the
 // contacts are the touches of the ends, that of the axis and that of its middle, each of the latter where it
 // is deeper than those beside it keep the axis; and in a valley, for which each contact walks once more along
-// its way, the other side of it (embree/fold.hpp). If one is inside, they are the shortest ways out of those
-// that are, and the touches of the ends that are not.
+// its way, the other side of it (adapters/embree/fold.hpp). If one is inside, they are the shortest ways out
+// of those that are, and the touches of the ends that are not.
 #pragma once
-#include "embree/fold.hpp"
-#include "embree/side.hpp"
-#include "embree/surface.hpp"
+#include "adapters/embree/fold.hpp"
+#include "adapters/embree/side.hpp"
+#include "adapters/embree/surface.hpp"
 #include "rods/contacts/find/sweep.hpp"
 
 namespace sinew::embree {

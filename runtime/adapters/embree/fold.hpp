@@ -2,7 +2,7 @@
 #pragma once
 #include <optional>
 
-#include "embree/triangle.hpp"
+#include "adapters/embree/triangle.hpp"
 
 namespace sinew::embree {
 

@@ -7,10 +7,10 @@
 #include <new>
 #include <utility>
 
+#include "adapters/embree/probe_on_surface.hpp"
+#include "adapters/embree/with_memory.hpp"
 #include "core/slot_table.hpp"
 #include "core/status.hpp"
-#include "embree/probe_on_surface.hpp"
-#include "embree/with_memory.hpp"
 
 namespace sinew {
 

@@ -1,5 +1,5 @@
 // side.cpp  Pseudonormals, where they are asked for.
-#include "embree/side.hpp"
+#include "adapters/embree/side.hpp"
 
 #include <algorithm>
 
