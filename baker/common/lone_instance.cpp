@@ -2,14 +2,14 @@
 #include "baker/common/lone_instance.hpp"
 
 #include "baker/common/bad_input.hpp"
+#include "character/asset/open_asset.hpp"
+#include "character/life/create_instance.hpp"
+#include "character/life/snapshot.hpp"
+#include "character/output/read.hpp"
+#include "character/rest/hidden.hpp"
+#include "character/tick.hpp"
 #include "schedule/front.hpp"
-#include "world/create_instance.hpp"
-#include "world/hidden.hpp"
-#include "world/open_asset.hpp"
-#include "world/plan_row.hpp"
-#include "world/read.hpp"
-#include "world/snapshot.hpp"
-#include "world/tick.hpp"
+#include "world/step/plan_row.hpp"
 
 namespace sinew::baker {
 namespace {

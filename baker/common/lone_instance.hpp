@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "character/instance.hpp"
 #include "sinew/types.hpp"
-#include "world/instance.hpp"
 
 namespace sinew::baker {
 

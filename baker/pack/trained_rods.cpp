@@ -50,8 +50,8 @@ rods::SegmentDef segment_of(const pack::RodSegmentRecord& record) {
 }
 
 // Natural logarithms of joints' compliances, in units of the mean segment's length and mass, and seconds.
-// What holds its beginning, and its end, is as long as the segment there (world/rod_rig.hpp) and counts in
-// the mean.
+// What holds its beginning, and its end, is as long as the segment there (character/asset/rod_rig.hpp) and
+// counts in the mean.
 Range log_compliances(std::span<const pack::RodSegmentRecord> records, bool end_held) {
   double length_m = 0, mass_kg = 0, count = 0;
   const auto add = [&](const pack::RodSegmentRecord& record) {

@@ -39,7 +39,7 @@ void ClosedLoop::restore(const Checkpoint& from) {
 }
 
 // A step of so many ticks, ending at the pose of tick_; a guard may have ruled the tier out, as in
-// world/step.cpp.
+// world/step/step.cpp.
 void ClosedLoop::step(Tier tier, uint32_t level, uint32_t ticks) {
   const world::InstanceState& state = *lone_.instance().state;
   std::ranges::copy(motion_.joints(tick_), lone_.joints().begin());

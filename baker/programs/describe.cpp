@@ -8,8 +8,8 @@
 
 #include "baker/pack/network_pack.hpp"
 #include "baker/pack/tier_pack.hpp"
+#include "character/contacts/own_body_touches.hpp"
 #include "sinew/types.hpp"
-#include "world/own_body_touches.hpp"
 
 namespace sinew::baker {
 namespace {

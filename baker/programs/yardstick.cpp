@@ -8,9 +8,9 @@
 #include <map>
 
 #include "baker/common/bad_input.hpp"
-#include "world/pose.hpp"
-#include "world/read.hpp"
-#include "world/rod_publish.hpp"
+#include "character/motion/pose.hpp"
+#include "character/output/read.hpp"
+#include "character/rods/rod_publish.hpp"
 
 namespace sinew::baker {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "world/graph_level.hpp"
+#include "character/asset/graph_level.hpp"
 
 namespace sinew::perf {
 

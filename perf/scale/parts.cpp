@@ -1,10 +1,14 @@
 // parts.cpp  Where a tick of one character goes.
 //
-// Each part is called as world/simulate.cpp and world/tick.cpp call it, on an instance in the middle of its
-// clips. A part that goes on from its own answer settles; what it costs does not depend on that.
+// Each part is called as character/tissue/simulate.cpp and character/tick.cpp call it, on an instance in the
+// middle of its clips. A part that goes on from its own answer settles; what it costs does not depend on
+// that.
 #include <cstring>
 
 #include "baker/common/lone_instance.hpp"
+#include "character/output/publish.hpp"
+#include "character/tissue/simulate.hpp"
+#include "character/transition/blend.hpp"
 #include "core/floating_point.hpp"
 #include "perf/kernels/fma_peak.hpp"
 #include "perf/scale/crowd.hpp"
@@ -15,9 +19,6 @@
 #include "tissue/frames/node_bend.hpp"
 #include "tissue/network/inputs.hpp"
 #include "tissue/network/network.hpp"
-#include "world/blend.hpp"
-#include "world/publish.hpp"
-#include "world/simulate.hpp"
 
 namespace sinew::perf {
 namespace {

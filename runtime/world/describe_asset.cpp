@@ -7,8 +7,8 @@
 #include <cstring>
 #include <numbers>
 
-#include "world/create_instance.hpp"
-#include "world/pose.hpp"
+#include "character/life/create_instance.hpp"
+#include "character/motion/pose.hpp"
 
 namespace sinew::world {
 namespace {

@@ -1,6 +1,6 @@
 // describe_asset.hpp  What an asset tells of itself, out of its pack. An index has been checked.
 #pragma once
-#include "world/asset.hpp"
+#include "character/asset/asset.hpp"
 
 namespace sinew::world {
 

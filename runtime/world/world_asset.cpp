@@ -1,9 +1,9 @@
 // world_asset.cpp  The public API of what assets tell: ids and arguments are checked here.
 #include <cmath>
 
+#include "character/motion/pose.hpp"
 #include "core/floating_point.hpp"
 #include "world/describe_asset.hpp"
-#include "world/pose.hpp"
 #include "world/world_impl.hpp"
 
 namespace sinew {

@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "character/describe_instance.hpp"
+#include "character/output/debug_lines.hpp"
+#include "character/output/read.hpp"
+#include "character/output/read_points.hpp"
+#include "character/rods/rod_publish.hpp"
 #include "core/floating_point.hpp"
-#include "world/debug_lines.hpp"
-#include "world/describe_instance.hpp"
-#include "world/read.hpp"
-#include "world/read_points.hpp"
-#include "world/rod_publish.hpp"
 #include "world/world_impl.hpp"
 
 namespace sinew {

@@ -4,17 +4,17 @@
 #include <memory>
 #include <span>
 
+#include "character/asset/asset.hpp"
+#include "character/instance.hpp"
+#include "character/output/events.hpp"
+#include "character/tick.hpp"
 #include "core/bring_near.hpp"
 #include "core/slot_table.hpp"
 #include "schedule/candidate.hpp"
 #include "schedule/cost_model.hpp"
 #include "schedule/visibility/sight.hpp"
 #include "sinew/types.hpp"
-#include "world/asset.hpp"
-#include "world/events.hpp"
-#include "world/instance.hpp"
-#include "world/plan_row.hpp"
-#include "world/tick.hpp"
+#include "world/step/plan_row.hpp"
 
 namespace sinew::world {
 

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "world/rod_publish.hpp"
+#include "character/rods/rod_publish.hpp"
 
 namespace sinew::sample {
 namespace {

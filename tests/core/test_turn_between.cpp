@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "core/turn_between.hpp"
+#include "math/turn_between.hpp"
 
 using namespace sinew;
 using Eigen::Quaterniond;

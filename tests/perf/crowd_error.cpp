@@ -51,9 +51,9 @@ TEST_CASE("a_crowd_of_one_is_off_what_the_demo_is_off") {
 // What is simulated is held for 30 ticks at least. It blends in over the first 20, which on average loses
 // half of what these were to save, a third of the whole; and it begins without a past and swings for half a
 // second and more until that is forgotten, which is allowed two fifths more, and 0.003 for blends of more
-// than 20 ticks (world/blend_pace.hpp): in all less than was allowed while what was baked had blended in,
-// too. Both the crowd and what was baked begin at rest: where nothing is denied they are the same to
-// rounding.
+// than 20 ticks (character/transition/blend_pace.hpp): in all less than was allowed while what was baked had
+// blended in, too. Both the crowd and what was baked begin at rest: where nothing is denied they are the same
+// to rounding.
 TEST_CASE("what_a_crowd_under_a_budget_is_off_is_what_was_expected_but_for_its_changes") {
   for (const double budget_us : {50.0, 100.0, 150.0, 1e9}) {
     const auto row = crowd(8, budget_us);

@@ -2,7 +2,7 @@
 #pragma once
 #include <Eigen/Geometry>
 
-#include "core/turn_between.hpp"
+#include "math/turn_between.hpp"
 #include "rods/contacts/collider.hpp"
 #include "rods/rod_batch.hpp"
 #include "tests/rods/rod_scenes.hpp"

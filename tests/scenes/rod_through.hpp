@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/turn_between.hpp"
+#include "math/turn_between.hpp"
 #include "rods/strand.hpp"
 
 namespace sinew::test {

@@ -3,15 +3,14 @@
 #include <cstring>
 #include <limits>
 
+#include "character/asset/open_asset.hpp"
+#include "character/instance.hpp"
+#include "character/life/create_instance.hpp"
 #include "tests/world/stage.hpp"
-#include "tissue/network.hpp"
-#include "world/create_instance.hpp"
-#include "world/instance.hpp"
-#include "world/open_asset.hpp"
 
 namespace sinew::test {
 
-// Bytes of a snapshot's header and its checksum's place; world/snapshot.cpp.
+// Bytes of a snapshot's header and its checksum's place; character/life/snapshot.cpp.
 inline constexpr size_t kSnapshotHeaderBytes = 40, kSnapshotChecksumAt = 24;
 
 // A NaN in the state, at the place that `where` points to in a twin, smuggled in through a snapshot whose

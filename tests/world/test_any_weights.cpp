@@ -121,7 +121,7 @@ TEST_CASE("no_weights_move_flesh_much_further_than_its_base_nor_keep_it_from_res
         .cells = 3, .nodes = 8, .displacement_limit = 1000, .frequency_share = hz / 3.5};
     Shaking shaking(static_cast<uint32_t>(i));
     shaking.turn_rad = 0;
-    // Within what the world's bound leaves alone (world/displacement_bound.hpp).
+    // Within what the world's bound leaves alone (character/output/displacement_bound.hpp).
     for (double& size_m : shaking.size_m) size_m *= kSmall;
     const double rest_s = std::min(20.0, 2 + 4 / hz);
     options.network = false;

@@ -1,6 +1,6 @@
 // test_blend.cpp  Losing the network and getting it back: faded, bounded, without a pop.
+#include "character/instance.hpp"
 #include "tests/world/stage.hpp"
-#include "world/instance.hpp"
 
 using namespace sinew;
 using test::Stage;

@@ -1,11 +1,11 @@
 // test_blend_pace.cpp  A blend lasts as long as it takes to move nothing far.
-#include "world/blend_pace.hpp"
+#include "character/transition/blend_pace.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "character/life/snapshot.hpp"
 #include "tests/world/told_block.hpp"
-#include "world/snapshot.hpp"
 
 using namespace sinew;
 

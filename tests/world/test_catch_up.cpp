@@ -2,9 +2,9 @@
 #include <limits>
 #include <utility>
 
+#include "character/instance.hpp"
 #include "tests/scenes/half_spaces.hpp"
 #include "tests/world/told_block.hpp"
-#include "world/instance.hpp"
 
 using namespace sinew;
 using test::Stage;

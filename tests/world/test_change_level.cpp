@@ -1,14 +1,14 @@
 // test_change_level.cpp  Control graphs that change as an instance runs: no jump, the same swing, the same
 // bits.
-#include "world/change_level.hpp"
+#include "character/transition/change_level.hpp"
 
+#include "character/asset/open_asset.hpp"
+#include "character/life/create_instance.hpp"
+#include "character/life/snapshot.hpp"
 #include "tests/scenes/half_spaces.hpp"
 #include "tests/scenes/thread_pool.hpp"
 #include "tests/world/told_block.hpp"
-#include "world/create_instance.hpp"
-#include "world/fold.hpp"
-#include "world/open_asset.hpp"
-#include "world/snapshot.hpp"
+#include "world/step/fold.hpp"
 
 using namespace sinew;
 

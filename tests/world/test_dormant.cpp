@@ -1,9 +1,9 @@
 // test_dormant.cpp  What sleeps under a pose that does not change is not stepped, and nobody can tell.
+#include "character/rest/dormant.hpp"
+#include "character/rest/sleep.hpp"
+#include "character/tick.hpp"
 #include "tests/scenes/half_spaces.hpp"
 #include "tests/world/stage.hpp"
-#include "world/dormant.hpp"
-#include "world/sleep.hpp"
-#include "world/tick.hpp"
 
 using namespace sinew;
 using test::Stage;

@@ -1,10 +1,8 @@
 // test_left_out.cpp  Control graphs that leave regions out: skinned there, untouched elsewhere.
+#include "character/life/snapshot.hpp"
+#include "character/rest/sleep.hpp"
 #include "tests/scenes/half_spaces.hpp"
 #include "tests/world/told_block.hpp"
-#include "world/asleep.hpp"
-#include "world/describe_instance.hpp"
-#include "world/sleep.hpp"
-#include "world/snapshot.hpp"
 
 using namespace sinew;
 

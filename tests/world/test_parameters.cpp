@@ -3,9 +3,9 @@
 #include <numbers>
 #include <string>
 
+#include "character/parameters/tuned_parts.hpp"
+#include "character/parameters/tuning_state.hpp"
 #include "tests/world/stage.hpp"
-#include "world/tuned_parts.hpp"
-#include "world/tuning_state.hpp"
 
 using namespace sinew;
 using scenes::kTail;

@@ -1,9 +1,9 @@
 // test_plan.cpp  What a plan leaves for those that run last.
-#include "world/plan.hpp"
+#include "world/step/plan.hpp"
 
+#include "character/asset/open_asset.hpp"
+#include "character/life/create_instance.hpp"
 #include "tests/world/stage.hpp"
-#include "world/create_instance.hpp"
-#include "world/open_asset.hpp"
 
 using namespace sinew;
 

@@ -1,5 +1,5 @@
 // test_pose.cpp  Poses between poses: exact at the ends, nothing lost, parabolas followed.
-#include "world/pose.hpp"
+#include "character/motion/pose.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

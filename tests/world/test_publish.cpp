@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "character/asset/asset.hpp"
+#include "character/asset/open_asset.hpp"
+#include "character/instance.hpp"
+#include "character/life/create_instance.hpp"
+#include "character/motion/motion.hpp"
+#include "character/output/displacement_bound.hpp"
+#include "character/output/publish.hpp"
+#include "character/transition/blend.hpp"
 #include "core/floating_point.hpp"
 #include "tests/world/stage.hpp"
 #include "tissue/frames/node_pose.hpp"
-#include "world/asset.hpp"
-#include "world/blend.hpp"
-#include "world/create_instance.hpp"
-#include "world/displacement_bound.hpp"
-#include "world/instance.hpp"
-#include "world/motion.hpp"
-#include "world/open_asset.hpp"
-#include "world/publish.hpp"
 
 using namespace sinew;
 using Eigen::Vector3f;

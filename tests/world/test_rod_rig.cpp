@@ -4,7 +4,7 @@
 #include <numbers>
 #include <vector>
 
-#include "world/rod_rig.hpp"
+#include "character/asset/rod_rig.hpp"
 
 using namespace sinew;
 using Eigen::Quaterniond;

@@ -1,5 +1,5 @@
 // test_rod_source.cpp  The source and the surface share the room for hits.
-#include "world/rod_source.hpp"
+#include "character/rods/rod_source.hpp"
 
 #include <catch2/catch.hpp>
 #include <vector>

@@ -4,16 +4,16 @@
 #include <atomic>
 #include <cmath>
 
+#include "character/asset/affords_surface.hpp"
+#include "character/asset/open_asset.hpp"
+#include "character/life/create_instance.hpp"
+#include "character/rest/asleep.hpp"
+#include "character/rest/rod_sleep.hpp"
+#include "character/transition/change_level.hpp"
 #include "tests/scenes/half_spaces.hpp"
 #include "tests/scenes/thread_pool.hpp"
 #include "tests/world/stage.hpp"
-#include "world/affords_surface.hpp"
-#include "world/asleep.hpp"
-#include "world/change_level.hpp"
-#include "world/create_instance.hpp"
-#include "world/fold.hpp"
-#include "world/open_asset.hpp"
-#include "world/rod_sleep.hpp"
+#include "world/step/fold.hpp"
 
 using namespace sinew;
 using scenes::kTail;

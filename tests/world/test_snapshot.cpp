@@ -4,9 +4,9 @@
 #include <set>
 #include <utility>
 
+#include "character/instance.hpp"
 #include "core/hash.hpp"
 #include "tests/world/stage.hpp"
-#include "world/instance.hpp"
 
 using namespace sinew;
 using test::Stage;

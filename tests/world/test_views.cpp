@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "tests/world/stage.hpp"
-#include "world/look.hpp"
+#include "world/step/look.hpp"
 
 using namespace sinew;
 using test::Stage;

@@ -1,5 +1,5 @@
 """One tick of a network closed on its modal base, and whole roll-outs from rest, as the runtime runs them
-(runtime/world/simulate.cpp).
+(runtime/character/tissue/simulate.cpp).
 
 The network's answer is Alt-ConvLSTM's own Y_t = Y_{t-1} + C_t + (its carry), with what the modes make of l_{t-1} in
 the place of the skinning's motion. What it adds to the modes is bounded by a budget (correction.py), what is shown and how

@@ -12,9 +12,9 @@
 #include <utility>
 
 #include "adapters/embree/with_memory.hpp"
+#include "character/motion/pose.hpp"
 #include "core/slot_table.hpp"
 #include "core/status.hpp"
-#include "world/pose.hpp"
 
 namespace sinew {
 namespace {

@@ -13,10 +13,10 @@ enum class Space : uint32_t {
   // space, in which World::bind_pose has the joints (Y up; of a file in centimetres or with Z up it is not
   // the file's). Added to the bind position before GPU skinning it gives kCharacter's. Zero where nothing is
   // carried, and never longer than half of the bind pose's largest extent, but for rounding, whatever poses,
-  // contacts, parameters and frame rates do (runtime/world/displacement_bound.hpp). For vertices as the file
-  // has them, MeshInfo::mesh_from_bind takes it to the file's mesh space. Normals and tangents are those of
-  // the bind pose so displaced, whole, to be skinned as the file's own; where weights bend sharply, ordinary
-  // skinning makes other normals of them than kCharacter has.
+  // contacts, parameters and frame rates do (runtime/character/output/displacement_bound.hpp). For vertices
+  // as the file has them, MeshInfo::mesh_from_bind takes it to the file's mesh space. Normals and tangents
+  // are those of the bind pose so displaced, whole, to be skinned as the file's own; where weights bend
+  // sharply, ordinary skinning makes other normals of them than kCharacter has.
   kBind = 2,
 };
 

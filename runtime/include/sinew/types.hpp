@@ -127,7 +127,7 @@ struct WorldDef {
   TeleportDef teleport = {};
   // 0..1, a share of a soft part's radius. A part that neither moves nor feels anything new by more than that
   // for half a swing falls asleep: it keeps its shape at next to no cost until it feels more
-  // (runtime/world/sleep.hpp). 0: never.
+  // (runtime/character/rest/sleep.hpp). 0: never.
   float sleep_tolerance = 2e-5f;
   uint32_t report_history = 120;  // 0..65535 FrameReports kept for World::history
   uint32_t event_capacity = 256;  // 0..65535 events kept for World::take_events; of more the oldest are lost

@@ -113,8 +113,8 @@ class SINEW_API World {
   Status set_importance(InstanceId instance, float importance) noexcept;
   // Where the world is seen from, at most kMostViews, until the next call. An instance that none shows is
   // hidden: it costs next to nothing and what is read of it stays as it was; coming back:
-  // runtime/world/hidden.hpp. Of the others the importance counts times the share of the view's height that
-  // they take. No views, the default: all are seen, as large as any. A field outside its range:
+  // runtime/character/rest/hidden.hpp. Of the others the importance counts times the share of the view's
+  // height that they take. No views, the default: all are seen, as large as any. A field outside its range:
   // kInvalidArgument or kNotFinite, the views stay.
   Status set_views(std::span<const View> views) noexcept;
   // The engine's own culling: hidden whatever the views show, until it says otherwise.

@@ -76,7 +76,7 @@ double determinant(const float (&m)[12]) noexcept {
 }
 
 // The inverse, which is where the joint is in the bind pose, has to leave room for it to move in what a pose
-// may be. What has none counts as the identity (world/pose.hpp).
+// may be. What has none counts as the identity (character/motion/pose.hpp).
 bool has_bind(const JointRecord& joint) noexcept {
   const float(&m)[12] = joint.inverse_bind;
   const double d = std::fabs(determinant(m));

@@ -26,7 +26,7 @@ Status check_proxies(const PackView& pack) noexcept;  // capsules about bones; a
 // Numbers that are finite each and absurd together overflow in what they are multiplied by. No character is
 // so large, no part of one so small, nothing in one so fast or slow; products of what these allow are floats.
 inline constexpr float kFarthest_m = 1e5f, kLeastSize_m = 1e-7f;
-inline constexpr float kMostOfMatrix = 1e6f;  // as of a pose's (world/pose.hpp)
+inline constexpr float kMostOfMatrix = 1e6f;  // as of a pose's (character/motion/pose.hpp)
 inline constexpr float kSlowest_hz = 0.1f, kFastest_hz = 1e4f;
 
 // "pack: <what>; the file is damaged, bake it again"

@@ -6,8 +6,8 @@
 #include "baker/common/read_file.hpp"
 #include "baker/common/safetensors.hpp"
 #include "baker/programs/closed_loop.hpp"
+#include "character/output/read.hpp"
 #include "tests/baker/programs/creature_hop.hpp"
-#include "world/read.hpp"
 
 using namespace sinew;
 using namespace sinew::baker;

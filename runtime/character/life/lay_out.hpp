@@ -1,0 +1,14 @@
+// lay_out.hpp  Where the arrays of an instance lie in its one block of memory.
+#pragma once
+#include "character/instance.hpp"
+#include "core/arena.hpp"
+
+namespace sinew::world {
+
+bool touches_own_body(const Asset& asset, const ContactDef& contacts) noexcept;
+bool soft_parts_touch(const Asset& asset, const ContactDef& contacts) noexcept;
+
+// Points all arrays of `to`, by its contacts, into the arena: first what is saved, then scratch.
+void lay_out(const Asset& asset, core::Arena& arena, Instance& to) noexcept;
+
+}  // namespace sinew::world
