@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/programs/loaded_pack.hpp"
+#include "baker/measure/loaded_pack.hpp"
 #include "sinew/world.hpp"
 
 namespace sinew::perf {

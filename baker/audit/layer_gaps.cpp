@@ -4,8 +4,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "baker/import/weld.hpp"
-#include "baker/mesh/surface.hpp"
+#include "baker/import/meshes/weld.hpp"
+#include "baker/mesh/surface/surface.hpp"
 
 namespace sinew::baker {
 namespace {

@@ -5,11 +5,11 @@
 
 #include "baker/audit/parts.hpp"
 #include "baker/audit/player.hpp"
-#include "baker/mesh/layers.hpp"
+#include "baker/mesh/regions/layers.hpp"
 
 namespace sinew::baker {
 
-// Along the normal of the layer that leads (mesh/layers.hpp), positive as the character is bound.
+// Along the normal of the layer that leads (mesh/regions/layers.hpp), positive as the character is bound.
 struct LayerGap {
   double least_m = std::numeric_limits<double>::infinity(), largest_m = -least_m;  // as it is shown
   double file_least_m = least_m, file_largest_m = -least_m;                        // as it is skinned

@@ -10,7 +10,7 @@
 #include "baker/audit/player.hpp"
 #include "baker/preview/facing.hpp"
 #include "baker/preview/pack_mesh.hpp"
-#include "baker/render/layout.hpp"
+#include "baker/render/picture/layout.hpp"
 #include "baker/render/renderer.hpp"
 
 namespace sinew::baker {

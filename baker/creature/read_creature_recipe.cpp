@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/common/json_section.hpp"
+#include "baker/common/files/json_section.hpp"
 #include "baker/creature/clip.hpp"
 #include "baker/creature/creature.hpp"
 #include "baker/creature/skin.hpp"

@@ -7,15 +7,15 @@
 #include <filesystem>
 #include <new>
 
-#include "baker/import/clips.hpp"
-#include "baker/import/gltf_file.hpp"
-#include "baker/import/mesh_names.hpp"
-#include "baker/import/node_constraints.hpp"
-#include "baker/import/primitives.hpp"
-#include "baker/import/shown_meshes.hpp"
-#include "baker/import/spring_bones.hpp"
-#include "baker/import/tangents.hpp"
-#include "baker/import/weld.hpp"
+#include "baker/import/gltf/gltf_file.hpp"
+#include "baker/import/meshes/mesh_names.hpp"
+#include "baker/import/meshes/primitives.hpp"
+#include "baker/import/meshes/shown_meshes.hpp"
+#include "baker/import/meshes/tangents.hpp"
+#include "baker/import/meshes/weld.hpp"
+#include "baker/import/skeleton/clips.hpp"
+#include "baker/import/vrm/node_constraints.hpp"
+#include "baker/import/vrm/spring_bones.hpp"
 
 namespace sinew::baker {
 namespace {

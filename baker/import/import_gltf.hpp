@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "baker/import/character.hpp"
+#include "baker/import/character/character.hpp"
 
 namespace sinew::baker {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/common/json_section.hpp"
+#include "baker/common/files/json_section.hpp"
 
 namespace sinew::baker {
 namespace {

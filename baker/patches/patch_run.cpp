@@ -6,7 +6,7 @@
 #include <string>
 
 #include "baker/patches/rigid_motion.hpp"
-#include "baker/truth/fem.hpp"
+#include "baker/truth/fem/fem.hpp"
 
 namespace sinew::baker {
 namespace {

@@ -1,6 +1,6 @@
 // patch_run.hpp  One run of a plan, simulated and written down for the trainer.
 #pragma once
-#include "baker/common/safetensors.hpp"
+#include "baker/common/files/safetensors.hpp"
 #include "baker/patches/patch_plan.hpp"
 
 namespace sinew::baker {

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "baker/truth/random.hpp"
+#include "baker/truth/motion/random.hpp"
 
 namespace sinew::baker {
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <map>
 
-#include "baker/truth/voxel_split.hpp"
+#include "baker/truth/cage/voxel_split.hpp"
 
 namespace sinew::baker {
 namespace {

@@ -2,14 +2,14 @@
 //
 // Lengths in cells, mass in what a full cell has. A voxel weighs and resists by the share of it that lies in
 // the shape, and its five tetrahedra change hands from voxel to voxel, as a cage's do
-// (baker/truth/cage_topology.hpp).
+// (baker/truth/cage/cage_topology.hpp).
 #pragma once
 #include <array>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "baker/truth/random.hpp"
+#include "baker/truth/motion/random.hpp"
 
 namespace sinew::baker {
 

@@ -9,10 +9,10 @@
 #include "baker/preview/facing.hpp"
 #include "baker/preview/pack_mesh.hpp"
 #include "baker/preview/write_preview.hpp"
-#include "baker/render/layout.hpp"
-#include "baker/render/lines.hpp"
+#include "baker/render/picture/layout.hpp"
+#include "baker/render/picture/lines.hpp"
+#include "baker/render/picture/text.hpp"
 #include "baker/render/renderer.hpp"
-#include "baker/render/text.hpp"
 
 namespace sinew::baker {
 namespace {

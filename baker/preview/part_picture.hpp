@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "baker/preview/parts.hpp"
-#include "baker/render/image.hpp"
+#include "baker/render/picture/image.hpp"
 
 namespace sinew::baker {
 

@@ -6,10 +6,10 @@
 #include "baker/audit/describe_audit.hpp"
 #include "baker/audit/sheet.hpp"
 #include "baker/common/bad_input.hpp"
+#include "baker/common/files/write_file.hpp"
 #include "baker/common/progress.hpp"
-#include "baker/common/write_file.hpp"
+#include "baker/measure/loaded_pack.hpp"
 #include "baker/programs/commands.hpp"
-#include "baker/programs/loaded_pack.hpp"
 
 namespace sinew::baker {
 namespace {

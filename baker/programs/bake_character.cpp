@@ -10,22 +10,22 @@
 
 #include "baker/audit/audit.hpp"
 #include "baker/common/bad_input.hpp"
+#include "baker/common/files/write_file.hpp"
 #include "baker/common/progress.hpp"
-#include "baker/common/write_file.hpp"
-#include "baker/mesh/import_character.hpp"
-#include "baker/mesh/tissue_layout.hpp"
-#include "baker/pack/character_pack.hpp"
-#include "baker/pack/dense_pack.hpp"
-#include "baker/pack/network_pack.hpp"
+#include "baker/measure/measure_tiers.hpp"
+#include "baker/mesh/graph/tissue_layout.hpp"
+#include "baker/mesh/recipe/import_character.hpp"
+#include "baker/pack/character/character_pack.hpp"
+#include "baker/pack/character/patches_pack.hpp"
+#include "baker/pack/network/dense_pack.hpp"
+#include "baker/pack/network/network_pack.hpp"
+#include "baker/pack/network/trained_rods.hpp"
 #include "baker/pack/pack_writer.hpp"
-#include "baker/pack/patches_pack.hpp"
-#include "baker/pack/trained_rods.hpp"
 #include "baker/preview/write_preview.hpp"
 #include "baker/programs/character_tissue.hpp"
 #include "baker/programs/commands.hpp"
-#include "baker/programs/describe.hpp"
-#include "baker/programs/measure_tiers.hpp"
-#include "baker/programs/part_table.hpp"
+#include "baker/programs/describe/describe.hpp"
+#include "baker/programs/describe/part_table.hpp"
 #include "baker/truth/tissue_truth.hpp"
 
 namespace sinew::baker {
@@ -269,7 +269,7 @@ void add_character_command(CLI::App& app, int*) {
   CLI::App* command =
       app.add_subcommand("character", "Packs a skinned character with its tissue's modes and network");
   command->add_option("character", options->character, "skinned glTF or VRM")->required();
-  command->add_option("--recipe", options->recipe, "JSON; see baker/mesh/recipe.hpp");
+  command->add_option("--recipe", options->recipe, "JSON; see baker/mesh/recipe/recipe.hpp");
   command->add_option("--tissue", options->tissue, "trained weights, safetensors; without: modes only");
   command->add_option(
       "--emulator", options->emulator,

@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "baker/common/bad_input.hpp"
+#include "baker/measure/loaded_pack.hpp"
+#include "baker/measure/network/roll_out.hpp"
 #include "baker/programs/commands.hpp"
-#include "baker/programs/loaded_pack.hpp"
-#include "baker/programs/roll_out.hpp"
 #include "kernels/isa.hpp"
 
 namespace sinew::baker {

@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/common/write_file.hpp"
+#include "baker/common/files/write_file.hpp"
 #include "baker/creature/creature.hpp"
 #include "baker/programs/commands.hpp"
 

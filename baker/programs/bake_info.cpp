@@ -7,8 +7,8 @@
 
 #include "baker/import/import_gltf.hpp"
 #include "baker/programs/commands.hpp"
-#include "baker/programs/describe.hpp"
-#include "baker/programs/describe_source.hpp"
+#include "baker/programs/describe/describe.hpp"
+#include "baker/programs/describe/describe_source.hpp"
 
 namespace sinew::baker {
 namespace {

@@ -8,10 +8,10 @@
 #include <optional>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/common/input_files.hpp"
+#include "baker/common/command_line/input_files.hpp"
+#include "baker/common/files/safetensors.hpp"
 #include "baker/common/progress.hpp"
-#include "baker/common/safetensors.hpp"
-#include "baker/programs/closed_loop.hpp"
+#include "baker/measure/closed_loop.hpp"
 #include "baker/programs/commands.hpp"
 
 namespace sinew::baker {

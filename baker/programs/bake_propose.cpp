@@ -5,14 +5,14 @@
 #include <optional>
 
 #include "baker/common/bad_input.hpp"
+#include "baker/common/files/write_file.hpp"
 #include "baker/common/progress.hpp"
-#include "baker/common/write_file.hpp"
-#include "baker/mesh/import_character.hpp"
-#include "baker/mesh/proposal.hpp"
+#include "baker/measure/loaded_pack.hpp"
+#include "baker/mesh/parts/proposal.hpp"
+#include "baker/mesh/recipe/import_character.hpp"
 #include "baker/preview/write_preview.hpp"
 #include "baker/programs/character_tissue.hpp"
 #include "baker/programs/commands.hpp"
-#include "baker/programs/loaded_pack.hpp"
 
 namespace sinew::baker {
 namespace {

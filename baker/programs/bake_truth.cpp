@@ -8,10 +8,10 @@
 #include <string>
 
 #include "baker/common/bad_input.hpp"
+#include "baker/common/files/safetensors.hpp"
+#include "baker/common/files/write_file.hpp"
 #include "baker/common/progress.hpp"
-#include "baker/common/safetensors.hpp"
-#include "baker/common/write_file.hpp"
-#include "baker/mesh/import_character.hpp"
+#include "baker/mesh/recipe/import_character.hpp"
 #include "baker/programs/commands.hpp"
 #include "baker/truth/trajectory.hpp"
 #include "baker/truth/voxel_nodes.hpp"
@@ -122,7 +122,7 @@ void add_truth_command(CLI::App& app, int*) {
   auto options = std::make_shared<TruthOptions>();
   CLI::App* command = app.add_subcommand("truth", "Simulates soft tissue by FEM and writes a trajectory");
   command->add_option("character", options->input, "skinned glTF or VRM")->required();
-  command->add_option("--recipe", options->recipe, "JSON; see baker/mesh/recipe.hpp");
+  command->add_option("--recipe", options->recipe, "JSON; see baker/mesh/recipe/recipe.hpp");
   command->add_option("--motion", options->motion, "clip:NAME, shake, random or leap")->required();
   command
       ->add_option("--hold-out", options->held_out,

@@ -7,8 +7,8 @@
 
 #include "baker/audit/audit.hpp"
 #include "baker/audit/limit_factor.hpp"
-#include "baker/pack/character_pack.hpp"
-#include "baker/programs/loaded_pack.hpp"
+#include "baker/measure/loaded_pack.hpp"
+#include "baker/pack/character/character_pack.hpp"
 #include "baker/truth/voxel_nodes.hpp"
 
 namespace sinew::baker {

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "baker/common/safetensors.hpp"
-#include "baker/mesh/tissue_layout.hpp"
+#include "baker/common/files/safetensors.hpp"
+#include "baker/mesh/graph/tissue_layout.hpp"
 #include "baker/truth/graph_level.hpp"
 #include "baker/truth/tissue_truth.hpp"
 

@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "baker/common/input_files.hpp"
+#include "baker/common/command_line/input_files.hpp"
 #include "pack/format.hpp"
 
 namespace sinew::baker {

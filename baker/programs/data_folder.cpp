@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/common/read_file.hpp"
-#include "baker/common/write_file.hpp"
+#include "baker/common/files/read_file.hpp"
+#include "baker/common/files/write_file.hpp"
 
 namespace sinew::baker {
 

@@ -1,7 +1,7 @@
 // sinew-bake  Everything that happens before a game runs: see `sinew-bake --help`.
 #include <string>
 
-#include "baker/common/program.hpp"
+#include "baker/common/command_line/program.hpp"
 #include "baker/programs/commands.hpp"
 
 int main(int argc, char** argv) {

@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "baker/render/color.hpp"
+#include "baker/render/picture/color.hpp"
 
 namespace sinew::render {
 

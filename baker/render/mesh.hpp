@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "baker/render/color.hpp"
+#include "baker/render/picture/color.hpp"
 
 namespace sinew::render {
 

@@ -1,9 +1,9 @@
 // renderer.hpp  A mesh and a camera to a picture.
 #pragma once
 #include "baker/render/camera.hpp"
-#include "baker/render/image.hpp"
 #include "baker/render/light.hpp"
 #include "baker/render/mesh.hpp"
+#include "baker/render/picture/image.hpp"
 
 namespace sinew::render {
 

@@ -1,7 +1,7 @@
 // rod_run.hpp  One run of a plan, simulated and written down for the trainer.
 #pragma once
 #include "baker/common/bad_input.hpp"
-#include "baker/common/safetensors.hpp"
+#include "baker/common/files/safetensors.hpp"
 #include "baker/rods/rod_plan.hpp"
 
 namespace sinew::baker {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/truth/random.hpp"
+#include "baker/truth/motion/random.hpp"
 
 namespace sinew::baker {
 namespace {

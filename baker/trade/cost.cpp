@@ -5,8 +5,7 @@
 
 #include <algorithm>
 
-#include "baker/programs/yardstick.hpp"
-#include "world/create_instance.hpp"
+#include "baker/measure/yardstick.hpp"
 
 namespace sinew::baker {
 namespace {

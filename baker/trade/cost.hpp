@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "baker/programs/closed_loop.hpp"
-#include "baker/trade/row.hpp"
+#include "baker/measure/closed_loop.hpp"
+#include "baker/trade/rows/row.hpp"
 
 namespace sinew::baker {
 

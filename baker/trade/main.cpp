@@ -4,16 +4,16 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "baker/common/program.hpp"
-#include "baker/common/write_file.hpp"
-#include "baker/pack/patches_pack.hpp"
-#include "baker/trade/chart.hpp"
-#include "baker/trade/made_of.hpp"
+#include "baker/common/command_line/program.hpp"
+#include "baker/common/files/write_file.hpp"
+#include "baker/pack/character/patches_pack.hpp"
 #include "baker/trade/measure.hpp"
-#include "baker/trade/processor.hpp"
-#include "baker/trade/table.hpp"
-#include "baker/trade/truths.hpp"
-#include "baker/trade/write_tiers.hpp"
+#include "baker/trade/report/chart.hpp"
+#include "baker/trade/report/table.hpp"
+#include "baker/trade/report/write_tiers.hpp"
+#include "baker/trade/source/made_of.hpp"
+#include "baker/trade/source/processor.hpp"
+#include "baker/trade/source/truths.hpp"
 
 namespace {
 

@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "baker/common/progress.hpp"
-#include "baker/programs/yardstick.hpp"
+#include "baker/measure/yardstick.hpp"
 #include "baker/trade/cost.hpp"
-#include "baker/trade/front.hpp"
+#include "baker/trade/rows/front.hpp"
 
 namespace sinew::baker {
 namespace {

@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "baker/programs/true_surface.hpp"
-#include "baker/trade/row_cache.hpp"
-#include "baker/trade/variants.hpp"
+#include "baker/measure/true_surface.hpp"
+#include "baker/trade/rows/row_cache.hpp"
+#include "baker/trade/source/variants.hpp"
 
 namespace sinew::baker {
 

@@ -1,7 +1,7 @@
 // graph_level.cpp  see graph_level.hpp.
 #include "baker/truth/graph_level.hpp"
 
-#include "baker/mesh/leave_out.hpp"
+#include "baker/mesh/graph/leave_out.hpp"
 #include "baker/truth/tissue_truth.hpp"
 
 namespace sinew::baker {

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "baker/truth/modal_basis.hpp"
+#include "baker/truth/modes/modal_basis.hpp"
 
 namespace sinew::baker {
 

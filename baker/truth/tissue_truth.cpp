@@ -7,11 +7,11 @@
 #include <string>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/truth/body_parts.hpp"
-#include "baker/truth/fem.hpp"
-#include "baker/truth/moving_part.hpp"
-#include "baker/truth/polar.hpp"
-#include "baker/truth/region_frequency.hpp"
+#include "baker/truth/fem/fem.hpp"
+#include "baker/truth/modes/body_parts.hpp"
+#include "baker/truth/modes/moving_part.hpp"
+#include "baker/truth/modes/region_frequency.hpp"
+#include "baker/truth/numerics/polar.hpp"
 
 namespace sinew::baker {
 namespace {

@@ -14,9 +14,9 @@
 #pragma once
 #include <memory>
 
-#include "baker/truth/cage.hpp"
-#include "baker/truth/modal_basis.hpp"
-#include "baker/truth/motion.hpp"
+#include "baker/truth/cage/cage.hpp"
+#include "baker/truth/modes/modal_basis.hpp"
+#include "baker/truth/motion/motion.hpp"
 
 namespace sinew::baker {
 

@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/mesh/node_record.hpp"
+#include "baker/mesh/graph/node_record.hpp"
 #include "sinew/types.hpp"
 #include "tissue/frames/node_bend.hpp"
 #include "tissue/frames/node_drive.hpp"

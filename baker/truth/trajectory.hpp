@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "baker/common/safetensors.hpp"
+#include "baker/common/files/safetensors.hpp"
 #include "baker/truth/tissue_truth.hpp"
 #include "tissue/frames/node_drive.hpp"
 

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/mesh/carry.hpp"
-#include "baker/mesh/control_nodes.hpp"
+#include "baker/mesh/graph/carry.hpp"
+#include "baker/mesh/graph/control_nodes.hpp"
 #include "baker/truth/tissue_truth.hpp"
 
 namespace sinew::baker {

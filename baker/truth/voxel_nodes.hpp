@@ -1,6 +1,6 @@
 // voxel_nodes.hpp  Soft parts that an emulator predicts stand on the corners of a coarse cage's voxels.
 #pragma once
-#include "baker/mesh/tissue_layout.hpp"
+#include "baker/mesh/graph/tissue_layout.hpp"
 
 namespace sinew::baker {
 

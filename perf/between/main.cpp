@@ -20,7 +20,7 @@
 
 #include "baker/audit/motions.hpp"
 #include "baker/common/bad_input.hpp"
-#include "baker/programs/loaded_pack.hpp"
+#include "baker/measure/loaded_pack.hpp"
 #include "perf/help.hpp"
 #include "perf/shown_pack.hpp"
 

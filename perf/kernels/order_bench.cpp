@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "baker/mesh/node_order.hpp"
+#include "baker/mesh/graph/node_order.hpp"
 #include "perf/kernels/bench_data.hpp"
 
 namespace sinew::perf {

@@ -1,5 +1,5 @@
 // reduced_network_bench.cpp  One step of Alt-ConvLSTM in fp16 and int8.
-#include "baker/pack/int8_layout.hpp"
+#include "baker/pack/network/int8_layout.hpp"
 #include "baker/research/precision/reduced_network.hpp"
 #include "perf/kernels/run_steps.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/pack/dense_pack.hpp"
+#include "baker/pack/network/dense_pack.hpp"
 #include "baker/research/rods/nearest_start.hpp"
 #include "core/aligned_block.hpp"
 #include "pack/reader.hpp"

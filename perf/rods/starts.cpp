@@ -25,7 +25,7 @@
 #include "baker/common/bad_input.hpp"
 #include "baker/research/rods/compared_solver.hpp"
 #include "baker/rods/rod_run.hpp"
-#include "baker/truth/random.hpp"
+#include "baker/truth/motion/random.hpp"
 #include "perf/help.hpp"
 #include "perf/rods/start_files.hpp"
 #include "perf/scale/stopwatch.hpp"

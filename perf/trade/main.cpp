@@ -13,7 +13,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "baker/common/kept_files.hpp"
+#include "baker/common/files/kept_files.hpp"
 #include "kernels/isa.hpp"
 #include "perf/help.hpp"
 #include "perf/rods/peak.hpp"

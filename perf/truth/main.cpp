@@ -11,9 +11,9 @@
 
 #include "baker/common/bad_input.hpp"
 #include "baker/common/on_all_cores.hpp"
-#include "baker/mesh/import_character.hpp"
-#include "baker/mesh/tissue_layout.hpp"
-#include "baker/truth/pick_clips.hpp"
+#include "baker/mesh/graph/tissue_layout.hpp"
+#include "baker/mesh/recipe/import_character.hpp"
+#include "baker/truth/motion/pick_clips.hpp"
 #include "baker/truth/tissue_truth.hpp"
 
 using namespace sinew::baker;
@@ -185,7 +185,7 @@ int main(int argc, char** argv) {
   std::string name;
   app.add_option("character", options.character, "skinned glTF or VRM")->required();
   app.add_option("--name", name, "what the rows call it")->required();
-  app.add_option("--recipe", options.recipe, "JSON; see baker/mesh/recipe.hpp");
+  app.add_option("--recipe", options.recipe, "JSON; see baker/mesh/recipe/recipe.hpp");
   app.add_option("--clips", options.clips, "so many, evenly picked of those in which joints move");
   app.add_option("--seconds", options.seconds, "of each")->check(CLI::Range(0.1, 60.0));
   app.add_flag("--slow", options.slow,

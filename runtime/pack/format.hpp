@@ -90,7 +90,8 @@ enum class SectionKind : uint32_t {
   kLayers = 11,   // LayerRecord x layers
   kInputs = 12,   // InputRecord x inputs; a model without: the paper's wiring
   kWeights = 13,  // float; the layers' tensors, laid out as LayerRecord says
-  // Of an int8 network, hidden layer after hidden layer, no gaps (baker/pack/int8_layout.hpp); k in fours:
+  // Of an int8 network, hidden layer after hidden layer, no gaps (baker/pack/network/int8_layout.hpp); k in
+  // fours:
   kInt8Weights = 14,  // int8, +-127: for each 16 channels [k of x, h / 4][i f c o][16][4], then
                       // [k of P y / 4][i f][16][4]; behind all channels gate o's [k of P y / 4][padded][4]
   kInt8Sums = 15,     // int32: 128 sum_k w, [padded / 16][i f c o][16], then [padded] of gate o's P y

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "baker/common/program.hpp"
-#include "baker/common/write_file.hpp"
-#include "baker/render/encode.hpp"
+#include "baker/common/command_line/program.hpp"
+#include "baker/common/files/write_file.hpp"
+#include "baker/render/picture/encode.hpp"
 #include "samples/contacts/picture.hpp"
 
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "baker/preview/pack_mesh.hpp"
-#include "baker/render/layout.hpp"
+#include "baker/render/picture/layout.hpp"
 #include "baker/render/renderer.hpp"
 
 namespace sinew::sample {

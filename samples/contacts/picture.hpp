@@ -1,6 +1,6 @@
 // picture.hpp  A played scene as one picture: above without contacts, below with them.
 #pragma once
-#include "baker/render/image.hpp"
+#include "baker/render/picture/image.hpp"
 #include "samples/contacts/play.hpp"
 
 namespace sinew::sample {

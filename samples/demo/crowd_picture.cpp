@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "baker/preview/pack_mesh.hpp"
+#include "baker/render/picture/text.hpp"
 #include "baker/render/renderer.hpp"
-#include "baker/render/text.hpp"
 
 namespace sinew::demo {
 namespace {

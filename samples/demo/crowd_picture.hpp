@@ -1,6 +1,6 @@
 // crowd_picture.hpp  All instances on the floor, tinted by what each got in the last frame.
 #pragma once
-#include "baker/render/image.hpp"
+#include "baker/render/picture/image.hpp"
 #include "samples/demo/simulate.hpp"
 
 namespace sinew::demo {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "baker/render/layout.hpp"
-#include "baker/render/lines.hpp"
-#include "baker/render/text.hpp"
+#include "baker/render/picture/layout.hpp"
+#include "baker/render/picture/lines.hpp"
+#include "baker/render/picture/text.hpp"
 
 namespace sinew::demo {
 namespace {

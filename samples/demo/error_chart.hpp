@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "baker/render/image.hpp"
+#include "baker/render/picture/image.hpp"
 #include "samples/demo/simulate.hpp"
 
 namespace sinew::demo {

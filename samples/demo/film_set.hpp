@@ -3,7 +3,7 @@
 #pragma once
 #include <vector>
 
-#include "baker/render/layout.hpp"
+#include "baker/render/picture/layout.hpp"
 #include "baker/render/renderer.hpp"
 #include "samples/demo/simulate.hpp"
 

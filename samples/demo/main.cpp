@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/common/write_file.hpp"
+#include "baker/common/files/write_file.hpp"
 #include "samples/demo/options.hpp"
 #include "samples/demo/pictures.hpp"
 #include "samples/demo/summary.hpp"

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/common/input_files.hpp"
-#include "baker/common/within.hpp"
+#include "baker/common/command_line/input_files.hpp"
+#include "baker/common/command_line/within.hpp"
 
 namespace sinew::demo {
 namespace {

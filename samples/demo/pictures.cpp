@@ -7,9 +7,9 @@
 #include <filesystem>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/common/kept_files.hpp"
+#include "baker/common/files/kept_files.hpp"
 #include "baker/common/progress.hpp"
-#include "baker/render/encode.hpp"
+#include "baker/render/picture/encode.hpp"
 #include "samples/demo/crowd_picture.hpp"
 #include "samples/demo/film_set.hpp"
 

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <thread>
 
-#include "baker/common/write_file.hpp"
+#include "baker/common/files/write_file.hpp"
 
 namespace sinew::demo {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstdlib>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/common/safetensors.hpp"
+#include "baker/common/files/safetensors.hpp"
 #include "baker/truth/trajectory.hpp"
 #include "samples/demo/pose_blend.hpp"
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "baker/common/write_file.hpp"
+#include "baker/common/files/write_file.hpp"
 #include "samples/demo/summary.hpp"
 
 namespace sinew::demo {

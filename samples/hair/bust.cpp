@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "baker/creature/remesh.hpp"
-#include "baker/mesh/fit_capsule.hpp"
+#include "baker/mesh/anatomy/fit_capsule.hpp"
 
 namespace sinew::sample {
 namespace {

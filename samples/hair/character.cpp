@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "baker/pack/character_pack.hpp"
+#include "baker/pack/character/character_pack.hpp"
 
 namespace sinew::sample {
 namespace {

@@ -2,9 +2,9 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "baker/common/within.hpp"
-#include "baker/common/write_file.hpp"
-#include "baker/render/layout.hpp"
+#include "baker/common/command_line/within.hpp"
+#include "baker/common/files/write_file.hpp"
+#include "baker/render/picture/layout.hpp"
 #include "samples/hair/picture.hpp"
 #include "samples/hair/tiers.hpp"
 

@@ -1,6 +1,6 @@
 // picture.hpp  The bust and its hair as a lit mesh.
 #pragma once
-#include "baker/render/image.hpp"
+#include "baker/render/picture/image.hpp"
 #include "samples/hair/hair.hpp"
 #include "samples/hair/tiers.hpp"
 

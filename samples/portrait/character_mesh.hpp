@@ -1,6 +1,6 @@
 // character_mesh.hpp  An imported character in a pose, ready to be drawn.
 #pragma once
-#include "baker/import/character.hpp"
+#include "baker/import/character/character.hpp"
 #include "baker/render/mesh.hpp"
 
 namespace sinew::portrait {

@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "baker/common/program.hpp"
+#include "baker/common/command_line/program.hpp"
 #include "baker/import/import_gltf.hpp"
-#include "baker/render/encode.hpp"
+#include "baker/render/picture/encode.hpp"
 #include "samples/portrait/views.hpp"
 
 namespace {

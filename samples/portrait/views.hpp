@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "baker/render/layout.hpp"
+#include "baker/render/picture/layout.hpp"
 #include "baker/render/renderer.hpp"
 #include "samples/portrait/character_mesh.hpp"
 

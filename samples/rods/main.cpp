@@ -3,8 +3,8 @@
 #include <filesystem>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/common/within.hpp"
-#include "baker/common/write_file.hpp"
+#include "baker/common/command_line/within.hpp"
+#include "baker/common/files/write_file.hpp"
 #include "samples/rods/run_scene.hpp"
 #include "samples/rods/scenes.hpp"
 #include "samples/rods/sheet.hpp"

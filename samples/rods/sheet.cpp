@@ -1,7 +1,7 @@
 // sheet.cpp  see sheet.hpp.
 #include "samples/rods/sheet.hpp"
 
-#include "baker/render/layout.hpp"
+#include "baker/render/picture/layout.hpp"
 #include "baker/render/renderer.hpp"
 #include "samples/rods/tube.hpp"
 

@@ -1,6 +1,6 @@
 // sheet.hpp  A story's moments as one picture.
 #pragma once
-#include "baker/render/image.hpp"
+#include "baker/render/picture/image.hpp"
 #include "samples/rods/story.hpp"
 
 namespace sinew::sample {

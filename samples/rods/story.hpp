@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "baker/render/camera.hpp"
-#include "baker/render/color.hpp"
 #include "baker/render/mesh.hpp"
+#include "baker/render/picture/color.hpp"
 #include "rods/rod_batch.hpp"
 
 namespace sinew::sample {

@@ -1,6 +1,6 @@
 // recipe.cpp  A text is refused with one line, or read as the recipe of a character's tissue or of a
 // creature.
-#include "baker/mesh/recipe.hpp"
+#include "baker/mesh/recipe/recipe.hpp"
 
 #include "baker/creature/creature.hpp"
 #include "tests/fuzz/file_in_memory.hpp"

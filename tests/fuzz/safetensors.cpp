@@ -1,13 +1,13 @@
 // safetensors.cpp  A file of tensors is refused with one line, or read, converted and packed into a network
 // that a reader takes.
-#include "baker/common/safetensors.hpp"
+#include "baker/common/files/safetensors.hpp"
 
 #include <cstdlib>
 #include <cstring>
 #include <string>
 
-#include "baker/pack/dense_pack.hpp"
-#include "baker/pack/network_pack.hpp"
+#include "baker/pack/network/dense_pack.hpp"
+#include "baker/pack/network/network_pack.hpp"
 #include "core/aligned_block.hpp"
 #include "pack/reader.hpp"
 #include "tests/fuzz/file_in_memory.hpp"

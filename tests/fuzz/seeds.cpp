@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 
-#include "baker/common/safetensors.hpp"
-#include "baker/common/write_file.hpp"
+#include "baker/common/files/safetensors.hpp"
+#include "baker/common/files/write_file.hpp"
 #include "baker/creature/creature.hpp"
 #include "tests/baker/import/tiny_file.hpp"
 #include "tests/fuzz/snapshot_scenes.hpp"

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/pack/character_pack.hpp"
+#include "baker/pack/character/character_pack.hpp"
 #include "baker/pack/pack_writer.hpp"
 #include "tests/pack/pack_editor.hpp"
 #include "tests/pack/small_pack.hpp"

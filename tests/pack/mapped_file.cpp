@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 #include <utility>
 
-#include "baker/common/write_file.hpp"
+#include "baker/common/files/write_file.hpp"
 #include "tests/baker/common/temporary_folder.hpp"
 
 using namespace sinew;

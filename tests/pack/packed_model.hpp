@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <memory>
 
-#include "baker/pack/dense_pack.hpp"
+#include "baker/pack/network/dense_pack.hpp"
 #include "tests/pack/pack_editor.hpp"
 
 namespace sinew::test {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "baker/common/safetensors.hpp"
+#include "baker/common/files/safetensors.hpp"
 #include "rods/start/coping_net.hpp"
 #include "tests/simd/test_data.hpp"
 

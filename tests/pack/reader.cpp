@@ -7,9 +7,9 @@
 #include <functional>
 #include <limits>
 
-#include "baker/pack/character_pack.hpp"
-#include "baker/pack/dense_pack.hpp"
-#include "baker/pack/network_pack.hpp"
+#include "baker/pack/character/character_pack.hpp"
+#include "baker/pack/network/dense_pack.hpp"
+#include "baker/pack/network/network_pack.hpp"
 #include "pack/dense_layout.hpp"
 #include "tests/pack/count_allocations.hpp"
 #include "tests/pack/pack_editor.hpp"

@@ -3,10 +3,10 @@
 
 #include <random>
 
-#include "baker/mesh/leave_out.hpp"
-#include "baker/pack/character_pack.hpp"
-#include "baker/pack/dense_pack.hpp"
-#include "baker/pack/network_pack.hpp"
+#include "baker/mesh/graph/leave_out.hpp"
+#include "baker/pack/character/character_pack.hpp"
+#include "baker/pack/network/dense_pack.hpp"
+#include "baker/pack/network/network_pack.hpp"
 #include "tests/pack/random_coping_net.hpp"
 
 namespace sinew::test {

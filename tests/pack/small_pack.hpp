@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <vector>
 
-#include "baker/common/safetensors.hpp"
-#include "baker/import/character.hpp"
-#include "baker/mesh/tissue_layout.hpp"
-#include "baker/pack/int8_pack.hpp"
+#include "baker/common/files/safetensors.hpp"
+#include "baker/import/character/character.hpp"
+#include "baker/mesh/graph/tissue_layout.hpp"
+#include "baker/pack/network/int8_pack.hpp"
 #include "baker/truth/graph_level.hpp"
 #include "pack/format.hpp"
 

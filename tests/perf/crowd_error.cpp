@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "baker/common/read_file.hpp"
+#include "baker/common/files/read_file.hpp"
 #include "tests/perf/hop_of_crowd.hpp"
 
 using namespace sinew;

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "baker/programs/yardstick.hpp"
-#include "baker/trade/write_tiers.hpp"
+#include "baker/measure/yardstick.hpp"
+#include "baker/trade/report/write_tiers.hpp"
 
 namespace sinew::test {
 namespace {

@@ -9,7 +9,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "baker/common/safetensors.hpp"
+#include "baker/common/files/safetensors.hpp"
 #include "baker/truth/trajectory.hpp"
 #include "tests/baker/common/temporary_folder.hpp"
 #include "tests/baker/programs/run_program.hpp"

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "baker/mesh/tissue_layout.hpp"
+#include "baker/mesh/graph/tissue_layout.hpp"
 #include "tests/scenes/motions.hpp"
 
 namespace sinew::scenes {

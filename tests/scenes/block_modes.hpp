@@ -1,7 +1,7 @@
 // block_modes.hpp  The soft block's modes: a few shapes in closed form instead of an eigenproblem.
 #pragma once
-#include "baker/mesh/tissue_layout.hpp"
-#include "baker/truth/modal_basis.hpp"
+#include "baker/mesh/graph/tissue_layout.hpp"
+#include "baker/truth/modes/modal_basis.hpp"
 
 namespace sinew::scenes {
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <array>
 
-#include "baker/mesh/tissue_layout.hpp"
+#include "baker/mesh/graph/tissue_layout.hpp"
 #include "tests/scenes/motions.hpp"
 
 namespace sinew::scenes {

@@ -7,10 +7,10 @@
 #include <set>
 #include <stdexcept>
 
-#include "baker/import/character.hpp"
-#include "baker/mesh/leave_out.hpp"
-#include "baker/mesh/tissue_layout.hpp"
-#include "baker/pack/character_pack.hpp"
+#include "baker/import/character/character.hpp"
+#include "baker/mesh/graph/leave_out.hpp"
+#include "baker/mesh/graph/tissue_layout.hpp"
+#include "baker/pack/character/character_pack.hpp"
 #include "tests/scenes/block_modes.hpp"
 #include "tests/scenes/block_network.hpp"
 

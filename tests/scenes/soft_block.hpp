@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "baker/common/safetensors.hpp"
+#include "baker/common/files/safetensors.hpp"
 #include "core/aligned_block.hpp"
 #include "tests/scenes/block_arms.hpp"
 #include "tests/scenes/block_rods.hpp"

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "baker/pack/modes_pack.hpp"
+#include "baker/pack/character/modes_pack.hpp"
 #include "tissue/modes/retuned.hpp"
 
 using namespace sinew;

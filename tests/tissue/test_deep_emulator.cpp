@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "baker/pack/graph.hpp"
+#include "baker/pack/network/graph.hpp"
 #include "tests/pack/packed_model.hpp"
 #include "tests/simd/chain.hpp"
 #include "tests/simd/every_isa.hpp"

@@ -8,7 +8,7 @@
 #include <random>
 #include <utility>
 
-#include "baker/pack/modes_pack.hpp"
+#include "baker/pack/character/modes_pack.hpp"
 #include "tests/simd/test_data.hpp"
 #include "tissue/modes/retuned.hpp"
 

@@ -3,9 +3,9 @@
 #include <cstring>
 #include <filesystem>
 
-#include "baker/common/safetensors.hpp"
-#include "baker/pack/graph.hpp"
-#include "baker/pack/network_pack.hpp"
+#include "baker/common/files/safetensors.hpp"
+#include "baker/pack/network/graph.hpp"
+#include "baker/pack/network/network_pack.hpp"
 #include "pack/reader.hpp"
 #include "tests/simd/every_isa.hpp"
 #include "tests/simd/test_data.hpp"

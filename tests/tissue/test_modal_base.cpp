@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "baker/pack/modes_pack.hpp"
+#include "baker/pack/character/modes_pack.hpp"
 #include "tests/simd/every_isa.hpp"
 #include "tests/simd/test_data.hpp"
 #include "tests/tissue/node_poses.hpp"

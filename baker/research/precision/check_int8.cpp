@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "baker/pack/int8_layout.hpp"
+#include "baker/pack/network/int8_layout.hpp"
 #include "baker/research/precision/check_int8.hpp"
 #include "pack/checks/checks.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "baker/pack/int8_layout.hpp"
+#include "baker/pack/network/int8_layout.hpp"
 
 namespace sinew::baker {
 namespace {

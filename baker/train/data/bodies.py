@@ -14,7 +14,7 @@ ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", "..")
 KEYS = ("creature", "vertices", "proportions", "radii", "tissue_recipe", "tissue")
 SMALLEST, LARGEST = 0.1, 10.0  # factor of a proportion or radius
 FEWEST_VERTICES, MOST_VERTICES = 200, 50000  # of sinew-bake creature
-TISSUE_KEYS = (  # of a tissue recipe, see baker/mesh/recipe.hpp
+TISSUE_KEYS = (  # of a tissue recipe, see baker/mesh/recipe/recipe.hpp
     "young_soft_pa",
     "young_stiff_pa",
     "poisson_ratio",

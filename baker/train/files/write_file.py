@@ -1,4 +1,4 @@
-"""Files, written beside their place and renamed, as baker/common/write_file.cpp does."""
+"""Files, written beside their place and renamed, as baker/common/files/write_file.cpp does."""
 import contextlib
 import errno
 import fcntl

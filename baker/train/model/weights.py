@@ -1,4 +1,4 @@
-"""Weights files: names and metadata of baker/pack/network_pack.hpp and runtime/pack/format.hpp
+"""Weights files: names and metadata of baker/pack/network/network_pack.hpp and runtime/pack/format.hpp
 (NetworkRecord)."""
 import numpy as np
 import torch

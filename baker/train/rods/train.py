@@ -143,7 +143,7 @@ class RodTrainer:
 
 
 def trained_range(runs):
-    """Metadata for sinew-bake character (baker/pack/trained_rods.hpp): segments, and natural logarithms of compliances, least and most."""
+    """Metadata for sinew-bake character (baker/pack/network/trained_rods.hpp): segments, and natural logarithms of compliances, least and most."""
     segments = [run.told.shape[1] for run in runs]
     logs = np.concatenate([run.joints[:, 3:] for run in runs]) * LOG_SCALE
     return {

@@ -1,11 +1,11 @@
 // json_file.cpp  Faults in a recipe are named by file, line and column, wrong keys and values by their line.
-#include "baker/common/json_file.hpp"
+#include "baker/common/files/json_file.hpp"
 
 #include <catch2/catch.hpp>
 #include <fstream>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/common/json_section.hpp"
+#include "baker/common/files/json_section.hpp"
 #include "tests/baker/common/temporary_folder.hpp"
 
 using namespace sinew::baker;

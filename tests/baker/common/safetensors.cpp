@@ -1,5 +1,5 @@
 // safetensors.cpp  The container's reader refuses what is broken and gives back what was written.
-#include "baker/common/safetensors.hpp"
+#include "baker/common/files/safetensors.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <random>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/common/read_file.hpp"
-#include "baker/common/write_file.hpp"
+#include "baker/common/files/read_file.hpp"
+#include "baker/common/files/write_file.hpp"
 #include "tests/baker/common/temporary_folder.hpp"
 
 using namespace sinew::baker;

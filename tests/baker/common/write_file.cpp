@@ -1,5 +1,5 @@
 // write_file.cpp  Whole files or none.
-#include "baker/common/write_file.hpp"
+#include "baker/common/files/write_file.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/common/read_file.hpp"
+#include "baker/common/files/read_file.hpp"
 #include "tests/baker/common/temporary_folder.hpp"
 
 using namespace sinew::baker;

@@ -1,5 +1,5 @@
 // bind_pose.cpp  A character as it was bound, whatever frame its file was exported in.
-#include "baker/import/bind_pose.hpp"
+#include "baker/import/skeleton/bind_pose.hpp"
 
 #include <catch2/catch.hpp>
 

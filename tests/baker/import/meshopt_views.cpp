@@ -1,5 +1,5 @@
 // meshopt_views.cpp  Views that EXT_meshopt_compression packed are read as if they were not.
-#include "baker/import/meshopt_views.hpp"
+#include "baker/import/gltf/meshopt_views.hpp"
 
 #include <meshoptimizer.h>
 

@@ -1,5 +1,5 @@
 // node_constraints.cpp  Clips are played with the constraints that their nodes have.
-#include "baker/import/node_constraints.hpp"
+#include "baker/import/vrm/node_constraints.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

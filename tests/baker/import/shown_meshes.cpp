@@ -1,5 +1,5 @@
 // shown_meshes.cpp  Of levels of detail and hidden variants one is baked, and the note says which are not.
-#include "baker/import/shown_meshes.hpp"
+#include "baker/import/meshes/shown_meshes.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,5 +1,5 @@
 // tangents.cpp  Tangents that a file states are kept, others lie along the texture's u.
-#include "baker/import/tangents.hpp"
+#include "baker/import/meshes/tangents.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

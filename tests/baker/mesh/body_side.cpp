@@ -1,12 +1,12 @@
 // body_side.cpp  Flesh lies where anatomy and gravity put it, and its rim is wide.
-#include "baker/mesh/body_side.hpp"
+#include "baker/mesh/anatomy/body_side.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "baker/mesh/rim.hpp"
-#include "baker/mesh/tissue_layout.hpp"
+#include "baker/mesh/graph/tissue_layout.hpp"
+#include "baker/mesh/regions/rim.hpp"
 #include "column.hpp"
 #include "figure.hpp"
 

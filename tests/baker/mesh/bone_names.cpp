@@ -1,5 +1,5 @@
 // bone_names.cpp  Names of bones, as riggers' tools write them, and names that only look like soft parts.
-#include "baker/mesh/bone_names.hpp"
+#include "baker/mesh/anatomy/bone_names.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,10 +1,10 @@
 // bone_pieces.cpp  What hangs on one bone: certain by its name, doubtful without one.
-#include "baker/mesh/bone_pieces.hpp"
+#include "baker/mesh/parts/bone_pieces.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "baker/mesh/tissue_layout.hpp"
+#include "baker/mesh/graph/tissue_layout.hpp"
 #include "figure.hpp"
 
 using namespace sinew::baker;

@@ -1,5 +1,5 @@
 // box_tree.cpp  A tree finds the boxes that comparing with each of them finds.
-#include "baker/mesh/box_tree.hpp"
+#include "baker/mesh/surface/box_tree.hpp"
 
 #include <catch2/catch.hpp>
 #include <random>

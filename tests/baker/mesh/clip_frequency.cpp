@@ -1,5 +1,5 @@
 // clip_frequency.cpp  Flesh on a column that a clip shakes to and fro.
-#include "baker/mesh/clip_frequency.hpp"
+#include "baker/mesh/regions/clip_frequency.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,5 +1,5 @@
 // crossed_capsules.cpp  A rod does not hang on a capsule that its own animation takes it through.
-#include "baker/mesh/crossed_capsules.hpp"
+#include "baker/mesh/rods/crossed_capsules.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,12 +1,12 @@
 // hold_roots.cpp  Chains that begin where the skeleton begins are held by what is above them.
-#include "baker/mesh/hold_roots.hpp"
+#include "baker/mesh/rods/hold_roots.hpp"
 
 #include <catch2/catch.hpp>
 
-#include "baker/import/pose.hpp"
-#include "baker/mesh/joint_names.hpp"
-#include "baker/mesh/rods.hpp"
-#include "baker/mesh/tissue_layout.hpp"
+#include "baker/import/character/pose.hpp"
+#include "baker/mesh/anatomy/joint_names.hpp"
+#include "baker/mesh/graph/tissue_layout.hpp"
+#include "baker/mesh/rods/rods.hpp"
 #include "figure.hpp"
 
 using namespace sinew::baker;

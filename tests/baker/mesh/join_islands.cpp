@@ -1,5 +1,5 @@
 // join_islands.cpp  Cards of hair are joined where they are closest, as if every two vertices were compared.
-#include "baker/mesh/join_islands.hpp"
+#include "baker/mesh/surface/join_islands.hpp"
 
 #include <catch2/catch.hpp>
 #include <numeric>

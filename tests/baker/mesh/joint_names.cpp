@@ -1,5 +1,5 @@
 // joint_names.cpp  Bones of one name are told apart by their paths.
-#include "baker/mesh/joint_names.hpp"
+#include "baker/mesh/anatomy/joint_names.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,10 +1,10 @@
 // layers.cpp  What lies on flesh moves with it, and what only passes by does not.
-#include "baker/mesh/layers.hpp"
+#include "baker/mesh/regions/layers.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "baker/mesh/tissue_layout.hpp"
+#include "baker/mesh/graph/tissue_layout.hpp"
 #include "column.hpp"
 
 using namespace sinew::baker;

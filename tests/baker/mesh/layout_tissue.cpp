@@ -4,8 +4,8 @@
 #include <set>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/mesh/joint_names.hpp"
-#include "baker/mesh/tissue_layout.hpp"
+#include "baker/mesh/anatomy/joint_names.hpp"
+#include "baker/mesh/graph/tissue_layout.hpp"
 #include "column.hpp"
 
 using namespace sinew::baker;

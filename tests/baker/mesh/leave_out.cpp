@@ -1,5 +1,5 @@
 // leave_out.cpp  Control graphs without some of their regions.
-#include "baker/mesh/leave_out.hpp"
+#include "baker/mesh/graph/leave_out.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // named_parts.cpp  Characters of many kinds, of which names say what swings, and recipes that say otherwise.
-#include "baker/mesh/named_parts.hpp"
+#include "baker/mesh/parts/named_parts.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -8,9 +8,9 @@
 
 #include "baker/common/bad_input.hpp"
 #include "baker/import/import_gltf.hpp"
-#include "baker/mesh/bone_names.hpp"
-#include "baker/mesh/joint_names.hpp"
-#include "baker/mesh/tissue_layout.hpp"
+#include "baker/mesh/anatomy/bone_names.hpp"
+#include "baker/mesh/anatomy/joint_names.hpp"
+#include "baker/mesh/graph/tissue_layout.hpp"
 #include "column.hpp"
 #include "figure.hpp"
 

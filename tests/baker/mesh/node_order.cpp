@@ -1,5 +1,5 @@
 // node_order.cpp  Neighbours come to stand near each other, whatever order they came in.
-#include "baker/mesh/node_order.hpp"
+#include "baker/mesh/graph/node_order.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -4,8 +4,8 @@
 #include <set>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/mesh/closest_place.hpp"
-#include "baker/mesh/tissue_layout.hpp"
+#include "baker/mesh/graph/tissue_layout.hpp"
+#include "baker/mesh/surface/closest_place.hpp"
 #include "figure.hpp"
 
 using namespace sinew::baker;

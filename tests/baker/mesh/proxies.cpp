@@ -1,9 +1,9 @@
 // proxies.cpp  Capsules about bones: fitted, stated, left out.
-#include "baker/mesh/proxies.hpp"
+#include "baker/mesh/rods/proxies.hpp"
 
 #include <catch2/catch.hpp>
 
-#include "baker/mesh/fit_capsule.hpp"
+#include "baker/mesh/anatomy/fit_capsule.hpp"
 #include "column.hpp"
 
 using namespace sinew::baker;

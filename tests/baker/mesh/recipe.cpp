@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/mesh/recipe.hpp"
+#include "baker/mesh/recipe/recipe.hpp"
 
 using namespace sinew::baker;
 

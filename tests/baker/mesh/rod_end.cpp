@@ -1,5 +1,5 @@
 // rod_end.cpp  Where straps are sewn on, by the recipe and by the skin.
-#include "baker/mesh/rod_end.hpp"
+#include "baker/mesh/rods/rod_end.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // rods.cpp  Bones become segments as the recipe says, and every slip names the rod and the bone.
-#include "baker/mesh/rods.hpp"
+#include "baker/mesh/rods/rods.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -8,8 +8,8 @@
 
 #include "baker/common/bad_input.hpp"
 #include "baker/import/import_gltf.hpp"
-#include "baker/mesh/joint_names.hpp"
-#include "baker/mesh/tissue_layout.hpp"
+#include "baker/mesh/anatomy/joint_names.hpp"
+#include "baker/mesh/graph/tissue_layout.hpp"
 #include "column.hpp"
 #include "rods/section.hpp"
 

@@ -1,5 +1,5 @@
 // character_pack.cpp  A whole character goes into the file and comes out as it was.
-#include "baker/pack/character_pack.hpp"
+#include "baker/pack/character/character_pack.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,6 +1,6 @@
 // dense_pack.cpp  Weights of networks of chains are refused by the name of what is wrong, and laid out as the
 // format says.
-#include "baker/pack/dense_pack.hpp"
+#include "baker/pack/network/dense_pack.hpp"
 
 #include <catch2/catch.hpp>
 #include <limits>

@@ -1,5 +1,5 @@
 // graph.cpp  P = D^-1/2 (A + I) D^-1/2.
-#include "baker/pack/graph.hpp"
+#include "baker/pack/network/graph.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

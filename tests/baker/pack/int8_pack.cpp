@@ -1,13 +1,13 @@
 // int8_pack.cpp  Ranges that cannot scale a network are refused; those that can make the scales.
-#include "baker/pack/int8_pack.hpp"
+#include "baker/pack/network/int8_pack.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/pack/int8_layout.hpp"
-#include "baker/pack/network_pack.hpp"
+#include "baker/pack/network/int8_layout.hpp"
+#include "baker/pack/network/network_pack.hpp"
 #include "tests/pack/small_pack.hpp"
 
 using namespace sinew;

@@ -1,5 +1,5 @@
 // modes_pack.cpp  Modal bases go into the file as recurrences and matrices that say the same.
-#include "baker/pack/modes_pack.hpp"
+#include "baker/pack/character/modes_pack.hpp"
 
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/pack/character_pack.hpp"
+#include "baker/pack/character/character_pack.hpp"
 #include "tests/pack/pack_editor.hpp"
 #include "tests/pack/small_pack.hpp"
 

@@ -1,5 +1,5 @@
 // network_pack.cpp  Weights are refused by the name of what is wrong, and laid out as the format says.
-#include "baker/pack/network_pack.hpp"
+#include "baker/pack/network/network_pack.hpp"
 
 #include <catch2/catch.hpp>
 #include <limits>

@@ -1,9 +1,9 @@
 // primitives_pack.cpp  Primitives and tangents go into the file and come out as they were.
-#include "baker/pack/primitives_pack.hpp"
+#include "baker/pack/character/primitives_pack.hpp"
 
 #include <catch2/catch.hpp>
 
-#include "baker/pack/character_pack.hpp"
+#include "baker/pack/character/character_pack.hpp"
 #include "tests/pack/pack_editor.hpp"
 #include "tests/pack/small_pack.hpp"
 

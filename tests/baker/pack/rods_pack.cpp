@@ -1,11 +1,11 @@
 // rods_pack.cpp  Rods go into the file and come out as they were.
-#include "baker/pack/rods_pack.hpp"
+#include "baker/pack/character/rods_pack.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/pack/character_pack.hpp"
+#include "baker/pack/character/character_pack.hpp"
 #include "sinew/types.hpp"
 #include "tests/pack/pack_editor.hpp"
 #include "tests/pack/random_coping_net.hpp"

@@ -1,5 +1,5 @@
 // tier_pack.cpp  Baked costs and errors.
-#include "baker/pack/tier_pack.hpp"
+#include "baker/pack/character/tier_pack.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <cstring>
 #include <memory>
 
-#include "baker/pack/int8_pack.hpp"
+#include "baker/pack/network/int8_pack.hpp"
 #include "baker/research/precision/reduced_network.hpp"
 #include "tests/simd/every_isa.hpp"
 #include "tests/tissue/reference_network.hpp"

@@ -3,7 +3,7 @@
 #include <functional>
 #include <limits>
 
-#include "baker/pack/network_pack.hpp"
+#include "baker/pack/network/network_pack.hpp"
 #include "baker/research/precision/check_int8.hpp"
 #include "tests/pack/pack_editor.hpp"
 #include "tests/pack/small_pack.hpp"

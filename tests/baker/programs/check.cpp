@@ -2,9 +2,9 @@
 // what is beyond.
 #include <nlohmann/json.hpp>
 
-#include "baker/common/read_file.hpp"
-#include "baker/common/safetensors.hpp"
-#include "baker/common/write_file.hpp"
+#include "baker/common/files/read_file.hpp"
+#include "baker/common/files/safetensors.hpp"
+#include "baker/common/files/write_file.hpp"
 #include "kernels/isa.hpp"
 #include "tests/baker/common/temporary_folder.hpp"
 #include "tests/baker/programs/bake.hpp"

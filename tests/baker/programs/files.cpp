@@ -1,8 +1,8 @@
 // files.cpp  What the programs write is whole, shown by `info`, and absent after a refusal.
 #include <nlohmann/json.hpp>
 
-#include "baker/common/read_file.hpp"
-#include "baker/common/write_file.hpp"
+#include "baker/common/files/read_file.hpp"
+#include "baker/common/files/write_file.hpp"
 #include "tests/baker/common/temporary_folder.hpp"
 #include "tests/baker/programs/bake.hpp"
 #include "tests/pack/small_pack.hpp"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "baker/common/read_file.hpp"
+#include "baker/common/files/read_file.hpp"
 #include "core/hash.hpp"
 #include "tests/baker/common/temporary_folder.hpp"
 

@@ -1,7 +1,7 @@
 // judge.cpp  Characters judged against ground truth in closed loop.
 #include <nlohmann/json.hpp>
 
-#include "baker/common/safetensors.hpp"
+#include "baker/common/files/safetensors.hpp"
 #include "tests/baker/programs/creature_hop.hpp"
 
 using namespace sinew;

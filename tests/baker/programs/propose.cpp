@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "baker/common/read_file.hpp"
-#include "baker/common/write_file.hpp"
+#include "baker/common/files/read_file.hpp"
+#include "baker/common/files/write_file.hpp"
 #include "tests/baker/common/temporary_folder.hpp"
 #include "tests/baker/programs/bake.hpp"
 

@@ -9,11 +9,11 @@
 #include <numbers>
 #include <optional>
 
-#include "baker/common/read_file.hpp"
-#include "baker/common/write_file.hpp"
+#include "baker/common/files/read_file.hpp"
+#include "baker/common/files/write_file.hpp"
 #include "baker/import/import_gltf.hpp"
-#include "baker/mesh/closest_place.hpp"
-#include "baker/programs/loaded_pack.hpp"
+#include "baker/measure/loaded_pack.hpp"
+#include "baker/mesh/surface/closest_place.hpp"
 #include "sinew/sinew.hpp"
 #include "tests/baker/common/temporary_folder.hpp"
 #include "tests/baker/programs/bake.hpp"

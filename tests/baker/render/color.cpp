@@ -1,7 +1,7 @@
 // color.cpp  sRGB, the tone curve and the ramp.
 #include <catch2/catch.hpp>
 
-#include "baker/render/color.hpp"
+#include "baker/render/picture/color.hpp"
 
 using namespace sinew::render;
 

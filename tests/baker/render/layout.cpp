@@ -4,9 +4,9 @@
 #include <catch2/catch.hpp>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/render/encode.hpp"
-#include "baker/render/layout.hpp"
-#include "baker/render/text.hpp"
+#include "baker/render/picture/encode.hpp"
+#include "baker/render/picture/layout.hpp"
+#include "baker/render/picture/text.hpp"
 #include "tests/baker/common/temporary_folder.hpp"
 
 using namespace sinew::render;

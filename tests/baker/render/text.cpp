@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "baker/render/stroke_font.hpp"
-#include "baker/render/text.hpp"
+#include "baker/render/picture/stroke_font.hpp"
+#include "baker/render/picture/text.hpp"
 
 using namespace sinew::render;
 

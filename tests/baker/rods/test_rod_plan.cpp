@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/common/write_file.hpp"
+#include "baker/common/files/write_file.hpp"
 #include "baker/rods/rod_plan.hpp"
 #include "tests/baker/common/temporary_folder.hpp"
 

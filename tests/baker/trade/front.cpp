@@ -1,9 +1,9 @@
 // front.cpp  Which rows are worth having, and what of them is baked.
-#include "baker/trade/front.hpp"
+#include "baker/trade/rows/front.hpp"
 
 #include <catch2/catch.hpp>
 
-#include "baker/trade/write_tiers.hpp"
+#include "baker/trade/report/write_tiers.hpp"
 
 using namespace sinew;
 using namespace sinew::baker;

@@ -1,5 +1,5 @@
 // labels.cpp  Names in the picture of a front can be read.
-#include "baker/trade/labels.hpp"
+#include "baker/trade/report/labels.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -3,9 +3,9 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "baker/common/read_file.hpp"
-#include "baker/common/safetensors.hpp"
-#include "baker/programs/closed_loop.hpp"
+#include "baker/common/files/read_file.hpp"
+#include "baker/common/files/safetensors.hpp"
+#include "baker/measure/closed_loop.hpp"
 #include "character/output/read.hpp"
 #include "tests/baker/programs/creature_hop.hpp"
 

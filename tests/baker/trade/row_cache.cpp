@@ -1,11 +1,11 @@
 // row_cache.cpp  Rows that were measured before are taken up again, and never another machine's or source's.
-#include "baker/trade/row_cache.hpp"
+#include "baker/trade/rows/row_cache.hpp"
 
 #include <catch2/catch.hpp>
 #include <filesystem>
 
-#include "baker/common/write_file.hpp"
-#include "baker/trade/made_of.hpp"
+#include "baker/common/files/write_file.hpp"
+#include "baker/trade/source/made_of.hpp"
 #include "sinew/isa.hpp"
 #include "tests/baker/common/temporary_folder.hpp"
 #include "tests/pack/small_pack.hpp"

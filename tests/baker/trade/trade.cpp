@@ -3,12 +3,12 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "baker/common/read_file.hpp"
-#include "baker/common/safetensors.hpp"
-#include "baker/common/write_file.hpp"
-#include "baker/programs/loaded_pack.hpp"
-#include "baker/programs/true_surface.hpp"
-#include "baker/trade/truths.hpp"
+#include "baker/common/files/read_file.hpp"
+#include "baker/common/files/safetensors.hpp"
+#include "baker/common/files/write_file.hpp"
+#include "baker/measure/loaded_pack.hpp"
+#include "baker/measure/true_surface.hpp"
+#include "baker/trade/source/truths.hpp"
 #include "tests/baker/programs/creature_hop.hpp"
 #include "tests/pack/small_pack.hpp"
 

@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "baker/truth/fem.hpp"
+#include "baker/truth/fem/fem.hpp"
 #include "tests/baker/truth/bodies.hpp"
 
 using namespace sinew::baker;

@@ -5,8 +5,8 @@
 #include <map>
 #include <vector>
 
-#include "baker/import/character.hpp"
-#include "baker/truth/voxel_split.hpp"
+#include "baker/import/character/character.hpp"
+#include "baker/truth/cage/voxel_split.hpp"
 
 namespace sinew::test {
 

@@ -1,5 +1,5 @@
 // cage.cpp  Cages fill what the surface encloses, keep apart what is apart, and carry surface values exactly.
-#include "baker/truth/cage.hpp"
+#include "baker/truth/cage/cage.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -8,8 +8,8 @@
 #include <set>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/truth/cage_topology.hpp"
-#include "baker/truth/disjoint_sets.hpp"
+#include "baker/truth/cage/cage_topology.hpp"
+#include "baker/truth/numerics/disjoint_sets.hpp"
 #include "tests/baker/truth/bodies.hpp"
 
 using namespace sinew::baker;

@@ -1,5 +1,5 @@
 // cage_support.cpp  Parts that hang on a corner or an edge are hinged, parts that hang on a face are held.
-#include "baker/truth/cage_support.hpp"
+#include "baker/truth/cage/cage_support.hpp"
 
 #include <catch2/catch.hpp>
 

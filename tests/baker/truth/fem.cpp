@@ -1,5 +1,5 @@
 // fem.cpp  Steps: what is refused, energy, momentum, damping, and that shortcuts of the solver do not show.
-#include "baker/truth/fem.hpp"
+#include "baker/truth/fem/fem.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,13 +1,13 @@
 // fem_elements.cpp  Forces are the energy's gradient, stiffness is the forces' gradient, rotations cost
 // nothing.
-#include "baker/truth/fem_elements.hpp"
+#include "baker/truth/fem/fem_elements.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "baker/truth/fem_component.hpp"
+#include "baker/truth/fem/fem_component.hpp"
 #include "tests/baker/truth/bodies.hpp"
 
 using namespace sinew::baker;

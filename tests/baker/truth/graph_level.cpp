@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "baker/mesh/tissue_layout.hpp"
+#include "baker/mesh/graph/tissue_layout.hpp"
 #include "baker/truth/tissue_truth.hpp"
 #include "tests/baker/truth/bodies.hpp"
 

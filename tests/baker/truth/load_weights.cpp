@@ -1,5 +1,5 @@
 // load_weights.cpp  Felt accelerations carried from a few nodes to flesh around them.
-#include "baker/truth/load_weights.hpp"
+#include "baker/truth/modes/load_weights.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,5 +1,5 @@
 // modal_basis.cpp  A region's modes are those of its finite elements, seen at the control nodes.
-#include "baker/truth/modal_basis.hpp"
+#include "baker/truth/modes/modal_basis.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,12 +1,12 @@
 // modes.cpp  Factors and modes of sparse matrices against dense methods.
-#include "baker/truth/modes.hpp"
+#include "baker/truth/numerics/modes.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "baker/truth/sparse_cholesky.hpp"
+#include "baker/truth/numerics/sparse_cholesky.hpp"
 
 using namespace sinew::baker;
 

@@ -1,6 +1,6 @@
 // motion.cpp  Motions are at rest at time 0, smooth, no faster than their clips, and the same for the same
 // seed.
-#include "baker/truth/motion.hpp"
+#include "baker/truth/motion/motion.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "baker/import/import_gltf.hpp"
-#include "baker/truth/local_pose.hpp"
-#include "baker/truth/pick_clips.hpp"
+#include "baker/truth/motion/local_pose.hpp"
+#include "baker/truth/motion/pick_clips.hpp"
 
 using namespace sinew::baker;
 

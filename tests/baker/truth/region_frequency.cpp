@@ -1,12 +1,12 @@
 // region_frequency.cpp  Regions swing at the frequency that they are to have, whatever their size.
-#include "baker/truth/region_frequency.hpp"
+#include "baker/truth/modes/region_frequency.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <numbers>
 
 #include "baker/common/bad_input.hpp"
-#include "baker/truth/motion.hpp"
+#include "baker/truth/motion/motion.hpp"
 #include "baker/truth/tissue_truth.hpp"
 #include "tests/baker/truth/bodies.hpp"
 

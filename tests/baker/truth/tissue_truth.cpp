@@ -8,7 +8,7 @@
 
 #include "baker/common/bad_input.hpp"
 #include "baker/import/import_gltf.hpp"
-#include "baker/truth/local_pose.hpp"
+#include "baker/truth/motion/local_pose.hpp"
 #include "tests/baker/truth/bodies.hpp"
 
 using namespace sinew::baker;
