@@ -28,21 +28,21 @@ LoneInstance::LoneInstance(std::span<const std::byte> pack, const ContactDef& co
 }
 
 std::span<Matrix34> LoneInstance::joints() {
-  return {instance_.next_joints, asset_.pack.character->joint_count};
+  return {instance_.motion.next_joints, asset_.pack.character->joint_count};
 }
 
 void LoneInstance::step(const Plan& plan, uint32_t ticks) {
-  instance_.state->has_next = 1;
+  instance_.state->poses.has_next = 1;
   instance_.plan = {.ticks = {.ticks = ticks, .first_tick_s = asset_.tick_s},
                     .dt_s = asset_.tick_s,
                     .tier = plan.tier,
                     .level = frame::is_simulated(plan.tier) ? plan.level : instance_.state->level};
-  instance_.sleep_tolerance = sleep_tolerance;
+  instance_.parameters.sleep_tolerance = sleep_tolerance;
   world::step_instance(instance_, {.clock = {}, .profiler = {}, .frame_s = asset_.tick_s});
 }
 
 void LoneInstance::step_hidden() {
-  instance_.state->has_next = 1;
+  instance_.state->poses.has_next = 1;
   if (instance_.state->hidden == 0) world::hide(instance_);
   world::PlanRow row;
   row.state = instance_.state;

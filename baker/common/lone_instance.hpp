@@ -27,7 +27,7 @@ class LoneInstance {
 
   // The pose at the end of the coming step, to be written; without a change it is the last one.
   std::span<Matrix34> joints();
-  RootTransform& root() { return instance_.state->next_root; }
+  RootTransform& root() { return instance_.state->motion.next_root; }
 
   // A step of `ticks` ticks, 0 or 1, that lasts a tick. A guard may change the tier.
   void step(const Plan& plan, uint32_t ticks = 1);

@@ -29,12 +29,14 @@ class ClosedLoop {
   const world::Instance& instance() const { return lone_.instance(); }
   uint64_t step_ns() const { return step_ns_; }  // of the last tick, the thread's own time
   // [nodes][3], metres along each node's frame.
-  const float* displacement() const { return lone_.instance().u[0]; }
+  const float* displacement() const { return lone_.instance().tissue.u[0]; }
   const tissue::Network& network() const { return lone_.asset().network; }
-  float* network_state() { return lone_.instance().network_state; }
+  float* network_state() { return lone_.instance().tissue.network_memory; }
   // Nodes held at their limit, and times that the network was given up, so far.
-  uint32_t held() const { return lone_.instance().state->displacement_clamps; }
-  uint32_t fallbacks() const { return lone_.instance().state->fallbacks + lone_.instance().state->restarts; }
+  uint32_t held() const { return lone_.instance().state->tissue.displacement_clamps; }
+  uint32_t fallbacks() const {
+    return lone_.instance().state->tissue.fallbacks + lone_.instance().state->tissue.restarts;
+  }
 
  private:
   void step(Tier tier, uint32_t level, uint32_t ticks);

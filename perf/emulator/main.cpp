@@ -138,15 +138,15 @@ Played play(const baker::LoadedPack& pack, Tier tier, int ticks) {
     const world::Instance& instance = lone.instance();
     for (const pack::RegionRecord& region : instance.level->pack.regions)
       for (uint32_t n = region.first_node; n < region.first_node + region.node_count; ++n) {
-        const float* u = instance.u[0] + 3 * size_t{n};
+        const float* u = instance.tissue.u[0] + 3 * size_t{n};
         const double far = std::hypot(double{u[0]}, double{u[1]}, double{u[2]});
         played.finite &= std::isfinite(far);
         played.most_share = std::max(played.most_share, far / double{region.displacement_limit_m});
       }
   }
   played.tick_us = median(std::move(took));
-  played.restarts = lone.instance().state->restarts;
-  played.fallbacks = lone.instance().state->fallbacks;
+  played.restarts = lone.instance().state->tissue.restarts;
+  played.fallbacks = lone.instance().state->tissue.fallbacks;
   return played;
 }
 

@@ -39,16 +39,19 @@ class Subject {
 
   void pose_nodes() {
     const pack::PackView& pack = asset_.pack;
-    world::skin_matrices(pack.joints, instance_.joints, instance_.skin);
-    tissue::pose_nodes(pack.nodes, instance_.skin, instance_.state->root.rotation_xyzw, instance_.poses[0]);
+    world::skin_matrices(pack.joints, instance_.motion.joints, instance_.motion.skin);
+    tissue::pose_nodes(pack.nodes, instance_.motion.skin, instance_.state->motion.root.rotation_xyzw,
+                       instance_.motion.poses[0]);
   }
   void share_bend() {
     for (const pack::RegionRecord& region : asset_.pack.regions)
-      tissue::share_bend(region.anchor_node, region.node_count, instance_.poses[0] + region.first_node);
+      tissue::share_bend(region.anchor_node, region.node_count,
+                         instance_.motion.poses[0] + region.first_node);
   }
   void keep_poses() {
     const size_t bytes = sizeof(tissue::NodePose) * asset_.node_count();
-    for (int back = 2; back > 0; --back) std::memcpy(instance_.poses[back], instance_.poses[back - 1], bytes);
+    for (int back = 2; back > 0; --back)
+      std::memcpy(instance_.motion.poses[back], instance_.motion.poses[back - 1], bytes);
   }
   void drive() { world::drive_nodes(instance_); }
   void simulate(Tier tier) {
@@ -56,15 +59,16 @@ class Subject {
     world::simulate_tick(instance_);
   }
   void network() {
-    tissue::network_step(asset_.network, asset_.levels[0].graph, instance_.inputs, instance_.carry,
-                         instance_.network_state, instance_.network_scratch);
+    tissue::network_step(asset_.network, asset_.levels[0].graph, instance_.tissue.inputs,
+                         instance_.tissue.carry, instance_.tissue.network_memory,
+                         instance_.tissue.network_scratch);
   }
   void show() { world::show_tick(instance_); }
   // A node of each region a little elsewhere each time, for what has not changed is not carried again.
   void publish() {
     nudge_m_ = -nudge_m_;
     for (const pack::RegionRecord& region : asset_.pack.regions)
-      instance_.shown[0][size_t{3} * region.first_node] += nudge_m_;
+      instance_.transition.shown[0][size_t{3} * region.first_node] += nudge_m_;
     world::publish(instance_);
   }
 

@@ -13,13 +13,13 @@ namespace {
 TierReason reason_of(const Instance& instance, uint32_t asleep) noexcept {
   const InstanceState& state = *instance.state;
   if (state.hidden) return TierReason::kHidden;
-  if (instance.cut || instance.held) return TierReason::kCut;
+  if (instance.marks.cut || instance.marks.held) return TierReason::kCut;
   if (state.restarting || state.fallback_ticks > 0) return TierReason::kGuard;
   const GraphLevel& level = *instance.level;
   if (frame::is_simulated(state.tier) && asleep + level.regions_left_out() == level.pack.regions.size())
     return TierReason::kStill;
   const bool overdue = !frame::is_simulated(state.tier) && state.waited_s > frame::kLongestWait_s;
-  return overdue ? TierReason::kWaiting : instance.plan.why;
+  return overdue ? TierReason::kWaiting : instance.plan.decision.why;
 }
 
 }  // namespace
@@ -29,23 +29,23 @@ InstanceReport describe(const Instance& instance, InstanceId id) noexcept {
   const float blend = shown_share(instance);
   const bool simulated = frame::is_simulated(state.tier);
   const uint32_t asleep = simulated ? regions_asleep(instance) : 0;
-  const auto scale = static_cast<float>(state.root.scale);
+  const auto scale = static_cast<float>(state.motion.root.scale);
   return {.instance = id,
           .tier = simulated || blend > 0 ? state.tier : Tier::kSkinning,
           .why = reason_of(instance, asleep),
           .error = state.hidden ? 1 : error_of(*instance.asset, state.tier, state.level),
           .graph_level = state.level,
           .blend = blend,
-          .ticks_since_network = state.ticks_since_network,
-          .input_clamps = state.input_clamps,
-          .displacement_clamps = state.displacement_clamps,
-          .fallbacks = state.fallbacks,
-          .restarts = state.restarts,
+          .ticks_since_network = state.tissue.ticks_since_network,
+          .input_clamps = state.tissue.input_clamps,
+          .displacement_clamps = state.tissue.displacement_clamps,
+          .fallbacks = state.tissue.fallbacks,
+          .restarts = state.tissue.restarts,
           .regions_asleep = asleep,
           .regions_left_out = simulated ? instance.level->regions_left_out() : 0,
-          .teleports = state.root_teleports,
-          .part_teleports = state.part_teleports,
-          .rod_recoveries = state.rod_recoveries,
+          .teleports = state.teleports.root_teleports,
+          .part_teleports = state.teleports.part_teleports,
+          .rod_recoveries = state.rods.recoveries,
           .rods_asleep = simulated ? rods_asleep(instance) : 0,
           .rod_iterations = instance.told.rod_iterations,
           .rod_residual = instance.told.rod_residual,
@@ -57,7 +57,7 @@ InstanceReport describe(const Instance& instance, InstanceId id) noexcept {
           .contact_volume_m3 = instance.told.volume_m3 * scale * scale * scale,
           .deepest_penetration_m = instance.told.deepest_m * scale,
           .cost_us = core::microseconds(instance.times.total_ns),
-          .planned_us = state.hidden ? 0 : instance.plan.cost_us,
+          .planned_us = state.hidden ? 0 : instance.plan.decision.cost_us,
           .hidden = state.hidden != 0,
           .dormant = state.dormant != 0};
 }

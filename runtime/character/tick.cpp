@@ -34,8 +34,8 @@ namespace {
 
 void simulated_tick(Instance& instance, double time_s, const TickContext& context, uint32_t slot) noexcept {
   const ClockHook& clock = context.clock;
-  const bool goes_on = !instance.state->motion_stale && !instance.changed_level &&
-                       instance.plan.ticks.ticks == 1 && instance.made_up == 0;
+  const bool goes_on = !instance.state->poses.motion_stale && !instance.marks.changed_level &&
+                       instance.plan.ticks.ticks == 1 && instance.marks.made_up == 0;
   const uint64_t start_ns = core::now_ns(clock);
   Marker driving(context.profiler, "drive", slot);
   follow_motion(instance, time_s);
@@ -64,15 +64,15 @@ void simulated_tick(Instance& instance, double time_s, const TickContext& contex
 
 void simulate_missed(Instance& instance, const TickContext& context, uint32_t slot) noexcept {
   InstanceState& state = *instance.state;
-  for (uint32_t left = state.missed_ticks; left > 0 && frame::is_simulated(state.tier); --left) {
+  for (uint32_t left = state.transition.missed_ticks; left > 0 && frame::is_simulated(state.tier); --left) {
     simulated_tick(instance, instance.plan.ticks.first_tick_s - left * instance.asset->tick_s, context, slot);
-    instance.touch_count = 0;
+    instance.contacts.touch_count = 0;
   }
   if (frame::is_simulated(state.tier)) ride_on(instance);
 }
 
 void push_out(Instance& instance, const TickContext& context, uint32_t slot) noexcept {
-  if (!instance.pushes) return;
+  if (!instance.contacts.pushes) return;
   const uint64_t start_ns = core::now_ns(context.clock);
   const Marker tissue(context.profiler, "tissue", slot);
   push_surface(instance);
@@ -83,37 +83,39 @@ void run_ticks(Instance& instance, const TickContext& context, uint32_t slot) no
   InstanceState& state = *instance.state;
   const frame::TickPlan& ticks = instance.plan.ticks;
   if (ticks.dropped_s > 0) {
-    if (!state.motion_stale) carry_rods(instance);
-    state.motion_stale = 1;
+    if (!state.poses.motion_stale) carry_rods(instance);
+    state.poses.motion_stale = 1;
   }
-  if (frame::is_simulated(state.tier) && state.missed_ticks > 0) simulate_missed(instance, context, slot);
+  if (frame::is_simulated(state.tier) && state.transition.missed_ticks > 0)
+    simulate_missed(instance, context, slot);
   for (uint32_t k = 0; k < ticks.ticks; ++k) {
     state.fallback_ticks -= state.fallback_ticks > 0;
     instance.told = {};
-    const bool tuned = state.tuned && frame::is_simulated(state.tier);
+    const bool tuned = state.parameters.tuned && frame::is_simulated(state.tier);
     if (tuned) begin_tuned_tick(instance);
     if (frame::is_simulated(state.tier))
       simulated_tick(instance, ticks.first_tick_s + k * instance.asset->tick_s, context, slot);
     else
       miss_tick(instance);
-    state.ticks_since_network = state.tier == Tier::kNetwork ? 0 : state.ticks_since_network + 1;
+    state.tissue.ticks_since_network =
+        state.tier == Tier::kNetwork ? 0 : state.tissue.ticks_since_network + 1;
     show_tick(instance);
     push_out(instance, context, slot);
     if (tuned) end_tuned_tick(instance);
-    state.untouched = 0;
+    state.tissue.untouched = 0;
   }
   state.remainder_s = ticks.remainder_s;
-  state.render_fraction = frame::passed_share(ticks, instance.asset->tick_s);
+  state.poses.render_fraction = frame::passed_share(ticks, instance.asset->tick_s);
 }
 
 // ---- the deadline ----
 
 bool changes_level(const Instance& instance) noexcept {
-  return frame::is_simulated(instance.plan.tier) && instance.plan.ticks.ticks > 0 &&
-         instance.plan.level != instance.state->level;
+  return frame::is_simulated(instance.plan.decision.tier) && instance.plan.ticks.ticks > 0 &&
+         instance.plan.decision.level != instance.state->level;
 }
 bool refines(const Instance& instance) noexcept {
-  return changes_level(instance) && instance.plan.level < instance.state->level;
+  return changes_level(instance) && instance.plan.decision.level < instance.state->level;
 }
 
 bool ends_between(const Instance& instance) noexcept {
@@ -125,10 +127,10 @@ bool ends_between(const Instance& instance) noexcept {
 float most_us(const Instance& instance, const TickContext& context) noexcept {
   constexpr float kMuch = 0.04f;
   const frame::CostModel& cost = costs_of(instance).cost;
-  const frame::CostEstimate& tick = cost.of(instance.plan.tier, instance.plan.level);
+  const frame::CostEstimate& tick = cost.of(instance.plan.decision.tier, instance.plan.decision.level);
   const bool goes_on = catches_up(instance);
-  const uint32_t missed = goes_on ? instance.state->missed_ticks : 0u;
-  const float between = ends_between(instance) ? cost.between(instance.plan.tier).p95_us() : 0;
+  const uint32_t missed = goes_on ? instance.state->transition.missed_ticks : 0u;
+  const float between = ends_between(instance) ? cost.between(instance.plan.decision.tier).p95_us() : 0;
   const float ticks =
       (static_cast<float>(instance.plan.ticks.ticks + missed) + between) * instance.cost_factor;
   const bool enters = !frame::is_simulated(instance.state->tier) && !goes_on;
@@ -145,28 +147,28 @@ Tier below(Tier tier) noexcept { return tier == Tier::kNetwork ? Tier::kModal : 
 // Nothing of it is known that says it will be late.
 bool is_in_time(const Instance& instance, const TickContext& context, double left_us) noexcept {
   const InstancePlan& plan = instance.plan;
-  if (plan.ticks.ticks == 0 || !frame::is_simulated(plan.tier)) return true;
-  return costs_of(instance).cost.of(plan.tier, plan.level).is_known() &&
+  if (plan.ticks.ticks == 0 || !frame::is_simulated(plan.decision.tier)) return true;
+  return costs_of(instance).cost.of(plan.decision.tier, plan.decision.level).is_known() &&
          static_cast<double>(most_us(instance, context)) <= left_us;
 }
 
 // Decides between the plan and what there is time for.
 void meet_deadline(Instance& instance, const TickContext& context, uint64_t now_ns) noexcept {
   InstancePlan& plan = instance.plan;
-  instance.cut = instance.held = false;
+  instance.marks.cut = instance.marks.held = false;
   if (context.deadline_ns == UINT64_MAX) return;
   const double left_us = (static_cast<double>(context.deadline_ns) - static_cast<double>(now_ns)) * 1e-3 -
-                         static_cast<double>(plan.behind_us * context.behind_scale);
-  const Tier planned = plan.tier;
-  const uint32_t level = plan.level;
+                         static_cast<double>(plan.decision.behind_us * context.behind_scale);
+  const Tier planned = plan.decision.tier;
+  const uint32_t level = plan.decision.level;
   if (!is_in_time(instance, context, left_us))
-    plan.level = std::max(level, instance.state->level);  // no finer one now
-  while (!is_in_time(instance, context, left_us)) plan.tier = below(plan.tier);
-  instance.cut = plan.tier != planned || plan.level != level;
-  const bool simulates = frame::is_simulated(plan.tier), stays = !simulates || plan.ticks.ticks == 0;
+    plan.decision.level = std::max(level, instance.state->level);  // no finer one now
+  while (!is_in_time(instance, context, left_us)) plan.decision.tier = below(plan.decision.tier);
+  instance.marks.cut = plan.decision.tier != planned || plan.decision.level != level;
+  const bool simulates = frame::is_simulated(plan.decision.tier), stays = !simulates || plan.ticks.ticks == 0;
   const float shown_us =
       stays && simulates ? most_us(instance, context) : costs_of(instance).cost.publish.p95_us();
-  instance.held = stays && static_cast<double>(shown_us) > left_us && instance.displaced;
+  instance.marks.held = stays && static_cast<double>(shown_us) > left_us && instance.marks.displaced;
 }
 
 void age(Instance& instance, bool rose, double frame_s) noexcept {
@@ -185,17 +187,17 @@ uint32_t quality(Tier tier) noexcept {
 
 // To a better tier, or a finer level of the same.
 bool rises(const Instance& instance) noexcept {
-  const uint32_t planned = quality(instance.plan.tier), has = quality(instance.state->tier);
-  return planned > has || (planned == has && instance.plan.level < instance.state->level);
+  const uint32_t planned = quality(instance.plan.decision.tier), has = quality(instance.state->tier);
+  return planned > has || (planned == has && instance.plan.decision.level < instance.state->level);
 }
 
 // Skin or capsules, between two simulated tiers: who begins anew wakes in any case.
 bool changes_what_rods_touch(const Instance& instance, Tier had) noexcept {
   const InstancePlan& plan = instance.plan;
-  if (!instance.contacts.surface || !frame::is_simulated(had) || !frame::is_simulated(plan.tier))
+  if (!instance.contacts.def.surface || !frame::is_simulated(had) || !frame::is_simulated(plan.decision.tier))
     return false;
-  const uint32_t level = plan.ticks.ticks > 0 ? plan.level : instance.state->level;
-  return affords_surface(had, instance.state->level) != affords_surface(plan.tier, level);
+  const uint32_t level = plan.ticks.ticks > 0 ? plan.decision.level : instance.state->level;
+  return affords_surface(had, instance.state->level) != affords_surface(plan.decision.tier, level);
 }
 
 }  // namespace
@@ -207,23 +209,23 @@ void step_instance(Instance& instance, const TickContext& context, uint32_t slot
   const EventCounts counts = event_counts(instance);
   const bool waits = catch_up_first(instance);
   meet_deadline(instance, context, start_ns);
-  const Tier tier = instance.plan.tier;
+  const Tier tier = instance.plan.decision.tier;
   const bool rose = !waits && rises(instance);
   instance.times = {};
   wake(instance);
   const bool was_tuned = tunes_parts(instance);
-  instance.came_back = instance.state->hidden != 0;
-  if (instance.came_back) come_back(instance);
-  instance.restarted = instance.fell_back = false;
+  instance.marks.came_back = instance.state->hidden != 0;
+  if (instance.marks.came_back) come_back(instance);
+  instance.marks.restarted = instance.marks.fell_back = false;
   const bool goes_on = catches_up(instance);
-  instance.entered = frame::is_simulated(tier) && !goes_on &&
-                     (!frame::is_simulated(instance.state->tier) || instance.state->motion_stale);
-  const Tier had = goes_on ? instance.state->left_tier : instance.state->tier;
+  instance.marks.entered = frame::is_simulated(tier) && !goes_on &&
+                           (!frame::is_simulated(instance.state->tier) || instance.state->poses.motion_stale);
+  const Tier had = goes_on ? instance.state->transition.left_tier : instance.state->tier;
   if (changes_what_rods_touch(instance, had)) wake_rods(instance);
-  instance.changed_level = changes_level(instance);
-  instance.refined = refines(instance);
-  if (instance.changed_level) {
-    change_level(instance, instance.plan.level);
+  instance.marks.changed_level = changes_level(instance);
+  instance.marks.refined = refines(instance);
+  if (instance.marks.changed_level) {
+    change_level(instance, instance.plan.decision.level);
     if (tunes_parts(instance)) retune_all(instance);
   }
   end_gap(instance, goes_on);
@@ -237,13 +239,13 @@ void step_instance(Instance& instance, const TickContext& context, uint32_t slot
   fall_dormant(instance);
   if (was_tuned || tunes_parts(instance)) bound_pose(instance);  // how far parts may reach glides
   const uint64_t ticked_ns = core::now_ns(context.clock);
-  if (!instance.held) {
+  if (!instance.marks.held) {
     const Marker publishing(context.profiler, "publish", slot);
     publish(instance, context.clock);
   } else {
     publish_pose(instance);
   }
-  instance.events = events_since(counts, instance);
+  instance.marks.events = events_since(counts, instance);
   const uint64_t end_ns = core::now_ns(context.clock);
   instance.times.publish_ns = end_ns - ticked_ns;
   instance.times.total_ns = end_ns - start_ns;
@@ -253,18 +255,19 @@ void step_idle(Instance& instance, const TickContext& context) noexcept {
   InstanceState& state = *instance.state;
   const frame::TickPlan& ticks = instance.plan.ticks;
   instance.times = {};
-  instance.cut = instance.held = instance.restarted = instance.fell_back = instance.came_back = false;
+  instance.marks.cut = instance.marks.held = instance.marks.restarted = instance.marks.fell_back =
+      instance.marks.came_back = false;
   wake(instance);
   if (ticks.ticks > 0) {
     instance.told = {};
-    state.motion_stale = 1;
-    state.untouched = 0;
+    state.poses.motion_stale = 1;
+    state.tissue.untouched = 0;
   }
-  state.tier = instance.plan.tier;
+  state.tier = instance.plan.decision.tier;
   state.fallback_ticks -= std::min(state.fallback_ticks, ticks.ticks);
-  state.ticks_since_network += ticks.ticks;
+  state.tissue.ticks_since_network += ticks.ticks;
   state.remainder_s = ticks.remainder_s;
-  state.render_fraction = frame::passed_share(ticks, instance.asset->tick_s);
+  state.poses.render_fraction = frame::passed_share(ticks, instance.asset->tick_s);
   take_pose(instance, context.teleport);
   keep_pose(instance);
   age(instance, false, context.frame_s);

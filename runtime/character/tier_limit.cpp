@@ -12,8 +12,8 @@ void limit_tier(Instance& instance, Tier best) noexcept {
   if (state.tier_limit == best) return;
   state.tier_limit = best;
   wake(instance);
-  state.still_ticks = 0;  // dormant again only after ticks, in the first of which it gets its tier
-  publish(instance);      // between ticks, what stands still is shown otherwise
+  state.poses.still_ticks = 0;  // dormant again only after ticks, in the first of which it gets its tier
+  publish(instance);            // between ticks, what stands still is shown otherwise
 }
 
 float waited_after(const InstanceState& state, float dt_s) noexcept {

@@ -151,9 +151,9 @@ Status World::unload_asset(AssetId id) noexcept {
 
 // What an instance has of its world.
 static void join_world(const WorldState& state, Instance& instance) noexcept {
-  instance.sleep_tolerance = state.def.sleep_tolerance;
-  instance.most_m_s2 = state.def.teleport.acceleration * instance.asset->pack.character->height_m;
-  instance.environment = &state.environment;
+  instance.parameters.sleep_tolerance = state.def.sleep_tolerance;
+  instance.parameters.most_m_s2 = state.def.teleport.acceleration * instance.asset->pack.character->height_m;
+  instance.parameters.environment = &state.environment;
   world::notice_environment(instance);
 }
 
@@ -194,10 +194,10 @@ Status World::replace_asset(AssetId id, AssetId by_id) noexcept {
     Instance* instance = impl_->instances.at(slot);
     if (!instance || instance->asset != asset) continue;
     --asset->live_instances;
-    asset->surface_instances -= instance->contacts.surface != nullptr;
+    asset->surface_instances -= instance->contacts.def.surface != nullptr;
     *instance = std::move(*next++);
     ++by->live_instances;
-    by->surface_instances += instance->contacts.surface != nullptr;
+    by->surface_instances += instance->contacts.def.surface != nullptr;
     world::keep_row(*impl_, slot);
   }
   return {};
@@ -221,7 +221,7 @@ Status World::create_instance(const InstanceDef& def, InstanceId* out) noexcept 
   Instance made;
   if (Status status = world::make_instance(*asset, checked, &made); !status.ok()) return status;
   join_world(*impl_, made);
-  const bool has_surface = made.contacts.surface != nullptr;
+  const bool has_surface = made.contacts.def.surface != nullptr;
   const InstanceId id = impl_->instances.create(std::move(made));
   if (is_null(id))
     return make_status(StatusCode::kOutOfCapacity, "create_instance: every slot's generations are used up");
@@ -238,7 +238,7 @@ Status World::destroy_instance(InstanceId id) noexcept {
   if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
   if (busy(*impl_)) return refuse_busy();
   --instance->asset->live_instances;
-  instance->asset->surface_instances -= instance->contacts.surface != nullptr;
+  instance->asset->surface_instances -= instance->contacts.def.surface != nullptr;
   impl_->instances.destroy(id);
   keep_row(*impl_, id);
   return {};
@@ -266,19 +266,19 @@ Status World::set_pose(InstanceId id, const Pose& pose) noexcept {
   }
   root = world::in_own_metres(root, root.scale);
   space = world::in_own_metres(space, root.scale);
-  const bool rides_alike = pose.space.id == instance->state->space_id &&
-                           (pose.space.id == 0 || world::same_root(space, instance->state->space));
-  instance->state->skips_pose = 0;
+  const bool rides_alike = pose.space.id == instance->state->motion.space_id &&
+                           (pose.space.id == 0 || world::same_root(space, instance->state->motion.space));
+  instance->state->poses.skips_pose = 0;
   impl_->rows[id.index1 - 1].skips_pose = false;
   const bool sleeps_on =
       instance->state->dormant && rides_alike && world::has_pose(*instance, pose.joints, root);
-  std::copy(pose.joints.begin(), pose.joints.end(), instance->next_joints);
-  instance->state->next_root = root;
-  instance->state->has_next = 1;
-  instance->state->next_space = space;
-  instance->state->next_space_id = pose.space.id;
+  std::copy(pose.joints.begin(), pose.joints.end(), instance->motion.next_joints);
+  instance->state->motion.next_root = root;
+  instance->state->poses.has_next = 1;
+  instance->state->motion.next_space = space;
+  instance->state->motion.next_space_id = pose.space.id;
   if (sleeps_on) return {};
-  instance->state->teleport_told = pose.teleport;
+  instance->state->teleports.told = pose.teleport;
   world::wake(*instance);
   world::bound_pose(*instance);
   world::keep_pose_row(*impl_, id.index1 - 1);
@@ -290,8 +290,8 @@ Status World::skip_pose(InstanceId id) noexcept {
   if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
   if (busy(*impl_)) return refuse_busy();
   world::InstanceState& state = *instance->state;
-  state.skips_pose = !state.has_next && !state.at_start;
-  impl_->rows[id.index1 - 1].skips_pose = state.skips_pose != 0;
+  state.poses.skips_pose = !state.poses.has_next && !state.poses.at_start;
+  impl_->rows[id.index1 - 1].skips_pose = state.poses.skips_pose != 0;
   return {};
 }
 
@@ -313,7 +313,7 @@ Status World::set_time_scale(InstanceId id, float scale) noexcept {
   if (busy(*impl_)) return refuse_busy();
   constexpr float kFastest = 4;
   if (Status status = check_share("set_time_scale: scale", scale, kFastest); !status.ok()) return status;
-  instance->state->time_scale = scale;
+  instance->state->poses.time_scale = scale;
   keep_row(*impl_, id);
   return {};
 }
@@ -324,7 +324,7 @@ Status World::set_felt_root_motion(InstanceId id, float share) noexcept {
   if (Status status = find_state(impl_, id, &instance); !status.ok()) return status;
   if (busy(*impl_)) return refuse_busy();
   if (Status status = check_share("set_felt_root_motion: share", share, 1); !status.ok()) return status;
-  instance->state->felt_root = share;
+  instance->state->motion.felt_root = share;
   return {};
 }
 
@@ -340,7 +340,7 @@ struct Owner {
 
 Status find_parameters(const Instance& instance, const Owner& owner, world::SetParameters** out) noexcept {
   if (owner.whose == Whose::kAll) {
-    *out = &instance.state->all_parameters;
+    *out = &instance.state->parameters.all;
     return {};
   }
   const bool rod = owner.whose == Whose::kRod;
@@ -348,7 +348,7 @@ Status find_parameters(const Instance& instance, const Owner& owner, world::SetP
   if (owner.index >= count)
     return make_status(StatusCode::kInvalidArgument, "%s: %s %u, the asset has %zu", owner.function,
                        rod ? "rod" : "region", owner.index, count);
-  *out = &(rod ? instance.rod_tunings : instance.region_tunings)[owner.index].set;
+  *out = &(rod ? instance.parameters.rod_tunings : instance.parameters.region_tunings)[owner.index].set;
   return {};
 }
 
@@ -433,7 +433,7 @@ Status World::set_added_environment(InstanceId id, const AddedEnvironment& added
   if (Status status = find_state(impl_, id, &instance); !status.ok()) return status;
   if (busy(*impl_)) return refuse_busy();
   if (Status status = world::check_added(added); !status.ok()) return status;
-  instance->state->air.added = added;
+  instance->state->parameters.air.added = added;
   world::notice_environment(*instance);
   keep_row(*impl_, id);
   return {};
@@ -443,7 +443,7 @@ Status World::added_environment(InstanceId id, AddedEnvironment* out) const noex
   Instance* instance = nullptr;
   if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
   if (!out) return invalid("added_environment: out is a null pointer");
-  *out = instance->state->air.added;
+  *out = instance->state->parameters.air.added;
   return {};
 }
 

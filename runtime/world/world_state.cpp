@@ -43,7 +43,7 @@ void keep_row(WorldState& world, uint32_t slot) noexcept {
   }
   world.rows[slot].asset = instance->asset;
   world.rows[slot].state = instance->state;
-  world.rows[slot].has_surface = instance->contacts.surface != nullptr;
+  world.rows[slot].has_surface = instance->contacts.def.surface != nullptr;
   copy_to_row(*instance, &world.rows[slot]);
   if (world.rows[slot].modal_at_best) costs_of(*instance).limited = true;
   world.bounds[slot] = instance->bound;

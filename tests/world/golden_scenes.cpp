@@ -232,7 +232,7 @@ constexpr GoldenScene kScenes[] = {
      [](GoldenRecorder& to) {
        Scene scene(to);
        scene.frames(50);
-       poison(scene, [](const world::Instance& twin) { return twin.q[0] + 2; });
+       poison(scene, [](const world::Instance& twin) { return twin.tissue.q[0] + 2; });
        scene.frames(100);
        REQUIRE(scene.report().restarts == 1);
      }},

@@ -35,7 +35,7 @@ void poison(Stage& stage, const Where& where, const scenes::PackBytes& pack = bl
 inline auto in_network(double share) {
   return [share](const world::Instance& twin) {
     const size_t floats = tissue::state_floats(twin.asset->network, twin.asset->node_count());
-    return twin.network_state + static_cast<size_t>(share * static_cast<double>(floats)) / 16 * 16;
+    return twin.tissue.network_memory + static_cast<size_t>(share * static_cast<double>(floats)) / 16 * 16;
   };
 }
 

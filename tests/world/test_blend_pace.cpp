@@ -65,7 +65,7 @@ TEST_CASE("a_network_without_a_memory_begins_to_correct_gently") {
     begins.tick(shaken, {.tier = Tier::kNetwork});
     stays.tick(shaken, {.tier = Tier::kModal});
     if (!gently) {  // a second one, with all of its corrections
-      begins.instance().state->network_begins = 0;
+      begins.instance().state->tissue.network_begins = 0;
       begins.tick(shaken, {.tier = Tier::kNetwork});
       stays.tick(shaken, {.tier = Tier::kModal});
     }
@@ -86,15 +86,15 @@ TEST_CASE("modes_that_take_over_from_a_network_go_on_a_twentieth_slower") {
   const world::Instance &a = moves.instance(), &b = stands.instance();
   std::vector<double> before;
   for (size_t m = 0; m < modes.size(); ++m) {
-    before.push_back(double{modes[m].a2} * (double{a.q[1][m]} - double{a.q[0][m]}));
-    b.q[1][m] = b.q[0][m];
+    before.push_back(double{modes[m].a2} * (double{a.tissue.q[1][m]} - double{a.tissue.q[0][m]}));
+    b.tissue.q[1][m] = b.tissue.q[0][m];
   }
   for (Block* block : {&moves, &stands}) block->tick(sways, {.tier = Tier::kModal});
   double most = 0, kept = 0;
   for (size_t m = 0; m < modes.size(); ++m) {
     if (std::fabs(before[m]) <= most) continue;
     most = std::fabs(before[m]);
-    kept = (double{a.q[0][m]} - double{b.q[0][m]}) / before[m];
+    kept = (double{a.tissue.q[0][m]} - double{b.tissue.q[0][m]}) / before[m];
   }
   REQUIRE(most > 0);
   INFO(kept << " of the way of a mode in a tick");
@@ -113,14 +113,14 @@ TEST_CASE("modes_that_make_up_for_a_network_take_back_most_of_what_it_corrected"
     block.play(sways, {.tier = Tier::kExtrapolate}, 2);
     modes.play(sways, {.tier = Tier::kModal}, 2);
     if (!taken_back)
-      for (float* corrected : block.instance().corrected)
+      for (float* corrected : block.instance().tissue.corrected)
         std::fill_n(corrected, block.asset().mode_count(), 0.0f);
     block.tick(sways, {.tier = Tier::kModal});
     modes.tick(sways, {.tier = Tier::kModal});
     double most = 0;
     const world::Instance &a = block.instance(), &b = modes.instance();
     for (uint32_t m = 0; m < block.asset().mode_count(); ++m)
-      most = std::max(most, std::fabs(double{a.q[0][m]} - double{b.q[0][m]}));
+      most = std::max(most, std::fabs(double{a.tissue.q[0][m]} - double{b.tissue.q[0][m]}));
     return most;
   };
   const double with = apart(true), without = apart(false);

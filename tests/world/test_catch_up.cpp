@@ -326,7 +326,7 @@ TEST_CASE("what_touched_in_missed_ticks_is_not_pushed_nor_told_with_the_present_
     REQUIRE(usual > 0);
     block.play(stands, Tier::kExtrapolate, 0, missed);
     block.play(stands, Tier::kModal, 0, 1);
-    REQUIRE(block.instance().made_up == missed);
+    REQUIRE(block.instance().marks.made_up == missed);
     CHECK(block.instance().told.vertices == usual);
   }
 }

@@ -110,7 +110,7 @@ double rest_off(uint32_t from, int at) {
   for (Block* block : {&always, &changes}) block->tick(bounce, Tier::kModal, 0);
   double off = 0, whole = 0;
   for (const int tick : {0, 1}) {
-    const float *r = changes.instance().r[tick], *wanted = always.instance().r[tick];
+    const float *r = changes.instance().tissue.r[tick], *wanted = always.instance().r[tick];
     for (size_t i = 0; i < size_t{3} * always.instance().level->node_count(); ++i) {
       off += std::pow(double{r[i]} - double{wanted[i]}, 2);
       whole += std::pow(double{wanted[i]}, 2);
@@ -230,18 +230,18 @@ TEST_CASE("what_a_coarser_level_picks_a_finer_one_has_back_at_those_nodes") {
   Block block;
   block.play(scenes::walk, Tier::kModal, 0, 80);
   world::Instance& instance = block.instance();
-  const std::vector<float> q(instance.q[0], instance.q[0] + instance.level->mode_count());
+  const std::vector<float> q(instance.tissue.q[0], instance.tissue.q[0] + instance.level->mode_count());
   world::change_level(instance, 2);
   const size_t floats = size_t{3} * instance.level->node_count();
-  const std::vector<float> coarse(instance.l[0], instance.l[0] + floats);
+  const std::vector<float> coarse(instance.tissue.l[0], instance.tissue.l[0] + floats);
   world::change_level(instance, 0);
-  CHECK(std::vector<float>(instance.q[0], instance.q[0] + q.size()) == q);
+  CHECK(std::vector<float>(instance.tissue.q[0], instance.tissue.q[0] + q.size()) == q);
   const pack::PackView& middle = instance.asset->levels[1].pack;
   const pack::PackView& coarsest = instance.asset->levels[2].pack;
   double apart = 0, largest = 0;
   for (size_t n = 0; n < floats / 3; ++n)
     for (size_t k = 0; k < 3; ++k) {
-      const float back = instance.l[0][3 * middle.picks[coarsest.picks[n]] + k];
+      const float back = instance.tissue.l[0][3 * middle.picks[coarsest.picks[n]] + k];
       apart = std::max<double>(apart, std::abs(back - coarse[3 * n + k]));
       largest = std::max<double>(largest, std::abs(back));
     }
@@ -336,8 +336,8 @@ TEST_CASE("rods_do_not_notice_a_change_of_level") {
   }
   const size_t floats = size_t{4} * stays.instance().asset->rods.slot_count;
   REQUIRE(floats > 0);
-  CHECK(
-      std::equal(stays.instance().rod_turn, stays.instance().rod_turn + floats, changes.instance().rod_turn));
+  CHECK(std::equal(stays.instance().rods.turn, stays.instance().rods.turn + floats,
+                   changes.instance().rods.turn));
 }
 
 // Pressed 2 cm into a wall, through changes to every level: what is left inside is what vertices' pushes
@@ -371,7 +371,7 @@ TEST_CASE("what_a_change_of_level_takes_is_learnt_and_not_taken_for_publishing")
   world::Instance& block = *state.instances.find(state.instances.create(std::move(made)));
   block.plan = {.ticks = {.ticks = 1}, .tier = Tier::kModal};
   block.state->tier = Tier::kModal;
-  block.displaced = block.changed_level = block.refined = true;
+  block.marks.displaced = block.marks.changed_level = block.marks.refined = true;
   world::keep_row(state, 0);
   const float publish_us = asset.costs.cost.publish.estimate_us(),
               tick_us = asset.costs.cost.of(Tier::kModal, 0).estimate_us();

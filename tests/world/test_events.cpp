@@ -49,7 +49,7 @@ TEST_CASE("guards_that_fire_are_told") {
   std::vector<Event> events = events_of(stage);
   REQUIRE(!events.empty());
   CHECK(events.back().kind == EventKind::kNetworkGivenUp);
-  test::poison(stage, [](const world::Instance& twin) { return twin.q[0]; });
+  test::poison(stage, [](const world::Instance& twin) { return twin.tissue.q[0]; });
   stage.step(scenes::walk, 1.0 / 60);
   events = events_of(stage);
   REQUIRE(!events.empty());

@@ -18,12 +18,13 @@ struct Place {
   const char* name;
   float* (*of)(const world::Instance& twin);
 };
-constexpr Place kBasePlaces[] = {{"u", [](const world::Instance& t) { return t.u[0] + 20; }},
-                                 {"u before", [](const world::Instance& t) { return t.u[1] + 20; }},
-                                 {"q", [](const world::Instance& t) { return t.q[0] + 2; }},
-                                 {"q before", [](const world::Instance& t) { return t.q[1] + 3; }},
-                                 {"a frame", [](const world::Instance& t) { return t.poses[0][3].rotation; }},
-                                 {"a place", [](const world::Instance& t) { return t.poses[1][9].place_m; }}};
+constexpr Place kBasePlaces[] = {
+    {"u", [](const world::Instance& t) { return t.tissue.u[0] + 20; }},
+    {"u before", [](const world::Instance& t) { return t.tissue.u[1] + 20; }},
+    {"q", [](const world::Instance& t) { return t.tissue.q[0] + 2; }},
+    {"q before", [](const world::Instance& t) { return t.tissue.q[1] + 3; }},
+    {"a frame", [](const world::Instance& t) { return t.motion.poses[0][3].rotation; }},
+    {"a place", [](const world::Instance& t) { return t.motion.poses[1][9].place_m; }}};
 
 // Largest change of any vertex from one frame to the next, while something happens every 101 frames.
 template <class Event>

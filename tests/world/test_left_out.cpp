@@ -38,7 +38,7 @@ float largest(const std::vector<float>& values) {
 
 // Of any node, seen or not yet.
 double simulated_m(Block& block) {
-  const float* u = block.instance().u[0];
+  const float* u = block.instance().tissue.u[0];
   return test::largest_length({u, u + size_t{3} * block.instance().level->node_count()});
 }
 

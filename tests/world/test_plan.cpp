@@ -50,5 +50,5 @@ TEST_CASE("what_idle_characters_take_behind_all_others_is_left_for_as_one_step_i
   world::plan_step(floor.world, floor.asset->tick_s);
   REQUIRE(floor.world.running.size() == 1);
   REQUIRE(floor.world.idle_count == kIdle);
-  CHECK(floor.world.answers[0].behind_us == Approx(kIdle * floor.world.idle.p95_us()));
+  CHECK(floor.world.answers[0].decision.behind_us == Approx(kIdle * floor.world.idle.p95_us()));
 }

@@ -31,7 +31,7 @@ struct BentBlock {
     REQUIRE(world::open_asset(test::block_pack().bytes(), &asset).ok());
     REQUIRE(world::make_instance(asset, {}, &instance).ok());
     const scenes::BlockPose pose = scenes::bent_pose(2);
-    std::copy_n(pose.joints.data(), 2, instance.joints);
+    std::copy_n(pose.joints.data(), 2, instance.motion.joints);
     world::take_pose(instance, {});
     world::follow_motion(instance, 0);
     instance.state->tier = Tier::kModal;
@@ -48,8 +48,8 @@ TEST_CASE("published_displacement_lies_along_the_flesh") {
   const Vector3f offset_m(0.03f, -0.02f, 0.05f);
   float largest_bend_rad = 0;
   for (size_t n = 0; n < block.asset.node_count(); ++n) {
-    const tissue::NodePose& pose = instance.poses[0][n];
-    Eigen::Map<Vector3f>(instance.u[0] + 3 * n) =
+    const tissue::NodePose& pose = instance.motion.poses[0][n];
+    Eigen::Map<Vector3f>(instance.tissue.u[0] + 3 * n) =
         Eigen::Map<const Rows33>(pose.rotation).transpose() * offset_m;
     largest_bend_rad = std::max(largest_bend_rad, Eigen::Map<const Vector3f>(pose.bend).norm());
   }
@@ -58,9 +58,9 @@ TEST_CASE("published_displacement_lies_along_the_flesh") {
   world::publish(instance);
   std::vector<tissue::NodePose> flesh(block.asset.node_count());
   const float upright[4] = {0, 0, 0, 1};
-  tissue::pose_nodes(block.asset.pack.nodes, instance.skin, upright, flesh.data());
+  tissue::pose_nodes(block.asset.pack.nodes, instance.motion.skin, upright, flesh.data());
   for (size_t n = 0; n < flesh.size(); ++n) {
-    const Vector3f delta(instance.delta + 3 * n);
+    const Vector3f delta(instance.published.delta + 3 * n);
     CHECK((Eigen::Map<const Rows33>(flesh[n].rotation) * delta - offset_m).norm() < kRounding_m);
   }
 }

@@ -369,7 +369,7 @@ TEST_CASE("who_sleeps_on_skin_is_priced_so_and_who_is_on_capsules_is_not") {
     world::Instance& block = *state.instances.find(state.instances.create(std::move(made)));
     block.plan = {.ticks = {.ticks = 1}, .tier = Tier::kModal, .level = level};
     block.state->tier = Tier::kModal;
-    block.state->rod_quiet_ticks = world::kRodsQuietTicks;
+    block.state->rods.quiet_ticks = world::kRodsQuietTicks;
     world::change_level(block, level);
     world::keep_row(state, 0);
     const float tick_us = asset.surface_costs.cost.of(Tier::kModal, level).estimate_us();
@@ -377,7 +377,7 @@ TEST_CASE("who_sleeps_on_skin_is_priced_so_and_who_is_on_capsules_is_not") {
     FrameReport report;
     world::fold_results(state, report);
     CHECK((block.cost_factor < 1) == (level == 0));
-    block.state->tier = block.plan.tier = Tier::kExtrapolate;
+    block.state->tier = block.plan.decision.tier = Tier::kExtrapolate;
     world::keep_row(state, 0);
     world::fold_results(state, report);
     CHECK(block.cost_factor == 1);

@@ -91,17 +91,20 @@ TEST_CASE("restore_refuses_a_tier_a_control_graph_and_a_time_that_there_is_not")
     return bytes;
   };
   check_refused(stage, changed([](world::InstanceState& s) { s.tier = static_cast<Tier>(kTierCount); }));
-  check_refused(stage, changed([](world::InstanceState& s) { s.left_tier = static_cast<Tier>(kTierCount); }));
+  check_refused(stage, changed([](world::InstanceState& s) {
+                  s.transition.left_tier = static_cast<Tier>(kTierCount);
+                }));
   check_refused(stage, changed([](world::InstanceState& s) { s.tier_limit = Tier::kExtrapolate; }));
   check_refused(stage, changed([](world::InstanceState& s) { s.tier = static_cast<Tier>(3); }));  // springs
   check_refused(stage, changed([](world::InstanceState& s) { s.level = 1; }));
-  check_refused(stage,
-                changed([](world::InstanceState& s) { s.seam_ticks = 0; }));  // amid a change of graphs
+  check_refused(stage, changed([](world::InstanceState& s) {
+                  s.transition.seam_ticks = 0;
+                }));  // amid a change of graphs
   constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
   check_refused(stage, changed([](world::InstanceState& s) { s.remainder_s = kNotANumber; }));
-  check_refused(stage, changed([](world::InstanceState& s) { s.without_pose_s = kNotANumber; }));
-  check_refused(stage,
-                changed([](world::InstanceState& s) { s.time_scale = static_cast<float>(kNotANumber); }));
+  check_refused(stage, changed([](world::InstanceState& s) { s.poses.without_pose_s = kNotANumber; }));
+  check_refused(
+      stage, changed([](world::InstanceState& s) { s.poses.time_scale = static_cast<float>(kNotANumber); }));
   const std::vector<std::byte> right = changed([](world::InstanceState& s) { s.held_s = 2; });
   CHECK(stage.world.restore_state(stage.blocks[0], right).ok());
 }

@@ -125,10 +125,10 @@ TEST_CASE("what_a_wall_pushes_the_network_remembers") {
     free.tick(stands, {.tier = Tier::kNetwork});
     world::Instance& block = touching.instance();
     tissue::read_output(block.asset->network, block.level->pack.regions, static_cast<uint32_t>(nodes),
-                        block.network_state, remembered.data());
-    const std::vector<float> pressed(block.l[0], block.l[0] + remembered.size());
-    REQUIRE(test::largest_distance(pressed, {free.instance().l[0], free.instance().l[0] + pressed.size()}) >
-            0.01);
+                        block.tissue.network_memory, remembered.data());
+    const std::vector<float> pressed(block.tissue.l[0], block.tissue.l[0] + remembered.size());
+    REQUIRE(test::largest_distance(
+                pressed, {free.instance().tissue.l[0], free.instance().tissue.l[0] + pressed.size()}) > 0.01);
     REQUIRE(test::largest_distance(pressed, remembered) < kRounding_m);
   }
 }

@@ -26,7 +26,8 @@ class ToldBlock : public baker::LoneInstance {
   std::vector<float> surface() const { return positions(Space::kBind); }
   // Displacement of the nodes as it is shown.
   std::vector<float> shown() const {
-    return {instance().shown[0], instance().shown[0] + size_t{3} * asset().node_count()};
+    return {instance().transition.shown[0],
+            instance().transition.shown[0] + size_t{3} * asset().node_count()};
   }
 
  private:

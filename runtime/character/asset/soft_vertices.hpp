@@ -10,7 +10,7 @@
 namespace sinew::world {
 
 struct SoftVertices {
-  // Of one region that carries a vertex, in Instance::carried: x, and y and z `pitch` further each.
+  // Of one region that carries a vertex, in Published::carried: x, and y and z `pitch` further each.
   struct Place {
     uint32_t first, pitch;
   };

@@ -45,7 +45,7 @@ struct Asked {
 
 Asked asked_by(const Instance& instance, uint32_t region, NormalsOf normals = NormalsOf::kFirstTouch) {
   if (instance.level->leaves_out(region)) return {.source = false, .capsules = 0};
-  return {instance.contacts.source && instance.contacts.tissue, touchable(instance, region), normals};
+  return {instance.contacts.def.source && instance.contacts.def.tissue, touchable(instance, region), normals};
 }
 
 struct Question {
@@ -54,8 +54,8 @@ struct Question {
   uint32_t count = 0;
 
   void add(const Way& way, float radius_m) {
-    ContactProbe& probe = instance.probes[count++];
-    const auto& root = instance.state->tick_root_m;
+    ContactProbe& probe = instance.contacts.probes[count++];
+    const auto& root = instance.state->motion.tick_root_m;
     for (int k = 0; k < 3; ++k) {
       for (int e = 0; e < 2; ++e) {
         probe.start_m[e][k] = root[1][k] + static_cast<double>(way.start[k]);
@@ -63,34 +63,34 @@ struct Question {
       }
     }
     probe.radius_m = radius_m;
-    probe.owner = instance.contacts.owner;
+    probe.owner = instance.contacts.def.owner;
   }
   bool full() const { return count == kProbesAtOnce; }
 
   // The usable answers; `all` when there were more than fit.
   std::span<const ContactHit> ask(bool* all) {
-    const std::span<const ContactProbe> probes = {instance.probes, count};
+    const std::span<const ContactProbe> probes = {instance.contacts.probes, count};
     const auto tick_s = static_cast<float>(instance.asset->tick_s);
-    const std::span<ContactHit> room = {instance.hits, kHitsAtOnce};
-    const uint32_t found = asked.source ? instance.contacts.source->find(probes, tick_s, room) : 0;
+    const std::span<ContactHit> room = {instance.contacts.hits, kHitsAtOnce};
+    const uint32_t found = asked.source ? instance.contacts.def.source->find(probes, tick_s, room) : 0;
     const uint32_t of_source = std::min(found, kHitsAtOnce);
-    const std::span<ContactHit> own_room = {instance.hits + of_source, kHitsAtOnce};
+    const std::span<ContactHit> own_room = {instance.contacts.hits + of_source, kHitsAtOnce};
     const uint32_t own =
         asked.capsules ? find_own_body(instance, asked.capsules, asked.normals, probes, own_room) : 0;
     const uint32_t given = of_source + std::min(own, kHitsAtOnce);
-    const auto end = std::remove_if(instance.hits, instance.hits + given,
+    const auto end = std::remove_if(instance.contacts.hits, instance.contacts.hits + given,
                                     [&](const ContactHit& hit) { return !core::is_usable(hit, count); });
-    const auto usable = static_cast<size_t>(end - instance.hits);
+    const auto usable = static_cast<size_t>(end - instance.contacts.hits);
     instance.told.refused += given - static_cast<uint32_t>(usable);
     *all = found > kHitsAtOnce || own > kHitsAtOnce;
-    return {instance.hits, usable};
+    return {instance.contacts.hits, usable};
   }
 };
 
 Vector3f node_place(const Instance& instance, uint32_t node, int age) {
-  const tissue::NodePose& pose = instance.poses[age][node];
+  const tissue::NodePose& pose = instance.motion.poses[age][node];
   return ConstVector(pose.place_m) +
-         Eigen::Map<const Rows33>(pose.rotation) * ConstVector(instance.u[age] + size_t{3} * node);
+         Eigen::Map<const Rows33>(pose.rotation) * ConstVector(instance.tissue.u[age] + size_t{3} * node);
 }
 
 Way node_way(const Instance& instance, uint32_t node) {
@@ -112,7 +112,8 @@ Way vertex_way(const Instance& instance, const Found& found, const Displaced& di
 // To where it is pushed.
 Way pushed_way(const Instance& instance, const Touch& touch) {
   const SurfacePatches::Vertex& vertex = instance.level->patches.vertices[touch.vertex];
-  return {ConstVector(touch.start_m), pushed_place(instance, touch.region, vertex, instance.shown[0], 0)};
+  return {ConstVector(touch.start_m),
+          pushed_place(instance, touch.region, vertex, instance.transition.shown[0], 0)};
 }
 
 float reach_m(const Instance& instance, uint32_t node) {
@@ -144,7 +145,7 @@ Asked near_region(Instance& instance, const pack::RegionRecord& region, Asked as
   const Ball ball = ball_around(instance, region);
   Question question{instance, {.source = asked.source, .capsules = 0}};
   question.add(ball.middle, ball.radius_m);
-  asked.capsules = near_own_body(instance, asked.capsules, instance.probes[0]);
+  asked.capsules = near_own_body(instance, asked.capsules, instance.contacts.probes[0]);
   bool all = false;
   asked.source = !question.ask(&all).empty();
   return asked;
@@ -153,8 +154,8 @@ Asked near_region(Instance& instance, const pack::RegionRecord& region, Asked as
 // Both ends of a probe are the same point: what is answered twice is one.
 bool is_known(const Instance& instance, uint32_t first, const Touch& touch) {
   constexpr float kSame = 0.999f;  // cosine
-  for (uint32_t t = first; t < instance.touch_count; ++t) {
-    const Touch& known = instance.touches[t];
+  for (uint32_t t = first; t < instance.contacts.touch_count; ++t) {
+    const Touch& known = instance.contacts.touches[t];
     const bool alike = ConstVector(known.normal).dot(ConstVector(touch.normal)) > kSame;
     if (known.vertex == touch.vertex && alike && known.gap_m <= touch.gap_m) return true;
   }
@@ -165,12 +166,12 @@ Touch touch_of(const Instance& instance, const Found& found, const ContactHit& h
   Touch touch{.region = found.region, .node = found.node, .vertex = found.vertex};
   const ConstVector normal(hit.normal), velocity(hit.velocity_m_s);
   MapVector(touch.normal) = normal;
-  const ContactProbe& probe = instance.probes[hit.probe];
+  const ContactProbe& probe = instance.contacts.probes[hit.probe];
   double way_m = -instance.asset->tick_s * static_cast<double>(normal.dot(velocity));
   for (int k = 0; k < 3; ++k) {
     way_m += static_cast<double>(hit.normal[k]) * (probe.end_m[0][k] - probe.start_m[0][k]);
-    touch.place_m[k] = static_cast<float>(probe.end_m[0][k] - instance.state->tick_root_m[0][k]);
-    touch.start_m[k] = static_cast<float>(probe.start_m[0][k] - instance.state->tick_root_m[1][k]);
+    touch.place_m[k] = static_cast<float>(probe.end_m[0][k] - instance.state->motion.tick_root_m[0][k]);
+    touch.start_m[k] = static_cast<float>(probe.start_m[0][k] - instance.state->motion.tick_root_m[1][k]);
   }
   touch.gap_m = static_cast<float>(hit.gap_m + way_m);
   return touch;
@@ -178,10 +179,10 @@ Touch touch_of(const Instance& instance, const Found& found, const ContactHit& h
 
 void keep(Instance& instance, uint32_t first, const Touch& touch) {
   if (is_known(instance, first, touch)) return;
-  if (instance.touch_count == 2 * instance.level->patches.vertex_count)
+  if (instance.contacts.touch_count == 2 * instance.level->patches.vertex_count)
     ++instance.told.dropped;
   else
-    instance.touches[instance.touch_count++] = touch;
+    instance.contacts.touches[instance.contacts.touch_count++] = touch;
 }
 
 float moves_m(const Instance& instance, const ContactHit& hit) {
@@ -202,12 +203,12 @@ struct Vertices {
   void ask() {
     if (question.count == 0) return;
     Instance& instance = question.instance;
-    const uint32_t first = instance.touch_count;
+    const uint32_t first = instance.contacts.touch_count;
     bool all = false;
     for (const ContactHit& hit : question.ask(&all)) {
       const Touch touch = touch_of(instance, found[hit.probe], hit);
       if (touch.gap_m < most_m) keep(instance, first, touch);
-      instance.touched_moves_m = std::max(instance.touched_moves_m, moves_m(instance, hit));
+      instance.contacts.touched_moves_m = std::max(instance.contacts.touched_moves_m, moves_m(instance, hit));
     }
     instance.told.dropped += all;
     question.count = 0;
@@ -218,14 +219,14 @@ struct Vertices {
 void find_patches(Instance& instance, const pack::RegionRecord& region, Asked asked) {
   constexpr uint32_t kTouched = 1;
   const uint32_t end = region.first_node + region.node_count;
-  std::fill(instance.deepest + region.first_node, instance.deepest + end, 0u);
+  std::fill(instance.contacts.deepest + region.first_node, instance.contacts.deepest + end, 0u);
   Question question{instance, asked};
   for (uint32_t first = region.first_node, n = first; n < end; ++n) {
     question.add(node_way(instance, n), reach_m(instance, n));
     if (!question.full() && n + 1 < end) continue;
     bool all = false;
-    for (const ContactHit& hit : question.ask(&all)) instance.deepest[first + hit.probe] = kTouched;
-    if (all) std::fill(instance.deepest + first, instance.deepest + n + 1, kTouched);
+    for (const ContactHit& hit : question.ask(&all)) instance.contacts.deepest[first + hit.probe] = kTouched;
+    if (all) std::fill(instance.contacts.deepest + first, instance.contacts.deepest + n + 1, kTouched);
     first = n + 1;
     question.count = 0;
   }
@@ -246,7 +247,7 @@ void find_vertices(Instance& instance, uint32_t r, const Displaced& displaced, f
   find_patches(instance, region, asked);
   Vertices vertices{{instance, asked}, most_m, {}};
   for (uint32_t n = region.first_node; n < region.first_node + region.node_count; ++n) {
-    if (!instance.deepest[n]) continue;
+    if (!instance.contacts.deepest[n]) continue;
     for (uint32_t v = patches.first[n]; v < patches.first[n + 1]; ++v) {
       const Found found{r, n, v};
       if (!leave(v)) vertices.add(found, vertex_way(instance, found, displaced));
@@ -262,12 +263,13 @@ float inside_m(const pack::RegionRecord& region) {
 }
 
 void mark_touched(Instance& instance) {
-  std::fill_n(instance.touched, instance.level->patches.vertex_count, uint8_t{0});
-  for (uint32_t t = 0; t < instance.touch_count; ++t) instance.touched[instance.touches[t].vertex] = 1;
+  std::fill_n(instance.contacts.touched, instance.level->patches.vertex_count, uint8_t{0});
+  for (uint32_t t = 0; t < instance.contacts.touch_count; ++t)
+    instance.contacts.touched[instance.contacts.touches[t].vertex] = 1;
 }
 
 bool nodes_stand_still(const Instance& instance, const pack::RegionRecord& region) {
-  const auto& root = instance.state->tick_root_m;
+  const auto& root = instance.state->motion.tick_root_m;
   const Vector3f on =
       (Eigen::Map<const Eigen::Vector3d>(root[0]) - Eigen::Map<const Eigen::Vector3d>(root[1])).cast<float>();
   for (uint32_t n = region.first_node; n < region.first_node + region.node_count; ++n) {
@@ -280,27 +282,28 @@ bool nodes_stand_still(const Instance& instance, const pack::RegionRecord& regio
 }  // namespace
 
 void find_touches(Instance& instance, uint32_t r) noexcept {
-  find_vertices(instance, r, {instance.shown[0], instance.flesh}, INFINITY, [](uint32_t) { return false; });
+  find_vertices(instance, r, {instance.transition.shown[0], instance.contacts.flesh}, INFINITY,
+                [](uint32_t) { return false; });
 }
 
 void find_late_touches(Instance& instance) noexcept {
   mark_touched(instance);
   for (uint32_t r = 0; r < instance.level->pack.regions.size(); ++r)
-    find_vertices(instance, r, {instance.shown[1], instance.shown[0]},
+    find_vertices(instance, r, {instance.transition.shown[1], instance.transition.shown[0]},
                   inside_m(instance.level->pack.regions[r]),
-                  [&](uint32_t v) { return instance.touched[v] != 0; });
+                  [&](uint32_t v) { return instance.contacts.touched[v] != 0; });
 }
 
 void find_pushed_touches(Instance& instance) noexcept {
   mark_touched(instance);
-  const uint32_t count = instance.touch_count;
+  const uint32_t count = instance.contacts.touch_count;
   for (uint32_t first = 0, t = 0; t < count; first = t) {
-    const uint32_t r = instance.touches[first].region;
+    const uint32_t r = instance.contacts.touches[first].region;
     Vertices vertices{
         {instance, asked_by(instance, r, NormalsOf::kEnd)}, inside_m(instance.level->pack.regions[r]), {}};
-    for (; t < count && instance.touches[t].region == r; ++t) {
-      const Touch touch = instance.touches[t];
-      if (std::exchange(instance.touched[touch.vertex], uint8_t{0}) == 0) continue;
+    for (; t < count && instance.contacts.touches[t].region == r; ++t) {
+      const Touch touch = instance.contacts.touches[t];
+      if (std::exchange(instance.contacts.touched[touch.vertex], uint8_t{0}) == 0) continue;
       const Found found{r, touch.node, touch.vertex};
       vertices.add(found, pushed_way(instance, touch));
     }
@@ -310,10 +313,10 @@ void find_pushed_touches(Instance& instance) noexcept {
 
 bool touches_stand_still(const Instance& instance) noexcept {
   if (frame::is_simulated(instance.state->tier) && simulated_share(instance) < 1) return false;
-  if (instance.touch_count == 0) return true;
+  if (instance.contacts.touch_count == 0) return true;
   for (uint32_t r = 0; r < instance.level->pack.regions.size(); ++r) {
     const pack::RegionRecord& region = instance.level->pack.regions[r];
-    const bool still = instance.touched_moves_m <= kHardlyMoved * region.radius_m;
+    const bool still = instance.contacts.touched_moves_m <= kHardlyMoved * region.radius_m;
     if (!still || !nodes_stand_still(instance, region)) return false;
   }
   return true;

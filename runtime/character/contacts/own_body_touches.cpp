@@ -54,13 +54,13 @@ struct MovingCapsule {
 };
 
 Vector in_world(const Instance& instance, const double* place_m) noexcept {
-  const auto& anchor = instance.state->rod_anchor_m;
+  const auto& anchor = instance.state->rods.anchor_m;
   return {anchor[0] + place_m[0], anchor[1] + place_m[1], anchor[2] + place_m[2]};
 }
 
 MovingCapsule capsule_of(const Instance& instance, uint32_t proxy) noexcept {
-  const double *before = instance.proxy_before + size_t{6} * proxy,
-               *now = instance.proxy_ends[0] + size_t{6} * proxy;
+  const double *before = instance.contacts.proxy_before + size_t{6} * proxy,
+               *now = instance.contacts.proxy_ends[0] + size_t{6} * proxy;
   return {{in_world(instance, before), in_world(instance, before + 3)},
           {in_world(instance, now), in_world(instance, now + 3)},
           static_cast<double>(instance.level->pack.proxies[proxy].radius_m)};
@@ -183,7 +183,7 @@ Status find_touchable(const pack::PackView& pack, std::unique_ptr<uint64_t[]>* o
 }
 
 uint64_t touchable(const Instance& instance, uint32_t region) noexcept {
-  return instance.proxy_before ? instance.asset->touchable[region] : 0;
+  return instance.contacts.proxy_before ? instance.asset->touchable[region] : 0;
 }
 
 uint32_t find_own_body(const Instance& instance, uint64_t capsules, NormalsOf normals,

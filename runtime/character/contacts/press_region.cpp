@@ -23,13 +23,14 @@ constexpr float kMostAsked = 0.9f;  // of the displacement limit
 // A touch as its node feels it: the normal along l, turned by half of what warping turns.
 tissue::NodeContact contact_of(const Instance& instance, const pack::RegionRecord& region,
                                const Touch& touch) {
-  const Vector3f in_frame = Eigen::Map<const Rows33>(instance.poses[0][touch.node].rotation).transpose() *
-                            ConstVector(touch.normal);
-  const float* turn = instance.theta + size_t{3} * touch.node;
+  const Vector3f in_frame =
+      Eigen::Map<const Rows33>(instance.motion.poses[0][touch.node].rotation).transpose() *
+      ConstVector(touch.normal);
+  const float* turn = instance.tissue.theta + size_t{3} * touch.node;
   const float half_turn[3] = {0.5f * turn[0], 0.5f * turn[1], 0.5f * turn[2]};
   tissue::NodeContact contact{.node = touch.node - region.first_node};
   tissue::turn_back(half_turn, in_frame.data(), 1, contact.normal);
-  const float along = in_frame.dot(ConstVector(instance.u[0] + size_t{3} * touch.node));
+  const float along = in_frame.dot(ConstVector(instance.tissue.u[0] + size_t{3} * touch.node));
   const float most = std::max(0.0f, kMostAsked * limit_m(instance, touch.region) - along);
   contact.gap_m = std::max(touch.gap_m, -most);
   return contact;
@@ -52,14 +53,14 @@ Vector3f mean_normal(std::span<const Touch> touches, const Touch& deepest) {
 
 // The deepest touch of each node, of the region's most deeply touched nodes.
 size_t gather(Instance& instance, std::span<const Touch> touches, const Touch** out) {
-  for (const Touch& touch : touches) instance.deepest[touch.node] = 0;
+  for (const Touch& touch : touches) instance.contacts.deepest[touch.node] = 0;
   for (uint32_t t = 0; t < touches.size(); ++t) {
-    uint32_t& deepest = instance.deepest[touches[t].node];
+    uint32_t& deepest = instance.contacts.deepest[touches[t].node];
     if (deepest == 0 || touches[t].gap_m < touches[deepest - 1].gap_m) deepest = t + 1;
   }
   size_t count = 0;
   for (uint32_t t = 0; t < touches.size(); ++t) {
-    if (instance.deepest[touches[t].node] != t + 1) continue;
+    if (instance.contacts.deepest[touches[t].node] != t + 1) continue;
     if (count < tissue::kMostNodeContacts) {
       out[count++] = &touches[t];
       continue;
@@ -75,20 +76,20 @@ void press_modes(Instance& instance, uint32_t r, std::span<tissue::NodeContact> 
   const GraphLevel& level = *instance.level;
   const pack::RegionRecord& region = level.pack.regions[r];
   const size_t vector = size_t{3} * region.first_node, mode = level.pack.region_modes[r].first_mode;
-  const tissue::ModalTick tick{.q = instance.q[0] + mode,
-                               .r = instance.r[0] + vector,
-                               .l = instance.l[0] + vector,
-                               .theta = instance.theta + vector,
-                               .u = instance.u[0] + vector};
+  const tissue::ModalTick tick{.q = instance.tissue.q[0] + mode,
+                               .r = instance.tissue.r[0] + vector,
+                               .l = instance.tissue.l[0] + vector,
+                               .theta = instance.tissue.theta + vector,
+                               .u = instance.tissue.u[0] + vector};
   // From one side of its limit to the other.
   const float most_m = 2 * std::min(limit_m(instance, r), displacement_bound_m(*instance.asset, r));
-  if (!tissue::press(base_of(instance, r), most_m, contacts, instance.felt + vector, instance.region[0],
-                     instance.region[1], tick))
+  if (!tissue::press(base_of(instance, r), most_m, contacts, instance.tissue.felt + vector,
+                     instance.tissue.region[0], instance.tissue.region[1], tick))
     return;
-  tissue::hold_within(limit_m(instance, r), region.node_count, instance.u[0] + vector);
+  tissue::hold_within(limit_m(instance, r), region.node_count, instance.tissue.u[0] + vector);
   if (instance.state->tier == Tier::kNetwork)
     tissue::write_output(instance.asset->network, level.pack.regions.subspan(r, 1), level.node_count(),
-                         instance.l[0] + vector, instance.network_state);
+                         instance.tissue.l[0] + vector, instance.tissue.network_memory);
 }
 
 }  // namespace
@@ -104,7 +105,7 @@ void press_region(Instance& instance, uint32_t r, std::span<const Touch> touches
     contacts[c] = contact_of(instance, region, mean);
   }
   press_modes(instance, r, {contacts, count});
-  instance.quiet_ticks[r] = 0;
+  instance.tissue.quiet_ticks[r] = 0;
 }
 
 }  // namespace sinew::world

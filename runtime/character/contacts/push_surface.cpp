@@ -38,7 +38,7 @@ Vector3f held(const SurfacePoint& at, const Vector3f& push, float limit_m) {
 // Of the first so many touches: by what presses from the same side.
 bool is_told(const Instance& instance, uint32_t first, const Touch& touch) {
   constexpr float kSameSide = 0.9f;  // cosine
-  return std::any_of(instance.touches, instance.touches + first, [&](const Touch& known) {
+  return std::any_of(instance.contacts.touches, instance.contacts.touches + first, [&](const Touch& known) {
     return known.vertex == touch.vertex && known.gap_m < 0 &&
            ConstVector(known.normal).dot(ConstVector(touch.normal)) > kSameSide;
   });
@@ -49,7 +49,7 @@ void push_vertex(Instance& instance, const Touch& touch, uint32_t told) {
   const GraphLevel& level = *instance.level;
   const pack::RegionRecord& region = level.pack.regions[touch.region];
   const SurfacePatches::Vertex& vertex = level.patches.vertices[touch.vertex];
-  const SurfacePoint now = surface_point(instance, touch.region, vertex, instance.shown[0], 0);
+  const SurfacePoint now = surface_point(instance, touch.region, vertex, instance.transition.shown[0], 0);
   size_t pitch = 0;
   float* push = push_of(instance, touch.region, vertex, &pitch);
   const Vector3f before(push[0], push[pitch], push[2 * pitch]);
@@ -61,7 +61,7 @@ void push_vertex(Instance& instance, const Touch& touch, uint32_t told) {
       std::min(region.displacement_limit_m, displacement_bound_m(*instance.asset, touch.region));
   const Vector3f after = held(now, before + in_bind(now.world_from_bind, out * normal), most_m);
   for (size_t k = 0; k < 3; ++k) push[k * pitch] = after[static_cast<Eigen::Index>(k)];
-  instance.pushed[touch.region] |= out > 0;
+  instance.contacts.pushed[touch.region] |= out > 0;
   if (!(touch.gap_m < 0) || is_told(instance, told, touch)) return;
   ++instance.told.vertices;
   instance.told.volume_m3 +=
@@ -71,39 +71,41 @@ void push_vertex(Instance& instance, const Touch& touch, uint32_t told) {
 // Where it is shown in the end.
 void look_at_vertex(Instance& instance, const Touch& touch) {
   const SurfacePatches::Vertex& vertex = instance.level->patches.vertices[touch.vertex];
-  const Vector3f place = pushed_place(instance, touch.region, vertex, instance.shown[0], 0);
+  const Vector3f place = pushed_place(instance, touch.region, vertex, instance.transition.shown[0], 0);
   const float moved = ConstVector(touch.normal).dot(place - ConstVector(touch.place_m));
   instance.told.deepest_m = std::max(instance.told.deepest_m, -touch.gap_m - moved);
 }
 
 void push_vertices(Instance& instance, uint32_t first) {
-  for (uint32_t t = first; t < instance.touch_count; ++t) push_vertex(instance, instance.touches[t], first);
+  for (uint32_t t = first; t < instance.contacts.touch_count; ++t)
+    push_vertex(instance, instance.contacts.touches[t], first);
 }
 
 }  // namespace
 
 void forget_pushes(Instance& instance) noexcept {
-  if (!instance.pushes) return;
-  float* pushes = instance.pushes;
+  if (!instance.contacts.pushes) return;
+  float* pushes = instance.contacts.pushes;
   for (size_t r = 0; r < instance.level->pack.regions.size(); ++r) {
     const size_t floats = size_t{3} * instance.level->pack.regions[r].padded_vertices;
-    if (instance.pushed[r]) std::fill_n(pushes, floats, 0.0f);
-    instance.pushed[r] = 0;
+    if (instance.contacts.pushed[r]) std::fill_n(pushes, floats, 0.0f);
+    instance.contacts.pushed[r] = 0;
     pushes += floats;
   }
 }
 
 void push_surface(Instance& instance) noexcept {
-  if (!instance.pushes) return;
+  if (!instance.contacts.pushes) return;
   const bool more = !touches_stand_still(instance);
   if (more) find_late_touches(instance);
   forget_pushes(instance);
   push_vertices(instance, 0);
-  const uint32_t first = instance.touch_count;
+  const uint32_t first = instance.contacts.touch_count;
   if (more) find_pushed_touches(instance);
   push_vertices(instance, first);
-  for (uint32_t t = 0; t < instance.touch_count; ++t) look_at_vertex(instance, instance.touches[t]);
-  instance.told.touches = std::exchange(instance.touch_count, 0u);
+  for (uint32_t t = 0; t < instance.contacts.touch_count; ++t)
+    look_at_vertex(instance, instance.contacts.touches[t]);
+  instance.told.touches = std::exchange(instance.contacts.touch_count, 0u);
 }
 
 }  // namespace sinew::world

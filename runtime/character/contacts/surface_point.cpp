@@ -42,15 +42,16 @@ Vector3f seam(const Instance& instance, uint32_t region, uint32_t column) noexce
   const float share = seam_share(instance);
   if (share == 0) return Vector3f::Zero();
   const pack::PackView& pack = instance.level->pack;
-  const float* at = instance.seam + columns_before(pack, region) + column;
+  const float* at = instance.transition.seam + columns_before(pack, region) + column;
   const size_t pitch = pack.regions[region].padded_vertices;
   return share * Vector3f(at[0], at[pitch], at[2 * pitch]);
 }
 
 SurfacePoint placed(const Instance& instance, const SurfacePatches::Vertex& vertex,
                     const Vector3f& bind_place, uint32_t age) noexcept {
-  const Matrix34f skin = blended(instance.level->pack.skin[vertex.index], instance.tick_skin[age]);
-  const Matrix3f root = Eigen::Map<const Eigen::Quaternionf>(instance.tick_turn[age]).toRotationMatrix();
+  const Matrix34f skin = blended(instance.level->pack.skin[vertex.index], instance.contacts.tick_skin[age]);
+  const Matrix3f root =
+      Eigen::Map<const Eigen::Quaternionf>(instance.contacts.tick_turn[age]).toRotationMatrix();
   return {root * (skin.leftCols<3>() * bind_place + skin.col(3)), root * skin.leftCols<3>()};
 }
 
@@ -97,7 +98,7 @@ float* push_of(const Instance& instance, uint32_t region, const SurfacePatches::
                size_t* pitch) noexcept {
   const pack::PackView& pack = instance.level->pack;
   *pitch = pack.regions[region].padded_vertices;
-  return instance.pushes + columns_before(pack, region) + vertex.carried;
+  return instance.contacts.pushes + columns_before(pack, region) + vertex.carried;
 }
 
 }  // namespace sinew::world

@@ -23,13 +23,13 @@ namespace {
 
 Status scale_sources(const Asset& asset, Instance& instance) noexcept {
   const size_t probes = std::max(kProbesAtOnce, asset.rods.slot_count);
-  ContactSource** const given[] = {&instance.contacts.source, &instance.contacts.surface};
+  ContactSource** const given[] = {&instance.contacts.def.source, &instance.contacts.def.surface};
   for (int k = 0; k < 2; ++k) {
     if (!*given[k]) continue;
-    instance.scaled[k].reset(new (std::nothrow) ScaledSource(*given[k], probes));
-    if (!instance.scaled[k] || !instance.scaled[k]->is_complete())
+    instance.contacts.scaled[k].reset(new (std::nothrow) ScaledSource(*given[k], probes));
+    if (!instance.contacts.scaled[k] || !instance.contacts.scaled[k]->is_complete())
       return core::make_status(StatusCode::kOutOfCapacity, "create_instance: no memory for its contacts");
-    *given[k] = instance.scaled[k].get();
+    *given[k] = instance.contacts.scaled[k].get();
   }
   return {};
 }
@@ -47,12 +47,12 @@ Status make_instance(Asset& asset, const InstanceDef& def, Instance* out) noexce
   if (Status status = check_rod_start(asset, def); !status.ok()) return status;
   core::Arena measure;
   Instance made;
-  made.contacts = def.contacts;
-  made.rod_start = def.rod_start;
-  made.contacts.own_body &= !asset.pack.proxies.empty() && (asset.rods.rod_count > 0 || asset.touchable);
-  if (asset.rods.rod_count == 0) made.contacts.surface = nullptr;
+  made.contacts.def = def.contacts;
+  made.rods.start = def.rod_start;
+  made.contacts.def.own_body &= !asset.pack.proxies.empty() && (asset.rods.rod_count > 0 || asset.touchable);
+  if (asset.rods.rod_count == 0) made.contacts.def.surface = nullptr;
   if (Status status = scale_sources(asset, made); !status.ok()) return status;
-  for (uint32_t l = 0; soft_parts_touch(asset, made.contacts) && l < asset.level_count; ++l) {
+  for (uint32_t l = 0; soft_parts_touch(asset, made.contacts.def) && l < asset.level_count; ++l) {
     GraphLevel& level = asset.levels[l];
     if (level.patches.first) continue;
     if (Status status = make_surface_patches(level.pack, &level.patches); !status.ok()) return status;
@@ -63,25 +63,21 @@ Status make_instance(Asset& asset, const InstanceDef& def, Instance* out) noexce
   if (!made.memory.data()) {
     return core::make_status(StatusCode::kOutOfCapacity, "create_instance: no memory for %zu bytes", bytes);
   }
-  if (Status status = make_rod_batches(asset, def, &made.rod_batches); !status.ok()) return status;
+  if (Status status = make_rod_batches(asset, def, &made.rods.batches); !status.ok()) return status;
   core::Arena arena(made.memory.data());
   lay_out(asset, arena, made);
   made.asset = &asset;
   made.asset_id = def.asset;
   made.def = def;
-  made.sleep_tolerance = WorldDef{}.sleep_tolerance;
-  made.most_m_s2 = TeleportDef{}.acceleration * asset.pack.character->height_m;
   new (made.state) InstanceState();
-  std::uninitialized_fill_n(made.region_tunings, asset.pack.regions.size(), PartTuning());
-  std::uninitialized_fill_n(made.rod_tunings, asset.rods.rod_count, PartTuning());
-  std::uninitialized_fill_n(made.tuned_regions, asset.pack.regions.size(), TunedRegion());
+  begin(asset, made.parameters);
   point_to_state(made);
-  made.state->root = def.root;
+  made.state->motion.root = def.root;
   made.state->importance = frame::sane_importance(def.importance);
-  bind_pose(asset.pack.joints, made.joints);
-  std::copy_n(made.joints, asset.pack.character->joint_count, made.joints_older);
-  std::copy_n(made.joints, asset.pack.character->joint_count, made.joints_before);
-  std::copy_n(made.joints, asset.pack.character->joint_count, made.next_joints);
+  bind_pose(asset.pack.joints, made.motion.joints);
+  std::copy_n(made.motion.joints, asset.pack.character->joint_count, made.motion.joints_older);
+  std::copy_n(made.motion.joints, asset.pack.character->joint_count, made.motion.joints_before);
+  std::copy_n(made.motion.joints, asset.pack.character->joint_count, made.motion.next_joints);
   bound_pose(made);
   forget_rods(made);
   if (Status status = make_rod_colliders(made); !status.ok()) return status;

@@ -5,9 +5,6 @@
 
 namespace sinew::world {
 
-bool touches_own_body(const Asset& asset, const ContactDef& contacts) noexcept;
-bool soft_parts_touch(const Asset& asset, const ContactDef& contacts) noexcept;
-
 // Points all arrays of `to`, by its contacts, into the arena: first what is saved, then scratch.
 void lay_out(const Asset& asset, core::Arena& arena, Instance& to) noexcept;
 

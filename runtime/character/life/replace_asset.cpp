@@ -34,16 +34,17 @@ void take_state(const Instance& from, Instance& to) noexcept {
   state.remainder_s = std::min(state.remainder_s, to.asset->tick_s);
   state.level = 0;
   state.tier = Tier::kExtrapolate;
-  state.left_tier = Tier::kSkinning;
-  state.dormant = state.restarting = state.fallback_ticks = state.still_ticks = state.rod_quiet_ticks = 0;
-  state.missed_ticks = state.tail_rides = state.is_off = 0;
+  state.transition.left_tier = Tier::kSkinning;
+  state.dormant = state.restarting = state.fallback_ticks = state.poses.still_ticks = state.rods.quiet_ticks =
+      0;
+  state.transition.missed_ticks = state.transition.tail_rides = state.tissue.is_off = 0;
   state.blend_ticks = 0;
-  state.tail_ticks = 0;
-  state.fade_ticks = kFadeTicks;
-  state.seam_ticks = kBlendInTicks;
-  state.motion_stale = state.forgotten = 1;
+  state.transition.tail_ticks = 0;
+  state.transition.fade_ticks = kFadeTicks;
+  state.transition.seam_ticks = kBlendInTicks;
+  state.poses.motion_stale = state.tissue.forgotten = 1;
   for (int k = 0; k < 4; ++k)
-    std::copy_n(from.pose_joints[k], to.asset->pack.character->joint_count, to.pose_joints[k]);
+    std::copy_n(from.motion.pose_joints[k], to.asset->pack.character->joint_count, to.motion.pose_joints[k]);
   point_to_state(to);
 }
 
@@ -69,7 +70,7 @@ void take_region(const Instance& from, uint32_t region, Instance& to,
   for (uint32_t n = record.first_node; n < record.first_node + record.node_count; ++n) {
     const size_t at = nearest_node(was, was.regions[region], to.level->pack.nodes[n].position_m);
     for (int tick = 0; tick < 2; ++tick)
-      std::copy_n(from.shown[tick] + 3 * at, 3, to.shown[tick] + size_t{3} * n);
+      std::copy_n(from.transition.shown[tick] + 3 * at, 3, to.transition.shown[tick] + size_t{3} * n);
   }
 }
 
@@ -78,13 +79,13 @@ void take_flesh(const Instance& from, Instance& to) noexcept {
   for (uint32_t r = 0; r < now.regions.size(); ++r) {
     const uint32_t namesake = find_namesake(was, was.regions, now, now.regions[r].name);
     if (namesake == pack::kNoIndex) continue;
-    to.region_tunings[r] = from.region_tunings[namesake];
+    to.parameters.region_tunings[r] = from.parameters.region_tunings[namesake];
     if (shown_share(from) > 0) take_region(from, namesake, to, now.regions[r]);
   }
   const size_t floats = size_t{3} * to.level->node_count();
   for (size_t i = 0; i < floats; ++i) {
-    to.tail[i] = to.shown[0][i];
-    to.tail_velocity[i] = to.shown[0][i] - to.shown[1][i];
+    to.transition.tail[i] = to.transition.shown[0][i];
+    to.transition.tail_velocity[i] = to.transition.shown[0][i] - to.transition.shown[1][i];
   }
 }
 
@@ -103,12 +104,12 @@ void take_rods(const Instance& from, Instance& to) noexcept {
         slots[s].bone == pack::kNoIndex ? pack::kNoIndex : slot_of_bone(from.asset->rods, slots[s].bone);
     if (was == pack::kNoIndex) continue;
     for (int tick = 0; tick < 2; ++tick)
-      std::copy_n(from.rod_shown[tick] + size_t{4} * was, 4, to.rod_shown[tick] + size_t{4} * s);
+      std::copy_n(from.rods.shown[tick] + size_t{4} * was, 4, to.rods.shown[tick] + size_t{4} * s);
   }
   const pack::PackView &old = from.asset->pack, &now = to.asset->pack;
   for (uint32_t r = 0; r < now.rods.size(); ++r) {
     const uint32_t namesake = find_namesake(old, old.rods, now, now.rods[r].name);
-    if (namesake != pack::kNoIndex) to.rod_tunings[r] = from.rod_tunings[namesake];
+    if (namesake != pack::kNoIndex) to.parameters.rod_tunings[r] = from.parameters.rod_tunings[namesake];
   }
   begin_rod_tails(to, 1);
 }
@@ -135,7 +136,7 @@ void go_on_as(const Instance& from, Instance& to) noexcept {
   take_flesh(from, to);
   take_rods(from, to);
   forget_carried(to);
-  to.displaced = from.displaced;
+  to.marks.displaced = from.marks.displaced;
   bound_pose(to);
   publish(to);
 }

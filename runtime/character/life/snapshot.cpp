@@ -30,8 +30,8 @@ constexpr uint64_t kMagic = 0x31544154534e5753;  // "SWNSTAT1", little-endian
 // 20: flesh beyond its limit swings on in l. 21: no update rates, no springs. 22: teleports,
 // spaces, scales of time and size, a pose more. 23: what the last tick added, time without poses. 24: where
 // emulated nodes were. 25: no longer. 26: what an engine changed of its parts, and what it feels of the
-// world. 27: the best tier it may get.
-constexpr uint32_t kVersion = 27;
+// world. 27: the best tier it may get. 28: parts in structs of their own.
+constexpr uint32_t kVersion = 28;
 
 struct Header {
   uint64_t magic, fingerprint, payload_bytes, checksum;
@@ -41,11 +41,11 @@ static_assert(sizeof(Header) == 40);
 
 // What of an instance may touch, and what its rods start from: so which arrays it has.
 uint32_t contacts_of(const Instance& instance) noexcept {
-  const ContactDef& def = instance.contacts;
-  const bool source = def.source != nullptr, rods = instance.rod_colliders != nullptr;
+  const ContactDef& def = instance.contacts.def;
+  const bool source = def.source != nullptr, rods = instance.contacts.rod_colliders != nullptr;
   return uint32_t{source} | uint32_t{rods} << 1 | uint32_t{def.own_body} << 2 |
          uint32_t{def.surface != nullptr} << 3 | uint32_t{source && def.rods} << 4 |
-         static_cast<uint32_t>(instance.rod_start) << 5;
+         static_cast<uint32_t>(instance.rods.start) << 5;
 }
 
 Header header_of(const Instance& instance, std::span<const std::byte> payload) noexcept {
@@ -55,29 +55,29 @@ Header header_of(const Instance& instance, std::span<const std::byte> payload) n
 
 void save_rods(const Instance& instance, std::byte* out) noexcept {
   for (uint32_t b = 0; b < instance.asset->rods.batch_count; ++b) {
-    instance.rod_batches[b].save_state(out);
-    out += instance.rod_batches[b].state_bytes();
-    if (!instance.rod_colliders) continue;
-    instance.rod_colliders[b].save_state(out);
-    out += instance.rod_colliders[b].state_bytes();
+    instance.rods.batches[b].save_state(out);
+    out += instance.rods.batches[b].state_bytes();
+    if (!instance.contacts.rod_colliders) continue;
+    instance.contacts.rod_colliders[b].save_state(out);
+    out += instance.contacts.rod_colliders[b].state_bytes();
   }
 }
 
 void restore_rods(Instance& instance, const std::byte* from) noexcept {
   for (uint32_t b = 0; b < instance.asset->rods.batch_count; ++b) {
-    instance.rod_batches[b].restore_state(from);
-    from += instance.rod_batches[b].state_bytes();
-    if (!instance.rod_colliders) continue;
-    instance.rod_colliders[b].restore_state(from);
-    from += instance.rod_colliders[b].state_bytes();
+    instance.rods.batches[b].restore_state(from);
+    from += instance.rods.batches[b].state_bytes();
+    if (!instance.contacts.rod_colliders) continue;
+    instance.contacts.rod_colliders[b].restore_state(from);
+    from += instance.contacts.rod_colliders[b].state_bytes();
   }
 }
 
 size_t payload_bytes(const Instance& instance) noexcept {
   size_t bytes = instance.state_bytes;
   for (uint32_t b = 0; b < instance.asset->rods.batch_count; ++b) {
-    bytes += instance.rod_batches[b].state_bytes();
-    if (instance.rod_colliders) bytes += instance.rod_colliders[b].state_bytes();
+    bytes += instance.rods.batches[b].state_bytes();
+    if (instance.contacts.rod_colliders) bytes += instance.contacts.rod_colliders[b].state_bytes();
   }
   return bytes;
 }
@@ -123,21 +123,22 @@ Status restore(Instance& instance, std::span<const std::byte> bytes) noexcept {
   InstanceState state;
   std::memcpy(&state, payload.data(), sizeof state);
   if (state.level >= instance.asset->level_count || !pack::is_tier(static_cast<uint32_t>(state.tier)) ||
-      !pack::is_tier(static_cast<uint32_t>(state.left_tier)) || !may_limit(state.tier_limit))
+      !pack::is_tier(static_cast<uint32_t>(state.transition.left_tier)) || !may_limit(state.tier_limit))
     return corrupt("names a control graph or a tier that there is not");
-  if (instance.seam == nullptr && state.seam_ticks < kBlendInTicks)
+  if (instance.transition.seam == nullptr && state.transition.seam_ticks < kBlendInTicks)
     return corrupt("is amid a change of control graphs, of which there is one");
-  if (!std::isfinite(state.remainder_s) || !std::isfinite(state.without_pose_s) ||
-      !std::isfinite(state.time_scale))
+  if (!std::isfinite(state.remainder_s) || !std::isfinite(state.poses.without_pose_s) ||
+      !std::isfinite(state.poses.time_scale))
     return corrupt("counts time that is not finite");
   const bool was_tuned = tunes_parts(instance);
   std::memcpy(instance.state, payload.data(), instance.state_bytes);
   restore_rods(instance, payload.data() + instance.state_bytes);
   point_to_state(instance);
   if (was_tuned || tunes_parts(instance)) retune_all(instance);
-  instance.rods_anew = false;
+  instance.rods.begin_as_shown = false;
   instance.told = {};
-  instance.displaced = false;  // else what was shown here before would be taken out of the state as it ends
+  instance.marks.displaced =
+      false;  // else what was shown here before would be taken out of the state as it ends
   bound_pose(instance);
   const core::FloatingPointScope mode;  // as in a step: the same bits are shown
   publish(instance);

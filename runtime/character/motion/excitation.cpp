@@ -10,7 +10,8 @@ namespace {
 float root_mean_square_mm(const Instance& instance) noexcept {
   const size_t floats = size_t{3} * instance.level->node_count();
   float squares = 0;
-  for (size_t i = 0; i < floats; ++i) squares += instance.shown[0][i] * instance.shown[0][i];
+  for (size_t i = 0; i < floats; ++i)
+    squares += instance.transition.shown[0][i] * instance.transition.shown[0][i];
   constexpr float kMillimetres = 1e3f;
   return kMillimetres *
          std::sqrt(squares / static_cast<float>(std::max<size_t>(1, instance.level->node_count())));

@@ -35,10 +35,12 @@ Quaterniond rotation_of(const RootTransform& root) noexcept { return quaternion(
 void remember_root_steps(Instance& instance) noexcept {
   const InstanceState& state = *instance.state;
   for (int k = 0; k < 3; ++k) {
-    instance.root_step.place_m[k] = state.velocity_m_s[k] * state.dt_before_s;
-    instance.root_step.turn[k] = state.angular_velocity[k] * state.dt_before_s;
-    instance.root_step_before.place_m[k] = state.velocity_before_m_s[k] * state.dt_older_s;
-    instance.root_step_before.turn[k] = state.angular_velocity_before[k] * state.dt_older_s;
+    instance.motion.root_step.place_m[k] = state.motion.velocity_m_s[k] * state.motion.dt_before_s;
+    instance.motion.root_step.turn[k] = state.motion.angular_velocity[k] * state.motion.dt_before_s;
+    instance.motion.root_step_before.place_m[k] =
+        state.motion.velocity_before_m_s[k] * state.motion.dt_older_s;
+    instance.motion.root_step_before.turn[k] =
+        state.motion.angular_velocity_before[k] * state.motion.dt_older_s;
   }
 }
 
@@ -46,11 +48,13 @@ void measure_velocity(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   const double dt_s = instance.plan.dt_s;
   if (dt_s < kShortestStep_s) return;
-  const Vector3d turn = logarithm(rotation_of(state.root).conjugate() * rotation_of(state.next_root));
-  std::copy_n(state.velocity_m_s, 3, state.velocity_before_m_s);
-  std::copy_n(state.angular_velocity, 3, state.angular_velocity_before);
-  Eigen::Map<Vector3d>(state.velocity_m_s) = (place_of(state.next_root) - place_of(state.root)) / dt_s;
-  Eigen::Map<Vector3d>(state.angular_velocity) = turn / dt_s;
+  const Vector3d turn =
+      logarithm(rotation_of(state.motion.root).conjugate() * rotation_of(state.motion.next_root));
+  std::copy_n(state.motion.velocity_m_s, 3, state.motion.velocity_before_m_s);
+  std::copy_n(state.motion.angular_velocity, 3, state.motion.angular_velocity_before);
+  Eigen::Map<Vector3d>(state.motion.velocity_m_s) =
+      (place_of(state.motion.next_root) - place_of(state.motion.root)) / dt_s;
+  Eigen::Map<Vector3d>(state.motion.angular_velocity) = turn / dt_s;
 }
 
 void copy_joints(const Instance& instance, const Matrix34* from, Matrix34* to) noexcept {
@@ -58,12 +62,12 @@ void copy_joints(const Instance& instance, const Matrix34* from, Matrix34* to) n
 }
 
 void split_poses(Instance& instance) noexcept {
-  if (std::exchange(instance.parts_ready, true)) return;
+  if (std::exchange(instance.motion.parts_ready, true)) return;
   for (uint32_t j = 0; j < instance.level->pack.character->joint_count; ++j) {
-    instance.parts_older[j] = split_joint(instance.joints_older[j]);
-    instance.parts_before[j] = split_joint(instance.joints_before[j]);
-    instance.parts[j] = split_joint(instance.joints[j]);
-    instance.next_parts[j] = split_joint(instance.next_joints[j]);
+    instance.motion.parts_older[j] = split_joint(instance.motion.joints_older[j]);
+    instance.motion.parts_before[j] = split_joint(instance.motion.joints_before[j]);
+    instance.motion.parts[j] = split_joint(instance.motion.joints[j]);
+    instance.motion.next_parts[j] = split_joint(instance.motion.next_joints[j]);
   }
 }
 
@@ -76,57 +80,58 @@ double share_at(const Instance& instance, double time_s) noexcept {
 
 PathWeights weights_at(const Instance& instance, double share) noexcept {
   const InstanceState& state = *instance.state;
-  return path_weights(share, instance.plan.dt_s, state.dt_before_s, state.dt_older_s);
+  return path_weights(share, instance.plan.dt_s, state.motion.dt_before_s, state.motion.dt_older_s);
 }
 
 const Matrix34* joints_at(Instance& instance, double share) noexcept {
-  if (share == 1) return instance.next_joints;
+  if (share == 1) return instance.motion.next_joints;
   split_poses(instance);
   const PathWeights weights = weights_at(instance, share);
   for (uint32_t j = 0; j < instance.level->pack.character->joint_count; ++j) {
-    instance.tick_joints[j] = joint_between(instance.parts_older[j], instance.parts_before[j],
-                                            instance.parts[j], instance.next_parts[j], weights);
+    instance.motion.tick_joints[j] =
+        joint_between(instance.motion.parts_older[j], instance.motion.parts_before[j],
+                      instance.motion.parts[j], instance.motion.next_parts[j], weights);
   }
-  return instance.tick_joints;
+  return instance.motion.tick_joints;
 }
 
 RootTransform root_at(const Instance& instance, double share) noexcept {
   const InstanceState& state = *instance.state;
-  if (share == 1) return state.next_root;
-  return root_between(instance.root_step_before, instance.root_step, state.root, state.next_root,
-                      weights_at(instance, share));
+  if (share == 1) return state.motion.next_root;
+  return root_between(instance.motion.root_step_before, instance.motion.root_step, state.motion.root,
+                      state.motion.next_root, weights_at(instance, share));
 }
 
 void pose_nodes(Instance& instance, const Matrix34* joints, const RootTransform& root,
                 tissue::NodePose* out) noexcept {
   const pack::PackView& pack = instance.level->pack;
-  skin_matrices(pack.joints, joints, instance.skin);
-  tissue::pose_nodes(pack.nodes, instance.skin, root.rotation_xyzw, out);
+  skin_matrices(pack.joints, joints, instance.motion.skin);
+  tissue::pose_nodes(pack.nodes, instance.motion.skin, root.rotation_xyzw, out);
   for (const pack::RegionRecord& region : pack.regions)
     if (region.node_count > 0)
       tissue::share_bend(region.anchor_node, region.node_count, out + region.first_node);
 }
 
 void remember_skin(Instance& instance, const RootTransform& root) noexcept {
-  if (!instance.pushes) return;
+  if (!instance.contacts.pushes) return;
   const size_t floats = size_t{12} * instance.level->pack.character->joint_count;
-  std::copy_n(instance.tick_skin[0], floats, instance.tick_skin[1]);
-  std::copy_n(instance.tick_turn[0], 4, instance.tick_turn[1]);
-  std::copy_n(instance.skin, floats, instance.tick_skin[0]);
-  std::copy_n(root.rotation_xyzw, 4, instance.tick_turn[0]);
+  std::copy_n(instance.contacts.tick_skin[0], floats, instance.contacts.tick_skin[1]);
+  std::copy_n(instance.contacts.tick_turn[0], 4, instance.contacts.tick_turn[1]);
+  std::copy_n(instance.motion.skin, floats, instance.contacts.tick_skin[0]);
+  std::copy_n(root.rotation_xyzw, 4, instance.contacts.tick_turn[0]);
 }
 
 // Shifts the history by one tick and puts the pose at `share` in front.
 void push_pose(Instance& instance, double share) noexcept {
-  auto& roots = instance.state->tick_root_m;
+  auto& roots = instance.state->motion.tick_root_m;
   const size_t bytes = sizeof(tissue::NodePose) * instance.level->node_count();
   for (int back = 2; back > 0; --back) {
-    std::memcpy(instance.poses[back], instance.poses[back - 1], bytes);
+    std::memcpy(instance.motion.poses[back], instance.motion.poses[back - 1], bytes);
     std::copy_n(roots[back - 1], 3, roots[back]);
   }
   const RootTransform root = root_at(instance, share);
   const Matrix34* joints = joints_at(instance, share);
-  pose_nodes(instance, joints, root, instance.poses[0]);
+  pose_nodes(instance, joints, root, instance.motion.poses[0]);
   rest_rods(instance, joints, root);
   pose_proxies(instance, joints, root);
   std::copy_n(root.position_m, 3, roots[0]);
@@ -137,7 +142,7 @@ void push_pose(Instance& instance, double share) noexcept {
 void pose_past_nodes(Instance& instance, double share, double back) noexcept {
   for (int tick = 2; tick > 0; --tick)
     pose_nodes(instance, joints_at(instance, share - tick * back), root_at(instance, share - tick * back),
-               instance.poses[tick - 1]);
+               instance.motion.poses[tick - 1]);
 }
 
 // The same of the parts that are carried over a teleport (character/motion/teleport.hpp), and of what may
@@ -147,19 +152,21 @@ void pose_past_parts(Instance& instance, double share, double back) noexcept {
   for (int tick = 2; tick > 0; --tick) {
     const RootTransform root = root_at(instance, share - tick * back);
     const Matrix34* joints = joints_at(instance, share - tick * back);
-    tissue::NodePose *all = instance.poses[2], *kept = instance.poses[tick - 1];  // the oldest goes next
+    tissue::NodePose *all = instance.motion.poses[2],
+                     *kept = instance.motion.poses[tick - 1];  // the oldest goes next
     pose_nodes(instance, joints, root, all);
     for (size_t r = 0; r < pack.regions.size(); ++r) {
       const pack::RegionRecord& region = pack.regions[r];
-      if (instance.carried_regions[r])
+      if (instance.motion.carried_regions[r])
         std::copy_n(all + region.first_node, region.node_count, kept + region.first_node);
     }
     rest_carried_rods(instance, joints, root, tick - 1);
     if (tick == 1) {
       wake_rods(instance);  // so that capsules' last tick is kept
       pose_proxies(instance, joints, root);
-      if (instance.pushes)
-        std::copy_n(instance.skin, size_t{12} * pack.character->joint_count, instance.tick_skin[0]);
+      if (instance.contacts.pushes)
+        std::copy_n(instance.motion.skin, size_t{12} * pack.character->joint_count,
+                    instance.contacts.tick_skin[0]);
     }
   }
 }
@@ -168,49 +175,49 @@ void pose_past_parts(Instance& instance, double share, double back) noexcept {
 
 void take_pose(Instance& instance, const TeleportDef& teleport) noexcept {
   InstanceState& state = *instance.state;
-  instance.parts_ready = false;
-  if (!state.has_next) {
-    copy_joints(instance, instance.joints, instance.next_joints);
-    state.next_root = state.root;
-  } else if (state.at_start) {
-    state.teleport_told = 0;
-    copy_joints(instance, instance.next_joints, instance.joints);
-    state.dt_before_s = 0;
-    state.root = state.next_root;
-    state.at_start = 0;
-    state.space_id = state.next_space_id;  // it has always been there
-    state.untouched = 1;
-    state.motion_stale = 1;
+  instance.motion.parts_ready = false;
+  if (!state.poses.has_next) {
+    copy_joints(instance, instance.motion.joints, instance.motion.next_joints);
+    state.motion.next_root = state.motion.root;
+  } else if (state.poses.at_start) {
+    state.teleports.told = 0;
+    copy_joints(instance, instance.motion.next_joints, instance.motion.joints);
+    state.motion.dt_before_s = 0;
+    state.motion.root = state.motion.next_root;
+    state.poses.at_start = 0;
+    state.motion.space_id = state.motion.next_space_id;  // it has always been there
+    state.tissue.untouched = 1;
+    state.poses.motion_stale = 1;
   } else {
     leave_out_unfelt(instance);
     carry_teleports(instance, teleport);
   }
   keep_space(instance);
-  for (const auto& source : instance.scaled)
-    if (source) source->set_scale(state.next_root.scale);
+  for (const auto& source : instance.contacts.scaled)
+    if (source) source->set_scale(state.motion.next_root.scale);
   remember_root_steps(instance);
   measure_velocity(instance);
 }
 
 void keep_pose(Instance& instance) noexcept {
-  instance.state->first_joints = (instance.state->first_joints + 1) % 4;
+  instance.state->poses.first_joints = (instance.state->poses.first_joints + 1) % 4;
   point_to_state(instance);
   // A pose that only counts as held says nothing of how the next is reached.
-  instance.state->dt_older_s = instance.state->dt_before_s;
-  instance.state->dt_before_s = instance.came_back ? 0 : instance.plan.dt_s;
-  instance.state->root = instance.state->next_root;
-  instance.state->has_next = 0;
-  instance.state->skips_pose = 0;
-  instance.state->without_pose_s = 0;
+  instance.state->motion.dt_older_s = instance.state->motion.dt_before_s;
+  instance.state->motion.dt_before_s = instance.marks.came_back ? 0 : instance.plan.dt_s;
+  instance.state->motion.root = instance.state->motion.next_root;
+  instance.state->poses.has_next = 0;
+  instance.state->poses.skips_pose = 0;
+  instance.state->poses.without_pose_s = 0;
 }
 
 void follow_motion(Instance& instance, double time_s) noexcept {
   const double share = share_at(instance, time_s);
   const double tick = instance.plan.dt_s > 0 ? instance.asset->tick_s / instance.plan.dt_s : 0;
   const double back = tick <= kFarthestBack ? tick : 0;
-  const bool raised = std::exchange(instance.level_raised, false), carries = carries_parts(instance);
+  const bool raised = std::exchange(instance.marks.level_raised, false), carries = carries_parts(instance);
   if (carries) remember_rod_velocities(instance);
-  if (std::exchange(instance.state->motion_stale, 0u)) {
+  if (std::exchange(instance.state->poses.motion_stale, 0u)) {
     begin_rods(instance);
     push_pose(instance, share - 2 * back);
     push_pose(instance, share - back);
@@ -222,7 +229,7 @@ void follow_motion(Instance& instance, double time_s) noexcept {
 }
 
 void pose_now(Instance& instance, tissue::NodePose* out) noexcept {
-  pose_nodes(instance, instance.joints, instance.state->root, out);
+  pose_nodes(instance, instance.motion.joints, instance.state->motion.root, out);
 }
 
 }  // namespace sinew::world

@@ -25,7 +25,7 @@ struct Placement {
 inline Placement placement_of(const Instance& instance, Space space, const double (&origin_m)[3]) noexcept {
   Placement placement;
   if (space != Space::kWorld) return placement;
-  const RootTransform& root = instance.state->root;
+  const RootTransform& root = instance.state->motion.root;
   placement.moves = true;
   placement.rotation = Eigen::Map<const Eigen::Quaternionf>(root.rotation_xyzw).toRotationMatrix();
   placement.scale = static_cast<float>(root.scale);

@@ -67,10 +67,11 @@ Status measure_reach(const Asset& asset, float* out_m) noexcept {
 void bound_pose(Instance& instance) noexcept {
   const uint32_t joints = instance.level->pack.character->joint_count;
   Eigen::AlignedBox3f box;
-  const Matrix34* pose = instance.state->has_next ? instance.next_joints : instance.joints;
+  const Matrix34* pose =
+      instance.state->poses.has_next ? instance.motion.next_joints : instance.motion.joints;
   for (uint32_t j = 0; j < joints; ++j) box.extend(place_of(pose[j]));
   const InstanceState& state = *instance.state;
-  const RootTransform& root = state.has_next ? state.next_root : state.root;
+  const RootTransform& root = state.poses.has_next ? state.motion.next_root : state.motion.root;
   Eigen::Map<Vector3d>{instance.bound.middle_m} =
       root.scale * (Eigen::Map<const Vector3d>(root.position_m) +
                     quaternion(root.rotation_xyzw) * Vector3d(box.center().cast<double>()));

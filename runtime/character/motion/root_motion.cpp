@@ -54,21 +54,21 @@ RootTransform on_the_way(const RootTransform& from, const RootTransform& to, dou
 
 void move_past(Instance& instance, const RootTransform& root) noexcept {
   InstanceState& state = *instance.state;
-  const Vector3d from = place_of(state.root), to = place_of(root);
-  const Quaterniond turn = rotation_of(root) * rotation_of(state.root).conjugate();
-  for (double* of_step : {state.velocity_m_s, state.velocity_before_m_s}) {
+  const Vector3d from = place_of(state.motion.root), to = place_of(root);
+  const Quaterniond turn = rotation_of(root) * rotation_of(state.motion.root).conjugate();
+  for (double* of_step : {state.motion.velocity_m_s, state.motion.velocity_before_m_s}) {
     Eigen::Map<Vector3d> velocity(of_step);
     velocity = (turn * velocity).eval();
   }
-  for (double* tick_root : state.tick_root_m) {
+  for (double* tick_root : state.motion.tick_root_m) {
     Eigen::Map<Vector3d> place(tick_root);
     place = (turn * (place - from) + to).eval();
   }
-  state.root = root;
-  if (state.motion_stale) return;  // there is no history
-  for (tissue::NodePose* poses : instance.poses)
+  state.motion.root = root;
+  if (state.poses.motion_stale) return;  // there is no history
+  for (tissue::NodePose* poses : instance.motion.poses)
     turn_poses(turn.toRotationMatrix().cast<float>(), instance.level->node_count(), poses);
-  for (float* tick_turn : instance.tick_turn)
+  for (float* tick_turn : instance.contacts.tick_turn)
     if (tick_turn)
       Eigen::Map<Eigen::Vector4f>{tick_turn} = (turn * quaternion(tick_turn)).coeffs().cast<float>();
   move_rods(instance, turn, from, to);
@@ -80,11 +80,11 @@ namespace {
 // nothing else is felt.
 void add_velocity(Instance& instance, const Vector3d& added_m_s) noexcept {
   InstanceState& state = *instance.state;
-  for (double* of_step : {state.velocity_m_s, state.velocity_before_m_s})
+  for (double* of_step : {state.motion.velocity_m_s, state.motion.velocity_before_m_s})
     Eigen::Map<Vector3d>(of_step) += added_m_s;
-  if (state.motion_stale) return;  // there is no history
+  if (state.poses.motion_stale) return;  // there is no history
   for (int tick = 0; tick < 3; ++tick)
-    Eigen::Map<Vector3d>(state.tick_root_m[tick]) -=
+    Eigen::Map<Vector3d>(state.motion.tick_root_m[tick]) -=
         (state.remainder_s + tick * instance.asset->tick_s) * added_m_s;
   speed_rods(instance, added_m_s);
 }
@@ -92,54 +92,58 @@ void add_velocity(Instance& instance, const Vector3d& added_m_s) noexcept {
 // To where it is in metres of another size.
 void resize(Instance& instance, double scale) noexcept {
   InstanceState& state = *instance.state;
-  const double share = state.root.scale / scale;
-  RootTransform root = state.root;
+  const double share = state.motion.root.scale / scale;
+  RootTransform root = state.motion.root;
   for (double& place : root.position_m) place *= share;
-  for (double* own : {state.space.position_m, state.ride_velocity_m_s})
+  for (double* own : {state.motion.space.position_m, state.motion.ride_velocity_m_s})
     for (int k = 0; k < 3; ++k) own[k] *= share;
   root.scale = scale;
   move_past(instance, root);
-  add_velocity(instance, (share - 1) * Eigen::Map<const Vector3d>(state.velocity_m_s));
+  add_velocity(instance, (share - 1) * Eigen::Map<const Vector3d>(state.motion.velocity_m_s));
 }
 
 // Its velocity counts from something else: plus or less that of what it rode on, as far as it is felt.
 void add_ride(Instance& instance, double sign) noexcept {
   const InstanceState& state = *instance.state;
-  add_velocity(instance, sign * static_cast<double>(state.felt_root) *
-                             Eigen::Map<const Vector3d>(state.ride_velocity_m_s));
+  add_velocity(instance, sign * static_cast<double>(state.motion.felt_root) *
+                             Eigen::Map<const Vector3d>(state.motion.ride_velocity_m_s));
 }
 
 // Goes along with its space.
 void ride(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   const double dt_s = instance.plan.dt_s;
-  if (state.space_id != 0 && state.space_id != state.next_space_id) add_ride(instance, 1);
-  if (state.next_space_id == 0 || state.space_id != state.next_space_id) return;
-  const bool moves = !same_root(state.space, state.next_space);
-  const RootTransform carried = moves ? carried_by(state.space, state.next_space, state.root) : state.root;
+  if (state.motion.space_id != 0 && state.motion.space_id != state.motion.next_space_id)
+    add_ride(instance, 1);
+  if (state.motion.next_space_id == 0 || state.motion.space_id != state.motion.next_space_id) return;
+  const bool moves = !same_root(state.motion.space, state.motion.next_space);
+  const RootTransform carried =
+      moves ? carried_by(state.motion.space, state.motion.next_space, state.motion.root) : state.motion.root;
   if (dt_s > 0)
-    Eigen::Map<Vector3d>(state.ride_velocity_m_s) = (place_of(carried) - place_of(state.root)) / dt_s;
+    Eigen::Map<Vector3d>(state.motion.ride_velocity_m_s) =
+        (place_of(carried) - place_of(state.motion.root)) / dt_s;
   if (moves) move_past(instance, carried);
-  if (state.space_changed != 0 && dt_s > 0) add_ride(instance, -1);
+  if (state.motion.space_changed != 0 && dt_s > 0) add_ride(instance, -1);
 }
 
 }  // namespace
 
 void leave_out_unfelt(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
-  if (state.next_root.scale != state.root.scale) resize(instance, state.next_root.scale);
+  if (state.motion.next_root.scale != state.motion.root.scale) resize(instance, state.motion.next_root.scale);
   ride(instance);
-  if (state.felt_root < 1 && !same_root(state.root, state.next_root))
-    move_past(instance, on_the_way(state.root, state.next_root, 1 - static_cast<double>(state.felt_root)));
+  if (state.motion.felt_root < 1 && !same_root(state.motion.root, state.motion.next_root))
+    move_past(instance, on_the_way(state.motion.root, state.motion.next_root,
+                                   1 - static_cast<double>(state.motion.felt_root)));
 }
 
 void keep_space(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   const bool waits =
-      state.space_changed != 0 && !(instance.plan.dt_s > 0);  // for a step that tells how it moves
-  state.space_changed = waits || state.next_space_id != state.space_id;
-  state.space = state.next_space;
-  state.space_id = state.next_space_id;
+      state.motion.space_changed != 0 && !(instance.plan.dt_s > 0);  // for a step that tells how it moves
+  state.motion.space_changed = waits || state.motion.next_space_id != state.motion.space_id;
+  state.motion.space = state.motion.next_space;
+  state.motion.space_id = state.motion.next_space_id;
 }
 
 }  // namespace sinew::world

@@ -45,24 +45,26 @@ double departure(const Vector3d& place_m, double angle_rad, double scale_log,
 double root_departure(const Instance& instance, const TeleportBounds& most) noexcept {
   const InstanceState& state = *instance.state;
   const double dt_s = dt_of(instance);
-  const Vector3d place = place_of(state.root) + dt_s * Eigen::Map<const Vector3d>(state.velocity_m_s);
-  const Quaterniond turned =
-      rotation_of(state.root) * exponential(dt_s * Eigen::Map<const Vector3d>(state.angular_velocity));
-  const double angle = logarithm(turned.conjugate() * rotation_of(state.next_root)).norm();
-  return departure(place_of(state.next_root) - place, angle, 0, most);
+  const Vector3d place =
+      place_of(state.motion.root) + dt_s * Eigen::Map<const Vector3d>(state.motion.velocity_m_s);
+  const Quaterniond turned = rotation_of(state.motion.root) *
+                             exponential(dt_s * Eigen::Map<const Vector3d>(state.motion.angular_velocity));
+  const double angle = logarithm(turned.conjugate() * rotation_of(state.motion.next_root)).norm();
+  return departure(place_of(state.motion.next_root) - place, angle, 0, most);
 }
 
 // From which the last step's velocity leads to next_root in dt.
 RootTransform root_leading_to_next(const Instance& instance) noexcept {
   const InstanceState& state = *instance.state;
   const double dt_s = dt_of(instance);
-  const Quaterniond rotation =
-      rotation_of(state.next_root) * exponential(-dt_s * Eigen::Map<const Vector3d>(state.angular_velocity));
-  const Quaterniond turn = rotation * rotation_of(state.root).conjugate();
+  const Quaterniond rotation = rotation_of(state.motion.next_root) *
+                               exponential(-dt_s * Eigen::Map<const Vector3d>(state.motion.angular_velocity));
+  const Quaterniond turn = rotation * rotation_of(state.motion.root).conjugate();
   RootTransform root;
-  root.scale = state.next_root.scale;
+  root.scale = state.motion.next_root.scale;
   Eigen::Map<Vector3d>(root.position_m) =
-      place_of(state.next_root) - dt_s * (turn * Eigen::Map<const Vector3d>(state.velocity_m_s));
+      place_of(state.motion.next_root) -
+      dt_s * (turn * Eigen::Map<const Vector3d>(state.motion.velocity_m_s));
   Eigen::Map<Eigen::Vector4f>(root.rotation_xyzw) = rotation.coeffs().cast<float>();
   return root;
 }
@@ -72,8 +74,8 @@ struct RawStep {
   Vector3d place_m, turn;
 };
 RawStep raw_step(const InstanceState& state) noexcept {
-  return {place_of(state.next_root) - place_of(state.root),
-          logarithm(rotation_of(state.root).conjugate() * rotation_of(state.next_root))};
+  return {place_of(state.motion.next_root) - place_of(state.motion.root),
+          logarithm(rotation_of(state.motion.root).conjugate() * rotation_of(state.motion.next_root))};
 }
 
 // A step that goes just as fast as the one that teleported is no second teleport but a velocity that began at
@@ -81,8 +83,8 @@ RawStep raw_step(const InstanceState& state) noexcept {
 bool goes_on_alike(const Instance& instance, const RawStep& step, const TeleportBounds& most) noexcept {
   const InstanceState& state = *instance.state;
   const double dt_s = dt_of(instance);
-  const Vector3d place = step.place_m - dt_s * Eigen::Map<const Vector3d>(state.teleport_velocity_m_s);
-  const Vector3d turn = step.turn - dt_s * Eigen::Map<const Vector3d>(state.teleport_spin);
+  const Vector3d place = step.place_m - dt_s * Eigen::Map<const Vector3d>(state.teleports.velocity_m_s);
+  const Vector3d turn = step.turn - dt_s * Eigen::Map<const Vector3d>(state.teleports.spin);
   return departure(place, turn.norm(), 0, most) <= kAsBefore;
 }
 
@@ -93,20 +95,20 @@ void carry_root(Instance& instance, bool told, const TeleportBounds& most) noexc
   const bool jumps = told || off > 1;
   if (!jumps && !(dt_s > 0)) return;  // tells nothing of how it goes on
   const RawStep step = raw_step(state);
-  const bool before = std::exchange(state.teleported, static_cast<uint16_t>(jumps)) != 0;
+  const bool before = std::exchange(state.teleports.teleported, static_cast<uint16_t>(jumps)) != 0;
   if (jumps && (told || !(before && goes_on_alike(instance, step, most)))) {
-    ++state.root_teleports;
+    ++state.teleports.root_teleports;
     const double rate = dt_s > 0 ? 1 / dt_s : 0;
-    Eigen::Map<Vector3d>(state.teleport_velocity_m_s) = rate * step.place_m;
-    Eigen::Map<Vector3d>(state.teleport_spin) = rate * step.turn;
+    Eigen::Map<Vector3d>(state.teleports.velocity_m_s) = rate * step.place_m;
+    Eigen::Map<Vector3d>(state.teleports.spin) = rate * step.turn;
     if (before) {  // two cuts: of how it moves nothing is known
-      std::fill_n(state.velocity_m_s, 3, 0.0);
-      std::fill_n(state.angular_velocity, 3, 0.0);
+      std::fill_n(state.motion.velocity_m_s, 3, 0.0);
+      std::fill_n(state.motion.angular_velocity, 3, 0.0);
     }
     move_past(instance, root_leading_to_next(instance));
     if (before) begin_line(instance);
   } else if (before && off > kAsBefore) {
-    state.teleported = 0;
+    state.teleports.teleported = 0;
     begin_line(instance);
   }
 }
@@ -124,8 +126,9 @@ struct JointPath {
 };
 
 JointPath path_of(const Instance& instance, uint32_t joint, double ratio) noexcept {
-  JointPath path{split_joint(instance.joints_before[joint]), split_joint(instance.joints[joint]),
-                 split_joint(instance.next_joints[joint]), Vector3d::Zero(), Vector3d::Zero()};
+  JointPath path{split_joint(instance.motion.joints_before[joint]),
+                 split_joint(instance.motion.joints[joint]), split_joint(instance.motion.next_joints[joint]),
+                 Vector3d::Zero(), Vector3d::Zero()};
   path.step_m = ratio * (place_of(path.now) - place_of(path.before));
   path.turn = ratio * logarithm(quaternion(path.before.rotation_xyzw).conjugate() *
                                 quaternion(path.now.rotation_xyzw));
@@ -155,8 +158,8 @@ Sieve sieve_of(const TeleportBounds& most) noexcept {
 // its chord.
 bool may_teleport(const Instance& instance, uint32_t joint, float ratio, const Sieve& sieve) noexcept {
   using Columns = Eigen::Map<const Eigen::Array<float, 4, 3>>;  // a row of the matrix each
-  const Columns before(&instance.joints_before[joint].m[0][0]), now(&instance.joints[joint].m[0][0]),
-      next(&instance.next_joints[joint].m[0][0]);
+  const Columns before(&instance.motion.joints_before[joint].m[0][0]),
+      now(&instance.motion.joints[joint].m[0][0]), next(&instance.motion.next_joints[joint].m[0][0]);
   const Eigen::Array<float, 4, 3> change = next - now - ratio * (now - before);
   const Eigen::Array4f off = change.square().rowwise().sum(), own = now.square().rowwise().sum();
   return off[3] > sieve.place || off[0] + off[1] + off[2] > sieve.linear * (own[0] + own[1] + own[2]);
@@ -185,9 +188,9 @@ void rebase_joint(Instance& instance, uint32_t joint, const JointPath& path) noe
   const Quaterniond turn = now * was.conjugate();
   const Vector3d at_m = place_of(path.next) - turn * path.step_m;
   const Vector3d before_m = at_m - turn * (place_of(path.now) - place_of(path.before));
-  instance.joints_before[joint] =
+  instance.motion.joints_before[joint] =
       compose(turn * quaternion(path.before.rotation_xyzw), path.next.stretch, before_m);
-  instance.joints[joint] = compose(now, path.next.stretch, at_m);
+  instance.motion.joints[joint] = compose(now, path.next.stretch, at_m);
 }
 
 // The one before, so that the coming step goes on from it; dt_before over dt is 1 / ratio.
@@ -195,19 +198,19 @@ void go_on(Instance& instance, uint32_t joint, const JointPath& path, double rat
   if (!(ratio > 0)) return;
   const Quaterniond now = quaternion(path.now.rotation_xyzw);
   const Vector3d turn = logarithm(now.conjugate() * quaternion(path.next.rotation_xyzw));
-  instance.joints_before[joint] =
+  instance.motion.joints_before[joint] =
       compose(now * exponential(-turn / ratio), path.now.stretch,
               place_of(path.now) - (place_of(path.next) - place_of(path.now)) / ratio);
 }
 
 // Marks each that jumps, or that did in the last step; says whether there is one.
 bool carry_joints(Instance& instance, const TeleportBounds& most, bool all) noexcept {
-  const double dt_s = dt_of(instance), before_s = instance.state->dt_before_s;
+  const double dt_s = dt_of(instance), before_s = instance.state->motion.dt_before_s;
   const double ratio = before_s > 0 ? dt_s / before_s : 0;
   const Sieve sieve = sieve_of(most);
   uint32_t found = 0;
   for (uint32_t j = 0; j < instance.level->pack.character->joint_count; ++j) {
-    uint32_t& mark = instance.joint_teleports[j];
+    uint32_t& mark = instance.motion.joint_teleports[j];
     if (mark == kNone && !all && !may_teleport(instance, j, static_cast<float>(ratio), sieve)) continue;
     const JointPath path = path_of(instance, j, ratio);
     const double off = joint_departure(path, most);
@@ -215,7 +218,7 @@ bool carry_joints(Instance& instance, const TeleportBounds& most, bool all) noex
       if (mark == kNone)
         rebase_joint(instance, j, path);
       else  // two cuts: of how it moves nothing is known
-        instance.joints_before[j] = instance.joints[j] = instance.next_joints[j];
+        instance.motion.joints_before[j] = instance.motion.joints[j] = instance.motion.next_joints[j];
       mark = kTeleports;
     } else if (mark != kNone && dt_s > 0) {
       mark = off > kAsBefore ? kGoesOn : kNone;
@@ -242,27 +245,27 @@ bool rod_follows(const RodRig& rig, const RodSeat& seat, const uint32_t* marks) 
 
 void mark_parts(Instance& instance) noexcept {
   const pack::PackView& pack = instance.level->pack;
-  const uint32_t* marks = instance.joint_teleports;
+  const uint32_t* marks = instance.motion.joint_teleports;
   uint32_t carried = 0;
-  const bool followed = !instance.state->motion_stale;  // else there is nothing that could be carried
-  instance.state->carried_capsules |= followed;
+  const bool followed = !instance.state->poses.motion_stale;  // else there is nothing that could be carried
+  instance.state->teleports.carried_capsules |= followed;
   for (size_t r = 0; r < pack.regions.size(); ++r) {
     const auto nodes = pack.nodes.subspan(pack.regions[r].first_node, pack.regions[r].node_count);
     const bool one = std::ranges::any_of(nodes, [&](const auto& node) { return follows(node.skin, marks); });
-    instance.carried_regions[r] |= one && followed;
+    instance.motion.carried_regions[r] |= one && followed;
     carried += one;
   }
   const RodRig& rig = instance.asset->rods;
   for (uint32_t rod = 0; rod < rig.rod_count; ++rod) {
     const bool one = rod_follows(rig, rig.seats()[rod], marks);
-    instance.carried_rods[rod] |= one && followed;
+    instance.motion.carried_rods[rod] |= one && followed;
     carried += one;
   }
   const bool teleported = std::ranges::any_of(std::span(marks, pack.character->joint_count),
                                               [](uint32_t m) { return m == kTeleports; });
-  if (teleported) instance.state->part_teleports += carried;
+  if (teleported) instance.state->teleports.part_teleports += carried;
   for (uint32_t j = 0; j < pack.character->joint_count; ++j)
-    instance.joint_teleports[j] = marks[j] == kTeleports ? kTeleported : kNone;
+    instance.motion.joint_teleports[j] = marks[j] == kTeleports ? kTeleported : kNone;
 }
 
 }  // namespace
@@ -277,44 +280,44 @@ TeleportBounds teleport_bounds(const TeleportDef& def, float height_m, double dt
 
 void carry_teleports(Instance& instance, const TeleportDef& def) noexcept {
   const TeleportBounds most = teleport_bounds(def, instance.level->pack.character->height_m, dt_of(instance));
-  const bool all = std::exchange(instance.state->teleport_told, uint16_t{0}) != 0;
-  const bool joints = carry_joints(instance, most, all), was = instance.state->teleported != 0;
+  const bool all = std::exchange(instance.state->teleports.told, uint16_t{0}) != 0;
+  const bool joints = carry_joints(instance, most, all), was = instance.state->teleports.teleported != 0;
   if (joints) mark_parts(instance);
   carry_root(instance, all, most);
   // The poses before the last two were not moved.
-  if (joints || was || instance.state->teleported) instance.state->dt_older_s = 0;
+  if (joints || was || instance.state->teleports.teleported) instance.state->motion.dt_older_s = 0;
 }
 
 void carry_rods(Instance& instance) noexcept {
-  if (instance.state->motion_stale) return;  // what they swing with is not known
-  std::fill_n(instance.carried_rods, instance.asset->rods.rod_count, 1u);
+  if (instance.state->poses.motion_stale) return;  // what they swing with is not known
+  std::fill_n(instance.motion.carried_rods, instance.asset->rods.rod_count, 1u);
 }
 
 void begin_line(Instance& instance) noexcept {
   carry_rods(instance);
-  instance.state->dt_before_s = 0;
-  instance.state->motion_stale = 1;
+  instance.state->motion.dt_before_s = 0;
+  instance.state->poses.motion_stale = 1;
 }
 
 bool carries_parts(const Instance& instance) noexcept {
   const auto any = [](const uint32_t* marks, size_t count) {
     return std::any_of(marks, marks + count, [](uint32_t mark) { return mark != 0; });
   };
-  return instance.state->carried_capsules != 0 ||
-         any(instance.carried_regions, instance.level->pack.regions.size()) ||
-         any(instance.carried_rods, instance.asset->rods.rod_count);
+  return instance.state->teleports.carried_capsules != 0 ||
+         any(instance.motion.carried_regions, instance.level->pack.regions.size()) ||
+         any(instance.motion.carried_rods, instance.asset->rods.rod_count);
 }
 
 void forget_carried(Instance& instance) noexcept {
-  instance.state->carried_capsules = 0;
-  std::fill_n(instance.carried_regions, instance.level->pack.regions.size(), 0u);
-  std::fill_n(instance.carried_rods, instance.asset->rods.rod_count, 0u);
+  instance.state->teleports.carried_capsules = 0;
+  std::fill_n(instance.motion.carried_regions, instance.level->pack.regions.size(), 0u);
+  std::fill_n(instance.motion.carried_rods, instance.asset->rods.rod_count, 0u);
 }
 
 void forget_teleports(Instance& instance) noexcept {
   forget_carried(instance);
-  std::fill_n(instance.joint_teleports, instance.level->pack.character->joint_count, 0u);
-  instance.state->teleported = instance.state->teleport_told = 0;
+  std::fill_n(instance.motion.joint_teleports, instance.level->pack.character->joint_count, 0u);
+  instance.state->teleports.teleported = instance.state->teleports.told = 0;
 }
 
 }  // namespace sinew::world

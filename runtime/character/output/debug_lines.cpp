@@ -45,14 +45,15 @@ class Pen {
 };
 
 void draw_nodes(const Instance& instance, const ShownSkin& skin, const Placement& to, Pen& pen) noexcept {
-  if (!instance.displaced) return;
+  if (!instance.marks.displaced) return;
   const std::span<const pack::NodeRecord> nodes = instance.level->pack.nodes;
   for (size_t n = 0; n < nodes.size(); ++n) {
     const SkinMatrix m = blended(nodes[n].skin, skin.matrices());
     const float bound_m = displacement_bound_m(*instance.asset, nodes[n].region);
-    const Vector3f bind(nodes[n].position_m), delta = within_bound(Vector3f(instance.delta + 3 * n), bound_m);
+    const Vector3f bind(nodes[n].position_m),
+        delta = within_bound(Vector3f(instance.published.delta + 3 * n), bound_m);
     const auto moved = [&](const Vector3f& p) { return to.place(m.leftCols<3>() * p + m.col(3)); };
-    pen.line(moved(bind), moved(bind + instance.carried_share * delta), kOrange);
+    pen.line(moved(bind), moved(bind + instance.published.carried_share * delta), kOrange);
   }
 }
 
@@ -90,14 +91,14 @@ void draw_proxies(const Instance& instance, const Placement& to, Pen& pen) noexc
 void draw_touches(const Instance& instance, const double (&origin_m)[3], Pen& pen) noexcept {
   constexpr float kShare = 0.05f;
   const InstanceState& state = *instance.state;
-  const auto scale = static_cast<float>(state.root.scale);
+  const auto scale = static_cast<float>(state.motion.root.scale);
   Vector3f root;
   for (int k = 0; k < 3; ++k)
-    root[k] = static_cast<float>(state.root.scale * state.tick_root_m[0][k] - origin_m[k]);
+    root[k] = static_cast<float>(state.motion.root.scale * state.motion.tick_root_m[0][k] - origin_m[k]);
   for (uint32_t t = 0; t < instance.told.touches; ++t) {
-    const Vector3f place = root + scale * Vector3f(instance.touches[t].place_m);
+    const Vector3f place = root + scale * Vector3f(instance.contacts.touches[t].place_m);
     const float length = kShare * scale * instance.level->pack.character->height_m;
-    pen.line(place, place + length * Vector3f(instance.touches[t].normal), kRed);
+    pen.line(place, place + length * Vector3f(instance.contacts.touches[t].normal), kRed);
   }
 }
 

@@ -32,15 +32,15 @@ size_t take_events(EventLog& log, std::span<Event> out) noexcept {
 
 EventCounts event_counts(const Instance& instance) noexcept {
   const InstanceState& state = *instance.state;
-  return {state.root_teleports, state.part_teleports, state.rod_recoveries};
+  return {state.teleports.root_teleports, state.teleports.part_teleports, state.rods.recoveries};
 }
 
 uint8_t events_since(const EventCounts& before, const Instance& instance) noexcept {
   const EventCounts now = event_counts(instance);
   return static_cast<uint8_t>(bit(EventKind::kTeleport, now.root_teleports != before.root_teleports) |
                               bit(EventKind::kPartTeleport, now.part_teleports != before.part_teleports) |
-                              bit(EventKind::kNetworkGivenUp, instance.fell_back) |
-                              bit(EventKind::kRestart, instance.restarted) |
+                              bit(EventKind::kNetworkGivenUp, instance.marks.fell_back) |
+                              bit(EventKind::kRestart, instance.marks.restarted) |
                               bit(EventKind::kRodRecovery, now.rod_recoveries != before.rod_recoveries));
 }
 

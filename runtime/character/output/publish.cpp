@@ -28,37 +28,37 @@ bool put(float value, float& to) noexcept {
 bool take_shown(Instance& instance, const pack::RegionRecord& region, const float* shown) noexcept {
   const size_t begin = size_t{3} * region.first_node, end = begin + size_t{3} * region.node_count;
   bool changed = false;
-  for (size_t i = begin; i < end; ++i) changed |= put(shown[i], instance.delta[i]);
+  for (size_t i = begin; i < end; ++i) changed |= put(shown[i], instance.published.delta[i]);
   return changed;
 }
 
 // Vertices that touched something in the last tick. True when `carried` has to be made anew for it.
 bool takes_pushes(const Instance& instance, size_t r) noexcept {
-  return instance.pushes && (instance.pushed[r] || instance.carries_pushes[r]);
+  return instance.contacts.pushes && (instance.contacts.pushed[r] || instance.contacts.carries_pushes[r]);
 }
 
 // True when `carried` has to be made anew for what a change of level left, or for its level itself.
 bool takes_seam(Instance& instance, float share) noexcept {
-  const bool had = std::exchange(instance.carries_seam, share > 0);
-  return std::exchange(instance.carried_level, instance.state->level) != instance.state->level || had ||
-         share > 0;
+  const bool had = std::exchange(instance.published.carries_seam, share > 0);
+  return std::exchange(instance.published.carried_level, instance.state->level) != instance.state->level ||
+         had || share > 0;
 }
 
 void add_seam(const Instance& instance, float share, size_t first, size_t floats, float* carried) noexcept {
-  for (size_t i = 0; i < floats; ++i) carried[i] += share * instance.seam[first + i];
+  for (size_t i = 0; i < floats; ++i) carried[i] += share * instance.transition.seam[first + i];
 }
 
 void add_pushes(Instance& instance, size_t r, size_t first, float* carried) noexcept {
   const size_t floats = size_t{3} * instance.level->pack.regions[r].padded_vertices;
-  instance.carries_pushes[r] = instance.pushed[r] != 0;
-  for (size_t i = 0; i < floats; ++i) carried[i] += instance.pushes[first + i];
+  instance.contacts.carries_pushes[r] = instance.contacts.pushed[r] != 0;
+  for (size_t i = 0; i < floats; ++i) carried[i] += instance.contacts.pushes[first + i];
 }
 
 // Nothing is left of it, so that coming back starts from rest.
 void clear_shown(Instance& instance) noexcept {
   const size_t bytes = sizeof(float) * 3 * instance.level->node_count();
-  for (float* shown : instance.shown) std::memset(shown, 0, bytes);
-  instance.state->seam_ticks = kBlendInTicks;
+  for (float* shown : instance.transition.shown) std::memset(shown, 0, bytes);
+  instance.state->transition.seam_ticks = kBlendInTicks;
 }
 
 struct Shown {
@@ -67,41 +67,43 @@ struct Shown {
 
 Shown shown_at_end(Instance& instance, const ClockHook& clock) noexcept {
   const InstanceState& state = *instance.state;
-  const bool steps = (state.render_fraction > 0 || state.is_off) && frame::is_simulated(state.tier);
+  const bool steps =
+      (state.poses.render_fraction > 0 || state.tissue.is_off) && frame::is_simulated(state.tier);
   const uint64_t start_ns = steps ? core::now_ns(clock) : 0;
   const Shown shown{shown_now(instance), rods_shown_now(instance)};
-  instance.between_ns = steps ? core::now_ns(clock) - start_ns : 0;
+  instance.times.between_ns = steps ? core::now_ns(clock) - start_ns : 0;
   return shown;
 }
 
 }  // namespace
 
 void publish_pose(Instance& instance) noexcept {
-  publish_rods(instance, instance.rods_published);
+  publish_rods(instance, instance.rods.published);
   if (!skins_on_reading(instance))
-    skin_matrices(instance.level->pack.joints, shown_joints(instance), instance.skin);
+    skin_matrices(instance.level->pack.joints, shown_joints(instance), instance.motion.skin);
 }
 
 void publish(Instance& instance, const ClockHook& clock) noexcept {
   const pack::PackView& pack = instance.level->pack;
   const bool displaced = shown_share(instance) > 0;
   const Shown now = shown_at_end(instance, clock);
-  instance.rods_published = now.turns;
+  instance.rods.published = now.turns;
   publish_pose(instance);
-  if (std::exchange(instance.displaced, displaced) && !displaced) clear_shown(instance);
+  if (std::exchange(instance.marks.displaced, displaced) && !displaced) clear_shown(instance);
   if (!displaced) return;
-  instance.carried_share =
-      frame::is_simulated(instance.state->tier) ? 1 : tail_share(instance, instance.state->render_fraction);
-  float* carried = instance.carried;
+  instance.published.carried_share = frame::is_simulated(instance.state->tier)
+                                         ? 1
+                                         : tail_share(instance, instance.state->poses.render_fraction);
+  float* carried = instance.published.carried;
   const float seam = seam_share(instance);
   const bool seamed = takes_seam(instance, seam);
   for (size_t r = 0; r < pack.regions.size(); ++r) {
     const pack::RegionRecord& region = pack.regions[r];
     const bool moved = take_shown(instance, region, now.displacement), pushed = takes_pushes(instance, r);
-    const size_t first = static_cast<size_t>(carried - instance.carried);
+    const size_t first = static_cast<size_t>(carried - instance.published.carried);
     if (moved || pushed || seamed)
       simd::kernels().carry(pack.carry.data() + region.carry, region.node_count, region.padded_vertices,
-                            instance.delta + size_t{3} * region.first_node, carried);
+                            instance.published.delta + size_t{3} * region.first_node, carried);
     if (seam > 0) add_seam(instance, seam, first, size_t{3} * region.padded_vertices, carried);
     if (pushed) add_pushes(instance, r, first, carried);
     if (moved || pushed || seamed)

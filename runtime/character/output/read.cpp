@@ -110,7 +110,7 @@ void skin_chunk(const Instance& instance, const ShownSkin& skin, Chunk& chunk) n
 
 void add_carried_in_a_row(const Instance& instance, Chunk& chunk) noexcept {
   const pack::PackView& pack = instance.level->pack;
-  const float* carried = instance.carried;
+  const float* carried = instance.published.carried;
   for (const pack::RegionRecord& region : pack.regions) {
     const uint32_t* begin = pack.region_vertices.data() + region.first_vertex;
     const uint32_t* end = begin + region.vertex_count;
@@ -119,7 +119,7 @@ void add_carried_in_a_row(const Instance& instance, Chunk& chunk) noexcept {
     for (; vertex != end && *vertex < chunk.first + chunk.count; ++vertex) {
       const float* delta = carried + (vertex - begin);
       float* point = chunk.points[*vertex - chunk.first];
-      for (size_t k = 0; k < 3; ++k) point[k] += instance.carried_share * delta[k * padded];
+      for (size_t k = 0; k < 3; ++k) point[k] += instance.published.carried_share * delta[k * padded];
     }
     carried += 3 * padded;
   }
@@ -127,12 +127,13 @@ void add_carried_in_a_row(const Instance& instance, Chunk& chunk) noexcept {
 
 // Adds what the regions carry to the chunk's vertices, in bind-pose axes.
 void add_carried(const Instance& instance, Chunk& chunk) noexcept {
-  if (!instance.displaced) return;
+  if (!instance.marks.displaced) return;
   if (!chunk.listed) return add_carried_in_a_row(instance, chunk);
   for (uint32_t i = 0; i < chunk.count; ++i)
     for (const SoftVertices::Place& place : instance.asset->soft.places_of(chunk.slot + i))
       for (size_t k = 0; k < 3; ++k)
-        chunk.points[i][k] += instance.carried_share * instance.carried[place.first + k * place.pitch];
+        chunk.points[i][k] +=
+            instance.published.carried_share * instance.published.carried[place.first + k * place.pitch];
 }
 
 template <class Work>
@@ -213,13 +214,14 @@ void make_surface(const Instance& instance, const SurfaceReadDef& def, const Sho
     bind_chunk(instance, chunk);
     add_carried(instance, chunk);
     if (def.space != Space::kBind) skin_chunk(instance, skin, chunk);
-    std::memcpy(instance.surface + size_t{3} * chunk.first, chunk.points, sizeof(float) * 3 * chunk.count);
+    std::memcpy(instance.published.surface + size_t{3} * chunk.first, chunk.points,
+                sizeof(float) * 3 * chunk.count);
   });
   const pack::PackView& pack = instance.level->pack;
-  simd::sum_areas({.positions = instance.surface,
+  simd::sum_areas({.positions = instance.published.surface,
                    .triangles = pack.triangles,
                    .welded = pack.welded,
-                   .out = instance.areas});
+                   .out = instance.published.areas});
 }
 
 // Into the chunk's points; of those that are listed one by one.
@@ -232,7 +234,7 @@ void find_normals(const Instance& instance, const SurfaceSkin& skin, Chunk& chun
     simd::turn_normals({.normals = &pack.normals[3 * first],
                         .bind_faces = &pack.face_normals[3 * first],
                         .welded = &pack.welded[first],
-                        .areas = instance.areas,
+                        .areas = instance.published.areas,
                         .joints = record.joint,
                         .weights = record.weight,
                         .skin_stride = skin.stride,
@@ -246,7 +248,7 @@ void put_surface(const Instance& instance, const SurfaceReadDef& def, const Plac
                  const Writer& positions) noexcept {
   for (uint32_t i = 0; i < chunk.count; ++i) {
     const size_t vertex = chunk.vertex(i);
-    const Vector3f point(instance.surface + 3 * vertex);
+    const Vector3f point(instance.published.surface + 3 * vertex);
     if (def.space == Space::kBind)
       positions.put(chunk.slot + i, point - Vector3f(&instance.level->pack.positions[3 * vertex]), 0);
     else

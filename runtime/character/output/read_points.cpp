@@ -24,11 +24,11 @@ Vector3f bind_place(const pack::PackView& pack, uint32_t vertex) noexcept {
 Vector3f carried(const Instance& instance, uint32_t vertex) noexcept {
   Vector3f sum = Vector3f::Zero();
   const SoftVertices& soft = instance.asset->soft;
-  const uint32_t slot = instance.displaced ? soft.slot_of(vertex) : soft.count;
+  const uint32_t slot = instance.marks.displaced ? soft.slot_of(vertex) : soft.count;
   if (slot == soft.count) return sum;
   for (const SoftVertices::Place& place : soft.places_of(slot)) {
-    const float* delta = instance.carried + place.first;
-    sum += instance.carried_share * Vector3f(delta[0], delta[place.pitch], delta[2 * place.pitch]);
+    const float* delta = instance.published.carried + place.first;
+    sum += instance.published.carried_share * Vector3f(delta[0], delta[place.pitch], delta[2 * place.pitch]);
   }
   return sum;
 }

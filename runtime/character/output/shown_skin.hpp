@@ -14,7 +14,7 @@ using SkinMatrix = Eigen::Matrix<float, 3, 4, Eigen::RowMajor>;
 // All of them, made where they are read.
 class ShownSkin {
  public:
-  explicit ShownSkin(const Instance& instance) noexcept : data_(instance.skin) {
+  explicit ShownSkin(const Instance& instance) noexcept : data_(instance.motion.skin) {
     if (!skins_on_reading(instance)) return;
     skin_matrices(instance.level->pack.joints, shown_joints(instance), here_);
     data_ = here_;

@@ -25,7 +25,7 @@ constexpr double kLeastWind_m_s = 0.1;  // slower gusts travel nowhere
 
 const Environment& environment_of(const Instance& instance) noexcept {
   static constexpr Environment kUsual;
-  return instance.environment ? *instance.environment : kUsual;
+  return instance.parameters.environment ? *instance.parameters.environment : kUsual;
 }
 
 // Of the last tick or the coming one.
@@ -38,7 +38,7 @@ struct AirTargets {
 AirTargets targets_of(const Instance& instance) noexcept {
   constexpr Environment kUsual;
   const Environment& world = environment_of(instance);
-  const AddedEnvironment& added = instance.state->air.added;
+  const AddedEnvironment& added = instance.state->parameters.air.added;
   AirTargets to;
   for (uint32_t k = 0; k < 3; ++k) {
     to.numbers[kGravityChange + k] = world.gravity_m_s2[k] - kUsual.gravity_m_s2[k];
@@ -47,7 +47,7 @@ AirTargets targets_of(const Instance& instance) noexcept {
   }
   to.numbers[kGust] = world.wind.gust;
   Eigen::Map<Vector3f> acceleration(to.numbers + kAcceleration);
-  acceleration *= tissue::felt_share(acceleration.norm(), instance.most_m_s2);
+  acceleration *= tissue::felt_share(acceleration.norm(), instance.parameters.most_m_s2);
   return to;
 }
 
@@ -93,20 +93,21 @@ Vector3f air_velocity(const AirState& air, When when, double cycles_behind = 0) 
 
 // How many gusts lie along a way.
 double cycles_along(const Instance& instance, const Vector3d& way_m) noexcept {
-  const Vector3d wind = vector_of(instance.state->air, kWindVelocity, When::kNext).cast<double>();
+  const Vector3d wind = vector_of(instance.state->parameters.air, kWindVelocity, When::kNext).cast<double>();
   const double speed_m_s = wind.norm(), gust_hz = double{environment_of(instance).wind.gust_hz};
   return speed_m_s > kLeastWind_m_s ? gust_hz * way_m.dot(wind) / (speed_m_s * speed_m_s) : 0;
 }
 
 Vector3d root_of_tick(const Instance& instance, int tick) noexcept {
-  return Eigen::Map<const Vector3d>(instance.state->tick_root_m[tick]);
+  return Eigen::Map<const Vector3d>(instance.state->motion.tick_root_m[tick]);
 }
 
 void begin_gusts(Instance& instance) noexcept {
   const InstanceState& state = *instance.state;
-  const RootTransform& root = state.has_next ? state.next_root : state.root;
+  const RootTransform& root = state.poses.has_next ? state.motion.next_root : state.motion.root;
   const double cycles = -cycles_along(instance, Eigen::Map<const Vector3d>(root.position_m));
-  instance.state->air.gust_cycles = instance.state->air.next_gust_cycles = within_period(cycles);
+  instance.state->parameters.air.gust_cycles = instance.state->parameters.air.next_gust_cycles =
+      within_period(cycles);
 }
 
 // No faster than three times against the wind's own speed: what moves so fast is not blown upon.
@@ -114,14 +115,14 @@ void advance_gusts(Instance& instance) noexcept {
   constexpr double kMost = 3;
   const double own = double{environment_of(instance).wind.gust_hz} * instance.asset->tick_s;
   const double along = cycles_along(instance, root_of_tick(instance, 0) - root_of_tick(instance, 1));
-  AirState& air = instance.state->air;
+  AirState& air = instance.state->parameters.air;
   air.next_gust_cycles = within_period(air.gust_cycles + own - std::clamp(along, -kMost * own, kMost * own));
 }
 
 // ---- what flesh feels ----
 
 Vector3f pull_of(const Instance& instance, size_t region, When when) noexcept {
-  const AirState& air = instance.state->air;
+  const AirState& air = instance.state->parameters.air;
   const Vector3f wind = air_velocity(air, when);
   const float radius_m = instance.level->pack.regions[region].radius_m;
   return vector_of(air, kGravityChange, when) + vector_of(air, kAcceleration, when) +
@@ -136,22 +137,22 @@ void notice_environment(Instance& instance) noexcept {
   if (!tunes_air(instance) && is_still_air(targets)) return;
   bool stands = true;
   for (uint32_t k = 0; k < kAirNumbers; ++k)
-    stands = stands && stands_at(state.air.numbers[k], targets.numbers[k]);
+    stands = stands && stands_at(state.parameters.air.numbers[k], targets.numbers[k]);
   if (stands) return;
-  state.tuned |= kTunedAir;
-  state.tuning_moves = 1;
+  state.parameters.tuned |= kTunedAir;
+  state.parameters.moves = 1;
   wake(instance);
 }
 
 void begin_air_tick(Instance& instance) noexcept {
-  AirState& air = instance.state->air;
+  AirState& air = instance.state->parameters.air;
   for (Gliding& number : air.numbers) number.now = number.next;
   air.gust_cycles = air.next_gust_cycles;
 }
 
 void end_air_tick(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
-  AirState& air = state.air;
+  AirState& air = state.parameters.air;
   const AirTargets targets = targets_of(instance);
   const bool blew = has_wind(air, When::kNow);
   bool glides = false;
@@ -164,27 +165,28 @@ void end_air_tick(Instance& instance) noexcept {
   if (blew && blows) advance_gusts(instance);
   glides |= (blew || blows) && air.numbers[kGust].next > 0;
   if (glides) {
-    state.tuning_moves = 1;
+    state.parameters.moves = 1;
     wake_rods(instance);
   } else if (is_still_air(targets)) {
     air.numbers[kGust] = {};
-    state.tuned &= static_cast<uint16_t>(~kTunedAir);
+    state.parameters.tuned &= static_cast<uint16_t>(~kTunedAir);
   }
 }
 
 void settle_air(Instance& instance) noexcept {
   const AirTargets targets = targets_of(instance);
-  const bool blew = has_wind(instance.state->air, When::kNext);
+  const bool blew = has_wind(instance.state->parameters.air, When::kNext);
   for (uint32_t k = 0; k < kAirNumbers; ++k)
-    instance.state->air.numbers[k] = {targets.numbers[k], targets.numbers[k], 0};
-  if (!blew && has_wind(instance.state->air, When::kNext)) begin_gusts(instance);
+    instance.state->parameters.air.numbers[k] = {targets.numbers[k], targets.numbers[k], 0};
+  if (!blew && has_wind(instance.state->parameters.air, When::kNext)) begin_gusts(instance);
 }
 
 void add_air(Instance& instance) noexcept {
   for (size_t r = 0; r < instance.level->pack.regions.size(); ++r) {
     const pack::RegionRecord& region = instance.level->pack.regions[r];
-    tissue::add_pull(instance.poses[0] + region.first_node, pull_of(instance, r, When::kNow).data(),
-                     region.node_count, instance.drive + size_t{tissue::kNodeDriveWidth} * region.first_node);
+    tissue::add_pull(instance.motion.poses[0] + region.first_node, pull_of(instance, r, When::kNow).data(),
+                     region.node_count,
+                     instance.tissue.drive + size_t{tissue::kNodeDriveWidth} * region.first_node);
   }
 }
 
@@ -199,7 +201,7 @@ void add_air_between(const Instance& instance, size_t region, const FractionPose
 
 Vector3d rod_pull(const Instance& instance, uint32_t rod) noexcept {
   const pack::RodRecord& record = instance.level->pack.rods[rod];
-  const AirState& air = instance.state->air;
+  const AirState& air = instance.state->parameters.air;
   const Vector3d towards = Eigen::Map<const Vector3f>(record.gravity_direction).cast<double>();
   const Vector3d change = vector_of(air, kGravityChange, When::kNext).cast<double>();
   return double{record.gravity} * (core::turn_between(-Vector3d::UnitY(), towards) * change) +
@@ -207,10 +209,10 @@ Vector3d rod_pull(const Instance& instance, uint32_t rod) noexcept {
 }
 
 Vector3d air_at_rod(const Instance& instance, uint32_t rod) noexcept {
-  const AirState& air = instance.state->air;
+  const AirState& air = instance.state->parameters.air;
   if (!has_wind(air, When::kNext)) return Vector3d::Zero();
-  const Vector3d hold = Eigen::Map<const Vector3d>(instance.rod_hold[0] + size_t{3} * rod) +
-                        Eigen::Map<const Vector3d>(instance.state->rod_anchor_m);
+  const Vector3d hold = Eigen::Map<const Vector3d>(instance.rods.hold[0] + size_t{3} * rod) +
+                        Eigen::Map<const Vector3d>(instance.state->rods.anchor_m);
   return air_velocity(air, When::kNext, cycles_along(instance, hold - root_of_tick(instance, 0)))
       .cast<double>();
 }

@@ -16,7 +16,9 @@
 
 namespace sinew::world {
 
-inline bool tunes_air(const Instance& instance) noexcept { return (instance.state->tuned & kTunedAir) != 0; }
+inline bool tunes_air(const Instance& instance) noexcept {
+  return (instance.state->parameters.tuned & kTunedAir) != 0;
+}
 
 // After its Environment or what was added to it may have changed, and of one that was made or restored.
 void notice_environment(Instance& instance) noexcept;

@@ -7,10 +7,10 @@
 namespace sinew::world {
 
 void tune_base(const Instance& instance, size_t region, tissue::ModalBase* base) noexcept {
-  const TunedRegion& tuned = instance.tuned_regions[region];
+  const TunedRegion& tuned = instance.parameters.tuned_regions[region];
   if (!tuned.on) return;
   const uint32_t first = instance.level->pack.region_modes[region].first_mode;
-  base->modes = {instance.tuned_modes + first, base->modes.size()};
+  base->modes = {instance.parameters.tuned_modes + first, base->modes.size()};
   base->rest_a1 = tuned.rest.a1;
   base->rest_a2 = tuned.rest.a2;
   base->rest_gain = tuned.rest_gain;
@@ -18,25 +18,27 @@ void tune_base(const Instance& instance, size_t region, tissue::ModalBase* base)
 
 const tissue::SwingSlopes* slopes_of(const Instance& instance, size_t region) noexcept {
   const size_t first = instance.level->pack.region_modes[region].first_mode + region;
-  const bool tuned = tunes_parts(instance) && instance.tuned_regions[region].on;
-  return (tuned ? instance.tuned_slopes : instance.level->swing_slopes.get()) + first;
+  const bool tuned = tunes_parts(instance) && instance.parameters.tuned_regions[region].on;
+  return (tuned ? instance.parameters.tuned_slopes : instance.level->swing_slopes.get()) + first;
 }
 
 tissue::Recurrence first_recurrence(const Instance& instance, size_t region) noexcept {
   const pack::RegionModesRecord& baked = instance.level->pack.region_modes[region];
-  if (tunes_parts(instance) && instance.tuned_regions[region].on) return instance.tuned_regions[region].first;
+  if (tunes_parts(instance) && instance.parameters.tuned_regions[region].on)
+    return instance.parameters.tuned_regions[region].first;
   return {baked.first_a1, baked.first_a2};
 }
 
 float first_rad_per_s(const Instance& instance, size_t region) noexcept {
   const float baked = instance.level->pack.region_modes[region].first_rad_per_s;
-  if (!tunes_parts(instance) || !instance.tuned_regions[region].on) return baked;
-  return std::sqrt(stiffness_of(instance.region_tunings[region])) * baked;
+  if (!tunes_parts(instance) || !instance.parameters.tuned_regions[region].on) return baked;
+  return std::sqrt(stiffness_of(instance.parameters.region_tunings[region])) * baked;
 }
 
 float limit_m(const Instance& instance, size_t region, float x) noexcept {
   const float baked_m = instance.level->pack.regions[region].displacement_limit_m;
-  return tunes_parts(instance) ? displacement_of(instance.region_tunings[region], x) * baked_m : baked_m;
+  return tunes_parts(instance) ? displacement_of(instance.parameters.region_tunings[region], x) * baked_m
+                               : baked_m;
 }
 
 float shown_limit_m(const Instance& instance, size_t region) noexcept {
@@ -47,8 +49,8 @@ float shown_limit_m(const Instance& instance, size_t region) noexcept {
 
 float network_share(const Instance& instance, size_t region) noexcept {
   constexpr float kFarthest = 0.2231436f;  // log 1.25
-  if (!tunes_parts(instance) || !instance.tuned_regions[region].on) return 1;
-  const PartTuning& part = instance.region_tunings[region];
+  if (!tunes_parts(instance) || !instance.parameters.tuned_regions[region].on) return 1;
+  const PartTuning& part = instance.parameters.region_tunings[region];
   const float damping = std::abs(std::log(std::max(part.damping.next, 1e-6f)));
   const float off = std::max(std::abs(part.log_stiffness.next), damping) / kFarthest;
   const float near = 1 - std::min(off, 1.0f);
@@ -56,17 +58,17 @@ float network_share(const Instance& instance, size_t region) noexcept {
 }
 
 bool region_is_off(const Instance& instance, size_t region) noexcept {
-  return tunes_parts(instance) && instance.region_tunings[region].off == kOff;
+  return tunes_parts(instance) && instance.parameters.region_tunings[region].off == kOff;
 }
 
 bool rods_are_off(const Instance& instance) noexcept {
-  const PartTuning* rods = instance.rod_tunings;
+  const PartTuning* rods = instance.parameters.rod_tunings;
   return tunes_parts(instance) && std::all_of(rods, rods + instance.asset->rods.rod_count,
                                               [](const PartTuning& part) { return part.off == kOff; });
 }
 
 float intensity_of(const Instance& instance, size_t region, float x) noexcept {
-  return tunes_parts(instance) ? between(instance.region_tunings[region].intensity, x) : 1;
+  return tunes_parts(instance) ? between(instance.parameters.region_tunings[region].intensity, x) : 1;
 }
 
 void keep_intensity(const Instance& instance, float* shown, float x) noexcept {
@@ -95,7 +97,7 @@ RodShown rod_shown(const Instance& instance, uint32_t rod, float x) noexcept {
   constexpr float kLeast_rad = 1e-6f;  // 0 would be none
   const float limit_rad = instance.asset->rods.seats()[rod].turn_limit_rad;
   if (!tunes_parts(instance)) return {limit_rad, 1};
-  const PartTuning& part = instance.rod_tunings[rod];
+  const PartTuning& part = instance.parameters.rod_tunings[rod];
   const float tuned_rad = limit_rad > 0 ? std::max(kLeast_rad, displacement_of(part, x) * limit_rad) : 0;
   return {tuned_rad, between(part.intensity, x)};
 }
@@ -106,7 +108,7 @@ RodShown rod_shown(const Instance& instance, uint32_t rod, float x) noexcept {
 float rod_damping_share(const Instance& instance, uint32_t rod) noexcept {
   constexpr double kLongestTicks = 30;
   if (!tunes_parts(instance)) return 1;
-  const PartTuning& part = instance.rod_tunings[rod];
+  const PartTuning& part = instance.parameters.rod_tunings[rod];
   const RodRig& rig = instance.asset->rods;
   const float baked_s = rig.slots()[rig.seats()[rod].first_slot + 1].damping_s;
   const auto longest_s = static_cast<float>(kLongestTicks * instance.asset->tick_s);

@@ -10,16 +10,8 @@
 
 namespace sinew::world {
 
-// A region's recurrences beside its modes', where they are not the baked ones. Made from the state.
-struct TunedRegion {
-  bool on = false;
-  float stiffens = 0;  // what its modes were made with
-  tissue::Recurrence rest, first;
-  float rest_gain = 0;
-};
-
 inline bool tunes_parts(const Instance& instance) noexcept {
-  return (instance.state->tuned & kTunedParts) != 0;
+  return (instance.state->parameters.tuned & kTunedParts) != 0;
 }
 
 inline float displacement_of(const PartTuning& part, float x) noexcept {

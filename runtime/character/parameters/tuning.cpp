@@ -24,7 +24,7 @@ struct Targets {
 };
 
 Targets targets_of(const InstanceState& state, const PartTuning& part) noexcept {
-  const SetParameters &all = state.all_parameters, &own = part.set;
+  const SetParameters &all = state.parameters.all, &own = part.set;
   const bool enabled = all.enabled && own.enabled;
   const float stiffness = std::clamp(all.stiffness * own.stiffness, kLeastStiffness, kMostStiffness);
   return {.intensity = enabled ? std::min(all.intensity * own.intensity, kMostIntensity) : 0,
@@ -60,12 +60,14 @@ bool is_as_baked(const PartTuning& part) noexcept {
 
 template <class Work>
 void for_each_tuning(const Instance& instance, Work work) noexcept {
-  for (size_t r = 0; r < instance.level->pack.regions.size(); ++r) work(instance.region_tunings[r]);
-  for (uint32_t rod = 0; rod < instance.asset->rods.rod_count; ++rod) work(instance.rod_tunings[rod]);
+  for (size_t r = 0; r < instance.level->pack.regions.size(); ++r)
+    work(instance.parameters.region_tunings[r]);
+  for (uint32_t rod = 0; rod < instance.asset->rods.rod_count; ++rod)
+    work(instance.parameters.rod_tunings[rod]);
 }
 
 bool all_are_as_baked(const Instance& instance) noexcept {
-  bool as_baked = is_default(instance.state->all_parameters);
+  bool as_baked = is_default(instance.state->parameters.all);
   for_each_tuning(instance, [&](const PartTuning& part) { as_baked = as_baked && is_as_baked(part); });
   return as_baked;
 }
@@ -79,13 +81,13 @@ float stiffens(const PartTuning& part) noexcept {
 void retune_modes(Instance& instance, size_t r, const tissue::Retuning& by) noexcept {
   const pack::RegionModesRecord& region = instance.level->pack.region_modes[r];
   const auto tick_s = static_cast<float>(instance.asset->tick_s);
-  tissue::SwingSlopes* slopes = instance.tuned_slopes + region.first_mode + r;
+  tissue::SwingSlopes* slopes = instance.parameters.tuned_slopes + region.first_mode + r;
   for (uint32_t m = region.first_mode; m < region.first_mode + region.mode_count; ++m) {
     const pack::ModeRecord mode = tissue::retuned(instance.level->pack.modes[m], by, tick_s);
-    instance.tuned_modes[m] = mode;
+    instance.parameters.tuned_modes[m] = mode;
     *slopes++ = tissue::swing_slopes(mode.a1, mode.a2);
   }
-  TunedRegion& tuned = instance.tuned_regions[r];
+  TunedRegion& tuned = instance.parameters.tuned_regions[r];
   tuned.rest = tissue::retuned({region.rest_a1, region.rest_a2}, by);
   tuned.rest_gain = (1 - tuned.rest.a1 - tuned.rest.a2) / by.stiffness;
   tuned.first = tissue::retuned({region.first_a1, region.first_a2}, by);
@@ -93,20 +95,20 @@ void retune_modes(Instance& instance, size_t r, const tissue::Retuning& by) noex
 }
 
 void retune_region(Instance& instance, size_t r) noexcept {
-  const PartTuning& part = instance.region_tunings[r];
+  const PartTuning& part = instance.parameters.region_tunings[r];
   const tissue::Retuning by{stiffness_of(part), part.damping.next, stiffens(part)};
-  instance.tuned_regions[r].stiffens = by.stiffens;
-  instance.tuned_regions[r].on = by.stiffness != 1 || by.damping != 1;
-  if (instance.tuned_regions[r].on) retune_modes(instance, r, by);
+  instance.parameters.tuned_regions[r].stiffens = by.stiffens;
+  instance.parameters.tuned_regions[r].on = by.stiffness != 1 || by.damping != 1;
+  if (instance.parameters.tuned_regions[r].on) retune_modes(instance, r, by);
 }
 
 void retune_rod(Instance& instance, uint32_t rod) noexcept {
   const RodSeat& seat = instance.asset->rods.seats()[rod];
-  const rods::RodBatch::JointChange change{stiffness_of(instance.rod_tunings[rod]),
+  const rods::RodBatch::JointChange change{stiffness_of(instance.parameters.rod_tunings[rod]),
                                            rod_damping_share(instance, rod)};
   // What leaves float's range keeps its last value.
   for (uint32_t k = 1; k <= seat.segment_count(); ++k)
-    (void)instance.rod_batches[seat.batch].set_joint(seat.strand, k, change);
+    (void)instance.rods.batches[seat.batch].set_joint(seat.strand, k, change);
 }
 
 // ---- the way there ----
@@ -130,22 +132,22 @@ bool glide_part(const InstanceState& state, float fastest_log, PartTuning& part)
 
 void glide_regions(Instance& instance) noexcept {
   for (size_t r = 0; r < instance.level->pack.regions.size(); ++r) {
-    PartTuning& part = instance.region_tunings[r];
+    PartTuning& part = instance.parameters.region_tunings[r];
     const bool glides = glide_part(*instance.state, kFastestOfRegion, part);
     // In the tick after it has arrived, too.
-    if (swings_otherwise(part) || instance.tuned_regions[r].stiffens != stiffens(part))
+    if (swings_otherwise(part) || instance.parameters.tuned_regions[r].stiffens != stiffens(part))
       retune_region(instance, r);
     if (!glides) continue;
-    instance.state->tuning_moves = 1;
-    instance.quiet_ticks[r] = 0;
+    instance.state->parameters.moves = 1;
+    instance.tissue.quiet_ticks[r] = 0;
   }
 }
 
 void glide_rods(Instance& instance) noexcept {
   for (uint32_t rod = 0; rod < instance.asset->rods.rod_count; ++rod) {
-    PartTuning& part = instance.rod_tunings[rod];
+    PartTuning& part = instance.parameters.rod_tunings[rod];
     if (!glide_part(*instance.state, kFastestOfRod, part)) continue;
-    instance.state->tuning_moves = 1;
+    instance.state->parameters.moves = 1;
     wake_rods(instance);
     if (swings_otherwise(part)) retune_rod(instance, rod);
   }
@@ -164,14 +166,14 @@ bool returns(const InstanceState& state, const PartTuning& part) noexcept {
 
 void return_regions(Instance& instance) noexcept {
   for (size_t r = 0; r < instance.level->pack.regions.size(); ++r) {
-    PartTuning& part = instance.region_tunings[r];
+    PartTuning& part = instance.parameters.region_tunings[r];
     if (!returns(*instance.state, part)) continue;
     part.off = 0;
     if (instance.level->leaves_out(r)) continue;
     const pack::RegionRecord& region = instance.level->pack.regions[r];
-    std::copy_n(instance.u[0] + size_t{3} * region.first_node, size_t{3} * region.node_count,
-                instance.u[1] + size_t{3} * region.first_node);
-    instance.regained[r] = kRegainedNow;
+    std::copy_n(instance.tissue.u[0] + size_t{3} * region.first_node, size_t{3} * region.node_count,
+                instance.tissue.u[1] + size_t{3} * region.first_node);
+    instance.transition.regained[r] = kRegainedNow;
     wake_regions(instance);
   }
 }
@@ -179,10 +181,10 @@ void return_regions(Instance& instance) noexcept {
 void return_rods(Instance& instance) noexcept {
   const bool stood = rods_are_off(instance);  // none was followed meanwhile
   for (uint32_t rod = 0; rod < instance.asset->rods.rod_count; ++rod) {
-    PartTuning& part = instance.rod_tunings[rod];
+    PartTuning& part = instance.parameters.rod_tunings[rod];
     if (!returns(*instance.state, part)) continue;
     part.off = kReturns;
-    instance.rods_anew |= stood;
+    instance.rods.begin_as_shown |= stood;
     wake_rods(instance);
   }
 }
@@ -194,16 +196,16 @@ bool notice_parameters(Instance& instance) noexcept {
   const bool begins = !tunes_parts(instance);
   if (begins && all_are_as_baked(instance)) return false;
   if (begins) {
-    state.tuned |= kTunedParts;
+    state.parameters.tuned |= kTunedParts;
     retune_all(instance);
   }
-  state.tuning_moves = 1;
+  state.parameters.moves = 1;
   wake(instance);
   return begins;
 }
 
 void begin_tuned_tick(Instance& instance) noexcept {
-  if (instance.state->tuned & kTunedAir) begin_air_tick(instance);
+  if (instance.state->parameters.tuned & kTunedAir) begin_air_tick(instance);
   if (!tunes_parts(instance)) return;
   for_each_tuning(instance, [](PartTuning& part) {
     for_each_number(part, {}, [](Gliding& number, float, float) { number.now = number.next; });
@@ -214,18 +216,18 @@ void begin_tuned_tick(Instance& instance) noexcept {
 
 void end_tuned_tick(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
-  state.tuning_moves = 0;
-  if (state.tuned & kTunedAir) end_air_tick(instance);
+  state.parameters.moves = 0;
+  if (state.parameters.tuned & kTunedAir) end_air_tick(instance);
   if (!tunes_parts(instance)) return;
   glide_regions(instance);
   glide_rods(instance);
-  if (state.tuning_moves == 0 && !blends(state) && all_are_as_baked(instance))
-    state.tuned &= static_cast<uint16_t>(~kTunedParts);
+  if (state.parameters.moves == 0 && !blends(state) && all_are_as_baked(instance))
+    state.parameters.tuned &= static_cast<uint16_t>(~kTunedParts);
 }
 
 void settle_tuning(Instance& instance) noexcept {
   const InstanceState& state = *instance.state;
-  if (state.tuned & kTunedAir) settle_air(instance);
+  if (state.parameters.tuned & kTunedAir) settle_air(instance);
   if (!tunes_parts(instance)) return;
   for_each_tuning(instance, [&](PartTuning& part) {
     const Targets targets = targets_of(state, part);
@@ -254,7 +256,7 @@ bool all_is_off(const Instance& instance) noexcept {
 float tuned_reach_m(const Instance& instance) noexcept {
   float most_m = 0;
   for (size_t r = 0; tunes_parts(instance) && r < instance.level->pack.regions.size(); ++r) {
-    const PartTuning& part = instance.region_tunings[r];
+    const PartTuning& part = instance.parameters.region_tunings[r];
     const Targets targets = targets_of(*instance.state, part);
     const float shows =
         std::max({1.0f, part.intensity.now, targets.intensity}) *

@@ -38,7 +38,7 @@ void settle_tuning(Instance& instance) noexcept;
 // Makes anew what follows from the state: after a restore, a change of level.
 void retune_all(Instance& instance) noexcept;
 // Nothing is on its way and no gust blows.
-inline bool tuning_stands(const Instance& instance) noexcept { return instance.state->tuning_moves == 0; }
+inline bool tuning_stands(const Instance& instance) noexcept { return instance.state->parameters.moves == 0; }
 
 // ---- what its targets say ----
 

@@ -17,7 +17,7 @@ uint32_t ticks_to_sleep(const Instance& instance, size_t region) noexcept {
 
 bool is_asleep(const Instance& instance, size_t region) noexcept {
   return !instance.level->leaves_out(region) &&
-         (instance.quiet_ticks[region] >= ticks_to_sleep(instance, region) ||
+         (instance.tissue.quiet_ticks[region] >= ticks_to_sleep(instance, region) ||
           region_is_off(instance, region));
 }
 
@@ -28,7 +28,7 @@ uint32_t regions_asleep(const Instance& instance) noexcept {
 }
 
 uint32_t rods_asleep(const Instance& instance) noexcept {
-  const bool asleep = instance.state->rod_quiet_ticks >= kRodsQuietTicks || rods_are_off(instance);
+  const bool asleep = instance.state->rods.quiet_ticks >= kRodsQuietTicks || rods_are_off(instance);
   return asleep ? instance.asset->rods.rod_count : 0;
 }
 

@@ -9,11 +9,11 @@ namespace sinew::world {
 
 // A dormant instance is stepped again (character/rest/dormant.hpp).
 inline void wake(Instance& instance) noexcept { instance.state->dormant = 0; }
-inline void wake_rods(Instance& instance) noexcept { instance.state->rod_quiet_ticks = 0; }
+inline void wake_rods(Instance& instance) noexcept { instance.state->rods.quiet_ticks = 0; }
 // All regions are awake: another tier, a guard, a start.
 inline void wake_regions(Instance& instance) noexcept {
-  std::fill_n(instance.quiet_ticks, instance.level->pack.regions.size(), 0u);
-  instance.state->still_ticks = 0;
+  std::fill_n(instance.tissue.quiet_ticks, instance.level->pack.regions.size(), 0u);
+  instance.state->poses.still_ticks = 0;
 }
 
 // Quiet ones, until a region does: half a swing.

@@ -18,17 +18,19 @@ constexpr uint32_t kStillTicks = 8;  // poses of the last three, and the two tha
 bool is_shown_still(const Instance& instance) noexcept {
   const size_t floats = size_t{3} * instance.level->node_count(),
                turns = size_t{4} * instance.asset->rods.slot_count;
-  return std::equal(instance.shown[0], instance.shown[0] + floats, instance.shown[1]) &&
-         std::equal(instance.rod_shown[0], instance.rod_shown[0] + turns, instance.rod_shown[1]);
+  return std::equal(instance.transition.shown[0], instance.transition.shown[0] + floats,
+                    instance.transition.shown[1]) &&
+         std::equal(instance.rods.shown[0], instance.rods.shown[0] + turns, instance.rods.shown[1]);
 }
 
 bool may_be_dormant(const Instance& instance) noexcept {
   const InstanceState& state = *instance.state;
   const Asset& asset = *instance.asset;
-  return frame::is_simulated(state.tier) && state.still_ticks >= kStillTicks && !state.motion_stale &&
-         !state.at_start && !instance.cut && state.blend_ticks == kBlendInTicks &&
-         state.seam_ticks == kBlendInTicks && state.fallback_ticks == 0 && !instance.contacts.source &&
-         !touches_surface(instance) && tuning_stands(instance) &&
+  return frame::is_simulated(state.tier) && state.poses.still_ticks >= kStillTicks &&
+         !state.poses.motion_stale && !state.poses.at_start && !instance.marks.cut &&
+         state.blend_ticks == kBlendInTicks && state.transition.seam_ticks == kBlendInTicks &&
+         state.fallback_ticks == 0 && !instance.contacts.def.source && !touches_surface(instance) &&
+         tuning_stands(instance) &&
          regions_asleep(instance) + instance.level->regions_left_out() == asset.pack.regions.size() &&
          rods_asleep(instance) == asset.rods.rod_count && is_shown_still(instance);
 }
@@ -37,18 +39,18 @@ bool may_be_dormant(const Instance& instance) noexcept {
 
 bool has_pose(const Instance& instance, std::span<const Matrix34> joints,
               const RootTransform& root) noexcept {
-  return same_root(instance.state->root, root) &&
-         std::memcmp(instance.joints, joints.data(), joints.size_bytes()) == 0;
+  return same_root(instance.state->motion.root, root) &&
+         std::memcmp(instance.motion.joints, joints.data(), joints.size_bytes()) == 0;
 }
 
 void watch_pose(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   const size_t joints = instance.level->pack.character->joint_count;
-  const bool still = has_pose(instance, {instance.next_joints, joints}, state.next_root);
+  const bool still = has_pose(instance, {instance.motion.next_joints, joints}, state.motion.next_root);
   constexpr uint32_t kLongest = UINT32_MAX / 2;
   // In the first such step, however long, the pose may still be on its way.
-  const uint32_t ticks = state.still_ticks > 0 ? instance.plan.ticks.ticks : 1;
-  state.still_ticks = still ? std::min(state.still_ticks + ticks, kLongest) : 0;
+  const uint32_t ticks = state.poses.still_ticks > 0 ? instance.plan.ticks.ticks : 1;
+  state.poses.still_ticks = still ? std::min(state.poses.still_ticks + ticks, kLongest) : 0;
 }
 
 void fall_dormant(Instance& instance) noexcept {
@@ -62,22 +64,23 @@ void stay_dormant(Instance& instance, double frame_s) noexcept {
   InstanceState& state = *instance.state;
   const frame::TickPlan& ticks = instance.plan.ticks;
   const auto dt_s = static_cast<float>(frame_s);
-  instance.entered = instance.changed_level = instance.refined = false;
-  instance.cut = instance.held = instance.restarted = instance.fell_back = instance.came_back = false;
+  instance.marks.entered = instance.marks.changed_level = instance.marks.refined = false;
+  instance.marks.cut = instance.marks.held = instance.marks.restarted = instance.marks.fell_back =
+      instance.marks.came_back = false;
   instance.times = {};
   instance.cost_factor = 1;
-  instance.plan.cost_us = 0;
+  instance.plan.decision.cost_us = 0;
   state.remainder_s = ticks.remainder_s;
-  state.render_fraction = frame::passed_share(ticks, instance.asset->tick_s);
-  state.teleported = 0;
-  state.space_changed = 0;  // it stands there, and its space stands
-  std::fill_n(state.ride_velocity_m_s, 3, 0.0);
-  state.dt_older_s = state.dt_before_s;
-  state.dt_before_s = instance.plan.dt_s;
+  state.poses.render_fraction = frame::passed_share(ticks, instance.asset->tick_s);
+  state.teleports.teleported = 0;
+  state.motion.space_changed = 0;  // it stands there, and its space stands
+  std::fill_n(state.motion.ride_velocity_m_s, 3, 0.0);
+  state.motion.dt_older_s = state.motion.dt_before_s;
+  state.motion.dt_before_s = instance.plan.dt_s;
   state.held_s += dt_s;
   state.turn_left_s = std::max(0.0f, state.turn_left_s - dt_s);
-  if (state.tier != Tier::kNetwork) state.ticks_since_network += ticks.ticks;
-  state.has_next = 0;
+  if (state.tier != Tier::kNetwork) state.tissue.ticks_since_network += ticks.ticks;
+  state.poses.has_next = 0;
 }
 
 }  // namespace sinew::world

@@ -36,11 +36,11 @@ double length_of(const RodRig& rig, const RodSeat& seat) noexcept {
 bool is_held_alike(const Instance& instance, double tolerance) noexcept {
   const RodRig& rig = instance.asset->rods;
   for (uint32_t s = 0; s < rig.slot_count; ++s)
-    if (!(2 * half_turn(instance.rod_rest[0] + size_t{4} * s, instance.rod_asleep + size_t{4} * s) <=
+    if (!(2 * half_turn(instance.rods.rest[0] + size_t{4} * s, instance.rods.asleep + size_t{4} * s) <=
           tolerance))
       return false;
   const auto moved_m = [&](size_t hold) {
-    const double *now = instance.rod_hold[0] + 3 * hold, *then = instance.rod_hold_asleep + 3 * hold;
+    const double *now = instance.rods.hold[0] + 3 * hold, *then = instance.rods.hold_asleep + 3 * hold;
     return std::hypot(now[0] - then[0], now[1] - then[1], now[2] - then[2]);
   };
   for (uint32_t rod = 0; rod < rig.rod_count; ++rod) {
@@ -56,7 +56,7 @@ bool is_held_alike(const Instance& instance, double tolerance) noexcept {
 bool stays(const Instance& instance, double tolerance) noexcept {
   constexpr double kATick = 0.1;
   for (uint32_t s = 0; s < instance.asset->rods.slot_count; ++s)
-    if (!(2 * half_turn(instance.rod_turn + size_t{4} * s, instance.rod_shown[0] + size_t{4} * s) <=
+    if (!(2 * half_turn(instance.rods.turn + size_t{4} * s, instance.rods.shown[0] + size_t{4} * s) <=
           kATick * tolerance))
       return false;
   return true;
@@ -65,25 +65,25 @@ bool stays(const Instance& instance, double tolerance) noexcept {
 }  // namespace
 
 bool rods_are_held_as_asleep(const Instance& instance) noexcept {
-  const float tolerance = instance.sleep_tolerance;
+  const float tolerance = instance.parameters.sleep_tolerance;
   return tolerance > 0 && is_held_alike(instance, static_cast<double>(tolerance));
 }
 
 bool rods_sleep_on(Instance& instance) noexcept {
-  uint32_t& quiet_ticks = instance.state->rod_quiet_ticks;
+  uint32_t& quiet_ticks = instance.state->rods.quiet_ticks;
   const bool alike = quiet_ticks > 0 && rods_are_held_as_asleep(instance);
   const bool sleeps = alike && quiet_ticks >= kRodsQuietTicks;
   if (alike && !(sleeps && something_is_near_rods(instance))) return sleeps;
   const RodRig& rig = instance.asset->rods;
   quiet_ticks = 0;
-  std::copy_n(instance.rod_rest[0], size_t{4} * rig.slot_count, instance.rod_asleep);
-  std::copy_n(instance.rod_hold[0], size_t{3} * rig.hold_count(), instance.rod_hold_asleep);
+  std::copy_n(instance.rods.rest[0], size_t{4} * rig.slot_count, instance.rods.asleep);
+  std::copy_n(instance.rods.hold[0], size_t{3} * rig.hold_count(), instance.rods.hold_asleep);
   return false;
 }
 
 void watch_rods(Instance& instance) noexcept {
-  const float tolerance = instance.sleep_tolerance;
-  uint32_t& quiet_ticks = instance.state->rod_quiet_ticks;
+  const float tolerance = instance.parameters.sleep_tolerance;
+  uint32_t& quiet_ticks = instance.state->rods.quiet_ticks;
   const bool free = instance.told.rod_contacts == 0;
   const bool quiet = tolerance > 0 && free && stays(instance, static_cast<double>(tolerance));
   quiet_ticks = quiet ? quiet_ticks + 1 : 0;

@@ -24,7 +24,7 @@ constexpr double kTouching = 1.05;  // of the sum of radii
 Vector3d vector(const float (&v)[3]) noexcept { return Eigen::Map<const Eigen::Vector3f>(v).cast<double>(); }
 
 MapPlace end_of(const Instance& instance, uint32_t tick, uint32_t proxy, uint32_t end) noexcept {
-  return MapPlace(instance.proxy_ends[tick] + size_t{6} * proxy + size_t{3} * end);
+  return MapPlace(instance.contacts.proxy_ends[tick] + size_t{6} * proxy + size_t{3} * end);
 }
 
 Vector3d moved(const Matrix34& m, const Vector3d& p) noexcept {
@@ -89,7 +89,7 @@ rods::Capsule capsule_of(const Instance& instance, uint32_t proxy) noexcept {
 }  // namespace
 
 uint32_t proxy_count(const Instance& instance) noexcept {
-  return instance.proxy_ends[0] ? static_cast<uint32_t>(instance.level->pack.proxies.size()) : 0;
+  return instance.contacts.proxy_ends[0] ? static_cast<uint32_t>(instance.level->pack.proxies.size()) : 0;
 }
 
 void pass_proxies(const Instance& instance, uint32_t batch, rods::RodCollider& collider) noexcept {
@@ -106,12 +106,13 @@ void pass_proxies(const Instance& instance, uint32_t batch, rods::RodCollider& c
 void pose_proxies(Instance& instance, const Matrix34* joints, const RootTransform& root) noexcept {
   const uint32_t count = proxy_count(instance);
   if (count == 0) return;
-  if (instance.proxy_before) std::copy_n(instance.proxy_ends[0], size_t{6} * count, instance.proxy_before);
+  if (instance.contacts.proxy_before)
+    std::copy_n(instance.contacts.proxy_ends[0], size_t{6} * count, instance.contacts.proxy_before);
   if (rods_asleep(instance) == 0)
-    std::copy_n(instance.proxy_ends[0], size_t{6} * count, instance.proxy_ends[1]);
+    std::copy_n(instance.contacts.proxy_ends[0], size_t{6} * count, instance.contacts.proxy_ends[1]);
   const Quaterniond turn = quaternion(root.rotation_xyzw);
   const Vector3d place_m =
-      Eigen::Map<const Vector3d>(root.position_m) - Eigen::Map<const Vector3d>(instance.state->rod_anchor_m);
+      Eigen::Map<const Vector3d>(root.position_m) - Eigen::Map<const Vector3d>(instance.state->rods.anchor_m);
   for (uint32_t i = 0; i < count; ++i) {
     const pack::ProxyRecord& proxy = instance.level->pack.proxies[i];
     const Matrix34 bind = inverse_bind(instance.level->pack.joints[proxy.joint]);
@@ -123,7 +124,7 @@ void pose_proxies(Instance& instance, const Matrix34* joints, const RootTransfor
 }
 
 void turn_proxies(Instance& instance, const Quaterniond& turn, const Vector3d& centre_m) noexcept {
-  for (double* ends : {instance.proxy_ends[0], instance.proxy_ends[1]}) {
+  for (double* ends : {instance.contacts.proxy_ends[0], instance.contacts.proxy_ends[1]}) {
     for (uint32_t end = 0; end < 2 * proxy_count(instance); ++end) {
       MapPlace place(ends + size_t{3} * end);
       place = (centre_m + turn * (place - centre_m)).eval();
@@ -133,7 +134,7 @@ void turn_proxies(Instance& instance, const Quaterniond& turn, const Vector3d& c
 
 void move_last_proxies(Instance& instance, const Vector3d& by_m) noexcept {
   for (uint32_t end = 0; end < 2 * proxy_count(instance); ++end)
-    MapPlace(instance.proxy_ends[1] + size_t{3} * end) += by_m;
+    MapPlace(instance.contacts.proxy_ends[1] + size_t{3} * end) += by_m;
 }
 
 void set_proxies(Instance& instance, rods::RodCollider& collider) noexcept {

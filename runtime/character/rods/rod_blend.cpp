@@ -28,9 +28,10 @@ Quaterniond between(const Quaterniond& from, const Quaterniond& to, double share
 }
 
 void advance_tail(Instance& instance, size_t slot) noexcept {
-  Eigen::Map<Eigen::Vector3f> velocity(instance.rod_tail_velocity + 3 * slot);
+  Eigen::Map<Eigen::Vector3f> velocity(instance.rods.tail_velocity + 3 * slot);
   if (velocity.isZero(0)) return;
-  put_turn(instance.rod_tail, slot, turn_at(instance.rod_tail, slot) * exponential(velocity.cast<double>()));
+  put_turn(instance.rods.tail, slot,
+           turn_at(instance.rods.tail, slot) * exponential(velocity.cast<double>()));
   velocity *= kCarryDamping;
 }
 
@@ -40,7 +41,7 @@ void blend_rods(const Instance& instance, float simulated, float tail, const flo
   const auto tail_share = static_cast<double>(tail);
   for (size_t s = 0; s < instance.asset->rods.slot_count; ++s) {
     const Quaterniond turn = turn_at(turns, s);
-    if (instance.state->tail_rides) {
+    if (instance.state->transition.tail_rides) {
       put_turn(turns, s, turn * share_of(1 - static_cast<double>(simulated), turn_at(tails, s)));
       continue;
     }
@@ -53,18 +54,18 @@ void blend_rods(const Instance& instance, float simulated, float tail, const flo
 // to the next.
 void rod_tails_between(const Instance& instance, float x, float* tails) noexcept {
   const InstanceState& state = *instance.state;
-  const float before = state.tail_ticks == 0 ? 1 : 1 / kCarryDamping, y = 1 - x;
+  const float before = state.transition.tail_ticks == 0 ? 1 : 1 / kCarryDamping, y = 1 - x;
   const float share = x * (x * (3 - 2 * x) + y * (y * (before + 1) / 2 - x * (1 + kCarryDamping) / 2));
   for (size_t s = 0; s < instance.asset->rods.slot_count; ++s) {
-    const Eigen::Map<const Eigen::Vector3f> velocity(instance.rod_tail_velocity + 3 * s);
-    put_turn(tails, s, turn_at(instance.rod_tail, s) * exponential((share * velocity).cast<double>()));
+    const Eigen::Map<const Eigen::Vector3f> velocity(instance.rods.tail_velocity + 3 * s);
+    put_turn(tails, s, turn_at(instance.rods.tail, s) * exponential((share * velocity).cast<double>()));
   }
 }
 
 // Where no tick has followed the motion yet.
 const float* go_on_as_shown(const Instance& instance, float x, float* turns) noexcept {
   for (size_t s = 0; s < instance.asset->rods.slot_count; ++s) {
-    const Quaterniond now = turn_at(instance.rod_shown[0], s), before = turn_at(instance.rod_shown[1], s);
+    const Quaterniond now = turn_at(instance.rods.shown[0], s), before = turn_at(instance.rods.shown[1], s);
     put_turn(turns, s, now * share_of(static_cast<double>(x), before.conjugate() * now));
   }
   return turns;
@@ -74,53 +75,54 @@ const float* go_on_as_shown(const Instance& instance, float x, float* turns) noe
 
 void forget_rods(Instance& instance) noexcept {
   const size_t slots = instance.asset->rods.slot_count;
-  for (float* turns : {instance.rod_turn, instance.rod_shown[0], instance.rod_shown[1], instance.rod_tail})
+  for (float* turns :
+       {instance.rods.turn, instance.rods.shown[0], instance.rods.shown[1], instance.rods.tail})
     for (size_t s = 0; s < slots; ++s) put_turn(turns, s, Quaterniond::Identity());
-  std::fill_n(instance.rod_tail_velocity, 3 * slots, 0.0f);
+  std::fill_n(instance.rods.tail_velocity, 3 * slots, 0.0f);
 }
 
 void begin_rod_tails(Instance& instance, float velocity_kept) noexcept {
   for (size_t s = 0; s < instance.asset->rods.slot_count; ++s) {
-    std::copy_n(instance.rod_shown[0] + 4 * s, 4, instance.rod_tail + 4 * s);
-    Eigen::Map<Eigen::Vector3f>(instance.rod_tail_velocity + 3 * s) =
+    std::copy_n(instance.rods.shown[0] + 4 * s, 4, instance.rods.tail + 4 * s);
+    Eigen::Map<Eigen::Vector3f>(instance.rods.tail_velocity + 3 * s) =
         velocity_kept *
-        logarithm(turn_at(instance.rod_shown[1], s).conjugate() * turn_at(instance.rod_shown[0], s))
+        logarithm(turn_at(instance.rods.shown[1], s).conjugate() * turn_at(instance.rods.shown[0], s))
             .cast<float>();
   }
 }
 
 void ride_rods(Instance& instance) noexcept {
   for (size_t s = 0; s < instance.asset->rods.slot_count; ++s)
-    put_turn(instance.rod_tail, s,
-             turn_at(instance.rod_turn, s).conjugate() * turn_at(instance.rod_shown[0], s));
+    put_turn(instance.rods.tail, s,
+             turn_at(instance.rods.turn, s).conjugate() * turn_at(instance.rods.shown[0], s));
 }
 
 void take_rods_as_shown(Instance& instance) noexcept {
-  std::copy_n(instance.rod_shown[0], size_t{4} * instance.asset->rods.slot_count, instance.rod_turn);
+  std::copy_n(instance.rods.shown[0], size_t{4} * instance.asset->rods.slot_count, instance.rods.turn);
 }
 
 void show_rods(Instance& instance, float simulated) noexcept {
   const size_t slots = instance.asset->rods.slot_count;
-  std::copy_n(instance.rod_shown[0], 4 * slots, instance.rod_shown[1]);
-  std::copy_n(instance.rod_turn, 4 * slots, instance.rod_shown[0]);
+  std::copy_n(instance.rods.shown[0], 4 * slots, instance.rods.shown[1]);
+  std::copy_n(instance.rods.turn, 4 * slots, instance.rods.shown[0]);
   if (simulated == 1) return;
-  if (!instance.state->tail_rides)
+  if (!instance.state->transition.tail_rides)
     for (size_t s = 0; s < slots; ++s) advance_tail(instance, s);
-  blend_rods(instance, simulated, tail_share(instance), instance.rod_tail, instance.rod_shown[0]);
+  blend_rods(instance, simulated, tail_share(instance), instance.rods.tail, instance.rods.shown[0]);
 }
 
 const float* rods_shown_now(Instance& instance) noexcept {
   const InstanceState& state = *instance.state;
-  const float x = state.render_fraction, share = simulated_share(instance, x);
+  const float x = state.poses.render_fraction, share = simulated_share(instance, x);
   const bool simulated = frame::is_simulated(state.tier);
   const bool shows = instance.asset->rods.rod_count > 0 && shown_share(instance) > 0;
-  if (!shows || x == 0) return instance.rod_shown[0];
-  float *turns = instance.rods_between, *tails = instance.rod_orientations;
-  if (simulated && state.motion_stale) return go_on_as_shown(instance, x, turns);
+  if (!shows || x == 0) return instance.rods.shown[0];
+  float *turns = instance.rods.between, *tails = instance.rods.orientations;
+  if (simulated && state.poses.motion_stale) return go_on_as_shown(instance, x, turns);
   if (simulated) turn_rods_between(instance, x, turns);
   if (share == 1) return turns;
-  if (state.tail_rides)
-    std::copy_n(instance.rod_tail, 4 * instance.asset->rods.slot_count, tails);
+  if (state.transition.tail_rides)
+    std::copy_n(instance.rods.tail, 4 * instance.asset->rods.slot_count, tails);
   else
     rod_tails_between(instance, x, tails);
   blend_rods(instance, share, tail_share(instance, x), tails, turns);

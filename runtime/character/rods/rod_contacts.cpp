@@ -21,18 +21,20 @@ using Eigen::Vector3d;
 // Of all together: one segment in a fold has up to eight.
 constexpr uint32_t kHitsASegment = 4, kMostHits = 1u << 20;
 
-bool asks(const Instance& instance) noexcept { return instance.contacts.source && instance.contacts.rods; }
+bool asks(const Instance& instance) noexcept {
+  return instance.contacts.def.source && instance.contacts.def.rods;
+}
 
 // The most they ask, on whatever tier.
 uint32_t source_count(const Instance& instance) noexcept {
-  return uint32_t{asks(instance)} + uint32_t{instance.contacts.surface != nullptr};
+  return uint32_t{asks(instance)} + uint32_t{instance.contacts.def.surface != nullptr};
 }
 
 // What a change of tier leaves inside is brought out by degrees: of the character's height a second. Strands
 // are pushed apart some times as fast.
 float push_out_m_s(const Instance& instance) noexcept {
   constexpr float kHeights = 0.02f;
-  if (!instance.contacts.surface) return rods::ColliderSettings{}.largest_push_out_m_s;
+  if (!instance.contacts.def.surface) return rods::ColliderSettings{}.largest_push_out_m_s;
   return std::max(kHeights * instance.level->pack.character->height_m, FLT_MIN);
 }
 
@@ -49,10 +51,10 @@ rods::ColliderSettings settings_of(const Instance& instance, const rods::RodBatc
 }
 
 Status make_rod_source(Instance& instance) noexcept {
-  if (!instance.contacts.surface) return {};
-  ContactSource* source = asks(instance) ? instance.contacts.source : nullptr;
-  instance.rod_source.reset(new (std::nothrow) RodSource(source, instance.contacts.surface));
-  if (instance.rod_source) return {};
+  if (!instance.contacts.def.surface) return {};
+  ContactSource* source = asks(instance) ? instance.contacts.def.source : nullptr;
+  instance.contacts.rod_source.reset(new (std::nothrow) RodSource(source, instance.contacts.def.surface));
+  if (instance.contacts.rod_source) return {};
   return core::make_status(StatusCode::kOutOfCapacity, "create_instance: no memory for its rods");
 }
 
@@ -63,9 +65,10 @@ void choose_touched(Instance& instance, rods::RodCollider& collider) noexcept {
     (void)collider.set_capsules({});
   else if (proxy_count(instance) > 0)
     set_proxies(instance, collider);
-  if (!instance.rod_source) return;
-  ContactSource* source = asks(instance) ? instance.contacts.source : nullptr;
-  (void)collider.set_source(on_surface ? instance.rod_source.get() : source, instance.contacts.owner);
+  if (!instance.contacts.rod_source) return;
+  ContactSource* source = asks(instance) ? instance.contacts.def.source : nullptr;
+  (void)collider.set_source(on_surface ? instance.contacts.rod_source.get() : source,
+                            instance.contacts.def.owner);
 }
 
 Eigen::AlignedBox3d box_of_rods(const Instance& instance) noexcept {
@@ -73,7 +76,7 @@ Eigen::AlignedBox3d box_of_rods(const Instance& instance) noexcept {
   for (const RodSeat& seat : instance.asset->rods.seats()) {
     for (uint32_t k = 1; k <= seat.segment_count(); ++k) {
       const RodSlot& slot = instance.asset->rods.slots()[seat.first_slot + k];
-      const rods::SegmentPose pose = instance.rod_batches[seat.batch].pose(seat.strand, k);
+      const rods::SegmentPose pose = instance.rods.batches[seat.batch].pose(seat.strand, k);
       const Vector3d middle = Eigen::Map<const Vector3d>(pose.position_m);
       const double reach = double{slot.length_m} / 2 + double{slot.radius_m};
       box.extend(middle + Vector3d::Constant(reach));
@@ -86,7 +89,7 @@ Eigen::AlignedBox3d box_of_rods(const Instance& instance) noexcept {
 }  // namespace
 
 bool touches_surface(const Instance& instance) noexcept {
-  return instance.contacts.surface && affords_surface(instance.state->tier, instance.state->level);
+  return instance.contacts.def.surface && affords_surface(instance.state->tier, instance.state->level);
 }
 
 Status make_rod_colliders(Instance& instance) noexcept {
@@ -96,37 +99,38 @@ Status make_rod_colliders(Instance& instance) noexcept {
   std::unique_ptr<rods::RodCollider[]> made(new (std::nothrow) rods::RodCollider[count]);
   if (!made) return core::make_status(StatusCode::kOutOfCapacity, "create_instance: no memory for its rods");
   for (uint32_t b = 0; b < count; ++b) {
-    const rods::RodBatch& batch = instance.rod_batches[b];
+    const rods::RodBatch& batch = instance.rods.batches[b];
     const Status status = rods::RodCollider::create(batch, settings_of(instance, batch), &made[b]);
     if (!status.ok()) return core::make_status(status.code, "create_instance: rods: %s", status.message);
-    if (asks(instance)) (void)made[b].set_source(instance.contacts.source, instance.contacts.owner);
+    if (asks(instance)) (void)made[b].set_source(instance.contacts.def.source, instance.contacts.def.owner);
     pass_proxies(instance, b, made[b]);
   }
-  instance.rod_colliders = std::move(made);
+  instance.contacts.rod_colliders = std::move(made);
   return {};
 }
 
 rods::RodCollider* rod_collider(Instance& instance, uint32_t batch) noexcept {
-  if (!instance.rod_colliders) return nullptr;
-  instance.rod_colliders[batch].set_origin(instance.state->rod_anchor_m);
-  choose_touched(instance, instance.rod_colliders[batch]);
-  return &instance.rod_colliders[batch];
+  if (!instance.contacts.rod_colliders) return nullptr;
+  instance.contacts.rod_colliders[batch].set_origin(instance.state->rods.anchor_m);
+  choose_touched(instance, instance.contacts.rod_colliders[batch]);
+  return &instance.contacts.rod_colliders[batch];
 }
 
 void forget_rod_contacts(Instance& instance) noexcept {
-  if (!instance.rod_colliders) return;
-  for (uint32_t b = 0; b < instance.asset->rods.batch_count; ++b) instance.rod_colliders[b].forget_forces();
+  if (!instance.contacts.rod_colliders) return;
+  for (uint32_t b = 0; b < instance.asset->rods.batch_count; ++b)
+    instance.contacts.rod_colliders[b].forget_forces();
 }
 
 namespace {
 
 ContactProbe probe_of(const Instance& instance, const RodSeat& seat, uint32_t k) noexcept {
   const RodSlot& slot = instance.asset->rods.slots()[seat.first_slot + k];
-  const rods::SegmentPose pose = instance.rod_batches[seat.batch].pose(seat.strand, k);
+  const rods::SegmentPose pose = instance.rods.batches[seat.batch].pose(seat.strand, k);
   const Vector3d middle =
-      Eigen::Map<const Vector3d>(pose.position_m) + Eigen::Map<const Vector3d>(instance.state->rod_anchor_m);
+      Eigen::Map<const Vector3d>(pose.position_m) + Eigen::Map<const Vector3d>(instance.state->rods.anchor_m);
   const Vector3d half = quaternion(pose.orientation) * Vector3d(0, 0, double{slot.length_m} / 2);
-  ContactProbe probe{.radius_m = slot.radius_m, .owner = instance.contacts.owner};
+  ContactProbe probe{.radius_m = slot.radius_m, .owner = instance.contacts.def.owner};
   for (double(*ends)[3] : {probe.start_m, probe.end_m}) {
     std::copy_n(Vector3d(middle - half).data(), 3, ends[0]);
     std::copy_n(Vector3d(middle + half).data(), 3, ends[1]);
@@ -143,7 +147,7 @@ bool surface_is_near(const Instance& instance, const RodSeat& seat) noexcept {
   for (uint32_t first = 1; first <= seat.segment_count(); first += kAtOnce) {
     const uint32_t count = std::min(kAtOnce, seat.segment_count() + 1 - first);
     for (uint32_t i = 0; i < count; ++i) probes[i] = probe_of(instance, seat, first + i);
-    if (instance.contacts.surface->find({probes, count}, tick_s, {&hit, 1}) > 0) return true;
+    if (instance.contacts.def.surface->find({probes, count}, tick_s, {&hit, 1}) > 0) return true;
   }
   return false;
 }
@@ -157,19 +161,19 @@ bool surface_is_near(const Instance& instance) noexcept {
 }  // namespace
 
 bool something_is_near_rods(Instance& instance) noexcept {
-  if (!instance.rod_colliders) return false;
+  if (!instance.contacts.rod_colliders) return false;
   if (proxies_move(instance)) return true;
   if (touches_surface(instance) && surface_is_near(instance)) return true;
   if (!asks(instance)) return false;
   const Eigen::AlignedBox3d box = box_of_rods(instance);
-  const Vector3d middle = box.center() + Eigen::Map<const Vector3d>(instance.state->rod_anchor_m);
-  ContactProbe& probe = instance.probes[0];
+  const Vector3d middle = box.center() + Eigen::Map<const Vector3d>(instance.state->rods.anchor_m);
+  ContactProbe& probe = instance.contacts.probes[0];
   for (double* end : {probe.start_m[0], probe.start_m[1], probe.end_m[0], probe.end_m[1]})
     std::copy_n(middle.data(), 3, end);
   probe.radius_m = static_cast<float>(box.diagonal().norm() / 2);
-  probe.owner = instance.contacts.owner;
+  probe.owner = instance.contacts.def.owner;
   const auto tick_s = static_cast<float>(instance.asset->tick_s);
-  return instance.contacts.source->find({&probe, 1}, tick_s, {instance.hits, 1}) > 0;
+  return instance.contacts.def.source->find({&probe, 1}, tick_s, {instance.contacts.hits, 1}) > 0;
 }
 
 }  // namespace sinew::world

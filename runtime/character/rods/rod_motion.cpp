@@ -28,11 +28,11 @@ using MapPlace = Eigen::Map<Vector3d>;
 constexpr double kGravity_m_s2 = 9.80665;  // along -Y, as tissue feels it
 
 Quaterniond turn_of(const Instance& instance, uint32_t slot) noexcept {
-  return Eigen::Map<const Eigen::Quaternionf>(instance.rod_turn + 4 * slot).cast<double>().normalized();
+  return Eigen::Map<const Eigen::Quaternionf>(instance.rods.turn + 4 * slot).cast<double>().normalized();
 }
 
 Quaterniond rest_of(const Instance& instance, int tick, uint32_t slot) noexcept {
-  return Eigen::Map<const Quaterniond>(instance.rod_rest[tick] + size_t{4} * slot);
+  return Eigen::Map<const Quaterniond>(instance.rods.rest[tick] + size_t{4} * slot);
 }
 
 rods::SegmentPose pose_of(const Quaterniond& turn, const Vector3d& middle) noexcept {
@@ -52,7 +52,7 @@ bool is_end(const RodSeat& seat, uint32_t slot) noexcept {
 
 Vector3d hold_of_end(const Instance& instance, const RodSeat& seat, int tick) noexcept {
   const size_t hold = size_t{instance.asset->rods.rod_count} + seat.end_hold;
-  return Eigen::Map<const Vector3d>(instance.rod_hold[tick] + 3 * hold);
+  return Eigen::Map<const Vector3d>(instance.rods.hold[tick] + 3 * hold);
 }
 
 // Where a segment is when its rod is turned as rod_turn says against the rest of a tick; parents first.
@@ -64,13 +64,13 @@ Placed place_segment(Instance& instance, const RodSeat& seat, uint32_t rod, uint
   const RodSlot& slot = instance.asset->rods.slots()[s];
   const Quaterniond turn = (rest_of(instance, tick, s) * turn_of(instance, s)).normalized();
   const Vector3d half = half_axis(slot, turn);
-  MapPlace end(instance.rod_end[tick] + size_t{3} * s);
+  MapPlace end(instance.rods.end[tick] + size_t{3} * s);
   if (s == seat.first_slot) {
-    end = Eigen::Map<const Vector3d>(instance.rod_hold[tick] + size_t{3} * rod);
+    end = Eigen::Map<const Vector3d>(instance.rods.hold[tick] + size_t{3} * rod);
     return {turn, end - half};
   }
   if (is_end(seat, s)) return {turn, hold_of_end(instance, seat, tick) + half};
-  const Vector3d begin = Eigen::Map<const Vector3d>(instance.rod_end[tick] + size_t{3} * slot.parent);
+  const Vector3d begin = Eigen::Map<const Vector3d>(instance.rods.end[tick] + size_t{3} * slot.parent);
   end = begin + 2 * half;
   return {turn, begin + half};
 }
@@ -99,13 +99,13 @@ void put_segment(Instance& instance, const RodSeat& seat, uint32_t s, const Plac
   Eigen::Map<Eigen::Vector3f>(velocity.linear_m_s) = (step.velocity_m_s + beside.velocity_m_s).cast<float>();
   Eigen::Map<Eigen::Vector3f>(velocity.angular_rad_s) = (step.spin_rad_s + beside.spin_rad_s).cast<float>();
   // A refusal leaves the segment where it was: its joints pull it back, or the batch recovers the strand.
-  (void)instance.rod_batches[seat.batch].set_pose(seat.strand, s - seat.first_slot,
-                                                  pose_of(place.turn, place.middle), velocity);
+  (void)instance.rods.batches[seat.batch].set_pose(seat.strand, s - seat.first_slot,
+                                                   pose_of(place.turn, place.middle), velocity);
 }
 
 Beside beside_pose(const Instance& instance, const RodSeat& seat, uint32_t s, const Step& step) noexcept {
   const rods::SegmentVelocity whole =
-      instance.rod_batches[seat.batch].velocity(seat.strand, s - seat.first_slot);
+      instance.rods.batches[seat.batch].velocity(seat.strand, s - seat.first_slot);
   return {Eigen::Map<const Eigen::Vector3f>(whole.linear_m_s).cast<double>() - step.velocity_m_s,
           Eigen::Map<const Eigen::Vector3f>(whole.angular_rad_s).cast<double>() - step.spin_rad_s};
 }
@@ -116,8 +116,8 @@ void take_along(Instance& instance, uint32_t rod) noexcept {
   for (uint32_t s = seat.first_slot; s < seat.first_slot + seat.slot_count; ++s) {
     const Step step = step_of_pose(instance, seat, rod, s);
     Beside beside{Vector3d::Zero(), Vector3d::Zero()};
-    if (instance.carried_rods[rod]) {
-      const float* own = instance.rod_velocity + size_t{6} * s;
+    if (instance.motion.carried_rods[rod]) {
+      const float* own = instance.rods.velocity + size_t{6} * s;
       beside = {step.before.turn * Eigen::Map<const Eigen::Vector3f>(own).cast<double>(),
                 step.before.turn * Eigen::Map<const Eigen::Vector3f>(own + 3).cast<double>()};
     }
@@ -127,17 +127,17 @@ void take_along(Instance& instance, uint32_t rod) noexcept {
 
 // It was off, and goes on from its pose.
 bool returns_to_pose(const Instance& instance, uint32_t rod) noexcept {
-  return tunes_parts(instance) && instance.rod_tunings[rod].off == kReturns;
+  return tunes_parts(instance) && instance.parameters.rod_tunings[rod].off == kReturns;
 }
 
 // Those that begin anew, are carried or return; whether there is one.
 bool take_some_along(Instance& instance) noexcept {
-  const bool all = std::exchange(instance.rods_anew, false);
+  const bool all = std::exchange(instance.rods.begin_as_shown, false);
   bool some = false;
   for (uint32_t rod = 0; rod < instance.asset->rods.rod_count; ++rod) {
     const bool returns = returns_to_pose(instance, rod);
-    if (returns) instance.rod_tunings[rod].off = 0;
-    if (!all && !instance.carried_rods[rod] && !returns) continue;
+    if (returns) instance.parameters.rod_tunings[rod].off = 0;
+    if (!all && !instance.motion.carried_rods[rod] && !returns) continue;
     take_along(instance, rod);
     some = true;
   }
@@ -201,9 +201,9 @@ RodDrive rod_drive(const Instance& instance, uint32_t rod, const RodSeat& seat,
 void drive_rod(Instance& instance, uint32_t rod, double ticks, const Vector3d& beside_m_s2) noexcept {
   const RodRig& rig = instance.asset->rods;
   const RodSeat& seat = rig.seats()[rod];
-  rods::RodBatch& batch = instance.rod_batches[seat.batch];
+  rods::RodBatch& batch = instance.rods.batches[seat.batch];
   const Quaterniond held = rest_of(instance, 0, seat.first_slot);
-  const Vector3d hold = Eigen::Map<const Vector3d>(instance.rod_hold[0] + size_t{3} * rod);
+  const Vector3d hold = Eigen::Map<const Vector3d>(instance.rods.hold[0] + size_t{3} * rod);
   // What is refused keeps its last value; poses have been checked.
   (void)batch.set_target(seat.strand, 0, pose_of(held, hold - half_axis(rig.slots()[seat.first_slot], held)));
   const RodDrive drive = rod_drive(instance, rod, seat, beside_m_s2);
@@ -230,7 +230,7 @@ void drive_rod(Instance& instance, uint32_t rod, double ticks, const Vector3d& b
 void add_to_velocities(Instance& instance, const Vector3d& added_m_s) noexcept {
   const Eigen::Vector3f along_m_s = added_m_s.cast<float>();
   for (const RodSeat& seat : instance.asset->rods.seats()) {
-    rods::RodBatch& batch = instance.rod_batches[seat.batch];
+    rods::RodBatch& batch = instance.rods.batches[seat.batch];
     for (uint32_t k = 1; k <= seat.segment_count(); ++k) {
       rods::SegmentVelocity velocity = batch.velocity(seat.strand, k);
       Eigen::Map<Eigen::Vector3f>(velocity.linear_m_s) += along_m_s;
@@ -241,12 +241,13 @@ void add_to_velocities(Instance& instance, const Vector3d& added_m_s) noexcept {
 
 // What of the root's acceleration is not felt.
 Vector3d spared(const Instance& instance, const Vector3d& acceleration_m_s2) noexcept {
-  const double share = tissue::felt_share(static_cast<float>(acceleration_m_s2.norm()), instance.most_m_s2);
+  const double share =
+      tissue::felt_share(static_cast<float>(acceleration_m_s2.norm()), instance.parameters.most_m_s2);
   return (1 - share) * acceleration_m_s2;
 }
 
 Vector3d tick_root(const Instance& instance, int tick) noexcept {
-  return Eigen::Map<const Vector3d>(instance.state->tick_root_m[tick]);
+  return Eigen::Map<const Vector3d>(instance.state->motion.tick_root_m[tick]);
 }
 
 // They go along with it.
@@ -277,7 +278,7 @@ Quaterniond swung_turn(const Instance& instance, uint32_t s, const float* orient
 }
 
 Quaterniond swung_turn(const Instance& instance, const RodSeat& seat, uint32_t k) noexcept {
-  const rods::SegmentPose pose = instance.rod_batches[seat.batch].pose(seat.strand, k);
+  const rods::SegmentPose pose = instance.rods.batches[seat.batch].pose(seat.strand, k);
   return swung_turn(instance, seat.first_slot + k, pose.orientation);
 }
 
@@ -299,7 +300,7 @@ void hold_swing(Instance& instance, uint32_t rod, const RodShown& as) noexcept {
   const RodSeat& seat = instance.asset->rods.seats()[rod];
   for (uint32_t k = 1; k <= seat.segment_count(); ++k) {
     const Quaterniond turn = swung_turn(instance, seat, k);
-    put_turn(instance.rod_turn, seat.first_slot + k,
+    put_turn(instance.rods.turn, seat.first_slot + k,
              exponential(swing_share(seat, as.limit_rad, turn) * logarithm(turn)));
   }
   for (uint32_t k = 0; k < seat.slot_count; ++k) {
@@ -317,7 +318,7 @@ bool read_turns_of(Instance& instance, const RodSeat& seat, const RodShown& as) 
   for (uint32_t k = 1; k <= seat.segment_count(); ++k) {
     const Quaterniond turn = swung_turn(instance, seat, k);
     too_far |= swing_share(seat, as.limit_rad, turn) != 1;
-    put_turn(instance.rod_turn, seat.first_slot + k, shown(turn, as));
+    put_turn(instance.rods.turn, seat.first_slot + k, shown(turn, as));
   }
   return too_far;
 }
@@ -339,51 +340,51 @@ void rest_rod(Instance& instance, uint32_t rod, const Matrix34* joints, const Ro
   const RodSeat& seat = rig.seats()[rod];
   const Quaterniond world = quaternion(root.rotation_xyzw);
   const Vector3d place =
-      Eigen::Map<const Vector3d>(root.position_m) - Eigen::Map<const Vector3d>(instance.state->rod_anchor_m);
+      Eigen::Map<const Vector3d>(root.position_m) - Eigen::Map<const Vector3d>(instance.state->rods.anchor_m);
   for (uint32_t s = seat.first_slot; s < seat.first_slot + seat.slot_count; ++s) {
     const RodSlot& slot = rig.slots()[s];
     Quaterniond joint;
     joint_rotation(joints[slot.joint], joint.coeffs().data());
-    MapTurn(instance.rod_rest[tick] + size_t{4} * s) =
+    MapTurn(instance.rods.rest[tick] + size_t{4} * s) =
         (world * joint * Quaterniond(slot.offset_xyzw)).normalized();
   }
   const Matrix34& first = joints[rig.slots()[seat.first_slot + 1].bone];
-  MapPlace(instance.rod_hold[tick] + size_t{3} * rod) =
+  MapPlace(instance.rods.hold[tick] + size_t{3} * rod) =
       place + world * Vector3d(first.m[0][3], first.m[1][3], first.m[2][3]);
   if (seat.end_hold == pack::kNoIndex) return;
   const RodEnd& end = rig.ends()[seat.end_hold];
   const auto joint = Eigen::Map<const Eigen::Matrix<float, 3, 4, Eigen::RowMajor>>(&joints[end.joint].m[0][0])
                          .cast<double>();
-  MapPlace(instance.rod_hold[tick] + 3 * (size_t{rig.rod_count} + seat.end_hold)) =
+  MapPlace(instance.rods.hold[tick] + 3 * (size_t{rig.rod_count} + seat.end_hold)) =
       place + world * (joint.leftCols<3>() * Eigen::Map<const Vector3d>(end.place_m) + joint.col(3));
 }
 
 }  // namespace
 
 void begin_rods(Instance& instance) noexcept {
-  instance.rods_anew = true;
+  instance.rods.begin_as_shown = true;
   wake_rods(instance);
-  std::copy_n(instance.state->next_root.position_m, 3, instance.state->rod_anchor_m);
+  std::copy_n(instance.state->motion.next_root.position_m, 3, instance.state->rods.anchor_m);
 }
 
 void rest_rods(Instance& instance, const Matrix34* joints, const RootTransform& root) noexcept {
   const RodRig& rig = instance.asset->rods;
   if (rig.rod_count == 0) return;
-  std::copy_n(instance.rod_rest[0], size_t{4} * rig.slot_count, instance.rod_rest[1]);
-  std::copy_n(instance.rod_hold[0], size_t{3} * rig.hold_count(), instance.rod_hold[1]);
+  std::copy_n(instance.rods.rest[0], size_t{4} * rig.slot_count, instance.rods.rest[1]);
+  std::copy_n(instance.rods.hold[0], size_t{3} * rig.hold_count(), instance.rods.hold[1]);
   for (uint32_t rod = 0; rod < rig.rod_count; ++rod) rest_rod(instance, rod, joints, root, 0);
 }
 
 void rest_carried_rods(Instance& instance, const Matrix34* joints, const RootTransform& root,
                        int tick) noexcept {
   for (uint32_t rod = 0; rod < instance.asset->rods.rod_count; ++rod)
-    if (instance.carried_rods[rod]) rest_rod(instance, rod, joints, root, tick);
+    if (instance.motion.carried_rods[rod]) rest_rod(instance, rod, joints, root, tick);
 }
 
 void move_rods(Instance& instance, const Quaterniond& turn, const Vector3d& from_m,
                const Vector3d& to_m) noexcept {
   InstanceState& state = *instance.state;
-  MapPlace anchor(state.rod_anchor_m);
+  MapPlace anchor(state.rods.anchor_m);
   const Vector3d centre = from_m - anchor;
   anchor += to_m - from_m;
   if (turn.vec().isZero(0)) return;
@@ -391,26 +392,26 @@ void move_rods(Instance& instance, const Quaterniond& turn, const Vector3d& from
   const RodRig& rig = instance.asset->rods;
   for (int tick = 0; tick < 2; ++tick) {
     for (uint32_t s = 0; s < rig.slot_count; ++s) {
-      MapTurn rest(instance.rod_rest[tick] + size_t{4} * s);
+      MapTurn rest(instance.rods.rest[tick] + size_t{4} * s);
       rest = turn * Quaterniond(rest);
     }
     for (uint32_t h = 0; h < rig.hold_count(); ++h) {
-      MapPlace hold(instance.rod_hold[tick] + size_t{3} * h);
+      MapPlace hold(instance.rods.hold[tick] + size_t{3} * h);
       hold = (centre + turn * (hold - centre)).eval();
     }
   }
   for (uint32_t b = 0; b < instance.asset->rods.batch_count; ++b)
-    instance.rod_batches[b].turn_all({turn.x(), turn.y(), turn.z(), turn.w()},
-                                     {centre.x(), centre.y(), centre.z()});
+    instance.rods.batches[b].turn_all({turn.x(), turn.y(), turn.z(), turn.w()},
+                                      {centre.x(), centre.y(), centre.z()});
 }
 
 void speed_rods(Instance& instance, const Vector3d& added_m_s) noexcept {
   InstanceState& state = *instance.state;
   const Vector3d tick_m = instance.asset->tick_s * added_m_s;
-  MapPlace anchor(state.rod_anchor_m);
+  MapPlace anchor(state.rods.anchor_m);
   anchor -= state.remainder_s * added_m_s;
   for (uint32_t h = 0; h < instance.asset->rods.hold_count(); ++h)
-    MapPlace(instance.rod_hold[1] + size_t{3} * h) -= tick_m;
+    MapPlace(instance.rods.hold[1] + size_t{3} * h) -= tick_m;
   move_last_proxies(instance, -tick_m);
   add_to_velocities(instance, added_m_s);
 }
@@ -418,13 +419,13 @@ void speed_rods(Instance& instance, const Vector3d& added_m_s) noexcept {
 void remember_rod_velocities(Instance& instance) noexcept {
   const RodRig& rig = instance.asset->rods;
   for (uint32_t rod = 0; rod < rig.rod_count; ++rod) {
-    if (!instance.carried_rods[rod]) continue;
+    if (!instance.motion.carried_rods[rod]) continue;
     const RodSeat& seat = rig.seats()[rod];
     for (uint32_t s = seat.first_slot; s < seat.first_slot + seat.slot_count; ++s) {
       const Step step = step_of_pose(instance, seat, rod, s);
       const Beside beside = beside_pose(instance, seat, s, step);
       const Quaterniond into = step.now.turn.conjugate();
-      float* own = instance.rod_velocity + size_t{6} * s;
+      float* own = instance.rods.velocity + size_t{6} * s;
       Eigen::Vector3f::Map(own) = (into * beside.velocity_m_s).cast<float>();
       Eigen::Vector3f::Map(own + 3) = (into * beside.spin_rad_s).cast<float>();
     }
@@ -443,9 +444,9 @@ void simulate_rods(Instance& instance) noexcept {
   spare_rods(instance);
   for (uint32_t b = 0; b < rig.batch_count; ++b) {
     rods::RodReport report;
-    (void)instance.rod_batches[b].step(static_cast<float>(instance.asset->tick_s), rod_collider(instance, b),
-                                       &report);
-    instance.state->rod_recoveries += report.rejoined + report.recovered;
+    (void)instance.rods.batches[b].step(static_cast<float>(instance.asset->tick_s), rod_collider(instance, b),
+                                        &report);
+    instance.state->rods.recoveries += report.rejoined + report.recovered;
     instance.told.rod_iterations += report.iterations_sum;
     instance.told.rod_residual = std::max(instance.told.rod_residual, report.residual);
     instance.told.rod_contacts += report.contacts;
@@ -464,11 +465,11 @@ class PresentRest {
  public:
   explicit PresentRest(Instance& instance) noexcept
       : instance_(instance),
-        rest_{instance.rod_rest[0], instance.rod_rest[1]},
-        hold_{instance.rod_hold[0], instance.rod_hold[1]} {
-    put({instance.rod_rest_now, rest_[0]}, {instance.rod_hold_now, hold_[0]});
+        rest_{instance.rods.rest[0], instance.rods.rest[1]},
+        hold_{instance.rods.hold[0], instance.rods.hold[1]} {
+    put({instance.rods.rest_now, rest_[0]}, {instance.rods.hold_now, hold_[0]});
     for (uint32_t rod = 0; rod < instance.asset->rods.rod_count; ++rod)
-      rest_rod(instance, rod, instance.joints, instance.state->root, 0);
+      rest_rod(instance, rod, instance.motion.joints, instance.state->motion.root, 0);
   }
   PresentRest(const PresentRest&) = delete;
   PresentRest& operator=(const PresentRest&) = delete;
@@ -477,8 +478,8 @@ class PresentRest {
  private:
   using Ticks = std::array<double*, 2>;
   void put(const Ticks& rest, const Ticks& hold) noexcept {
-    std::ranges::copy(rest, instance_.rod_rest);
-    std::ranges::copy(hold, instance_.rod_hold);
+    std::ranges::copy(rest, instance_.rods.rest);
+    std::ranges::copy(hold, instance_.rods.hold);
   }
   Instance& instance_;
   Ticks rest_, hold_;
@@ -490,8 +491,8 @@ void go_on(const Instance& instance, const RodSeat& seat, const RodShown& as, do
   for (uint32_t k = 1; k <= seat.segment_count(); ++k) {
     const size_t at = size_t{4} * (seat.first_slot + k);
     const Quaterniond step =
-        quaternion(instance.rod_shown[1] + at).conjugate() * quaternion(instance.rod_shown[0] + at);
-    const Quaterniond turn = quaternion(instance.rod_turn + at) * exponential(ticks * logarithm(step));
+        quaternion(instance.rods.shown[1] + at).conjugate() * quaternion(instance.rods.shown[0] + at);
+    const Quaterniond turn = quaternion(instance.rods.turn + at) * exponential(ticks * logarithm(step));
     Eigen::Map<Eigen::Vector4f>(turns + at) = limited(turn, as.limit_rad).coeffs().cast<float>();
   }
 }
@@ -500,31 +501,34 @@ void go_on(const Instance& instance, const RodSeat& seat, const RodShown& as, do
 
 void turn_rods_between(Instance& instance, float x, float* turns) noexcept {
   const RodRig& rig = instance.asset->rods;
-  std::copy_n(instance.rod_turn, size_t{4} * rig.slot_count, turns);
+  std::copy_n(instance.rods.turn, size_t{4} * rig.slot_count, turns);
   const bool asleep = rods_asleep(instance) == rig.rod_count;
-  if (instance.rods_anew || rods_are_off(instance) || (asleep && instance.state->still_ticks > 0)) return;
+  if (instance.rods.begin_as_shown || rods_are_off(instance) ||
+      (asleep && instance.state->poses.still_ticks > 0))
+    return;
   const PresentRest present(instance);
   if (asleep && rods_are_held_as_asleep(instance)) return;
   const double tick_s = instance.asset->tick_s, ticks = static_cast<double>(x);
-  const Vector3d step = Eigen::Map<const Vector3d>(instance.state->root.position_m) - tick_root(instance, 0),
+  const Vector3d step = Eigen::Map<const Vector3d>(instance.state->motion.root.position_m) -
+                        tick_root(instance, 0),
                  before = tick_root(instance, 0) - tick_root(instance, 1);
   const Vector3d beside_m_s2 =
       spared(instance, (step - ticks * before) / (tick_s * tick_s * ticks * (1 + ticks) / 2));
   for (uint32_t rod = 0; rod < rig.rod_count; ++rod)
-    if (!instance.carried_rods[rod]) drive_rod(instance, rod, ticks, beside_m_s2);
+    if (!instance.motion.carried_rods[rod]) drive_rod(instance, rod, ticks, beside_m_s2);
   for (uint32_t b = 0; b < rig.batch_count; ++b) {
-    const rods::RodBatch& batch = instance.rod_batches[b];
+    const rods::RodBatch& batch = instance.rods.batches[b];
     (void)batch.step_between(static_cast<float>(tick_s), x, rod_collider(instance, b),
-                             instance.rod_orientations);
+                             instance.rods.orientations);
     for (uint32_t rod = 0; rod < rig.rod_count; ++rod) {
       const RodSeat& seat = rig.seats()[rod];
       if (seat.batch != b) continue;
       const RodShown as = rod_shown(instance, rod, x);
-      if (instance.carried_rods[rod]) {
+      if (instance.motion.carried_rods[rod]) {
         go_on(instance, seat, as, ticks, turns);
         continue;
       }
-      const float* first = instance.rod_orientations + size_t{4} * seat.strand * batch.segment_count();
+      const float* first = instance.rods.orientations + size_t{4} * seat.strand * batch.segment_count();
       for (uint32_t k = 1; k <= seat.segment_count(); ++k) {
         const Quaterniond turn = swung_turn(instance, seat.first_slot + k, first + size_t{4} * k);
         // As the tick will hold it, by so much of it.

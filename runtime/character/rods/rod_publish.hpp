@@ -10,7 +10,7 @@ void publish_rods(Instance& instance, const float* turns) noexcept;
 
 // Of the present pose, rods applied.
 inline const Matrix34* shown_joints(const Instance& instance) noexcept {
-  return instance.rods_shown ? instance.rod_joints : instance.joints;
+  return instance.rods.are_shown ? instance.rods.joints : instance.motion.joints;
 }
 
 }  // namespace sinew::world

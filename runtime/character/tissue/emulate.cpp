@@ -24,7 +24,7 @@ Eigen::Map<const Rotation> frame_of(const tissue::NodePose& pose) noexcept {
 
 // Where the root was, or will be, against where it was in the last tick.
 Vector root_step(const Instance& instance, int back) noexcept {
-  const auto& roots = instance.state->tick_root_m;
+  const auto& roots = instance.state->motion.tick_root_m;
   Vector step;
   for (int axis = 0; axis < 3; ++axis) step[axis] = static_cast<float>(roots[back][axis] - roots[1][axis]);
   return step;
@@ -39,26 +39,26 @@ Rotation turned_by(const Vector& bend) noexcept {
 // Of nodes [first, last): everything in metres from the root's last tick.
 void gather(Instance& instance, size_t first, size_t last, float cell_m) noexcept {
   const Vector ahead = root_step(instance, 0), behind = root_step(instance, 2);
-  const EmulatorScratch& to = instance.emulator;
+  const EmulatorScratch& to = instance.tissue.emulator;
   const uint8_t* held = instance.asset->pack.patch_held.data();
   const auto tick_s = static_cast<float>(instance.asset->tick_s);
   for (size_t n = first; n < last; ++n) {
-    const tissue::NodePose &next = instance.poses[0][n], &now = instance.poses[1][n],
-                           &before = instance.poses[2][n];
-    const float size = instance.scaled_nodes ? instance.node_size[n] : 1;
+    const tissue::NodePose &next = instance.motion.poses[0][n], &now = instance.motion.poses[1][n],
+                           &before = instance.motion.poses[2][n];
+    const float size = instance.motion.scaled_nodes ? instance.motion.node_size[n] : 1;
     const size_t at = 3 * n;
     vector_at(to.x_next + at) = vector_at(next.place_m) + ahead;
     vector_at(to.x_now + at) = vector_at(now.place_m);
     vector_at(to.x_before + at) = vector_at(before.place_m) + behind;
     const float moves = held[n] ? 0 : size;  // what is held is where its pose has it
     vector_at(to.u_now + at) =
-        vector_at(to.x_now + at) + moves * (frame_of(now) * vector_at(instance.u[0] + at));
+        vector_at(to.x_now + at) + moves * (frame_of(now) * vector_at(instance.tissue.u[0] + at));
     vector_at(to.u_before + at) =
-        vector_at(to.x_before + at) + moves * (frame_of(before) * vector_at(instance.u[1] + at));
+        vector_at(to.x_before + at) + moves * (frame_of(before) * vector_at(instance.tissue.u[1] + at));
     tissue::PatchView& view = to.views[n];
     Eigen::Map<Rotation>(view.axes) = (frame_of(next) * turned_by(vector_at(next.bend))).transpose();
     view.length_m = size * cell_m;
-    const float* gravity_change = instance.drive + tissue::kNodeDriveWidth * n + 3;
+    const float* gravity_change = instance.tissue.drive + tissue::kNodeDriveWidth * n + 3;
     vector_at(view.fall_m) = size * tick_s * tick_s * (frame_of(next) * vector_at(gravity_change));
   }
 }
@@ -66,30 +66,31 @@ void gather(Instance& instance, size_t first, size_t last, float cell_m) noexcep
 // l that the network's places stand for; of what is held, the base's, whose modes go on beyond the part.
 void take_answer(Instance& instance, const Part& part) noexcept {
   const uint8_t* held = instance.asset->pack.patch_held.data();
-  const EmulatorScratch& from = instance.emulator;
-  float *theta = instance.carry + part.vector, *l = from.l + part.vector;
-  tissue::modal_turn(part.base, instance.q_hat + part.mode, instance.region[0], theta);
-  tissue::warp(theta, instance.l_hat + part.vector, part.record.node_count, l);
+  const EmulatorScratch& from = instance.tissue.emulator;
+  float *theta = instance.tissue.carry + part.vector, *l = from.l + part.vector;
+  tissue::modal_turn(part.base, instance.tissue.q_hat + part.mode, instance.tissue.region[0], theta);
+  tissue::warp(theta, instance.tissue.l_hat + part.vector, part.record.node_count, l);
   for (size_t n = part.node; n < part.node + part.record.node_count; ++n) {
     const size_t at = 3 * n;
     if (held[n]) {
       vector_at(from.l + at).setZero();
       continue;
     }
-    const float size = instance.scaled_nodes ? instance.node_size[n] : 1;
+    const float size = instance.motion.scaled_nodes ? instance.motion.node_size[n] : 1;
     const Vector moved = vector_at(from.u_next + at) - vector_at(from.x_next + at);
     vector_at(from.l + at) =
-        frame_of(instance.poses[0][n]).transpose() * moved / size - vector_at(from.l + at);
+        frame_of(instance.motion.poses[0][n]).transpose() * moved / size - vector_at(from.l + at);
   }
   tissue::turn_back(theta, l, part.record.node_count, l);
-  for (size_t i = 0; i < size_t{3} * part.record.node_count; ++i) l[i] += instance.l_hat[part.vector + i];
+  for (size_t i = 0; i < size_t{3} * part.record.node_count; ++i)
+    l[i] += instance.tissue.l_hat[part.vector + i];
 }
 
 }  // namespace
 
 bool emulate(Instance& instance) noexcept {
   const Asset& asset = *instance.asset;
-  const EmulatorScratch& at = instance.emulator;
+  const EmulatorScratch& at = instance.tissue.emulator;
   const tissue::Graph& graph = instance.level->graph;
   bool good = true;
   for_each_awake_part(instance, [&](const Part& part) {

@@ -23,7 +23,7 @@ inline float swing_limit_m(const Part& part, float limit_m) noexcept {
 }
 
 inline tissue::TickForce force_of(const Instance& instance, const Part& part) noexcept {
-  const tissue::TickForce& all = instance.tick_force;
+  const tissue::TickForce& all = instance.tissue.tick_force;
   return {all.q + part.mode,         all.r + part.vector,   all.added_q + part.mode,
           all.added_r + part.vector, all.off_q + part.mode, all.off_r + part.vector};
 }

@@ -30,33 +30,35 @@ void scale(float* values, size_t count, float by) noexcept {
 }
 
 void turn_and_warp(Instance& instance, const Part& part) noexcept {
-  tissue::modal_turn(part.base, instance.q[0] + part.mode, instance.region[0], instance.theta + part.vector);
-  tissue::warp(instance.theta + part.vector, instance.l[0] + part.vector, part.record.node_count,
-               instance.u[0] + part.vector);
+  tissue::modal_turn(part.base, instance.tissue.q[0] + part.mode, instance.tissue.region[0],
+                     instance.tissue.theta + part.vector);
+  tissue::warp(instance.tissue.theta + part.vector, instance.tissue.l[0] + part.vector,
+               part.record.node_count, instance.tissue.u[0] + part.vector);
 }
 
 // All that goes on from the tick is scaled, and what that came from, which frames between ticks go on with.
 void hold_swing(Instance& instance, const Part& part, float share) noexcept {
   const size_t modes = part.base.modes.size(), floats = size_t{3} * part.record.node_count;
-  for (float* values :
-       {instance.q[0], instance.q[1], instance.corrected[0], instance.corrected[1], instance.q_hat})
+  for (float* values : {instance.tissue.q[0], instance.tissue.q[1], instance.tissue.corrected[0],
+                        instance.tissue.corrected[1], instance.tissue.q_hat})
     scale(values + part.mode, modes, share);
-  for (float* values : {instance.r[0], instance.r[1], instance.l[0], instance.l[1], instance.r_hat})
+  for (float* values : {instance.tissue.r[0], instance.tissue.r[1], instance.tissue.l[0],
+                        instance.tissue.l[1], instance.tissue.r_hat})
     scale(values + part.vector, floats, share);
-  instance.swing[part.index] *= share * share;
+  instance.tissue.swing[part.index] *= share * share;
   turn_and_warp(instance, part);
 }
 
 // u of this tick is what may be shown of it, and what goes beyond the limit is counted and held.
 void hold_shown(Instance& instance, const Part& part) noexcept {
   const uint32_t nodes = part.record.node_count;
-  float* u = instance.u[0] + part.vector;
+  float* u = instance.tissue.u[0] + part.vector;
   float largest_m = tissue::largest_displacement_m(u, nodes);
   const float held = tissue::swing_share(largest_m, swing_limit_m(part, part.limit_m));
   if (held != 1) {
     hold_swing(instance, part, held);
     largest_m = tissue::largest_displacement_m(u, nodes);
-    ++instance.state->displacement_clamps;
+    ++instance.state->tissue.displacement_clamps;
   }
   tissue::show(tissue::limit_share(largest_m, part.limit_m), nodes, u);
 }
@@ -64,7 +66,8 @@ void hold_shown(Instance& instance, const Part& part) noexcept {
 // In this tick, and next to nothing of it is seen yet: a change of level had the region again, or all of the
 // instance comes back after more than it makes up for.
 bool begins_at_rest(const Instance& instance, const Part& part) noexcept {
-  return instance.state->rest_ticks > 0 || instance.regained[part.index] == kRegainedNow;
+  return instance.state->transition.rest_ticks > 0 ||
+         instance.transition.regained[part.index] == kRegainedNow;
 }
 
 // What of a load counts as lasting: the answer to a jolt that lasted for ever would be far off.
@@ -79,11 +82,12 @@ float lasting_share(const Part& part, const float* felt, size_t stride) noexcept
 // ---- modes ----
 
 void frame_term(Instance& instance, const Part& part) noexcept {
-  const tissue::NodePose* const poses[3] = {instance.poses[0] + part.node, instance.poses[1] + part.node,
-                                            instance.poses[2] + part.node};
-  tissue::frame_term(poses, instance.u[0] + part.vector, instance.u[1] + part.vector,
+  const tissue::NodePose* const poses[3] = {instance.motion.poses[0] + part.node,
+                                            instance.motion.poses[1] + part.node,
+                                            instance.motion.poses[2] + part.node};
+  tissue::frame_term(poses, instance.tissue.u[0] + part.vector, instance.tissue.u[1] + part.vector,
                      static_cast<float>(instance.asset->tick_s), part.record.node_count,
-                     instance.felt + part.vector);
+                     instance.tissue.felt + part.vector);
 }
 
 // f + phi.
@@ -91,23 +95,25 @@ void feel(Instance& instance, const Part& part) noexcept {
   frame_term(instance, part);
   for (size_t n = part.node; n < part.node + part.record.node_count; ++n) {
     for (size_t k = 0; k < 3; ++k)
-      instance.felt[3 * n + k] += instance.drive[tissue::kNodeDriveWidth * n + k];
+      instance.tissue.felt[3 * n + k] += instance.tissue.drive[tissue::kNodeDriveWidth * n + k];
   }
 }
 
 // What sleeps answers with what it is.
 void answer_as_before(Instance& instance) noexcept {
-  std::copy_n(instance.q[0], instance.level->mode_count(), instance.q_hat);
-  std::copy_n(instance.r[0], floats_of(instance), instance.r_hat);
-  std::copy_n(instance.l[0], floats_of(instance), instance.l_hat);
-  std::fill_n(instance.carry, floats_of(instance), 0.0f);  // nothing of it moves where others begin at rest
+  std::copy_n(instance.tissue.q[0], instance.level->mode_count(), instance.tissue.q_hat);
+  std::copy_n(instance.tissue.r[0], floats_of(instance), instance.tissue.r_hat);
+  std::copy_n(instance.tissue.l[0], floats_of(instance), instance.tissue.l_hat);
+  std::fill_n(instance.tissue.carry, floats_of(instance),
+              0.0f);  // nothing of it moves where others begin at rest
 }
 
 // As so much of what it hears would hold it for ever, in q, r and l; carry is what is then shown, less u.
 void begin_modes_at_rest(Instance& instance, const Part& part, const float* heard, float share) noexcept {
   const tissue::ModalBase& base = part.base;
-  float *q[2] = {instance.q[0] + part.mode, instance.q[1] + part.mode},
-        *r[2] = {instance.r[0] + part.vector, instance.r[1] + part.vector}, *l = instance.region[1];
+  float *q[2] = {instance.tissue.q[0] + part.mode, instance.tissue.q[1] + part.mode},
+        *r[2] = {instance.tissue.r[0] + part.vector, instance.tissue.r[1] + part.vector},
+        *l = instance.tissue.region[1];
   const size_t floats = size_t{3} * part.record.node_count;
   for (size_t m = 0; m < base.modes.size(); ++m) {
     const pack::ModeRecord& mode = base.modes[m];
@@ -116,35 +122,35 @@ void begin_modes_at_rest(Instance& instance, const Part& part, const float* hear
   const auto modes = static_cast<uint32_t>(base.modes.size());
   simd::kernels().add_rows(base.shape, modes, base.padded, q[0], l);
   for (size_t i = 0; i < floats; ++i) l[i] += r[0][i] = r[1][i] = share * heard[i];
-  for (float* tick : instance.l) std::copy_n(l, floats, tick + part.vector);
-  float *theta = instance.theta + part.vector, *moved = instance.carry + part.vector;
+  for (float* tick : instance.tissue.l) std::copy_n(l, floats, tick + part.vector);
+  float *theta = instance.tissue.theta + part.vector, *moved = instance.tissue.carry + part.vector;
   tissue::modal_turn(base, q[0], l, theta);
-  tissue::warp(theta, instance.l[0] + part.vector, part.record.node_count, moved);
+  tissue::warp(theta, instance.tissue.l[0] + part.vector, part.record.node_count, moved);
   tissue::hold_within(part.limit_m, part.record.node_count, moved);
-  for (size_t i = 0; i < floats; ++i) moved[i] -= instance.u[0][part.vector + i];
-  for (float* corrected : instance.corrected) std::fill_n(corrected + part.mode, modes, 0.0f);
-  instance.swing[part.index] = 0;
+  for (size_t i = 0; i < floats; ++i) moved[i] -= instance.tissue.u[0][part.vector + i];
+  for (float* corrected : instance.tissue.corrected) std::fill_n(corrected + part.mode, modes, 0.0f);
+  instance.tissue.swing[part.index] = 0;
 }
 
 // Where the tick begins something at rest, carry tells by how much u moved. False: nothing.
 bool begin_part(Instance& instance, const Part& part, const float* heard) noexcept {
   const bool begins = begins_at_rest(instance, part);
   if (begins)
-    begin_modes_at_rest(instance, part, heard, lasting_share(part, instance.felt + part.vector, 3));
+    begin_modes_at_rest(instance, part, heard, lasting_share(part, instance.tissue.felt + part.vector, 3));
   else
-    std::fill_n(instance.carry + part.vector, 3 * part.record.node_count, 0.0f);
+    std::fill_n(instance.tissue.carry + part.vector, 3 * part.record.node_count, 0.0f);
   return begins;
 }
 
 }  // namespace
 
 const float* theta_of_base(Instance& instance, const Part& part) noexcept {
-  if (instance.state->tier != Tier::kNetwork) return instance.theta + part.vector;
+  if (instance.state->tier != Tier::kNetwork) return instance.tissue.theta + part.vector;
   alignas(64) float base[pack::kMaxModes];
   for (size_t m = 0; m < part.base.modes.size(); ++m)
-    base[m] = instance.q[0][part.mode + m] - instance.corrected[0][part.mode + m];
-  float* theta = instance.carry + part.vector;
-  tissue::modal_turn(part.base, base, instance.region[0], theta);
+    base[m] = instance.tissue.q[0][part.mode + m] - instance.tissue.corrected[0][part.mode + m];
+  float* theta = instance.tissue.carry + part.vector;
+  tissue::modal_turn(part.base, base, instance.tissue.region[0], theta);
   return theta;
 }
 
@@ -156,28 +162,29 @@ bool base_step(Instance& instance) noexcept {
   bool moved = false;
   for_each_awake_part(instance, [&](const Part& part) {
     feel(instance, part);
-    float *felt = instance.felt + part.vector, *heard = instance.region[0];
+    float *felt = instance.tissue.felt + part.vector, *heard = instance.tissue.region[0];
     tissue::modal_hear(part.base, felt, theta_of_base(instance, part), felt, heard);
     moved |= begin_part(instance, part, heard);
     tissue::take_force(part.base, heard, force_of(instance, part));
-    const tissue::ModalState state{.q = instance.q[0] + part.mode,
-                                   .q_before = instance.q[1] + part.mode,
-                                   .r = instance.r[0] + part.vector,
-                                   .r_before = instance.r[1] + part.vector};
-    tissue::modal_answer(
-        part.base, heard, state,
-        {.q = instance.q_hat + part.mode, .r = instance.r_hat + part.vector, .l = instance.region[1]});
-    std::copy_n(instance.region[1], 3 * part.record.node_count, instance.l_hat + part.vector);
+    const tissue::ModalState state{.q = instance.tissue.q[0] + part.mode,
+                                   .q_before = instance.tissue.q[1] + part.mode,
+                                   .r = instance.tissue.r[0] + part.vector,
+                                   .r_before = instance.tissue.r[1] + part.vector};
+    tissue::modal_answer(part.base, heard, state,
+                         {.q = instance.tissue.q_hat + part.mode,
+                          .r = instance.tissue.r_hat + part.vector,
+                          .l = instance.tissue.region[1]});
+    std::copy_n(instance.tissue.region[1], 3 * part.record.node_count, instance.tissue.l_hat + part.vector);
   });
-  if (moved) settle_rest(instance, instance.carry);
-  return tissue::all_finite(instance.l_hat, floats_of(instance)) &&
-         tissue::all_finite(instance.q_hat, instance.level->mode_count());
+  if (moved) settle_rest(instance, instance.tissue.carry);
+  return tissue::all_finite(instance.tissue.l_hat, floats_of(instance)) &&
+         tissue::all_finite(instance.tissue.q_hat, instance.level->mode_count());
 }
 
 // q += project (l - from).
 void project_change(Instance& instance, const Part& part, const float* l, const float* from,
                     float* q) noexcept {
-  float* change = instance.region[0];
+  float* change = instance.tissue.region[0];
   const size_t floats = size_t{3} * part.record.node_count;
   for (size_t i = 0; i < floats; ++i) change[i] = l[part.vector + i] - from[part.vector + i];
   tissue::modal_project(part.base, change, q + part.mode);
@@ -185,16 +192,16 @@ void project_change(Instance& instance, const Part& part, const float* l, const 
 
 void shift_back(Instance& instance) noexcept {
   const size_t floats = floats_of(instance);
-  std::copy_n(instance.u[0], floats, instance.u[1]);
-  std::copy_n(instance.l[0], floats, instance.l[1]);
-  std::copy_n(instance.r[0], floats, instance.r[1]);
-  std::copy_n(instance.q[0], instance.level->mode_count(), instance.q[1]);
+  std::copy_n(instance.tissue.u[0], floats, instance.tissue.u[1]);
+  std::copy_n(instance.tissue.l[0], floats, instance.tissue.l[1]);
+  std::copy_n(instance.tissue.r[0], floats, instance.tissue.r[1]);
+  std::copy_n(instance.tissue.q[0], instance.level->mode_count(), instance.tissue.q[1]);
 }
 
 // q and r of this tick are the base's.
 void take_base_answer(Instance& instance) noexcept {
-  std::copy_n(instance.r_hat, floats_of(instance), instance.r[0]);
-  std::copy_n(instance.q_hat, instance.level->mode_count(), instance.q[0]);
+  std::copy_n(instance.tissue.r_hat, floats_of(instance), instance.tissue.r[0]);
+  std::copy_n(instance.tissue.q_hat, instance.level->mode_count(), instance.tissue.q[0]);
 }
 
 // theta and u follow from q and l.
@@ -214,20 +221,21 @@ void assemble(Instance& instance) noexcept {
     if (is_emulated(part)) return;
     const tissue::NodeSources sources{.region = &part.record,
                                       .nodes = instance.level->pack.nodes.data() + part.node,
-                                      .drive = instance.drive + tissue::kNodeDriveWidth * part.node,
-                                      .felt = instance.felt + part.vector,
-                                      .l = instance.l[0] + part.vector,
-                                      .l_before = instance.l[1] + part.vector,
-                                      .l_hat = instance.l_hat + part.vector,
-                                      .theta = instance.theta + part.vector,
+                                      .drive = instance.tissue.drive + tissue::kNodeDriveWidth * part.node,
+                                      .felt = instance.tissue.felt + part.vector,
+                                      .l = instance.tissue.l[0] + part.vector,
+                                      .l_before = instance.tissue.l[1] + part.vector,
+                                      .l_hat = instance.tissue.l_hat + part.vector,
+                                      .theta = instance.tissue.theta + part.vector,
                                       .first_rad_per_s = part.first_rad_per_s,
                                       .tick_s = static_cast<float>(asset.tick_s)};
     const uint32_t clamped =
-        tissue::assemble_inputs(asset.network, sources, instance.inputs + stride * part.node);
-    instance.state->input_clamps += clamped;
-    instance.trust[part.index] = tissue::trust_in(asset.network, sources, clamped);
-    tissue::carry_to(asset.network, part.record, instance.level->node_count(), instance.l_hat + part.vector,
-                     instance.network_state, instance.carry + part.vector);
+        tissue::assemble_inputs(asset.network, sources, instance.tissue.inputs + stride * part.node);
+    instance.state->tissue.input_clamps += clamped;
+    instance.tissue.trust[part.index] = tissue::trust_in(asset.network, sources, clamped);
+    tissue::carry_to(asset.network, part.record, instance.level->node_count(),
+                     instance.tissue.l_hat + part.vector, instance.tissue.network_memory,
+                     instance.tissue.carry + part.vector);
   });
 }
 
@@ -235,18 +243,18 @@ void give_up_network(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   state.tier = Tier::kModal;
   state.fallback_ticks = kFallbackTicks;
-  state.forgotten = 1;
+  state.tissue.forgotten = 1;
   wake_regions(instance);
-  ++state.fallbacks;
-  instance.fell_back = true;
+  ++state.tissue.fallbacks;
+  instance.marks.fell_back = true;
 }
 
 // A network that begins knows nothing of the motion yet: its corrections rise.
 float begun_share(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
-  if (state.network_begins == 0) return 1;
-  --state.network_begins;
-  return 1 - static_cast<float>(state.network_begins) / kNetworkBeginTicks;
+  if (state.tissue.network_begins == 0) return 1;
+  --state.tissue.network_begins;
+  return 1 - static_cast<float>(state.tissue.network_begins) / kNetworkBeginTicks;
 }
 
 bool is_near(const float* a, const float* b, size_t count, float distance) noexcept {
@@ -260,13 +268,13 @@ bool is_near(const float* a, const float* b, size_t count, float distance) noexc
 bool pose_stays(const Instance& instance, const Part& part) noexcept {
   constexpr float kRounding = 1e-5f;  // radians, and of the radius
   const float least_m = kRounding * part.record.radius_m;
-  const double(&root)[3][3] = instance.state->tick_root_m;
+  const double(&root)[3][3] = instance.state->motion.tick_root_m;
   for (size_t axis = 0; axis < 3; ++axis)
     if (std::abs(root[0][axis] - 2 * root[1][axis] + root[2][axis]) > static_cast<double>(least_m))
       return false;
   for (size_t n = part.node; n < part.node + part.record.node_count; ++n)
     for (const int older : {1, 2}) {
-      const tissue::NodePose &now = instance.poses[0][n], &then = instance.poses[older][n];
+      const tissue::NodePose &now = instance.motion.poses[0][n], &then = instance.motion.poses[older][n];
       if (!is_near(now.rotation, then.rotation, 9, kRounding) ||
           !is_near(now.place_m, then.place_m, 3, least_m))
         return false;
@@ -276,7 +284,7 @@ bool pose_stays(const Instance& instance, const Part& part) noexcept {
 
 // d of this tick from those of the last two, and what the tick corrects.
 void count_corrections(Instance& instance, const Part& part, const float* correction) noexcept {
-  float *now = instance.corrected[0] + part.mode, *before = instance.corrected[1] + part.mode;
+  float *now = instance.tissue.corrected[0] + part.mode, *before = instance.tissue.corrected[1] + part.mode;
   for (size_t m = 0; m < part.base.modes.size(); ++m) {
     const pack::ModeRecord& mode = part.base.modes[m];
     const float goes_on = mode.a1 * now[m] + mode.a2 * before[m];
@@ -288,10 +296,11 @@ void count_corrections(Instance& instance, const Part& part, const float* correc
 // The share of a correction that the region's budget allows; the budget becomes this tick's.
 float spend_budget(Instance& instance, const Part& part, const float* correction) noexcept {
   float base[pack::kMaxModes];
-  const float *d = instance.corrected[0] + part.mode, *d_before = instance.corrected[1] + part.mode;
+  const float *d = instance.tissue.corrected[0] + part.mode,
+              *d_before = instance.tissue.corrected[1] + part.mode;
   for (size_t m = 0; m < part.base.modes.size(); ++m) {
     const pack::ModeRecord& mode = part.base.modes[m];
-    base[m] = instance.q_hat[part.mode + m] - (mode.a1 * d[m] + mode.a2 * d_before[m]);
+    base[m] = instance.tissue.q_hat[part.mode + m] - (mode.a1 * d[m] + mode.a2 * d_before[m]);
   }
   return tissue::bounded_share({.modes = part.base.modes,
                                 .base = base,
@@ -299,16 +308,16 @@ float spend_budget(Instance& instance, const Part& part, const float* correction
                                 .d_before = d_before,
                                 .correction = correction,
                                 .pose_stays = pose_stays(instance, part)},
-                               instance.swing + part.index);
+                               instance.tissue.swing + part.index);
 }
 
 // The network's correction as modes have it, as much of it as its budget allows.
 void correct_modes(Instance& instance, const Part& part, float most) noexcept {
   alignas(64) float correction[pack::kMaxModes] = {};
   const size_t modes = part.base.modes.size();
-  float* change = instance.region[0];
+  float* change = instance.tissue.region[0];
   for (size_t i = 0; i < size_t{3} * part.record.node_count; ++i)
-    change[i] = most * (instance.l[0][part.vector + i] - instance.l_hat[part.vector + i]);
+    change[i] = most * (instance.tissue.l[0][part.vector + i] - instance.tissue.l_hat[part.vector + i]);
   tissue::modal_project(part.base, change, correction);
   // The budget's proof wants modes that swing; the baker makes no others.
   for (size_t m = 0; m < modes; ++m) {
@@ -319,17 +328,19 @@ void correct_modes(Instance& instance, const Part& part, float most) noexcept {
   // A correction that is not finite takes no share, and 0 times it is none either.
   for (size_t m = 0; m < modes; ++m) correction[m] = share > 0 ? share * correction[m] : 0;
   simd::kernels().add_rows(part.base.shape, static_cast<uint32_t>(modes), part.base.padded, correction,
-                           instance.region[1]);
+                           instance.tissue.region[1]);
   for (size_t i = 0; i < size_t{3} * part.record.node_count; ++i)
-    instance.l[0][part.vector + i] = instance.l_hat[part.vector + i] + instance.region[1][i];
-  for (size_t m = 0; m < modes; ++m) instance.q[0][part.mode + m] += correction[m];
+    instance.tissue.l[0][part.vector + i] =
+        instance.tissue.l_hat[part.vector + i] + instance.tissue.region[1][i];
+  for (size_t m = 0; m < modes; ++m) instance.tissue.q[0][part.mode + m] += correction[m];
   count_corrections(instance, part, correction);
 }
 
 // What a network corrected before goes on with the modes; the budget follows.
 void settle_part_on_base(Instance& instance, const Part& part) noexcept {
   const float none[pack::kMaxModes] = {};
-  std::copy_n(instance.l_hat + part.vector, size_t{3} * part.record.node_count, instance.l[0] + part.vector);
+  std::copy_n(instance.tissue.l_hat + part.vector, size_t{3} * part.record.node_count,
+              instance.tissue.l[0] + part.vector);
   spend_budget(instance, part, none);
   count_corrections(instance, part, none);
 }
@@ -341,14 +352,15 @@ void settle_on_network(Instance& instance) noexcept {
   for_each_awake_part(instance, [&](const Part& part) {
     const float begun = all_begun * network_share(instance, part.index);
     if (is_emulated(part)) {
-      std::copy_n(instance.emulator.l + part.vector, size_t{3} * part.record.node_count,
-                  instance.l[0] + part.vector);
+      std::copy_n(instance.tissue.emulator.l + part.vector, size_t{3} * part.record.node_count,
+                  instance.tissue.l[0] + part.vector);
       return correct_modes(instance, part, begun);
     }
     if (instance.asset->network.layers.empty()) return settle_part_on_base(instance, part);
     tissue::read_output(instance.asset->network, instance.level->pack.regions.subspan(part.index, 1),
-                        instance.level->node_count(), instance.network_state, instance.l[0] + part.vector);
-    correct_modes(instance, part, begun * instance.trust[part.index]);
+                        instance.level->node_count(), instance.tissue.network_memory,
+                        instance.tissue.l[0] + part.vector);
+    correct_modes(instance, part, begun * instance.tissue.trust[part.index]);
   });
 }
 
@@ -356,12 +368,13 @@ void settle_on_network(Instance& instance) noexcept {
 void take_back_to_network(Instance& instance) noexcept {
   for_each_awake_part(instance, [&](const Part& part) {
     tissue::write_output(instance.asset->network, instance.level->pack.regions.subspan(part.index, 1),
-                         instance.level->node_count(), instance.l[0] + part.vector, instance.network_state);
+                         instance.level->node_count(), instance.tissue.l[0] + part.vector,
+                         instance.tissue.network_memory);
   });
 }
 
 void settle_on_base(Instance& instance) noexcept {
-  std::copy_n(instance.l_hat, floats_of(instance), instance.l[0]);
+  std::copy_n(instance.tissue.l_hat, floats_of(instance), instance.tissue.l[0]);
   if (instance.asset->best() != Tier::kNetwork) return;
   for_each_awake_part(instance, [&](const Part& part) { settle_part_on_base(instance, part); });
 }
@@ -372,12 +385,12 @@ std::span<const tissue::NodeRun> awake_nodes(Instance& instance) noexcept {
   for_each_awake_part(instance, [&](const Part& part) {
     if (is_emulated(part)) return;
     const auto first = static_cast<uint32_t>(part.node), last = first + part.record.node_count;
-    if (count > 0 && instance.awake[count - 1].last == first)
-      instance.awake[count - 1].last = last;
+    if (count > 0 && instance.tissue.awake[count - 1].last == first)
+      instance.tissue.awake[count - 1].last = last;
     else
-      instance.awake[count++] = {first, last};
+      instance.tissue.awake[count++] = {first, last};
   });
-  return {instance.awake, count};
+  return {instance.tissue.awake, count};
 }
 
 // True when the network's state is sound after its step.
@@ -386,9 +399,11 @@ bool network_step(Instance& instance) noexcept {
   bool sound = !instance.asset->emulates() || emulate(instance);
   if (!network.layers.empty()) {
     assemble(instance);
-    tissue::network_step(network, instance.level->graph, awake_nodes(instance), instance.inputs,
-                         instance.carry, instance.network_state, instance.network_scratch);
-    sound = sound && tissue::network_is_finite(network, instance.level->node_count(), instance.network_state);
+    tissue::network_step(network, instance.level->graph, awake_nodes(instance), instance.tissue.inputs,
+                         instance.tissue.carry, instance.tissue.network_memory,
+                         instance.tissue.network_scratch);
+    sound = sound &&
+            tissue::network_is_finite(network, instance.level->node_count(), instance.tissue.network_memory);
   }
   if (!sound) give_up_network(instance);
   return sound;
@@ -399,11 +414,11 @@ bool size_joints(const Instance& instance) noexcept {
   constexpr float kAsBound = 1e-3f, kLeast = 1e-3f, kMost = 1e3f;
   bool other = false;
   for (uint32_t j = 0; j < instance.level->pack.character->joint_count; ++j) {
-    const float* m = instance.skin + size_t{12} * j;
+    const float* m = instance.motion.skin + size_t{12} * j;
     const float volume = std::abs(m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) +
                                   m[2] * (m[4] * m[9] - m[5] * m[8]));
     const bool as_bound = std::abs(volume - 1) < kAsBound;
-    instance.joint_size[j] = as_bound ? 1 : std::clamp(std::cbrt(volume), kLeast, kMost);
+    instance.motion.joint_size[j] = as_bound ? 1 : std::clamp(std::cbrt(volume), kLeast, kMost);
     other |= !as_bound;
   }
   return other;
@@ -418,23 +433,23 @@ const float* size_nodes(const Instance& instance) noexcept {
     const pack::SkinRecord& skin = instance.level->pack.nodes[n].skin;
     float size = 0;
     for (uint32_t k = 0; k < pack::kInfluences; ++k)
-      size += skin.weight[k] * instance.joint_size[skin.joint[k]];
-    instance.node_size[n] = size;
+      size += skin.weight[k] * instance.motion.joint_size[skin.joint[k]];
+    instance.motion.node_size[n] = size;
   }
-  return instance.node_size;
+  return instance.motion.node_size;
 }
 
 void drive_nodes(Instance& instance) noexcept {
   tissue::NodeMotion motion;
   motion.size = size_nodes(instance);
-  instance.scaled_nodes = motion.size != nullptr;
-  motion.most_m_s2 = instance.most_m_s2;
+  instance.motion.scaled_nodes = motion.size != nullptr;
+  motion.most_m_s2 = instance.parameters.most_m_s2;
   for (int tick = 0; tick < 3; ++tick) {
-    motion.pose[tick] = instance.poses[tick];
-    std::copy_n(instance.state->tick_root_m[tick], 3, motion.root_position_m[tick]);
+    motion.pose[tick] = instance.motion.poses[tick];
+    std::copy_n(instance.state->motion.tick_root_m[tick], 3, motion.root_position_m[tick]);
   }
   tissue::compute_node_drive(motion, static_cast<float>(instance.asset->tick_s), instance.level->node_count(),
-                             instance.drive);
+                             instance.tissue.drive);
   if (tunes_air(instance)) add_air(instance);
 }
 
@@ -456,26 +471,28 @@ namespace {
 
 // r of a tick: what of l the modes cannot hold.
 void leave_to_rest(Instance& instance, const Part& part, int tick) noexcept {
-  float* held = instance.region[0];
+  float* held = instance.tissue.region[0];
   simd::kernels().add_rows(part.base.shape, static_cast<uint32_t>(part.base.modes.size()), part.base.padded,
-                           instance.q[tick] + part.mode, held);
+                           instance.tissue.q[tick] + part.mode, held);
   for (size_t i = 0; i < size_t{3} * part.record.node_count; ++i)
-    instance.r[tick][part.vector + i] = instance.l[tick][part.vector + i] - held[i];
+    instance.tissue.r[tick][part.vector + i] = instance.tissue.l[tick][part.vector + i] - held[i];
 }
 
 // Not all of it: what a network knew is nearer to the truth. As much as perf/jumps.sh wants.
 void answer_of_modes(Instance& instance, const Part& part, int tick) noexcept {
-  float *q = instance.q[tick] + part.mode, *l = instance.l[tick] + part.vector, *held = instance.region[1];
+  float *q = instance.tissue.q[tick] + part.mode, *l = instance.tissue.l[tick] + part.vector,
+        *held = instance.tissue.region[1];
   const auto modes = static_cast<uint32_t>(part.base.modes.size());
   constexpr float kTakenBack = 0.6f;
   for (uint32_t m = 0; m < modes; ++m)
-    q[m] -= kTakenBack * std::exchange(instance.corrected[tick][part.mode + m], 0.0f);
+    q[m] -= kTakenBack * std::exchange(instance.tissue.corrected[tick][part.mode + m], 0.0f);
   simd::kernels().add_rows(part.base.shape, modes, part.base.padded, q, held);
   for (size_t i = 0; i < size_t{3} * part.record.node_count; ++i)
-    l[i] = held[i] + instance.r[tick][part.vector + i];
-  tissue::modal_turn(part.base, q, held, instance.theta + part.vector);
-  tissue::warp(instance.theta + part.vector, l, part.record.node_count, instance.u[tick] + part.vector);
-  tissue::hold_within(part.limit_m, part.record.node_count, instance.u[tick] + part.vector);
+    l[i] = held[i] + instance.tissue.r[tick][part.vector + i];
+  tissue::modal_turn(part.base, q, held, instance.tissue.theta + part.vector);
+  tissue::warp(instance.tissue.theta + part.vector, l, part.record.node_count,
+               instance.tissue.u[tick] + part.vector);
+  tissue::hold_within(part.limit_m, part.record.node_count, instance.tissue.u[tick] + part.vector);
 }
 
 }  // namespace
@@ -483,8 +500,8 @@ void answer_of_modes(Instance& instance, const Part& part, int tick) noexcept {
 // As much as perf/jumps.sh wants.
 void slow_modes(Instance& instance) noexcept {
   constexpr float kSlower = 0.05f;
-  const float* now = instance.q[0];
-  float* before = instance.q[1];
+  const float* now = instance.tissue.q[0];
+  float* before = instance.tissue.q[1];
   for (size_t m = 0; m < instance.level->mode_count(); ++m) before[m] += kSlower * (now[m] - before[m]);
 }
 
@@ -495,18 +512,19 @@ void take_back_corrections(Instance& instance) noexcept {
 
 void lift_displacement(Instance& instance) noexcept {
   for (int tick = 0; tick < 2; ++tick) {
-    std::fill_n(instance.r[tick], floats_of(instance), 0.0f);
-    std::fill_n(instance.q[tick], instance.level->mode_count(), 0.0f);
-    std::fill_n(instance.corrected[tick], instance.level->mode_count(), 0.0f);
+    std::fill_n(instance.tissue.r[tick], floats_of(instance), 0.0f);
+    std::fill_n(instance.tissue.q[tick], instance.level->mode_count(), 0.0f);
+    std::fill_n(instance.tissue.corrected[tick], instance.level->mode_count(), 0.0f);
   }
-  std::fill_n(instance.swing, instance.level->pack.regions.size(), 0.0f);
+  std::fill_n(instance.tissue.swing, instance.level->pack.regions.size(), 0.0f);
   for_each_part(instance, [&](const Part& part) {
     for (int tick = 0; tick < 2; ++tick) {
-      project_change(instance, part, instance.l[tick], instance.r[tick], instance.q[tick]);  // r is zero
+      project_change(instance, part, instance.tissue.l[tick], instance.tissue.r[tick],
+                     instance.tissue.q[tick]);  // r is zero
       leave_to_rest(instance, part, tick);
     }
-    tissue::modal_turn(part.base, instance.q[0] + part.mode, instance.region[0],
-                       instance.theta + part.vector);
+    tissue::modal_turn(part.base, instance.tissue.q[0] + part.mode, instance.tissue.region[0],
+                       instance.tissue.theta + part.vector);
   });
 }
 

@@ -33,7 +33,7 @@ void copy(const Instance& instance, const float* from, float* to) noexcept {
 uint16_t fade_ticks_of(const Instance& instance) noexcept {
   constexpr float kStep = 0.0028f, kSteepest = 1.5f;  // of the height
   float far_m = 0;
-  for (const float* u = instance.tail; u != instance.tail + floats_of(instance); u += 3)
+  for (const float* u = instance.transition.tail; u != instance.transition.tail + floats_of(instance); u += 3)
     far_m = std::max(far_m, std::hypot(u[0], u[1], u[2]));
   const float ticks = kSteepest * far_m / (kStep * instance.level->pack.character->height_m);
   return static_cast<uint16_t>(
@@ -41,14 +41,15 @@ uint16_t fade_ticks_of(const Instance& instance) noexcept {
 }
 
 void begin_tail(Instance& instance, float velocity_kept) noexcept {
-  copy(instance, instance.shown[0], instance.tail);
+  copy(instance, instance.transition.shown[0], instance.transition.tail);
   for (size_t i = 0; i < floats_of(instance); ++i) {
-    instance.tail_velocity[i] = velocity_kept * (instance.shown[0][i] - instance.shown[1][i]);
+    instance.transition.tail_velocity[i] =
+        velocity_kept * (instance.transition.shown[0][i] - instance.transition.shown[1][i]);
   }
   begin_rod_tails(instance, velocity_kept);
-  instance.state->fade_ticks = fade_ticks_of(instance);
-  instance.state->tail_ticks = 0;
-  instance.state->tail_rides = 0;
+  instance.state->transition.fade_ticks = fade_ticks_of(instance);
+  instance.state->transition.tail_ticks = 0;
+  instance.state->transition.tail_rides = 0;
 }
 
 // From what is shown. What was not simulated for a while is blended in; from rest there is nothing to blend:
@@ -59,20 +60,20 @@ void begin_tail(Instance& instance, float velocity_kept) noexcept {
 void begin_simulation(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   settle_tuning(instance);
-  pose_now(instance, instance.poses[0]);
+  pose_now(instance, instance.motion.poses[0]);
   for (int tick = 0; tick < 2; ++tick) {
-    tissue::along_frame(instance.poses[0], instance.shown[tick], instance.level->node_count(),
-                        instance.u[tick]);
-    take_out_intensity(instance, instance.u[tick]);
-    copy(instance, instance.u[tick], instance.l[tick]);
+    tissue::along_frame(instance.motion.poses[0], instance.transition.shown[tick],
+                        instance.level->node_count(), instance.tissue.u[tick]);
+    take_out_intensity(instance, instance.tissue.u[tick]);
+    copy(instance, instance.tissue.u[tick], instance.tissue.l[tick]);
   }
   take_rods_as_shown(instance);
   forget_carried(instance);
-  state.motion_stale = 1;
-  state.blend_ticks = state.untouched ? kBlendInTicks : 0.0f;
-  const bool rests = state.tail_ticks > kCaughtUpTicks && !state.untouched;
-  state.from_shown = !rests && !state.untouched;
-  state.rest_ticks = !rests ? 0 : state.dt_before_s > 0 ? 1 : 2;
+  state.poses.motion_stale = 1;
+  state.blend_ticks = state.tissue.untouched ? kBlendInTicks : 0.0f;
+  const bool rests = state.transition.tail_ticks > kCaughtUpTicks && !state.tissue.untouched;
+  state.transition.from_shown = !rests && !state.tissue.untouched;
+  state.transition.rest_ticks = !rests ? 0 : state.motion.dt_before_s > 0 ? 1 : 2;
   lift_displacement(instance);
 }
 
@@ -81,17 +82,17 @@ void begin_simulation(Instance& instance) noexcept {
 void begin_network(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   const GraphLevel& level = *instance.level;
-  const bool remembered = !state.forgotten && state.ticks_since_network <= kRememberedTicks;
+  const bool remembered = !state.tissue.forgotten && state.tissue.ticks_since_network <= kRememberedTicks;
   const auto take_place = remembered ? tissue::write_output : tissue::rebase_state;
-  take_place(instance.asset->network, level.pack.regions, level.node_count(), instance.l[0],
-             instance.network_state);
-  if (!remembered) state.network_begins = state.untouched ? 0 : kNetworkBeginTicks;
-  state.forgotten = 0;
+  take_place(instance.asset->network, level.pack.regions, level.node_count(), instance.tissue.l[0],
+             instance.tissue.network_memory);
+  if (!remembered) state.tissue.network_begins = state.tissue.untouched ? 0 : kNetworkBeginTicks;
+  state.tissue.forgotten = 0;
 }
 
 // Where ticks were missed, what is taken back holds them back enough.
 void hand_to_modes(Instance& instance) noexcept {
-  instance.made_up > 0 ? take_back_corrections(instance) : slow_modes(instance);
+  instance.marks.made_up > 0 ? take_back_corrections(instance) : slow_modes(instance);
 }
 
 // Of nodes, and how many ticks after it began it is to be brought to.
@@ -155,13 +156,13 @@ void swing_tail(const Instance& instance, size_t r, const Tail& tail) noexcept {
 }
 
 uint32_t tail_ticks_after(const InstanceState& state, uint32_t ticks) noexcept {
-  return std::min(state.tail_ticks + ticks, kCarryTicks + state.fade_ticks);
+  return std::min(state.transition.tail_ticks + ticks, kCarryTicks + state.transition.fade_ticks);
 }
 
 void count_tail(const Instance& instance) noexcept {
   InstanceState& state = *instance.state;
-  state.tail_ticks = tail_ticks_after(state, 1);
-  if (state.tail_ticks == kCarryTicks + state.fade_ticks) state.restarting = 0;
+  state.transition.tail_ticks = tail_ticks_after(state, 1);
+  if (state.transition.tail_ticks == kCarryTicks + state.transition.fade_ticks) state.restarting = 0;
 }
 
 void advance_tail(const Instance& instance, const Tail& tail) noexcept {
@@ -189,7 +190,8 @@ void enter_tier(Instance& instance, Tier tier) noexcept {
   if (tier == Tier::kModal && state.tier == Tier::kNetwork) hand_to_modes(instance);
   if (tier == Tier::kNetwork && state.tier != Tier::kNetwork) begin_network(instance);
   if (tier != state.tier) wake_regions(instance);
-  if (tier == Tier::kSkinning) state.tail_ticks = std::max(state.tail_ticks, kCarryTicks);
+  if (tier == Tier::kSkinning)
+    state.transition.tail_ticks = std::max(state.transition.tail_ticks, kCarryTicks);
   state.tier = tier;
 }
 
@@ -197,64 +199,68 @@ void restart(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   begin_tail(instance, 0);
   // Before they are used again they are filled anew, but zero times NaN would be shown.
-  for (float* u : instance.u) std::memset(u, 0, sizeof(float) * floats_of(instance));
-  state.tail_ticks = kCarryTicks;
+  for (float* u : instance.tissue.u) std::memset(u, 0, sizeof(float) * floats_of(instance));
+  state.transition.tail_ticks = kCarryTicks;
   state.tier = Tier::kSkinning;
-  state.motion_stale = 1;
+  state.poses.motion_stale = 1;
   state.restarting = 1;
-  state.forgotten = 1;
+  state.tissue.forgotten = 1;
   wake_regions(instance);
-  ++state.restarts;
-  instance.restarted = true;
+  ++state.tissue.restarts;
+  instance.marks.restarted = true;
 }
 
 // A cubic of Hermite; the velocity at a tick is the mean of the steps before and after it.
 void tail_between(Instance& instance, float x, float* out) noexcept {
   const InstanceState& state = *instance.state;
-  const float undamped = state.tail_ticks == 0 ? 1 : 1 / kCarryDamping, y = 1 - x;
-  float *next = instance.l_hat, *velocity = instance.carry;
-  copy(instance, instance.tail, next);
-  copy(instance, instance.tail_velocity, velocity);
+  const float undamped = state.transition.tail_ticks == 0 ? 1 : 1 / kCarryDamping, y = 1 - x;
+  float *next = instance.tissue.l_hat, *velocity = instance.tissue.carry;
+  copy(instance, instance.transition.tail, next);
+  copy(instance, instance.transition.tail_velocity, velocity);
   advance_tail(instance, {next, velocity, tail_ticks_after(state, 1)});
   copy(instance, next, out);
   advance_tail(instance, {next, velocity, tail_ticks_after(state, 2)});
   for (size_t i = 0; i < floats_of(instance); ++i) {
-    const float step = out[i] - instance.tail[i], step_after = next[i] - out[i];
-    const float begins = (undamped * instance.tail_velocity[i] + step) / 2, ends = (step + step_after) / 2;
-    out[i] = instance.tail[i] + x * (x * (3 - 2 * x) * step + y * (y * begins - x * ends));
+    const float step = out[i] - instance.transition.tail[i], step_after = next[i] - out[i];
+    const float begins = (undamped * instance.transition.tail_velocity[i] + step) / 2,
+                ends = (step + step_after) / 2;
+    out[i] = instance.transition.tail[i] + x * (x * (3 - 2 * x) * step + y * (y * begins - x * ends));
   }
 }
 
 void show_tick(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   count_tail(instance);
-  if (frame::is_simulated(state.tier)) state.rest_ticks -= state.rest_ticks > 0;
-  if (state.seam_ticks < kBlendInTicks) ++state.seam_ticks;
+  if (frame::is_simulated(state.tier)) state.transition.rest_ticks -= state.transition.rest_ticks > 0;
+  if (state.transition.seam_ticks < kBlendInTicks) ++state.transition.seam_ticks;
   for (size_t r = 0; r < instance.level->pack.regions.size(); ++r)
-    if (instance.regained[r] == kRegainedNow) instance.regained[r] = kRegained;
+    if (instance.transition.regained[r] == kRegainedNow) instance.transition.regained[r] = kRegained;
   const bool simulates = frame::is_simulated(state.tier);
   const bool blends = simulates && state.blend_ticks < kBlendInTicks;
-  if ((blends || !simulates) && !state.tail_rides)
-    advance_tail(instance, {instance.tail, instance.tail_velocity, state.tail_ticks});
-  copy(instance, instance.shown[0], instance.shown[1]);
-  if (simulates) take_simulated(instance, 0, instance.shown[0]);
+  if ((blends || !simulates) && !state.transition.tail_rides)
+    advance_tail(instance,
+                 {instance.transition.tail, instance.transition.tail_velocity, state.transition.tail_ticks});
+  copy(instance, instance.transition.shown[0], instance.transition.shown[1]);
+  if (simulates) take_simulated(instance, 0, instance.transition.shown[0]);
   if (blends) advance_blend(instance);
-  if (state.blend_ticks == kBlendInTicks) state.tail_rides = 0;
+  if (state.blend_ticks == kBlendInTicks) state.transition.tail_rides = 0;
   show_rods(instance, simulated_share(instance));
   const auto [simulated, tail] = shown_shares(instance);
   if (simulated == 1 && tail == 0) return;
   for (size_t i = 0; i < floats_of(instance); ++i) {
-    instance.shown[0][i] = simulated * instance.shown[0][i] + tail * instance.tail[i];
+    instance.transition.shown[0][i] =
+        simulated * instance.transition.shown[0][i] + tail * instance.transition.tail[i];
   }
 }
 
 void show_nothing(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
-  state.tail_ticks = kCarryTicks + kFadeTicks;
-  state.fade_ticks = kFadeTicks;
-  state.seam_ticks = kBlendInTicks;
+  state.transition.tail_ticks = kCarryTicks + kFadeTicks;
+  state.transition.fade_ticks = kFadeTicks;
+  state.transition.seam_ticks = kBlendInTicks;
   state.restarting = 0;
-  for (float* none : {instance.shown[0], instance.shown[1], instance.tail, instance.tail_velocity})
+  for (float* none : {instance.transition.shown[0], instance.transition.shown[1], instance.transition.tail,
+                      instance.transition.tail_velocity})
     std::memset(none, 0, sizeof(float) * floats_of(instance));
   forget_rods(instance);
 }

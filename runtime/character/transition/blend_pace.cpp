@@ -24,8 +24,9 @@ struct Way {
 };
 
 Way way_of(const Instance& instance, uint32_t node, float tail_share) noexcept {
-  const MapConst u(instance.shown[0] + size_t{3} * node), tail(instance.tail + size_t{3} * node);
-  if (instance.state->tail_rides) return {u + tail, -tail};
+  const MapConst u(instance.transition.shown[0] + size_t{3} * node),
+      tail(instance.transition.tail + size_t{3} * node);
+  if (instance.state->transition.tail_rides) return {u + tail, -tail};
   return {tail_share * tail, u - tail_share * tail};
 }
 
@@ -45,14 +46,15 @@ struct Limits {
 };
 
 Limits limits_of(Instance& instance, float share, float step_m) noexcept {
-  take_simulated(instance, 1, instance.carry);
+  take_simulated(instance, 1, instance.tissue.carry);
   const float tail = tail_share(instance);
   Limits limits;
   for (uint32_t n = 0; n < instance.level->node_count(); ++n) {
     const Way way = way_of(instance, n, tail);
     const size_t at = size_t{3} * n;
-    const float own_m = (MapConst(instance.shown[0] + at) - MapConst(instance.carry + at)).norm();
-    const Eigen::Vector3f stays = way.stays + share * way.moves - MapConst(instance.shown[1] + at);
+    const float own_m =
+        (MapConst(instance.transition.shown[0] + at) - MapConst(instance.tissue.carry + at)).norm();
+    const Eigen::Vector3f stays = way.stays + share * way.moves - MapConst(instance.transition.shown[1] + at);
     limits.rise = std::min(limits.rise, most_of(stays, way.moves, step_m + own_m));
     limits.own_m = std::max(limits.own_m, own_m);
   }
@@ -60,14 +62,14 @@ Limits limits_of(Instance& instance, float share, float step_m) noexcept {
 }
 
 float share_of(const Instance& instance) noexcept {
-  return instance.state->tail_rides ? 1 - shown_shares(instance).tail : simulated_share(instance);
+  return instance.state->transition.tail_rides ? 1 - shown_shares(instance).tail : simulated_share(instance);
 }
 
 // What began elsewhere than it would have been swings on, and a landing swings it further: what began at
 // rest, for longer. How much of that is seen grows with the share.
 float usual_pace(const InstanceState& state, float own_m, float slow_m) noexcept {
-  if (state.tail_rides) return 1;
-  if (!state.from_shown) return std::clamp(slow_m / own_m, kLeastPace, 1.0f);
+  if (state.transition.tail_rides) return 1;
+  if (!state.transition.from_shown) return std::clamp(slow_m / own_m, kLeastPace, 1.0f);
   return state.blend_ticks >= kLate ? std::clamp(slow_m / own_m, kLatePace, 1.0f) : 1;
 }
 
@@ -77,13 +79,14 @@ void advance_blend(Instance& instance) noexcept {
   InstanceState& state = *instance.state;
   const float began = state.blend_ticks, share = share_of(instance);
   const float height_m = instance.level->pack.character->height_m;
-  const Limits most = limits_of(instance, share, height_m * (state.tail_rides ? kRideStep : kBlendStep));
-  state.blend_pace = usual_pace(state, most.own_m, height_m * kBlendStep);
-  state.blend_ticks = std::min(began + state.blend_pace, float{kBlendInTicks});
+  const Limits most =
+      limits_of(instance, share, height_m * (state.transition.tail_rides ? kRideStep : kBlendStep));
+  state.transition.blend_pace = usual_pace(state, most.own_m, height_m * kBlendStep);
+  state.blend_ticks = std::min(began + state.transition.blend_pace, float{kBlendInTicks});
   const float rise = share_of(instance) - share;
   if (rise <= most.rise) return;
-  state.blend_pace = std::max(state.blend_pace * most.rise / rise, kLeastPace);
-  state.blend_ticks = std::min(began + state.blend_pace, float{kBlendInTicks});
+  state.transition.blend_pace = std::max(state.transition.blend_pace * most.rise / rise, kLeastPace);
+  state.blend_ticks = std::min(began + state.transition.blend_pace, float{kBlendInTicks});
 }
 
 }  // namespace sinew::world

@@ -23,30 +23,32 @@ namespace {
 
 void carry_delta(Instance& instance) noexcept {
   const pack::PackView& pack = instance.level->pack;
-  float* carried = instance.carried;
+  float* carried = instance.published.carried;
   for (const pack::RegionRecord& region : pack.regions) {
     simd::kernels().carry(pack.carry.data() + region.carry, region.node_count, region.padded_vertices,
-                          instance.delta + size_t{3} * region.first_node, carried);
+                          instance.published.delta + size_t{3} * region.first_node, carried);
     carried += size_t{3} * region.padded_vertices;
   }
 }
 
 // As it would be published at the last tick.
 void carry_shown(Instance& instance) noexcept {
-  std::copy_n(instance.shown[0], size_t{3} * instance.level->node_count(), instance.delta);
+  std::copy_n(instance.transition.shown[0], size_t{3} * instance.level->node_count(),
+              instance.published.delta);
   carry_delta(instance);
 }
 
 void take_from_seam(Instance& instance) noexcept {
   for (size_t i = 0; i < size_t{3} * instance.asset->padded_vertices; ++i)
-    instance.seam[i] -= instance.carried[i];
+    instance.transition.seam[i] -= instance.published.carried[i];
 }
 
 void begin_seam(Instance& instance) noexcept {
   const float left = seam_share(instance);
   carry_shown(instance);
   for (size_t i = 0; i < size_t{3} * instance.asset->padded_vertices; ++i)
-    instance.seam[i] = (left > 0 ? left * instance.seam[i] : 0) + instance.carried[i];
+    instance.transition.seam[i] =
+        (left > 0 ? left * instance.transition.seam[i] : 0) + instance.published.carried[i];
 }
 
 // Of regions that are left out: they fade with all else.
@@ -54,10 +56,10 @@ void take_pushes(Instance& instance, const GraphLevel& to) noexcept {
   size_t first = 0;
   for (size_t r = 0; r < to.pack.regions.size(); ++r) {
     const size_t floats = size_t{3} * to.pack.regions[r].padded_vertices;
-    if (to.leaves_out(r) && instance.pushed[r]) {
+    if (to.leaves_out(r) && instance.contacts.pushed[r]) {
       for (size_t i = first; i < first + floats; ++i)
-        instance.seam[i] += std::exchange(instance.pushes[i], 0.0f);
-      instance.pushed[r] = 0;
+        instance.transition.seam[i] += std::exchange(instance.contacts.pushes[i], 0.0f);
+      instance.contacts.pushed[r] = 0;
     }
     first += floats;
   }
@@ -66,7 +68,7 @@ void take_pushes(Instance& instance, const GraphLevel& to) noexcept {
 void end_seam(Instance& instance) noexcept {
   carry_shown(instance);
   take_from_seam(instance);
-  instance.carries_seam = true;  // `carried` is nothing that may be shown
+  instance.published.carries_seam = true;  // `carried` is nothing that may be shown
 }
 
 // ---- to the next coarser level ----
@@ -82,7 +84,7 @@ void forget_left_out(Instance& instance, const GraphLevel& coarse) noexcept {
   for (size_t r = 0; r < coarse.pack.regions.size(); ++r) {
     if (!coarse.leaves_out(r)) continue;
     const pack::RegionModesRecord& modes = coarse.pack.region_modes[r];
-    for (float* const* ticks : {instance.q, instance.corrected})
+    for (float* const* ticks : {instance.tissue.q, instance.tissue.corrected})
       for (int tick = 0; tick < 2; ++tick)
         std::fill_n(ticks[tick] + modes.first_mode, modes.mode_count, 0.0f);
   }
@@ -91,11 +93,13 @@ void forget_left_out(Instance& instance, const GraphLevel& coarse) noexcept {
 void lower(Instance& instance) noexcept {
   const uint32_t nodes = instance.level->node_count();
   const std::span<const uint32_t> picks = instance.level[1].pack.picks;
-  for (float* const* ticks : {instance.u, instance.l, instance.r, instance.shown})
+  for (float* const* ticks :
+       {instance.tissue.u, instance.tissue.l, instance.tissue.r, instance.transition.shown})
     for (int tick = 0; tick < 2; ++tick) pick(picks, 3, ticks[tick]);
-  for (float* vectors : {instance.theta, instance.tail, instance.tail_velocity}) pick(picks, 3, vectors);
-  for (tissue::NodePose* poses : instance.poses) pick(picks, 1, poses);
-  tissue::pick_memory(instance.asset->network, nodes, picks, instance.network_state);
+  for (float* vectors : {instance.tissue.theta, instance.transition.tail, instance.transition.tail_velocity})
+    pick(picks, 3, vectors);
+  for (tissue::NodePose* poses : instance.motion.poses) pick(picks, 1, poses);
+  tissue::pick_memory(instance.asset->network, nodes, picks, instance.tissue.network_memory);
   forget_left_out(instance, instance.level[1]);
 }
 
@@ -114,7 +118,7 @@ size_t plane_floats(const Asset& asset) noexcept {
 }
 
 Scratch scratch_of(const Instance& instance) noexcept {
-  float* at = instance.level_scratch;
+  float* at = instance.transition.level_scratch;
   const size_t plane = pack::round_up_16(plane_floats(*instance.asset));
   return {at, at + plane, reinterpret_cast<uint32_t*>(at + plane + 3 * instance.asset->widest_region)};
 }
@@ -152,7 +156,7 @@ void spread(const Instance& instance, const GraphLevel& fine, float* vectors) no
 // l += sign shape q, at a level.
 void add_modes(const Instance& instance, const GraphLevel& level, const float* q, float sign,
                float* l) noexcept {
-  float* held = instance.region[0];
+  float* held = instance.tissue.region[0];
   for (size_t r = 0; r < level.pack.regions.size(); ++r) {
     const tissue::ModalBase base = tissue::modal_base(level.pack, r);
     simd::kernels().add_rows(base.shape, static_cast<uint32_t>(base.modes.size()), base.padded,
@@ -166,20 +170,21 @@ void turn_and_warp(const Instance& instance, const GraphLevel& level, int tick) 
   for (size_t r = 0; r < level.pack.regions.size(); ++r) {
     const size_t vector = size_t{3} * level.pack.regions[r].first_node;
     tissue::modal_turn(tissue::modal_base(level.pack, r),
-                       instance.q[tick] + level.pack.region_modes[r].first_mode, instance.region[0],
-                       instance.theta + vector);
-    tissue::warp(instance.theta + vector, instance.l[tick] + vector, level.pack.regions[r].node_count,
-                 instance.u[tick] + vector);
-    tissue::hold_within(limit_m(instance, r), level.pack.regions[r].node_count, instance.u[tick] + vector);
+                       instance.tissue.q[tick] + level.pack.region_modes[r].first_mode,
+                       instance.tissue.region[0], instance.tissue.theta + vector);
+    tissue::warp(instance.tissue.theta + vector, instance.tissue.l[tick] + vector,
+                 level.pack.regions[r].node_count, instance.tissue.u[tick] + vector);
+    tissue::hold_within(limit_m(instance, r), level.pack.regions[r].node_count,
+                        instance.tissue.u[tick] + vector);
   }
 }
 
 void raise_base(Instance& instance, const GraphLevel& fine) noexcept {
   for (int tick = 1; tick >= 0; --tick) {  // theta is the newer tick's
-    add_modes(instance, *instance.level, instance.q[tick], -1, instance.l[tick]);
-    spread(instance, fine, instance.l[tick]);
-    spread(instance, fine, instance.r[tick]);
-    add_modes(instance, fine, instance.q[tick], 1, instance.l[tick]);
+    add_modes(instance, *instance.level, instance.tissue.q[tick], -1, instance.tissue.l[tick]);
+    spread(instance, fine, instance.tissue.l[tick]);
+    spread(instance, fine, instance.tissue.r[tick]);
+    add_modes(instance, fine, instance.tissue.q[tick], 1, instance.tissue.l[tick]);
     turn_and_warp(instance, fine, tick);
   }
 }
@@ -208,32 +213,34 @@ void raise_memory(Instance& instance, const GraphLevel& fine) noexcept {
   const tissue::Network& network = instance.asset->network;
   find_sources(instance, fine, scratch.sources);
   tissue::copy_memory(network, instance.level->node_count(), {scratch.sources, fine.node_count()},
-                      instance.network_state, scratch.before);
+                      instance.tissue.network_memory, scratch.before);
   if (instance.state->tier == Tier::kNetwork)
-    tissue::write_output(network, fine.pack.regions, fine.node_count(), instance.l[0],
-                         instance.network_state);
+    tissue::write_output(network, fine.pack.regions, fine.node_count(), instance.tissue.l[0],
+                         instance.tissue.network_memory);
 }
 
 void raise(Instance& instance) noexcept {
   const GraphLevel& fine = instance.level[-1];
-  for (float* vectors : {instance.shown[0], instance.shown[1], instance.tail, instance.tail_velocity})
+  for (float* vectors : {instance.transition.shown[0], instance.transition.shown[1], instance.transition.tail,
+                         instance.transition.tail_velocity})
     spread(instance, fine, vectors);
   if (frame::is_simulated(instance.state->tier)) raise_base(instance, fine);
   raise_memory(instance, fine);
   for (size_t r = 0; r < fine.pack.regions.size(); ++r)
-    if (instance.level->leaves_out(r) && !fine.leaves_out(r)) instance.regained[r] = kRegainedNow;
-  instance.level_raised = true;
+    if (instance.level->leaves_out(r) && !fine.leaves_out(r)) instance.transition.regained[r] = kRegainedNow;
+  instance.marks.level_raised = true;
 }
 
 // What is shown at the level it has now, of what is simulated.
 void show_anew(Instance& instance) noexcept {
   const ShownShares shares = shown_shares(instance);
   const uint32_t nodes = instance.level->node_count();
-  if (instance.level_raised) pose_now(instance, instance.poses[0]);
+  if (instance.marks.level_raised) pose_now(instance, instance.motion.poses[0]);
   for (int tick = 0; tick < 2; ++tick) {
-    take_simulated(instance, tick, instance.shown[tick]);
+    take_simulated(instance, tick, instance.transition.shown[tick]);
     for (size_t i = 0; (shares.simulated < 1 || shares.tail > 0) && i < size_t{3} * nodes; ++i)
-      instance.shown[tick][i] = shares.simulated * instance.shown[tick][i] + shares.tail * instance.tail[i];
+      instance.transition.shown[tick][i] =
+          shares.simulated * instance.transition.shown[tick][i] + shares.tail * instance.transition.tail[i];
   }
 }
 
@@ -249,68 +256,73 @@ void go_one_level(Instance& instance, bool finer) noexcept {
 // Nothing is seen of it: the seam takes it.
 void show_settled(Instance& instance, const float* moved) noexcept {
   const float simulated = shown_shares(instance).simulated;
-  tissue::along_flesh(instance.poses[1], moved, instance.level->node_count(),
-                      instance.delta);  // those of u: a tick ago
+  tissue::along_flesh(instance.motion.poses[1], moved, instance.level->node_count(),
+                      instance.published.delta);  // those of u: a tick ago
   for (size_t r = 0; r < instance.level->pack.regions.size(); ++r) {
     const pack::RegionRecord& region = instance.level->pack.regions[r];
     const float share = simulated * regained_share(instance, r) * intensity_of(instance, r);
-    float* delta = instance.delta + size_t{3} * region.first_node;
+    float* delta = instance.published.delta + size_t{3} * region.first_node;
     for (size_t i = 0; i < size_t{3} * region.node_count; ++i) delta[i] *= share;
   }
-  for (float* shown : instance.shown)
-    for (size_t i = 0; i < size_t{3} * instance.level->node_count(); ++i) shown[i] += instance.delta[i];
+  for (float* shown : instance.transition.shown)
+    for (size_t i = 0; i < size_t{3} * instance.level->node_count(); ++i)
+      shown[i] += instance.published.delta[i];
   carry_delta(instance);
-  if (instance.state->seam_ticks < kBlendInTicks) take_from_seam(instance);
+  if (instance.state->transition.seam_ticks < kBlendInTicks) take_from_seam(instance);
 }
 
 // Nothing is shown of it, and no network remembers anything.
 bool carries_nothing(const Instance& instance) noexcept {
   const InstanceState& state = *instance.state;
-  const bool forgotten = state.forgotten || state.ticks_since_network > kRememberedTicks;
-  return !instance.displaced && !frame::is_simulated(state.tier) && forgotten;
+  const bool forgotten = state.tissue.forgotten || state.tissue.ticks_since_network > kRememberedTicks;
+  return !instance.marks.displaced && !frame::is_simulated(state.tier) && forgotten;
 }
 
 void begin_at_level(Instance& instance, uint32_t level) noexcept {
   InstanceState& state = *instance.state;
   state.level = level;
   point_to_state(instance);
-  for (float* none : {instance.shown[0], instance.shown[1], instance.tail, instance.tail_velocity})
+  for (float* none : {instance.transition.shown[0], instance.transition.shown[1], instance.transition.tail,
+                      instance.transition.tail_velocity})
     std::memset(none, 0, sizeof(float) * 3 * instance.level->node_count());
-  std::fill_n(instance.regained, instance.level->pack.regions.size(), 0u);
+  std::fill_n(instance.transition.regained, instance.level->pack.regions.size(), 0u);
   wake_regions(instance);
-  state.seam_ticks = kBlendInTicks;
-  state.motion_stale = 1;
+  state.transition.seam_ticks = kBlendInTicks;
+  state.poses.motion_stale = 1;
 }
 
 }  // namespace
 
 void settle_rest(Instance& instance, const float* moved) noexcept {
   const uint32_t nodes = instance.level->node_count();
-  for (float* u : instance.u)
+  for (float* u : instance.tissue.u)
     for (size_t i = 0; i < size_t{3} * nodes; ++i) u[i] += moved[i];
   if (shown_shares(instance).simulated > 0) show_settled(instance, moved);
   if (instance.state->tier == Tier::kNetwork)
-    tissue::write_output(instance.asset->network, instance.level->pack.regions, nodes, instance.l[0],
-                         instance.network_state);
+    tissue::write_output(instance.asset->network, instance.level->pack.regions, nodes, instance.tissue.l[0],
+                         instance.tissue.network_memory);
 }
 
-size_t change_scratch_floats(const Asset& asset) noexcept {
-  return pack::round_up_16(plane_floats(asset)) + size_t{3} * asset.widest_region + asset.node_count();
+void lay_out_scratch(const Asset& asset, core::Arena& arena, TransitionState& to) noexcept {
+  if (asset.level_count == 1) return;
+  to.level_scratch = arena.take<float>(pack::round_up_16(plane_floats(asset)) +
+                                       size_t{3} * asset.widest_region + asset.node_count());
 }
 
 void change_level(Instance& instance, uint32_t level) noexcept {
   InstanceState& state = *instance.state;
   if (state.level == level) return;
   if (carries_nothing(instance)) return begin_at_level(instance, level);
-  const bool shows = instance.displaced;
+  const bool shows = instance.marks.displaced;
   if (shows) begin_seam(instance);
-  if (shows && instance.pushes) take_pushes(instance, instance.asset->levels[level]);
-  uint32_t* const regained_end = instance.regained + instance.level->pack.regions.size();
-  if (state.seam_ticks == kBlendInTicks) std::fill(instance.regained, regained_end, 0u);
+  if (shows && instance.contacts.pushes) take_pushes(instance, instance.asset->levels[level]);
+  uint32_t* const regained_end = instance.transition.regained + instance.level->pack.regions.size();
+  if (state.transition.seam_ticks == kBlendInTicks) std::fill(instance.transition.regained, regained_end, 0u);
   while (state.level != level) go_one_level(instance, level < state.level);
-  state.seam_ticks = shows ? 0 : kBlendInTicks;
-  const bool ramps = std::any_of(instance.regained, regained_end, [](uint32_t is) { return is != 0; });
-  if ((instance.level_raised || ramps) && frame::is_simulated(state.tier)) show_anew(instance);
+  state.transition.seam_ticks = shows ? 0 : kBlendInTicks;
+  const bool ramps =
+      std::any_of(instance.transition.regained, regained_end, [](uint32_t is) { return is != 0; });
+  if ((instance.marks.level_raised || ramps) && frame::is_simulated(state.tier)) show_anew(instance);
   if (shows) end_seam(instance);
   wake_regions(instance);
 }

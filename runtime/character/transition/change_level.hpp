@@ -24,7 +24,7 @@ void change_level(Instance& instance, uint32_t level) noexcept;
 // In the first tick of what begins at rest. moved: by how much u of the newer tick is to move, [nodes][3].
 void settle_rest(Instance& instance, const float* moved) noexcept;
 
-// Floats of Instance::level_scratch.
-size_t change_scratch_floats(const Asset& asset) noexcept;
+// TransitionState::level_scratch.
+void lay_out_scratch(const Asset& asset, core::Arena& arena, TransitionState& to) noexcept;
 
 }  // namespace sinew::world

@@ -8,9 +8,9 @@
 namespace sinew::world {
 
 void keep_regained_share(const Instance& instance, float* shown, float x) noexcept {
-  if (instance.state->seam_ticks >= kBlendInTicks) return;
+  if (instance.state->transition.seam_ticks >= kBlendInTicks) return;
   for (size_t r = 0; r < instance.level->pack.regions.size(); ++r) {
-    if (!instance.regained[r]) continue;
+    if (!instance.transition.regained[r]) continue;
     const pack::RegionRecord& region = instance.level->pack.regions[r];
     const float share = regained_share(instance, r, x);
     float* at = shown + size_t{3} * region.first_node;
@@ -19,7 +19,7 @@ void keep_regained_share(const Instance& instance, float* shown, float x) noexce
 }
 
 void take_simulated(const Instance& instance, int tick, float* out) noexcept {
-  tissue::along_flesh(instance.poses[0], instance.u[tick], instance.level->node_count(), out);
+  tissue::along_flesh(instance.motion.poses[0], instance.tissue.u[tick], instance.level->node_count(), out);
   keep_regained_share(instance, out);
   keep_intensity(instance, out);
 }

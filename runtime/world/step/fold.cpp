@@ -13,7 +13,7 @@ namespace sinew::world {
 namespace {
 
 bool ran_as_planned(const Instance& instance, const PlanRow& row) noexcept {
-  return row.tier == instance.plan.tier && !instance.restarted && !instance.fell_back;
+  return row.tier == instance.plan.decision.tier && !instance.marks.restarted && !instance.marks.fell_back;
 }
 
 frame::CostEstimate& tick_cost(const PlanRow& row) noexcept {
@@ -36,8 +36,8 @@ void learn_tick_cost(Instance& instance, const PlanRow& row, float tick_us) noex
 
 // Of those who are awake, as a tick's own.
 bool ran_between(const Instance& instance, const PlanRow& row) noexcept {
-  return frame::is_simulated(row.tier) && !instance.held && row.regions_asleep == 0 &&
-         instance.between_ns > 0;
+  return frame::is_simulated(row.tier) && !instance.marks.held && row.regions_asleep == 0 &&
+         instance.times.between_ns > 0;
 }
 
 void learn_between(const Instance& instance, const PlanRow& row, float took_us) noexcept {
@@ -65,25 +65,25 @@ void learn_costs(Instance& instance, const PlanRow& row) noexcept {
   frame::CostModel& cost = costs_of(row).cost;
   const uint64_t ticked_ns = times.drive_ns + times.tissue_ns + times.rods_ns;
   const float ticked_us = core::microseconds(ticked_ns);
-  if (instance.came_back) return learn_coming_back(core::microseconds(times.total_ns), cost);
+  if (instance.marks.came_back) return learn_coming_back(core::microseconds(times.total_ns), cost);
   const bool ran = frame::is_simulated(row.tier) && instance.plan.ticks.ticks > 0 &&
-                   (ran_as_planned(instance, row) || instance.cut);
-  if (instance.changed_level) {
+                   (ran_as_planned(instance, row) || instance.marks.cut);
+  if (instance.marks.changed_level) {
     const float took_us = core::microseconds(times.total_ns) - cost.publish.estimate_us();
-    if (ran && instance.entered)
+    if (ran && instance.marks.entered)
       learn_beyond(instance, row, took_us, cost.enter);
-    else if (ran && instance.refined)
+    else if (ran && instance.marks.refined)
       learn_beyond(instance, row, took_us, cost.change);
     return;
   }
-  if (instance.displaced && !instance.held)
-    cost.publish.observe(core::microseconds(times.total_ns - ticked_ns - instance.between_ns));
-  if (ran_between(instance, row)) learn_between(instance, row, core::microseconds(instance.between_ns));
-  if (ran && instance.entered)
+  if (instance.marks.displaced && !instance.marks.held)
+    cost.publish.observe(core::microseconds(times.total_ns - ticked_ns - instance.times.between_ns));
+  if (ran_between(instance, row)) learn_between(instance, row, core::microseconds(instance.times.between_ns));
+  if (ran && instance.marks.entered)
     learn_beyond(instance, row, ticked_us, cost.enter);
   else if (ran)
     learn_tick_cost(instance, row,
-                    ticked_us / static_cast<float>(instance.plan.ticks.ticks + instance.made_up));
+                    ticked_us / static_cast<float>(instance.plan.ticks.ticks + instance.marks.made_up));
 }
 
 void count_tier(Tier tier, FrameReport& report) noexcept {
@@ -104,8 +104,8 @@ void add_times(const Instance& instance, FrameReport& report) noexcept {
 float add_active(const Instance& instance, const PlanRow& row, FrameReport& report) noexcept {
   add_times(instance, report);
   report.instances_cut += row.was_cut;
-  report.restarts += instance.restarted;
-  report.fallbacks += instance.fell_back;
+  report.restarts += instance.marks.restarted;
+  report.fallbacks += instance.marks.fell_back;
   report.regions_asleep += row.regions_asleep;
   count_tier(frame::is_simulated(row.tier) || row.shows ? row.tier : Tier::kSkinning, report);
   return error_of(*row.asset, row.tier, row.level);
@@ -133,21 +133,22 @@ bool forgets_its_sleep(const Instance& instance, const PlanRow& row) noexcept {
 
 void log_events(WorldState& world, const Instance& instance, uint32_t slot, uint64_t frame) noexcept {
   const InstanceId id = world.instances.id_at(slot);
-  for (uint32_t kind = 0; instance.events >> kind; ++kind)
-    if (instance.events >> kind & 1u) log_event(world.events, {static_cast<EventKind>(kind), id, frame});
+  for (uint32_t kind = 0; instance.marks.events >> kind; ++kind)
+    if (instance.marks.events >> kind & 1u)
+      log_event(world.events, {static_cast<EventKind>(kind), id, frame});
 }
 
 float add(WorldState& world, uint32_t slot, FrameReport& report) noexcept {
   if (world.answers[slot].idle) return add_idle(report);
   Instance& instance = *world.instances.at(slot);
-  if (instance.passed) return add_passed(instance, world.rows[slot], report);
+  if (instance.marks.passed) return add_passed(instance, world.rows[slot], report);
   world.busy_ns += instance.times.total_ns;
-  if (instance.events) log_events(world, instance, slot, report.frame);
+  if (instance.marks.events) log_events(world, instance, slot, report.frame);
   if (costs_are_measured(world)) learn_costs(instance, world.rows[slot]);
   if (forgets_its_sleep(instance, world.rows[slot]))
     instance.cost_factor = std::max(1.0f, instance.cost_factor);
   world.rows[slot].cost_factor = instance.cost_factor;
-  if (instance.cut || instance.held) world.undone_us += instance.plan.cost_us;
+  if (instance.marks.cut || instance.marks.held) world.undone_us += instance.plan.decision.cost_us;
   return add_active(instance, world.rows[slot], report);
 }
 

@@ -149,7 +149,7 @@ void sleep_on(WorldState& world, uint32_t slot, const frame::TickPlan& ticks) no
   instance.plan.dt_s = own_step_s(world, *row.state);
   forget_skipped(*row.state);
   row.waited_for_pose = false;
-  instance.passed = true;
+  instance.marks.passed = true;
   stay_dormant(instance, world.dt_s);
   row.remainder_s = row.state->remainder_s;
   row.held_s = row.state->held_s;
@@ -232,11 +232,11 @@ void give_answer(bool has_budget, const PlanRow& row, const Candidate& c, PlanAn
   const uint32_t graph = (c.keeps_level | none) ? row.level : level.graph;
   const Tier tier = c.keeps_level ? Tier{row.tier} : given;
   const bool idle = is_idle(row, tier);
-  plan.cost_us = c.planned_us;
+  plan.decision.cost_us = c.planned_us;
   plan.turn_left_s = c.turn_left_s;
-  plan.why = kTold[static_cast<size_t>(c.reason)];
-  plan.tier = tier;
-  plan.level = static_cast<uint8_t>(graph);
+  plan.decision.why = kTold[static_cast<size_t>(c.reason)];
+  plan.decision.tier = tier;
+  plan.decision.level = static_cast<uint8_t>(graph);
   plan.idle = idle;
 }
 
@@ -246,7 +246,7 @@ uint32_t rank_of(const Candidate& c, const PlanRow& row, const PlanAnswer& plan)
   constexpr float kCutLast = 1e20f;  // ahead of all the others, in their own order
   const float weight = std::clamp(c.weight, 1e-18f, 1e17f) * (row.was_cut ? kCutLast : 1);
   constexpr uint32_t kDrawersARank = frame::WeightBuckets::kCount / kRanks;
-  const bool ranks = frame::is_simulated(plan.tier) || row.was_cut;
+  const bool ranks = frame::is_simulated(plan.decision.tier) || row.was_cut;
   return ranks ? frame::WeightBuckets::drawer_of(weight) / kDrawersARank : 0;
 }
 
@@ -296,7 +296,7 @@ void add_up_behind(WorldState& world, std::span<const uint32_t> order) noexcept 
   float behind_us = static_cast<float>(world.idle_count) * world.idle.p95_us();
   for (size_t i = order.size(); i-- > 0;) {
     const PlanRow& row = world.rows[order[i]];
-    world.answers[order[i]].behind_us = behind_us;
+    world.answers[order[i]].decision.behind_us = behind_us;
     behind_us += handing_us;
     behind_us += in_any_case_us(world, row, plans);
   }

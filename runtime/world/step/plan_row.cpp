@@ -16,7 +16,7 @@ static_assert(kBlindLooks < 4);
 void copy_to_row(const Instance& instance, PlanRow* row) noexcept {
   const InstanceState& state = *instance.state;
   row->remainder_s = state.remainder_s;
-  row->hidden_ticks = state.hidden_ticks;
+  row->hidden_ticks = state.transition.hidden_ticks;
   row->importance = state.importance;
   row->excitation = state.excitation;
   row->waited_s = state.waited_s;
@@ -29,12 +29,12 @@ void copy_to_row(const Instance& instance, PlanRow* row) noexcept {
   row->restarting = state.restarting != 0;
   row->hidden = state.hidden != 0;
   row->hidden_by_caller = state.hidden_by_caller != 0;
-  row->displaced = instance.displaced;
-  row->scaled = state.time_scale != 1;
-  row->skips_pose = state.skips_pose != 0;
-  row->waited_for_pose = state.without_pose_s > 0;
+  row->displaced = instance.marks.displaced;
+  row->scaled = state.poses.time_scale != 1;
+  row->skips_pose = state.poses.skips_pose != 0;
+  row->waited_for_pose = state.poses.without_pose_s > 0;
   row->falls_back = state.fallback_ticks > 0;
-  row->was_cut = instance.cut || instance.held;
+  row->was_cut = instance.marks.cut || instance.marks.held;
   row->shows = shown_share(instance) != 0;
   row->blind_looks = std::min(state.blind_looks, kBlindLooks) & 3;
   row->missed = missed_so_far(instance) & 3;
@@ -55,7 +55,7 @@ void pass_by(const frame::TickPlan& ticks, PlanRow& row) noexcept {
 void keep_hidden_ticks(const PlanRow& row) noexcept {
   if (!row.hidden) return;
   row.state->remainder_s = row.remainder_s;
-  row.state->hidden_ticks = row.hidden_ticks;
+  row.state->transition.hidden_ticks = row.hidden_ticks;
 }
 
 }  // namespace sinew::world

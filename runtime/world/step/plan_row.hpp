@@ -7,6 +7,7 @@
 // over.
 #pragma once
 #include "character/instance.hpp"
+#include "schedule/tier_decision.hpp"
 
 namespace sinew::world {
 
@@ -44,14 +45,10 @@ inline TierCosts& costs_of(const PlanRow& row) noexcept {
   return row.has_surface ? row.asset->surface_costs : row.asset->costs;
 }
 
-// Of InstancePlan.
 struct PlanAnswer {
-  float cost_us = 0, behind_us = 0;
+  frame::TierDecision decision;
   float turn_left_s = 0;  // of InstanceState
-  Tier tier = Tier::kSkinning;
-  TierReason why = TierReason::kBudget;
-  uint8_t level = 0;
-  bool idle = false;  // neither simulated nor displaced
+  bool idle = false;      // neither simulated nor displaced
 };
 
 inline constexpr uint32_t kBlindLooks = 3;  // in a row hide (world/step/look.hpp)

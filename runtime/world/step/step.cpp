@@ -24,15 +24,11 @@ Instance& take_answer(const WorldState& world, uint32_t slot, frame::TickPlans& 
   Instance& instance = *world.instances.at(slot);
   keep_hidden_ticks(world.rows[slot]);
   const PlanAnswer& answer = world.answers[slot];
-  instance.plan = {.ticks = own_ticks(world, world.rows[slot], ticks),
-                   .dt_s = own_step_s(world, *instance.state),
-                   .tier = answer.tier,
-                   .level = answer.level,
-                   .cost_us = answer.cost_us,
-                   .behind_us = answer.behind_us,
-                   .why = answer.why};
+  instance.plan = {.decision = answer.decision,
+                   .ticks = own_ticks(world, world.rows[slot], ticks),
+                   .dt_s = own_step_s(world, *instance.state)};
   instance.state->turn_left_s = answer.turn_left_s;
-  instance.passed = false;
+  instance.marks.passed = false;
   return instance;
 }
 

@@ -74,7 +74,7 @@ TEST_CASE("a_closed_loop_begins_at_rest_in_the_tier_that_it_is_told") {
     loop.tick(tier, 0);
     CHECK(loop.instance().state->tier == tier);
     CHECK(loop.instance().state->blend_ticks == world::kBlendInTicks);
-    CHECK(loop.instance().state->network_begins == 0);
+    CHECK(loop.instance().state->tissue.network_begins == 0);
   }
 }
 
