@@ -260,8 +260,7 @@ class RodBatch {
   void iterate_homes(float dt_s, const RodCollider& collider) const noexcept;
   uint32_t begin_range(uint32_t first_group, float dt_s, RodCollider* collider, uint32_t left) const noexcept;
   uint32_t go_on(float dt_s, RodCollider* collider, uint32_t active, uint32_t left) const noexcept;
-  void end_range(const RodCollider::Range& range, float dt_s, RodCollider* collider,
-                 RodReport* report) noexcept;
+  void end_range(const GroupRange& range, float dt_s, RodCollider* collider, RodReport* report) noexcept;
   void step_alone(uint32_t group, float dt_s, RodReport* report) noexcept;
   uint32_t begin_together(uint32_t group, float dt_s, RodCollider* collider, RodReport* report,
                           uint32_t* active) noexcept;
@@ -326,7 +325,7 @@ class RodBatch {
 };
 
 inline float* RodCollider::scratch(uint32_t place) const noexcept {
-  return scratch_ + size_t{place} * segment_count_ * simd::kRodScratchRows * width_;
+  return places_.scratch + size_t{place} * segment_count_ * simd::kRodScratchRows * width_;
 }
 
 inline float* RodCollider::scratch_row(const RodBatch& batch, uint32_t strand, uint32_t segment,
@@ -334,7 +333,7 @@ inline float* RodCollider::scratch_row(const RodBatch& batch, uint32_t strand, u
   const uint32_t at = seat(strand);
   const size_t record = size_t{batch.group_of(at)} * segment_count_ + batch.slots_[segment];
   const size_t row = record * simd::kRodScratchRows + field - simd::kRodKeptFields;
-  return scratch_ + row * width_ + batch.lane_of(at);
+  return places_.scratch + row * width_ + batch.lane_of(at);
 }
 
 }  // namespace sinew::rods

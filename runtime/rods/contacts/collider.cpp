@@ -71,64 +71,65 @@ struct ColliderBuilder {
         static_cast<uint32_t>(std::clamp<uint64_t>(four_each, kLeastContacts, kMostContacts));
     to.capacity_ = to.settings_.contact_capacity ? to.settings_.contact_capacity : by_default;
     const bool all = to.settings_.rods_collide, packs = !batch.settings_.solver.iterate;
-    to.home_groups_ = all ? groups() : std::min(groups(), kGroupsAtOnce);
-    to.packed_groups_ = all || !packs || to.width_ != 16 ? 0 : to.home_groups_ / 2;
+    to.places_.home_groups = all ? groups() : std::min(groups(), kGroupsAtOnce);
+    to.places_.packed_groups = all || !packs || to.width_ != 16 ? 0 : to.places_.home_groups / 2;
   }
 
   void lay_out(std::byte* base, size_t* bytes) {
     core::Arena arena(base);
-    const uint32_t home = to.home_groups_, places = home + to.packed_groups_;
+    const uint32_t home = to.places_.home_groups, places = home + to.places_.packed_groups;
     const size_t segments = size_t{home} * to.width_ * to.segment_count_;
     const size_t placed = size_t{places} * to.width_ * to.segment_count_;
-    to.planes_ = arena.take<Plane>(to.settings_.obstacle_capacity);
-    to.spheres_ = arena.take<Sphere>(to.settings_.obstacle_capacity);
-    to.capsules_ = arena.take<Capsule>(to.settings_.obstacle_capacity);
-    to.passed_ = arena.take<uint64_t>(size_t{to.strand_count_} * to.segment_count_);
-    to.points_ = arena.take<ContactPoint>(to.settings_.point_capacity);
-    to.contacts_ = arena.take<Contact>(to.capacity_);
-    to.kept_ = arena.take<RodCollider::Kept>(to.capacity_);
-    to.new_kept_ = arena.take<RodCollider::Kept>(to.capacity_);
-    to.kept_places_ = arena.take<uint32_t>(std::bit_ceil(2 * to.capacity_));
-    to.sweeps_ = arena.take<Sweep>(segments);
-    to.boxes_ = arena.take<SweptBox>(segments);
-    to.swept_ = arena.take<uint8_t>(segments);
-    to.reaches_ = arena.take<float>(segments * simd::kReachRows);
-    to.reach_boxes_ = arena.take<float>(size_t{home} * simd::kBoxRows * to.width_);
-    to.lengths_m_ = arena.take<float>(size_t{home} * to.width_);
-    to.origins_m_ = arena.take<double>(size_t{home} * 3 * to.width_);
-    to.near_lanes_ = arena.take<uint16_t>(to.segment_count_);
-    to.rows_ = arena.take<float>(placed * simd::kRodContactRows);
-    to.touched_ = arena.take<uint8_t>(size_t{places} * to.segment_count_);
-    to.touched_list_ = arena.take<uint32_t>(size_t{places} * to.segment_count_);
-    to.turning_ = arena.take<uint8_t>(to.strand_count_);
-    to.pending_ = arena.take<uint8_t>(to.strand_count_);
-    to.misses_ = arena.take<double>(to.strand_count_);
-    to.presses_ = arena.take<double>(to.strand_count_);
-    to.moves_m_ = arena.take<double>(to.strand_count_);
-    to.passed_m_ = arena.take<double>(to.strand_count_);
-    to.clear_m_ = arena.take<double>(to.strand_count_);
-    to.ways_ = arena.take<double>(to.strand_count_);
-    to.carries_ = arena.take<Vector>(to.strand_count_);
-    to.near_ = arena.take<uint8_t>(to.strand_count_);
-    to.iterated_ = arena.take<uint8_t>(to.strand_count_);
-    to.moved_ = arena.take<uint8_t>(to.strand_count_);
-    to.scratch_ = arena.take<float>(placed * simd::kRodScratchRows);
-    to.ranges_ = arena.take<RodCollider::Range>(home);
-    to.homes_ = arena.take<uint32_t>(home);
-    to.seats_ = arena.take<uint32_t>(to.strand_count_);
-    to.going_strands_ = arena.take<uint32_t>(size_t{home} * to.width_);
-    to.going_contacts_ = arena.take<uint32_t>(to.capacity_);
-    to.packed_records_ = arena.take<float>((placed - segments) * simd::kRodKeptFields);
-    to.packed_lanes_ = arena.take<float>(size_t{to.packed_groups_} * simd::kLaneFields * to.width_);
-    if (to.settings_.rods_collide) to.hash_.lay_out(&arena, static_cast<uint32_t>(segments));
+    to.obstacles_.planes = arena.take<Plane>(to.settings_.obstacle_capacity);
+    to.obstacles_.spheres = arena.take<Sphere>(to.settings_.obstacle_capacity);
+    to.obstacles_.capsules = arena.take<Capsule>(to.settings_.obstacle_capacity);
+    to.obstacles_.passed = arena.take<uint64_t>(size_t{to.strand_count_} * to.segment_count_);
+    to.obstacles_.points = arena.take<ContactPoint>(to.settings_.point_capacity);
+    to.found_.contacts = arena.take<Contact>(to.capacity_);
+    to.kept_forces_.kept = arena.take<KeptForce>(to.capacity_);
+    to.kept_forces_.new_kept = arena.take<KeptForce>(to.capacity_);
+    to.kept_forces_.kept_places = arena.take<uint32_t>(std::bit_ceil(2 * to.capacity_));
+    to.near_by_.sweeps = arena.take<Sweep>(segments);
+    to.near_by_.boxes = arena.take<SweptBox>(segments);
+    to.near_by_.swept = arena.take<uint8_t>(segments);
+    to.near_by_.reaches = arena.take<float>(segments * simd::kReachRows);
+    to.near_by_.reach_boxes = arena.take<float>(size_t{home} * simd::kBoxRows * to.width_);
+    to.near_by_.lengths_m = arena.take<float>(size_t{home} * to.width_);
+    to.near_by_.origins_m = arena.take<double>(size_t{home} * 3 * to.width_);
+    to.near_by_.near_lanes = arena.take<uint16_t>(to.segment_count_);
+    to.forces_on_.rows = arena.take<float>(placed * simd::kRodContactRows);
+    to.forces_on_.touched = arena.take<uint8_t>(size_t{places} * to.segment_count_);
+    to.forces_on_.touched_list = arena.take<uint32_t>(size_t{places} * to.segment_count_);
+    to.progress_.turning = arena.take<uint8_t>(to.strand_count_);
+    to.progress_.pending = arena.take<uint8_t>(to.strand_count_);
+    to.progress_.misses = arena.take<double>(to.strand_count_);
+    to.progress_.presses = arena.take<double>(to.strand_count_);
+    to.progress_.moves_m = arena.take<double>(to.strand_count_);
+    to.progress_.passed_m = arena.take<double>(to.strand_count_);
+    to.progress_.clear_m = arena.take<double>(to.strand_count_);
+    to.progress_.ways = arena.take<double>(to.strand_count_);
+    to.progress_.carries = arena.take<Vector>(to.strand_count_);
+    to.progress_.near = arena.take<uint8_t>(to.strand_count_);
+    to.progress_.iterated = arena.take<uint8_t>(to.strand_count_);
+    to.progress_.moved = arena.take<uint8_t>(to.strand_count_);
+    to.places_.scratch = arena.take<float>(placed * simd::kRodScratchRows);
+    to.places_.ranges = arena.take<GroupRange>(home);
+    to.places_.homes = arena.take<uint32_t>(home);
+    to.places_.seats = arena.take<uint32_t>(to.strand_count_);
+    to.going_.strands = arena.take<uint32_t>(size_t{home} * to.width_);
+    to.going_.contacts = arena.take<uint32_t>(to.capacity_);
+    to.places_.packed_records = arena.take<float>((placed - segments) * simd::kRodKeptFields);
+    to.places_.packed_lanes =
+        arena.take<float>(size_t{to.places_.packed_groups} * simd::kLaneFields * to.width_);
+    if (to.settings_.rods_collide) to.near_by_.hash.lay_out(&arena, static_cast<uint32_t>(segments));
     if (to.settings_.source_capacity > 0) {
-      to.probes_ = arena.take<ContactProbe>(segments);
-      to.probe_segments_ = arena.take<uint32_t>(segments);
-      to.hits_ = arena.take<ContactHit>(size_t{2} * to.settings_.source_capacity);
-      to.taken_ = arena.take<RodCollider::Taken>(to.settings_.source_capacity);
-      to.pushes_ = arena.take<double>(to.strand_count_);
-      to.hit_ways_ = arena.take<double>(to.strand_count_);
-      to.cores_m_ = arena.take<double>(segments);
+      to.asked_.probes = arena.take<ContactProbe>(segments);
+      to.asked_.probe_segments = arena.take<uint32_t>(segments);
+      to.asked_.hits = arena.take<ContactHit>(size_t{2} * to.settings_.source_capacity);
+      to.asked_.taken = arena.take<TakenHit>(to.settings_.source_capacity);
+      to.asked_.pushes = arena.take<double>(to.strand_count_);
+      to.asked_.hit_ways = arena.take<double>(to.strand_count_);
+      to.asked_.cores_m = arena.take<double>(segments);
     }
     *bytes = arena.used_bytes();
   }
@@ -175,13 +176,14 @@ Status RodCollider::set(std::span<const Obstacle> given, uint32_t capacity, cons
 }
 
 Status RodCollider::set_planes(std::span<const Plane> planes) noexcept {
-  return set(planes, settings_.obstacle_capacity, "planes", planes_, &plane_count_);
+  return set(planes, settings_.obstacle_capacity, "planes", obstacles_.planes, &obstacles_.plane_count);
 }
 Status RodCollider::set_spheres(std::span<const Sphere> spheres) noexcept {
-  return set(spheres, settings_.obstacle_capacity, "spheres", spheres_, &sphere_count_);
+  return set(spheres, settings_.obstacle_capacity, "spheres", obstacles_.spheres, &obstacles_.sphere_count);
 }
 Status RodCollider::set_capsules(std::span<const Capsule> capsules) noexcept {
-  return set(capsules, settings_.obstacle_capacity, "capsules", capsules_, &capsule_count_);
+  return set(capsules, settings_.obstacle_capacity, "capsules", obstacles_.capsules,
+             &obstacles_.capsule_count);
 }
 
 Status RodCollider::set_passed(uint32_t strand, uint32_t segment, uint64_t capsules) noexcept {
@@ -190,8 +192,8 @@ Status RodCollider::set_passed(uint32_t strand, uint32_t segment, uint64_t capsu
                              "strand %u, segment %u where the batch has %u strands of %u segments", strand,
                              segment, strand_count_, segment_count_);
   }
-  passed_[size_t{strand} * segment_count_ + segment] = capsules;
-  passed_any_ |= capsules != 0;
+  obstacles_.passed[size_t{strand} * segment_count_ + segment] = capsules;
+  obstacles_.passed_any |= capsules != 0;
   return {};
 }
 
@@ -208,7 +210,8 @@ Status RodCollider::check_points(std::span<const ContactPoint> points) const noe
 
 Status RodCollider::set_points(std::span<const ContactPoint> points) noexcept {
   const Status status = check_points(points);
-  return status.ok() ? set(points, settings_.point_capacity, "contact points", points_, &point_count_)
+  return status.ok() ? set(points, settings_.point_capacity, "contact points", obstacles_.points,
+                           &obstacles_.point_count)
                      : status;
 }
 
@@ -218,7 +221,7 @@ Status RodCollider::set_source(ContactSource* source, uint32_t owner) noexcept {
                              "a contact source where the collider has no room for hits; create it with a "
                              "ColliderSettings::source_capacity");
   }
-  source_ = source, owner_ = owner;
+  asked_.source = source, asked_.owner = owner;
   return {};
 }
 
@@ -229,52 +232,56 @@ bool RodCollider::fits(const RodBatch& batch) const noexcept {
 
 void RodCollider::give(simd::RodJob* job, uint32_t place) const noexcept {
   const size_t first = size_t{place} * segment_count_;
-  const uint8_t* touched = touched_ + first;
-  if (touched_count_ == 0 || std::none_of(touched, touched + segment_count_, [](uint8_t t) { return t; })) {
+  const uint8_t* touched = forces_on_.touched + first;
+  if (forces_on_.touched_count == 0 ||
+      std::none_of(touched, touched + segment_count_, [](uint8_t t) { return t; })) {
     return;
   }
-  job->contacts = rows_ + first * simd::kRodContactRows * width_;
+  job->contacts = forces_on_.rows + first * simd::kRodContactRows * width_;
   job->touched = touched;
 }
 
 void RodCollider::begin_step() noexcept {
-  contacts_before_ = new_kept_count_ = dropped_ = hit_count_ = bad_hits_ = 0;
+  found_.contacts_before = kept_forces_.new_kept_count = found_.dropped = asked_.hit_count = asked_.bad_hits =
+      0;
 }
 
 void RodCollider::begin_groups() noexcept {
-  place_count_ = range_count_ = 0;
-  contact_count_ = packed_count_ = going_strand_count_ = going_contact_count_ = 0;
+  places_.place_count = places_.range_count = 0;
+  found_.contact_count = places_.packed_count = going_.strand_count = going_.contact_count = 0;
 }
 
 void RodCollider::open_range(uint32_t first_group) noexcept {
-  range_ = {first_group,    groups_of_range(), place_count_, contact_count_,
-            contact_count_, hit_count_,        hit_count_};
-  for (uint32_t k = 0; k < range_.groups; ++k) homes_[place_count_++] = first_group + k;
-  const uint32_t first = first_group * width_, seat = range_.first_place * width_;
-  std::iota(seats_ + first, seats_ + std::min(first + range_.groups * width_, strand_count_), seat);
+  places_.range = {first_group,          groups_of_range(), places_.place_count, found_.contact_count,
+                   found_.contact_count, asked_.hit_count,  asked_.hit_count};
+  for (uint32_t k = 0; k < places_.range.groups; ++k) places_.homes[places_.place_count++] = first_group + k;
+  const uint32_t first = first_group * width_, seat = places_.range.first_place * width_;
+  std::iota(places_.seats + first,
+            places_.seats + std::min(first + places_.range.groups * width_, strand_count_), seat);
 }
 
 void RodCollider::begin_range(const RodBatch& batch, float dt_s) noexcept {
   // Rows are of the range before.
   ContactForces{*this, batch}.clear();
   ContactFinder{*this, batch, static_cast<double>(dt_s)}.find();
-  range_.end_contact = contact_count_, range_.end_hit = hit_count_;
-  ranges_[range_count_++] = range_;
+  places_.range.end_contact = found_.contact_count, places_.range.end_hit = asked_.hit_count;
+  places_.ranges[places_.range_count++] = places_.range;
   ContactForces{*this, batch}.begin();
   assemble(batch);
 }
 
 // Of the range that began last, which has ended.
-void RodCollider::give_back(const Range& range) noexcept {
-  place_count_ = range.first_place, contact_count_ = range.first_contact;
-  for (uint32_t i = range.first_hit; i < range.end_hit; ++i) taken_[i].contact = kNoContact;
-  --range_count_;
+void RodCollider::give_back(const GroupRange& range) noexcept {
+  places_.place_count = range.first_place, found_.contact_count = range.first_contact;
+  for (uint32_t i = range.first_hit; i < range.end_hit; ++i) asked_.taken[i].contact = kNoContact;
+  --places_.range_count;
 }
 
 void RodCollider::join_ranges() noexcept {
-  range_ = ranges_[0];
-  range_.groups = place_count_, range_.end_contact = contact_count_, range_.end_hit = hit_count_;
-  first_going_strand_ = first_going_contact_ = 0;
+  places_.range = places_.ranges[0];
+  places_.range.groups = places_.place_count, places_.range.end_contact = found_.contact_count,
+  places_.range.end_hit = asked_.hit_count;
+  going_.first_strand = going_.first_contact = 0;
 }
 
 void RodCollider::assemble(const RodBatch& batch) noexcept { ContactForces{*this, batch}.assemble(); }
@@ -283,14 +290,15 @@ uint32_t RodCollider::settle(const RodBatch& batch, uint32_t left) noexcept {
   return ContactForces{*this, batch}.settle(left);
 }
 
-void RodCollider::end_range(const RodBatch& batch, const Range& range, float dt_s,
+void RodCollider::end_range(const RodBatch& batch, const GroupRange& range, float dt_s,
                             RodReport* report) noexcept {
-  range_ = range;
+  places_.range = range;
   const ContactFinder finder{*this, batch, static_cast<double>(dt_s)};
   const ContactForces forces{*this, batch};
   forces.forgive();
-  const uint32_t first = range_.first_group * width_;
-  std::fill_n(carries_ + first, std::min(range_.groups * width_, strand_count_ - first), Vector{});
+  const uint32_t first = places_.range.first_group * width_;
+  std::fill_n(progress_.carries + first, std::min(places_.range.groups * width_, strand_count_ - first),
+              Vector{});
   for (int k = 0; k < kMostHolds && finder.find_holds(k > 0); ++k) forces.hold();
   forces.place_hits();
   report->contacts_unconverged += forces.end();
@@ -300,34 +308,38 @@ void RodCollider::end_range(const RodBatch& batch, const Range& range, float dt_
   }
 }
 
-const RodCollider::Kept* RodCollider::find_kept(uint64_t name) noexcept {
-  if (kept_next_ < kept_count_ && kept_[kept_next_].name == name) return &kept_[kept_next_++];
-  const uint32_t last = kept_in_use_ - 1;
-  for (size_t at = name >> 20 & last; kept_places_[at] != 0; at = (at + 1) & last) {
-    const Kept& kept = kept_[kept_places_[at] - 1];
+const KeptForce* RodCollider::find_kept(uint64_t name) noexcept {
+  if (kept_forces_.kept_next < kept_forces_.kept_count &&
+      kept_forces_.kept[kept_forces_.kept_next].name == name)
+    return &kept_forces_.kept[kept_forces_.kept_next++];
+  const uint32_t last = kept_forces_.kept_in_use - 1;
+  for (size_t at = name >> 20 & last; kept_forces_.kept_places[at] != 0; at = (at + 1) & last) {
+    const KeptForce& kept = kept_forces_.kept[kept_forces_.kept_places[at] - 1];
     if (kept.name != name) continue;
-    kept_next_ = kept_places_[at];
+    kept_forces_.kept_next = kept_forces_.kept_places[at];
     return &kept;
   }
   return nullptr;
 }
 
 // Of several of a name the last.
-void RodCollider::keep(const Kept& kept) noexcept {
-  const uint32_t last = kept_in_use_ - 1;
+void RodCollider::keep(const KeptForce& kept) noexcept {
+  const uint32_t last = kept_forces_.kept_in_use - 1;
   size_t at = kept.name >> 20 & last;
-  while (kept_places_[at] != 0 && kept_[kept_places_[at] - 1].name != kept.name) at = (at + 1) & last;
-  if (kept_places_[at] == 0) kept_places_[at] = ++kept_count_;
-  kept_[kept_places_[at] - 1] = kept;
+  while (kept_forces_.kept_places[at] != 0 &&
+         kept_forces_.kept[kept_forces_.kept_places[at] - 1].name != kept.name)
+    at = (at + 1) & last;
+  if (kept_forces_.kept_places[at] == 0) kept_forces_.kept_places[at] = ++kept_forces_.kept_count;
+  kept_forces_.kept[kept_forces_.kept_places[at] - 1] = kept;
 }
 
 void RodCollider::keep_nothing(uint32_t room_for) noexcept {
-  kept_count_ = kept_next_ = 0;
-  kept_in_use_ = std::bit_ceil(2 * std::max(room_for, 1u));
-  if (capacity_ > 0) std::fill_n(kept_places_, kept_in_use_, 0u);
+  kept_forces_.kept_count = kept_forces_.kept_next = 0;
+  kept_forces_.kept_in_use = std::bit_ceil(2 * std::max(room_for, 1u));
+  if (capacity_ > 0) std::fill_n(kept_forces_.kept_places, kept_forces_.kept_in_use, 0u);
 }
 
-RodCollider::Kept RodCollider::kept_of(const Contact& c, double per_square) {
+KeptForce RodCollider::kept_of(const Contact& c, double per_square) {
   const ForceInNewtons force = {per_square * c.force, scaled(per_square, c.drag)};
   if (!(c.last.press > 0)) return {c.name, force, {}};
   return {c.name, force, {force.press - c.last.press, difference(force.drag, c.last.drag)}};
@@ -336,30 +348,30 @@ RodCollider::Kept RodCollider::kept_of(const Contact& c, double per_square) {
 // Forces are what the next step's contacts of the same names start with; not those of strands that did not
 // converge.
 void RodCollider::keep_force(const Contact& c, double per_square) noexcept {
-  const bool lost =
-      turning_[c.sides[0].strand] || (c.sides[1].segment != kNoSegment && turning_[c.sides[1].strand]);
-  if (c.force > 0 && !lost) new_kept_[new_kept_count_++] = kept_of(c, per_square);
+  const bool lost = progress_.turning[c.sides[0].strand] ||
+                    (c.sides[1].segment != kNoSegment && progress_.turning[c.sides[1].strand]);
+  if (c.force > 0 && !lost) kept_forces_.new_kept[kept_forces_.new_kept_count++] = kept_of(c, per_square);
 }
 
 void RodCollider::end_contacts(float dt_s, RodReport* report) noexcept {
   const double per_square = 1 / (static_cast<double>(dt_s) * static_cast<double>(dt_s));
-  for (uint32_t i = range_.first_contact; i < range_.end_contact; ++i) {
-    const Contact& c = contacts_[i];
+  for (uint32_t i = places_.range.first_contact; i < places_.range.end_contact; ++i) {
+    const Contact& c = found_.contacts[i];
     const double deep = -(c.open_m + c.allowed_m) / c.scale_m;
     report->deepest_penetration = std::max(report->deepest_penetration, static_cast<float>(deep));
     keep_force(c, per_square);
   }
-  contacts_before_ += range_.end_contact - range_.first_contact;
+  found_.contacts_before += places_.range.end_contact - places_.range.first_contact;
 }
 
 void RodCollider::end_step(float dt_s, RodReport* report) noexcept {
   push(dt_s);
-  keep_nothing(new_kept_count_);
-  for (uint32_t i = 0; i < new_kept_count_; ++i) keep(new_kept_[i]);
-  report->contacts = contacts_before_;
-  report->contacts_dropped = dropped_;
-  report->bad_hits = bad_hits_;
-  point_count_ = 0;
+  keep_nothing(kept_forces_.new_kept_count);
+  for (uint32_t i = 0; i < kept_forces_.new_kept_count; ++i) keep(kept_forces_.new_kept[i]);
+  report->contacts = found_.contacts_before;
+  report->contacts_dropped = found_.dropped;
+  report->bad_hits = asked_.bad_hits;
+  obstacles_.point_count = 0;
 }
 
 }  // namespace sinew::rods

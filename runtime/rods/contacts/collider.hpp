@@ -26,6 +26,7 @@
 #include "core/aligned_block.hpp"
 #include "kernels/rod_contacts/rod_touch_job.hpp"
 #include "kernels/rods/rod_job.hpp"
+#include "rods/contacts/collider_state.hpp"
 #include "rods/contacts/contact.hpp"
 #include "rods/contacts/find/spatial_hash.hpp"
 #include "rods/contacts/find/sweep.hpp"
@@ -91,14 +92,14 @@ class RodCollider {
   Status set_source(ContactSource* source, uint32_t owner = 0) noexcept;
   // Where in the source's world the batch's places count from, 0 until set; finite. Obstacles and given
   // points are in the batch's own.
-  void set_origin(const double (&origin_m)[3]) noexcept { std::copy_n(origin_m, 3, origin_m_); }
+  void set_origin(const double (&origin_m)[3]) noexcept { std::copy_n(origin_m, 3, asked_.origin_m); }
 
   // The forces that `from`'s contacts came to in its last step, with this one's own settings, obstacles and
   // points; contacts are known by their obstacles' indices. Refused: one made for other strands or segments,
   // one with more contact_capacity; its own forces then stay. Allocates nothing.
   Status take_state(const RodCollider& from) noexcept;
   // In the last step.
-  bool has_forces() const noexcept { return kept_count_ > 0; }
+  bool has_forces() const noexcept { return kept_forces_.kept_count > 0; }
   // What stepped on without it begins without forces again.
   void forget_forces() noexcept { keep_nothing(0); }
   // The same as bytes, always state_bytes() of them: for snapshots, next to RodBatch::save_state.
@@ -116,63 +117,43 @@ class RodCollider {
   friend class ContactPushes;
   friend struct StrandPacker;
 
-  // A contact's force from step to step, and by how much the last one changed it, whatever its length; 0
-  // where that was its first, and where it did not converge.
-  struct Kept {
-    uint64_t name;
-    ForceInNewtons force, change;
-  };
-  // What became of a source's hit.
-  struct Taken {
-    uint32_t contact;  // kNoContact: left out, or its strand has ended
-    Vector felt;       // force on the rod in the last iteration, times the step's square
-    Vector point_m;    // of the rod's surface, at the step's end
-  };
-  static constexpr uint32_t kNoContact = ~0u;
-  // Groups that are looked at together, one behind the other in the batch and in their places; and what they
-  // touch. Joined ranges' groups are one behind the other in their places alone.
-  struct Range {
-    uint32_t first_group, groups, first_place;
-    uint32_t first_contact, end_contact, first_hit, end_hit;
-  };
-
   template <class Obstacle>
   Status set(std::span<const Obstacle> given, uint32_t capacity, const char* what, Obstacle* to,
              uint32_t* count) noexcept;
   Status check_points(std::span<const ContactPoint> points) const noexcept;
   bool fits(const RodBatch& batch) const noexcept;
   // Null: there is none. Quick where names are asked for in the order in which they were kept.
-  const Kept* find_kept(uint64_t name) noexcept;
-  void keep(const Kept& kept) noexcept;
-  static Kept kept_of(const Contact& contact, double per_square);
+  const KeptForce* find_kept(uint64_t name) noexcept;
+  void keep(const KeptForce& kept) noexcept;
+  static KeptForce kept_of(const Contact& contact, double per_square);
   void keep_force(const Contact& contact, double per_square) noexcept;
   void keep_nothing(uint32_t room_for) noexcept;
   bool passes(uint32_t strand, uint32_t segment, uint32_t capsule) const noexcept {
-    return capsule < 64 && (passed_[size_t{strand} * segment_count_ + segment] >> capsule & 1) != 0;
+    return capsule < 64 && (obstacles_.passed[size_t{strand} * segment_count_ + segment] >> capsule & 1) != 0;
   }
   // Groups whose contacts are found together.
-  uint32_t groups_of_range() const noexcept { return settings_.rods_collide ? home_groups_ : 1; }
-  bool has_place() const noexcept { return place_count_ + groups_of_range() <= home_groups_; }
+  uint32_t groups_of_range() const noexcept { return settings_.rods_collide ? places_.home_groups : 1; }
+  bool has_place() const noexcept { return places_.place_count + groups_of_range() <= places_.home_groups; }
   // The parts of a step. Ranges begin one after the other, each in places of its own. One that has ended
   // before the next begins gives its places back; the others are joined, and end one after the other.
   void begin_step() noexcept;
   void begin_groups() noexcept;
   void open_range(uint32_t first_group) noexcept;
   void begin_range(const RodBatch& batch, float dt_s) noexcept;
-  void give_back(const Range& range) noexcept;
+  void give_back(const GroupRange& range) noexcept;
   void join_ranges() noexcept;
   // Before each iteration.
   void assemble(const RodBatch& batch) noexcept;
   // After each; `left`: iterations that may follow. Returns how many strands are not converged.
   uint32_t settle(const RodBatch& batch, uint32_t left) noexcept;
-  void end_range(const RodBatch& batch, const Range& range, float dt_s, RodReport* report) noexcept;
+  void end_range(const RodBatch& batch, const GroupRange& range, float dt_s, RodReport* report) noexcept;
   void end_contacts(float dt_s, RodReport* report) noexcept;
   void end_step(float dt_s, RodReport* report) noexcept;
   void push(float dt_s) const noexcept;
   float* scratch(uint32_t place) const noexcept;
   // Where a strand's iterate is: a lane of its own group or, while others of that one rest, of one that is
   // packed.
-  uint32_t& seat(uint32_t strand) const noexcept { return seats_[strand]; }
+  uint32_t& seat(uint32_t strand) const noexcept { return places_.seats[strand]; }
   // Of one lane; rows are width_ apart.
   float* scratch_row(const RodBatch& batch, uint32_t strand, uint32_t segment, uint32_t field) const noexcept;
   // Contacts' rows.
@@ -181,77 +162,16 @@ class RodCollider {
 
   core::AlignedBlock memory_;
   ColliderSettings settings_;
-  Plane* planes_ = nullptr;
-  Sphere* spheres_ = nullptr;
-  Capsule* capsules_ = nullptr;
-  ContactPoint* points_ = nullptr;
-  uint64_t* passed_ = nullptr;  // [strands][segments]
-  uint32_t plane_count_ = 0, sphere_count_ = 0, capsule_count_ = 0, point_count_ = 0;
   uint32_t strand_count_ = 0, segment_count_ = 0, width_ = 0, capacity_ = 0;
-  bool passed_any_ = false;
-
-  // [capacity_] of groups that are stepped together; before these, in this step, contacts_before_.
-  Contact* contacts_ = nullptr;
-  uint32_t contact_count_ = 0, contacts_before_ = 0, dropped_ = 0;
-  Kept* kept_ = nullptr;      // [capacity_] in the order of the last step's contacts
-  Kept* new_kept_ = nullptr;  // alike, of this step's
-  uint32_t new_kept_count_ = 0;
-  // [twice capacity_, a power of two] of it in use; where a name's is in kept_, from 1 on, 0: nowhere.
-  uint32_t* kept_places_ = nullptr;
-  uint32_t kept_count_ = 0, kept_in_use_ = 1, kept_next_ = 0;  // the last: behind what was found last
-  Range range_ = {};
-  Range* ranges_ = nullptr;  // [home_groups_]
-  // Places of groups that are stepped together, and those behind them that their strands are packed into.
-  // What follows by groups is by places of the former; scratch and rows are of the latter too.
-  uint32_t home_groups_ = 0, packed_groups_ = 0, packed_count_ = 0;
-  uint32_t place_count_ = 0, range_count_ = 0;  // taken
-  uint32_t* homes_ = nullptr;                   // [home_groups_] the group in a place
-  uint32_t* seats_ = nullptr;                   // [strands] place and lane
-  float* packed_records_ = nullptr;             // [packed_groups_], as a batch's
-  float* packed_lanes_ = nullptr;               // alike
-  // Of the range, strands that go on and contacts of such strands, but for those that no iteration got near;
-  // before these, of the ranges before it.
-  uint32_t* going_strands_ = nullptr;   // [home_groups_][width]
-  uint32_t* going_contacts_ = nullptr;  // [capacity_]
-  uint32_t first_going_strand_ = 0, going_strand_count_ = 0, first_going_contact_ = 0,
-           going_contact_count_ = 0;
-  Sweep* sweeps_ = nullptr;         // [segments]
-  SweptBox* boxes_ = nullptr;       // alike
-  uint8_t* swept_ = nullptr;        // alike: its sweep is of this step
-  float* reaches_ = nullptr;        // [groups][slots][kReachRows][width]
-  float* reach_boxes_ = nullptr;    // [groups][kBoxRows][width]
-  float* lengths_m_ = nullptr;      // [groups][width]
-  double* origins_m_ = nullptr;     // [groups][3][width]
-  uint16_t* near_lanes_ = nullptr;  // [slots] of the group that is looked at
-  float* rows_ = nullptr;           // [groups][segments][kRodContactRows][width]
-  uint8_t* touched_ = nullptr;      // [groups][segments]: rows are not zero
-  uint32_t* touched_list_ = nullptr;
-  uint32_t touched_count_ = 0;
-  uint8_t* turning_ = nullptr;   // [strands] not converged by themselves
-  uint8_t* pending_ = nullptr;   // [strands] not converged by a contact
-  double* misses_ = nullptr;     // [strands] what its contacts' forces miss their laws by, kg m
-  double* presses_ = nullptr;    // [strands] sum of what presses it, kg m
-  double* moves_m_ = nullptr;    // [strands] how far the last iteration moved a point of it, at most
-  double* passed_m_ = nullptr;   // [strands] and those before it
-  double* clear_m_ = nullptr;    // [strands] where it began, how far it was from what is left out
-  double* ways_ = nullptr;       // [strands] where the first iterate is, from the step's start to free motion
-  Vector* carries_ = nullptr;    // [strands] what a core moves that stops a strand
-  uint8_t* near_ = nullptr;      // [strands] it has contacts, pressed or not
-  uint8_t* iterated_ = nullptr;  // [strands] moved by the last iteration
-  uint8_t* moved_ = nullptr;     // [strands] since it was last looked at whether it is to be held
-  float* scratch_ = nullptr;     // [groups], as a batch's
-  SpatialHash hash_;
-
-  ContactSource* source_ = nullptr;
-  double origin_m_[3] = {0, 0, 0};
-  uint32_t owner_ = 0, hit_count_ = 0, bad_hits_ = 0;
-  ContactProbe* probes_ = nullptr;      // [segments]
-  uint32_t* probe_segments_ = nullptr;  // alike: as ContactFinder::local
-  ContactHit* hits_ = nullptr;          // [2 source_capacity] of the step; those of a second look behind
-  Taken* taken_ = nullptr;              // [source_capacity]
-  double* pushes_ = nullptr;            // [strands] sizes of what its hits felt
-  double* hit_ways_ = nullptr;  // [strands] how far what it was told of moves in the step, the furthest
-  double* cores_m_ = nullptr;   // [segments] radius of what is looked at again, 0: nothing
+  Obstacles obstacles_;
+  FoundContacts found_;
+  KeptForces kept_forces_;
+  GroupPlaces places_;
+  GoingOn going_;
+  Reaches near_by_;
+  ForceRows forces_on_;
+  StrandProgress progress_;
+  AskedSource asked_;
 };
 
 }  // namespace sinew::rods

@@ -30,9 +30,9 @@ size_t RodCollider::state_bytes() const noexcept { return sizeof(uint64_t) + cap
 
 // By name: in what order contacts were found depends on others, and the same forces have the same bytes.
 void RodCollider::save_state(std::byte* out) const noexcept {
-  const uint64_t count = kept_count_;
-  for (uint32_t i = 0; i < kept_count_; ++i) {
-    const Saved one = {kept_[i].name, kept_[i].force, kept_[i].change};
+  const uint64_t count = kept_forces_.kept_count;
+  for (uint32_t i = 0; i < kept_forces_.kept_count; ++i) {
+    const Saved one = {kept_forces_.kept[i].name, kept_forces_.kept[i].force, kept_forces_.kept[i].change};
     std::memcpy(out + sizeof count + i * sizeof one, &one, sizeof one);
   }
   std::memcpy(out, &count, sizeof count);

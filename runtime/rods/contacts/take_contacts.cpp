@@ -21,7 +21,7 @@ Status RodCollider::take_state(const RodCollider& from) noexcept {
   }
   if (&from == this) return {};
   keep_nothing(capacity_);
-  for (uint32_t i = 0; i < from.kept_count_; ++i) keep(from.kept_[i]);
+  for (uint32_t i = 0; i < from.kept_forces_.kept_count; ++i) keep(from.kept_forces_.kept[i]);
   return {};
 }
 

@@ -33,9 +33,10 @@ struct StrandPacker::Moves {
 
 template <class Each>
 void StrandPacker::for_each_strand(const Each& each) const {
-  const RodCollider::Range& range = to.range_;
+  const GroupRange& range = to.places_.range;
   for (uint32_t place = range.first_place; place < range.first_place + range.groups; ++place) {
-    const uint32_t first = to.homes_[place] * kLanes, end = std::min(first + kLanes, batch.strand_count_);
+    const uint32_t first = to.places_.homes[place] * kLanes,
+                   end = std::min(first + kLanes, batch.strand_count_);
     for (uint32_t s = first; s < end; ++s) each(s, place * kLanes + s - first);
   }
 }
@@ -43,8 +44,8 @@ void StrandPacker::for_each_strand(const Each& each) const {
 simd::RodJob StrandPacker::job(uint32_t place) const {
   simd::RodJob job = {};
   job.segments = batch.segment_count_;
-  if (place >= to.home_groups_) return to.packed_job(job, place - to.home_groups_);
-  const size_t group = to.homes_[place];
+  if (place >= to.places_.home_groups) return to.packed_job(job, place - to.places_.home_groups);
+  const size_t group = to.places_.homes[place];
   job.records = batch.records_ + group * job.segments * simd::kRodKeptFields * kLanes;
   job.scratch = to.scratch(place);
   job.lanes = batch.lanes_ + group * simd::kLaneFields * kLanes;
@@ -64,7 +65,7 @@ void StrandPacker::go_home(bool all) const {
 
 // One behind the other, in their order.
 void StrandPacker::take_seats(uint32_t from) const {
-  const uint32_t first = to.home_groups_ * kLanes, end = first + to.packed_groups_ * kLanes;
+  const uint32_t first = to.places_.home_groups * kLanes, end = first + to.places_.packed_groups * kLanes;
   uint32_t seat = first + from;
   Moves moves = {*this, false};
   for_each_strand([&](uint32_t s, uint32_t) {
@@ -73,7 +74,7 @@ void StrandPacker::take_seats(uint32_t from) const {
     to.seat(s) = seat++;
   });
   moves.end();
-  to.packed_count_ = seat - first;
+  to.places_.packed_count = seat - first;
   const uint32_t whole = (seat + kLanes - 1) / kLanes * kLanes;
   for (; seat < whole; ++seat) rest(seat);
   for_each_strand([this](uint32_t s, uint32_t home) {
@@ -86,7 +87,7 @@ void StrandPacker::rest(uint32_t seat) const {
 }
 
 void StrandPacker::add() const noexcept {
-  if (to.packed_groups_ > 0) take_seats(to.packed_count_);
+  if (to.places_.packed_groups > 0) take_seats(to.places_.packed_count);
 }
 
 // Of eight lanes, with one that goes on.
@@ -101,23 +102,23 @@ uint32_t StrandPacker::vectors() const {
 }
 
 void StrandPacker::pack(uint32_t active) const noexcept {
-  if (active > to.packed_groups_ * kLanes) return;
+  if (active > to.places_.packed_groups * kLanes) return;
   if (2 * ((active + kVector - 1) / kVector) > vectors()) return;
   go_home(false);
   take_seats(0);
 }
 
 void StrandPacker::unpack() const noexcept {
-  if (to.packed_count_ == 0) return;
+  if (to.places_.packed_count == 0) return;
   go_home(true);
-  to.packed_count_ = 0;
+  to.places_.packed_count = 0;
 }
 
 simd::RodJob RodCollider::packed_job(simd::RodJob job, uint32_t k) const noexcept {
-  job.records = packed_records_ + size_t{k} * segment_count_ * simd::kRodKeptFields * width_;
-  job.scratch = scratch(home_groups_ + k);
-  job.lanes = packed_lanes_ + size_t{k} * simd::kLaneFields * width_;
-  give(&job, home_groups_ + k);
+  job.records = places_.packed_records + size_t{k} * segment_count_ * simd::kRodKeptFields * width_;
+  job.scratch = scratch(places_.home_groups + k);
+  job.lanes = places_.packed_lanes + size_t{k} * simd::kLaneFields * width_;
+  give(&job, places_.home_groups + k);
   return job;
 }
 

@@ -32,7 +32,7 @@ simd::RodJob RodBatch::group_job(uint32_t group, float dt_s, float* scratch) con
 }
 
 simd::RodJob RodBatch::home_job(uint32_t place, float dt_s, const RodCollider& collider) const noexcept {
-  simd::RodJob job = group_job(collider.homes_[place], dt_s, collider.scratch(place));
+  simd::RodJob job = group_job(collider.places_.homes[place], dt_s, collider.scratch(place));
   collider.give(&job, place);
   return job;
 }
@@ -62,7 +62,7 @@ uint32_t RodBatch::iterate(const simd::RodJob& job) const noexcept {
 }
 
 void RodBatch::iterate_homes(float dt_s, const RodCollider& collider) const noexcept {
-  const RodCollider::Range& range = collider.range_;
+  const GroupRange& range = collider.places_.range;
   for (uint32_t k = 0; k < range.groups; ++k) iterate(home_job(range.first_place + k, dt_s, collider));
 }
 
@@ -70,7 +70,7 @@ void RodBatch::iterate_homes(float dt_s, const RodCollider& collider) const noex
 uint32_t RodBatch::begin_range(uint32_t first_group, float dt_s, RodCollider* collider,
                                uint32_t left) const noexcept {
   collider->open_range(first_group);
-  const RodCollider::Range range = collider->range_;
+  const GroupRange range = collider->places_.range;
   for (uint32_t k = 0; k < range.groups; ++k) {
     begin_group(first_group + k, group_job(first_group + k, dt_s, collider->scratch(range.first_place + k)));
   }
@@ -86,8 +86,9 @@ uint32_t RodBatch::go_on(float dt_s, RodCollider* collider, uint32_t active, uin
   StrandPacker{*collider, *this}.pack(active);
   collider->assemble(*this);
   iterate_homes(dt_s, *collider);
-  const simd::RodJob job = group_job(collider->homes_[0], dt_s, collider->scratch(0));
-  for (uint32_t k = 0; k * width_ < collider->packed_count_; ++k) iterate(collider->packed_job(job, k));
+  const simd::RodJob job = group_job(collider->places_.homes[0], dt_s, collider->scratch(0));
+  for (uint32_t k = 0; k * width_ < collider->places_.packed_count; ++k)
+    iterate(collider->packed_job(job, k));
   return collider->settle(*this, left);
 }
 
@@ -122,7 +123,7 @@ void RodBatch::end_group(uint32_t group, const simd::RodJob& job, RodReport* rep
   }
 }
 
-void RodBatch::end_range(const RodCollider::Range& range, float dt_s, RodCollider* collider,
+void RodBatch::end_range(const GroupRange& range, float dt_s, RodCollider* collider,
                          RodReport* report) noexcept {
   collider->end_range(*this, range, dt_s, report);
   for (uint32_t k = 0; k < range.groups; ++k) {
@@ -145,7 +146,7 @@ uint32_t RodBatch::begin_together(uint32_t group, float dt_s, RodCollider* colli
   collider->begin_groups();
   while (group < group_count() && collider->has_place()) {
     const uint32_t going = begin_range(group, dt_s, collider, settings_.max_iterations - 1);
-    const RodCollider::Range range = collider->range_;
+    const GroupRange range = collider->places_.range;
     group += range.groups, *active += going;
     if (going > 0) continue;
     end_range(range, dt_s, collider, report);
@@ -162,8 +163,8 @@ uint32_t RodBatch::step_together(uint32_t group, float dt_s, RodCollider* collid
   group = begin_together(group, dt_s, collider, report, &active);
   while (active > 0 && left > 0) active = go_on(dt_s, collider, active, --left);
   StrandPacker{*collider, *this}.unpack();
-  for (uint32_t k = 0; k < collider->range_count_; ++k) {
-    end_range(collider->ranges_[k], dt_s, collider, report);
+  for (uint32_t k = 0; k < collider->places_.range_count; ++k) {
+    end_range(collider->places_.ranges[k], dt_s, collider, report);
   }
   return group;
 }

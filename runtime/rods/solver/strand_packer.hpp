@@ -24,8 +24,10 @@ struct StrandPacker {
   // Moves from one group to another, told in order.
   struct Moves;
 
-  bool packed(uint32_t strand) const { return batch.group_of(to.seat(strand)) >= to.home_groups_; }
-  bool goes_on(uint32_t strand) const { return (to.turning_[strand] | to.pending_[strand]) != 0; }
+  bool packed(uint32_t strand) const { return batch.group_of(to.seat(strand)) >= to.places_.home_groups; }
+  bool goes_on(uint32_t strand) const {
+    return (to.progress_.turning[strand] | to.progress_.pending[strand]) != 0;
+  }
   // each(strand, its seat in its own group) of the range, in order.
   template <class Each>
   void for_each_strand(const Each& each) const;

@@ -39,31 +39,31 @@ ContactPoint point_of(const ContactHit& hit, uint32_t strand, uint32_t segment) 
 }  // namespace
 
 void ContactFinder::probe(uint32_t strand, uint32_t segment, const Sweep& sweep, uint32_t* count) const {
-  ContactProbe& p = to.probes_[*count];
+  ContactProbe& p = to.asked_.probes[*count];
   const Vector* ends[2][2] = {{&sweep.start.from, &sweep.start.to}, {&sweep.end.from, &sweep.end.to}};
   for (size_t e = 0; e < 2; ++e) {
     for (size_t k = 0; k < 3; ++k) {
-      p.start_m[e][k] = (*ends[0][e])[k] + to.origin_m_[k];
-      p.end_m[e][k] = (*ends[1][e])[k] + to.origin_m_[k];
+      p.start_m[e][k] = (*ends[0][e])[k] + to.asked_.origin_m[k];
+      p.end_m[e][k] = (*ends[1][e])[k] + to.asked_.origin_m[k];
     }
   }
   p.radius_m = static_cast<float>(sweep.radius_m);
-  p.owner = to.owner_;
-  to.probe_segments_[(*count)++] = static_cast<uint32_t>(local(strand, segment));
+  p.owner = to.asked_.owner;
+  to.asked_.probe_segments[(*count)++] = static_cast<uint32_t>(local(strand, segment));
 }
 
 // What a source wrote, of hits that a contact can be made of.
 std::span<const ContactHit> ContactFinder::ask(uint32_t probes, ContactHit* hits, uint32_t room,
                                                uint32_t* dropped) const {
   const uint32_t found =
-      to.source_->find({to.probes_, probes}, static_cast<float>(dt_s), std::span(hits, room));
+      to.asked_.source->find({to.asked_.probes, probes}, static_cast<float>(dt_s), std::span(hits, room));
   const uint32_t written = std::min(found, room);
   *dropped += found - written;
   const auto bad = [&](const ContactHit& hit) {
     return hit.probe >= probes || !check_obstacle(point_of(hit, 0, 0), 0).ok();
   };
   ContactHit* end = std::remove_if(hits, hits + written, bad);
-  to.bad_hits_ += static_cast<uint32_t>(hits + written - end);
+  to.asked_.bad_hits += static_cast<uint32_t>(hits + written - end);
   return {hits, end};
 }
 
@@ -71,21 +71,21 @@ void ContactFinder::add_hits() const {
   uint32_t probes = 0;
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {
     for (uint32_t i = 0; i < batch.segment_count_; ++i) {
-      if (free(s, i)) probe(s, i, to.sweeps_[local(s, i)], &probes);
+      if (free(s, i)) probe(s, i, to.near_by_.sweeps[local(s, i)], &probes);
     }
   }
-  std::fill(to.hit_ways_ + first_strand(), to.hit_ways_ + end_strand(), 0.0);
-  const uint32_t room = to.settings_.source_capacity - to.hit_count_;
-  for (const ContactHit& hit : ask(probes, to.hits_ + to.hit_count_, room, &to.dropped_)) {
-    const uint32_t segment = to.probe_segments_[hit.probe];
+  std::fill(to.asked_.hit_ways + first_strand(), to.asked_.hit_ways + end_strand(), 0.0);
+  const uint32_t room = to.settings_.source_capacity - to.asked_.hit_count;
+  for (const ContactHit& hit : ask(probes, to.asked_.hits + to.asked_.hit_count, room, &to.found_.dropped)) {
+    const uint32_t segment = to.asked_.probe_segments[hit.probe];
     const uint32_t strand = strand_of(segment);
     const double way = dt_s * length(vector_of(hit.velocity_m_s));
-    to.hit_ways_[strand] = std::max(to.hit_ways_[strand], way);
+    to.asked_.hit_ways[strand] = std::max(to.asked_.hit_ways[strand], way);
     const Contact* made = add_point(point_of(hit, strand, segment % batch.segment_count_), kHit);
-    RodCollider::Taken& taken = to.taken_[to.hit_count_++];
-    taken = {RodCollider::kNoContact, {}, {}};
+    TakenHit& taken = to.asked_.taken[to.asked_.hit_count++];
+    taken = {kNoContact, {}, {}};
     if (!made) continue;
-    taken.contact = static_cast<uint32_t>(made - to.contacts_);
+    taken.contact = static_cast<uint32_t>(made - to.found_.contacts);
     taken.felt = scaled_sum(made->force, made->normal, made->drag);
   }
 }
@@ -95,25 +95,25 @@ void ContactFinder::add_hits() const {
 // converge.
 void ContactFinder::choose_cores() const {
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {
-    const bool unconverged = to.turning_[s] || to.pending_[s];
+    const bool unconverged = to.progress_.turning[s] || to.progress_.pending[s];
     for (uint32_t i = 0; i < batch.segment_count_; ++i) {
       const Sweep& known = sweep(s, i);
       const Sweep own = taken_sweep(s, i);
       const double way = longest(own.start, own.end);
-      const bool far = std::isfinite(way) && std::max(to.hit_ways_[s], way) > own.radius_m;
+      const bool far = std::isfinite(way) && std::max(to.asked_.hit_ways[s], way) > own.radius_m;
       const bool elsewhere = longest(known.end, own.end) > own.radius_m;
-      const bool looks = to.moved_[s] && free(s, i) && far && (unconverged || elsewhere);
-      to.cores_m_[local(s, i)] = looks ? kCore * own.radius_m : 0;
+      const bool looks = to.progress_.moved[s] && free(s, i) && far && (unconverged || elsewhere);
+      to.asked_.cores_m[local(s, i)] = looks ? kCore * own.radius_m : 0;
     }
   }
 }
 
 // So much of what it began at. Returns whether that is to be looked at.
 bool ContactFinder::shrink_core(const ContactHit& hit) const {
-  const uint32_t segment = to.probe_segments_[hit.probe];
-  const double smaller = kNearer * (static_cast<double>(to.probes_[hit.probe].radius_m) + hit.gap_m);
-  if (!(smaller > kLost * to.sweeps_[segment].radius_m)) return false;
-  double& core = to.cores_m_[segment];
+  const uint32_t segment = to.asked_.probe_segments[hit.probe];
+  const double smaller = kNearer * (static_cast<double>(to.asked_.probes[hit.probe].radius_m) + hit.gap_m);
+  if (!(smaller > kLost * to.near_by_.sweeps[segment].radius_m)) return false;
+  double& core = to.asked_.cores_m[segment];
   core = core > 0 ? std::min(core, smaller) : smaller;
   return true;
 }
@@ -123,7 +123,7 @@ uint32_t ContactFinder::probe_cores() const {
   uint32_t probes = 0;
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {
     for (uint32_t i = 0; i < batch.segment_count_; ++i) {
-      const double core = std::exchange(to.cores_m_[local(s, i)], 0.0);
+      const double core = std::exchange(to.asked_.cores_m[local(s, i)], 0.0);
       if (!(core > 0)) continue;
       Sweep own = taken_sweep(s, i);
       own.radius_m = core;
@@ -139,7 +139,7 @@ bool ContactFinder::look_at_cores() const {
   if (probes == 0) return false;
   uint32_t dropped = 0;  // of what is only looked at
   bool again = false;
-  for (const ContactHit& hit : ask(probes, to.hits_ + room, room, &dropped)) {
+  for (const ContactHit& hit : ask(probes, to.asked_.hits + room, room, &dropped)) {
     if (hit.gap_m < 0)
       again |= shrink_core(hit);
     else
@@ -154,8 +154,8 @@ void ContactFinder::stop_at_hits() const {
 }
 
 void ContactFinder::stop_at_hit(const ContactHit& hit) const {
-  const uint32_t segment = to.probe_segments_[hit.probe], strand = strand_of(segment);
-  const double core = static_cast<double>(to.probes_[hit.probe].radius_m);
+  const uint32_t segment = to.asked_.probe_segments[hit.probe], strand = strand_of(segment);
+  const double core = static_cast<double>(to.asked_.probes[hit.probe].radius_m);
   const Sweep own = taken_sweep(strand, segment % batch.segment_count_);
   const double share = 0.5 + 0.5 * static_cast<double>(hit.along);
   const Vector move =
@@ -164,9 +164,9 @@ void ContactFinder::stop_at_hit(const ContactHit& hit) const {
   const double gap = hit.gap_m, end = gap + dot(vector_of(hit.normal), difference(move, obstacle_move));
   if (!(end < std::min(gap, kThere * core))) return;
   const double way = std::max(0.0, gap - kOutside * core) / (gap - end);
-  if (way >= to.ways_[strand]) return;
-  to.ways_[strand] = way;
-  to.carries_[strand] = obstacle_move;
+  if (way >= to.progress_.ways[strand]) return;
+  to.progress_.ways[strand] = way;
+  to.progress_.carries[strand] = obstacle_move;
 }
 
 }  // namespace sinew::rods

@@ -75,7 +75,7 @@ Vector surface_move(const ObstacleMotion& motion, const Vector& arm, double dt_s
 }  // namespace
 
 uint32_t ContactFinder::end_strand() const {
-  return std::min(batch.strand_count_, first_strand() + to.range_.groups * batch.width_);
+  return std::min(batch.strand_count_, first_strand() + to.places_.range.groups * batch.width_);
 }
 
 bool ContactFinder::free(uint32_t strand, uint32_t segment) const {
@@ -85,7 +85,7 @@ bool ContactFinder::free(uint32_t strand, uint32_t segment) const {
 template <class Found>
 void ContactFinder::for_near(uint32_t group, const Found& found) const {
   for (uint32_t i = 0; i < batch.segment_count_; ++i) {
-    for (uint32_t left = to.near_lanes_[batch.slots_[i]]; left != 0; left &= left - 1) {
+    for (uint32_t left = to.near_by_.near_lanes[batch.slots_[i]]; left != 0; left &= left - 1) {
       found(group * batch.width_ + static_cast<uint32_t>(std::countr_zero(left)), i);
     }
   }
@@ -126,8 +126,8 @@ void ContactFinder::add_sweep(uint32_t strand, uint32_t segment) const {
   const Vector move = scaled(l, iterate3(strand, segment, simd::kRodFreeMove));
   const Sweep s = {axis(strand, segment, {}, axis_of(before)), axis(strand, segment, move, axis_of(after)),
                    radius};
-  to.swept_[local(strand, segment)] = 1;
-  to.sweeps_[local(strand, segment)] = s;
+  to.near_by_.swept[local(strand, segment)] = 1;
+  to.near_by_.sweeps[local(strand, segment)] = s;
   if (!to.settings_.rods_collide) return;
   const double margin = (1 + kNearRadii) * radius + kNearWay * longest_way(s);
   SweptBox box = box_of(s, margin);
@@ -138,7 +138,7 @@ void ContactFinder::add_sweep(uint32_t strand, uint32_t segment) const {
     const Vector by = {radius, radius, radius};
     widen(difference(end, by), &box), widen(sum(end, by), &box);
   }
-  to.boxes_[local(strand, segment)] = box;
+  to.near_by_.boxes[local(strand, segment)] = box;
 }
 
 uint64_t ContactFinder::name_of(const Other& other, uint32_t strand, uint32_t segment, uint64_t feature) {
@@ -202,8 +202,9 @@ double ContactFinder::rebound_m(const Contact& c, double restitution) const {
 
 // Null: no room.
 Contact* ContactFinder::take() const {
-  if (to.contacts_before_ + to.contact_count_ < to.capacity_) return to.contacts_ + to.contact_count_++;
-  ++to.dropped_;
+  if (to.found_.contacts_before + to.found_.contact_count < to.capacity_)
+    return to.found_.contacts + to.found_.contact_count++;
+  ++to.found_.dropped;
   return nullptr;
 }
 
@@ -229,7 +230,7 @@ void ContactFinder::complete(Contact* c, double depth_m, double restitution) con
 // Where the rods' own start continues the last steps, contacts' forces go on as they changed.
 void ContactFinder::begin_force(Contact* c) const {
   if (batch.settings_.start == RodStart::kZero) return;
-  const RodCollider::Kept* kept = to.find_kept(c->name);
+  const KeptForce* kept = to.find_kept(c->name);
   if (!kept) return;
   c->last = kept->force;
   const double share = batch.settings_.start >= RodStart::kContinued ? 1 : 0, square = dt_s * dt_s;
@@ -291,7 +292,8 @@ void ContactFinder::add_plane(const Plane& plane, uint32_t index) const {
                        static_cast<double>(plane.friction),
                        static_cast<double>(plane.restitution)};
   const simd::RodFlat flat = flat_of(plane);
-  for (uint32_t g = to.range_.first_group; g < to.range_.first_group + to.range_.groups; ++g) {
+  for (uint32_t g = to.places_.range.first_group; g < to.places_.range.first_group + to.places_.range.groups;
+       ++g) {
     if (!near(g, flat)) continue;
     for_near(g, [&](uint32_t strand, uint32_t i) {
       const bool thicker = i > 0 && batch.radius_m(strand, i) > batch.radius_m(strand, batch.parents_[i]);
@@ -346,15 +348,16 @@ void ContactFinder::add_round(const Capsule& capsule, uint64_t kind, uint32_t in
                        static_cast<double>(capsule.friction),
                        static_cast<double>(capsule.restitution)};
   const simd::RodRound round = round_of(other);
-  for (uint32_t g = to.range_.first_group; g < to.range_.first_group + to.range_.groups; ++g) {
+  for (uint32_t g = to.places_.range.first_group; g < to.places_.range.first_group + to.places_.range.groups;
+       ++g) {
     if (near(g, round)) add_near(g, other, round);
   }
 }
 
 // Of the lanes that are near.
 uint32_t ContactFinder::not_passing(uint32_t group, uint32_t segment, const Other& other) const {
-  uint32_t lanes = to.near_lanes_[batch.slots_[segment]];
-  if (other.kind != kCapsule || !to.passed_any_) return lanes;
+  uint32_t lanes = to.near_by_.near_lanes[batch.slots_[segment]];
+  if (other.kind != kCapsule || !to.obstacles_.passed_any) return lanes;
   for (uint32_t left = lanes; left != 0; left &= left - 1) {
     const auto lane = static_cast<uint32_t>(std::countr_zero(left));
     if (to.passes(group * batch.width_ + lane, segment, static_cast<uint32_t>(other.index)))
@@ -494,7 +497,7 @@ void ContactFinder::add_pair(uint32_t i, uint32_t j) const {
                        uint64_t{strand_j} << 32 | b,
                        strand_j,
                        b,
-                       to.sweeps_[j],
+                       to.near_by_.sweeps[j],
                        {},
                        {},
                        static_cast<double>(to.settings_.rod_friction),
@@ -522,24 +525,24 @@ void ContactFinder::stop_at_core(uint32_t strand, uint32_t segment, const Sweep&
   core.radius_m = std::min(kCore * (own.radius_m + core.radius_m), kNearer * began);
   own.radius_m = 0;
   const Touch touch = first_touch(own, core, kCoreMoments);
-  if (!(touch.gap_m < kThere * core.radius_m) || touch.time >= to.ways_[strand]) return;
+  if (!(touch.gap_m < kThere * core.radius_m) || touch.time >= to.progress_.ways[strand]) return;
   const Vector moved = difference(at(core.end, touch.at.b), at(core.start, touch.at.b));
-  to.ways_[strand] = touch.time;
-  to.carries_[strand] = moved;
+  to.progress_.ways[strand] = touch.time;
+  to.progress_.carries[strand] = moved;
 }
 
 void ContactFinder::stop_at_cores(uint32_t strand, uint32_t segment) const {
-  for (uint32_t i = 0; i < to.sphere_count_; ++i) {
-    stop_at_core(strand, segment, sweep_of(capsule_of(to.spheres_[i])));
+  for (uint32_t i = 0; i < to.obstacles_.sphere_count; ++i) {
+    stop_at_core(strand, segment, sweep_of(capsule_of(to.obstacles_.spheres[i])));
   }
-  for (uint32_t i = 0; i < to.capsule_count_; ++i) {
-    if (!to.passes(strand, segment, i)) stop_at_core(strand, segment, sweep_of(to.capsules_[i]));
+  for (uint32_t i = 0; i < to.obstacles_.capsule_count; ++i) {
+    if (!to.passes(strand, segment, i)) stop_at_core(strand, segment, sweep_of(to.obstacles_.capsules[i]));
   }
 }
 
 void ContactFinder::stop_at_cores() const {
-  for (uint32_t g = 0; g < to.range_.groups; ++g) {
-    const uint32_t group = to.range_.first_group + g;
+  for (uint32_t g = 0; g < to.places_.range.groups; ++g) {
+    const uint32_t group = to.places_.range.first_group + g;
     if (!may_enter(group)) continue;
     for_near(group, [this](uint32_t s, uint32_t i) { stop_at_cores(s, i); });
   }
@@ -558,38 +561,43 @@ void ContactFinder::stop_torn(uint32_t strand, bool again) const {
     const double ends = length(difference(parent.end.to, own.end.from));
     if (!(ends > most) || !(began < most)) continue;
     const double way = again ? 0 : (most - began) / (ends - began);
-    to.ways_[strand] = std::min(to.ways_[strand], way);
+    to.progress_.ways[strand] = std::min(to.progress_.ways[strand], way);
   }
 }
 
 bool ContactFinder::find_holds(bool again) const noexcept {
-  for (uint32_t s = first_strand(); s < end_strand(); ++s) to.moved_[s] = !again || to.ways_[s] < 1;
-  std::fill(to.ways_ + first_strand(), to.ways_ + end_strand(), 1.0);
-  if (to.source_) stop_at_hits();
-  if (to.sphere_count_ + to.capsule_count_ > 0) stop_at_cores();
+  for (uint32_t s = first_strand(); s < end_strand(); ++s)
+    to.progress_.moved[s] = !again || to.progress_.ways[s] < 1;
+  std::fill(to.progress_.ways + first_strand(), to.progress_.ways + end_strand(), 1.0);
+  if (to.asked_.source) stop_at_hits();
+  if (to.obstacles_.sphere_count + to.obstacles_.capsule_count > 0) stop_at_cores();
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {
-    if (to.turning_[s] && to.near_[s]) stop_torn(s, again);
+    if (to.progress_.turning[s] && to.progress_.near[s]) stop_torn(s, again);
   }
-  return std::any_of(to.ways_ + first_strand(), to.ways_ + end_strand(), [](double w) { return w < 1; });
+  return std::any_of(to.progress_.ways + first_strand(), to.progress_.ways + end_strand(),
+                     [](double w) { return w < 1; });
 }
 
 void ContactFinder::find() const noexcept {
-  const uint32_t obstacles = to.point_count_ + to.plane_count_ + to.sphere_count_ + to.capsule_count_;
-  if (obstacles == 0 && !to.source_ && !to.settings_.rods_collide) return;
+  const uint32_t obstacles = to.obstacles_.point_count + to.obstacles_.plane_count +
+                             to.obstacles_.sphere_count + to.obstacles_.capsule_count;
+  if (obstacles == 0 && !to.asked_.source && !to.settings_.rods_collide) return;
   find_reaches();
-  if (to.source_ || to.settings_.rods_collide) {
+  if (to.asked_.source || to.settings_.rods_collide) {
     for (uint32_t s = first_strand(); s < end_strand(); ++s) {
       for (uint32_t i = 0; i < batch.segment_count_; ++i) add_sweep(s, i);
     }
   }
-  for (uint32_t i = 0; i < to.point_count_; ++i) add_point(to.points_[i], kPoint);
-  for (uint32_t i = 0; i < to.plane_count_; ++i) add_plane(to.planes_[i], i);
-  for (uint32_t i = 0; i < to.sphere_count_; ++i) add_round(capsule_of(to.spheres_[i]), kSphere, i);
-  for (uint32_t i = 0; i < to.capsule_count_; ++i) add_round(to.capsules_[i], kCapsule, i);
-  if (to.source_) add_hits();
+  for (uint32_t i = 0; i < to.obstacles_.point_count; ++i) add_point(to.obstacles_.points[i], kPoint);
+  for (uint32_t i = 0; i < to.obstacles_.plane_count; ++i) add_plane(to.obstacles_.planes[i], i);
+  for (uint32_t i = 0; i < to.obstacles_.sphere_count; ++i)
+    add_round(capsule_of(to.obstacles_.spheres[i]), kSphere, i);
+  for (uint32_t i = 0; i < to.obstacles_.capsule_count; ++i)
+    add_round(to.obstacles_.capsules[i], kCapsule, i);
+  if (to.asked_.source) add_hits();
   if (!to.settings_.rods_collide) return;
-  to.hash_.build(to.boxes_, (end_strand() - first_strand()) * batch.segment_count_);
-  to.hash_.for_pairs([this](uint32_t i, uint32_t j) { add_pair(i, j); });
+  to.near_by_.hash.build(to.near_by_.boxes, (end_strand() - first_strand()) * batch.segment_count_);
+  to.near_by_.hash.for_pairs([this](uint32_t i, uint32_t j) { add_pair(i, j); });
 }
 
 }  // namespace sinew::rods

@@ -25,9 +25,9 @@ struct ContactFinder {
   // The iterate in scratch is the step's first.
   void find() const noexcept;
   // Of the iterate as the step's end: what share of its way each strand of the range goes before an axis
-  // enters the core of a sphere or capsule, or before a strand that is near something is torn, into ways_;
-  // that core's own move in the step, into carries_. A source, which is asked where `ask`, stops axes at
-  // surfaces. Returns whether any is to be held; `again`: some were.
+  // enters the core of a sphere or capsule, or before a strand that is near something is torn, into
+  // progress_.ways; that core's own move in the step, into progress_.carries. A source, which is asked where
+  // `ask`, stops axes at surfaces. Returns whether any is to be held; `again`: some were.
   bool find_holds(bool again) const noexcept;
 
  private:
@@ -47,14 +47,14 @@ struct ContactFinder {
     return h ^ h >> 29;
   }
 
-  uint32_t first_strand() const { return to.range_.first_group * batch.width_; }
+  uint32_t first_strand() const { return to.places_.range.first_group * batch.width_; }
   uint32_t end_strand() const;
   size_t local(uint32_t strand, uint32_t segment) const {
     return size_t{to.seat(strand)} * batch.segment_count_ + segment;
   }
   uint32_t strand_of(uint32_t local) const {
     const uint32_t seat = local / batch.segment_count_;
-    return to.homes_[batch.group_of(seat)] * batch.width_ + batch.lane_of(seat);
+    return to.places_.homes[batch.group_of(seat)] * batch.width_ + batch.lane_of(seat);
   }
   bool free(uint32_t strand, uint32_t segment) const;
   double mass_kg(uint32_t strand, uint32_t segment) const;
@@ -63,14 +63,16 @@ struct ContactFinder {
   void add_sweep(uint32_t strand, uint32_t segment) const;
   const Sweep& sweep(uint32_t strand, uint32_t segment) const;
   void find_reaches() const;
-  size_t place_of(uint32_t group) const { return to.range_.first_place + group - to.range_.first_group; }
+  size_t place_of(uint32_t group) const {
+    return to.places_.range.first_place + group - to.places_.range.first_group;
+  }
   simd::RodReachJob reach_job(uint32_t group) const;
   void place_lanes(uint32_t group) const;
-  // Into near_lanes_, of one group; false: none.
+  // Into near_by_.near_lanes, of one group; false: none.
   bool near(uint32_t group, const simd::RodRound& round) const;
   bool near(uint32_t group, const simd::RodFlat& flat) const;
   bool may_enter(uint32_t group) const;
-  // found(strand, segment) of near_lanes_.
+  // found(strand, segment) of near_by_.near_lanes.
   template <class Found>
   void for_near(uint32_t group, const Found& found) const;
   void touch(uint32_t group, uint32_t segment, uint32_t lanes, const simd::RodRound& round,

@@ -15,7 +15,7 @@ constexpr double kRoundings = 1e-5;  // of a way in float, and of a segment's le
 }  // namespace
 
 uint32_t ContactForces::end_strand() const {
-  return std::min(batch.strand_count_, first_strand() + to.range_.groups * batch.width_);
+  return std::min(batch.strand_count_, first_strand() + to.places_.range.groups * batch.width_);
 }
 
 // What a side's point moved in this step.
@@ -61,49 +61,51 @@ bool ContactForces::is_clear(const Contact& c) {
 
 void ContactForces::leave_out(Contact* c) const {
   c->is_left_out = true;
-  double& clear = to.clear_m_[c->sides[0].strand];
+  double& clear = to.progress_.clear_m[c->sides[0].strand];
   clear = std::min(clear, clear_m(*c));
 }
 
 // All strands of the range, and contacts but what is clear.
 void ContactForces::go_on() const {
-  to.first_going_strand_ = to.going_strand_count_;
-  to.first_going_contact_ = to.going_contact_count_;
+  to.going_.first_strand = to.going_.strand_count;
+  to.going_.first_contact = to.going_.contact_count;
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {
-    to.going_strands_[to.going_strand_count_++] = s;
-    to.clear_m_[s] = std::numeric_limits<double>::max();
-    to.passed_m_[s] = to.moves_m_[s] = 0;
+    to.going_.strands[to.going_.strand_count++] = s;
+    to.progress_.clear_m[s] = std::numeric_limits<double>::max();
+    to.progress_.passed_m[s] = to.progress_.moves_m[s] = 0;
   }
-  for (uint32_t i = to.range_.first_contact; i < to.range_.end_contact; ++i) {
-    Contact& c = to.contacts_[i];
+  for (uint32_t i = to.places_.range.first_contact; i < to.places_.range.end_contact; ++i) {
+    Contact& c = to.found_.contacts[i];
     is_clear(c) ? leave_out(&c) : take_in(i);
   }
 }
 
 void ContactForces::take_in(uint32_t contact) const {
-  to.contacts_[contact].is_left_out = false;
-  to.going_contacts_[to.going_contact_count_++] = contact;
+  to.found_.contacts[contact].is_left_out = false;
+  to.going_.contacts[to.going_.contact_count++] = contact;
 }
 
 // Whether a strand may have got to a contact that is left out.
 bool ContactForces::any_reached() const {
-  const auto reached = [this](uint32_t s) { return !(to.clear_m_[s] > to.passed_m_[s] + to.moves_m_[s]); };
+  const auto reached = [this](uint32_t s) {
+    return !(to.progress_.clear_m[s] > to.progress_.passed_m[s] + to.progress_.moves_m[s]);
+  };
   return std::any_of(going_strands().begin(), going_strands().end(), reached);
 }
 
 // What was left out and may have been reached goes on too, from what it was open by before, at least.
 void ContactForces::take_in_what_was_reached() const {
   for (const uint32_t s : going_strands()) {
-    if (to.iterated_[s]) to.clear_m_[s] = std::numeric_limits<double>::max();
+    if (to.progress_.iterated[s]) to.progress_.clear_m[s] = std::numeric_limits<double>::max();
   }
-  for (uint32_t i = to.range_.first_contact; i < to.range_.end_contact; ++i) {
-    Contact& c = to.contacts_[i];
+  for (uint32_t i = to.places_.range.first_contact; i < to.places_.range.end_contact; ++i) {
+    Contact& c = to.found_.contacts[i];
     const uint32_t s = c.sides[0].strand;
-    if (!c.is_left_out || !to.iterated_[s]) continue;
-    if (clear_m(c) > to.passed_m_[s] + to.moves_m_[s]) {
+    if (!c.is_left_out || !to.progress_.iterated[s]) continue;
+    if (clear_m(c) > to.progress_.passed_m[s] + to.progress_.moves_m[s]) {
       leave_out(&c);
     } else {
-      c.open_m -= to.passed_m_[s];
+      c.open_m -= to.progress_.passed_m[s];
       take_in(i);
     }
   }
@@ -115,18 +117,18 @@ void ContactForces::leave_out_what_rests() const {
   const auto keep = [](uint32_t* from, uint32_t* end, const auto& goes) {
     return std::remove_if(from, end, [&](uint32_t i) { return !goes(i); });
   };
-  uint32_t* strands = to.going_strands_;
-  to.going_strand_count_ =
-      static_cast<uint32_t>(keep(strands + to.first_going_strand_, strands + to.going_strand_count_,
+  uint32_t* strands = to.going_.strands;
+  to.going_.strand_count =
+      static_cast<uint32_t>(keep(strands + to.going_.first_strand, strands + to.going_.strand_count,
                                  [&](uint32_t s) {
-                                   to.iterated_[s] = goes_on(s);
+                                   to.progress_.iterated[s] = goes_on(s);
                                    return goes_on(s);
                                  }) -
                             strands);
-  uint32_t* contacts = to.going_contacts_;
-  to.going_contact_count_ =
-      static_cast<uint32_t>(keep(contacts + to.first_going_contact_, contacts + to.going_contact_count_,
-                                 [&](uint32_t i) { return goes_on(to.contacts_[i].sides[0].strand); }) -
+  uint32_t* contacts = to.going_.contacts;
+  to.going_.contact_count =
+      static_cast<uint32_t>(keep(contacts + to.going_.first_contact, contacts + to.going_.contact_count,
+                                 [&](uint32_t i) { return goes_on(to.found_.contacts[i].sides[0].strand); }) -
                             contacts);
 }
 
@@ -140,39 +142,39 @@ void ContactForces::begin() const noexcept {
   looks.end();
   find_ways();
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {
-    to.turning_[s] = to.near_[s] = 0;
-    to.pending_[s] = 1;
-    for (uint32_t i = 0; to.ways_[s] < 1 && i < batch.segment_count_; ++i) step_back(s, i);
+    to.progress_.turning[s] = to.progress_.near[s] = 0;
+    to.progress_.pending[s] = 1;
+    for (uint32_t i = 0; to.progress_.ways[s] < 1 && i < batch.segment_count_; ++i) step_back(s, i);
   }
   for (Contact& c : contacts()) {
     if (stepped_back(c)) look(&c);
-    to.near_[c.sides[0].strand] = 1;
-    if (c.has_two_rods()) to.near_[c.sides[1].strand] = 1;
+    to.progress_.near[c.sides[0].strand] = 1;
+    if (c.has_two_rods()) to.progress_.near[c.sides[1].strand] = 1;
   }
   go_on();
-  for (const uint32_t i : going_contacts()) begin_friction(&to.contacts_[i]);
+  for (const uint32_t i : going_contacts()) begin_friction(&to.found_.contacts[i]);
 }
 
 // How far the last iteration moved a point of a strand, at most.
 double ContactForces::moved_m(uint32_t s) const {
-  if (!to.iterated_[s]) return 0;
+  if (!to.progress_.iterated[s]) return 0;
   const double length = static_cast<double>(batch.units_[s].length_m);
   return length * ((1 + kRoundings) * static_cast<double>(lane(s, simd::kLaneMoved)) + kRoundings);
 }
 
 uint32_t ContactForces::settle(uint32_t left) const noexcept {
   for (const uint32_t s : going_strands()) {
-    to.iterated_[s] = to.turning_[s] | to.pending_[s];
-    to.turning_[s] = active(s) != 0;
-    to.pending_[s] = 0;
-    to.misses_[s] = to.presses_[s] = 0;
-    to.moves_m_[s] = moved_m(s);
+    to.progress_.iterated[s] = to.progress_.turning[s] | to.progress_.pending[s];
+    to.progress_.turning[s] = active(s) != 0;
+    to.progress_.pending[s] = 0;
+    to.progress_.misses[s] = to.progress_.presses[s] = 0;
+    to.progress_.moves_m[s] = moved_m(s);
   }
   if (any_reached()) take_in_what_was_reached();
-  for (const uint32_t s : going_strands()) to.passed_m_[s] += to.moves_m_[s];
+  for (const uint32_t s : going_strands()) to.progress_.passed_m[s] += to.progress_.moves_m[s];
   ContactLooks looks(*this);
   for (const uint32_t i : going_contacts()) {
-    Contact& c = to.contacts_[i];
+    Contact& c = to.found_.contacts[i];
     if (!iterated(c)) continue;
     c.open_before_m = c.open_m;
     c.slip_before_m = c.slip_m;
@@ -183,14 +185,16 @@ uint32_t ContactForces::settle(uint32_t left) const noexcept {
   stop_at_new_contacts(left);
   ContactTakes takes(*this);
   for (const uint32_t i : going_contacts()) {
-    if (iterated(to.contacts_[i])) takes.add(&to.contacts_[i]);
+    if (iterated(to.found_.contacts[i])) takes.add(&to.found_.contacts[i]);
   }
   takes.end();
   uint32_t count = 0;
   for (const uint32_t s : going_strands()) {
-    to.pending_[s] |= to.iterated_[s] && to.ways_[s] < 1;  // what is cut short has not got to its end
-    to.pending_[s] |= to.misses_[s] > static_cast<double>(to.settings_.tolerance) * to.presses_[s];
-    active(s) = to.turning_[s] | to.pending_[s] ? 1.0f : 0.0f;
+    to.progress_.pending[s] |=
+        to.progress_.iterated[s] && to.progress_.ways[s] < 1;  // what is cut short has not got to its end
+    to.progress_.pending[s] |=
+        to.progress_.misses[s] > static_cast<double>(to.settings_.tolerance) * to.progress_.presses[s];
+    active(s) = to.progress_.turning[s] | to.progress_.pending[s] ? 1.0f : 0.0f;
     count += active(s) != 0;
   }
   leave_out_what_rests();
@@ -215,22 +219,22 @@ double ContactForces::last_turn(uint32_t strand) const {
 
 void ContactForces::forgive() const noexcept {
   const double most = kForgiven * static_cast<double>(batch.settings_.tolerance_rad);
-  const uint8_t *first = to.turning_ + first_strand(), *end = to.turning_ + end_strand();
+  const uint8_t *first = to.progress_.turning + first_strand(), *end = to.progress_.turning + end_strand();
   if (std::none_of(first, end, [](uint8_t turns) { return turns; })) return;
   for (const Contact& c : contacts()) {
     for (const Contact::Side& side : c.sides) {
       if (side.segment == kNoSegment) continue;
-      if (!(c.force > 0) || !to.turning_[side.strand] || !(last_turn(side.strand) < most)) continue;
-      to.turning_[side.strand] = 0;
-      to.pending_[side.strand] = 1;
+      if (!(c.force > 0) || !to.progress_.turning[side.strand] || !(last_turn(side.strand) < most)) continue;
+      to.progress_.turning[side.strand] = 0;
+      to.progress_.pending[side.strand] = 1;
     }
   }
 }
 
 void ContactForces::hold() const noexcept {
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {
-    if (!(to.ways_[s] < 1)) continue;
-    to.turning_[s] = to.pending_[s] = 1;
+    if (!(to.progress_.ways[s] < 1)) continue;
+    to.progress_.turning[s] = to.progress_.pending[s] = 1;
     for (uint32_t i = 0; i < batch.segment_count_; ++i) hold(s, i);
   }
   for (Contact& c : contacts()) look(&c);
@@ -239,8 +243,8 @@ void ContactForces::hold() const noexcept {
 // No change to go on with.
 void ContactForces::forget_changes() const {
   for (Contact& c : contacts()) {
-    const bool ended =
-        !to.pending_[c.sides[0].strand] && !(c.has_two_rods() && to.pending_[c.sides[1].strand]);
+    const bool ended = !to.progress_.pending[c.sides[0].strand] &&
+                       !(c.has_two_rods() && to.progress_.pending[c.sides[1].strand]);
     if (!ended) c.last = {};
   }
 }
@@ -248,11 +252,11 @@ void ContactForces::forget_changes() const {
 uint32_t ContactForces::end() const noexcept {
   uint32_t count = 0;
   for (uint32_t s = first_strand(); s < end_strand(); ++s) {
-    active(s) = to.turning_[s] ? 1.0f : 0.0f;
-    count += to.pending_[s];
+    active(s) = to.progress_.turning[s] ? 1.0f : 0.0f;
+    count += to.progress_.pending[s];
   }
   if (count > 0) forget_changes();
-  std::fill(to.pending_ + first_strand(), to.pending_ + end_strand(), uint8_t{1});
+  std::fill(to.progress_.pending + first_strand(), to.progress_.pending + end_strand(), uint8_t{1});
   // What the residual is measured with is of all strands.
   if (batch.settings_.report_residual) assemble_ended();
   return count;

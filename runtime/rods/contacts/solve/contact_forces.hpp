@@ -37,13 +37,13 @@ struct ContactForces {
   friend class ContactLooks;
   friend class ContactTakes;
   friend class ContactPushes;
-  uint32_t first_strand() const { return to.range_.first_group * batch.width_; }
+  uint32_t first_strand() const { return to.places_.range.first_group * batch.width_; }
   uint32_t end_strand() const;
   float& lane(uint32_t strand, uint32_t field) const {
     const uint32_t at = to.seat(strand), place = batch.group_of(at);
-    const bool packed = place >= to.home_groups_;
-    float* lanes = packed ? to.packed_lanes_ : batch.lanes_;
-    const size_t group = packed ? place - to.home_groups_ : to.homes_[place];
+    const bool packed = place >= to.places_.home_groups;
+    float* lanes = packed ? to.places_.packed_lanes : batch.lanes_;
+    const size_t group = packed ? place - to.places_.home_groups : to.places_.homes[place];
     return lanes[(group * simd::kLaneFields + field) * batch.width_ + batch.lane_of(at)];
   }
   float& active(uint32_t strand) const { return lane(strand, simd::kLaneActive); }
@@ -53,21 +53,25 @@ struct ContactForces {
     return {q[0], q[w], q[2 * w], q[3 * w]};
   }
   std::span<Contact> contacts() const {
-    return {to.contacts_ + to.range_.first_contact, to.range_.end_contact - to.range_.first_contact};
+    return {to.found_.contacts + to.places_.range.first_contact,
+            to.places_.range.end_contact - to.places_.range.first_contact};
   }
   // Of the range, and what of it goes on.
   std::span<const uint32_t> going_strands() const {
-    return {to.going_strands_ + to.first_going_strand_, to.going_strand_count_ - to.first_going_strand_};
+    return {to.going_.strands + to.going_.first_strand, to.going_.strand_count - to.going_.first_strand};
   }
   std::span<const uint32_t> going_contacts() const {
-    return {to.going_contacts_ + to.first_going_contact_, to.going_contact_count_ - to.first_going_contact_};
+    return {to.going_.contacts + to.going_.first_contact, to.going_.contact_count - to.going_.first_contact};
   }
-  bool goes_on(uint32_t strand) const { return (to.turning_[strand] | to.pending_[strand]) != 0; }
+  bool goes_on(uint32_t strand) const {
+    return (to.progress_.turning[strand] | to.progress_.pending[strand]) != 0;
+  }
   bool goes_on(const Contact& c) const {
     return goes_on(c.sides[0].strand) || (c.has_two_rods() && goes_on(c.sides[1].strand));
   }
   bool iterated(const Contact& c) const {
-    return to.iterated_[c.sides[0].strand] || (c.has_two_rods() && to.iterated_[c.sides[1].strand]);
+    return to.progress_.iterated[c.sides[0].strand] ||
+           (c.has_two_rods() && to.progress_.iterated[c.sides[1].strand]);
   }
   static bool is_clear(const Contact& contact);
   void leave_out(Contact* contact) const;
@@ -100,8 +104,8 @@ struct ContactForces {
   // Where gap and slip are not as exact as wanted its strands are not done.
   void keep_pending(const Contact& contact, bool exact) const {
     if (exact) return;
-    to.pending_[contact.sides[0].strand] = 1;
-    if (contact.has_two_rods()) to.pending_[contact.sides[1].strand] = 1;
+    to.progress_.pending[contact.sides[0].strand] = 1;
+    if (contact.has_two_rods()) to.progress_.pending[contact.sides[1].strand] = 1;
   }
   double tolerance_m(const Contact& contact) const;
   double nothing_m(const Contact& contact) const;

@@ -119,8 +119,8 @@ bool ContactForces::is_exact(const Contact& c, const Before& before) const {
 void ContactForces::add_miss(const Contact& c, double miss) const {
   for (const Contact::Side& side : c.sides) {
     if (side.segment == kNoSegment) continue;
-    to.misses_[side.strand] += miss;
-    to.presses_[side.strand] += (c.friction > 0 ? c.friction : 1.0) * c.force;
+    to.progress_.misses[side.strand] += miss;
+    to.progress_.presses[side.strand] += (c.friction > 0 ? c.friction : 1.0) * c.force;
   }
 }
 

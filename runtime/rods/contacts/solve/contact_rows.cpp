@@ -13,18 +13,18 @@ constexpr size_t triangle(size_t row, size_t column) { return row * (row + 1) / 
 // Rows that an iteration used up become zero.
 void ContactForces::clear() const noexcept {
   const size_t rows = size_t{simd::kRodContactRows} * batch.width_;
-  for (uint32_t k = 0; k < to.touched_count_; ++k) {
-    std::fill_n(to.rows_ + to.touched_list_[k] * rows, rows, 0.0f);
-    to.touched_[to.touched_list_[k]] = 0;
+  for (uint32_t k = 0; k < to.forces_on_.touched_count; ++k) {
+    std::fill_n(to.forces_on_.rows + to.forces_on_.touched_list[k] * rows, rows, 0.0f);
+    to.forces_on_.touched[to.forces_on_.touched_list[k]] = 0;
   }
-  to.touched_count_ = 0;
+  to.forces_on_.touched_count = 0;
 }
 
 void ContactForces::assemble() const noexcept {
   clear();
   for (const uint32_t s : going_strands()) lane(s, simd::kLaneLargestShare) = simd::kRodLargestShare;
   ContactPushes pushes(*this);
-  for (const uint32_t i : going_contacts()) pushes.add(to.contacts_[i]);
+  for (const uint32_t i : going_contacts()) pushes.add(to.found_.contacts[i]);
   pushes.end();
 }
 
@@ -55,11 +55,11 @@ void ContactForces::add(const Contact& c) const {
 float* ContactForces::touched_rows(uint32_t strand, uint32_t segment) const {
   const uint32_t at = to.seat(strand);
   const uint32_t place = batch.group_of(at) * batch.segment_count_ + batch.slots_[segment];
-  if (!to.touched_[place]) {
-    to.touched_[place] = 1;
-    to.touched_list_[to.touched_count_++] = place;
+  if (!to.forces_on_.touched[place]) {
+    to.forces_on_.touched[place] = 1;
+    to.forces_on_.touched_list[to.forces_on_.touched_count++] = place;
   }
-  return to.rows_ + size_t{place} * simd::kRodContactRows * batch.width_ + batch.lane_of(at);
+  return to.forces_on_.rows + size_t{place} * simd::kRodContactRows * batch.width_ + batch.lane_of(at);
 }
 
 // J^T K J and J^T force of a side's point, K = pressed n n^T + held (1 - n n^T), J = (1, -[arm] R): in units

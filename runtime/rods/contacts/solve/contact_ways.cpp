@@ -14,7 +14,7 @@ constexpr double kAcross = 1.5;  // the same: next to where two rods' axes cross
 
 // What share of its way a strand goes before it is deep in something.
 void ContactForces::find_ways() const {
-  std::fill(to.ways_ + first_strand(), to.ways_ + end_strand(), 1.0);
+  std::fill(to.progress_.ways + first_strand(), to.progress_.ways + end_strand(), 1.0);
   for (const Contact& c : contacts()) {
     if (!(c.open_m < -kDeep * c.scale_m)) continue;
     shorten(c, std::max(c.gap_m - c.allowed_m, 0.0), kDeep);
@@ -22,7 +22,8 @@ void ContactForces::find_ways() const {
 }
 
 bool ContactForces::stepped_back(const Contact& c) const {
-  return to.ways_[c.sides[0].strand] < 1 || (c.has_two_rods() && to.ways_[c.sides[1].strand] < 1);
+  return to.progress_.ways[c.sides[0].strand] < 1 ||
+         (c.has_two_rods() && to.progress_.ways[c.sides[1].strand] < 1);
 }
 
 // A way that opened at `start` and leads deep into a contact ends where the contact has just closed; one that
@@ -30,13 +31,14 @@ bool ContactForces::stepped_back(const Contact& c) const {
 void ContactForces::shorten(const Contact& c, double start, double deep) const {
   const double least = (start > 0 ? 0.25 * deep : kAcross) * c.scale_m;
   const double way = std::max(0.0, start + least) / (start - c.open_m);
-  to.ways_[c.sides[0].strand] = std::min(to.ways_[c.sides[0].strand], way);
-  if (c.has_two_rods()) to.ways_[c.sides[1].strand] = std::min(to.ways_[c.sides[1].strand], way);
+  to.progress_.ways[c.sides[0].strand] = std::min(to.progress_.ways[c.sides[0].strand], way);
+  if (c.has_two_rods())
+    to.progress_.ways[c.sides[1].strand] = std::min(to.progress_.ways[c.sides[1].strand], way);
 }
 
-// The iterate's turn: ways_'s share of the way from the step's start to the turn in `field`.
+// The iterate's turn: progress_.ways's share of the way from the step's start to the turn in `field`.
 void ContactForces::turn_part(uint32_t strand, uint32_t segment, uint32_t field) const {
-  const double way = to.ways_[strand];
+  const double way = to.progress_.ways[strand];
   Turn before, after;
   for (uint32_t k = 0; k < 4; ++k) {
     before[k] = static_cast<double>(batch.at(strand, segment, simd::kRodTurn + k));
@@ -53,7 +55,7 @@ void ContactForces::turn_part(uint32_t strand, uint32_t segment, uint32_t field)
 // The iterate that share of the way to free motion, without forces.
 void ContactForces::step_back(uint32_t strand, uint32_t segment) const {
   if (batch.at(strand, segment, simd::kRodFree) == 0) return;
-  const double way = to.ways_[strand];
+  const double way = to.progress_.ways[strand];
   const auto row = [&](uint32_t field) { return to.scratch_row(batch, strand, segment, field); };
   for (uint32_t k = 0; k < 3; ++k) {
     *row(simd::kRodMove + k) = static_cast<float>(way * static_cast<double>(*row(simd::kRodFreeMove + k)));
@@ -68,7 +70,7 @@ void ContactForces::take_back(uint32_t strand) const {
   const auto change = [&](uint32_t i, uint32_t k) {
     return static_cast<double>(*row(i, simd::kRodImpulse + k));
   };
-  const double taken = static_cast<double>(lane(strand, simd::kLaneShare)), way = to.ways_[strand];
+  const double taken = static_cast<double>(lane(strand, simd::kLaneShare)), way = to.progress_.ways[strand];
   const double back = taken * (1 - way);
   const auto less = [&](float* value, double by) {
     *value = static_cast<float>(static_cast<double>(*value) - by);
@@ -101,10 +103,10 @@ double ContactForces::deep_after(uint32_t left) const {
 // No iteration goes deep into what it did not touch, nor deeper into what it did: ways end there.
 void ContactForces::stop_at_new_contacts(uint32_t left) const {
   const double deep = deep_after(left);
-  for (const uint32_t s : going_strands()) to.ways_[s] = 1;
+  for (const uint32_t s : going_strands()) to.progress_.ways[s] = 1;
   bool any = false;
   for (const uint32_t i : going_contacts()) {
-    const Contact& c = to.contacts_[i];
+    const Contact& c = to.found_.contacts[i];
     if (!(c.open_before_m > 0) && c.allowed_m < 0) continue;  // it began deep
     const double most = c.open_before_m > 0 ? deep : kAcross;
     if (!iterated(c) || !(c.open_m < -most * c.scale_m) || c.open_m >= c.open_before_m) continue;
@@ -113,19 +115,20 @@ void ContactForces::stop_at_new_contacts(uint32_t left) const {
   }
   if (!any) return;
   for (const uint32_t s : going_strands()) {
-    if (to.ways_[s] < 1 && to.iterated_[s]) take_back(s);
+    if (to.progress_.ways[s] < 1 && to.progress_.iterated[s]) take_back(s);
   }
   for (const uint32_t i : going_contacts()) {
-    if (stepped_back(to.contacts_[i])) look(&to.contacts_[i]);
+    if (stepped_back(to.found_.contacts[i])) look(&to.found_.contacts[i]);
   }
 }
 
 void ContactForces::hold(uint32_t strand, uint32_t segment) const {
   if (batch.at(strand, segment, simd::kRodFree) == 0) return;
-  const double way = to.ways_[strand], l = static_cast<double>(batch.units_[strand].length_m);
+  const double way = to.progress_.ways[strand], l = static_cast<double>(batch.units_[strand].length_m);
   for (uint32_t k = 0; k < 3; ++k) {
     float& move = *to.scratch_row(batch, strand, segment, simd::kRodMove + k);
-    move = static_cast<float>(way * static_cast<double>(move) + (1 - way) * to.carries_[strand][k] / l);
+    move =
+        static_cast<float>(way * static_cast<double>(move) + (1 - way) * to.progress_.carries[strand][k] / l);
   }
   turn_part(strand, segment, simd::kRodNow);
 }

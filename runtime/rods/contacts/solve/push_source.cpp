@@ -13,10 +13,10 @@ constexpr double kLeastShare = 1e-6;
 // What the iteration's linear system made of each hit's force, as far as the iteration was taken, before its
 // contact is looked at again.
 void ContactForces::find_felt() const {
-  for (uint32_t i = to.range_.first_hit; i < to.range_.end_hit; ++i) {
-    RodCollider::Taken& taken = to.taken_[i];
-    if (taken.contact == RodCollider::kNoContact) continue;
-    const Contact& c = to.contacts_[taken.contact];
+  for (uint32_t i = to.places_.range.first_hit; i < to.places_.range.end_hit; ++i) {
+    TakenHit& taken = to.asked_.taken[i];
+    if (taken.contact == kNoContact) continue;
+    const Contact& c = to.found_.contacts[taken.contact];
     if (!iterated(c)) continue;
     const ContactForce f = forces_of(c, c.open_before_m, c.slip_before_m);
     const double share = share_of(c), per_share = 1 / std::max(share, kLeastShare);
@@ -52,29 +52,31 @@ double ContactForces::moved_kg_m(uint32_t strand) const {
 
 // Forces that did not settle are of any size.
 void ContactForces::limit_felt() const {
-  std::fill(to.pushes_ + first_strand(), to.pushes_ + end_strand(), 0.0);
-  const auto strand_of = [&](uint32_t i) { return to.contacts_[to.taken_[i].contact].sides[0].strand; };
-  const auto counts = [&](uint32_t i) {
-    if (to.taken_[i].contact == RodCollider::kNoContact) return false;
-    const uint32_t s = strand_of(i);
-    return (to.turning_[s] | to.pending_[s]) != 0;
+  std::fill(to.asked_.pushes + first_strand(), to.asked_.pushes + end_strand(), 0.0);
+  const auto strand_of = [&](uint32_t i) {
+    return to.found_.contacts[to.asked_.taken[i].contact].sides[0].strand;
   };
-  for (uint32_t i = to.range_.first_hit; i < to.range_.end_hit; ++i) {
-    if (counts(i)) to.pushes_[strand_of(i)] += length(to.taken_[i].felt);
+  const auto counts = [&](uint32_t i) {
+    if (to.asked_.taken[i].contact == kNoContact) return false;
+    const uint32_t s = strand_of(i);
+    return (to.progress_.turning[s] | to.progress_.pending[s]) != 0;
+  };
+  for (uint32_t i = to.places_.range.first_hit; i < to.places_.range.end_hit; ++i) {
+    if (counts(i)) to.asked_.pushes[strand_of(i)] += length(to.asked_.taken[i].felt);
   }
-  for (uint32_t i = to.range_.first_hit; i < to.range_.end_hit; ++i) {
+  for (uint32_t i = to.places_.range.first_hit; i < to.places_.range.end_hit; ++i) {
     if (!counts(i)) continue;
-    const double most = moved_kg_m(strand_of(i)), all = to.pushes_[strand_of(i)];
-    if (!(all <= most)) to.taken_[i].felt = scaled(most / all, to.taken_[i].felt);
+    const double most = moved_kg_m(strand_of(i)), all = to.asked_.pushes[strand_of(i)];
+    if (!(all <= most)) to.asked_.taken[i].felt = scaled(most / all, to.asked_.taken[i].felt);
   }
 }
 
 void ContactForces::place_hits() const noexcept {
-  if (to.range_.end_hit > to.range_.first_hit) limit_felt();
-  for (uint32_t i = to.range_.first_hit; i < to.range_.end_hit; ++i) {
-    RodCollider::Taken& taken = to.taken_[i];
-    if (taken.contact == RodCollider::kNoContact) continue;
-    const Contact& c = to.contacts_[taken.contact];
+  if (to.places_.range.end_hit > to.places_.range.first_hit) limit_felt();
+  for (uint32_t i = to.places_.range.first_hit; i < to.places_.range.end_hit; ++i) {
+    TakenHit& taken = to.asked_.taken[i];
+    if (taken.contact == kNoContact) continue;
+    const Contact& c = to.found_.contacts[taken.contact];
     const Contact::Side& s = c.sides[0];
     const RodBatch::Units& units = batch.units_[s.strand];
     const Vector middle = scaled_sum(static_cast<double>(units.length_m), batch.place(s.strand, s.segment),
@@ -85,12 +87,12 @@ void ContactForces::place_hits() const noexcept {
 }
 
 void RodCollider::push(float dt_s) const noexcept {
-  for (uint32_t i = 0; i < hit_count_; ++i) {
-    const Vector impulse = scaled(-1 / static_cast<double>(dt_s), taken_[i].felt);
-    if (!(dot(impulse, impulse) > 0) || !finite(impulse) || !finite(taken_[i].point_m)) continue;
-    const Vector& p = taken_[i].point_m;
-    source_->push(
-        hits_[i], {p[0] + origin_m_[0], p[1] + origin_m_[1], p[2] + origin_m_[2]},
+  for (uint32_t i = 0; i < asked_.hit_count; ++i) {
+    const Vector impulse = scaled(-1 / static_cast<double>(dt_s), asked_.taken[i].felt);
+    if (!(dot(impulse, impulse) > 0) || !finite(impulse) || !finite(asked_.taken[i].point_m)) continue;
+    const Vector& p = asked_.taken[i].point_m;
+    asked_.source->push(
+        asked_.hits[i], {p[0] + asked_.origin_m[0], p[1] + asked_.origin_m[1], p[2] + asked_.origin_m[2]},
         {static_cast<float>(impulse[0]), static_cast<float>(impulse[1]), static_cast<float>(impulse[2])});
   }
 }
