@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "baker/measure/yardstick.hpp"
+#include "character/life/create_instance.hpp"
 
 namespace sinew::baker {
 namespace {

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "baker/common/lone_instance.hpp"
+#include "character/describe_instance.hpp"
 #include "core/aligned_block.hpp"
 #include "samples/hair/character.hpp"
 #include "samples/hair/hair.hpp"
-#include "world/describe_instance.hpp"
 
 namespace sinew::sample {
 

@@ -7,6 +7,7 @@
 #include "character/instance.hpp"
 #include "character/life/create_instance.hpp"
 #include "tests/world/stage.hpp"
+#include "tissue/network/network.hpp"
 
 namespace sinew::test {
 

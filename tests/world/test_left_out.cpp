@@ -1,5 +1,7 @@
 // test_left_out.cpp  Control graphs that leave regions out: skinned there, untouched elsewhere.
+#include "character/describe_instance.hpp"
 #include "character/life/snapshot.hpp"
+#include "character/rest/asleep.hpp"
 #include "character/rest/sleep.hpp"
 #include "tests/scenes/half_spaces.hpp"
 #include "tests/world/told_block.hpp"
