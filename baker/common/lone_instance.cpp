@@ -33,10 +33,10 @@ std::span<Matrix34> LoneInstance::joints() {
 
 void LoneInstance::step(const Plan& plan, uint32_t ticks) {
   instance_.state->poses.has_next = 1;
-  instance_.plan = {.ticks = {.ticks = ticks, .first_tick_s = asset_.tick_s},
-                    .dt_s = asset_.tick_s,
-                    .tier = plan.tier,
-                    .level = frame::is_simulated(plan.tier) ? plan.level : instance_.state->level};
+  const uint32_t level = frame::is_simulated(plan.tier) ? plan.level : instance_.state->level;
+  instance_.plan = {.decision = {.level = level, .tier = plan.tier},
+                    .ticks = {.ticks = ticks, .first_tick_s = asset_.tick_s},
+                    .dt_s = asset_.tick_s};
   instance_.parameters.sleep_tolerance = sleep_tolerance;
   world::step_instance(instance_, {.clock = {}, .profiler = {}, .frame_s = asset_.tick_s});
 }

@@ -7,6 +7,7 @@
 
 #include "baker/common/lone_instance.hpp"
 #include "character/output/publish.hpp"
+#include "character/tissue/drive_nodes.hpp"
 #include "character/tissue/simulate.hpp"
 #include "character/transition/blend.hpp"
 #include "core/floating_point.hpp"

@@ -21,6 +21,7 @@
 #include "character/rest/sleep.hpp"
 #include "character/rods/rod_motion.hpp"
 #include "character/tier_limit.hpp"
+#include "character/tissue/drive_nodes.hpp"
 #include "character/tissue/simulate.hpp"
 #include "character/transition/blend.hpp"
 #include "character/transition/catch_up.hpp"

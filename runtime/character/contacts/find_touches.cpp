@@ -152,10 +152,10 @@ Asked near_region(Instance& instance, const pack::RegionRecord& region, Asked as
 }
 
 // Both ends of a probe are the same point: what is answered twice is one.
-bool is_known(const Instance& instance, uint32_t first, const Touch& touch) {
+bool is_known(const ContactState& contacts, uint32_t first, const Touch& touch) {
   constexpr float kSame = 0.999f;  // cosine
-  for (uint32_t t = first; t < instance.contacts.touch_count; ++t) {
-    const Touch& known = instance.contacts.touches[t];
+  for (uint32_t t = first; t < contacts.touch_count; ++t) {
+    const Touch& known = contacts.touches[t];
     const bool alike = ConstVector(known.normal).dot(ConstVector(touch.normal)) > kSame;
     if (known.vertex == touch.vertex && alike && known.gap_m <= touch.gap_m) return true;
   }
@@ -178,7 +178,7 @@ Touch touch_of(const Instance& instance, const Found& found, const ContactHit& h
 }
 
 void keep(Instance& instance, uint32_t first, const Touch& touch) {
-  if (is_known(instance, first, touch)) return;
+  if (is_known(instance.contacts, first, touch)) return;
   if (instance.contacts.touch_count == 2 * instance.level->patches.vertex_count)
     ++instance.told.dropped;
   else

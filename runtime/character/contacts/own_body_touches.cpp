@@ -53,16 +53,16 @@ struct MovingCapsule {
   double radius_m;
 };
 
-Vector in_world(const Instance& instance, const double* place_m) noexcept {
-  const auto& anchor = instance.state->rods.anchor_m;
+Vector in_world(const RodCounters& rods, const double* place_m) noexcept {
+  const auto& anchor = rods.anchor_m;
   return {anchor[0] + place_m[0], anchor[1] + place_m[1], anchor[2] + place_m[2]};
 }
 
 MovingCapsule capsule_of(const Instance& instance, uint32_t proxy) noexcept {
   const double *before = instance.contacts.proxy_before + size_t{6} * proxy,
                *now = instance.contacts.proxy_ends[0] + size_t{6} * proxy;
-  return {{in_world(instance, before), in_world(instance, before + 3)},
-          {in_world(instance, now), in_world(instance, now + 3)},
+  return {{in_world(instance.state->rods, before), in_world(instance.state->rods, before + 3)},
+          {in_world(instance.state->rods, now), in_world(instance.state->rods, now + 3)},
           static_cast<double>(instance.level->pack.proxies[proxy].radius_m)};
 }
 

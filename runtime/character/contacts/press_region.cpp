@@ -52,15 +52,15 @@ Vector3f mean_normal(std::span<const Touch> touches, const Touch& deepest) {
 }
 
 // The deepest touch of each node, of the region's most deeply touched nodes.
-size_t gather(Instance& instance, std::span<const Touch> touches, const Touch** out) {
-  for (const Touch& touch : touches) instance.contacts.deepest[touch.node] = 0;
+size_t gather(ContactState& contacts, std::span<const Touch> touches, const Touch** out) {
+  for (const Touch& touch : touches) contacts.deepest[touch.node] = 0;
   for (uint32_t t = 0; t < touches.size(); ++t) {
-    uint32_t& deepest = instance.contacts.deepest[touches[t].node];
+    uint32_t& deepest = contacts.deepest[touches[t].node];
     if (deepest == 0 || touches[t].gap_m < touches[deepest - 1].gap_m) deepest = t + 1;
   }
   size_t count = 0;
   for (uint32_t t = 0; t < touches.size(); ++t) {
-    if (instance.contacts.deepest[touches[t].node] != t + 1) continue;
+    if (contacts.deepest[touches[t].node] != t + 1) continue;
     if (count < tissue::kMostNodeContacts) {
       out[count++] = &touches[t];
       continue;
@@ -98,7 +98,7 @@ void press_region(Instance& instance, uint32_t r, std::span<const Touch> touches
   const pack::RegionRecord& region = instance.level->pack.regions[r];
   const Touch* chosen[tissue::kMostNodeContacts];
   tissue::NodeContact contacts[tissue::kMostNodeContacts];
-  const size_t count = gather(instance, touches, chosen);
+  const size_t count = gather(instance.contacts, touches, chosen);
   for (size_t c = 0; c < count; ++c) {
     Touch mean = *chosen[c];
     MapVector(mean.normal) = mean_normal(touches, *chosen[c]);

@@ -36,9 +36,9 @@ Vector3f held(const SurfacePoint& at, const Vector3f& push, float limit_m) {
 }
 
 // Of the first so many touches: by what presses from the same side.
-bool is_told(const Instance& instance, uint32_t first, const Touch& touch) {
+bool is_told(const ContactState& contacts, uint32_t first, const Touch& touch) {
   constexpr float kSameSide = 0.9f;  // cosine
-  return std::any_of(instance.contacts.touches, instance.contacts.touches + first, [&](const Touch& known) {
+  return std::any_of(contacts.touches, contacts.touches + first, [&](const Touch& known) {
     return known.vertex == touch.vertex && known.gap_m < 0 &&
            ConstVector(known.normal).dot(ConstVector(touch.normal)) > kSameSide;
   });
@@ -62,7 +62,7 @@ void push_vertex(Instance& instance, const Touch& touch, uint32_t told) {
   const Vector3f after = held(now, before + in_bind(now.world_from_bind, out * normal), most_m);
   for (size_t k = 0; k < 3; ++k) push[k * pitch] = after[static_cast<Eigen::Index>(k)];
   instance.contacts.pushed[touch.region] |= out > 0;
-  if (!(touch.gap_m < 0) || is_told(instance, told, touch)) return;
+  if (!(touch.gap_m < 0) || is_told(instance.contacts, told, touch)) return;
   ++instance.told.vertices;
   instance.told.volume_m3 +=
       vertex.area_m2 * std::max(0.0f, carried + normal.dot(now.world_from_bind * after));

@@ -125,10 +125,9 @@ struct JointPath {
   Vector3d step_m, turn;  // as far as the coming step is long; turn along now's axes
 };
 
-JointPath path_of(const Instance& instance, uint32_t joint, double ratio) noexcept {
-  JointPath path{split_joint(instance.motion.joints_before[joint]),
-                 split_joint(instance.motion.joints[joint]), split_joint(instance.motion.next_joints[joint]),
-                 Vector3d::Zero(), Vector3d::Zero()};
+JointPath path_of(const PoseHistory& motion, uint32_t joint, double ratio) noexcept {
+  JointPath path{split_joint(motion.joints_before[joint]), split_joint(motion.joints[joint]),
+                 split_joint(motion.next_joints[joint]), Vector3d::Zero(), Vector3d::Zero()};
   path.step_m = ratio * (place_of(path.now) - place_of(path.before));
   path.turn = ratio * logarithm(quaternion(path.before.rotation_xyzw).conjugate() *
                                 quaternion(path.now.rotation_xyzw));
@@ -156,10 +155,10 @@ Sieve sieve_of(const TeleportBounds& most) noexcept {
 
 // Cheaply, by differences of matrices: the turn of a joint that spins counts as a departure, and an angle as
 // its chord.
-bool may_teleport(const Instance& instance, uint32_t joint, float ratio, const Sieve& sieve) noexcept {
+bool may_teleport(const PoseHistory& motion, uint32_t joint, float ratio, const Sieve& sieve) noexcept {
   using Columns = Eigen::Map<const Eigen::Array<float, 4, 3>>;  // a row of the matrix each
-  const Columns before(&instance.motion.joints_before[joint].m[0][0]),
-      now(&instance.motion.joints[joint].m[0][0]), next(&instance.motion.next_joints[joint].m[0][0]);
+  const Columns before(&motion.joints_before[joint].m[0][0]), now(&motion.joints[joint].m[0][0]),
+      next(&motion.next_joints[joint].m[0][0]);
   const Eigen::Array<float, 4, 3> change = next - now - ratio * (now - before);
   const Eigen::Array4f off = change.square().rowwise().sum(), own = now.square().rowwise().sum();
   return off[3] > sieve.place || off[0] + off[1] + off[2] > sieve.linear * (own[0] + own[1] + own[2]);
@@ -182,23 +181,23 @@ Matrix34 compose(const Quaterniond& rotation, const float (&stretch)[9], const V
 }
 
 // Both past poses, so that they lead to the coming one as the last step went; as large as that.
-void rebase_joint(Instance& instance, uint32_t joint, const JointPath& path) noexcept {
+void rebase_joint(PoseHistory& motion, uint32_t joint, const JointPath& path) noexcept {
   const Quaterniond was = quaternion(path.now.rotation_xyzw);
   const Quaterniond now = quaternion(path.next.rotation_xyzw) * exponential(-path.turn);
   const Quaterniond turn = now * was.conjugate();
   const Vector3d at_m = place_of(path.next) - turn * path.step_m;
   const Vector3d before_m = at_m - turn * (place_of(path.now) - place_of(path.before));
-  instance.motion.joints_before[joint] =
+  motion.joints_before[joint] =
       compose(turn * quaternion(path.before.rotation_xyzw), path.next.stretch, before_m);
-  instance.motion.joints[joint] = compose(now, path.next.stretch, at_m);
+  motion.joints[joint] = compose(now, path.next.stretch, at_m);
 }
 
 // The one before, so that the coming step goes on from it; dt_before over dt is 1 / ratio.
-void go_on(Instance& instance, uint32_t joint, const JointPath& path, double ratio) noexcept {
+void go_on(PoseHistory& motion, uint32_t joint, const JointPath& path, double ratio) noexcept {
   if (!(ratio > 0)) return;
   const Quaterniond now = quaternion(path.now.rotation_xyzw);
   const Vector3d turn = logarithm(now.conjugate() * quaternion(path.next.rotation_xyzw));
-  instance.motion.joints_before[joint] =
+  motion.joints_before[joint] =
       compose(now * exponential(-turn / ratio), path.now.stretch,
               place_of(path.now) - (place_of(path.next) - place_of(path.now)) / ratio);
 }
@@ -211,18 +210,19 @@ bool carry_joints(Instance& instance, const TeleportBounds& most, bool all) noex
   uint32_t found = 0;
   for (uint32_t j = 0; j < instance.level->pack.character->joint_count; ++j) {
     uint32_t& mark = instance.motion.joint_teleports[j];
-    if (mark == kNone && !all && !may_teleport(instance, j, static_cast<float>(ratio), sieve)) continue;
-    const JointPath path = path_of(instance, j, ratio);
+    if (mark == kNone && !all && !may_teleport(instance.motion, j, static_cast<float>(ratio), sieve))
+      continue;
+    const JointPath path = path_of(instance.motion, j, ratio);
     const double off = joint_departure(path, most);
     if (all || off > 1) {
       if (mark == kNone)
-        rebase_joint(instance, j, path);
+        rebase_joint(instance.motion, j, path);
       else  // two cuts: of how it moves nothing is known
         instance.motion.joints_before[j] = instance.motion.joints[j] = instance.motion.next_joints[j];
       mark = kTeleports;
     } else if (mark != kNone && dt_s > 0) {
       mark = off > kAsBefore ? kGoesOn : kNone;
-      if (mark == kGoesOn) go_on(instance, j, path, ratio);
+      if (mark == kGoesOn) go_on(instance.motion, j, path, ratio);
     }
     found |= mark == kTeleports || mark == kGoesOn;
   }

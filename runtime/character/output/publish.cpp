@@ -25,16 +25,16 @@ bool put(float value, float& to) noexcept {
 
 // True when any bit of a region's delta is new. Of a tail it is what is left once its fading is left out:
 // carried_share has that.
-bool take_shown(Instance& instance, const pack::RegionRecord& region, const float* shown) noexcept {
+bool take_shown(Published& published, const pack::RegionRecord& region, const float* shown) noexcept {
   const size_t begin = size_t{3} * region.first_node, end = begin + size_t{3} * region.node_count;
   bool changed = false;
-  for (size_t i = begin; i < end; ++i) changed |= put(shown[i], instance.published.delta[i]);
+  for (size_t i = begin; i < end; ++i) changed |= put(shown[i], published.delta[i]);
   return changed;
 }
 
 // Vertices that touched something in the last tick. True when `carried` has to be made anew for it.
-bool takes_pushes(const Instance& instance, size_t r) noexcept {
-  return instance.contacts.pushes && (instance.contacts.pushed[r] || instance.contacts.carries_pushes[r]);
+bool takes_pushes(const ContactState& contacts, size_t r) noexcept {
+  return contacts.pushes && (contacts.pushed[r] || contacts.carries_pushes[r]);
 }
 
 // True when `carried` has to be made anew for what a change of level left, or for its level itself.
@@ -44,8 +44,9 @@ bool takes_seam(Instance& instance, float share) noexcept {
          had || share > 0;
 }
 
-void add_seam(const Instance& instance, float share, size_t first, size_t floats, float* carried) noexcept {
-  for (size_t i = 0; i < floats; ++i) carried[i] += share * instance.transition.seam[first + i];
+void add_seam(const TransitionState& transition, float share, size_t first, size_t floats,
+              float* carried) noexcept {
+  for (size_t i = 0; i < floats; ++i) carried[i] += share * transition.seam[first + i];
 }
 
 void add_pushes(Instance& instance, size_t r, size_t first, float* carried) noexcept {
@@ -99,12 +100,13 @@ void publish(Instance& instance, const ClockHook& clock) noexcept {
   const bool seamed = takes_seam(instance, seam);
   for (size_t r = 0; r < pack.regions.size(); ++r) {
     const pack::RegionRecord& region = pack.regions[r];
-    const bool moved = take_shown(instance, region, now.displacement), pushed = takes_pushes(instance, r);
+    const bool moved = take_shown(instance.published, region, now.displacement),
+               pushed = takes_pushes(instance.contacts, r);
     const size_t first = static_cast<size_t>(carried - instance.published.carried);
     if (moved || pushed || seamed)
       simd::kernels().carry(pack.carry.data() + region.carry, region.node_count, region.padded_vertices,
                             instance.published.delta + size_t{3} * region.first_node, carried);
-    if (seam > 0) add_seam(instance, seam, first, size_t{3} * region.padded_vertices, carried);
+    if (seam > 0) add_seam(instance.transition, seam, first, size_t{3} * region.padded_vertices, carried);
     if (pushed) add_pushes(instance, r, first, carried);
     if (moved || pushed || seamed)
       hold_within_bound(displacement_bound_m(*instance.asset, r), region.padded_vertices, carried);

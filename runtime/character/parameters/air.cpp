@@ -23,9 +23,9 @@ constexpr float kHalfDrag = kAir_kg_m3 * kDragCoefficient / 2;
 constexpr float kRounding = 1e-3f;      // m/s^2, m/s
 constexpr double kLeastWind_m_s = 0.1;  // slower gusts travel nowhere
 
-const Environment& environment_of(const Instance& instance) noexcept {
+const Environment& environment_of(const ParameterState& parameters) noexcept {
   static constexpr Environment kUsual;
-  return instance.parameters.environment ? *instance.parameters.environment : kUsual;
+  return parameters.environment ? *parameters.environment : kUsual;
 }
 
 // Of the last tick or the coming one.
@@ -37,7 +37,7 @@ struct AirTargets {
 
 AirTargets targets_of(const Instance& instance) noexcept {
   constexpr Environment kUsual;
-  const Environment& world = environment_of(instance);
+  const Environment& world = environment_of(instance.parameters);
   const AddedEnvironment& added = instance.state->parameters.air.added;
   AirTargets to;
   for (uint32_t k = 0; k < 3; ++k) {
@@ -94,12 +94,12 @@ Vector3f air_velocity(const AirState& air, When when, double cycles_behind = 0) 
 // How many gusts lie along a way.
 double cycles_along(const Instance& instance, const Vector3d& way_m) noexcept {
   const Vector3d wind = vector_of(instance.state->parameters.air, kWindVelocity, When::kNext).cast<double>();
-  const double speed_m_s = wind.norm(), gust_hz = double{environment_of(instance).wind.gust_hz};
+  const double speed_m_s = wind.norm(), gust_hz = double{environment_of(instance.parameters).wind.gust_hz};
   return speed_m_s > kLeastWind_m_s ? gust_hz * way_m.dot(wind) / (speed_m_s * speed_m_s) : 0;
 }
 
-Vector3d root_of_tick(const Instance& instance, int tick) noexcept {
-  return Eigen::Map<const Vector3d>(instance.state->motion.tick_root_m[tick]);
+Vector3d root_of_tick(const RootMotion& motion, int tick) noexcept {
+  return Eigen::Map<const Vector3d>(motion.tick_root_m[tick]);
 }
 
 void begin_gusts(Instance& instance) noexcept {
@@ -113,8 +113,9 @@ void begin_gusts(Instance& instance) noexcept {
 // No faster than three times against the wind's own speed: what moves so fast is not blown upon.
 void advance_gusts(Instance& instance) noexcept {
   constexpr double kMost = 3;
-  const double own = double{environment_of(instance).wind.gust_hz} * instance.asset->tick_s;
-  const double along = cycles_along(instance, root_of_tick(instance, 0) - root_of_tick(instance, 1));
+  const double own = double{environment_of(instance.parameters).wind.gust_hz} * instance.asset->tick_s;
+  const double along = cycles_along(
+      instance, root_of_tick(instance.state->motion, 0) - root_of_tick(instance.state->motion, 1));
   AirState& air = instance.state->parameters.air;
   air.next_gust_cycles = within_period(air.gust_cycles + own - std::clamp(along, -kMost * own, kMost * own));
 }
@@ -213,7 +214,8 @@ Vector3d air_at_rod(const Instance& instance, uint32_t rod) noexcept {
   if (!has_wind(air, When::kNext)) return Vector3d::Zero();
   const Vector3d hold = Eigen::Map<const Vector3d>(instance.rods.hold[0] + size_t{3} * rod) +
                         Eigen::Map<const Vector3d>(instance.state->rods.anchor_m);
-  return air_velocity(air, When::kNext, cycles_along(instance, hold - root_of_tick(instance, 0)))
+  return air_velocity(air, When::kNext,
+                      cycles_along(instance, hold - root_of_tick(instance.state->motion, 0)))
       .cast<double>();
 }
 

@@ -32,9 +32,9 @@ bool is_near(const float* a, const float* b, float distance) noexcept {
   return squared <= distance * distance;
 }
 
-bool feels_the_same(const Instance& instance, const Region& region, const FeltNodes& felt) noexcept {
+bool feels_the_same(const TissueState& tissue, const Region& region, const FeltNodes& felt) noexcept {
   const float most = region.rest_m * region.w1 * region.w1;
-  const float* asleep = instance.tissue.felt_asleep + size_t{3} * region.record.first_node;
+  const float* asleep = tissue.felt_asleep + size_t{3} * region.record.first_node;
   for (uint32_t n = 0; n < region.record.node_count; ++n) {
     const float* at = felt.first + felt.stride * n;
     const float now[3] = {felt.times * at[0], felt.times * at[1], felt.times * at[2]};
@@ -43,15 +43,15 @@ bool feels_the_same(const Instance& instance, const Region& region, const FeltNo
   return true;
 }
 
-void remember_drive(Instance& instance, const Region& region) noexcept {
+void remember_drive(TissueState& tissue, const Region& region) noexcept {
   for (size_t n = region.record.first_node; n < region.record.first_node + region.record.node_count; ++n)
-    std::copy_n(instance.tissue.drive + tissue::kNodeDriveWidth * n, 3, instance.tissue.felt_asleep + 3 * n);
+    std::copy_n(tissue.drive + tissue::kNodeDriveWidth * n, 3, tissue.felt_asleep + 3 * n);
 }
 
-bool stays(const Instance& instance, const Region& region) noexcept {
+bool stays(const TissueState& tissue, const Region& region) noexcept {
   const float most = region.rest_m * region.w1_tick;
   for (size_t n = region.record.first_node; n < region.record.first_node + region.record.node_count; ++n) {
-    if (!is_near(instance.tissue.l[0] + 3 * n, instance.tissue.l[1] + 3 * n, most)) return false;
+    if (!is_near(tissue.l[0] + 3 * n, tissue.l[1] + 3 * n, most)) return false;
   }
   return true;
 }
@@ -91,7 +91,8 @@ void fall_asleep(Instance& instance, size_t index, const Region& region) noexcep
 }  // namespace
 
 bool feels_as_asleep(const Instance& instance, size_t region, const FeltNodes& felt) noexcept {
-  return feels_the_same(instance, region_at(instance, region, instance.parameters.sleep_tolerance), felt);
+  return feels_the_same(instance.tissue, region_at(instance, region, instance.parameters.sleep_tolerance),
+                        felt);
 }
 
 void watch_drive(Instance& instance) noexcept {
@@ -100,9 +101,9 @@ void watch_drive(Instance& instance) noexcept {
                     const FeltNodes felt{
                         instance.tissue.drive + size_t{tissue::kNodeDriveWidth} * region.record.first_node,
                         tissue::kNodeDriveWidth};
-                    if (quiet_ticks > 0 && feels_the_same(instance, region, felt)) return;
+                    if (quiet_ticks > 0 && feels_the_same(instance.tissue, region, felt)) return;
                     quiet_ticks = 0;
-                    remember_drive(instance, region);
+                    remember_drive(instance.tissue, region);
                   });
 }
 
@@ -112,7 +113,7 @@ void watch_motion(Instance& instance) noexcept {
   for_each_region(instance, tolerance, [&](size_t r, const Region& region, uint32_t& quiet_ticks) {
     const uint32_t enough = ticks_to_sleep(instance, r);
     if (quiet_ticks >= enough) return;
-    const bool quiet = tolerance > 0 && stays(instance, region);
+    const bool quiet = tolerance > 0 && stays(instance.tissue, region);
     quiet_ticks = quiet ? quiet_ticks + 1 : 0;
     if (quiet_ticks >= enough) fall_asleep(instance, r, region);
   });

@@ -23,8 +23,8 @@ constexpr double kTouching = 1.05;  // of the sum of radii
 
 Vector3d vector(const float (&v)[3]) noexcept { return Eigen::Map<const Eigen::Vector3f>(v).cast<double>(); }
 
-MapPlace end_of(const Instance& instance, uint32_t tick, uint32_t proxy, uint32_t end) noexcept {
-  return MapPlace(instance.contacts.proxy_ends[tick] + size_t{6} * proxy + size_t{3} * end);
+MapPlace end_of(const ContactState& contacts, uint32_t tick, uint32_t proxy, uint32_t end) noexcept {
+  return MapPlace(contacts.proxy_ends[tick] + size_t{6} * proxy + size_t{3} * end);
 }
 
 Vector3d moved(const Matrix34& m, const Vector3d& p) noexcept {
@@ -69,8 +69,9 @@ uint64_t passed_by(const pack::PackView& pack, const pack::RodRecord& rod, uint3
 }
 
 rods::Capsule capsule_of(const Instance& instance, uint32_t proxy) noexcept {
-  const Vector3d from = end_of(instance, 0, proxy, 0), to = end_of(instance, 0, proxy, 1);
-  const Vector3d was_from = end_of(instance, 1, proxy, 0), was_to = end_of(instance, 1, proxy, 1);
+  const Vector3d from = end_of(instance.contacts, 0, proxy, 0), to = end_of(instance.contacts, 0, proxy, 1);
+  const Vector3d was_from = end_of(instance.contacts, 1, proxy, 0),
+                 was_to = end_of(instance.contacts, 1, proxy, 1);
   rods::Capsule capsule;
   std::copy_n(from.data(), 3, capsule.ends_m[0]);
   std::copy_n(to.data(), 3, capsule.ends_m[1]);
@@ -118,7 +119,7 @@ void pose_proxies(Instance& instance, const Matrix34* joints, const RootTransfor
     const Matrix34 bind = inverse_bind(instance.level->pack.joints[proxy.joint]);
     for (uint32_t end = 0; end < 2; ++end) {
       const Vector3d rest = vector(end == 0 ? proxy.from_m : proxy.to_m);
-      end_of(instance, 0, i, end) = place_m + turn * moved(joints[proxy.joint], moved(bind, rest));
+      end_of(instance.contacts, 0, i, end) = place_m + turn * moved(joints[proxy.joint], moved(bind, rest));
     }
   }
 }
@@ -149,7 +150,8 @@ bool proxies_move(const Instance& instance) noexcept {
   for (uint32_t i = 0; i < proxy_count(instance); ++i) {
     const double still = kStill * double{instance.level->pack.proxies[i].radius_m};
     for (uint32_t end = 0; end < 2; ++end)
-      if (!((end_of(instance, 0, i, end) - end_of(instance, 1, i, end)).norm() <= still)) return true;
+      if (!((end_of(instance.contacts, 0, i, end) - end_of(instance.contacts, 1, i, end)).norm() <= still))
+        return true;
   }
   return false;
 }

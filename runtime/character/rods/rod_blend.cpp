@@ -27,11 +27,10 @@ Quaterniond between(const Quaterniond& from, const Quaterniond& to, double share
   return from * share_of(share, from.conjugate() * to);
 }
 
-void advance_tail(Instance& instance, size_t slot) noexcept {
-  Eigen::Map<Eigen::Vector3f> velocity(instance.rods.tail_velocity + 3 * slot);
+void advance_tail(RodState& rods, size_t slot) noexcept {
+  Eigen::Map<Eigen::Vector3f> velocity(rods.tail_velocity + 3 * slot);
   if (velocity.isZero(0)) return;
-  put_turn(instance.rods.tail, slot,
-           turn_at(instance.rods.tail, slot) * exponential(velocity.cast<double>()));
+  put_turn(rods.tail, slot, turn_at(rods.tail, slot) * exponential(velocity.cast<double>()));
   velocity *= kCarryDamping;
 }
 
@@ -107,7 +106,7 @@ void show_rods(Instance& instance, float simulated) noexcept {
   std::copy_n(instance.rods.turn, 4 * slots, instance.rods.shown[0]);
   if (simulated == 1) return;
   if (!instance.state->transition.tail_rides)
-    for (size_t s = 0; s < slots; ++s) advance_tail(instance, s);
+    for (size_t s = 0; s < slots; ++s) advance_tail(instance.rods, s);
   blend_rods(instance, simulated, tail_share(instance), instance.rods.tail, instance.rods.shown[0]);
 }
 

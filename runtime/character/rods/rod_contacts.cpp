@@ -21,13 +21,11 @@ using Eigen::Vector3d;
 // Of all together: one segment in a fold has up to eight.
 constexpr uint32_t kHitsASegment = 4, kMostHits = 1u << 20;
 
-bool asks(const Instance& instance) noexcept {
-  return instance.contacts.def.source && instance.contacts.def.rods;
-}
+bool asks(const ContactState& contacts) noexcept { return contacts.def.source && contacts.def.rods; }
 
 // The most they ask, on whatever tier.
-uint32_t source_count(const Instance& instance) noexcept {
-  return uint32_t{asks(instance)} + uint32_t{instance.contacts.def.surface != nullptr};
+uint32_t source_count(const ContactState& contacts) noexcept {
+  return uint32_t{asks(contacts)} + uint32_t{contacts.def.surface != nullptr};
 }
 
 // What a change of tier leaves inside is brought out by degrees: of the character's height a second. Strands
@@ -40,21 +38,21 @@ float push_out_m_s(const Instance& instance) noexcept {
 
 rods::ColliderSettings settings_of(const Instance& instance, const rods::RodBatch& batch) noexcept {
   const uint64_t segments = uint64_t{batch.strand_count()} * batch.segment_count();
-  const uint64_t wanted = source_count(instance) * kHitsASegment * segments;
+  const uint64_t wanted = source_count(instance.contacts) * kHitsASegment * segments;
   const auto hits = static_cast<uint32_t>(std::min<uint64_t>(wanted, kMostHits));
   return {.rods_collide = false,
           .largest_push_out_m_s = push_out_m_s(instance),
-          .contact_capacity = source_count(instance) > 1 ? std::max(hits, 64u) : 0,
+          .contact_capacity = source_count(instance.contacts) > 1 ? std::max(hits, 64u) : 0,
           .obstacle_capacity = proxy_count(instance),
           .point_capacity = 0,
           .source_capacity = hits};
 }
 
-Status make_rod_source(Instance& instance) noexcept {
-  if (!instance.contacts.def.surface) return {};
-  ContactSource* source = asks(instance) ? instance.contacts.def.source : nullptr;
-  instance.contacts.rod_source.reset(new (std::nothrow) RodSource(source, instance.contacts.def.surface));
-  if (instance.contacts.rod_source) return {};
+Status make_rod_source(ContactState& contacts) noexcept {
+  if (!contacts.def.surface) return {};
+  ContactSource* source = asks(contacts) ? contacts.def.source : nullptr;
+  contacts.rod_source.reset(new (std::nothrow) RodSource(source, contacts.def.surface));
+  if (contacts.rod_source) return {};
   return core::make_status(StatusCode::kOutOfCapacity, "create_instance: no memory for its rods");
 }
 
@@ -66,7 +64,7 @@ void choose_touched(Instance& instance, rods::RodCollider& collider) noexcept {
   else if (proxy_count(instance) > 0)
     set_proxies(instance, collider);
   if (!instance.contacts.rod_source) return;
-  ContactSource* source = asks(instance) ? instance.contacts.def.source : nullptr;
+  ContactSource* source = asks(instance.contacts) ? instance.contacts.def.source : nullptr;
   (void)collider.set_source(on_surface ? instance.contacts.rod_source.get() : source,
                             instance.contacts.def.owner);
 }
@@ -94,15 +92,16 @@ bool touches_surface(const Instance& instance) noexcept {
 
 Status make_rod_colliders(Instance& instance) noexcept {
   const uint32_t count = instance.asset->rods.batch_count;
-  if ((source_count(instance) == 0 && proxy_count(instance) == 0) || count == 0) return {};
-  if (Status status = make_rod_source(instance); !status.ok()) return status;
+  if ((source_count(instance.contacts) == 0 && proxy_count(instance) == 0) || count == 0) return {};
+  if (Status status = make_rod_source(instance.contacts); !status.ok()) return status;
   std::unique_ptr<rods::RodCollider[]> made(new (std::nothrow) rods::RodCollider[count]);
   if (!made) return core::make_status(StatusCode::kOutOfCapacity, "create_instance: no memory for its rods");
   for (uint32_t b = 0; b < count; ++b) {
     const rods::RodBatch& batch = instance.rods.batches[b];
     const Status status = rods::RodCollider::create(batch, settings_of(instance, batch), &made[b]);
     if (!status.ok()) return core::make_status(status.code, "create_instance: rods: %s", status.message);
-    if (asks(instance)) (void)made[b].set_source(instance.contacts.def.source, instance.contacts.def.owner);
+    if (asks(instance.contacts))
+      (void)made[b].set_source(instance.contacts.def.source, instance.contacts.def.owner);
     pass_proxies(instance, b, made[b]);
   }
   instance.contacts.rod_colliders = std::move(made);
@@ -164,7 +163,7 @@ bool something_is_near_rods(Instance& instance) noexcept {
   if (!instance.contacts.rod_colliders) return false;
   if (proxies_move(instance)) return true;
   if (touches_surface(instance) && surface_is_near(instance)) return true;
-  if (!asks(instance)) return false;
+  if (!asks(instance.contacts)) return false;
   const Eigen::AlignedBox3d box = box_of_rods(instance);
   const Vector3d middle = box.center() + Eigen::Map<const Vector3d>(instance.state->rods.anchor_m);
   ContactProbe& probe = instance.contacts.probes[0];

@@ -27,12 +27,12 @@ using MapPlace = Eigen::Map<Vector3d>;
 
 constexpr double kGravity_m_s2 = 9.80665;  // along -Y, as tissue feels it
 
-Quaterniond turn_of(const Instance& instance, uint32_t slot) noexcept {
-  return Eigen::Map<const Eigen::Quaternionf>(instance.rods.turn + 4 * slot).cast<double>().normalized();
+Quaterniond turn_of(const RodState& rods, uint32_t slot) noexcept {
+  return Eigen::Map<const Eigen::Quaternionf>(rods.turn + 4 * slot).cast<double>().normalized();
 }
 
-Quaterniond rest_of(const Instance& instance, int tick, uint32_t slot) noexcept {
-  return Eigen::Map<const Quaterniond>(instance.rods.rest[tick] + size_t{4} * slot);
+Quaterniond rest_of(const RodState& rods, int tick, uint32_t slot) noexcept {
+  return Eigen::Map<const Quaterniond>(rods.rest[tick] + size_t{4} * slot);
 }
 
 rods::SegmentPose pose_of(const Quaterniond& turn, const Vector3d& middle) noexcept {
@@ -62,7 +62,7 @@ struct Placed {
 };
 Placed place_segment(Instance& instance, const RodSeat& seat, uint32_t rod, uint32_t s, int tick) noexcept {
   const RodSlot& slot = instance.asset->rods.slots()[s];
-  const Quaterniond turn = (rest_of(instance, tick, s) * turn_of(instance, s)).normalized();
+  const Quaterniond turn = (rest_of(instance.rods, tick, s) * turn_of(instance.rods, s)).normalized();
   const Vector3d half = half_axis(slot, turn);
   MapPlace end(instance.rods.end[tick] + size_t{3} * s);
   if (s == seat.first_slot) {
@@ -93,19 +93,18 @@ struct Beside {
   Vector3d velocity_m_s, spin_rad_s;
 };
 
-void put_segment(Instance& instance, const RodSeat& seat, uint32_t s, const Placed& place, const Step& step,
+void put_segment(RodState& rods, const RodSeat& seat, uint32_t s, const Placed& place, const Step& step,
                  const Beside& beside) noexcept {
   rods::SegmentVelocity velocity;
   Eigen::Map<Eigen::Vector3f>(velocity.linear_m_s) = (step.velocity_m_s + beside.velocity_m_s).cast<float>();
   Eigen::Map<Eigen::Vector3f>(velocity.angular_rad_s) = (step.spin_rad_s + beside.spin_rad_s).cast<float>();
   // A refusal leaves the segment where it was: its joints pull it back, or the batch recovers the strand.
-  (void)instance.rods.batches[seat.batch].set_pose(seat.strand, s - seat.first_slot,
-                                                   pose_of(place.turn, place.middle), velocity);
+  (void)rods.batches[seat.batch].set_pose(seat.strand, s - seat.first_slot, pose_of(place.turn, place.middle),
+                                          velocity);
 }
 
-Beside beside_pose(const Instance& instance, const RodSeat& seat, uint32_t s, const Step& step) noexcept {
-  const rods::SegmentVelocity whole =
-      instance.rods.batches[seat.batch].velocity(seat.strand, s - seat.first_slot);
+Beside beside_pose(const RodState& rods, const RodSeat& seat, uint32_t s, const Step& step) noexcept {
+  const rods::SegmentVelocity whole = rods.batches[seat.batch].velocity(seat.strand, s - seat.first_slot);
   return {Eigen::Map<const Eigen::Vector3f>(whole.linear_m_s).cast<double>() - step.velocity_m_s,
           Eigen::Map<const Eigen::Vector3f>(whole.angular_rad_s).cast<double>() - step.spin_rad_s};
 }
@@ -121,7 +120,7 @@ void take_along(Instance& instance, uint32_t rod) noexcept {
       beside = {step.before.turn * Eigen::Map<const Eigen::Vector3f>(own).cast<double>(),
                 step.before.turn * Eigen::Map<const Eigen::Vector3f>(own + 3).cast<double>()};
     }
-    put_segment(instance, seat, s, step.before, step, beside);
+    put_segment(instance.rods, seat, s, step.before, step, beside);
   }
 }
 
@@ -147,7 +146,7 @@ bool take_some_along(Instance& instance) noexcept {
 Vector3d felt_gravity(const Instance& instance, uint32_t rod, const RodSeat& seat) noexcept {
   const pack::RodRecord& record = instance.level->pack.rods[rod];
   const Quaterniond bind(instance.asset->rods.slots()[seat.first_slot].bind_xyzw);
-  const Quaterniond turned = rest_of(instance, 0, seat.first_slot) * bind.conjugate();
+  const Quaterniond turned = rest_of(instance.rods, 0, seat.first_slot) * bind.conjugate();
   const Vector3d g =
       kGravity_m_s2 * Eigen::Map<const Eigen::Vector3f>(record.gravity_direction).cast<double>();
   return double{record.gravity} * (g - (1 - double{record.sag}) * (turned * g));
@@ -166,7 +165,7 @@ Vector3d held_lead(const Vector3d& turn) noexcept {
 Quaterniond led_rest(const Instance& instance, uint32_t s, double ticks, double damping_share) noexcept {
   const RodSlot& slot = instance.asset->rods.slots()[s];
   const auto bent = [&](int tick) {
-    return rest_of(instance, tick, slot.parent).conjugate() * rest_of(instance, tick, s);
+    return rest_of(instance.rods, tick, slot.parent).conjugate() * rest_of(instance.rods, tick, s);
   };
   const Quaterniond now = bent(0), step = bent(1).conjugate() * now;
   const double lead = damping_share * double{slot.damping_s} / (ticks * instance.asset->tick_s);
@@ -176,7 +175,7 @@ Quaterniond led_rest(const Instance& instance, uint32_t s, double ticks, double 
 
 void drive_end(const Instance& instance, const RodSeat& seat, rods::RodBatch& batch) noexcept {
   const uint32_t k = seat.slot_count - 1, s = seat.first_slot + k;
-  const Quaterniond held = rest_of(instance, 0, s);
+  const Quaterniond held = rest_of(instance.rods, 0, s);
   const Vector3d half = half_axis(instance.asset->rods.slots()[s], held);
   (void)batch.set_target(seat.strand, k, pose_of(held, hold_of_end(instance, seat, 0) + half));
 }
@@ -202,7 +201,7 @@ void drive_rod(Instance& instance, uint32_t rod, double ticks, const Vector3d& b
   const RodRig& rig = instance.asset->rods;
   const RodSeat& seat = rig.seats()[rod];
   rods::RodBatch& batch = instance.rods.batches[seat.batch];
-  const Quaterniond held = rest_of(instance, 0, seat.first_slot);
+  const Quaterniond held = rest_of(instance.rods, 0, seat.first_slot);
   const Vector3d hold = Eigen::Map<const Vector3d>(instance.rods.hold[0] + size_t{3} * rod);
   // What is refused keeps its last value; poses have been checked.
   (void)batch.set_target(seat.strand, 0, pose_of(held, hold - half_axis(rig.slots()[seat.first_slot], held)));
@@ -240,22 +239,23 @@ void add_to_velocities(Instance& instance, const Vector3d& added_m_s) noexcept {
 }
 
 // What of the root's acceleration is not felt.
-Vector3d spared(const Instance& instance, const Vector3d& acceleration_m_s2) noexcept {
-  const double share =
-      tissue::felt_share(static_cast<float>(acceleration_m_s2.norm()), instance.parameters.most_m_s2);
+Vector3d spared(const ParameterState& parameters, const Vector3d& acceleration_m_s2) noexcept {
+  const double share = tissue::felt_share(static_cast<float>(acceleration_m_s2.norm()), parameters.most_m_s2);
   return (1 - share) * acceleration_m_s2;
 }
 
-Vector3d tick_root(const Instance& instance, int tick) noexcept {
-  return Eigen::Map<const Vector3d>(instance.state->motion.tick_root_m[tick]);
+Vector3d tick_root(const RootMotion& motion, int tick) noexcept {
+  return Eigen::Map<const Vector3d>(motion.tick_root_m[tick]);
 }
 
 // They go along with it.
 void spare_rods(Instance& instance) noexcept {
   const double tick_s = instance.asset->tick_s;
   const Vector3d change_m_s =
-      (tick_root(instance, 0) - 2 * tick_root(instance, 1) + tick_root(instance, 2)) / tick_s;
-  const Vector3d spared_m_s2 = spared(instance, change_m_s / tick_s);
+      (tick_root(instance.state->motion, 0) - 2 * tick_root(instance.state->motion, 1) +
+       tick_root(instance.state->motion, 2)) /
+      tick_s;
+  const Vector3d spared_m_s2 = spared(instance.parameters, change_m_s / tick_s);
   if (!spared_m_s2.isZero(0)) add_to_velocities(instance, tick_s * spared_m_s2);
 }
 
@@ -273,13 +273,13 @@ Quaterniond shown(const Quaterniond& turn, const RodShown& as) noexcept {
 }
 
 // Against the rest, of a segment that is turned so in the world.
-Quaterniond swung_turn(const Instance& instance, uint32_t s, const float* orientation) noexcept {
-  return (rest_of(instance, 0, s).conjugate() * quaternion(orientation)).normalized();
+Quaterniond swung_turn(const RodState& rods, uint32_t s, const float* orientation) noexcept {
+  return (rest_of(rods, 0, s).conjugate() * quaternion(orientation)).normalized();
 }
 
-Quaterniond swung_turn(const Instance& instance, const RodSeat& seat, uint32_t k) noexcept {
-  const rods::SegmentPose pose = instance.rods.batches[seat.batch].pose(seat.strand, k);
-  return swung_turn(instance, seat.first_slot + k, pose.orientation);
+Quaterniond swung_turn(const RodState& rods, const RodSeat& seat, uint32_t k) noexcept {
+  const rods::SegmentPose pose = rods.batches[seat.batch].pose(seat.strand, k);
+  return swung_turn(rods, seat.first_slot + k, pose.orientation);
 }
 
 void put_turn(float* turns, uint32_t s, const Quaterniond& turn) noexcept {
@@ -299,26 +299,27 @@ double swing_share(const RodSeat& seat, float limit_rad, const Quaterniond& turn
 void hold_swing(Instance& instance, uint32_t rod, const RodShown& as) noexcept {
   const RodSeat& seat = instance.asset->rods.seats()[rod];
   for (uint32_t k = 1; k <= seat.segment_count(); ++k) {
-    const Quaterniond turn = swung_turn(instance, seat, k);
+    const Quaterniond turn = swung_turn(instance.rods, seat, k);
     put_turn(instance.rods.turn, seat.first_slot + k,
              exponential(swing_share(seat, as.limit_rad, turn) * logarithm(turn)));
   }
   for (uint32_t k = 0; k < seat.slot_count; ++k) {
     const uint32_t s = seat.first_slot + k;
-    const double share = k == 0 ? 1 : swing_share(seat, as.limit_rad, swung_turn(instance, seat, k));
+    const double share = k == 0 ? 1 : swing_share(seat, as.limit_rad, swung_turn(instance.rods, seat, k));
     const Step step = step_of_pose(instance, seat, rod, s);
-    const Beside beside = beside_pose(instance, seat, s, step);
-    put_segment(instance, seat, s, step.now, step, {share * beside.velocity_m_s, share * beside.spin_rad_s});
+    const Beside beside = beside_pose(instance.rods, seat, s, step);
+    put_segment(instance.rods, seat, s, step.now, step,
+                {share * beside.velocity_m_s, share * beside.spin_rad_s});
   }
 }
 
 // Puts what is shown; whether something swings too far.
-bool read_turns_of(Instance& instance, const RodSeat& seat, const RodShown& as) noexcept {
+bool read_turns_of(RodState& rods, const RodSeat& seat, const RodShown& as) noexcept {
   bool too_far = false;
   for (uint32_t k = 1; k <= seat.segment_count(); ++k) {
-    const Quaterniond turn = swung_turn(instance, seat, k);
+    const Quaterniond turn = swung_turn(rods, seat, k);
     too_far |= swing_share(seat, as.limit_rad, turn) != 1;
-    put_turn(instance.rods.turn, seat.first_slot + k, shown(turn, as));
+    put_turn(rods.turn, seat.first_slot + k, shown(turn, as));
   }
   return too_far;
 }
@@ -327,9 +328,9 @@ void read_turns(Instance& instance) noexcept {
   for (uint32_t rod = 0; rod < instance.asset->rods.rod_count; ++rod) {
     const RodSeat& seat = instance.asset->rods.seats()[rod];
     const RodShown as = rod_shown(instance, rod);
-    if (!read_turns_of(instance, seat, as)) continue;
+    if (!read_turns_of(instance.rods, seat, as)) continue;
     hold_swing(instance, rod, as);
-    read_turns_of(instance, seat, as);
+    read_turns_of(instance.rods, seat, as);
   }
 }
 
@@ -423,7 +424,7 @@ void remember_rod_velocities(Instance& instance) noexcept {
     const RodSeat& seat = rig.seats()[rod];
     for (uint32_t s = seat.first_slot; s < seat.first_slot + seat.slot_count; ++s) {
       const Step step = step_of_pose(instance, seat, rod, s);
-      const Beside beside = beside_pose(instance, seat, s, step);
+      const Beside beside = beside_pose(instance.rods, seat, s, step);
       const Quaterniond into = step.now.turn.conjugate();
       float* own = instance.rods.velocity + size_t{6} * s;
       Eigen::Vector3f::Map(own) = (into * beside.velocity_m_s).cast<float>();
@@ -486,13 +487,12 @@ class PresentRest {
 };
 
 // As it went.
-void go_on(const Instance& instance, const RodSeat& seat, const RodShown& as, double ticks,
+void go_on(const RodState& rods, const RodSeat& seat, const RodShown& as, double ticks,
            float* turns) noexcept {
   for (uint32_t k = 1; k <= seat.segment_count(); ++k) {
     const size_t at = size_t{4} * (seat.first_slot + k);
-    const Quaterniond step =
-        quaternion(instance.rods.shown[1] + at).conjugate() * quaternion(instance.rods.shown[0] + at);
-    const Quaterniond turn = quaternion(instance.rods.turn + at) * exponential(ticks * logarithm(step));
+    const Quaterniond step = quaternion(rods.shown[1] + at).conjugate() * quaternion(rods.shown[0] + at);
+    const Quaterniond turn = quaternion(rods.turn + at) * exponential(ticks * logarithm(step));
     Eigen::Map<Eigen::Vector4f>(turns + at) = limited(turn, as.limit_rad).coeffs().cast<float>();
   }
 }
@@ -510,10 +510,10 @@ void turn_rods_between(Instance& instance, float x, float* turns) noexcept {
   if (asleep && rods_are_held_as_asleep(instance)) return;
   const double tick_s = instance.asset->tick_s, ticks = static_cast<double>(x);
   const Vector3d step = Eigen::Map<const Vector3d>(instance.state->motion.root.position_m) -
-                        tick_root(instance, 0),
-                 before = tick_root(instance, 0) - tick_root(instance, 1);
+                        tick_root(instance.state->motion, 0),
+                 before = tick_root(instance.state->motion, 0) - tick_root(instance.state->motion, 1);
   const Vector3d beside_m_s2 =
-      spared(instance, (step - ticks * before) / (tick_s * tick_s * ticks * (1 + ticks) / 2));
+      spared(instance.parameters, (step - ticks * before) / (tick_s * tick_s * ticks * (1 + ticks) / 2));
   for (uint32_t rod = 0; rod < rig.rod_count; ++rod)
     if (!instance.motion.carried_rods[rod]) drive_rod(instance, rod, ticks, beside_m_s2);
   for (uint32_t b = 0; b < rig.batch_count; ++b) {
@@ -525,12 +525,12 @@ void turn_rods_between(Instance& instance, float x, float* turns) noexcept {
       if (seat.batch != b) continue;
       const RodShown as = rod_shown(instance, rod, x);
       if (instance.motion.carried_rods[rod]) {
-        go_on(instance, seat, as, ticks, turns);
+        go_on(instance.rods, seat, as, ticks, turns);
         continue;
       }
       const float* first = instance.rods.orientations + size_t{4} * seat.strand * batch.segment_count();
       for (uint32_t k = 1; k <= seat.segment_count(); ++k) {
-        const Quaterniond turn = swung_turn(instance, seat.first_slot + k, first + size_t{4} * k);
+        const Quaterniond turn = swung_turn(instance.rods, seat.first_slot + k, first + size_t{4} * k);
         // As the tick will hold it, by so much of it.
         const double share = std::pow(swing_share(seat, as.limit_rad, turn), ticks);
         const Quaterniond held = share == 1 ? turn : exponential(share * logarithm(turn));

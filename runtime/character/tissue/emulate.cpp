@@ -23,8 +23,8 @@ Eigen::Map<const Rotation> frame_of(const tissue::NodePose& pose) noexcept {
 }
 
 // Where the root was, or will be, against where it was in the last tick.
-Vector root_step(const Instance& instance, int back) noexcept {
-  const auto& roots = instance.state->motion.tick_root_m;
+Vector root_step(const RootMotion& motion, int back) noexcept {
+  const auto& roots = motion.tick_root_m;
   Vector step;
   for (int axis = 0; axis < 3; ++axis) step[axis] = static_cast<float>(roots[back][axis] - roots[1][axis]);
   return step;
@@ -38,7 +38,7 @@ Rotation turned_by(const Vector& bend) noexcept {
 
 // Of nodes [first, last): everything in metres from the root's last tick.
 void gather(Instance& instance, size_t first, size_t last, float cell_m) noexcept {
-  const Vector ahead = root_step(instance, 0), behind = root_step(instance, 2);
+  const Vector ahead = root_step(instance.state->motion, 0), behind = root_step(instance.state->motion, 2);
   const EmulatorScratch& to = instance.tissue.emulator;
   const uint8_t* held = instance.asset->pack.patch_held.data();
   const auto tick_s = static_cast<float>(instance.asset->tick_s);

@@ -11,7 +11,7 @@
 #include "character/parameters/tuning.hpp"
 #include "character/rest/asleep.hpp"
 #include "character/rods/rod_blend.hpp"
-#include "character/tissue/simulate.hpp"
+#include "character/tissue/hand_over.hpp"
 #include "character/transition/blend_pace.hpp"
 #include "character/transition/catch_up.hpp"
 #include "character/transition/shares.hpp"

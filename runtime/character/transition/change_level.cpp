@@ -80,11 +80,11 @@ void pick(std::span<const uint32_t> picks, size_t width, T* rows) noexcept {
 }
 
 // Where it is had again, it begins at rest.
-void forget_left_out(Instance& instance, const GraphLevel& coarse) noexcept {
+void forget_left_out(TissueState& tissue, const GraphLevel& coarse) noexcept {
   for (size_t r = 0; r < coarse.pack.regions.size(); ++r) {
     if (!coarse.leaves_out(r)) continue;
     const pack::RegionModesRecord& modes = coarse.pack.region_modes[r];
-    for (float* const* ticks : {instance.tissue.q, instance.tissue.corrected})
+    for (float* const* ticks : {tissue.q, tissue.corrected})
       for (int tick = 0; tick < 2; ++tick)
         std::fill_n(ticks[tick] + modes.first_mode, modes.mode_count, 0.0f);
   }
@@ -100,7 +100,7 @@ void lower(Instance& instance) noexcept {
     pick(picks, 3, vectors);
   for (tissue::NodePose* poses : instance.motion.poses) pick(picks, 1, poses);
   tissue::pick_memory(instance.asset->network, nodes, picks, instance.tissue.network_memory);
-  forget_left_out(instance, instance.level[1]);
+  forget_left_out(instance.tissue, instance.level[1]);
 }
 
 // ---- to the next finer level ----
@@ -154,9 +154,9 @@ void spread(const Instance& instance, const GraphLevel& fine, float* vectors) no
 }
 
 // l += sign shape q, at a level.
-void add_modes(const Instance& instance, const GraphLevel& level, const float* q, float sign,
+void add_modes(const TissueState& tissue, const GraphLevel& level, const float* q, float sign,
                float* l) noexcept {
-  float* held = instance.tissue.region[0];
+  float* held = tissue.region[0];
   for (size_t r = 0; r < level.pack.regions.size(); ++r) {
     const tissue::ModalBase base = tissue::modal_base(level.pack, r);
     simd::kernels().add_rows(base.shape, static_cast<uint32_t>(base.modes.size()), base.padded,
@@ -181,10 +181,10 @@ void turn_and_warp(const Instance& instance, const GraphLevel& level, int tick) 
 
 void raise_base(Instance& instance, const GraphLevel& fine) noexcept {
   for (int tick = 1; tick >= 0; --tick) {  // theta is the newer tick's
-    add_modes(instance, *instance.level, instance.tissue.q[tick], -1, instance.tissue.l[tick]);
+    add_modes(instance.tissue, *instance.level, instance.tissue.q[tick], -1, instance.tissue.l[tick]);
     spread(instance, fine, instance.tissue.l[tick]);
     spread(instance, fine, instance.tissue.r[tick]);
-    add_modes(instance, fine, instance.tissue.q[tick], 1, instance.tissue.l[tick]);
+    add_modes(instance.tissue, fine, instance.tissue.q[tick], 1, instance.tissue.l[tick]);
     turn_and_warp(instance, fine, tick);
   }
 }
