@@ -1,7 +1,8 @@
 """Checks that includes point one way: core <- pack, kernels <- tissue, rods <- schedule <- character <- world <- c; nothing in runtime/ includes the baker.
 
 usage: include_direction.py PROJECT_ROOT
-Exit 1 with a line an offender. It first checks itself on an include that must be refused.
+Within runtime/ and baker/ it counts what includes itself in a circle, a header and its source as one, and the files of each folder; both numbers may
+only shrink. Exit 1 with a line an offender. It first checks itself on what must be refused.
 """
 import pathlib
 import re
@@ -41,6 +42,10 @@ BAKER = {
     "programs": {"audit", "import", "mesh", "truth", "pack", "creature", "measure", "patches", "rods", "preview"},
     "trade": {"import", "mesh", "truth", "pack", "measure", "render"},
 }
+# The most files that include one another in a circle, by trees: of rods, a batch and its collider step together.
+LARGEST_CIRCLE = {"runtime": 5, "baker": 3}
+# Files in the fullest folder, pages and CMake lists counted.
+FULLEST_FOLDER = {"runtime": 18, "baker": 22}
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 
 
@@ -77,11 +82,56 @@ def offences(root):
                         yield f"{path.relative_to(root)} includes {included}: {why}"
 
 
+def include_graph(folder, prefix):
+    """{part: parts it includes}, a header and its source being one part, named as includes name it."""
+    files = {prefix + p.relative_to(folder).as_posix(): p for p in sources(folder)}
+    graph = {name.rsplit(".", 1)[0]: set() for name in files}
+    for name, path in files.items():
+        own = name.rsplit(".", 1)[0]
+        graph[own] |= {i.rsplit(".", 1)[0] for i in INCLUDE.findall(path.read_text(encoding="ascii")) if i in files} - {own}
+    return graph
+
+
+def circles(graph):
+    """Sets of two or more parts that reach one another, largest first."""
+    reach = {}
+    for part in graph:
+        seen, todo = set(), [part]
+        while todo:
+            new = graph[todo.pop()] - seen
+            seen |= new
+            todo += new
+        reach[part] = seen
+    found = {frozenset(other for other in reach[part] if part in reach[other]) for part in graph if part in reach[part]}
+    return sorted(found, key=len, reverse=True)
+
+
+def changed(what, number, stated):
+    """A number that may only shrink: why it is not as stated; None where it is."""
+    if number > stated:
+        return f"{what} is {number} and was {stated}"
+    if number < stated:
+        return f"{what} is {number}: write that in place of {stated} in {pathlib.Path(__file__).name}"
+    return None
+
+
+def growths(root):
+    for tree in ("runtime", "baker"):
+        found = circles(include_graph(root / tree, "baker/" if tree == "baker" else ""))
+        named = f"the largest circle of includes in {tree}/ ({', '.join(sorted(found[0])) if found else 'none'})"
+        yield changed(named, len(found[0]) if found else 0, LARGEST_CIRCLE[tree])
+        folders = [p for p in [root / tree, *(root / tree).rglob("*")] if p.is_dir() and p.name != "__pycache__"]
+        fullest = max(folders, key=lambda p: sum(f.is_file() for f in p.iterdir()))
+        yield changed(f"the fullest folder of {tree}/, {fullest.relative_to(root)},", sum(f.is_file() for f in fullest.iterdir()), FULLEST_FOLDER[tree])
+
+
 def main(root):
+    assert circles({"a": {"b"}, "b": {"c"}, "c": {"a"}, "d": {"a"}}) == [{"a", "b", "c"}] and not circles({"a": {"b"}, "b": set()})
+    assert changed("it", 2, 1) and changed("it", 1, 2) and not changed("it", 1, 1)
     assert offence("pack", "character/tick.hpp") and offence("world", "baker/mesh/recipe/recipe.hpp") and baker_offence("mesh", "baker/truth/fem/fem.hpp")
     assert not offence("world", "pack/format.hpp") and not offence("core", "sinew/types.hpp")
-    found = list(offences(pathlib.Path(root)))
-    print("\n".join(found) or "includes point one way")
+    found = [*offences(pathlib.Path(root)), *filter(None, growths(pathlib.Path(root)))]
+    print("\n".join(found) or "includes point one way, and no folder or circle grew")
     return 1 if found else 0
 
 

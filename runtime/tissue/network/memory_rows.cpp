@@ -1,7 +1,7 @@
 // memory_rows.cpp  see memory_rows.hpp.
 #include "tissue/network/memory_rows.hpp"
 
-#include "tissue/network/network.hpp"
+#include "tissue/network/layer_state.hpp"
 
 #include <cstring>
 

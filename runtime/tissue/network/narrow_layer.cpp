@@ -1,6 +1,6 @@
 // narrow_layer.cpp  see narrow_layer.hpp.
 #include "tissue/network/narrow_layer.hpp"
-#include "tissue/network/network.hpp"
+#include "tissue/network/layer_state.hpp"
 
 #include <algorithm>
 

@@ -31,17 +31,6 @@ Scratch scratch_of(const Network& network, uint32_t node_count) {
           simd::tile_floats(static_cast<uint32_t>(widest))};
 }
 
-// Floats that one of a layer's planes takes.
-size_t plane_floats(const Network& network, uint32_t node_count, uint32_t layer) {
-  return size_t{network.layers[layer].padded} * node_count;
-}
-
-LayerState planes_of(const Network& network, uint32_t node_count, uint32_t layer, float* state) {
-  for (uint32_t l = 0; l < layer; ++l) state += 3 * plane_floats(network, node_count, l);
-  const size_t plane = plane_floats(network, node_count, layer);
-  return {state, state + plane, state + 2 * plane};
-}
-
 // What network_step is given.
 struct Step {
   const Network& network;
@@ -78,11 +67,11 @@ void set_accumulation(const Step& step, bool is_last, float* y_next, simd::Layer
 
 simd::LayerJob job_of(const Step& step, uint32_t l) {
   const uint32_t nodes = step.graph.node_count;
-  const LayerState state = planes_of(step.network, nodes, l, step.state);
+  const LayerState state = layer_state(step.network, nodes, l, step.state);
   simd::LayerJob job{.graph = {step.graph.rows, step.graph.columns, step.graph.values}};
   set_weights(step.network, step.network.layers[l], &job);
   set_accumulation(step, l + 1 == step.network.layers.size(), step.y_next(), &job);
-  job.x = l == 0 ? step.z : planes_of(step.network, nodes, l - 1, step.state).c;
+  job.x = l == 0 ? step.z : layer_state(step.network, nodes, l - 1, step.state).c;
   job.x_stride = pad_to_block(job.inputs);
   job.px = job.pc = step.px();  // P x of a layer is P c of the one before
   job.h = state.h;
@@ -131,18 +120,8 @@ float largest_magnitude(const float* values, size_t count) {
 
 }  // namespace
 
-size_t state_floats(const Network& network, uint32_t node_count) noexcept {
-  size_t floats = 0;
-  for (uint32_t l = 0; l < network.layers.size(); ++l) floats += 3 * plane_floats(network, node_count, l);
-  return floats;
-}
-
 size_t scratch_floats(const Network& network, uint32_t node_count) noexcept {
   return scratch_of(network, node_count).all();
-}
-
-LayerState layer_state(const Network& network, uint32_t node_count, uint32_t layer, float* state) noexcept {
-  return planes_of(network, node_count, layer, state);
 }
 
 void network_step(const Network& network, const Graph& graph, const float* z, const float* carry,
@@ -162,8 +141,8 @@ void network_step(const Network& network, const Graph& graph, std::span<const No
 float largest_cell(const Network& network, uint32_t node_count, const float* state) noexcept {
   float largest = 0;
   for (uint32_t l = 0; l < network.layers.size(); ++l) {
-    float* c = planes_of(network, node_count, l, const_cast<float*>(state)).c;
-    const float in_layer = largest_magnitude(c, plane_floats(network, node_count, l));
+    float* c = layer_state(network, node_count, l, const_cast<float*>(state)).c;
+    const float in_layer = largest_magnitude(c, size_t{network.layers[l].padded} * node_count);
     if (!(in_layer <= largest)) largest = in_layer;
     if (std::isnan(largest)) return largest;
   }

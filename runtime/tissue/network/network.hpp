@@ -6,22 +6,13 @@
 #include <cstdint>
 #include <span>
 
+#include "tissue/network/layer_state.hpp"
 #include "tissue/network/network_weights.hpp"
 
 namespace sinew::tissue {
 
-// Floats of state for node_count nodes: for each layer h, c, y as [node_count][padded], where y of a hidden
-// layer is P y, for it is heard through P only. 64-byte aligned, zero is the start (the paper's wiring: y of
-// the last layer starts at Y_0). Scratch is not state: nothing in it survives a step.
-size_t state_floats(const Network& network, uint32_t node_count) noexcept;
+// Scratch is not state: nothing in it survives a step.
 size_t scratch_floats(const Network& network, uint32_t node_count) noexcept;
-
-struct LayerState {
-  float* h;
-  float* c;
-  float* y;
-};
-LayerState layer_state(const Network& network, uint32_t node_count, uint32_t layer, float* state) noexcept;
 
 // One step. z: [node_count][input_width rounded up to 16], padding zero. carry: [node_count][3] added to the
 // last layer's y, or null. After it the last layer's y (first 3 of each row of `padded`) is the output. The
