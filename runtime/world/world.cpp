@@ -467,8 +467,8 @@ Status World::set_views(std::span<const View> views) noexcept {
   frame::Sight sights[kMostViews];
   for (size_t v = 0; v < views.size(); ++v)
     if (Status status = frame::make_sight(views[v], &sights[v]); !status.ok()) return status;
-  std::copy_n(sights, views.size(), impl_->sights);
-  impl_->sight_count = static_cast<uint32_t>(views.size());
+  std::copy_n(sights, views.size(), impl_->views.sights);
+  impl_->views.sight_count = static_cast<uint32_t>(views.size());
   return {};
 }
 

@@ -17,21 +17,22 @@ bool take(std::unique_ptr<T[]>& to, size_t count) noexcept {
 bool reserve(WorldState& world, const WorldDef& def) noexcept {
   const uint32_t most = def.max_instances;
   world.def = def;
-  world.scratch.reset(new (std::nothrow) frame::ScheduleScratch());
+  world.planning.scratch.reset(new (std::nothrow) frame::ScheduleScratch());
   const bool complete =
-      world.scratch && world.assets.reserve(def.max_assets) && world.instances.reserve(most) &&
-      take(world.rows, most) && take(world.bounds, most) && take(world.answers, most) &&
-      take(world.candidates, most) && take(world.order, most) && take(world.idle_slots, most) &&
-      take(world.idle_ns, (most + kIdleChunk - 1) / kIdleChunk) && take(world.ranked, most) &&
-      take(world.rank_begins, kRanks + 1) && take(world.overdue, most) && take(world.purchases, most) &&
-      take(world.open, most) && take(world.standings, most) && take(world.history, def.report_history) &&
-      take(world.events.ring, def.event_capacity);
+      world.planning.scratch && world.assets.reserve(def.max_assets) && world.instances.reserve(most) &&
+      take(world.rows, most) && take(world.bounds, most) && take(world.planning.answers, most) &&
+      take(world.planning.candidates, most) && take(world.order.slots, most) &&
+      take(world.order.idle_slots, most) && take(world.order.idle_ns, (most + kIdleChunk - 1) / kIdleChunk) &&
+      take(world.order.ranked, most) && take(world.order.rank_begins, kRanks + 1) &&
+      take(world.planning.overdue, most) && take(world.planning.purchases, most) &&
+      take(world.planning.open, most) && take(world.planning.standings, most) &&
+      take(world.history, def.report_history) && take(world.events.ring, def.event_capacity);
   world.events.capacity = def.event_capacity;
   if (!complete) return false;
-  world.scratch->overdue = {world.overdue.get(), most};
-  world.scratch->purchases = {world.purchases.get(), most};
-  world.scratch->open = {world.open.get(), most};
-  world.scratch->standings = {world.standings.get(), most};
+  world.planning.scratch->overdue = {world.planning.overdue.get(), most};
+  world.planning.scratch->purchases = {world.planning.purchases.get(), most};
+  world.planning.scratch->open = {world.planning.open.get(), most};
+  world.planning.scratch->standings = {world.planning.standings.get(), most};
   return true;
 }
 

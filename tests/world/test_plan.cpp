@@ -23,10 +23,10 @@ struct Floor {
     const AssetId id = world.assets.create(std::move(opened));
     asset = world.assets.find(id);
     for (uint32_t i = 0; i <= kIdle; ++i) add({.asset = id, .importance = i == 0 ? 1e6f : 1});
-    world.overhead = world.idle = frame::CostEstimate(0);
+    world.costs.overhead = world.costs.idle = frame::CostEstimate(0);
     const frame::Front& front = asset->costs.front;
     world.budget_us = front.step_us(front.best(), 1) + 0.5f * front.step_us(1, 1);
-    world.budget_us = world.budget_us / world.capacity.scale();
+    world.budget_us = world.budget_us / world.costs.capacity.scale();
   }
   void add(const InstanceDef& def) {
     world::Instance made;
@@ -43,12 +43,12 @@ TEST_CASE("what_idle_characters_take_behind_all_others_is_left_for_as_one_step_i
   Floor floor;
   constexpr float kUsual_us = 0.001f;
   for (int step = 0; step < 600; ++step) {
-    floor.world.idle.observe(step % 10 == 0 ? 1.9f * kUsual_us : kUsual_us);
-    floor.world.idle.settle();
+    floor.world.costs.idle.observe(step % 10 == 0 ? 1.9f * kUsual_us : kUsual_us);
+    floor.world.costs.idle.settle();
   }
-  REQUIRE(floor.world.idle.p95_us() > 1.4f * floor.world.idle.estimate_us());
+  REQUIRE(floor.world.costs.idle.p95_us() > 1.4f * floor.world.costs.idle.estimate_us());
   world::plan_step(floor.world, floor.asset->tick_s);
-  REQUIRE(floor.world.running.size() == 1);
-  REQUIRE(floor.world.idle_count == kIdle);
-  CHECK(floor.world.answers[0].decision.behind_us == Approx(kIdle * floor.world.idle.p95_us()));
+  REQUIRE(floor.world.order.running.size() == 1);
+  REQUIRE(floor.world.order.idle_count == kIdle);
+  CHECK(floor.world.planning.answers[0].decision.behind_us == Approx(kIdle * floor.world.costs.idle.p95_us()));
 }

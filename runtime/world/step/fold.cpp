@@ -139,16 +139,16 @@ void log_events(WorldState& world, const Instance& instance, uint32_t slot, uint
 }
 
 float add(WorldState& world, uint32_t slot, FrameReport& report) noexcept {
-  if (world.answers[slot].idle) return add_idle(report);
+  if (world.planning.answers[slot].idle) return add_idle(report);
   Instance& instance = *world.instances.at(slot);
   if (instance.marks.passed) return add_passed(instance, world.rows[slot], report);
-  world.busy_ns += instance.times.total_ns;
+  world.order.busy_ns += instance.times.total_ns;
   if (instance.marks.events) log_events(world, instance, slot, report.frame);
   if (costs_are_measured(world)) learn_costs(instance, world.rows[slot]);
   if (forgets_its_sleep(instance, world.rows[slot]))
     instance.cost_factor = std::max(1.0f, instance.cost_factor);
   world.rows[slot].cost_factor = instance.cost_factor;
-  if (instance.marks.cut || instance.marks.held) world.undone_us += instance.plan.decision.cost_us;
+  if (instance.marks.cut || instance.marks.held) world.order.undone_us += instance.plan.decision.cost_us;
   return add_active(instance, world.rows[slot], report);
 }
 
@@ -162,7 +162,8 @@ void bring_counted_near(const WorldState& world, uint32_t slot) noexcept {
   const uint32_t ahead = slot + kAhead;
   if (ahead >= world.instances.end()) return;
   const PlanRow& row = world.rows[ahead];
-  if (row.asset && row.seen && !world.answers[ahead].idle) world.instances.bring_near(ahead, kPlannedBytes);
+  if (row.asset && row.seen && !world.planning.answers[ahead].idle)
+    world.instances.bring_near(ahead, kPlannedBytes);
 }
 
 }  // namespace
@@ -170,8 +171,8 @@ void bring_counted_near(const WorldState& world, uint32_t slot) noexcept {
 void fold_results(WorldState& world, FrameReport& report) noexcept {
   double errors = 0;
   uint32_t seen = 0;
-  world.undone_us = 0;
-  world.busy_ns = 0;
+  world.order.undone_us = 0;
+  world.order.busy_ns = 0;
   report.ticks = world.ticks;
   report.dropped_s = world.dropped_s;
   for_each_row(world, [&](const PlanRow& row, uint32_t slot) {

@@ -9,7 +9,7 @@ namespace sinew::world {
 namespace {
 
 std::span<const frame::Sight> sights_of(const WorldState& world) noexcept {
-  return {world.sights, world.sight_count};
+  return {world.views.sights, world.views.sight_count};
 }
 
 constexpr uint32_t kAtOnce = 32;
@@ -22,7 +22,7 @@ void bring_near(const WorldState& world, uint32_t first, uint32_t last) noexcept
 
 // Of the slots from `first` on.
 void put_sizes(const WorldState& world, uint32_t first, std::span<float> sizes) noexcept {
-  std::ranges::fill(sizes, world.sight_count == 0 ? 1.0f : 0.0f);
+  std::ranges::fill(sizes, world.views.sight_count == 0 ? 1.0f : 0.0f);
   for (const frame::Sight& sight : sights_of(world))
     frame::enlarge_seen_sizes(sight, {&world.bounds[first], sizes.size()}, sizes.data());
 }
@@ -51,34 +51,34 @@ void look_at(WorldState& world, uint32_t slot) noexcept {
       sights_of(world), [&](const frame::Sight& sight) { return gets_through(world, slot, sight); });
   blind = seen ? 0 : blind + 1;
   row.blind_looks = std::min(blind, kBlindLooks) & 3;
-  row.state->looked = ++world.looks;
-  world.last_look = slot;
+  row.state->looked = ++world.views.looks;
+  world.views.last_look = slot;
   decide(row);
 }
 
 // A few of those in view, where the last step left off.
 void look_behind_things(WorldState& world) noexcept {
-  if (!world.def.occlusion || world.sight_count == 0) return;
+  if (!world.def.occlusion || world.views.sight_count == 0) return;
   const uint32_t end = world.instances.end();
   uint32_t rays = world.def.sight_rays_per_step;
-  const uint32_t from = world.last_look + 1;
+  const uint32_t from = world.views.last_look + 1;
   for (uint32_t passed = 0; passed < end && rays >= kRaysALook; ++passed) {
     const uint32_t slot = (from + passed) % end;
     const PlanRow& row = world.rows[slot];
     if (!row.asset || row.size == 0 || row.hidden_by_caller) continue;
     look_at(world, slot);
-    rays -= std::min(rays, kRaysALook * world.sight_count);
+    rays -= std::min(rays, kRaysALook * world.views.sight_count);
   }
 }
 
 // After a rollback the looks go on behind the one that was the last before the save.
 void find_last_look(WorldState& world) noexcept {
-  world.looks = 0;
-  world.last_look = 0;
+  world.views.looks = 0;
+  world.views.last_look = 0;
   for_each_row(world, [&](const PlanRow& row, uint32_t slot) {
-    if (row.state->looked <= world.looks) return;
-    world.looks = row.state->looked;
-    world.last_look = slot;
+    if (row.state->looked <= world.views.looks) return;
+    world.views.looks = row.state->looked;
+    world.views.last_look = slot;
   });
 }
 
@@ -91,7 +91,7 @@ void forget_looks(PlanRow& row) noexcept {
 
 void look(WorldState& world) noexcept {
   const bool looks =
-      world.def.occlusion && world.sight_count > 0 && world.def.sight_rays_per_step >= kRaysALook;
+      world.def.occlusion && world.views.sight_count > 0 && world.def.sight_rays_per_step >= kRaysALook;
   const uint32_t end = world.instances.end();
   float sizes[kAtOnce];
   for (uint32_t first = 0; first < end; first += kAtOnce) {

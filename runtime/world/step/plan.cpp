@@ -46,7 +46,7 @@ struct Terms {
 };
 
 Terms terms_of(const WorldState& world) noexcept {
-  return {costs_are_measured(world), world.budget_us > 0, world.idle.estimate_us()};
+  return {costs_are_measured(world), world.budget_us > 0, world.costs.idle.estimate_us()};
 }
 
 // Of one that is simulated, the provisional step that this one ends on between two ticks, as a share of a
@@ -184,8 +184,8 @@ void bring_next_near(const WorldState& world, uint32_t slot, uint32_t candidate)
   constexpr uint32_t kRowsAhead = 16, kAhead = 8;
   if (slot + kRowsAhead >= world.instances.end()) return;
   __builtin_prefetch(&world.rows[slot + kRowsAhead]);
-  __builtin_prefetch(&world.answers[slot + kRowsAhead], 1);
-  core::bring_near(&world.candidates[candidate + kAhead], sizeof(Candidate));
+  __builtin_prefetch(&world.planning.answers[slot + kRowsAhead], 1);
+  core::bring_near(&world.planning.candidates[candidate + kAhead], sizeof(Candidate));
   const PlanRow& row = world.rows[slot + kAhead];
   if (row.dormant || (!row.seen && !row.hidden)) bring_instance_near(world, slot + kAhead);
 }
@@ -203,7 +203,7 @@ uint32_t gather_candidates(WorldState& world) noexcept {
   world.dropped_s = 0;
   for_each_row(world, [&](PlanRow& row, uint32_t slot) {
     bring_next_near(world, slot, count);
-    world.answers[slot].idle = false;
+    world.planning.answers[slot].idle = false;
     if (row.seen && row.skips_pose && !row.hidden) return wait(world, slot);
     const frame::TickPlan ticks = own_ticks(world, row, plans);
     if (!row.seen) return pass_unseen(world, slot, ticks);
@@ -211,7 +211,7 @@ uint32_t gather_candidates(WorldState& world) noexcept {
     if (row.dormant && terms.has_budget)
       sleep_on(world, slot, ticks);
     else  // made where it stays: a copy would wait for what has just been written
-      new (&world.candidates[count++]) Candidate(candidate_of(terms, row, ticks, slot));
+      new (&world.planning.candidates[count++]) Candidate(candidate_of(terms, row, ticks, slot));
   });
   return count;
 }
@@ -258,23 +258,24 @@ class Ranking {
   // Written wherever it may belong, and counted where it does: who is idle is hard to foretell.
   void add(const Candidate& c, const PlanRow& row, const PlanAnswer& plan) noexcept {
     const uint32_t behind = kRanks - 1 - rank_of(c, row, plan), active = !plan.idle;
-    world_.idle_slots[idle_] = c.slot;
+    world_.order.idle_slots[idle_] = c.slot;
     idle_ += plan.idle;
-    world_.ranked[count_] = {c.slot, behind};
+    world_.order.ranked[count_] = {c.slot, behind};
     count_ += active;
-    world_.rank_begins[behind + 1] += active;
+    world_.order.rank_begins[behind + 1] += active;
     first_ = std::min(first_, behind);
     last_ = std::max(last_, behind);
   }
   // Leaves the counts at zero, as they were found.
   std::span<uint32_t> put_in_order() noexcept {
-    world_.idle_count = idle_;
-    uint32_t* begins = world_.rank_begins.get();  // [kRanks + 1]
+    world_.order.idle_count = idle_;
+    uint32_t* begins = world_.order.rank_begins.get();  // [kRanks + 1]
     uint32_t before = 0;
     for (uint32_t d = first_; d <= last_; ++d) begins[d] = before += begins[d];
-    for (const Ranked& r : std::span(world_.ranked.get(), count_)) world_.order[begins[r.behind]++] = r.slot;
+    for (const Ranked& r : std::span(world_.order.ranked.get(), count_))
+      world_.order.slots[begins[r.behind]++] = r.slot;
     if (first_ <= last_) std::fill(begins + first_, begins + last_ + 2, 0u);
-    return {world_.order.get(), count_};
+    return {world_.order.slots.get(), count_};
   }
 
  private:
@@ -291,12 +292,12 @@ float in_any_case_us(const WorldState& world, const PlanRow& row, frame::TickPla
 
 // Each is told what those behind it take in any case.
 void add_up_behind(WorldState& world, std::span<const uint32_t> order) noexcept {
-  const float handing_us = world.def.tasks.enqueue ? 0 : world.between.estimate_us();
+  const float handing_us = world.def.tasks.enqueue ? 0 : world.costs.between.estimate_us();
   frame::TickPlans plans = tick_plans(world);
-  float behind_us = static_cast<float>(world.idle_count) * world.idle.p95_us();
+  float behind_us = static_cast<float>(world.order.idle_count) * world.costs.idle.p95_us();
   for (size_t i = order.size(); i-- > 0;) {
     const PlanRow& row = world.rows[order[i]];
-    world.answers[order[i]].decision.behind_us = behind_us;
+    world.planning.answers[order[i]].decision.behind_us = behind_us;
     behind_us += handing_us;
     behind_us += in_any_case_us(world, row, plans);
   }
@@ -312,21 +313,21 @@ frame::ScheduleResult plan_step(WorldState& world, double dt_s) noexcept {
   world.dt_s = dt_s;
   for (uint32_t slot = 0; slot < world.assets.end(); ++slot)
     if (Asset* asset = world.assets.at(slot)) refresh_fronts(world, *asset);
-  const std::span<Candidate> candidates{world.candidates.get(), gather_candidates(world)};
-  frame::ScheduleScratch& scratch = *world.scratch;
+  const std::span<Candidate> candidates{world.planning.candidates.get(), gather_candidates(world)};
+  frame::ScheduleScratch& scratch = *world.planning.scratch;
   float budget_us = world.budget_us;
   if (costs_are_measured(world) && budget_us > 0)
-    budget_us = std::max(0.0f, budget_us - world.overhead.p95_us()) * world.capacity.scale();
+    budget_us = std::max(0.0f, budget_us - world.costs.overhead.p95_us()) * world.costs.capacity.scale();
   const frame::ScheduleResult result = frame::schedule(candidates, budget_us, scratch);
   Ranking ranking(world);
   const bool has_budget = world.budget_us > 0;
   for (const Candidate& c : candidates) {
     const PlanRow& row = world.rows[c.slot];
-    give_answer(has_budget, row, c, world.answers[c.slot]);
-    ranking.add(c, row, world.answers[c.slot]);
+    give_answer(has_budget, row, c, world.planning.answers[c.slot]);
+    ranking.add(c, row, world.planning.answers[c.slot]);
   }
-  world.running = ranking.put_in_order();
-  add_up_behind(world, world.running);
+  world.order.running = ranking.put_in_order();
+  add_up_behind(world, world.order.running);
   return result;
 }
 

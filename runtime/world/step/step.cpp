@@ -23,7 +23,7 @@ namespace {
 Instance& take_answer(const WorldState& world, uint32_t slot, frame::TickPlans& ticks) noexcept {
   Instance& instance = *world.instances.at(slot);
   keep_hidden_ticks(world.rows[slot]);
-  const PlanAnswer& answer = world.answers[slot];
+  const PlanAnswer& answer = world.planning.answers[slot];
   instance.plan = {.decision = answer.decision,
                    .ticks = own_ticks(world, world.rows[slot], ticks),
                    .dt_s = own_step_s(world, *instance.state)};
@@ -42,25 +42,25 @@ void run_idle_chunk(WorldState& world, uint32_t chunk) noexcept {
   const Marker marker(world.def.profiler, "idle", kNoInstance);
   const uint64_t start_ns = core::now_ns(world.def.clock);
   frame::TickPlans ticks = tick_plans(world);
-  const uint32_t first = chunk * kIdleChunk, last = std::min(first + kIdleChunk, world.idle_count);
+  const uint32_t first = chunk * kIdleChunk, last = std::min(first + kIdleChunk, world.order.idle_count);
   for (uint32_t i = first; i < last; ++i) {
-    if (i + kAhead < last) bring_whole_near(world, world.idle_slots[i + kAhead]);
-    const uint32_t slot = world.idle_slots[i];
+    if (i + kAhead < last) bring_whole_near(world, world.order.idle_slots[i + kAhead]);
+    const uint32_t slot = world.order.idle_slots[i];
     Instance& instance = take_answer(world, slot, ticks);
     step_idle(instance, world.context);
     copy_to_row(instance, &world.rows[slot]);
   }
-  world.idle_ns[chunk] = core::now_ns(world.def.clock) - start_ns;
+  world.order.idle_ns[chunk] = core::now_ns(world.def.clock) - start_ns;
 }
 
 // Idle chunks come behind what is in order.
 void run_one(void* argument, uint32_t index) {
   const core::FloatingPointScope mode;
   WorldState& world = *static_cast<WorldState*>(argument);
-  const auto active = static_cast<uint32_t>(world.running.size());
+  const auto active = static_cast<uint32_t>(world.order.running.size());
   if (index >= active) return run_idle_chunk(world, index - active);
-  const uint32_t slot = world.running[index];
-  if (index + 1 < active) bring_whole_near(world, world.running[index + 1]);
+  const uint32_t slot = world.order.running[index];
+  if (index + 1 < active) bring_whole_near(world, world.order.running[index + 1]);
   frame::TickPlans ticks = tick_plans(world);
   Instance& instance = take_answer(world, slot, ticks);
   step_instance(instance, world.context, slot);
@@ -69,7 +69,7 @@ void run_one(void* argument, uint32_t index) {
 }
 
 uint32_t idle_chunks(const WorldState& world) noexcept {
-  return (world.idle_count + kIdleChunk - 1) / kIdleChunk;
+  return (world.order.idle_count + kIdleChunk - 1) / kIdleChunk;
 }
 
 bool is_limited(const WorldState& world) noexcept {
@@ -82,16 +82,16 @@ TickContext context_of(const WorldState& world, uint64_t start_ns) noexcept {
                       .frame_s = world.dt_s,
                       .teleport = world.def.teleport};
   if (!is_limited(world)) return context;
-  const float tasks_us = std::max(0.0f, world.budget_us - world.reporting.p95_us());
+  const float tasks_us = std::max(0.0f, world.budget_us - world.costs.reporting.p95_us());
   context.deadline_ns = start_ns + static_cast<uint64_t>(tasks_us * 1e3);
   context.tasks_us = tasks_us;
-  context.behind_scale = 1 / std::max(1.0f, world.capacity.scale());
+  context.behind_scale = 1 / std::max(1.0f, world.costs.capacity.scale());
   return context;
 }
 
 void run(WorldState& world) noexcept {
   core::run_tasks(world.def.tasks, run_one, &world,
-                  static_cast<uint32_t>(world.running.size()) + idle_chunks(world));
+                  static_cast<uint32_t>(world.order.running.size()) + idle_chunks(world));
 }
 
 // In microseconds of the world's clock since the step began.
@@ -102,24 +102,25 @@ struct Moments {
 void learn(WorldState& world, const Moments& at, const frame::ScheduleResult& plan,
            const FrameReport& report) noexcept {
   if (!costs_are_measured(world)) return;
-  world.reporting.observe(at.end_us - at.ran_us);
-  world.overhead.observe(at.planned_us + at.end_us - at.ran_us);
+  world.costs.reporting.observe(at.end_us - at.ran_us);
+  world.costs.overhead.observe(at.planned_us + at.end_us - at.ran_us);
   const uint64_t idle_ns =
-      std::accumulate(world.idle_ns.get(), world.idle_ns.get() + idle_chunks(world), uint64_t{0});
-  if (world.idle_count > 0)
-    world.idle.observe(core::microseconds(idle_ns) / static_cast<float>(world.idle_count));
-  if (!world.def.tasks.enqueue && !world.running.empty()) {
-    const float busy_us = core::microseconds(world.busy_ns + idle_ns);
-    world.between.observe(std::max(0.0f, at.ran_us - at.planned_us - busy_us) /
-                          static_cast<float>(world.running.size()));
+      std::accumulate(world.order.idle_ns.get(), world.order.idle_ns.get() + idle_chunks(world), uint64_t{0});
+  if (world.order.idle_count > 0)
+    world.costs.idle.observe(core::microseconds(idle_ns) / static_cast<float>(world.order.idle_count));
+  if (!world.def.tasks.enqueue && !world.order.running.empty()) {
+    const float busy_us = core::microseconds(world.order.busy_ns + idle_ns);
+    world.costs.between.observe(std::max(0.0f, at.ran_us - at.planned_us - busy_us) /
+                                static_cast<float>(world.order.running.size()));
   }
-  for (frame::CostEstimate* estimate : {&world.reporting, &world.overhead, &world.idle, &world.between})
+  for (frame::CostEstimate* estimate :
+       {&world.costs.reporting, &world.costs.overhead, &world.costs.idle, &world.costs.between})
     estimate->settle();
   if (!is_limited(world) || report.ticks == 0) return;
   const float had_us = world.budget_us - at.planned_us - (at.end_us - at.ran_us);
   const float spent = had_us > 0 ? (at.ran_us - at.planned_us) / had_us : 2;
-  const float planned_us = plan.planned_us, undone = planned_us > 0 ? world.undone_us / planned_us : 0;
-  world.capacity.observe(spent, std::min(undone, 1.0f), plan.denied);
+  const float planned_us = plan.planned_us, undone = planned_us > 0 ? world.order.undone_us / planned_us : 0;
+  world.costs.capacity.observe(spent, std::min(undone, 1.0f), plan.denied);
 }
 
 void tell_spending(const WorldState& world, const frame::ScheduleResult& plan, FrameReport& report) noexcept {
