@@ -8,7 +8,7 @@ packages=(
   g++ cmake ninja-build                                   # build
   libeigen3-dev libhwy-dev                                # runtime
   libtinygltf-dev nlohmann-json3-dev libcli11-dev libmeshoptimizer-dev libstb-dev libsuitesparse-dev # baker
-  libbullet-dev                                           # runtime/bullet
+  libbullet-dev                                           # runtime/adapters/bullet
   libembree-dev ffmpeg                                    # samples
   catch2 pkg-config tcc python3-cffi                      # tests
   python3-numpy python3-matplotlib libopenblas0-pthread   # plots

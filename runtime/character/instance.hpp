@@ -45,8 +45,8 @@ struct InstanceState {
   RodCounters rods;
   ParameterMarks parameters;
   Tier tier_limit : 16 = Tier::kNetwork;  // character/tier_limit.hpp
-  uint16_t no_padding = 0;
-  uint32_t looked = 0;  // world/step/look.hpp: the number of the last look at it
+  Tier left_tier : 16 = Tier::kSkinning;  // character/transition/catch_up.hpp: before it was left alone
+  uint32_t looked = 0;                    // world/step/look.hpp: the number of the last look at it
 };
 inline constexpr size_t kPlannedStateBytes = offsetof(InstanceState, motion);
 static_assert(kPlannedStateBytes == 64);  // a cache line
@@ -118,7 +118,7 @@ struct Instance {
   Published published;
 };
 
-inline constexpr size_t kPlannedBytes = offsetof(Instance, times);
+inline constexpr size_t kPlannedBytes = offsetof(Instance, times) + offsetof(InstanceTimes, between_ns);
 static_assert(kPlannedBytes <= 176);  // three cache lines with what the table of instances has before it
 
 inline TierCosts& costs_of(const Instance& instance) noexcept {

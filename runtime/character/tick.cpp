@@ -221,7 +221,7 @@ void step_instance(Instance& instance, const TickContext& context, uint32_t slot
   const bool goes_on = catches_up(instance);
   instance.marks.entered = frame::is_simulated(tier) && !goes_on &&
                            (!frame::is_simulated(instance.state->tier) || instance.state->poses.motion_stale);
-  const Tier had = goes_on ? instance.state->transition.left_tier : instance.state->tier;
+  const Tier had = goes_on ? instance.state->left_tier : instance.state->tier;
   if (changes_what_rods_touch(instance, had)) wake_rods(instance);
   instance.marks.changed_level = changes_level(instance);
   instance.marks.refined = refines(instance);

@@ -13,7 +13,7 @@ struct TickContext {
   // else it is shown as it was.
   uint64_t deadline_ns = UINT64_MAX;
   float tasks_us = 0;      // from the step's start to there
-  float behind_scale = 1;  // of InstancePlan::behind_us: workers share it
+  float behind_scale = 1;  // of TierDecision::behind_us: workers share it
   double frame_s = 0;      // what the world's step takes
   TeleportDef teleport = {};
 };

@@ -1,4 +1,4 @@
-"""Checks that includes point one way: core <- pack, kernels <- tissue, rods <- schedule <- character <- world <- c; nothing in runtime/ includes the baker.
+"""Checks that includes point one way: core <- math, pack <- kernels <- tissue, rods <- schedule <- character <- world <- c, adapters; nothing in runtime/ includes the baker.
 
 usage: include_direction.py PROJECT_ROOT
 Within runtime/ and baker/ it counts what includes itself in a circle, a header and its source as one, and the files of each folder; both numbers may
@@ -44,7 +44,8 @@ BAKER = {
 }
 # The most files that include one another in a circle, by trees: of rods, a batch and its collider step together.
 LARGEST_CIRCLE = {"runtime": 5, "baker": 3}
-# Files in the fullest folder, pages and CMake lists counted.
+# Files in the fullest folder, of these endings.
+COUNTED = (".hpp", ".cpp", ".h", ".py", ".sh", ".md", ".txt")
 FULLEST_FOLDER = {"runtime": 18, "baker": 22}
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 
@@ -74,6 +75,9 @@ def sources(folder):
 
 def offences(root):
     for tree, rooms, judge in (("runtime", ALLOWED, offence), ("baker", BAKER, baker_offence)):
+        for path in sources(root / tree):
+            if path.relative_to(root / tree).parts[0] not in rooms:
+                yield f"{path.relative_to(root)} lies in no room of {pathlib.Path(__file__).name}"
         for room in rooms:
             for path in sources(root / tree / room):
                 for included in INCLUDE.findall(path.read_text(encoding="ascii")):
@@ -84,7 +88,7 @@ def offences(root):
 
 def include_graph(folder, prefix):
     """{part: parts it includes}, a header and its source being one part, named as includes name it."""
-    files = {prefix + p.relative_to(folder).as_posix(): p for p in sources(folder)}
+    files = {(prefix + p.relative_to(folder).as_posix()).split("include/")[-1]: p for p in sources(folder)}
     graph = {name.rsplit(".", 1)[0]: set() for name in files}
     for name, path in files.items():
         own = name.rsplit(".", 1)[0]
@@ -121,8 +125,9 @@ def growths(root):
         named = f"the largest circle of includes in {tree}/ ({', '.join(sorted(found[0])) if found else 'none'})"
         yield changed(named, len(found[0]) if found else 0, LARGEST_CIRCLE[tree])
         folders = [p for p in [root / tree, *(root / tree).rglob("*")] if p.is_dir() and p.name != "__pycache__"]
-        fullest = max(folders, key=lambda p: sum(f.is_file() for f in p.iterdir()))
-        yield changed(f"the fullest folder of {tree}/, {fullest.relative_to(root)},", sum(f.is_file() for f in fullest.iterdir()), FULLEST_FOLDER[tree])
+        count = {p: sum(f.suffix in COUNTED for f in p.iterdir()) for p in folders}
+        fullest = max(folders, key=count.get)
+        yield changed(f"the fullest folder of {tree}/, {fullest.relative_to(root)},", count[fullest], FULLEST_FOLDER[tree])
 
 
 def main(root):

@@ -110,7 +110,7 @@ double rest_off(uint32_t from, int at) {
   for (Block* block : {&always, &changes}) block->tick(bounce, Tier::kModal, 0);
   double off = 0, whole = 0;
   for (const int tick : {0, 1}) {
-    const float *r = changes.instance().tissue.r[tick], *wanted = always.instance().r[tick];
+    const float *r = changes.instance().tissue.r[tick], *wanted = always.instance().tissue.r[tick];
     for (size_t i = 0; i < size_t{3} * always.instance().level->node_count(); ++i) {
       off += std::pow(double{r[i]} - double{wanted[i]}, 2);
       whole += std::pow(double{wanted[i]}, 2);
@@ -369,7 +369,7 @@ TEST_CASE("what_a_change_of_level_takes_is_learnt_and_not_taken_for_publishing")
   world::Instance made;
   REQUIRE(world::make_instance(asset, {}, &made).ok());
   world::Instance& block = *state.instances.find(state.instances.create(std::move(made)));
-  block.plan = {.ticks = {.ticks = 1}, .tier = Tier::kModal};
+  block.plan = {.decision = {.tier = Tier::kModal}, .ticks = {.ticks = 1}};
   block.state->tier = Tier::kModal;
   block.marks.displaced = block.marks.changed_level = block.marks.refined = true;
   world::keep_row(state, 0);

@@ -367,7 +367,7 @@ TEST_CASE("who_sleeps_on_skin_is_priced_so_and_who_is_on_capsules_is_not") {
     world::Instance made;
     REQUIRE(world::make_instance(asset, {.contacts = {.surface = &skin}}, &made).ok());
     world::Instance& block = *state.instances.find(state.instances.create(std::move(made)));
-    block.plan = {.ticks = {.ticks = 1}, .tier = Tier::kModal, .level = level};
+    block.plan = {.decision = {.level = level, .tier = Tier::kModal}, .ticks = {.ticks = 1}};
     block.state->tier = Tier::kModal;
     block.state->rods.quiet_ticks = world::kRodsQuietTicks;
     world::change_level(block, level);

@@ -91,9 +91,7 @@ TEST_CASE("restore_refuses_a_tier_a_control_graph_and_a_time_that_there_is_not")
     return bytes;
   };
   check_refused(stage, changed([](world::InstanceState& s) { s.tier = static_cast<Tier>(kTierCount); }));
-  check_refused(stage, changed([](world::InstanceState& s) {
-                  s.transition.left_tier = static_cast<Tier>(kTierCount);
-                }));
+  check_refused(stage, changed([](world::InstanceState& s) { s.left_tier = static_cast<Tier>(kTierCount); }));
   check_refused(stage, changed([](world::InstanceState& s) { s.tier_limit = Tier::kExtrapolate; }));
   check_refused(stage, changed([](world::InstanceState& s) { s.tier = static_cast<Tier>(3); }));  // springs
   check_refused(stage, changed([](world::InstanceState& s) { s.level = 1; }));

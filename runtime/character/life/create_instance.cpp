@@ -2,10 +2,8 @@
 #include "character/life/create_instance.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <memory>
 #include <new>
-#include <type_traits>
 
 #include "character/asset/rod_batches.hpp"
 #include "character/life/lay_out.hpp"
@@ -14,7 +12,6 @@
 #include "character/parameters/tuned_parts.hpp"
 #include "character/rods/rod_blend.hpp"
 #include "character/rods/rod_contacts.hpp"
-#include "core/clock.hpp"
 #include "core/status.hpp"
 #include "schedule/scheduler.hpp"
 

@@ -34,7 +34,7 @@ void take_state(const Instance& from, Instance& to) noexcept {
   state.remainder_s = std::min(state.remainder_s, to.asset->tick_s);
   state.level = 0;
   state.tier = Tier::kExtrapolate;
-  state.transition.left_tier = Tier::kSkinning;
+  state.left_tier = Tier::kSkinning;
   state.dormant = state.restarting = state.fallback_ticks = state.poses.still_ticks = state.rods.quiet_ticks =
       0;
   state.transition.missed_ticks = state.transition.tail_rides = state.tissue.is_off = 0;

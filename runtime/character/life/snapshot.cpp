@@ -1,10 +1,10 @@
 // snapshot.cpp  An instance's state as bytes, for rollback.
 #include "character/life/snapshot.hpp"
-#include "character/motion/pose_bound.hpp"
 
 #include <cmath>
 #include <cstring>
 
+#include "character/motion/pose_bound.hpp"
 #include "character/output/publish.hpp"
 #include "character/parameters/tuned_parts.hpp"
 #include "character/parameters/tuning.hpp"
@@ -123,7 +123,7 @@ Status restore(Instance& instance, std::span<const std::byte> bytes) noexcept {
   InstanceState state;
   std::memcpy(&state, payload.data(), sizeof state);
   if (state.level >= instance.asset->level_count || !pack::is_tier(static_cast<uint32_t>(state.tier)) ||
-      !pack::is_tier(static_cast<uint32_t>(state.transition.left_tier)) || !may_limit(state.tier_limit))
+      !pack::is_tier(static_cast<uint32_t>(state.left_tier)) || !may_limit(state.tier_limit))
     return corrupt("names a control graph or a tier that there is not");
   if (instance.transition.seam == nullptr && state.transition.seam_ticks < kBlendInTicks)
     return corrupt("is amid a change of control graphs, of which there is one");

@@ -26,7 +26,7 @@ void notice_environment(Instance& instance) noexcept;
 // ---- in a step, of one that tunes_air (character/parameters/tuning.hpp) ----
 
 void begin_air_tick(Instance& instance) noexcept;
-void end_air_tick(Instance& instance) noexcept;  // InstanceState::tuning_moves; wakes rods
+void end_air_tick(Instance& instance) noexcept;  // ParameterMarks::moves; wakes rods
 void settle_air(Instance& instance) noexcept;
 
 // ---- what parts feel ----

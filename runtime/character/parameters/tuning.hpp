@@ -23,8 +23,8 @@ namespace sinew::world {
 
 // ---- setting ----
 
-// After one of the instance's SetParameters was changed, or all_parameters. True where it is tuned from now
-// on: what is shown between ticks is then bounded otherwise, and is to be published again.
+// After one of the instance's SetParameters was changed, or ParameterMarks::all. True where it is tuned from
+// now on: what is shown between ticks is then bounded otherwise, and is to be published again.
 bool notice_parameters(Instance& instance) noexcept;
 
 // ---- in a step ----

@@ -44,7 +44,7 @@ struct AirState {
   AddedEnvironment added;  // World::set_added_environment
 };
 
-// InstanceState::tuned: what of it is not as baked. Without a bit nothing of it is looked at.
+// ParameterMarks::tuned: what of it is not as baked. Without a bit nothing of it is looked at.
 inline constexpr uint16_t kTunedParts = 1, kTunedAir = 2;
 
 }  // namespace sinew::world

@@ -11,7 +11,7 @@
 
 namespace sinew::world {
 
-// In the newest of rod_rest and rod_hold.
+// In the newest of RodState::rest and hold.
 bool rods_are_held_as_asleep(const Instance& instance) noexcept;
 // Before a tick's drive: true where it may be left out.
 bool rods_sleep_on(Instance& instance) noexcept;

@@ -13,7 +13,7 @@
 
 namespace sinew::world {
 
-// In ticks of the asset's rate; at 60 Hz 0.03 s and 0.13 s.
+// In ticks of the asset's rate.
 // A network that missed at most so many ticks keeps its memory when it comes back; after more, its velocities
 // are of another phase of the wobble and it starts anew from where it is.
 inline constexpr uint32_t kRememberedTicks = 2;

@@ -1,11 +1,12 @@
 // blend_pace.cpp  see blend_pace.hpp.
 #include "character/transition/blend_pace.hpp"
-#include "character/transition/shares.hpp"
-#include "character/transition/simulated_shown.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+
+#include "character/transition/shares.hpp"
+#include "character/transition/simulated_shown.hpp"
 
 namespace sinew::world {
 namespace {

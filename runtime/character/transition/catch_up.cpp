@@ -9,7 +9,7 @@ namespace sinew::world {
 uint32_t missed_so_far(const Instance& instance) noexcept {
   const InstanceState& state = *instance.state;
   const bool near = state.transition.missed_ticks <= kCaughtUpTicks && !state.poses.motion_stale;
-  const bool left = state.tier == Tier::kExtrapolate && frame::is_simulated(state.transition.left_tier);
+  const bool left = state.tier == Tier::kExtrapolate && frame::is_simulated(state.left_tier);
   return near && left ? state.transition.missed_ticks : 0u;
 }
 
@@ -30,7 +30,7 @@ bool knows_poses(const Instance& instance) noexcept {
 bool may_go_on(const Instance& instance) noexcept {
   const InstanceState& state = *instance.state;
   const InstancePlan& plan = instance.plan;
-  return plan.decision.level >= state.level || plan.decision.tier == state.transition.left_tier ||
+  return plan.decision.level >= state.level || plan.decision.tier == state.left_tier ||
          plan.decision.tier == Tier::kNetwork;
 }
 
@@ -45,13 +45,13 @@ bool catches_up(const Instance& instance) noexcept {
 bool catch_up_first(Instance& instance) noexcept {
   const InstanceState& state = *instance.state;
   if (instance.plan.decision.level >= state.level || !catches_up(instance)) return false;
-  instance.plan.decision.tier = state.transition.left_tier;
+  instance.plan.decision.tier = state.left_tier;
   instance.plan.decision.level = static_cast<uint8_t>(state.level);
   return true;
 }
 
 void begin_gap(Instance& instance) noexcept {
-  instance.state->transition.left_tier = instance.state->tier;
+  instance.state->left_tier = instance.state->tier;
   instance.state->transition.missed_ticks = 0;
 }
 
@@ -66,7 +66,7 @@ void end_gap(Instance& instance, bool catches_up) noexcept {
   InstanceState& state = *instance.state;
   instance.marks.made_up = static_cast<uint8_t>(catches_up ? state.transition.missed_ticks : 0);
   if (catches_up)
-    state.tier = state.transition.left_tier;
+    state.tier = state.left_tier;
   else if (frame::is_simulated(instance.plan.decision.tier))
     state.transition.missed_ticks = 0;
 }

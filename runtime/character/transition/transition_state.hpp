@@ -39,10 +39,9 @@ struct TransitionClock {
   float blend_pace = 1;                 // of the last tick: what blend_ticks rose by
   uint32_t hidden_ticks = 0;            // character/rest/hidden.hpp
   uint16_t fade_ticks = kFadeTicks;     // of the tail
-  // character/transition/catch_up.hpp: ticks since it was left alone, the tier it had before; the tail counts
-  // from what is simulated.
+  // character/transition/catch_up.hpp: ticks since it was left alone; the tail counts from what is simulated.
   uint16_t missed_ticks = 0, tail_rides = 0;
-  Tier left_tier : 16 = Tier::kSkinning;
+  uint16_t no_padding = 0;
 };
 
 // TransitionState::regained: not simulated since.

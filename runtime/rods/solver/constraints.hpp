@@ -1,9 +1,9 @@
 // constraints.hpp  A joint's two constraints, each a pure function: value and derivatives.
 //
-// What the kernels in simd/rod_*-inl.hpp compute in vectors, said once plainly; tests hold the kernels to it
-// and measure with it. A pose's rotation is a vector along the segment's own axes, q -> q (1, rotation / 2).
-// Both return false, and leave `out` alone, for what has no constraint: numbers that are not finite, a length
-// of 0, an orientation that is no rotation (length off by more than a thousandth).
+// What the kernels in kernels/rods/rod_*-inl.hpp compute in vectors, said once plainly; tests hold the
+// kernels to it and measure with it. A pose's rotation is a vector along the segment's own axes, q -> q (1,
+// rotation / 2). Both return false, and leave `out` alone, for what has no constraint: numbers that are not
+// finite, a length of 0, an orientation that is no rotation (length off by more than a thousandth).
 #pragma once
 
 namespace sinew::rods {

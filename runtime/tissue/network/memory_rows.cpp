@@ -1,11 +1,10 @@
 // memory_rows.cpp  see memory_rows.hpp.
 #include "tissue/network/memory_rows.hpp"
 
-#include "tissue/network/layer_state.hpp"
-
 #include <cstring>
 
 #include "pack/format.hpp"
+#include "tissue/network/layer_state.hpp"
 
 namespace sinew::tissue {
 namespace {

@@ -1,8 +1,9 @@
 // narrow_layer.cpp  see narrow_layer.hpp.
 #include "tissue/network/narrow_layer.hpp"
-#include "tissue/network/layer_state.hpp"
 
 #include <algorithm>
+
+#include "tissue/network/layer_state.hpp"
 
 namespace sinew::tissue {
 namespace {

@@ -1,11 +1,11 @@
 // plan.cpp  see plan.hpp.
 #include "world/step/plan.hpp"
-#include "character/asset/affords_surface.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <new>
 
+#include "character/asset/affords_surface.hpp"
 #include "character/rest/dormant.hpp"
 #include "character/rest/hidden.hpp"
 #include "world/step/skip_pose.hpp"

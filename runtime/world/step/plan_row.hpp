@@ -15,7 +15,7 @@ struct alignas(64) PlanRow {
   // As long as the instance lives: they are looked at while its task writes the rest.
   Asset* asset = nullptr;  // null: the slot is free
   InstanceState* state = nullptr;
-  // Of InstanceState and Instance, under the same names:
+  // Of InstanceState, Instance and their parts, under the same names:
   double remainder_s = 0;
   float importance = 1, excitation = 1;
   float waited_s = 0, held_s = 0, turn_left_s = 0;
