@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Measures contacts: what they cost strands on a head, ropes beside Bullet's own, and surfaces in Embree. Rewrites their tables in
-# perf/README.md and perf/results/<processor>_{contacts,ropes,surfaces}.csv. About six minutes on one quiet core.
+# Measures contacts: strands on a head, ropes against Bullet's soft bodies, and surfaces in Embree. Rewrites perf/reports/contacts.csv,
+# ropes.csv and surfaces.csv and their tables in perf/README.md. About six minutes on one quiet core.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -10,5 +10,6 @@ measured=$(mktemp -d)
 trap 'rm -rf "$measured"' EXIT
 for bench in contacts ropes surfaces; do
   build/release/bin/perf_$bench >"$measured/$bench.csv"
-  python3 perf/summarise_table.py $bench "$measured/$bench.csv"
 done
+"${PYTHON:-/usr/bin/python3}" perf/summarise.py perf/contacts.sh contacts="$measured/contacts.csv" ropes="$measured/ropes.csv" \
+  surfaces="$measured/surfaces.csv"

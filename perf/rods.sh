@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Measures rods: perf_rods and the trade of time against exactness. Rewrites perf/results/<processor>_rods*.csv, perf/trade/rods.png and
-# the tables of rods in perf/README.md and perf/trade/README.md. About ten minutes on one quiet core; a run that was stopped goes on
-# where it was, by what it has left in build/release/rods_trade.csv. --again begins anew, --quick only shows that everything runs.
+# Measures rods: their speed, and each solver's time to a residual. Rewrites perf/reports/rods.csv, rods_trade.csv and rods.png and their
+# tables in perf/README.md and perf/trade/README.md. About ten minutes on one quiet core; a stopped run resumes from
+# build/release/rods_trade.csv. --again starts over, --quick only shows that everything runs.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -18,7 +18,4 @@ starts=(--examples assets/weights/coping_examples.safetensors --network "${SINEW
 [ "${1:-}" != --again ] || rm -f "$measured"
 build/release/bin/perf_rods >build/release/rods.csv
 build/release/bin/perf_trade_rods "$measured" "${starts[@]}"
-python=python3
-"$python" -c 'import matplotlib' 2>/dev/null || python=/usr/bin/python3
-"$python" perf/summarise_rods.py build/release/rods.csv
-"$python" perf/summarise_trade.py "$measured"
+"${PYTHON:-/usr/bin/python3}" perf/summarise.py perf/rods.sh rods=build/release/rods.csv rods_trade="$measured"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Measures kernels and growth, and rewrites perf/results/<processor>*.csv, perf/scale.png and the tables in perf/README.md. About
-# four minutes.
+# Measures the kernels and one character's growth. Rewrites perf/reports/kernels.csv, scale.csv and scale.png and their tables in
+# perf/README.md. About four minutes.
 # SINEW_REFERENCE=path/to/alt_conv_lstm.py times the PyTorch network as well; SINEW_PYTHON is a Python that has PyTorch.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -13,14 +13,15 @@ cmake --preset release | grep "^-- perf:" || true
 cmake --build --preset release --target perf_kernels perf_scale sinew-bake
 measured=$(mktemp -d)
 trap 'rm -rf "$measured"' EXIT
-# On processors with AMX oneDNN's u8s8s32 takes tiles, and here four times as long as by VNNI: the yardstick is its faster one.
+python=${PYTHON:-/usr/bin/python3}
+# On processors with AMX, oneDNN multiplies bytes in tiles and is four times slower than with VNNI: the peer is its faster path.
 export ONEDNN_MAX_CPU_ISA=${ONEDNN_MAX_CPU_ISA:-AVX512_CORE_VNNI}
 build/release/bin/perf_kernels --benchmark_repetitions=15 --benchmark_enable_random_interleaving=true \
   --benchmark_min_time=0.2 --benchmark_format=json >"$measured/kernels.json" 2>/dev/null
 if [ -n "${SINEW_REFERENCE:-}" ]; then
   OMP_NUM_THREADS=1 "${SINEW_PYTHON:-python3}" perf/peers/alt_conv_lstm_torch.py "$SINEW_REFERENCE" >"$measured/peers.json"
 fi
-python3 perf/summarise.py "$measured"/*.json
+"$python" perf/benchmark_rows.py "$measured"/*.json >"$measured/kernels.csv"
 
 # One character at several resolutions.
 for vertices in 200 500 2000 7000 20000 50000; do
@@ -29,6 +30,4 @@ for vertices in 200 500 2000 7000 20000 50000; do
     --tissue assets/weights/creature.safetensors --quick -o "$measured/$vertices.sinew" >/dev/null
 done
 build/release/bin/perf_scale "$measured"/{200,500,2000,7000,20000,50000}.sinew >"$measured/scale.csv"
-python=python3
-"$python" -c 'import matplotlib' 2>/dev/null || python=/usr/bin/python3
-"$python" perf/summarise_scale.py "$measured/scale.csv"
+"$python" perf/summarise.py perf/run.sh kernels="$measured/kernels.csv" scale="$measured/scale.csv"

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
-# Measures every tier of the creature against ground truth and rewrites perf/results/<processor>_tiers.csv, perf/trade/tiers.png, .svg and
-# the table of perf/trade/README.md. Under ten minutes on two quiet cores; a run that was stopped goes on where it was, by what it has left
-# in build/release/tiers. --again begins anew.
+# Measures every tier of the creature against ground truth. Rewrites perf/reports/tiers.csv, tiers.png and tiers.svg and the table of
+# perf/trade/README.md. Under ten minutes on two quiet cores; a stopped run resumes from build/release/tiers. --again starts over.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -19,6 +18,6 @@ recipe=assets/creature/tissue.json weights=assets/weights
 # The hop is held out of all training (assets/bodies/plan.json).
 build/release/bin/sinew-trade "$out/creature.sinew" --recipe $recipe --tissue $weights/creature.safetensors \
   --clip hop -o "$out/trade"
-python=python3
-"$python" -c 'import matplotlib' 2>/dev/null || python=/usr/bin/python3
-"$python" perf/summarise_tiers.py "$out/trade"
+cp "$out/trade/trade.png" perf/reports/tiers.png
+cp "$out/trade/trade.svg" perf/reports/tiers.svg
+"${PYTHON:-/usr/bin/python3}" perf/summarise.py perf/tiers.sh tiers="$out/trade/trade.csv"
