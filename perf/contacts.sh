@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Measures contacts: strands on a head, ropes against Bullet's soft bodies, and surfaces in Embree. Rewrites perf/reports/contacts.csv,
-# ropes.csv and surfaces.csv and their tables in perf/README.md. About six minutes on one quiet core.
+# ropes.csv and surfaces.csv and their tables in perf/README.md. About two minutes on one quiet core.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

@@ -27,8 +27,8 @@ def frames(rows):
     axes.set_xlabel("thread CPU time of a step over its budget (logarithmic)")
     axes.set_title(f"Steps against their budget, {int(rows[0]['frames']):,} frames a scene; {processor()}", fontsize=10)
     axes.grid(axis="x", alpha=0.3)
-    figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=4, fontsize=8)
-    figure.savefig(REPORTS / "frames.png", dpi=100)
+    figure.legend(*axes.get_legend_handles_labels(), loc="upper center", bbox_to_anchor=(0.5, 0), ncols=4, fontsize=8)
+    figure.savefig(REPORTS / "frames.png", dpi=100, bbox_inches="tight")
 
 
 def scale(rows):
@@ -42,11 +42,12 @@ def scale(rows):
         of = find(rows, group="vertices", quantity=quantity)
         right.loglog([int(row["vertices"]) for row in of], [float(row["value"]) for row in of], marker="o", label=label)
     right.set(xlabel="vertices of one character", ylabel="µs")
+    left.legend(loc="lower right")
+    right.legend(loc="upper left")
     for axes in (left, right):
-        axes.legend()
         axes.grid(alpha=0.3)
     figure.suptitle(processor(), fontsize=10)
-    figure.savefig(REPORTS / "scale.png", dpi=100)
+    figure.savefig(REPORTS / "scale.png", dpi=100, bbox_inches="tight")
 
 
 STARTS = ("zero", "previous", "continued", "learned", "knn")
@@ -91,8 +92,8 @@ def rods_trade(rows):
     grid[1][0].set_ylabel("iterations of direct to 1e-6,\n50 segments")
     for axes in grid.flat:
         axes.grid(alpha=0.3)
-    figure.legend(*grid[0][0].get_legend_handles_labels(), loc="outside lower center", ncols=len(OPTIONS), fontsize=8)
-    figure.savefig(REPORTS / "rods.png", dpi=100)
+    figure.legend(*grid[0][0].get_legend_handles_labels(), loc="upper center", bbox_to_anchor=(0.5, 0), ncols=len(OPTIONS), fontsize=8)
+    figure.savefig(REPORTS / "rods.png", dpi=100, bbox_inches="tight")
 
 
 PICTURES = {"frames": frames, "scale": scale, "rods_trade": rods_trade}

@@ -28,14 +28,12 @@ def write(name, command, measured):
 
 def table(columns, rows):
     """Lines of a Markdown table."""
-    lines = [columns, ["---"] * len(columns), *rows]
-    return ["| " + " | ".join(map(str, line)) + " |" for line in lines]
+    lines = [columns, ["-"] * len(columns), *rows]
+    return ["|" + "|".join(map(str, line)) + "|" for line in lines]
 
 
-def put_table(block, report, source, lines, page):
-    """Replaces the text between the page's markers of that block by a table and a line that says what it was measured with."""
-    folder = "reports" if page.parent == HERE else "../reports"
-    source = f"{source}; [all rows]({folder}/{report}.csv)"
+def put_block(page, block, lines):
+    """Replaces the text between the page's markers of that block."""
     begin, end = f"<!-- {block} -->", f"<!-- end of {block} -->"
     head, rest = page.read_text().split(begin)
-    page.write_text("\n".join([head + begin, source, "", *lines, end]) + rest.split(end)[1])
+    page.write_text("\n".join([head + begin, *lines, end]) + rest.split(end)[1])

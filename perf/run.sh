@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Measures the kernels and one character's growth. Rewrites perf/reports/kernels.csv, scale.csv and scale.png and their tables in
-# perf/README.md. About four minutes.
+# perf/README.md. About three minutes.
 # SINEW_REFERENCE=path/to/alt_conv_lstm.py times the PyTorch network as well; SINEW_PYTHON is a Python that has PyTorch.
 set -euo pipefail
 cd "$(dirname "$0")/.."

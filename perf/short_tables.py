@@ -24,27 +24,32 @@ def only(rows, **wanted):
 
 # Kernels
 
-KERNELS = [  # row of the page, bench, the peer's products alone
-    ("paper's network, 6,890 vertices, float32", "alt_conv_lstm_paper", "onednn_sgemm_paper"),
-    ("the same, fp16 states", "alt_conv_lstm_fp16_paper", "onednn_sgemm_paper"),
-    ("the same, int8", "alt_conv_lstm_int8_paper", "onednn_u8s8s32_paper"),
-    ("a character's network (`creature`), float32", "alt_conv_lstm_creature", None),
-    ("the same, fp16 states", "alt_conv_lstm_fp16_creature", None),
-    ("the same, int8", "alt_conv_lstm_int8_creature", None),
-    ("Deep Emulator, 1,468 vertices, all chains", "deep_emulator_chains", "onednn_sgemm_deep_emulator"),
-]
+KERNELS = {  # bench: row of the page
+    "alt_conv_lstm_paper": "paper's network, 6,890 vertices, float32",
+    "alt_conv_lstm_fp16_paper": "fp16 states",
+    "alt_conv_lstm_int8_paper": "int8",
+    "deep_emulator_chains": "Deep Emulator, 1,468 vertices",
+    "alt_conv_lstm_creature": "character's network, float32",
+    "alt_conv_lstm_fp16_creature": "fp16 states",
+    "alt_conv_lstm_int8_creature": "int8",
+}
+PEERS = {  # column of the page: {bench: its peer}
+    "oneDNN's products over it": {"alt_conv_lstm_paper": "onednn_sgemm_paper", "alt_conv_lstm_fp16_paper": "onednn_sgemm_paper",
+                                         "alt_conv_lstm_int8_paper": "onednn_u8s8s32_paper", "deep_emulator_chains": "onednn_sgemm_deep_emulator"},
+    "Eigen's products over it": {"alt_conv_lstm_paper": "eigen_products_paper"},
+    "PyTorch over it": dict.fromkeys(["alt_conv_lstm_paper", "alt_conv_lstm_fp16_paper", "alt_conv_lstm_int8_paper"], "pytorch_paper"),
+}
 
 
 def kernels(rows):
     us = {row["bench"]: float(row["median_us"]) for row in rows}
     fraction = {row["bench"]: row["fraction_of_peak"] for row in rows}
-    peers = ["over oneDNN's products"] * ("onednn_sgemm_paper" in us) + ["PyTorch over it"] * ("pytorch_paper" in us)
+    measured = {column: peers for column, peers in PEERS.items() if any(peer in us for peer in peers.values())}
     lines = []
-    for label, bench, products in KERNELS:
-        ratio = {"over oneDNN's products": times(us[bench] / us[products]) if products in us else "",
-                 "PyTorch over it": times(us["pytorch_paper"] / us[bench], 1) if "pytorch_paper" in us and bench.endswith("_paper") else ""}
-        lines.append([label, f"{us[bench]:,.0f}", fraction[bench], *[ratio[peer] for peer in peers]])
-    return table(["step", "µs", "fraction of peak", *peers], lines)
+    for bench, label in KERNELS.items():
+        ratios = [times(us[peers[bench]] / us[bench]) if peers.get(bench) in us else "" for peers in measured.values()]
+        lines.append([label, f"{us[bench]:,.0f}", fraction[bench], *ratios])
+    return table(["step", "µs", "fraction of peak", *measured], lines)
 
 
 # Scale
@@ -65,7 +70,7 @@ def character(rows):
     for subject, label in PARTS.items():
         of = {row["quantity"]: float(row["value"]) for row in find(rows, group="parts", subject=subject)}
         lines.append([label, times(of["us"], 1), times(of["share_of_peak"]) if "share_of_peak" in of else ""])
-    return table(["part", "µs", "fraction of multiply-add peak"], lines)
+    return table(["part", "µs", "fraction of peak"], lines)
 
 
 def scale(rows):
@@ -74,30 +79,29 @@ def scale(rows):
         cases.setdefault((row["group"], int(row["vertices"]), int(row["instances"]), int(row["workers"])), {})[row["quantity"]] = float(row["value"])
     sizes = sorted(vertices for group, vertices, *_ in cases if group == "vertices")
     lines = []
-    for vertices in sizes[::2] + sizes[-1:]:
+    for vertices in sizes[1::2]:
         of = cases["vertices", vertices, 1, 1]
-        lines.append([f"{vertices:,} vertices", times(of["cpu_us"], 0), times(of["read_us"], 0), times(of["instance_bytes"] / 1e3, 0)])
-    for instances in (10, 500):
-        for workers in (1, 2):
-            of = next(of for (group, _, n, w), of in cases.items() if (group, n, w) == ("instances", instances, workers))
-            lines.append([f"{instances} instances, {workers} worker{'s' * (workers > 1)}", times(of["wall_us"] / instances, 0), "", ""])
-    return table(["", "step, µs an instance", "reading positions, µs", "memory of an instance, kB"], lines)
+        lines.append([f"one of {vertices:,} vertices", times(of["cpu_us"], 0), times(of["read_us"], 0), times(of["instance_bytes"] / 1e3, 0)])
+    for workers in (1, 2):
+        of = next(of for (group, _, n, w), of in cases.items() if (group, n, w) == ("instances", 100, workers))
+        lines.append([f"100, {workers} worker{'s' * (workers > 1)}", times(of["wall_us"] / 100, 0), "", ""])
+    return table(["instances", "step, µs each", "reading positions, µs", "memory, kB"], lines)
 
 
 # Crowds
 
-FRAMES = [("steady", 100, 4000), ("steady", 500, 8000), ("cuts", 100, 4000), ("walls", 500, 4000), ("worker lost", 100, 2000),
-          ("neighbour", 100, 2000), ("steady", 16, 100)]
+FRAMES = [("steady", 100, 4000), ("steady", 500, 8000), ("entrance", 100, 4000), ("walls", 500, 4000), ("neighbour", 100, 2000), ("steady", 16, 100),
+          ("yardstick", 0, 4000)]
 
 
 def frames(rows):
     lines = []
     for trouble, instances, budget_us in FRAMES:
         row = only(rows, trouble=trouble, instances=instances, budget_us=budget_us)
-        tiers = ["network", "modal", "extrapolated", "skinned"]
-        lines.append([f"{trouble}, {instances} in {budget_us / 1000:g} ms", *[times(float(row[f"cpu_{q}"])) for q in ("p50", "p99", "p999", "worst")],
-                      " / ".join(f"{100 * float(row[tier]):.0f}" for tier in tiers), times(float(row["expected_error"]))])
-    return table(["scene", "median", "p99", "p99.9", "worst", "network / modal / extrapolated / skinned, %", "expected error"], lines)
+        scene = f"{trouble}, {instances} in {budget_us / 1000:g} ms" if instances else trouble
+        chosen = [f"{100 * float(row['network']):.0f}", times(float(row["expected_error"]))] if instances else ["", ""]
+        lines.append([scene, *[times(float(row[f"cpu_{quantile}"])) for quantile in ("p50", "p99", "p999", "worst")], *chosen])
+    return table(["scene", "median", "p99", "p99.9", "worst", "network, %", "expected error"], lines)
 
 
 def crowd_error(rows):
@@ -138,12 +142,27 @@ def jumps(rows):
     return table(["clip", "fastest vertex without a change", "between simulated tiers", "simulation stops", "simulation resumes", "beyond the earlier tier too"], lines)
 
 
+BETWEEN = {  # measure of the report: row of the page
+    "judder at 144 frames a second": "judder at 144 frames a second",
+    "judder at 240 frames a second": "judder at 240",
+    "judder at 240 with the last velocity carried on": "judder at 240, last velocity extrapolated (rejected)",
+    "30 frames a second, off 60": "difference of 30 to 60 frames a second, over the motion",
+    "240 frames a second, off 60": "difference of 240 to 60",
+}
+
+
+def between(rows):
+    worst = {row["measure"]: row["worst"] for row in rows}
+    lines = [[label, worst[f"bob, {name}"], worst[f"liveliest clip, {name}"]] for name, label in BETWEEN.items()]
+    return table(["", "bob", "clip"], lines)
+
+
 # Contacts
 
 def contacts(rows):
     lines = [[f"{row['motion']}, {row['with']}", row["us_a_step"], row["over_rods"], row["iterations_a_strand"], row["contacts"], row["deepest"]]
              for row in rows if row["with"] != "nothing"]
-    return table(["head, collider", "µs a step", "added, over rods alone", "iterations a strand", "contacts", "deepest, radii"], lines)
+    return table(["head, collider", "µs a step", "added over rods", "iterations", "contacts", "depth, radii"], lines)
 
 
 def ropes(rows):
@@ -152,15 +171,7 @@ def ropes(rows):
         for rope, label in (("sinew", "Sinew"), ("btSoftBody_10", "Bullet, 10"), ("btSoftBody_40", "Bullet, 40"), ("btSoftBody_160", "Bullet, 160")):
             row = only(rows, obstacle=obstacle, rope=rope, ropes=16)
             lines.append([f"{obstacle}: {label}", row["us_a_rope"], times(float(row["deepest"])), f"{float(row['piece_stretch']):.1e}", f"{float(row['rope_stretch']):.1e}"])
-    return table(["obstacle: solver, iterations", "µs a rope", "deepest, radii", "stretch of a segment", "of the rope"], lines)
-
-
-def surfaces(rows):
-    lines = []
-    for triangles in dict.fromkeys(row["triangles"] for row in rows):
-        us = {row["what"]: float(row["us_each"]) for row in find(rows, triangles=triangles)}
-        lines.append([f"{int(triangles):,}", f"{us['refit']:,.0f}", times(us["near"], 1), times(us["off"], 1), times(us["far"], 1)])
-    return table(["triangles", "refit, µs", "probe on the surface, µs", "just off it", "far away"], lines)
+    return table(["obstacle: solver", "µs a rope", "depth, radii", "stretch of a segment", "of the rope"], lines)
 
 
 # Rods
@@ -247,9 +258,10 @@ BLOCKS = {
     "crowd_error": {"crowd_error": crowd_error},
     "gaps": {"gaps": gaps},
     "jumps": {"jumps": jumps},
+    "between": {"between": between},
     "contacts": {"contacts": contacts},
     "ropes": {"ropes": ropes},
-    "surfaces": {"surfaces": surfaces},
+    "surfaces": {},
     "rods": {"rods": rods},
     "rods_trade": {"rods_trade": rods_trade, "rod_contacts": rod_contacts},
     "tiers": {"tiers": tiers},

@@ -10,19 +10,21 @@ from pictures import PICTURES
 from short_tables import BLOCKS
 
 TWO_THREADS = {"scale"}  # blocks whose rows say how many workers they had
-PAGES = [report.HERE / "README.md", report.HERE / "trade" / "README.md"]
+PAGES = {report.HERE / "README.md": "reports", report.HERE / "trade" / "README.md": "../reports"}
 
 
-def page_of(block):
-    return next(page for page in PAGES if f"<!-- {block} -->" in page.read_text())
+def put_table(command, name, block, table):
+    page, folder = next((page, folder) for page, folder in PAGES.items() if f"<!-- {block} -->" in page.read_text())
+    threads = "" if block in TWO_THREADS else ", one thread"
+    source = f"`{command}`, {report.processor()}{threads}; [all rows]({folder}/{name}.csv)"
+    report.put_block(page, block, [source, "", *table])
 
 
 def summarise(command, name, measured):
     report.write(name, command, measured)
     rows = report.read(measured)
     for block, short_table in BLOCKS[name].items():
-        threads = "" if block in TWO_THREADS else ", one thread"
-        report.put_table(block, name, f"`{command}`, {report.processor()}{threads}", short_table(rows), page_of(block))
+        put_table(command, name, block, short_table(rows))
     if name in PICTURES:
         PICTURES[name](rows)
 

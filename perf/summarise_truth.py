@@ -1,4 +1,4 @@
-"""Writes assets/evaluation/truth/: the page, its picture and the tables that it is made of.
+"""Writes the tables and the picture of assets/evaluation/truth/, and its page's block `truth`.
 
 usage: summarise_truth.py SOME.csv ALL.csv      what perf_truth wrote of a few clips, and of all with --slow
 """
@@ -11,6 +11,8 @@ import matplotlib
 
 matplotlib.use("agg")
 import matplotlib.pyplot as plt
+
+import report
 
 FIELDS = ("character", "clip", "mean_mm", "slow", "many", "finer", "fault")
 FOLDER = pathlib.Path(__file__).resolve().parent.parent / "assets" / "evaluation" / "truth"
@@ -34,7 +36,7 @@ def of(rows, name):
     return [row for row in rows if row["character"] == name]
 
 
-def told(rows, field):
+def median_and_worst(rows, field):
     found = [(float(row[field]), row["clip"]) for row in rows if row[field] and not row["fault"]]
     if not found:
         return "-"
@@ -44,23 +46,13 @@ def told(rows, field):
 
 
 def table(some, every):
-    lines = [
-        "| character | clips | mean displacement, mm | 16 times slower, all clips | against 64 substeps | against a cage twice as fine | did not converge |",
-        "|---|---|---|---|---|---|---|",
-    ]
+    columns = ["character", "clips", "mean displacement, mm", "16 times slower, all clips", "against 64 substeps", "against a cage twice as fine", "did not converge"]
+    lines = []
     for name in dict.fromkeys(row["character"] for row in every):
         mine, all_ = of(some, name), of(every, name)
-        cells = [
-            name,
-            f"{len(mine)} of {len(all_)}",
-            f"{statistics.median(values(mine, 'mean_mm') or [0]):.2f}",
-            told(all_, "slow"),
-            told(mine, "many"),
-            told(mine, "finer"),
-            str(len({row["clip"] for row in mine + all_ if row["fault"]})),
-        ]
-        lines.append("| " + " | ".join(cells) + " |")
-    return lines
+        lines.append([name, f"{len(mine)} of {len(all_)}", f"{statistics.median(values(mine, 'mean_mm') or [0]):.2f}", median_and_worst(all_, "slow"),
+                      median_and_worst(mine, "many"), median_and_worst(mine, "finer"), len({row["clip"] for row in mine + all_ if row["fault"]})])
+    return report.table(columns, lines)
 
 
 def draw(some, every):
@@ -78,7 +70,7 @@ def draw(some, every):
         axis.set_yticks(range(len(names)), names)
         axis.grid(alpha=0.3)
     axes[0].invert_yaxis()
-    figure.suptitle("The truth's own error, a clip a point; shares of the mean displacement, wanted left of the dotted line", fontsize=10)
+    figure.suptitle("Error of the ground truth, one point a clip, over the mean displacement; the dotted line is the limit", fontsize=10)
     figure.tight_layout()
     figure.savefig(FOLDER / "truth.png", dpi=110)
 
@@ -89,20 +81,8 @@ def main(some_path, all_path):
     for name, path in (("some_clips.csv", some_path), ("all_clips.csv", all_path)):
         (FOLDER / name).write_text(",".join(FIELDS) + "\n" + pathlib.Path(path).read_text())
     draw(some, every)
-    page = [
-        "# How far the truth is from itself",
-        "",
-        "Made by `perf/truth.sh`. Distances over the vertices that tissue moves, 1.5 s of each clip from its start (half a second of all clips in slow motion), as shares of the mean displacement: the median over clips, the largest and its clip. An error that is stated",
-        "against this truth means nothing below them. The character's own cage and steps (80 in a period of the fastest soft part, 240 to 480 a second) are held against 64 substeps a tick and against cells half as large;",
-        "without gravity and 16 times slower nothing is left to move flesh but a 256th of the inertia.",
-        "",
-        "![shares of the mean displacement, a clip a point](truth.png)",
-        "",
-        *table(some, every),
-        "",
-    ]
-    (FOLDER / "README.md").write_text("\n".join(page))
-    print("\n".join(page))
+    lines = [f"`perf/truth.sh`, {report.processor()}", "", *table(some, every)]
+    report.put_block(FOLDER / "README.md", "truth", lines)
 
 
 if __name__ == "__main__":

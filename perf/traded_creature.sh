@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Bakes the crowd's creature with its tiers measured along all of its clips into the folder $1, and prints the pack's path.
-# $2: how many seconds of each clip, five if not said.
+# $2: seconds of each clip; 5 by default.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

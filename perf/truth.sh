@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Measures how far the ground truth is from itself on the creature and on the gallery's characters, whose files lie in the folder that is
-# given, a folder each, and rewrites assets/evaluation/truth/. An hour on two cores that are shared, half of one otherwise.
+# Measures the ground truth's discretisation error on the creature and on the gallery's characters, each in its own folder in the given
+# folder, and rewrites the tables and picture of assets/evaluation/truth/. Half an hour to an hour on two cores.
 # usage: truth.sh CHARACTERS
 set -euo pipefail
 cd "$(dirname "$0")/.."

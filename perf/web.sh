@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What the page costs: size, first motion, WebAssembly beside native code, a crowd under a budget. Prints the figures, and takes the
-# pictures of samples/web/README.md anew. About four minutes.
+# Measures the web sample: size, time to first motion, WebAssembly against native code, a crowd under a budget. Prints the figures and
+# renders the pictures of samples/web/README.md. About four minutes.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
