@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Measures rods: their speed, and each solver's time to a residual. Rewrites perf/reports/rods.csv, rods_trade.csv and rods.png and their
-# tables in perf/README.md and perf/trade/README.md. About ten minutes on one quiet core; a stopped run resumes from
+# tables in perf/README.md and perf/trade/README.md. About seven minutes on one quiet core; a stopped run resumes from
 # build/release/rods_trade.csv. --again starts over, --quick only shows that everything runs.
 set -euo pipefail
 cd "$(dirname "$0")/.."

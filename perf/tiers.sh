@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Measures every tier of the creature against ground truth. Rewrites perf/reports/tiers.csv, tiers.png and tiers.svg and the table of
-# perf/trade/README.md. Under ten minutes on two quiet cores; a stopped run resumes from build/release/tiers. --again starts over.
+# perf/trade/README.md. About three minutes on two quiet cores; a stopped run resumes from build/release/tiers. --again starts over.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
