@@ -19,15 +19,15 @@ bool all_finite(std::span<const float> values) {
 
 Status not_finite(uint32_t strand, uint32_t segment, const char* what) {
   return core::make_status(StatusCode::kNotFinite,
-                           "strand %u, segment %u: %s is not finite; the last one stays", strand, segment,
-                           what);
+                           "strand %u, segment %u: %s is not finite; the last one remains in use", strand,
+                           segment, what);
 }
 
 Status too_large(uint32_t strand, uint32_t segment, const char* what) {
-  return core::make_status(
-      StatusCode::kInvalidArgument,
-      "strand %u, segment %u: %s, over the strand's mean segment, leaves float's range; the last one stays",
-      strand, segment, what);
+  return core::make_status(StatusCode::kInvalidArgument,
+                           "strand %u, segment %u: %s, over the strand's mean segment, leaves float's range; "
+                           "the last one remains in use",
+                           strand, segment, what);
 }
 
 Status check_target(uint32_t strand, uint32_t segment, const SegmentPose& pose) {

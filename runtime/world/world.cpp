@@ -62,7 +62,7 @@ Status check_def(const WorldDef& def) noexcept {
     if (!(value > 0)) return make_status(StatusCode::kInvalidArgument, "TeleportDef: %s must be > 0", name);
   if (!(def.teleport.scale > 1)) return invalid("TeleportDef: scale must be > 1");
   if (!(def.sleep_tolerance >= 0 && def.sleep_tolerance <= 1))
-    return invalid("WorldDef: sleep_tolerance must be 0..1, a share of a region's radius");
+    return invalid("WorldDef: sleep_tolerance must be 0..1, a fraction of a region's radius");
   if (def.report_history > kMostReports) return invalid("WorldDef: report_history must be 0..65535");
   if (def.event_capacity > kMostReports) return invalid("WorldDef: event_capacity must be 0..65535");
   if (!def.profiler.begin != !def.profiler.end)
@@ -298,9 +298,9 @@ Status World::skip_pose(InstanceId id) noexcept {
 namespace {
 
 Status check_share(const char* what, float value, float most) noexcept {
-  if (std::isnan(value)) return make_status(StatusCode::kNotFinite, "%s is NaN; it stays as it was", what);
+  if (std::isnan(value)) return make_status(StatusCode::kNotFinite, "%s is NaN; it is unchanged", what);
   if (value >= 0 && value <= most) return {};
-  return make_status(StatusCode::kInvalidArgument, "%s is %g, not in 0..%g; it stays as it was", what,
+  return make_status(StatusCode::kInvalidArgument, "%s is %g, not in 0..%g; it is unchanged", what,
                      static_cast<double>(value), static_cast<double>(most));
 }
 
@@ -490,7 +490,7 @@ Status World::set_tier_limit(InstanceId id, Tier best) noexcept {
   if (!world::may_limit(best))
     return make_status(
         StatusCode::kInvalidArgument,
-        "set_tier_limit: best is %u, not kSkinning (0), kNetwork (2) or kModal (4); it stays as it was",
+        "set_tier_limit: best is %u, not kSkinning (0), kNetwork (2) or kModal (4); it is unchanged",
         static_cast<uint32_t>(best));
   world::limit_tier(*instance, best);
   keep_row(*impl_, id);

@@ -92,7 +92,7 @@ Status World::rod_info(AssetId id, uint32_t rod, RodInfo* out) const noexcept {
 
 Status World::proxy_info(AssetId id, uint32_t proxy, ProxyInfo* out) const noexcept {
   return tell(
-      impl_, id, "proxy_info: proxy", proxy, out,
+      impl_, id, "proxy_info: body collider", proxy, out,
       [](const pack::PackView& pack) { return pack.proxies.size(); },
       [&](const Asset& asset) { return world::describe_proxy(asset.pack, proxy); });
 }

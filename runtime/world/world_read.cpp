@@ -72,7 +72,7 @@ Status World::read_points(InstanceId id, const PointsDef& def, std::span<const S
   Instance* instance = nullptr;
   if (Status status = find_instance(impl_, id, &instance); !status.ok()) return status;
   if (places.size() != out.size())
-    return make_status(StatusCode::kInvalidArgument, "read_points: %zu places, but room for %zu",
+    return make_status(StatusCode::kInvalidArgument, "read_points: %zu points, but room for %zu",
                        places.size(), out.size());
   if (Status status = world::check_points(def, places, *instance->asset); !status.ok()) return status;
   world::read_points(*instance, def, places, out.data());

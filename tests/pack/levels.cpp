@@ -62,32 +62,32 @@ TEST_CASE("levels_that_do_not_fit_are_refused_by_name") {
     return change<CharacterRecord>(kCharacter, 0, [=](auto& c) { c.coarser_count = count; });
   };
   const auto level = [](size_t index, auto apply) { return change<LevelRecord>(kLevels, index, apply); };
-  check_refused(levels_pack(),
-                {{"4 coarser levels", character(4)},
-                 {"2 records for 0 coarser ones", character(0)},
-                 {"2 records for 2 coarser ones", character(2)},
-                 {"level 1: a section ends early", level(1, [](auto& l) { l.node_count = 4; })},
-                 {"level 1: a section ends early", level(1, [](auto& l) { l.carry_floats = ~uint64_t{0}; })},
-                 {"level 0: a section ends early", level(0, [](auto& l) { l.matrix_floats = ~uint64_t{0}; })},
-                 {"level 1: a section ends early", level(1, [](auto& l) { l.node_count = 0xffffffffu; })},
-                 {"a section holds more", level(1, [](auto& l) { l.spread_floats -= 16; })},
-                 {"a section holds more", level(1, [](auto& l) { l.node_count = 2; })},
-                 {"region 1: radius", change<RegionRecord>(kRegions, 3, [](auto& r) { r.radius_m = 0; })},
-                 {"region 1: held at node 1 of 1",
-                  change<RegionRecord>(kRegions, 3, [](auto& r) { r.anchor_node = 1; })},
-                 {"level 1: region 1 touches other things",
-                  change<RegionRecord>(kRegions, 3, [](auto& r) { r.touches_body = 1; })},
-                 {"region 0: vertex", set<uint32_t>(kRegionVertices, 0, 500u)},
-                 {"level 1: region 0 is held elsewhere",
-                  change<RegionRecord>(kRegions, 2, [](auto& r) { r.anchor_node = 0; })},
-                 {"level 1: node 1 is node 0 of the finer level", set<uint32_t>(kPicks, 1, 0u)},
-                 {"level 1: node 2 is node 5 of the finer level", set<uint32_t>(kPicks, 2, 5u)},
-                 {"level 1: node 1 is not where node 2", set<uint32_t>(kPicks, 1, 2u)},
-                 {"level 1: a weight of spread is not within", set<float>(kSpread, 1, kNan)},
-                 {"level 1: padding of spread", set<float>(kSpread, 3, 1.0f)},
-                 {"tier 3: level 2", change<TierRecord>(kTiers, 3, [](auto& t) { t.level = 2; })},
-                 {"tier 3: 4 at level 0 does not ascend",
-                  change<TierRecord>(kTiers, 3, [](auto& t) { t.level = 0; })}});
+  check_refused(
+      levels_pack(),
+      {{"4 coarser LODs", character(4)},
+       {"2 records for 0 coarser ones", character(0)},
+       {"2 records for 2 coarser ones", character(2)},
+       {"LOD 1: a section ends early", level(1, [](auto& l) { l.node_count = 4; })},
+       {"LOD 1: a section ends early", level(1, [](auto& l) { l.carry_floats = ~uint64_t{0}; })},
+       {"LOD 0: a section ends early", level(0, [](auto& l) { l.matrix_floats = ~uint64_t{0}; })},
+       {"LOD 1: a section ends early", level(1, [](auto& l) { l.node_count = 0xffffffffu; })},
+       {"a section holds more", level(1, [](auto& l) { l.spread_floats -= 16; })},
+       {"a section holds more", level(1, [](auto& l) { l.node_count = 2; })},
+       {"region 1: radius", change<RegionRecord>(kRegions, 3, [](auto& r) { r.radius_m = 0; })},
+       {"region 1: held at node 1 of 1",
+        change<RegionRecord>(kRegions, 3, [](auto& r) { r.anchor_node = 1; })},
+       {"LOD 1: region 1 touches other things",
+        change<RegionRecord>(kRegions, 3, [](auto& r) { r.touches_body = 1; })},
+       {"region 0: vertex", set<uint32_t>(kRegionVertices, 0, 500u)},
+       {"LOD 1: region 0 is held elsewhere",
+        change<RegionRecord>(kRegions, 2, [](auto& r) { r.anchor_node = 0; })},
+       {"LOD 1: node 1 is node 0 of the finer LOD", set<uint32_t>(kPicks, 1, 0u)},
+       {"LOD 1: node 2 is node 5 of the finer LOD", set<uint32_t>(kPicks, 2, 5u)},
+       {"LOD 1: node 1 is not where node 2", set<uint32_t>(kPicks, 1, 2u)},
+       {"LOD 1: a weight of spread is not within", set<float>(kSpread, 1, kNan)},
+       {"LOD 1: padding of spread", set<float>(kSpread, 3, 1.0f)},
+       {"tier 3: LOD 2", change<TierRecord>(kTiers, 3, [](auto& t) { t.level = 2; })},
+       {"tier 3: 4 at LOD 0 does not ascend", change<TierRecord>(kTiers, 3, [](auto& t) { t.level = 0; })}});
 }
 
 // Regions 0 and 1 of three levels: 3 and 2 nodes, 2 and 1, 2 and none.
@@ -114,7 +114,7 @@ TEST_CASE("spread_or_picks_without_levels_are_refused") {
   baker::PackWriter writer = baker::PackWriter::from_pack(test::small_weightless_pack());
   writer.section(SectionKind::kPicks, std::vector<uint32_t>{0});
   PackEditor editor(writer.finish());
-  CHECK_THAT(editor.open().message, Contains("picks or spread without a coarser level"));
+  CHECK_THAT(editor.open().message, Contains("picks or spread without a coarser LOD"));
 }
 
 TEST_CASE("every_level_is_a_whole_control_graph_of_the_same_regions_and_modes") {

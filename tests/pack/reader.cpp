@@ -136,7 +136,7 @@ TEST_CASE("a_character_in_another_precision_names_the_command_that_rebakes_it") 
     const Status status = editor.open();
     CHECK(status.code == StatusCode::kUnsupported);
     CHECK_THAT(status.message, Contains(kPrecisionNames[static_cast<uint32_t>(precision)]) &&
-                                   Contains("fp32 only; bake it anew with sinew-bake character"));
+                                   Contains("fp32 only; bake it again with sinew-bake character"));
   }
 }
 
@@ -425,7 +425,7 @@ TEST_CASE("tier_faults_are_refused_by_name") {
   const auto tier = [](size_t index, auto apply) { return change<TierRecord>(kTiers, index, apply); };
   check_refused(character_pack(),
                 {{"tier 2: 5 is not known", tier(2, [](auto& t) { t.tier = 5; })},
-                 {"tier 2: 1 at level 0 does not ascend", tier(2, [](auto& t) { t.tier = 1; })},
+                 {"tier 2: 1 at LOD 0 does not ascend", tier(2, [](auto& t) { t.tier = 1; })},
                  {"tier 3: 3 is not known", tier(3, [](auto& t) { t.tier = 3; })},
                  {"tier 2: cost nan", tier(2, [](auto& t) { t.cost_us = kNan; })},
                  {"tier 2: cost -1", tier(2, [](auto& t) { t.cost_us = -1; })},
@@ -435,7 +435,7 @@ TEST_CASE("tier_faults_are_refused_by_name") {
                  {"tier 2: an error", tier(2, [](auto& t) { t.error_p95_mm = -1; })},
                  {"tier 2: an error", tier(2, [](auto& t) { t.worst_error_ratio = -1; })},
                  {"tier 2: clip 1 of 1", tier(2, [](auto& t) { t.worst_clip = 1; })},
-                 {"tier 2: level 1", tier(2, [](auto& t) { t.level = 1; })}});
+                 {"tier 2: LOD 1", tier(2, [](auto& t) { t.level = 1; })}});
 }
 
 TEST_CASE("tissue_faults_are_refused_by_name") {
@@ -453,7 +453,7 @@ TEST_CASE("tissue_faults_are_refused_by_name") {
        {"region 1: vertices do not follow", region([](auto& r) { r.first_vertex = 3; })},
        {"region 1: vertices do not follow", region([](auto& r) { r.vertex_count = 5; })},
        {"region 1: vertices padded", region([](auto& r) { r.padded_vertices = 8; })},
-       {"region 1: carrying weights do not", region([](auto& r) { r.carry = ~uint64_t{0}; })},
+       {"region 1: embedding weights do not", region([](auto& r) { r.carry = ~uint64_t{0}; })},
        {"region 1: centre", region([](auto& r) { r.center_m[1] = kNan; })},
        {"region 1: radius", region([](auto& r) { r.radius_m = 0; })},
        {"region 1: displacement limit", region([](auto& r) { r.displacement_limit_m = kInfinity; })},
@@ -461,7 +461,7 @@ TEST_CASE("tissue_faults_are_refused_by_name") {
        {"that no region owns", region([](auto& r) { r.node_count = 1; })},
        {"region 0: vertex 4 does not ascend", set<uint32_t>(kRegionVertices, 1, 4u)},
        {"region 1: vertex 12", set<uint32_t>(kRegionVertices, 7, 12u)},
-       {"region 0: a carrying weight", set<float>(kCarry, 2, kNan)},
+       {"region 0: an embedding weight", set<float>(kCarry, 2, kNan)},
        {"region 0: padding", set<float>(kCarry, 4, 1.0f)},
        {"node 4: position", node([](auto& n) { n.position_m[0] = kNan; })},
        {"node 4: normal", node([](auto& n) { n.normal[0] = 5; })},
@@ -525,24 +525,25 @@ TEST_CASE("numbers_that_do_not_go_together_are_refused_by_name") {
   const auto modes = [](auto apply) { return change<RegionModesRecord>(kRegionModes, 1, apply); };
   const auto mode = [](auto apply) { return change<ModeRecord>(kModes, 4, apply); };
   const auto joint = [](auto apply) { return change<JointRecord>(kJoints, 1, apply); };
-  check_refused(
-      character_pack(),
-      {{"node 4: beyond the radius of its region 1",
-        change<NodeRecord>(kNodes, 4, [](auto& n) { n.position_m[0] += 50; })},
-       {"beyond the radius of its region 1", region([](auto& r) { r.center_m[2] = 1000; })},
-       {"mode 4: gain", mode([](auto& m) { m.gain *= 3; })},
-       {"mode 4: gain", mode([](auto& m) { m.rad_per_s *= 3; })},
-       {"region modes 1: rest_gain", modes([](auto& r) { r.rest_gain *= -1; })},
-       {"region modes 0: its matrices answer by more than 1e6",
-        [](PackEditor& editor) {
-          editor.section<float>(kModeMatrices)[0] = 1e6f;  // a shape, and what a displacement holds of it
-          editor.section<float>(kModeMatrices)[(2 * 3 + 9 * 2) * 16] = 1e3f;
-        }},
-       {"region modes 0: its matrices answer by more than 1e6", set<float>(kModeMatrices, 2 * 3 * 16, 1e8f)},
-       {"joint 1: its bind matrix goes beyond 1e5", joint([](auto& j) {
-          for (const size_t at : {size_t{0}, size_t{5}, size_t{10}}) j.inverse_bind[at] *= 1e-4f;
-          j.inverse_bind[3] = 100;
-        })}});
+  check_refused(character_pack(),
+                {{"node 4: beyond the radius of its region 1",
+                  change<NodeRecord>(kNodes, 4, [](auto& n) { n.position_m[0] += 50; })},
+                 {"beyond the radius of its region 1", region([](auto& r) { r.center_m[2] = 1000; })},
+                 {"mode 4: gain", mode([](auto& m) { m.gain *= 3; })},
+                 {"mode 4: gain", mode([](auto& m) { m.rad_per_s *= 3; })},
+                 {"region modes 1: rest_gain", modes([](auto& r) { r.rest_gain *= -1; })},
+                 {"region modes 0: its matrices amplify their input more than 1e6",
+                  [](PackEditor& editor) {
+                    editor.section<float>(kModeMatrices)[0] =
+                        1e6f;  // a shape, and what a displacement holds of it
+                    editor.section<float>(kModeMatrices)[(2 * 3 + 9 * 2) * 16] = 1e3f;
+                  }},
+                 {"region modes 0: its matrices amplify their input more than 1e6",
+                  set<float>(kModeMatrices, 2 * 3 * 16, 1e8f)},
+                 {"joint 1: its bind matrix goes beyond 1e5", joint([](auto& j) {
+                    for (const size_t at : {size_t{0}, size_t{5}, size_t{10}}) j.inverse_bind[at] *= 1e-4f;
+                    j.inverse_bind[3] = 100;
+                  })}});
 }
 
 TEST_CASE("numbers_of_no_character_are_refused_by_name") {
@@ -563,7 +564,7 @@ TEST_CASE("numbers_of_no_character_are_refused_by_name") {
        {"input 0: scale", change<InputRecord>(kInputs, 0, [](auto& i) { i.scale = 1e30f; })},
        {"region 1: radius 1e-20 m", region([](auto& r) { r.radius_m = 1e-20f; })},
        {"region 1: displacement limit 1e+20 m", region([](auto& r) { r.displacement_limit_m = 1e20f; })},
-       {"a carrying weight is not within +-100", set<float>(kCarry, 0, 1e20f)},
+       {"an embedding weight is not within +-100", set<float>(kCarry, 0, 1e20f)},
        {"graph values: number 3 is 4", set<float>(kGraphValues, 3, 4.0f)},
        {"mode 4: 1e-30 rad/s", change<ModeRecord>(kModes, 4, [](auto& m) { m.rad_per_s = 1e-30f; })},
        {"tier 0: cost", change<TierRecord>(kTiers, 0, [](auto& t) { t.cost_us = 1e20f; })},
@@ -653,9 +654,9 @@ TEST_CASE("rods_that_disagree_with_the_skeleton_are_refused_by_name") {
       {"gravity", rod([](RodRecord& r) { r.gravity = -1; })},
       {"gravity", rod([](RodRecord& r) { r.gravity = kNan; })},
       {"gravity", rod([](RodRecord& r) { r.gravity = 101; })},
-      {"turn limit", rod([](RodRecord& r) { r.turn_limit_rad = -0.1f; })},
-      {"turn limit", rod([](RodRecord& r) { r.turn_limit_rad = kNan; })},
-      {"turn limit", rod([](RodRecord& r) { r.turn_limit_rad = 4; })},
+      {"rotation limit", rod([](RodRecord& r) { r.turn_limit_rad = -0.1f; })},
+      {"rotation limit", rod([](RodRecord& r) { r.turn_limit_rad = kNan; })},
+      {"rotation limit", rod([](RodRecord& r) { r.turn_limit_rad = 4; })},
       {"sag", rod([](RodRecord& r) { r.sag = 1.5f; })},
       {"its end is held by joint 3 of 3", rod([](RodRecord& r) { r.end_holder = 4; })},
       {"held by a bone that a rod moves", rod([](RodRecord& r) { r.end_holder = 3; })},
@@ -738,9 +739,9 @@ TEST_CASE("capsules_about_bones_that_are_none_are_refused_by_name") {
     return change<ProxyRecord>(kProxies, 0, [=](ProxyRecord& r) { apply(r); });
   };
   check_refused(good,
-                {{"proxies: 1 there",
+                {{"body colliders: 1 there",
                   change<CharacterRecord>(kCharacter, 0, [](CharacterRecord& c) { c.proxy_count = 2; })},
-                 {"proxies: 1 there",
+                 {"body colliders: 1 there",
                   change<CharacterRecord>(kCharacter, 0, [](CharacterRecord& c) { c.proxy_count = 0; })},
                  {"more than 64",
                   change<CharacterRecord>(kCharacter, 0, [](CharacterRecord& c) { c.proxy_count = 65; })},

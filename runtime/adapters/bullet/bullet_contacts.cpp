@@ -147,7 +147,8 @@ Status BulletContacts::create(const BulletDef& def, BulletContacts* out) noexcep
   made.state_ = new (std::nothrow) State{def, {}, {}};
   if (!made.state_ || !made.state_->impulses.reserve(def.push_capacity)) {
     return core::make_status(StatusCode::kOutOfCapacity,
-                             "no memory to push %u bodies; give a smaller push_capacity", def.push_capacity);
+                             "no memory for the contact forces on %u bodies; give a smaller push_capacity",
+                             def.push_capacity);
   }
   *out = std::move(made);
   return {};

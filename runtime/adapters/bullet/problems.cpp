@@ -17,12 +17,12 @@ struct Words {
 constexpr Words kWords[] = {
     {StatusCode::kInvalidArgument, "has no volume", "give its shape a size above 0"},
     {StatusCode::kNotFinite, "has a transform, velocity, friction or restitution that is not finite",
-     "set them anew"},
+     "set them again"},
     {StatusCode::kInvalidArgument, "has a triangle without area", "take it out of the mesh"},
     {StatusCode::kUnsupported, "is of a kind that is not known here",
      "give it a convex shape, a triangle mesh, a heightfield or a compound of these"},
     {StatusCode::kInvalidArgument, "is faster than BulletDef::fastest_body_m_s", "give that a larger value"},
-    {StatusCode::kOutOfCapacity, "is one of more than 64 near the same place", "make a compound of them"}};
+    {StatusCode::kOutOfCapacity, "is one of more than 64 near the same position", "make a compound of them"}};
 
 // Problem, shape and the body's place in the world's list, above 0.
 uint64_t packed(BulletProblem problem, int body, int shape) {

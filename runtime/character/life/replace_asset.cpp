@@ -120,13 +120,13 @@ Status check_same_skeleton(const Asset& from, const Asset& to) noexcept {
   const std::span<const pack::JointRecord> was = from.pack.joints, now = to.pack.joints;
   if (was.size() != now.size())
     return core::make_status(StatusCode::kInvalidArgument,
-                             "replace_asset: %zu joints in the place of %zu; bake the same character anew",
+                             "replace_asset: %zu joints in the place of %zu; bake the same character again",
                              now.size(), was.size());
   for (size_t j = 0; j < now.size(); ++j)
     if (was[j].parent != now[j].parent || !same_name(from.pack, was[j].name, to.pack, now[j].name))
       return core::make_status(
           StatusCode::kInvalidArgument,
-          "replace_asset: joint %zu is '%.60s', it was '%.60s'; bake the same character anew", j,
+          "replace_asset: joint %zu is '%.60s', it was '%.60s'; bake the same character again", j,
           pack::string_at(to.pack, now[j].name), pack::string_at(from.pack, was[j].name));
   return {};
 }

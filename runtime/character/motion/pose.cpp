@@ -34,7 +34,8 @@ Status check_joint(const Matrix34& joint, size_t index) noexcept {
     for (float value : row) {
       if (!std::isfinite(value)) {
         return make_status(StatusCode::kNotFinite,
-                           "pose: joint %zu holds NaN or infinity; the last good pose stays", index);
+                           "pose: joint %zu holds NaN or infinity; the last valid pose remains in use",
+                           index);
       }
       largest = std::max(largest, std::abs(value));
     }

@@ -81,13 +81,13 @@ Matrix34 frame_at(const Instance& instance, const Placement& to, const SurfacePl
 Status check_place(const SurfacePlace& place, size_t index, uint32_t triangles) noexcept {
   constexpr float kSumTolerance = 1e-3f;
   if (place.triangle >= triangles)
-    return make_status(StatusCode::kInvalidArgument, "read_points: place %zu: triangle %u, the asset has %u",
+    return make_status(StatusCode::kInvalidArgument, "read_points: point %zu: triangle %u, the asset has %u",
                        index, place.triangle, triangles);
   const float sum = place.weights[0] + place.weights[1] + place.weights[2];
   if (!std::isfinite(sum))
-    return make_status(StatusCode::kNotFinite, "read_points: place %zu: a weight is not finite", index);
+    return make_status(StatusCode::kNotFinite, "read_points: point %zu: a weight is not finite", index);
   if (std::abs(sum - 1) > kSumTolerance)
-    return make_status(StatusCode::kInvalidArgument, "read_points: place %zu: weights add up to %g, not to 1",
+    return make_status(StatusCode::kInvalidArgument, "read_points: point %zu: weights add up to %g, not to 1",
                        index, static_cast<double>(sum));
   return {};
 }

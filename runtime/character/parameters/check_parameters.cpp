@@ -21,7 +21,7 @@ Status check(const char* function, std::span<const Number> numbers) noexcept {
     if (n.value >= n.least && n.value <= n.most) continue;
     const bool nan = std::isnan(n.value);
     return core::make_status(nan ? StatusCode::kNotFinite : StatusCode::kInvalidArgument,
-                             "%s: %s is %g, not in %g..%g; all stays as it was", function, n.name,
+                             "%s: %s is %g, not in %g..%g; nothing was changed", function, n.name,
                              static_cast<double>(n.value), static_cast<double>(n.least),
                              static_cast<double>(n.most));
   }

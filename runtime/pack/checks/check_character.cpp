@@ -118,7 +118,8 @@ Status check_vertices(const PackView& pack) noexcept {
       return status;
     const uint32_t first = pack.welded[vertex];
     if (first > vertex || pack.welded[first] != first)
-      return corrupt("vertex %zu: welded to %u, which is not the first of its place", vertex, first);
+      return corrupt("vertex %zu: welded to %u, which is not the first vertex at its position", vertex,
+                     first);
   }
   return {};
 }
@@ -184,7 +185,7 @@ Status check_tier(const PackView& pack, const TierRecord& record, size_t index) 
   constexpr auto kFirstSimulated = static_cast<uint32_t>(Tier::kNetwork);
   if (!is_tier(record.tier)) return corrupt("tier %zu: %u is not known", index, record.tier);
   if (record.level >= pack.level_count || (record.level > 0 && record.tier < kFirstSimulated))
-    return corrupt("tier %zu: level %u", index, record.level);
+    return corrupt("tier %zu: LOD %u", index, record.level);
   if (!is_within(record.cost_us, 0, kMostCost_us) || !is_known_or_nan(record.cost_p99_us, kMostCost_us))
     return corrupt("tier %zu: cost %g us, p99 %g us", index, double{record.cost_us},
                    double{record.cost_p99_us});
@@ -212,7 +213,7 @@ Status check_tiers(const PackView& pack) noexcept {
     const TierRecord& record = pack.tiers[index];
     if (Status status = check_tier(pack, record, index); !status.ok()) return status;
     if (index > 0 && tier_order(record) <= tier_order(pack.tiers[index - 1]))
-      return corrupt("tier %zu: %u at level %u does not ascend", index, record.tier, record.level);
+      return corrupt("tier %zu: %u at LOD %u does not ascend", index, record.tier, record.level);
     if (record.tier == static_cast<uint32_t>(Tier::kNetwork) && !affords_network(pack))
       return corrupt("tier %zu: a network that the character does not have", index);
     if (record.level == 0) seen |= 1u << record.tier;

@@ -45,11 +45,11 @@ Status check_same_regions(const LevelView& fine, const LevelView& coarse, uint32
     const RegionRecord &of = fine.regions[r], &region = coarse.regions[r];
     const RegionModesRecord &modes_of = fine.region_modes[r], &modes = coarse.region_modes[r];
     if (region.first_vertex != of.first_vertex || region.vertex_count != of.vertex_count)
-      return corrupt("level %u: region %zu carries other vertices than in the finer level", level, r);
+      return corrupt("LOD %u: region %zu moves other vertices than in the finer LOD", level, r);
     if (region.touches_body != of.touches_body)
-      return corrupt("level %u: region %zu touches other things than in the finer level", level, r);
+      return corrupt("LOD %u: region %zu touches other things than in the finer LOD", level, r);
     if (modes.first_mode != modes_of.first_mode || modes.mode_count != modes_of.mode_count)
-      return corrupt("level %u: region %zu has other modes than in the finer level", level, r);
+      return corrupt("LOD %u: region %zu has other modes than in the finer LOD", level, r);
   }
   return {};
 }
@@ -62,11 +62,11 @@ Status check_picks(const LevelView& fine, const LevelView& coarse, uint32_t leve
   for (size_t n = 0; n < coarse.nodes.size(); ++n) {
     const uint32_t pick = coarse.picks[n];
     if (pick >= fine.nodes.size() || (n > 0 && pick <= coarse.picks[n - 1]))
-      return corrupt("level %u: node %zu is node %u of the finer level: not there, or not ascending", level,
-                     n, pick);
+      return corrupt("LOD %u: node %zu is node %u of the finer LOD: not there, or not ascending", level, n,
+                     pick);
     if (fine.nodes[pick].region != coarse.nodes[n].region ||
         !is_same_place(fine.nodes[pick], coarse.nodes[n]))
-      return corrupt("level %u: node %zu is not where node %u of the finer level is", level, n, pick);
+      return corrupt("LOD %u: node %zu is not where node %u of the finer LOD is", level, n, pick);
   }
   return {};
 }
@@ -76,7 +76,7 @@ Status check_held_alike(const LevelView& fine, const LevelView& coarse, uint32_t
     const RegionRecord &of = fine.regions[r], &region = coarse.regions[r];
     if (region.node_count == 0) continue;
     if (coarse.picks[region.first_node + region.anchor_node] != of.first_node + of.anchor_node)
-      return corrupt("level %u: region %zu is held elsewhere than in the finer level", level, r);
+      return corrupt("LOD %u: region %zu is held elsewhere than in the finer LOD", level, r);
   }
   return {};
 }
@@ -87,14 +87,14 @@ Status check_spread(const LevelView& fine, const LevelView& coarse, uint32_t lev
     const uint64_t used = fine.regions[r].node_count, padded = round_up_16(used);
     for (uint32_t n = 0; n < coarse.regions[r].node_count; ++n) {
       std::span<const float> row;
-      if (!take(rest, padded, &row)) return corrupt("level %u: spread ends early", level);
+      if (!take(rest, padded, &row)) return corrupt("LOD %u: spread ends early", level);
       if (!are_within(row, kMostSpread))
-        return corrupt("level %u: a weight of spread is not within +-100", level);
+        return corrupt("LOD %u: a weight of spread is not within +-100", level);
       if (std::ranges::any_of(row.subspan(used), [](float v) { return v != 0; }))
-        return corrupt("level %u: padding of spread is not zero", level);
+        return corrupt("LOD %u: padding of spread is not zero", level);
     }
   }
-  return rest.empty() ? Status{} : corrupt("level %u: spread that no region owns", level);
+  return rest.empty() ? Status{} : corrupt("LOD %u: spread that no region owns", level);
 }
 
 Status check_coarser(const PackView& pack, uint32_t level) noexcept {
@@ -112,18 +112,17 @@ Status check_coarser(const PackView& pack, uint32_t level) noexcept {
 Status cut_levels(PackView* pack) noexcept {
   pack->levels[0] = *pack;
   const uint32_t coarser = pack->character != nullptr ? pack->character->coarser_count : 0;
-  if (coarser >= kMostGraphLevels)
-    return corrupt("the character has %u coarser levels, outside 0..3", coarser);
+  if (coarser >= kMostGraphLevels) return corrupt("the character has %u coarser LODs, outside 0..3", coarser);
   if (pack->level_records.size() != (coarser > 0 ? coarser + 1 : 0))
-    return corrupt("levels: %zu records for %u coarser ones", pack->level_records.size(), coarser);
+    return corrupt("LODs: %zu records for %u coarser ones", pack->level_records.size(), coarser);
   if (coarser == 0) {
     const bool none = pack->picks.empty() && pack->spread.empty();
-    return none ? Status{} : corrupt("picks or spread without a coarser level");
+    return none ? Status{} : corrupt("picks or spread without a coarser LOD");
   }
   LevelView rest = *pack, cut[kMostGraphLevels];
   for (uint32_t level = 0; level <= coarser; ++level)
-    if (!take_level(*pack, level, rest, &cut[level])) return corrupt("level %u: a section ends early", level);
-  if (!is_used_up(rest)) return corrupt("levels: a section holds more than they state");
+    if (!take_level(*pack, level, rest, &cut[level])) return corrupt("LOD %u: a section ends early", level);
+  if (!is_used_up(rest)) return corrupt("LODs: a section holds more than they state");
   std::ranges::copy(cut, pack->levels);
   static_cast<LevelView&>(*pack) = cut[0];
   pack->level_count = coarser + 1;
@@ -136,8 +135,7 @@ Status check_nodes_of(const PackView& pack, uint32_t level) noexcept {
   for (size_t r = 0; r < of.regions.size(); ++r)
     if (level == 0 && of.regions[r].node_count == 0)
       return corrupt("region %zu: 0 nodes, outside 1..4096", r);
-  if (level > 0 && of.nodes.empty() && !of.regions.empty())
-    return corrupt("level %u: it has no nodes", level);
+  if (level > 0 && of.nodes.empty() && !of.regions.empty()) return corrupt("LOD %u: it has no nodes", level);
   return {};
 }
 

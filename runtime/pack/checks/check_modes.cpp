@@ -125,7 +125,7 @@ Status check_matrices(const PackView& pack, const RegionModesRecord& modes, size
   if (!are_within(values, kMostNumber))
     return corrupt("region modes %zu: a number of a matrix is not within +-1e9", index);
   if (!(most_answer(pack, modes, index) <= kMostAnswer))
-    return corrupt("region modes %zu: its matrices answer by more than 1e6 times what they are asked", index);
+    return corrupt("region modes %zu: its matrices amplify their input more than 1e6 times", index);
   if (!has_zero_padding(pack, modes, index))
     return corrupt("region modes %zu: padding of a matrix is not zero", index);
   return {};

@@ -56,7 +56,7 @@ Status check_precision(const PackView& pack) noexcept {
   if (pack.kind == FileKind::kCharacter && precision != 0)
     return core::make_status(StatusCode::kUnsupported,
                              "pack: the character's network is in %s, and characters run in fp32 only; bake "
-                             "it anew with sinew-bake character",
+                             "it again with sinew-bake character",
                              kPrecisionNames[precision]);
   if (pack.network->precision != Precision::kInt8 && has_int8(pack))
     return corrupt("network: int8 sections of a network in %s", kPrecisionNames[precision]);

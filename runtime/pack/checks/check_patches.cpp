@@ -57,7 +57,7 @@ Status check_patches(const PackView& pack) noexcept {
       if (pack.levels[level].regions[r].cell_m != 0)
         return corrupt("region %zu: cells in a coarser control graph", r);
   if (!any) return check_nothing(pack);
-  if (pack.level_count != 1) return corrupt("patches: coarser control graphs beside their regions");
+  if (pack.level_count != 1) return corrupt("patches: coarser control graphs in addition to their regions");
   if (Status status = check_emulator(pack); !status.ok()) return status;
   const size_t nodes = pack.nodes.size();
   if (pack.patch_material.size() != 3 * nodes || pack.patch_held.size() != nodes)

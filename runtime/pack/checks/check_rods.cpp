@@ -74,7 +74,7 @@ Status check_record(const PackView& pack, const RodRecord& rod, size_t index, ui
   if (!(rod.sag >= 0 && rod.sag <= 1))
     return corrupt("rod %zu: sag %g, outside 0..1", index, double{rod.sag});
   if (!(rod.turn_limit_rad >= 0 && rod.turn_limit_rad <= std::numbers::pi_v<float>))
-    return corrupt("rod %zu: turn limit %g, outside 0..pi", index, double{rod.turn_limit_rad});
+    return corrupt("rod %zu: rotation limit %g, outside 0..pi", index, double{rod.turn_limit_rad});
   if (!is_within(rod.frequency_hz, 0, kMostFrequency_hz))
     return corrupt("rod %zu: frequency %g Hz, outside 0..1e6", index, double{rod.frequency_hz});
   if (!is_unit(rod.gravity_direction))

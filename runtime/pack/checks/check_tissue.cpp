@@ -50,9 +50,9 @@ Status check_carry(const PackView& pack, const RegionRecord& region, size_t inde
   for (uint64_t node = 0; node < region.node_count; ++node) {
     const auto row = pack.carry.subspan(region.carry + node * region.padded_vertices, region.padded_vertices);
     if (!are_within(row, kMostWeight))
-      return corrupt("region %zu: a carrying weight is not within +-100", index);
+      return corrupt("region %zu: an embedding weight is not within +-100", index);
     if (std::ranges::any_of(row.subspan(region.vertex_count), [](float v) { return v != 0; }))
-      return corrupt("region %zu: padding of the carrying weights is not zero", index);
+      return corrupt("region %zu: padding of the embedding weights is not zero", index);
   }
   return {};
 }
@@ -71,9 +71,9 @@ Status check_ranges(const PackView& pack, const RegionRecord& region, size_t ind
       region.vertex_count > pack.region_vertices.size() - cursor->vertex)
     return corrupt("region %zu: vertices do not follow the region before it", index);
   if (region.carry != cursor->carry || carry > pack.carry.size() - cursor->carry)
-    return corrupt("region %zu: carrying weights do not follow the region before it", index);
+    return corrupt("region %zu: embedding weights do not follow the region before it", index);
   if (cursor->padded + region.padded_vertices > kMostCarried)
-    return corrupt("region %zu: more than 2^28 carried vertices with those before it", index);
+    return corrupt("region %zu: more than 2^28 embedded vertices with those before it", index);
   *cursor = {cursor->node + region.node_count, cursor->vertex + region.vertex_count, cursor->carry + carry,
              cursor->padded + region.padded_vertices};
   return {};
@@ -90,7 +90,7 @@ Status check_regions(const PackView& pack) noexcept {
   }
   const bool whole = cursor.node == pack.nodes.size() && cursor.vertex == pack.region_vertices.size() &&
                      cursor.carry == pack.carry.size();
-  return whole ? Status{} : corrupt("regions: nodes, vertices or carrying weights that no region owns");
+  return whole ? Status{} : corrupt("regions: nodes, vertices or embedding weights that no region owns");
 }
 
 // Within twice the radius, for whatever rounds.

@@ -53,7 +53,7 @@ Status check_pose(Place place, const SegmentDef& s) {
   double square = 0;
   for (const float q : s.orientation) square += static_cast<double>(q) * q;
   for (const double x : s.position_m) {
-    if (!std::isfinite(x)) return refuse(place, "position_m", x, "give a finite place");
+    if (!std::isfinite(x)) return refuse(place, "position_m", x, "give a finite position");
   }
   const double length = std::sqrt(square);
   return std::fabs(length - 1) <= kUnitTolerance

@@ -84,10 +84,11 @@ Status RodBatch::set_pose(uint32_t strand, uint32_t segment, const SegmentPose& 
              std::isfinite(static_cast<float>(spin[k]));
   }
   if (!finite)
-    return core::make_status(StatusCode::kNotFinite,
-                             "strand %u, segment %u: a place or a velocity is not finite, or leaves float's "
-                             "range over the strand's mean segment; the last one stays",
-                             strand, segment);
+    return core::make_status(
+        StatusCode::kNotFinite,
+        "strand %u, segment %u: a position or a velocity is not finite, or leaves float's "
+        "range over the strand's mean segment; the last one remains in use",
+        strand, segment);
   for (uint32_t k = 0; k < 3; ++k) {
     put_place(strand, segment, k, place[k]);
     at(strand, segment, simd::kRodVelocity + k) = speed[k];
