@@ -132,7 +132,7 @@ class Auditor {
     hold(part.edge_stretch.value, most_stretch(part.part.is_rod), "an edge is stretched by",
          &part.edge_stretch);
     if (!part.part.is_rod) {
-      hold(part.inverted_share.value, most_inverted(part.part), "share of triangles turned over",
+      hold(part.inverted_share.value, most_inverted(part.part), "fraction of triangles turned over",
            &part.inverted_share);
       hold(part.bob_m / audit_.height_m, kMostDisplacement, "bobbing moves it by heights", nullptr);
       const double crossed = part.layers_cross_m.value / audit_.height_m;

@@ -266,10 +266,11 @@ void refuse_on_rods(const Character& character, const RegionScope& scope, const 
 
 void refuse_close(const PieceRegions& pieces, size_t region, const std::string& where) {
   char text[240];
-  std::snprintf(text, sizeof text,
-                "nothing is soft: it sticks out of the flesh of its bones by %.0f %% of its extent, and "
-                "pieces stay rigid below %.0f %%; name a piece that hangs free, or take it out",
-                100 * pieces.share_out(region), 100 * kSticksOut);
+  std::snprintf(
+      text, sizeof text,
+      "nothing is soft: it sticks out of the soft tissue of its bones by %.0f %% of its extent, and "
+      "pieces stay rigid below %.0f %%; name a piece that hangs free, or take it out",
+      100 * pieces.share_out(region), 100 * kSticksOut);
   if (pieces.share_out(region) < kSticksOut) throw BadInput(where + text);
 }
 
@@ -301,7 +302,7 @@ void check_all_found(const Character& character, const Surface& surface, const R
     if (selects_piece(region)) refuse_close(PieceRegions(character, surface, recipe.regions), r, where);
     throw BadInput(where +
                    "nothing is soft: its bones move fewer than four vertices enough; name bones that "
-                   "move flesh, or take it out");
+                   "move soft tissue, or take it out");
   }
 }
 
@@ -327,7 +328,7 @@ void check_all_painted(Character& character, const Surface& surface, const Recip
           character.name + ": " + where +
           ": nothing is soft: no part of four vertices or more that its bones move is painted below "
           "rigid_stiffness in the file's _STIFFNESS; paint one, or leave the attribute out");
-    character.notes.push_back(where + " is not used: its painted flesh is part of other regions");
+    character.notes.push_back(where + " is not used: its painted vertices are part of other regions");
   }
 }
 
@@ -350,8 +351,8 @@ void note_layers(Character& character, const Surface& surface, const SoftParts& 
   char reach[32];
   std::snprintf(reach, sizeof reach, "%.3g", reach_m);
   character.notes.push_back(names + ": what lies within " + reach +
-                            " m of another piece's soft flesh moves with it; the recipe's layer_m states "
-                            "how far, 0 lets each move by itself");
+                            " m of another piece's soft tissue moves with it; the recipe's layer_m states "
+                            "the distance, 0 lets each move by itself");
 }
 
 // A stated side that nothing tells.
@@ -359,7 +360,7 @@ void note_sides(Character& character, const Recipe& recipe) {
   for (const RegionRecipe& region : recipe.regions)
     if (region.side && region.side != BodySide::kAround && !find_anatomy(character))
       character.notes.push_back("region '" + region.name +
-                                "': its side is not used: no limbs in pairs tell front from back");
+                                "': its side is not used: no limbs in pairs show which side is the front");
 }
 
 void note_sheets(Character& character, const TissueLayout& layout) {

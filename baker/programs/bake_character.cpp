@@ -76,7 +76,7 @@ std::string far_emulator_note(const std::vector<pack::TierRecord>& tiers) {
 std::string no_gain_note(double ratio) {
   char text[200];
   std::snprintf(text, sizeof text,
-                "its flesh is %.2f of skinning's error off the truth: a world leaves it to skinning; state a "
+                "its soft tissue leaves %.2f of skinning's error: a world skins it instead; state a "
                 "higher frequency_hz or max_displacement",
                 ratio);
   return text;

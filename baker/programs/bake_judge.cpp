@@ -253,7 +253,7 @@ void add_judge_command(CLI::App& app, int* exit_code) {
                    "metres along their frames, of each character along one motion")
       ->group(kOutputs);
   command->add_option("--most-added", options->most_added,
-                      "exit 1 where a character adds more than this share to the first one's error");
+                      "exit 1 where a character adds more than this fraction to the first one's error");
   command->add_option("--isa", options->isa, "an instruction set of this processor; the best by default");
   command->add_flag("--json", options->json, "one line for machines");
   command->callback([options, exit_code] { *exit_code = run_judge(*options); });

@@ -39,7 +39,7 @@ void check_calibration(pack::Precision precision, bool given) {
 void add_precision_option(CLI::App* command, std::string* precision) {
   command->add_option(
       "--precision", *precision,
-      "fp32; fp16: states of hidden layers kept as halves; int8: and their products of bytes");
+      "fp32; fp16: states of hidden layers stored as halves; int8: and their products of bytes");
 }
 
 void add_model_command(CLI::App& app, int*) {
@@ -49,7 +49,7 @@ void add_model_command(CLI::App& app, int*) {
   add_precision_option(command, &options->precision);
   command->add_option(
       "--calibrate", options->calibration,
-      "reference vectors that int8 takes its scales from; by default those beside the weights, "
+      "reference vectors that int8 takes its scales from; by default those next to the weights, "
       "else a made-up motion");
   add_output(*command, "-o,--output", options->output, "M.sinew")->required();
   command->callback([options] { run_model(*options); });

@@ -136,7 +136,7 @@ void add_truth_command(CLI::App& app, int*) {
   command->add_option("--substeps", options->substeps,
                       "steps a tick; by default 80 a period of the fastest soft part, 240 to 480 a second");
   command->add_flag("--surface", options->surface,
-                    "also the displacement of every carried vertex, and the carry weights");
+                    "also the displacement of every embedded vertex, and the embedding weights");
   command->add_flag("--positions", options->positions, "also the true position of every vertex");
   add_output(*command, "-o,--output", options->output, "trajectory, safetensors")->required();
   command->callback([options] { run_truth(*options); });

@@ -28,13 +28,13 @@ struct Options {
 
 void add_options(CLI::App& app, Options* o) {
   app.add_option("character", o->character, "C.sinew")->required();
-  app.add_option("-o,--output", o->folder, "folder of the tables, pictures, the character, and what is kept")
+  app.add_option("-o,--output", o->folder, "folder of the tables, pictures, the character and cached results")
       ->required();
   app.add_option("--truth", o->truth, "trajectories of sinew-bake truth --positions");
   app.add_option("--source", o->source.glb,
                  "the glTF it was baked from: without --truth its clips are simulated; and it is baked with "
                  "other weights "
-                 "and, of one control graph alone, other nodes to compare; by default C.glb beside C.sinew");
+                 "and, of one control graph alone, other nodes to compare; by default C.glb next to C.sinew");
   app.add_option("--recipe", o->source.recipe, "as it was baked");
   app.add_option("--tissue", o->source.weights, "weights to bake it with otherwise: its own, then others");
   app.add_option("--rods", o->source.rods, "weights that its rods start from, as it was baked");
@@ -57,7 +57,7 @@ void find_source(Options* o) {
   if (o->source.glb.empty() && o->truth.empty() && std::filesystem::exists(beside)) o->source.glb = beside;
   if (o->source.glb.empty() && o->truth.empty())
     throw BadInput(o->character + ": has no " + beside +
-                   " beside it to simulate; give --source IN.glb --recipe R.json, or --truth T.safetensors");
+                   " next to it to simulate; give --source IN.glb --recipe R.json, or --truth T.safetensors");
 }
 
 std::vector<TrueSurface> read_truth(const std::vector<std::string>& paths, const LoadedPack& character) {

@@ -257,7 +257,7 @@ TissueLayout standing(const Character& character, const Recipe& recipe, const Ti
 
 std::string note_of(const Region& region, const Stand& stand) {
   char text[200];
-  std::snprintf(text, sizeof text, "'%s' stands on voxels of %.1f mm: %zu free corners, %zu held",
+  std::snprintf(text, sizeof text, "'%s' has its nodes on voxels of %.1f mm: %zu free corners, %zu held",
                 region.name.c_str(), 1e3 * stand.cage.cell_m, stand.corners.free,
                 stand.corners.nodes.size() - stand.corners.free);
   return text;

@@ -171,7 +171,7 @@ void make_folder(const std::string& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
   if (!error) return;
-  throw BadInput(path + ": cannot be made a folder (" + error.message() + "); name another place");
+  throw BadInput(path + ": cannot be made a folder (" + error.message() + "); give another path");
 }
 
 }  // namespace sinew::baker

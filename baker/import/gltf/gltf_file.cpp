@@ -130,7 +130,7 @@ std::string base_folder(const std::string& path) {
 
 std::string mend_for(const std::string& error) {
   if (error.find("File not found") != std::string::npos || error.find("File read error") != std::string::npos)
-    return "put that file beside it, or export as one .glb";
+    return "put that file next to it, or export as one .glb";
   if (error.find("parse_error") != std::string::npos)
     return "the JSON is damaged; export or copy the file again";
   return "export the file again as glTF 2.0";

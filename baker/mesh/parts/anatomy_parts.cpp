@@ -74,10 +74,11 @@ class Shape {
     Candidate part{region("belly", SoftKind::kBelly, anatomy_.belly), Evidence::kShape, "", ""};
     if (anatomy_.lies) {
       const double length = (anatomy_.line.back() - anatomy_.line.front()).norm();
-      part.why = text("the spine lies, and flesh hangs %.2f of its length below it", belly.front / length);
+      part.why = text("the spine is horizontal, and soft tissue hangs %.2f of its length below it",
+                      belly.front / length);
       if (belly.front < kHangs * length) part.doubt = text("less than %.2f is skin over bone", kHangs);
     } else {
-      part.why = text("flesh stands %.2f of the height before the spine, %.2f behind it",
+      part.why = text("soft tissue is %.2f of the height deep before the spine, %.2f behind it",
                       belly.front / height_m_, belly.back / height_m_);
       part.doubt = against_belly(belly);
     }
@@ -88,14 +89,14 @@ class Shape {
     if (anatomy_.lies) return;
     const std::vector<int> pelvis = {anatomy_.spine.front()};
     if (!any_claimed(pelvis) && pelvis != anatomy_.belly)
-      keep({region("glute", SoftKind::kGlute, pelvis), Evidence::kShape, "flesh behind the pelvis",
-            "shape alone does not tell buttocks from a coat"},
+      keep({region("glute", SoftKind::kGlute, pelvis), Evidence::kShape, "soft tissue behind the pelvis",
+            "shape alone does not distinguish buttocks from a coat"},
            parts);
     std::vector<int> thighs;
     for (const int joint : anatomy_.thighs)
       if (!any_claimed({joint})) thighs.push_back(joint);
     if (thighs.size() >= 2)
-      keep({region("thigh", SoftKind::kThigh, thighs), Evidence::kShape, "flesh on the upper legs",
+      keep({region("thigh", SoftKind::kThigh, thighs), Evidence::kShape, "soft tissue on the upper legs",
             "muscle holds most thighs; soft ones are a choice"},
            parts);
   }

@@ -163,7 +163,7 @@ class PieceFinder {
     else if (blended)
       piece.doubt = "some of it moves with several bones";
     else if (!reach.swings())
-      piece.doubt = "it sticks out of the flesh of '" + bone(piece.joint) + "' by " +
+      piece.doubt = "it sticks out of the soft tissue of '" + bone(piece.joint) + "' by " +
                     percent(reach.sticks_out_m / std::max(reach.extent_m, 1e-9)) +
                     " of its extent, and pieces stay rigid below " + percent(kSticksOut);
   }

@@ -196,8 +196,8 @@ class Finder {
     if (share >= kThickBelly) return add_region(joint, kind, {joint});
     char text[96];
     std::snprintf(text, sizeof text,
-                  "a lean spine bone: its flesh is %.1f %% of the height thick, below %.1f %%", 100 * share,
-                  100 * kThickBelly);
+                  "a lean spine bone: its soft tissue is %.1f %% of the height thick, below %.1f %%",
+                  100 * share, 100 * kThickBelly);
     skip(name(joint), kind, text);
   }
 
@@ -216,7 +216,7 @@ class Finder {
       if (fastened_[static_cast<size_t>(v)] < 0) skin.push_back(v);
     if (moved.size() < kFewestVertices) return "moves fewer than four vertices";
     if (skin.size() < kFewestVertices) return "a piece of its own that is fastened to one bone";
-    if (thickness_share(character_, skin) < kThinSheet) return "a thin sheet, not flesh";
+    if (thickness_share(character_, skin) < kThinSheet) return "a thin sheet, without soft tissue in it";
     return "";
   }
 
@@ -384,7 +384,7 @@ std::string how_to_make_soft(const Character& character, const std::vector<Candi
   for (size_t i = 0; i < std::min<size_t>(2, bones.size()); ++i)
     joints.push_back(called.unique(bones[i].second));
   return nothing +
-         ". For the bones with the thickest flesh, a recipe: {\"regions\": [{\"name\": \"belly\", "
+         ". For the bones with the thickest soft tissue, a recipe: {\"regions\": [{\"name\": \"belly\", "
          "\"joints\": " +
          joints.dump() + "}]}";
 }

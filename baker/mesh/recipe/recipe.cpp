@@ -76,8 +76,8 @@ void read_side(JsonSection& section, RegionRecipe& region) {
   for (const char* key : {"side", "around"})
     for (const char* piece : {"mesh", "material", "island_at"})
       if (section.has(key) && section.has(piece))
-        section.complain(
-            key, std::string("is of flesh over bones, not of a piece; take it or \"") + piece + "\" out");
+        section.complain(key, std::string("is of soft tissue over bones, not of a piece; take it or \"") +
+                                  piece + "\" out");
   if (section.has("side")) {
     region.side = side_called(section.text("side"));
     if (!region.side)

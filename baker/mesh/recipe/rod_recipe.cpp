@@ -69,7 +69,7 @@ RodRecipe read_rod(JsonSection& section) {
     rod.max_displacement = section.number("max_displacement", 0, 0.01, 2);
     if (section.has("end_joint"))
       section.complain("max_displacement",
-                       "says how far a free end may go, and end_joint holds it; state one of them");
+                       "limits the travel of a free end, and end_joint holds it; state one of them");
   }
   section.finish();
   return rod;

@@ -129,17 +129,15 @@ double fitting_hz(const std::vector<Shake>& clips, const Region& region) {
 std::string note_on(const Region& region, double share, double fits_hz, bool fits) {
   char text[240];
   if (!region.states_frequency)
-    std::snprintf(
-        text, sizeof text,
-        "'%s' would stand at its limit in %.0f %% of its clips' ticks at the usual %.2g Hz: it swings "
-        "at %.2g; state frequency_hz to have it softer",
-        region.name.c_str(), 100 * share, region.frequency_hz, fits_hz);
+    std::snprintf(text, sizeof text,
+                  "'%s' would be at its limit in %.0f %% of its clips' ticks at the usual %.2g Hz: it swings "
+                  "at %.2g; state frequency_hz to have it softer",
+                  region.name.c_str(), 100 * share, region.frequency_hz, fits_hz);
   else
-    std::snprintf(
-        text, sizeof text,
-        "'%s' stands at its limit in %.0f %% of its clips' ticks: its frequency_hz of %.2g is too soft "
-        "for them; %s %.2g would do",
-        region.name.c_str(), 100 * share, region.frequency_hz, fits ? "from" : "not even", fits_hz);
+    std::snprintf(text, sizeof text,
+                  "'%s' is at its limit in %.0f %% of its clips' ticks: its frequency_hz of %.2g is too soft "
+                  "for them; %s %.2g would do",
+                  region.name.c_str(), 100 * share, region.frequency_hz, fits ? "from" : "not even", fits_hz);
   return text;
 }
 

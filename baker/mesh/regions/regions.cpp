@@ -105,8 +105,9 @@ SoftParts find_soft_parts(Character& character, const Surface& surface, double r
   if (specks > 0)
     character.notes.push_back(std::to_string(specks) + " soft parts of fewer than four vertices: held rigid");
   if (islets > 0)
-    character.notes.push_back(std::to_string(islets) +
-                              " soft parts that are small beside the rest of their region: held rigid");
+    character.notes.push_back(
+        std::to_string(islets) +
+        " soft parts that are small compared with the rest of their region: held rigid");
   return found;
 }
 

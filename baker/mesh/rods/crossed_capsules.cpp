@@ -65,7 +65,7 @@ void drop_crossed(Character& character, const std::vector<Rod>& rods, const Reci
   if (rods.empty() || proxies.empty() || !character.colliders.empty()) return;
   std::vector<std::string> stated_names;
   for (const ProxyRecipe& own : recipe.proxies) stated_names.push_back(own.joint);
-  const std::vector<bool> stated = match_joints(character, stated_names, "recipe: proxies");
+  const std::vector<bool> stated = match_joints(character, stated_names, "recipe: \"proxies\"");
   const Motions bind(character.joint_node.size(), Matrix4::Identity());
   const std::vector<Motions> poses = sampled_poses(character);
   std::string dropped;

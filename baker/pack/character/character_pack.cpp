@@ -256,7 +256,7 @@ void append_spread(const TissueLayout& finer, const Region& region, const std::v
     const int vertex = finer.nodes[static_cast<size_t>(n)].vertex;
     const auto at = std::ranges::lower_bound(region.vertices, vertex) - region.vertices.begin();
     if (static_cast<size_t>(at) >= carry.size() || region.vertices[static_cast<size_t>(at)] != vertex)
-      throw BadInput("levels: a control node lies outside of what its region carries");
+      throw BadInput("levels: a control node lies outside the vertices of its region");
     spread->push_back(static_cast<float>(carry[static_cast<size_t>(at)]));
   }
   spread->resize((spread->size() + 15) / 16 * 16, 0.0f);

@@ -256,7 +256,7 @@ std::vector<std::string> notes_on(const pack::PackView& view) {
                               : "touches none of the " + std::to_string(view.proxies.size()) +
                                     " capsules: each overlaps it in the bind pose or is of a bone that moves "
                                     "it; thinner ones (the "
-                                    "recipe's proxies) may be clear of it";
+                                    "recipe's \"proxies\") may be clear of it";
   for (const pack::RegionRecord& region : view.regions)
     if (region.touches_body && world::touchable_by(view, region) == 0)
       notes.push_back("region '" + std::string(string_at(view, region.name)) + "' says touches_body and " +

@@ -21,7 +21,7 @@ NearestStart::NearestStart(std::span<const float> inputs, std::span<const float>
   const size_t count = inputs.size() / simd::kRodStartInputs;
   if (inputs.size() != count * simd::kRodStartInputs || answers.size() != count * simd::kRodStartNumbers) {
     throw BadInput("examples of starts: " + std::to_string(inputs.size()) + " numbers of inputs and " +
-                   std::to_string(answers.size()) + " of answers; give " +
+                   std::to_string(answers.size()) + " of outputs; give " +
                    std::to_string(simd::kRodStartInputs) + " and " + std::to_string(simd::kRodStartNumbers) +
                    " an example");
   }

@@ -136,7 +136,7 @@ void draw_axes(Paper& paper, const Axis& x, const Axis& y) {
   paper.line({{kLeft, kTop}, {kLeft, kBottom}, {kRight, kBottom}}, 1.5f, kPale);
   paper.text({(kLeft + kRight) / 2, kBottom + 62}, "mean step of one instance, warm cache (us, logarithmic)",
              "middle");
-  paper.text({kLeft - 100, kTop - 18}, "mean error as a share of skinning's (logarithmic)", "start");
+  paper.text({kLeft - 100, kTop - 18}, "mean error as a fraction of skinning's (logarithmic)", "start");
 }
 
 RgbBytes color_of(const Row& row) {

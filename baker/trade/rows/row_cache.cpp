@@ -37,7 +37,7 @@ RowCache::RowCache(std::string path, Json made_of) : path_(std::move(path)), mad
   if (others.empty())
     take_up(file.at("rows"));
   else
-    std::fprintf(stderr, "sinew-trade: %s: is %s; all is measured anew\n", path_.c_str(), others.c_str());
+    std::fprintf(stderr, "sinew-trade: %s: is %s; all is measured again\n", path_.c_str(), others.c_str());
 }
 
 void RowCache::take_up(const nlohmann::json& rows) {
@@ -45,7 +45,7 @@ void RowCache::take_up(const nlohmann::json& rows) {
     if (const std::optional<Row> row = row_from(json)) rows_.push_back(*row);
   if (const size_t left_out = rows.size() - rows_.size())
     std::fprintf(stderr,
-                 "sinew-trade: %s: %zu of %zu rows hold no figures of a step; they are measured anew\n",
+                 "sinew-trade: %s: %zu of %zu rows hold no figures of a step; they are measured again\n",
                  path_.c_str(), left_out, rows.size());
 }
 
@@ -54,7 +54,7 @@ std::optional<Row> RowCache::find(const Row& way) const {
   if (found == rows_.end()) return std::nullopt;
   const auto key = [](const Row& row) { return std::tie(row.kind, row.tier, row.level); };
   if (key(*found) == key(way)) return *found;
-  std::fprintf(stderr, "sinew-trade: %s: \"%s\" is of another tier or level; it is measured anew\n",
+  std::fprintf(stderr, "sinew-trade: %s: \"%s\" is of another tier or LOD; it is measured again\n",
                path_.c_str(), way.name.c_str());
   return std::nullopt;
 }

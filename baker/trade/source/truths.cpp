@@ -98,7 +98,7 @@ void tell_of_others(const std::vector<Work>& wanted, const std::vector<std::stri
     if (std::ranges::find(paths, held.path().string()) != paths.end()) continue;
     std::fprintf(stderr,
                  "sinew-trade: %s: what it holds is of other clips, seconds, sources or recipes; %zu motions "
-                 "are simulated anew\n",
+                 "are simulated again\n",
                  folder.c_str(), wanted.size());
     return;
   }

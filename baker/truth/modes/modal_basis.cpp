@@ -156,7 +156,7 @@ Body solve_body(const FemLinear& linear, const std::vector<int>& cage_node, int 
   body.turn = warping_turn(turning_in_cage(body.shape, body.cage_node, cage));
   body.stiffness.analyze(linear.stiffness);
   if (!body.stiffness.factor(linear.stiffness))
-    throw std::runtime_error("modal basis: no constrained node holds the flesh in place");
+    throw std::runtime_error("modal basis: no constrained node holds the soft tissue in place");
   return body;
 }
 

@@ -135,7 +135,7 @@ TEST_CASE("doubts_about_named_pieces_say_what_they_are") {
   std::vector<BonePiece> pieces = pieces_of(bust.figure.character);
   std::erase_if(pieces, [](const BonePiece& piece) { return !piece.is_named; });
   REQUIRE(pieces.size() == 3);
-  CHECK_THAT(pieces[0].doubt, Contains("sticks out of the flesh of 'head' by"));
+  CHECK_THAT(pieces[0].doubt, Contains("sticks out of the soft tissue of 'head' by"));
   CHECK(pieces[1].doubt == "too small to be seen swinging");
   CHECK(pieces[2].doubt == "some of it moves with several bones");
   Figure cape("cape");

@@ -98,7 +98,7 @@ TEST_CASE("regions_of_a_recipe_that_leave_nothing_soft_are_refused_with_the_reas
   CHECK(idle > 0);
   const Character body = figure.character;
   CHECK_THAT(refusal(body, with_regions({{"belly", {"idle"}}})),
-             Contains("region 'belly': nothing is soft") && Contains("name bones that move flesh"));
+             Contains("region 'belly': nothing is soft") && Contains("name bones that move soft tissue"));
   CHECK_THAT(refusal(body, with_regions({{"belly", {"spine_01"}, 1}})), Contains("make it softer"));
   Character chain = column();
   Recipe both = with_regions({{"end", {"bone_3"}}});
@@ -312,7 +312,7 @@ TEST_CASE("an_armoured_knight_and_a_robot_stay_rigid") {
   const TissueLayout layout = layout_tissue(f.character, {});
   CHECK(layout.regions.empty());
   CHECK(layout.rods.empty());
-  CHECK_THAT(why(layout, "Hood"), Contains("sticks out of the flesh of 'head'"));
+  CHECK_THAT(why(layout, "Hood"), Contains("sticks out of the soft tissue of 'head'"));
   CHECK(noted(f.character, "nothing swings"));
 
   Human robot = human("spine_01", 0.15);

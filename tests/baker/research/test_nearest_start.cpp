@@ -43,7 +43,7 @@ TEST_CASE("examples_that_are_too_few_cut_or_not_finite_are_refused") {
   CHECK_THAT(message(inputs.first(2 * simd::kRodStartInputs), answers.first(2 * simd::kRodStartNumbers)),
              Contains("examples of starts: 2; give 3"));
   CHECK_THAT(message(inputs.first(inputs.size() - 1), answers), Contains("55 numbers of inputs and 48"));
-  CHECK_THAT(message(inputs, answers.first(36)), Contains("56 numbers of inputs and 36 of answers"));
+  CHECK_THAT(message(inputs, answers.first(36)), Contains("56 numbers of inputs and 36 of outputs"));
   examples.answers[40] = HUGE_VALF;
   CHECK_THAT(message(inputs, answers), Contains("a number is not finite"));
   examples.answers[40] = 0;

@@ -176,7 +176,7 @@ TEST_CASE("a_trade_finds_the_front_bakes_it_and_goes_on_where_it_was_stopped") {
   const ProgramResult mended = trade(arguments);
   must(mended);
   CHECK(mended.error == "sinew-trade: " + out + "/measured.json: 2 of " + count +
-                            " rows hold no figures of a step; they are measured anew\n");
+                            " rows hold no figures of a step; they are measured again\n");
   CHECK(row_of(rows_of(out), rows[2].at("name")).at("ratio") == rows[2].at("ratio"));
 
   write_file(out + "/measured.json", std::string_view("{\"rows\":"));

@@ -38,7 +38,8 @@ TEST_CASE("a_part_stands_on_about_as_many_free_corners_as_the_recipe_says") {
   bar.recipe.regions[0].emulated = true;
   const TissueLayout layout = bar.layout();
   REQUIRE(bar.character.notes.size() == 1);
-  CHECK_THAT(bar.character.notes[0], Contains("'top' stands on voxels of") && Contains("free corners"));
+  CHECK_THAT(bar.character.notes[0],
+             Contains("'top' has its nodes on voxels of") && Contains("free corners"));
   const Region& region = layout.regions[0];
   const auto free =
       std::ranges::count_if(layout.nodes, [](const ControlNode& n) { return !n.corner.is_held; });
