@@ -198,11 +198,12 @@ void print(const Obstacle& obstacle, const std::string& rope, uint32_t ropes, in
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (sinew::perf::gives_help(argc, argv,
-                              "usage: perf_ropes [REPETITIONS]\n"
-                              "Ropes over a cylinder and a box, beside Bullet's soft bodies; CSV to standard "
-                              "output. 3 repetitions by "
-                              "default."))
+  if (sinew::perf::gives_help(
+          argc, argv,
+          "usage: perf_ropes [REPETITIONS]\n"
+          "Ropes over a cylinder and a box, compared with Bullet's soft bodies; CSV to standard "
+          "output. 3 repetitions by "
+          "default."))
     return 0;
   const int repetitions = argc > 1 ? std::atoi(argv[1]) : 3;
   btCylinderShapeZ bar(btVector3(test::kBarRadius_m, test::kBarRadius_m, 1));

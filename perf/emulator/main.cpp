@@ -102,7 +102,7 @@ void compare_with_solver(const std::vector<std::string>& weights) {
   const baker::VoxelBody body = paper_sphere();
   const auto free = std::ranges::count(body.constrained, false);
   std::printf(
-      "A sphere of %zu vertices, %ld free, one core. The solver: backward Euler, L-BFGS around a kept "
+      "A sphere of %zu vertices, %ld free, one core. The solver: backward Euler, L-BFGS around a stored "
       "factor.\n\n",
       body.nodes.size(), static_cast<long>(free));
   std::printf("| what | us a step | solver's time over it |\n|---|---|---|\n");
@@ -163,7 +163,8 @@ std::string error_of(const baker::LoadedPack& pack, Tier tier) {
 void judge_characters(const std::vector<std::string>& paths) {
   constexpr int kTicks = 10000;
   std::printf(
-      "10,000 ticks each. Errors: the bake's, shares of skinning's. An explosion: a restart, a network given "
+      "10,000 ticks each. Errors: the bake's, as fractions of skinning's. An explosion: a restart, a network "
+      "given "
       "up, "
       "or a node that is not a number or beyond its limit.\n\n");
   std::printf(
@@ -201,7 +202,7 @@ int main(int count, char** arguments) {
   if (sinew::perf::gives_help(
           count, arguments,
           "perf_emulator W.safetensors... | C.sinew...\n"
-          "  what DeepEmulators cost beside the implicit solver; how characters on them fare"))
+          "  what DeepEmulators cost compared with the implicit solver; how characters on them fare"))
     return 0;
   try {
     return sinew::perf::run(count, arguments);

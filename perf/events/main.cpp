@@ -236,7 +236,8 @@ float median(std::vector<float> values) {
 
 int run(int count, char** arguments) {
   constexpr const char* kHelp =
-      "perf_events C.sinew [...]   how far packs' vertices fly off in snap turns, jumps of joints, stops";
+      "perf_events C.sinew [...]   distance that packs' vertices fly off in snap turns, jumps of joints, "
+      "stops";
   if (gives_help(count, arguments, kHelp)) return 0;
   try {
     if (count < 2) throw baker::BadInput("give packs; see --help");
@@ -256,7 +257,7 @@ int run(int count, char** arguments) {
       rule += "---|";
     }
     const std::string rate_head =
-        "| off 240 frames a second, share of the motion" + head.substr(std::string("| event").size());
+        "| off 240 frames a second, fraction of the motion" + head.substr(std::string("| event").size());
     std::printf("%s median | worst | longest, s |\n%s---|---|---|\n| bob |", head.c_str(), rule.c_str());
     for (const float most : ordinary) std::printf(" %.3f |", static_cast<double>(most));
     std::printf(" %.3f | %.3f | |\n", static_cast<double>(median(ordinary)),

@@ -153,7 +153,7 @@ void run_all(const std::string& path, const std::string& clip, bool quick, size_
 }  // namespace
 
 int main(int count, char** arguments) {
-  CLI::App app{"How far a change of tier moves a vertex, of all changes that can happen."};
+  CLI::App app{"Distance that a change of tier moves a vertex, for all changes that can happen."};
   std::string path;
   app.add_option("pack", path, "C.sinew")->required();
   std::string clip;

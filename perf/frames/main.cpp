@@ -103,8 +103,8 @@ void run(const Options& options) {
 void add_crowd_options(CLI::App& app, CrowdOptions* o) {
   app.add_option(
       "--crowd", o->truths,
-      "only what a crowd that follows these trajectories of sinew-bake truth --positions is off, as "
-      "expected and as measured, shares of what skinning is off");
+      "only the error of a crowd that follows these trajectories of sinew-bake truth --positions, as "
+      "expected and as measured, in fractions of skinning's error");
   app.add_option("--instances", o->instances, "of the crowd")->check(CLI::Range(1, 10'000));
   app.add_option("--budget-us", o->budgets_us, "of the crowd; by default 4000, and none")
       ->check(CLI::PositiveNumber);
@@ -118,7 +118,8 @@ void add_crowd_options(CLI::App& app, CrowdOptions* o) {
 int main(int argc, char** argv) {
   Options options;
   CLI::App app(
-      "Steps crowds under a budget in scenes that try to break it; CSV to standard output, times as shares "
+      "Steps crowds under a budget in scenes that try to break it; CSV to standard output, times as "
+      "fractions "
       "of the budget");
   app.add_option("pack", options.pack, "C.sinew")->required();
   app.add_option("--frames", options.frames, "of each scene")->check(CLI::Range(60, 1'000'000));

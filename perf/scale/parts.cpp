@@ -141,7 +141,7 @@ void measure_parts(const demo::CharacterFile& character, int rounds) {
       {"network step", us("network step"), network_mflop(pack)},
       {"inputs; closing on the base; guards", us("network tick") - us("modal tick") - us("network step"), 0},
       {"show", us("show"), 0},
-      {"carrying; skin matrices", us("publish"), carry_mflop(pack)},
+      {"embedding; skin matrices", us("publish"), carry_mflop(pack)},
       {"whole tick", tick, character_mflop(pack)},
       {"read: bind-space deltas", us("deltas"), 0},
       {"read: positions", us("positions"), 0},

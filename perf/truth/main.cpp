@@ -180,7 +180,7 @@ void print(const std::string& name, const std::vector<Row>& rows) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("How far a character's ground truth is from itself, as shares of its mean displacement: CSV");
+  CLI::App app("Numerical error of a character's ground truth, as fractions of its mean displacement: CSV");
   Options options;
   std::string name;
   app.add_option("character", options.character, "skinned glTF or VRM")->required();
