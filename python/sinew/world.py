@@ -38,6 +38,8 @@ def _fields(struct):
     """A struct of numbers as a dictionary; names as str."""
     out = {}
     for name, field in ffi.typeof(struct).fields:
+        if name == "made_by":
+            continue
         value = getattr(struct, name)
         if field.type.cname == "char *":
             value = ffi.string(value).decode() if value else None
@@ -47,6 +49,25 @@ def _fields(struct):
             value = _matrix(value) if field.type.cname == "sinew_matrix34" else _fields(value)
         out[name] = value
     return out
+
+
+def _changed(struct, what, ids, values):
+    """Sets fields of a struct that the library gets and sets; returns all of them as a dictionary."""
+    out = ffi.new(f"sinew_{struct}*")
+    check(getattr(lib, f"sinew_get_{what}")(*ids, out))
+    if values:
+        check(getattr(lib, f"sinew_set_{what}")(*ids, _set(out, values, f"sinew_{struct}")))
+    return _fields(out[0])
+
+
+def _index(entries, which, what):
+    """An index, or the index of the entry with this name."""
+    if not isinstance(which, str):
+        return which
+    names = [each["name"] for each in entries]
+    if which not in names:
+        raise ValueError(f"no {what} '{which}'; there are {', '.join(names) or 'none'}")
+    return names.index(which)
 
 
 def _matrix(struct):
@@ -115,6 +136,10 @@ class World:
     def budget(self, microseconds):
         check(lib.sinew_set_budget_us(self._id, microseconds))
 
+    def environment(self, **fields):
+        """Sets fields of sinew_environment (gravity_m_s2, wind_m_s ...) for all instances; returns all of them."""
+        return _changed("environment", "environment", (self._id,), fields)
+
 
 class Asset:
     """A loaded character. `info` has sinew_asset_info's fields; arrays are copies."""
@@ -156,11 +181,7 @@ class Asset:
 
     def clip(self, clip, time_s, loop=True):
         """The pose of a clip, by index or name, as bind_pose gives one."""
-        if isinstance(clip, str):
-            names = [each["name"] for each in self.clips]
-            if clip not in names:
-                raise ValueError(f"no clip '{clip}'; there are {', '.join(names) or 'none'}")
-            clip = names.index(clip)
+        clip = _index(self.clips, clip, "clip")
         joints, out = _out((self.info["joint_count"], 3, 4), "sinew_matrix34*")
         check(lib.sinew_sample_clip(self._world._id, self._id, clip, time_s, int(loop), out, len(joints)))
         return joints
@@ -211,6 +232,21 @@ class Instance:
     def tier_limit(self, best):
         """The best tier it may get: "network", all there is, "modal" or "skinning"."""
         check(lib.sinew_set_tier_limit(self._world._id, self._id, _tier(best)))
+
+    def parameters(self, *, region=None, rod=None, **fields):
+        """Sets fields of sinew_part_parameters (intensity, stiffness ...) of the instance, or of one region or one rod by index or name; returns all of them."""
+        if region is not None and rod is not None:
+            raise ValueError("region and rod are both given; name one of them")
+        kind, ids = "", (self._world._id, self._id)
+        if region is not None:
+            kind, ids = "region_", (*ids, _index(self.asset.regions, region, "region"))
+        if rod is not None:
+            kind, ids = "rod_", (*ids, _index(self.asset.rods, rod, "rod"))
+        return _changed("part_parameters", f"{kind}parameters", ids, fields)
+
+    def environment(self, **fields):
+        """Sets acceleration_m_s2 and wind_m_s, which this instance gets in addition to the world's; returns both."""
+        return _changed("added_environment", "added_environment", (self._world._id, self._id), fields)
 
     def reset(self):
         check(lib.sinew_reset(self._world._id, self._id))

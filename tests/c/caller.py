@@ -20,6 +20,27 @@ def misuse(world, asset, one):
             raise AssertionError(why)
 
 
+def tune(world, asset, one):
+    swing = {"intensity": 1, "stiffness": 1, "damping": 1, "displacement": 1, "enabled": True}
+    assert one.parameters() == swing
+    assert one.parameters(stiffness=4, enabled=False) == one.parameters() == {**swing, "stiffness": 4, "enabled": False}
+    assert one.parameters(region=asset.regions[0]["name"], damping=2) == one.parameters(region=0) == {**swing, "damping": 2}
+    assert one.parameters(rod=asset.rods[0]["name"], intensity=0) == one.parameters(rod=0) == {**swing, "intensity": 0}
+    assert world.environment(gravity_m_s2=(0, -2, 0), gust=0.5)["gravity_m_s2"] == [0, -2, 0]
+    assert world.environment()["gust"] == 0.5 and world.environment()["wind_m_s"] == [0, 0, 0]
+    assert one.environment(wind_m_s=(3, 0, 0)) == one.environment() == {"acceleration_m_s2": [0, 0, 0], "wind_m_s": [3, 0, 0]}
+    for wrong, error in ((lambda: one.parameters(stiffness=1000), "stiffness"), (lambda: one.parameters(softness=1), "softness"),
+                         (lambda: one.parameters(region="no such"), "no such"), (lambda: one.parameters(region=99), "region"),
+                         (lambda: one.parameters(region=0, rod=0), "both"), (lambda: world.environment(gust=2), "gust")):
+        try:
+            wrong()
+        except (ValueError, TypeError) as refused:
+            assert error in str(refused), refused
+        else:
+            raise AssertionError(error)
+    assert one.parameters()["stiffness"] == 4
+
+
 def main(path):
     with sinew.World() as world:
         asset = world.load(path)
@@ -35,6 +56,7 @@ def main(path):
         still = np.delete(one.positions("bind"), asset.moved_vertices, axis=0)
         assert not still.any()
         print("\n".join(f"{value:.9g}" for value in one.positions().ravel()))
+        tune(world, asset, one)
         one.tier_limit("skinning")
         world.step(np.float32(1 / 60))
         assert one.report()["tier"] == sinew.lib.SINEW_TIER_SKINNING
