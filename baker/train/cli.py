@@ -106,23 +106,23 @@ def _read_json(path, mend):
 
 
 def _named(pairs):
-    """NAME=FOLDER arguments as a dict, in order."""
+    """NAME=FOLDER and NAME=WEIGHTS.safetensors arguments as a dict, in order."""
     for text in pairs:
         if "=" not in text:
-            raise BadData(f"--run {text}: give NAME=FOLDER")
+            raise BadData(f"--run {text}: give NAME=FOLDER or NAME=WEIGHTS.safetensors")
     return dict(text.split("=", 1) for text in pairs)
 
 
 def _evaluate(a):
     import torch
     from .judge.evaluate import evaluate, table
-    from .judge.page import write_page
+    from .judge.page import write_evaluation
 
     torch.set_num_threads(a.threads)
     runs = _named(a.run)
     enduring = (next(iter(runs)), "modal_warped", *a.enduring)
     metrics, judged = evaluate(runs, a.data, a.bodies or None, enduring)
-    write_page(metrics, judged, runs, a.out)
+    write_evaluation(metrics, judged, runs, a.out, not a.no_page)
     for body in metrics["bodies"]:
         print(table(metrics, body))
 
@@ -170,7 +170,7 @@ def _best(a):
 
 
 def _add_comparison(p, minutes):
-    """Options of a command that trains variants on one body and adds a section to the page."""
+    """Options of a command that trains variants on one body and writes a table and a picture of their errors."""
     p.add_argument("data")
     p.add_argument("--body", required=True)
     of_one = f"of one core, a variant; default {minutes:g}"
@@ -215,12 +215,13 @@ def _parser():
     _add_fields(p, TrainOptions)
     p = command("evaluate", _evaluate, "Judges runs on held-out motions and bodies: the evaluation page.")
     p.add_argument("data")
-    named = "NAME=FOLDER; repeatable, the shipped one first"
+    named = "NAME=FOLDER of a run or NAME=WEIGHTS.safetensors; repeatable, the shipped one first"
     p.add_argument("--run", action="append", required=True, help=named)
     p.add_argument("--bodies", nargs="+", help="default: all with test sequences")
     p.add_argument("--enduring", nargs="*", default=[], help="further models for the longest roll-outs")
     p.add_argument("--threads", type=int, default=1)
     p.add_argument("--out", required=True, help="folder of the page")
+    p.add_argument("--no-page", action="store_true", help="metrics, errors.csv and pictures without README.md")
     text = "Trains small variants of the recipe on one body and compares them."
     _add_comparison(command("ablate", _ablate, text), 4.0)
     text = "Trains the paper's vanilla ConvLSTMs on one body and compares them with Alt-ConvLSTM."

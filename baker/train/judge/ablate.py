@@ -1,13 +1,11 @@
-"""What each part of the recipe is worth: small variants trained alike on one body, judged on its held-out
-motions."""
+"""Ablations: small variants of the recipe, trained alike on one body and judged on its held-out motions."""
 import os
 
 from ..model.inputs import CROSSED, crossed_with
 from ..model.rollout import error_ratio, truth
 from . import plot
 from .evaluate import ratio
-from .page import table
-from .variants import judged_on, train_variants, write_section
+from .variants import judged_on, train_variants, write_comparison
 
 _without = lambda *names: ["--without", ",".join((*names, *crossed_with(*names)))]
 
@@ -16,8 +14,8 @@ VARIANTS = {
     "as shipped": [],
     "no modal base": _without("base", "base_step", "turn"),
     "displacement not fed back": _without("displacement", "velocity"),
-    "not told what it feels": _without("felt_step"),
-    "not told the bend": _without("bend"),
+    "no inertial acceleration": _without("felt_step"),
+    "no bend": _without("bend"),
     "no crossed inputs": ["--without", ",".join(CROSSED)],
     "no leak in hidden layers": ["--hidden-leak", "0"],
     "gradients over 5 ticks": ["--window", "5"],
@@ -55,15 +53,14 @@ def _draw(rows, path):
 
 
 def ablate(data, body, work, out, minutes, processes):
-    """Writes out/ablations.json, ablations.md and ablations.png."""
+    """Writes out/ablations.json, ablations.csv and ablations.png."""
     groups = judged_on(data, body)  # first: what is unusable is refused before training
     variants = {**VARIANTS, "a quarter of the time": ["--minutes", f"{minutes / 4:g}"]}
     networks = train_variants(variants, data, body, work, minutes, processes)
     rows = {name: _judge(network, groups) for name, network in networks.items()}
     keys = list(next(iter(rows.values())))
-    head = f"{minutes:g} minutes of one core each, trained on {body} alone"
-    text = table([head, *keys], [[name, *(row[k] for k in keys)] for name, row in rows.items()])
+    head = ["variant", *(k if k == "parameters" else f"error_ratio_{k}_ticks" for k in keys)]
     os.makedirs(out, exist_ok=True)
     _draw(rows, os.path.join(out, "ablations.png"))
     figures = {"body": body, "minutes": minutes, "rows": rows}
-    write_section(out, "ablations", figures, f"{text}\n\n![ablations](ablations.png)\n")
+    write_comparison(out, "ablations", figures, head, [[name, *(row[k] for k in keys)] for name, row in rows.items()])

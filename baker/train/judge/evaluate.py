@@ -1,4 +1,4 @@
-"""Judges networks on held-out motions and bodies, beside plain models and skinning alone."""
+"""Judges networks on held-out motions and bodies, with plain models and skinning alone for comparison."""
 import json
 import math
 import os
@@ -29,7 +29,7 @@ class Tally:
         self.sums = {}
 
     def add(self, method, predicted, true, above=0):
-        """(T+1, N, B, 3) metres both. Figures of `above` ticks and fewer are left alone."""
+        """(T+1, N, B, 3) metres both. Figures of `above` ticks and fewer do not change."""
         error = 1e3 * (predicted[1:] - true[1:]).norm(dim=-1).double()
         size = 1e3 * true[1:].norm(dim=-1).double()
         for k in [k for k in TICKS if above < k <= len(error)]:
@@ -51,9 +51,10 @@ class Tally:
 
 
 class Network:
-    """A trained network as a model of baselines.py."""
+    """A trained network as a model of baselines.py. run: the folder of a run, or weights as .safetensors."""
 
-    def __init__(self, path):
+    def __init__(self, run):
+        path = run if run.endswith(".safetensors") else os.path.join(run, "weights.safetensors")
         self.model, self.scaling, self.metadata = read_weights(path)
         self.parameters = sum(p.numel() for p in self.model.parameters())
 
@@ -62,7 +63,7 @@ class Network:
 
 
 def ratio(p, u):
-    """Mean distance after the start as a share of the mean displacement, four digits."""
+    """Mean distance after the start as a fraction of the mean displacement, four digits."""
     return round(float((p[1:] - u[1:]).norm(dim=-1).mean() / u[1:].norm(dim=-1).mean()), 4)
 
 
@@ -87,20 +88,20 @@ def by_motion(group, methods):
     }
 
 
-def _along_flesh(group, p):
-    """(T+1, N, B, 3) along the nodes' frames -> along the axes of their flesh, which carry to the surface."""
+def _along_tissue(group, p):
+    """(T+1, N, B, 3) along the nodes' frames -> along the rotated axes of their tissue, which the surface is embedded in."""
     bend = group.drive[..., DRIVE["bend"]].permute(1, 2, 0, 3)
     return turned(bend[: len(p)], p, transposed=True)
 
 
 def surface_error(group, methods):
-    """Mean error over all carried vertices in mm and as a share of skinning's; `carried_truth`: the nodes'
-    true displacement carried, the best that any method on these nodes can do. None where the trajectories
+    """Mean error over all embedded vertices in mm and as a fraction of skinning's; `carried_truth`: the nodes'
+    true displacement embedded, the best that any method on these nodes can do. None where the trajectories
     hold no surface."""
     if any("surface" not in t.tensors for t in group.trajectories):
         return None
     sums = {}
-    along_flesh = {k: _along_flesh(group, p) for k, p in {**methods, "carried_truth": truth(group)}.items()}
+    along_tissue = {k: _along_tissue(group, p) for k, p in {**methods, "carried_truth": truth(group)}.items()}
     for i, t in enumerate(group.trajectories):
         true, at = np.asarray(t.tensors["surface"], np.float32), 0
         for r, count in enumerate(t.tensors["region.vertex_count"]):
@@ -108,7 +109,7 @@ def surface_error(group, methods):
             nodes = np.asarray(group.body.region) == r
             u = true[1:, at : at + count]
             at += count
-            for name, p in along_flesh.items():
+            for name, p in along_tissue.items():
                 carried = np.einsum("nv,tnd->tvd", carry, p[1:, nodes, i].numpy(), optimize=True)
                 e = np.linalg.norm(carried - u, axis=-1)
                 sums[name] = sums.get(name, 0) + np.array([e.size, e.sum()])
@@ -120,7 +121,7 @@ def surface_error(group, methods):
 
 def energy(group, methods):
     """Sum of (w q)^2 / 2 over the modes, weighted alike: smallest, mean and largest of a method's roll-outs as
-    shares of the truth's mean."""
+    fractions of the truth's mean."""
     def of(p):
         u = group.unflatten(p)
         q = torch.stack([group.base.unwarped(step, torch.zeros_like(step))[1] for step in u[1::4]])
@@ -134,8 +135,8 @@ def energy(group, methods):
 
 
 def stability(network, group, gain):
-    """Driven for 200 ticks at `gain`, then left alone for a minute: largest displacement and what is left.
-    The largest |c|."""
+    """Driven for 200 ticks at `gain`, then at rest for a minute: the largest displacement, the remaining one and the
+    largest |c|."""
     s, watch, driven = torch.arange(min(3, group.count)), {}, min(200, group.ticks)
     u = roll_out(
         network.model, network.scaling, group, driven + STILL_TICKS, s, gain, still_after=driven, watch=watch
@@ -152,7 +153,7 @@ def stability(network, group, gain):
 
 
 def operations(network, group):
-    """Millions of floating-point operations a tick for the whole body, multiply and add counted apart: the
+    """Millions of floating-point operations per tick for the whole body, multiply and add counted separately: the
     network, its graph and its modal base."""
     nodes = len(group.body.region)
     edges = nodes + 2 * len(group.body.edges)
@@ -168,9 +169,9 @@ def operations(network, group):
 
 
 def operations_of_plain(names, group):
-    """name -> millions of operations a tick, of plain models."""
+    """name -> millions of operations per tick, of plain models."""
     nodes, modes = len(group.body.region), operations(None, group)
-    # A recurrence for each of three axes; before it one factor, or two matrices, a node.
+    # A recurrence for each of three axes; before it one factor, or two matrices, per node.
     springs = {"spring": 2e-6 * nodes * 12, "node_springs": 2e-6 * nodes * 27}
     return {name: round(springs.get(name, modes), 4) for name in names}
 
@@ -222,7 +223,7 @@ def judge_body(data, body, networks, enduring, log):
 
 
 def known_motions(data, body, networks):
-    """Ratios on the training motions of a body, over whole sequences: what the held-out figures stand beside."""
+    """Ratios on the training motions of a body, over whole sequences, to compare the held-out figures with."""
     group = _read(data, "train", body)[0]
     u = truth(group)
     out = {k: ratio(n.predict(group), u) for k, n in networks.items()}
@@ -230,9 +231,9 @@ def known_motions(data, body, networks):
 
 
 def evaluate(runs, data, bodies=None, enduring=(), log=print):
-    """runs: name -> folder of a run; the first is the one that is shipped. bodies: those to judge, default all
-    with test sequences. Returns the metrics and, a body, what plot.py draws."""
-    networks = {name: Network(os.path.join(run, "weights.safetensors")) for name, run in runs.items()}
+    """runs: name -> folder of a run or weights as .safetensors; the first is the one that is shipped. bodies: those
+    to judge, default all with test sequences. Returns the metrics and, for each body, what plot.py draws."""
+    networks = {name: Network(run) for name, run in runs.items()}
     named = bodies or list(dict.fromkeys(b for b, _ in dataset.list_split(data, "test")))
     metrics = {"models": {}, "bodies": {}}
     for name, network in networks.items():
@@ -256,12 +257,17 @@ def evaluate(runs, data, bodies=None, enduring=(), log=print):
     return metrics, judged
 
 
+def _cell(figures):
+    if figures is None:
+        return ""
+    return f"{figures['mean_mm']:.2f} mm" + ("" if figures["ratio"] is None else f" {figures['ratio']:.3f}")
+
+
 def table(metrics, body):
-    """A body's roll-out figures as text a person reads."""
+    """A body's roll-out figures as text for a terminal."""
     rows = metrics["bodies"][body]["roll_out"]
     methods = list(dict.fromkeys(m for row in rows.values() for m in row))
     lines = [f"{body:>12}" + "".join(f"{m:>22}" for m in methods)]
     for k, row in rows.items():
-        cell = lambda m: f"{row[m]['mean_mm']:.2f} mm {row[m]['ratio']:.3f}" if m in row else ""
-        lines.append(f"{k:>12}" + "".join(f"{cell(m):>22}" for m in methods))
+        lines.append(f"{k:>12}" + "".join(f"{_cell(row.get(m)):>22}" for m in methods))
     return "\n".join(lines)

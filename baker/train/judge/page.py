@@ -1,110 +1,214 @@
-"""The evaluation page: tables and pictures of one evaluation, as Markdown."""
+"""The files of one evaluation: metrics.json, errors.csv with every figure in rows, pictures and README.md."""
+import csv
+import io
 import json
 import os
 
 from ..files.write_file import write_json, write_text
 from . import plot
 
-# Deng, Mu, Hu 2020, D-FAUST: mm, ratio
-PAPER = {10: (2.32, 0.12), 20: (3.4, 0.17), 30: (5.18, 0.27), 50: (7.9, 0.40)}
-SHEET = "../pictures/hop_sheet.jpg"
-SECTIONS = {  # of other commands: what they wrote -> its title
-    "ablations.md": "What each part of the recipe is worth",
-    "vanilla.md": "The paper's comparison: vanilla ConvLSTM",
+TICKS = ("50", "200", "600", "3600")  # columns of the page's table
+BASE, SPRINGS, SKINNING = "modal_warped", ("spring", "node_springs"), "skinning"
+HEAD = ("table", "body", "method", "case", "measure", "value")
+# name of a file or folder -> what the page calls it, where it exists
+LINKS = {
+    "errors.csv": "every figure",
+    "cost.png": "error against operations",
+    "training.png": "training",
+    "data_sheet.json": "data set",
+    "ablations.csv": "ablations",
+    "vanilla.csv": "the paper's vanilla ConvLSTM",
+    "characters": "networks of single characters",
+    "truth": "the ground truth's own error",
 }
 
 
-def _row(cells):
-    return "| " + " | ".join(str(c) for c in cells) + " |"
-
-
 def table(head, rows):
-    return "\n".join([_row(head), _row("---" for _ in head)] + [_row(r) for r in rows])
+    """Markdown."""
+    row = lambda cells: "| " + " | ".join(str(c) for c in cells) + " |"
+    return "\n".join([row(head), row("---" for _ in head)] + [row(r) for r in rows])
 
 
-def _methods(rows):
-    return list(dict.fromkeys(m for row in rows.values() for m in row))
+def write_csv(path, head, rows):
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows([head, *rows])
+    write_text(path, text.getvalue())
 
 
-def roll_out_table(figures):
-    """Mean and standard deviation in mm and the ratio to skinning alone, by ticks and method."""
-    rows = figures["roll_out"]
-    cell = lambda c: f"{c['mean_mm']:.2f} ± {c['sd_mm']:.2f} ({c['ratio']:.3f})" if c else ""
-    methods = _methods(rows)
-    body = [[plot.label_of(m)] + [cell(row.get(m)) for row in rows.values()] for m in methods]
-    return table(["error, mm (ratio)"] + [f"{int(k):,}" for k in rows], body)
+def _read(folder):
+    with open(os.path.join(folder, "metrics.json")) as file:
+        return json.load(file)
 
 
-def single_step_table(figures):
-    names = {"hold": "displacement held", "constant_velocity": "velocity kept"}
-    rows = [[names.get(k, plot.label_of(k)), f"{v:.3f}"] for k, v in figures["single_step"].items()]
-    return table(["one tick from the true state", "ratio to skinning alone"], rows)
+def _network_rows(name, model):
+    for key in ("parameters", "channels", "seed", "trained_minutes", "validation_ratio"):
+        value = model[key]
+        yield "network", "", name, "", key, " ".join(map(str, value)) if isinstance(value, list) else value
+    for alone in model["left_alone"]:
+        for key in alone.keys() - {"gain"}:
+            yield "left_alone", "", name, f"drive x {alone['gain']:g}", key, alone[key]
 
 
-def motion_table(figures):
-    rows, first = figures["motions"], next(iter(figures["motions"].values()))
-    methods = list(first)
-    body = [[k] + [f"{row[m]:.3f}" if m in row else "" for m in methods] for k, row in rows.items()]
-    return table(["motion"] + [plot.label_of(m) for m in methods], body)
+def _by_method(name, body, case, row):
+    """Rows of method -> figure, or of method -> measure -> figure."""
+    for method, value in row.items():
+        for measure, figure in (value if isinstance(value, dict) else {"ratio": value}).items():
+            yield name, body, method, case, measure, "" if figure is None else figure
 
 
-def energy_table(figures):
-    row = lambda method, sums: [plot.label_of(method)] + [f"{sums[c]:.2f}" for c in ("min", "mean", "max")]
-    rows = [row(*item) for item in figures["energy"].items()]
-    return table(["sum of (w q)² / 2 over the modes, truth's mean = 1", "least", "mean", "largest"], rows)
+def _body_rows(body, figures):
+    for name in ("roll_out", "motions"):
+        for case, row in figures[name].items():
+            yield from _by_method(name, body, case, row)
+    for region, row in figures["regions"].items():
+        of = lambda m: "mean_displacement_mm" if m == "mean_displacement_mm" else "ratio"
+        for method, value in row.items():
+            yield "regions", body, "truth" if of(method) != "ratio" else method, region, of(method), value
+    for name in ("single_step", "surface", "energy"):
+        yield from _by_method(name, body, "", figures[name] or {})
+    for method, value in figures["operations_mflop"].items():
+        yield "operations", body, method, "", "mflop_per_tick", value
 
 
-def surface_line(figures):
-    if not figures["surface"]:
+def error_rows(metrics):
+    """Every figure of an evaluation, one a row, sorted within a table as metrics.json is."""
+    for name, model in metrics["models"].items():
+        yield from sorted(_network_rows(name, model), key=lambda r: r[:5])
+    for body, figures in metrics["bodies"].items():
+        yield from _body_rows(body, figures)
+    yield from _by_method("training_motions", next(iter(metrics["bodies"])), "", metrics.get("known_motions", {}))
+
+
+def _ratio(figures, ticks, method):
+    return figures["roll_out"].get(ticks, {}).get(method, {}).get("ratio")
+
+
+def _longest(figures):
+    """The largest of TICKS that a body was judged over, or None."""
+    return max((k for k in TICKS if k in figures["roll_out"]), key=int, default=None)
+
+
+def _best_spring(metrics):
+    """The method of SPRINGS with the smaller error on the first body over _longest ticks; None where none was fitted."""
+    figures = next(iter(metrics["bodies"].values()))
+    ticks = _longest(figures)
+    ratios = {m: _ratio(figures, ticks, m) for m in SPRINGS}
+    return min((m for m in SPRINGS if ratios[m] is not None), key=ratios.get, default=None)
+
+
+def _main_table(metrics):
+    bodies = metrics["bodies"]
+    columns = [(b, k) for b, f in bodies.items() for k in TICKS if k in f["roll_out"]]
+    spring = _best_spring(metrics)
+    labels = {SKINNING: "skinning", spring: f"best spring ({plot.label_of(spring or SPRINGS[0])})", BASE: "modal base"}
+    labels.update({name: f"network `{name}`" for name in metrics["models"]})
+    cell = lambda value: "–" if value is None else f"{value:.3f}"
+    rows = [[label, *(cell(_ratio(bodies[b], k, m)) for b, k in columns)] for m, label in labels.items() if m]
+    first = {next(i for i, c in enumerate(columns) if c[0] == b): b for b in bodies if b in dict(columns)}
+    head = [f"{first[i]}, {int(k):,}" if i in first else f"{int(k):,}" for i, (_, k) in enumerate(columns)]
+    return table(["body, ticks", *head], rows)
+
+
+def _seen(metrics):
+    """Which bodies the networks were trained on."""
+    names = lambda seen: [f"`{b}`" for b, f in metrics["bodies"].items() if f["seen_in_training"] is seen]
+    known, unseen = names(True), names(False)
+    parts = [f"The networks were trained on {' and '.join(known)} in other motions"] if known else []
+    parts += [f"{'never on ' if known else 'The networks were never trained on '}{' and '.join(unseen)}"] if unseen else []
+    springs = "; springs are fitted on the judged body's training motions" if _best_spring(metrics) else ""
+    return ", ".join(parts) + springs + "."
+
+
+def _where_the_base_is_as_good(metrics):
+    name, parts = next(iter(metrics["models"])), []
+    for body, figures in metrics["bodies"].items():
+        both = {k: (_ratio(figures, k, name), _ratio(figures, k, BASE)) for k in figures["roll_out"]}
+        ticks = [f"{int(k):,}" for k, pair in both.items() if None not in pair and pair[0] >= pair[1]]
+        parts += [f"on `{body}` over {', '.join(ticks)} ticks"] if ticks else []
+    return f"The modal base alone is at least as good {'; '.join(parts)}." if parts else ""
+
+
+def _size_of_errors(metrics):
+    body, figures = next(iter(metrics["bodies"].items()))
+    ticks = _longest(figures)
+    if ticks is None:
         return ""
-    part = lambda method, v: f"{plot.label_of(method)} {v['mean_mm']:.2f} mm ({v['ratio']:.3f})"
-    parts = [part(*item) for item in figures["surface"].items()]
-    return "On the whole carried surface: " + "; ".join(parts) + ".\n"
-
-
-def model_table(metrics, body):
-    operations = metrics["bodies"][body]["operations_mflop"]
-    columns = {
-        "network": lambda k, m: k,
-        "parameters": lambda k, m: f"{m['parameters']:,}",
-        "channels": lambda k, m: ", ".join(map(str, m["channels"])),
-        f"MFLOP a tick, {body}": lambda k, m: operations.get(k, ""),
-        "minutes of one core": lambda k, m: m["trained_minutes"],
-        "validation": lambda k, m: m["validation_ratio"],
-        "seed": lambda k, m: m["seed"],
-    }
-    return table(columns, [[cell(*item) for cell in columns.values()] for item in metrics["models"].items()])
-
-
-def stability_table(metrics):
-    columns = {
-        "network": lambda m: m["network"],
-        "drive": lambda m: f"x {m['gain']:g}",
-        "largest, mm": lambda m: m["largest_mm"],
-        "largest cell": lambda m: m["largest_cell"],
-        "left after a minute, mean mm": lambda m: m["residue_mean_mm"],
-        "largest mm": lambda m: m["residue_largest_mm"],
-        "share of height": lambda m: f"{100 * m['residue_share_of_height']:.4f} %",
-    }
-    rows = [{"network": name, **row} for name, m in metrics["models"].items() for row in m["left_alone"]]
-    return table(columns, [[cell(m) for cell in columns.values()] for m in rows])
-
-
-def body_section(metrics, body):
-    figures = metrics["bodies"][body]
-    seen = "trained on, other motions" if figures["seen_in_training"] else "never trained on"
+    row, name = figures["roll_out"][ticks], next(iter(metrics["models"]))
     return (
-        f"## {body} ({seen})\n\n{roll_out_table(figures)}\n\n{surface_line(figures)}\n"
-        f"{single_step_table(figures)}\n\n"
-        f"![error in each region](regions_{body}.png)\n\n{motion_table(figures)}\n\n{energy_table(figures)}\n"
+        f"On `{body}` the error over {int(ticks):,} ticks is {row[SKINNING]['mean_mm']:.1f} mm for skinning, "
+        f"{row[name]['mean_mm']:.1f} mm for the network."
     )
+
+
+def _left_alone(metrics):
+    alone = next(iter(metrics["models"].values()))["left_alone"][-1]
+    return (
+        f"After 200 ticks of {alone['gain']:g} times the drive and a minute of rest, at most "
+        f"{alone['residue_largest_mm']:.3f} mm remain."
+    )
+
+
+def _confirmed(folder):
+    """Errors on motions that were drawn after the recipe was decided, where they were judged."""
+    folder = os.path.join(folder, "confirmation")
+    if not os.path.exists(os.path.join(folder, "metrics.json")):
+        return ""
+    metrics = _read(folder)
+    name, parts = next(iter(metrics["models"])), []
+    for body, figures in metrics["bodies"].items():
+        ticks = _longest(figures)
+        if ticks:
+            cells = f"{_ratio(figures, ticks, name):.3f} (modal base {_ratio(figures, ticks, BASE):.3f})"
+            parts.append(f"{cells} on `{body}` over {int(ticks):,} ticks")
+    return (
+        "The recipe was developed with these test motions in sight. On motions drawn after it was decided the "
+        f"network leaves {' and '.join(parts)} ([figures](confirmation/errors.csv))."
+    )
+
+
+def _links(metrics, folder):
+    there = lambda name: os.path.exists(os.path.join(folder, name))
+    links = [f"[{title}]({name}{'/README.md' if '.' not in name else ''})" for name, title in LINKS.items() if there(name)]
+    regions = ", ".join(f"[{b}](regions_{b}.png)" for b in metrics["bodies"] if there(f"regions_{b}.png"))
+    return "Also: " + ", ".join(links) + (f"; regions of {regions}." if regions else ".")
+
+
+def page(metrics, folder):
+    """The text of README.md; links lead to what exists in folder."""
+    name, model = next(iter(metrics["models"].items()))
+    channels, seed = ", ".join(map(str, model["channels"])), model["seed"]
+    paragraphs = [
+        "# Errors of the soft-tissue models",
+        "Mean distances of control nodes from the finite-element ground truth on held-out motions, as a fraction of the "
+        "error of skinning alone. Roll-outs start at rest and run on their own output for so many ticks (60 a second).",
+        _main_table(metrics),
+        " ".join(p for p in (_seen(metrics), _size_of_errors(metrics), _where_the_base_is_as_good(metrics), _left_alone(metrics)) if p),
+        "![error against roll-out length](roll_outs.png)",
+        "![displacement of one node over time](trace.png)",
+        "**Held out.** The plan's held-out clip occurs in no training or validation motion, not inside random ones either; "
+        "test seeds and test bodies are used for nothing else. " + _confirmed(folder),
+        "**Make it again.** `baker/train/retrain.sh` simulates data, trains and writes this folder. For given weights and "
+        "data of `baker/train generate`:\n\n"
+        f"    python3 baker/train evaluate DATA --run {name}=assets/weights/{name}.safetensors --out assets/evaluation",
+        f"**Limits.** One network ({channels} channels, {model['parameters']:,} parameters, seed {seed}), bodies of one "
+        "family, a simulated truth. Deng, Mu, Hu 2020 report 0.12 after 10 and 0.40 after 50 steps on captured bodies, "
+        "which are not available here.",
+        _links(metrics, folder),
+    ]
+    return "\n\n".join(p.strip() for p in paragraphs) + "\n"
+
+
+def write_page_text(folder):
+    """errors.csv and README.md of a folder, from its metrics.json."""
+    write_csv(os.path.join(folder, "errors.csv"), HEAD, error_rows(_read(folder)))
+    write_text(os.path.join(folder, "README.md"), page(_read(folder), folder))
 
 
 def _draw(metrics, judged, runs, folder):
     bodies, place = list(metrics["bodies"]), lambda name: os.path.join(folder, name)
     rows = metrics["bodies"][bodies[0]]["roll_out"]
     longest = max((int(k) for k in rows if len(rows[k]) > 3), default=50)
-    shown = [next(iter(metrics["models"])), "modal_warped", "node_springs"]
+    shown = [next(iter(metrics["models"])), BASE, "node_springs"]
     plot.roll_outs(metrics, place("roll_outs.png"))
     plot.trace(judged[bodies[0]], shown, place("trace.png"))
     plot.cost(metrics, bodies[0], min(longest, 600), place("cost.png"))
@@ -113,65 +217,11 @@ def _draw(metrics, judged, runs, folder):
         plot.regions(metrics, body, place(f"regions_{body}.png"))
 
 
-def _known(metrics):
-    known = metrics.get("known_motions", {})
-    figures = ", ".join(f"{plot.label_of(k)} {v:.3f}" for k, v in known.items())
-    return f"Whole training motions, for comparison: {figures}.\n" if known else ""
-
-
-def _beside(folder):
-    """What other commands and pictures add to the page, where they are there."""
-    parts = []
-    if os.path.exists(os.path.join(folder, SHEET)):
-        parts.append(f"![skinning, Sinew, truth and errors in a hop that was never trained on]({SHEET})\n")
-    if os.path.exists(os.path.join(folder, "data_sheet.json")):
-        sheet = "[data_sheet.json](data_sheet.json)"
-        parts.append(f"What the networks were trained and judged on, in figures: {sheet}.\n")
-    if os.path.exists(os.path.join(folder, "every_vertex", "README.md")):
-        parts.append("The paper's own network, on every vertex: [every_vertex](every_vertex/README.md).\n")
-    if os.path.exists(os.path.join(folder, "confirmation", "README.md")):
-        parts.append(
-            "The recipe was developed with these test motions in sight. On motions drawn after it was decided: "
-            "[confirmation](confirmation/README.md).\n"
-        )
-    if os.path.exists(os.path.join(folder, "characters", "README.md")):
-        parts.append("Characters of others, and what networks of their own are worth: [characters](characters/README.md).\n")
-    for name, title in SECTIONS.items():
-        if os.path.exists(os.path.join(folder, name)):
-            with open(os.path.join(folder, name)) as file:
-                parts.append(f"## {title}\n\n{file.read()}")
-    return parts
-
-
-def write_page_text(folder):
-    """folder/README.md, from metrics.json and what lies beside it."""
-    with open(os.path.join(folder, "metrics.json")) as file:
-        metrics = json.load(file)
-    bodies = list(metrics["bodies"])
-    paper = ", ".join(f"{k} steps {mm} mm ({r})" for k, (mm, r) in PAPER.items())
-    parts = [
-        "# How far the tissue is from the truth\n",
-        "Made by `baker/train evaluate`; figures in `metrics.json`. Errors are distances between control "
-        "nodes and the finite-element truth, mean ± standard deviation over nodes, ticks and sequences; a "
-        "ratio is to the error of skinning alone. Every roll-out starts at rest and feeds on its own output. "
-        "No weights were trained or chosen on test motions and bodies; plain models are fitted on the training "
-        "motions of the body they are judged on.\n",
-        "![error against roll-out length](roll_outs.png)\n",
-        model_table(metrics, bodies[0]) + "\n",
-        "![a node](trace.png)\n\n![error against cost](cost.png) ![training](training.png)\n",
-        _known(metrics),
-        "The paper's own figures, on captured bodies that are not available here (Deng, Mu, Hu 2020): "
-        f"{paper}.\n",
-        f"## Driven, then left alone for a minute\n\n{stability_table(metrics)}\n",
-        *_beside(folder),
-        *(body_section(metrics, b) for b in bodies),
-    ]
-    write_text(os.path.join(folder, "README.md"), "\n".join(p for p in parts if p))
-
-
-def write_page(metrics, judged, runs, folder):
-    """folder/README.md, its pictures, and metrics.json."""
+def write_evaluation(metrics, judged, runs, folder, with_page=True):
+    """metrics.json, errors.csv and pictures in folder, and README.md unless the figures belong to another page."""
     os.makedirs(folder, exist_ok=True)
     write_json(os.path.join(folder, "metrics.json"), metrics)
+    write_csv(os.path.join(folder, "errors.csv"), HEAD, error_rows(metrics))
     _draw(metrics, judged, runs, folder)
-    write_page_text(folder)
+    if with_page:
+        write_page_text(folder)

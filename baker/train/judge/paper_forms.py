@@ -1,5 +1,8 @@
-"""The vanilla ConvLSTM in the four forms of Deng, Mu, Hu 2020 beside Alt-ConvLSTM: all trained alike on one
-body, judged as in their Tables 1 and 2 on its held-out motions."""
+"""The vanilla ConvLSTM in the four forms of Deng, Mu, Hu 2020 and Alt-ConvLSTM: all trained alike on one body,
+judged as in their Tables 1 and 2 on its held-out motions.
+
+CP: the network is given the drive of the last tick, NP: of this one. It predicts the displacement (Y) or its change
+(ΔY), without a modal base except where one is named."""
 import math
 import os
 
@@ -9,8 +12,7 @@ from ..model.inputs import crossed_with
 from ..model.rollout import roll_out, single_steps, truth
 from . import plot
 from .evaluate import SKINNING, Tally
-from .page import table
-from .variants import judged_on, train_variants, write_section
+from .variants import judged_on, train_variants, write_comparison
 
 _BASE = ("base", "base_step", "turn")
 ALONE = ["--without", ",".join((*_BASE, *crossed_with(*_BASE)))]
@@ -32,12 +34,7 @@ VARIANTS = {
 }
 SINGLE = "single step"
 DIVERGED = 10  # times the error of skinning alone
-LEGEND = (
-    "CP: the network is told the drive of the last tick, NP: of this one. It predicts the displacement (Y) or "
-    "its change (ΔY), without a modal base but where one is named. A single step starts from the true "
-    "displacement; other columns are ticks of roll-out. Diverged: more than "
-    f"{DIVERGED} times the error of skinning alone; the ratio follows where it is a number."
-)
+HEAD = ("model", "parameters", "ticks", "mean_mm", "sd_mm", "ratio")  # ticks of roll-out, or SINGLE
 
 
 def _finite(figures):
@@ -57,7 +54,7 @@ def _tally(models, groups, predict, **plain):
 
 
 def _judge(networks, groups):
-    """name -> what the row says: figures by roll-out length, and of single steps in the short motions."""
+    """name -> figures by roll-out length, and of single steps from the true displacement in the short motions."""
     models = {**{name: (n.model, n.scaling) for name, n in networks.items()}, "modal_warped": (None, None)}
     before = lambda u, k: torch.cat([u[:1].expand(k, -1, -1, -1), u[:-k]])
     velocity_kept = lambda u: 2 * before(u, 1) - before(u, 2)
@@ -71,24 +68,12 @@ def _judge(networks, groups):
     return rows
 
 
-def _cell(figures):
-    if figures is None:
-        return ""
-    if figures["ratio"] is None or figures["ratio"] > DIVERGED:
-        return "diverged" + ("" if figures["ratio"] is None else f" ({figures['ratio']:.1e})")
-    return f"{figures['mean_mm']:.2f} ± {figures['sd_mm']:.2f} ({figures['ratio']:.3f})"
-
-
-def _text(rows, body, minutes):
-    ticks = [k for k in next(iter(rows.values())) if k != "parameters"]
-    head = ["error, mm (ratio)", "parameters", SINGLE, *(f"{int(k):,}" for k in ticks if k != SINGLE)]
-    cells = lambda row: [row.get("parameters", ""), *(_cell(row.get(k)) for k in ticks)]
-    return (
-        f"Trained on {body} alone, {minutes:g} minutes of one core each, with the shipped widths and recipe, "
-        f"on roll-outs, or where it says so on single steps from the true state. {LEGEND}\n\n"
-        + table(head, [[plot.label_of(name), *cells(row)] for name, row in rows.items()])
-        + "\n\n![error of the paper's forms against roll-out length](vanilla.png)\n"
-    )
+def _csv_rows(rows):
+    """Empty where a roll-out left the range of numbers."""
+    for name, row in rows.items():
+        for ticks, figures in row.items():
+            if ticks != "parameters":
+                yield [name, row.get("parameters", ""), ticks, *(figures[k] for k in HEAD[3:])]
 
 
 def _draw(rows, path):
@@ -111,10 +96,10 @@ def _draw(rows, path):
 
 
 def compare_forms(data, body, work, out, minutes, processes):
-    """Writes out/vanilla.json, vanilla.md and vanilla.png."""
+    """Writes out/vanilla.json, vanilla.csv and vanilla.png."""
     groups = judged_on(data, body)  # first: what is unusable is refused before training
     rows = _judge(train_variants(VARIANTS, data, body, work, minutes, processes), groups)
     os.makedirs(out, exist_ok=True)
     _draw(rows, os.path.join(out, "vanilla.png"))
     figures = {"body": body, "minutes": minutes, "diverged_above": DIVERGED, "rows": rows}
-    write_section(out, "vanilla", figures, _text(rows, body, minutes))
+    write_comparison(out, "vanilla", figures, HEAD, _csv_rows(rows))

@@ -13,8 +13,8 @@ LABELS = {
     "modal_linear_fitted": "modal, linear, fitted",
     "modal_warped": "modal, warped",
     "modal_warped_fitted": "modal, warped, fitted",
-    "node_springs": "spring a node, fitted",
-    "spring": "spring a region, fitted",
+    "node_springs": "one spring per node, fitted",
+    "spring": "one spring per region, fitted",
     SKINNING: "skinning alone",
 }
 
@@ -46,7 +46,7 @@ def colours_of(methods):
 
 
 def roll_outs(metrics, path):
-    """Error against roll-out length, a panel a body; the legend in a panel of its own."""
+    """Error against roll-out length, one panel per body, and the legend in a further panel."""
     bodies = list(metrics["bodies"])
     across = min(4, len(bodies) + 1)
     down = len(bodies) // across + 1
@@ -61,7 +61,7 @@ def roll_outs(metrics, path):
         a.axhline(1, color="#6b7280", linewidth=1, linestyle="--")
         a.set_xscale("log"), a.set_yscale("log"), a.set_ylim(0.02, 1.6)
         a.set_xlabel("ticks from rest (60 a second)")
-        seen = "" if metrics["bodies"][body]["seen_in_training"] else ", never trained on"
+        seen = "" if metrics["bodies"][body]["seen_in_training"] else ", not trained on"
         a.set_title(body + seen, fontsize=10)
         a.set_ylabel("error / error of skinning alone")
     for a in spare:
@@ -84,7 +84,7 @@ def trace(judged, methods, path):
     a.set_xlabel("time (s)")
     a.set_ylabel(f"displacement along {'xyz'[axis]} (mm)")
     motion = group.trajectories[0].name
-    a.set_title(f"One node of {group.name}, {motion}: its own output fed back all the way", fontsize=10)
+    a.set_title(f"One node of {group.name}, {motion}: roll-out from rest", fontsize=10)
     a.legend(frameon=False, fontsize=8)
     _finish(figure, [a], path)
 
@@ -126,14 +126,17 @@ def regions(metrics, body, path):
 
 
 def training(runs, path):
-    """Validation errors of the runs while they trained. runs: name -> folder."""
-    figure, a = _pyplot().subplots(figsize=(6, 3.6))
-    for (name, run), colour in zip(runs.items(), COLOURS):
+    """Validation errors of the runs while they trained; no picture where no run has a curve. runs: name -> folder."""
+    curves = {}
+    for name, run in runs.items():
         curve = os.path.join(run, "curve.json")
-        if not os.path.exists(curve):
-            continue
-        with open(curve) as file:
-            points = json.load(file)["curve"]
+        if os.path.exists(curve):
+            with open(curve) as file:
+                curves[name] = json.load(file)["curve"]
+    if not curves:
+        return
+    figure, a = _pyplot().subplots(figsize=(6, 3.6))
+    for (name, points), colour in zip(curves.items(), COLOURS):
         minutes, ratios = [p["minutes"] for p in points], [p["ratio_all"] for p in points]
         a.plot(minutes, ratios, color=colour, label=label_of(name))
     a.set_xlabel("training (minutes of one core)")

@@ -1,4 +1,4 @@
-"""Variants of the recipe, trained on one body side by side, and their section of the evaluation page."""
+"""Variants of the recipe, trained on one body in parallel, and the files that compare them."""
 import concurrent.futures
 import os
 import subprocess
@@ -6,9 +6,9 @@ import sys
 
 from ..data import dataset
 from ..files.safetensors import BadData
-from ..files.write_file import write_json, write_text
+from ..files.write_file import write_json
 from .evaluate import ENDURANCE_TICKS, Network
-from .page import write_page_text
+from .page import write_csv, write_page_text
 
 
 def _folder(work, name):
@@ -30,7 +30,7 @@ def train_variants(variants, data, body, work, minutes, processes):
     train = lambda name: _train(data, body, _folder(work, name), variants[name], minutes)
     with concurrent.futures.ThreadPoolExecutor(processes) as pool:
         list(pool.map(train, variants))
-    return {name: Network(os.path.join(_folder(work, name), "weights.safetensors")) for name in variants}
+    return {name: Network(_folder(work, name)) for name in variants}
 
 
 def judged_on(data, body):
@@ -41,10 +41,10 @@ def judged_on(data, body):
     return dataset.group([(b, t) for b, t in sequences if len(t.drive) <= ENDURANCE_TICKS + 1])
 
 
-def write_section(out, name, figures, text):
-    """out/name.json and out/name.md, and the page that quotes it, where there is one."""
+def write_comparison(out, name, figures, head, rows):
+    """out/name.json and out/name.csv; the evaluation page in out, where there is one, is written with a link to them."""
     os.makedirs(out, exist_ok=True)
     write_json(os.path.join(out, f"{name}.json"), figures)
-    write_text(os.path.join(out, f"{name}.md"), text)
-    if os.path.exists(os.path.join(out, "metrics.json")):
+    write_csv(os.path.join(out, f"{name}.csv"), head, rows)
+    if all(os.path.exists(os.path.join(out, page)) for page in ("metrics.json", "README.md")):
         write_page_text(out)
