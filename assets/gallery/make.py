@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
 # make.py  The gallery: bakes characters as proposed and by hand-written recipes, plays and audits them, draws pictures and writes the page.
 """Usage: make.py CHARACTERS [BUILD] [--only FOLDER]... [--work DIR]
+       make.py --page
 
-CHARACTERS holds a folder a character of characters.json that is not made up, with file.glb, .gltf or .vrm in it;
-BUILD is a build folder (build/release). Writes README.md and pictures beside this script; with --only pictures alone.
+CHARACTERS holds one folder for each character of characters.json that is not made up, with file.glb, .gltf or .vrm in it;
+BUILD is a build folder (build/release). Writes pictures, gallery.csv and README.md in this script's folder; with --only
+pictures alone, with --page README.md alone, from gallery.csv.
 """
 import argparse
+import csv
 import json
 import os
 import re
@@ -27,10 +30,13 @@ except ImportError:  # a Python without Debian's packages
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 WEIGHTS = ROOT / "assets/weights/creature.safetensors"
+CSV = HERE / "gallery.csv"
+COLUMNS = ("folder", "way", "part", "simulated", "kind", "evidence", "frequency_hz", "limit", "moving_fraction", "displacement_of_height", "bob_of_height",
+           "residual_of_height", "edge_stretch", "limits_lowered", "audit", "bake_seconds", "error_modes", "error_network", "network")
 PANEL_PIXELS, RAYS = 250, 48  # the demo draws its still half as large again
 WIDTH, MOST_BYTES = 1120, 150_000
 GAP, BACKGROUND = 4, (250, 252, 255)
-LEAST_MOVING, MOST_OF_FLESH = 0.01, 0.1  # of the vertices; of the height
+PROPOSED, BY_HAND = "proposed", "recipe"  # ways to bake, as pictures are named
 
 
 def run(command, allowed=(0,)):
@@ -41,7 +47,7 @@ def run(command, allowed=(0,)):
 
 
 def part_rows(printed):
-    """The table of parts that a bake prints: name -> (evidence, kind, Hz, limit); parts that stay rigid are left out."""
+    """The table of moving parts that a bake prints: name -> (evidence, kind, Hz, limit)."""
     lines = printed.splitlines()
     header = next((i for i, line in enumerate(lines) if re.match(r"part +evidence +kind +Hz", line)), None)
     rows = {}
@@ -58,27 +64,14 @@ def part_rows(printed):
 
 
 def limits_lowered(printed):
-    """Parts whose limit a bake or a proposal has lowered, for their skin would tear."""
+    """How many parts' limit a bake or a proposal has lowered because their skin would tear."""
     return len(re.findall(r"^note: .*its skin would tear", printed, re.MULTILINE))
 
 
-class OwnNetwork:
-    """Weights that sinew-train made for a character, as baker/train/tune_gallery.sh ships them; sinew-train has judged them on more motions than a bake."""
-
-    def __init__(self, folder):
-        self.path = HERE / f"{folder}.tissue.safetensors"
-        with open(self.path, "rb") as file:
-            told = json.loads(file.read(int.from_bytes(file.read(8), "little")))["__metadata__"]
-        errors = json.loads(told["held_out"])
-        self.motions = len(errors) - 1
-        self.of_base = errors["all"]["fine-tuned"]["ratio"] / errors["all"]["modal base"]["ratio"]
-
-    def told(self):
-        return f"On {self.motions} motions that it never saw its own network leaves {self.of_base:.2f} of the modes' error"
-
-    @classmethod
-    def of(cls, folder):
-        return cls(folder) if (HERE / f"{folder}.tissue.safetensors").exists() else None
+def own_network(folder):
+    """Weights that sinew-train made for a character, as baker/train/tune_gallery.sh ships them, or None."""
+    path = HERE / f"{folder}.tissue.safetensors"
+    return path if path.exists() else None
 
 
 class Proposal:
@@ -90,18 +83,18 @@ class Proposal:
         self.lowered = limits_lowered(printed)
         written = json.loads(self.recipe.read_text())
         parts = written["regions"] + written.get("rods", [])
-        self.why = {part["name"]: part["note"].split(": ", 1)[1] for part in parts}  # after its number
+        self.evidence = {part["name"]: part["note"].split(": ", 1)[1] for part in parts}  # after its number
         self.off = [part["name"] for part in parts if not part["enabled"]]
 
 
 class Bake:
-    """One character baked one way: the pack, its table, its audit and what a bake cost."""
+    """One character baked one way: the pack, its table, its audit and the time of the bake."""
 
     def __init__(self, tools, source, recipe, work, proposal=None, own=None):
         self.pack = work / "character.sinew"
         self.preview = proposal.preview if proposal else work / "preview.png"
         self.proposal, self.own = proposal, own
-        command = [tools / "sinew-bake", "character", source, "--tissue", own.path if own else WEIGHTS, "-o", self.pack, "--recipe", recipe]
+        command = [tools / "sinew-bake", "character", source, "--tissue", own or WEIGHTS, "-o", self.pack, "--recipe", recipe]
         if not proposal:
             command += ["--preview", self.preview]
         if own:
@@ -119,12 +112,32 @@ class Bake:
     def error_of(self, tier):
         return next((t["error_ratio"] for t in self.info["tiers"] if t["tier"] == tier), None)
 
-    def most(self, key, kind=None):
-        values = [part[key] for part in self.audit["parts"] if kind in (None, part["kind"])]
+    def most(self, key):
+        values = [part[key] for part in self.audit["parts"]]
         return max((v["value"] if isinstance(v, dict) else v for v in values), default=None)
 
-    def why(self, part):
-        return self.proposal.why.get(part, "") if self.proposal else "recipe"
+    def rows(self, folder, way):
+        """Of COLUMNS: the character, its moving parts and those that the proposal leaves switched off."""
+        digits = lambda value: "" if value is None else float(f"{value:.3g}")
+        error = self.error_of("network")
+        state = "kept" if error is not None else "left out" if self.left_out is not None else ""
+        yield {"folder": folder, "way": way, "moving_fraction": digits(self.audit["moving_share"]) if self.parts else "",
+               **{column: digits(self.most(key)) for column, key in (("displacement_of_height",) * 2, ("bob_of_height", "bob_displacement_of_height"),
+                                                                     ("residual_of_height",) * 2, ("edge_stretch",) * 2)},
+               "limits_lowered": self.lowered, "audit": "passes" if self.audit["ok"] else "; ".join(map(str, self.audit["failures"])),
+               "bake_seconds": digits(self.seconds), "error_modes": digits(self.error_of("modal")),
+               "error_network": digits(self.left_out if error is None else error),
+               "network": state and f"{'own' if self.own else 'generic'}, {state}"}
+        audited = {part["name"]: part for part in self.audit["parts"]}
+        evidence = self.proposal.evidence if self.proposal else {}
+        for name, (_, kind, hz, limit) in self.parts.items():
+            part = audited[name]
+            yield {"folder": folder, "way": way, "part": name, "simulated": "rod" if part["kind"] == "rod" else "soft", "kind": kind,
+                   "evidence": evidence.get(name, "recipe"), "frequency_hz": hz, "limit": limit.strip("-"), "moving_fraction": digits(part["moving_share"]),
+                   "displacement_of_height": digits(part["displacement_of_height"]["value"]), "bob_of_height": digits(part["bob_displacement_of_height"]),
+                   "edge_stretch": digits(part["edge_stretch"]["value"])}
+        for name in self.proposal.off if self.proposal else ():
+            yield {"folder": folder, "way": way, "part": name, "simulated": "no, in doubt", "evidence": evidence[name]}
 
 
 def scaled(image):
@@ -132,7 +145,7 @@ def scaled(image):
 
 
 def compose(preview, still):
-    """The parts above what they do."""
+    """The picture of the parts above the one of their movement."""
     images = [scaled(Image.open(path).convert("RGB")) for path in (preview, still) if path]
     out = Image.new("RGB", (WIDTH, sum(i.height for i in images) + GAP * (len(images) - 1)), BACKGROUND)
     y = 0
@@ -151,7 +164,7 @@ def write_jpeg(image, path):
 
 
 def play(tools, bake, character, work):
-    """The liveliest moment, as skinning and Sinew show it and how far they are apart."""
+    """The liveliest moment: skinning, Sinew and the distance between them."""
     command = [tools / "sinew-demo", bake.pack, "--frames", work / "pictures", "--view", character["view"],
                "--width", PANEL_PIXELS, "--height", PANEL_PIXELS, "--samples", RAYS]
     if character["clip"]:
@@ -173,14 +186,14 @@ def file_of(characters, character, work):
 def make(tools, characters, character, work):
     folder, file = character["folder"], file_of(characters, character, work)
     bakes = {}
-    for way in ("proposed",) if character["made_up"] else ("proposed", "with"):
+    for way in (PROPOSED,) if character["made_up"] else (PROPOSED, BY_HAND):
         place = work / folder / way
         place.mkdir(parents=True, exist_ok=True)
-        source = place / (folder + file.suffix)  # pictures show the file's name
+        source = place / (folder + file.suffix)  # its name is drawn in pictures
         source.unlink(missing_ok=True)
         source.symlink_to(file.resolve())
-        proposal = Proposal(tools, source, place) if way == "proposed" else None
-        own = None if proposal else OwnNetwork.of(folder)
+        proposal = Proposal(tools, source, place) if way == PROPOSED else None
+        own = None if proposal else own_network(folder)
         bake = bakes[way] = Bake(tools, source, proposal.recipe if proposal else HERE / f"{folder}.json", place, proposal, own)
         still = play(tools, bake, character, place) if bake.parts else None
         write_jpeg(compose(bake.preview, still), HERE / f"{folder}_{way}.jpg")
@@ -189,116 +202,89 @@ def make(tools, characters, character, work):
     return bakes
 
 
-def figure(value, form):
-    return "–" if value is None else "0" if value == 0 else format(value, form)
+def slashed(values):
+    """A cell: of the proposal, and behind a slash of the recipe."""
+    return "/".join(values)
 
 
-def percent(share):
-    return f"{100 * share:.1f} %"
+def summary(characters, rows):
+    number = lambda value, digits, scale=1: f"{scale * float(value):.{digits}f}" if value else "–"
+    yield "| character | parts | moving, % | error of modes | network | bake, s |"
+    yield "|---|---:|---:|---:|---:|---:|"
+    for character in characters:
+        mine = [row for row in rows if row["folder"] == character["folder"]]
+        whole = [row for row in mine if not row["part"]]
+        moving = lambda way: sum(row["way"] == way and row["simulated"] in ("soft", "rod") for row in mine)
+        kept = lambda row: row["network"].endswith("kept")
+        cells = [character["title"], slashed(str(moving(row["way"])) for row in whole), slashed(number(row["moving_fraction"], 1, 100) for row in whole),
+                 slashed(number(row["error_modes"], 2) for row in whole), slashed(number(kept(row) and row["error_network"], 2) for row in whole),
+                 slashed(number(row["bake_seconds"], 0) for row in whole)]
+        yield "| " + " | ".join(cells) + " |"
 
 
-def network_of(bake):
-    whose = "its own, " if bake.own else ""
-    if bake.left_out is not None:
-        return f"{whose}left out ({bake.left_out:.2f})"
-    error = bake.error_of("network")
-    return "–" if error is None else f"{whose}kept, {error:.2f}"
+def audited(characters, rows):
+    """How many packs pass their audit, and which do not."""
+    titles = {character["folder"]: character["title"] for character in characters}
+    whole = [row for row in rows if not row["part"]]
+    failed = [f"{titles[row['folder']]} ({row['way']})" for row in whole if row["audit"] != "passes"]
+    return f"{len(whole) - len(failed)} of {len(whole)} packs pass `sinew-bake audit`" + (f"; failing: {', '.join(failed)}." if failed else ".")
 
 
-def summary(made):
-    yield ("| character | recipe | parts | visibly moving | flesh / height | rods / height | bob / height | residual / height | edge stretch | limits lowered | audit | bake, s "
-           "| error of modes | network |")
-    yield "|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---|---:|---:|---|"
-    for character, bakes in made:
-        for way, bake in bakes.items():
-            cells = [f"[{character['title']}](#{character['title'].lower().replace(' ', '-')})", way, len(bake.parts),
-                     percent(bake.audit["moving_share"]) if bake.parts else "–",
-                     figure(bake.most("displacement_of_height", "region"), ".3f"), figure(bake.most("displacement_of_height", "rod"), ".3f"),
-                     figure(bake.most("bob_displacement_of_height"), ".3f"),
-                     figure(bake.most("residual_of_height"), ".0e"), figure(bake.most("edge_stretch"), ".2f"), bake.lowered,
-                     "passes" if bake.audit["ok"] else "**fails**", f"{bake.seconds:.1f}",
-                     figure(bake.error_of("modal"), ".2f"), network_of(bake)]
-            yield "| " + " | ".join(map(str, cells)) + " |"
-
-
-def tally(made):
-    """How many proposals keep what is asked of them."""
-    proposed = [bakes["proposed"] for _, bakes in made]
-    soft = [bake for bake in proposed if bake.parts]
-    moving = sum(bake.audit["moving_share"] >= LEAST_MOVING for bake in soft)
-    calm = sum((bake.most("displacement_of_height", "region") or 0) <= MOST_OF_FLESH for bake in soft)
-    return (f"Of {len(proposed)} proposals {len(soft)} have parts that move; of these, {moving} visibly move at least {100 * LEAST_MOVING:.0f} % of the vertices, "
-            f"and flesh of {calm} stays within {MOST_OF_FLESH} of the height.")
-
-
-def part_table(bakes):
-    yield "| recipe | part | why | kind | Hz | limit / size | moving | displacement / height | bob / height | edge stretch |"
-    yield "|---|---|---|---|---:|---:|---:|---:|---:|---:|"
-    for way, bake in bakes.items():
-        audited = {part["name"]: part for part in bake.audit["parts"]}
-        for name, (_, kind, hz, limit) in bake.parts.items():
-            part = audited[name]
-            yield (f"| {way} | `{name}` | {bake.why(name)} | {kind}, {'rod' if part['kind'] == 'rod' else 'soft'} | {hz} | {limit} | {percent(part['moving_share'])} | "
-                   f"{part['displacement_of_height']['value']:.3f} | {part['bob_displacement_of_height']:.3f} | {part['edge_stretch']['value']:.2f} |")
-
-
-def in_doubt(proposal):
-    if proposal.off:
-        yield "\nProposed, but switched off:\n"
-        for name in proposal.off:
-            yield f"- `{name}`: {proposal.why[name]}"
-
-
-CAPTIONS = {"proposed": "As proposed", "with": "By a hand-written recipe"}
-
-
-def page(made):
+def page(characters, rows):
     yield """# Gallery
 
-Eight characters of others and four made-up ones, baked as `sinew-bake propose` proposes, unedited, and the eight by hand-written recipes, too. `assets/gallery/make.py CHARACTERS build/release`
-makes this page and its pictures: it proposes, bakes each character, plays and audits the packs and draws what it saw. The files of the eight are not part of this repository; `made_up.py` writes the other four.
-
-A picture shows on top what moves by itself, soft parts in colour and rods as lines, of a proposal numbered and with what it leaves switched off; below it the liveliest moment of four seconds: skinning alone, Sinew, and how
-far apart they are, the darkest at 5 % of the height. A character of which nothing moves has the upper half alone. Recipes are the JSON files beside this page;
-[their keys](../../docs/your-character.md#edit-the-recipe).
+Eight characters of others and four made-up ones. `assets/gallery/make.py CHARACTERS build/release` bakes each as `sinew-bake propose` proposes it, the eight also by the hand-written recipes in this folder, plays and audits the packs,
+draws the pictures and writes `gallery.csv` and this page. The files of the eight are not in this repository. Authors and licences are named below; Sinew changes how the works move.
 """
-    yield from summary(made)
+    yield from summary(characters, rows)
     yield f"""
-{tally(made)}
+A slash separates proposal and recipe. *Moving*: vertices that move by 0.5 % of the height or more. Errors are distances of the surface from the finite-element truth as a fraction of skinning's, the median over motions; a network's where it is [kept](../evaluation/characters/README.md).
+{audited(characters, rows)} Every part and figure: [gallery.csv](gallery.csv).
 
-All but the limits lowered, the bake's seconds (two cores, measured errors included) and errors come from `sinew-bake audit`: the largest over parts and motions, lengths as a share of the character's height. *visibly moving*: vertices that move by at least 0.5 %
-of the height somewhere in the bob or the character's clips. *bob*: while the root goes up and down by 5 % of the height, of which flesh may do 0.08; rods swing freely. *residual*: after a minute of rest, at most 1e-4. *edge stretch*: beyond skinning's, at most 1.5, of rods 2.
-*limits lowered*: parts whose limit the proposal or the bake made smaller, for their skin would tear. Errors are distances from the finite-element truth of this
-character as a share of skinning's, the median over a random motion and up to five clips; rods have no such truth. Truth and tiers are shown held at the part's limit: where they lie at it, what is compared is a direction. A network is left out where it is not 5 % better than the modes: in brackets what it would have had. The shipped one is trained on other bodies;
-*its own* was trained on the character by `sinew-train`, is here where [it pays](../evaluation/characters/README.md) at the control nodes, and is kept."""
-    for character, bakes in made:
-        title, folder = character["title"], character["folder"]
-        yield f"\n## {title}\n\n{character['note']}" + ("" if character["made_up"] else f" [Recipe]({folder}.json).") + "\n"
-        if any(bake.parts for bake in bakes.values()):
-            yield from part_table(bakes)
-        yield from in_doubt(bakes["proposed"].proposal)
-        for way, bake in bakes.items():
-            own = f". {bake.own.told()} ([weights]({folder}.tissue.safetensors))" if bake.own else ""
-            yield f"\n{CAPTIONS[way]}{own}:\n\n![{title}, {CAPTIONS[way].lower()}]({folder}_{way}.jpg)"
-    yield "\n## Credits\n\nPictures and figures here are made from these works, which others made and licensed; all were baked by Sinew, which changes how they move.\n"
-    yield "| character | by | licence |\n|---|---|---|"
-    for character, _ in made:
-        if not character["made_up"]:
-            yield f"| {character['title']} | {character['credit']} | {character['licence']} |"
+Pictures show soft parts in colour and rods as lines; below them the liveliest moment: skinning, Sinew, their distance, darkest at 5 % of the height."""
+    for character in characters:
+        folder = character["folder"]
+        ways = dict.fromkeys(row["way"] for row in rows if row["folder"] == folder)
+        pictures = " ".join(f"![{way}]({folder}_{way}.jpg)" for way in ways)
+        credit = "" if character["made_up"] else f" {character['credit']}"
+        yield f"\n## {character['title']}\n\n{character['note']}{credit}\n\n{pictures}"
+
+
+def listed_characters():
+    return [{"made_up": False} | character for character in json.loads((HERE / "characters.json").read_text())]
+
+
+def write_page():
+    with CSV.open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    (HERE / "README.md").write_text("\n".join(page(listed_characters(), rows)) + "\n")
+
+
+def write_csv(rows):
+    with CSV.open("w", newline="") as file:
+        writer = csv.DictWriter(file, COLUMNS, restval="", lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("characters", type=Path)
+    parser.add_argument("characters", type=Path, nargs="?")
     parser.add_argument("build", type=Path, nargs="?", default=ROOT / "build/release")
     parser.add_argument("--only", action="append", default=[])
     parser.add_argument("--work", type=Path, default=ROOT / "out/gallery")
+    parser.add_argument("--page", action="store_true")
     options = parser.parse_args()
+    if options.page:
+        write_page()
+        return
+    if not options.characters:
+        parser.error("give CHARACTERS or --page")
     tools = options.build.resolve() / "bin"
     for program in ("sinew-bake", "sinew-demo"):
         if not (tools / program).exists():
             sys.exit(f"make.py: {tools / program} is missing; build it: cmake --build {options.build} --target sinew-bake sinew-demo")
-    listed = [{"made_up": False} | character for character in json.loads((HERE / "characters.json").read_text())]
+    listed = listed_characters()
     unknown = set(options.only) - {character["folder"] for character in listed}
     if unknown:
         sys.exit(f"make.py: --only {unknown.pop()}: not in characters.json")
@@ -306,7 +292,8 @@ def main():
     write_all(options.work / "made_up")
     made = [(character, make(tools, options.characters, character, options.work)) for character in chosen]
     if not options.only:
-        (HERE / "README.md").write_text("\n".join(page(made)) + "\n")
+        write_csv(row for character, bakes in made for way, bake in bakes.items() for row in bake.rows(character["folder"], way))
+        write_page()
     if not all(bake.audit["ok"] for _, bakes in made for bake in bakes.values()):
         sys.exit(1)
 
