@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Measures the ground truth's discretisation error on the creature and on the gallery's characters, each in its own folder in the given
-# folder, and rewrites the tables and picture of assets/evaluation/truth/. Half an hour to an hour on two cores.
+# Measures the ground truth's own error on the creature and on the gallery's characters, and rewrites assets/evaluation/truth/.
+# CHARACTERS holds one folder for each character. Half an hour on two cores, an hour where others use them too.
 # usage: truth.sh CHARACTERS
 set -euo pipefail
 cd "$(dirname "$0")/.."
