@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Bakes characters with all their flesh emulated and plays them: the table of assets/patches/README.md.
+"""Bakes characters with all their soft tissue emulated and plays them: assets/patches/characters.csv.
 
     compare.py BUILD_DIR CHARACTERS_DIR WORK_DIR [NAME...]
 
-CHARACTERS_DIR holds a folder a character, with file.glb, .gltf or .vrm; our creature comes last. Recipes are the gallery's and the
-creature's, with "model": "deep_emulator". Prints the table of perf_emulator, and before it the error of the usual recipe.
+CHARACTERS_DIR holds one folder for each character, with file.glb, .gltf or .vrm; our creature comes last. Recipes are the gallery's
+and the creature's, with "model": "deep_emulator". Prints the rows too; with NAMEs it only prints them.
 """
+import csv
 import json
 import os
 import subprocess
@@ -19,10 +20,14 @@ import sinew  # noqa: E402
 from sinew import baking  # noqa: E402
 
 WEIGHTS = ROOT / "assets" / "weights" / "emulator.safetensors"
+TABLE = Path(__file__).with_name("characters.csv")
+# Errors are fractions of skinning's; "usual" is the character's own recipe, by modes. The others are columns of perf_emulator.
+COLUMNS = ("character", "nodes", "modes_error", "modes_us_per_tick", "emulator_error", "emulator_us_per_tick", "largest_of_limit", "explosions",
+           "usual_modes_error")
 
 
 def emulated(recipe):
-    """The same flesh, predicted patch by patch; one control graph."""
+    """The same soft tissue, predicted patch by patch; one control graph."""
     recipe = {k: v for k, v in recipe.items() if k not in ("levels", "left_out", "rods")}
     return {**recipe, "model": "deep_emulator", "rods": []}
 
@@ -57,22 +62,38 @@ def found(characters, work, names):
         yield "creature", creature(work), ROOT / "assets" / "creature" / "tissue.json"
 
 
+def rows_of(printed, usual):
+    """Rows of COLUMNS from the table that perf_emulator prints. usual: name -> error."""
+    for line in printed.splitlines():
+        cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
+        if len(cells) == len(COLUMNS) - 1 and cells[0].endswith(".sinew"):
+            name = Path(cells[0]).stem
+            yield [name, *cells[1:], f"{usual[name]:.3f}"]
+
+
 def main(build, characters, work, *names):
     build, work = Path(build), Path(work)
     os.environ["SINEW_BAKE"] = str(build / "bin" / "sinew-bake")
     work.mkdir(parents=True, exist_ok=True)
-    packs = []
+    packs, usual = [], {}
     for name, source, own in found(characters, work, names):
         recipe = work / f"{name}.json"
         recipe.write_text(json.dumps(emulated(json.loads(own.read_text())), indent=1))
         out = work / f"{name}.sinew"
-        usual = bake(source, own, work / f"{name}_own.sinew")
-        if error_of(usual, "modal") is None:
-            continue  # nothing of it is flesh
+        error = error_of(bake(source, own, work / f"{name}_own.sinew"), "modal")
+        if error is None:
+            continue  # it has no soft tissue
         bake(source, recipe, out, emulator=WEIGHTS)
-        print(f"{name}: the usual recipe leaves {error_of(usual, 'modal'):.3f} by modes", flush=True)
+        usual[name] = error
         packs.append(out)
-    subprocess.run([build / "bin" / "perf_emulator", *packs], check=True)
+    played = subprocess.run([build / "bin" / "perf_emulator", *packs], check=True, capture_output=True, text=True)
+    rows = list(rows_of(played.stdout, usual))
+    if len(rows) != len(packs):
+        sys.exit(f"compare.py: perf_emulator printed {len(rows)} rows of {len(COLUMNS) - 1} columns for {len(packs)} packs")
+    csv.writer(sys.stdout).writerows([COLUMNS, *rows])
+    if not names:
+        with TABLE.open("w", newline="") as file:
+            csv.writer(file, lineterminator="\n").writerows([COLUMNS, *rows])
 
 
 if __name__ == "__main__":
