@@ -66,7 +66,7 @@ echo
 echo "Hair over the shoulders of a turning character, against nothing, capsules of its bones, and its skin:"
 newer "$out/hair/hair_skin.png" "$bin/sinew-hair" || "$bin/sinew-hair" --samples 16 -o "$out/hair"
 echo
-echo "Soft flesh against a Bullet world and against its own hands:"
+echo "Soft tissue against a Bullet world and against the character's hands:"
 "$bin/sinew-contacts" "$out/creature_touch.sinew" --samples 16 -o "$out/contacts"
 echo
 echo "Pictures: $out/first/contact_sheet.png  $out/pictures/contact_sheet.png  $out/pictures_rods/contact_sheet.png  $out/pictures (frames, animation)  $out/budget.png  $out/rods/*.png  $out/hair/*.png  $out/contacts/*.png"

@@ -23,10 +23,11 @@ void add_options(CLI::App& app, Options* o) {
   app.add_option("--fps", o->fps, "frames a simulated second; without: 60, or the truth's rate")
       ->check(within(1, 1000, "1 to 1000"));
   app.add_flag_callback(
-      "--no-contacts", [o] { o->contacts = false; }, "leave out contacts with the character's own body");
+      "--no-contacts", [o] { o->contacts = false; },
+      "leave out contacts with the character's body colliders");
   app.add_option(
          "--start", o->start,
-         "what rods' iterations start from: baked (as the recipe says), continued or learned; tells the "
+         "what rods' iterations start from: baked (as the recipe says), continued or learned; prints the "
          "residual, too")
       ->check(CLI::IsMember({"baked", "continued", "learned"}));
   app.add_option("--truth", o->truth, "trajectory to follow and to measure against");

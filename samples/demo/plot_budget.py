@@ -2,7 +2,7 @@
 # plot_budget.py  A report of sinew-demo as a picture: time by stage against the budget, and what the instances got.
 """Usage: plot_budget.py REPORT.json [-o OUT.png]
 
-Writes OUT.png and OUT.svg (beside the report if -o is left out).
+Writes OUT.png and OUT.svg (next to the report if -o is left out).
 """
 import argparse
 import json
@@ -141,7 +141,7 @@ def draw(report):
 def main():
     parser = argparse.ArgumentParser(description="Plots a report of sinew-demo: time by stage, budget, tiers.")
     parser.add_argument("report", help="report.json, as sinew-demo --report writes it")
-    parser.add_argument("-o", "--output", help="picture; .svg is written beside it (default: beside the report)")
+    parser.add_argument("-o", "--output", help="picture; .svg is written next to it (default: next to the report)")
     arguments = parser.parse_args()
     output = Path(arguments.output or arguments.report)
     try:

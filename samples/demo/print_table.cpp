@@ -22,7 +22,7 @@ void print_head(const Run& run, const CharacterFile& character, const Options& o
   } else {
     std::printf("no budget, ");
   }
-  std::printf(run.contacts ? "contacts with its own body\n" : "no contacts\n");
+  std::printf(run.contacts ? "contacts with its body colliders\n" : "no contacts\n");
 }
 
 void print_parts(const std::string& name, const Run& run) {

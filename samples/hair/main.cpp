@@ -118,7 +118,7 @@ int main(int argc, char** argv) {
   Request request;
   CLI::App app("Hair over the shoulders of a turning character, with how deep it goes below the skin.");
   app.add_option("-o,--output", request.folder, "folder of the pictures")->required();
-  app.add_option("--against", request.against, "nothing, proxies, skin, tiers; without: all")
+  app.add_option("--against", request.against, "'nothing', 'proxies', 'skin' or 'tiers'; without: all")
       ->check(CLI::IsMember({"nothing", "proxies", "skin", "tiers"}));
   app.add_option("--steps", request.steps, "of a hundred-and-twentieth of a second")
       ->check(CLI::Range(1, 1000000));

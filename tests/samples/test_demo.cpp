@@ -262,7 +262,8 @@ TEST_CASE("demo_tells_how_far_each_part_goes") {
   write_bytes(pack, scenes::soft_block({.rods = scenes::RodMatter{.bar = true}}).bytes());
   const ProgramResult result = demo({pack, "--seconds", "1", "--report", path});
   REQUIRE(result.exit_code == 0);
-  CHECK_THAT(result.out, Catch::Contains("most moved, mm") && Catch::Contains("contacts with its own body"));
+  CHECK_THAT(result.out,
+             Catch::Contains("most moved, mm") && Catch::Contains("contacts with its body colliders"));
   const auto report = nlohmann::json::parse(std::ifstream(path));
   CHECK(report["own_body_contacts"] == true);
   REQUIRE(report["parts"].size() == 5);
