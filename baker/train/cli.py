@@ -193,7 +193,7 @@ def _parser():
 
     p = command("generate", _generate, "Simulates a data set with sinew-bake truth.")
     p.add_argument("--bake", required=True, help="path of sinew-bake")
-    p.add_argument("--plan", required=True, help="plan, JSON; the body files lie beside it")
+    p.add_argument("--plan", required=True, help="plan, JSON; the body files lie next to it")
     p.add_argument("--out", required=True, help="folder of the data set; one that was cut goes on")
     p.add_argument("--processes", type=int, default=2)
     p.add_argument(
@@ -235,7 +235,7 @@ def _parser():
     p.add_argument("--body", required=True, help="body whose error is stated in the weights")
     p.add_argument("--out", required=True)
     p.add_argument("--name", required=True)
-    p = command("train-rods", _train_rods, "Trains a network that corrects a rod's continued start.")
+    p = command("train-rods", _train_rods, "Trains a network that corrects a rod's extrapolated start.")
     p.add_argument("data", help="folder of runs, of sinew-bake rod-data")
     p.add_argument("--out", required=True, help="folder of the run")
     p.add_argument("--threads", type=int, default=1)

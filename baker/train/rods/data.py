@@ -63,7 +63,7 @@ def read_run(path):
         if not np.isfinite(tensors[name]).all():
             raise BadData(f"{path}: tensor {name} holds a NaN; make the run again")
     if steps <= KNOWN_STEPS:
-        raise BadData(f"{path}: {steps} steps; a start is told something after {KNOWN_STEPS}, make it longer")
+        raise BadData(f"{path}: {steps} steps; a start has inputs after {KNOWN_STEPS}, make the run longer")
     of = {k: np.asarray(tensors[k], np.float64)[KNOWN_STEPS:] for k in ("turns", "continued", "scales")}
     forces = np.asarray(tensors["forces"], np.float64)[1 + KNOWN_STEPS :]
     return Run(

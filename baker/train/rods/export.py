@@ -80,7 +80,7 @@ def export_rods(run, data, out, name):
     test, long = read_runs(data, "test"), read_runs(data, "long")
     guess = lambda batch: batch.guess(model)
     metrics = {
-        "what": "median over strands and steps of what is left of the continued start's miss (r.m.s.)",
+        "what": "median over strands and steps of what is left of the extrapolated start's error (r.m.s.)",
         "recipe": metadata,
         "within_50_steps": judge(guess, test),
         "beyond_50_steps": judge(guess, long),

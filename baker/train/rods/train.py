@@ -157,7 +157,7 @@ def weights_metadata(trainer, extra):
         "sinew.model": "coping_net",
         "sinew.version": 1,
         **trainer.model.sizes,
-        "purpose": "corrects a rod's continued start (rods/start/learned_start.hpp)",
+        "purpose": "corrects a rod's extrapolated start (rods/start/learned_start.hpp)",
         **{f"recipe.{k}": v for k, v in asdict(trainer.options).items()},
         "updates": trainer.updates,
         "train_seconds": round(trainer.seconds),
@@ -180,4 +180,4 @@ def train_rods(data, out, options, log=print):
     tensors = {k: v.detach().numpy() for k, v in trainer.model.state_dict().items()}
     save(os.path.join(out, "weights.safetensors"), tensors, weights_metadata(trainer, extra))
     write_json(os.path.join(out, "curve.json"), {"best": trainer.best, "curve": trainer.curve})
-    log(f"{out}: validation {trainer.best:.4f}, share left {left}")
+    log(f"{out}: validation {trainer.best:.4f}, fraction of the error left {left}")

@@ -91,7 +91,7 @@ def train(run, simulation, seed):
         f"base's {tuner.given_ratio:.3f} before, {tuner.best:.3f} now"
     )
     if tuner.anew:
-        say("begun anew: the given weights know too little of this character")
+        say("started again: the given weights know too little of this character")
     if tuner.hopeless:
         say("stopped early: after two fifths of the time it was hardly better than the modal base")
     return path if tuner.improved or begun is not run.start else None

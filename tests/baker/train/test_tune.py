@@ -400,7 +400,7 @@ class Learning(Folder):
         tensors, metadata = load(SHIPPED)
         save(self.place("creature.safetensors"), {k: v.copy() for k, v in tensors.items()}, {**metadata, "output_scale": "9"})
         path, said = self.learn(stop=Countdown(1))
-        self.assertIn("begun anew", said)
+        self.assertIn("started again", said)
         self.assertIsNone(path)
         self.assertFalse(os.path.exists(self.place("tuned.safetensors")))
 
