@@ -58,7 +58,7 @@ PARTS = {  # subject of the report: row of the page
     "modal base": "modal base",
     "network step": "network",
     "inputs; closing on the base; guards": "network inputs and guards",
-    "carrying; skin matrices": "embedding and skin matrices",
+    "embedding; skin matrices": "embedding and skin matrices",
     "whole tick": "**whole tick**",
     "read: positions": "reading positions",
     "read: normals": "reading normals",

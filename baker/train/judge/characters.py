@@ -73,7 +73,7 @@ def _draw_trace(one, title, work, bake, path):
     files = glob.glob(os.path.join(folder, f"test-*-{seed}.safetensors"))
     true = next((t for t in map(read_trajectory, files) if t.metadata["motion"] == motion), None)
     if true is None:
-        raise BadData(f"{work}: {one.name}.train holds no {best.motion}; it lies beside the weights that sinew-train wrote")
+        raise BadData(f"{work}: {one.name}.train holds no {best.motion}; it lies next to the weights that sinew-train wrote")
     packs, trace = [os.path.join(folder, f"{k}.sinew") for k in ("base", "tuned")], os.path.join(work, "trace.safetensors")
     if os.path.exists(trace):
         os.remove(trace)

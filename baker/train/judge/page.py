@@ -161,7 +161,7 @@ def _confirmed(folder):
             cells = f"{_ratio(figures, ticks, name):.3f} (modal base {_ratio(figures, ticks, BASE):.3f})"
             parts.append(f"{cells} on `{body}` over {int(ticks):,} ticks")
     return (
-        "The recipe was developed with these test motions in sight. On motions drawn after it was decided the "
+        "The recipe was developed with these test motions visible. On motions drawn after it was decided the "
         f"network leaves {' and '.join(parts)} ([figures](confirmation/errors.csv))."
     )
 
