@@ -11,7 +11,7 @@ import support
 
 support.leave_without_torch()
 from train.cli import main as trainer  # noqa: E402
-from train.judge import baselines, evaluate, page  # noqa: E402
+from train.judge import ablate, baselines, evaluate, page  # noqa: E402
 
 WEIGHTS = str(support.ROOT / "assets/weights/creature.safetensors")
 MOST_WORDS = 450
@@ -76,6 +76,23 @@ class Page(support.Folder):
             self.assertEqual(self.evaluate(self.place("none.safetensors")), 2)
         self.assertIn("none.safetensors: No such file", said.getvalue())
         self.assertFalse(os.path.exists(self.place("page")))
+
+
+class Ablations(support.Folder):
+    def test_variants_are_compared_in_a_table_that_an_evaluation_page_links(self):
+        os.makedirs(self.place("data"))
+        support.write_data_set(self.place("data"), train_count=1, validation=1, test=1, ticks=60)
+        train = lambda variants, *rest: {name: evaluate.Network(WEIGHTS) for name in list(variants)[:2]}
+        with mock.patch.object(ablate, "train_variants", train), mock.patch.object(ablate, "TICKS", (50,)):
+            ablate.ablate(self.place("data"), support.BODY, self.place("work"), self.place("page"), 1, 1)
+        self.assertEqual(sorted(os.listdir(self.place("page"))), ["ablations.csv", "ablations.json", "ablations.png"])
+        with open(self.place("page/ablations.csv")) as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([r["variant"] for r in rows], ["as shipped", "no modal base"])
+        self.assertEqual(rows[0]["parameters"], "4331")
+        self.assertGreater(float(rows[0]["error_ratio_50_ticks"]), 0)
+        with open(support.ROOT / "assets/evaluation/metrics.json") as file:
+            self.assertIn("[ablations](ablations.csv)", page.page(json.load(file), self.place("page")))
 
 
 class Figures(unittest.TestCase):
