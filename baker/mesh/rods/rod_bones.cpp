@@ -146,7 +146,7 @@ class Segmenter {
       const Vector3 end = place_of(character_, child);
       if ((end - begin).norm() > no_length_m_) return end;
       refuse("bones " + quoted(joint) + " and " + quoted(child) +
-             " begin in one place: a segment has a length; end the rod above them or move one");
+             " begin at one position: a segment has a length; end the rod above them or move one");
     }
     if (end_site(joint, begin, &site)) return site;
     if (parent_bone < 0) return tail_of(joint, begin);

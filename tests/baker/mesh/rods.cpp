@@ -97,7 +97,8 @@ TEST_CASE("rods_that_cannot_be_made_are_refused_with_the_rod_and_the_bone") {
              Contains("rod 'bone_2' hangs on its bone 'bone_1'"));
   Character doubled = column();
   add_joint(doubled, "twin", 3, {0, 1.5, 0});
-  CHECK_THAT(refusal(doubled, {rooted("bone_2")}), Contains("bones 'bone_3' and 'twin' begin in one place"));
+  CHECK_THAT(refusal(doubled, {rooted("bone_2")}),
+             Contains("bones 'bone_3' and 'twin' begin at one position"));
 }
 
 TEST_CASE("a_bone_runs_to_its_child_and_the_last_one_goes_straight_on") {
@@ -167,7 +168,7 @@ TEST_CASE("a_bone_that_snaps_to_its_own_end_is_refused") {
   add_joint(character, "second", 1, {0, 0.9997, 0});
   add_joint(character, "second_end", 4, {0, 1, 0});
   CHECK_THAT(refusal(character, {rooted("bone_1")}),
-             Contains("bones 'second' and 'second_end' begin in one place"));
+             Contains("bones 'second' and 'second_end' begin at one position"));
 }
 
 TEST_CASE("rods_come_in_the_order_of_their_roots") {
