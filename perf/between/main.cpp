@@ -230,13 +230,14 @@ struct Row {
 };
 
 std::vector<Row> all_rows() {
-  std::vector<Row> rows = {{"judder at 240 frames a second",
-                            [](auto& pack, auto& m) { return judder_at(pack, m, 240, 1.5); }, true, true},
-                           {"judder at 240 with the last velocity carried on", judder_carried_on, true, true},
-                           {"judder at 144 frames a second",
-                            [](auto& pack, auto& m) { return judder_at(pack, m, 144, 1.5); }, true, true},
-                           {"judder at a fiftieth of the speed",
-                            [](auto& pack, auto& m) { return judder_slow(pack, m); }, true, true}};
+  std::vector<Row> rows = {
+      {"judder at 240 frames a second", [](auto& pack, auto& m) { return judder_at(pack, m, 240, 1.5); },
+       true, true},
+      {"judder at 240 with the last velocity extrapolated", judder_carried_on, true, true},
+      {"judder at 144 frames a second", [](auto& pack, auto& m) { return judder_at(pack, m, 144, 1.5); },
+       true, true},
+      {"judder at a fiftieth of the speed", [](auto& pack, auto& m) { return judder_slow(pack, m); }, true,
+       true}};
   for (const int fps : {30, 120, 144, 240})
     rows.push_back({std::to_string(fps) + " frames a second, off 60",
                     [=](auto& pack, auto& m) { return off_60(pack, m, fps); }});

@@ -308,8 +308,8 @@ int main(int count, char** arguments) {
                               "usage: perf_rod_starts [WEIGHTS.safetensors...] [--steps N] [--scene NAME] "
                               "[--examples FILE] [--length N]\n"
                               "Iterations of rods' solvers by where they start; CSV to standard output. "
-                              "--length: how long what the first "
-                              "weights start stays, over so many steps."))
+                              "--length: the worst length over "
+                              "rest length of rods that the first weights start, in so many steps."))
     return 0;
   try {
     sinew::perf::run_all(sinew::perf::read_arguments(count, arguments));
