@@ -5,6 +5,7 @@
     world = sinew.World()
     fox = world.load("fox.sinew")
     one = world.add(fox)
+    one.parameters(intensity=0.5)              # or of a part: one.parameters(region=0, stiffness=2); see docs/parameters.md
     for frame in range(60):
         one.pose(fox.clip(0, frame / 60))      # [joints, 3, 4]; or one.pose(joints, root=sinew.root(position=(0, 1, 0)))
         world.step(1 / 60)
