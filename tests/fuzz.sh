@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Feeds what reads bytes from outside with millions of damaged files, under sanitizers, and writes what came of it to tests/fuzz/report.md.
+# Feeds what reads bytes from outside with millions of damaged files, under sanitizers, and writes what came of it to tests/fuzz/report.txt.
 # usage: tests/fuzz.sh [EXECUTIONS | SECONDSs] [TARGET...]: so many of each (2000000), or as many as go into so many seconds: tests/fuzz.sh 600s pack
 # What is found lies in build/fuzz/findings: build/fuzz/bin/fuzz_TARGET FILE shows it again. What a run learns, the next begins with. With
 # SINEW_FUZZ_LET_PASS=1 packs that load and of which something read is not finite are counted only, and what is worse is looked for.
@@ -55,5 +55,5 @@ done
   echo "| target | executions | findings | coverage | seconds |"
   echo "|---|--:|--:|--:|--:|"
   for target in "${all[@]}"; do cat "$out/rows/$target" 2>/dev/null || echo "| $target | not run | | | |"; done
-} >tests/fuzz/report.md
+} >tests/fuzz/report.txt
 exit $status

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds with sanitizers and with clang and runs the fast tests under the former, one after the other; what came of it goes to tests/sanitize.md.
+# Builds with sanitizers and with clang and runs the fast tests under the former, one after the other; what came of it goes to tests/sanitize.txt.
 # usage: tests/sanitize.sh [PRESET[:ROOM,ROOM...] ...]: asan-ubsan tsan clang, an hour on two cores from nothing; tsan:core,world builds and
 # runs the tests of those rooms alone (of clang: builds them), and the result says so
 set -euo pipefail
@@ -59,5 +59,5 @@ done
   echo "Written by \`tests/sanitize.sh\` at $(git describe --always --dirty)."
   echo
   for preset in asan-ubsan tsan clang; do cat "build/$preset/sanitize_row.md" 2>/dev/null || echo "- $preset: not run."; done
-} >tests/sanitize.md
+} >tests/sanitize.txt
 exit $status
