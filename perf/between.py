@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Measures motion between ticks: writes perf/reports/between.csv and between.png, and the table of perf/README.md.
 
-usage: perf/between.py C.sinew...      the picture is of the first; a minute each; needs build/release/bin/perf_between
+usage: perf/between.py C.sinew...      the picture is of the first; ten seconds each; needs build/release/bin/perf_between
 """
 import csv
 import subprocess
@@ -16,7 +16,8 @@ from short_tables import find
 from summarise import summarise
 
 BINARY = report.HERE.parent / "build/release/bin/perf_between"
-CURVES = {"30": ("C0", "30 frames a second"), "60": ("C1", "60"), "240": ("C2", "240"), "240 before": ("0.7", "240, last velocity extrapolated (rejected)")}
+CURVES = {"240 before": ("0.7", "240 frames/s, last velocity extrapolated (rejected)"), "240": ("C2", "240 frames/s"), "60": ("C1", "60 frames/s"),
+          "30": ("C0", "30 frames/s")}
 
 
 def measure(packs, out):
@@ -32,9 +33,10 @@ def draw(pack, work):
     subprocess.run([BINARY, "--moves", work / "moves.csv", pack], check=True)
     moves = report.read(work / "moves.csv")
     figure, axes = plt.subplots(figsize=(9, 3.2), layout="constrained")
-    for name, (color, label) in reversed(CURVES.items()):
+    for name, (color, label) in CURVES.items():
         of = find(moves, frames=name)
-        axes.plot([float(row["t_s"]) for row in of], [float(row["heights_per_s"]) for row in of], ".-", color=color, linewidth=1, markersize=3, label=label)
+        axes.plot([float(row["t_s"]) for row in of], [float(row["heights_per_s"]) for row in of], ".-", color=color, linewidth=1, markersize=3,
+                  label=label)
     axes.set(xlim=(1, 1.5), xlabel="time, s", ylabel="fastest soft vertex, heights/s", ylim=(0, None))
     axes.set_title("Speed relative to skinning in each frame; the root bobs by 5 % of the height at 2 Hz", fontsize=10)
     axes.grid(alpha=0.3)

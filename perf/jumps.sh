@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Measures the visible jump of changes of tier on the creature's surface and rewrites perf/reports/jumps.csv and its table in
-# perf/README.md. Twenty minutes; fifteen if SINEW_CHARACTER names a pack that sinew-trade wrote.
+# perf/README.md. Sixteen minutes; thirteen if SINEW_CHARACTER names a pack that sinew-trade wrote.
 # --quick prints the table for idle, walk and hop with fewer changes and writes nothing but build/release/quick_character.sinew, which it
 # bakes if the baker is newer. Three minutes; for a comparison before and after an edit of the transitions.
 set -euo pipefail
@@ -13,12 +13,12 @@ trap 'rm -rf "$measured"' EXIT
 quick=() print=()
 if [ "${1:-}" = --quick ]; then
   quick=(--quick) print=(--print)
-  kept=build/release/quick_character.sinew
-  if [ -z "${SINEW_CHARACTER:-}" ] && ! [ "$kept" -nt build/release/bin/sinew-bake ]; then
-    cp "$(perf/traded_creature.sh "$measured" 1)" "$kept.new"
-    mv "$kept.new" "$kept"
+  pack=build/release/quick_character.sinew
+  if [ -z "${SINEW_CHARACTER:-}" ] && ! [ "$pack" -nt build/release/bin/sinew-bake ]; then
+    cp "$(perf/traded_creature.sh "$measured" 1)" "$pack.new"
+    mv "$pack.new" "$pack"
   fi
-  character=${SINEW_CHARACTER:-$kept}
+  character=${SINEW_CHARACTER:-$pack}
 else
   character=${SINEW_CHARACTER:-$(perf/traded_creature.sh "$measured")}
 fi

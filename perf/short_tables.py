@@ -141,18 +141,18 @@ def jumps(rows):
 
 
 BETWEEN = {  # measure of the report: row of the page
-    "judder at 144 frames a second": "judder at 144 frames a second",
-    "judder at 240 frames a second": "judder at 240",
-    "judder at 240 with the last velocity carried on": "judder at 240, last velocity extrapolated (rejected)",
-    "30 frames a second, off 60": "difference of 30 to 60 frames a second, over the motion",
-    "240 frames a second, off 60": "difference of 240 to 60",
+    "judder at 144 frames a second": "144, judder",
+    "judder at 240 frames a second": "240, judder",
+    "judder at 240 with the last velocity carried on": "240, judder if the last velocity is extrapolated (rejected)",
+    "30 frames a second, off 60": "30 against 60, difference over motion",
+    "240 frames a second, off 60": "240 against 60",
 }
 
 
 def between(rows):
-    worst = {row["measure"]: row["worst"] for row in rows}
+    worst = {row["measure"]: times(float(row["worst"])) for row in rows}
     lines = [[label, worst[f"bob, {name}"], worst[f"liveliest clip, {name}"]] for name, label in BETWEEN.items()]
-    return table(["", "bob", "clip"], lines)
+    return table(["frames a second", "bob", "clip"], lines)
 
 
 # Contacts
