@@ -34,10 +34,10 @@ KERNELS = {  # bench: row of the page
     "alt_conv_lstm_int8_creature": "int8",
 }
 PEERS = {  # column of the page: {bench: its peer}
-    "oneDNN's products over it": {"alt_conv_lstm_paper": "onednn_sgemm_paper", "alt_conv_lstm_fp16_paper": "onednn_sgemm_paper",
+    "oneDNN's products ÷ it": {"alt_conv_lstm_paper": "onednn_sgemm_paper", "alt_conv_lstm_fp16_paper": "onednn_sgemm_paper",
                                          "alt_conv_lstm_int8_paper": "onednn_u8s8s32_paper", "deep_emulator_chains": "onednn_sgemm_deep_emulator"},
-    "Eigen's products over it": {"alt_conv_lstm_paper": "eigen_products_paper"},
-    "PyTorch over it": dict.fromkeys(["alt_conv_lstm_paper", "alt_conv_lstm_fp16_paper", "alt_conv_lstm_int8_paper"], "pytorch_paper"),
+    "Eigen's products ÷ it": {"alt_conv_lstm_paper": "eigen_products_paper"},
+    "PyTorch ÷ it": dict.fromkeys(["alt_conv_lstm_paper", "alt_conv_lstm_fp16_paper", "alt_conv_lstm_int8_paper"], "pytorch_paper"),
 }
 
 
@@ -100,8 +100,9 @@ def frames(rows):
         row = only(rows, trouble=trouble, instances=instances, budget_us=budget_us)
         scene = f"{trouble}, {instances} in {budget_us / 1000:g} ms" if instances else trouble
         chosen = [f"{100 * float(row['network']):.0f}", times(float(row["expected_error"]))] if instances else ["", ""]
-        lines.append([scene, *[times(float(row[f"cpu_{quantile}"])) for quantile in ("p50", "p99", "p999", "worst")], *chosen])
-    return table(["scene", "median", "p99", "p99.9", "worst", "network, %", "expected error"], lines)
+        lines.append([scene, *[times(float(row[f"cpu_{quantile}"])) for quantile in ("p50", "p99", "p999", "worst")],
+                      times(float(row["wall_p99"])), *chosen])
+    return table(["scene", "median", "p99", "p99.9", "worst", "p99 by the wall", "network, %", "expected error"], lines)
 
 
 def crowd_error(rows):
@@ -219,7 +220,7 @@ def compared(rows, options, residuals):
             line += [f"{len(mine)} of {len(those)}", str(sum(min(of, key=of.get) == option for of in mine)),
                      times(geometric_mean([of[option] / min(of.values()) for of in mine]))]
         lines.append(line)
-    columns = [f"{word} {residual}" for residual in residuals for word in ("reaches", "fastest to", "time over the fastest to")]
+    columns = [f"{word} {residual}" for residual in residuals for word in ("reaches", "fastest to", "time ÷ the fastest to")]
     return table(["solver, start", *columns], lines)
 
 
@@ -246,7 +247,7 @@ def tiers(rows):
     for name in TIERS:
         row = only(rows, name=name)
         lines.append([name, *[times(float(row[key]), 1) for key in ("warm_p50_us", "warm_p99_us", "cold_p50_us", "mean_mm")], times(float(row["ratio"]), 3)])
-    return table(["tier", "warm median, µs", "warm p99", "cold median", "mean error, mm", "over skinning's"], lines)
+    return table(["tier", "warm median, µs", "warm p99", "cold median", "mean error, mm", "÷ skinning's"], lines)
 
 
 BLOCKS = {
