@@ -96,7 +96,7 @@ def rasterise(pixels, depths, triangles, width, height):
 
 
 class Sun:
-    """What it lights of a surface on the ground at y = 0, softened at the shadows' edges."""
+    """Which points it lights, with soft edges of the shadows."""
 
     def __init__(self, direction, positions, triangles):
         self.direction = direction
@@ -169,6 +169,6 @@ def picture(positions, normals, triangles, paint, camera, width, height):
 
 
 def covered(positions, triangles, camera, width, height):
-    """The part of each pixel that a surface covers."""
+    """The fraction of each pixel that a surface covers."""
     w, h = width * SUPERSAMPLES, height * SUPERSAMPLES
     return shrunk((rasterise(*camera.project(positions, w, h), triangles, w, h)[0] >= 0).astype(float))

@@ -18,7 +18,7 @@ OUTLINE_LEGEND, TINT_LEGEND = "dashed: the outline by skinning alone", f"; yello
 
 
 class Sheet:
-    """A figure of which places are pixels from its top left corner."""
+    """A figure; positions are pixels from its top left corner."""
 
     def __init__(self):
         self.figure = plt.figure(figsize=(WIDTH / DPI, HEIGHT / DPI), dpi=DPI, facecolor="white")

@@ -77,14 +77,14 @@ def environment(field):
 
 
 SCENES = {
-    "soft_intensity": Scene("intensity", "of a soft part", (0.5, 1, 2), view=BELLY, set=of_belly("intensity")),
-    "soft_stiffness": Scene("stiffness", "of a soft part", (0.25, 1, 4), view=BELLY, set=of_belly("stiffness")),
-    "soft_damping": Scene("damping", "of a soft part", (0.2, 1, 5), view=BELLY, set=of_belly("damping"), shown_from=1.1),
-    "soft_displacement": Scene("displacement", "the limit of a soft part", (0.25, 1, 4), view=BELLY, set=of_belly("displacement")),
-    "rod_intensity": Scene("intensity", "of rods", (0.5, 1, 2), view=EAR, set=of_rods("intensity")),
-    "rod_stiffness": Scene("stiffness", "of rods", (0.25, 1, 4), view=EAR, set=of_rods("stiffness")),
-    "rod_damping": Scene("damping", "of rods", (0.2, 1, 5), view=EAR, set=of_rods("damping"), shown_from=1.1),
-    "rod_displacement": Scene("displacement", "the limit of rods", (0.25, 1, 4), view=EAR, set=of_rods("displacement")),
+    "soft_intensity": Scene("intensity", "of a soft part; 1: as baked", (0.5, 1, 2), view=BELLY, set=of_belly("intensity")),
+    "soft_stiffness": Scene("stiffness", "of a soft part; 1: as baked", (0.25, 1, 4), view=BELLY, set=of_belly("stiffness")),
+    "soft_damping": Scene("damping", "of a soft part; 1: as baked", (0.2, 1, 5), view=BELLY, set=of_belly("damping"), shown_from=1.1),
+    "soft_displacement": Scene("displacement", "the limit of a soft part; 1: as baked", (0.25, 1, 4), view=BELLY, set=of_belly("displacement")),
+    "rod_intensity": Scene("intensity", "of rods; 1: as baked", (0.5, 1, 2), view=EAR, set=of_rods("intensity")),
+    "rod_stiffness": Scene("stiffness", "of rods; 1: as baked", (0.25, 1, 4), view=EAR, set=of_rods("stiffness")),
+    "rod_damping": Scene("damping", "of rods; 1: as baked", (0.2, 1, 5), view=EAR, set=of_rods("damping"), shown_from=1.1),
+    "rod_displacement": Scene("displacement", "the limit of rods; 1: as baked", (0.25, 1, 4), view=EAR, set=of_rods("displacement")),
     "rod_density": Scene("density_kg_m3", "of rods, in the recipe", (250, 1000, 4000), "{:g} kg/m³", view=EAR,
                          rods=lambda value: {"density_kg_m3": value}),
     "rod_sag": Scene("sag", "of rods, in the recipe", (0, 0.5, 1), view=EAR, rods=lambda value: {"sag": value}, shown_from=2.3),
