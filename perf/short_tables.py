@@ -144,7 +144,7 @@ def jumps(rows):
 BETWEEN = {  # measure of the report: row of the page
     "judder at 144 frames a second": "144, judder",
     "judder at 240 frames a second": "240, judder",
-    "judder at 240 with the last velocity carried on": "240, judder if the last velocity is extrapolated (rejected)",
+    "judder at 240 with the last velocity extrapolated": "240, judder if the last velocity is extrapolated (rejected)",
     "30 frames a second, off 60": "30 against 60, difference over motion",
     "240 frames a second, off 60": "240 against 60",
 }

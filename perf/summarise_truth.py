@@ -100,7 +100,7 @@ The character's own cage and time steps against smaller ones, over the vertices 
 
 ![one point per clip](truth.png)
 
-An error against this truth that is smaller than these fractions says nothing about real tissue. Clips play for 1.5 s, in slow motion for half a second; {unconverged or "none"} did not converge.
+An error against this truth that is smaller than these fractions says nothing about real tissue. Clips play for 1.5 s, in slow motion for half a second; {f"{unconverged} did not converge" if unconverged else "all converged"}.
 
 `perf/truth.sh CHARACTERS` measures and writes this folder. Tables: [characters](summary.csv), [clips](some_clips.csv), [all clips in slow motion](all_clips.csv).
 """

@@ -26,7 +26,7 @@ newer "$out/first/contact_sheet.png" "$out/creature.sinew" "$bin/sinew-demo" || 
 # measured later, when nothing else runs.
 the_rest() {
   set -e
-  build sinew-hello sinew-rods sinew-contacts sinew-hair
+  build sinew-hello sinew-engine sinew-rods sinew-contacts sinew-hair
   # The same creature with its tail and ears as rods, and with a belly that its own hands press.
   samples/bake_creature.sh "$bin/sinew-bake" "$out" tissue_rods tissue_touch
 }

@@ -113,8 +113,8 @@ def _seen(metrics):
     """Which bodies the networks were trained on."""
     names = lambda seen: [f"`{b}`" for b, f in metrics["bodies"].items() if f["seen_in_training"] is seen]
     known, unseen = names(True), names(False)
-    parts = [f"The networks were trained on {' and '.join(known)} in other motions"] if known else []
-    parts += [f"{'never on ' if known else 'The networks were never trained on '}{' and '.join(unseen)}"] if unseen else []
+    parts = [f"Training had {' and '.join(known)} in other motions"] if known else []
+    parts += [f"{'never ' if known else 'Training never had '}{' and '.join(unseen)}"] if unseen else []
     springs = "; springs are fitted on the judged body's training motions" if _best_spring(metrics) else ""
     return ", ".join(parts) + springs + "."
 
@@ -144,7 +144,7 @@ def _left_alone(metrics):
     alone = next(iter(metrics["models"].values()))["left_alone"][-1]
     return (
         f"After 200 ticks of {alone['gain']:g} times the drive and a minute of rest, at most "
-        f"{alone['residue_largest_mm']:.3f} mm remain."
+        f"{max(alone['residue_largest_mm'], 1e-4):.2g} mm remain."
     )
 
 
@@ -191,7 +191,8 @@ def page(metrics, folder):
         "data of `baker/train generate`:\n\n"
         f"    python3 baker/train evaluate DATA --run {name}=assets/weights/{name}.safetensors --out assets/evaluation",
         f"**Limits.** One network ({channels} channels, {model['parameters']:,} parameters, seed {seed}), bodies of one "
-        "family, a simulated truth. Deng, Mu, Hu 2020 report 0.12 after 10 and 0.40 after 50 steps on captured bodies, "
+        "family, a simulated truth on one voxel cage: a finer cage swings otherwise by more than these errors "
+        "([its own error](truth/README.md)). Deng, Mu, Hu 2020 report 0.12 after 10 and 0.40 after 50 steps on captured bodies, "
         "which are not available here.",
         _links(metrics, folder),
     ]

@@ -9,7 +9,7 @@ from .run import say
 from .verdict import BASE, TUNED, Row, best_of, reason, table
 
 TICKS = round(SECONDS * RATE_HZ)
-KEPT = 0.8  # of what a network corrects: the rest gains 2 % where it has learned and harms where it has not (learnable.md)
+KEPT = 0.8  # of what a network corrects: the rest gains 2 % where it has learned and harms where it has not (docs/decisions/larger-or-generic-network.md)
 
 
 def _in_part(run, tuned):
