@@ -9,6 +9,7 @@ pictures alone, with --page README.md alone, from gallery.csv.
 """
 import argparse
 import csv
+import io
 import json
 import os
 import re
@@ -255,16 +256,27 @@ def listed_characters():
 
 
 def write_page():
-    with CSV.open(newline="") as file:
-        rows = list(csv.DictReader(file))
-    (HERE / "README.md").write_text("\n".join(page(listed_characters(), rows)) + "\n")
+    rows = []
+    if CSV.exists():
+        with CSV.open(newline="") as file:
+            rows = list(csv.DictReader(file))
+    if not rows:
+        sys.exit("make.py: gallery.csv holds no character; run make.py CHARACTERS")
+    replace(HERE / "README.md", "\n".join(page(listed_characters(), rows)) + "\n")
+
+
+def replace(path, text):
+    part = path.with_name(path.name + ".part")
+    part.write_text(text)
+    part.replace(path)
 
 
 def write_csv(rows):
-    with CSV.open("w", newline="") as file:
-        writer = csv.DictWriter(file, COLUMNS, restval="", lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
+    text = io.StringIO()
+    writer = csv.DictWriter(text, COLUMNS, restval="", lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    replace(CSV, text.getvalue())
 
 
 def main():
@@ -276,6 +288,8 @@ def main():
     parser.add_argument("--page", action="store_true")
     options = parser.parse_args()
     if options.page:
+        if options.characters or options.only:
+            parser.error("--page stands alone: it draws nothing")
         write_page()
         return
     if not options.characters:

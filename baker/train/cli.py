@@ -221,7 +221,7 @@ def _parser():
     p.add_argument("--enduring", nargs="*", default=[], help="further models for the longest roll-outs")
     p.add_argument("--threads", type=int, default=1)
     p.add_argument("--out", required=True, help="folder of the page")
-    p.add_argument("--no-page", action="store_true", help="metrics, errors.csv and pictures without README.md")
+    p.add_argument("--no-page", action="store_true", help="metrics.json and errors.csv alone")
     text = "Trains small variants of the recipe on one body and compares them."
     _add_comparison(command("ablate", _ablate, text), 4.0)
     text = "Trains the paper's vanilla ConvLSTMs on one body and compares them with Alt-ConvLSTM."

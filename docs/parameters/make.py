@@ -141,7 +141,7 @@ def read_arguments():
 
     parser = Parser(prog="make.py", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build", metavar="BUILD", type=Path)
-    parser.add_argument("names", metavar="NAME", nargs="*", help=", ".join(SCENES))
+    parser.add_argument("names", metavar="NAME", nargs="*", default=[], help=", ".join(SCENES))
     arguments = parser.parse_args()
     for file in ("bin/sinew-bake", "runtime/libsinew.so"):
         if not (arguments.build / file).is_file():

@@ -72,10 +72,6 @@ def light(_):
     return {"density_kg_m3": LIGHT_KG_M3, "frequency_hz": 1.8 * math.sqrt(LIGHT_KG_M3 / USUAL_KG_M3)}
 
 
-def environment(field):
-    return lambda world, one, value: world.environment(**{field: value})
-
-
 SCENES = {
     "soft_intensity": Scene("intensity", "of a soft part; 1: as baked", (0.5, 1, 2), view=BELLY, set=of_belly("intensity")),
     "soft_stiffness": Scene("stiffness", "of a soft part; 1: as baked", (0.25, 1, 4), view=BELLY, set=of_belly("stiffness")),

@@ -202,8 +202,7 @@ int main(int argc, char** argv) {
           argc, argv,
           "usage: perf_ropes [REPETITIONS]\n"
           "Ropes over a cylinder and a box, compared with Bullet's soft bodies; CSV to standard "
-          "output. 3 repetitions by "
-          "default."))
+          "output. 3 repetitions by default."))
     return 0;
   const int repetitions = argc > 1 ? std::atoi(argv[1]) : 3;
   btCylinderShapeZ bar(btVector3(test::kBarRadius_m, test::kBarRadius_m, 1));

@@ -164,8 +164,7 @@ void judge_characters(const std::vector<std::string>& paths) {
   constexpr int kTicks = 10000;
   std::printf(
       "10,000 ticks each. Errors: the bake's, as fractions of skinning's. An explosion: a restart, a network "
-      "given "
-      "up, "
+      "given up, "
       "or a node that is not a number or beyond its limit.\n\n");
   std::printf(
       "| character | nodes | modes: error | us a tick | network: error | us a tick | most, of the limit | "

@@ -236,8 +236,7 @@ float median(std::vector<float> values) {
 
 int run(int count, char** arguments) {
   constexpr const char* kHelp =
-      "perf_events C.sinew [...]   distance that packs' vertices fly off in snap turns, jumps of joints, "
-      "stops";
+      "perf_events C.sinew [...]   how much vertices overshoot in snap turns, jumps of joints and stops";
   if (gives_help(count, arguments, kHelp)) return 0;
   try {
     if (count < 2) throw baker::BadInput("give packs; see --help");

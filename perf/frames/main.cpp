@@ -119,8 +119,7 @@ int main(int argc, char** argv) {
   Options options;
   CLI::App app(
       "Steps crowds under a budget in scenes that try to break it; CSV to standard output, times as "
-      "fractions "
-      "of the budget");
+      "fractions of the budget");
   app.add_option("pack", options.pack, "C.sinew")->required();
   app.add_option("--frames", options.frames, "of each scene")->check(CLI::Range(60, 1'000'000));
   app.add_option("--only", options.only,

@@ -78,7 +78,7 @@ class Shape {
                       belly.front / length);
       if (belly.front < kHangs * length) part.doubt = text("less than %.2f is skin over bone", kHangs);
     } else {
-      part.why = text("soft tissue is %.2f of the height deep before the spine, %.2f behind it",
+      part.why = text("soft tissue before the spine is %.2f of the height deep, behind it %.2f",
                       belly.front / height_m_, belly.back / height_m_);
       part.doubt = against_belly(belly);
     }

@@ -48,7 +48,7 @@ std::vector<Proxy> stated(const Character& character) {
 void override_radii(const Character& character, const Recipe& recipe, std::vector<Proxy>& proxies) {
   for (const ProxyRecipe& own : recipe.proxies) {
     const std::vector<bool> named =
-        match_joints(character, {own.joint}, "recipe: body collider '" + own.joint + "'");
+        match_joints(character, {own.joint}, "recipe: \"proxies\": '" + own.joint + "'");
     for (Proxy& proxy : proxies)
       if (named[static_cast<size_t>(proxy.joint)]) proxy.radius_m = own.radius_m;
   }

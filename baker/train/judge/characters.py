@@ -146,9 +146,9 @@ def characters(work, out, assets, bake):
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise BadData(f"{assets}: {error}; give the folder with gallery and evaluation, as it is in the repository") from None
     os.makedirs(out, exist_ok=True)
-    _draw_errors(tuned, titles, os.path.join(out, "errors.png"))
     most = min(tuned, key=lambda t: t.all.of_base(TUNED))
     _draw_trace(most, titles.get(most.name, most.name), work, bake, os.path.join(out, "trace.png"))
+    _draw_errors(tuned, titles, os.path.join(out, "errors.png"))
     write_csv(os.path.join(out, "errors.csv"), ("character", "motion", "method", *Error._fields), _error_rows(tuned))
     write_csv(os.path.join(out, "summary.csv"), SUMMARY, [_summary(t, titles, truth) for t in tuned])
     write_page(out)

@@ -200,8 +200,7 @@ def page(metrics, folder):
 
 
 def write_page_text(folder):
-    """errors.csv and README.md of a folder, from its metrics.json."""
-    write_csv(os.path.join(folder, "errors.csv"), HEAD, error_rows(_read(folder)))
+    """README.md of a folder, from its metrics.json."""
     write_text(os.path.join(folder, "README.md"), page(_read(folder), folder))
 
 
@@ -219,10 +218,10 @@ def _draw(metrics, judged, runs, folder):
 
 
 def write_evaluation(metrics, judged, runs, folder, with_page=True):
-    """metrics.json, errors.csv and pictures in folder, and README.md unless the figures belong to another page."""
+    """metrics.json and errors.csv in folder; pictures and README.md unless the figures belong to another page."""
     os.makedirs(folder, exist_ok=True)
     write_json(os.path.join(folder, "metrics.json"), metrics)
     write_csv(os.path.join(folder, "errors.csv"), HEAD, error_rows(metrics))
-    _draw(metrics, judged, runs, folder)
     if with_page:
+        _draw(metrics, judged, runs, folder)
         write_page_text(folder)
