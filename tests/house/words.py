@@ -1,14 +1,13 @@
 """Checks that pages, help texts and messages use the field's words and none that only this repository uses.
 
-usage: words.py PROJECT_ROOT [--write]
+usage: words.py PROJECT_ROOT
 words.csv lists the words, as regular expressions of whole words without regard to case, and what to write instead. What is checked:
   every *.md page, without its code blocks, code spans and link targets
   string literals with a space in C++ and C of runtime, baker, samples and perf
-  string literals with a space, and usage texts, in Python of baker, python, perf, assets and samples
+  string literals with a space, and usage texts, in Python of baker, python, perf, assets, docs and samples
   string literals with a space in JavaScript, and the text of HTML, of samples and perf
-  echo lines of shell scripts
-words_exceptions.csv lists the uses that are left: file, id of the word, count. It may only shrink: one use more fails, and one fewer fails until
---write has lowered the count or removed the row. Exit 1 with a line an offender.
+  echo lines of shell scripts, and strings with a space in double quotes that a script passes to its own functions
+Exit 1 with a line a use, or where nothing is found to check.
 """
 import ast
 import csv
@@ -25,8 +24,9 @@ SOURCES = {
     "perf": (".cpp", ".hpp", ".h", ".c", ".py", ".js", ".mjs"),
     "python": (".py",),
     "assets": (".py",),
+    "docs": (".py",),
 }
-# Folders that hold no source; those whose names begin with a dot are skipped too.
+# Folders that hold no source and no page, here and in pages.py; those whose names begin with a dot are skipped too.
 SKIPPED = {"build", "out", "shared", "node_modules", "__pycache__"}
 HERE = pathlib.Path(__file__).parent
 
@@ -197,10 +197,19 @@ def html_texts(source):
     return reader.texts
 
 
+SHELL_COMMAND = r"(?:^|[;&|({]|\bthen|\belse|\bdo)\s*"
+
+
 def shell_texts(source):
+    says = re.compile(SHELL_COMMAND + r"(?:echo|printf)\s(.*)")
+    functions = "|".join(re.findall(r"^[ \t]*(\w+)[ \t]*\(\)", source, re.MULTILINE))
+    calls = re.compile(SHELL_COMMAND + rf"(?:{functions})\s(.*)") if functions else None
     for number, line in enumerate(source.split("\n"), 1):
-        for said in re.finditer(r"(?:^|[;&|({]|\bthen|\belse|\bdo)\s*(?:echo|printf)\s(.*)", line):
-            yield number, without_escapes(re.sub(r"\$\{?\w+\}?", blank, said.group(1)))
+        found = [line[said.start(1):] for said in says.finditer(line)]
+        if calls and (call := calls.search(says.sub("", line))):
+            found += [text for text in re.findall(r'"((?:\\.|[^"\\])*)"', call.group(1)) if " " in text]
+        for text in found:
+            yield number, without_escapes(re.sub(r"\$\{?\w+\}?", blank, text))
 
 
 READERS = {".md": page_texts, ".py": python_texts, ".js": js_texts, ".mjs": js_texts, ".html": html_texts, ".sh": shell_texts}
@@ -253,58 +262,15 @@ def uses(root, words):
     return found
 
 
-def read_exceptions(path):
-    if not path.exists():
-        return {}
-    with path.open(encoding="utf-8", newline="") as file:
-        return {(row["file"], row["id"]): int(row["count"]) for row in csv.DictReader(file)}
-
-
-def write_exceptions(path, exceptions):
-    with path.open("w", encoding="utf-8", newline="") as file:
-        rows = csv.writer(file, lineterminator="\n")
-        rows.writerow(["file", "id", "count"])
-        rows.writerows([file, name, count] for (file, name), count in sorted(exceptions.items()))
-
-
-def counts(found):
-    count = {}
-    for file, all_of_file in found.items():
-        for _, name, _, _ in all_of_file:
-            count[file, name] = count.get((file, name), 0) + 1
-    return count
-
-
-def lowered(exceptions, count):
-    """The exceptions with no count above what is there; none is added or raised."""
-    return {key: min(number, count[key]) for key, number in exceptions.items() if count.get(key)}
-
-
-def offences(found, exceptions, known):
-    count = counts(found)
-    for file, all_of_file in found.items():
-        for line, name, word, instead in sorted(all_of_file):
-            if count[file, name] > exceptions.get((file, name), 0):
-                excepted = f" ({count[file, name]} in the file, {exceptions[file, name]} excepted)" if (file, name) in exceptions else ""
-                yield f'{file}:{line}: "{word}" -> use "{instead}"{excepted}'
-    for (file, name), number in exceptions.items():
-        if name not in known:
-            yield f"words_exceptions.csv: {file}: no word has the id {name}: remove the row with --write"
-        elif count.get((file, name), 0) < number:
-            yield f"words_exceptions.csv: {file}: {name} is there {count.get((file, name), 0)} times and excepted {number} times: lower it with --write"
-
-
-def main(root, write=False, folder=HERE):
-    words = read_words(folder / "words.csv")
-    list_path = folder / "words_exceptions.csv"
-    exceptions, found = read_exceptions(list_path), uses(pathlib.Path(root), words)
-    if write:
-        exceptions = lowered(exceptions, counts(found))
-        write_exceptions(list_path, exceptions)
-    wrong = list(offences(found, exceptions, {name for name, _, _ in words}))
-    print("\n".join(wrong) or f"pages, help texts and messages use the field's words, but for {sum(exceptions.values())} excepted uses")
+def main(root, folder=HERE):
+    root = pathlib.Path(root)
+    wrong = [f'{file}:{line}: "{word}" -> use "{instead}"'
+             for file, uses_in_file in uses(root, read_words(folder / "words.csv")).items() for line, _, word, instead in sorted(uses_in_file)]
+    if not any(files(root)):
+        wrong = [f"{root}: no page and no source to check"]
+    print("\n".join(wrong) or "pages, help texts and messages use the field's words")
     return 1 if wrong else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1], sys.argv[2:] == ["--write"]))
+    sys.exit(main(sys.argv[1]))
