@@ -1,4 +1,4 @@
-"""Checks the pages: links lead somewhere, pages are short, say for whom they are, and name the command of each generated table.
+"""Checks the pages: links lead somewhere, pages are short, say for whom they are, name the command of each generated table, and have no placeholders.
 
 usage: pages.py PROJECT_ROOT
 Exit 1 with a line an offence. It first checks itself on what must be refused.
@@ -8,17 +8,17 @@ import re
 import sys
 import tempfile
 
-LEFT_OUT = {".git", "build", "out", "node_modules"}
+from words import files
+
 MOST_WORDS = 20000  # in all; of single pages:
 LIMITS = {"README.md": 500, "perf/README.md": 1500, "perf/trade/README.md": 600, "assets/evaluation/README.md": 700, "runtime/README.md": 2000}
 LINK = re.compile(r"(?<!\\)\[(?:[^\[\]]|!\[[^\]]*\]\([^)]*\))*\]\(([^)\s]+)\)")
+PLACEHOLDERS = {"EVAL", "FIGURES", "TBD", "TODO"}
 BLOCK = re.compile(r"<!-- (?!end of )(\S+) -->\n(.*?)<!-- end of \1 -->", re.DOTALL)
 
 
 def pages(root):
-    for path in sorted(root.rglob("*.md")):
-        if not LEFT_OUT & set(path.relative_to(root).parts):
-            yield path
+    return [root / path for path in files(root) if path.suffix == ".md"]
 
 
 def without_code(text):
@@ -56,9 +56,18 @@ def tables_without_command(root, text):
             yield f"does not begin the generated table {name} with the `command` that writes it"
 
 
+def placeholders(text):
+    for row in re.findall(r"^[ \t]*\|(.*)$", without_code(text), re.MULTILINE):
+        for cell in row.split("|"):
+            if cell.strip(" \t*_") in PLACEHOLDERS:
+                yield f"has a table with the placeholder {cell.strip()}: write its figures"
+
+
 def offences(root):
-    total = 0
-    for path in pages(root):
+    total, found = 0, pages(root)
+    if not found:
+        yield f"{root}: no page to check"
+    for path in found:
         name, text = str(path.relative_to(root)), path.read_text()
         words = len(text.split())
         total += words
@@ -66,7 +75,7 @@ def offences(root):
             yield f"{name} has {words} words, more than {LIMITS[name]}: move tables to reports, or delete"
         if name.startswith("docs/") and not re.match(r"# .*\n\nFor ", text):
             yield f"{name} does not say, below its title, for whom it is (\"For ...\")"
-        for offence in [*broken_links(root, path, text), *tables_without_command(root, text)]:
+        for offence in [*broken_links(root, path, text), *tables_without_command(root, text), *placeholders(text)]:
             yield f"{name} {offence}"
     if total > MOST_WORDS:
         yield f"all pages have {total} words, more than {MOST_WORDS}: shorten what is longest"
@@ -76,7 +85,7 @@ def refuses():
     """Whether each kind of offence is found in a made-up project, and a good page passes."""
     good = "# A page\n\nFor readers.\n\n## One, two\n[here](#one-two), [there](b.md), `[no](link)`\n<!-- t -->\n`run.sh`, one machine\n<!-- end of t -->\n"
     bad = {"[x](none.md)": "does not exist", "[x](b.md#none)": "heading", "[x](../../..)": "outside",
-           "<!-- t -->\n| 1 |\n<!-- end of t -->": "command", "word " * MOST_WORDS: "all pages"}
+           "<!-- t -->\n| 1 |\n<!-- end of t -->": "command", "| a |\n|---|\n| **EVAL** |": "placeholder", "word " * MOST_WORDS: "all pages"}
     for extra, expected in {"": None, **bad}.items():
         with tempfile.TemporaryDirectory() as folder:
             root = pathlib.Path(folder)
@@ -90,10 +99,20 @@ def refuses():
                 return False
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
+        for empty in (root, root / "none"):
+            if [*offences(empty)] != [f"{empty}: no page to check"]:
+                print("pages.py is broken: it passes where no page is")
+                return False
+        for left_out in ("shared", ".venv"):
+            (root / left_out).mkdir()
+            (root / left_out / "a.md").write_text("[x](none.md)")
         (root / "docs").mkdir()
         (root / "docs" / "a.md").write_text("# A page\n\nWithout readers.\n")
         (root / "README.md").write_text("word " * 501)
-        return len(list(offences(root))) == 2
+        found = list(offences(root))
+        if len(found) != 2:
+            print(f"pages.py is broken: of two pages without readers and too long it says {found}")
+        return len(found) == 2
 
 
 def main(root):
