@@ -1,4 +1,5 @@
-"""The pictures of reports: PICTURES[report] draws perf/reports/*.png from the report's rows."""
+"""The pictures of reports, named as these are: a function of the report's rows and processor makes a figure."""
+import io
 import math
 
 import matplotlib
@@ -6,14 +7,13 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-from report import REPORTS, processor
 from short_tables import find, geometric_mean, us
 
 QUANTILES = (("p50", "median", "o"), ("p99", "p99", "s"), ("p999", "p99.9", "^"), ("worst", "worst", "x"))
 NOT_BUDGETED = ("hidden", "asleep", "yardstick")
 
 
-def frames(rows):
+def frames(rows, processor):
     rows = [row for row in rows if row["trouble"] not in NOT_BUDGETED]
     figure, axes = plt.subplots(figsize=(9, 0.3 * len(rows) + 1.8), layout="constrained")
     for quantile, label, marker in QUANTILES:
@@ -25,13 +25,13 @@ def frames(rows):
     axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
     axes.minorticks_off()
     axes.set_xlabel("thread CPU time of a step over its budget (logarithmic)")
-    axes.set_title(f"Steps against their budget, {int(rows[0]['frames']):,} frames a scene; {processor()}", fontsize=10)
+    axes.set_title(f"Steps against their budget, {int(rows[0]['frames']):,} frames a scene; {processor}", fontsize=10)
     axes.grid(axis="x", alpha=0.3)
     figure.legend(*axes.get_legend_handles_labels(), loc="upper center", bbox_to_anchor=(0.5, 0), ncols=4, fontsize=8)
-    figure.savefig(REPORTS / "frames.png", dpi=100, bbox_inches="tight")
+    return figure
 
 
-def scale(rows):
+def scale(rows, processor):
     figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.4), layout="constrained")
     for workers in (1, 2):
         of = find(rows, group="instances", quantity="wall_us", workers=workers)
@@ -46,8 +46,8 @@ def scale(rows):
     right.legend(loc="upper left")
     for axes in (left, right):
         axes.grid(alpha=0.3)
-    figure.suptitle(processor(), fontsize=10)
-    figure.savefig(REPORTS / "scale.png", dpi=100, bbox_inches="tight")
+    figure.suptitle(processor, fontsize=10)
+    return figure
 
 
 STARTS = ("zero", "previous", "continued", "learned", "knn")
@@ -75,7 +75,7 @@ def rod_iterations(axes, rows, option):
     axes.semilogx(*zip(*points), **style(option))
 
 
-def rods_trade(rows):
+def rods_trade(rows, _processor):
     scenes = [scene for scene in dict.fromkeys(row["scene"] for row in rows) if scene != "collisions"]
     figure, grid = plt.subplots(2, len(scenes), figsize=(10, 6), layout="constrained", sharey="row", squeeze=False)
     for (above, below), scene in zip(grid.T, scenes):
@@ -94,7 +94,10 @@ def rods_trade(rows):
     for axes in grid.flat:
         axes.grid(alpha=0.3)
     figure.legend(*grid[0][0].get_legend_handles_labels(), loc="upper center", bbox_to_anchor=(0.5, 0), ncols=len(OPTIONS), fontsize=8)
-    figure.savefig(REPORTS / "rods.png", dpi=100, bbox_inches="tight")
+    return figure
 
 
-PICTURES = {"frames": frames, "scale": scale, "rods_trade": rods_trade}
+def png(name, rows, processor):
+    file = io.BytesIO()
+    globals()[name](rows, processor).savefig(file, dpi=100, bbox_inches="tight")
+    return file.getvalue()

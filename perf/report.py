@@ -1,10 +1,12 @@
 """Reports: perf/reports/NAME.csv, whose first line names the command and the processor, and short tables of them in pages."""
 import csv
+import os
 import pathlib
 import re
 
 HERE = pathlib.Path(__file__).parent
 REPORTS = HERE / "reports"
+FIRST_LINE = re.compile(r"# (.+); (.+ family \S+ model \S+)\n")
 
 
 def processor():
@@ -14,16 +16,21 @@ def processor():
     return f"{known['model name']} family {known['cpu family']} model {known['model']}"
 
 
-def read(path):
-    """Rows of a CSV file; lines that begin with # are comments."""
-    with open(path) as file:
-        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+def rows(text):
+    """Rows of a CSV text; lines that begin with # are comments."""
+    return list(csv.DictReader(line for line in text.splitlines() if not line.startswith("#")))
 
 
-def write(name, command, measured):
-    REPORTS.mkdir(exist_ok=True)
-    text = pathlib.Path(measured).read_text()
-    (REPORTS / f"{name}.csv").write_text(f"# {command}; {processor()}\n{text}")
+def stated(command, text):
+    """The report of a measurement; a stored report is one already."""
+    return text if FIRST_LINE.match(text) else f"# {command}; {processor()}\n{text}"
+
+
+def replace(path, data):
+    """Writes a whole file or leaves the old one."""
+    part = path.with_name(f"{path.name}.part")
+    part.write_bytes(data)
+    os.replace(part, path)
 
 
 def table(columns, rows):
@@ -32,8 +39,8 @@ def table(columns, rows):
     return ["|" + "|".join(map(str, line)) + "|" for line in lines]
 
 
-def put_block(page, block, lines):
-    """Replaces the text between the page's markers of that block."""
+def put_block(text, block, lines):
+    """The page with these lines between its markers of that block."""
     begin, end = f"<!-- {block} -->", f"<!-- end of {block} -->"
-    head, rest = page.read_text().split(begin)
-    page.write_text("\n".join([head + begin, *lines, end]) + rest.split(end)[1])
+    head, rest = text.split(begin)
+    return "\n".join([head + begin, *lines, end]) + rest.split(end)[1]

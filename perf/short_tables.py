@@ -184,7 +184,7 @@ def rods(rows):
         values = [float(row[column]) for row in those]
         label = "1,000 strands" if scene == "batch" else "one rod"
         lines.append([f"{label} of {segments} segments", f"{min(values):.2f} to {max(values):.2f} {unit}", f"{max(float(row['iterations']) for row in those):.1f}",
-                      f"{max(float(row['largest_gap']) for row in those):.0e}", max(row["length_ratio"] for row in those)])
+                      f"{max(float(row['largest_gap']) for row in those):.0e}", f"{max(float(row['length_ratio']) for row in those):.6f}"])
     return table(["", "time, over the moduli", "iterations, at most", "largest joint gap, segments", "length over rest length"], lines)
 
 
