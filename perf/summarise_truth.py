@@ -5,14 +5,19 @@ usage: summarise_truth.py SOME.csv ALL.csv      what perf_truth wrote of a few c
 The two tables in assets/evaluation/truth/ are taken as well, so that page and picture can be written without measuring.
 """
 import csv
+import io
 import pathlib
+import re
 import statistics
+import subprocess
 import sys
 
 import matplotlib
 
 matplotlib.use("agg")
 import matplotlib.pyplot as plt
+
+import report
 
 FIELDS = ("character", "clip", "mean_mm", "slow", "many", "finer", "fault")
 FOLDER = pathlib.Path(__file__).resolve().parent.parent / "assets" / "evaluation" / "truth"
@@ -26,7 +31,10 @@ LABELS = {
 
 def read(path):
     rows = list(csv.DictReader(pathlib.Path(path).read_text().splitlines(), FIELDS))
-    return [row for row in rows if row["character"] != FIELDS[0]]  # without the header of a stored table
+    rows = [row for row in rows if row["character"] != FIELDS[0]]  # without the header of a stored table
+    if not rows:
+        raise ValueError(f"no rows in {path}")
+    return rows
 
 
 def values(rows, field):
@@ -79,7 +87,9 @@ def draw(some, every):
     axes[0].invert_yaxis()
     figure.suptitle("Error of the ground truth, one point per clip, as a fraction of the mean displacement; wanted left of the dotted line", fontsize=10)
     figure.tight_layout()
-    figure.savefig(FOLDER / "truth.png", dpi=110)
+    file = io.BytesIO()
+    figure.savefig(file, dpi=110)
+    return file.getvalue()
 
 
 def spread(rows, field):
@@ -88,7 +98,15 @@ def spread(rows, field):
     return f"{min(medians.values()):.3f} to {max(medians.values()):.3f} ({max(medians, key=medians.get)})"
 
 
-def page(rows):
+def code(paths):
+    """The commit that measured: today's, or of the stored tables what the page says."""
+    if [pathlib.Path(path).resolve() for path in paths] == [FOLDER / "some_clips.csv", FOLDER / "all_clips.csv"]:
+        return re.search(r"these figures are of ([^.;]+)", (FOLDER / "README.md").read_text()).group(1)
+    status, commit = subprocess.getstatusoutput(f"git -C '{FOLDER}' log -1 --format='%h (%as)'")
+    return "an unknown commit" if status else commit
+
+
+def page(rows, commit):
     unconverged = sum(row["not_converged"] for row in rows)
     return f"""# Error of the ground truth itself
 
@@ -102,25 +120,41 @@ The character's own cage and time steps against smaller ones, over the vertices 
 
 An error against this truth that is smaller than these fractions says nothing about real tissue. Clips play for 1.5 s, in slow motion for half a second; {f"{unconverged} did not converge" if unconverged else "all converged"}.
 
-`perf/truth.sh CHARACTERS` measures and writes this folder. Tables: [characters](summary.csv), [clips](some_clips.csv), [all clips in slow motion](all_clips.csv).
+`perf/truth.sh CHARACTERS` measures and writes this folder; these figures are of {commit}. Tables: [characters](summary.csv), [clips](some_clips.csv), [all clips in slow motion](all_clips.csv).
 """
 
 
-def main(some_path, all_path):
-    FOLDER.mkdir(parents=True, exist_ok=True)
-    some, every = read(some_path), read(all_path)
-    for name, rows in (("some_clips.csv", some), ("all_clips.csv", every), ("summary.csv", list(summary(some, every)))):
-        with open(FOLDER / name, "w", newline="") as file:
-            writer = csv.DictWriter(file, rows[0].keys(), lineterminator="\n")
-            writer.writeheader()
-            writer.writerows(rows)
-    draw(some, every)
-    text = page(list(summary(some, every)))
-    (FOLDER / "README.md").write_text(text)
-    print(text)
+def table(rows):
+    file = io.StringIO()
+    writer = csv.DictWriter(file, rows[0].keys(), lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    return file.getvalue().encode()
+
+
+def files(paths):
+    some, every = map(read, paths)
+    rows = list(summary(some, every))
+    return {"some_clips.csv": table(some), "all_clips.csv": table(every), "summary.csv": table(rows), "truth.png": draw(some, every),
+            "README.md": page(rows, code(paths)).encode()}
+
+
+def refuse(problem):
+    print(f"summarise_truth.py: {problem}", file=sys.stderr)
+    sys.exit(2)
+
+
+def main(paths):
+    if len(paths) != 2:
+        refuse("usage: summarise_truth.py SOME.csv ALL.csv")
+    try:
+        made = files(paths)
+    except Exception as problem:  # a table of another program fails anywhere
+        refuse(f"{' '.join(paths)}: {type(problem).__name__}: {problem}")
+    for name, data in made.items():
+        report.replace(FOLDER / name, data)
+    print(made["README.md"].decode())
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 3:
-        sys.exit(__doc__)
-    main(*sys.argv[1:])
+    main(sys.argv[1:])

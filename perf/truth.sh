@@ -3,8 +3,9 @@
 # CHARACTERS holds one folder for each character. Half an hour on two cores, an hour where others use them too.
 # usage: truth.sh CHARACTERS
 set -euo pipefail
+[ $# = 1 ] || { echo "usage: truth.sh CHARACTERS (a folder with a folder for each character of the gallery)" >&2; exit 2; }
 cd "$(dirname "$0")/.."
-characters=$(realpath "${1:?usage: truth.sh CHARACTERS (a folder with a folder for each character of the gallery)}")
+characters=$(realpath "$1")
 recipes=$(grep -l '"regions"' assets/gallery/*_*.json)
 
 file_of() {
