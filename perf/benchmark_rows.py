@@ -38,5 +38,16 @@ def rows(benches):
                f"{runs[0]['mega_operations']:.4g}", f"{speed(runs):.1f}", f"{speed(runs) / speed(peak):.2f}" if peak else ""]
 
 
+def refuse(problem):
+    print(f"benchmark_rows.py: {problem}", file=sys.stderr)
+    sys.exit(2)
+
+
 if __name__ == "__main__":
-    csv.writer(sys.stdout, lineterminator="\n").writerows([COLUMNS, *rows(repetitions(sys.argv[1:]))])
+    if not sys.argv[1:]:
+        refuse("usage: benchmark_rows.py MEASURED.json...")
+    try:
+        lines = [COLUMNS, *rows(repetitions(sys.argv[1:]))]
+    except (OSError, ValueError, LookupError, TypeError) as problem:
+        refuse(f"not tables of Google Benchmark: {type(problem).__name__}: {problem}")
+    csv.writer(sys.stdout, lineterminator="\n").writerows(lines)

@@ -18,6 +18,6 @@ recipe=assets/creature/tissue.json weights=assets/weights
 # The hop is held out of all training (assets/bodies/plan.json).
 build/release/bin/sinew-trade "$out/creature.sinew" --recipe $recipe --tissue $weights/creature.safetensors \
   --clip hop -o "$out/trade"
+"${PYTHON:-/usr/bin/python3}" perf/summarise.py perf/tiers.sh tiers="$out/trade/trade.csv"
 cp "$out/trade/trade.png" perf/reports/tiers.png
 cp "$out/trade/trade.svg" perf/reports/tiers.svg
-"${PYTHON:-/usr/bin/python3}" perf/summarise.py perf/tiers.sh tiers="$out/trade/trade.csv"
