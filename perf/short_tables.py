@@ -60,7 +60,8 @@ PARTS = {  # subject of the report: row of the page
     "inputs; closing on the base; guards": "network inputs and guards",
     "embedding; skin matrices": "embedding and skin matrices",
     "whole tick": "**whole tick**",
-    "read: positions": "reading positions",
+    "read: bind-space deltas": "reading displacements, for skinning on the GPU",
+    "read: positions": "reading skinned positions",
     "read: normals": "reading normals",
 }
 
