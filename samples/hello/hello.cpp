@@ -24,8 +24,10 @@ int main(int count, char** arguments) {
   for (int frame = 0; status.ok() && frame < 60; ++frame) {
     const double height_m = 0.2 * std::sin(0.2 * frame);  // your animation goes here
     status = world.set_pose(creature, {.joints = joints, .root = {.position_m = {0, height_m, 0}}});
+    if (!status.ok()) break;
     const sinew::FrameReport report = world.step(1.0f / 60);
     status = world.read_positions(creature, {.out = surface.data(), .capacity = info.vertex_count});
     std::printf("frame %2d: %3.0f us, first vertex at %.4f m\n", frame, report.total_us, surface[1]);
   }
+  return status.ok() ? 0 : (std::fprintf(stderr, "%s\n", status.message), 2);
 }
